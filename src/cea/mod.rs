@@ -1,0 +1,1 @@
+//! Complex eigenvalue analysis: the stability of steady sliding.

@@ -1,0 +1,114 @@
+//! Isotropic linear elasticity in the plane, and Rayleigh damping.
+
+/// Which out-of-plane quantity vanishes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PlaneFormulation {
+    /// `epsilon_zz = 0`.
+    PlaneStrain,
+    /// `sigma_zz = 0`.
+    PlaneStress,
+}
+
+/// Isotropic linear elastic material.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ElasticMaterial {
+    /// Young's modulus `E`, Pa.
+    pub young_modulus: f64,
+    /// Poisson's ratio `nu`.
+    pub poisson_ratio: f64,
+    /// Density `rho`, kg/m3.
+    pub density: f64,
+    /// Plane strain or plane stress.
+    pub formulation: PlaneFormulation,
+}
+
+/// A material value outside its physical range.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum MaterialError {
+    /// A value that must be positive is not.
+    #[error("material.{key} = {value} must be a positive finite number")]
+    NotPositive {
+        /// Case key without its section.
+        key: &'static str,
+        /// Given value.
+        value: f64,
+    },
+    /// Poisson's ratio outside `(-1, 1/2)`.
+    #[error(
+        "material.poisson_ratio = {value} must lie strictly between -1 and 0.5 \
+         (0.5 is incompressible, which displacement elements cannot hold)"
+    )]
+    PoissonRatio {
+        /// Given value.
+        value: f64,
+    },
+}
+
+impl ElasticMaterial {
+    /// Checks every value against its physical range.
+    ///
+    /// # Errors
+    /// [`MaterialError`] names the first key out of range.
+    pub fn validate(&self) -> Result<(), MaterialError> {
+        for (key, value) in [
+            ("young_modulus", self.young_modulus),
+            ("density", self.density),
+        ] {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(MaterialError::NotPositive { key, value });
+            }
+        }
+        let value = self.poisson_ratio;
+        if !(value > -1.0 && value < 0.5) {
+            return Err(MaterialError::PoissonRatio { value });
+        }
+        Ok(())
+    }
+
+    /// Lamé constants `[lambda, G]` of the plane problem, Pa:
+    /// `sigma = lambda tr(epsilon) I + 2 G epsilon` with the in-plane trace.
+    ///
+    /// Plane strain: `lambda = E nu / ((1 + nu)(1 - 2 nu))`; plane stress:
+    /// `lambda = E nu / (1 - nu^2)`. Both: `G = E / (2 (1 + nu))`.
+    pub fn lame_constants(&self) -> [f64; 2] {
+        let (e, nu) = (self.young_modulus, self.poisson_ratio);
+        let lambda = match self.formulation {
+            PlaneFormulation::PlaneStrain => e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)),
+            PlaneFormulation::PlaneStress => e * nu / (1.0 - nu * nu),
+        };
+        [lambda, e / (2.0 * (1.0 + nu))]
+    }
+
+    /// Elasticity matrix `D` in `sigma = D epsilon`, Pa, with
+    /// `sigma = (sigma_xx, sigma_yy, sigma_xy)`, `epsilon = (epsilon_xx, epsilon_yy, 2 epsilon_xy)`.
+    pub fn elasticity(&self) -> [[f64; 3]; 3] {
+        let [lambda, g] = self.lame_constants();
+        let p = lambda + 2.0 * g;
+        [[p, lambda, 0.0], [lambda, p, 0.0], [0.0, 0.0, g]]
+    }
+
+    /// Out-of-plane stress `sigma_zz` for in-plane normal stresses, Pa.
+    pub fn out_of_plane_stress(&self, sigma_xx: f64, sigma_yy: f64) -> f64 {
+        match self.formulation {
+            PlaneFormulation::PlaneStrain => self.poisson_ratio * (sigma_xx + sigma_yy),
+            PlaneFormulation::PlaneStress => 0.0,
+        }
+    }
+}
+
+/// Rayleigh damping, `C = alpha_R M + beta_R K` (equation 2 of Brunetti et al.).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RayleighDamping {
+    /// `alpha_R`, 1/s.
+    pub mass_coefficient: f64,
+    /// `beta_R`, s.
+    pub stiffness_coefficient: f64,
+}
+
+impl RayleighDamping {
+    /// Modal damping factor `zeta = (alpha_R / omega + beta_R omega) / 2` (equation 3) at the
+    /// undamped angular frequency `omega`, rad/s.
+    pub fn damping_factor(&self, omega: f64) -> f64 {
+        0.5 * (self.mass_coefficient / omega + self.stiffness_coefficient * omega)
+    }
+}

@@ -1,0 +1,1 @@
+//! Sparse LU factorization and Krylov-Schur iteration over faer.

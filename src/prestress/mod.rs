@@ -1,0 +1,1 @@
+//! Steady sliding equilibrium and the tangent around it.

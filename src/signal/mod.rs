@@ -1,0 +1,1 @@
+//! Measured and computed signals: spectra, spectrograms, modal damping.

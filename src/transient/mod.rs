@@ -1,0 +1,1 @@
+//! Explicit frictional-contact transient.
