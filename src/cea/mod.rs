@@ -1,1 +1,5 @@
 //! Complex eigenvalue analysis: the stability of steady sliding.
+
+mod spectrum;
+
+pub use spectrum::{ComplexMode, FrictionPoint, FrictionSweep, UnstableInterval};
