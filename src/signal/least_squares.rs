@@ -59,8 +59,9 @@ impl<'a> Problem<'a> {
 
     /// Model values on every line.
     pub(super) fn values(&self, model: &ModalModel) -> Vec<c64> {
-        let f = self.response.frequencies_hz();
-        f.iter().map(|f| model.evaluate(*f)).collect()
+        let weighted = self.lines.weighted_values(model);
+        let pairs = weighted.iter().zip(&self.weights);
+        pairs.map(|(v, w)| v / *w).collect()
     }
 
     /// Residual of each line, data less model, not weighted; real where the phase is unknown.

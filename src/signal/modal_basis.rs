@@ -169,15 +169,44 @@ impl Lines {
                 let inverse = inverse(x, u, d);
                 -(self.factor[i] * c64::new(*a, b * x) * inverse * inverse)
             };
-            let mut target = column(matrix, 2 * k);
-            for (i, x) in self.x.iter().enumerate() {
-                target.set(i, slope(i) * c64::new(2.0 * u * u, d * x));
-            }
             let mut target = column(matrix, 2 * k + 1);
             for (i, x) in self.x.iter().enumerate() {
                 target.set(i, slope(i) * c64::new(0.0, d * x));
             }
+            // The derivative in frequency is slope (2 u^2 + i d x); the slope is recovered from the
+            // column above instead of divided for again.
+            let half = matrix.nrows() / 2;
+            for (i, x) in self.x.iter().enumerate() {
+                let ratio = 2.0 * u * u / (d * x);
+                let (re, im) = (matrix[(i, 2 * k + 1)], matrix[(half + i, 2 * k + 1)]);
+                matrix[(i, 2 * k)] = re + ratio * im;
+                matrix[(half + i, 2 * k)] = im - ratio * re;
+            }
         }
+    }
+
+    /// Model times weight on every line.
+    pub(super) fn weighted_values(&self, model: &ModalModel) -> Vec<c64> {
+        let mut sums = vec![c64::new(0.0, 0.0); self.x.len()];
+        for (k, x) in self.x.iter().enumerate() {
+            // Horner over i x, then (i x)^-3 = i / x^3.
+            let mut sum = c64::new(0.0, 0.0);
+            for c in model.remainder.iter().rev() {
+                sum = c64::new(c - x * sum.im, x * sum.re);
+            }
+            let cube = 1.0 / (x * x * x);
+            sums[k] = c64::new(-sum.im * cube, sum.re * cube);
+        }
+        for (pole, [a, b]) in model.poles.iter().zip(&model.numerators) {
+            let (u, d) = self.parts(*pole);
+            for (sum, x) in sums.iter_mut().zip(&self.x) {
+                *sum += c64::new(*a, b * x) * inverse(*x, u, d);
+            }
+        }
+        for (sum, factor) in sums.iter_mut().zip(&self.factor) {
+            *sum *= factor;
+        }
+        sums
     }
 
     /// Squared length of the projection of a weighted residual on the two functions of a pole,
@@ -187,9 +216,9 @@ impl Lines {
         let first = self.x.partition_point(|x| *x < u - reach * d);
         let last = self.x.partition_point(|x| *x <= u + reach * d);
         let (mut gg, mut hh, mut gr, mut hr) = (0.0, 0.0, 0.0, 0.0);
-        for i in first..last {
-            let (x, r) = (self.x[i], residual[i]);
-            let g = self.factor[i] * inverse(x, u, d);
+        let lines = self.x[first..last].iter().zip(&self.factor[first..last]);
+        for ((x, factor), r) in lines.zip(&residual[first..last]) {
+            let g = factor * inverse(*x, u, d);
             // The second function is s g: g turned by a right angle and stretched by x, hence
             // orthogonal to it.
             gg += g.norm_sqr();
