@@ -30,16 +30,48 @@ fn rust_files(folder: &Path, files: &mut Vec<PathBuf>) {
     }
 }
 
-/// Top-level modules that a line of code names through `crate::`.
-fn named_modules(line: &str) -> Vec<&str> {
-    let code = line.split("//").next().unwrap_or("");
-    code.match_indices("crate::")
-        .map(|(at, pattern)| {
-            let rest = &code[at + pattern.len()..];
-            let end = rest.find(|c: char| !c.is_alphanumeric() && c != '_');
-            &rest[..end.unwrap_or(rest.len())]
-        })
-        .collect()
+/// Top-level modules that code names through `crate::`, brace groups included, with the line of each.
+fn named_modules(code: &str) -> Vec<(usize, String)> {
+    let stripped: Vec<&str> = code
+        .lines()
+        .map(|line| line.split("//").next().unwrap_or(""))
+        .collect();
+    let stripped = stripped.join("\n");
+    let mut named = Vec::new();
+    for (at, pattern) in stripped.match_indices("crate::") {
+        let line = stripped[..at].matches('\n').count() + 1;
+        let rest = &stripped[at + pattern.len()..];
+        let paths = match rest.strip_prefix('{') {
+            Some(group) => top_level_items(group),
+            None => vec![rest],
+        };
+        for path in paths {
+            let path = path.trim_start();
+            let end = path.find(|c: char| !c.is_alphanumeric() && c != '_');
+            named.push((line, path[..end.unwrap_or(path.len())].to_string()));
+        }
+    }
+    named
+}
+
+/// Items of a `use` group up to its closing brace, nested groups left whole.
+fn top_level_items(group: &str) -> Vec<&str> {
+    let (mut depth, mut start, mut items) = (0, 0, Vec::new());
+    for (at, character) in group.char_indices() {
+        match character {
+            '{' => depth += 1,
+            '}' if depth > 0 => depth -= 1,
+            ',' | '}' if depth == 0 => {
+                items.push(&group[start..at]);
+                start = at + 1;
+                if character == '}' {
+                    break;
+                }
+            }
+            _ => {}
+        }
+    }
+    items
 }
 
 #[test]
@@ -60,13 +92,11 @@ fn every_module_names_only_lower_floors() {
             );
             continue;
         };
-        for (number, line) in fs::read_to_string(&path).unwrap().lines().enumerate() {
-            for module in named_modules(line) {
-                let goes_up = floor_of(module).is_some_and(|other| other >= floor);
-                if module != home && goes_up {
-                    let place = format!("{}:{}", relative.display(), number + 1);
-                    broken.push(format!("{place} names crate::{module}"));
-                }
+        for (line, module) in named_modules(&fs::read_to_string(&path).unwrap()) {
+            let goes_up = floor_of(&module).is_some_and(|other| other >= floor);
+            if module != home && goes_up {
+                let place = format!("{}:{line}", relative.display());
+                broken.push(format!("{place} names crate::{module}"));
             }
         }
     }
@@ -74,10 +104,9 @@ fn every_module_names_only_lower_floors() {
 }
 
 #[test]
-fn a_line_that_names_a_module_is_seen() {
-    assert_eq!(
-        named_modules("use crate::cea::{A, B}; crate::fem::x()"),
-        ["cea", "fem"]
-    );
-    assert!(named_modules("// see crate::app").is_empty());
+fn every_way_to_name_a_module_is_seen() {
+    let code = "use crate::cea::{A, B}; // crate::app\nuse crate::{fem::{X, y}, mesh};\ncrate::linalg::z()";
+    let named = named_modules(code);
+    let expected = [(1, "cea"), (2, "fem"), (2, "mesh"), (3, "linalg")];
+    assert_eq!(named, expected.map(|(line, name)| (line, name.to_string())));
 }
