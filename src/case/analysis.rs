@@ -3,6 +3,7 @@
 use super::keys;
 use super::model::node_count;
 use super::reader::{Bound, Section};
+use crate::fem::MassKind;
 use crate::mesh::AnnulusSpecification;
 
 /// What can run on a case, and at each point of a sweep.
@@ -34,15 +35,6 @@ pub enum CeaMethod {
     Sparse,
 }
 
-/// Mass matrix of the eigenvalue analysis.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum MassDistribution {
-    /// Consistent with the shape functions.
-    Consistent,
-    /// Diagonal.
-    Lumped,
-}
-
 /// `[cea]`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cea {
@@ -53,7 +45,7 @@ pub struct Cea {
     /// Which solver.
     pub method: CeaMethod,
     /// Which mass matrix.
-    pub mass: MassDistribution,
+    pub mass: MassKind,
     /// Whether the prestress enters the tangent.
     pub geometric_stiffness: bool,
     /// Friction coefficients whose mode shapes are written, rising; they need not be among
@@ -206,8 +198,8 @@ pub(super) fn cea(
         mass: section.choice(
             "mass",
             &[
-                ("consistent", MassDistribution::Consistent),
-                ("lumped", MassDistribution::Lumped),
+                ("consistent", MassKind::Consistent),
+                ("lumped", MassKind::Lumped),
             ],
         ),
         geometric_stiffness: section.flag_or("geometric_stiffness", true),
@@ -321,7 +313,10 @@ fn parameter(section: &Section<'_>, key: &'static str) -> String {
         let numeric = keys::KEYS.iter().filter(|known| known.is_numeric());
         section.reject(
             key,
-            format!("{} = \"{name}\" is not a numeric case key", section.name(key)),
+            format!(
+                "{} = \"{name}\" is not a numeric case key",
+                section.name(key)
+            ),
             "must name a key whose value is a number".to_owned(),
             keys::nearest(&name, numeric.map(|known| known.name))
                 .map(|near| format!("did you mean \"{near}\"?")),
@@ -330,10 +325,7 @@ fn parameter(section: &Section<'_>, key: &'static str) -> String {
     name
 }
 
-pub(super) fn transient(
-    root: &Section<'_>,
-    annulus: &AnnulusSpecification,
-) -> Option<Transient> {
+pub(super) fn transient(root: &Section<'_>, annulus: &AnnulusSpecification) -> Option<Transient> {
     let section = root.section("transient", false);
     if !section.is_given() {
         return None;
@@ -405,7 +397,10 @@ fn harmonics(
                     "harmonic {value} in {} is above the mesh's highest, {highest}",
                     section.name("harmonics")
                 ),
-                format!("at most half of {} elements", annulus.circumferential_elements),
+                format!(
+                    "at most half of {} elements",
+                    annulus.circumferential_elements
+                ),
                 "lower the harmonic or raise mesh.circumferential_elements",
             );
         }

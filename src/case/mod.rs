@@ -15,8 +15,8 @@ mod reader;
 mod sweep;
 
 pub use analysis::{
-    Analysis, Cea, CeaMap, CeaMethod, Continuation, Cycle, InitialState, MassDistribution,
-    ModeSelection, OperatorChoice, Output, Perturbation, TimeStep, Transient,
+    Analysis, Cea, CeaMap, CeaMethod, Continuation, Cycle, InitialState, ModeSelection,
+    OperatorChoice, Output, Perturbation, TimeStep, Transient,
 };
 pub use cost::{CeaCost, Cost, TransientCost};
 pub use diagnostic::{CaseErrors, Diagnostic, Location, Source};

@@ -61,10 +61,7 @@ pub(super) fn annulus(root: &Section<'_>) -> (AnnulusSpecification, f64) {
         radial_grading: mesh.number_or("radial_grading", Bound::Positive, 1.0),
         element: mesh.choice(
             "element",
-            &[
-                ("quad4", ElementKind::Quad4),
-                ("quad8", ElementKind::Quad8),
-            ],
+            &[("quad4", ElementKind::Quad4), ("quad8", ElementKind::Quad8)],
         ),
     };
     check_mesh(&mesh, &annulus);
@@ -141,7 +138,7 @@ pub(super) fn contact(root: &Section<'_>) -> Contact {
         sliding: SlidingContact {
             friction_coefficient: section.number("friction_coefficient", Bound::NotNegative),
             interference: section.number("interference", Bound::Positive),
-            rotation_speed: section.number("rotation_speed_rpm", Bound::Positive) * TAU / 60.0,
+            rotation_speed: section.number("rotation_speed_rpm", Bound::Finite) * TAU / 60.0,
         },
         stiffness: ContactStiffness {
             normal_stiffness: section.number_or_word("normal_stiffness", Bound::Positive, "rigid"),

@@ -266,20 +266,18 @@ fn convert(
 ) -> RawValue {
     match value {
         DeValue::String(text) => RawValue::String(text.to_string()),
-        DeValue::Integer(integer) => {
-            match i64::from_str_radix(integer.as_str(), integer.radix()) {
-                Ok(value) => RawValue::Integer(value),
-                Err(_) => {
-                    errors.push(Diagnostic::error(
-                        format!("the integer {integer} does not fit 64 bits"),
-                        "out of range".to_owned(),
-                        Location::new(source, span),
-                        Some("write it with a decimal point if it is meant as a number".to_owned()),
-                    ));
-                    RawValue::Integer(0)
-                }
+        DeValue::Integer(integer) => match i64::from_str_radix(integer.as_str(), integer.radix()) {
+            Ok(value) => RawValue::Integer(value),
+            Err(_) => {
+                errors.push(Diagnostic::error(
+                    format!("the integer {integer} does not fit 64 bits"),
+                    "out of range".to_owned(),
+                    Location::new(source, span),
+                    Some("write it with a decimal point if it is meant as a number".to_owned()),
+                ));
+                RawValue::Integer(0)
             }
-        }
+        },
         // A float that TOML accepts and Rust does not cannot exist; NaN is refused where it is used.
         DeValue::Float(float) => RawValue::Float(float.as_str().parse().unwrap_or(f64::NAN)),
         DeValue::Boolean(value) => RawValue::Boolean(*value),

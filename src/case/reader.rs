@@ -245,7 +245,11 @@ impl<'a> Section<'a> {
             RawValue::Integer(value) => value as f64,
             RawValue::Float(value) => value,
             ref other => {
-                self.reject_at(item, key, &format!("must be a number, not {}", other.kind()));
+                self.reject_at(
+                    item,
+                    key,
+                    &format!("must be a number, not {}", other.kind()),
+                );
                 return None;
             }
         };
@@ -460,13 +464,7 @@ impl<'a> Section<'a> {
     }
 
     /// The values of `{ from, to, count, spacing }`; none where something is wrong with it.
-    pub fn range(
-        &self,
-        key: &str,
-        table: &'a RawTable,
-        item: &RawItem,
-        bound: Bound,
-    ) -> Vec<f64> {
+    pub fn range(&self, key: &str, table: &'a RawTable, item: &RawItem, bound: Bound) -> Vec<f64> {
         let range = Section {
             findings: self.findings,
             path: self.name(key),
@@ -478,10 +476,7 @@ impl<'a> Section<'a> {
         let count = range.count("count", 1);
         let spacing = range.choice(
             "spacing",
-            &[
-                ("linear", Spacing::Linear),
-                ("log", Spacing::Logarithmic),
-            ],
+            &[("linear", Spacing::Linear), ("log", Spacing::Logarithmic)],
         );
         range.close();
         if from.is_nan() || to.is_nan() || count == 0 {

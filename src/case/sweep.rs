@@ -84,10 +84,7 @@ pub(super) fn read(root: &Section<'_>) -> Option<Sweep> {
     );
     let analyses = section.choices(
         "analyses",
-        &[
-            ("transient", Analysis::Transient),
-            ("cea", Analysis::Cea),
-        ],
+        &[("transient", Analysis::Transient), ("cea", Analysis::Cea)],
         &[Analysis::Transient],
     );
     let mut keys = Vec::new();

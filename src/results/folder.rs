@@ -294,10 +294,7 @@ fn refuse_foreign(path: &Path) -> Result<(), FolderError> {
 }
 
 /// Writes a file under a temporary name in the same folder, flushes it to the disk and renames it.
-fn write_whole(
-    path: &Path,
-    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-) -> io::Result<()> {
+fn write_whole(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
     let parent = path.parent().unwrap_or(Path::new("."));
     fs::create_dir_all(parent)?;
     let mut builder = tempfile::Builder::new();

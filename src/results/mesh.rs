@@ -53,8 +53,7 @@ impl MeshStatistics {
             aspect = aspect.max(high / low);
         }
         let spec = &annulus.specification;
-        let exact =
-            std::f64::consts::PI * (spec.outer_radius.powi(2) - spec.inner_radius.powi(2));
+        let exact = std::f64::consts::PI * (spec.outer_radius.powi(2) - spec.inner_radius.powi(2));
         Self {
             nodes: mesh.node_count(),
             elements: mesh.element_count(),

@@ -191,7 +191,11 @@ fn shape_fields(report: &CeaReport<'_>, mode: &ComplexMode) -> Option<[Field; 3]
         .collect();
     Some([
         Field::vectors("displacement_real", report.mesh, &part(|value| value.re)),
-        Field::vectors("displacement_imaginary", report.mesh, &part(|value| value.im)),
+        Field::vectors(
+            "displacement_imaginary",
+            report.mesh,
+            &part(|value| value.im),
+        ),
         Field::scalars("amplitude", amplitude),
     ])
 }

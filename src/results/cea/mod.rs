@@ -59,10 +59,10 @@ pub struct CeaReport<'a> {
 impl CeaReport<'_> {
     /// The friction values of the tables.
     pub fn tabulated(&self) -> impl Iterator<Item = &FrictionPoint> {
-        self.sweep
-            .points
-            .iter()
-            .filter(|point| self.friction_coefficients.contains(&point.friction_coefficient))
+        self.sweep.points.iter().filter(|point| {
+            self.friction_coefficients
+                .contains(&point.friction_coefficient)
+        })
     }
 
     /// Largest relative residual of any eigenpair, that of the quadratic problem.

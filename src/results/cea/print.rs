@@ -89,8 +89,8 @@ fn critical_frictions(out: &mut String, report: &CeaReport<'_>) {
     let _ = writeln!(out, "\ncritical friction");
     let _ = writeln!(
         out,
-        "{:>10}  {:>3} {:>6}  {:<8} {:>12}  {}",
-        "unstable >", "n", "branch", "travels", "frequency Hz", "stable again at"
+        "{:>10}  {:>3} {:>6}  {:<8} {:>12}  stable again at",
+        "unstable >", "n", "branch", "travels", "frequency Hz"
     );
     for interval in intervals {
         let again = match interval.restabilized {
