@@ -1,1 +1,3 @@
 //! Result files: tables, fields, figures, manifest.
+
+pub mod figures;
