@@ -3,6 +3,7 @@
 pub mod cea;
 pub mod figures;
 mod folder;
+pub mod identification;
 mod manifest;
 mod mesh;
 mod table;

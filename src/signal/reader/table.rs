@@ -124,9 +124,147 @@ fn blame_first_number(content: &[Line], source: &str) -> ReadError {
     for (number, line) in content {
         let fields = split(line, separator_of(&[(*number, *line)]));
         let numeric = fields.iter().filter(|(_, f)| parse(f).is_some()).count();
-        if numeric * 2 >= fields.len() && fields.len() > 1 {
-            if let Some((at, field)) = fields.iter().find(|(_, f)| parse(f).is_none()) {
+        if numeric * 2 >= fields.len() && fields.len() > 1
+            && let Some((at, field)) = fields.iter().find(|(_, f)| parse(f).is_none()) {
                 let problem = unreadable(field, "of numbers".to_string());
+                return ReadError::at(source, *number, *at, problem);
+            }
+    }
+    ReadError::whole(source, ReadProblem::NoNumbers)
+}
+
+/// Why a field is no number.
+fn unreadable(field: &str, name: String) -> ReadProblem {
+    let field = shortened(field);
+    if field.contains(',') && field.contains('.') {
+        ReadProblem::MixedDecimals { field }
+    } else {
+        ReadProblem::NotANumber { field, name }
+    }
+}
+
+/// The separator of the rows of numbers.
+fn separator_of(data: &[Line]) -> Separator {
+    let sample = || data.iter().take(50).map(|(_, line)| *line);
+    if sample().any(|l| l.contains(';')) {
+        Separator::Semicolon
+    } else if sample().any(|l| l.trim().contains('\t')) {
+        Separator::Tab
+    } else if sample().all(|l| l.split_whitespace().all(|f| parse(f).is_some()))
+        && sample().any(|l| l.split_whitespace().count() > 1)
+    {
+        // `1,5 2,5`: every word is a number by itself, which `1.5, 2.5` is not.
+        Separator::Blanks
+    } else if sample().any(|l| l.contains(',')) {
+        Separator::Comma
+    } else {
+        Separator::Blanks
+    }
+}
+
+/// Fields with the 1-based character at which each begins; a separator at the end adds none.
+fn split(line: &str, separator: Separator) -> Vec<(usize, String)> {
+    let is_separator = |c: char| match separator {
+        Separator::Semicolon => c == ';',
+        Separator::Tab => c == '\t',
+        Separator::Comma => c == ',',
+        Separator::Blanks => c.is_whitespace(),
+    };
+    let mut fields: Vec<(usize, String)> = Vec::new();
+    let (mut field, mut start, mut quoted) = (String::new(), 1, false);
+    for (i, c) in line.chars().enumerate() {
+        if c == '"' {
+            quoted = !quoted;
+        } else if !quoted && is_separator(c) {
+            fields.push((start, std::mem::take(&mut field)));
+            start = i + 2;
+        } else {
+            field.push(c);
+        }
+    }
+    fields.push((start, field));
+    for (start, field) in &mut fields {
+        *start += field.chars().take_while(|c| c.is_whitespace()).count();
+        *field = field.trim().to_string();
+    }
+    if separator == Separator::Blanks {
+        fields.retain(|(_, f)| !f.is_empty());
+    }
+    while fields.len() > 1 && fields.last().is_some_and(|(_, f)| f.is_empty()) {
+        fields.pop();
+    }
+    fields
+}
+
+/// A number, with a decimal point or a decimal comma; NaN and infinity included.
+fn parse(field: &str) -> Option<f64> {
+    let plain = field.replace(['\u{2212}', '\u{2013}'], "-");
+    let lower = plain.to_ascii_lowercase();
+    if matches!(
+        lower.as_str(),
+        "1.#ind" | "-1.#ind" | "1.#qnan" | "#n/a" | "na" | "n/a"
+    ) {
+        return Some(f64::NAN);
+    }
+    // Fortran writes exponents with d.
+    let is_number = lower.chars().any(|c| c.is_ascii_digit());
+    let mut text = if is_number {
+        lower.replace('d', "e")
+    } else {
+        lower
+    };
+    if text.matches(',').count() == 1 && !text.contains('.') {
+        text = text.replace(',', ".");
+    }
+    text.parse().ok()
+}
+
+/// Parses every row.
+fn numbers(
+    data: &[Line],
+    separator: Separator,
+    head: &[Line],
+    source: &str,
+) -> Result<Table, ReadError> {
+    let expected = split(data[0].1, separator).len();
+    refuse_decimal_comma_separators(data[0], separator, head, expected, source)?;
+    let names = head
+        .last()
+        .map(|(_, line)| split(line, separator))
+        .filter(|names| names.len() == expected);
+    let name = |k: usize| match &names {
+        Some(names) => format!("`{}`", shortened(&names[k].1)),
+        None => (k + 1).to_string(),
+    };
+    let mut table = Table {
+        columns: vec![Vec::with_capacity(data.len()); expected],
+        ..Table::default()
+    };
+    for (line, text) in data {
+        let fields = split(text, separator);
+        let spoiled = fields
+            .iter()
+            .enumerate()
+            .find(|(_, (_, f))| parse(f).is_none());
+        if let Some((k, (at, field))) = spoiled.filter(|(k, _)| *k < expected) {
+            let problem = unreadable(field, name(k));
+            return Err(ReadError::at(source, *line, *at, problem));
+        }
+        if fields.len() != expected {
+            let at = fields[fields.len().min(expected + 1) - 1].0;
+            let problem = ReadProblem::FieldCount {
+                found: fields.len(),
+                expected,
+            };
+            return Err(ReadError::at(source, *line, at, problem));
+        }
+        for (k, (at, field)) in fields.iter().enumerate() {
+            let value = parse(field).unwrap_or(f64::NAN);
+            if !value.is_finite() {
+                let problem = ReadProblem::NotFinite {
+                    field: shortened(field),
+                    name: name(k),
+                };
                 return Err(ReadError::at(source, *line, *at, problem));
             }
             table.columns[k].push(value);
