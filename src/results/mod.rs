@@ -1,6 +1,7 @@
 //! Result files: tables, fields, figures, manifest.
 
 pub mod cea;
+pub mod figures;
 mod folder;
 mod manifest;
 mod mesh;
