@@ -194,7 +194,13 @@ fn mesh_writes_into_the_default_folder_and_prints_statistics() {
         .code(0)
         .stdout(contains("176 nodes, 48 elements, 352 unknowns"));
     let results = folder.path().join("results/polycarbonate-disc/mesh");
-    for name in ["mesh.vtu", "mesh.svg", "summary.json", "manifest.json"] {
+    for name in [
+        "mesh.vtu",
+        "figures/mesh.svg",
+        "figures/mesh.png",
+        "summary.json",
+        "manifest.json",
+    ] {
         assert!(results.join(name).exists(), "{name}");
     }
 }
@@ -257,7 +263,7 @@ fn no_figures_leaves_the_picture_out() {
         .args(["mesh", &disc(), "--no-figures", "--out", "here"])
         .args(COARSE);
     command.assert().code(0);
-    assert!(!folder.path().join("here/mesh.svg").exists());
+    assert!(!folder.path().join("here/figures").exists());
     assert!(folder.path().join("here/mesh.vtu").exists());
 }
 

@@ -3,8 +3,10 @@
 use faer::c64;
 use flate2::read::ZlibDecoder;
 use frictionsim::cea::{ComplexMode, FrictionPoint, FrictionSweep, UnstableInterval};
+use frictionsim::contact::ContactInterface;
+use frictionsim::fem::NodalStress;
 use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind};
-use frictionsim::results::cea::{BaseState, CeaReport, print, write};
+use frictionsim::results::cea::{BaseField, BaseState, CeaReport, print, write};
 use frictionsim::results::{
     EncodedMesh, Field, FolderError, Manifest, MeshStatistics, OutputFolder, Replace,
     cartesian_vectors, write_vtu,
@@ -71,7 +73,24 @@ fn sweep(mesh: &AnnulusMesh) -> FrictionSweep {
     }
 }
 
-fn report<'a>(mesh: &'a AnnulusMesh, sweep: &'a FrictionSweep) -> CeaReport<'a> {
+fn field(mesh: &AnnulusMesh) -> BaseField {
+    let interface = ContactInterface::of(&mesh.mesh);
+    let count = interface.len();
+    BaseField {
+        nodes: interface.nodes,
+        angles: interface.angles,
+        pressures: vec![2.8e6; count],
+        shears: vec![0.84e6; count],
+        displacement: vec![1e-6; 2 * mesh.mesh.node_count()],
+        stress: vec![NodalStress::default(); mesh.mesh.node_count()],
+    }
+}
+
+fn report<'a>(
+    mesh: &'a AnnulusMesh,
+    sweep: &'a FrictionSweep,
+    field: &'a BaseField,
+) -> CeaReport<'a> {
     CeaReport {
         title: "made up",
         mesh: &mesh.mesh,
@@ -91,6 +110,7 @@ fn report<'a>(mesh: &'a AnnulusMesh, sweep: &'a FrictionSweep) -> CeaReport<'a> 
             torque_n_m: 20.15,
             power_w: 1287.0,
         },
+        field,
         notes: vec!["harmonics above 6 do not exist on this mesh".to_owned()],
         wall_s: 0.5,
     }
@@ -110,7 +130,7 @@ fn tables_hold_one_row_for_each_mode_of_a_tabulated_friction_value() {
     let (mesh, folder) = (annulus(ElementKind::Quad4), tempfile::tempdir().unwrap());
     let sweep = sweep(&mesh);
     let output = OutputFolder::open(folder.path(), &manifest("a"), Replace::SameCase).unwrap();
-    let summary = write(&output, &report(&mesh, &sweep)).unwrap();
+    let summary = write(&output, &report(&mesh, &sweep, &field(&mesh))).unwrap();
     let eigenvalues = fs::read_to_string(folder.path().join("eigenvalues.csv")).unwrap();
     let mut lines = eigenvalues.lines();
     assert_eq!(
@@ -151,7 +171,7 @@ fn tables_hold_one_row_for_each_mode_of_a_tabulated_friction_value() {
 #[test]
 fn the_printed_table_tells_stable_ranges_from_unstable_modes() {
     let mesh = annulus(ElementKind::Quad4);
-    let text = print(&report(&mesh, &sweep(&mesh)));
+    let text = print(&report(&mesh, &sweep(&mesh), &field(&mesh)));
     for part in [
         "0  stable up to 0.1",
         "against       9900.00",
@@ -273,7 +293,7 @@ fn shapes_come_as_real_and_imaginary_fields_in_a_collection() {
     let (mesh, folder) = (annulus(ElementKind::Quad8), tempfile::tempdir().unwrap());
     let sweep = sweep(&mesh);
     let output = OutputFolder::open(folder.path(), &manifest("a"), Replace::SameCase).unwrap();
-    write(&output, &report(&mesh, &sweep)).unwrap();
+    write(&output, &report(&mesh, &sweep, &field(&mesh))).unwrap();
     let collection = fs::read_to_string(folder.path().join("modes.pvd")).unwrap();
     let entry = collection
         .lines()
