@@ -159,3 +159,43 @@ fn convergence_names_the_observed_slope() {
         ],
     );
 }
+
+#[test]
+fn spectrum_names_the_modes_above_its_peaks() {
+    let frequencies: Vec<f64> = (0..2000).map(|i| 20.0 * f64::from(i)).collect();
+    let amplitude: Vec<f64> = frequencies
+        .iter()
+        .map(|f| {
+            (1..=3)
+                .map(|k| {
+                    3e4 / f64::from(k * k) / (1.0 + ((f - 9600.0 * f64::from(k)) / 40.0).powi(2))
+                })
+                .sum()
+        })
+        .collect();
+    let references = [(7660.0, "mode 3"), (9901.0, "mode 5"), (10_525.0, "mode 7")]
+        .map(|(frequency_hz, label)| ReferenceFrequency {
+            frequency_hz,
+            label: label.into(),
+        })
+        .to_vec();
+    let svg = draw_spectrum(&SpectrumPlot {
+        signal_name: "radial acceleration, node 1641".into(),
+        unit: "m/s²".into(),
+        frequencies_hz: &frequencies,
+        amplitude: &amplitude,
+        max_frequency_hz: 32e3,
+        references,
+    })
+    .unwrap();
+    check(
+        "spectrum",
+        &svg,
+        &[
+            "frequency f (kHz)",
+            "amplitude (m/s²)",
+            "9.901 kHz, mode 5",
+            "node 1641",
+        ],
+    );
+}

@@ -2,13 +2,14 @@
 
 use super::axis::{Axis, extremes, prefixed, significant};
 use super::colour::{
-    CONTACT_DISSIPATION, EXTERNAL_POWER, INK, MATERIAL_DISSIPATION, NORMAL_POWER, OPEN, SERIES,
-    SLIDE_POWER, SLIP, STICK, STICK_POWER,
+    CONTACT_DISSIPATION, EXTERNAL_POWER, INK, MATERIAL_DISSIPATION, MUTED, NORMAL_POWER, OPEN,
+    SERIES, SLIDE_POWER, SLIP, STICK, STICK_POWER,
 };
 use super::contact_status::status_keys;
 use super::legend::{self, Key};
 use super::panel::Panel;
 use super::svg::{DOUBLE_COLUMN, Path, Stroke, Svg};
+use super::text::TextStyle;
 use super::time_stack::{TimeStack, scaled, span};
 use super::{FigureError, expect_length};
 
@@ -49,7 +50,7 @@ pub struct EnergyFlows<'a> {
     pub averaging_time: f64,
 }
 
-/// Mean over a window centred on each sample, shortened at the ends.
+/// Mean over a window centred on each sample, cut off at the ends.
 pub fn moving_average(values: &[f64], window: usize) -> Vec<f64> {
     let half = window / 2;
     let mut sums = Vec::with_capacity(values.len() + 1);
@@ -59,8 +60,8 @@ pub fn moving_average(values: &[f64], window: usize) -> Vec<f64> {
     }
     (0..values.len())
         .map(|index| {
-            let reach = half.min(index).min(values.len() - 1 - index);
-            let (from, to) = (index - reach, index + reach + 1);
+            let from = index.saturating_sub(half);
+            let to = (index + half + 1).min(values.len());
             (sums[to] - sums[from]) / (to - from) as f64
         })
         .collect()
@@ -84,7 +85,15 @@ pub fn draw_energy_flows(data: &EnergyFlows) -> Result<String, FigureError> {
     draw_body_power(&mut svg, &mut stack, data, &times);
     draw_stored_energy(&mut svg, &mut stack, data, &times);
     draw_residual(&mut svg, &mut stack, data, &times);
-    svg.set_height(stack.bottom());
+    if averaging_window(data) > 1 {
+        let note = format!(
+            "(c)–(e): lines are means over {} ms, bands the range of the samples",
+            significant(data.averaging_time * 1e3, 2)
+        );
+        let style = TextStyle::new(6.25).coloured(MUTED);
+        svg.text(left, stack.bottom() + 7.0, &note, &style);
+    }
+    svg.set_height(stack.bottom() + 11.0);
     Ok(svg.finish(
         "Energy flows of the run",
         "Acceleration, contact status, external power and its three parts, power balance of the \
@@ -155,7 +164,7 @@ fn draw_keys(svg: &mut Svg, panel: &Panel, keys: &[(Key, String)]) {
     legend::draw_legend(svg, x, panel.area.y - 11.0, width + 1.0, keys);
 }
 
-/// A power: line of its running mean over the band of its samples.
+/// A power or an energy: line of its running mean over the band of its samples.
 fn draw_power(
     svg: &mut Svg,
     panel: &Panel,
@@ -182,16 +191,20 @@ fn averaging_window(data: &EnergyFlows) -> usize {
     (data.averaging_time / step).round() as usize
 }
 
-/// Factor and axis that hold several powers and zero.
+/// Factor and axis that hold several powers, but for their shortest peaks, and zero.
 fn power_axis(data: &EnergyFlows, series: &[&[f64]]) -> (f64, Axis) {
-    // Starting peaks of the unaveraged powers would flatten everything else.
     let window = averaging_window(data).max(1);
-    let all = series
-        .iter()
-        .flat_map(|values| moving_average(values, window));
-    let (low, high) = extremes(all.chain([0.0]));
+    let (mut low, mut high) = (0.0f64, 0.0f64);
+    for values in series {
+        // The impact of the expansion lasts a few hundredths of a run and would flatten the rest.
+        let mut mean = moving_average(values, window);
+        mean.sort_by(f64::total_cmp);
+        let skipped = mean.len() / 40;
+        low = low.min(mean[skipped]);
+        high = high.max(mean[mean.len() - 1 - skipped]);
+    }
     let (factor, unit) = prefixed(low.abs().max(high.abs()), "W");
-    let room = 0.12 * (high - low);
+    let room = 0.2 * (high - low);
     let axis = Axis::linear(
         &format!("power ({unit})"),
         (low - if low < 0.0 { room } else { 0.2 * room }) * factor,
@@ -222,14 +235,8 @@ fn draw_external_power(svg: &mut Svg, stack: &mut TimeStack, data: &EnergyFlows,
     }
     svg.end_group();
     panel.draw_frame(svg);
-    let caption = match averaging_window(data) {
-        0 | 1 => "external power and its parts".to_string(),
-        _ => format!(
-            "external power and its parts, lines: means over {} ms",
-            significant(data.averaging_time * 1e3, 2)
-        ),
-    };
-    stack.caption(svg, &panel, &caption);
+    draw_cut_peak(svg, &panel, times, data.external, factor);
+    stack.caption(svg, &panel, "external power and its parts");
     let keys: Vec<_> = parts
         .iter()
         .rev()
@@ -261,6 +268,7 @@ fn draw_body_power(svg: &mut Svg, stack: &mut TimeStack, data: &EnergyFlows, tim
     }
     svg.end_group();
     panel.draw_frame(svg);
+    draw_cut_peak(svg, &panel, times, &received, factor);
     stack.caption(svg, &panel, "power balance of the body");
     let keys = [
         (Key::line(STICK_POWER), "received at the contact".into()),
@@ -269,6 +277,18 @@ fn draw_body_power(svg: &mut Svg, stack: &mut TimeStack, data: &EnergyFlows, tim
         (Key::Patch(SERIES[5].into(), 0.5), "stored".to_string()),
     ];
     draw_keys(svg, &panel, &keys);
+}
+
+/// Says how high a peak goes that the panel cuts off.
+fn draw_cut_peak(svg: &mut Svg, panel: &Panel, times: &[f64], values: &[f64], factor: f64) {
+    let peak = (0..values.len()).max_by(|&a, &b| values[a].total_cmp(&values[b]));
+    let Some(peak) = peak.filter(|&i| values[i] * factor > panel.y.high) else {
+        return;
+    };
+    let x = panel.at_x(times[peak]).min(panel.area.right() - 50.0);
+    let label = format!("▲ peak {}", significant(values[peak] * factor, 3));
+    let style = TextStyle::new(6.25).coloured(MUTED).with_halo();
+    svg.text(x + 3.0, panel.area.y + 8.0, &label, &style);
 }
 
 /// The area between two curves, thinned alike.
@@ -302,7 +322,7 @@ fn draw_stored_energy(svg: &mut Svg, stack: &mut TimeStack, data: &EnergyFlows, 
     ];
     for (values, colour, _) in series {
         let values = scaled(values, factor);
-        panel.series(svg, times, &values, &Stroke::solid(colour, 0.8));
+        draw_power(svg, &panel, data, (times, &values), colour);
     }
     panel.draw_frame(svg);
     stack.caption(svg, &panel, "stored energy");
@@ -316,10 +336,11 @@ fn draw_residual(svg: &mut Svg, stack: &mut TimeStack, data: &EnergyFlows, times
         .iter()
         .map(|r| r.abs().max(1e-18))
         .collect();
-    let high = extremes(size.iter().copied()).1;
+    let (low, high) = extremes(size.iter().copied());
+    let low = low.max(1e-6 * high);
     let y = Axis::logarithmic(
         "residual (–)",
-        1e-18,
+        10f64.powf((low.log10() - 0.5).floor()),
         10f64.powf((high.log10() + 0.5).ceil()),
     );
     let panel = stack.push(y, 44.0, true);
@@ -340,8 +361,10 @@ mod tests {
     #[test]
     fn moving_average_of_a_line_is_the_line() {
         let line: Vec<f64> = (0..50).map(f64::from).collect();
-        for (index, mean) in moving_average(&line, 7).into_iter().enumerate() {
-            assert!((mean - index as f64).abs() < 1e-12);
+        let mean = moving_average(&line, 7);
+        for index in 3..47 {
+            assert!((mean[index] - line[index]).abs() < 1e-12);
         }
+        assert_eq!((mean[0], mean[49]), (1.5, 47.5));
     }
 }

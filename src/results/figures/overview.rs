@@ -105,7 +105,7 @@ fn enlarged_panel(data: &TransientOverview, main: &Panel, stack: &TimeStack) -> 
     let area = Rect::new(
         main.area.right() + 16.0,
         main.area.y,
-        DOUBLE_COLUMN - main.area.right() - 26.0,
+        DOUBLE_COLUMN - main.area.right() - 29.0,
         main.area.height,
     );
     let x = Axis::linear(&main.x.title, end - length, end);
@@ -170,8 +170,8 @@ fn draw_loudness(
         ),
     };
     stack.caption(svg, &panel, caption);
-    let mut bar = Rect::new(0.0, panel.area.y, 6.0, panel.area.height);
-    bar.x = DOUBLE_COLUMN - legend::colour_bar_width(&axis, &bar);
+    let x = DOUBLE_COLUMN - 42.0;
+    let bar = Rect::new(x, panel.area.y, 6.0, panel.area.height);
     legend::draw_colour_bar(svg, &bar, &axis, ColourMap::Inferno);
     Ok(())
 }
