@@ -1,4 +1,13 @@
 //! Interface kinematics, Coulomb's law, node status.
+//!
+//! The counterface is a rigid cylinder of radius `a + delta` turning at `Omega` inside the contact
+//! edge. At each contact node the frame is `(n, t) = (e_r, e_theta)`: the contact pushes the body
+//! along `+n` with the nodal force `N >= 0`, and drags it along `s t` with `s = sign(Omega)` while it
+//! slips: `T = s mu N`.
+
+mod interface;
+
+pub use interface::ContactInterface;
 
 /// Status of a contact node.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -22,6 +31,14 @@ pub struct SlidingContact {
     pub interference: f64,
     /// Rotation speed `Omega` of the cylinder, rad/s, counter-clockwise positive.
     pub rotation_speed: f64,
+}
+
+impl SlidingContact {
+    /// Sense in which steady sliding drags the body, `s = sign(Omega)`; `+1` for a cylinder at rest,
+    /// taken as on the point of turning counter-clockwise.
+    pub fn sliding_direction(&self) -> f64 {
+        if self.rotation_speed < 0.0 { -1.0 } else { 1.0 }
+    }
 }
 
 /// Linearised contact of the complex eigenvalue analysis, for each unit of contact area.

@@ -1,1 +1,11 @@
 //! Steady sliding equilibrium and the tangent around it.
+//!
+//! [`SteadySliding`] is the base state: the cylinder expanded by `delta`, every contact node
+//! slipping. [`SlidingTangent`] holds the matrices of small motions around it,
+//! `M(mu) q'' + C(mu) q' + K_t(mu) q = 0`, as polynomials in the friction coefficient.
+
+mod equilibrium;
+mod tangent;
+
+pub use equilibrium::{PrestressError, SteadySliding};
+pub use tangent::{DampingModel, SlidingTangent, TangentOptions};

@@ -1,0 +1,179 @@
+//! Assembly of element matrices, and the constrained dofs of the clamped edge.
+
+use super::{ElasticMaterial, element};
+use crate::mesh::Mesh2d;
+use nalgebra::DMatrix;
+
+/// Entries `(row, column, value)` of a sparse matrix; entries at one place add up.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Triplets {
+    /// `(row, column, value)`.
+    pub entries: Vec<(usize, usize, f64)>,
+}
+
+impl Triplets {
+    /// Adds one entry.
+    pub fn push(&mut self, row: usize, column: usize, value: f64) {
+        self.entries.push((row, column, value));
+    }
+
+    /// Multiplies every value.
+    pub fn scaled(&self, factor: f64) -> Self {
+        let scale = |&(row, column, value): &(usize, usize, f64)| (row, column, factor * value);
+        Self {
+            entries: self.entries.iter().map(scale).collect(),
+        }
+    }
+
+    /// `y = A x` over all entries, `y` of length `rows`.
+    pub fn multiply(&self, rows: usize, x: &[f64]) -> Vec<f64> {
+        let mut y = vec![0.0; rows];
+        for &(row, column, value) in &self.entries {
+            y[row] += value * x[column];
+        }
+        y
+    }
+}
+
+/// Consistent or lumped mass.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MassKind {
+    /// `∫ rho N_I N_J dA`.
+    Consistent,
+    /// Diagonal.
+    Lumped,
+}
+
+/// Global stiffness `K` over all `2 * node_count` dofs in nodal frames, N/m for each metre of
+/// thickness.
+///
+/// Elements that are rotated copies of one another share one matrix to the last bit, so that a
+/// rotationally symmetric mesh gives an exactly rotationally symmetric operator.
+pub fn assemble_stiffness(mesh: &Mesh2d, material: &ElasticMaterial) -> Triplets {
+    assemble_congruent(mesh, |e| element::stiffness(mesh, e, material))
+}
+
+/// Global mass `M` over all dofs, kg for each metre of thickness.
+pub fn assemble_mass(mesh: &Mesh2d, material: &ElasticMaterial, kind: MassKind) -> Triplets {
+    match kind {
+        MassKind::Consistent => {
+            assemble_congruent(mesh, |e| element::consistent_mass(mesh, e, material))
+        }
+        MassKind::Lumped => {
+            let mut triplets = Triplets::default();
+            for (node, mass) in lumped_masses(mesh, material).into_iter().enumerate() {
+                triplets.push(2 * node, 2 * node, mass);
+                triplets.push(2 * node + 1, 2 * node + 1, mass);
+            }
+            triplets
+        }
+    }
+}
+
+/// Lumped mass of each node, kg for each metre of thickness.
+pub fn lumped_masses(mesh: &Mesh2d, material: &ElasticMaterial) -> Vec<f64> {
+    let mut masses = vec![0.0; mesh.node_count()];
+    let mut cache: Vec<Option<Vec<f64>>> = vec![None; mesh.element_count()];
+    for e in 0..mesh.element_count() {
+        let shared = cache[mesh.congruent_to[e] as usize]
+            .get_or_insert_with(|| element::lumped_mass(mesh, e, material));
+        for (&node, mass) in mesh.element_nodes(e).iter().zip(shared.iter()) {
+            masses[node as usize] += mass;
+        }
+    }
+    masses
+}
+
+/// Global geometric stiffness of the stress that `base` (all dofs, nodal frames, m) causes, N/m for
+/// each metre of thickness.
+pub fn assemble_geometric_stiffness(
+    mesh: &Mesh2d,
+    material: &ElasticMaterial,
+    base: &[f64],
+) -> Triplets {
+    let mut triplets = Triplets::default();
+    for e in 0..mesh.element_count() {
+        let matrix = element::geometric_stiffness(mesh, e, material, base);
+        scatter(&mut triplets, mesh.element_nodes(e), &matrix);
+    }
+    triplets
+}
+
+fn assemble_congruent(mesh: &Mesh2d, compute: impl Fn(usize) -> DMatrix<f64>) -> Triplets {
+    let mut triplets = Triplets::default();
+    let mut cache: Vec<Option<DMatrix<f64>>> = vec![None; mesh.element_count()];
+    let size = 4 * mesh.element_kind.node_count() * mesh.element_kind.node_count();
+    triplets.entries.reserve_exact(size * mesh.element_count());
+    for e in 0..mesh.element_count() {
+        let matrix = cache[mesh.congruent_to[e] as usize].get_or_insert_with(|| compute(e));
+        scatter(&mut triplets, mesh.element_nodes(e), matrix);
+    }
+    triplets
+}
+
+fn scatter(triplets: &mut Triplets, nodes: &[u32], matrix: &DMatrix<f64>) {
+    let dof = |local: usize| 2 * nodes[local / 2] as usize + local % 2;
+    for column in 0..matrix.ncols() {
+        for row in 0..matrix.nrows() {
+            triplets.push(dof(row), dof(column), matrix[(row, column)]);
+        }
+    }
+}
+
+/// Which dofs are unknowns of a problem and where each stands among them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DofMap {
+    /// Position of each full dof among the unknowns; `None` where it is prescribed.
+    pub unknown_of: Vec<Option<usize>>,
+    /// Full dof of each unknown, ascending.
+    pub dofs: Vec<usize>,
+}
+
+impl DofMap {
+    /// All dofs but the given ones, of `total`.
+    pub fn excluding(total: usize, prescribed: impl IntoIterator<Item = usize>) -> Self {
+        let mut free = vec![true; total];
+        prescribed.into_iter().for_each(|dof| free[dof] = false);
+        let dofs: Vec<usize> = (0..total).filter(|&dof| free[dof]).collect();
+        let mut unknown_of = vec![None; total];
+        for (unknown, &dof) in dofs.iter().enumerate() {
+            unknown_of[dof] = Some(unknown);
+        }
+        Self { unknown_of, dofs }
+    }
+
+    /// All dofs of the mesh but those of the clamped outer edge.
+    pub fn clamped(mesh: &Mesh2d) -> Self {
+        Self::excluding(2 * mesh.node_count(), clamped_dofs(mesh))
+    }
+
+    /// Number of unknowns.
+    pub fn len(&self) -> usize {
+        self.dofs.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.dofs.is_empty()
+    }
+
+    /// Writes unknowns into a vector over all dofs, zero elsewhere.
+    pub fn expand<T: Copy + Default>(&self, unknowns: &[T]) -> Vec<T> {
+        let mut full = vec![T::default(); self.unknown_of.len()];
+        for (&dof, &value) in self.dofs.iter().zip(unknowns) {
+            full[dof] = value;
+        }
+        full
+    }
+
+    /// The unknowns among a vector over all dofs.
+    pub fn restrict<T: Copy>(&self, full: &[T]) -> Vec<T> {
+        self.dofs.iter().map(|&dof| full[dof]).collect()
+    }
+}
+
+/// Both dofs of every node of the clamped outer edge.
+pub fn clamped_dofs(mesh: &Mesh2d) -> impl Iterator<Item = usize> + '_ {
+    let nodes = mesh.outer_edge.nodes.iter();
+    nodes.flat_map(|&node| [2 * node as usize, 2 * node as usize + 1])
+}

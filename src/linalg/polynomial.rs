@@ -1,0 +1,251 @@
+//! Sparse matrices that are polynomials in one parameter, on one shared sparsity pattern.
+
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMat, SymbolicSparseColMatRef};
+use std::sync::Arc;
+
+/// Structural positions of the nonzeros of a square sparse matrix, column by column.
+///
+/// Rows are strictly increasing within each column. Several matrices share one pattern through
+/// [`Arc`], so that one symbolic factorization serves all of them and all their combinations.
+#[derive(Clone, Debug)]
+pub struct SparsityPattern {
+    symbolic: SymbolicSparseColMat<usize>,
+}
+
+impl SparsityPattern {
+    /// Pattern of a `dimension x dimension` matrix from `(row, column)` positions in any order,
+    /// repeated or not.
+    ///
+    /// # Panics
+    /// If a position lies outside the matrix.
+    pub fn from_positions(
+        dimension: usize,
+        positions: impl IntoIterator<Item = (usize, usize)>,
+    ) -> Self {
+        let mut columns: Vec<Vec<usize>> = vec![Vec::new(); dimension];
+        for (row, column) in positions {
+            assert!(row < dimension, "row {row} outside a matrix of {dimension}");
+            columns[column].push(row);
+        }
+        let mut column_pointers = Vec::with_capacity(dimension + 1);
+        column_pointers.push(0);
+        let mut row_indices = Vec::new();
+        for rows in &mut columns {
+            rows.sort_unstable();
+            rows.dedup();
+            row_indices.extend_from_slice(rows);
+            column_pointers.push(row_indices.len());
+        }
+        let symbolic = SymbolicSparseColMat::new_checked(
+            dimension,
+            dimension,
+            column_pointers,
+            None,
+            row_indices,
+        );
+        Self { symbolic }
+    }
+
+    /// Number of rows and of columns.
+    pub fn dimension(&self) -> usize {
+        self.symbolic.ncols()
+    }
+
+    /// Number of structural nonzeros.
+    pub fn nonzero_count(&self) -> usize {
+        self.symbolic.row_idx().len()
+    }
+
+    /// Start of each column in [`Self::row_indices`], `dimension + 1` values.
+    pub fn column_pointers(&self) -> &[usize] {
+        self.symbolic.col_ptr()
+    }
+
+    /// Row of each nonzero.
+    pub fn row_indices(&self) -> &[usize] {
+        self.symbolic.row_idx()
+    }
+
+    /// Index of `(row, column)` among the nonzeros, if it is one.
+    pub fn position(&self, row: usize, column: usize) -> Option<usize> {
+        let (start, end) = (
+            self.column_pointers()[column],
+            self.column_pointers()[column + 1],
+        );
+        self.row_indices()[start..end]
+            .binary_search(&row)
+            .ok()
+            .map(|offset| start + offset)
+    }
+
+    /// The pattern as faer sees it.
+    pub fn symbolic(&self) -> SymbolicSparseColMatRef<'_, usize> {
+        self.symbolic.as_ref()
+    }
+
+    /// A matrix of this pattern with `values`, one for each nonzero.
+    pub fn matrix<'a, T>(&'a self, values: &'a [T]) -> SparseColMatRef<'a, usize, T> {
+        SparseColMatRef::new(self.symbolic.as_ref(), values)
+    }
+}
+
+/// A square sparse matrix `P(mu) = P_0 + mu P_1 + mu^2 P_2 + ...` of a real parameter `mu`.
+///
+/// All coefficients are stored on the whole shared pattern, structural zeros included.
+#[derive(Clone, Debug)]
+pub struct MatrixPolynomial {
+    pattern: Arc<SparsityPattern>,
+    coefficients: Vec<Vec<f64>>,
+}
+
+impl MatrixPolynomial {
+    /// Polynomial on a given pattern; `triplets[p]` holds the `(row, column, value)` entries of the
+    /// coefficient of `mu^p`. Repeated positions add up, in the order given.
+    ///
+    /// # Panics
+    /// If an entry is not on the pattern.
+    pub fn on_pattern(
+        pattern: &Arc<SparsityPattern>,
+        triplets: &[Vec<(usize, usize, f64)>],
+    ) -> Self {
+        let coefficients = triplets
+            .iter()
+            .map(|entries| {
+                let mut values = vec![0.0; pattern.nonzero_count()];
+                for &(row, column, value) in entries {
+                    let position = pattern
+                        .position(row, column)
+                        .unwrap_or_else(|| panic!("entry ({row}, {column}) is off the pattern"));
+                    values[position] += value;
+                }
+                values
+            })
+            .collect();
+        Self::from_coefficients(pattern, coefficients)
+    }
+
+    /// Polynomial on its own pattern, the union of the positions of all triplets; see
+    /// [`Self::on_pattern`].
+    pub fn from_triplets(dimension: usize, triplets: &[Vec<(usize, usize, f64)>]) -> Self {
+        let positions = triplets.iter().flatten().map(|&(row, col, _)| (row, col));
+        let pattern = Arc::new(SparsityPattern::from_positions(dimension, positions));
+        Self::on_pattern(&pattern, triplets)
+    }
+
+    /// Polynomial whose coefficient of `mu^p` has the nonzero values `coefficients[p]`, in the
+    /// order of the pattern.
+    ///
+    /// # Panics
+    /// If a coefficient does not have one value for each nonzero.
+    pub fn from_coefficients(pattern: &Arc<SparsityPattern>, coefficients: Vec<Vec<f64>>) -> Self {
+        for values in &coefficients {
+            assert_eq!(values.len(), pattern.nonzero_count());
+        }
+        Self {
+            pattern: Arc::clone(pattern),
+            coefficients,
+        }
+    }
+
+    /// The shared pattern.
+    pub fn pattern(&self) -> &Arc<SparsityPattern> {
+        &self.pattern
+    }
+
+    /// Nonzero values of each power's coefficient, lowest power first.
+    pub fn coefficients(&self) -> &[Vec<f64>] {
+        &self.coefficients
+    }
+
+    /// Number of rows and of columns.
+    pub fn dimension(&self) -> usize {
+        self.pattern.dimension()
+    }
+
+    /// Nonzero values of `P(mu)`.
+    pub fn evaluate(&self, mu: f64) -> Vec<f64> {
+        self.horner(mu, |_| 1.0, 0)
+    }
+
+    /// Nonzero values of `dP/dmu` at `mu`.
+    pub fn derivative(&self, mu: f64) -> Vec<f64> {
+        self.horner(mu, |power| power as f64, 1)
+    }
+
+    /// `alpha a + beta b` of two polynomials on the same pattern.
+    ///
+    /// # Panics
+    /// If they do not share one pattern.
+    pub fn combination(alpha: f64, a: &Self, beta: f64, b: &Self) -> Self {
+        assert!(
+            Arc::ptr_eq(&a.pattern, &b.pattern),
+            "the two polynomials do not share a pattern"
+        );
+        let count = a.coefficients.len().max(b.coefficients.len());
+        let mut coefficients = vec![vec![0.0; a.pattern.nonzero_count()]; count];
+        for (factor, polynomial) in [(alpha, a), (beta, b)] {
+            for (sum, values) in coefficients.iter_mut().zip(&polynomial.coefficients) {
+                for (s, &v) in sum.iter_mut().zip(values) {
+                    *s += factor * v;
+                }
+            }
+        }
+        Self::from_coefficients(&a.pattern, coefficients)
+    }
+
+    /// `sum_{p >= first} weight(p) P_p mu^(p - first)`.
+    fn horner(&self, mu: f64, weight: impl Fn(usize) -> f64, first: usize) -> Vec<f64> {
+        let mut values = vec![0.0; self.pattern.nonzero_count()];
+        for (power, coefficient) in self.coefficients.iter().enumerate().skip(first).rev() {
+            let factor = weight(power);
+            for (sum, &c) in values.iter_mut().zip(coefficient) {
+                *sum = *sum * mu + factor * c;
+            }
+        }
+        values
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn quadratic() -> MatrixPolynomial {
+        MatrixPolynomial::from_triplets(
+            2,
+            &[
+                vec![(0, 0, 1.0), (1, 1, 2.0), (0, 0, 0.5)],
+                vec![(1, 0, 3.0)],
+                vec![(1, 0, -1.0), (1, 1, 4.0)],
+            ],
+        )
+    }
+
+    #[test]
+    fn evaluation_sums_powers_and_repeated_entries() {
+        let p = quadratic();
+        assert_eq!(p.pattern().column_pointers(), [0, 2, 3]);
+        assert_eq!(p.pattern().row_indices(), [0, 1, 1]);
+        assert_eq!(p.evaluate(0.5), [1.5, 1.25, 3.0]);
+        assert_eq!(p.evaluate(0.0), [1.5, 0.0, 2.0]);
+    }
+
+    #[test]
+    fn derivative_equals_central_difference_of_a_quadratic() {
+        let p = quadratic();
+        let (mu, h) = (0.7, 0.25);
+        let (above, below) = (p.evaluate(mu + h), p.evaluate(mu - h));
+        for (i, d) in p.derivative(mu).iter().enumerate() {
+            // Central differences of a quadratic are exact up to round-off.
+            assert!((d - (above[i] - below[i]) / (2.0 * h)).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn combination_adds_coefficient_by_coefficient() {
+        let p = quadratic();
+        let q = MatrixPolynomial::on_pattern(p.pattern(), &[vec![(1, 1, 10.0)]]);
+        let sum = MatrixPolynomial::combination(2.0, &p, -1.0, &q);
+        assert_eq!(sum.evaluate(0.5), [3.0, 2.5, -4.0]);
+    }
+}

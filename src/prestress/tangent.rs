@@ -1,0 +1,374 @@
+//! The matrices of small motions around steady sliding.
+
+use super::SteadySliding;
+use crate::contact::ContactStiffness;
+use crate::fem::{
+    DofMap, ElasticMaterial, MassKind, RayleighDamping, Triplets, assemble_geometric_stiffness,
+    assemble_mass, clamped_dofs,
+};
+use crate::linalg::{MatrixPolynomial, SparsityPattern};
+use crate::mesh::Mesh2d;
+use std::sync::Arc;
+
+/// What `beta_R` multiplies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DampingModel {
+    /// `C = alpha_R M + beta_R K_t`: contact and friction terms included.
+    WholeTangent,
+    /// `C = alpha_R M + beta_R K_e`: the body's elastic stiffness alone. Friction still follows all of
+    /// the normal force.
+    BodyOnly,
+}
+
+/// Choices of the linearisation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TangentOptions {
+    /// Consistent or lumped mass.
+    pub mass: MassKind,
+    /// Whether the stress of the base state acts back (with the follower terms of the contact).
+    pub geometric_stiffness: bool,
+    /// Rayleigh coefficients.
+    pub damping: RayleighDamping,
+    /// What the stiffness coefficient multiplies.
+    pub damping_model: DampingModel,
+    /// Penalty or rigid contact, and dashpots.
+    pub contact: ContactStiffness,
+}
+
+/// Mass, damping and stiffness of small motions around steady sliding, polynomials in `mu`.
+///
+/// With `q` the displacement from the base state, in nodal frames,
+///
+/// ```text
+/// M q'' + C q' + (K_e + K_sigma) q = dF,
+/// dF_n = dN - (T / a) q_t,   dF_t = s mu dN + (N / a) q_t   at each contact node:
+/// ```
+///
+/// the contact forces `N` and `T = s mu N` of the base state turn with the node on the curved edge (a
+/// rigid rotation of everything leaves the edge in balance), and friction follows the normal force.
+/// Penalty contact has `dN = -w (k_n q_n + c_n q_n')`, `w` the node's tributary length. Rigid contact has
+/// `q_n = 0` and unknown `dN`, eliminated by adding `-s mu` times each normal row to its tangential row,
+/// in `M`, `C` and `K` alike: the contact force balances inertia and damping too.
+///
+/// `K_sigma` is affine in `mu` like the base state, so every matrix is a polynomial of degree at most 2, all
+/// on one sparsity pattern. Source: Brunetti et al., section 4, which leaves the
+/// linearisation to a commercial code; the follower terms and the projection are written out here.
+#[derive(Clone, Debug)]
+pub struct SlidingTangent {
+    /// `M(mu)`, kg/m.
+    pub mass: MatrixPolynomial,
+    /// `C(mu)`, Pa s.
+    pub damping: MatrixPolynomial,
+    /// `K_t(mu)`, Pa.
+    pub stiffness: MatrixPolynomial,
+    /// Coefficients with which `C = alpha_R M + beta_R K_t` exactly; `None` where damping is not
+    /// proportional.
+    pub proportional: Option<RayleighDamping>,
+    /// Which full dofs the unknowns are.
+    pub unknowns: DofMap,
+    /// Unknown of each contact node's tangential displacement, in the order of the interface.
+    pub contact_tangential: Vec<usize>,
+    /// Unknown of each contact node's normal displacement; empty for rigid contact.
+    pub contact_normal: Vec<usize>,
+    /// Angle of each contact node, rad.
+    pub contact_angles: Vec<f64>,
+    /// Sense of the friction force `s`.
+    pub sliding_direction: f64,
+}
+
+/// Coefficients of one matrix over all dofs, by power of `mu`.
+type FullPolynomial = [Triplets; 2];
+
+/// Entries `(row, column, value)` over the unknowns, by power of `mu`.
+type ProjectedPolynomial = Vec<Vec<(usize, usize, f64)>>;
+
+impl SlidingTangent {
+    /// Linearises around `base`, whose stiffness `K_e` over all dofs is `elastic`.
+    pub fn linearize(
+        mesh: &Mesh2d,
+        material: &ElasticMaterial,
+        elastic: &Triplets,
+        base: &SteadySliding,
+        options: &TangentOptions,
+    ) -> Self {
+        let projection = Projection::new(mesh, base, options.contact.normal_stiffness.is_some());
+        let mass = [
+            assemble_mass(mesh, material, options.mass),
+            Triplets::default(),
+        ];
+        let mut stiffness = [elastic.clone(), Triplets::default()];
+        if options.geometric_stiffness {
+            add_prestress(&mut stiffness, mesh, material, base);
+        }
+        let contact = options.contact;
+        if let Some(normal_stiffness) = contact.normal_stiffness {
+            add_normal_law(&mut stiffness, base, normal_stiffness);
+        }
+        let mass = projection.apply(&mass);
+        let stiffness = projection.apply(&stiffness);
+        let body = (options.damping_model == DampingModel::BodyOnly)
+            .then(|| projection.apply(&[elastic.clone(), Triplets::default()]));
+        let dashpots = dashpots(base, &contact).map(|terms| projection.apply(&terms));
+
+        let pattern = shared_pattern(projection.unknowns.len(), [&mass, &stiffness]);
+        let on_pattern =
+            |terms: &ProjectedPolynomial| MatrixPolynomial::on_pattern(&pattern, terms);
+        let (mass, stiffness) = (on_pattern(&mass), on_pattern(&stiffness));
+        let rayleigh = options.damping;
+        let damped = body.as_ref().map(on_pattern);
+        let mut damping = MatrixPolynomial::combination(
+            rayleigh.mass_coefficient,
+            &mass,
+            rayleigh.stiffness_coefficient,
+            damped.as_ref().unwrap_or(&stiffness),
+        );
+        if let Some(terms) = &dashpots {
+            damping = MatrixPolynomial::combination(1.0, &damping, 1.0, &on_pattern(terms));
+        }
+        let proportional = (body.is_none() && dashpots.is_none()).then_some(rayleigh);
+        Self {
+            mass,
+            damping,
+            stiffness,
+            proportional,
+            contact_tangential: projection.tangential_unknowns(),
+            contact_normal: projection.normal_unknowns(),
+            contact_angles: base.interface.angles.clone(),
+            sliding_direction: base.sliding_direction,
+            unknowns: projection.unknowns,
+        }
+    }
+}
+
+/// Geometric stiffness of the base state's stress, and the contact forces that turn with the edge.
+fn add_prestress(
+    stiffness: &mut FullPolynomial,
+    mesh: &Mesh2d,
+    material: &ElasticMaterial,
+    base: &SteadySliding,
+) {
+    let displacements = [&base.pressed_displacement, &base.sheared_displacement];
+    for (terms, displacement) in stiffness.iter_mut().zip(displacements) {
+        let stress = assemble_geometric_stiffness(mesh, material, displacement);
+        terms.entries.extend(stress.entries);
+    }
+    let interface = &base.interface;
+    for (i, force) in base.normal_forces.iter().enumerate() {
+        let (normal, tangential) = (interface.normal_dof(i), interface.tangential_dof(i));
+        let turning = force / interface.radius;
+        stiffness[0].push(tangential, tangential, -turning);
+        stiffness[1].push(normal, tangential, base.sliding_direction * turning);
+    }
+}
+
+/// `dN = -w coefficient q_n` and the friction that follows it, moved to the left-hand side.
+fn add_normal_law(terms: &mut FullPolynomial, base: &SteadySliding, coefficient: f64) {
+    let interface = &base.interface;
+    for (i, length) in interface.tributary_lengths.iter().enumerate() {
+        let (normal, tangential) = (interface.normal_dof(i), interface.tangential_dof(i));
+        let value = coefficient * length;
+        terms[0].push(normal, normal, value);
+        terms[1].push(tangential, normal, base.sliding_direction * value);
+    }
+}
+
+/// Normal and tangential dashpots of the contact, if it has any.
+fn dashpots(base: &SteadySliding, contact: &ContactStiffness) -> Option<FullPolynomial> {
+    if contact.normal_damping == 0.0 && contact.tangential_damping == 0.0 {
+        return None;
+    }
+    let mut terms = FullPolynomial::default();
+    add_normal_law(&mut terms, base, contact.normal_damping);
+    let interface = &base.interface;
+    for (i, length) in interface.tributary_lengths.iter().enumerate() {
+        let dof = interface.tangential_dof(i);
+        terms[0].push(dof, dof, contact.tangential_damping * length);
+    }
+    Some(terms)
+}
+
+/// One pattern that holds all of the given matrices.
+fn shared_pattern(dimension: usize, matrices: [&ProjectedPolynomial; 2]) -> Arc<SparsityPattern> {
+    let entries = matrices.into_iter().flatten().flatten();
+    let positions = entries.map(|&(row, column, _)| (row, column));
+    Arc::new(SparsityPattern::from_positions(dimension, positions))
+}
+
+/// From all dofs to the unknowns of small motions in sliding contact.
+///
+/// Columns are the unknowns: every dof that is not clamped and, for rigid contact, not a contact node's
+/// normal displacement. Rows are the same, and for rigid contact each normal row is added to its
+/// tangential row with the factor `-s mu`.
+struct Projection<'a> {
+    unknowns: DofMap,
+    base: &'a SteadySliding,
+    is_penalty: bool,
+    /// For each full dof that is a rigid contact node's normal: unknown of its tangential row.
+    friction_row: Vec<Option<usize>>,
+}
+
+impl<'a> Projection<'a> {
+    fn new(mesh: &Mesh2d, base: &'a SteadySliding, is_penalty: bool) -> Self {
+        let interface = &base.interface;
+        let total = 2 * mesh.node_count();
+        let rigid = if is_penalty { 0 } else { interface.len() };
+        let normals = (0..rigid).map(|i| interface.normal_dof(i));
+        let unknowns = DofMap::excluding(total, clamped_dofs(mesh).chain(normals));
+        let mut friction_row = vec![None; total];
+        for i in 0..rigid {
+            friction_row[interface.normal_dof(i)] =
+                unknowns.unknown_of[interface.tangential_dof(i)];
+        }
+        Self {
+            unknowns,
+            base,
+            is_penalty,
+            friction_row,
+        }
+    }
+
+    fn apply(&self, full: &FullPolynomial) -> ProjectedPolynomial {
+        let mut projected = vec![Vec::new(); full.len() + usize::from(!self.is_penalty)];
+        for (power, terms) in full.iter().enumerate() {
+            for &(row, column, value) in &terms.entries {
+                let Some(unknown) = self.unknowns.unknown_of[column] else {
+                    continue;
+                };
+                if let Some(row) = self.unknowns.unknown_of[row] {
+                    projected[power].push((row, unknown, value));
+                } else if let Some(row) = self.friction_row[row] {
+                    let value = -self.base.sliding_direction * value;
+                    projected[power + 1].push((row, unknown, value));
+                }
+            }
+        }
+        projected
+    }
+
+    fn tangential_unknowns(&self) -> Vec<usize> {
+        let interface = &self.base.interface;
+        (0..interface.len())
+            .filter_map(|i| self.unknowns.unknown_of[interface.tangential_dof(i)])
+            .collect()
+    }
+
+    fn normal_unknowns(&self) -> Vec<usize> {
+        let interface = &self.base.interface;
+        (0..interface.len())
+            .filter_map(|i| self.unknowns.unknown_of[interface.normal_dof(i)])
+            .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::SlidingContact;
+    use crate::fem::{PlaneFormulation, assemble_stiffness};
+    use crate::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind};
+
+    fn disc(element: ElementKind) -> (Mesh2d, ElasticMaterial) {
+        let mesh = AnnulusMesh::generate(&AnnulusSpecification {
+            inner_radius: 0.0205,
+            outer_radius: 0.0905,
+            circumferential_elements: 24,
+            radial_elements: 6,
+            radial_grading: 1.2,
+            element,
+        });
+        let material = ElasticMaterial {
+            young_modulus: 2.5e9,
+            poisson_ratio: 0.3805,
+            density: 1228.0,
+            formulation: PlaneFormulation::PlaneStrain,
+        };
+        (mesh.unwrap().mesh, material)
+    }
+
+    /// Independent check (objectivity): a rigid rotation of everything costs no elastic force, and the
+    /// turned stress balances the turned contact forces, for the pressed and for the sheared state.
+    #[test]
+    fn rigid_rotation_leaves_the_prestressed_edge_in_balance() {
+        for element in [ElementKind::Quad4, ElementKind::Quad8] {
+            let (mesh, material) = disc(element);
+            let elastic = assemble_stiffness(&mesh, &material);
+            let contact = SlidingContact {
+                friction_coefficient: 0.3,
+                interference: 25e-6,
+                rotation_speed: -60.0,
+            };
+            let base = SteadySliding::solve(&mesh, &elastic, &contact).unwrap();
+            let mut prestress = FullPolynomial::default();
+            add_prestress(&mut prestress, &mesh, &material, &base);
+            let total = 2 * mesh.node_count();
+            let rotation: Vec<f64> = (0..mesh.node_count())
+                .flat_map(|node| [0.0, mesh.nodes[node][0].hypot(mesh.nodes[node][1])])
+                .collect();
+            let free = DofMap::clamped(&mesh);
+            for terms in &prestress {
+                let force = terms.multiply(total, &rotation);
+                let scale = terms
+                    .entries
+                    .iter()
+                    .fold(0.0_f64, |m, &(_, _, value)| m.max(value.abs()));
+                for dof in &free.dofs {
+                    // Each row sums a dozen terms of size `scale * radius`.
+                    assert!(
+                        force[*dof].abs() < 1e-11 * scale * 0.0905,
+                        "{element:?} {dof}"
+                    );
+                }
+            }
+            let elastic_force = elastic.multiply(total, &rotation);
+            assert!(elastic_force.iter().all(|f| f.abs() < 1e-6), "{element:?}");
+        }
+    }
+
+    #[test]
+    fn every_matrix_is_symmetric_without_friction() {
+        let (mesh, material) = disc(ElementKind::Quad4);
+        let elastic = assemble_stiffness(&mesh, &material);
+        let contact = SlidingContact {
+            friction_coefficient: 0.3,
+            interference: 25e-6,
+            rotation_speed: 60.0,
+        };
+        let base = SteadySliding::solve(&mesh, &elastic, &contact).unwrap();
+        for normal_stiffness in [None, Some(7.4e12)] {
+            let tangent = SlidingTangent::linearize(
+                &mesh,
+                &material,
+                &elastic,
+                &base,
+                &TangentOptions {
+                    mass: MassKind::Consistent,
+                    geometric_stiffness: true,
+                    damping: RayleighDamping {
+                        mass_coefficient: 40.0,
+                        stiffness_coefficient: 4.5e-7,
+                    },
+                    damping_model: DampingModel::WholeTangent,
+                    contact: ContactStiffness {
+                        normal_stiffness,
+                        normal_damping: 0.0,
+                        tangential_damping: 3.0,
+                    },
+                },
+            );
+            for polynomial in [&tangent.mass, &tangent.damping, &tangent.stiffness] {
+                let values = polynomial.evaluate(0.0);
+                let pattern = polynomial.pattern();
+                let scale = values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+                for column in 0..pattern.dimension() {
+                    let range =
+                        pattern.column_pointers()[column]..pattern.column_pointers()[column + 1];
+                    for place in range {
+                        let row = pattern.row_indices()[place];
+                        let mirrored = pattern.position(column, row).map_or(0.0, |p| values[p]);
+                        assert!((values[place] - mirrored).abs() <= 1e-12 * scale);
+                    }
+                }
+            }
+        }
+    }
+}

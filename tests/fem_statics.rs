@@ -1,0 +1,161 @@
+//! Independent checks of the element matrices against elasticity theory.
+
+use frictionsim::contact::SlidingContact;
+use frictionsim::fem::{
+    DofMap, ElasticMaterial, MassKind, PlaneFormulation, assemble_mass, assemble_stiffness,
+    nodal_stress,
+};
+use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind, Mesh2d};
+use frictionsim::prestress::{PrestressError, SteadySliding};
+use std::f64::consts::PI;
+
+const ELEMENTS: [ElementKind; 2] = [ElementKind::Quad4, ElementKind::Quad8];
+
+fn annulus(element: ElementKind, circumferential: usize, radial: usize) -> Mesh2d {
+    let specification = AnnulusSpecification {
+        inner_radius: 0.0205,
+        outer_radius: 0.0905,
+        circumferential_elements: circumferential,
+        radial_elements: radial,
+        radial_grading: 1.05,
+        element,
+    };
+    AnnulusMesh::generate(&specification).unwrap().mesh
+}
+
+fn polycarbonate(formulation: PlaneFormulation) -> ElasticMaterial {
+    ElasticMaterial {
+        young_modulus: 2.5e9,
+        poisson_ratio: 0.38,
+        density: 1228.0,
+        formulation,
+    }
+}
+
+/// A Cartesian displacement field sampled in nodal frames.
+fn sample(mesh: &Mesh2d, field: impl Fn(f64, f64) -> [f64; 2]) -> Vec<f64> {
+    let nodes = mesh.nodes.iter().zip(&mesh.frame_angles);
+    nodes
+        .flat_map(|(&[x, y], angle)| {
+            let ([u, v], (sin, cos)) = (field(x, y), angle.sin_cos());
+            [u * cos + v * sin, -u * sin + v * cos]
+        })
+        .collect()
+}
+
+#[test]
+fn linear_displacement_gives_constant_stress_and_no_interior_force() {
+    for element in ELEMENTS {
+        for formulation in [PlaneFormulation::PlaneStrain, PlaneFormulation::PlaneStress] {
+            let (mesh, material) = (annulus(element, 17, 4), polycarbonate(formulation));
+            let displacement = sample(&mesh, |x, y| [1e-3 * x + 4e-4 * y, -2e-4 * x + 5e-4 * y]);
+            let stiffness = assemble_stiffness(&mesh, &material);
+            let force = stiffness.multiply(2 * mesh.node_count(), &displacement);
+            let edge = mesh.inner_edge.nodes.iter().chain(&mesh.outer_edge.nodes);
+            let boundary = edge.flat_map(|&n| [2 * n as usize, 2 * n as usize + 1]);
+            let interior = DofMap::excluding(2 * mesh.node_count(), boundary);
+            let largest = force.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
+            for &dof in &interior.dofs {
+                assert!(force[dof].abs() < 1e-11 * largest, "{element:?} dof {dof}");
+            }
+            // Traces do not depend on the frame: sigma_11 + sigma_22 = (2 lambda + 2 G) tr(epsilon).
+            let [lambda, g] = material.lame_constants();
+            let trace = (2.0 * lambda + 2.0 * g) * 1.5e-3;
+            for stress in nodal_stress(&mesh, &material, &displacement) {
+                assert!(((stress.radial + stress.hoop) / trace - 1.0).abs() < 1e-11);
+            }
+        }
+    }
+}
+
+#[test]
+fn rigid_motions_cost_no_energy() {
+    for element in ELEMENTS {
+        let mesh = annulus(element, 17, 4);
+        let stiffness = assemble_stiffness(&mesh, &polycarbonate(PlaneFormulation::PlaneStrain));
+        let fields: [fn(f64, f64) -> [f64; 2]; 3] =
+            [|_, _| [1.0, 0.0], |_, _| [0.0, 1.0], |x, y| [-y, x]];
+        for field in fields {
+            let motion = sample(&mesh, field);
+            let force = stiffness.multiply(2 * mesh.node_count(), &motion);
+            // Stiffness entries are of order E = 2.5e9; each row cancels to round-off.
+            assert!(force.iter().all(|f| f.abs() < 1e-4), "{element:?}");
+        }
+    }
+}
+
+#[test]
+fn both_mass_matrices_carry_the_mass_of_the_ring() {
+    for element in ELEMENTS {
+        let mesh = annulus(element, 180, 10);
+        let material = polycarbonate(PlaneFormulation::PlaneStrain);
+        let exact = material.density * PI * (0.0905_f64.powi(2) - 0.0205_f64.powi(2));
+        for kind in [MassKind::Consistent, MassKind::Lumped] {
+            let mass = assemble_mass(&mesh, &material, kind);
+            let translation = sample(&mesh, |_, _| [1.0, 0.0]);
+            let momentum = mass.multiply(2 * mesh.node_count(), &translation);
+            let total: f64 = momentum.iter().zip(&translation).map(|(p, v)| p * v).sum();
+            // A polygon of 180 sides lacks 2e-4 of its circle's area, parabolic sides far less.
+            let tolerance = if element == ElementKind::Quad4 {
+                3e-4
+            } else {
+                1e-7
+            };
+            assert!(
+                (total / exact - 1.0).abs() < tolerance,
+                "{element:?} {kind:?} {total}"
+            );
+        }
+    }
+}
+
+fn paper_contact() -> SlidingContact {
+    SlidingContact {
+        friction_coefficient: 0.3,
+        interference: 25e-6,
+        rotation_speed: 610.0 * PI / 30.0,
+    }
+}
+
+/// Lame's solution for the paper's disc: 2.827 MPa and 2239 N m for each metre of thickness.
+#[test]
+fn pressed_disc_has_the_pressure_torque_and_shear_of_lame() {
+    let material = polycarbonate(PlaneFormulation::PlaneStrain);
+    let mesh = annulus(ElementKind::Quad8, 60, 24);
+    let stiffness = assemble_stiffness(&mesh, &material);
+    let base = SteadySliding::solve(&mesh, &stiffness, &paper_contact()).unwrap();
+    for pressure in base.pressures() {
+        assert!((pressure / 2.827e6 - 1.0).abs() < 1e-3, "{pressure}");
+    }
+    assert!((base.torque(0.3) / 2239.0 - 1.0).abs() < 1e-3);
+    let (a, b) = (0.0205_f64, 0.0905_f64);
+    let [_, shear_modulus] = material.lame_constants();
+    let tau = 0.3 * 2.827e6;
+    let displacement = base.displacement(0.3);
+    for (node, &[x, y]) in mesh.nodes.iter().enumerate() {
+        let r = x.hypot(y);
+        let exact = tau * a * a * r / (2.0 * shear_modulus) * (1.0 / (r * r) - 1.0 / (b * b));
+        assert!((displacement[2 * node + 1] - exact).abs() < 1e-3 * tau * a / shear_modulus);
+    }
+}
+
+#[test]
+fn contact_without_interference_is_reported_as_open_with_node_and_angle() {
+    let material = polycarbonate(PlaneFormulation::PlaneStrain);
+    let mesh = annulus(ElementKind::Quad4, 24, 4);
+    let stiffness = assemble_stiffness(&mesh, &material);
+    let contact = SlidingContact {
+        interference: -1e-6,
+        ..paper_contact()
+    };
+    let error = SteadySliding::solve(&mesh, &stiffness, &contact).unwrap_err();
+    assert!(matches!(
+        error,
+        PrestressError::Separation {
+            count: 24,
+            node: 1,
+            ..
+        }
+    ));
+    assert!(error.to_string().contains("contact.interference"));
+}
