@@ -1,1 +1,61 @@
 //! The command line: one file for each subcommand.
+
+pub mod cea;
+mod check;
+mod completions;
+mod failure;
+mod init;
+mod man;
+mod mesh;
+mod options;
+mod session;
+pub mod terminal;
+
+pub use failure::Failure;
+pub use options::{RunOptions, SimdChoice};
+pub use session::Session;
+
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+
+/// Stability and transient analysis of frictional contact by finite elements.
+///
+/// A deformable disc, clamped at its outer edge, is pressed from inside by a rotating rigid
+/// cylinder. `frictionsim init` writes a case to start from.
+#[derive(Parser)]
+#[command(
+    name = "frictionsim",
+    version,
+    max_term_width = 100,
+    arg_required_else_help = true
+)]
+#[command(after_help = "Exit codes: 0 done, 1 the run failed, 2 bad usage or case.")]
+pub struct CommandLine {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    Mesh(mesh::Arguments),
+    Check(check::Arguments),
+    Init(init::Arguments),
+    Completions(completions::Arguments),
+    Man(man::Arguments),
+}
+
+/// Parses the command line, runs the subcommand and turns its outcome into an exit code: 0 done,
+/// 1 the run failed, 2 bad usage or case.
+pub fn main() -> ExitCode {
+    let outcome = match CommandLine::parse().command {
+        Command::Mesh(arguments) => mesh::run(&arguments),
+        Command::Check(arguments) => check::run(&arguments),
+        Command::Init(arguments) => init::run(&arguments),
+        Command::Completions(arguments) => completions::run(&arguments),
+        Command::Man(arguments) => man::run(&arguments),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => failure.report(),
+    }
+}

@@ -1,1 +1,15 @@
 //! Result files: tables, fields, figures, manifest.
+
+pub mod cea;
+pub mod figures;
+mod folder;
+mod manifest;
+mod mesh;
+mod table;
+mod vtu;
+
+pub use folder::{FolderError, OutputFolder, Replace};
+pub use manifest::Manifest;
+pub use mesh::{MeshStatistics, write_mesh, write_mesh_picture};
+pub use table::{Table, format_number};
+pub use vtu::{EncodedMesh, Field, PvdEntry, cartesian_vectors, write_pvd, write_vtu};

@@ -1,0 +1,84 @@
+//! How a command fails, and the exit code that says so.
+
+use crate::case::CaseErrors;
+use crate::prestress::PrestressError;
+use crate::results::FolderError;
+use std::io;
+use std::process::ExitCode;
+
+/// Why a command did not do what it was asked.
+#[derive(Debug)]
+pub enum Failure {
+    /// Errors of a case file, each with its place: exit code 2.
+    Case(CaseErrors),
+    /// Any other bad input: exit code 2.
+    Usage(anyhow::Error),
+    /// The input was good but the run failed: exit code 1.
+    Run(anyhow::Error),
+    /// The reader of our output has gone, as `head` does: exit code 0.
+    BrokenPipe,
+}
+
+impl Failure {
+    /// Bad input in words.
+    pub fn usage(message: impl std::fmt::Display) -> Self {
+        Self::Usage(anyhow::anyhow!("{message}"))
+    }
+
+    /// Failure of a run in words.
+    pub fn run(message: impl std::fmt::Display) -> Self {
+        Self::Run(anyhow::anyhow!("{message}"))
+    }
+
+    /// Says on stderr what went wrong, and gives the exit code.
+    pub fn report(&self) -> ExitCode {
+        use std::io::{IsTerminal, Write};
+        let stderr = io::stderr();
+        let text = match self {
+            Self::Case(errors) => {
+                let color = stderr.is_terminal() && std::env::var_os("NO_COLOR").is_none();
+                errors.render(color)
+            }
+            Self::Usage(error) | Self::Run(error) => format!("error: {error:#}"),
+            Self::BrokenPipe => return ExitCode::SUCCESS,
+        };
+        // Nobody is left to tell if stderr is closed.
+        let _ = writeln!(stderr.lock(), "{text}");
+        match self {
+            Self::Case(_) | Self::Usage(_) => ExitCode::from(2),
+            Self::Run(_) | Self::BrokenPipe => ExitCode::from(1),
+        }
+    }
+}
+
+impl From<CaseErrors> for Failure {
+    fn from(errors: CaseErrors) -> Self {
+        Self::Case(errors)
+    }
+}
+
+impl From<FolderError> for Failure {
+    fn from(error: FolderError) -> Self {
+        if error.is_usage() {
+            Self::Usage(error.into())
+        } else {
+            Self::Run(error.into())
+        }
+    }
+}
+
+impl From<PrestressError> for Failure {
+    fn from(error: PrestressError) -> Self {
+        Self::Run(error.into())
+    }
+}
+
+impl From<io::Error> for Failure {
+    fn from(error: io::Error) -> Self {
+        if error.kind() == io::ErrorKind::BrokenPipe {
+            Self::BrokenPipe
+        } else {
+            Self::Run(error.into())
+        }
+    }
+}

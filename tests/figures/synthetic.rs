@@ -1,0 +1,127 @@
+//! Analytic stand-ins for solver results: waves on an annulus, a growing signal that saturates.
+
+use faer::c64;
+use frictionsim::cea::{ComplexMode, FrictionPoint, FrictionSweep, UnstableInterval};
+use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind, Mesh2d};
+use std::f64::consts::{PI, TAU};
+
+pub const MASS_COEFFICIENT: f64 = 40.0;
+pub const STIFFNESS_COEFFICIENT: f64 = 4.5e-7;
+
+/// Frequency (Hz), harmonic, branch, split of the real part at friction 0.3 (Hz).
+const PAIRS: [(f64, usize, usize, f64); 16] = [
+    (5857.0, 0, 0, 0.0),
+    (7657.0, 3, 0, 121.0),
+    (9892.0, 2, 0, 297.0),
+    (10513.0, 1, 0, 397.0),
+    (11077.0, 0, 1, 0.0),
+    (11263.0, 4, 0, 148.0),
+    (11772.0, 1, 1, 83.0),
+    (12916.0, 2, 1, 46.0),
+    (14673.0, 5, 0, 11.0),
+    (14779.0, 3, 1, 55.0),
+    (14832.0, 0, 2, 0.0),
+    (16361.0, 4, 1, 345.0),
+    (16433.0, 6, 0, 2.0),
+    (16641.0, 0, 3, 0.0),
+    (17165.0, 1, 2, 423.0),
+    (17447.0, 2, 2, 66.0),
+];
+
+pub fn mesh(circumferential_elements: usize, radial_elements: usize) -> Mesh2d {
+    AnnulusMesh::generate(&AnnulusSpecification {
+        inner_radius: 0.0205,
+        outer_radius: 0.0905,
+        circumferential_elements,
+        radial_elements,
+        radial_grading: 1.0,
+        element: ElementKind::Quad4,
+    })
+    .unwrap()
+    .mesh
+}
+
+fn rayleigh(omega: f64) -> f64 {
+    -0.5 * (MASS_COEFFICIENT + STIFFNESS_COEFFICIENT * omega * omega)
+}
+
+/// All modes at one friction value; pairs split symmetrically, the wave against the rotor gains.
+pub fn modes(friction: f64, mesh: Option<&Mesh2d>) -> Vec<ComplexMode> {
+    let mut modes = Vec::new();
+    for (frequency, harmonic, branch, split) in PAIRS {
+        let directions: &[i8] = if harmonic == 0 { &[0] } else { &[1, -1] };
+        for &direction in directions {
+            let sign = -f64::from(direction);
+            let omega = TAU * frequency;
+            let real = rayleigh(omega) + sign * TAU * split * friction / 0.3;
+            let imaginary = omega + sign * TAU * 0.03 * split * (friction / 0.3).powi(2);
+            modes.push(ComplexMode {
+                eigenvalue: c64::new(real, imaginary),
+                harmonic,
+                branch,
+                direction: if friction == 0.0 { 0 } else { direction },
+                residual: 1e-12,
+                shape: mesh.map(|mesh| shape(mesh, harmonic, branch, direction, friction)),
+            });
+        }
+    }
+    modes.sort_by(|a, b| a.eigenvalue.im.total_cmp(&b.eigenvalue.im));
+    modes
+}
+
+pub fn sweep(count: usize) -> FrictionSweep {
+    let points = (0..count)
+        .map(|i| {
+            let friction_coefficient = i as f64 / (count - 1) as f64;
+            FrictionPoint {
+                friction_coefficient,
+                modes: modes(friction_coefficient, None),
+            }
+        })
+        .collect();
+    let mut intervals = Vec::new();
+    for (frequency, harmonic, branch, split) in PAIRS {
+        let critical = -0.3 * rayleigh(TAU * frequency) / (TAU * split);
+        if split > 0.0 && critical < 1.0 {
+            intervals.push(UnstableInterval {
+                harmonic,
+                branch,
+                direction: -1,
+                critical_friction: critical,
+                frequency_hz: frequency,
+                restabilized: (harmonic == 1 && branch == 2).then_some((0.8, frequency)),
+                unstable_from_start: false,
+            });
+        }
+    }
+    intervals.sort_by(|a, b| a.critical_friction.total_cmp(&b.critical_friction));
+    FrictionSweep { points, intervals }
+}
+
+/// A wave of one harmonic, clamped outside, with an arbitrary solver phase; friction shears it.
+pub fn shape(
+    mesh: &Mesh2d,
+    harmonic: usize,
+    branch: usize,
+    direction: i8,
+    friction: f64,
+) -> Vec<c64> {
+    let mut out = Vec::with_capacity(2 * mesh.node_count());
+    let phase = c64::new(0.3, 0.9);
+    for (&[x, y], &angle) in mesh.nodes.iter().zip(&mesh.frame_angles) {
+        let s = ((x.hypot(y) - 0.0205) / 0.07).clamp(0.0, 1.0);
+        let profile = (PI * (branch as f64 + 0.5) * s).cos() * (1.0 - s);
+        let swirl = if direction == 0 { 0.0 } else { 1.2 * friction };
+        let argument =
+            f64::from(direction) * harmonic as f64 * angle + f64::from(direction) * swirl * s * 3.0;
+        let wave = c64::new(argument.cos(), -argument.sin()) * phase;
+        let radial = if harmonic == 0 {
+            0.0
+        } else {
+            0.5 * s * profile
+        };
+        out.push(wave * c64::new(0.0, radial));
+        out.push(wave * c64::new(profile, 0.0));
+    }
+    out
+}
