@@ -6,8 +6,11 @@
 
 use super::{MotionFields, SimdLevel, StepCoefficients};
 
-/// Partial sums of a dot product, by place modulo 8.
+/// Values in a cache line.
 const LANES: usize = 8;
+
+/// Partial sums of a dot product: enough for a row of the usual meshes, few enough for the first-level cache.
+const SUMS: usize = 512;
 
 /// One row of a cyclic stencil (one radius), already divided by the node's mass.
 ///
@@ -76,7 +79,7 @@ fn multiply_add<const FUSED: bool>(a: f64, b: f64, c: f64) -> f64 {
     if FUSED { a.mul_add(b, c) } else { a * b + c }
 }
 
-/// Velocity and displacement update; adds the power of damping to `sums`.
+/// Velocity and displacement update; adds the power of damping at each place to `sums` at that place.
 #[inline(always)]
 fn move_nodes<const FUSED: bool>(
     masses: &[f64],
@@ -85,33 +88,50 @@ fn move_nodes<const FUSED: bool>(
     elastic: &[f64],
     elastic_rate: &[f64],
     coefficients: &StepCoefficients,
-    sums: &mut [f64; LANES],
+    sums: &mut [f64],
 ) {
     let StepCoefficients {
         time_step,
         mass_coefficient,
         stiffness_coefficient,
     } = *coefficients;
-    let masses = masses.as_chunks::<LANES>().0;
-    let displacement = displacement.as_chunks_mut::<LANES>().0;
-    let velocity = velocity.as_chunks_mut::<LANES>().0;
-    let elastic = elastic.as_chunks::<LANES>().0;
-    let elastic_rate = elastic_rate.as_chunks::<LANES>().0;
-    let fields = displacement.iter_mut().zip(velocity);
-    let accelerations = elastic.iter().zip(elastic_rate);
-    for (((u, v), (q, z)), m) in fields.zip(accelerations).zip(masses) {
-        for lane in 0..LANES {
-            let damping = multiply_add::<FUSED>(
-                mass_coefficient,
-                v[lane],
-                stiffness_coefficient * z[lane],
-            );
-            let moved = multiply_add::<FUSED>(-time_step, q[lane] + damping, v[lane]);
-            let mean = 0.5 * (v[lane] + moved);
-            sums[lane] = multiply_add::<FUSED>(m[lane] * damping, mean, sums[lane]);
-            v[lane] = moved;
-            u[lane] = multiply_add::<FUSED>(time_step, moved, u[lane]);
-        }
+    let count = masses.len();
+    let (displacement, velocity) = (&mut displacement[..count], &mut velocity[..count]);
+    let (elastic, elastic_rate) = (&elastic[..count], &elastic_rate[..count]);
+    let sums = &mut sums[..count];
+    for k in 0..count {
+        let (v, z) = (velocity[k], elastic_rate[k]);
+        let damping = multiply_add::<FUSED>(mass_coefficient, v, stiffness_coefficient * z);
+        let moved = multiply_add::<FUSED>(-time_step, elastic[k] + damping, v);
+        let mean = 0.5 * (v + moved);
+        sums[k] = multiply_add::<FUSED>(masses[k] * damping, mean, sums[k]);
+        velocity[k] = moved;
+        displacement[k] = multiply_add::<FUSED>(time_step, moved, displacement[k]);
+    }
+}
+
+/// Moves a range of places in pieces of at most [`SUMS`].
+#[inline(always)]
+fn move_range<const FUSED: bool>(
+    range: std::ops::Range<usize>,
+    masses: &[f64],
+    fields: &mut MotionFields,
+    coefficients: &StepCoefficients,
+    sums: &mut [f64; SUMS],
+) {
+    let mut start = range.start;
+    while start < range.end {
+        let piece = start..range.end.min(start + SUMS);
+        start = piece.end;
+        move_nodes::<FUSED>(
+            &masses[piece.clone()],
+            &mut fields.displacement[piece.clone()],
+            &mut fields.velocity[piece.clone()],
+            &fields.elastic[piece.clone()],
+            &fields.elastic_rate[piece],
+            coefficients,
+            sums,
+        );
     }
 }
 
@@ -200,38 +220,26 @@ fn cyclic_advance_body<const FUSED: bool>(
     fields: &mut MotionFields,
     coefficients: &StepCoefficients,
 ) -> f64 {
-    let mut sums = [0.0; LANES];
-    let displacement: &mut [f64] = &mut fields.displacement;
-    let velocity: &mut [f64] = &mut fields.velocity;
-    let elastic: &mut [f64] = &mut fields.elastic;
-    let elastic_rate: &mut [f64] = &mut fields.elastic_rate;
+    let mut sums = [0.0; SUMS];
     for row in 0..=layout.rows {
         if row < layout.rows {
             let range = layout.start(row, 0)..layout.start(row + 1, 0);
-            move_nodes::<FUSED>(
-                &masses[range.clone()],
-                &mut displacement[range.clone()],
-                &mut velocity[range.clone()],
-                &elastic[range.clone()],
-                &elastic_rate[range],
-                coefficients,
-                &mut sums,
-            );
-            close_seam(layout, row, velocity);
+            move_range::<FUSED>(range, masses, fields, coefficients, &mut sums);
+            close_seam(layout, row, &mut fields.velocity);
         }
         if row > 0 {
             accumulate_row::<FUSED>(
                 layout,
                 &stencils[row - 1],
                 row - 1,
-                velocity,
+                &fields.velocity,
                 coefficients.time_step,
-                row_of(layout, row - 1, elastic_rate),
-                row_of(layout, row - 1, elastic),
+                row_of(layout, row - 1, &mut fields.elastic_rate),
+                row_of(layout, row - 1, &mut fields.elastic),
             );
         }
     }
-    add_lanes(&sums)
+    add_up(&sums)
 }
 
 #[inline(always)]
@@ -277,16 +285,8 @@ fn sparse_advance_body<const FUSED: bool>(
     fields: &mut MotionFields,
     coefficients: &StepCoefficients,
 ) -> f64 {
-    let mut sums = [0.0; LANES];
-    move_nodes::<FUSED>(
-        masses,
-        &mut fields.displacement,
-        &mut fields.velocity,
-        &fields.elastic,
-        &fields.elastic_rate,
-        coefficients,
-        &mut sums,
-    );
+    let mut sums = [0.0; SUMS];
+    move_range::<FUSED>(0..masses.len(), masses, fields, coefficients, &mut sums);
     let velocity: &[f64] = &fields.velocity;
     let elastic = fields.elastic.as_chunks_mut::<2>().0;
     let elastic_rate = fields.elastic_rate.as_chunks_mut::<2>().0;
@@ -297,7 +297,7 @@ fn sparse_advance_body<const FUSED: bool>(
         q[0] = multiply_add::<FUSED>(coefficients.time_step, y_1, q[0]);
         q[1] = multiply_add::<FUSED>(coefficients.time_step, y_2, q[1]);
     }
-    add_lanes(&sums)
+    add_up(&sums)
 }
 
 #[inline(always)]
@@ -308,9 +308,17 @@ fn sparse_multiply_body<const FUSED: bool>(rows: &BlockRows, x: &[f64], y: &mut 
     }
 }
 
+/// Sum of all partial sums, in eight chains that are added pairwise.
 #[inline(always)]
-fn add_lanes(sums: &[f64; LANES]) -> f64 {
-    ((sums[0] + sums[1]) + (sums[2] + sums[3])) + ((sums[4] + sums[5]) + (sums[6] + sums[7]))
+fn add_up(sums: &[f64; SUMS]) -> f64 {
+    let mut lanes = [0.0; LANES];
+    for chunk in sums.as_chunks::<LANES>().0 {
+        for lane in 0..LANES {
+            lanes[lane] += chunk[lane];
+        }
+    }
+    let [a, b, c, d, e, f, g, h] = lanes;
+    ((a + b) + (c + d)) + ((e + f) + (g + h))
 }
 
 /// Compiles a body for every instruction set and picks one at run time.

@@ -92,8 +92,8 @@ pub trait StiffnessOperator: Send + Sync {
     /// z <- M^-1 K v,   q <- q + dt z
     /// ```
     ///
-    /// Returns the power of damping `sum m d (v_old + v_new) / 2`, W/m. The order of the sum is fixed: eight
-    /// partial sums over the places modulo 8, whatever the instruction set.
+    /// Returns the power of damping `sum m d (v_old + v_new) / 2`, W/m, summed in an order that does not depend on
+    /// the instruction set.
     fn advance(&self, fields: &mut MotionFields, coefficients: &StepCoefficients) -> f64;
 }
 
