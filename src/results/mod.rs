@@ -5,6 +5,7 @@ pub mod figures;
 mod folder;
 mod manifest;
 mod mesh;
+pub mod sweep;
 mod table;
 mod vtu;
 
