@@ -2,6 +2,7 @@
 
 pub mod cea;
 mod check;
+mod collect;
 mod completions;
 mod failure;
 mod identify;
@@ -11,6 +12,7 @@ mod measurement;
 mod mesh;
 mod options;
 mod session;
+pub mod sweep;
 pub mod terminal;
 
 pub use failure::Failure;
@@ -39,6 +41,7 @@ pub struct CommandLine {
 
 #[derive(Subcommand)]
 enum Command {
+    Collect(collect::Arguments),
     Mesh(mesh::Arguments),
     Check(check::Arguments),
     Init(init::Arguments),
@@ -51,6 +54,7 @@ enum Command {
 /// 1 the run failed, 2 bad usage or case.
 pub fn main() -> ExitCode {
     let outcome = match CommandLine::parse().command {
+        Command::Collect(arguments) => collect::run(&arguments),
         Command::Mesh(arguments) => mesh::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Init(arguments) => init::run(&arguments),
