@@ -136,13 +136,14 @@ fn measure(f: &[f64], y: &[f64], top: usize) -> HalfPowerBand {
     let (mut f0, mut least) = (f[top], 1.0);
     let (first, last) = (walk(1.4, -1), walk(1.4, 1));
     if last - first >= 4
-        && let Some([c, b, a]) = parabola(f, first..last + 1, f[top], inverse) {
-            let shift = -0.5 * b / a;
-            if a > 0.0 && f[first] <= f[top] + shift && f[top] + shift <= f[last] {
-                f0 = f[top] + shift;
-                least = c - 0.25 * b * b / a;
-            }
+        && let Some([c, b, a]) = parabola(f, first..last + 1, f[top], inverse)
+    {
+        let shift = -0.5 * b / a;
+        if a > 0.0 && f[first] <= f[top] + shift && f[top] + shift <= f[last] {
+            f0 = f[top] + shift;
+            least = c - 0.25 * b * b / a;
         }
+    }
     let low = crossing(f, y.len(), top, -1, least, inverse);
     let high = crossing(f, y.len(), top, 1, least, inverse);
     let mut band = HalfPowerBand {

@@ -124,26 +124,30 @@ fn extended(
         let room = |more: usize| 4 * poles.len() + terms + more < count / 2;
         let mut gain = 0.0;
         let mut next = None;
-        if terms + 2 <= MOST_REMAINDER && room(2)
-            && let Ok(trial) = problem.fit(&poles, terms + 2) {
-                let gained = best.chi_square - trial.chi_square - 4.0;
-                // The variance unit is only an estimate, hence the share of the misfit.
-                if gained > 1e-6 * best.chi_square {
-                    gain = gained;
+        if terms + 2 <= MOST_REMAINDER
+            && room(2)
+            && let Ok(trial) = problem.fit(&poles, terms + 2)
+        {
+            let gained = best.chi_square - trial.chi_square - 4.0;
+            // The variance unit is only an estimate, hence the share of the misfit.
+            if gained > 1e-6 * best.chi_square {
+                gain = gained;
+                next = Some(trial);
+            }
+        }
+        if poles.len() < most_poles
+            && room(4)
+            && let Some(candidate) = candidate(problem, &best, part)
+        {
+            let more: Vec<Pole> = poles.iter().copied().chain([candidate]).collect();
+            let penalty = (4.0 * (count as f64).ln()).max(LEAST_SHARE * best.chi_square);
+            if let Ok(trial) = problem.fit(&more, terms) {
+                let gained = best.chi_square - trial.chi_square - penalty;
+                if gained > gain && are_modes(&trial.model.poles) {
                     next = Some(trial);
                 }
             }
-        if poles.len() < most_poles && room(4)
-            && let Some(candidate) = candidate(problem, &best, part) {
-                let more: Vec<Pole> = poles.iter().copied().chain([candidate]).collect();
-                let penalty = (4.0 * (count as f64).ln()).max(LEAST_SHARE * best.chi_square);
-                if let Ok(trial) = problem.fit(&more, terms) {
-                    let gained = best.chi_square - trial.chi_square - penalty;
-                    if gained > gain && are_modes(&trial.model.poles) {
-                        next = Some(trial);
-                    }
-                }
-            }
+        }
         match next {
             Some(trial) => best = trial,
             None => break,

@@ -124,11 +124,13 @@ fn blame_first_number(content: &[Line], source: &str) -> ReadError {
     for (number, line) in content {
         let fields = split(line, separator_of(&[(*number, *line)]));
         let numeric = fields.iter().filter(|(_, f)| parse(f).is_some()).count();
-        if numeric * 2 >= fields.len() && fields.len() > 1
-            && let Some((at, field)) = fields.iter().find(|(_, f)| parse(f).is_none()) {
-                let problem = unreadable(field, "of numbers".to_string());
-                return ReadError::at(source, *number, *at, problem);
-            }
+        if numeric * 2 >= fields.len()
+            && fields.len() > 1
+            && let Some((at, field)) = fields.iter().find(|(_, f)| parse(f).is_none())
+        {
+            let problem = unreadable(field, "of numbers".to_string());
+            return ReadError::at(source, *number, *at, problem);
+        }
     }
     ReadError::whole(source, ReadProblem::NoNumbers)
 }

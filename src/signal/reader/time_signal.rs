@@ -42,9 +42,10 @@ pub struct SignalFile {
 /// [`ReadError`] with source name, line and column: gaps, times out of order, no rate.
 pub fn read_signal(bytes: &[u8], source: &str, rate: Option<f64>) -> Result<SignalFile, ReadError> {
     if let Some(value) = rate
-        && !(value > 0.0 && value.is_finite()) {
-            return Err(ReadError::whole(source, ReadProblem::Rate { value }));
-        }
+        && !(value > 0.0 && value.is_finite())
+    {
+        return Err(ReadError::whole(source, ReadProblem::Rate { value }));
+    }
     let table = read_table(bytes, source)?;
     let time = time_column(&table);
     let rows = table.lines.len();
@@ -74,11 +75,12 @@ pub fn read_signal(bytes: &[u8], source: &str, rate: Option<f64>) -> Result<Sign
         None => {
             let stated = sampling_rate(&table.remarks);
             if let (Some(option), Some(stated)) = (rate, stated)
-                && option != stated {
-                    notes.push(format!(
-                        "the file states {stated} Hz, the option {option} Hz holds"
-                    ));
-                }
+                && option != stated
+            {
+                notes.push(format!(
+                    "the file states {stated} Hz, the option {option} Hz holds"
+                ));
+            }
             let found = rate
                 .or(stated)
                 .ok_or_else(|| ReadError::whole(source, ReadProblem::NoRate))?;
