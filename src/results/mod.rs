@@ -7,6 +7,7 @@ mod folder;
 pub mod identification;
 mod manifest;
 mod mesh;
+pub mod signal;
 pub mod sweep;
 mod table;
 mod vtu;
