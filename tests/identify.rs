@@ -239,7 +239,7 @@ fn identification_does_not_depend_on_the_quantity_measured() {
 
 #[test]
 fn coarse_lines_and_flat_noise_are_refused_with_the_reason() {
-    let (f, h) = modal_sum(&SEPARATE, 12.0, 5000.0);
+    let (f, h) = modal_sum(&SEPARATE, 24.0, 5000.0);
     let response = FrequencyResponse::new(f, h, ResponseQuantity::Accelerance).unwrap();
     let error = identify(&response, &IdentificationOptions::default()).unwrap_err();
     assert!(matches!(error, SignalError::Unresolved { .. }), "{error}");
