@@ -30,6 +30,18 @@ impl Failure {
         Self::Run(anyhow::anyhow!("{message}"))
     }
 
+    /// What went wrong, one line for each error.
+    pub fn messages(&self) -> Vec<String> {
+        match self {
+            Self::Case(errors) => {
+                let all = errors.diagnostics.iter();
+                all.map(|error| error.message.clone()).collect()
+            }
+            Self::Usage(error) | Self::Run(error) => vec![format!("{error:#}")],
+            Self::BrokenPipe => Vec::new(),
+        }
+    }
+
     /// Says on stderr what went wrong, and gives the exit code.
     pub fn report(&self) -> ExitCode {
         use std::io::{IsTerminal, Write};

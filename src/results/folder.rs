@@ -10,6 +10,10 @@ use std::path::{Path, PathBuf};
 
 const MANIFEST: &str = "manifest.json";
 const LOCK: &str = ".lock";
+/// Names of the files that a run has written so far; gone when it is complete.
+const JOURNAL: &str = ".written";
+/// How temporary names begin.
+const TEMPORARY: &str = ".writing-";
 
 /// A folder that cannot be used or written.
 #[derive(Debug, thiserror::Error)]
@@ -117,6 +121,7 @@ pub struct OutputFolder {
     manifest: Manifest,
     earlier: BTreeSet<String>,
     written: RefCell<BTreeSet<String>>,
+    journal: File,
     _lock: File,
 }
 
@@ -139,8 +144,19 @@ impl OutputFolder {
             None if replace != Replace::Anything => refuse_foreign(path)?,
             None => {}
         }
+        // What a killed run left is known from its journal.
+        let journal_path = path.join(JOURNAL);
+        let unfinished = fs::read_to_string(&journal_path).unwrap_or_default();
+        earlier.extend(unfinished.lines().map(str::to_owned));
+        remove_temporaries(path);
+        let journal = OpenOptions::new()
+            .create(true)
+            .append(true)
+            .open(&journal_path)
+            .map_err(|e| FolderError::io("open", &journal_path, e))?;
         let folder = Self {
             path: path.to_owned(),
+            journal,
             manifest: manifest.clone(),
             earlier,
             written: RefCell::default(),
@@ -175,8 +191,11 @@ impl OutputFolder {
         fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<PathBuf, FolderError> {
         let path = self.path.join(name);
-        write_whole(&path, fill).map_err(|e| FolderError::io("write", &path, e))?;
-        self.written.borrow_mut().insert(name.to_owned());
+        let failed = |error| FolderError::io("write", &path, error);
+        if self.written.borrow_mut().insert(name.to_owned()) {
+            writeln!(&self.journal, "{name}").map_err(failed)?;
+        }
+        write_whole(&path, fill).map_err(failed)?;
         Ok(path)
     }
 
@@ -188,7 +207,9 @@ impl OutputFolder {
     pub fn finish(self) -> Result<(), FolderError> {
         let written = self.written.borrow();
         self.remove(self.earlier.difference(&written));
-        self.write_manifest(&written)
+        self.write_manifest(&written)?;
+        let journal = self.path.join(JOURNAL);
+        fs::remove_file(&journal).map_err(|e| FolderError::io("remove", &journal, e))
     }
 
     fn write_manifest(&self, files: &BTreeSet<String>) -> Result<(), FolderError> {
@@ -235,6 +256,20 @@ fn lock(path: &Path) -> Result<File, FolderError> {
         // A file system without locks: go on as if there were no other process.
         Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => Ok(file),
         Err(TryLockError::Error(error)) => Err(FolderError::io("lock", &lock_path, error)),
+    }
+}
+
+/// Removes half-written files of a killed run; this process holds the lock, so nobody writes them.
+fn remove_temporaries(path: &Path) {
+    for entry in fs::read_dir(path).into_iter().flatten().flatten() {
+        let Ok(kind) = entry.file_type() else {
+            continue;
+        };
+        if kind.is_dir() {
+            remove_temporaries(&entry.path());
+        } else if entry.file_name().to_string_lossy().starts_with(TEMPORARY) {
+            let _ = fs::remove_file(entry.path());
+        }
     }
 }
 
@@ -298,7 +333,7 @@ fn write_whole(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>)
     let parent = path.parent().unwrap_or(Path::new("."));
     fs::create_dir_all(parent)?;
     let mut builder = tempfile::Builder::new();
-    builder.prefix(".writing-");
+    builder.prefix(TEMPORARY);
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
