@@ -42,7 +42,7 @@ pub struct Sweep {
     pub keys: Vec<SweptKey>,
     /// How they combine.
     pub combination: Combination,
-    /// What runs at each point.
+    /// What runs at each point; empty if the case leaves that to the sections it has.
     pub analyses: Vec<Analysis>,
 }
 
@@ -93,7 +93,7 @@ pub(super) fn read(root: &Section<'_>) -> Option<Sweep> {
     let analyses = section.choices(
         "analyses",
         &[("transient", Analysis::Transient), ("cea", Analysis::Cea)],
-        &[Analysis::Transient],
+        &[],
     );
     let mut keys = Vec::new();
     for (name, entry) in section.remaining() {

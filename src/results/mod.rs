@@ -6,6 +6,7 @@ pub mod figures;
 mod folder;
 mod manifest;
 mod mesh;
+pub mod sweep;
 mod table;
 mod vtu;
 
