@@ -1,12 +1,13 @@
 //! `frictionsim cea`: complex eigenvalues of steady sliding over the friction coefficient.
 
+mod analysis;
+
+pub use analysis::{CeaRun, ContactTractions, analyse, tangent_options};
+
 use super::{Failure, RunOptions, Session};
 use crate::case::{Case, Cea, ModeSelection};
 use crate::cea::FrictionSweep;
-use crate::fem::{Triplets, assemble_stiffness, nodal_stress};
-use crate::mesh::AnnulusMesh;
-use crate::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
-use crate::results::cea::{BaseField, BaseState, CeaReport, draw, print, write};
+use crate::results::cea::{CeaReport, draw, print, write};
 use clap::Args;
 
 /// Complex eigenvalue sweep over the friction coefficient
@@ -17,118 +18,17 @@ pub struct Arguments {
     pub options: RunOptions,
 }
 
-/// The model that the solvers take: mesh, base state, and what its tangent is made of.
-pub struct SlidingModel {
-    /// The mesh with its sectors.
-    pub annulus: AnnulusMesh,
-    /// Elastic stiffness over all dofs.
-    pub stiffness: Triplets,
-    /// Steady sliding.
-    pub base: SteadySliding,
-    /// How the tangent is taken.
-    pub options: TangentOptions,
-}
-
-/// What a solver gives back.
-pub struct Solution {
-    /// Modes at every friction value, and where branches turn unstable.
-    pub sweep: FrictionSweep,
-    /// Unknowns of the eigenproblem.
-    pub dofs: usize,
-    /// Which solver.
-    pub method: &'static str,
-    /// What it has to say.
-    pub notes: Vec<String>,
-}
-
-impl SlidingModel {
-    /// Builds the model of a case up to its base state.
-    ///
-    /// # Errors
-    /// A mesh that cannot be built; contact that would open.
-    pub fn new(case: &Case, cea: &Cea) -> Result<Self, Failure> {
-        let annulus = AnnulusMesh::generate(&case.annulus).map_err(Failure::usage)?;
-        let stiffness = assemble_stiffness(&annulus.mesh, &case.material);
-        let base = SteadySliding::solve(&annulus.mesh, &stiffness, &case.contact.sliding)?;
-        let options = TangentOptions {
-            mass: cea.mass,
-            geometric_stiffness: cea.geometric_stiffness,
-            damping: case.damping.rayleigh,
-            damping_model: if case.damping.include_contact {
-                DampingModel::WholeTangent
-            } else {
-                DampingModel::BodyOnly
-            },
-            contact: case.contact.stiffness,
-        };
-        Ok(Self {
-            annulus,
-            stiffness,
-            base,
-            options,
-        })
-    }
-
-    /// The tangent over the whole mesh, for the sparse solver.
-    pub fn tangent(&self, case: &Case) -> SlidingTangent {
-        SlidingTangent::linearize(
-            &self.annulus.mesh,
-            &case.material,
-            &self.stiffness,
-            &self.base,
-            &self.options,
-        )
-    }
-
-    /// What the report says of the base state, scaled to the case's thickness.
-    pub fn base_state(&self, case: &Case) -> BaseState {
-        let friction = case.contact.sliding.friction_coefficient;
-        let pressures = self.base.pressures();
-        let smallest = pressures.iter().copied().fold(f64::INFINITY, f64::min);
-        let largest = pressures.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let traction = self.base.sliding_direction * friction;
-        let torque = case.thickness * self.base.torque(friction);
-        let shear = [traction * smallest, traction * largest];
-        BaseState {
-            friction_coefficient: friction,
-            // The state is that of full sliding; one where a node would open does not exist.
-            slipping: pressures.len(),
-            sticking: 0,
-            open: 0,
-            pressure_pa: [smallest, largest],
-            shear_pa: [shear[0].min(shear[1]), shear[0].max(shear[1])],
-            torque_n_m: torque,
-            power_w: torque * case.contact.sliding.rotation_speed,
-        }
-    }
-
-    /// The base state node by node.
-    pub fn base_field(&self, case: &Case) -> BaseField {
-        let friction = case.contact.sliding.friction_coefficient;
-        let displacement = self.base.displacement(friction);
-        let pressures = self.base.pressures();
-        let traction = self.base.sliding_direction * friction;
-        BaseField {
-            nodes: self.base.interface.nodes.clone(),
-            angles: self.base.interface.angles.clone(),
-            shears: pressures
-                .iter()
-                .map(|pressure| traction * pressure)
-                .collect(),
-            pressures,
-            stress: nodal_stress(&self.annulus.mesh, &case.material, &displacement),
-            displacement,
-        }
-    }
-}
-
-/// Runs the subcommand with a solver.
+/// Runs the subcommand.
 ///
 /// # Errors
 /// A bad case, contact that opens, a solver that fails, an output folder that cannot be written.
-pub fn run_with(
+pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    run_with(arguments, analyse)
+}
+
+fn run_with(
     arguments: &Arguments,
-    solve: impl FnOnce(&Session, &Cea, &SlidingModel) -> Result<Solution, Failure>,
+    solve: impl FnOnce(&Case, &Cea) -> Result<CeaRun, Failure>,
 ) -> Result<(), Failure> {
     let session = Session::start("cea", &arguments.options)?;
     let case = &session.case;
@@ -138,25 +38,24 @@ pub fn run_with(
     session.check_memory(cost.mesh_memory_bytes + solver_bytes)?;
     let folder = session.open_folder()?;
 
-    let model = SlidingModel::new(case, cea)?;
-    let solution = solve(&session, cea, &model)?;
-    refuse_no_modes(case, cea, &solution.sweep)?;
+    let run = solve(case, cea)?;
+    refuse_no_modes(case, cea, &run.sweep)?;
 
-    let field = model.base_field(case);
+    let field = run.base_field(case);
     let report = CeaReport {
         title: &case.title,
-        mesh: &model.annulus.mesh,
-        dofs: solution.dofs,
-        method: solution.method,
+        mesh: &run.annulus.mesh,
+        dofs: run.dofs,
+        method: run.method,
         selection: match cea.modes {
             ModeSelection::BelowHz(limit) => format!("below {limit} Hz"),
             ModeSelection::Lowest(count) => format!("the lowest {count}"),
         },
         friction_coefficients: &cea.friction_coefficients,
-        sweep: &solution.sweep,
-        base: model.base_state(case),
+        sweep: &run.sweep,
+        base: run.base_state(case),
         field: &field,
-        notes: solution.notes,
+        notes: run.notes.clone(),
         wall_s: session.wall_seconds(),
     };
     let summary = write(&folder, &report)?;
@@ -189,6 +88,8 @@ mod tests {
     use super::*;
     use crate::app::SimdChoice;
     use crate::cea::{ComplexMode, FrictionPoint};
+    use crate::fem::assemble_stiffness;
+    use crate::prestress::SteadySliding;
     use faer::c64;
     use std::f64::consts::TAU;
     use std::path::Path;
@@ -213,8 +114,9 @@ mod tests {
     }
 
     /// A spectrum of one made-up standing wave at every friction value.
-    fn made_up(cea: &Cea, model: &SlidingModel) -> Solution {
-        let shape = vec![c64::new(1.0, 0.0); 2 * model.annulus.mesh.node_count()];
+    fn made_up(case: &Case, cea: &Cea) -> CeaRun {
+        let real = analyse(case, cea).unwrap();
+        let shape = vec![c64::new(1.0, 0.0); 2 * real.annulus.mesh.node_count()];
         let mode = ComplexMode {
             eigenvalue: c64::new(-100.0, TAU * 5000.0),
             harmonic: 0,
@@ -230,19 +132,17 @@ mod tests {
                 friction_coefficient,
                 modes: vec![mode.clone()],
             });
-        Solution {
+        CeaRun {
             sweep: FrictionSweep {
                 points: points.collect(),
                 intervals: Vec::new(),
             },
-            dofs: 100,
-            method: "sparse",
-            notes: Vec::new(),
+            ..real
         }
     }
 
     fn run(arguments: &Arguments) -> Result<(), Failure> {
-        run_with(arguments, |_, cea, model| Ok(made_up(cea, model)))
+        run_with(arguments, |case, cea| Ok(made_up(case, cea)))
     }
 
     #[test]
@@ -277,11 +177,11 @@ mod tests {
     fn the_reported_torque_and_power_are_those_of_the_whole_thickness() {
         let folder = tempfile::tempdir().unwrap();
         let arguments = arguments(folder.path(), &[]);
-        run_with(&arguments, |session, cea, model| {
-            let (case, base) = (&session.case, model.base_state(&session.case));
-            let field = model.base_field(case);
+        run_with(&arguments, |case, cea| {
+            let run = analyse(case, cea)?;
+            let (base, field) = (run.base_state(case), run.base_field(case));
             // Torque = thickness * radius * sum of traction times tributary length.
-            let lengths = &model.base.interface.tributary_lengths;
+            let lengths = &run.annulus.mesh.inner_edge.tributary_lengths;
             let force: f64 = field.shears.iter().zip(lengths).map(|(t, w)| t * w).sum();
             let torque = 0.009 * 0.0205 * force;
             assert!((base.torque_n_m / torque - 1.0).abs() < 1e-12);
@@ -291,16 +191,33 @@ mod tests {
                 (base.pressure_pa[0] / 2.827e6 - 1.0).abs() < 0.02,
                 "{base:?}"
             );
-            Ok(made_up(cea, model))
+            Ok(run)
         })
         .unwrap();
     }
 
     #[test]
+    fn the_base_state_of_one_sector_is_that_of_the_whole_mesh() {
+        let options = arguments(Path::new("unused"), &[]).options;
+        let case = crate::app::session::read_case(&options.case, &options.set).unwrap();
+        let run = analyse(&case, case.require_cea().unwrap()).unwrap();
+        let stiffness = assemble_stiffness(&run.annulus.mesh, &case.material);
+        let sliding = case.contact.sliding;
+        let whole = SteadySliding::solve(&run.annulus.mesh, &stiffness, &sliding).unwrap();
+        let friction = sliding.friction_coefficient;
+        for (a, b) in whole.displacement(friction).iter().zip(&run.displacement) {
+            assert!((a - b).abs() < 1e-10 * sliding.interference, "{a} {b}");
+        }
+        for (a, b) in whole.pressures().iter().zip(&run.contact.pressures) {
+            assert!((a / b - 1.0).abs() < 1e-10, "{a} {b}");
+        }
+    }
+
+    #[test]
     fn a_limit_below_the_first_mode_is_an_error_of_the_case() {
         let folder = tempfile::tempdir().unwrap();
-        let failure = run_with(&arguments(folder.path(), &[]), |_, cea, model| {
-            let mut solution = made_up(cea, model);
+        let failure = run_with(&arguments(folder.path(), &[]), |case, cea| {
+            let mut solution = made_up(case, cea);
             solution
                 .sweep
                 .points
