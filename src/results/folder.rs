@@ -220,12 +220,34 @@ impl OutputFolder {
         name: &str,
         fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<PathBuf, FolderError> {
+        self.write_as(name, true, fill)
+    }
+
+    /// Writes one file whole or not at all, but leaves it to the system when it reaches the disk: for
+    /// the many large files (fields, figures) that a run after a power failure would make again.
+    ///
+    /// # Errors
+    /// As [`OutputFolder::write`].
+    pub fn write_bulk(
+        &self,
+        name: &str,
+        fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<PathBuf, FolderError> {
+        self.write_as(name, false, fill)
+    }
+
+    fn write_as(
+        &self,
+        name: &str,
+        is_durable: bool,
+        fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<PathBuf, FolderError> {
         let path = self.path.join(name);
         let failed = |error| FolderError::io("write", &path, error);
         if self.written.borrow_mut().insert(name.to_owned()) {
             writeln!(&self.journal, "{name}").map_err(failed)?;
         }
-        write_whole(&path, fill).map_err(failed)?;
+        write_whole(&path, is_durable, fill).map_err(failed)?;
         Ok(path)
     }
 
@@ -257,7 +279,7 @@ impl OutputFolder {
 
 pub(super) fn write_contents(folder: &Path, contents: &Contents) -> Result<(), FolderError> {
     let path = folder.join(MANIFEST);
-    write_whole(&path, |out| {
+    write_whole(&path, true, |out| {
         serde_json::to_writer_pretty(&mut *out, contents)?;
         out.write_all(b"\n")
     })
@@ -367,9 +389,11 @@ pub(super) fn refuse_foreign(path: &Path) -> Result<(), FolderError> {
     }
 }
 
-/// Writes a file under a temporary name in the same folder, flushes it to the disk and renames it.
+/// Writes a file under a temporary name in the same folder and renames it, flushed to the disk before
+/// that if it is to be durable.
 pub(super) fn write_whole(
     path: &Path,
+    is_durable: bool,
     fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> io::Result<()> {
     let parent = path.parent().unwrap_or(Path::new("."));
@@ -387,7 +411,9 @@ pub(super) fn write_whole(
     fill(&mut out)?;
     out.flush()?;
     drop(out);
-    temporary.as_file().sync_all()?;
+    if is_durable {
+        temporary.as_file().sync_all()?;
+    }
     temporary.persist(path).map_err(|error| error.error)?;
     Ok(())
 }

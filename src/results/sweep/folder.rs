@@ -197,7 +197,7 @@ impl SweepFolder {
         fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), FolderError> {
         let path = self.path.join(name);
-        write_whole(&path, fill).map_err(|e| FolderError::io("write", &path, e))
+        write_whole(&path, true, fill).map_err(|e| FolderError::io("write", &path, e))
     }
 
     fn refuse_started(&self, points: &[usize]) -> Result<(), FolderError> {
