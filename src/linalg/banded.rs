@@ -69,6 +69,18 @@ impl BandedMatrix {
         row.saturating_sub(h)..(row + h + 1).min(self.dimension)
     }
 
+    /// Stored values of row `row`, columns `row - h ..= row + h`.
+    pub fn row(&self, row: usize) -> &[f64] {
+        let width = 2 * self.half_bandwidth + 1;
+        &self.values[row * width..][..width]
+    }
+
+    /// Stored values of row `row`, to be changed; places outside the matrix must stay zero.
+    pub fn row_mut(&mut self, row: usize) -> &mut [f64] {
+        let width = 2 * self.half_bandwidth + 1;
+        &mut self.values[row * width..][..width]
+    }
+
     /// Adds `factor * other`.
     ///
     /// # Panics

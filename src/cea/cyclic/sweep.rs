@@ -79,15 +79,17 @@ pub fn sweep(
     let grid = rising_grid(request.friction_coefficients)?;
     let sector = SectorMesh::generate(specification)?;
     let tangent = SectorTangent::linearize(&sector, material, options, contact)?;
-    let rest = kappa_limit(&tangent, request.limit)?;
-    let limit = rest * MARGIN * MARGIN;
-    let problems: Vec<HarmonicProblem> = harmonics_below(&tangent, limit);
-    let kept: Vec<f64> = request.shapes_at.to_vec();
-    let followed: Result<Vec<HarmonicPaths>, CyclicError> = problems
+    let (kappa, candidates) = select(&tangent, request.limit)?;
+    let limit = kappa * MARGIN * MARGIN;
+    let followed: Result<Vec<HarmonicPaths>, CyclicError> = candidates
         .into_par_iter()
-        .map(|problem| follow_harmonic(problem, limit, &grid, &kept))
+        .map(|n| {
+            let problem = HarmonicProblem::new(tangent.harmonic(n), tangent.is_standing(n));
+            follow_harmonic(problem, limit, &grid, request.shapes_at)
+        })
         .collect();
-    let followed = followed?;
+    let mut followed = followed?;
+    followed.retain(|paths| !paths.paths.is_empty());
     let coverage = Coverage {
         largest_harmonic: tangent.largest_harmonic(),
         followed: followed
@@ -135,61 +137,75 @@ fn rising_grid(values: &[f64]) -> Result<Vec<f64>, CyclicError> {
     Ok(grid)
 }
 
-/// Problems of the harmonics that have a mode below `limit` without friction: all harmonics are looked at.
-fn harmonics_below(tangent: &SectorTangent, limit: f64) -> Vec<HarmonicProblem> {
+/// Harmonics that have a mode with `kappa < limit` without friction: all are looked at.
+fn harmonics_below(tangent: &SectorTangent, limit: f64) -> Vec<usize> {
     (0..=tangent.largest_harmonic())
         .into_par_iter()
-        .filter_map(|n| {
-            let problem = HarmonicProblem::new(tangent.harmonic(n), tangent.is_standing(n));
-            let (mass, stiffness) = problem.at_rest();
-            (rest::count_below(mass, stiffness, limit) > 0).then_some(problem)
+        .filter(|&n| {
+            let [mass, stiffness] = tangent.harmonic_at_rest(n);
+            rest::count_below(&mass, &stiffness, limit) > 0
         })
         .collect()
 }
 
-/// `kappa` at rest below which the modes wanted lie.
-fn kappa_limit(tangent: &SectorTangent, limit: ModeLimit) -> Result<f64, CyclicError> {
-    let asked = match limit {
+/// `kappa` at rest up to which the modes wanted lie, and the harmonics with modes below the margin
+/// above it (possibly a few without).
+fn select(tangent: &SectorTangent, limit: ModeLimit) -> Result<(f64, Vec<usize>), CyclicError> {
+    let not_positive = |key, value| Err(CyclicError::Limit { key, value });
+    match limit {
         ModeLimit::MaxFrequency(value) if value > 0.0 && value.is_finite() => {
-            return Ok((TAU * value).powi(2));
+            let kappa = (TAU * value).powi(2);
+            Ok((kappa, harmonics_below(tangent, kappa * MARGIN * MARGIN)))
         }
-        ModeLimit::MaxFrequency(value) => {
-            let key = "max_frequency_hz";
-            return Err(CyclicError::Limit { key, value });
-        }
-        ModeLimit::Lowest(0) => {
-            let key = "modes";
-            return Err(CyclicError::Limit { key, value: 0.0 });
-        }
-        ModeLimit::Lowest(asked) => asked,
-    };
+        ModeLimit::MaxFrequency(value) => not_positive("max_frequency_hz", value),
+        ModeLimit::Lowest(0) => not_positive("modes", 0.0),
+        ModeLimit::Lowest(asked) => select_lowest(tangent, asked),
+    }
+}
+
+fn select_lowest(tangent: &SectorTangent, asked: usize) -> Result<(f64, Vec<usize>), CyclicError> {
     let waves = |n: usize| if tangent.is_standing(n) { 1 } else { 2 };
-    let total = (0..=tangent.largest_harmonic())
-        .map(|n| waves(n) * tangent.dimension())
-        .sum();
+    let all = 0..=tangent.largest_harmonic();
+    let total = all.map(|n| waves(n) * tangent.dimension()).sum();
     if asked > total {
         return Err(CyclicError::TooManyModes { asked, total });
     }
-    // Fourfold steps in kappa, twofold in frequency, until there are enough.
-    let mut limit = 1e6;
+    // A few low harmonics that have enough modes bound the limit from above.
+    let few: Vec<_> = (0..=tangent.largest_harmonic().min(7))
+        .map(|n| (n, tangent.harmonic_at_rest(n)))
+        .collect();
+    let enough = few
+        .iter()
+        .map(|(n, _)| waves(*n) * tangent.dimension())
+        .sum::<usize>();
+    let enough = enough.min(asked);
+    let mut bound = 1e6;
+    let count = |bound: f64| -> usize {
+        let counts = few
+            .iter()
+            .map(|(n, [mass, stiffness])| waves(*n) * rest::count_below(mass, stiffness, bound));
+        counts.sum()
+    };
+    while count(bound) < enough {
+        bound *= 1.5;
+    }
     loop {
-        let problems = harmonics_below(tangent, limit);
-        let mut found: Vec<f64> = problems
+        let candidates = harmonics_below(tangent, bound * MARGIN * MARGIN);
+        let mut found: Vec<f64> = candidates
             .par_iter()
-            .flat_map_iter(|problem| {
-                let (mass, stiffness) = problem.at_rest();
-                let pairs = rest::eigenpairs_below(mass, stiffness, limit);
-                let repeat = waves(problem.harmonic);
+            .flat_map_iter(|&n| {
+                let [mass, stiffness] = tangent.harmonic_at_rest(n);
+                let pairs = rest::eigenpairs_below(&mass, &stiffness, bound);
                 pairs
                     .into_iter()
-                    .flat_map(move |(kappa, _)| vec![kappa; repeat])
+                    .flat_map(move |(kappa, _)| vec![kappa; waves(n)])
             })
             .collect();
         if found.len() >= asked {
             found.sort_by(f64::total_cmp);
-            return Ok(found[asked - 1] * (1.0 + 1e-9));
+            return Ok((found[asked - 1] * (1.0 + 1e-9), candidates));
         }
-        limit *= 4.0;
+        bound *= 1.5;
     }
 }
 
