@@ -283,6 +283,21 @@ fn quadratic_problem_equals_dense_companion_solution() {
 #[test]
 fn explore() {
     let spec = annulus(ElementKind::Quad4, 180, 35);
-    let worst = worst_difference(&spec, &paper_options(), &paper_contact(), &[0.3], 17500.0);
-    println!("180x35 {worst:e}");
+    let grid: Vec<f64> = (0..21).map(|i| i as f64 * 0.05).collect();
+    for (k, g, model) in [(Some(7.4e12), true, DampingModel::WholeTangent), (None, true, DampingModel::WholeTangent), (None, false, DampingModel::WholeTangent), (Some(1e11), true, DampingModel::WholeTangent), (None, true, DampingModel::BodyOnly)] {
+        for spec in [spec, AnnulusSpecification { element: ElementKind::Quad8, ..spec }] {
+        let mut o = paper_options();
+        o.contact.normal_stiffness = k;
+        o.geometric_stiffness = g;
+        o.damping_model = model;
+        let mut best = f64::MAX;
+        for _ in 0..5 {
+            let t = std::time::Instant::now();
+            run(&spec, &o, &grid, ModeLimit::Lowest(30));
+            best = best.min(t.elapsed().as_secs_f64());
+        }
+        let c = run(&spec, &o, &grid, ModeLimit::Lowest(30)).coverage;
+        println!("{k:?} {g} {:?} {:.1} ms followed {:?} proven {} counted {:?} {} {} {}", spec.element, best * 1e3, c.followed, c.proven_empty.len(), c.counted_empty, c.limit_hz, c.margin_hz, c.factorizations);
+        }
+    }
 }

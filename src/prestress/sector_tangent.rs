@@ -129,6 +129,19 @@ impl SectorTangent {
         (0..total).filter(|&dof| !is_held(dof)).collect()
     }
 
+    /// Unknown of each contact node's tangential displacement.
+    pub fn tangential_unknowns(&self) -> Vec<usize> {
+        let unknowns = self.unknowns();
+        let dofs = (0..self.sector.contact_count).map(|node| 2 * node + 1);
+        dofs.filter_map(|dof| unknowns.iter().position(|&u| u == dof))
+            .collect()
+    }
+
+    /// Rayleigh coefficients.
+    pub fn rayleigh(&self) -> RayleighDamping {
+        self.options.damping
+    }
+
     /// The largest harmonic, `N_theta / 2`.
     pub fn largest_harmonic(&self) -> usize {
         self.sector.sector_count() / 2

@@ -6,6 +6,8 @@
 //! followed continuously over the friction coefficient by two-sided Rayleigh quotient iteration.
 
 mod branch;
+mod completeness;
+mod definite;
 mod error;
 mod follow;
 mod paths;
