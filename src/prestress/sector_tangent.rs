@@ -59,6 +59,13 @@ pub struct SectorTangent {
     terms: Terms,
 }
 
+/// Derivative of a [`SectorTangent`] with respect to one [`Parameter`].
+#[derive(Clone, Debug)]
+pub struct TangentRate {
+    terms: Terms,
+    rayleigh: RayleighDamping,
+}
+
 /// What the matrices are made of; each term may also be a derivative.
 #[derive(Clone, Debug)]
 struct Terms {
@@ -177,35 +184,25 @@ impl SectorTangent {
         [mass, stiffness].map(|matrix| matrix.restricted_to(&unknowns))
     }
 
-    /// Derivative of the matrices of harmonic `n` with respect to `parameter`, the base state
-    /// following; `damping` is always given. `None` for a normal stiffness that the contact does not have.
+    /// Derivative of the matrices of harmonic `n`; `damping` is always given.
+    pub fn harmonic_rate(&self, rate: &TangentRate, n: usize) -> HarmonicTangent {
+        let follows = self.damping(&rate.terms, self.options.damping, false, n);
+        let shared = self.damping(&self.terms, rate.rayleigh, false, n);
+        HarmonicTangent {
+            harmonic: n,
+            mass: self.mass(&rate.terms, n),
+            stiffness: self.stiffness(&rate.terms, n),
+            damping: Some(sum(follows, shared)),
+            rayleigh: rate.rayleigh,
+        }
+    }
+
+    /// Derivative with respect to `parameter`, the base state following; `None` for a normal stiffness that
+    /// the contact does not have.
     ///
     /// # Errors
     /// [`PrestressError::Singular`] as for the base state itself.
-    pub fn harmonic_rate(
-        &self,
-        parameter: Parameter,
-        n: usize,
-    ) -> Result<Option<HarmonicTangent>, PrestressError> {
-        let Some((terms, share)) = self.rate(parameter)? else {
-            return Ok(None);
-        };
-        let follows = self.damping(&terms, self.options.damping, false, n);
-        let shared = self.damping(&self.terms, share, false, n);
-        Ok(Some(HarmonicTangent {
-            harmonic: n,
-            mass: self.mass(&terms, n),
-            stiffness: self.stiffness(&terms, n),
-            damping: Some(sum(follows, shared)),
-            rayleigh: share,
-        }))
-    }
-
-    /// Derivatives of the terms and of the Rayleigh coefficients.
-    fn rate(
-        &self,
-        parameter: Parameter,
-    ) -> Result<Option<(Terms, RayleighDamping)>, PrestressError> {
+    pub fn rate(&self, parameter: Parameter) -> Result<Option<TangentRate>, PrestressError> {
         let mut terms = Terms {
             elastic: None,
             mass: None,
@@ -242,7 +239,10 @@ impl SectorTangent {
             }
             Parameter::PoissonRatio => self.poisson_rate(&mut terms)?,
         }
-        Ok(Some((terms, share)))
+        Ok(Some(TangentRate {
+            terms,
+            rayleigh: share,
+        }))
     }
 
     fn poisson_rate(&self, terms: &mut Terms) -> Result<(), PrestressError> {

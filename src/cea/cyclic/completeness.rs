@@ -140,7 +140,12 @@ fn missed(
     };
     let edge = if problem.is_proportional() {
         // Turned by a right angle: the rectangle's "height" is Re(kappa).
-        let edge = rectangle(-1e-3 * region.real, region.real, region.imaginary, EDGE_POINTS);
+        let edge = rectangle(
+            -1e-3 * region.real,
+            region.real,
+            region.imaginary,
+            EDGE_POINTS,
+        );
         edge.into_iter().map(|p| c64::new(p.im, -p.re)).collect()
     } else {
         rectangle(SLOWEST * limit, limit, WIDEST_GROWTH * limit, EDGE_POINTS)
