@@ -210,6 +210,23 @@ fn a_case_without_the_section_of_the_command_says_what_to_add() {
 }
 
 #[test]
+fn check_tells_scripts_what_is_wrong() {
+    let folder = folder();
+    let bad = damaged(&folder, "density = 1228.0", "density = -1");
+    let run = frictionsim(&folder)
+        .args(["check", "--json", bad])
+        .assert()
+        .code(2);
+    let value: serde_json::Value = serde_json::from_slice(&run.get_output().stdout).unwrap();
+    let errors = &value["cases"][0]["errors"];
+    assert_eq!(errors.as_array().unwrap().len(), 1);
+    assert!(
+        errors[0].as_str().unwrap().contains("material.density"),
+        "{errors}"
+    );
+}
+
+#[test]
 fn check_goes_on_after_a_bad_case() {
     let folder = folder();
     let bad = damaged(&folder, "density = 1228.0", "density = -1");

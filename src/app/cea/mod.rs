@@ -1,8 +1,9 @@
 //! `frictionsim cea`: complex eigenvalues of steady sliding over the friction coefficient.
 
-mod analysis;
+mod model;
+mod solve;
 
-pub use analysis::{CeaRun, ContactTractions, analyse, tangent_options};
+pub use model::SlidingModel;
 
 use super::{Failure, RunOptions, Session};
 use crate::case::{Case, Cea, ModeSelection};
@@ -23,12 +24,30 @@ pub struct Arguments {
 /// # Errors
 /// A bad case, contact that opens, a solver that fails, an output folder that cannot be written.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    run_with(arguments, analyse)
+    run_with(arguments, |session, cea, model| {
+        solve::solve(&session.case, cea, model)
+    })
 }
 
+/// What a solver gives back.
+pub struct Solution {
+    /// Modes at every friction value, and where branches turn unstable.
+    pub sweep: FrictionSweep,
+    /// Unknowns of the eigenproblem.
+    pub dofs: usize,
+    /// Which solver.
+    pub method: &'static str,
+    /// What it has to say.
+    pub notes: Vec<String>,
+}
+
+/// Runs the subcommand with a solver.
+///
+/// # Errors
+/// A bad case, contact that opens, a solver that fails, an output folder that cannot be written.
 fn run_with(
     arguments: &Arguments,
-    solve: impl FnOnce(&Case, &Cea) -> Result<CeaRun, Failure>,
+    solve: impl FnOnce(&Session, &Cea, &SlidingModel) -> Result<Solution, Failure>,
 ) -> Result<(), Failure> {
     let session = Session::start("cea", &arguments.options)?;
     let case = &session.case;
@@ -38,24 +57,25 @@ fn run_with(
     session.check_memory(cost.mesh_memory_bytes + solver_bytes)?;
     let folder = session.open_folder()?;
 
-    let run = solve(case, cea)?;
-    refuse_no_modes(case, cea, &run.sweep)?;
+    let model = SlidingModel::new(case, cea)?;
+    let solution = solve(&session, cea, &model)?;
+    refuse_no_modes(case, cea, &solution.sweep)?;
 
-    let field = run.base_field(case);
+    let field = model.base_field(case);
     let report = CeaReport {
         title: &case.title,
-        mesh: &run.annulus.mesh,
-        dofs: run.dofs,
-        method: run.method,
+        mesh: &model.annulus.mesh,
+        dofs: solution.dofs,
+        method: solution.method,
         selection: match cea.modes {
             ModeSelection::BelowHz(limit) => format!("below {limit} Hz"),
             ModeSelection::Lowest(count) => format!("the lowest {count}"),
         },
         friction_coefficients: &cea.friction_coefficients,
-        sweep: &run.sweep,
-        base: run.base_state(case),
+        sweep: &solution.sweep,
+        base: model.base_state(case),
         field: &field,
-        notes: run.notes.clone(),
+        notes: solution.notes,
         wall_s: session.wall_seconds(),
     };
     let summary = write(&folder, &report)?;
@@ -88,8 +108,6 @@ mod tests {
     use super::*;
     use crate::app::SimdChoice;
     use crate::cea::{ComplexMode, FrictionPoint};
-    use crate::fem::assemble_stiffness;
-    use crate::prestress::SteadySliding;
     use faer::c64;
     use std::f64::consts::TAU;
     use std::path::Path;
@@ -114,9 +132,8 @@ mod tests {
     }
 
     /// A spectrum of one made-up standing wave at every friction value.
-    fn made_up(case: &Case, cea: &Cea) -> CeaRun {
-        let real = analyse(case, cea).unwrap();
-        let shape = vec![c64::new(1.0, 0.0); 2 * real.annulus.mesh.node_count()];
+    fn made_up(cea: &Cea, model: &SlidingModel) -> Solution {
+        let shape = vec![c64::new(1.0, 0.0); 2 * model.annulus.mesh.node_count()];
         let mode = ComplexMode {
             eigenvalue: c64::new(-100.0, TAU * 5000.0),
             harmonic: 0,
@@ -132,17 +149,19 @@ mod tests {
                 friction_coefficient,
                 modes: vec![mode.clone()],
             });
-        CeaRun {
+        Solution {
             sweep: FrictionSweep {
                 points: points.collect(),
                 intervals: Vec::new(),
             },
-            ..real
+            dofs: 100,
+            method: "sparse",
+            notes: Vec::new(),
         }
     }
 
     fn run(arguments: &Arguments) -> Result<(), Failure> {
-        run_with(arguments, |case, cea| Ok(made_up(case, cea)))
+        run_with(arguments, |_, cea, model| Ok(made_up(cea, model)))
     }
 
     #[test]
@@ -177,11 +196,11 @@ mod tests {
     fn the_reported_torque_and_power_are_those_of_the_whole_thickness() {
         let folder = tempfile::tempdir().unwrap();
         let arguments = arguments(folder.path(), &[]);
-        run_with(&arguments, |case, cea| {
-            let run = analyse(case, cea)?;
-            let (base, field) = (run.base_state(case), run.base_field(case));
+        run_with(&arguments, |session, cea, model| {
+            let (case, base) = (&session.case, model.base_state(&session.case));
+            let field = model.base_field(case);
             // Torque = thickness * radius * sum of traction times tributary length.
-            let lengths = &run.annulus.mesh.inner_edge.tributary_lengths;
+            let lengths = &model.base.interface.tributary_lengths;
             let force: f64 = field.shears.iter().zip(lengths).map(|(t, w)| t * w).sum();
             let torque = 0.009 * 0.0205 * force;
             assert!((base.torque_n_m / torque - 1.0).abs() < 1e-12);
@@ -191,33 +210,16 @@ mod tests {
                 (base.pressure_pa[0] / 2.827e6 - 1.0).abs() < 0.02,
                 "{base:?}"
             );
-            Ok(run)
+            Ok(made_up(cea, model))
         })
         .unwrap();
     }
 
     #[test]
-    fn the_base_state_of_one_sector_is_that_of_the_whole_mesh() {
-        let options = arguments(Path::new("unused"), &[]).options;
-        let case = crate::app::session::read_case(&options.case, &options.set).unwrap();
-        let run = analyse(&case, case.require_cea().unwrap()).unwrap();
-        let stiffness = assemble_stiffness(&run.annulus.mesh, &case.material);
-        let sliding = case.contact.sliding;
-        let whole = SteadySliding::solve(&run.annulus.mesh, &stiffness, &sliding).unwrap();
-        let friction = sliding.friction_coefficient;
-        for (a, b) in whole.displacement(friction).iter().zip(&run.displacement) {
-            assert!((a - b).abs() < 1e-10 * sliding.interference, "{a} {b}");
-        }
-        for (a, b) in whole.pressures().iter().zip(&run.contact.pressures) {
-            assert!((a / b - 1.0).abs() < 1e-10, "{a} {b}");
-        }
-    }
-
-    #[test]
     fn a_limit_below_the_first_mode_is_an_error_of_the_case() {
         let folder = tempfile::tempdir().unwrap();
-        let failure = run_with(&arguments(folder.path(), &[]), |case, cea| {
-            let mut solution = made_up(case, cea);
+        let failure = run_with(&arguments(folder.path(), &[]), |_, cea, model| {
+            let mut solution = made_up(cea, model);
             solution
                 .sweep
                 .points
