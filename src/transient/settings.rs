@@ -255,7 +255,7 @@ impl StepPlan {
         let largest_frequency = largest_frequency(operator);
         let limit = stable_step_limit(largest_frequency, damping);
         let wanted = match settings.time_step {
-            TimeStep::Auto => SAFETY * limit,
+            TimeStep::Auto => (SAFETY * limit).min(settings.sample_interval),
             TimeStep::Seconds(step) if step > limit => {
                 return Err(TransientError::StepAboveLimit {
                     step,
