@@ -35,10 +35,16 @@ impl Observer for Ignore {
 
 fn main() {
     let peak = fma_peak();
-    println!("fused multiply-add peak of one thread: {:.1} Gflop/s", peak / 1e9);
+    println!(
+        "fused multiply-add peak of one thread: {:.1} Gflop/s",
+        peak / 1e9
+    );
     for (elements, radial) in [(180, 35), (270, 52)] {
         let annulus = disc(elements, radial);
-        println!("\n{elements} x {radial} elements, {} dofs", 2 * annulus.mesh.node_count());
+        println!(
+            "\n{elements} x {radial} elements, {} dofs",
+            2 * annulus.mesh.node_count()
+        );
         println!("operator  simd     us/step  ns/element-step  of FMA peak");
         for choice in [OperatorChoice::Cyclic, OperatorChoice::Sparse] {
             for level in [SimdLevel::Scalar, SimdLevel::Avx2, SimdLevel::Avx512] {
@@ -129,7 +135,11 @@ fn fma_peak() -> f64 {
         let mut sums = [0.5_f64; SUMS];
         for _ in 0..ROUNDS {
             for sum in &mut sums {
-                *sum = if fused { sum.mul_add(x, 1.0) } else { *sum * x + 1.0 };
+                *sum = if fused {
+                    sum.mul_add(x, 1.0)
+                } else {
+                    *sum * x + 1.0
+                };
             }
         }
         sums

@@ -52,7 +52,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let step = number(2, 1e-7)?;
     let harmonics: Vec<usize> = match arguments.get(6..) {
-        Some(list) if !list.is_empty() => list.iter().map(|n| n.parse()).collect::<Result<_, _>>()?,
+        Some(list) if !list.is_empty() => {
+            list.iter().map(|n| n.parse()).collect::<Result<_, _>>()?
+        }
         _ => vec![2],
     };
     let settings = TransientSettings {
@@ -73,7 +75,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     let operator = build_operator(&model, choice, SimdLevel::detect())?;
     let mut run = CentralDifference::start(model, operator.as_ref(), &settings)?;
     let mut record = Recorder::new(&run, &RecorderSettings::default())?;
-    println!("{} operator, {}, {:?}", operator.name(), operator.simd(), run.plan());
+    println!(
+        "{} operator, {}, {:?}",
+        operator.name(),
+        operator.simd(),
+        run.plan()
+    );
     let clock = Instant::now();
     run.run(&mut record)?;
     let seconds = clock.elapsed().as_secs_f64();
@@ -86,7 +93,10 @@ fn print(analysis: &TransientAnalysis) {
     let cycle = &analysis.limit_cycle;
     let powers = &cycle.powers;
     let [stick, slip, open] = cycle.status;
-    println!("main frequency {:?} Hz, harmonic {:?}", cycle.main_frequency_hz, cycle.main_harmonic);
+    println!(
+        "main frequency {:?} Hz, harmonic {:?}",
+        cycle.main_frequency_hz, cycle.main_harmonic
+    );
     println!("stick {stick:.4}  slip {slip:.4}  open {open:.4}");
     println!(
         "external {:.2} kW/m: stick {:.4}, slide {:.4}, contact-dissipated {:.4}; material damping {:.2}, normal {:.4} kW/m",
@@ -107,6 +117,9 @@ struct Amplitudes<'a>(&'a [f64]);
 
 impl std::fmt::LowerExp for Amplitudes<'_> {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        formatter.debug_list().entries(self.0.iter().map(|a| format!("{a:.3e}"))).finish()
+        formatter
+            .debug_list()
+            .entries(self.0.iter().map(|a| format!("{a:.3e}")))
+            .finish()
     }
 }

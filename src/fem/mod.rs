@@ -8,6 +8,7 @@ mod assembly;
 pub mod element;
 mod material;
 pub mod operator;
+pub mod sector;
 mod stress;
 
 pub use assembly::{

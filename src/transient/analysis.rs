@@ -176,7 +176,9 @@ fn strongest_line(series: &[Complex64]) -> (f64, f64) {
     let count = series.len();
     let windowed = series.iter().enumerate();
     let mut spectrum: Vec<Complex64> = windowed.map(|(k, v)| v * hann(k, count)).collect();
-    FftPlanner::new().plan_fft_forward(count).process(&mut spectrum);
+    FftPlanner::new()
+        .plan_fft_forward(count)
+        .process(&mut spectrum);
     let lines = LOWEST_LINE..count + 1 - LOWEST_LINE;
     let best = lines.max_by(|&a, &b| spectrum[a].norm_sqr().total_cmp(&spectrum[b].norm_sqr()));
     let best = best.unwrap_or(0);

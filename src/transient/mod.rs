@@ -6,16 +6,16 @@
 //! that keeps what results need, and [`TransientAnalysis`] reads frequencies, growth and powers from it.
 
 mod analysis;
-mod contact;
 mod central_difference;
+mod contact;
 mod perturbation;
 mod recorder;
 mod sample;
 mod settings;
 
 pub use analysis::{Growth, LimitCycle, TransientAnalysis};
-pub use contact::{ContactPowers, LagrangeContact, StatusCounts};
 pub use central_difference::{CentralDifference, RunEnd, TransientState};
+pub use contact::{ContactPowers, LagrangeContact, StatusCounts};
 pub use perturbation::Perturbation;
 pub use recorder::{ContactFrame, Recorder, RecorderSettings, SampleRow, Snapshot};
 pub use sample::{Observer, Sample};

@@ -43,7 +43,11 @@ impl Perturbation {
         let mut velocity = vec![0.0; 2 * mesh.node_count()];
         for (node, ([x, y], angle)) in mesh.nodes.iter().zip(&mesh.frame_angles).enumerate() {
             let depth = (x.hypot(*y) - inner) / (outer - inner);
-            let waves: f64 = self.harmonics.iter().map(|&n| (n as f64 * angle).cos()).sum();
+            let waves: f64 = self
+                .harmonics
+                .iter()
+                .map(|&n| (n as f64 * angle).cos())
+                .sum();
             velocity[2 * node + 1] = self.velocity * (FRAC_PI_2 * depth).cos() * waves;
         }
         for &node in &mesh.outer_edge.nodes {

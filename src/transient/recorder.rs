@@ -136,7 +136,9 @@ impl Recorder {
     fn frame(&self, sample: &Sample<'_>) -> ContactFrame {
         let traction = |forces: &[f64]| {
             let pairs = forces.iter().zip(&self.tributary_lengths);
-            pairs.map(|(force, length)| (force / length) as f32).collect()
+            pairs
+                .map(|(force, length)| (force / length) as f32)
+                .collect()
         };
         ContactFrame {
             time: sample.time,

@@ -274,7 +274,9 @@ impl StepPlan {
             });
         }
         let steps_per_sample = (interval / wanted * (1.0 - 1e-6)).ceil().max(1.0);
-        let intervals = (settings.duration / interval * (1.0 - 1e-9)).ceil().max(1.0);
+        let intervals = (settings.duration / interval * (1.0 - 1e-9))
+            .ceil()
+            .max(1.0);
         Ok(Self {
             time_step: interval / steps_per_sample,
             limit,

@@ -181,7 +181,7 @@ impl Annulus {
             // the factor i that the second and third carry.
             let gradient = |dof: usize| {
                 let (value, slope) = (point.values[dof / 2], point.slopes[dof / 2]);
-                if dof % 2 == 0 {
+                if dof.is_multiple_of(2) {
                     [slope, n * value / r, 0.0, value / r]
                 } else {
                     [0.0, -value / r, slope, -n * value / r]

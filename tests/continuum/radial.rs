@@ -54,7 +54,7 @@ impl RadialElement {
 
 /// Barycentric weights of the Chebyshev points of the second kind.
 fn barycentric_weight(i: usize, degree: usize) -> f64 {
-    let sign = if i % 2 == 0 { 1.0 } else { -1.0 };
+    let sign = if i.is_multiple_of(2) { 1.0 } else { -1.0 };
     if i == 0 || i == degree {
         0.5 * sign
     } else {

@@ -302,7 +302,12 @@ fn sparse_advance_body<const FUSED: bool>(
 
 #[inline(always)]
 fn sparse_multiply_body<const FUSED: bool>(rows: &BlockRows, x: &[f64], y: &mut [f64]) {
-    for (y, range) in y.as_chunks_mut::<2>().0.iter_mut().zip(rows.starts.windows(2)) {
+    for (y, range) in y
+        .as_chunks_mut::<2>()
+        .0
+        .iter_mut()
+        .zip(rows.starts.windows(2))
+    {
         let (y_1, y_2) = block_row::<FUSED>(rows, range[0] as usize..range[1] as usize, x);
         *y = [y_1, y_2];
     }

@@ -24,9 +24,7 @@ pub enum SimdError {
     #[error("simd level \"{0}\" is none of auto, scalar, avx2, avx512")]
     Unknown(String),
     /// Not on this processor.
-    #[error(
-        "this processor does not have {wanted}; the best it has is {best}: choose --simd auto"
-    )]
+    #[error("this processor does not have {wanted}; the best it has is {best}: choose --simd auto")]
     Unavailable {
         /// Asked for.
         wanted: SimdLevel,
