@@ -12,6 +12,7 @@ mod options;
 mod session;
 pub mod sweep;
 pub mod terminal;
+pub mod transient;
 
 pub use failure::Failure;
 pub use options::{RunOptions, SimdChoice};
@@ -39,6 +40,7 @@ pub struct CommandLine {
 
 #[derive(Subcommand)]
 enum Command {
+    Transient(transient::Arguments),
     Collect(collect::Arguments),
     Mesh(mesh::Arguments),
     Check(check::Arguments),
@@ -51,6 +53,7 @@ enum Command {
 /// 1 the run failed, 2 bad usage or case.
 pub fn main() -> ExitCode {
     let outcome = match CommandLine::parse().command {
+        Command::Transient(arguments) => transient::run(&arguments),
         Command::Collect(arguments) => collect::run(&arguments),
         Command::Mesh(arguments) => mesh::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
