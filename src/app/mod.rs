@@ -40,6 +40,7 @@ pub struct CommandLine {
 
 #[derive(Subcommand)]
 enum Command {
+    Cea(cea::Arguments),
     Transient(transient::Arguments),
     Collect(collect::Arguments),
     Mesh(mesh::Arguments),
@@ -53,6 +54,7 @@ enum Command {
 /// 1 the run failed, 2 bad usage or case.
 pub fn main() -> ExitCode {
     let outcome = match CommandLine::parse().command {
+        Command::Cea(arguments) => cea::run(&arguments),
         Command::Transient(arguments) => transient::run(&arguments),
         Command::Collect(arguments) => collect::run(&arguments),
         Command::Mesh(arguments) => mesh::run(&arguments),
