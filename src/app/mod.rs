@@ -12,6 +12,7 @@ mod options;
 mod session;
 pub mod sweep;
 pub mod terminal;
+pub mod transient;
 
 pub use failure::Failure;
 pub use options::{RunOptions, SimdChoice};
@@ -40,6 +41,7 @@ pub struct CommandLine {
 #[derive(Subcommand)]
 enum Command {
     Cea(cea::Arguments),
+    Transient(transient::Arguments),
     Collect(collect::Arguments),
     Mesh(mesh::Arguments),
     Check(check::Arguments),
@@ -53,6 +55,7 @@ enum Command {
 pub fn main() -> ExitCode {
     let outcome = match CommandLine::parse().command {
         Command::Cea(arguments) => cea::run(&arguments),
+        Command::Transient(arguments) => transient::run(&arguments),
         Command::Collect(arguments) => collect::run(&arguments),
         Command::Mesh(arguments) => mesh::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),

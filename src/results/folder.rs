@@ -251,6 +251,12 @@ impl OutputFolder {
         Ok(path)
     }
 
+    /// Removes a file that has served its purpose, written by this run or an earlier one.
+    pub fn discard(&self, name: &str) {
+        self.written.borrow_mut().remove(name);
+        self.remove(std::iter::once(&name.to_owned()));
+    }
+
     /// Ends a complete run: removes what an earlier run of the same case left and this one did not
     /// write again.
     ///

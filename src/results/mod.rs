@@ -8,6 +8,7 @@ mod manifest;
 mod mesh;
 pub mod sweep;
 mod table;
+pub mod transient;
 mod vtu;
 
 pub use drawing::{DrawingError, Figure, render, write_figure};
