@@ -3,12 +3,15 @@
 pub mod cea;
 pub mod figures;
 mod folder;
+mod gallery;
 mod manifest;
 mod mesh;
+pub mod report;
 mod table;
 mod vtu;
 
 pub use folder::{FolderError, OutputFolder, Replace};
+pub use gallery::{GalleryError, PNG_RESOLUTION, write_figures, write_report};
 pub use manifest::Manifest;
 pub use mesh::{MeshStatistics, write_mesh, write_mesh_picture};
 pub use table::{Table, format_number};

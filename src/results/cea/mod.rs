@@ -1,5 +1,6 @@
 //! Results of a complex eigenvalue analysis: what is printed and what is written.
 
+pub mod figures;
 mod files;
 mod print;
 
