@@ -2,6 +2,7 @@
 
 pub mod cea;
 mod check;
+mod collect;
 mod completions;
 mod failure;
 mod init;
@@ -9,6 +10,7 @@ mod man;
 mod mesh;
 mod options;
 mod session;
+pub mod sweep;
 pub mod terminal;
 
 pub use failure::Failure;
@@ -37,6 +39,7 @@ pub struct CommandLine {
 
 #[derive(Subcommand)]
 enum Command {
+    Collect(collect::Arguments),
     Mesh(mesh::Arguments),
     Check(check::Arguments),
     Init(init::Arguments),
@@ -48,6 +51,7 @@ enum Command {
 /// 1 the run failed, 2 bad usage or case.
 pub fn main() -> ExitCode {
     let outcome = match CommandLine::parse().command {
+        Command::Collect(arguments) => collect::run(&arguments),
         Command::Mesh(arguments) => mesh::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Init(arguments) => init::run(&arguments),

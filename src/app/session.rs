@@ -68,11 +68,19 @@ impl Session {
             (Some(_), false) => Replace::SameCase,
             (None, false) => Replace::SameText,
         };
-        let path = match &self.options.out {
+        Ok(OutputFolder::open(
+            &self.folder_path(),
+            &self.manifest,
+            replace,
+        )?)
+    }
+
+    /// Where the output folder is.
+    pub fn folder_path(&self) -> PathBuf {
+        match &self.options.out {
             Some(path) => path.clone(),
             None => default_folder(&self.options.case, &self.manifest.command),
-        };
-        Ok(OutputFolder::open(&path, &self.manifest, replace)?)
+        }
     }
 
     /// Wall time since the start, s.

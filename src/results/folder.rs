@@ -8,8 +8,10 @@ use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-const MANIFEST: &str = "manifest.json";
-const LOCK: &str = ".lock";
+pub(super) const MANIFEST: &str = "manifest.json";
+pub(super) const LOCK: &str = ".lock";
+/// How the name of a file that is still being written begins.
+pub(super) const TEMPORARY: &str = ".writing-";
 
 /// A folder that cannot be used or written.
 #[derive(Debug, thiserror::Error)]
@@ -47,10 +49,32 @@ pub enum FolderError {
         /// The folder.
         path: PathBuf,
     },
+    /// It holds finished points of the same sweep.
+    #[error(
+        "{} already holds {found} of the {asked} points asked for: go on with --resume, \
+         start over with --force, or choose another folder with --out",
+        path.display()
+    )]
+    Started {
+        /// The folder.
+        path: PathBuf,
+        /// Finished points.
+        found: usize,
+        /// Points of this run.
+        asked: usize,
+    },
+    /// It is not the results folder of a sweep.
+    #[error("{} is not the results folder of a sweep: {reason}", path.display())]
+    NotASweep {
+        /// The folder.
+        path: PathBuf,
+        /// What it lacks.
+        reason: String,
+    },
     /// No space left.
     #[error(
-        "the disk is full: {} was not written (files finished before are whole): \
-         make room, or choose another folder with --out",
+        "no room left: {} was not written, because the disk is full or a quota or file size limit \
+         is reached (files finished before are whole): make room, or choose another folder with --out",
         path.display()
     )]
     DiskFull {
@@ -70,10 +94,12 @@ pub enum FolderError {
 }
 
 impl FolderError {
-    fn io(action: &'static str, path: &Path, source: io::Error) -> Self {
+    pub(super) fn io(action: &'static str, path: &Path, source: io::Error) -> Self {
         let path = path.to_owned();
         match source.kind() {
-            io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => Self::DiskFull { path },
+            io::ErrorKind::StorageFull
+            | io::ErrorKind::QuotaExceeded
+            | io::ErrorKind::FileTooLarge => Self::DiskFull { path },
             _ => Self::Io {
                 action,
                 path,
@@ -84,7 +110,13 @@ impl FolderError {
 
     /// Whether the user asked for the wrong folder, rather than a run failing.
     pub fn is_usage(&self) -> bool {
-        matches!(self, Self::OtherCase { .. } | Self::Foreign { .. })
+        matches!(
+            self,
+            Self::OtherCase { .. }
+                | Self::Foreign { .. }
+                | Self::Started { .. }
+                | Self::NotASweep { .. }
+        )
     }
 }
 
@@ -101,10 +133,10 @@ pub enum Replace {
 
 /// `manifest.json`: the manifest and the files that go with it.
 #[derive(Serialize, Deserialize)]
-struct Contents {
+pub(super) struct Contents {
     #[serde(flatten)]
-    manifest: Manifest,
-    files: BTreeSet<String>,
+    pub(super) manifest: Manifest,
+    pub(super) files: BTreeSet<String>,
 }
 
 /// An output folder that this process alone writes.
@@ -192,23 +224,32 @@ impl OutputFolder {
     }
 
     fn write_manifest(&self, files: &BTreeSet<String>) -> Result<(), FolderError> {
-        let path = self.path.join(MANIFEST);
         let contents = Contents {
             manifest: self.manifest.clone(),
             files: files.clone(),
         };
-        write_whole(&path, |out| {
-            serde_json::to_writer_pretty(&mut *out, &contents)?;
-            out.write_all(b"\n")
-        })
-        .map_err(|e| FolderError::io("write", &path, e))
+        write_contents(&self.path, &contents)
     }
 
     fn remove<'a>(&self, names: impl Iterator<Item = &'a String>) {
-        for name in names.filter(|name| is_inside(name)) {
-            // A file that is gone already is what we want.
-            let _ = fs::remove_file(self.path.join(name));
-        }
+        remove_files(&self.path, names);
+    }
+}
+
+pub(super) fn write_contents(folder: &Path, contents: &Contents) -> Result<(), FolderError> {
+    let path = folder.join(MANIFEST);
+    write_whole(&path, |out| {
+        serde_json::to_writer_pretty(&mut *out, contents)?;
+        out.write_all(b"\n")
+    })
+    .map_err(|e| FolderError::io("write", &path, e))
+}
+
+/// Removes files that a manifest lists.
+pub(super) fn remove_files<'a>(folder: &Path, names: impl Iterator<Item = &'a String>) {
+    for name in names.filter(|name| is_inside(name)) {
+        // A file that is gone already is what we want.
+        let _ = fs::remove_file(folder.join(name));
     }
 }
 
@@ -238,7 +279,7 @@ fn lock(path: &Path) -> Result<File, FolderError> {
     }
 }
 
-fn read_contents(path: &Path) -> Result<Option<Contents>, FolderError> {
+pub(super) fn read_contents(path: &Path) -> Result<Option<Contents>, FolderError> {
     let path = path.join(MANIFEST);
     match fs::read(&path) {
         Ok(bytes) => Ok(serde_json::from_slice(&bytes).ok()),
@@ -248,7 +289,7 @@ fn read_contents(path: &Path) -> Result<Option<Contents>, FolderError> {
 }
 
 /// Whether the results there are of the same effective case; refuses those that must stay.
-fn check_owner(
+pub(super) fn check_owner(
     path: &Path,
     found: &Manifest,
     ours: &Manifest,
@@ -276,7 +317,7 @@ fn check_owner(
     })
 }
 
-fn refuse_foreign(path: &Path) -> Result<(), FolderError> {
+pub(super) fn refuse_foreign(path: &Path) -> Result<(), FolderError> {
     let entries = fs::read_dir(path).map_err(|e| FolderError::io("read folder", path, e))?;
     let mut names: Vec<String> = entries
         .filter_map(|entry| Some(entry.ok()?.file_name().to_string_lossy().into_owned()))
@@ -294,11 +335,14 @@ fn refuse_foreign(path: &Path) -> Result<(), FolderError> {
 }
 
 /// Writes a file under a temporary name in the same folder, flushes it to the disk and renames it.
-fn write_whole(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+pub(super) fn write_whole(
+    path: &Path,
+    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
     let parent = path.parent().unwrap_or(Path::new("."));
     fs::create_dir_all(parent)?;
     let mut builder = tempfile::Builder::new();
-    builder.prefix(".writing-");
+    builder.prefix(TEMPORARY);
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;

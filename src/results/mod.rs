@@ -1,17 +1,18 @@
 //! Result files: tables, fields, figures, manifest.
 
 pub mod cea;
+mod drawing;
 pub mod figures;
 mod folder;
-mod gallery;
 mod manifest;
 mod mesh;
 pub mod report;
+pub mod sweep;
 mod table;
 mod vtu;
 
+pub use drawing::{DrawingError, Figure, render, write_figure, write_figures, write_report};
 pub use folder::{FolderError, OutputFolder, Replace};
-pub use gallery::{GalleryError, PNG_RESOLUTION, write_figures, write_report};
 pub use manifest::Manifest;
 pub use mesh::{MeshStatistics, write_mesh, write_mesh_picture};
 pub use table::{Table, format_number};
