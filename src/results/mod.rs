@@ -4,6 +4,7 @@ pub mod cea;
 mod drawing;
 pub mod figures;
 mod folder;
+pub mod identification;
 mod manifest;
 mod mesh;
 pub mod report;
