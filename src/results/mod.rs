@@ -8,6 +8,7 @@ pub mod identification;
 mod manifest;
 mod mesh;
 pub mod report;
+pub mod run_figures;
 pub mod sweep;
 mod table;
 mod vtu;
