@@ -5,8 +5,10 @@ mod check;
 mod collect;
 mod completions;
 mod failure;
+mod identify;
 mod init;
 mod man;
+mod measurement;
 mod mesh;
 mod options;
 mod session;
@@ -46,6 +48,7 @@ enum Command {
     Mesh(mesh::Arguments),
     Check(check::Arguments),
     Init(init::Arguments),
+    Identify(identify::Arguments),
     Completions(completions::Arguments),
     Man(man::Arguments),
 }
@@ -60,6 +63,7 @@ pub fn main() -> ExitCode {
         Command::Mesh(arguments) => mesh::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Init(arguments) => init::run(&arguments),
+        Command::Identify(arguments) => identify::run(&arguments),
         Command::Completions(arguments) => completions::run(&arguments),
         Command::Man(arguments) => man::run(&arguments),
     };
