@@ -5,6 +5,7 @@ mod check;
 mod collect;
 mod completions;
 mod failure;
+mod frf;
 mod identify;
 mod init;
 mod man;
@@ -12,6 +13,7 @@ mod measurement;
 mod mesh;
 mod options;
 mod session;
+mod signal;
 pub mod sweep;
 pub mod terminal;
 pub mod transient;
@@ -48,7 +50,9 @@ enum Command {
     Mesh(mesh::Arguments),
     Check(check::Arguments),
     Init(init::Arguments),
+    Frf(frf::Arguments),
     Identify(identify::Arguments),
+    Signal(signal::Arguments),
     Completions(completions::Arguments),
     Man(man::Arguments),
 }
@@ -63,7 +67,9 @@ pub fn main() -> ExitCode {
         Command::Mesh(arguments) => mesh::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Init(arguments) => init::run(&arguments),
+        Command::Frf(arguments) => frf::run(&arguments),
         Command::Identify(arguments) => identify::run(&arguments),
+        Command::Signal(arguments) => signal::run(&arguments),
         Command::Completions(arguments) => completions::run(&arguments),
         Command::Man(arguments) => man::run(&arguments),
     };

@@ -9,6 +9,7 @@ mod manifest;
 mod mesh;
 pub mod report;
 pub mod run_figures;
+pub mod signal;
 pub mod sweep;
 mod table;
 pub mod transient;
