@@ -1,6 +1,7 @@
 //! Sparse factorizations and Krylov-Schur iteration over faer.
 
 pub mod dense;
+mod dense_lu;
 mod error;
 mod krylov_schur;
 mod polynomial;
@@ -8,6 +9,7 @@ mod sparse_ldl;
 mod sparse_lu;
 mod sparse_product;
 
+pub use dense_lu::{ComplexDenseLu, DenseLu};
 pub use error::LinalgError;
 pub use krylov_schur::{BlockOperator, KrylovSchurSettings, RealPairs, Wanted, krylov_schur};
 pub use polynomial::{MatrixPolynomial, SparsityPattern};
