@@ -2,7 +2,7 @@
 
 use crate::case::CaseErrors;
 use crate::prestress::PrestressError;
-use crate::results::FolderError;
+use crate::results::{DrawingError, FolderError};
 use std::io;
 use std::process::ExitCode;
 
@@ -63,6 +63,15 @@ impl From<FolderError> for Failure {
             Self::Usage(error.into())
         } else {
             Self::Run(error.into())
+        }
+    }
+}
+
+impl From<DrawingError> for Failure {
+    fn from(error: DrawingError) -> Self {
+        match error {
+            DrawingError::Folder(error) => error.into(),
+            DrawingError::Figure(_) => Self::Run(error.into()),
         }
     }
 }

@@ -1,8 +1,7 @@
 //! What a case costs, estimated without running it.
 
-use super::analysis::{CeaMethod, ModeSelection, TimeStep};
 use super::model::node_count;
-use super::{Case, Cea, Transient};
+use super::{Case, Cea, CeaMethod, ModeSelection, TimeStep, Transient};
 use crate::mesh::ElementKind;
 use std::f64::consts::TAU;
 

@@ -122,7 +122,12 @@ pub fn nearest<'a>(word: &str, candidates: impl Iterator<Item = &'a str>) -> Opt
 /// A hint for a key that does not exist: a near miss in its section, the same key of another
 /// section, or the keys there are.
 pub fn suggest(section: &str, word: &str, known: &[&str]) -> Option<String> {
-    if let Some(near) = nearest(word, known.iter().copied()) {
+    // A word that begins one key alone is short for it.
+    let mut begun = known
+        .iter()
+        .filter(|key| word.len() > 2 && key.starts_with(word));
+    let abbreviated = begun.next().filter(|_| begun.next().is_none());
+    if let Some(near) = nearest(word, known.iter().copied()).or(abbreviated.copied()) {
         return Some(format!("did you mean `{near}`?"));
     }
     let elsewhere = |near: &str| {

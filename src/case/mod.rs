@@ -4,27 +4,30 @@
 //! validated: every section a struct in the terms of the lower floors, every rule between keys
 //! checked, all errors reported at once as [`CaseErrors`].
 
-mod analysis;
+mod cea;
 mod cost;
+mod cycle;
 mod diagnostic;
 mod keys;
 mod model;
+mod overrides;
 mod range;
 mod raw;
 mod reader;
+mod rules;
 mod sweep;
+mod transient;
 
-pub use analysis::{
-    Analysis, Cea, CeaMap, CeaMethod, Continuation, Cycle, InitialState, ModeSelection,
-    OperatorChoice, Output, Perturbation, TimeStep, Transient,
-};
+pub use cea::{Cea, CeaMap, CeaMethod, ModeSelection};
 pub use cost::{CeaCost, Cost, TransientCost};
+pub use cycle::{Continuation, Cycle};
 pub use diagnostic::{CaseErrors, Diagnostic, Location, Source};
 pub use keys::{CaseKey, KEYS, SECTIONS};
 pub use model::{Contact, Damping};
 pub use range::{Spacing, range_values};
 pub use raw::{RawCase, RawEntry, RawItem, RawTable, RawValue};
-pub use sweep::{Combination, Sweep, SweptKey};
+pub use sweep::{Analysis, Combination, Sweep, SweptKey};
+pub use transient::{InitialState, OperatorChoice, Output, Perturbation, TimeStep, Transient};
 
 use crate::fem::ElasticMaterial;
 use crate::mesh::{AnnulusSpecification, ElementKind};
@@ -91,10 +94,17 @@ impl Case {
         let damping = model::damping(&root);
         let contact = model::contact(&root);
         let mut warnings = Vec::new();
-        let cea = analysis::cea(&root, &annulus, contact.sliding.friction_coefficient);
-        let transient = analysis::transient(&root, &annulus);
-        let output = analysis::output(&root, &annulus, transient.as_ref(), &mut warnings);
-        let cycle = analysis::cycle(&root, &annulus);
+        let cea = cea::cea(&root, &annulus, contact.sliding.friction_coefficient);
+        let transient = transient::transient(&root, &annulus);
+        let output = transient::output(&root, &annulus, transient.as_ref(), &mut warnings);
+        if transient.is_some() && annulus.element == ElementKind::Quad8 {
+            warnings.push(
+                "mesh.element = \"quad8\" is for the complex eigenvalue analysis only: the \
+                 transient of this case cannot run"
+                    .to_owned(),
+            );
+        }
+        let cycle = cycle::cycle(&root, &annulus);
         let sweep = sweep::read(&root);
         root.close();
         let errors = findings.into_errors();

@@ -32,7 +32,7 @@ pub(super) fn node_count(annulus: &AnnulusSpecification) -> u128 {
         ElementKind::Quad4 => radial + 1,
         ElementKind::Quad8 => 3 * radial + 2,
     };
-    per_sector * annulus.circumferential_elements as u128
+    per_sector.saturating_mul(annulus.circumferential_elements as u128)
 }
 
 pub(super) fn annulus(root: &Section<'_>) -> (AnnulusSpecification, f64) {

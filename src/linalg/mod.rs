@@ -1,5 +1,6 @@
 //! Sparse factorizations and Krylov-Schur iteration over faer.
 
+pub mod banded;
 pub mod dense;
 mod error;
 mod krylov_schur;

@@ -87,7 +87,7 @@ impl AnnulusMesh {
         let spec = *specification;
         validate(&spec)?;
         let radii = graded_radii(&spec);
-        let mesh = build(&spec, &radii);
+        let mesh = build(&spec, &radii, spec.circumferential_elements);
         Ok(Self {
             mesh,
             specification: spec,
@@ -106,14 +106,14 @@ impl AnnulusMesh {
     }
 }
 
-fn sector_node_count(spec: &AnnulusSpecification) -> usize {
+pub(super) fn sector_node_count(spec: &AnnulusSpecification) -> usize {
     match spec.element {
         ElementKind::Quad4 => spec.radial_elements + 1,
         ElementKind::Quad8 => 3 * spec.radial_elements + 2,
     }
 }
 
-fn validate(spec: &AnnulusSpecification) -> Result<(), MeshError> {
+pub(super) fn validate(spec: &AnnulusSpecification) -> Result<(), MeshError> {
     let (inner, outer) = (spec.inner_radius, spec.outer_radius);
     if !(inner > 0.0 && outer > inner && outer.is_finite()) {
         return Err(MeshError::Radii { inner, outer });
@@ -150,7 +150,7 @@ fn validate(spec: &AnnulusSpecification) -> Result<(), MeshError> {
 }
 
 /// Radii of the corner nodes: element sizes form a geometric sequence of ratio `radial_grading`.
-fn graded_radii(spec: &AnnulusSpecification) -> Vec<f64> {
+pub(super) fn graded_radii(spec: &AnnulusSpecification) -> Vec<f64> {
     let count = spec.radial_elements;
     let width = spec.outer_radius - spec.inner_radius;
     let ratio = spec.radial_grading;
@@ -170,17 +170,19 @@ fn graded_radii(spec: &AnnulusSpecification) -> Vec<f64> {
     radii
 }
 
-fn build(spec: &AnnulusSpecification, radii: &[f64]) -> Mesh2d {
+/// The first `built` sectors: all of them, or one with the corner ray that it shares with the next.
+pub(super) fn build(spec: &AnnulusSpecification, radii: &[f64], built: usize) -> Mesh2d {
     let sectors = spec.circumferential_elements;
     let per_sector = sector_node_count(spec);
-    let node_total = sectors * per_sector;
+    let node_sectors = if built < sectors { built + 1 } else { sectors };
+    let node_total = node_sectors * per_sector;
     let mut nodes = Vec::with_capacity(node_total);
     let mut frame_angles = Vec::with_capacity(node_total);
     let mut push = |radius: f64, angle: f64| {
         nodes.push([radius * angle.cos(), radius * angle.sin()]);
         frame_angles.push(angle);
     };
-    for sector in 0..sectors {
+    for sector in 0..node_sectors {
         let angle = TAU * sector as f64 / sectors as f64;
         match spec.element {
             ElementKind::Quad4 => radii.iter().for_each(|&r| push(r, angle)),
@@ -195,8 +197,8 @@ fn build(spec: &AnnulusSpecification, radii: &[f64]) -> Mesh2d {
             }
         }
     }
-    let (elements, congruent_to) = connect(spec);
-    let edge = |outer: bool| edge(spec, radii, outer);
+    let (elements, congruent_to) = connect(spec, built);
+    let edge = |outer: bool| edge(spec, radii, outer, built);
     Mesh2d {
         element_kind: spec.element,
         nodes,
@@ -209,12 +211,12 @@ fn build(spec: &AnnulusSpecification, radii: &[f64]) -> Mesh2d {
 }
 
 /// Element connectivity, and for each element its representative in sector 0.
-fn connect(spec: &AnnulusSpecification) -> (Vec<u32>, Vec<u32>) {
+fn connect(spec: &AnnulusSpecification, built: usize) -> (Vec<u32>, Vec<u32>) {
     let (sectors, count) = (spec.circumferential_elements, spec.radial_elements);
     let per_sector = sector_node_count(spec);
-    let mut elements = Vec::with_capacity(sectors * count * spec.element.node_count());
-    let mut congruent_to = Vec::with_capacity(sectors * count);
-    for sector in 0..sectors {
+    let mut elements = Vec::with_capacity(built * count * spec.element.node_count());
+    let mut congruent_to = Vec::with_capacity(built * count);
+    for sector in 0..built {
         let here = sector * per_sector;
         let next = (sector + 1) % sectors * per_sector;
         for i in 0..count {
@@ -246,7 +248,7 @@ fn connect(spec: &AnnulusSpecification) -> (Vec<u32>, Vec<u32>) {
 /// With `h` half a sector's angle: a straight edge gives `a sin h cos h` to each end; a quadratic edge
 /// through three points of the circle gives `(a / 3) sin h (2 - cos h)` to each end and
 /// `(4 a / 3) sin h` to its middle.
-fn edge(spec: &AnnulusSpecification, radii: &[f64], outer: bool) -> Boundary {
+fn edge(spec: &AnnulusSpecification, radii: &[f64], outer: bool, built: usize) -> Boundary {
     let (sectors, count) = (spec.circumferential_elements, spec.radial_elements);
     let per_sector = sector_node_count(spec);
     let radius = if outer { radii[count] } else { radii[0] };
@@ -256,7 +258,7 @@ fn edge(spec: &AnnulusSpecification, radii: &[f64], outer: bool) -> Boundary {
         boundary.nodes.push(node as u32);
         boundary.tributary_lengths.push(length);
     };
-    for sector in 0..sectors {
+    for sector in 0..built {
         let here = sector * per_sector;
         match spec.element {
             ElementKind::Quad4 => {

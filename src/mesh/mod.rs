@@ -1,8 +1,10 @@
 //! Nodes, elements and boundaries of a two-dimensional mesh, and the annulus generator.
 
 mod annulus;
+mod sector;
 
 pub use annulus::{AnnulusMesh, AnnulusSpecification, MeshError};
+pub use sector::SectorMesh;
 
 /// Shape of every element of a mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,9 +3,14 @@
 //! [`SteadySliding`] is the base state: the cylinder expanded by `delta`, every contact node
 //! slipping. [`SlidingTangent`] holds the matrices of small motions around it,
 //! `M(mu) q'' + C(mu) q' + K_t(mu) q = 0`, as polynomials in the friction coefficient.
+//! [`SectorSliding`] and [`SectorTangent`] are the same for a uniform annulus, from one of its sectors.
 
 mod equilibrium;
+mod sector;
+mod sector_tangent;
 mod tangent;
 
 pub use equilibrium::{PrestressError, SteadySliding};
+pub use sector::SectorSliding;
+pub use sector_tangent::{FrictionPolynomial, HarmonicTangent, Parameter, SectorTangent};
 pub use tangent::{DampingModel, SlidingTangent, TangentOptions};

@@ -1,11 +1,11 @@
 //! What a mesh looks like: statistics, VTU, outline picture.
 
+use super::drawing::{DrawingError, render, write_figure};
 use super::folder::{FolderError, OutputFolder};
 use super::vtu::{EncodedMesh, Field, write_vtu};
 use crate::mesh::{AnnulusMesh, ElementKind, Mesh2d};
 use serde::Serialize;
 use std::fmt::Write as _;
-use std::io;
 
 /// Size and quality of an annulus mesh.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -129,7 +129,7 @@ pub fn write_mesh(folder: &OutputFolder, mesh: &Mesh2d) -> Result<(), FolderErro
     Ok(())
 }
 
-/// Writes `mesh.svg`: element outlines, the contact edge red, the clamped edge blue.
+/// Draws `figures/mesh.svg` and `.png`: element outlines, the contact edge red, the clamped edge blue.
 ///
 /// # Errors
 /// Those of the folder.
@@ -137,11 +137,10 @@ pub fn write_mesh_picture(
     folder: &OutputFolder,
     annulus: &AnnulusMesh,
     title: &str,
-) -> Result<(), FolderError> {
-    folder.write("mesh.svg", |out| {
-        out.write_all(picture(annulus, title).as_bytes())?;
-        io::Result::Ok(())
-    })?;
+) -> Result<(), DrawingError> {
+    if let Some(figure) = render(Ok(picture(annulus, title)))? {
+        write_figure(folder, "mesh", &figure)?;
+    }
     Ok(())
 }
 
@@ -167,7 +166,8 @@ fn picture(annulus: &AnnulusMesh, title: &str) -> String {
     };
     let title = title.replace('&', "&amp;").replace('<', "&lt;");
     format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {0}\">\n\
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{0}\" \
+         viewBox=\"0 0 {0} {0}\">\n\
          <title>{title}</title>\n<rect width=\"{0}\" height=\"{0}\" fill=\"white\"/>\n\
          <path d=\"{path}\" fill=\"#f2f2f2\" stroke=\"#404040\" stroke-width=\"0.4\"/>\n{1}{2}</svg>\n",
         2.0 * HALF,

@@ -1,6 +1,7 @@
 //! Result files: tables, fields, figures, manifest.
 
 pub mod cea;
+mod drawing;
 pub mod figures;
 mod folder;
 mod manifest;
@@ -9,6 +10,7 @@ pub mod sweep;
 mod table;
 mod vtu;
 
+pub use drawing::{DrawingError, Figure, render, write_figure};
 pub use folder::{FolderError, OutputFolder, Replace};
 pub use manifest::Manifest;
 pub use mesh::{MeshStatistics, write_mesh, write_mesh_picture};

@@ -3,7 +3,9 @@
 //!
 //! Consistency checks: they look at the drawing, not at the physics.
 
+mod studies;
 mod synthetic;
+mod transient;
 
 use frictionsim::results::figures::axis::Scale;
 use frictionsim::results::figures::*;

@@ -1,5 +1,6 @@
 //! `eigenvalues.csv`, `stability.csv`, `summary.json`, mode shapes.
 
+use super::base::write_base;
 use super::{CeaReport, ComplexMode, UnstableInterval};
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::manifest::Manifest;
@@ -17,6 +18,7 @@ pub fn write(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<Value, Fol
     folder.write("stability.csv", |out| {
         write_stability(out, &report.sweep.intervals)
     })?;
+    write_base(folder, report.mesh, report.field)?;
     write_shapes(folder, report)?;
     let summary = summary(report, folder.manifest());
     folder.write("summary.json", |out| {

@@ -1,35 +1,17 @@
 //! Results of a complex eigenvalue analysis: what is printed and what is written.
 
+mod base;
+mod figures;
 mod files;
 mod print;
 
+pub use base::{BaseField, BaseState, write_base};
+pub use figures::draw;
 pub use files::{summary, write, write_eigenvalues, write_stability};
 pub use print::print;
 
 use crate::cea::{ComplexMode, FrictionPoint, FrictionSweep, UnstableInterval};
 use crate::mesh::Mesh2d;
-use serde::Serialize;
-
-/// The steady sliding state that the eigenvalues belong to, at one friction coefficient.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct BaseState {
-    /// Friction coefficient.
-    pub friction_coefficient: f64,
-    /// Contact nodes in slip.
-    pub slipping: usize,
-    /// Contact nodes that stick.
-    pub sticking: usize,
-    /// Contact nodes without contact.
-    pub open: usize,
-    /// Contact pressure, smallest and largest, Pa.
-    pub pressure_pa: [f64; 2],
-    /// Friction traction, smallest and largest, Pa.
-    pub shear_pa: [f64; 2],
-    /// Friction torque of the whole thickness, N m.
-    pub torque_n_m: f64,
-    /// Power that the rotor puts in, W.
-    pub power_w: f64,
-}
 
 /// Everything a complex eigenvalue analysis reports.
 #[derive(Clone, Debug)]
@@ -50,6 +32,8 @@ pub struct CeaReport<'a> {
     pub sweep: &'a FrictionSweep,
     /// The state of steady sliding at the case's own friction coefficient.
     pub base: BaseState,
+    /// The same node by node.
+    pub field: &'a BaseField,
     /// Anything the solver has to say: lost branches, harmonics left out, and why.
     pub notes: Vec<String>,
     /// Wall time of the run, s.

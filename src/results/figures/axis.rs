@@ -129,11 +129,16 @@ impl Axis {
     /// Small unlabelled ticks.
     pub fn minor_ticks(&self) -> Vec<f64> {
         let decades = (self.high / self.low).log10();
-        if self.scale == Scale::Linear || self.fixed_ticks.is_some() || decades > 8.0 {
+        if self.scale == Scale::Linear || self.fixed_ticks.is_some() {
             return Vec::new();
         }
+        // Over many decades the decades themselves are the small ticks.
+        let digits = if decades > 4.5 { 1..=1 } else { 1..=9 };
         (self.low.log10().floor() as i32..=self.high.log10().ceil() as i32)
-            .flat_map(|power| (1..=9).map(move |digit| f64::from(digit) * 10f64.powi(power)))
+            .flat_map(|power| {
+                let decade = 10f64.powi(power);
+                digits.clone().map(move |digit| f64::from(digit) * decade)
+            })
             .filter(|&value| self.contains(value))
             .collect()
     }
@@ -143,7 +148,15 @@ impl Axis {
     }
 
     fn linear_ticks(&self, count: usize) -> Vec<Tick> {
-        let step = round_step((self.high - self.low) / count.max(1) as f64);
+        let span = self.high - self.low;
+        let inside = |step: f64| {
+            ((self.high / step + 1e-9).floor() - (self.low / step - 1e-9).ceil()) as i64 + 1
+        };
+        let mut step = round_step(span / count.max(1) as f64);
+        if inside(step) < 3 && count > 1 {
+            // One or two labels do not make a scale.
+            step = round_step(span / (2 * count) as f64);
+        }
         let unit = 10f64.powi(self.exponent());
         let decimals = decimals_for(step / unit);
         let first = (self.low / step - 1e-9).ceil() as i64;

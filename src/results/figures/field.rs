@@ -164,8 +164,8 @@ pub struct FieldStyle {
     pub pixels_per_point: f64,
     /// Colours ([`raster::FINE`] or [`raster::COARSE`]).
     pub levels: usize,
-    /// Whether thin lines show how rays and circles of nodes deform.
-    pub lattice: bool,
+    /// Rays of nodes drawn as thin lines to show the deformation, with circles to match; 0 for none.
+    pub rays: usize,
 }
 
 /// Draws a nodal field over the mesh, with its outlines, into a square of the drawing.
@@ -194,9 +194,9 @@ pub fn draw_field(
     );
     let palette = raster::map_palette(style.map, style.levels);
     svg.image(rect, &image.encode(&palette)?, false);
-    if style.lattice {
+    if style.rays > 0 {
         let stroke = Stroke::solid("#ffffff", 0.3).with_opacity(0.45);
-        svg.path(&lattice(mesh, positions, rect, view), &stroke);
+        svg.path(&lattice(mesh, positions, rect, view, style.rays), &stroke);
     }
 
     for edge in [&mesh.inner_edge, &mesh.outer_edge] {
@@ -208,7 +208,7 @@ pub fn draw_field(
 
 /// Every few rays and circles of nodes, found by their equal angle and radius; empty on a mesh that
 /// has none.
-fn lattice(mesh: &Mesh2d, positions: &[[f64; 2]], rect: &Rect, view: &View) -> Path {
+fn lattice(mesh: &Mesh2d, positions: &[[f64; 2]], rect: &Rect, view: &View, wanted: usize) -> Path {
     let mut rays: BTreeMap<i64, Vec<usize>> = BTreeMap::new();
     let mut circles: BTreeMap<i64, Vec<usize>> = BTreeMap::new();
     for (node, &[x, y]) in mesh.nodes.iter().enumerate() {
@@ -218,7 +218,7 @@ fn lattice(mesh: &Mesh2d, positions: &[[f64; 2]], rect: &Rect, view: &View) -> P
         circles.entry(circle).or_default().push(node);
     }
     let mut path = Path::new();
-    for (lines, count, closed) in [(&rays, 24, false), (&circles, 7, true)] {
+    for (lines, count, closed) in [(&rays, wanted, false), (&circles, wanted.div_ceil(3), true)] {
         let stride = lines.len().div_ceil(count).max(1);
         for nodes in lines.values().step_by(stride).filter(|n| n.len() > 2) {
             let mut points: Vec<(f64, f64)> = nodes

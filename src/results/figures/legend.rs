@@ -2,7 +2,7 @@
 
 use super::axis::Axis;
 use super::colour::{ColourMap, INK};
-use super::panel::{LABEL_SIZE, Marker, TITLE_SIZE, outline_marker};
+use super::panel::{LABEL_SIZE, Marker, TITLE_SIZE, outline_marker, with_exponent};
 use super::svg::{Path, Rect, Stroke, Svg};
 use super::text::{self, Anchor, TextStyle};
 
@@ -144,7 +144,7 @@ pub fn draw_colour_bar(svg: &mut Svg, bar: &Rect, axis: &Axis, map: ColourMap) {
     svg.text(
         bar.right() + 7.0 + super::axis::widest(&ticks, LABEL_SIZE) + TITLE_SIZE,
         bar.y + 0.5 * bar.height,
-        &axis.title,
+        &with_exponent(axis),
         &TextStyle::new(TITLE_SIZE)
             .anchored(Anchor::Middle)
             .rotated(-90.0),
@@ -161,7 +161,7 @@ pub fn colour_bar_width(axis: &Axis, bar: &Rect) -> f64 {
 pub fn draw_flat_colour_bar(svg: &mut Svg, bar: &Rect, axis: &Axis, map: ColourMap) {
     svg.gradient(bar, &map.samples(17), false);
     let style = TextStyle::new(LABEL_SIZE).anchored(Anchor::Middle);
-    for tick in axis.ticks((bar.width / 34.0) as usize) {
+    for tick in axis.ticks((bar.width / 26.0) as usize) {
         let x = bar.x + bar.width * axis.fraction(tick.value);
         let stroke = Stroke::solid(INK, 0.5);
         svg.line((x, bar.bottom()), (x, bar.bottom() + 2.2), &stroke);
@@ -170,7 +170,7 @@ pub fn draw_flat_colour_bar(svg: &mut Svg, bar: &Rect, axis: &Axis, map: ColourM
     svg.text(
         bar.x + 0.5 * bar.width,
         bar.bottom() + LABEL_SIZE + TITLE_SIZE + 6.0,
-        &axis.title,
+        &with_exponent(axis),
         &TextStyle::new(TITLE_SIZE).anchored(Anchor::Middle),
     );
 }

@@ -14,16 +14,40 @@ pub mod raster;
 pub mod svg;
 pub mod text;
 
+mod contact_state;
+mod contact_status;
+mod convergence;
 mod eigenvalues;
+mod energy;
+mod growth;
+mod identification;
 mod mode_shapes;
+mod overview;
 mod prestress;
+mod snapshots;
+mod spectrum;
 mod stability;
+mod sweep;
+mod time_stack;
+mod trajectories;
 
+pub use contact_state::{ContactState, draw_contact_state};
+pub use contact_status::StatusHistory;
+pub use convergence::{ConvergenceSeries, ConvergenceStudy, draw_convergence, observed_order};
 pub use eigenvalues::{EigenvalueLocus, PairSweep, draw_eigenvalue_locus, draw_pair_sweep};
+pub use energy::{EnergyFlows, draw_energy_flows, moving_average};
+pub use growth::{HarmonicGrowth, PredictedGrowth, draw_harmonic_growth};
+pub use identification::{DampingIdentification, Resonance, draw_damping_identification};
 pub use mode_shapes::{ModeShape, ModeShapes, draw_mode_over_friction, draw_mode_shapes};
+pub use overview::{TransientOverview, draw_transient_overview};
 pub use prestress::{PrestressedContact, draw_prestress};
 pub use raster::render_png;
+pub use snapshots::{Snapshot, Snapshots, draw_snapshots};
+pub use spectrum::{SpectrumPlot, draw_spectrum};
 pub use stability::{StabilityMap, draw_stability_map};
+pub use sweep::{SpeedSeries, SpeedSweep, draw_speed_frequencies, draw_speed_status};
+pub use time_stack::{ReferenceFrequency, SpectrogramMap, Stage};
+pub use trajectories::{ContactTrace, PhasePlot, Trajectories, draw_trajectories};
 
 /// A figure that cannot be drawn.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

@@ -197,7 +197,7 @@ fn draw_disc(
         map: ColourMap::Viridis,
         pixels_per_point: 3.0,
         levels: raster::COARSE,
-        lattice: true,
+        rays: if rect.width > 90.0 { 24 } else { 12 },
     };
     draw_field(svg, rect, view, mesh, &positions, &amplitude, &style)?;
     let undeformed = field::outline(&mesh.inner_edge, &mesh.nodes, rect, view);

@@ -14,6 +14,8 @@ pub const LABEL_SIZE: f64 = 6.75;
 const TICK: f64 = 2.6;
 /// Columns for each point of width to which series are thinned (300 dots per inch).
 const COLUMNS_PER_POINT: f64 = 300.0 / 72.0;
+/// Deviation that no reader sees, points.
+const INVISIBLE: f64 = 0.03;
 
 /// Shape of a data point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -214,20 +216,35 @@ impl Panel {
     pub fn series(&self, svg: &mut Svg, xs: &[f64], ys: &[f64], stroke: &Stroke) {
         let kept = decimation::keep_extremes(xs, ys, |x| self.at_x(x) * COLUMNS_PER_POINT);
         let mut path = Path::new();
-        let mut down = false;
-        for (x, y) in kept {
-            if !y.is_finite() || (self.y.scale == Scale::Logarithmic && y <= 0.0) {
-                down = false;
-                continue;
-            }
-            if down {
-                path.line_to(self.at_x(x), self.at_y(y));
-            } else {
-                path.move_to(self.at_x(x), self.at_y(y));
-            }
-            down = true;
+        let shown =
+            |&(_, y): &(f64, f64)| y.is_finite() && (self.y.scale == Scale::Linear || y > 0.0);
+        for piece in kept.split(|point| !shown(point)) {
+            let points: Vec<(f64, f64)> = piece
+                .iter()
+                .map(|&(x, y)| (self.at_x(x), self.at_y(y)))
+                .collect();
+            path.extend(decimation::simplify(&points, INVISIBLE));
         }
         svg.path(&path, stroke);
+    }
+
+    /// The range that a quickly varying series covers, as a tinted band.
+    pub fn envelope(&self, svg: &mut Svg, xs: &[f64], ys: &[f64], colour: &str, opacity: f64) {
+        let kept = decimation::keep_extremes(xs, ys, |x| self.at_x(x) * 1.5);
+        let mut columns: Vec<(f64, f64, f64)> = Vec::new();
+        for (x, y) in kept.into_iter().filter(|p| p.1.is_finite()) {
+            let (x, y) = (self.at_x(x), self.at_y(y));
+            match columns.last_mut() {
+                Some(last) if (last.0 * 1.5).floor() == (x * 1.5).floor() => {
+                    last.1 = last.1.min(y);
+                    last.2 = last.2.max(y);
+                }
+                _ => columns.push((x, y, y)),
+            }
+        }
+        let upper = columns.iter().map(|c| (c.0, c.1));
+        let lower = columns.iter().rev().map(|c| (c.0, c.2));
+        svg.fill_path(&Path::polyline(upper.chain(lower), true), colour, opacity);
     }
 
     /// A free curve (its abscissae may turn back), simplified to a hundredth of a millimetre.
@@ -238,7 +255,7 @@ impl Panel {
             .filter(|(x, y)| x.is_finite() && y.is_finite())
             .map(|(&x, &y)| (self.at_x(x), self.at_y(y)))
             .collect();
-        let path = Path::polyline(decimation::simplify(&points, 0.04), false);
+        let path = Path::polyline(decimation::simplify(&points, INVISIBLE), false);
         svg.path(&path, stroke);
     }
 
@@ -321,7 +338,8 @@ pub fn vertical_count(height: f64) -> usize {
     ((height / 17.0) as usize).clamp(1, 8)
 }
 
-fn with_exponent(axis: &Axis) -> String {
+/// Title of an axis with the power of ten taken out of its labels.
+pub fn with_exponent(axis: &Axis) -> String {
     match axis.exponent() {
         0 => axis.title.clone(),
         power => {

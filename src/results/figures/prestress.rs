@@ -82,7 +82,7 @@ pub fn draw_prestress(data: &PrestressedContact) -> Result<String, FigureError> 
         map: ColourMap::Viridis,
         pixels_per_point: 3.0,
         levels: raster::FINE,
-        lattice: false,
+        rays: 0,
     };
     let view = View::around(&data.mesh.nodes, 0.01);
     let (mesh, values) = (data.mesh, data.von_mises);

@@ -80,9 +80,13 @@ pub fn draw_stability_map(data: &StabilityMap) -> Result<String, FigureError> {
 
 /// Cell edges half-way between grid values.
 fn edges(values: &[f64], scale: Scale) -> Vec<f64> {
-    let (to, from): (fn(f64) -> f64, fn(f64) -> f64) = match scale {
-        Scale::Linear => (|v| v, |v| v),
-        Scale::Logarithmic => (f64::ln, f64::exp),
+    let to = |value: f64| match scale {
+        Scale::Linear => value,
+        Scale::Logarithmic => value.ln(),
+    };
+    let from = |value: f64| match scale {
+        Scale::Linear => value,
+        Scale::Logarithmic => value.exp(),
     };
     let inner: Vec<f64> = values.iter().map(|&v| to(v)).collect();
     let last = inner.len() - 1;

@@ -301,8 +301,8 @@ mod tests {
 
     #[test]
     fn every_embedded_face_gives_character_widths() {
-        for face in 0..3 {
-            assert!(!read_advances(FACES[face]).unwrap().sorted.is_empty());
+        for (face, font) in FACES.iter().enumerate() {
+            assert!(!read_advances(font).unwrap().sorted.is_empty());
             // DejaVu's own figure width is 1303/2048 em upright, 1425/2048 em bold.
             let digit = if face == 1 { 1425.0 } else { 1303.0 } / 2048.0;
             assert!((advance(face, '0') - digit).abs() < 1e-12);

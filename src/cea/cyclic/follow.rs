@@ -1,0 +1,197 @@
+//! Following one eigenpair along a parameter.
+
+use super::problem::{HarmonicProblem, Matrices, dot, normalize};
+use crate::linalg::banded::BandedLu;
+use faer::c64;
+use std::rc::Rc;
+
+/// An eigenpair of `T(theta)` at one parameter value.
+#[derive(Clone, Debug)]
+pub(super) struct Eigenpair {
+    /// Friction coefficient (or share of the damping, on the way to the first point).
+    pub parameter: f64,
+    pub theta: c64,
+    /// `d theta / d parameter`.
+    pub rate: c64,
+    /// Right vector, unit Euclidean length.
+    pub x: Vec<c64>,
+    /// Left vector, unit Euclidean length.
+    pub y: Vec<c64>,
+    pub residual: f64,
+}
+
+/// How far apart two successive points of a path may lie.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct StepControl {
+    /// Least `|x_0^H x_1|` of the unit right vectors.
+    pub least_overlap: f64,
+    /// Largest `|theta_1 - theta_0 - h (theta_0' + theta_1') / 2| / |theta_1|`: what a cubic through both
+    /// points and slopes could hide.
+    pub largest_defect: f64,
+}
+
+impl StepControl {
+    pub const NORMAL: Self = Self {
+        least_overlap: 0.8,
+        largest_defect: 1e-4,
+    };
+    pub const FINE: Self = Self {
+        least_overlap: 0.97,
+        largest_defect: 1e-7,
+    };
+}
+
+/// Solves and follows eigenpairs of one harmonic.
+pub(super) struct Follower<'a> {
+    pub problem: &'a HarmonicProblem,
+    lu: BandedLu,
+    values: Vec<c64>,
+    /// LU factorizations so far.
+    pub factorizations: usize,
+}
+
+/// Largest number of Rayleigh quotient iterations for one point.
+const ITERATIONS: usize = 8;
+
+/// Steps below this length of the parameter are given up.
+const SHORTEST_STEP: f64 = 1e-6;
+
+impl<'a> Follower<'a> {
+    pub fn new(problem: &'a HarmonicProblem) -> Self {
+        Self {
+            problem,
+            lu: problem.workspace(),
+            values: Vec::new(),
+            factorizations: 0,
+        }
+    }
+
+    /// Two-sided Rayleigh quotient iteration: the error is cubed each time. `None` where it does not
+    /// settle.
+    pub fn refine(
+        &mut self,
+        at: &Matrices,
+        parameter: f64,
+        guess: c64,
+        x: &[c64],
+        y: &[c64],
+    ) -> Option<Eigenpair> {
+        let (mut x, mut y, mut theta) = (x.to_vec(), y.to_vec(), guess);
+        for _ in 0..ITERATIONS {
+            self.problem.assemble(at, theta, &mut self.values);
+            self.lu.factorize(&self.values);
+            self.factorizations += 1;
+            // The second pair of solves costs a third of a factorization and saves most of one.
+            for _ in 0..2 {
+                x = self.problem.apply_slope(at, theta, &x, false);
+                self.lu.solve(&mut x);
+                normalize(&mut x);
+                y = self.problem.apply_slope(at, theta, &y, true);
+                self.lu.solve_adjoint(&mut y);
+                normalize(&mut y);
+            }
+            let (next, slope) = self.problem.rayleigh_quotient(at, theta, &x, &y);
+            if !(next.re.is_finite() && next.im.is_finite()) {
+                return None;
+            }
+            let change = (next - theta).norm();
+            theta = next;
+            // Each iteration leaves far less than the square of the change it made.
+            if change <= 1e-7 * theta.norm() {
+                let residual = self.problem.residual(at, theta, &x);
+                if residual > 1e-14 && change > 1e-13 * theta.norm() {
+                    continue;
+                }
+                let rate = self.problem.rate_of(at, theta, &x, &y, slope);
+                return Some(Eigenpair {
+                    parameter,
+                    theta,
+                    rate,
+                    x,
+                    y,
+                    residual,
+                });
+            }
+        }
+        None
+    }
+
+    /// Eigenpair nearest to an accurate guess, without vectors to start from.
+    pub fn find(&mut self, at: &Matrices, parameter: f64, guess: c64) -> Option<Eigenpair> {
+        let start = |phase: f64| -> Vec<c64> {
+            (0..self.problem.dimension)
+                .map(|i| c64::new(1.0 + (1.7 * i as f64).sin(), (phase + 0.9 * i as f64).cos()))
+                .collect()
+        };
+        self.refine(at, parameter, guess, &start(0.3), &start(1.1))
+    }
+
+    /// The eigenpair `(theta, x)` of matrices that are symmetric there, so that `y` is the conjugate of
+    /// `x`.
+    pub fn at_rest(&self, at: &Matrices, theta: c64, x: Vec<c64>) -> Eigenpair {
+        let y: Vec<c64> = x.iter().map(|v| v.conj()).collect();
+        let (_, slope) = self.problem.rayleigh_quotient(at, theta, &x, &y);
+        Eigenpair {
+            parameter: 0.0,
+            theta,
+            rate: self.problem.rate_of(at, theta, &x, &y, slope),
+            residual: self.problem.residual(at, theta, &x),
+            x,
+            y,
+        }
+    }
+
+    /// Follows `path` (its last point) to `target`, appending every accepted point; `matrices` gives
+    /// the problem along the way. `false` where the eigenpair is lost.
+    pub fn advance(
+        &mut self,
+        path: &mut Vec<Eigenpair>,
+        target: f64,
+        control: StepControl,
+        matrices: &mut impl FnMut(f64) -> Rc<Matrices>,
+    ) -> bool {
+        let mut step = f64::INFINITY;
+        while let Some(last) = path.last().filter(|last| last.parameter < target) {
+            let goal = (last.parameter + step).min(target);
+            let guess = extrapolate(path, goal);
+            let at = matrices(goal);
+            let found = self.refine(&at, goal, guess, &last.x, &last.y);
+            match found.filter(|next| is_continuation(last, next, control)) {
+                Some(next) => {
+                    step = 2.0 * (goal - last.parameter);
+                    path.push(next);
+                }
+                None => {
+                    step = 0.5 * (goal - last.parameter);
+                    if step < SHORTEST_STEP {
+                        return false;
+                    }
+                }
+            }
+        }
+        true
+    }
+}
+
+fn is_continuation(last: &Eigenpair, next: &Eigenpair, control: StepControl) -> bool {
+    let step = next.parameter - last.parameter;
+    let defect = (next.theta - last.theta - (last.rate + next.rate) * (0.5 * step)).norm();
+    dot(&last.x, &next.x).norm() >= control.least_overlap
+        && defect <= control.largest_defect * next.theta.norm()
+}
+
+/// Cubic through the last two points and slopes, or the tangent of the only one.
+fn extrapolate(path: &[Eigenpair], goal: f64) -> c64 {
+    let last = &path[path.len() - 1];
+    let ahead = goal - last.parameter;
+    if path.len() < 2 {
+        return last.theta + last.rate * ahead;
+    }
+    let before = &path[path.len() - 2];
+    let h = last.parameter - before.parameter;
+    let secant = (last.theta - before.theta) / h;
+    let curvature = (last.rate - secant) / h;
+    let twist = (last.rate + before.rate - secant * 2.0) / (h * h);
+    let square = ahead * ahead;
+    last.theta + last.rate * ahead + curvature * square + twist * (square * (ahead + h))
+}

@@ -1,0 +1,166 @@
+//! All branches of one harmonic, followed together over the friction coefficient.
+
+use super::CyclicError;
+use super::follow::{Eigenpair, Follower, StepControl};
+use super::problem::{HarmonicProblem, Matrices, dot};
+use super::rest;
+use faer::c64;
+use std::rc::Rc;
+
+/// Which waves a path stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Waves {
+    /// `+n` from `theta` and `-n` from its conjugate (proportional damping).
+    Both,
+    /// `+n` alone, or a standing wave.
+    Forward,
+    /// `-n` alone: `lambda` is the conjugate of `theta`.
+    Backward,
+}
+
+/// One branch of one harmonic.
+pub(super) struct Path {
+    /// Rank among the harmonic's modes without friction.
+    pub branch: usize,
+    pub waves: Waves,
+    /// Accepted points, rising; vectors are dropped but for the last and those kept on purpose.
+    pub points: Vec<Eigenpair>,
+}
+
+/// The followed branches of one harmonic.
+pub(super) struct HarmonicPaths {
+    pub problem: HarmonicProblem,
+    pub paths: Vec<Path>,
+    pub factorizations: usize,
+}
+
+/// Follows every branch with `kappa < limit` at rest through the rising friction values `grid`.
+///
+/// Points of `kept` keep their vectors.
+pub(super) fn follow_harmonic(
+    problem: HarmonicProblem,
+    limit: f64,
+    grid: &[f64],
+    kept: &[f64],
+) -> Result<HarmonicPaths, CyclicError> {
+    let (mass, stiffness) = problem.at_rest();
+    let pairs = rest::eigenpairs_below(mass, stiffness, limit);
+    let count = rest::count_below(mass, stiffness, limit);
+    if pairs.len() != count {
+        return Err(CyclicError::Incomplete {
+            harmonic: problem.harmonic,
+            counted: count,
+            found: pairs.len(),
+        });
+    }
+    let mut follower = Follower::new(&problem);
+    let paths = follow_all(&mut follower, &pairs, grid, kept, StepControl::NORMAL)
+        .or_else(|_| follow_all(&mut follower, &pairs, grid, kept, StepControl::FINE))?;
+    let factorizations = follower.factorizations;
+    Ok(HarmonicPaths {
+        paths,
+        problem,
+        factorizations,
+    })
+}
+
+fn follow_all(
+    follower: &mut Follower<'_>,
+    pairs: &[(f64, Vec<f64>)],
+    grid: &[f64],
+    kept: &[f64],
+    control: StepControl,
+) -> Result<Vec<Path>, CyclicError> {
+    let problem = follower.problem;
+    let lost = |friction: f64| CyclicError::LostBranch {
+        harmonic: problem.harmonic,
+        friction,
+    };
+    let at_rest = Rc::new(problem.at(0.0));
+    let mut paths = Vec::new();
+    for (branch, (kappa, shape)) in pairs.iter().enumerate() {
+        let started = start(follower, &at_rest, branch, *kappa, shape);
+        paths.extend(started.ok_or_else(|| lost(0.0))?);
+    }
+    for &friction in grid {
+        // Most branches reach the grid value in one step and share its matrices.
+        let shared = Rc::new(problem.at(friction));
+        let mut matrices = |value: f64| {
+            if value == friction {
+                Rc::clone(&shared)
+            } else {
+                Rc::new(problem.at(value))
+            }
+        };
+        for path in &mut paths {
+            let done = path.points.len() - 1;
+            if !follower.advance(&mut path.points, friction, control, &mut matrices) {
+                return Err(lost(friction));
+            }
+            let reached = path.points.len() - 1;
+            for point in &mut path.points[done..reached] {
+                if !kept.contains(&point.parameter) {
+                    (point.x, point.y) = (Vec::new(), Vec::new());
+                }
+            }
+        }
+        if !are_distinct(&paths) {
+            return Err(lost(friction));
+        }
+    }
+    Ok(paths)
+}
+
+/// First point of each path of one mode at rest. `None` where damping cannot be switched on
+/// continuously.
+fn start(
+    follower: &mut Follower<'_>,
+    at_rest: &Matrices,
+    branch: usize,
+    kappa: f64,
+    shape: &[f64],
+) -> Option<Vec<Path>> {
+    let problem = follower.problem;
+    let x: Vec<c64> = shape.iter().map(|v| c64::new(*v, 0.0)).collect();
+    let path = |waves: Waves, point: Eigenpair| Path {
+        branch,
+        waves,
+        points: vec![point],
+    };
+    if problem.is_proportional() {
+        let waves = if problem.is_standing {
+            Waves::Forward
+        } else {
+            Waves::Both
+        };
+        let point = follower.at_rest(at_rest, c64::new(kappa, 0.0), x);
+        return Some(vec![path(waves, point)]);
+    }
+    // From the undamped mode, damping grows to its full value; then friction starts.
+    let undamped = c64::new(0.0, kappa.max(0.0).sqrt());
+    let mut damped = vec![follower.at_rest(&problem.at_damping(0.0), undamped, x)];
+    let mut matrices = |share: f64| Rc::new(problem.at_damping(share));
+    if !follower.advance(&mut damped, 1.0, StepControl::NORMAL, &mut matrices) {
+        return None;
+    }
+    let last = damped.pop()?;
+    let conjugate = |v: &[c64]| v.iter().map(|v| v.conj()).collect::<Vec<_>>();
+    let (theta, x) = (last.theta, last.x);
+    let mirrored = follower.at_rest(at_rest, theta.conj(), conjugate(&x));
+    let mut paths = vec![path(Waves::Forward, follower.at_rest(at_rest, theta, x))];
+    if !problem.is_standing {
+        paths.push(path(Waves::Backward, mirrored));
+    }
+    Some(paths)
+}
+
+/// Whether no two paths have come to the same eigenpair.
+fn are_distinct(paths: &[Path]) -> bool {
+    let ends: Vec<&Eigenpair> = paths.iter().filter_map(|path| path.points.last()).collect();
+    ends.iter().enumerate().all(|(i, a)| {
+        ends[..i].iter().all(|b| {
+            let is_close = (a.theta - b.theta).norm() <= 1e-9 * a.theta.norm();
+            !(is_close && dot(&a.x, &b.x).norm() > 0.99)
+        })
+    })
+}

@@ -1,0 +1,309 @@
+//! The eigenproblem of one harmonic as a function of one scalar `theta`.
+
+use crate::fem::RayleighDamping;
+use crate::linalg::banded::{BandedLu, BandedMatrix};
+use crate::prestress::{FrictionPolynomial, HarmonicTangent};
+use faer::c64;
+
+pub(super) const ZERO: c64 = c64::new(0.0, 0.0);
+pub(super) const I: c64 = c64::new(0.0, 1.0);
+
+/// `T(theta) x = 0` for one harmonic.
+///
+/// With proportional damping the unknown is `theta = kappa` of `T = K - kappa M`, and
+/// `lambda^2 + alpha lambda + (1 + beta lambda) kappa = 0`; otherwise it is `theta = lambda` of
+/// `T = lambda^2 M + lambda C + K`. Either way `T = a(theta) M + b(theta) C + K`.
+pub(super) struct HarmonicProblem {
+    pub harmonic: usize,
+    /// `+n` and `-n` are the same wave.
+    pub is_standing: bool,
+    pub dimension: usize,
+    pub half_bandwidth: usize,
+    mass: FrictionPolynomial,
+    stiffness: FrictionPolynomial,
+    damping: Option<FrictionPolynomial>,
+    pub rayleigh: RayleighDamping,
+}
+
+/// The matrices at one friction value and their derivatives with respect to it, as bands of values.
+pub(super) struct Matrices {
+    mass: Vec<c64>,
+    stiffness: Vec<c64>,
+    damping: Option<Vec<c64>>,
+    mass_rate: Option<Vec<c64>>,
+    stiffness_rate: Option<Vec<c64>>,
+    damping_rate: Option<Vec<c64>>,
+    /// Largest row sums of `M`, `C`, `K`.
+    norms: [f64; 3],
+}
+
+impl HarmonicProblem {
+    pub fn new(tangent: HarmonicTangent, is_standing: bool) -> Self {
+        Self {
+            harmonic: tangent.harmonic,
+            is_standing,
+            dimension: tangent.mass[0].dimension(),
+            half_bandwidth: tangent.mass[0].half_bandwidth(),
+            mass: tangent.mass,
+            stiffness: tangent.stiffness,
+            damping: tangent.damping,
+            rayleigh: tangent.rayleigh,
+        }
+    }
+
+    pub fn is_proportional(&self) -> bool {
+        self.damping.is_none()
+    }
+
+    /// `M` and `K` without friction, real symmetric.
+    pub fn at_rest(&self) -> (&BandedMatrix, &BandedMatrix) {
+        (&self.mass[0], &self.stiffness[0])
+    }
+
+    /// Matrices at friction coefficient `mu`.
+    pub fn at(&self, mu: f64) -> Matrices {
+        let z = c64::new(0.0, mu);
+        let mass = evaluate(&self.mass, z);
+        let stiffness = evaluate(&self.stiffness, z);
+        let damping = self.damping.as_ref().map(|c| evaluate(c, z));
+        let norms = self.norms(&mass, damping.as_deref(), &stiffness);
+        Matrices {
+            mass,
+            stiffness,
+            damping,
+            mass_rate: rate(&self.mass, z),
+            stiffness_rate: rate(&self.stiffness, z),
+            damping_rate: self.damping.as_ref().and_then(|c| rate(c, z)),
+            norms,
+        }
+    }
+
+    /// Matrices without friction and with the share `damped` of the damping; the derivative is that
+    /// with respect to `damped`.
+    pub fn at_damping(&self, damped: f64) -> Matrices {
+        let mut matrices = self.at(0.0);
+        matrices.mass_rate = None;
+        matrices.stiffness_rate = None;
+        matrices.damping_rate.clone_from(&matrices.damping);
+        if let Some(damping) = &mut matrices.damping {
+            damping.iter_mut().for_each(|value| *value *= damped);
+        }
+        matrices
+    }
+
+    fn norms(&self, mass: &[c64], damping: Option<&[c64]>, stiffness: &[c64]) -> [f64; 3] {
+        let norm = |values: &[c64]| {
+            let rows = values.chunks_exact(2 * self.half_bandwidth + 1);
+            let sums = rows.map(|row| row.iter().map(|v| v.re.abs() + v.im.abs()).sum::<f64>());
+            sums.fold(0.0, f64::max)
+        };
+        let (m, k) = (norm(mass), norm(stiffness));
+        let proportional = self.rayleigh.mass_coefficient.abs() * m
+            + self.rayleigh.stiffness_coefficient.abs() * k;
+        [m, damping.map_or(proportional, norm), k]
+    }
+
+    /// `(a, b)` and their derivatives at `theta`.
+    fn factors(&self, theta: c64) -> [c64; 4] {
+        if self.is_proportional() {
+            [-theta, ZERO, c64::new(-1.0, 0.0), ZERO]
+        } else {
+            [theta * theta, theta, theta + theta, c64::new(1.0, 0.0)]
+        }
+    }
+
+    /// Band of `T(theta)` into `values`.
+    pub fn assemble(&self, at: &Matrices, theta: c64, values: &mut Vec<c64>) {
+        let [a, b, _, _] = self.factors(theta);
+        values.clear();
+        values.extend(at.stiffness.iter().zip(&at.mass).map(|(k, m)| k + a * m));
+        if let Some(damping) = &at.damping {
+            for (value, c) in values.iter_mut().zip(damping) {
+                *value += b * c;
+            }
+        }
+    }
+
+    /// `T'(theta) x` or its adjoint.
+    pub fn apply_slope(&self, at: &Matrices, theta: c64, x: &[c64], adjoint: bool) -> Vec<c64> {
+        let [_, _, a, b] = self.factors(theta);
+        let mut result = self.multiply(&at.mass, a, x, adjoint);
+        if let Some(damping) = &at.damping {
+            add(&mut result, &self.multiply(damping, b, x, adjoint));
+        }
+        result
+    }
+
+    /// Two-sided Rayleigh functional: the root nearest to `theta` of `y^H T(.) x = 0`, and `y^H T' x`
+    /// there.
+    pub fn rayleigh_quotient(&self, at: &Matrices, theta: c64, x: &[c64], y: &[c64]) -> (c64, c64) {
+        let one = c64::new(1.0, 0.0);
+        let form = |values: &[c64]| dot(y, &self.multiply(values, one, x, false));
+        let (m, k) = (form(&at.mass), form(&at.stiffness));
+        let Some(damping) = &at.damping else {
+            return (k / m, -m);
+        };
+        let c = form(damping);
+        let root = (c * c - m * k * 4.0).sqrt();
+        let candidates = [(root - c) / (m * 2.0), (-root - c) / (m * 2.0)];
+        let distance = |candidate: c64| (candidate - theta).norm();
+        let nearest = if distance(candidates[0]) <= distance(candidates[1]) {
+            0
+        } else {
+            1
+        };
+        let theta = candidates[nearest];
+        (theta, m * theta * 2.0 + c)
+    }
+
+    /// `d theta / d parameter = -y^H (dT) x / y^H T' x`.
+    pub fn rate_of(&self, at: &Matrices, theta: c64, x: &[c64], y: &[c64], slope: c64) -> c64 {
+        let [a, b, _, _] = self.factors(theta);
+        let one = c64::new(1.0, 0.0);
+        let terms = [
+            (a, &at.mass_rate),
+            (b, &at.damping_rate),
+            (one, &at.stiffness_rate),
+        ];
+        let change: c64 = terms
+            .into_iter()
+            .filter_map(|(factor, values)| values.as_ref().map(|v| (factor, v)))
+            .map(|(factor, values)| dot(y, &self.multiply(values, factor, x, false)))
+            .sum();
+        -change / slope
+    }
+
+    /// Residual of the quadratic problem in the largest-entry norm, see [`crate::cea::ComplexMode`].
+    pub fn residual(&self, at: &Matrices, theta: c64, x: &[c64]) -> f64 {
+        let [a, b, _, _] = self.factors(theta);
+        let one = c64::new(1.0, 0.0);
+        let mut force = self.multiply(&at.stiffness, one, x, false);
+        add(&mut force, &self.multiply(&at.mass, a, x, false));
+        if let Some(damping) = &at.damping {
+            add(&mut force, &self.multiply(damping, b, x, false));
+        }
+        let (lambda, factor) = if self.is_proportional() {
+            let lambda = self.eigenvalue(theta);
+            (
+                lambda,
+                (1.0 + self.rayleigh.stiffness_coefficient * lambda).norm(),
+            )
+        } else {
+            (theta, 1.0)
+        };
+        let [m, c, k] = self.norms_of(at);
+        let size = lambda.norm();
+        factor * largest(&force) / ((size * size * m + size * c + k) * largest(x))
+    }
+
+    fn norms_of(&self, at: &Matrices) -> [f64; 3] {
+        at.norms
+    }
+
+    /// `lambda` with `Im >= 0` of the wave `+n`.
+    pub fn eigenvalue(&self, theta: c64) -> c64 {
+        if !self.is_proportional() {
+            return theta;
+        }
+        let RayleighDamping {
+            mass_coefficient: alpha,
+            stiffness_coefficient: beta,
+        } = self.rayleigh;
+        let half = (alpha + beta * theta) * 0.5;
+        I * (theta - half * half).sqrt() - half
+    }
+
+    /// `d lambda / d theta`.
+    pub fn eigenvalue_slope(&self, theta: c64) -> c64 {
+        if !self.is_proportional() {
+            return c64::new(1.0, 0.0);
+        }
+        let RayleighDamping {
+            mass_coefficient: alpha,
+            stiffness_coefficient: beta,
+        } = self.rayleigh;
+        let lambda = self.eigenvalue(theta);
+        -(1.0 + beta * lambda) / (2.0 * lambda + alpha + beta * theta)
+    }
+
+    /// `factor A x` or `factor A^H x` of a band of values.
+    fn multiply(&self, values: &[c64], factor: c64, x: &[c64], adjoint: bool) -> Vec<c64> {
+        let (n, h) = (self.dimension, self.half_bandwidth);
+        let mut result = vec![ZERO; n];
+        for (row, band) in values.chunks_exact(2 * h + 1).enumerate() {
+            let first = row.saturating_sub(h);
+            let last = (row + h + 1).min(n);
+            let band = &band[first + h - row..last + h - row];
+            if adjoint {
+                for (value, sum) in band.iter().zip(&mut result[first..last]) {
+                    *sum += value.conj() * x[row];
+                }
+            } else {
+                let sum: c64 = band.iter().zip(&x[first..last]).map(|(v, x)| v * x).sum();
+                result[row] = sum;
+            }
+        }
+        let factor = if adjoint { factor.conj() } else { factor };
+        result.iter_mut().for_each(|value| *value *= factor);
+        result
+    }
+
+    /// Space for the factorization of `T`.
+    pub fn workspace(&self) -> BandedLu {
+        BandedLu::new(self.dimension, self.half_bandwidth)
+    }
+}
+
+/// `P(z)`.
+fn evaluate(polynomial: &FrictionPolynomial, z: c64) -> Vec<c64> {
+    let mut values: Vec<c64> = polynomial[0]
+        .values()
+        .iter()
+        .map(|v| c64::new(*v, 0.0))
+        .collect();
+    let mut power = z;
+    for coefficient in &polynomial[1..] {
+        for (value, v) in values.iter_mut().zip(coefficient.values()) {
+            *value += power * *v;
+        }
+        power *= z;
+    }
+    values
+}
+
+/// `dP / d mu = i dP / dz`; `None` where it vanishes identically.
+fn rate(polynomial: &FrictionPolynomial, z: c64) -> Option<Vec<c64>> {
+    if polynomial.len() == 1 {
+        return None;
+    }
+    let mut values = vec![ZERO; polynomial[0].values().len()];
+    let mut factor = I;
+    for (power, coefficient) in polynomial.iter().enumerate().skip(1) {
+        for (value, v) in values.iter_mut().zip(coefficient.values()) {
+            *value += factor * (power as f64 * v);
+        }
+        factor *= z;
+    }
+    Some(values)
+}
+
+pub(super) fn dot(y: &[c64], x: &[c64]) -> c64 {
+    y.iter().zip(x).map(|(y, x)| y.conj() * x).sum()
+}
+
+fn add(sum: &mut [c64], term: &[c64]) {
+    for (s, t) in sum.iter_mut().zip(term) {
+        *s += t;
+    }
+}
+
+pub(super) fn largest(x: &[c64]) -> f64 {
+    x.iter().fold(0.0, |m, v| v.norm().max(m))
+}
+
+/// Scales to unit Euclidean length; returns the length before.
+pub(super) fn normalize(x: &mut [c64]) -> f64 {
+    let norm = x.iter().map(|v| v.norm_sqr()).sum::<f64>().sqrt();
+    x.iter_mut().for_each(|v| *v *= 1.0 / norm);
+    norm
+}

@@ -1,0 +1,207 @@
+//! Matrices of one sector of the annulus, and their circumferential harmonics.
+//!
+//! All sectors are alike, so a wave `u = U(r) e^{i n theta}` over the nodes sees one small matrix for
+//! each harmonic `n`: block-tridiagonal in the radius, with the contact edge free and the outer edge
+//! clamped. In the basis `(u_r, -i u_theta)` that matrix is real where the annulus looks the same in a
+//! mirror, and `i` times real where the mirror reverses it (the stress of sliding friction).
+
+use super::element;
+use super::{ElasticMaterial, MassKind};
+use crate::linalg::banded::BandedMatrix;
+use crate::mesh::{ElementKind, SectorMesh};
+use nalgebra::DMatrix;
+use std::f64::consts::PI;
+
+/// What a mirror along a radius does to a matrix.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MirrorParity {
+    /// Leaves it as it is: harmonics are real in the basis `(u_r, -i u_theta)`.
+    Even,
+    /// Changes its sign: harmonics are `i` times the real matrix returned.
+    Odd,
+}
+
+/// One matrix of the annulus, kept as the coupling of one sector with itself and its neighbours.
+///
+/// Dofs are `2 k` radial and `2 k + 1` tangential of sector node `k`, clamped nodes left out; nodes are
+/// numbered outwards, so the contact edge comes first (see [`SectorMesh`]).
+#[derive(Clone, Debug, PartialEq)]
+pub struct SectorMatrix {
+    sector_count: usize,
+    parity: MirrorParity,
+    /// Coupling of a node's row to the nodes `d` half sectors ahead, for the `d` that occur.
+    couplings: Vec<(isize, BandedMatrix)>,
+}
+
+impl SectorMatrix {
+    /// Sums the element matrices `compute(e)` (nodal frames) of one sector.
+    pub fn assemble(
+        sector: &SectorMesh,
+        parity: MirrorParity,
+        mut compute: impl FnMut(usize) -> DMatrix<f64>,
+    ) -> Self {
+        let dimension = 2 * sector.free_node_count();
+        let mesh = &sector.strip;
+        let (half_bandwidth, differences): (usize, &[isize]) = match mesh.element_kind {
+            ElementKind::Quad4 => (3, &[-2, 0, 2]),
+            ElementKind::Quad8 => (9, &[-2, -1, 0, 1, 2]),
+        };
+        let zero = BandedMatrix::zeros(dimension, half_bandwidth);
+        let mut couplings: Vec<_> = differences.iter().map(|&d| (d, zero.clone())).collect();
+        for e in 0..mesh.element_count() {
+            let matrix = compute(e);
+            let nodes = mesh.element_nodes(e);
+            let dof =
+                |local: usize| 2 * sector.sector_node_of[nodes[local / 2] as usize] + local % 2;
+            let step = |local: usize| sector.half_steps[nodes[local / 2] as usize] as isize;
+            for row in (0..matrix.nrows()).filter(|&row| dof(row) < dimension) {
+                for column in (0..matrix.ncols()).filter(|&column| dof(column) < dimension) {
+                    let difference = step(column) - step(row);
+                    let place = differences.iter().position(|&d| d == difference);
+                    let place = place.expect("an element spans one sector");
+                    couplings[place]
+                        .1
+                        .add(dof(row), dof(column), matrix[(row, column)]);
+                }
+            }
+        }
+        Self {
+            sector_count: sector.sector_count(),
+            parity,
+            couplings,
+        }
+    }
+
+    /// A diagonal matrix with the same value on both dofs of each free sector node.
+    pub fn diagonal(sector: &SectorMesh, values: &[f64]) -> Self {
+        let mut matrix = Self::assemble(sector, MirrorParity::Even, |e| {
+            let size = 2 * sector.strip.element_nodes(e).len();
+            DMatrix::zeros(size, size)
+        });
+        matrix.couplings.retain(|(difference, _)| *difference == 0);
+        for (node, &value) in values.iter().enumerate().take(sector.free_node_count()) {
+            for dof in [2 * node, 2 * node + 1] {
+                matrix.couplings[0].1.add(dof, dof, value);
+            }
+        }
+        matrix
+    }
+
+    /// Multiplies every entry.
+    pub fn scaled(&self, factor: f64) -> Self {
+        let mut result = self.clone();
+        for (_, coupling) in &mut result.couplings {
+            coupling.scale(factor);
+        }
+        result
+    }
+
+    /// Sum of two matrices of one sector and one parity.
+    pub fn plus(&self, other: &Self) -> Self {
+        assert_eq!(self.parity, other.parity);
+        let mut result = self.clone();
+        for ((a, sum), (b, term)) in result.couplings.iter_mut().zip(&other.couplings) {
+            assert_eq!(a, b);
+            sum.add_scaled(1.0, term);
+        }
+        result
+    }
+
+    /// What the mirror does to it.
+    pub fn parity(&self) -> MirrorParity {
+        self.parity
+    }
+
+    /// Number of dofs of one sector.
+    pub fn dimension(&self) -> usize {
+        self.couplings[0].1.dimension()
+    }
+
+    /// Matrix of the wave `U e^{i n theta}`, one row for each dof of the sector.
+    ///
+    /// ```text
+    /// (A_n U)_I e^{i n theta_I} = sum_J A_IJ U_J e^{i n theta_J},   U = (u_r, i w)
+    /// ```
+    ///
+    /// written for `(u_r, w)` with the tangential rows multiplied by `-i`; real as it stands for even
+    /// parity, to be multiplied by `i` for odd parity. Harmonics `n` and `N_theta - n` are mirror images, so
+    /// `n <= N_theta / 2` is all there is.
+    pub fn harmonic(&self, n: usize) -> BandedMatrix {
+        let (_, first) = &self.couplings[0];
+        let (dimension, half_bandwidth) = (first.dimension(), first.half_bandwidth());
+        let mut result = BandedMatrix::zeros(dimension, half_bandwidth);
+        for (difference, coupling) in &self.couplings {
+            // Angles modulo a full turn, so that high harmonics lose no digits.
+            let turns = (n as isize * difference).rem_euclid(2 * self.sector_count as isize);
+            let (sin, cos) = (PI * turns as f64 / self.sector_count as f64).sin_cos();
+            let (same, [radial_row, tangential_row]) = match self.parity {
+                MirrorParity::Even => (cos, [-sin, sin]),
+                MirrorParity::Odd => (sin, [cos, -cos]),
+            };
+            for row in 0..dimension {
+                let across = if row % 2 == 0 {
+                    radial_row
+                } else {
+                    tangential_row
+                };
+                for column in coupling.columns(row) {
+                    let factor = if (row + column) % 2 == 0 {
+                        same
+                    } else {
+                        across
+                    };
+                    result.add(row, column, factor * coupling.get(row, column));
+                }
+            }
+        }
+        result
+    }
+}
+
+/// Elastic stiffness `K_e` of one sector, Pa.
+pub fn stiffness(sector: &SectorMesh, material: &ElasticMaterial) -> SectorMatrix {
+    SectorMatrix::assemble(sector, MirrorParity::Even, |e| {
+        element::stiffness(&sector.strip, e, material)
+    })
+}
+
+/// Mass of one sector, kg/m.
+pub fn mass(sector: &SectorMesh, material: &ElasticMaterial, kind: MassKind) -> SectorMatrix {
+    let mesh = &sector.strip;
+    match kind {
+        MassKind::Consistent => SectorMatrix::assemble(sector, MirrorParity::Even, |e| {
+            element::consistent_mass(mesh, e, material)
+        }),
+        MassKind::Lumped => {
+            let mut masses = vec![0.0; sector.node_count()];
+            for e in 0..mesh.element_count() {
+                let shares = element::lumped_mass(mesh, e, material);
+                for (&node, share) in mesh.element_nodes(e).iter().zip(shares) {
+                    masses[sector.sector_node_of[node as usize]] += share;
+                }
+            }
+            SectorMatrix::diagonal(sector, &masses)
+        }
+    }
+}
+
+/// Geometric stiffness of the stress that a displacement, the same in every sector, causes, Pa.
+///
+/// `displacement` holds `(u_r, u_theta)` of each free sector node, m. It must be purely radial for even
+/// and purely tangential for odd parity.
+pub fn geometric_stiffness(
+    sector: &SectorMesh,
+    material: &ElasticMaterial,
+    displacement: &[f64],
+    parity: MirrorParity,
+) -> SectorMatrix {
+    let component = |dof: usize| displacement.get(dof).copied().unwrap_or(0.0);
+    let spread: Vec<f64> = sector
+        .sector_node_of
+        .iter()
+        .flat_map(|node| [component(2 * node), component(2 * node + 1)])
+        .collect();
+    SectorMatrix::assemble(sector, parity, |e| {
+        element::geometric_stiffness(&sector.strip, e, material, &spread)
+    })
+}

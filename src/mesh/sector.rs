@@ -1,0 +1,131 @@
+//! One sector of the annulus mesh.
+
+use super::annulus::{build, graded_radii, sector_node_count, validate};
+use super::{AnnulusSpecification, ElementKind, Mesh2d, MeshError};
+
+/// One sector of an annulus mesh, without the others.
+///
+/// Its nodes are numbered outwards ("sector nodes"): on a Quad8 mesh the nodes at one radius are the
+/// corner-ray node, then the middle-ray node where there is one. The last ones are clamped.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SectorMesh {
+    /// The elements of sector 0; nodes of sectors 0 and 1 numbered as in the full mesh.
+    pub strip: Mesh2d,
+    /// What the full mesh would be generated from.
+    pub specification: AnnulusSpecification,
+    /// Sector node of each strip node: nodes one sector apart share it.
+    pub sector_node_of: Vec<usize>,
+    /// Angle of each strip node in halves of a sector, 0 to 3.
+    pub half_steps: Vec<usize>,
+    /// Position of each sector node among the nodes of a sector of the full mesh.
+    pub numbering: Vec<usize>,
+    /// Sector nodes on the contact edge; they come first. One for Quad4, two for Quad8.
+    pub contact_count: usize,
+}
+
+impl SectorMesh {
+    /// Generates sector 0 of the annulus that `specification` describes.
+    ///
+    /// Node coordinates equal those of [`super::AnnulusMesh`] to the last bit.
+    ///
+    /// # Errors
+    /// [`MeshError`] names the key whose value makes no mesh.
+    pub fn generate(specification: &AnnulusSpecification) -> Result<Self, MeshError> {
+        validate(specification)?;
+        let radii = graded_radii(specification);
+        let strip = build(specification, &radii, 1);
+        let numbering = outward_numbering(specification);
+        let per_sector = sector_node_count(specification);
+        let mut position = vec![0; per_sector];
+        for (sector_node, &node) in numbering.iter().enumerate() {
+            position[node] = sector_node;
+        }
+        let corner_ray = match specification.element {
+            ElementKind::Quad4 => per_sector,
+            ElementKind::Quad8 => 2 * specification.radial_elements + 1,
+        };
+        let is_middle = |node: usize| usize::from(node % per_sector >= corner_ray);
+        Ok(Self {
+            sector_node_of: (0..2 * per_sector)
+                .map(|node| position[node % per_sector])
+                .collect(),
+            half_steps: (0..2 * per_sector)
+                .map(|node| 2 * (node / per_sector) + is_middle(node))
+                .collect(),
+            contact_count: strip.inner_edge.nodes.len(),
+            strip,
+            specification: *specification,
+            numbering,
+        })
+    }
+
+    /// Nodes of one sector, clamped ones included.
+    pub fn node_count(&self) -> usize {
+        self.numbering.len()
+    }
+
+    /// Nodes of one sector that are not clamped.
+    pub fn free_node_count(&self) -> usize {
+        self.node_count() - self.contact_count
+    }
+
+    /// Number of sectors of the annulus, `N_theta`.
+    pub fn sector_count(&self) -> usize {
+        self.specification.circumferential_elements
+    }
+
+    /// Tributary length of each contact node of the sector, m.
+    pub fn tributary_lengths(&self) -> &[f64] {
+        &self.strip.inner_edge.tributary_lengths
+    }
+
+    /// Angle of a sector node from its sector's corner ray, in halves of a sector: 0 or 1.
+    pub fn half_step(&self, sector_node: usize) -> usize {
+        self.half_steps[self.numbering[sector_node]]
+    }
+}
+
+/// Nodes of one sector in order of rising radius.
+fn outward_numbering(spec: &AnnulusSpecification) -> Vec<usize> {
+    let count = spec.radial_elements;
+    match spec.element {
+        ElementKind::Quad4 => (0..=count).collect(),
+        ElementKind::Quad8 => (0..=2 * count)
+            .flat_map(|i| {
+                let middle = (i % 2 == 0).then_some(2 * count + 1 + i / 2);
+                std::iter::once(i).chain(middle)
+            })
+            .collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::AnnulusMesh;
+
+    #[test]
+    fn sector_is_the_beginning_of_the_full_mesh_bit_for_bit() {
+        for element in [ElementKind::Quad4, ElementKind::Quad8] {
+            let specification = AnnulusSpecification {
+                inner_radius: 0.0205,
+                outer_radius: 0.0905,
+                circumferential_elements: 24,
+                radial_elements: 5,
+                radial_grading: 1.1,
+                element,
+            };
+            let full = AnnulusMesh::generate(&specification).unwrap().mesh;
+            let sector = SectorMesh::generate(&specification).unwrap();
+            let nodes = sector.strip.node_count();
+            assert_eq!(sector.strip.nodes, full.nodes[..nodes]);
+            let entries = sector.strip.elements.len();
+            assert_eq!(entries, 5 * element.node_count());
+            assert_eq!(sector.strip.elements, full.elements[..entries]);
+            let radius = |node: usize| full.nodes[node][0].hypot(full.nodes[node][1]);
+            for pair in sector.numbering.windows(2) {
+                assert!(radius(pair[0]) < radius(pair[1]) + 1e-12);
+            }
+        }
+    }
+}

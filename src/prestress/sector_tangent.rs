@@ -1,0 +1,416 @@
+//! The matrices of small motions around steady sliding of an annulus, harmonic by harmonic.
+
+use super::{DampingModel, PrestressError, SectorSliding, TangentOptions};
+use crate::contact::SlidingContact;
+use crate::fem::sector::{self, MirrorParity, SectorMatrix};
+use crate::fem::{ElasticMaterial, PlaneFormulation, RayleighDamping};
+use crate::linalg::banded::BandedMatrix;
+use crate::mesh::{ElementKind, SectorMesh};
+
+/// A matrix that depends on the friction coefficient, `P(mu) = sum_p P_p (i mu)^p` with real `P_p`.
+pub type FrictionPolynomial = Vec<BandedMatrix>;
+
+/// Mass, damping and stiffness of one circumferential harmonic.
+///
+/// Unknowns are `(u_r, -i u_theta)` of each sector node, outwards, without clamped dofs and for rigid
+/// contact without the contact normals. All matrices share one shape. The wave of harmonic `-n` sees the
+/// complex conjugates.
+#[derive(Clone, Debug)]
+pub struct HarmonicTangent {
+    /// Circumferential harmonic `n >= 0`.
+    pub harmonic: usize,
+    /// `M_n(mu)`, kg/m.
+    pub mass: FrictionPolynomial,
+    /// `K_n(mu)`, Pa.
+    pub stiffness: FrictionPolynomial,
+    /// `C_n(mu)`, Pa s, where damping is not proportional; otherwise `alpha_R M_n + beta_R K_n`.
+    pub damping: Option<FrictionPolynomial>,
+    /// Rayleigh coefficients.
+    pub rayleigh: RayleighDamping,
+}
+
+/// A parameter that eigenvalues respond to, besides the friction coefficient.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Parameter {
+    /// `contact.normal_stiffness`, Pa/m.
+    NormalStiffness,
+    /// `damping.mass_coefficient`, 1/s.
+    MassCoefficient,
+    /// `damping.stiffness_coefficient`, s.
+    StiffnessCoefficient,
+    /// `material.young_modulus`, Pa.
+    YoungModulus,
+    /// `material.poisson_ratio`.
+    PoissonRatio,
+    /// `material.density`, kg/m3.
+    Density,
+}
+
+/// [`super::SlidingTangent`] of an annulus, from the matrices of one sector.
+///
+/// The same equations, whose discrete Fourier transform over the sectors is exact: all contact nodes are
+/// alike in steady sliding. The size of the annulus in the circumferential direction costs nothing.
+#[derive(Clone, Debug)]
+pub struct SectorTangent {
+    sector: SectorMesh,
+    material: ElasticMaterial,
+    options: TangentOptions,
+    base: SectorSliding,
+    terms: Terms,
+}
+
+/// What the matrices are made of; each term may also be a derivative.
+#[derive(Clone, Debug)]
+struct Terms {
+    elastic: Option<SectorMatrix>,
+    mass: Option<SectorMatrix>,
+    /// Stress of the pressed state and, for each unit of friction, of the sheared state.
+    stress: Option<[SectorMatrix; 2]>,
+    /// `N / a` of each contact node, zero without geometric stiffness.
+    turning: Vec<f64>,
+    /// `k_n w` of each contact node; `None` for rigid contact.
+    normal_stiffness: Option<Vec<f64>>,
+}
+
+impl SectorTangent {
+    /// Finds the steady sliding state of one sector and linearises around it.
+    ///
+    /// # Errors
+    /// [`PrestressError`] where that state does not exist.
+    pub fn linearize(
+        sector: &SectorMesh,
+        material: &ElasticMaterial,
+        options: &TangentOptions,
+        contact: &SlidingContact,
+    ) -> Result<Self, PrestressError> {
+        let elastic = sector::stiffness(sector, material);
+        let base = SectorSliding::solve(sector, &elastic, contact)?;
+        let stress = options
+            .geometric_stiffness
+            .then(|| stress_stiffness(sector, material, &base));
+        let lengths = sector.tributary_lengths();
+        let penalty = options.contact.normal_stiffness;
+        let terms = Terms {
+            turning: turning(sector, options, &base),
+            stress,
+            mass: Some(sector::mass(sector, material, options.mass)),
+            elastic: Some(elastic),
+            normal_stiffness: penalty.map(|k| lengths.iter().map(|w| k * w).collect()),
+        };
+        Ok(Self {
+            sector: sector.clone(),
+            material: *material,
+            options: *options,
+            base,
+            terms,
+        })
+    }
+
+    /// The sector it was built from.
+    pub fn sector(&self) -> &SectorMesh {
+        &self.sector
+    }
+
+    /// The steady sliding state.
+    pub fn base(&self) -> &SectorSliding {
+        &self.base
+    }
+
+    /// Number of unknowns of one harmonic.
+    pub fn dimension(&self) -> usize {
+        self.unknowns().len()
+    }
+
+    /// Sector dof of each unknown, ascending.
+    pub fn unknowns(&self) -> Vec<usize> {
+        let total = 2 * self.sector.free_node_count();
+        let is_rigid = self.terms.normal_stiffness.is_none();
+        let is_held = |dof: usize| is_rigid && dof % 2 == 0 && dof / 2 < self.sector.contact_count;
+        (0..total).filter(|&dof| !is_held(dof)).collect()
+    }
+
+    /// The largest harmonic, `N_theta / 2`.
+    pub fn largest_harmonic(&self) -> usize {
+        self.sector.sector_count() / 2
+    }
+
+    /// Whether harmonic `n` stands: `+n` and `-n` are one and the same.
+    pub fn is_standing(&self, n: usize) -> bool {
+        n == 0 || 2 * n == self.sector.sector_count()
+    }
+
+    /// Matrices of harmonic `n`.
+    pub fn harmonic(&self, n: usize) -> HarmonicTangent {
+        let rayleigh = self.options.damping;
+        HarmonicTangent {
+            harmonic: n,
+            mass: self.mass(&self.terms, n),
+            stiffness: self.stiffness(&self.terms, n),
+            damping: (!self.is_proportional())
+                .then(|| self.damping(&self.terms, rayleigh, true, n)),
+            rayleigh,
+        }
+    }
+
+    /// Derivative of the matrices of harmonic `n` with respect to `parameter`, the base state
+    /// following; `damping` is always given. `None` for a normal stiffness that the contact does not have.
+    ///
+    /// # Errors
+    /// [`PrestressError::Singular`] as for the base state itself.
+    pub fn harmonic_rate(
+        &self,
+        parameter: Parameter,
+        n: usize,
+    ) -> Result<Option<HarmonicTangent>, PrestressError> {
+        let Some((terms, share)) = self.rate(parameter)? else {
+            return Ok(None);
+        };
+        let follows = self.damping(&terms, self.options.damping, false, n);
+        let shared = self.damping(&self.terms, share, false, n);
+        Ok(Some(HarmonicTangent {
+            harmonic: n,
+            mass: self.mass(&terms, n),
+            stiffness: self.stiffness(&terms, n),
+            damping: Some(sum(follows, shared)),
+            rayleigh: share,
+        }))
+    }
+
+    /// Derivatives of the terms and of the Rayleigh coefficients.
+    fn rate(
+        &self,
+        parameter: Parameter,
+    ) -> Result<Option<(Terms, RayleighDamping)>, PrestressError> {
+        let mut terms = Terms {
+            elastic: None,
+            mass: None,
+            stress: None,
+            turning: vec![0.0; self.terms.turning.len()],
+            normal_stiffness: self
+                .terms
+                .normal_stiffness
+                .as_ref()
+                .map(|k| vec![0.0; k.len()]),
+        };
+        let mut share = RayleighDamping::default();
+        let scaled = |matrix: &SectorMatrix, value: f64| matrix.scaled(1.0 / value);
+        match parameter {
+            Parameter::MassCoefficient => share.mass_coefficient = 1.0,
+            Parameter::StiffnessCoefficient => share.stiffness_coefficient = 1.0,
+            Parameter::NormalStiffness => {
+                if terms.normal_stiffness.is_none() {
+                    return Ok(None);
+                }
+                terms.normal_stiffness = Some(self.sector.tributary_lengths().to_vec());
+            }
+            Parameter::Density => {
+                let mass = self.terms.mass.as_ref();
+                terms.mass = mass.map(|m| scaled(m, self.material.density));
+            }
+            Parameter::YoungModulus => {
+                // The base displacements do not depend on E, so every stress is proportional to it.
+                let e = self.material.young_modulus;
+                terms.elastic = self.terms.elastic.as_ref().map(|k| scaled(k, e));
+                let stress = self.terms.stress.as_ref();
+                terms.stress = stress.map(|[a, b]| [scaled(a, e), scaled(b, e)]);
+                terms.turning = self.terms.turning.iter().map(|value| value / e).collect();
+            }
+            Parameter::PoissonRatio => self.poisson_rate(&mut terms)?,
+        }
+        Ok(Some((terms, share)))
+    }
+
+    fn poisson_rate(&self, terms: &mut Terms) -> Result<(), PrestressError> {
+        let Some(elastic) = &self.terms.elastic else {
+            return Ok(());
+        };
+        let rate = poisson_rate_material(&self.material);
+        let elastic_rate = sector::stiffness(&self.sector, &rate);
+        if self.terms.stress.is_some() {
+            let base_rate = self.base.rate(&self.sector, elastic, &elastic_rate)?;
+            let moved = stress_stiffness(&self.sector, &self.material, &base_rate);
+            let stiffened = stress_stiffness(&self.sector, &rate, &self.base);
+            terms.stress = Some([moved[0].plus(&stiffened[0]), moved[1].plus(&stiffened[1])]);
+            terms.turning = turning(&self.sector, &self.options, &base_rate);
+        }
+        terms.elastic = Some(elastic_rate);
+        Ok(())
+    }
+
+    /// Whether `C = alpha_R M + beta_R K_t` exactly.
+    pub fn is_proportional(&self) -> bool {
+        let contact = self.options.contact;
+        let has_dashpots = contact.normal_damping != 0.0 || contact.tangential_damping != 0.0;
+        self.options.damping_model == DampingModel::WholeTangent && !has_dashpots
+    }
+
+    fn zero(&self) -> BandedMatrix {
+        let half_bandwidth = match self.sector.specification.element {
+            ElementKind::Quad4 => 3,
+            ElementKind::Quad8 => 9,
+        };
+        BandedMatrix::zeros(2 * self.sector.free_node_count(), half_bandwidth)
+    }
+
+    fn harmonic_of(&self, matrix: &Option<SectorMatrix>, n: usize) -> BandedMatrix {
+        matrix
+            .as_ref()
+            .map_or_else(|| self.zero(), |m| m.harmonic(n))
+    }
+
+    fn mass(&self, terms: &Terms, n: usize) -> FrictionPolynomial {
+        self.project(vec![self.harmonic_of(&terms.mass, n)])
+    }
+
+    /// `K_e + K_sigma`, the contact forces that turn with the edge, and the normal law.
+    fn stiffness(&self, terms: &Terms, n: usize) -> FrictionPolynomial {
+        let mut full = vec![self.harmonic_of(&terms.elastic, n), self.zero()];
+        if let Some([pressed, sheared]) = &terms.stress {
+            full[0].add_scaled(1.0, &pressed.harmonic(n));
+            // Odd parity: the harmonic is i times this, which is what a coefficient of i mu wants.
+            full[1].add_scaled(1.0, &sheared.harmonic(n));
+        }
+        for (node, force) in terms.turning.iter().enumerate() {
+            let (normal, tangential) = (2 * node, 2 * node + 1);
+            full[0].add(tangential, tangential, -force);
+            full[1].add(normal, tangential, self.base.sliding_direction * force);
+        }
+        if let Some(normal_stiffness) = &terms.normal_stiffness {
+            self.add_normal_law(&mut full, normal_stiffness);
+        }
+        self.project(full)
+    }
+
+    /// `alpha_R M + beta_R K` with the options' damping model; dashpots if `with_dashpots`.
+    fn damping(
+        &self,
+        terms: &Terms,
+        rayleigh: RayleighDamping,
+        with_dashpots: bool,
+        n: usize,
+    ) -> FrictionPolynomial {
+        let stiffness = match self.options.damping_model {
+            DampingModel::WholeTangent => self.stiffness(terms, n),
+            DampingModel::BodyOnly => self.project(vec![self.harmonic_of(&terms.elastic, n)]),
+        };
+        let mass = multiplied(self.mass(terms, n), rayleigh.mass_coefficient);
+        let stiffness = multiplied(stiffness, rayleigh.stiffness_coefficient);
+        let damping = sum(mass, stiffness);
+        if !with_dashpots {
+            return damping;
+        }
+        let contact = self.options.contact;
+        let lengths = self.sector.tributary_lengths();
+        let mut dashpots = vec![self.zero(), self.zero()];
+        let normal: Vec<f64> = lengths.iter().map(|w| contact.normal_damping * w).collect();
+        self.add_normal_law(&mut dashpots, &normal);
+        for (node, length) in lengths.iter().enumerate() {
+            let dof = 2 * node + 1;
+            dashpots[0].add(dof, dof, contact.tangential_damping * length);
+        }
+        sum(damping, self.project(dashpots))
+    }
+
+    /// `dN = -value q_n` and the friction that follows it, on the left-hand side; a tangential row times
+    /// `-i` turns `s mu value` into `-s value (i mu)`.
+    fn add_normal_law(&self, full: &mut [BandedMatrix], values: &[f64]) {
+        for (node, value) in values.iter().enumerate() {
+            let (normal, tangential) = (2 * node, 2 * node + 1);
+            full[0].add(normal, normal, *value);
+            full[1].add(tangential, normal, -self.base.sliding_direction * value);
+        }
+    }
+
+    /// Onto the unknowns; for rigid contact each normal row is added to its tangential row with the
+    /// factor `-s mu`, which is `s (i mu)` once the tangential row is multiplied by `-i`.
+    fn project(&self, mut full: Vec<BandedMatrix>) -> FrictionPolynomial {
+        if self.terms.normal_stiffness.is_none() {
+            full.push(self.zero());
+            for power in (1..full.len()).rev() {
+                let (lower, upper) = full.split_at_mut(power);
+                for node in 0..self.sector.contact_count {
+                    let (normal, tangential) = (2 * node, 2 * node + 1);
+                    for column in lower[power - 1].columns(normal) {
+                        let value = lower[power - 1].get(normal, column);
+                        if value != 0.0 {
+                            let value = self.base.sliding_direction * value;
+                            upper[0].add(tangential, column, value);
+                        }
+                    }
+                }
+            }
+            let unknowns = self.unknowns();
+            full = full.iter().map(|m| m.restricted_to(&unknowns)).collect();
+        }
+        let is_zero = |m: &BandedMatrix| m.values().iter().all(|v| *v == 0.0);
+        while full.len() > 1 && is_zero(&full[full.len() - 1]) {
+            full.pop();
+        }
+        full
+    }
+}
+
+/// Geometric stiffness of the pressed and of the sheared state.
+fn stress_stiffness(
+    sector: &SectorMesh,
+    material: &ElasticMaterial,
+    base: &SectorSliding,
+) -> [SectorMatrix; 2] {
+    let of = |displacement: &[f64], parity| {
+        sector::geometric_stiffness(sector, material, displacement, parity)
+    };
+    [
+        of(&base.pressed_displacement, MirrorParity::Even),
+        of(&base.sheared_displacement, MirrorParity::Odd),
+    ]
+}
+
+/// `N / a` of each contact node, zero where the prestress does not act back.
+fn turning(sector: &SectorMesh, options: &TangentOptions, base: &SectorSliding) -> Vec<f64> {
+    let radius = sector.specification.inner_radius;
+    let factor = if options.geometric_stiffness {
+        1.0
+    } else {
+        0.0
+    };
+    base.normal_forces
+        .iter()
+        .map(|force| factor * force / radius)
+        .collect()
+}
+
+/// A material whose Lamé constants are the derivatives of `material`'s with respect to Poisson's ratio,
+/// so that whatever is linear in the Lamé constants differentiates itself.
+fn poisson_rate_material(material: &ElasticMaterial) -> ElasticMaterial {
+    let (e, nu) = (material.young_modulus, material.poisson_ratio);
+    let shear = -e / (2.0 * (1.0 + nu).powi(2));
+    let lambda = match material.formulation {
+        PlaneFormulation::PlaneStrain => {
+            e * (1.0 + 2.0 * nu * nu) / ((1.0 + nu) * (1.0 - 2.0 * nu)).powi(2)
+        }
+        PlaneFormulation::PlaneStress => e * (1.0 + nu * nu) / (1.0 - nu * nu).powi(2),
+    };
+    ElasticMaterial {
+        young_modulus: shear * (3.0 * lambda + 2.0 * shear) / (lambda + shear),
+        poisson_ratio: lambda / (2.0 * (lambda + shear)),
+        density: material.density,
+        formulation: PlaneFormulation::PlaneStrain,
+    }
+}
+
+fn multiplied(mut polynomial: FrictionPolynomial, factor: f64) -> FrictionPolynomial {
+    for coefficient in &mut polynomial {
+        coefficient.scale(factor);
+    }
+    polynomial
+}
+
+fn sum(mut a: FrictionPolynomial, b: FrictionPolynomial) -> FrictionPolynomial {
+    for (power, term) in b.into_iter().enumerate() {
+        match a.get_mut(power) {
+            Some(total) => total.add_scaled(1.0, &term),
+            None => a.push(term),
+        }
+    }
+    a
+}
