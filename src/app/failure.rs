@@ -1,6 +1,7 @@
 //! How a command fails, and the exit code that says so.
 
 use crate::case::CaseErrors;
+use crate::cea::cyclic::CyclicError;
 use crate::prestress::PrestressError;
 use crate::results::{DrawingError, FolderError};
 use std::io;
@@ -79,6 +80,19 @@ impl From<DrawingError> for Failure {
 impl From<PrestressError> for Failure {
     fn from(error: PrestressError) -> Self {
         Self::Run(error.into())
+    }
+}
+
+impl From<CyclicError> for Failure {
+    fn from(error: CyclicError) -> Self {
+        match error {
+            CyclicError::Friction { .. }
+            | CyclicError::NoFriction
+            | CyclicError::Limit { .. }
+            | CyclicError::TooManyModes { .. }
+            | CyclicError::Mesh(_) => Self::Usage(error.into()),
+            _ => Self::Run(error.into()),
+        }
     }
 }
 

@@ -22,6 +22,8 @@ pub(super) enum Waves {
 pub(super) struct Path {
     /// Rank among the harmonic's modes without friction.
     pub branch: usize,
+    /// `kappa` without friction and damping.
+    pub rest: c64,
     pub waves: Waves,
     /// Accepted points, rising; vectors are dropped but for the last and those kept on purpose.
     pub points: Vec<Eigenpair>,
@@ -124,6 +126,7 @@ fn start(
     let x: Vec<c64> = shape.iter().map(|v| c64::new(*v, 0.0)).collect();
     let path = |waves: Waves, point: Eigenpair| Path {
         branch,
+        rest: c64::new(kappa, 0.0),
         waves,
         points: vec![point],
     };

@@ -78,6 +78,11 @@ impl HarmonicProblem {
         }
     }
 
+    /// Matrices without friction and damping.
+    pub fn undamped_at_rest(&self) -> Matrices {
+        self.at_damping(0.0)
+    }
+
     /// Matrices without friction and with the share `damped` of the damping; the derivative is that
     /// with respect to `damped`.
     pub fn at_damping(&self, damped: f64) -> Matrices {
