@@ -123,7 +123,10 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
                 settings,
                 &saved.state,
             );
-            (resumed.map_err(|error| prepared.failure(&error))?, saved.record)
+            (
+                resumed.map_err(|error| prepared.failure(&error))?,
+                saved.record,
+            )
         }
     };
 
@@ -132,7 +135,12 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         folder: &folder,
         interval_s: session.case.output.checkpoint_interval,
     };
-    let mut watch = Watch::new(record, loop_.plan(), arguments.options.quiet, Some(checkpoints));
+    let mut watch = Watch::new(
+        record,
+        loop_.plan(),
+        arguments.options.quiet,
+        Some(checkpoints),
+    );
     watch::catch_signals();
     let clock = Instant::now();
     let end = loop_.run(&mut watch);
@@ -167,8 +175,7 @@ pub fn run_point(case: &Case, simd: &str) -> Result<Value, Failure> {
     let start = Instant::now();
     let prepared = Prepared::new(case, simd)?;
     let operator = prepared.operator()?;
-    let started =
-        CentralDifference::start(prepared.model(), operator.as_ref(), &prepared.settings);
+    let started = CentralDifference::start(prepared.model(), operator.as_ref(), &prepared.settings);
     let mut loop_ = started.map_err(|error| prepared.failure(&error))?;
     let mut record = Recorder::new(&loop_, &crate::transient::RecorderSettings::default())
         .map_err(|error| prepared.failure(&error))?;
@@ -202,7 +209,10 @@ fn find_checkpoint(session: &Session, resume: bool) -> Result<Option<Checkpoint>
     match read_checkpoint(&session.folder_path(), &session.manifest) {
         Ok(checkpoint) => Ok(Some(checkpoint)),
         Err(CheckpointError::Missing { path }) => {
-            tracing::warn!("{} does not exist: starting from the beginning", path.display());
+            tracing::warn!(
+                "{} does not exist: starting from the beginning",
+                path.display()
+            );
             Ok(None)
         }
         Err(error) => Err(Failure::usage(error)),
@@ -215,7 +225,9 @@ fn stopped(session: &Session, folder: OutputFolder, run: &CentralDifference<'_>)
     if let Err(error) = folder.finish() {
         return error.into();
     }
-    let time = run.plan().sample_time((run.steps_done() - 1) / run.plan().steps_per_sample);
+    let time = run
+        .plan()
+        .sample_time((run.steps_done() - 1) / run.plan().steps_per_sample);
     Failure::run(format!(
         "stopped at t = {time:.6} s of {:.6} s; results so far are in {}; go on with the same command and --resume: \
          frictionsim transient {} --resume",

@@ -5,7 +5,7 @@ mod solve;
 
 pub use model::SlidingModel;
 
-use super::{Failure, RunOptions, Session};
+use super::{Failure, RunOptions, Session, terminal};
 use crate::case::{Case, Cea, ModeSelection};
 use crate::cea::FrictionSweep;
 use crate::results::cea::{CeaReport, draw, print, write};
@@ -25,7 +25,7 @@ pub struct Arguments {
 /// A bad case, contact that opens, a solver that fails, an output folder that cannot be written.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     run_with(arguments, |session, cea, model| {
-        solve::solve(&session.case, cea, model)
+        solve::solve(session, cea, model)
     })
 }
 
