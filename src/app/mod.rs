@@ -16,6 +16,7 @@ mod session;
 mod signal;
 pub mod sweep;
 pub mod terminal;
+pub mod transient;
 
 pub use failure::Failure;
 pub use options::{RunOptions, SimdChoice};
@@ -43,6 +44,8 @@ pub struct CommandLine {
 
 #[derive(Subcommand)]
 enum Command {
+    Cea(cea::Arguments),
+    Transient(transient::Arguments),
     Collect(collect::Arguments),
     Mesh(mesh::Arguments),
     Check(check::Arguments),
@@ -58,6 +61,8 @@ enum Command {
 /// 1 the run failed, 2 bad usage or case.
 pub fn main() -> ExitCode {
     let outcome = match CommandLine::parse().command {
+        Command::Cea(arguments) => cea::run(&arguments),
+        Command::Transient(arguments) => transient::run(&arguments),
         Command::Collect(arguments) => collect::run(&arguments),
         Command::Mesh(arguments) => mesh::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),

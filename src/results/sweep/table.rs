@@ -215,7 +215,7 @@ mod tests {
     #[test]
     fn a_list_that_is_long_at_one_point_is_in_no_row() {
         let short = record(1, json!({ "list": [1], "z": 2 }));
-        let long = record(2, json!({ "list": [0; 17], "z": 2 }));
+        let long = record(2, json!({ "list": vec![0; 17], "z": 2 }));
         assert_eq!(
             table(&[short, long]),
             "contact.friction_coefficient,z,point,error\n0.3,2,1,\n0.3,2,2,\n"
