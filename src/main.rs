@@ -1,1 +1,5 @@
-fn main() {}
+//! `frictionsim`: see [`frictionsim::app`].
+
+fn main() -> std::process::ExitCode {
+    frictionsim::app::main()
+}

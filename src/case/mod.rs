@@ -1,1 +1,224 @@
 //! Case files: TOML to validated SI values.
+//!
+//! [`RawCase`] is exactly what the TOML says, overrides included; [`Case`] is the same thing
+//! validated: every section a struct in the terms of the lower floors, every rule between keys
+//! checked, all errors reported at once as [`CaseErrors`].
+
+mod cea;
+mod cost;
+mod cycle;
+mod diagnostic;
+mod frf;
+mod keys;
+mod model;
+mod overrides;
+mod range;
+mod raw;
+mod reader;
+mod rules;
+mod sweep;
+mod transient;
+
+pub use cea::{Cea, CeaMap, CeaMethod, ModeSelection};
+pub use cost::{CeaCost, Cost, TransientCost};
+pub use cycle::{Continuation, Cycle};
+pub use diagnostic::{CaseErrors, Diagnostic, Location, Source};
+pub use frf::{Frf, FrfMethod};
+pub use keys::{CaseKey, KEYS, SECTIONS};
+pub use model::{Contact, Damping};
+pub use range::{Spacing, range_values};
+pub use raw::{RawCase, RawEntry, RawItem, RawTable, RawValue};
+pub use sweep::{Analysis, Combination, Sweep, SweptKey};
+pub use transient::{InitialState, OperatorChoice, Output, Perturbation, TimeStep, Transient};
+
+use crate::fem::ElasticMaterial;
+use crate::mesh::{AnnulusSpecification, ElementKind};
+use reader::{Findings, Section};
+
+/// A validated case, in SI units (the rotation speed in rad/s).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Case {
+    /// What it was read from.
+    pub raw: RawCase,
+    /// A line for tables and figures.
+    pub title: String,
+    /// Thickness of the disc, m: scales reported forces, torque, power and energy.
+    pub thickness: f64,
+    /// The annulus and its mesh.
+    pub annulus: AnnulusSpecification,
+    /// The disc's material.
+    pub material: ElasticMaterial,
+    /// The disc's damping.
+    pub damping: Damping,
+    /// The cylinder and its contact.
+    pub contact: Contact,
+    /// Complex eigenvalue analysis, if the case has one.
+    pub cea: Option<Cea>,
+    /// Explicit transient, if the case has one.
+    pub transient: Option<Transient>,
+    /// What a transient writes.
+    pub output: Output,
+    /// Parameter study, if the case has one.
+    pub sweep: Option<Sweep>,
+    /// Limit-cycle search, if the case has one.
+    pub cycle: Option<Cycle>,
+    /// Frequency response, if the case has one.
+    pub frf: Option<Frf>,
+    /// Things that are no errors but that the user should hear of.
+    pub warnings: Vec<String>,
+}
+
+impl Case {
+    /// Parses and validates the bytes of a case file under overrides.
+    ///
+    /// # Errors
+    /// [`CaseErrors`] with every error found.
+    pub fn parse(name: &str, bytes: &[u8], overrides: &[String]) -> Result<Self, CaseErrors> {
+        Self::from_raw(RawCase::parse(name, bytes, overrides)?)
+    }
+
+    /// Validates a parsed case.
+    ///
+    /// # Errors
+    /// [`CaseErrors`] with every error found.
+    pub fn from_raw(raw: RawCase) -> Result<Self, CaseErrors> {
+        let case = Self::read(raw)?;
+        sweep::check_values(&case)?;
+        Ok(case)
+    }
+
+    /// Validates everything but the values of swept keys.
+    fn read(raw: RawCase) -> Result<Self, CaseErrors> {
+        let findings = Findings::default();
+        let end = Location::new(0, raw.text.trim_end().len()..raw.text.trim_end().len());
+        let root = Section::root(&findings, &raw.root, end);
+        let title = root.text_or("title", "");
+        let (annulus, thickness) = model::annulus(&root);
+        let material = model::material(&root);
+        let damping = model::damping(&root);
+        let contact = model::contact(&root);
+        let mut warnings = Vec::new();
+        let cea = cea::cea(&root, &annulus, contact.sliding.friction_coefficient);
+        let transient = transient::transient(&root, &annulus);
+        let output = transient::output(&root, &annulus, transient.as_ref(), &mut warnings);
+        if transient.is_some() && annulus.element == ElementKind::Quad8 {
+            warnings.push(
+                "mesh.element = \"quad8\" is for the complex eigenvalue analysis only: the \
+                 transient of this case cannot run"
+                    .to_owned(),
+            );
+        }
+        let cycle = cycle::cycle(&root, &annulus);
+        let frf = frf::read(&root, &annulus);
+        let sweep = sweep::read(&root);
+        root.close();
+        let errors = findings.into_errors();
+        if !errors.is_empty() {
+            return Err(raw.errors(errors));
+        }
+        Ok(Self {
+            title,
+            thickness,
+            annulus,
+            material,
+            damping,
+            contact,
+            cea,
+            transient,
+            output,
+            sweep,
+            cycle,
+            frf,
+            warnings,
+            raw,
+        })
+    }
+
+    /// The complex eigenvalue analysis.
+    ///
+    /// # Errors
+    /// A case without `[cea]`, with what to add.
+    pub fn require_cea(&self) -> Result<&Cea, CaseErrors> {
+        let remedy = "[cea]\nmax_frequency_hz = 17500.0";
+        self.cea
+            .as_ref()
+            .ok_or_else(|| self.lacks("cea", "complex eigenvalue analysis", remedy))
+    }
+
+    /// The explicit transient.
+    ///
+    /// # Errors
+    /// A case without `[transient]`, and one of Quad8 elements, which the transient cannot run.
+    pub fn require_transient(&self) -> Result<&Transient, CaseErrors> {
+        let remedy = "[transient]\nduration = 0.05";
+        let transient = self
+            .transient
+            .as_ref()
+            .ok_or_else(|| self.lacks("transient", "transient", remedy))?;
+        if self.annulus.element == ElementKind::Quad8 {
+            return Err(self.error_at(
+                "mesh.element",
+                "mesh.element = \"quad8\" is for the complex eigenvalue analysis only".to_owned(),
+                "the transient needs \"quad4\"".to_owned(),
+                Some("add --set mesh.element=quad4, and refine the mesh if need be".to_owned()),
+            ));
+        }
+        Ok(transient)
+    }
+
+    /// The parameter study.
+    ///
+    /// # Errors
+    /// A case without `[sweep]`, with what to add.
+    pub fn require_sweep(&self) -> Result<&Sweep, CaseErrors> {
+        let remedy = "[sweep]\n\"contact.friction_coefficient\" = [0.2, 0.3, 0.4]";
+        self.sweep
+            .as_ref()
+            .ok_or_else(|| self.lacks("sweep", "parameter study", remedy))
+    }
+
+    /// The frequency response.
+    ///
+    /// # Errors
+    /// A case without `[frf]`, with what to add.
+    pub fn require_frf(&self) -> Result<&Frf, CaseErrors> {
+        let remedy =
+            "[frf]\nforce_node = 36\nfrequencies_hz = { from = 1.0, to = 10000.0, count = 10000 }";
+        self.frf
+            .as_ref()
+            .ok_or_else(|| self.lacks("frf", "frequency response", remedy))
+    }
+
+    fn lacks(&self, section: &str, analysis: &str, remedy: &str) -> CaseErrors {
+        let end = self.raw.text.trim_end().len();
+        self.raw.errors(vec![Diagnostic::error(
+            format!("the case has no [{section}] section, so there is no {analysis} to run"),
+            "the case ends here".to_owned(),
+            Location::new(0, end..end),
+            Some(format!("add\n{remedy}")),
+        )])
+    }
+
+    /// An error at a dotted key: at its value where the case gives one, else at its section.
+    pub fn error_at(
+        &self,
+        key: &str,
+        message: String,
+        label: String,
+        help: Option<String>,
+    ) -> CaseErrors {
+        let mut name = key;
+        let at = loop {
+            if let Some(item) = self.raw.find(name) {
+                break item.at.clone();
+            }
+            match name.rsplit_once('.') {
+                Some((section, _)) => name = section,
+                None => break Location::default(),
+            }
+        };
+        let help = help.or_else(|| keys::usage(key));
+        self.raw
+            .errors(vec![Diagnostic::error(message, label, at, help)])
+    }
+}

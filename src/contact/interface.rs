@@ -9,7 +9,7 @@ pub struct ContactInterface {
     pub nodes: Vec<u32>,
     /// Angle of each node, rad.
     pub angles: Vec<f64>,
-    /// Edge length that belongs to each node, `w_i = ∫ N_i ds`, m.
+    /// Edge length that belongs to each node, `w_i = ∫ N_i (n . e_i) ds`, m.
     pub tributary_lengths: Vec<f64>,
     /// Radius of the edge `a`, m.
     pub radius: f64,

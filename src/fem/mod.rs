@@ -7,6 +7,7 @@
 mod assembly;
 pub mod element;
 mod material;
+pub mod operator;
 pub mod sector;
 mod stress;
 

@@ -1,8 +1,9 @@
 //! Stress recovery at the nodes.
 
 use super::ElasticMaterial;
-use super::element::{ElementGeometry, shape_functions, stress_of};
+use super::element::{ElementGeometry, stress_of};
 use crate::mesh::{ElementKind, Mesh2d};
+use nalgebra::{Matrix2, Matrix3, Vector3};
 
 /// Stress at one node in its own frame, Pa.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -34,8 +35,12 @@ impl NodalStress {
     }
 }
 
-/// Stress at each node: values at the 2 x 2 Gauss points, where they are most accurate, carried to
-/// the element's nodes bilinearly, turned into the node's frame and averaged over elements.
+/// Stress at each node by superconvergent patch recovery (Zienkiewicz and Zhu 1992).
+///
+/// At each node the linear polynomial that fits the stress best at the superconvergent points (the
+/// centre of a Quad4, the 2 x 2 Gauss points of a Quad8) of the elements around it is evaluated at the
+/// node. A node on an edge has elements on one side only; its patch takes in their neighbours too, so that
+/// the recovered stress is of second order there as well.
 ///
 /// `displacement` has `2 * node_count` values in nodal frames, m.
 pub fn nodal_stress(
@@ -43,63 +48,126 @@ pub fn nodal_stress(
     material: &ElasticMaterial,
     displacement: &[f64],
 ) -> Vec<NodalStress> {
-    let mut sums = vec![([0.0; 3], 0.0); mesh.node_count()];
-    for e in 0..mesh.element_count() {
-        add_element_stress(mesh, e, material, displacement, &mut sums);
+    let samples: Vec<Vec<Sample>> = (0..mesh.element_count())
+        .map(|e| superconvergent_samples(mesh, e, material, displacement))
+        .collect();
+    let around = elements_around(mesh);
+    let mut on_edge = vec![false; mesh.node_count()];
+    let edges = [&mesh.inner_edge, &mesh.outer_edge];
+    for &node in edges.into_iter().flat_map(|edge| &edge.nodes) {
+        on_edge[node as usize] = true;
     }
-    sums.into_iter()
-        .map(|(sum, count)| {
-            let [radial, hoop, shear] = sum.map(|value| value / count);
-            NodalStress {
-                radial,
-                hoop,
-                shear,
-                axial: material.out_of_plane_stress(radial, hoop),
+    (0..mesh.node_count())
+        .map(|node| {
+            let mut patch = around[node].clone();
+            // A mid-side node has two elements at most: their neighbours complete its patch too.
+            if on_edge[node] || patch.len() < 3 {
+                let corners = patch.iter().flat_map(|&e| mesh.element_nodes(e as usize));
+                let neighbours = corners.flat_map(|&n| around[n as usize].iter().copied());
+                patch = neighbours.collect();
+                patch.sort_unstable();
+                patch.dedup();
+            }
+            let points = patch.iter().flat_map(|&e| &samples[e as usize]);
+            let stress = fit_at(mesh.nodes[node], points);
+            in_frame(stress, mesh.frame_angles[node], material)
+        })
+        .collect()
+}
+
+/// Stress `(xx, yy, xy)` in global axes at a point, Pa, m.
+struct Sample {
+    position: [f64; 2],
+    stress: Vector3<f64>,
+}
+
+fn superconvergent_samples(
+    mesh: &Mesh2d,
+    e: usize,
+    material: &ElasticMaterial,
+    displacement: &[f64],
+) -> Vec<Sample> {
+    const GAUSS: f64 = 0.577_350_269_189_625_8;
+    let geometry = ElementGeometry::new(mesh, e);
+    let points: &[(f64, f64)] = match mesh.element_kind {
+        ElementKind::Quad4 => &[(0.0, 0.0)],
+        ElementKind::Quad8 => &[
+            (-GAUSS, -GAUSS),
+            (GAUSS, -GAUSS),
+            (GAUSS, GAUSS),
+            (-GAUSS, GAUSS),
+        ],
+    };
+    points
+        .iter()
+        .map(|&(xi, eta)| {
+            let point = geometry.at(xi, eta, 1.0);
+            let gradient = geometry.displacement_gradient(&point, displacement);
+            let stress = stress_of(material, &gradient);
+            let mut position = [0.0; 2];
+            for (&node, shape) in mesh.element_nodes(e).iter().zip(&point.values) {
+                for (sum, coordinate) in position.iter_mut().zip(mesh.nodes[node as usize]) {
+                    *sum += shape * coordinate;
+                }
+            }
+            Sample {
+                position,
+                stress: Vector3::new(stress[(0, 0)], stress[(1, 1)], stress[(0, 1)]),
             }
         })
         .collect()
 }
 
-fn add_element_stress(
-    mesh: &Mesh2d,
-    e: usize,
-    material: &ElasticMaterial,
-    displacement: &[f64],
-    sums: &mut [([f64; 3], f64)],
-) {
-    const GAUSS: f64 = 0.577_350_269_189_625_8;
-    let geometry = ElementGeometry::new(mesh, e);
-    let stresses = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(a, b)| {
-        let point = geometry.at(GAUSS * a, GAUSS * b, 1.0);
-        stress_of(
-            material,
-            &geometry.displacement_gradient(&point, displacement),
-        )
-    });
-    const NODES: [(f64, f64); 8] = [
-        (-1.0, -1.0),
-        (1.0, -1.0),
-        (1.0, 1.0),
-        (-1.0, 1.0),
-        (0.0, -1.0),
-        (1.0, 0.0),
-        (0.0, 1.0),
-        (-1.0, 0.0),
-    ];
-    for (local, &node) in mesh.element_nodes(e).iter().enumerate() {
-        let (xi, eta) = NODES[local];
-        // The Gauss points span a quadrilateral of their own, smaller by the factor GAUSS.
-        let weights = shape_functions(ElementKind::Quad4, xi / GAUSS, eta / GAUSS);
-        let frame = geometry.frame(local);
-        let stress = stresses
-            .iter()
-            .zip(&weights)
-            .fold(nalgebra::Matrix2::zeros(), |sum, (s, w)| sum + s * w.0);
-        let local_stress = frame.transpose() * stress * frame;
-        let (sum, count) = &mut sums[node as usize];
-        sum[0] += local_stress[(0, 0)];
-        sum[1] += local_stress[(1, 1)];
-        sum[2] += local_stress[(0, 1)];
-        *count += 1.0;
+fn elements_around(mesh: &Mesh2d) -> Vec<Vec<u32>> {
+    let mut around = vec![Vec::new(); mesh.node_count()];
+    for e in 0..mesh.element_count() {
+        for &node in mesh.element_nodes(e) {
+            around[node as usize].push(e as u32);
+        }
+    }
+    around
+}
+
+/// Value at `origin` of the linear polynomial that fits the samples best, their mean where they do not
+/// determine one (a single row of elements).
+fn fit_at<'a>(origin: [f64; 2], samples: impl Iterator<Item = &'a Sample>) -> Vector3<f64> {
+    let samples: Vec<&Sample> = samples.collect();
+    let offset = |sample: &Sample, axis: usize| sample.position[axis] - origin[axis];
+    let size = samples
+        .iter()
+        .flat_map(|sample| [offset(sample, 0).abs(), offset(sample, 1).abs()])
+        .fold(0.0_f64, f64::max);
+    let (mut normal, mut right) = (Matrix3::zeros(), Matrix3::zeros());
+    for sample in &samples {
+        let basis = Vector3::new(1.0, offset(sample, 0) / size, offset(sample, 1) / size);
+        normal += basis * basis.transpose();
+        right += basis * sample.stress.transpose();
+    }
+    // Relative to the sample count the determinant is of order 0.01 for any patch of two rows.
+    let count = samples.len() as f64;
+    let is_determined = normal.determinant() > 1e-9 * count.powi(3);
+    match normal.cholesky().filter(|_| is_determined) {
+        Some(factor) => factor.solve(&right).row(0).transpose(),
+        None => {
+            samples
+                .iter()
+                .map(|sample| sample.stress)
+                .sum::<Vector3<f64>>()
+                / count
+        }
+    }
+}
+
+fn in_frame(stress: Vector3<f64>, angle: f64, material: &ElasticMaterial) -> NodalStress {
+    let (sin, cos) = angle.sin_cos();
+    let frame = Matrix2::new(cos, -sin, sin, cos);
+    let global = Matrix2::new(stress[0], stress[2], stress[2], stress[1]);
+    let local = frame.transpose() * global * frame;
+    let (radial, hoop) = (local[(0, 0)], local[(1, 1)]);
+    NodalStress {
+        radial,
+        hoop,
+        shear: local[(0, 1)],
+        axial: material.out_of_plane_stress(radial, hoop),
     }
 }

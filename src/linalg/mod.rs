@@ -1,6 +1,18 @@
-//! Sparse LU factorization and Krylov-Schur iteration over faer.
+//! Sparse factorizations and Krylov-Schur iteration over faer.
 
 pub mod banded;
+pub mod dense;
+mod dense_lu;
+mod error;
+mod krylov_schur;
 mod polynomial;
+mod sparse_ldl;
+mod sparse_lu;
+mod sparse_product;
 
+pub use dense_lu::{ComplexDenseLu, DenseLu};
+pub use error::LinalgError;
+pub use krylov_schur::{BlockOperator, KrylovSchurSettings, RealPairs, Wanted, krylov_schur};
 pub use polynomial::{MatrixPolynomial, SparsityPattern};
+pub use sparse_ldl::{LdlAnalysis, SparseLdl};
+pub use sparse_lu::{ComplexSparseLu, LuAnalysis, SparseLu};

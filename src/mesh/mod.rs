@@ -32,7 +32,8 @@ impl ElementKind {
 pub struct Boundary {
     /// 0-based node indices along the boundary.
     pub nodes: Vec<u32>,
-    /// Tributary length of each node, `∫ N_i ds` over the boundary, m.
+    /// Tributary length of each node, `∫ N_i (n . e_i) ds` over the boundary with `n` its normal and
+    /// `e_i` the node's own first axis, m: the force that unit pressure exerts along that axis.
     pub tributary_lengths: Vec<f64>,
 }
 

@@ -1,1 +1,23 @@
 //! Result files: tables, fields, figures, manifest.
+
+pub mod cea;
+mod drawing;
+pub mod figures;
+mod folder;
+pub mod identification;
+mod manifest;
+mod mesh;
+pub mod report;
+pub mod run_figures;
+pub mod signal;
+pub mod sweep;
+mod table;
+pub mod transient;
+mod vtu;
+
+pub use drawing::{DrawingError, Figure, render, write_figure, write_figures, write_report};
+pub use folder::{FolderError, OutputFolder, Replace};
+pub use manifest::Manifest;
+pub use mesh::{MeshStatistics, write_mesh, write_mesh_picture};
+pub use table::{Table, format_number};
+pub use vtu::{EncodedMesh, Field, PvdEntry, cartesian_vectors, write_pvd, write_vtu};

@@ -1,1 +1,25 @@
-//! Explicit frictional-contact transient.
+//! Explicit dynamics of the disc against the rotating cylinder, from rest to limit cycle.
+//!
+//! [`CentralDifference`] is the time loop: half-step central differences with a lumped mass, the forward
+//! increment Lagrange multipliers of [`LagrangeContact`], and an energy balance that closes to round-off. It
+//! knows no files: an [`Observer`] gets a [`Sample`] at fixed intervals. [`Recorder`] is the observer
+//! that keeps what results need, and [`TransientAnalysis`] reads frequencies, growth and powers from it.
+
+mod analysis;
+mod central_difference;
+mod contact;
+mod perturbation;
+mod recorder;
+mod sample;
+mod settings;
+
+pub use analysis::{Growth, LimitCycle, TransientAnalysis};
+pub use central_difference::{CentralDifference, RunEnd, TransientState};
+pub use contact::{ContactPowers, LagrangeContact, StatusCounts};
+pub use perturbation::Perturbation;
+pub use recorder::{ContactFrame, Recorder, RecorderSettings, SampleRow, Snapshot};
+pub use sample::{Observer, Sample};
+pub use settings::{
+    InitialState, OperatorChoice, StepPlan, TimeStep, TransientError, TransientModel,
+    TransientSettings, build_operator, stable_step_limit,
+};

@@ -352,10 +352,10 @@ fn mode(
         .ok()?;
     let pair = &path.points[found];
     let (eigenvalue, _) = eigenvalue_of(problem, waves, pair.theta);
-    if let ModeLimit::MaxFrequency(limit) = request.limit {
-        if eigenvalue.im > TAU * limit {
-            return None;
-        }
+    if let ModeLimit::MaxFrequency(limit) = request.limit
+        && eigenvalue.im > TAU * limit
+    {
+        return None;
     }
     if eigenvalue.im <= 0.0 {
         return None;

@@ -1,0 +1,240 @@
+//! `frictionsim cea`: complex eigenvalues of steady sliding over the friction coefficient.
+
+mod model;
+mod solve;
+
+pub use model::SlidingModel;
+
+use super::{Failure, RunOptions, Session, terminal};
+use crate::case::{Case, Cea, ModeSelection};
+use crate::cea::FrictionSweep;
+use crate::results::cea::{CeaReport, draw, print, write};
+use clap::Args;
+
+/// Complex eigenvalue sweep over the friction coefficient
+#[derive(Args)]
+pub struct Arguments {
+    /// The case and how to run it.
+    #[command(flatten)]
+    pub options: RunOptions,
+}
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// A bad case, contact that opens, a solver that fails, an output folder that cannot be written.
+pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    run_with(arguments, |session, cea, model| {
+        solve::solve(session, cea, model)
+    })
+}
+
+/// What a solver gives back.
+pub struct Solution {
+    /// Modes at every friction value, and where branches turn unstable.
+    pub sweep: FrictionSweep,
+    /// Unknowns of the eigenproblem.
+    pub dofs: usize,
+    /// Which solver.
+    pub method: &'static str,
+    /// What it has to say.
+    pub notes: Vec<String>,
+}
+
+/// Runs the subcommand with a solver.
+///
+/// # Errors
+/// A bad case, contact that opens, a solver that fails, an output folder that cannot be written.
+fn run_with(
+    arguments: &Arguments,
+    solve: impl FnOnce(&Session, &Cea, &SlidingModel) -> Result<Solution, Failure>,
+) -> Result<(), Failure> {
+    let session = Session::start("cea", &arguments.options)?;
+    let case = &session.case;
+    let cea = case.require_cea()?;
+    let cost = case.cost();
+    let solver_bytes = cost.cea.map_or(0.0, |cea| cea.memory_bytes);
+    session.check_memory(cost.mesh_memory_bytes + solver_bytes)?;
+    let folder = session.open_folder()?;
+
+    let model = SlidingModel::new(case, cea)?;
+    let solution = solve(&session, cea, &model)?;
+    refuse_no_modes(case, cea, &solution.sweep)?;
+
+    let field = model.base_field(case);
+    let report = CeaReport {
+        title: &case.title,
+        mesh: &model.annulus.mesh,
+        dofs: solution.dofs,
+        method: solution.method,
+        selection: match cea.modes {
+            ModeSelection::BelowHz(limit) => format!("below {limit} Hz"),
+            ModeSelection::Lowest(count) => format!("the lowest {count}"),
+        },
+        friction_coefficients: &cea.friction_coefficients,
+        sweep: &solution.sweep,
+        base: model.base_state(case),
+        field: &field,
+        notes: solution.notes,
+        wall_s: session.wall_seconds(),
+    };
+    let summary = write(&folder, &report)?;
+    if !session.options.no_figures {
+        draw(&folder, &report, case.damping.rayleigh)?;
+    }
+    let path = folder.path().to_owned();
+    folder.finish()?;
+    session.print(&print(&report), &summary, &path)
+}
+
+/// A frequency limit below the first mode is an error of the case.
+fn refuse_no_modes(case: &Case, cea: &Cea, sweep: &FrictionSweep) -> Result<(), Failure> {
+    let ModeSelection::BelowHz(limit) = cea.modes else {
+        return Ok(());
+    };
+    if sweep.points.iter().any(|point| !point.modes.is_empty()) {
+        return Ok(());
+    }
+    Err(Failure::Case(case.error_at(
+        "cea.max_frequency_hz",
+        format!("cea.max_frequency_hz = {limit}: there are no modes below it"),
+        "below the first mode".to_owned(),
+        Some("raise it, or ask for the lowest ones with `modes = 10` instead".to_owned()),
+    )))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::SimdChoice;
+    use crate::cea::{ComplexMode, FrictionPoint};
+    use faer::c64;
+    use std::f64::consts::TAU;
+    use std::path::Path;
+
+    fn arguments(out: &Path, set: &[&str]) -> Arguments {
+        let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
+        let coarse = ["mesh.circumferential_elements=24", "mesh.radial_elements=4"];
+        let all = coarse.iter().chain(set);
+        Arguments {
+            options: RunOptions {
+                case: cases.join("polycarbonate-disc.toml"),
+                out: Some(out.to_owned()),
+                set: all.map(|text| text.to_string()).collect(),
+                json: false,
+                threads: None,
+                simd: SimdChoice::Auto,
+                quiet: true,
+                no_figures: false,
+                force: false,
+            },
+        }
+    }
+
+    /// A spectrum of one made-up standing wave at every friction value.
+    fn made_up(cea: &Cea, model: &SlidingModel) -> Solution {
+        let shape = vec![c64::new(1.0, 0.0); 2 * model.annulus.mesh.node_count()];
+        let mode = ComplexMode {
+            eigenvalue: c64::new(-100.0, TAU * 5000.0),
+            harmonic: 0,
+            branch: 0,
+            direction: 0,
+            residual: 1e-14,
+            shape: Some(shape),
+        };
+        let values = cea.solved_friction_coefficients();
+        let points = values
+            .into_iter()
+            .map(|friction_coefficient| FrictionPoint {
+                friction_coefficient,
+                modes: vec![mode.clone()],
+            });
+        Solution {
+            sweep: FrictionSweep {
+                points: points.collect(),
+                intervals: Vec::new(),
+            },
+            dofs: 100,
+            method: "sparse",
+            notes: Vec::new(),
+        }
+    }
+
+    fn run(arguments: &Arguments) -> Result<(), Failure> {
+        run_with(arguments, |_, cea, model| Ok(made_up(cea, model)))
+    }
+
+    #[test]
+    fn a_run_leaves_tables_fields_figures_and_its_manifest() {
+        let folder = tempfile::tempdir().unwrap();
+        run(&arguments(
+            folder.path(),
+            &["cea.friction_coefficients=[0.1, 0.2]"],
+        ))
+        .unwrap();
+        for name in [
+            "eigenvalues.csv",
+            "stability.csv",
+            "summary.json",
+            "manifest.json",
+            "modes.pvd",
+            "modes/mu-0.3-mode-001.vtu",
+            "prestress.csv",
+            "prestress.vtu",
+            "figures/locus.svg",
+            "figures/prestress.png",
+            "figures/modes-mu-0.3.png",
+        ] {
+            assert!(folder.path().join(name).exists(), "{name}");
+        }
+        let table = std::fs::read_to_string(folder.path().join("eigenvalues.csv")).unwrap();
+        // 0.3 is solved for its shapes; the table keeps to the values asked for.
+        assert_eq!(table.lines().count(), 3);
+    }
+
+    #[test]
+    fn the_reported_torque_and_power_are_those_of_the_whole_thickness() {
+        let folder = tempfile::tempdir().unwrap();
+        let arguments = arguments(folder.path(), &[]);
+        run_with(&arguments, |session, cea, model| {
+            let (case, base) = (&session.case, model.base_state(&session.case));
+            let field = model.base_field(case);
+            // Torque = thickness * radius * sum of traction times tributary length.
+            let lengths = &model.base.interface.tributary_lengths;
+            let force: f64 = field.shears.iter().zip(lengths).map(|(t, w)| t * w).sum();
+            let torque = 0.009 * 0.0205 * force;
+            assert!((base.torque_n_m / torque - 1.0).abs() < 1e-12);
+            assert!((base.power_w / (torque * 610.0 * TAU / 60.0) - 1.0).abs() < 1e-12);
+            // Lame's pressure for this interference: 2.827 MPa at nu = 0.38, a coarse mesh within 2 %.
+            assert!(
+                (base.pressure_pa[0] / 2.827e6 - 1.0).abs() < 0.02,
+                "{base:?}"
+            );
+            Ok(made_up(cea, model))
+        })
+        .unwrap();
+    }
+
+    #[test]
+    fn a_limit_below_the_first_mode_is_an_error_of_the_case() {
+        let folder = tempfile::tempdir().unwrap();
+        let failure = run_with(&arguments(folder.path(), &[]), |_, cea, model| {
+            let mut solution = made_up(cea, model);
+            solution
+                .sweep
+                .points
+                .iter_mut()
+                .for_each(|point| point.modes.clear());
+            Ok(solution)
+        })
+        .unwrap_err();
+        let Failure::Case(errors) = failure else {
+            panic!("{failure:?}");
+        };
+        let text = errors.to_string();
+        assert!(
+            text.contains("no modes below it") && text.contains("modes = 10"),
+            "{text}"
+        );
+    }
+}

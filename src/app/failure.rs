@@ -1,0 +1,131 @@
+//! How a command fails, and the exit code that says so.
+
+use crate::case::CaseErrors;
+use crate::cea::cyclic::CyclicError;
+use crate::cea::sparse::CeaError;
+use crate::prestress::PrestressError;
+use crate::results::{DrawingError, FolderError};
+use std::io;
+use std::process::ExitCode;
+
+/// Why a command did not do what it was asked.
+#[derive(Debug)]
+pub enum Failure {
+    /// Errors of a case file, each with its place: exit code 2.
+    Case(CaseErrors),
+    /// Any other bad input: exit code 2.
+    Usage(anyhow::Error),
+    /// The input was good but the run failed: exit code 1.
+    Run(anyhow::Error),
+    /// The reader of our output has gone, as `head` does: exit code 0.
+    BrokenPipe,
+}
+
+impl Failure {
+    /// Bad input in words.
+    pub fn usage(message: impl std::fmt::Display) -> Self {
+        Self::Usage(anyhow::anyhow!("{message}"))
+    }
+
+    /// Failure of a run in words.
+    pub fn run(message: impl std::fmt::Display) -> Self {
+        Self::Run(anyhow::anyhow!("{message}"))
+    }
+
+    /// What went wrong, one line for each error.
+    pub fn messages(&self) -> Vec<String> {
+        match self {
+            Self::Case(errors) => {
+                let all = errors.diagnostics.iter();
+                all.map(|error| error.message.clone()).collect()
+            }
+            Self::Usage(error) | Self::Run(error) => vec![format!("{error:#}")],
+            Self::BrokenPipe => Vec::new(),
+        }
+    }
+
+    /// Says on stderr what went wrong, and gives the exit code.
+    pub fn report(&self) -> ExitCode {
+        use std::io::{IsTerminal, Write};
+        let stderr = io::stderr();
+        let text = match self {
+            Self::Case(errors) => {
+                let color = stderr.is_terminal() && std::env::var_os("NO_COLOR").is_none();
+                errors.render(color)
+            }
+            Self::Usage(error) | Self::Run(error) => format!("error: {error:#}"),
+            Self::BrokenPipe => return ExitCode::SUCCESS,
+        };
+        // Nobody is left to tell if stderr is closed.
+        let _ = writeln!(stderr.lock(), "{text}");
+        match self {
+            Self::Case(_) | Self::Usage(_) => ExitCode::from(2),
+            Self::Run(_) | Self::BrokenPipe => ExitCode::from(1),
+        }
+    }
+}
+
+impl From<CaseErrors> for Failure {
+    fn from(errors: CaseErrors) -> Self {
+        Self::Case(errors)
+    }
+}
+
+impl From<FolderError> for Failure {
+    fn from(error: FolderError) -> Self {
+        if error.is_usage() {
+            Self::Usage(error.into())
+        } else {
+            Self::Run(error.into())
+        }
+    }
+}
+
+impl From<DrawingError> for Failure {
+    fn from(error: DrawingError) -> Self {
+        match error {
+            DrawingError::Folder(error) => error.into(),
+            DrawingError::Figure(_) => Self::Run(error.into()),
+        }
+    }
+}
+
+impl From<PrestressError> for Failure {
+    fn from(error: PrestressError) -> Self {
+        Self::Run(error.into())
+    }
+}
+
+impl From<CyclicError> for Failure {
+    fn from(error: CyclicError) -> Self {
+        match error {
+            CyclicError::Friction { .. }
+            | CyclicError::NoFriction
+            | CyclicError::Limit { .. }
+            | CyclicError::TooManyModes { .. }
+            | CyclicError::Mesh(_) => Self::Usage(error.into()),
+            _ => Self::Run(error.into()),
+        }
+    }
+}
+
+impl From<CeaError> for Failure {
+    fn from(error: CeaError) -> Self {
+        match error {
+            CeaError::FrictionCoefficients { .. }
+            | CeaError::NoModes { .. }
+            | CeaError::TooManyModes { .. } => Self::Usage(error.into()),
+            _ => Self::Run(error.into()),
+        }
+    }
+}
+
+impl From<io::Error> for Failure {
+    fn from(error: io::Error) -> Self {
+        if error.kind() == io::ErrorKind::BrokenPipe {
+            Self::BrokenPipe
+        } else {
+            Self::Run(error.into())
+        }
+    }
+}

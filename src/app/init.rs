@@ -1,0 +1,120 @@
+//! `frictionsim init`: a commented case to start from.
+
+use super::{Failure, terminal};
+use clap::{Args, ValueHint};
+use std::fmt::Write as _;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// A case to start from.
+struct Template {
+    name: &'static str,
+    meaning: &'static str,
+    text: &'static str,
+}
+
+const TEMPLATES: &[Template] = &[
+    Template {
+        name: "cea",
+        meaning: "complex eigenvalues of a disc over the friction coefficient",
+        text: include_str!("../../cases/polycarbonate-disc.toml"),
+    },
+    Template {
+        name: "transient",
+        meaning: "contact transient from first expansion to limit cycle",
+        text: include_str!("../../cases/polycarbonate-610rpm.toml"),
+    },
+    Template {
+        name: "sweep",
+        meaning: "transients over rotation speed and friction",
+        text: include_str!("../../cases/speed-friction-study.toml"),
+    },
+];
+
+/// Write a commented case to start from
+#[derive(Args)]
+pub struct Arguments {
+    /// Template; see --list
+    #[arg(default_value = "cea")]
+    template: String,
+    /// File to write, `-` for stdout [default: <TEMPLATE>.toml]
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    out: Option<PathBuf>,
+    /// List the templates
+    #[arg(long)]
+    list: bool,
+    /// Replace an existing file
+    #[arg(long)]
+    force: bool,
+}
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// An unknown template, an existing file without `--force`, a file that cannot be written.
+pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    if arguments.list {
+        let mut text = String::new();
+        for template in TEMPLATES {
+            let _ = writeln!(text, "{:<12}{}", template.name, template.meaning);
+        }
+        return terminal::print(&text);
+    }
+    let template = find(&arguments.template)?;
+    let path = match &arguments.out {
+        Some(path) => path.clone(),
+        None => PathBuf::from(format!("{}.toml", template.name)),
+    };
+    if path == Path::new("-") {
+        return terminal::print(template.text);
+    }
+    write(&path, template.text, arguments.force)?;
+    terminal::print(&format!("{}\n", path.display()))
+}
+
+fn find(name: &str) -> Result<&'static Template, Failure> {
+    // The case's own name works as well as what it is for.
+    let name = if name == "disc" { "cea" } else { name };
+    let found = TEMPLATES.iter().find(|template| template.name == name);
+    found.ok_or_else(|| {
+        let names: Vec<&str> = TEMPLATES.iter().map(|template| template.name).collect();
+        Failure::usage(format!(
+            "no template \"{name}\": choose one of {}",
+            names.join(", ")
+        ))
+    })
+}
+
+fn write(path: &Path, text: &str, force: bool) -> Result<(), Failure> {
+    let mut options = std::fs::OpenOptions::new();
+    options.write(true);
+    if force {
+        options.create(true).truncate(true);
+    } else {
+        options.create_new(true);
+    }
+    let result = options
+        .open(path)
+        .and_then(|mut file| file.write_all(text.as_bytes()));
+    result.map_err(|error| match error.kind() {
+        std::io::ErrorKind::AlreadyExists => Failure::usage(format!(
+            "{} exists: replace it with --force, or name another file with --out",
+            path.display()
+        )),
+        _ => Failure::run(format!("cannot write {}: {error}", path.display())),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::Case;
+
+    #[test]
+    fn every_template_is_a_valid_case() {
+        for template in TEMPLATES {
+            let case = Case::parse(template.name, template.text.as_bytes(), &[]);
+            assert!(case.is_ok(), "{}", case.unwrap_err());
+        }
+    }
+}

@@ -1,0 +1,136 @@
+//! `frictionsim sweep`: an analysis at every point of a parameter study.
+
+mod plan;
+mod progress;
+mod workers;
+
+pub use plan::{Shard, SweepPlan, analysis_name};
+pub use progress::SweepProgress;
+pub use workers::{PointRunner, SweepRun};
+
+use super::{Failure, RunOptions, Session};
+use crate::results::Manifest;
+use crate::results::sweep::{PointRecord, Start, SweepFolder, SweepReport};
+use crate::results::sweep::{print, summary, write_points};
+use clap::Args;
+use serde_json::Value;
+
+/// Grid of transients and/or eigenvalue analyses
+///
+/// Every finished point is a file of its own in the output folder: a sweep that is killed goes on
+/// with --resume, and several processes may work on one folder.
+#[derive(Args)]
+pub struct Arguments {
+    #[command(flatten)]
+    options: RunOptions,
+    /// Run part K of N only; all parts share the output folder
+    #[arg(long, value_name = "K/N")]
+    shard: Option<Shard>,
+    /// Keep the finished points of an earlier run and go on
+    #[arg(long, conflicts_with = "force")]
+    resume: bool,
+}
+
+/// Runs the subcommand with what runs at a point.
+///
+/// # Errors
+/// A bad case or folder; a folder that cannot be written; failed points, after all others are done.
+pub fn run_with(
+    arguments: &Arguments,
+    runner: impl FnOnce(&Session, &SweepPlan<'_>) -> Box<PointRunner<'static>>,
+) -> Result<(), Failure> {
+    let session = Session::start("sweep", &arguments.options)?;
+    let plan = SweepPlan::new(&session.case)?;
+    let threads = session.manifest.threads;
+    session.check_memory(threads.min(plan.count()) as f64 * point_memory(&session, &plan))?;
+    let points = plan.points(arguments.shard);
+    let start = match (arguments.resume, arguments.options.force) {
+        (_, true) => Start::Over,
+        (true, false) => Start::Resume,
+        (false, false) => Start::Fresh,
+    };
+    let path = session.folder_path();
+    let folder = SweepFolder::open(&path, &session.manifest, plan.count(), &points, start)?;
+
+    let progress = SweepProgress::new(arguments.options.quiet, points.len());
+    let runner = runner(&session, &plan);
+    let run = SweepRun {
+        plan: &plan,
+        folder: &folder,
+        manifest: &session.manifest,
+        progress: &progress,
+        runner: &*runner,
+    };
+    let outcome = run.run(&points, threads);
+    progress.finish();
+    let ran = outcome?;
+
+    let records = finished_points(&folder, plan.count())?;
+    let report = SweepReport {
+        title: &session.case.title,
+        keys: &plan.keys(),
+        analyses: &plan.analysis_names(),
+        count: plan.count(),
+        records: &records,
+        ran: Some(ran),
+        wall_s: session.wall_seconds(),
+    };
+    let summary = if report.missing().is_empty() {
+        gather(&folder, &report, &session.manifest)?
+    } else {
+        summary(&report, &session.manifest)
+    };
+    session.print(&print(&report), &summary, folder.path())?;
+    let of_these = |record: &&PointRecord| points.binary_search(&record.point).is_ok();
+    match report.failed().filter(of_these).count() {
+        0 => Ok(()),
+        failed => Err(Failure::run(format!(
+            "{failed} of {} points failed; the others are in {}",
+            points.len(),
+            folder.path().display()
+        ))),
+    }
+}
+
+/// Memory that the analyses of one point take, bytes.
+fn point_memory(session: &Session, plan: &SweepPlan<'_>) -> f64 {
+    let first = plan.point_case(1);
+    let cost = first.as_ref().unwrap_or(&session.case).cost();
+    let cea = cost.cea.map_or(0.0, |cea| cea.memory_bytes);
+    let transient = cost
+        .transient
+        .map_or(0.0, |transient| transient.memory_bytes);
+    cost.mesh_memory_bytes + cea.max(transient)
+}
+
+/// The finished points, in their order.
+///
+/// # Errors
+/// Those of the file system.
+pub fn finished_points(folder: &SweepFolder, count: usize) -> Result<Vec<PointRecord>, Failure> {
+    let mut records = Vec::new();
+    for point in 1..=count {
+        records.extend(folder.read(point)?);
+    }
+    Ok(records)
+}
+
+/// Writes the table and the summary of the finished points, and returns the summary.
+///
+/// # Errors
+/// Those of the file system.
+pub fn gather(
+    folder: &SweepFolder,
+    report: &SweepReport<'_>,
+    manifest: &Manifest,
+) -> Result<Value, Failure> {
+    folder.write("points.csv", |out| {
+        write_points(out, report.keys, report.records)
+    })?;
+    let summary = summary(report, manifest);
+    folder.write("summary.json", |out| {
+        serde_json::to_writer_pretty(&mut *out, &summary)?;
+        out.write_all(b"\n")
+    })?;
+    Ok(summary)
+}

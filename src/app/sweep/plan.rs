@@ -1,0 +1,203 @@
+//! The points of a sweep, each a case of its own, and the shards they are dealt out to.
+
+use crate::app::Failure;
+use crate::case::{Analysis, Case, Sweep};
+use serde_json::{Map, Value};
+use std::str::FromStr;
+
+/// Part `number` of `count` parts that a sweep is dealt out to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shard {
+    number: usize,
+    count: usize,
+}
+
+impl FromStr for Shard {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let hint = "a shard is K/N, part K of N, for example 2/8";
+        let (number, count) = text.split_once('/').ok_or(hint)?;
+        let parse = |part: &str| part.parse::<usize>().map_err(|_| hint.to_owned());
+        let (number, count) = (parse(number)?, parse(count)?);
+        if number == 0 || number > count {
+            return Err(format!("K must be from 1 to N = {count}: {hint}"));
+        }
+        Ok(Self { number, count })
+    }
+}
+
+/// The points of a sweep.
+#[derive(Clone, Debug)]
+pub struct SweepPlan<'a> {
+    case: &'a Case,
+    sweep: &'a Sweep,
+    /// What runs at each point.
+    pub analyses: Vec<Analysis>,
+}
+
+impl<'a> SweepPlan<'a> {
+    /// The plan of a case. What runs at each point is `sweep.analyses`, or else whatever the first
+    /// point has a section for.
+    ///
+    /// # Errors
+    /// A case without `[sweep]`, and one without the section of an analysis that it asks for.
+    pub fn new(case: &'a Case) -> Result<Self, Failure> {
+        let mut plan = Self {
+            case,
+            sweep: case.require_sweep()?,
+            analyses: Vec::new(),
+        };
+        // Sections may exist at the points only, made by swept keys. A first point that is invalid
+        // as a combination of values is a failed point, not a bad sweep.
+        let first = plan.point_case(1);
+        let first = first.as_ref().unwrap_or(case);
+        plan.analyses = match plan.sweep.analyses.as_slice() {
+            [] => [
+                first.transient.as_ref().map(|_| Analysis::Transient),
+                first.cea.as_ref().map(|_| Analysis::Cea),
+            ]
+            .into_iter()
+            .flatten()
+            .collect(),
+            given => given.to_vec(),
+        };
+        let wants = |analysis| plan.analyses.contains(&analysis);
+        if first.cea.is_none() && wants(Analysis::Cea) {
+            first.require_cea()?;
+        }
+        if first.transient.is_none() && (wants(Analysis::Transient) || plan.analyses.is_empty()) {
+            first.require_transient()?;
+        }
+        Ok(plan)
+    }
+
+    /// Number of points.
+    pub fn count(&self) -> usize {
+        self.sweep.point_count()
+    }
+
+    /// Swept keys.
+    pub fn keys(&self) -> Vec<String> {
+        self.sweep.keys.iter().map(|key| key.key.clone()).collect()
+    }
+
+    /// Names of the analyses.
+    pub fn analysis_names(&self) -> Vec<&'static str> {
+        self.analyses.iter().copied().map(analysis_name).collect()
+    }
+
+    /// Numbers of the points of a shard, ascending from 1. Points are dealt out in turn, so that
+    /// neighbours, which cost alike, go to different shards.
+    pub fn points(&self, shard: Option<Shard>) -> Vec<usize> {
+        let shard = shard.unwrap_or(Shard {
+            number: 1,
+            count: 1,
+        });
+        (shard.number..=self.count()).step_by(shard.count).collect()
+    }
+
+    /// Swept keys and their values at a point.
+    pub fn swept(&self, point: usize) -> Map<String, Value> {
+        let overrides = self.sweep.overrides(point - 1);
+        let pairs = overrides.iter().filter_map(|text| text.split_once('='));
+        pairs
+            .map(|(key, value)| (key.to_owned(), json_value(value)))
+            .collect()
+    }
+
+    /// The case of a point: the sweep's with the swept values as overrides, and no `[sweep]`.
+    ///
+    /// # Errors
+    /// Values that do not go together, in one line.
+    pub fn point_case(&self, point: usize) -> Result<Case, String> {
+        let overrides = self.sweep.overrides(point - 1);
+        let one_line = |errors: crate::case::CaseErrors| one_line(&Failure::Case(errors));
+        let mut raw = self.case.raw.with_overrides(&overrides).map_err(one_line)?;
+        raw.root.remove("sweep");
+        Case::from_raw(raw).map_err(one_line)
+    }
+}
+
+/// Name of an analysis: that of its section and of its subcommand.
+pub fn analysis_name(analysis: Analysis) -> &'static str {
+    match analysis {
+        Analysis::Cea => "cea",
+        Analysis::Transient => "transient",
+    }
+}
+
+/// A failure as the text of a table cell.
+pub fn one_line(failure: &Failure) -> String {
+    let text = match failure {
+        Failure::Case(errors) => {
+            let messages = errors.diagnostics.iter();
+            let messages: Vec<&str> = messages.map(|error| error.message.as_str()).collect();
+            messages.join("; ")
+        }
+        Failure::Usage(error) | Failure::Run(error) => format!("{error:#}"),
+        Failure::BrokenPipe => "broken pipe".to_owned(),
+    };
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// A TOML value as JSON; numbers, strings, booleans and lists of them are written alike in both.
+fn json_value(toml: &str) -> Value {
+    serde_json::from_str(toml).unwrap_or_else(|_| Value::String(toml.to_owned()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn case(sweep: &str) -> Case {
+        let file = include_str!("../../../cases/polycarbonate-disc.toml");
+        Case::parse("case.toml", format!("{file}\n{sweep}").as_bytes(), &[]).unwrap()
+    }
+
+    const SEVEN: &str = "[sweep]\n\"contact.friction_coefficient\" = \
+                         { from = 0.1, to = 0.7, count = 7 }\nanalyses = [\"cea\"]";
+
+    #[test]
+    fn shards_are_disjoint_and_cover_every_point() {
+        let case = case(SEVEN);
+        let plan = SweepPlan::new(&case).unwrap();
+        for count in 1..=9 {
+            let mut all: Vec<usize> = (1..=count)
+                .flat_map(|number| plan.points(Some(Shard { number, count })))
+                .collect();
+            all.sort_unstable();
+            assert_eq!(all, [1, 2, 3, 4, 5, 6, 7]);
+        }
+    }
+
+    #[test]
+    fn shards_outside_their_count_are_refused() {
+        for text in ["0/4", "5/4", "1", "a/b", "1/0", "-1/4", ""] {
+            assert!(text.parse::<Shard>().is_err(), "{text}");
+        }
+        assert!("4/4".parse::<Shard>().is_ok());
+    }
+
+    #[test]
+    fn a_point_is_the_case_with_the_swept_values_as_overrides() {
+        let swept = case(SEVEN);
+        let plan = SweepPlan::new(&swept).unwrap();
+        let point = plan.point_case(3).unwrap();
+        let set = ["contact.friction_coefficient=0.3".to_owned()];
+        let file = include_bytes!("../../../cases/polycarbonate-disc.toml");
+        let plain = Case::parse("case.toml", file, &set).unwrap();
+        assert_eq!(point.raw.hash(), plain.raw.hash());
+        assert_eq!(point.contact.sliding.friction_coefficient, 0.3);
+    }
+
+    #[test]
+    fn a_case_runs_the_analyses_that_it_has_sections_for() {
+        let both =
+            "[sweep]\n\"contact.friction_coefficient\" = [0.2]\n[transient]\nduration = 0.01";
+        assert_eq!(
+            SweepPlan::new(&case(both)).unwrap().analysis_names(),
+            ["transient", "cea"]
+        );
+    }
+}

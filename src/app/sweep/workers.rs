@@ -1,0 +1,140 @@
+//! Runs the points of a sweep on worker threads.
+
+use super::plan::{SweepPlan, one_line};
+use super::progress::SweepProgress;
+use crate::app::Failure;
+use crate::case::Case;
+use crate::results::Manifest;
+use crate::results::sweep::{PointRecord, SweepFolder};
+use serde_json::{Map, Value};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::time::Instant;
+
+/// Runs the analyses of one point and gives the summary of each by its name.
+pub type PointRunner<'a> = dyn Fn(&Case) -> Result<Map<String, Value>, Failure> + Sync + 'a;
+
+/// A sweep on its way.
+pub struct SweepRun<'a> {
+    /// Its points.
+    pub plan: &'a SweepPlan<'a>,
+    /// Where they go.
+    pub folder: &'a SweepFolder,
+    /// What they are made from.
+    pub manifest: &'a Manifest,
+    /// What is told of them on the way.
+    pub progress: &'a SweepProgress,
+    /// What makes them.
+    pub runner: &'a PointRunner<'a>,
+}
+
+impl SweepRun<'_> {
+    /// Runs those of `points` that are neither finished nor claimed by another process, and returns
+    /// how many that were.
+    ///
+    /// Workers take the next point when they are done with one. Inside a point the threads that
+    /// are left over work: one, unless there are fewer points than threads.
+    ///
+    /// # Errors
+    /// A folder that cannot be written; the other workers finish the points they have. A point that
+    /// fails is no error: its record says so.
+    pub fn run(&self, points: &[usize], threads: usize) -> Result<usize, Failure> {
+        let workers = threads.clamp(1, points.len().max(1));
+        let (next, ran) = (AtomicUsize::new(0), AtomicUsize::new(0));
+        let stop = AtomicBool::new(false);
+        let failure = Mutex::new(None);
+        let work = || {
+            while !stop.load(Ordering::Relaxed) {
+                let Some(&point) = points.get(next.fetch_add(1, Ordering::Relaxed)) else {
+                    return;
+                };
+                match self.run_point(point) {
+                    Ok(is_new) => {
+                        ran.fetch_add(usize::from(is_new), Ordering::Relaxed);
+                    }
+                    Err(error) => {
+                        stop.store(true, Ordering::Relaxed);
+                        if let Ok(mut failure) = failure.lock() {
+                            failure.get_or_insert(error);
+                        }
+                    }
+                }
+            }
+        };
+        let pools = (0..workers)
+            .map(|_| {
+                let builder = rayon::ThreadPoolBuilder::new();
+                builder.num_threads((threads / workers).max(1)).build()
+            })
+            .collect::<Result<Vec<_>, _>>()
+            .map_err(Failure::run)?;
+        std::thread::scope(|scope| {
+            for pool in &pools {
+                scope.spawn(|| pool.install(work));
+            }
+        });
+        match failure.into_inner() {
+            Ok(None) => Ok(ran.into_inner()),
+            Ok(Some(error)) => Err(error),
+            Err(_) => Err(Failure::run("a worker of the sweep stopped")),
+        }
+    }
+
+    /// Runs one point and keeps it, unless it is finished or another process has it.
+    fn run_point(&self, point: usize) -> Result<bool, Failure> {
+        if self.folder.read(point)?.is_some() {
+            self.progress.skip();
+            return Ok(false);
+        }
+        let Some(_claim) = self.folder.claim(point)? else {
+            self.progress.skip();
+            return Ok(false);
+        };
+        // Another process may have finished it between the look and the claim.
+        if self.folder.read(point)?.is_some() {
+            self.progress.skip();
+            return Ok(false);
+        }
+        let swept = self.plan.swept(point);
+        self.progress.begin(point, &swept);
+        let start = Instant::now();
+        let (case_hash, outcome) = self.compute(point);
+        let (summaries, error) = match outcome {
+            Ok(summaries) => (summaries, None),
+            Err(error) => (Map::new(), Some(error)),
+        };
+        let record = PointRecord {
+            point,
+            swept,
+            error,
+            summaries,
+            wall_s: start.elapsed().as_secs_f64(),
+            case_hash,
+            sweep_hash: self.manifest.case_hash.clone(),
+            version: self.manifest.version.clone(),
+            simd: self.manifest.simd.clone(),
+        };
+        self.folder.write_point(&record)?;
+        self.progress.end(&record);
+        Ok(true)
+    }
+
+    fn compute(&self, point: usize) -> (String, Result<Map<String, Value>, String>) {
+        let case = match self.plan.point_case(point) {
+            Ok(case) => case,
+            Err(error) => return (String::new(), Err(error)),
+        };
+        // A point that panics must not take the others with it.
+        let outcome = catch_unwind(AssertUnwindSafe(|| (self.runner)(&case)));
+        let outcome = match outcome {
+            Ok(result) => result.map_err(|failure| one_line(&failure)),
+            Err(panic) => {
+                let text = panic.downcast_ref::<String>().map(String::as_str);
+                let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
+                Err(format!("panic: {}", text.unwrap_or("of unknown cause")))
+            }
+        };
+        (case.raw.hash(), outcome)
+    }
+}

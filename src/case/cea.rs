@@ -1,0 +1,195 @@
+//! `[cea]`: the complex eigenvalue analysis.
+
+use super::model::node_count;
+use super::reader::{Bound, Section};
+use super::rules::{parameter, rising};
+use crate::fem::MassKind;
+use crate::mesh::AnnulusSpecification;
+
+/// Which modes are found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ModeSelection {
+    /// All below this frequency, Hz.
+    BelowHz(f64),
+    /// This many of the lowest.
+    Lowest(usize),
+}
+
+/// Eigenvalue solver.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CeaMethod {
+    /// Cyclic where mesh and base state have the symmetry, sparse elsewhere.
+    Auto,
+    /// One small problem for each circumferential harmonic.
+    Cyclic,
+    /// Shift-invert Krylov-Schur on the whole mesh.
+    Sparse,
+}
+
+/// `[cea]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cea {
+    /// Friction coefficients of the sweep, rising.
+    pub friction_coefficients: Vec<f64>,
+    /// Which modes.
+    pub modes: ModeSelection,
+    /// Which solver.
+    pub method: CeaMethod,
+    /// Which mass matrix.
+    pub mass: MassKind,
+    /// Whether the prestress enters the tangent.
+    pub geometric_stiffness: bool,
+    /// Friction coefficients whose mode shapes are written, rising; they need not be among
+    /// `friction_coefficients`.
+    pub shapes_at: Vec<f64>,
+    /// Stability map over a second parameter.
+    pub map: Option<CeaMap>,
+}
+
+impl Cea {
+    /// Friction coefficients to solve at: those of the tables and those of the shapes, rising.
+    pub fn solved_friction_coefficients(&self) -> Vec<f64> {
+        let mut all = [
+            self.friction_coefficients.as_slice(),
+            self.shapes_at.as_slice(),
+        ]
+        .concat();
+        all.sort_by(f64::total_cmp);
+        all.dedup();
+        all
+    }
+}
+
+/// `[cea.map]`: the critical friction over a second parameter.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CeaMap {
+    /// Dotted case key.
+    pub key: String,
+    /// Its values.
+    pub values: Vec<f64>,
+}
+
+pub(super) fn cea(
+    root: &Section<'_>,
+    annulus: &AnnulusSpecification,
+    friction_coefficient: f64,
+) -> Option<Cea> {
+    let section = root.section("cea", false);
+    if !section.is_given() {
+        return None;
+    }
+    let friction_coefficients = rising(&section, "friction_coefficients", Bound::NotNegative)
+        .unwrap_or_else(|| vec![friction_coefficient]);
+    if friction_coefficients.is_empty() && section.is_empty_list("friction_coefficients") {
+        section.reject(
+            "friction_coefficients",
+            "cea.friction_coefficients is empty".to_owned(),
+            "at least one value".to_owned(),
+            None,
+        );
+    }
+    let cea = Cea {
+        modes: mode_selection(&section, annulus),
+        method: section.choice(
+            "method",
+            &[
+                ("auto", CeaMethod::Auto),
+                ("cyclic", CeaMethod::Cyclic),
+                ("sparse", CeaMethod::Sparse),
+            ],
+        ),
+        mass: section.choice(
+            "mass",
+            &[
+                ("consistent", MassKind::Consistent),
+                ("lumped", MassKind::Lumped),
+            ],
+        ),
+        geometric_stiffness: section.flag_or("geometric_stiffness", true),
+        shapes_at: rising(&section, "shapes_at", Bound::NotNegative)
+            .unwrap_or_else(|| vec![friction_coefficient]),
+        friction_coefficients,
+        map: cea_map(&section),
+    };
+    section.close();
+    Some(cea)
+}
+
+fn mode_selection(section: &Section<'_>, annulus: &AnnulusSpecification) -> ModeSelection {
+    let limit = section.optional_number("max_frequency_hz", Bound::Positive);
+    let modes = section.optional_count("modes", 1);
+    let unknowns = node_count(annulus).saturating_mul(2);
+    if let Some(modes) = modes.filter(|modes| *modes as u128 > unknowns && unknowns > 0) {
+        section.reject(
+            "modes",
+            format!("cea.modes = {modes} is more than the {unknowns} unknowns of the mesh"),
+            format!("at most {unknowns}"),
+            None,
+        );
+    }
+    match (limit, modes) {
+        (Some(limit), None) => ModeSelection::BelowHz(limit),
+        (None, Some(modes)) => ModeSelection::Lowest(modes),
+        // An override replaces what the file says in the other way.
+        (Some(_), Some(modes))
+            if section.is_overridden("modes") && !section.is_overridden("max_frequency_hz") =>
+        {
+            ModeSelection::Lowest(modes)
+        }
+        (Some(limit), Some(_))
+            if section.is_overridden("max_frequency_hz") && !section.is_overridden("modes") =>
+        {
+            ModeSelection::BelowHz(limit)
+        }
+        (Some(limit), Some(_)) => {
+            section.reject(
+                "modes",
+                "cea.modes and cea.max_frequency_hz exclude each other".to_owned(),
+                "a second way to say which modes".to_owned(),
+                Some("keep one of the two".to_owned()),
+            );
+            ModeSelection::BelowHz(limit)
+        }
+        (None, None) => {
+            section.reject(
+                "max_frequency_hz",
+                "cea.max_frequency_hz (or cea.modes) is missing".to_owned(),
+                "says not which modes to find".to_owned(),
+                Some(
+                    "add `max_frequency_hz = 17500.0` (all modes below it) \
+                     or `modes = 28` (the lowest ones)"
+                        .to_owned(),
+                ),
+            );
+            ModeSelection::BelowHz(f64::NAN)
+        }
+    }
+}
+
+fn cea_map(cea: &Section<'_>) -> Option<CeaMap> {
+    let section = cea.section("map", false);
+    if !section.is_given() {
+        return None;
+    }
+    let key = parameter(&section, "key");
+    if section.has("key") && key == "contact.friction_coefficient" {
+        section.reject(
+            "key",
+            "cea.map.key = \"contact.friction_coefficient\" is the map's first parameter already"
+                .to_owned(),
+            "another parameter".to_owned(),
+            None,
+        );
+    }
+    let values = rising(&section, "values", Bound::Finite).unwrap_or_default();
+    if !section.has("values") || section.is_empty_list("values") {
+        section.reject(
+            "values",
+            "cea.map.values is missing or empty".to_owned(),
+            "at least one value".to_owned(),
+            None,
+        );
+    }
+    section.close();
+    Some(CeaMap { key, values })
+}

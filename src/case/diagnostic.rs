@@ -1,0 +1,123 @@
+//! What is wrong with a case, where, and what to do about it.
+
+use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
+use std::ops::Range;
+
+/// A place in the case file (source 0) or in an override (source 1, 2, ...).
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Location {
+    /// Which text.
+    pub source: usize,
+    /// Bytes of it.
+    pub span: Range<usize>,
+}
+
+impl Location {
+    /// The place `span` of text `source`.
+    pub fn new(source: usize, span: Range<usize>) -> Self {
+        Self { source, span }
+    }
+}
+
+/// A text that diagnostics point into.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Source {
+    /// File name, or `--set`.
+    pub name: String,
+    /// Its text.
+    pub text: String,
+}
+
+/// One error of a case.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Diagnostic {
+    /// What is wrong, with the key and the value.
+    pub message: String,
+    /// The short form under the caret: the bound.
+    pub label: String,
+    /// Where.
+    pub at: Location,
+    /// The remedy.
+    pub help: Option<String>,
+}
+
+impl Diagnostic {
+    /// An error at a place.
+    pub fn error(message: String, label: String, at: Location, help: Option<String>) -> Self {
+        Self {
+            message,
+            label,
+            at,
+            help,
+        }
+    }
+}
+
+/// Every error of a case, with the texts they point into.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{}", self.render(false))]
+pub struct CaseErrors {
+    /// The case file, then the overrides.
+    pub sources: Vec<Source>,
+    /// The errors in the order found.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+impl CaseErrors {
+    /// A report for people: each error with file, line, column, caret and remedy.
+    pub fn render(&self, color: bool) -> String {
+        let renderer = if color {
+            Renderer::styled()
+        } else {
+            Renderer::plain()
+        };
+        let mut out = String::new();
+        for (index, diagnostic) in self.diagnostics.iter().enumerate() {
+            if index > 0 {
+                out.push_str("\n\n");
+            }
+            out.push_str(&renderer.render(&self.groups(diagnostic)));
+        }
+        out
+    }
+
+    fn groups<'a>(&'a self, diagnostic: &'a Diagnostic) -> [Group<'a>; 1] {
+        let title = Level::ERROR.primary_title(diagnostic.message.as_str());
+        let mut group = match self.sources.get(diagnostic.at.source) {
+            Some(source) => {
+                let span = clamp(&diagnostic.at.span, &source.text);
+                let mut annotation = AnnotationKind::Primary.span(span);
+                if !diagnostic.label.is_empty() {
+                    annotation = annotation.label(diagnostic.label.as_str());
+                }
+                title.element(
+                    Snippet::source(source.text.as_str())
+                        .path(source.name.as_str())
+                        .annotation(annotation),
+                )
+            }
+            None => Group::with_title(title),
+        };
+        if let Some(help) = &diagnostic.help {
+            group = group.element(Level::HELP.message(help.as_str()));
+        }
+        [group]
+    }
+}
+
+/// The part of `span` that lies in `text`, on character boundaries and within its first line.
+fn clamp(span: &Range<usize>, text: &str) -> Range<usize> {
+    let floor = |mut index: usize| {
+        index = index.min(text.len());
+        while !text.is_char_boundary(index) {
+            index -= 1;
+        }
+        index
+    };
+    let start = floor(span.start);
+    let end = floor(span.end.max(start)).max(start);
+    match text[start..end].find('\n') {
+        Some(newline) => start..start + newline,
+        None => start..end,
+    }
+}

@@ -1,0 +1,185 @@
+//! `[transient]` and `[output]`: the explicit transient and what it writes.
+
+use super::model::node_count;
+use super::reader::{Bound, Section};
+use super::rules::{harmonics, rising};
+use crate::mesh::AnnulusSpecification;
+
+/// Time step of the transient.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum TimeStep {
+    /// From the operator's largest frequency.
+    Auto,
+    /// Given, s.
+    Seconds(f64),
+}
+
+/// State that a transient starts from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum InitialState {
+    /// Undeformed, the cylinder not yet expanded.
+    Rest,
+    /// The prestressed equilibrium of steady sliding.
+    SteadySliding,
+}
+
+/// How the transient applies the stiffness.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OperatorChoice {
+    /// Cyclic where the mesh has the symmetry.
+    Auto,
+    /// The stencil of one sector.
+    Cyclic,
+    /// Sparse 2 x 2 block rows.
+    Sparse,
+}
+
+/// `[transient.perturbation]`: initial velocity of the body, summed over harmonics.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Perturbation {
+    /// Circumferential harmonics.
+    pub harmonics: Vec<usize>,
+    /// Amplitude of each, m/s.
+    pub velocity: f64,
+}
+
+/// `[transient]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Transient {
+    /// Simulated time, s.
+    pub duration: f64,
+    /// Time step.
+    pub time_step: TimeStep,
+    /// Ramp of the interference, s.
+    pub expansion_time: f64,
+    /// Initial state.
+    pub initial: InitialState,
+    /// Operator.
+    pub operator: OperatorChoice,
+    /// Initial perturbation.
+    pub perturbation: Perturbation,
+}
+
+/// `[output]`: what a transient writes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Output {
+    /// Node ids, counted from 1.
+    pub probes: Vec<usize>,
+    /// Time between samples, s.
+    pub sample_interval: f64,
+    /// Times of the field snapshots, s, rising.
+    pub snapshots: Vec<f64>,
+    /// Wall time between checkpoints, s.
+    pub checkpoint_interval: f64,
+}
+
+pub(super) fn transient(root: &Section<'_>, annulus: &AnnulusSpecification) -> Option<Transient> {
+    let section = root.section("transient", false);
+    if !section.is_given() {
+        return None;
+    }
+    let duration = section.number("duration", Bound::Positive);
+    let time_step = match section.number_or_word("time_step", Bound::Positive, "auto") {
+        Some(step) => TimeStep::Seconds(step),
+        None => TimeStep::Auto,
+    };
+    if let TimeStep::Seconds(step) = time_step
+        && step > duration
+    {
+        section.reject(
+            "time_step",
+            format!(
+                "transient.time_step = {step:?} s is above transient.duration = {duration:?} s"
+            ),
+            format!("at most {duration:?}"),
+            None,
+        );
+    }
+    let transient = Transient {
+        duration,
+        time_step,
+        expansion_time: section.number_or("expansion_time", Bound::NotNegative, 5e-4),
+        initial: section.choice(
+            "initial",
+            &[
+                ("rest", InitialState::Rest),
+                ("steady-sliding", InitialState::SteadySliding),
+            ],
+        ),
+        operator: section.choice(
+            "operator",
+            &[
+                ("auto", OperatorChoice::Auto),
+                ("cyclic", OperatorChoice::Cyclic),
+                ("sparse", OperatorChoice::Sparse),
+            ],
+        ),
+        perturbation: perturbation(&section, annulus),
+    };
+    section.close();
+    Some(transient)
+}
+
+fn perturbation(transient: &Section<'_>, annulus: &AnnulusSpecification) -> Perturbation {
+    let section = transient.section("perturbation", false);
+    let harmonics = harmonics(&section, 0, annulus).unwrap_or_default();
+    let velocity = section.number_or("velocity", Bound::NotNegative, 1e-3);
+    section.close();
+    Perturbation {
+        harmonics,
+        velocity,
+    }
+}
+
+pub(super) fn output(
+    root: &Section<'_>,
+    annulus: &AnnulusSpecification,
+    transient: Option<&Transient>,
+    warnings: &mut Vec<String>,
+) -> Output {
+    let section = root.section("output", false);
+    let probes = section.counts("probes", 1).unwrap_or_default();
+    let nodes = node_count(annulus);
+    for (probe, at) in &probes {
+        if *probe as u128 > nodes && nodes > 0 {
+            section.reject_there(
+                at,
+                format!("probe {probe} does not exist: the mesh has nodes 1 to {nodes}"),
+                format!("must be at most {nodes}"),
+                "node ids count radially outwards first: 1 + j (radial_elements + 1) + i",
+            );
+        }
+    }
+    let sample_interval = section.number_or("sample_interval", Bound::Positive, 2e-6);
+    let snapshots = rising(&section, "snapshots", Bound::NotNegative).unwrap_or_default();
+    if let Some(transient) = transient {
+        if let TimeStep::Seconds(step) = transient.time_step
+            && sample_interval < step
+        {
+            section.reject(
+                "sample_interval",
+                format!(
+                    "output.sample_interval = {sample_interval:?} s is below \
+                     transient.time_step = {step:?} s"
+                ),
+                format!("at least {step:?}"),
+                None,
+            );
+        }
+        for time in snapshots.iter().filter(|time| **time > transient.duration) {
+            warnings.push(format!(
+                "output.snapshots: {time} s lies after the end of the run \
+                 (transient.duration = {} s) and is left out",
+                transient.duration
+            ));
+        }
+    }
+    let output = Output {
+        probes: probes.into_iter().map(|(probe, _)| probe).collect(),
+        sample_interval,
+        snapshots,
+        checkpoint_interval: section.number_or("checkpoint_interval", Bound::Positive, 600.0),
+    };
+    section.close();
+    output
+}

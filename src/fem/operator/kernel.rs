@@ -1,0 +1,367 @@
+//! Inner loops of the operators, compiled once for each instruction set.
+//!
+//! Every kernel is one safe, always-inlined body; the wrappers only recompile it with more
+//! instructions enabled. The level is checked when an operator is built (`SimdLevel::available`),
+//! which is what makes the calls sound.
+
+use super::{MotionFields, SimdLevel, StepCoefficients};
+
+/// Values in a cache line.
+const LANES: usize = 8;
+
+/// Partial sums of a dot product: enough for a row of the usual meshes, few enough for the first-level cache.
+const SUMS: usize = 512;
+
+/// One row of a cyclic stencil (one radius), already divided by the node's mass.
+///
+/// Index `[k]` is the radial offset `k - 1`. With `s` and `d` the sum and the difference of the neighbours
+/// at `j + 1` and `j - 1`, mirror symmetry leaves
+///
+/// ```text
+/// y_r = sum_k rr0 x_r + rr1 s(x_r) + rt1 d(x_t)
+/// y_t = sum_k tt0 x_t + tt1 s(x_t) + tr1 d(x_r)
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct RowStencil {
+    pub rr0: [f64; 3],
+    pub rr1: [f64; 3],
+    pub rt1: [f64; 3],
+    pub tt0: [f64; 3],
+    pub tt1: [f64; 3],
+    pub tr1: [f64; 3],
+}
+
+/// Where the rows of a cyclic field lie.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct RowLayout {
+    /// Nodes along the circumference.
+    pub count: usize,
+    /// Values from one component of a row to the next, a multiple of 8, at least `count + 2`: room for
+    /// the copy of node 0 behind node `count - 1`, and for the next block's copy of its last node.
+    pub stride: usize,
+    /// Rows that move; the clamped row follows them.
+    pub rows: usize,
+}
+
+impl RowLayout {
+    pub(super) fn new(count: usize, rows: usize) -> Self {
+        Self {
+            count,
+            stride: (count + 2).next_multiple_of(LANES),
+            rows,
+        }
+    }
+
+    /// First value of component `component` of row `row`. One cache line and one row of zeros come before
+    /// row 0, so that every row has an inner neighbour.
+    #[inline(always)]
+    pub(super) fn start(&self, row: usize, component: usize) -> usize {
+        LANES + (2 * (row + 1) + component) * self.stride
+    }
+
+    pub(super) fn field_length(&self) -> usize {
+        self.start(self.rows + 1, 0) + LANES
+    }
+}
+
+/// 2 x 2 block rows; `values` holds `[a_11, a_21, a_12, a_22]`.
+#[derive(Clone, Debug, Default)]
+pub(super) struct BlockRows {
+    /// First block of each node row.
+    pub starts: Vec<u32>,
+    /// First dof of each block's column node.
+    pub columns: Vec<u32>,
+    pub values: Vec<[f64; 4]>,
+}
+
+#[inline(always)]
+fn multiply_add<const FUSED: bool>(a: f64, b: f64, c: f64) -> f64 {
+    if FUSED { a.mul_add(b, c) } else { a * b + c }
+}
+
+/// Velocity and displacement update; adds the power of damping at each place to `sums` at that place.
+#[inline(always)]
+fn move_nodes<const FUSED: bool>(
+    masses: &[f64],
+    displacement: &mut [f64],
+    velocity: &mut [f64],
+    elastic: &[f64],
+    elastic_rate: &[f64],
+    coefficients: &StepCoefficients,
+    sums: &mut [f64],
+) {
+    let StepCoefficients {
+        time_step,
+        mass_coefficient,
+        stiffness_coefficient,
+    } = *coefficients;
+    let count = masses.len();
+    let (displacement, velocity) = (&mut displacement[..count], &mut velocity[..count]);
+    let (elastic, elastic_rate) = (&elastic[..count], &elastic_rate[..count]);
+    let sums = &mut sums[..count];
+    for k in 0..count {
+        let (v, z) = (velocity[k], elastic_rate[k]);
+        let damping = multiply_add::<FUSED>(mass_coefficient, v, stiffness_coefficient * z);
+        let moved = multiply_add::<FUSED>(-time_step, elastic[k] + damping, v);
+        let mean = 0.5 * (v + moved);
+        sums[k] = multiply_add::<FUSED>(masses[k] * damping, mean, sums[k]);
+        velocity[k] = moved;
+        displacement[k] = multiply_add::<FUSED>(time_step, moved, displacement[k]);
+    }
+}
+
+/// Moves a range of places in pieces of at most [`SUMS`].
+#[inline(always)]
+fn move_range<const FUSED: bool>(
+    range: std::ops::Range<usize>,
+    masses: &[f64],
+    fields: &mut MotionFields,
+    coefficients: &StepCoefficients,
+    sums: &mut [f64; SUMS],
+) {
+    let mut start = range.start;
+    while start < range.end {
+        let piece = start..range.end.min(start + SUMS);
+        start = piece.end;
+        move_nodes::<FUSED>(
+            &masses[piece.clone()],
+            &mut fields.displacement[piece.clone()],
+            &mut fields.velocity[piece.clone()],
+            &fields.elastic[piece.clone()],
+            &fields.elastic_rate[piece],
+            coefficients,
+            sums,
+        );
+    }
+}
+
+/// Writes the copies of the nodes across the seam of one row, and zeros into the rest of its padding.
+#[inline(always)]
+fn close_seam(layout: &RowLayout, row: usize, x: &mut [f64]) {
+    for component in 0..2 {
+        let start = layout.start(row, component);
+        x[start - 1] = x[start + layout.count - 1];
+        x[start + layout.count] = x[start];
+        x[start + layout.count + 1..start + layout.stride - 1].fill(0.0);
+    }
+}
+
+/// `y = stencil x` on one row, handed to `store(j, y_r, y_t)`.
+#[inline(always)]
+fn apply_row<const FUSED: bool>(
+    layout: &RowLayout,
+    stencil: &RowStencil,
+    row: usize,
+    x: &[f64],
+    mut store: impl FnMut(usize, f64, f64),
+) {
+    let width = layout.stride;
+    let line = |offset: usize, component: usize| {
+        let start = layout.start(row, component) + 2 * offset * width - 2 * width;
+        &x[start - 1..start + width + 1]
+    };
+    let radial = [line(0, 0), line(1, 0), line(2, 0)];
+    let tangential = [line(0, 1), line(1, 1), line(2, 1)];
+    let stencil = *stencil;
+    for j in 0..width {
+        let (mut y_r, mut y_t) = (0.0, 0.0);
+        for k in 0..3 {
+            let (r, t) = (radial[k], tangential[k]);
+            let (sum_r, difference_r) = (r[j + 2] + r[j], r[j + 2] - r[j]);
+            let (sum_t, difference_t) = (t[j + 2] + t[j], t[j + 2] - t[j]);
+            y_r = multiply_add::<FUSED>(stencil.rr0[k], r[j + 1], y_r);
+            y_t = multiply_add::<FUSED>(stencil.tt0[k], t[j + 1], y_t);
+            y_r = multiply_add::<FUSED>(stencil.rr1[k], sum_r, y_r);
+            y_t = multiply_add::<FUSED>(stencil.tt1[k], sum_t, y_t);
+            y_r = multiply_add::<FUSED>(stencil.rt1[k], difference_t, y_r);
+            y_t = multiply_add::<FUSED>(stencil.tr1[k], difference_r, y_t);
+        }
+        store(j, y_r, y_t);
+    }
+}
+
+/// The row of `field` at `row`, one slice for each component.
+#[inline(always)]
+fn row_of<'a>(
+    layout: &RowLayout,
+    row: usize,
+    field: &'a mut [f64],
+) -> (&'a mut [f64], &'a mut [f64]) {
+    let start = layout.start(row, 0);
+    field[start..start + 2 * layout.stride].split_at_mut(layout.stride)
+}
+
+/// `z <- M^-1 K v`, `q <- q + dt z` on one row.
+#[inline(always)]
+fn accumulate_row<const FUSED: bool>(
+    layout: &RowLayout,
+    stencil: &RowStencil,
+    row: usize,
+    velocity: &[f64],
+    time_step: f64,
+    (z_r, z_t): (&mut [f64], &mut [f64]),
+    (q_r, q_t): (&mut [f64], &mut [f64]),
+) {
+    apply_row::<FUSED>(layout, stencil, row, velocity, |j, y_r, y_t| {
+        z_r[j] = y_r;
+        z_t[j] = y_t;
+        q_r[j] = multiply_add::<FUSED>(time_step, y_r, q_r[j]);
+        q_t[j] = multiply_add::<FUSED>(time_step, y_t, q_t[j]);
+    });
+}
+
+/// The whole step in one sweep: row `i` moves, then row `i - 1`, whose neighbours have all moved, gets its
+/// new accelerations, while both are in the first-level cache.
+#[inline(always)]
+fn cyclic_advance_body<const FUSED: bool>(
+    layout: &RowLayout,
+    stencils: &[RowStencil],
+    masses: &[f64],
+    fields: &mut MotionFields,
+    coefficients: &StepCoefficients,
+) -> f64 {
+    let mut sums = [0.0; SUMS];
+    for row in 0..=layout.rows {
+        if row < layout.rows {
+            let range = layout.start(row, 0)..layout.start(row + 1, 0);
+            move_range::<FUSED>(range, masses, fields, coefficients, &mut sums);
+            close_seam(layout, row, &mut fields.velocity);
+        }
+        if row > 0 {
+            accumulate_row::<FUSED>(
+                layout,
+                &stencils[row - 1],
+                row - 1,
+                &fields.velocity,
+                coefficients.time_step,
+                row_of(layout, row - 1, &mut fields.elastic_rate),
+                row_of(layout, row - 1, &mut fields.elastic),
+            );
+        }
+    }
+    add_up(&sums)
+}
+
+#[inline(always)]
+fn cyclic_multiply_body<const FUSED: bool>(
+    layout: &RowLayout,
+    stencils: &[RowStencil],
+    x: &mut [f64],
+    y: &mut [f64],
+) {
+    (0..layout.rows).for_each(|row| close_seam(layout, row, x));
+    for (row, stencil) in stencils.iter().enumerate() {
+        let (y_r, y_t) = row_of(layout, row, y);
+        apply_row::<FUSED>(layout, stencil, row, x, |j, r, t| {
+            y_r[j] = r;
+            y_t[j] = t;
+        });
+    }
+}
+
+/// Both components of one node row times `x`.
+#[inline(always)]
+fn block_row<const FUSED: bool>(
+    rows: &BlockRows,
+    range: std::ops::Range<usize>,
+    x: &[f64],
+) -> (f64, f64) {
+    let mut sum = [0.0; 4];
+    let blocks = rows.columns[range.clone()].iter().zip(&rows.values[range]);
+    for (&column, block) in blocks {
+        let pair = &x[column as usize..column as usize + 2];
+        let spread = [pair[0], pair[0], pair[1], pair[1]];
+        for k in 0..4 {
+            sum[k] = multiply_add::<FUSED>(block[k], spread[k], sum[k]);
+        }
+    }
+    (sum[0] + sum[2], sum[1] + sum[3])
+}
+
+#[inline(always)]
+fn sparse_advance_body<const FUSED: bool>(
+    rows: &BlockRows,
+    masses: &[f64],
+    fields: &mut MotionFields,
+    coefficients: &StepCoefficients,
+) -> f64 {
+    let mut sums = [0.0; SUMS];
+    move_range::<FUSED>(0..masses.len(), masses, fields, coefficients, &mut sums);
+    let velocity: &[f64] = &fields.velocity;
+    let elastic = fields.elastic.as_chunks_mut::<2>().0;
+    let elastic_rate = fields.elastic_rate.as_chunks_mut::<2>().0;
+    let outputs = elastic_rate.iter_mut().zip(elastic);
+    for ((z, q), range) in outputs.zip(rows.starts.windows(2)) {
+        let (y_1, y_2) = block_row::<FUSED>(rows, range[0] as usize..range[1] as usize, velocity);
+        *z = [y_1, y_2];
+        q[0] = multiply_add::<FUSED>(coefficients.time_step, y_1, q[0]);
+        q[1] = multiply_add::<FUSED>(coefficients.time_step, y_2, q[1]);
+    }
+    add_up(&sums)
+}
+
+#[inline(always)]
+fn sparse_multiply_body<const FUSED: bool>(rows: &BlockRows, x: &[f64], y: &mut [f64]) {
+    for (y, range) in y
+        .as_chunks_mut::<2>()
+        .0
+        .iter_mut()
+        .zip(rows.starts.windows(2))
+    {
+        let (y_1, y_2) = block_row::<FUSED>(rows, range[0] as usize..range[1] as usize, x);
+        *y = [y_1, y_2];
+    }
+}
+
+/// Sum of all partial sums, in eight chains that are added pairwise.
+#[inline(always)]
+fn add_up(sums: &[f64; SUMS]) -> f64 {
+    let mut lanes = [0.0; LANES];
+    for chunk in sums.as_chunks::<LANES>().0 {
+        for lane in 0..LANES {
+            lanes[lane] += chunk[lane];
+        }
+    }
+    let [a, b, c, d, e, f, g, h] = lanes;
+    ((a + b) + (c + d)) + ((e + f) + (g + h))
+}
+
+/// Compiles a body for every instruction set and picks one at run time.
+macro_rules! dispatched {
+    ($name:ident, $body:ident, ($($argument:ident: $kind:ty),*) -> $result:ty) => {
+        pub(super) fn $name(level: SimdLevel, $($argument: $kind),*) -> $result {
+            #[cfg(target_arch = "x86_64")]
+            {
+                #[target_feature(enable = "avx2,fma")]
+                unsafe fn avx2($($argument: $kind),*) -> $result {
+                    $body::<true>($($argument),*)
+                }
+                #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx2,fma")]
+                unsafe fn avx512($($argument: $kind),*) -> $result {
+                    $body::<true>($($argument),*)
+                }
+                match level {
+                    // SAFETY: operators are built with levels that `SimdLevel::available` found on
+                    // this processor; the bodies themselves are safe code.
+                    SimdLevel::Avx2 => return unsafe { avx2($($argument),*) },
+                    // SAFETY: as above.
+                    SimdLevel::Avx512 => return unsafe { avx512($($argument),*) },
+                    SimdLevel::Scalar => {}
+                }
+            }
+            let _ = level;
+            $body::<false>($($argument),*)
+        }
+    };
+}
+
+dispatched!(cyclic_advance, cyclic_advance_body, (
+    layout: &RowLayout, stencils: &[RowStencil], masses: &[f64], fields: &mut MotionFields,
+    coefficients: &StepCoefficients) -> f64);
+dispatched!(cyclic_multiply, cyclic_multiply_body, (
+    layout: &RowLayout, stencils: &[RowStencil], x: &mut [f64], y: &mut [f64]) -> ());
+dispatched!(sparse_advance, sparse_advance_body, (
+    rows: &BlockRows, masses: &[f64], fields: &mut MotionFields,
+    coefficients: &StepCoefficients) -> f64);
+dispatched!(sparse_multiply, sparse_multiply_body, (
+    rows: &BlockRows, x: &[f64], y: &mut [f64]) -> ());

@@ -1,0 +1,114 @@
+//! The stiffness operator of an explicit time step: `M^-1 K` with a lumped mass, applied without a
+//! factorization.
+//!
+//! Two implementations stand behind one trait: [`SparseOperator`] for any mesh, [`CyclicStencil`] for a
+//! uniform annulus, whose sectors share one stencil in polar frames.
+
+mod cyclic;
+mod field;
+mod kernel;
+mod largest_frequency;
+mod simd;
+mod sparse;
+
+pub use cyclic::CyclicStencil;
+pub use field::{AlignedVector, MotionFields};
+pub use largest_frequency::largest_frequency;
+pub use simd::{SimdError, SimdLevel};
+pub use sparse::SparseOperator;
+
+/// Coefficients of one explicit step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StepCoefficients {
+    /// Time step `dt`, s.
+    pub time_step: f64,
+    /// `alpha_R`, 1/s.
+    pub mass_coefficient: f64,
+    /// `beta_R`, s.
+    pub stiffness_coefficient: f64,
+}
+
+/// A mesh that an operator cannot represent.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum OperatorError {
+    /// The stencil needs four-node elements.
+    #[error(
+        "the cyclic operator needs mesh.element = \"quad4\"; use transient.operator = \"sparse\" for other elements"
+    )]
+    NotQuad4,
+    /// The sectors of the mesh are not mirror-symmetric copies of one another.
+    #[error(
+        "the cyclic operator needs sectors that are mirror-symmetric copies of one another; the stencils \
+         differ by a fraction of {relative:.1e}: use transient.operator = \"sparse\""
+    )]
+    NotCyclic {
+        /// Largest deviation, relative to the largest coefficient.
+        relative: f64,
+    },
+    /// A node has no mass.
+    #[error("node {node} has the lumped mass {mass:e} kg/m; an explicit step needs a positive one")]
+    Massless {
+        /// 1-based node.
+        node: usize,
+        /// Its mass, kg/m.
+        mass: f64,
+    },
+}
+
+/// `M^-1 K` with a lumped mass and a clamped outer edge, and the explicit step that uses it.
+///
+/// Fields are vectors in the operator's own layout of [`Self::field_length`] values: `position(dof)` tells
+/// where a dof stands. What else a layout holds (padding, copies beyond the seam) has no mass.
+pub trait StiffnessOperator: Send + Sync {
+    /// `"sparse"` or `"cyclic"`.
+    fn name(&self) -> &'static str;
+
+    /// Instruction set of the kernels.
+    fn simd(&self) -> SimdLevel;
+
+    /// Number of dofs, clamped ones included.
+    fn dof_count(&self) -> usize;
+
+    /// Number of values in a field, a multiple of 8.
+    fn field_length(&self) -> usize;
+
+    /// Place of a dof in a field.
+    fn position(&self, dof: usize) -> usize;
+
+    /// Lumped mass by place, kg/m; zero for clamped dofs and padding.
+    fn masses(&self) -> &[f64];
+
+    /// `y = M^-1 K x`, 1/s2 times the unit of `x`; zero on clamped dofs.
+    ///
+    /// `x` must vanish on the clamped edge; its padding is overwritten.
+    fn multiply(&self, x: &mut [f64], y: &mut [f64]);
+
+    /// One central-difference step of `M du'/dt = -K u - C u'` with `C = alpha_R M + beta_R K`.
+    ///
+    /// ```text
+    /// d = alpha_R v + beta_R z                   damping acceleration, z = M^-1 K v at n - 1/2
+    /// v <- v - dt (q + d)                        q = M^-1 K u at n
+    /// u <- u + dt v
+    /// z <- M^-1 K v,   q <- q + dt z
+    /// ```
+    ///
+    /// Returns the power of damping `sum m d (v_old + v_new) / 2`, W/m, summed in an order that does not depend on
+    /// the instruction set.
+    fn advance(&self, fields: &mut MotionFields, coefficients: &StepCoefficients) -> f64;
+}
+
+/// A vector over all dofs from a field.
+pub fn gather(operator: &dyn StiffnessOperator, field: &[f64]) -> Vec<f64> {
+    (0..operator.dof_count())
+        .map(|dof| field[operator.position(dof)])
+        .collect()
+}
+
+/// A field from a vector over all dofs; padding is zero.
+pub fn scatter(operator: &dyn StiffnessOperator, vector: &[f64]) -> AlignedVector {
+    let mut field = AlignedVector::zeros(operator.field_length());
+    for (dof, &value) in vector.iter().enumerate() {
+        field[operator.position(dof)] = value;
+    }
+    field
+}

@@ -1,0 +1,99 @@
+//! Choice of instruction set.
+
+use std::fmt;
+use std::str::FromStr;
+
+/// Instruction set of the kernels.
+///
+/// AVX2 and AVX-512 give the same bits; the scalar kernels do not fuse multiply and add, so theirs
+/// differ in the last place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum SimdLevel {
+    /// What the build's target guarantees, without fused multiply-add.
+    Scalar,
+    /// AVX2 and FMA.
+    Avx2,
+    /// AVX-512 (F, VL, DQ).
+    Avx512,
+}
+
+/// An instruction set that cannot be used.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SimdError {
+    /// Not a name.
+    #[error("simd level \"{0}\" is none of auto, scalar, avx2, avx512")]
+    Unknown(String),
+    /// Not on this processor.
+    #[error("this processor does not have {wanted}; the best it has is {best}: choose --simd auto")]
+    Unavailable {
+        /// Asked for.
+        wanted: SimdLevel,
+        /// Best available.
+        best: SimdLevel,
+    },
+}
+
+impl SimdLevel {
+    /// Best level of this processor.
+    pub fn detect() -> Self {
+        #[cfg(target_arch = "x86_64")]
+        {
+            let fma = is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma");
+            let wide = is_x86_feature_detected!("avx512f")
+                && is_x86_feature_detected!("avx512vl")
+                && is_x86_feature_detected!("avx512dq");
+            if fma && wide {
+                return Self::Avx512;
+            }
+            if fma {
+                return Self::Avx2;
+            }
+        }
+        Self::Scalar
+    }
+
+    /// The level if this processor has it.
+    ///
+    /// # Errors
+    /// [`SimdError::Unavailable`] if it has not.
+    pub fn available(self) -> Result<Self, SimdError> {
+        let best = Self::detect();
+        if self <= best {
+            Ok(self)
+        } else {
+            Err(SimdError::Unavailable { wanted: self, best })
+        }
+    }
+
+    /// Level of a name: `auto` (the best this processor has), `scalar`, `avx2`, `avx512`.
+    ///
+    /// # Errors
+    /// [`SimdError`] for another name or a level that this processor has not.
+    pub fn choose(name: &str) -> Result<Self, SimdError> {
+        if name == "auto" {
+            return Ok(Self::detect());
+        }
+        name.parse::<Self>()?.available()
+    }
+}
+
+impl fmt::Display for SimdLevel {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(match self {
+            Self::Scalar => "scalar",
+            Self::Avx2 => "avx2",
+            Self::Avx512 => "avx512",
+        })
+    }
+}
+
+impl FromStr for SimdLevel {
+    type Err = SimdError;
+
+    fn from_str(name: &str) -> Result<Self, SimdError> {
+        [Self::Scalar, Self::Avx2, Self::Avx512]
+            .into_iter()
+            .find(|level| level.to_string() == name)
+            .ok_or_else(|| SimdError::Unknown(name.to_string()))
+    }
+}

@@ -1,0 +1,369 @@
+//! Dense kernels over faer, sequential and instantiated once for `f64`.
+
+use super::LinalgError;
+use faer::diag::Diag;
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::evd::{ComputeEigenvectors, evd_real, evd_scratch};
+use faer::linalg::matmul::matmul;
+use faer::prelude::IntoConst;
+use faer::{Accum, Mat, MatMut, MatRef, Par, c64};
+
+/// Eigenvalues and eigenvectors of a real matrix `A`, in real storage.
+///
+/// A real eigenvalue owns one column. A complex pair owns two neighbouring columns `(p, q)`: its
+/// first value, with positive imaginary part, has the vector `p + i q`, its second the conjugate.
+#[derive(Clone, Debug)]
+pub struct RealEigen {
+    /// Eigenvalues; conjugate pairs are neighbours, positive imaginary part first.
+    pub values: Vec<c64>,
+    /// Right vectors, `A x = lambda x`.
+    pub right: Mat<f64>,
+    /// Left vectors, `y^H A = lambda y^H`, where they were asked for.
+    pub left: Option<Mat<f64>>,
+}
+
+/// Eigenvalue decomposition of a real square matrix.
+///
+/// # Errors
+/// If the QR iteration does not converge, or the matrix is not finite.
+pub fn real_eigen(matrix: MatRef<'_, f64>, with_left: bool) -> Result<RealEigen, LinalgError> {
+    let n = matrix.nrows();
+    let failure = LinalgError::DenseEigen { dimension: n };
+    if !matrix.is_all_finite() {
+        return Err(failure);
+    }
+    let (mut real, mut imaginary) = (Diag::<f64>::zeros(n), Diag::<f64>::zeros(n));
+    let mut right = Mat::<f64>::zeros(n, n);
+    let mut left = with_left.then(|| Mat::<f64>::zeros(n, n));
+    let left_mode = if with_left {
+        ComputeEigenvectors::Yes
+    } else {
+        ComputeEigenvectors::No
+    };
+    let scratch = evd_scratch::<f64>(
+        n,
+        left_mode,
+        ComputeEigenvectors::Yes,
+        Par::Seq,
+        Default::default(),
+    );
+    evd_real(
+        matrix,
+        real.as_mut(),
+        imaginary.as_mut(),
+        left.as_mut().map(|l| l.as_mut()),
+        Some(right.as_mut()),
+        Par::Seq,
+        MemStack::new(&mut MemBuffer::new(scratch)),
+        Default::default(),
+    )
+    .map_err(|_| failure)?;
+    let mut values: Vec<c64> = (0..n)
+        .map(|i| c64::new(real.column_vector()[i], imaginary.column_vector()[i]))
+        .collect();
+    order_conjugate_pairs(&mut values, &mut right, left.as_mut());
+    Ok(RealEigen {
+        values,
+        right,
+        left,
+    })
+}
+
+/// Makes the positive imaginary part come first in every pair.
+fn order_conjugate_pairs(
+    values: &mut [c64],
+    right: &mut Mat<f64>,
+    mut left: Option<&mut Mat<f64>>,
+) {
+    let mut i = 0;
+    while i < values.len() {
+        if values[i].im == 0.0 {
+            i += 1;
+            continue;
+        }
+        if values[i].im < 0.0 {
+            values.swap(i, i + 1);
+            for vectors in [Some(&mut *right), left.as_deref_mut()]
+                .into_iter()
+                .flatten()
+            {
+                for row in 0..vectors.nrows() {
+                    vectors[(row, i + 1)] = -vectors[(row, i + 1)];
+                }
+            }
+        }
+        i += 2;
+    }
+}
+
+/// `a b`.
+pub fn product(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
+    let mut c = Mat::zeros(a.nrows(), b.ncols());
+    matmul(c.as_mut(), Accum::Replace, a, b, 1.0, Par::Seq);
+    c
+}
+
+/// `a^T b`.
+pub fn transpose_product(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
+    product(a.transpose(), b)
+}
+
+/// `c += factor a b`.
+pub fn add_product(c: MatMut<'_, f64>, factor: f64, a: MatRef<'_, f64>, b: MatRef<'_, f64>) {
+    matmul(c, Accum::Add, a, b, factor, Par::Seq);
+}
+
+/// Columns `a` followed by columns `b`.
+pub fn join_columns(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
+    let mut joined = Mat::zeros(a.nrows(), a.ncols() + b.ncols());
+    let (mut left, mut right) = joined.as_mut().split_at_col_mut(a.ncols());
+    left.copy_from(a);
+    right.copy_from(b);
+    joined
+}
+
+/// Rows `a` above rows `b`.
+pub fn join_rows(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
+    let mut joined = Mat::zeros(a.nrows() + b.nrows(), a.ncols());
+    let (mut top, mut bottom) = joined.as_mut().split_at_row_mut(a.nrows());
+    top.copy_from(a);
+    bottom.copy_from(b);
+    joined
+}
+
+/// Column `j` as a slice.
+///
+/// # Panics
+/// If the rows of the view are not contiguous.
+pub fn column(a: MatRef<'_, f64>, j: usize) -> &[f64] {
+    let column = a.col(j).try_as_col_major();
+    column.expect("columns are contiguous").as_slice()
+}
+
+/// Column `j` of an owned matrix as a slice to write.
+pub fn column_mut(a: &mut Mat<f64>, j: usize) -> &mut [f64] {
+    let column = a.col_mut(j).try_as_col_major_mut();
+    column.expect("owned columns are contiguous").as_slice_mut()
+}
+
+/// Columns `columns` of `a`, in that order.
+pub fn pick_columns(a: &Mat<f64>, columns: &[usize]) -> Mat<f64> {
+    let mut picked = Mat::zeros(a.nrows(), columns.len());
+    for (slot, &j) in columns.iter().enumerate() {
+        column_mut(&mut picked, slot).copy_from_slice(column(a.as_ref(), j));
+    }
+    picked
+}
+
+/// Splits a matrix into blocks of at most `width` neighbouring columns.
+pub fn column_blocks<T>(
+    matrix: MatMut<'_, T>,
+    width: usize,
+) -> impl Iterator<Item = MatMut<'_, T>> {
+    let mut rest = Some(matrix);
+    std::iter::from_fn(move || {
+        let current = rest.take().filter(|m| m.ncols() > 0)?;
+        let split = width.min(current.ncols());
+        let (block, tail) = current.split_at_col_mut(split);
+        rest = Some(tail);
+        Some(block)
+    })
+}
+
+/// `a^T b`, summed in eight fixed lanes so that it vectorizes.
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let mut lanes = [0.0; 8];
+    let (a_chunks, b_chunks) = (a.chunks_exact(8), b.chunks_exact(8));
+    let tail: f64 = a_chunks
+        .remainder()
+        .iter()
+        .zip(b_chunks.remainder())
+        .map(|(x, y)| x * y)
+        .sum();
+    for (x, y) in a_chunks.zip(b_chunks) {
+        for lane in 0..8 {
+            lanes[lane] += x[lane] * y[lane];
+        }
+    }
+    lanes.iter().sum::<f64>() + tail
+}
+
+/// Euclidean norm of each column.
+pub fn column_norms(a: MatRef<'_, f64>) -> Vec<f64> {
+    (0..a.ncols()).map(|j| a.col(j).norm_l2()).collect()
+}
+
+/// Columns of reproducible pseudo-random numbers in (-1, 1).
+pub fn random_columns(rows: usize, columns: usize, seed: u64) -> Mat<f64> {
+    // splitmix64: the sequence depends on the seed alone.
+    let mut state = seed;
+    let mut next = || {
+        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = state;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        (z ^ (z >> 31)) as i64 as f64 / 2f64.powi(63)
+    };
+    let mut a = Mat::zeros(rows, columns);
+    for j in 0..columns {
+        for i in 0..rows {
+            a[(i, j)] = next();
+        }
+    }
+    a
+}
+
+/// What [`orthonormalize`] found: `w = basis * against + q * within`.
+pub struct Orthonormalized {
+    /// Orthonormal columns, orthogonal to the basis; fewer than those of `w` where some of these
+    /// were dependent.
+    pub columns: Mat<f64>,
+    /// Coefficients along the basis.
+    pub against: Mat<f64>,
+    /// Coefficients along the new columns.
+    pub within: Mat<f64>,
+}
+
+/// Orthonormalizes the columns of `w` against an orthonormal `basis` and one another.
+///
+/// Block classical Gram-Schmidt, twice, then modified Gram-Schmidt, twice, within the block. A column
+/// that keeps less than `drop_below` of its length is left out: its coefficients stand, its remainder
+/// is lost.
+pub fn orthonormalize(basis: MatRef<'_, f64>, mut w: Mat<f64>, drop_below: f64) -> Orthonormalized {
+    let lengths = column_norms(w.as_ref());
+    let mut against = transpose_product(basis, w.as_ref());
+    add_product(w.as_mut(), -1.0, basis, against.as_ref());
+    let correction = transpose_product(basis, w.as_ref());
+    add_product(w.as_mut(), -1.0, basis, correction.as_ref());
+    against += &correction;
+
+    let count = w.ncols();
+    let mut within = Mat::<f64>::zeros(count, count);
+    let mut kept: Vec<usize> = Vec::with_capacity(count);
+    for j in 0..count {
+        for _ in 0..2 {
+            for (slot, &k) in kept.iter().enumerate() {
+                let (q, v) = two_columns(&mut w, k, j);
+                let overlap = dot(q, v);
+                within[(slot, j)] += overlap;
+                for (a, b) in v.iter_mut().zip(q.iter()) {
+                    *a -= overlap * b;
+                }
+            }
+        }
+        let norm = w.col(j).norm_l2();
+        if norm > drop_below * lengths[j] && norm > 0.0 {
+            within[(kept.len(), j)] = norm;
+            w.col_mut(j).iter_mut().for_each(|v| *v /= norm);
+            kept.push(j);
+        }
+    }
+    let columns = pick_columns(&w, &kept);
+    let within = within.get(..kept.len(), ..).to_owned();
+    Orthonormalized {
+        columns,
+        against,
+        within,
+    }
+}
+
+/// Orthonormal basis of what the columns of `w` hold beyond an orthonormal `basis`.
+///
+/// Pivoted: the largest remainder is taken first, and remainders shorter than `drop_below` (absolute)
+/// are left out.
+pub fn orthonormal_complement(
+    basis: MatRef<'_, f64>,
+    mut w: Mat<f64>,
+    drop_below: f64,
+) -> Mat<f64> {
+    let against = transpose_product(basis, w.as_ref());
+    add_product(w.as_mut(), -1.0, basis, against.as_ref());
+    let mut remaining: Vec<usize> = (0..w.ncols()).collect();
+    let mut kept = Vec::new();
+    loop {
+        let norms = remaining.iter().map(|&j| w.col(j).norm_l2());
+        let Some((slot, norm)) = norms.enumerate().max_by(|a, b| a.1.total_cmp(&b.1)) else {
+            break;
+        };
+        if norm.is_nan() || norm < drop_below {
+            break;
+        }
+        let pivot = remaining.remove(slot);
+        w.col_mut(pivot).iter_mut().for_each(|v| *v /= norm);
+        kept.push(pivot);
+        let direction = column(w.as_ref(), pivot).to_vec();
+        for &j in &remaining {
+            let remainder = column_mut(&mut w, j);
+            let overlap = dot(&direction, remainder);
+            for (r, d) in remainder.iter_mut().zip(&direction) {
+                *r -= overlap * d;
+            }
+        }
+    }
+    let chosen = pick_columns(&w, &kept);
+    // Small remainders were scaled up, and their round-off with them: once more.
+    orthonormalize(basis, chosen, 1e-3).columns
+}
+
+/// Column `k` to read and column `j > k` to write.
+fn two_columns(w: &mut Mat<f64>, k: usize, j: usize) -> (&[f64], &mut [f64]) {
+    let (head, tail) = w.as_mut().split_at_col_mut(j);
+    let q = head
+        .into_const()
+        .col(k)
+        .try_as_col_major()
+        .expect("owned columns are contiguous");
+    let v = tail
+        .col_mut(0)
+        .try_as_col_major_mut()
+        .expect("owned columns are contiguous");
+    (q.as_slice(), v.as_slice_mut())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn eigenvectors_of_a_random_real_matrix_satisfy_both_equations() {
+        let a = random_columns(40, 40, 7);
+        let eigen = real_eigen(a.as_ref(), true).unwrap();
+        let left = eigen.left.unwrap();
+        let (ar, al) = (
+            product(a.as_ref(), eigen.right.as_ref()),
+            transpose_product(a.as_ref(), left.as_ref()),
+        );
+        let mut j = 0;
+        while j < 40 {
+            let lambda = eigen.values[j];
+            let width = if lambda.im == 0.0 { 1 } else { 2 };
+            assert!(width == 1 || (lambda.im > 0.0 && eigen.values[j + 1] == lambda.conj()));
+            for i in 0..40 {
+                let at = |m: &Mat<f64>| {
+                    c64::new(m[(i, j)], if width == 2 { m[(i, j + 1)] } else { 0.0 })
+                };
+                assert!((at(&ar) - lambda * at(&eigen.right)).norm() < 1e-12);
+                assert!((at(&al) - lambda.conj() * at(&left)).norm() < 1e-12);
+            }
+            j += width;
+        }
+    }
+
+    #[test]
+    fn orthonormalization_reproduces_its_input_and_drops_dependent_columns() {
+        let basis =
+            orthonormalize(Mat::zeros(50, 0).as_ref(), random_columns(50, 5, 1), 1e-10).columns;
+        let mut w = random_columns(50, 4, 2);
+        for i in 0..50 {
+            w[(i, 2)] = w[(i, 0)] - 3.0 * w[(i, 1)] + basis[(i, 3)];
+        }
+        let result = orthonormalize(basis.as_ref(), w.clone(), 1e-10);
+        assert_eq!(result.columns.ncols(), 3);
+        let back = product(basis.as_ref(), result.against.as_ref())
+            + product(result.columns.as_ref(), result.within.as_ref());
+        assert!((back - w).norm_max() < 1e-13);
+        let gram = transpose_product(result.columns.as_ref(), result.columns.as_ref());
+        assert!((gram - Mat::<f64>::identity(3, 3)).norm_max() < 1e-14);
+        assert!(transpose_product(basis.as_ref(), result.columns.as_ref()).norm_max() < 1e-15);
+    }
+}

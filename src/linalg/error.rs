@@ -1,0 +1,52 @@
+//! What can go wrong in the linear algebra.
+
+use thiserror::Error;
+
+/// Failure of a factorization or of an eigenvalue iteration.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum LinalgError {
+    /// The symbolic or numeric factorization could not be carried out.
+    #[error("factorization of a sparse matrix of {dimension} unknowns failed: {reason}")]
+    Factorization {
+        /// Number of unknowns.
+        dimension: usize,
+        /// What the factorization reported.
+        reason: String,
+    },
+    /// The factors do not solve with the matrix they came from.
+    #[error(
+        "a sparse matrix of {dimension} unknowns is singular to working precision: its factors leave \
+         a backward error of {backward_error:.1e}, the bound is {bound:.0e}"
+    )]
+    Singular {
+        /// Number of unknowns.
+        dimension: usize,
+        /// Backward error of a trial solve (NaN where the factors are not finite).
+        backward_error: f64,
+        /// Largest backward error accepted.
+        bound: f64,
+    },
+    /// A dense eigenvalue decomposition did not converge.
+    #[error(
+        "the dense eigenvalue decomposition of a {dimension} x {dimension} matrix did not converge"
+    )]
+    DenseEigen {
+        /// Size of the matrix.
+        dimension: usize,
+    },
+    /// An iteration reached its limit before all wanted pairs converged.
+    #[error(
+        "Krylov-Schur iteration: only {converged} of {wanted} eigenpairs converged to \
+         {tolerance:.0e} after {applications} operator applications"
+    )]
+    NotConverged {
+        /// Pairs that converged.
+        converged: usize,
+        /// Pairs that were wanted.
+        wanted: usize,
+        /// Relative residual asked for.
+        tolerance: f64,
+        /// Operator applications spent, in vectors.
+        applications: usize,
+    },
+}

@@ -1,0 +1,335 @@
+//! Block Krylov-Schur iteration for the eigenvalues of largest modulus of a real operator.
+
+use super::LinalgError;
+use super::dense::{RealEigen, join_columns, orthonormalize, product, random_columns, real_eigen};
+use faer::{Mat, MatRef, c64};
+
+/// A real linear operator that is applied to blocks of vectors.
+pub trait BlockOperator {
+    /// Length of the vectors.
+    fn dimension(&self) -> usize;
+    /// `S x` for each column of `x`.
+    fn apply(&self, x: MatRef<'_, f64>) -> Mat<f64>;
+}
+
+/// Which eigenvalues an iteration must find, largest modulus first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Wanted {
+    /// This many, one more where it would split a conjugate pair.
+    Largest(usize),
+    /// All of at least this modulus; the iteration also converges one below, as a witness.
+    ModulusAtLeast(f64),
+}
+
+/// Settings of [`krylov_schur`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct KrylovSchurSettings {
+    /// Eigenvalues wanted.
+    pub wanted: Wanted,
+    /// Bound on `|S x - theta x| / |theta x|`.
+    pub tolerance: f64,
+    /// Width of a random start block, where no start is given.
+    pub block: usize,
+    /// Operator applications (in vectors) after which the iteration gives up.
+    pub max_applications: usize,
+}
+
+/// Real eigenpairs in real storage, largest modulus first.
+///
+/// Conjugate pairs are neighbours, the positive imaginary part first, their vector stored as
+/// `(Re, Im)` in two neighbouring columns.
+#[derive(Clone, Debug)]
+pub struct RealPairs {
+    /// Eigenvalues `theta`.
+    pub values: Vec<c64>,
+    /// Vectors of unit length (pair: of the complex vector), `dimension x values.len()`.
+    pub vectors: Mat<f64>,
+    /// `|S x - theta x| / |theta|` of each.
+    pub residuals: Vec<f64>,
+    /// Operator applications spent, in vectors.
+    pub applications: usize,
+}
+
+/// Eigenvalues of largest modulus of `S`, with vectors.
+///
+/// Block Arnoldi, `S Q = Q H + Q' B`, with thick restarts; the vectors returned are one application of
+/// `S` further than the Ritz vectors, which damps what the operator damps. The start is a block of
+/// approximate eigenvectors of any width, or (`None`) pseudo-random and always the same. Complete up to
+/// the multiplicity that the block width resolves at once; a multiple eigenvalue beyond it converges
+/// later, through round-off.
+///
+/// # Errors
+/// If pairs remain unconverged after `max_applications`; none of them is returned then.
+///
+/// Source: G. W. Stewart, A Krylov-Schur algorithm for large eigenproblems, SIAM J. Matrix Anal.
+/// Appl. 23 (2001); here in blocks, and with an orthonormal basis of the Ritz subspace for the Schur
+/// vectors.
+pub fn krylov_schur(
+    operator: &dyn BlockOperator,
+    start: Option<MatRef<'_, f64>>,
+    settings: &KrylovSchurSettings,
+) -> Result<RealPairs, LinalgError> {
+    let n = operator.dimension();
+    let seed = match start {
+        Some(columns) => columns.to_owned(),
+        None => random_columns(n, settings.block.min(n), 0x5eed),
+    };
+    let mut process = BlockArnoldi::new(operator, seed);
+    loop {
+        process.expand();
+        let too_small =
+            matches!(settings.wanted, Wanted::Largest(count) if process.dimension() < count.min(n));
+        if too_small && !process.is_exhausted() {
+            continue;
+        }
+        let eigen = real_eigen(process.projection.as_ref(), false)?;
+        let order = by_modulus(&eigen.values);
+        let residuals = process.ritz_residuals(&eigen);
+        let wanted = wanted_count(&eigen, &order, settings.wanted, process.is_exhausted(), n);
+        let converged = order
+            .iter()
+            .take(wanted.unwrap_or(usize::MAX))
+            .filter(|&&i| residuals[i] <= settings.tolerance)
+            .count();
+        if wanted.is_some_and(|count| converged >= count) || process.is_exhausted() {
+            let count = wanted.unwrap_or(eigen.values.len());
+            return process.finish(&eigen, &order[..count], settings);
+        }
+        if process.applications >= settings.max_applications {
+            return Err(LinalgError::NotConverged {
+                converged,
+                wanted: wanted.unwrap_or(order.len()),
+                tolerance: settings.tolerance,
+                applications: process.applications,
+            });
+        }
+        let target = wanted.unwrap_or(order.len()).max(process.width());
+        let limit = 2 * target + 8 * process.width();
+        if process.dimension() + process.width() > limit.min(n) && wanted.is_some() {
+            let keep = target + (process.dimension() - target) / 3;
+            process.restart(&eigen, &order[..keep.min(order.len())]);
+        }
+    }
+}
+
+/// Indices of the eigenvalues, largest modulus first, pairs unbroken.
+fn by_modulus(values: &[c64]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..values.len()).collect();
+    // A stable sort: the two members of a pair have bitwise equal modulus and stay neighbours.
+    order.sort_by(|&a, &b| values[b].norm().total_cmp(&values[a].norm()));
+    order
+}
+
+/// How many leading eigenvalues are wanted; `None` while the basis is too small to tell.
+fn wanted_count(
+    eigen: &RealEigen,
+    order: &[usize],
+    wanted: Wanted,
+    is_exhausted: bool,
+    dimension: usize,
+) -> Option<usize> {
+    let available = order.len();
+    let count = match wanted {
+        Wanted::Largest(count) => count.min(dimension),
+        Wanted::ModulusAtLeast(bound) => {
+            let inside = order
+                .iter()
+                .take_while(|&&i| eigen.values[i].norm() >= bound)
+                .count();
+            if is_exhausted { inside } else { inside + 1 }
+        }
+    };
+    if count > available {
+        return is_exhausted.then_some(available);
+    }
+    let splits_pair = count > 0 && eigen.values[order[count - 1]].im > 0.0;
+    Some(if splits_pair { count + 1 } else { count })
+}
+
+/// `S Q = Q H + Q' B` with `[Q Q']` orthonormal.
+struct BlockArnoldi<'a> {
+    operator: &'a dyn BlockOperator,
+    /// `Q`.
+    basis: Mat<f64>,
+    /// `Q'`, the next block.
+    next: Mat<f64>,
+    /// `H`.
+    projection: Mat<f64>,
+    /// `B`.
+    coupling: Mat<f64>,
+    applications: usize,
+}
+
+impl<'a> BlockArnoldi<'a> {
+    fn new(operator: &'a dyn BlockOperator, start: Mat<f64>) -> Self {
+        let n = operator.dimension();
+        let empty = Mat::<f64>::zeros(n, 0);
+        let next = orthonormalize(empty.as_ref(), start, 1e-10).columns;
+        Self {
+            operator,
+            coupling: Mat::zeros(next.ncols(), 0),
+            next,
+            basis: empty,
+            projection: Mat::zeros(0, 0),
+            applications: 0,
+        }
+    }
+
+    fn dimension(&self) -> usize {
+        self.basis.ncols()
+    }
+
+    fn width(&self) -> usize {
+        self.next.ncols()
+    }
+
+    /// Whether the basis spans an invariant subspace: nothing is left to add.
+    fn is_exhausted(&self) -> bool {
+        self.width() == 0
+    }
+
+    /// Moves the next block into the basis and computes the one after it.
+    fn expand(&mut self) {
+        let image = self.operator.apply(self.next.as_ref());
+        self.applications += self.width();
+        let (old, width) = (self.dimension(), self.width());
+        let basis = join_columns(self.basis.as_ref(), self.next.as_ref());
+        let result = orthonormalize(basis.as_ref(), image, 1e-14);
+        let mut projection = Mat::zeros(old + width, old + width);
+        for j in 0..old + width {
+            for i in 0..old + width {
+                projection[(i, j)] = match (i < old, j < old) {
+                    (true, true) => self.projection[(i, j)],
+                    (false, true) => self.coupling[(i - old, j)],
+                    (_, false) => result.against[(i, j - old)],
+                };
+            }
+        }
+        let mut coupling = Mat::zeros(result.columns.ncols(), old + width);
+        for j in 0..width {
+            for i in 0..result.columns.ncols() {
+                coupling[(i, old + j)] = result.within[(i, j)];
+            }
+        }
+        self.basis = basis;
+        self.next = result.columns;
+        self.projection = projection;
+        self.coupling = coupling;
+    }
+
+    /// `|B y| / |theta|` of every Ritz pair, `|y| = 1`.
+    fn ritz_residuals(&self, eigen: &RealEigen) -> Vec<f64> {
+        let overflow = product(self.coupling.as_ref(), eigen.right.as_ref());
+        (0..eigen.values.len())
+            .map(|i| {
+                let (first, last) = pair_columns(&eigen.values, i);
+                let norm = |m: &Mat<f64>| {
+                    (first..=last)
+                        .map(|j| m.col(j).squared_norm_l2())
+                        .sum::<f64>()
+                        .sqrt()
+                };
+                norm(&overflow) / (norm(&eigen.right) * eigen.values[i].norm())
+            })
+            .collect()
+    }
+
+    /// Shrinks the basis to the Ritz vectors `kept`, with the next block unchanged.
+    fn restart(&mut self, eigen: &RealEigen, kept: &[usize]) {
+        let mut kept = kept.to_vec();
+        if let Some(&last) = kept.last()
+            && eigen.values[last].im > 0.0
+        {
+            kept.pop();
+        }
+        let ritz = Mat::from_fn(self.dimension(), kept.len(), |i, j| {
+            eigen.right[(i, kept[j])]
+        });
+        let empty = Mat::<f64>::zeros(self.dimension(), 0);
+        let vectors = orthonormalize(empty.as_ref(), ritz, 1e-12).columns;
+        self.basis = product(self.basis.as_ref(), vectors.as_ref());
+        let image = product(self.projection.as_ref(), vectors.as_ref());
+        self.projection = product(vectors.transpose(), image.as_ref());
+        self.coupling = product(self.coupling.as_ref(), vectors.as_ref());
+    }
+
+    /// Purified eigenvectors of the chosen Ritz pairs, each held to the tolerance once more.
+    fn finish(
+        mut self,
+        eigen: &RealEigen,
+        chosen: &[usize],
+        settings: &KrylovSchurSettings,
+    ) -> Result<RealPairs, LinalgError> {
+        let values: Vec<c64> = chosen.iter().map(|&i| eigen.values[i]).collect();
+        let coefficients = Mat::from_fn(self.dimension(), chosen.len(), |i, j| {
+            eigen.right[(i, chosen[j])]
+        });
+        let ritz = product(self.basis.as_ref(), coefficients.as_ref());
+        let mut vectors = self.operator.apply(ritz.as_ref());
+        self.applications += chosen.len();
+        let residuals = pair_residuals(&values, &ritz, &vectors);
+        // The explicit residual has a floor of round-off that the recurrence does not see.
+        let bound = settings.tolerance.max(1e-10);
+        let converged = residuals.iter().filter(|&&r| r <= bound).count();
+        if converged < values.len() {
+            return Err(LinalgError::NotConverged {
+                converged,
+                wanted: values.len(),
+                tolerance: bound,
+                applications: self.applications,
+            });
+        }
+        normalize_pairs(&values, &mut vectors);
+        Ok(RealPairs {
+            values,
+            vectors,
+            residuals,
+            applications: self.applications,
+        })
+    }
+}
+
+/// First and last column of the pair (or single vector) that column `i` belongs to.
+fn pair_columns(values: &[c64], i: usize) -> (usize, usize) {
+    match values[i].im {
+        im if im > 0.0 => (i, i + 1),
+        im if im < 0.0 => (i - 1, i),
+        _ => (i, i),
+    }
+}
+
+/// `|S x - theta x| / |theta x|` of each pair from `x` and `S x`.
+fn pair_residuals(values: &[c64], x: &Mat<f64>, image: &Mat<f64>) -> Vec<f64> {
+    (0..values.len())
+        .map(|i| {
+            let (first, last) = pair_columns(values, i);
+            let theta = values[first];
+            let (mut error, mut length) = (0.0, 0.0);
+            for row in 0..x.nrows() {
+                let at = |m: &Mat<f64>| {
+                    let imaginary = if last > first { m[(row, last)] } else { 0.0 };
+                    c64::new(m[(row, first)], imaginary)
+                };
+                error += (at(image) - theta * at(x)).norm_sqr();
+                length += (theta * at(x)).norm_sqr();
+            }
+            (error / length).sqrt()
+        })
+        .collect()
+}
+
+/// Scales each vector, real or complex, to unit length.
+fn normalize_pairs(values: &[c64], vectors: &mut Mat<f64>) {
+    let mut i = 0;
+    while i < values.len() {
+        let (first, last) = pair_columns(values, i);
+        let length = (first..=last)
+            .map(|j| vectors.col(j).squared_norm_l2())
+            .sum::<f64>()
+            .sqrt();
+        for j in first..=last {
+            vectors.col_mut(j).iter_mut().for_each(|v| *v /= length);
+        }
+        i = last + 1;
+    }
+}

@@ -1,0 +1,156 @@
+//! Sparse symmetric factorization `A = P^T L D L^T P` and the inertia it shows.
+
+use super::dense::column_blocks;
+use super::{LinalgError, SparsityPattern};
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::sparse::linalg::SupernodalThreshold;
+use faer::sparse::linalg::cholesky::{
+    CholeskySymbolicParams, LdltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
+    factorize_symbolic_cholesky, supernodal,
+};
+use faer::{Conj, Mat, MatMut, Par, Side};
+use std::sync::Arc;
+
+/// Backward error of a trial solve above which a factorization (it does not pivot) is not trusted.
+const BACKWARD_ERROR_BOUND: f64 = 1e-9;
+/// Right-hand sides solved together.
+const BLOCK: usize = 16;
+
+/// Fill-reducing ordering and structure of the symmetric factors of every matrix on one pattern.
+#[derive(Clone, Debug)]
+pub struct LdlAnalysis {
+    pattern: Arc<SparsityPattern>,
+    symbolic: Arc<SymbolicCholesky<usize>>,
+}
+
+impl LdlAnalysis {
+    /// Analyses a pattern (approximate minimum degree); only its upper triangle counts.
+    ///
+    /// # Errors
+    /// If the analysis runs out of memory or index range.
+    pub fn new(pattern: &Arc<SparsityPattern>) -> Result<Self, LinalgError> {
+        let parameters = CholeskySymbolicParams {
+            supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
+            ..Default::default()
+        };
+        let symbolic = factorize_symbolic_cholesky(
+            pattern.symbolic(),
+            Side::Upper,
+            SymmetricOrdering::Amd,
+            parameters,
+        )
+        .map_err(|error| LinalgError::Factorization {
+            dimension: pattern.dimension(),
+            reason: format!("{error:?}"),
+        })?;
+        Ok(Self {
+            pattern: Arc::clone(pattern),
+            symbolic: Arc::new(symbolic),
+        })
+    }
+}
+
+/// Factors of a symmetric matrix, definite or not.
+///
+/// There is no pivoting: a matrix whose leading minors come close to zero in the fill-reducing order
+/// loses accuracy, which the trial solve of [`SparseLdl::factorize`] detects. A shift moved a little is
+/// then the remedy.
+#[derive(Debug)]
+pub struct SparseLdl {
+    analysis: LdlAnalysis,
+    factors: Vec<f64>,
+}
+
+impl SparseLdl {
+    /// Factorizes the symmetric matrix whose upper triangle has nonzero `values` on the pattern.
+    ///
+    /// # Errors
+    /// On a zero pivot, or if the factors fail a trial solve.
+    pub fn factorize(analysis: &LdlAnalysis, values: &[f64]) -> Result<Self, LinalgError> {
+        let symbolic = &analysis.symbolic;
+        let mut factors = vec![0.0; symbolic.len_val()];
+        let scratch = symbolic.factorize_numeric_ldlt_scratch::<f64>(Par::Seq, Default::default());
+        symbolic
+            .factorize_numeric_ldlt(
+                &mut factors,
+                analysis.pattern.matrix(values),
+                Side::Upper,
+                Default::default(),
+                Par::Seq,
+                MemStack::new(&mut MemBuffer::new(scratch)),
+                Default::default(),
+            )
+            .map_err(|error| LinalgError::Factorization {
+                dimension: symbolic.nrows(),
+                reason: format!("{error:?}"),
+            })?;
+        let factored = Self {
+            analysis: analysis.clone(),
+            factors,
+        };
+        factored.check(values)?;
+        Ok(factored)
+    }
+
+    /// Number of negative eigenvalues (Sylvester's law of inertia: the signs of `D`).
+    pub fn negative_count(&self) -> usize {
+        let SymbolicCholeskyRaw::Supernodal(symbolic) = self.analysis.symbolic.raw() else {
+            unreachable!("the analysis forces supernodes");
+        };
+        let factors = supernodal::SupernodalLdltRef::new(symbolic, &self.factors);
+        (0..symbolic.n_supernodes())
+            .map(|s| {
+                let width = symbolic.supernode_end()[s] - symbolic.supernode_begin()[s];
+                let block = factors.supernode(s).val();
+                (0..width).filter(|&j| block[(j, j)] < 0.0).count()
+            })
+            .sum()
+    }
+
+    /// Solves `A x = b` for each column of `right_sides`, in place.
+    pub fn solve_in_place(&self, right_sides: MatMut<'_, f64>) {
+        let symbolic = &*self.analysis.symbolic;
+        let ldl = LdltRef::new(symbolic, &self.factors);
+        let width = right_sides.ncols().clamp(1, BLOCK);
+        let mut memory = MemBuffer::new(symbolic.solve_in_place_scratch::<f64>(width, Par::Seq));
+        for block in column_blocks(right_sides, width) {
+            ldl.solve_in_place_with_conj(Conj::No, block, Par::Seq, MemStack::new(&mut memory));
+        }
+    }
+
+    fn check(&self, values: &[f64]) -> Result<(), LinalgError> {
+        let pattern = &self.analysis.pattern;
+        let n = pattern.dimension();
+        let right_side: Vec<f64> = (0..n)
+            .map(|i| 1.0 + (i as f64 * 0.618_033_988_749_895).fract())
+            .collect();
+        let mut x = Mat::from_fn(n, 1, |i, _| right_side[i]);
+        self.solve_in_place(x.as_mut());
+        let (mut residual, mut row_sums) = (right_side, vec![0.0; n]);
+        for column in 0..n {
+            for (position, row) in pattern.column(column) {
+                let value = values[position];
+                if row > column {
+                    continue;
+                }
+                residual[row] -= value * x[(column, 0)];
+                row_sums[row] += value.abs();
+                if row < column {
+                    residual[column] -= value * x[(row, 0)];
+                    row_sums[column] += value.abs();
+                }
+            }
+        }
+        let largest = |v: &[f64]| v.iter().fold(0.0, |m: f64, r| m.max(r.abs()));
+        let backward_error = largest(&residual) / (largest(&row_sums) * x.norm_max());
+        let is_finite = residual.iter().all(|r| r.is_finite());
+        if n > 0 && !(is_finite && backward_error <= BACKWARD_ERROR_BOUND) {
+            return Err(LinalgError::Singular {
+                dimension: n,
+                backward_error,
+                bound: BACKWARD_ERROR_BOUND,
+            });
+        }
+        Ok(())
+    }
+}

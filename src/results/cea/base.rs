@@ -1,0 +1,85 @@
+//! The steady sliding state that the eigenvalues belong to.
+
+use crate::fem::NodalStress;
+use crate::mesh::Mesh2d;
+use crate::results::folder::{FolderError, OutputFolder};
+use crate::results::table::{Table, format_number};
+use crate::results::vtu::{EncodedMesh, Field, write_vtu};
+use serde::Serialize;
+
+/// The steady sliding state at one friction coefficient in a few numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct BaseState {
+    /// Friction coefficient.
+    pub friction_coefficient: f64,
+    /// Contact nodes in slip.
+    pub slipping: usize,
+    /// Contact nodes that stick.
+    pub sticking: usize,
+    /// Contact nodes without contact.
+    pub open: usize,
+    /// Contact pressure, smallest and largest, Pa.
+    pub pressure_pa: [f64; 2],
+    /// Friction traction, smallest and largest, Pa.
+    pub shear_pa: [f64; 2],
+    /// Friction torque of the whole thickness, N m.
+    pub torque_n_m: f64,
+    /// Power that the rotor puts in, W.
+    pub power_w: f64,
+}
+
+/// The same state node by node.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BaseField {
+    /// Contact nodes, 0-based, in order of rising angle.
+    pub nodes: Vec<u32>,
+    /// Angle of each contact node, rad.
+    pub angles: Vec<f64>,
+    /// Contact pressure at each contact node, Pa.
+    pub pressures: Vec<f64>,
+    /// Friction traction at each contact node, Pa.
+    pub shears: Vec<f64>,
+    /// Displacement of every node in nodal frames, `2 * node_count` values, m.
+    pub displacement: Vec<f64>,
+    /// Stress at every node.
+    pub stress: Vec<NodalStress>,
+}
+
+/// Writes `prestress.csv` (contact nodes) and `prestress.vtu` (displacement and stress).
+///
+/// # Errors
+/// Those of the folder.
+pub fn write_base(
+    folder: &OutputFolder,
+    mesh: &Mesh2d,
+    base: &BaseField,
+) -> Result<(), FolderError> {
+    folder.write("prestress.csv", |out| {
+        let columns = ["node", "angle_degrees", "pressure_pa", "shear_pa"];
+        let mut table = Table::new(out, &columns)?;
+        for (i, node) in base.nodes.iter().enumerate() {
+            table.row([
+                (node + 1).to_string(),
+                format_number(base.angles[i].to_degrees()),
+                format_number(base.pressures[i]),
+                format_number(base.shears[i]),
+            ])?;
+        }
+        table.finish()
+    })?;
+    let stress = |name: &str, of: fn(&NodalStress) -> f64| {
+        Field::scalars(name, base.stress.iter().map(of).collect())
+    };
+    let fields = [
+        Field::vectors("displacement", mesh, &base.displacement),
+        stress("von_mises", NodalStress::von_mises),
+        stress("radial_stress", |stress| stress.radial),
+        stress("hoop_stress", |stress| stress.hoop),
+        stress("shear_stress", |stress| stress.shear),
+        stress("pressure", NodalStress::pressure),
+    ];
+    folder.write_bulk("prestress.vtu", |out| {
+        write_vtu(out, &EncodedMesh::new(mesh)?, &fields, &[])
+    })?;
+    Ok(())
+}

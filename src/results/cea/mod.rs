@@ -1,0 +1,74 @@
+//! Results of a complex eigenvalue analysis: what is printed and what is written.
+
+mod base;
+mod figures;
+mod files;
+mod print;
+mod report;
+
+pub use base::{BaseField, BaseState, write_base};
+pub use figures::draw;
+pub use files::{summary, write, write_eigenvalues, write_stability};
+pub use print::print;
+pub use report::html_report;
+
+use crate::cea::{ComplexMode, FrictionPoint, FrictionSweep, UnstableInterval};
+use crate::mesh::Mesh2d;
+
+/// Everything a complex eigenvalue analysis reports.
+#[derive(Clone, Debug)]
+pub struct CeaReport<'a> {
+    /// Title of the case.
+    pub title: &'a str,
+    /// The mesh, for the shapes.
+    pub mesh: &'a Mesh2d,
+    /// Unknowns of the eigenproblem.
+    pub dofs: usize,
+    /// Solver: `"cyclic"` or `"sparse"`.
+    pub method: &'a str,
+    /// What was asked for, in words: `"below 17500 Hz"`.
+    pub selection: String,
+    /// Friction coefficients of the tables, rising. The sweep may hold more, for the shapes.
+    pub friction_coefficients: &'a [f64],
+    /// The modes.
+    pub sweep: &'a FrictionSweep,
+    /// The state of steady sliding at the case's own friction coefficient.
+    pub base: BaseState,
+    /// The same node by node.
+    pub field: &'a BaseField,
+    /// Anything the solver has to say: lost branches, harmonics left out, and why.
+    pub notes: Vec<String>,
+    /// Wall time of the run, s.
+    pub wall_s: f64,
+}
+
+impl CeaReport<'_> {
+    /// The friction values of the tables.
+    pub fn tabulated(&self) -> impl Iterator<Item = &FrictionPoint> {
+        self.sweep.points.iter().filter(|point| {
+            self.friction_coefficients
+                .contains(&point.friction_coefficient)
+        })
+    }
+
+    /// Largest relative residual of any eigenpair, that of the quadratic problem.
+    pub fn largest_residual(&self) -> f64 {
+        let modes = self.sweep.points.iter().flat_map(|point| &point.modes);
+        modes.map(|mode| mode.residual).fold(0.0, f64::max)
+    }
+
+    /// Fewest and most modes found at one friction value.
+    pub fn mode_counts(&self) -> (usize, usize) {
+        let counts = || self.tabulated().map(|point| point.modes.len());
+        (counts().min().unwrap_or(0), counts().max().unwrap_or(0))
+    }
+}
+
+/// Direction in words.
+fn direction_name(direction: i8) -> &'static str {
+    match direction {
+        1.. => "with",
+        0 => "standing",
+        ..0 => "against",
+    }
+}

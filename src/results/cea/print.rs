@@ -1,0 +1,152 @@
+//! The table that a person reads.
+
+use super::{CeaReport, direction_name};
+use crate::cea::FrictionPoint;
+use std::fmt::Write as _;
+
+/// The report as text: unstable modes of each friction value, critical frictions, totals.
+pub fn print(report: &CeaReport<'_>) -> String {
+    let mut out = String::new();
+    if !report.title.is_empty() {
+        let _ = writeln!(out, "{}", report.title);
+    }
+    let _ = writeln!(
+        out,
+        "complex eigenvalues, {}, {} unknowns, {} method\n",
+        report.selection, report.dofs, report.method
+    );
+    unstable_modes(&mut out, report);
+    critical_frictions(&mut out, report);
+    totals(&mut out, report);
+    out
+}
+
+/// One block for each friction value; neighbouring values without instability share a line.
+fn unstable_modes(out: &mut String, report: &CeaReport<'_>) {
+    let _ = writeln!(
+        out,
+        "{:>9}  {:>4}  {:>3} {:>6}  {:<8} {:>12} {:>12} {:>11}",
+        "friction", "mode", "n", "branch", "travels", "frequency", "growth rate", "damping"
+    );
+    let _ = writeln!(
+        out,
+        "{:>9}  {:>4}  {:>3} {:>6}  {:<8} {:>12} {:>12} {:>11}",
+        "", "", "", "", "", "Hz", "1/s", "factor"
+    );
+    let mut stable: Option<(f64, f64)> = None;
+    for point in report.tabulated() {
+        if point.modes.iter().any(|mode| mode.is_unstable()) {
+            stable_line(out, stable.take());
+            unstable_lines(out, point);
+        } else {
+            let friction = point.friction_coefficient;
+            stable = Some((stable.map_or(friction, |range| range.0), friction));
+        }
+    }
+    stable_line(out, stable);
+}
+
+fn stable_line(out: &mut String, range: Option<(f64, f64)>) {
+    let _ = match range {
+        Some((first, last)) if first == last => writeln!(out, "{first:>9}  stable"),
+        Some((first, last)) => writeln!(out, "{first:>9}  stable up to {last}"),
+        None => return,
+    };
+}
+
+fn unstable_lines(out: &mut String, point: &FrictionPoint) {
+    let mut friction = point.friction_coefficient.to_string();
+    for (index, mode) in point.modes.iter().enumerate() {
+        if !mode.is_unstable() {
+            continue;
+        }
+        let _ = writeln!(
+            out,
+            "{friction:>9}  {:>4}  {:>3} {:>6}  {:<8} {:>12.2} {:>12.2} {:>11.3e}",
+            index + 1,
+            mode.harmonic,
+            mode.branch,
+            direction_name(mode.direction),
+            mode.frequency_hz(),
+            mode.growth_rate(),
+            mode.damping_factor(),
+        );
+        friction.clear();
+    }
+}
+
+fn critical_frictions(out: &mut String, report: &CeaReport<'_>) {
+    let intervals = &report.sweep.intervals;
+    if intervals.is_empty() {
+        let first = report.friction_coefficients.first().copied().unwrap_or(0.0);
+        let last = report.friction_coefficients.last().copied().unwrap_or(0.0);
+        let _ = writeln!(
+            out,
+            "\nno mode turns unstable for friction from {first} to {last}"
+        );
+        return;
+    }
+    let _ = writeln!(out, "\ncritical friction");
+    let _ = writeln!(
+        out,
+        "{:>10}  {:>3} {:>6}  {:<8} {:>12}  stable again at",
+        "unstable >", "n", "branch", "travels", "frequency Hz"
+    );
+    for interval in intervals {
+        let again = match interval.restabilized {
+            Some((friction, frequency)) => format!("{friction:.6} ({frequency:.2} Hz)"),
+            None => "-".to_owned(),
+        };
+        let critical = if interval.unstable_from_start {
+            "start".to_owned()
+        } else {
+            format!("{:.6}", interval.critical_friction)
+        };
+        let _ = writeln!(
+            out,
+            "{critical:>10}  {:>3} {:>6}  {:<8} {:>12.2}  {again}",
+            interval.harmonic,
+            interval.branch,
+            direction_name(interval.direction),
+            interval.frequency_hz,
+        );
+    }
+}
+
+fn totals(out: &mut String, report: &CeaReport<'_>) {
+    let (fewest, most) = report.mode_counts();
+    let modes = if fewest == most {
+        most.to_string()
+    } else {
+        format!("{fewest} to {most}")
+    };
+    let _ = writeln!(
+        out,
+        "\n{modes} modes {} at {} friction values, largest residual {:.1e}",
+        report.selection,
+        report.friction_coefficients.len(),
+        report.largest_residual(),
+    );
+    let base = &report.base;
+    let _ = writeln!(
+        out,
+        "steady sliding at friction {}: {} contact nodes slipping, {} sticking, {} open; \
+         pressure {} to {} MPa; torque {:.4} N m, {:.1} W",
+        base.friction_coefficient,
+        base.slipping,
+        base.sticking,
+        base.open,
+        megapascal(base.pressure_pa[0]),
+        megapascal(base.pressure_pa[1]),
+        base.torque_n_m,
+        base.power_w,
+    );
+    for note in &report.notes {
+        let _ = writeln!(out, "{note}");
+    }
+    let _ = writeln!(out, "{:.3} s", report.wall_s);
+}
+
+fn megapascal(pressure: f64) -> String {
+    format!("{:.4}", pressure * 1e-6)
+}

@@ -1,0 +1,177 @@
+//! What a mesh looks like: statistics, VTU, outline picture.
+
+use super::drawing::{DrawingError, render, write_figure};
+use super::folder::{FolderError, OutputFolder};
+use super::vtu::{EncodedMesh, Field, write_vtu};
+use crate::mesh::{AnnulusMesh, ElementKind, Mesh2d};
+use serde::Serialize;
+use std::fmt::Write as _;
+
+/// Size and quality of an annulus mesh.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct MeshStatistics {
+    /// Nodes.
+    pub nodes: usize,
+    /// Elements.
+    pub elements: usize,
+    /// Unknowns, two for each node.
+    pub dofs: usize,
+    /// Nodes on the contact edge.
+    pub contact_nodes: usize,
+    /// Nodes of one ray of corner nodes: node `1 + j (nodes_per_sector) + i`.
+    pub nodes_per_sector: usize,
+    /// Smallest edge length of any element, m.
+    pub smallest_edge_m: f64,
+    /// Largest edge length, m.
+    pub largest_edge_m: f64,
+    /// Largest ratio of the edges of one element.
+    pub largest_aspect_ratio: f64,
+    /// Area of the mesh, m2.
+    pub area_m2: f64,
+    /// Its relative difference to the annulus.
+    pub area_error: f64,
+}
+
+impl MeshStatistics {
+    /// Measures a mesh between its corner nodes; the area follows the curved edges of Quad8.
+    pub fn new(annulus: &AnnulusMesh) -> Self {
+        let mesh = &annulus.mesh;
+        let (mut smallest, mut largest, mut aspect) = (f64::INFINITY, 0.0f64, 1.0f64);
+        let mut area = 0.0;
+        for element in 0..mesh.element_count() {
+            let outline = outline(mesh, element);
+            area += polygon_area(&outline, mesh.element_kind);
+            let corners = corners(mesh, element);
+            let lengths: [f64; 4] = std::array::from_fn(|i| {
+                let (p, q) = (corners[i], corners[(i + 1) % 4]);
+                (p[0] - q[0]).hypot(p[1] - q[1])
+            });
+            let low = lengths.iter().copied().fold(f64::INFINITY, f64::min);
+            let high = lengths.iter().copied().fold(0.0, f64::max);
+            smallest = smallest.min(low);
+            largest = largest.max(high);
+            aspect = aspect.max(high / low);
+        }
+        let spec = &annulus.specification;
+        let exact = std::f64::consts::PI * (spec.outer_radius.powi(2) - spec.inner_radius.powi(2));
+        Self {
+            nodes: mesh.node_count(),
+            elements: mesh.element_count(),
+            dofs: 2 * mesh.node_count(),
+            contact_nodes: mesh.inner_edge.nodes.len(),
+            nodes_per_sector: annulus.sector_node_count(),
+            smallest_edge_m: smallest,
+            largest_edge_m: largest,
+            largest_aspect_ratio: aspect,
+            area_m2: area,
+            area_error: (area / exact - 1.0).abs(),
+        }
+    }
+}
+
+fn corners(mesh: &Mesh2d, element: usize) -> [[f64; 2]; 4] {
+    let nodes = mesh.element_nodes(element);
+    std::array::from_fn(|i| mesh.nodes[nodes[i] as usize])
+}
+
+/// Nodes around an element, mid-side nodes between their corners.
+fn outline(mesh: &Mesh2d, element: usize) -> Vec<[f64; 2]> {
+    let nodes = mesh.element_nodes(element);
+    let at = |i: usize| mesh.nodes[nodes[i] as usize];
+    match mesh.element_kind {
+        ElementKind::Quad4 => (0..4).map(at).collect(),
+        ElementKind::Quad8 => (0..4).flat_map(|i| [at(i), at(i + 4)]).collect(),
+    }
+}
+
+/// Area inside straight edges, or inside parabolic ones through every second point.
+fn polygon_area(points: &[[f64; 2]], kind: ElementKind) -> f64 {
+    let cross = |p: [f64; 2], q: [f64; 2]| p[0] * q[1] - p[1] * q[0];
+    let count = points.len();
+    match kind {
+        ElementKind::Quad4 => {
+            let sum: f64 = (0..count)
+                .map(|i| cross(points[i], points[(i + 1) % count]))
+                .sum();
+            0.5 * sum
+        }
+        // Green's theorem on a parabola through p, m, q: (4 p x m + 4 m x q - p x q) / 6.
+        ElementKind::Quad8 => (0..count)
+            .step_by(2)
+            .map(|i| {
+                let (p, m, q) = (points[i], points[i + 1], points[(i + 2) % count]);
+                (4.0 * cross(p, m) + 4.0 * cross(m, q) - cross(p, q)) / 6.0
+            })
+            .sum(),
+    }
+}
+
+/// Writes `mesh.vtu` with node ids (from 1) and the contact edge marked.
+///
+/// # Errors
+/// Those of the folder.
+pub fn write_mesh(folder: &OutputFolder, mesh: &Mesh2d) -> Result<(), FolderError> {
+    let ids = (1..=mesh.node_count()).map(|id| id as f64).collect();
+    let mut edge = vec![0.0; mesh.node_count()];
+    for node in &mesh.inner_edge.nodes {
+        edge[*node as usize] = 1.0;
+    }
+    for node in &mesh.outer_edge.nodes {
+        edge[*node as usize] = 2.0;
+    }
+    let fields = [
+        Field::scalars("node_id", ids),
+        Field::scalars("edge (1 contact, 2 clamped)", edge),
+    ];
+    folder.write("mesh.vtu", |out| {
+        write_vtu(out, &EncodedMesh::new(mesh)?, &fields, &[])
+    })?;
+    Ok(())
+}
+
+/// Draws `figures/mesh.svg` and `.png`: element outlines, the contact edge red, the clamped edge blue.
+///
+/// # Errors
+/// Those of the folder.
+pub fn write_mesh_picture(
+    folder: &OutputFolder,
+    annulus: &AnnulusMesh,
+    title: &str,
+) -> Result<(), DrawingError> {
+    if let Some(figure) = render(Ok(picture(annulus, title)))? {
+        write_figure(folder, "mesh", &figure)?;
+    }
+    Ok(())
+}
+
+fn picture(annulus: &AnnulusMesh, title: &str) -> String {
+    const HALF: f64 = 400.0;
+    let mesh = &annulus.mesh;
+    let scale = 0.95 * HALF / annulus.specification.outer_radius;
+    let place = |p: [f64; 2]| (HALF + scale * p[0], HALF - scale * p[1]);
+    let mut path = String::new();
+    for element in 0..mesh.element_count() {
+        for (i, point) in outline(mesh, element).into_iter().enumerate() {
+            let (x, y) = place(point);
+            let _ = write!(path, "{}{x:.2} {y:.2}", if i == 0 { "M" } else { "L" });
+        }
+        path.push('Z');
+    }
+    let circle = |radius: f64, color: &str| {
+        format!(
+            "<circle cx=\"{HALF}\" cy=\"{HALF}\" r=\"{:.2}\" fill=\"none\" stroke=\"{color}\" \
+             stroke-width=\"2\"/>\n",
+            scale * radius
+        )
+    };
+    let title = title.replace('&', "&amp;").replace('<', "&lt;");
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{0}\" \
+         viewBox=\"0 0 {0} {0}\">\n\
+         <title>{title}</title>\n<rect width=\"{0}\" height=\"{0}\" fill=\"white\"/>\n\
+         <path d=\"{path}\" fill=\"#f2f2f2\" stroke=\"#404040\" stroke-width=\"0.4\"/>\n{1}{2}</svg>\n",
+        2.0 * HALF,
+        circle(annulus.specification.inner_radius, "#d62728"),
+        circle(annulus.specification.outer_radius, "#1f77b4"),
+    )
+}

@@ -1,0 +1,345 @@
+//! The results folder of a sweep, which several processes may share.
+
+use super::super::Manifest;
+use super::super::folder::{
+    Contents, FolderError, LOCK, MANIFEST, Replace, TEMPORARY, check_owner, read_contents,
+    refuse_foreign, remove_files, write_contents, write_whole,
+};
+use super::PointRecord;
+use std::collections::BTreeSet;
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+const POINTS: &str = "points";
+const CLAIM: &str = ".claim-";
+const DOOR: &str = ".door";
+
+/// What becomes of finished points that are there already.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Start {
+    /// There must be none.
+    Fresh,
+    /// They stay.
+    Resume,
+    /// They go, and so do the results of another case.
+    Over,
+}
+
+/// The results folder of one sweep.
+///
+/// ```text
+/// manifest.json              case text, overrides, hash: whose folder it is
+/// points/point-000001.json   one whole file for each finished point
+/// points.csv, summary.json   over all points
+/// ```
+///
+/// Processes share the folder: each holds the lock file shared, so that no other command takes the
+/// folder, and claims a point by locking a file of its own before it runs it. Locks go with their
+/// process; a killed one leaves nothing to clear up by hand. A file system without locks leaves
+/// processes that run the same points to do them twice, with one result.
+#[derive(Debug)]
+pub struct SweepFolder {
+    path: PathBuf,
+    sweep_hash: String,
+    _lock: File,
+}
+
+/// The right to run one point, until dropped.
+#[derive(Debug)]
+pub struct Claim {
+    path: PathBuf,
+    _lock: File,
+}
+
+impl Drop for Claim {
+    fn drop(&mut self) {
+        // The point's file is there by now: whoever opened the claim before it goes finds that.
+        let _ = fs::remove_file(&self.path);
+    }
+}
+
+impl SweepFolder {
+    /// Takes the folder for a run of `points` (numbers from 1) out of `count`, creating it where it
+    /// is missing.
+    ///
+    /// # Errors
+    /// [`FolderError::OtherCase`] and [`FolderError::Foreign`] unless `start` is [`Start::Over`];
+    /// [`FolderError::Started`] if some of `points` are finished and `start` is [`Start::Fresh`];
+    /// [`FolderError::Busy`] if another command writes there; those of the file system.
+    pub fn open(
+        path: &Path,
+        manifest: &Manifest,
+        count: usize,
+        points: &[usize],
+        start: Start,
+    ) -> Result<Self, FolderError> {
+        fs::create_dir_all(path).map_err(|e| FolderError::io("create folder", path, e))?;
+        let lock = share(path, |company| {
+            take_over(path, manifest, count, start, company)?;
+            let points_path = path.join(POINTS);
+            fs::create_dir_all(&points_path)
+                .map_err(|e| FolderError::io("create folder", &points_path, e))?;
+            if company == Company::None {
+                clear_remnants(path);
+                clear_remnants(&points_path);
+            }
+            if start == Start::Over {
+                remove_points(path, points, company)?;
+            }
+            Ok(())
+        })?;
+        let folder = Self {
+            path: path.to_owned(),
+            sweep_hash: manifest.case_hash.clone(),
+            _lock: lock,
+        };
+        if start == Start::Fresh {
+            folder.refuse_started(points)?;
+        }
+        Ok(folder)
+    }
+
+    /// Opens the folder of a sweep that has been started, and gives its manifest.
+    ///
+    /// # Errors
+    /// [`FolderError::NotASweep`]; [`FolderError::Busy`]; those of the file system.
+    pub fn find(path: &Path) -> Result<(Self, Manifest), FolderError> {
+        let not_a_sweep = |reason: String| FolderError::NotASweep {
+            path: path.to_owned(),
+            reason,
+        };
+        if !path.join(MANIFEST).is_file() {
+            return Err(not_a_sweep(format!("it has no {MANIFEST}")));
+        }
+        let manifest = match read_contents(path)? {
+            Some(contents) if contents.manifest.command == "sweep" => contents.manifest,
+            Some(contents) => {
+                let command = contents.manifest.command;
+                return Err(not_a_sweep(format!("it belongs to frictionsim {command}")));
+            }
+            None => return Err(not_a_sweep(format!("its {MANIFEST} is damaged"))),
+        };
+        let lock = share(path, |_| Ok(()))?;
+        let folder = Self {
+            path: path.to_owned(),
+            sweep_hash: manifest.case_hash.clone(),
+            _lock: lock,
+        };
+        Ok((folder, manifest))
+    }
+
+    /// The folder's path.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Where a point's file is.
+    pub fn point_path(&self, point: usize) -> PathBuf {
+        self.path.join(point_name(point))
+    }
+
+    /// Reads a finished point; `None` if it is not finished, its file is damaged, or it is of
+    /// another sweep.
+    ///
+    /// # Errors
+    /// Those of the file system.
+    pub fn read(&self, point: usize) -> Result<Option<PointRecord>, FolderError> {
+        let path = self.point_path(point);
+        let bytes = match fs::read(&path) {
+            Ok(bytes) => bytes,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
+            Err(error) => return Err(FolderError::io("read", &path, error)),
+        };
+        let record = serde_json::from_slice::<PointRecord>(&bytes).ok();
+        Ok(record.filter(|record| record.point == point && record.sweep_hash == self.sweep_hash))
+    }
+
+    /// Claims a point for this process; `None` if another one has it.
+    ///
+    /// A claimed point may have been finished a moment ago: look before running it.
+    ///
+    /// # Errors
+    /// Those of the file system.
+    pub fn claim(&self, point: usize) -> Result<Option<Claim>, FolderError> {
+        let path = self.path.join(POINTS).join(format!("{CLAIM}{point:06}"));
+        let file = open_lock(&path)?;
+        match file.try_lock() {
+            Ok(()) => {}
+            Err(TryLockError::WouldBlock) => return Ok(None),
+            Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => {}
+            Err(TryLockError::Error(error)) => return Err(FolderError::io("lock", &path, error)),
+        }
+        Ok(Some(Claim { path, _lock: file }))
+    }
+
+    /// Writes a finished point, whole or not at all.
+    ///
+    /// # Errors
+    /// As [`SweepFolder::write`].
+    pub fn write_point(&self, record: &PointRecord) -> Result<(), FolderError> {
+        self.write(&point_name(record.point), |out| {
+            serde_json::to_writer_pretty(&mut *out, record)?;
+            out.write_all(b"\n")
+        })
+    }
+
+    /// Writes one file whole or not at all.
+    ///
+    /// # Errors
+    /// [`FolderError::DiskFull`] or [`FolderError::Io`] with the file's path.
+    pub fn write(
+        &self,
+        name: &str,
+        fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<(), FolderError> {
+        let path = self.path.join(name);
+        write_whole(&path, true, fill).map_err(|e| FolderError::io("write", &path, e))
+    }
+
+    fn refuse_started(&self, points: &[usize]) -> Result<(), FolderError> {
+        let mut found = 0;
+        for &point in points {
+            found += usize::from(self.read(point)?.is_some());
+        }
+        match found {
+            0 => Ok(()),
+            _ => Err(FolderError::Started {
+                path: self.path.clone(),
+                found,
+                asked: points.len(),
+            }),
+        }
+    }
+}
+
+fn point_name(point: usize) -> String {
+    format!("{POINTS}/point-{point:06}.json")
+}
+
+fn open_lock(path: &Path) -> Result<File, FolderError> {
+    OpenOptions::new()
+        .create(true)
+        .truncate(false)
+        .write(true)
+        .open(path)
+        .map_err(|e| FolderError::io("open", path, e))
+}
+
+/// Who else works in a folder.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Company {
+    /// No other process.
+    None,
+    /// Others, of the same sweep.
+    Others,
+    /// The file system has no locks to tell by.
+    Unknown,
+}
+
+/// Holds the folder's lock shared, after `enter` has run: under the exclusive lock if no other
+/// process is there.
+fn share(
+    path: &Path,
+    enter: impl FnOnce(Company) -> Result<(), FolderError>,
+) -> Result<File, FolderError> {
+    // One process enters at a time, which takes a moment; hundreds of them may start at once.
+    let door_path = path.join(DOOR);
+    let door = open_lock(&door_path)?;
+    match door.lock() {
+        Err(error) if error.kind() != io::ErrorKind::Unsupported => {
+            return Err(FolderError::io("lock", &door_path, error));
+        }
+        _ => {}
+    }
+    let lock_path = path.join(LOCK);
+    let file = open_lock(&lock_path)?;
+    let refusal = |error| match error {
+        TryLockError::WouldBlock => FolderError::Busy {
+            path: path.to_owned(),
+        },
+        TryLockError::Error(error) => FolderError::io("lock", &lock_path, error),
+    };
+    match file.try_lock() {
+        Ok(()) => {
+            enter(Company::None)?;
+            // Not every system turns one kind of lock into the other.
+            file.unlock()
+                .map_err(|error| refusal(TryLockError::Error(error)))?;
+            file.try_lock_shared().map_err(refusal)?;
+        }
+        Err(TryLockError::WouldBlock) => {
+            file.try_lock_shared().map_err(refusal)?;
+            enter(Company::Others)?;
+        }
+        Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => {
+            enter(Company::Unknown)?;
+        }
+        Err(error) => return Err(refusal(error)),
+    }
+    Ok(file)
+}
+
+/// Makes the folder that of this sweep, or finds that it is.
+fn take_over(
+    path: &Path,
+    manifest: &Manifest,
+    count: usize,
+    start: Start,
+    company: Company,
+) -> Result<(), FolderError> {
+    let contents = read_contents(path)?;
+    let replace = match start {
+        Start::Over => Replace::Anything,
+        Start::Fresh | Start::Resume => Replace::SameCase,
+    };
+    match &contents {
+        Some(contents) if check_owner(path, &contents.manifest, manifest, replace)? => {
+            return Ok(());
+        }
+        None if start != Start::Over => refuse_foreign(path)?,
+        _ => {}
+    }
+    if company == Company::Others {
+        let path = path.to_owned();
+        return Err(FolderError::Busy { path });
+    }
+    if let Some(contents) = &contents {
+        remove_files(path, contents.files.iter());
+    }
+    let files: BTreeSet<String> = (1..=count)
+        .map(point_name)
+        .chain(["points.csv", "summary.json"].map(str::to_owned))
+        .collect();
+    let manifest = manifest.clone();
+    write_contents(path, &Contents { manifest, files })
+}
+
+/// Removes the points that are to be run over again, and the table that has them.
+fn remove_points(path: &Path, points: &[usize], company: Company) -> Result<(), FolderError> {
+    if company == Company::Others {
+        let path = path.to_owned();
+        return Err(FolderError::Busy { path });
+    }
+    let names: Vec<String> = points
+        .iter()
+        .map(|&point| point_name(point))
+        .chain(["points.csv", "summary.json"].map(str::to_owned))
+        .collect();
+    remove_files(path, names.iter());
+    Ok(())
+}
+
+/// Removes what killed processes left: files half written under temporary names, and claims.
+fn clear_remnants(folder: &Path) {
+    let Ok(entries) = fs::read_dir(folder) else {
+        return;
+    };
+    for entry in entries.flatten() {
+        let name = entry.file_name();
+        let name = name.to_string_lossy();
+        if name.starts_with(TEMPORARY) || name.starts_with(CLAIM) {
+            let _ = fs::remove_file(entry.path());
+        }
+    }
+}

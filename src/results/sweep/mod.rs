@@ -1,0 +1,11 @@
+//! Results of a parameter study: a file for each finished point, one table over them.
+
+mod folder;
+mod record;
+mod report;
+mod table;
+
+pub use folder::{Claim, Start, SweepFolder};
+pub use record::PointRecord;
+pub use report::{SweepReport, print, summary, swept_text};
+pub use table::write_points;

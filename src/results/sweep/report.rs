@@ -1,0 +1,266 @@
+//! What a sweep says of itself: its summary and the table that a person reads.
+
+use super::super::Manifest;
+use super::PointRecord;
+use super::table::cell;
+use serde_json::{Map, Value, json};
+use std::fmt::Write as _;
+
+/// Columns of a transient's or an eigenvalue analysis' summary that a person wants first.
+const FIRST_COLUMNS: [(&str, &str); 6] = [
+    ("/main_frequency_hz", "frequency Hz"),
+    ("/main_harmonic", "n"),
+    ("/status/stick", "stick"),
+    ("/status/slip", "slip"),
+    ("/status/open", "open"),
+    (
+        "/critical_frictions/0/critical_friction",
+        "critical friction",
+    ),
+];
+
+/// Longest table that is printed.
+const MOST_ROWS: usize = 200;
+
+/// Everything that is known of a sweep.
+#[derive(Clone, Debug)]
+pub struct SweepReport<'a> {
+    /// Title of the case.
+    pub title: &'a str,
+    /// Swept keys.
+    pub keys: &'a [String],
+    /// Names of the analyses at each point.
+    pub analyses: &'a [&'static str],
+    /// Number of points of the whole sweep.
+    pub count: usize,
+    /// Finished points in their order.
+    pub records: &'a [PointRecord],
+    /// Points that this process ran, or none if it only collects.
+    pub ran: Option<usize>,
+    /// Wall time of this process, s.
+    pub wall_s: f64,
+}
+
+impl SweepReport<'_> {
+    /// Numbers of the points that are not finished, ascending.
+    pub fn missing(&self) -> Vec<usize> {
+        let mut finished = self.records.iter().map(|record| record.point).peekable();
+        (1..=self.count)
+            .filter(|point| finished.next_if_eq(point).is_none())
+            .collect()
+    }
+
+    /// Failed points.
+    pub fn failed(&self) -> impl Iterator<Item = &PointRecord> {
+        self.records.iter().filter(|record| record.error.is_some())
+    }
+
+    /// Points finished in an hour of one core, from the wall time of each on its worker.
+    fn points_per_core_hour(&self) -> Option<f64> {
+        let seconds: f64 = self.records.iter().map(|record| record.wall_s).sum();
+        (seconds > 0.0).then(|| self.records.len() as f64 * 3600.0 / seconds)
+    }
+
+    /// What to know before points are compared: they were not all made alike.
+    fn notes(&self) -> Vec<String> {
+        let mut makers: Vec<String> = self
+            .records
+            .iter()
+            .map(|record| format!("version {}, SIMD {}", record.version, record.simd))
+            .collect();
+        makers.sort();
+        makers.dedup();
+        match makers.len() {
+            0 | 1 => Vec::new(),
+            _ => vec![format!(
+                "the points were not all made alike, so their last digits may differ: {}",
+                makers.join("; ")
+            )],
+        }
+    }
+}
+
+/// The summary object.
+pub fn summary(report: &SweepReport<'_>, manifest: &Manifest) -> Value {
+    let failed: Vec<Value> = report
+        .failed()
+        .map(
+            |record| json!({ "point": record.point, "swept": record.swept, "error": record.error }),
+        )
+        .collect();
+    let core_s: f64 = report.records.iter().map(|record| record.wall_s).sum();
+    json!({
+        "command": manifest.command,
+        "title": report.title,
+        "swept": report.keys,
+        "analyses": report.analyses,
+        "points": report.count,
+        "finished": report.records.len(),
+        "ran": report.ran,
+        "failed": failed,
+        "missing": report.missing(),
+        "wall_s": report.wall_s,
+        "core_s": core_s,
+        "points_per_core_hour": report.points_per_core_hour(),
+        "notes": report.notes(),
+        "manifest": manifest,
+    })
+}
+
+/// The report as text: a row for each point of a small sweep, what failed, what is missing.
+pub fn print(report: &SweepReport<'_>) -> String {
+    let mut out = String::new();
+    if !report.title.is_empty() {
+        let _ = writeln!(out, "{}", report.title);
+    }
+    if report.records.len() <= MOST_ROWS {
+        rows(&mut out, report);
+    }
+    for record in report.failed() {
+        let _ = writeln!(
+            out,
+            "point {} failed ({}): {}",
+            record.point,
+            swept_text(&record.swept),
+            record.error.as_deref().unwrap_or_default()
+        );
+    }
+    let missing = report.missing();
+    let _ = writeln!(
+        out,
+        "{} of {} points finished, {} of them failed{}",
+        report.records.len(),
+        report.count,
+        report.failed().count(),
+        match missing.is_empty() {
+            true => String::new(),
+            false => format!("; missing: {}", number_ranges(&missing)),
+        }
+    );
+    if let Some(rate) = report.points_per_core_hour() {
+        let _ = writeln!(
+            out,
+            "{rate:.0} points per core-hour, {:.1} s",
+            report.wall_s
+        );
+    }
+    for note in report.notes() {
+        let _ = writeln!(out, "{note}");
+    }
+    out
+}
+
+/// One aligned row for each finished point.
+fn rows(out: &mut String, report: &SweepReport<'_>) {
+    let value_at = |record: &PointRecord, pointer: &str| {
+        let mut summaries = record.summaries.values();
+        summaries.find_map(|summary| summary.pointer(pointer).cloned())
+    };
+    let columns: Vec<&(&str, &str)> = FIRST_COLUMNS
+        .iter()
+        .filter(|(pointer, _)| {
+            let mut records = report.records.iter();
+            records.any(|record| value_at(record, pointer).is_some())
+        })
+        .collect();
+    let mut table = vec![Vec::new()];
+    table[0].push("point".to_owned());
+    table[0].extend(report.keys.iter().map(|key| short(key).to_owned()));
+    table[0].extend(columns.iter().map(|(_, name)| (*name).to_owned()));
+    for record in report.records {
+        let mut row = vec![record.point.to_string()];
+        row.extend(record.swept.values().map(cell));
+        row.extend(columns.iter().map(|(pointer, _)| {
+            let value = value_at(record, pointer);
+            match value.as_ref().and_then(Value::as_f64) {
+                Some(number) => significant(number),
+                None => value.as_ref().map(cell).unwrap_or_default(),
+            }
+        }));
+        table.push(row);
+    }
+    for row in &table {
+        for (at, text) in row.iter().enumerate() {
+            let width = table.iter().map(|row| row[at].chars().count()).max();
+            let _ = write!(out, "{text:>width$}  ", width = width.unwrap_or(0));
+        }
+        out.truncate(out.trim_end_matches(' ').len());
+        out.push('\n');
+    }
+}
+
+/// Five significant digits.
+fn significant(value: f64) -> String {
+    let rounded: f64 = format!("{value:.4e}").parse().unwrap_or(value);
+    format!("{rounded}")
+}
+
+/// The last part of a dotted key.
+fn short(key: &str) -> &str {
+    key.rsplit('.').next().unwrap_or(key)
+}
+
+/// `friction_coefficient = 0.3, rotation_speed_rpm = 610`.
+pub fn swept_text(swept: &Map<String, Value>) -> String {
+    let parts: Vec<String> = swept
+        .iter()
+        .map(|(key, value)| format!("{} = {}", short(key), cell(value)))
+        .collect();
+    parts.join(", ")
+}
+
+/// Ascending numbers with runs drawn together: `1-4, 7`.
+fn number_ranges(numbers: &[usize]) -> String {
+    let mut runs: Vec<(usize, usize)> = Vec::new();
+    for &number in numbers {
+        match runs.last_mut() {
+            Some((_, last)) if *last + 1 == number => *last = number,
+            _ => runs.push((number, number)),
+        }
+    }
+    let texts: Vec<String> = runs
+        .iter()
+        .map(|(first, last)| match first == last {
+            true => first.to_string(),
+            false => format!("{first}-{last}"),
+        })
+        .collect();
+    texts.join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn runs_of_missing_points_are_drawn_together() {
+        assert_eq!(number_ranges(&[1, 2, 3, 7, 9, 10]), "1-3, 7, 9-10");
+        assert_eq!(number_ranges(&[]), "");
+    }
+
+    #[test]
+    fn points_without_a_record_are_missing() {
+        let record = |point| PointRecord {
+            point,
+            swept: Map::new(),
+            error: None,
+            summaries: Map::new(),
+            wall_s: 2.0,
+            case_hash: String::new(),
+            sweep_hash: String::new(),
+            version: "1".into(),
+            simd: "scalar".into(),
+        };
+        let report = SweepReport {
+            title: "",
+            keys: &[],
+            analyses: &[],
+            count: 5,
+            records: &[record(2), record(3), record(5)],
+            ran: None,
+            wall_s: 0.0,
+        };
+        assert_eq!(report.missing(), [1, 4]);
+        assert_eq!(report.points_per_core_hour(), Some(1800.0));
+    }
+}

@@ -1,0 +1,238 @@
+//! Fields on the mesh for ParaView: VTK XML unstructured grids, appended raw, zlib-compressed.
+
+use crate::mesh::{ElementKind, Mesh2d};
+use flate2::{Compression, write::ZlibEncoder};
+use std::io::{self, Write};
+
+/// Bytes of one compressed block.
+const BLOCK: usize = 1 << 18;
+
+/// Values at nodes or in elements.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Field {
+    /// Name that ParaView shows.
+    pub name: String,
+    /// Values of each node or element: 1 scalar, 3 vector.
+    pub components: usize,
+    /// All values, those of one node or element together.
+    pub values: Vec<f64>,
+}
+
+impl Field {
+    /// One value for each node or element.
+    pub fn scalars(name: &str, values: Vec<f64>) -> Self {
+        Self {
+            name: name.to_owned(),
+            components: 1,
+            values,
+        }
+    }
+
+    /// A plane vector of each node from its nodal frame, as Cartesian `(x, y, 0)`.
+    pub fn vectors(name: &str, mesh: &Mesh2d, nodal: &[f64]) -> Self {
+        Self {
+            name: name.to_owned(),
+            components: 3,
+            values: cartesian_vectors(mesh, nodal),
+        }
+    }
+}
+
+/// Turns nodal-frame vectors (`2 * node_count` values) into Cartesian `(x, y, 0)` triples.
+pub fn cartesian_vectors(mesh: &Mesh2d, nodal: &[f64]) -> Vec<f64> {
+    let pairs = nodal.chunks_exact(2).zip(&mesh.frame_angles);
+    pairs
+        .flat_map(|(pair, angle)| {
+            let (sine, cosine) = angle.sin_cos();
+            [
+                pair[0] * cosine - pair[1] * sine,
+                pair[0] * sine + pair[1] * cosine,
+                0.0,
+            ]
+        })
+        .collect()
+}
+
+/// The geometry of a mesh, compressed once for any number of files.
+#[derive(Clone, Debug)]
+pub struct EncodedMesh {
+    node_count: usize,
+    element_count: usize,
+    points: Vec<u8>,
+    connectivity: Vec<u8>,
+    offsets: Vec<u8>,
+    types: Vec<u8>,
+}
+
+impl EncodedMesh {
+    /// Compresses a mesh.
+    ///
+    /// # Errors
+    /// Those of the compressor (out of memory).
+    pub fn new(mesh: &Mesh2d) -> io::Result<Self> {
+        let points = mesh.nodes.iter().flat_map(|node| [node[0], node[1], 0.0]);
+        let per_element = mesh.element_kind.node_count() as i64;
+        let ends = (1..=mesh.element_count() as i64).map(|end| end * per_element);
+        // VTK_QUAD and VTK_QUADRATIC_QUAD; both number their nodes as our meshes do.
+        let kind = match mesh.element_kind {
+            ElementKind::Quad4 => 9u8,
+            ElementKind::Quad8 => 23,
+        };
+        let connectivity = mesh.elements.iter().map(|node| i64::from(*node));
+        Ok(Self {
+            node_count: mesh.node_count(),
+            element_count: mesh.element_count(),
+            points: compress(&points.flat_map(f64::to_le_bytes).collect::<Vec<u8>>())?,
+            connectivity: compress(&connectivity.flat_map(i64::to_le_bytes).collect::<Vec<u8>>())?,
+            offsets: compress(&ends.flat_map(i64::to_le_bytes).collect::<Vec<u8>>())?,
+            types: compress(&vec![kind; mesh.element_count()])?,
+        })
+    }
+}
+
+/// Compresses one array as VTK reads it: block count, block size, size of the last partial block,
+/// compressed sizes (64-bit little-endian each), then the blocks.
+fn compress(bytes: &[u8]) -> io::Result<Vec<u8>> {
+    let blocks: Vec<Vec<u8>> = bytes
+        .chunks(BLOCK)
+        .map(|block| {
+            let mut encoder = ZlibEncoder::new(Vec::new(), Compression::fast());
+            encoder.write_all(block)?;
+            encoder.finish()
+        })
+        .collect::<io::Result<_>>()?;
+    let mut out = Vec::new();
+    let partial = bytes.len() % BLOCK;
+    let header = [blocks.len(), BLOCK, partial].into_iter();
+    for value in header.chain(blocks.iter().map(Vec::len)) {
+        out.extend((value as u64).to_le_bytes());
+    }
+    blocks.iter().for_each(|block| out.extend(block));
+    Ok(out)
+}
+
+/// Writes a VTU file: Float64 fields, lossless.
+///
+/// # Errors
+/// Those of the writer; [`io::ErrorKind::InvalidInput`] for a field whose length does not fit.
+pub fn write_vtu(
+    out: &mut dyn Write,
+    mesh: &EncodedMesh,
+    point_fields: &[Field],
+    cell_fields: &[Field],
+) -> io::Result<()> {
+    let mut blobs: Vec<Vec<u8>> = Vec::new();
+    let mut offset = 0;
+    writeln!(out, "<?xml version=\"1.0\"?>")?;
+    writeln!(
+        out,
+        "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" \
+         header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">"
+    )?;
+    writeln!(out, "<UnstructuredGrid>")?;
+    writeln!(
+        out,
+        "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">",
+        mesh.node_count, mesh.element_count
+    )?;
+    for (tag, fields, count) in [
+        ("PointData", point_fields, mesh.node_count),
+        ("CellData", cell_fields, mesh.element_count),
+    ] {
+        writeln!(out, "<{tag}>")?;
+        for field in fields {
+            if field.values.len() != count * field.components {
+                return Err(io::Error::new(
+                    io::ErrorKind::InvalidInput,
+                    format!("field {} has {} values", field.name, field.values.len()),
+                ));
+            }
+            let bytes: Vec<u8> = field.values.iter().flat_map(|v| v.to_le_bytes()).collect();
+            let blob = compress(&bytes)?;
+            array(out, "Float64", &field.name, field.components, offset)?;
+            offset += blob.len();
+            blobs.push(blob);
+        }
+        writeln!(out, "</{tag}>")?;
+    }
+    let geometry = [
+        ("Points", "Float64", "Points", 3, &mesh.points),
+        ("Cells", "Int64", "connectivity", 1, &mesh.connectivity),
+        ("Cells", "Int64", "offsets", 1, &mesh.offsets),
+        ("Cells", "UInt8", "types", 1, &mesh.types),
+    ];
+    for (index, (tag, kind, name, components, blob)) in geometry.iter().enumerate() {
+        if index == 0 || geometry[index - 1].0 != *tag {
+            writeln!(out, "<{tag}>")?;
+        }
+        array(out, kind, name, *components, offset)?;
+        offset += blob.len();
+        if geometry.get(index + 1).is_none_or(|next| next.0 != *tag) {
+            writeln!(out, "</{tag}>")?;
+        }
+    }
+    write!(
+        out,
+        "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_"
+    )?;
+    let geometry = geometry.iter().map(|entry| entry.4);
+    for blob in blobs.iter().chain(geometry) {
+        out.write_all(blob)?;
+    }
+    write!(out, "\n</AppendedData>\n</VTKFile>\n")
+}
+
+fn array(
+    out: &mut dyn Write,
+    kind: &str,
+    name: &str,
+    components: usize,
+    offset: usize,
+) -> io::Result<()> {
+    writeln!(
+        out,
+        "<DataArray type=\"{kind}\" Name=\"{}\" NumberOfComponents=\"{components}\" \
+         format=\"appended\" offset=\"{offset}\"/>",
+        escape(name)
+    )
+}
+
+/// Text inside an XML attribute.
+fn escape(text: &str) -> String {
+    text.replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('"', "&quot;")
+}
+
+/// One file of a collection.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PvdEntry {
+    /// Time, or whatever the collection is ordered by.
+    pub time: f64,
+    /// Group that the file belongs to.
+    pub group: String,
+    /// File name relative to the collection.
+    pub file: String,
+}
+
+/// Writes a ParaView collection.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write_pvd(out: &mut dyn Write, entries: &[PvdEntry]) -> io::Result<()> {
+    writeln!(out, "<?xml version=\"1.0\"?>")?;
+    writeln!(
+        out,
+        "<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n<Collection>"
+    )?;
+    for entry in entries {
+        writeln!(
+            out,
+            "<DataSet timestep=\"{:?}\" group=\"{}\" part=\"0\" file=\"{}\"/>",
+            entry.time,
+            escape(&entry.group),
+            escape(&entry.file)
+        )?;
+    }
+    writeln!(out, "</Collection>\n</VTKFile>")
+}

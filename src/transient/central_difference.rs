@@ -1,0 +1,433 @@
+//! The time loop.
+
+use super::{
+    ContactPowers, InitialState, LagrangeContact, Observer, Sample, StatusCounts, StepPlan,
+    TransientError, TransientModel, TransientSettings,
+};
+use crate::contact::ContactInterface;
+use crate::fem::assemble_stiffness;
+use crate::fem::operator::{
+    AlignedVector, MotionFields, StepCoefficients, StiffnessOperator, gather, scatter,
+};
+use crate::prestress::SteadySliding;
+use serde::{Deserialize, Serialize};
+use std::ops::ControlFlow;
+
+/// Steps between two exact evaluations of `K u`, so that the round-off of its running sum stays where it
+/// is. A multiple that depends on nothing but the step number: output and restarts do not move it.
+const REFRESH: u64 = 4096;
+
+/// Relative energy residual beyond which the numbers are not to be trusted; honest runs stay ten million times
+/// below it.
+const RESIDUAL_LIMIT: f64 = 1e-6;
+
+/// How a run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RunEnd {
+    /// At its last sample.
+    Finished,
+    /// Where its observer stopped it.
+    Stopped,
+}
+
+/// Everything that a run needs to go on bit by bit, over dofs in nodal frames.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TransientState {
+    /// Number of the next step.
+    pub step: u64,
+    /// `u_n`, m.
+    pub displacement: Vec<f64>,
+    /// `v_{n-1/2}`, m/s.
+    pub velocity: Vec<f64>,
+    /// `M^-1 K u_n` as summed so far, m/s2.
+    pub elastic: Vec<f64>,
+    /// `M^-1 K v_{n-1/2}`, m/s3.
+    pub elastic_rate: Vec<f64>,
+    /// Energy at the start, J/m.
+    pub initial_energy: f64,
+    /// Net work of contact and damping so far, J/m.
+    pub net_work: f64,
+    /// Largest energy so far, J/m.
+    pub largest_energy: f64,
+    /// Largest balance residual so far.
+    pub largest_residual: f64,
+}
+
+/// Central differences at half steps with Lagrange multiplier contact.
+///
+/// ```text
+/// M (v_{n+1/2} - v_{n-1/2}) / dt = G^T lambda_n - K u_n - C v_{n-1/2},   u_{n+1} = u_n + dt v_{n+1/2}
+/// ```
+///
+/// (equation 7 of Brunetti et al. with `beta_2 = 1/2`; the damping force is that of the last half step, which
+/// keeps the scheme explicit.) `K u` is carried as a running sum of `dt K v`, so that one product with `K v` serves
+/// the elastic force, the damping force and both energies. With
+/// `E_{n+1/2} = 1/2 v^T M v + 1/2 u_{n+1}^T K u_n` and `v_n` the mean of the two half steps,
+///
+/// ```text
+/// E_{n+1/2} - E_{n-1/2} = dt v_n^T (G^T lambda_n - C v_{n-1/2})
+/// ```
+///
+/// exactly; the balance residual is what round-off leaves of it. Linear kinematics, no geometric stiffness.
+pub struct CentralDifference<'a> {
+    model: TransientModel<'a>,
+    operator: &'a dyn StiffnessOperator,
+    plan: StepPlan,
+    expansion_time: f64,
+    coefficients: StepCoefficients,
+    fields: MotionFields,
+    contact: LagrangeContact,
+    interface: ContactInterface,
+    next_step: u64,
+    initial_energy: f64,
+    net_work: f64,
+    largest_energy: f64,
+    largest_residual: f64,
+    powers: ContactPowers,
+    damping_power: f64,
+    counts: StatusCounts,
+    displacement_before: AlignedVector,
+    velocity_before: AlignedVector,
+}
+
+impl<'a> CentralDifference<'a> {
+    /// A run from its initial state.
+    ///
+    /// The initial velocity is that of the half step before time zero.
+    ///
+    /// # Errors
+    /// [`TransientError`] names the setting that does not fit, with its bound.
+    pub fn start(
+        model: TransientModel<'a>,
+        operator: &'a dyn StiffnessOperator,
+        settings: &TransientSettings,
+    ) -> Result<Self, TransientError> {
+        let plan = StepPlan::new(operator, &model.damping, settings)?;
+        let velocity = settings.perturbation.field(model.annulus)?;
+        let mesh = &model.annulus.mesh;
+        let displacement = match settings.initial {
+            InitialState::Rest => vec![0.0; operator.dof_count()],
+            InitialState::SteadySliding => {
+                let stiffness = assemble_stiffness(mesh, &model.material);
+                let base = SteadySliding::solve(mesh, &stiffness, &model.contact)?;
+                base.displacement(model.contact.friction_coefficient)
+            }
+        };
+        let mut run = Self::new(model, operator, plan, settings);
+        run.fields.displacement = scatter(operator, &displacement);
+        run.fields.velocity = scatter(operator, &velocity);
+        let fields = &mut run.fields;
+        operator.multiply(&mut fields.displacement, &mut fields.elastic);
+        operator.multiply(&mut fields.velocity, &mut fields.elastic_rate);
+        run.initial_energy = run.energy_before_start();
+        run.largest_energy = run.initial_energy;
+        Ok(run)
+    }
+
+    /// A run that goes on from a saved state, bit by bit as if it had never stopped.
+    ///
+    /// # Errors
+    /// As [`Self::start`], and [`TransientError::ForeignState`] for a state of another size.
+    pub fn resume(
+        model: TransientModel<'a>,
+        operator: &'a dyn StiffnessOperator,
+        settings: &TransientSettings,
+        state: &TransientState,
+    ) -> Result<Self, TransientError> {
+        let plan = StepPlan::new(operator, &model.damping, settings)?;
+        let expected = operator.dof_count();
+        for vector in [
+            &state.displacement,
+            &state.velocity,
+            &state.elastic,
+            &state.elastic_rate,
+        ] {
+            let found = vector.len();
+            if found != expected {
+                return Err(TransientError::ForeignState { found, expected });
+            }
+        }
+        let mut run = Self::new(model, operator, plan, settings);
+        run.fields = MotionFields {
+            displacement: scatter(operator, &state.displacement),
+            velocity: scatter(operator, &state.velocity),
+            elastic: scatter(operator, &state.elastic),
+            elastic_rate: scatter(operator, &state.elastic_rate),
+        };
+        run.next_step = state.step;
+        run.initial_energy = state.initial_energy;
+        run.net_work = state.net_work;
+        run.largest_energy = state.largest_energy;
+        run.largest_residual = state.largest_residual;
+        Ok(run)
+    }
+
+    fn new(
+        model: TransientModel<'a>,
+        operator: &'a dyn StiffnessOperator,
+        plan: StepPlan,
+        settings: &TransientSettings,
+    ) -> Self {
+        let interface = ContactInterface::of(&model.annulus.mesh);
+        let zeros = || AlignedVector::zeros(operator.field_length());
+        // Steady sliding starts fully expanded: a ramp of no length.
+        let expansion_time = match settings.initial {
+            InitialState::Rest => settings.expansion_time,
+            InitialState::SteadySliding => 0.0,
+        };
+        Self {
+            coefficients: StepCoefficients {
+                time_step: plan.time_step,
+                mass_coefficient: model.damping.mass_coefficient,
+                stiffness_coefficient: model.damping.stiffness_coefficient,
+            },
+            fields: MotionFields {
+                displacement: zeros(),
+                velocity: zeros(),
+                elastic: zeros(),
+                elastic_rate: zeros(),
+            },
+            contact: LagrangeContact::new(operator, &interface, &model.contact),
+            interface,
+            next_step: 0,
+            initial_energy: 0.0,
+            net_work: 0.0,
+            largest_energy: 0.0,
+            largest_residual: 0.0,
+            powers: ContactPowers::default(),
+            damping_power: 0.0,
+            counts: StatusCounts::default(),
+            displacement_before: zeros(),
+            velocity_before: zeros(),
+            model,
+            operator,
+            plan,
+            expansion_time,
+        }
+    }
+
+    /// Steps to the last sample, or until the observer stops it.
+    ///
+    /// # Errors
+    /// [`TransientError::Unstable`] says when and where the numbers stopped making sense.
+    pub fn run(&mut self, observer: &mut dyn Observer) -> Result<RunEnd, TransientError> {
+        let last = self.plan.total_steps();
+        while self.next_step < last {
+            let is_sampled = self.next_step.is_multiple_of(self.plan.steps_per_sample);
+            if is_sampled {
+                self.displacement_before
+                    .copy_from_slice(&self.fields.displacement);
+                self.velocity_before.copy_from_slice(&self.fields.velocity);
+            }
+            self.advance();
+            if is_sampled && self.sample(observer)?.is_break() && self.next_step < last {
+                return Ok(RunEnd::Stopped);
+            }
+        }
+        Ok(RunEnd::Finished)
+    }
+
+    /// One step, without looking at it.
+    pub fn advance(&mut self) {
+        let step = self.next_step;
+        let time_after = (step + 1) as f64 * self.plan.time_step;
+        let expansion = self.expansion(time_after);
+        self.contact
+            .apply(&mut self.fields, &self.coefficients, expansion);
+        let damping = self.operator.advance(&mut self.fields, &self.coefficients);
+        let (powers, counts) = self.contact.settle(&mut self.fields, &self.coefficients);
+        let net = powers.stick + powers.slide + powers.normal - damping;
+        self.net_work += self.plan.time_step * net;
+        self.powers += powers;
+        self.damping_power += damping;
+        self.counts += counts;
+        self.next_step = step + 1;
+        if self.next_step.is_multiple_of(REFRESH) {
+            let fields = &mut self.fields;
+            self.operator
+                .multiply(&mut fields.displacement, &mut fields.elastic);
+        }
+    }
+
+    /// Radial expansion of the cylinder at `time`, m.
+    fn expansion(&self, time: f64) -> f64 {
+        let interference = self.model.contact.interference;
+        if time < self.expansion_time {
+            interference * (time / self.expansion_time)
+        } else {
+            interference
+        }
+    }
+
+    fn sample(&mut self, observer: &mut dyn Observer) -> Result<ControlFlow<()>, TransientError> {
+        let [kinetic_energy, strain_energy] = self.energies();
+        let energy = kinetic_energy + strain_energy;
+        self.largest_energy = self.largest_energy.max(energy);
+        let imbalance = (energy - self.initial_energy - self.net_work).abs();
+        // A body at rest has no energy to be relative to.
+        let balance_residual = if imbalance == 0.0 {
+            0.0
+        } else {
+            imbalance / self.largest_energy
+        };
+        self.check(energy, balance_residual)?;
+        self.largest_residual = self.largest_residual.max(balance_residual);
+        let step = self.next_step - 1;
+        let steps = if step == 0 {
+            1
+        } else {
+            self.plan.steps_per_sample
+        };
+        let powers = std::mem::take(&mut self.powers).scaled(1.0 / steps as f64);
+        let material_damping = std::mem::take(&mut self.damping_power) / steps as f64;
+        let counts = std::mem::take(&mut self.counts);
+        let sample = Sample {
+            index: step / self.plan.steps_per_sample,
+            time: self.plan.sample_time(step / self.plan.steps_per_sample),
+            kinetic_energy,
+            strain_energy,
+            powers,
+            material_damping,
+            counts,
+            balance_residual,
+            run: self,
+            displacement_before: &self.displacement_before,
+            velocity_before: &self.velocity_before,
+        };
+        Ok(observer.observe(&sample))
+    }
+
+    /// Kinetic and strain energy at `n + 1/2`, from `K u_{n+1}` and the copy of `u_n`.
+    fn energies(&self) -> [f64; 2] {
+        let masses = self.operator.masses();
+        let velocity = self.fields.velocity.iter().zip(masses);
+        let kinetic: f64 = velocity.map(|(v, m)| m * v * v).sum();
+        let forces = self.fields.elastic.iter().zip(masses);
+        let strain: f64 = forces
+            .zip(self.displacement_before.iter())
+            .map(|((q, m), u)| m * q * u)
+            .sum();
+        [0.5 * kinetic, 0.5 * strain]
+    }
+
+    /// `E_{-1/2}`, with `u_{-1} = u_0 - dt v_{-1/2}`.
+    fn energy_before_start(&self) -> f64 {
+        let dt = self.plan.time_step;
+        let fields = &self.fields;
+        let dofs = 0..self.operator.dof_count();
+        dofs.map(|dof| {
+            let k = self.operator.position(dof);
+            let (u, v) = (fields.displacement[k], fields.velocity[k]);
+            let force = fields.elastic[k] - dt * fields.elastic_rate[k];
+            0.5 * self.operator.masses()[k] * (v * v + u * force)
+        })
+        .sum()
+    }
+
+    fn check(&self, energy: f64, residual: f64) -> Result<(), TransientError> {
+        let (symptom, cause) = if !energy.is_finite() || !residual.is_finite() {
+            (
+                format!("the energy is {energy}"),
+                "Values left the range of numbers: check contact.rotation_speed_rpm, contact.interference \
+                 and transient.perturbation, or lower transient.time_step.",
+            )
+        } else if energy < -1e-9 * self.largest_energy {
+            (
+                format!("the energy is negative, {energy:.3e} J/m"),
+                "The time step is above the stability limit: lower transient.time_step.",
+            )
+        } else if residual > RESIDUAL_LIMIT {
+            (
+                format!("the energy balance is off by a fraction of {residual:.1e}"),
+                "Round-off dominates: lower transient.time_step, or check that forces and speeds are of a \
+                 sensible size.",
+            )
+        } else {
+            return Ok(());
+        };
+        Err(self.unstable(symptom, cause))
+    }
+
+    fn unstable(&self, symptom: String, cause: &'static str) -> TransientError {
+        let mesh = &self.model.annulus.mesh;
+        let speed = |node: usize| {
+            let [r, t] = [0, 1].map(|c| self.fields.velocity[self.operator.position(2 * node + c)]);
+            let speed = r.hypot(t);
+            if speed.is_nan() { f64::INFINITY } else { speed }
+        };
+        let (mut node, mut largest) = (0, speed(0));
+        for candidate in 1..mesh.node_count() {
+            let value = speed(candidate);
+            if value > largest {
+                (node, largest) = (candidate, value);
+            }
+        }
+        let [x, y] = mesh.nodes[node];
+        TransientError::Unstable {
+            time: (self.next_step - 1) as f64 * self.plan.time_step,
+            step: self.next_step - 1,
+            symptom,
+            node: node + 1,
+            angle_degrees: mesh.frame_angles[node].to_degrees(),
+            radius: x.hypot(y),
+            speed: largest,
+            cause,
+        }
+    }
+
+    /// The complete state; exact for a restart when taken at a sample.
+    pub fn state(&self) -> TransientState {
+        let dofs = |field: &[f64]| gather(self.operator, field);
+        TransientState {
+            step: self.next_step,
+            displacement: dofs(&self.fields.displacement),
+            velocity: dofs(&self.fields.velocity),
+            elastic: dofs(&self.fields.elastic),
+            elastic_rate: dofs(&self.fields.elastic_rate),
+            initial_energy: self.initial_energy,
+            net_work: self.net_work,
+            largest_energy: self.largest_energy,
+            largest_residual: self.largest_residual,
+        }
+    }
+
+    /// The body and its contact.
+    pub fn model(&self) -> &TransientModel<'a> {
+        &self.model
+    }
+
+    /// The stiffness operator.
+    pub fn operator(&self) -> &dyn StiffnessOperator {
+        self.operator
+    }
+
+    /// Time step and samples.
+    pub fn plan(&self) -> &StepPlan {
+        &self.plan
+    }
+
+    /// Displacement, velocity and accelerations after the last step.
+    pub fn fields(&self) -> &MotionFields {
+        &self.fields
+    }
+
+    /// Multipliers and status of the last step.
+    pub fn contact(&self) -> &LagrangeContact {
+        &self.contact
+    }
+
+    /// The contact edge.
+    pub fn interface(&self) -> &ContactInterface {
+        &self.interface
+    }
+
+    /// Steps done.
+    pub fn steps_done(&self) -> u64 {
+        self.next_step
+    }
+
+    /// Largest balance residual so far.
+    pub fn largest_residual(&self) -> f64 {
+        self.largest_residual
+    }
+}

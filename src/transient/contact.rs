@@ -1,0 +1,224 @@
+//! Forward increment Lagrange multipliers of the contact edge.
+
+use crate::contact::{ContactInterface, ContactStatus, SlidingContact};
+use crate::fem::operator::{MotionFields, StepCoefficients, StiffnessOperator};
+use serde::{Deserialize, Serialize};
+use std::ops::AddAssign;
+
+/// Powers that cross the contact edge, W for each metre of thickness, with every velocity the mean
+/// `v_n = (v_{n+1/2} + v_{n-1/2}) / 2`.
+///
+/// `external = stick + slide + contact_dissipated` holds term by term (equation 10 of Brunetti et al.). A
+/// node that starts or ends to stick within the step still slides in its mean velocity; that part is counted as
+/// dissipated, which the paper's sum over slipping nodes leaves open.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ContactPowers {
+    /// `sum T Omega a` (equation 9).
+    pub external: f64,
+    /// `sum T v_t` over sticking nodes.
+    pub stick: f64,
+    /// `sum T v_t` over slipping nodes.
+    pub slide: f64,
+    /// `sum T (Omega a - v_t)`.
+    pub contact_dissipated: f64,
+    /// `sum N v_n`: impacts and the expansion of the cylinder.
+    pub normal: f64,
+}
+
+impl AddAssign for ContactPowers {
+    fn add_assign(&mut self, other: Self) {
+        self.external += other.external;
+        self.stick += other.stick;
+        self.slide += other.slide;
+        self.contact_dissipated += other.contact_dissipated;
+        self.normal += other.normal;
+    }
+}
+
+impl ContactPowers {
+    /// Every power times `factor`.
+    pub fn scaled(&self, factor: f64) -> Self {
+        Self {
+            external: factor * self.external,
+            stick: factor * self.stick,
+            slide: factor * self.slide,
+            contact_dissipated: factor * self.contact_dissipated,
+            normal: factor * self.normal,
+        }
+    }
+}
+
+/// Number of contact nodes in each status.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct StatusCounts {
+    /// Sticking.
+    pub stick: u64,
+    /// Slipping.
+    pub slip: u64,
+    /// Not in contact.
+    pub open: u64,
+}
+
+impl AddAssign for StatusCounts {
+    fn add_assign(&mut self, other: Self) {
+        self.stick += other.stick;
+        self.slip += other.slip;
+        self.open += other.open;
+    }
+}
+
+impl StatusCounts {
+    /// Fractions `[stick, slip, open]`; zeros if nothing was counted.
+    pub fn fractions(&self) -> [f64; 3] {
+        let total = (self.stick + self.slip + self.open).max(1) as f64;
+        [self.stick, self.slip, self.open].map(|count| count as f64 / total)
+    }
+}
+
+/// Contact of each node of the inner edge with the rigid rotating cylinder.
+///
+/// The forces at `n` enforce the constraints at `n + 1` (equation 6 of Brunetti et al.). With a lumped mass and
+/// a rigid counterface each node stands alone and the multipliers are in closed form: a trial step without contact
+/// gives `u*`, `v*`; then with penetration `g = delta - u_n* > 0`
+///
+/// ```text
+/// N = m g / dt^2,   T* = m (Omega a - v_t*) / dt,   T = min(max(T*, -mu N), mu N),
+/// ```
+///
+/// stick where `|T*| <= mu N` (so that `v_t = Omega a` at `n + 1/2`), slip elsewhere; without penetration the
+/// node is open and both vanish. Linear kinematics: the normal does not turn with the node.
+#[derive(Clone, Debug)]
+pub struct LagrangeContact {
+    normal: Vec<usize>,
+    tangential: Vec<usize>,
+    masses: Vec<f64>,
+    friction_coefficient: f64,
+    surface_speed: f64,
+    /// Normal force `N` on each node at `n`, N/m.
+    pub normal_force: Vec<f64>,
+    /// Tangential force `T` on each node at `n`, N/m.
+    pub tangential_force: Vec<f64>,
+    /// Status of each node at `n`.
+    pub status: Vec<ContactStatus>,
+    /// Before the step: `v_n, v_t, q_n, q_t`.
+    before: Vec<[f64; 4]>,
+}
+
+impl LagrangeContact {
+    /// All nodes of `interface` open.
+    pub fn new(
+        operator: &dyn StiffnessOperator,
+        interface: &ContactInterface,
+        contact: &SlidingContact,
+    ) -> Self {
+        let count = interface.len();
+        let place = |dof: usize| operator.position(dof);
+        let normal: Vec<usize> = (0..count).map(|i| place(interface.normal_dof(i))).collect();
+        Self {
+            tangential: (0..count)
+                .map(|i| place(interface.tangential_dof(i)))
+                .collect(),
+            masses: normal.iter().map(|&k| operator.masses()[k]).collect(),
+            normal,
+            friction_coefficient: contact.friction_coefficient,
+            surface_speed: contact.rotation_speed * interface.radius,
+            normal_force: vec![0.0; count],
+            tangential_force: vec![0.0; count],
+            status: vec![ContactStatus::Open; count],
+            before: vec![[0.0; 4]; count],
+        }
+    }
+
+    /// Finds the multipliers of the coming step and adds them to the elastic accelerations.
+    ///
+    /// `expansion` is the radial expansion `delta(t_{n+1})` of the cylinder, m.
+    pub fn apply(
+        &mut self,
+        fields: &mut MotionFields,
+        coefficients: &StepCoefficients,
+        expansion: f64,
+    ) {
+        let dt = coefficients.time_step;
+        let (alpha, beta) = (
+            coefficients.mass_coefficient,
+            coefficients.stiffness_coefficient,
+        );
+        for i in 0..self.normal.len() {
+            let (n, t, mass) = (self.normal[i], self.tangential[i], self.masses[i]);
+            let before = [
+                fields.velocity[n],
+                fields.velocity[t],
+                fields.elastic[n],
+                fields.elastic[t],
+            ];
+            self.before[i] = before;
+            let [v_n, v_t, q_n, q_t] = before;
+            let trial_n = v_n - dt * (q_n + (alpha * v_n + beta * fields.elastic_rate[n]));
+            let trial_t = v_t - dt * (q_t + (alpha * v_t + beta * fields.elastic_rate[t]));
+            let penetration = expansion - (fields.displacement[n] + dt * trial_n);
+            let (mut normal, mut tangential) = (0.0, 0.0);
+            self.status[i] = ContactStatus::Open;
+            if penetration > 0.0 {
+                normal = mass * penetration / (dt * dt);
+                let cone = self.friction_coefficient * normal;
+                let trial = mass * (self.surface_speed - trial_t) / dt;
+                tangential = trial.clamp(-cone, cone);
+                self.status[i] = if trial.abs() <= cone {
+                    ContactStatus::Stick
+                } else {
+                    ContactStatus::Slip
+                };
+                fields.elastic[n] = q_n - normal / mass;
+                fields.elastic[t] = q_t - tangential / mass;
+            }
+            self.normal_force[i] = normal;
+            self.tangential_force[i] = tangential;
+        }
+    }
+
+    /// Takes the multipliers out of the elastic accelerations after the step, and returns what they did.
+    pub fn settle(
+        &self,
+        fields: &mut MotionFields,
+        coefficients: &StepCoefficients,
+    ) -> (ContactPowers, StatusCounts) {
+        let dt = coefficients.time_step;
+        let mut powers = ContactPowers::default();
+        let mut counts = StatusCounts::default();
+        for i in 0..self.normal.len() {
+            let (n, t) = (self.normal[i], self.tangential[i]);
+            let [v_n, v_t, q_n, q_t] = self.before[i];
+            if self.status[i] == ContactStatus::Open {
+                counts.open += 1;
+                continue;
+            }
+            fields.elastic[n] = q_n + dt * fields.elastic_rate[n];
+            fields.elastic[t] = q_t + dt * fields.elastic_rate[t];
+            let (normal, tangential) = (self.normal_force[i], self.tangential_force[i]);
+            let mean_n = 0.5 * (v_n + fields.velocity[n]);
+            let mean_t = 0.5 * (v_t + fields.velocity[t]);
+            let power = tangential * mean_t;
+            if self.status[i] == ContactStatus::Stick {
+                counts.stick += 1;
+                powers.stick += power;
+            } else {
+                counts.slip += 1;
+                powers.slide += power;
+            }
+            powers.external += tangential * self.surface_speed;
+            powers.contact_dissipated += tangential * (self.surface_speed - mean_t);
+            powers.normal += normal * mean_n;
+        }
+        (powers, counts)
+    }
+
+    /// Place of each node's normal dof in a field.
+    pub fn normal_places(&self) -> &[usize] {
+        &self.normal
+    }
+
+    /// Place of each node's tangential dof in a field.
+    pub fn tangential_places(&self) -> &[usize] {
+        &self.tangential
+    }
+}

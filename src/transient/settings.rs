@@ -1,0 +1,333 @@
+//! What a transient needs to know, checked before it runs.
+
+use super::Perturbation;
+use crate::contact::SlidingContact;
+use crate::fem::operator::{
+    CyclicStencil, OperatorError, SimdLevel, SparseOperator, StiffnessOperator, largest_frequency,
+};
+use crate::fem::{ElasticMaterial, RayleighDamping};
+use crate::mesh::{AnnulusMesh, ElementKind};
+use crate::prestress::PrestressError;
+
+/// Share of the stability limit that an automatic time step uses.
+const SAFETY: f64 = 0.95;
+
+/// The body and its contact.
+#[derive(Clone, Copy, Debug)]
+pub struct TransientModel<'a> {
+    /// Mesh of the disc.
+    pub annulus: &'a AnnulusMesh,
+    /// Its material.
+    pub material: ElasticMaterial,
+    /// Rayleigh coefficients.
+    pub damping: RayleighDamping,
+    /// The rotating cylinder.
+    pub contact: SlidingContact,
+}
+
+/// How the time step is chosen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum TimeStep {
+    /// A fixed share of the stability limit of the operator.
+    Auto,
+    /// Given, s.
+    Seconds(f64),
+}
+
+/// State at the start.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum InitialState {
+    /// Undeformed; the cylinder expands.
+    Rest,
+    /// The prestressed sliding equilibrium, with the cylinder fully expanded.
+    SteadySliding,
+}
+
+/// Which operator applies the stiffness.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OperatorChoice {
+    /// The stencil where the mesh has one, else sparse.
+    Auto,
+    /// The cyclic stencil.
+    Cyclic,
+    /// 2 x 2 block rows.
+    Sparse,
+}
+
+/// Choices of a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TransientSettings {
+    /// Simulated time, s.
+    pub duration: f64,
+    /// Time step.
+    pub time_step: TimeStep,
+    /// Time between samples, s.
+    pub sample_interval: f64,
+    /// Time over which the interference grows linearly from zero, s.
+    pub expansion_time: f64,
+    /// State at the start.
+    pub initial: InitialState,
+    /// Initial velocity of the body.
+    pub perturbation: Perturbation,
+}
+
+/// A transient that cannot start or cannot go on.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum TransientError {
+    /// A time that must be positive is not.
+    #[error("{key} = {value} s must be a positive finite time")]
+    Time {
+        /// Case key.
+        key: &'static str,
+        /// Given value, s.
+        value: f64,
+    },
+    /// A value that must not be negative is.
+    #[error("{key} = {value} must be zero or a positive finite number")]
+    Negative {
+        /// Case key.
+        key: &'static str,
+        /// Given value.
+        value: f64,
+    },
+    /// The step is unstable.
+    #[error(
+        "transient.time_step = {step:e} s is above the stability limit of {limit:.4e} s on this mesh \
+         (largest frequency {largest_frequency:.4e} rad/s, damping included): lower it, or use \"auto\""
+    )]
+    StepAboveLimit {
+        /// Given step, s.
+        step: f64,
+        /// Largest stable step, s.
+        limit: f64,
+        /// `omega_max`, rad/s.
+        largest_frequency: f64,
+    },
+    /// Samples more often than steps.
+    #[error(
+        "output.sample_interval = {interval:e} s is below the time step of {step:.4e} s: raise it to at \
+         least the step"
+    )]
+    SampleBelowStep {
+        /// Given interval, s.
+        interval: f64,
+        /// Time step, s.
+        step: f64,
+    },
+    /// A harmonic that the mesh cannot carry.
+    #[error(
+        "transient.perturbation.harmonics holds {harmonic}, above {limit}, the highest harmonic that \
+         {elements} elements around the circumference can carry"
+    )]
+    HarmonicAboveNyquist {
+        /// Given harmonic.
+        harmonic: usize,
+        /// Highest harmonic.
+        limit: usize,
+        /// Circumferential elements.
+        elements: usize,
+    },
+    /// A probe that is no node.
+    #[error("output.probes holds {probe}: the mesh has nodes 1 to {count}")]
+    UnknownProbe {
+        /// Given 1-based node.
+        probe: usize,
+        /// Node count.
+        count: usize,
+    },
+    /// A snapshot outside the run.
+    #[error("output.snapshots holds {time} s: the run covers 0 to {duration} s")]
+    SnapshotOutsideRun {
+        /// Given time, s.
+        time: f64,
+        /// Duration, s.
+        duration: f64,
+    },
+    /// The numbers stopped making sense.
+    #[error(
+        "the run became numerically unstable at t = {time:.6e} s (step {step}): {symptom}; the fastest node \
+         is {node}, at {angle_degrees:.2} degrees and radius {radius:.4e} m, moving at {speed:.3e} m/s. {cause}"
+    )]
+    Unstable {
+        /// Time, s.
+        time: f64,
+        /// Step number.
+        step: u64,
+        /// What was seen.
+        symptom: String,
+        /// 1-based node with the largest velocity.
+        node: usize,
+        /// Its angle, degrees.
+        angle_degrees: f64,
+        /// Its radius, m.
+        radius: f64,
+        /// Its speed, m/s.
+        speed: f64,
+        /// Likely cause and what to change.
+        cause: &'static str,
+    },
+    /// A saved state that does not belong to this model.
+    #[error("the saved state has {found} dofs, this model {expected}: it belongs to another case")]
+    ForeignState {
+        /// Dofs in the state.
+        found: usize,
+        /// Dofs of the model.
+        expected: usize,
+    },
+    /// The operator cannot represent the mesh.
+    #[error(transparent)]
+    Operator(#[from] OperatorError),
+    /// The steady sliding start does not exist.
+    #[error(transparent)]
+    Prestress(#[from] PrestressError),
+}
+
+/// The operator of `model` on `annulus`.
+///
+/// # Errors
+/// [`TransientError::Operator`] if the chosen operator cannot represent the mesh.
+pub fn build_operator(
+    model: &TransientModel<'_>,
+    choice: OperatorChoice,
+    simd: SimdLevel,
+) -> Result<Box<dyn StiffnessOperator>, TransientError> {
+    let is_quad4 = model.annulus.mesh.element_kind == ElementKind::Quad4;
+    let is_cyclic = match choice {
+        OperatorChoice::Auto => is_quad4,
+        OperatorChoice::Cyclic => true,
+        OperatorChoice::Sparse => false,
+    };
+    Ok(if is_cyclic {
+        Box::new(CyclicStencil::assemble(
+            model.annulus,
+            &model.material,
+            simd,
+        )?)
+    } else {
+        Box::new(SparseOperator::assemble(
+            &model.annulus.mesh,
+            &model.material,
+            simd,
+        )?)
+    })
+}
+
+/// Largest stable step of central differences whose damping force lags half a step, s.
+///
+/// ```text
+/// dt <= 2 / omega_max (sqrt(1 + zeta^2) - zeta),   zeta = (alpha_R / omega_max + beta_R omega_max) / 2
+/// ```
+///
+/// `omega_max` in rad/s is that of the body with a free contact edge: contact takes dofs away and lowers it.
+pub fn stable_step_limit(largest_frequency: f64, damping: &RayleighDamping) -> f64 {
+    let zeta = damping.damping_factor(largest_frequency);
+    // The difference of the two terms, without cancellation at heavy damping.
+    2.0 / largest_frequency / ((1.0 + zeta * zeta).sqrt() + zeta)
+}
+
+/// Time step, samples and steps of a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StepPlan {
+    /// Time step, s.
+    pub time_step: f64,
+    /// Stability limit, s.
+    pub limit: f64,
+    /// `omega_max`, rad/s.
+    pub largest_frequency: f64,
+    /// Steps from one sample to the next.
+    pub steps_per_sample: u64,
+    /// Samples of the run, the first at time zero and the last at its end.
+    pub samples: u64,
+    /// Time between samples, s.
+    pub sample_interval: f64,
+}
+
+impl StepPlan {
+    /// Chooses the step: the given one, or 0.95 of the limit, lowered so that it divides the sample interval; the
+    /// run is as many whole sample intervals as reach its duration.
+    ///
+    /// # Errors
+    /// [`TransientError`] names the setting that does not fit, with its bound.
+    pub fn new(
+        operator: &dyn StiffnessOperator,
+        damping: &RayleighDamping,
+        settings: &TransientSettings,
+    ) -> Result<Self, TransientError> {
+        check_times(settings)?;
+        let largest_frequency = largest_frequency(operator);
+        let limit = stable_step_limit(largest_frequency, damping);
+        let wanted = match settings.time_step {
+            TimeStep::Auto => (SAFETY * limit).min(settings.sample_interval),
+            TimeStep::Seconds(step) if step > limit => {
+                return Err(TransientError::StepAboveLimit {
+                    step,
+                    limit,
+                    largest_frequency,
+                });
+            }
+            TimeStep::Seconds(step) => step,
+        };
+        let interval = settings.sample_interval;
+        // A millionth of slack: 2e-6 / 1e-7 must be 20 steps, not 21.
+        if interval < wanted * (1.0 - 1e-6) {
+            return Err(TransientError::SampleBelowStep {
+                interval,
+                step: wanted,
+            });
+        }
+        let steps_per_sample = (interval / wanted * (1.0 - 1e-6)).ceil().max(1.0);
+        let intervals = (settings.duration / interval * (1.0 - 1e-9))
+            .ceil()
+            .max(1.0);
+        Ok(Self {
+            time_step: interval / steps_per_sample,
+            limit,
+            largest_frequency,
+            steps_per_sample: steps_per_sample as u64,
+            samples: intervals as u64 + 1,
+            sample_interval: interval,
+        })
+    }
+
+    /// Steps of the whole run; the last one makes the velocity around the last sample.
+    pub fn total_steps(&self) -> u64 {
+        (self.samples - 1) * self.steps_per_sample + 1
+    }
+
+    /// Time of a sample, s.
+    pub fn sample_time(&self, index: u64) -> f64 {
+        index as f64 * self.sample_interval
+    }
+
+    /// Time of the last sample, s.
+    pub fn end_time(&self) -> f64 {
+        self.sample_time(self.samples - 1)
+    }
+}
+
+fn check_times(settings: &TransientSettings) -> Result<(), TransientError> {
+    let mut positive = vec![
+        ("transient.duration", settings.duration),
+        ("output.sample_interval", settings.sample_interval),
+    ];
+    if let TimeStep::Seconds(step) = settings.time_step {
+        positive.push(("transient.time_step", step));
+    }
+    for (key, value) in positive {
+        if !(value > 0.0 && value.is_finite()) {
+            return Err(TransientError::Time { key, value });
+        }
+    }
+    for (key, value) in [
+        ("transient.expansion_time", settings.expansion_time),
+        (
+            "transient.perturbation.velocity",
+            settings.perturbation.velocity.abs(),
+        ),
+    ] {
+        if !(value >= 0.0 && value.is_finite()) {
+            return Err(TransientError::Negative { key, value });
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,75 @@
+//! Families of meshes and the rate at which errors fall over them.
+
+use crate::continuum::Annulus;
+use frictionsim::mesh::{AnnulusSpecification, ElementKind};
+
+/// The disc of every study.
+pub const DISC: Annulus = Annulus {
+    inner_radius: 0.0205,
+    outer_radius: 0.0905,
+    young_modulus: 2.5e9,
+    poisson_ratio: 0.3805,
+    density: 1228.0,
+    plane_strain: true,
+};
+
+/// Sectors and layers of the coarsest mesh of an element.
+pub fn coarsest(element: ElementKind) -> (usize, usize) {
+    match element {
+        ElementKind::Quad4 => (120, 30),
+        ElementKind::Quad8 => (64, 16),
+    }
+}
+
+/// Mesh sizes relative to the coarsest.
+pub const SIZES: [f64; 3] = [1.0, 2.0 / 3.0, 1.0 / 2.0];
+
+/// Three meshes that are images of three uniform ones under one smooth map: the outermost element of
+/// each is about four times as long as the innermost, which keeps all of them nearly square.
+pub fn refinements(element: ElementKind) -> [AnnulusSpecification; 3] {
+    let (sectors, layers) = coarsest(element);
+    SIZES.map(|size| {
+        let finer = |count: usize| (count as f64 / size).round() as usize;
+        let radial_elements = finer(layers);
+        AnnulusSpecification {
+            inner_radius: DISC.inner_radius,
+            outer_radius: DISC.outer_radius,
+            circumferential_elements: finer(sectors),
+            radial_elements,
+            radial_grading: 4.0_f64.powf(1.0 / radial_elements as f64),
+            element,
+        }
+    })
+}
+
+/// Theoretical rate of eigenvalues (twice that of the strains): 2 for Quad4, 4 for Quad8.
+pub fn expected_rate(element: ElementKind) -> f64 {
+    match element {
+        ElementKind::Quad4 => 2.0,
+        ElementKind::Quad8 => 4.0,
+    }
+}
+
+/// Slope of the least-squares line through `ln |error|` over `ln` of the mesh size.
+pub fn rate(errors: [f64; 3]) -> f64 {
+    let x = SIZES.map(f64::ln);
+    let y = errors.map(|error| error.abs().ln());
+    let mean = |values: [f64; 3]| values.iter().sum::<f64>() / 3.0;
+    let (x_mean, y_mean) = (mean(x), mean(y));
+    let product = |u: [f64; 3], u_mean: f64| -> f64 {
+        let pairs = x.iter().zip(u);
+        pairs.map(|(x, u)| (x - x_mean) * (u - u_mean)).sum()
+    };
+    product(y, y_mean) / product(x, x_mean)
+}
+
+/// Asserts the theoretical rate, within 0.1, of a quantity named `what`.
+pub fn assert_rate(element: ElementKind, what: &str, errors: [f64; 3]) {
+    let expected = expected_rate(element);
+    let slope = rate(errors);
+    println!("{element:?} {what}: slope {slope:.3}, errors {errors:.3?}");
+    assert!(
+        (slope - expected).abs() <= 0.1,
+        "{element:?} {what}: slope {slope:.3}, errors {errors:?}"
+    );
+}

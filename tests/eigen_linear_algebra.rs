@@ -1,0 +1,261 @@
+//! Sparse factorizations and the Krylov-Schur iteration against dense decompositions and against
+//! faer's own iteration (independent checks).
+
+use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
+use faer::matrix_free::LinOp;
+use faer::matrix_free::eigen::{PartialEigenParams, partial_eigen, partial_eigen_scratch};
+use faer::{Mat, MatMut, MatRef, Par, c64};
+use frictionsim::linalg::dense::{product, random_columns, real_eigen};
+use frictionsim::linalg::{
+    BlockOperator, ComplexSparseLu, KrylovSchurSettings, LdlAnalysis, LinalgError, LuAnalysis,
+    MatrixPolynomial, SparseLdl, SparseLu, Wanted, krylov_schur,
+};
+
+/// Five-point Laplacian on a `side x side` grid, plus `skew` times an unsymmetric convection.
+fn grid_operator(side: usize, skew: f64) -> MatrixPolynomial {
+    let at = |i: usize, j: usize| i * side + j;
+    let mut entries = Vec::new();
+    for i in 0..side {
+        for j in 0..side {
+            entries.push((at(i, j), at(i, j), 4.0));
+            if i + 1 < side {
+                entries.push((at(i, j), at(i + 1, j), -1.0 + skew));
+                entries.push((at(i + 1, j), at(i, j), -1.0 - skew));
+            }
+            if j + 1 < side {
+                entries.push((at(i, j), at(i, j + 1), -1.0 - 0.7 * skew));
+                entries.push((at(i, j + 1), at(i, j), -1.0 + 0.7 * skew));
+            }
+        }
+    }
+    MatrixPolynomial::from_triplets(side * side, &[entries])
+}
+
+fn to_dense(p: &MatrixPolynomial) -> Mat<f64> {
+    let n = p.dimension();
+    p.pattern()
+        .multiply(&p.evaluate(0.0), Mat::<f64>::identity(n, n).as_ref())
+}
+
+#[derive(Debug)]
+struct Inverse(SparseLu);
+
+impl BlockOperator for Inverse {
+    fn dimension(&self) -> usize {
+        self.0.dimension()
+    }
+    fn apply(&self, x: MatRef<'_, f64>) -> Mat<f64> {
+        let mut y = x.to_owned();
+        self.0.solve_in_place(y.as_mut());
+        y
+    }
+}
+
+impl LinOp<f64> for Inverse {
+    fn nrows(&self) -> usize {
+        self.0.dimension()
+    }
+    fn ncols(&self) -> usize {
+        self.0.dimension()
+    }
+    fn apply_scratch(&self, _: usize, _: Par) -> StackReq {
+        StackReq::EMPTY
+    }
+    fn apply(&self, mut out: MatMut<'_, f64>, x: MatRef<'_, f64>, _: Par, _: &mut MemStack) {
+        out.copy_from(x);
+        self.0.solve_in_place(out);
+    }
+    fn conj_apply(&self, out: MatMut<'_, f64>, x: MatRef<'_, f64>, par: Par, stack: &mut MemStack) {
+        LinOp::apply(self, out, x, par, stack);
+    }
+}
+
+fn inverse_of(p: &MatrixPolynomial) -> Inverse {
+    let analysis = LuAnalysis::new(p.pattern()).unwrap();
+    Inverse(SparseLu::factorize(&analysis, p.evaluate(0.0)).unwrap())
+}
+
+fn settings(wanted: Wanted) -> KrylovSchurSettings {
+    KrylovSchurSettings {
+        wanted,
+        tolerance: 1e-12,
+        block: 4,
+        max_applications: 2000,
+    }
+}
+
+#[test]
+fn one_analysis_solves_real_complex_and_transposed_systems() {
+    let p = grid_operator(30, 0.3);
+    let n = p.dimension();
+    let analysis = LuAnalysis::new(p.pattern()).unwrap();
+    let values = p.evaluate(0.0);
+    let exact = random_columns(n, 19, 5);
+
+    let lu = SparseLu::factorize(&analysis, values.clone()).unwrap();
+    let mut x = p.pattern().multiply(&values, exact.as_ref());
+    lu.solve_in_place(x.as_mut());
+    // The condition number is about 400.
+    assert!((&x - &exact).norm_max() < 1e-12);
+    let mut x = p.pattern().multiply_transpose(&values, exact.as_ref());
+    lu.solve_transpose_in_place(x.as_mut());
+    assert!((&x - &exact).norm_max() < 1e-12);
+
+    let rotated: Vec<c64> = values.iter().map(|v| c64::new(*v, 0.2 * v)).collect();
+    let complex = ComplexSparseLu::factorize(&analysis, rotated).unwrap();
+    let b = p.pattern().multiply(&values, exact.as_ref());
+    let right_side: Vec<c64> = (0..n).map(|i| c64::new(1.0, 0.2) * b[(i, 0)]).collect();
+    for (i, x) in complex.solve_refined(&right_side).iter().enumerate() {
+        assert!((x - c64::new(exact[(i, 0)], 0.0)).norm() < 1e-13);
+    }
+}
+
+#[test]
+fn singular_matrix_is_an_error_not_a_nan() {
+    // A closed chain without supports: constant vectors are in its kernel.
+    let n = 40;
+    let entries = (0..n)
+        .flat_map(|i| [(i, i, 2.0), (i, (i + 1) % n, -1.0), ((i + 1) % n, i, -1.0)])
+        .collect();
+    let p = MatrixPolynomial::from_triplets(n, &[entries]);
+    let analysis = LuAnalysis::new(p.pattern()).unwrap();
+    let outcome = SparseLu::factorize(&analysis, p.evaluate(0.0));
+    assert!(matches!(outcome, Err(LinalgError::Singular { .. })));
+}
+
+#[test]
+fn inertia_counts_the_eigenvalues_below_every_shift() {
+    // The Laplacian's eigenvalues are known: 4 - 2 cos(i pi/(side+1)) - 2 cos(j pi/(side+1)).
+    let side = 12;
+    let p = grid_operator(side, 0.0);
+    let angle = |i: usize| (i as f64 * std::f64::consts::PI / (side + 1) as f64).cos();
+    let mut exact: Vec<f64> = (1..=side)
+        .flat_map(|i| (1..=side).map(move |j| 4.0 - 2.0 * angle(i) - 2.0 * angle(j)))
+        .collect();
+    exact.sort_by(f64::total_cmp);
+    let analysis = LdlAnalysis::new(p.pattern()).unwrap();
+    let identity = MatrixPolynomial::on_pattern(
+        p.pattern(),
+        &[(0..side * side).map(|i| (i, i, 1.0)).collect()],
+    );
+    for shift in [-0.1, 0.1003, 0.4, 1.03, 2.6, 3.97, 5.51, 7.1, 7.95] {
+        let shifted = MatrixPolynomial::combination(1.0, &p, -shift, &identity);
+        let ldl = SparseLdl::factorize(&analysis, &shifted.evaluate(0.0)).unwrap();
+        let count = exact.iter().filter(|&&e| e < shift).count();
+        assert_eq!(ldl.negative_count(), count, "shift {shift}");
+    }
+}
+
+#[test]
+fn symmetric_factors_solve_definite_and_indefinite_systems() {
+    let p = grid_operator(25, 0.0);
+    let analysis = LdlAnalysis::new(p.pattern()).unwrap();
+    for shift in [0.0, 1.237] {
+        let mut values = p.evaluate(0.0);
+        for i in 0..p.dimension() {
+            values[p.pattern().position(i, i).unwrap()] -= shift;
+        }
+        let exact = random_columns(p.dimension(), 3, 8);
+        let mut x = p.pattern().multiply(&values, exact.as_ref());
+        SparseLdl::factorize(&analysis, &values)
+            .unwrap()
+            .solve_in_place(x.as_mut());
+        // Unpivoted: allow the growth that the indefinite shift brings.
+        assert!((&x - &exact).norm_max() < 1e-9, "shift {shift}");
+    }
+}
+
+#[test]
+fn krylov_schur_finds_the_same_pairs_as_a_dense_decomposition() {
+    for skew in [0.0, 0.03, 0.15] {
+        let p = grid_operator(17, skew);
+        let pairs = krylov_schur(&inverse_of(&p), None, &settings(Wanted::Largest(24))).unwrap();
+        let mut dense: Vec<c64> = real_eigen(to_dense(&p).as_ref(), false)
+            .unwrap()
+            .values
+            .iter()
+            .map(|v| c64::new(1.0, 0.0) / v)
+            .collect();
+        dense.sort_by(|a, b| b.norm().total_cmp(&a.norm()));
+        for (theta, exact) in pairs.values.iter().zip(&dense) {
+            assert!((theta.norm() - exact.norm()).abs() < 1e-10 * exact.norm());
+            let nearest = dense
+                .iter()
+                .map(|e| (e - theta).norm())
+                .fold(f64::MAX, f64::min);
+            assert!(nearest < 1e-9 * theta.norm(), "skew {skew}: {theta}");
+        }
+        let images = product(to_dense(&p).as_ref(), pairs.vectors.as_ref());
+        for (j, theta) in pairs.values.iter().enumerate().filter(|(_, t)| t.im == 0.0) {
+            for i in 0..p.dimension() {
+                assert!((images[(i, j)] * theta.re - pairs.vectors[(i, j)]).abs() < 1e-10);
+            }
+        }
+    }
+}
+
+#[test]
+fn krylov_schur_by_modulus_returns_all_eigenvalues_beyond_the_bound() {
+    let p = grid_operator(20, 0.0);
+    let bound = 1.0 / 0.9;
+    let pairs = krylov_schur(
+        &inverse_of(&p),
+        None,
+        &settings(Wanted::ModulusAtLeast(bound)),
+    )
+    .unwrap();
+    let dense = real_eigen(to_dense(&p).as_ref(), false).unwrap().values;
+    let expected = dense.iter().filter(|v| v.re < 0.9).count();
+    // Degenerate pairs (i, j), (j, i) included, and one witness beyond the bound.
+    assert_eq!(
+        pairs.values.iter().filter(|t| t.norm() >= bound).count(),
+        expected
+    );
+    assert!(pairs.values.len() > expected);
+}
+
+#[test]
+fn krylov_schur_agrees_with_the_iteration_of_faer() {
+    let p = grid_operator(40, 0.02);
+    let n = p.dimension();
+    let pairs = krylov_schur(&inverse_of(&p), None, &settings(Wanted::Largest(12))).unwrap();
+    let factors = inverse_of(&p);
+    // Beyond 74 basis vectors this oracle itself goes wrong.
+    let parameters = PartialEigenParams {
+        max_dim: 60,
+        ..Default::default()
+    };
+    let scratch = partial_eigen_scratch(&factors, 12, Par::Seq, parameters);
+    let (mut vectors, mut values) = (Mat::<c64>::zeros(n, 12), vec![c64::new(0.0, 0.0); 12]);
+    let start = random_columns(n, 1, 99);
+    partial_eigen(
+        vectors.as_mut(),
+        &mut values,
+        &factors,
+        start.col(0),
+        1e-12,
+        Par::Seq,
+        MemStack::new(&mut MemBuffer::new(scratch)),
+        parameters,
+    );
+    for (a, b) in pairs.values.iter().zip(&values) {
+        assert!((a.norm() - b.norm()).abs() < 1e-9 * b.norm(), "{a} {b}");
+    }
+}
+
+#[test]
+fn a_start_block_near_the_solution_saves_most_applications() {
+    let (p, near) = (grid_operator(30, 0.05), grid_operator(30, 0.0501));
+    let cold = krylov_schur(&inverse_of(&p), None, &settings(Wanted::Largest(16))).unwrap();
+    let warm = krylov_schur(
+        &inverse_of(&near),
+        Some(cold.vectors.as_ref()),
+        &settings(Wanted::Largest(16)),
+    )
+    .unwrap();
+    let again = krylov_schur(&inverse_of(&near), None, &settings(Wanted::Largest(16))).unwrap();
+    for (a, b) in warm.values.iter().zip(&again.values) {
+        assert!((a.norm() - b.norm()).abs() < 1e-11 * b.norm());
+    }
+    assert!(warm.applications < 2 * again.applications);
+}

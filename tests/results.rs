@@ -1,0 +1,431 @@
+//! Consistency checks of result files on a made-up spectrum, and of the output folder.
+
+use faer::c64;
+use flate2::read::ZlibDecoder;
+use frictionsim::cea::{ComplexMode, FrictionPoint, FrictionSweep, UnstableInterval};
+use frictionsim::contact::ContactInterface;
+use frictionsim::fem::NodalStress;
+use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind};
+use frictionsim::results::cea::{BaseField, BaseState, CeaReport, print, write};
+use frictionsim::results::{
+    EncodedMesh, Field, FolderError, Manifest, MeshStatistics, OutputFolder, Replace,
+    cartesian_vectors, write_vtu,
+};
+use std::f64::consts::TAU;
+use std::fs;
+use std::io::Read;
+use std::path::Path;
+
+fn annulus(element: ElementKind) -> AnnulusMesh {
+    AnnulusMesh::generate(&AnnulusSpecification {
+        inner_radius: 0.02,
+        outer_radius: 0.09,
+        circumferential_elements: 12,
+        radial_elements: 3,
+        radial_grading: 1.2,
+        element,
+    })
+    .unwrap()
+}
+
+/// A mode whose numbers are easily told apart.
+fn mode(real_hz: f64, frequency_hz: f64, harmonic: usize, direction: i8) -> ComplexMode {
+    ComplexMode {
+        eigenvalue: c64::new(TAU * real_hz, TAU * frequency_hz),
+        harmonic,
+        branch: 0,
+        direction,
+        residual: 1e-13,
+        shape: None,
+    }
+}
+
+fn sweep(mesh: &AnnulusMesh) -> FrictionSweep {
+    let mut shaped = mode(12.5, 9900.0, 2, -1);
+    // One travelling wave: cos and sin parts a quarter period apart.
+    let angles = &mesh.mesh.frame_angles;
+    let wave = angles.iter().flat_map(|angle| {
+        let (sine, cosine) = (2.0 * angle).sin_cos();
+        [c64::new(cosine, sine), c64::new(-sine, cosine)]
+    });
+    shaped.shape = Some(wave.collect());
+    let point = |friction_coefficient: f64, modes: &[ComplexMode]| FrictionPoint {
+        friction_coefficient,
+        modes: modes.to_vec(),
+    };
+    let stable = [mode(-20.0, 7600.0, 1, 1), mode(-30.0, 9890.0, 2, -1)];
+    FrictionSweep {
+        points: vec![
+            point(0.0, &stable),
+            point(0.1, &stable),
+            point(0.25, &[stable[0].clone(), mode(5.0, 9895.0, 2, -1)]),
+            point(0.3, &[stable[0].clone(), shaped]),
+        ],
+        intervals: vec![UnstableInterval {
+            harmonic: 2,
+            branch: 0,
+            direction: -1,
+            critical_friction: 0.138_2,
+            frequency_hz: 9893.0,
+            restabilized: Some((0.9, 9950.0)),
+            unstable_from_start: false,
+        }],
+    }
+}
+
+fn field(mesh: &AnnulusMesh) -> BaseField {
+    let interface = ContactInterface::of(&mesh.mesh);
+    let count = interface.len();
+    BaseField {
+        nodes: interface.nodes,
+        angles: interface.angles,
+        pressures: vec![2.8e6; count],
+        shears: vec![0.84e6; count],
+        displacement: vec![1e-6; 2 * mesh.mesh.node_count()],
+        stress: vec![NodalStress::default(); mesh.mesh.node_count()],
+    }
+}
+
+fn report<'a>(
+    mesh: &'a AnnulusMesh,
+    sweep: &'a FrictionSweep,
+    field: &'a BaseField,
+) -> CeaReport<'a> {
+    CeaReport {
+        title: "made up",
+        mesh: &mesh.mesh,
+        dofs: 96,
+        method: "sparse",
+        selection: "below 10000 Hz".to_owned(),
+        // 0.25 was solved for its shapes alone.
+        friction_coefficients: &[0.0, 0.1, 0.3],
+        sweep,
+        base: BaseState {
+            friction_coefficient: 0.3,
+            slipping: 12,
+            sticking: 0,
+            open: 0,
+            pressure_pa: [2.8e6, 2.83e6],
+            shear_pa: [0.84e6, 0.849e6],
+            torque_n_m: 20.15,
+            power_w: 1287.0,
+        },
+        field,
+        notes: vec!["harmonics above 6 do not exist on this mesh".to_owned()],
+        wall_s: 0.5,
+    }
+}
+
+fn manifest(hash: &str) -> Manifest {
+    Manifest {
+        case_file: "case.toml".to_owned(),
+        case_text: format!("text {hash}"),
+        case_hash: hash.to_owned(),
+        ..Manifest::new("cea")
+    }
+}
+
+#[test]
+fn tables_hold_one_row_for_each_mode_of_a_tabulated_friction_value() {
+    let (mesh, folder) = (annulus(ElementKind::Quad4), tempfile::tempdir().unwrap());
+    let sweep = sweep(&mesh);
+    let output = OutputFolder::open(folder.path(), &manifest("a"), Replace::SameCase).unwrap();
+    let summary = write(&output, &report(&mesh, &sweep, &field(&mesh))).unwrap();
+    let eigenvalues = fs::read_to_string(folder.path().join("eigenvalues.csv")).unwrap();
+    let mut lines = eigenvalues.lines();
+    assert_eq!(
+        lines.next().unwrap(),
+        "friction_coefficient,mode,real_hz,frequency_hz,damping_factor,growth_rate_per_s,harmonic,\
+         branch,direction,unstable,residual"
+    );
+    let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
+    assert_eq!(rows.len(), 6);
+    let last = &rows[5];
+    assert_eq!(
+        (last[0], last[1], last[6], last[8], last[9]),
+        ("0.3", "2", "2", "-1", "true")
+    );
+    let number = |cell: &str| cell.parse::<f64>().unwrap();
+    // zeta = -Re / |lambda|, and growth rate = 2 pi Re.
+    assert!((number(last[4]) + 12.5 / 12.5f64.hypot(9900.0)).abs() < 1e-15);
+    assert!((number(last[5]) / (TAU * 12.5) - 1.0).abs() < 1e-15);
+
+    let stability = fs::read_to_string(folder.path().join("stability.csv")).unwrap();
+    assert_eq!(
+        stability.lines().collect::<Vec<_>>(),
+        [
+            "harmonic,branch,direction,critical_friction,frequency_hz,restabilized_friction,\
+             restabilized_frequency_hz,unstable_from_start",
+            "2,0,-1,0.1382,9893.0,0.9,9950.0,false"
+        ]
+    );
+    assert_eq!(
+        summary["critical_frictions"][0]["critical_friction"],
+        0.1382
+    );
+    assert_eq!(summary["largest_residual"], 1e-13);
+    assert_eq!(summary["unstable_counts"][2]["unstable"], 1);
+    assert_eq!(summary["manifest"]["case_hash"], "a");
+}
+
+#[test]
+fn the_printed_table_tells_stable_ranges_from_unstable_modes() {
+    let mesh = annulus(ElementKind::Quad4);
+    let text = print(&report(&mesh, &sweep(&mesh), &field(&mesh)));
+    for part in [
+        "0  stable up to 0.1",
+        "against       9900.00",
+        "0.138200",
+        "0.900000 (9950.00 Hz)",
+        "2 modes below 10000 Hz at 3 friction values, largest residual 1.0e-13",
+        "12 contact nodes slipping, 0 sticking, 0 open",
+        "pressure 2.8000 to 2.8300 MPa; torque 20.1500 N m",
+        "harmonics above 6",
+    ] {
+        assert!(text.contains(part), "{part:?} is not in\n{text}");
+    }
+    assert!(
+        !text.contains("0.25 "),
+        "a value solved for its shapes alone\n{text}"
+    );
+}
+
+/// Value of an attribute in an XML tag.
+fn attribute<'a>(tag: &'a str, name: &str) -> &'a str {
+    let start = tag.find(&format!("{name}=\"")).unwrap() + name.len() + 2;
+    &tag[start..start + tag[start..].find('"').unwrap()]
+}
+
+/// Decodes the appended arrays of a VTU file by name, from the format's description alone.
+fn decode(bytes: &[u8], name: &str) -> Vec<u8> {
+    let marker = b"<AppendedData encoding=\"raw\">\n_";
+    let split = bytes
+        .windows(marker.len())
+        .position(|window| window == marker)
+        .unwrap();
+    let head = std::str::from_utf8(&bytes[..split]).unwrap();
+    let tag = head
+        .split("<DataArray")
+        .find(|tag| tag.contains(&format!("Name=\"{name}\"")))
+        .unwrap();
+    let offset: usize = attribute(tag, "offset").parse().unwrap();
+    let data = &bytes[split + marker.len() + offset..];
+    let word = |i: usize| u64::from_le_bytes(data[8 * i..8 * i + 8].try_into().unwrap()) as usize;
+    let (blocks, size, last) = (word(0), word(1), word(2));
+    let mut start = 8 * (3 + blocks);
+    let mut out = Vec::new();
+    for block in 0..blocks {
+        let end = start + word(3 + block);
+        ZlibDecoder::new(&data[start..end])
+            .read_to_end(&mut out)
+            .unwrap();
+        start = end;
+    }
+    let expected = if last == 0 {
+        blocks * size
+    } else {
+        (blocks - 1) * size + last
+    };
+    assert_eq!(out.len(), expected);
+    out
+}
+
+fn floats(bytes: &[u8]) -> Vec<f64> {
+    let words = bytes.chunks_exact(8);
+    words
+        .map(|word| f64::from_le_bytes(word.try_into().unwrap()))
+        .collect()
+}
+
+#[test]
+fn a_vtu_file_gives_back_mesh_and_fields_bit_for_bit() {
+    // Enough nodes for arrays of several compressed blocks.
+    for (element, kind, count) in [(ElementKind::Quad4, 9u8, 200), (ElementKind::Quad8, 23, 5)] {
+        let mut spec = annulus(element).specification;
+        (spec.circumferential_elements, spec.radial_elements) = (count, count / 2);
+        let mesh = AnnulusMesh::generate(&spec).unwrap().mesh;
+        let field: Vec<f64> = (0..mesh.node_count()).map(|i| (i as f64).sin()).collect();
+        let mut bytes = Vec::new();
+        let fields = [Field::scalars("a < b", field.clone())];
+        write_vtu(&mut bytes, &EncodedMesh::new(&mesh).unwrap(), &fields, &[]).unwrap();
+        assert_eq!(floats(&decode(&bytes, "a &lt; b")), field);
+        let points = floats(&decode(&bytes, "Points"));
+        let flat: Vec<f64> = mesh.nodes.iter().flat_map(|p| [p[0], p[1], 0.0]).collect();
+        assert_eq!(points, flat);
+        assert_eq!(decode(&bytes, "types"), vec![kind; mesh.element_count()]);
+        let connectivity = decode(&bytes, "connectivity");
+        assert_eq!(connectivity.len(), 8 * mesh.elements.len());
+        let offsets = decode(&bytes, "offsets");
+        let end = i64::from_le_bytes(offsets[offsets.len() - 8..].try_into().unwrap());
+        assert_eq!(end as usize, mesh.elements.len());
+    }
+}
+
+#[test]
+fn a_field_of_the_wrong_length_is_not_written() {
+    let mesh = annulus(ElementKind::Quad4).mesh;
+    let fields = [Field::scalars("short", vec![0.0; 3])];
+    let encoded = EncodedMesh::new(&mesh).unwrap();
+    assert!(write_vtu(&mut Vec::new(), &encoded, &fields, &[]).is_err());
+}
+
+#[test]
+fn a_rigid_translation_is_one_cartesian_vector_at_every_node() {
+    let mesh = annulus(ElementKind::Quad8).mesh;
+    let polar: Vec<f64> = mesh
+        .frame_angles
+        .iter()
+        .flat_map(|angle| {
+            [
+                angle.cos() + 2.0 * angle.sin(),
+                2.0 * angle.cos() - angle.sin(),
+            ]
+        })
+        .collect();
+    for vector in cartesian_vectors(&mesh, &polar).chunks_exact(3) {
+        assert!((vector[0] - 1.0).abs() < 1e-15 && (vector[1] - 2.0).abs() < 1e-15);
+        assert_eq!(vector[2], 0.0);
+    }
+}
+
+#[test]
+fn shapes_come_as_real_and_imaginary_fields_in_a_collection() {
+    let (mesh, folder) = (annulus(ElementKind::Quad8), tempfile::tempdir().unwrap());
+    let sweep = sweep(&mesh);
+    let output = OutputFolder::open(folder.path(), &manifest("a"), Replace::SameCase).unwrap();
+    write(&output, &report(&mesh, &sweep, &field(&mesh))).unwrap();
+    let collection = fs::read_to_string(folder.path().join("modes.pvd")).unwrap();
+    let entry = collection
+        .lines()
+        .find(|line| line.contains("<DataSet"))
+        .unwrap();
+    let bytes = fs::read(folder.path().join(attribute(entry, "file"))).unwrap();
+    let shape = sweep.points[3].modes[1].shape.as_ref().unwrap();
+    let real: Vec<f64> = shape.iter().map(|value| value.re).collect();
+    let written = floats(&decode(&bytes, "displacement_real"));
+    assert_eq!(written, cartesian_vectors(&mesh.mesh, &real));
+    for amplitude in floats(&decode(&bytes, "amplitude")) {
+        assert!((amplitude - 2f64.sqrt()).abs() < 1e-15);
+    }
+}
+
+#[test]
+fn the_area_of_a_quadratic_mesh_converges_with_the_fourth_power() {
+    let error = |element: ElementKind, count: usize| {
+        let mut spec = annulus(element).specification;
+        spec.circumferential_elements = count;
+        MeshStatistics::new(&AnnulusMesh::generate(&spec).unwrap()).area_error
+    };
+    // A parabola through three points of a circle is off by the fourth power of the angle.
+    for (element, order) in [(ElementKind::Quad4, 2.0), (ElementKind::Quad8, 4.0)] {
+        let slope = (error(element, 12) / error(element, 24)).log2();
+        assert!((slope - order).abs() < 0.1, "{element:?} {slope}");
+    }
+}
+
+fn open(path: &Path, hash: &str, replace: Replace) -> Result<OutputFolder, FolderError> {
+    OutputFolder::open(path, &manifest(hash), replace)
+}
+
+#[test]
+fn a_folder_of_another_case_is_refused_until_forced() {
+    let folder = tempfile::tempdir().unwrap();
+    let first = open(folder.path(), "a", Replace::SameCase).unwrap();
+    first
+        .write("modes/old.csv", |out| out.write_all(b"1"))
+        .unwrap();
+    first.finish().unwrap();
+    let refused = open(folder.path(), "b", Replace::SameCase).unwrap_err();
+    assert!(
+        matches!(refused, FolderError::OtherCase { .. }),
+        "{refused}"
+    );
+    assert!(refused.to_string().contains("--force"));
+    assert!(folder.path().join("modes/old.csv").exists());
+    let forced = open(folder.path(), "b", Replace::Anything).unwrap();
+    assert!(!folder.path().join("modes/old.csv").exists());
+    forced.finish().unwrap();
+}
+
+#[test]
+fn a_complete_run_leaves_no_file_of_an_earlier_one() {
+    let folder = tempfile::tempdir().unwrap();
+    for names in [["a.csv", "b.csv"], ["a.csv", "c.csv"]] {
+        let output = open(folder.path(), "a", Replace::SameCase).unwrap();
+        for name in names {
+            output
+                .write(name, |out| out.write_all(name.as_bytes()))
+                .unwrap();
+        }
+        output.finish().unwrap();
+    }
+    let mut names: Vec<String> = fs::read_dir(folder.path())
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    assert_eq!(names, [".lock", "a.csv", "c.csv", "manifest.json"]);
+}
+
+#[test]
+fn what_a_killed_run_left_does_not_survive_another_case() {
+    let folder = tempfile::tempdir().unwrap();
+    let killed = open(folder.path(), "a", Replace::SameCase).unwrap();
+    killed
+        .write("figures/early.svg", |out| out.write_all(b"1"))
+        .unwrap();
+    // The process dies: no end of the run, and a temporary file half written.
+    drop(killed);
+    fs::write(folder.path().join("figures/.writing-x"), "half").unwrap();
+    let other = open(folder.path(), "b", Replace::Anything).unwrap();
+    assert_eq!(
+        fs::read_dir(folder.path().join("figures")).unwrap().count(),
+        0
+    );
+    other.finish().unwrap();
+}
+
+#[test]
+fn a_folder_has_one_writer_at_a_time() {
+    let folder = tempfile::tempdir().unwrap();
+    let first = open(folder.path(), "a", Replace::SameCase).unwrap();
+    let second = open(folder.path(), "a", Replace::Anything).unwrap_err();
+    assert!(matches!(second, FolderError::Busy { .. }), "{second}");
+    drop(first);
+    assert!(open(folder.path(), "a", Replace::SameCase).is_ok());
+}
+
+#[test]
+fn files_of_unknown_origin_are_not_mixed_with_results() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("thesis.tex"), "x").unwrap();
+    let refused = open(folder.path(), "a", Replace::SameCase).unwrap_err();
+    assert!(refused.to_string().contains("thesis.tex"), "{refused}");
+    open(folder.path(), "a", Replace::Anything)
+        .unwrap()
+        .finish()
+        .unwrap();
+    assert!(folder.path().join("thesis.tex").exists());
+}
+
+#[test]
+fn a_failed_write_leaves_the_earlier_file_whole() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = open(folder.path(), "a", Replace::SameCase).unwrap();
+    output
+        .write("table.csv", |out| out.write_all(b"whole"))
+        .unwrap();
+    let error = output.write("table.csv", |out| {
+        out.write_all(b"half")?;
+        Err(std::io::ErrorKind::StorageFull.into())
+    });
+    let error = error.unwrap_err();
+    assert!(matches!(error, FolderError::DiskFull { .. }), "{error}");
+    assert!(error.to_string().contains("table.csv"));
+    assert_eq!(fs::read(folder.path().join("table.csv")).unwrap(), b"whole");
+    let strays = fs::read_dir(folder.path()).unwrap().filter(|entry| {
+        let name = entry.as_ref().unwrap().file_name();
+        name.to_string_lossy().starts_with(".writing")
+    });
+    assert_eq!(strays.count(), 0);
+}
