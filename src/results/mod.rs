@@ -10,6 +10,7 @@ mod mesh;
 pub mod report;
 pub mod run_figures;
 pub mod sweep;
+pub mod sweep_figures;
 mod table;
 mod vtu;
 
