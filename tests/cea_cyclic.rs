@@ -2,7 +2,10 @@
 
 use faer::linalg::solvers::Solve;
 use faer::{Mat, c64};
-use frictionsim::cea::cyclic::{CyclicSweep, ModeLimit, SweepRequest, sweep};
+use frictionsim::cea::cyclic::{
+    CyclicModel, CyclicSweep, ModeBranch, ModeLimit, Sensitivity, SweepRequest, sensitivities,
+    stability_map, sweep,
+};
 use frictionsim::contact::{ContactStiffness, SlidingContact};
 use frictionsim::fem::{
     ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping, assemble_stiffness,
@@ -280,9 +283,182 @@ fn quadratic_problem_equals_dense_companion_solution() {
     }
 }
 
+/// One eigenvalue of a changed model, by following its branch.
+fn eigenvalue_of(model: &CyclicModel, like: &Sensitivity, friction: f64) -> c64 {
+    let request = SweepRequest {
+        friction_coefficients: &[friction],
+        limit: ModeLimit::MaxFrequency(17600.0),
+        shapes_at: &[],
+    };
+    let found = sweep(
+        &model.specification,
+        &model.material,
+        &model.options,
+        &model.contact,
+        &request,
+    )
+    .unwrap();
+    let is_same = |b: &&ModeBranch| {
+        (b.harmonic, b.branch, b.direction) == (like.harmonic, like.branch, like.direction)
+    };
+    found
+        .branches
+        .iter()
+        .find(is_same)
+        .unwrap()
+        .interpolate(friction)
+        .unwrap()
+}
+
+/// Independent check: central differences of the whole analysis, prestress included.
+#[test]
+fn sensitivities_equal_finite_differences() {
+    let mut rigid = paper_options();
+    rigid.contact.normal_stiffness = None;
+    let mut dashpots = paper_options();
+    dashpots.damping_model = DampingModel::BodyOnly;
+    dashpots.contact.normal_damping = 1e5;
+    for (options, formulation, element) in [
+        (
+            paper_options(),
+            PlaneFormulation::PlaneStrain,
+            ElementKind::Quad4,
+        ),
+        (rigid, PlaneFormulation::PlaneStress, ElementKind::Quad8),
+        (dashpots, PlaneFormulation::PlaneStrain, ElementKind::Quad4),
+    ] {
+        let mut contact = paper_contact();
+        // A strong prestress, so that its share cannot hide.
+        contact.interference = 3e-4;
+        let material = ElasticMaterial {
+            formulation,
+            ..polycarbonate()
+        };
+        let model = CyclicModel {
+            specification: annulus(element, 24, 6),
+            material,
+            options,
+            contact,
+        };
+        let friction = 0.35;
+        let request = SweepRequest {
+            friction_coefficients: &[0.0, friction],
+            limit: ModeLimit::MaxFrequency(12000.0),
+            shapes_at: &[],
+        };
+        let found = sweep(
+            &model.specification,
+            &model.material,
+            &model.options,
+            &model.contact,
+            &request,
+        )
+        .unwrap();
+        for s in sensitivities(&found, friction).unwrap() {
+            let difference = |step: f64, change: &dyn Fn(&mut CyclicModel, f64)| {
+                let at = |offset: f64| {
+                    let mut changed = model;
+                    change(&mut changed, offset);
+                    eigenvalue_of(&changed, &s, friction)
+                };
+                // Fourth order, so that the step may stay far above round-off.
+                ((at(step) - at(-step)) * 8.0 - (at(2.0 * step) - at(-2.0 * step))) / (12.0 * step)
+            };
+            let k_n = options.contact.normal_stiffness.unwrap_or(1.0);
+            let checks = [
+                (
+                    "nu",
+                    1.0,
+                    s.poisson_ratio,
+                    difference(1e-3, &|m, h| m.material.poisson_ratio += h),
+                ),
+                (
+                    "E",
+                    2.5e9,
+                    s.young_modulus,
+                    difference(2e7, &|m, h| m.material.young_modulus += h),
+                ),
+                (
+                    "rho",
+                    1228.0,
+                    s.density,
+                    difference(10.0, &|m, h| m.material.density += h),
+                ),
+                (
+                    "alpha",
+                    40.0,
+                    s.mass_coefficient,
+                    difference(1.0, &|m, h| m.options.damping.mass_coefficient += h),
+                ),
+                (
+                    "beta",
+                    4.5e-7,
+                    s.stiffness_coefficient,
+                    difference(1e-8, &|m, h| m.options.damping.stiffness_coefficient += h),
+                ),
+                (
+                    "k_n",
+                    k_n,
+                    s.normal_stiffness.unwrap_or(c64::new(0.0, 0.0)),
+                    difference(k_n * 0.01, &|m, h| {
+                        if let Some(k) = &mut m.options.contact.normal_stiffness {
+                            *k += h;
+                        }
+                    }),
+                ),
+            ];
+            for (name, scale, analytic, numeric) in checks {
+                // Relative to the change over the parameter's own size, and to |lambda| where that is tiny.
+                let error = (analytic - numeric).norm() * scale;
+                let size = (numeric * scale).norm() + 1e-3 * s.eigenvalue.norm();
+                assert!(
+                    error < 2e-7 * size,
+                    "{element:?} {name} {s:?} {numeric} {:e}",
+                    error / size
+                );
+            }
+            let branch = eigenvalue_slope(&found, &s, friction);
+            assert!((branch - s.friction).norm() < 1e-9 * s.eigenvalue.norm());
+        }
+    }
+}
+
+/// `d lambda / d mu` by central differences on solved points.
+fn eigenvalue_slope(found: &CyclicSweep, like: &Sensitivity, friction: f64) -> c64 {
+    let is_same = |b: &&ModeBranch| {
+        (b.harmonic, b.branch, b.direction) == (like.harmonic, like.branch, like.direction)
+    };
+    let branch = found.branches.iter().find(is_same).unwrap();
+    branch
+        .points
+        .iter()
+        .find(|p| p.friction_coefficient == friction)
+        .unwrap()
+        .rate
+}
+
 #[test]
 fn explore() {
-    let spec = annulus(ElementKind::Quad4, 180, 35);
-    let worst = worst_difference(&spec, &paper_options(), &paper_contact(), &[0.3], 17500.0);
-    println!("180x35 {worst:e}");
+    let model = CyclicModel {
+        specification: annulus(ElementKind::Quad4, 180, 35),
+        material: polycarbonate(),
+        options: paper_options(),
+        contact: paper_contact(),
+    };
+    let values: Vec<f64> = (0..16).map(|i| 1e12 * 10f64.powf(i as f64 / 8.0)).collect();
+    let t = std::time::Instant::now();
+    let map = stability_map(&values, ModeLimit::Lowest(30), 1.0, |k| {
+        let mut m = model;
+        m.options.contact.normal_stiffness = Some(k);
+        m
+    });
+    println!("{:?}", t.elapsed());
+    for p in map {
+        println!(
+            "{:e} {:?}",
+            p.value,
+            p.lowest_onset()
+                .map(|i| (i.harmonic, i.branch, i.direction, i.critical_friction))
+        );
+    }
 }

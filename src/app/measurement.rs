@@ -61,6 +61,8 @@ impl Measurement {
     ) -> Result<Self, Failure> {
         let start = Instant::now();
         terminal::start_log(options.quiet);
+        // The matrices here are small, and the bytes must not depend on the number of threads.
+        faer::set_global_parallelism(faer::Par::Seq);
         let bytes = std::fs::read(path)
             .map_err(|error| Failure::usage(format!("cannot read {}: {error}", path.display())))?;
         let mut hash = Sha256::new();

@@ -139,18 +139,16 @@ impl SectorMatrix {
                 MirrorParity::Odd => (sin, [cos, -cos]),
             };
             for row in 0..dimension {
-                let across = if row % 2 == 0 {
-                    radial_row
+                let across = [radial_row, tangential_row][row % 2];
+                // Along a row of the band, entries alternate between the same and the other component.
+                let pair = if half_bandwidth % 2 == 0 {
+                    [same, across]
                 } else {
-                    tangential_row
+                    [across, same]
                 };
-                for column in coupling.columns(row) {
-                    let factor = if (row + column) % 2 == 0 {
-                        same
-                    } else {
-                        across
-                    };
-                    result.add(row, column, factor * coupling.get(row, column));
+                let terms = coupling.row(row).iter().enumerate();
+                for (sum, (k, term)) in result.row_mut(row).iter_mut().zip(terms) {
+                    *sum += pair[k % 2] * term;
                 }
             }
         }

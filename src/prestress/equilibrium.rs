@@ -1,8 +1,9 @@
 //! Static equilibrium in full sliding.
 
+use super::SectorSliding;
 use crate::contact::{ContactInterface, SlidingContact};
 use crate::fem::{DofMap, Triplets, clamped_dofs};
-use crate::mesh::Mesh2d;
+use crate::mesh::{AnnulusMesh, Mesh2d, SectorMesh};
 use faer::Side;
 use faer::linalg::solvers::Solve;
 use faer::sparse::{SparseColMat, Triplet};
@@ -114,6 +115,31 @@ impl SteadySliding {
             sliding_direction,
             interface,
         })
+    }
+
+    /// The state of a whole annulus from that of its sector: the same in the polar frames of each.
+    pub fn from_sector(annulus: &AnnulusMesh, sector: &SectorMesh, state: &SectorSliding) -> Self {
+        let per_sector = annulus.sector_node_count();
+        let repeat = |free: &[f64]| {
+            let mut values = vec![0.0; 2 * annulus.mesh.node_count()];
+            for (sector_node, pair) in free.chunks_exact(2).enumerate() {
+                let position = sector.numbering[sector_node];
+                for start in (0..annulus.sector_count()).map(|j| j * per_sector) {
+                    values[2 * (start + position)..][..2].copy_from_slice(pair);
+                }
+            }
+            values
+        };
+        let interface = ContactInterface::of(&annulus.mesh);
+        Self {
+            pressed_displacement: repeat(&state.pressed_displacement),
+            sheared_displacement: repeat(&state.sheared_displacement),
+            normal_forces: (0..interface.len())
+                .map(|i| state.normal_forces[i % sector.contact_count])
+                .collect(),
+            sliding_direction: state.sliding_direction,
+            interface,
+        }
     }
 
     /// Displacement over all dofs at friction coefficient `friction_coefficient`, m.

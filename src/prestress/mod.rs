@@ -12,5 +12,7 @@ mod tangent;
 
 pub use equilibrium::{PrestressError, SteadySliding};
 pub use sector::SectorSliding;
-pub use sector_tangent::{FrictionPolynomial, HarmonicTangent, Parameter, SectorTangent};
+pub use sector_tangent::{
+    FrictionPolynomial, HarmonicTangent, Parameter, SectorTangent, TangentRate,
+};
 pub use tangent::{DampingModel, SlidingTangent, TangentOptions};

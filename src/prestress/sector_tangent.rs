@@ -59,6 +59,13 @@ pub struct SectorTangent {
     terms: Terms,
 }
 
+/// Derivative of a [`SectorTangent`] with respect to one [`Parameter`].
+#[derive(Clone, Debug)]
+pub struct TangentRate {
+    terms: Terms,
+    rayleigh: RayleighDamping,
+}
+
 /// What the matrices are made of; each term may also be a derivative.
 #[derive(Clone, Debug)]
 struct Terms {
@@ -125,8 +132,22 @@ impl SectorTangent {
     pub fn unknowns(&self) -> Vec<usize> {
         let total = 2 * self.sector.free_node_count();
         let is_rigid = self.terms.normal_stiffness.is_none();
-        let is_held = |dof: usize| is_rigid && dof % 2 == 0 && dof / 2 < self.sector.contact_count;
+        let is_held =
+            |dof: usize| is_rigid && dof.is_multiple_of(2) && dof / 2 < self.sector.contact_count;
         (0..total).filter(|&dof| !is_held(dof)).collect()
+    }
+
+    /// Unknown of each contact node's tangential displacement.
+    pub fn tangential_unknowns(&self) -> Vec<usize> {
+        let unknowns = self.unknowns();
+        let dofs = (0..self.sector.contact_count).map(|node| 2 * node + 1);
+        dofs.filter_map(|dof| unknowns.iter().position(|&u| u == dof))
+            .collect()
+    }
+
+    /// Rayleigh coefficients.
+    pub fn rayleigh(&self) -> RayleighDamping {
+        self.options.damping
     }
 
     /// The largest harmonic, `N_theta / 2`.
@@ -152,35 +173,37 @@ impl SectorTangent {
         }
     }
 
-    /// Derivative of the matrices of harmonic `n` with respect to `parameter`, the base state
-    /// following; `damping` is always given. `None` for a normal stiffness that the contact does not have.
+    /// `M_n` and `K_n` without friction, real and symmetric.
+    pub fn harmonic_at_rest(&self, n: usize) -> [BandedMatrix; 2] {
+        let mass = self.harmonic_of(&self.terms.mass, n);
+        let mut stiffness = self.harmonic_of(&self.terms.elastic, n);
+        self.add_at_rest(&self.terms, n, &mut stiffness);
+        if self.terms.normal_stiffness.is_some() {
+            return [mass, stiffness];
+        }
+        let unknowns = self.unknowns();
+        [mass, stiffness].map(|matrix| matrix.restricted_to(&unknowns))
+    }
+
+    /// Derivative of the matrices of harmonic `n`; `damping` is always given.
+    pub fn harmonic_rate(&self, rate: &TangentRate, n: usize) -> HarmonicTangent {
+        let follows = self.damping(&rate.terms, self.options.damping, false, n);
+        let shared = self.damping(&self.terms, rate.rayleigh, false, n);
+        HarmonicTangent {
+            harmonic: n,
+            mass: self.mass(&rate.terms, n),
+            stiffness: self.stiffness(&rate.terms, n),
+            damping: Some(sum(follows, shared)),
+            rayleigh: rate.rayleigh,
+        }
+    }
+
+    /// Derivative with respect to `parameter`, the base state following; `None` for a normal stiffness that
+    /// the contact does not have.
     ///
     /// # Errors
     /// [`PrestressError::Singular`] as for the base state itself.
-    pub fn harmonic_rate(
-        &self,
-        parameter: Parameter,
-        n: usize,
-    ) -> Result<Option<HarmonicTangent>, PrestressError> {
-        let Some((terms, share)) = self.rate(parameter)? else {
-            return Ok(None);
-        };
-        let follows = self.damping(&terms, self.options.damping, false, n);
-        let shared = self.damping(&self.terms, share, false, n);
-        Ok(Some(HarmonicTangent {
-            harmonic: n,
-            mass: self.mass(&terms, n),
-            stiffness: self.stiffness(&terms, n),
-            damping: Some(sum(follows, shared)),
-            rayleigh: share,
-        }))
-    }
-
-    /// Derivatives of the terms and of the Rayleigh coefficients.
-    fn rate(
-        &self,
-        parameter: Parameter,
-    ) -> Result<Option<(Terms, RayleighDamping)>, PrestressError> {
+    pub fn rate(&self, parameter: Parameter) -> Result<Option<TangentRate>, PrestressError> {
         let mut terms = Terms {
             elastic: None,
             mass: None,
@@ -217,7 +240,10 @@ impl SectorTangent {
             }
             Parameter::PoissonRatio => self.poisson_rate(&mut terms)?,
         }
-        Ok(Some((terms, share)))
+        Ok(Some(TangentRate {
+            terms,
+            rayleigh: share,
+        }))
     }
 
     fn poisson_rate(&self, terms: &mut Terms) -> Result<(), PrestressError> {
@@ -265,20 +291,31 @@ impl SectorTangent {
     /// `K_e + K_sigma`, the contact forces that turn with the edge, and the normal law.
     fn stiffness(&self, terms: &Terms, n: usize) -> FrictionPolynomial {
         let mut full = vec![self.harmonic_of(&terms.elastic, n), self.zero()];
-        if let Some([pressed, sheared]) = &terms.stress {
-            full[0].add_scaled(1.0, &pressed.harmonic(n));
+        self.add_at_rest(terms, n, &mut full[0]);
+        if let Some([_, sheared]) = &terms.stress {
             // Odd parity: the harmonic is i times this, which is what a coefficient of i mu wants.
             full[1].add_scaled(1.0, &sheared.harmonic(n));
         }
         for (node, force) in terms.turning.iter().enumerate() {
-            let (normal, tangential) = (2 * node, 2 * node + 1);
-            full[0].add(tangential, tangential, -force);
-            full[1].add(normal, tangential, self.base.sliding_direction * force);
+            full[1].add(2 * node, 2 * node + 1, self.base.sliding_direction * force);
         }
         if let Some(normal_stiffness) = &terms.normal_stiffness {
-            self.add_normal_law(&mut full, normal_stiffness);
+            self.add_friction(&mut full[1], normal_stiffness);
         }
         self.project(full)
+    }
+
+    /// What prestress and contact add to the elastic stiffness without friction.
+    fn add_at_rest(&self, terms: &Terms, n: usize, stiffness: &mut BandedMatrix) {
+        if let Some([pressed, _]) = &terms.stress {
+            stiffness.add_scaled(1.0, &pressed.harmonic(n));
+        }
+        for (node, force) in terms.turning.iter().enumerate() {
+            stiffness.add(2 * node + 1, 2 * node + 1, -force);
+        }
+        for (node, value) in terms.normal_stiffness.iter().flatten().enumerate() {
+            stiffness.add(2 * node, 2 * node, *value);
+        }
     }
 
     /// `alpha_R M + beta_R K` with the options' damping model; dashpots if `with_dashpots`.
@@ -303,21 +340,20 @@ impl SectorTangent {
         let lengths = self.sector.tributary_lengths();
         let mut dashpots = vec![self.zero(), self.zero()];
         let normal: Vec<f64> = lengths.iter().map(|w| contact.normal_damping * w).collect();
-        self.add_normal_law(&mut dashpots, &normal);
+        self.add_friction(&mut dashpots[1], &normal);
         for (node, length) in lengths.iter().enumerate() {
-            let dof = 2 * node + 1;
-            dashpots[0].add(dof, dof, contact.tangential_damping * length);
+            let (radial, tangential) = (2 * node, 2 * node + 1);
+            dashpots[0].add(radial, radial, normal[node]);
+            dashpots[0].add(tangential, tangential, contact.tangential_damping * length);
         }
         sum(damping, self.project(dashpots))
     }
 
-    /// `dN = -value q_n` and the friction that follows it, on the left-hand side; a tangential row times
-    /// `-i` turns `s mu value` into `-s value (i mu)`.
-    fn add_normal_law(&self, full: &mut [BandedMatrix], values: &[f64]) {
+    /// Friction that follows `dN = -value q_n`, on the left-hand side; a tangential row times `-i` turns
+    /// `s mu value` into `-s value (i mu)`.
+    fn add_friction(&self, coefficient: &mut BandedMatrix, values: &[f64]) {
         for (node, value) in values.iter().enumerate() {
-            let (normal, tangential) = (2 * node, 2 * node + 1);
-            full[0].add(normal, normal, *value);
-            full[1].add(tangential, normal, -self.base.sliding_direction * value);
+            coefficient.add(2 * node + 1, 2 * node, -self.base.sliding_direction * value);
         }
     }
 

@@ -48,10 +48,10 @@ pub fn render(drawing: Result<String, FigureError>) -> Result<Option<Figure>, Fi
 /// # Errors
 /// Those of the folder.
 pub fn write_figure(folder: &OutputFolder, name: &str, figure: &Figure) -> Result<(), FolderError> {
-    folder.write(&format!("figures/{name}.svg"), |out| {
+    folder.write_bulk(&format!("figures/{name}.svg"), |out| {
         out.write_all(figure.svg.as_bytes())
     })?;
-    folder.write(&format!("figures/{name}.png"), |out| {
+    folder.write_bulk(&format!("figures/{name}.png"), |out| {
         out.write_all(&figure.png)
     })?;
     Ok(())

@@ -9,9 +9,11 @@ mod manifest;
 mod mesh;
 pub mod report;
 pub mod run_figures;
+pub mod signal;
 pub mod sweep;
 pub mod sweep_figures;
 mod table;
+pub mod transient;
 mod vtu;
 
 pub use drawing::{DrawingError, Figure, render, write_figure, write_figures, write_report};

@@ -39,11 +39,40 @@ pub struct ModeBranch {
     pub intervals: Vec<UnstableInterval>,
 }
 
+impl ModeBranch {
+    /// `lambda` at any friction coefficient of the range, by the cubic between its neighbours; `None`
+    /// outside.
+    pub fn interpolate(&self, friction_coefficient: f64) -> Option<c64> {
+        let mu = friction_coefficient;
+        if let Some(point) = self.points.iter().find(|p| p.friction_coefficient == mu) {
+            return Some(point.eigenvalue);
+        }
+        let is_around =
+            |p: &&[BranchPoint]| p[0].friction_coefficient < mu && mu < p[1].friction_coefficient;
+        let pair = self.points.windows(2).find(is_around)?;
+        let cubic = Cubic::between(&pair[0], &pair[1]);
+        Some(cubic.value((mu - pair[0].friction_coefficient) / cubic.width))
+    }
+}
+
+/// `theta` of the path that carries a wave of eigenvalue `lambda`.
+pub(super) fn path_theta(problem: &HarmonicProblem, is_backward: bool, lambda: c64) -> c64 {
+    let own = if problem.is_proportional() {
+        let (alpha, beta) = (
+            problem.rayleigh.mass_coefficient,
+            problem.rayleigh.stiffness_coefficient,
+        );
+        -lambda * (lambda + alpha) / (1.0 + beta * lambda)
+    } else {
+        lambda
+    };
+    if is_backward { own.conj() } else { own }
+}
+
 /// Everything needed to solve one branch again at any friction value.
 struct BranchSolver<'a> {
     follower: Follower<'a>,
     waves: Waves,
-    /// Theta of the branch is nowhere needed: the guess comes from `lambda`.
     problem: &'a HarmonicProblem,
 }
 
@@ -128,17 +157,8 @@ impl BranchSolver<'_> {
     /// The branch at `friction`, from a good guess of `lambda`.
     fn solve(&mut self, friction: f64, guess: c64) -> Option<BranchPoint> {
         let problem = self.problem;
-        let own = if problem.is_proportional() {
-            let (alpha, beta) = (
-                problem.rayleigh.mass_coefficient,
-                problem.rayleigh.stiffness_coefficient,
-            );
-            -guess * (guess + alpha) / (1.0 + beta * guess)
-        } else {
-            guess
-        };
         let is_backward = self.waves == Waves::Backward;
-        let theta = if is_backward { own.conj() } else { own };
+        let theta = path_theta(problem, is_backward, guess);
         let found = self.follower.find(&problem.at(friction), friction, theta)?;
         let (eigenvalue, slope) = eigenvalue_of(problem, self.waves, found.theta);
         let rate = if is_backward {

@@ -48,6 +48,17 @@ pub enum CyclicError {
         /// Friction value of the grid that was not reached.
         friction: f64,
     },
+    /// A mode that was not followed lies in the range.
+    #[error(
+        "harmonic {harmonic} has a mode below the limit that was not found although branches were \
+         followed from {margin:.2} times the limit; use cea.method = \"sparse\""
+    )]
+    Unproven {
+        /// Circumferential harmonic.
+        harmonic: usize,
+        /// Largest margin tried.
+        margin: f64,
+    },
     /// The inertia of a harmonic and its eigenpairs disagree.
     #[error(
         "harmonic {harmonic} has {counted} modes below the limit by inertia but {found} were found; \

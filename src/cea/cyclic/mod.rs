@@ -6,13 +6,20 @@
 //! followed continuously over the friction coefficient by two-sided Rayleigh quotient iteration.
 
 mod branch;
+mod collision;
+mod completeness;
+mod definite;
 mod error;
 mod follow;
+mod map;
 mod paths;
 mod problem;
 mod rest;
+mod sensitivity;
 mod sweep;
 
 pub use branch::{BranchPoint, ModeBranch};
 pub use error::CyclicError;
+pub use map::{CyclicModel, StabilityMapPoint, stability_map};
+pub use sensitivity::{Sensitivity, sensitivities};
 pub use sweep::{Coverage, CyclicSweep, ModeLimit, SweepRequest, sweep};

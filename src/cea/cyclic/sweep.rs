@@ -1,6 +1,7 @@
 //! A sweep over the friction coefficient.
 
 use super::branch::{ModeBranch, branches_of, direction_of, eigenvalue_of, waves_of};
+use super::completeness::{self, Verdict};
 use super::paths::{HarmonicPaths, Path, Waves, follow_harmonic};
 use super::problem::HarmonicProblem;
 use super::{CyclicError, rest};
@@ -38,8 +39,15 @@ pub struct SweepRequest<'a> {
 pub struct Coverage {
     /// Highest harmonic of the mesh, `N_theta / 2`.
     pub largest_harmonic: usize,
-    /// Harmonics with modes below the margin, whose branches were followed.
+    /// Harmonics with modes below the margin, whose branches were followed; at quarters of the friction
+    /// range a count by the argument principle found no other mode below the limit.
     pub followed: Vec<usize>,
+    /// Harmonics proven to hold no mode below the limit at any friction coefficient of the range.
+    pub proven_empty: Vec<usize>,
+    /// Harmonics without a mode below the limit by count, at rest and at quarters of the friction range.
+    pub counted_empty: Vec<usize>,
+    /// Frequency up to which the spectrum is complete, for `|Re(lambda)|` up to a fifth of it, Hz.
+    pub limit_hz: f64,
     /// Frequency up to which branches were followed from rest, Hz.
     pub margin_hz: f64,
     /// LU factorizations done.
@@ -60,8 +68,11 @@ pub struct CyclicSweep {
 }
 
 /// Branches are followed from this much above the highest frequency wanted: friction may carry a mode
-/// down into the range.
+/// down into the range. Raised by the same factor where that turns out to be too little.
 const MARGIN: f64 = 1.2;
+
+/// How often the margin is raised.
+const MARGIN_ATTEMPTS: usize = 4;
 
 /// Eigenvalues of steady sliding over a range of friction coefficients.
 ///
@@ -79,30 +90,99 @@ pub fn sweep(
     let grid = rising_grid(request.friction_coefficients)?;
     let sector = SectorMesh::generate(specification)?;
     let tangent = SectorTangent::linearize(&sector, material, options, contact)?;
-    let rest = kappa_limit(&tangent, request.limit)?;
-    let limit = rest * MARGIN * MARGIN;
-    let problems: Vec<HarmonicProblem> = harmonics_below(&tangent, limit);
-    let kept: Vec<f64> = request.shapes_at.to_vec();
-    let followed: Result<Vec<HarmonicPaths>, CyclicError> = problems
+    let mut margin = MARGIN;
+    let mut failure = None;
+    for _ in 0..MARGIN_ATTEMPTS {
+        match solve(&tangent, request, &grid, margin) {
+            Ok(found) => {
+                let checks = checks(&grid);
+                let verdict = completeness::verify(&tangent, &found.followed, found.limit, &checks);
+                let Some(harmonic) = verdict.missed else {
+                    return Ok(finish(tangent, found, verdict));
+                };
+                failure = Some(CyclicError::Unproven { harmonic, margin });
+            }
+            // The branch that it meets may lie above the margin.
+            Err(error @ CyclicError::LostBranch { .. }) => failure = Some(error),
+            Err(error) => return Err(error),
+        }
+        margin *= MARGIN;
+    }
+    Err(failure.unwrap_or(CyclicError::NoFriction))
+}
+
+/// Friction values, out of a rising grid, at which modes are counted: the quarters of the range.
+fn checks(grid: &[f64]) -> Vec<f64> {
+    let last = grid.len() - 1;
+    let mut places: Vec<usize> = (1..=4).map(|quarter| last * quarter / 4).collect();
+    places.dedup();
+    places.into_iter().map(|place| grid[place]).collect()
+}
+
+/// Followed branches and the modes selected from them.
+struct Found {
+    followed: Vec<HarmonicPaths>,
+    points: Vec<FrictionPoint>,
+    /// Frequency up to which the selection must be complete, rad/s.
+    limit: f64,
+    /// Frequency up to which branches were followed from rest, rad/s.
+    margin: f64,
+}
+
+fn solve(
+    tangent: &SectorTangent,
+    request: &SweepRequest<'_>,
+    grid: &[f64],
+    margin: f64,
+) -> Result<Found, CyclicError> {
+    let (kappa, candidates) = select(tangent, request.limit, margin)?;
+    let limit = kappa * margin * margin;
+    let followed: Result<Vec<HarmonicPaths>, CyclicError> = candidates
         .into_par_iter()
-        .map(|problem| follow_harmonic(problem, limit, &grid, &kept))
+        .map(|n| {
+            let problem = HarmonicProblem::new(tangent.harmonic(n), tangent.is_standing(n));
+            follow_harmonic(problem, limit, grid, request.shapes_at)
+        })
         .collect();
-    let followed = followed?;
+    let mut followed = followed?;
+    followed.retain(|paths| !paths.paths.is_empty());
+    let frictions = request.friction_coefficients.iter();
+    let points: Vec<FrictionPoint> = frictions
+        .map(|&friction| point(tangent, &followed, friction, request))
+        .collect();
+    let highest = points.iter().filter_map(|point| point.modes.last());
+    let highest = highest.fold(0.0_f64, |top, mode| top.max(mode.eigenvalue.im));
+    Ok(Found {
+        limit: match request.limit {
+            ModeLimit::Lowest(_) => highest,
+            ModeLimit::MaxFrequency(value) => TAU * value,
+        },
+        followed,
+        points,
+        margin: limit.sqrt(),
+    })
+}
+
+fn finish(tangent: SectorTangent, found: Found, verdict: Verdict) -> CyclicSweep {
+    let Found {
+        followed,
+        points,
+        limit,
+        margin,
+    } = found;
     let coverage = Coverage {
         largest_harmonic: tangent.largest_harmonic(),
         followed: followed
             .iter()
             .map(|paths| paths.problem.harmonic)
             .collect(),
-        margin_hz: limit.sqrt() / TAU,
+        proven_empty: verdict.proven,
+        counted_empty: verdict.counted,
+        limit_hz: limit / TAU,
+        margin_hz: margin / TAU,
         factorizations: followed.iter().map(|paths| paths.factorizations).sum(),
     };
     let direction = tangent.base().sliding_direction;
-    let points: Vec<FrictionPoint> = request
-        .friction_coefficients
-        .iter()
-        .map(|&friction| point(&tangent, &followed, friction, request))
-        .collect();
     let branches: Vec<Vec<ModeBranch>> = followed
         .par_iter()
         .map(|paths| branches_of(paths, direction))
@@ -114,12 +194,12 @@ pub fn sweep(
         .collect();
     let mut intervals: Vec<_> = branches.iter().flat_map(|b| b.intervals.clone()).collect();
     intervals.sort_by(|a, b| a.critical_friction.total_cmp(&b.critical_friction));
-    Ok(CyclicSweep {
+    CyclicSweep {
         sweep: FrictionSweep { points, intervals },
         branches,
         coverage,
         tangent,
-    })
+    }
 }
 
 fn rising_grid(values: &[f64]) -> Result<Vec<f64>, CyclicError> {
@@ -135,61 +215,83 @@ fn rising_grid(values: &[f64]) -> Result<Vec<f64>, CyclicError> {
     Ok(grid)
 }
 
-/// Problems of the harmonics that have a mode below `limit` without friction: all harmonics are looked at.
-fn harmonics_below(tangent: &SectorTangent, limit: f64) -> Vec<HarmonicProblem> {
+/// Harmonics that have a mode with `kappa < limit` without friction: all are looked at.
+fn harmonics_below(tangent: &SectorTangent, limit: f64) -> Vec<usize> {
     (0..=tangent.largest_harmonic())
         .into_par_iter()
-        .filter_map(|n| {
-            let problem = HarmonicProblem::new(tangent.harmonic(n), tangent.is_standing(n));
-            let (mass, stiffness) = problem.at_rest();
-            (rest::count_below(mass, stiffness, limit) > 0).then_some(problem)
+        .filter(|&n| {
+            let [mass, stiffness] = tangent.harmonic_at_rest(n);
+            rest::count_below(&mass, &stiffness, limit) > 0
         })
         .collect()
 }
 
-/// `kappa` at rest below which the modes wanted lie.
-fn kappa_limit(tangent: &SectorTangent, limit: ModeLimit) -> Result<f64, CyclicError> {
-    let asked = match limit {
+/// `kappa` at rest up to which the modes wanted lie, and the harmonics with modes below the margin
+/// above it (possibly a few without).
+fn select(
+    tangent: &SectorTangent,
+    limit: ModeLimit,
+    margin: f64,
+) -> Result<(f64, Vec<usize>), CyclicError> {
+    let not_positive = |key, value| Err(CyclicError::Limit { key, value });
+    match limit {
         ModeLimit::MaxFrequency(value) if value > 0.0 && value.is_finite() => {
-            return Ok((TAU * value).powi(2));
+            let kappa = (TAU * value).powi(2);
+            Ok((kappa, harmonics_below(tangent, kappa * margin * margin)))
         }
-        ModeLimit::MaxFrequency(value) => {
-            let key = "max_frequency_hz";
-            return Err(CyclicError::Limit { key, value });
-        }
-        ModeLimit::Lowest(0) => {
-            let key = "modes";
-            return Err(CyclicError::Limit { key, value: 0.0 });
-        }
-        ModeLimit::Lowest(asked) => asked,
-    };
+        ModeLimit::MaxFrequency(value) => not_positive("max_frequency_hz", value),
+        ModeLimit::Lowest(0) => not_positive("modes", 0.0),
+        ModeLimit::Lowest(asked) => select_lowest(tangent, asked, margin),
+    }
+}
+
+fn select_lowest(
+    tangent: &SectorTangent,
+    asked: usize,
+    margin: f64,
+) -> Result<(f64, Vec<usize>), CyclicError> {
     let waves = |n: usize| if tangent.is_standing(n) { 1 } else { 2 };
-    let total = (0..=tangent.largest_harmonic())
-        .map(|n| waves(n) * tangent.dimension())
-        .sum();
+    let all = 0..=tangent.largest_harmonic();
+    let total = all.map(|n| waves(n) * tangent.dimension()).sum();
     if asked > total {
         return Err(CyclicError::TooManyModes { asked, total });
     }
-    // Fourfold steps in kappa, twofold in frequency, until there are enough.
-    let mut limit = 1e6;
+    // A few low harmonics that have enough modes bound the limit from above.
+    let few: Vec<_> = (0..=tangent.largest_harmonic().min(7))
+        .map(|n| (n, tangent.harmonic_at_rest(n)))
+        .collect();
+    let enough = few
+        .iter()
+        .map(|(n, _)| waves(*n) * tangent.dimension())
+        .sum::<usize>();
+    let enough = enough.min(asked);
+    let mut bound = 1e6;
+    let count = |bound: f64| -> usize {
+        let counts = few
+            .iter()
+            .map(|(n, [mass, stiffness])| waves(*n) * rest::count_below(mass, stiffness, bound));
+        counts.sum()
+    };
+    while count(bound) < enough {
+        bound *= 1.5;
+    }
     loop {
-        let problems = harmonics_below(tangent, limit);
-        let mut found: Vec<f64> = problems
+        let candidates = harmonics_below(tangent, bound * margin * margin);
+        let mut found: Vec<f64> = candidates
             .par_iter()
-            .flat_map_iter(|problem| {
-                let (mass, stiffness) = problem.at_rest();
-                let pairs = rest::eigenpairs_below(mass, stiffness, limit);
-                let repeat = waves(problem.harmonic);
+            .flat_map_iter(|&n| {
+                let [mass, stiffness] = tangent.harmonic_at_rest(n);
+                let pairs = rest::eigenpairs_below(&mass, &stiffness, bound);
                 pairs
                     .into_iter()
-                    .flat_map(move |(kappa, _)| vec![kappa; repeat])
+                    .flat_map(move |(kappa, _)| vec![kappa; waves(n)])
             })
             .collect();
         if found.len() >= asked {
             found.sort_by(f64::total_cmp);
-            return Ok(found[asked - 1] * (1.0 + 1e-9));
+            return Ok((found[asked - 1] * (1.0 + 1e-9), candidates));
         }
-        limit *= 4.0;
+        bound *= 1.5;
     }
 }
 
@@ -250,10 +352,10 @@ fn mode(
         .ok()?;
     let pair = &path.points[found];
     let (eigenvalue, _) = eigenvalue_of(problem, waves, pair.theta);
-    if let ModeLimit::MaxFrequency(limit) = request.limit {
-        if eigenvalue.im > TAU * limit {
-            return None;
-        }
+    if let ModeLimit::MaxFrequency(limit) = request.limit
+        && eigenvalue.im > TAU * limit
+    {
+        return None;
     }
     if eigenvalue.im <= 0.0 {
         return None;

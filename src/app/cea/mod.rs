@@ -1,12 +1,14 @@
 //! `frictionsim cea`: complex eigenvalues of steady sliding over the friction coefficient.
 
-use super::{Failure, RunOptions, Session};
+mod model;
+mod solve;
+
+pub use model::SlidingModel;
+
+use super::{Failure, RunOptions, Session, terminal};
 use crate::case::{Case, Cea, ModeSelection};
 use crate::cea::FrictionSweep;
-use crate::fem::{Triplets, assemble_stiffness, nodal_stress};
-use crate::mesh::AnnulusMesh;
-use crate::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
-use crate::results::cea::{BaseField, BaseState, CeaReport, draw, print, write};
+use crate::results::cea::{CeaReport, draw, print, write};
 use clap::Args;
 
 /// Complex eigenvalue sweep over the friction coefficient
@@ -17,16 +19,14 @@ pub struct Arguments {
     pub options: RunOptions,
 }
 
-/// The model that the solvers take: mesh, base state, and what its tangent is made of.
-pub struct SlidingModel {
-    /// The mesh with its sectors.
-    pub annulus: AnnulusMesh,
-    /// Elastic stiffness over all dofs.
-    pub stiffness: Triplets,
-    /// Steady sliding.
-    pub base: SteadySliding,
-    /// How the tangent is taken.
-    pub options: TangentOptions,
+/// Runs the subcommand.
+///
+/// # Errors
+/// A bad case, contact that opens, a solver that fails, an output folder that cannot be written.
+pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    run_with(arguments, |session, cea, model| {
+        solve::solve(session, cea, model)
+    })
 }
 
 /// What a solver gives back.
@@ -41,92 +41,11 @@ pub struct Solution {
     pub notes: Vec<String>,
 }
 
-impl SlidingModel {
-    /// Builds the model of a case up to its base state.
-    ///
-    /// # Errors
-    /// A mesh that cannot be built; contact that would open.
-    pub fn new(case: &Case, cea: &Cea) -> Result<Self, Failure> {
-        let annulus = AnnulusMesh::generate(&case.annulus).map_err(Failure::usage)?;
-        let stiffness = assemble_stiffness(&annulus.mesh, &case.material);
-        let base = SteadySliding::solve(&annulus.mesh, &stiffness, &case.contact.sliding)?;
-        let options = TangentOptions {
-            mass: cea.mass,
-            geometric_stiffness: cea.geometric_stiffness,
-            damping: case.damping.rayleigh,
-            damping_model: if case.damping.include_contact {
-                DampingModel::WholeTangent
-            } else {
-                DampingModel::BodyOnly
-            },
-            contact: case.contact.stiffness,
-        };
-        Ok(Self {
-            annulus,
-            stiffness,
-            base,
-            options,
-        })
-    }
-
-    /// The tangent over the whole mesh, for the sparse solver.
-    pub fn tangent(&self, case: &Case) -> SlidingTangent {
-        SlidingTangent::linearize(
-            &self.annulus.mesh,
-            &case.material,
-            &self.stiffness,
-            &self.base,
-            &self.options,
-        )
-    }
-
-    /// What the report says of the base state, scaled to the case's thickness.
-    pub fn base_state(&self, case: &Case) -> BaseState {
-        let friction = case.contact.sliding.friction_coefficient;
-        let pressures = self.base.pressures();
-        let smallest = pressures.iter().copied().fold(f64::INFINITY, f64::min);
-        let largest = pressures.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let traction = self.base.sliding_direction * friction;
-        let torque = case.thickness * self.base.torque(friction);
-        let shear = [traction * smallest, traction * largest];
-        BaseState {
-            friction_coefficient: friction,
-            // The state is that of full sliding; one where a node would open does not exist.
-            slipping: pressures.len(),
-            sticking: 0,
-            open: 0,
-            pressure_pa: [smallest, largest],
-            shear_pa: [shear[0].min(shear[1]), shear[0].max(shear[1])],
-            torque_n_m: torque,
-            power_w: torque * case.contact.sliding.rotation_speed,
-        }
-    }
-
-    /// The base state node by node.
-    pub fn base_field(&self, case: &Case) -> BaseField {
-        let friction = case.contact.sliding.friction_coefficient;
-        let displacement = self.base.displacement(friction);
-        let pressures = self.base.pressures();
-        let traction = self.base.sliding_direction * friction;
-        BaseField {
-            nodes: self.base.interface.nodes.clone(),
-            angles: self.base.interface.angles.clone(),
-            shears: pressures
-                .iter()
-                .map(|pressure| traction * pressure)
-                .collect(),
-            pressures,
-            stress: nodal_stress(&self.annulus.mesh, &case.material, &displacement),
-            displacement,
-        }
-    }
-}
-
 /// Runs the subcommand with a solver.
 ///
 /// # Errors
 /// A bad case, contact that opens, a solver that fails, an output folder that cannot be written.
-pub fn run_with(
+fn run_with(
     arguments: &Arguments,
     solve: impl FnOnce(&Session, &Cea, &SlidingModel) -> Result<Solution, Failure>,
 ) -> Result<(), Failure> {

@@ -1,0 +1,79 @@
+//! Solve times of the cyclic eigenvalue analysis on one thread and on all.
+
+use divan::Bencher;
+use frictionsim::cea::cyclic::{CyclicSweep, ModeLimit, SweepRequest, sweep};
+use frictionsim::contact::{ContactStiffness, SlidingContact};
+use frictionsim::fem::{ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping};
+use frictionsim::mesh::{AnnulusSpecification, ElementKind};
+use frictionsim::prestress::{DampingModel, TangentOptions};
+
+fn main() {
+    divan::main();
+}
+
+/// 30 modes of the disc with prestress, `values` friction coefficients from 0 to 1.
+fn solve(circumferential: usize, radial: usize, values: usize) -> CyclicSweep {
+    let specification = AnnulusSpecification {
+        inner_radius: 0.0205,
+        outer_radius: 0.0905,
+        circumferential_elements: circumferential,
+        radial_elements: radial,
+        radial_grading: 1.0,
+        element: ElementKind::Quad4,
+    };
+    let material = ElasticMaterial {
+        young_modulus: 2.5e9,
+        poisson_ratio: 0.3805,
+        density: 1228.0,
+        formulation: PlaneFormulation::PlaneStrain,
+    };
+    let options = TangentOptions {
+        mass: MassKind::Consistent,
+        geometric_stiffness: true,
+        damping: RayleighDamping {
+            mass_coefficient: 40.0,
+            stiffness_coefficient: 4.5e-7,
+        },
+        damping_model: DampingModel::WholeTangent,
+        contact: ContactStiffness {
+            normal_stiffness: Some(7.4e12),
+            ..ContactStiffness::default()
+        },
+    };
+    let contact = SlidingContact {
+        friction_coefficient: 0.3,
+        interference: 25e-6,
+        rotation_speed: 63.9,
+    };
+    let last = (values - 1) as f64;
+    let frictions: Vec<f64> = (0..values).map(|i| i as f64 / last).collect();
+    let request = SweepRequest {
+        friction_coefficients: &frictions,
+        limit: ModeLimit::Lowest(30),
+        shapes_at: &[],
+    };
+    sweep(&specification, &material, &options, &contact, &request).expect("the disc can be solved")
+}
+
+fn on_threads(threads: usize, work: impl Fn() -> CyclicSweep + Sync + Send) -> CyclicSweep {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    pool.expect("threads can be started").install(work)
+}
+
+/// 21 friction values, meshes from 90 x 18 to 1800 x 350 elements, one thread.
+#[divan::bench(args = [(90, 18), (180, 35), (360, 70), (720, 140), (1800, 350)], max_time = 4)]
+fn elements(bencher: Bencher<'_, '_>, (circumferential, radial): (usize, usize)) {
+    bencher.bench(|| on_threads(1, || solve(circumferential, radial, 21)));
+}
+
+/// 1800 x 350 elements on all threads.
+#[divan::bench(max_time = 4)]
+fn largest_mesh_on_all_threads(bencher: Bencher<'_, '_>) {
+    bencher.bench(|| solve(1800, 350, 21));
+}
+
+/// 180 x 35 elements, one thread.
+#[divan::bench(args = [1, 21, 101, 1001], max_time = 4)]
+fn friction_values(bencher: Bencher<'_, '_>, values: usize) {
+    bencher.bench(|| on_threads(1, || solve(180, 35, values.max(2))));
+}

@@ -1,0 +1,109 @@
+//! Which eigenvalue solver runs, and what it has to say.
+
+use super::model::method_of;
+use super::{Failure, Session, SlidingModel, Solution, terminal};
+use crate::case::{Case, Cea, CeaMethod, ModeSelection};
+use crate::cea::cyclic::{self, Coverage, ModeLimit, SweepRequest};
+use crate::cea::sparse::{self, EigenLimit, EigenRequest};
+
+/// Solves the case's eigenproblems with its method.
+///
+/// # Errors
+/// Those of the solver.
+pub fn solve(session: &Session, cea: &Cea, model: &SlidingModel) -> Result<Solution, Failure> {
+    match method_of(cea) {
+        CeaMethod::Sparse => solve_sparse(session, cea, model),
+        CeaMethod::Auto | CeaMethod::Cyclic => solve_cyclic(&session.case, cea, model),
+    }
+}
+
+fn solve_sparse(session: &Session, cea: &Cea, model: &SlidingModel) -> Result<Solution, Failure> {
+    let tangent = model.tangent(&session.case);
+    let friction_coefficients = cea.solved_friction_coefficients();
+    let request = EigenRequest {
+        limit: match cea.modes {
+            ModeSelection::BelowHz(limit) => EigenLimit::BelowFrequency(limit),
+            ModeSelection::Lowest(count) => EigenLimit::Lowest(count),
+        },
+        shapes_at: cea.shapes_at.clone(),
+    };
+    let total = friction_coefficients.len() as u64;
+    let bar = terminal::progress(session.options.quiet, total, "friction values");
+    let found = sparse::sweep(&tangent, &friction_coefficients, &request, &|progress| {
+        bar.set_length(progress.total as u64);
+        bar.set_position(progress.solved as u64);
+    });
+    bar.finish_and_clear();
+    Ok(Solution {
+        dofs: tangent.unknowns.len(),
+        method: "sparse",
+        notes: Vec::new(),
+        sweep: found?,
+    })
+}
+
+fn solve_cyclic(case: &Case, cea: &Cea, model: &SlidingModel) -> Result<Solution, Failure> {
+    let friction_coefficients = cea.solved_friction_coefficients();
+    let request = SweepRequest {
+        friction_coefficients: &friction_coefficients,
+        limit: match cea.modes {
+            ModeSelection::BelowHz(limit) => ModeLimit::MaxFrequency(limit),
+            ModeSelection::Lowest(count) => ModeLimit::Lowest(count),
+        },
+        shapes_at: &cea.shapes_at,
+    };
+    let found = cyclic::sweep(
+        &case.annulus,
+        &case.material,
+        &model.options,
+        &case.contact.sliding,
+        &request,
+    )?;
+    Ok(Solution {
+        dofs: found.tangent.dimension() * found.tangent.sector().sector_count(),
+        method: "cyclic",
+        notes: vec![coverage_note(&found.coverage)],
+        sweep: found.sweep,
+    })
+}
+
+/// Which harmonics were solved, and why no other can hold a mode of the range.
+fn coverage_note(coverage: &Coverage) -> String {
+    let mut note = format!(
+        "harmonics 0 to {}: {} hold modes and were followed from {:.0} Hz downwards",
+        coverage.largest_harmonic,
+        ranges(&coverage.followed),
+        coverage.margin_hz,
+    );
+    for (harmonics, why) in [
+        (&coverage.proven_empty, "are proven to hold none"),
+        (
+            &coverage.counted_empty,
+            "hold none by count at quarters of the friction range",
+        ),
+    ] {
+        if !harmonics.is_empty() {
+            note += &format!("; {} {why}", ranges(harmonics));
+        }
+    }
+    note + &format!(" below {:.0} Hz", coverage.limit_hz)
+}
+
+/// Rising numbers with neighbours drawn together: `0-4, 7`.
+fn ranges(numbers: &[usize]) -> String {
+    let mut groups: Vec<(usize, usize)> = Vec::new();
+    for &number in numbers {
+        match groups.last_mut() {
+            Some((_, last)) if *last + 1 == number => *last = number,
+            _ => groups.push((number, number)),
+        }
+    }
+    let texts = groups.iter().map(|&(first, last)| {
+        if first == last {
+            first.to_string()
+        } else {
+            format!("{first}-{last}")
+        }
+    });
+    texts.collect::<Vec<_>>().join(", ")
+}

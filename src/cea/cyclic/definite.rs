@@ -1,0 +1,234 @@
+//! Proof that a harmonic holds no eigenvalue in a region, for a whole range of friction at once.
+
+use super::problem::ZERO;
+use crate::linalg::banded::{BandedHermitian, BandedLdl, BandedMatrix};
+use crate::prestress::HarmonicTangent;
+use faer::c64;
+
+/// The region `0 <= Re(kappa) <= real`, `|Im(kappa)| <= imaginary`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Region {
+    pub real: f64,
+    pub imaginary: f64,
+}
+
+/// Whether `K(mu) - kappa M(mu)` is regular for every `0 <= mu <= friction` and every `kappa` in the
+/// region; `false` if this test cannot tell.
+///
+/// If `x` is an eigenvector, `x^H T (K - kappa M) x = 0` for any `T`, so none exists where the Hermitian
+/// part `H` of `T (K - kappa M)` is positive definite. With `z = i mu` and the tangential contact rows `t`,
+///
+/// ```text
+/// T = I + z sum_t e_t psi_t^T,   psi_t^T (K_0 - kappa_0 M_0) = - row_t of (K_1 - kappa_0 M_1)
+/// ```
+///
+/// takes the friction, which is not small, out of `H` but for the part with `kappa - kappa_0`. `H` is a
+/// cubic in `mu` and affine in `kappa`: its Bernstein coefficients at the corners of the region hold all
+/// others in their convex hull, so that a few factorizations prove it for the whole range. Shifts are made
+/// with proportional damping in mind; the quadratic problem has another form.
+pub(super) fn is_empty(
+    tangent: &HarmonicTangent,
+    tangential: &[usize],
+    friction: f64,
+    region: Region,
+) -> bool {
+    let center = 0.5 * region.real;
+    let Some(test) = TestSpace::new(tangent, tangential, center) else {
+        return false;
+    };
+    (0..=3).all(|corner| test.is_definite(&bernstein_weights(corner, friction), region))
+}
+
+/// Weights of the monomials `mu^0 .. mu^3` in the Bernstein coefficient `corner` of a cubic on
+/// `[0, length]`.
+fn bernstein_weights(corner: usize, length: f64) -> [f64; 4] {
+    let i = corner as f64;
+    [
+        1.0,
+        length * i / 3.0,
+        length.powi(2) * i * (i - 1.0) / 6.0,
+        length.powi(3) * i * (i - 1.0) * (i - 2.0) / 6.0,
+    ]
+}
+
+struct TestSpace<'a> {
+    tangent: &'a HarmonicTangent,
+    tangential: &'a [usize],
+    others: Vec<usize>,
+    /// `psi_t^T K_k` and `psi_t^T M_k` for each tangential row and power.
+    stiffness: Vec<Vec<Vec<f64>>>,
+    mass: Vec<Vec<Vec<f64>>>,
+}
+
+impl<'a> TestSpace<'a> {
+    fn new(tangent: &'a HarmonicTangent, tangential: &'a [usize], center: f64) -> Option<Self> {
+        let rest = BandedLdl::new(&tangent.stiffness[0], &tangent.mass[0], center);
+        if rest.negative_count() > 0 {
+            return None;
+        }
+        let dimension = tangent.mass[0].dimension();
+        let products = |psi: &[f64], matrices: &[BandedMatrix]| -> Vec<Vec<f64>> {
+            matrices
+                .iter()
+                .map(|matrix| multiply_left(psi, matrix))
+                .collect()
+        };
+        let (mut stiffness, mut mass) = (Vec::new(), Vec::new());
+        for &row in tangential {
+            let mut psi = vec![0.0; dimension];
+            for column in tangent.mass[0].columns(row) {
+                let k = tangent.stiffness.get(1).map_or(0.0, |k| k.get(row, column));
+                let m = tangent.mass.get(1).map_or(0.0, |m| m.get(row, column));
+                psi[column] = center * m - k;
+            }
+            rest.solve(&mut psi);
+            stiffness.push(products(&psi, &tangent.stiffness));
+            mass.push(products(&psi, &tangent.mass));
+        }
+        Some(Self {
+            tangent,
+            tangential,
+            others: (0..dimension)
+                .filter(|dof| !tangential.contains(dof))
+                .collect(),
+            stiffness,
+            mass,
+        })
+    }
+
+    /// Whether the Hermitian part with the given weights of `mu^k` is positive definite at all four
+    /// corners of the region.
+    fn is_definite(&self, weights: &[f64; 4], region: Region) -> bool {
+        // Away from the tangential rows H is Hermitian as it stands and falls with Re(kappa): its inverse
+        // at the largest one bounds all others.
+        let interior = self.interior(weights, region.real);
+        let Some(factor) = interior.cholesky() else {
+            return false;
+        };
+        [0.0, region.real].into_iter().all(|real| {
+            [-region.imaginary, region.imaginary]
+                .into_iter()
+                .all(|imaginary| {
+                    self.schur_is_definite(&factor, weights, c64::new(real, imaginary))
+                })
+        })
+    }
+
+    fn interior(&self, weights: &[f64; 4], shift: f64) -> BandedHermitian {
+        let half_bandwidth = self.tangent.mass[0].half_bandwidth();
+        let mut matrix = BandedHermitian::zeros(self.others.len(), half_bandwidth);
+        let unit = units();
+        for (place, &row) in self.others.iter().enumerate() {
+            for other in place.saturating_sub(half_bandwidth)..=place {
+                let column = self.others[other];
+                let mut value = c64::new(-shift * self.tangent.mass[0].get(row, column), 0.0);
+                for (k, stiffness) in self.tangent.stiffness.iter().enumerate() {
+                    value += unit[k] * (weights[k] * stiffness.get(row, column));
+                }
+                matrix.add(place, other, value);
+            }
+        }
+        matrix
+    }
+
+    /// Whether the Schur complement on the tangential rows is positive definite.
+    fn schur_is_definite(&self, factor: &BandedHermitian, weights: &[f64; 4], kappa: c64) -> bool {
+        let rows: Vec<Vec<c64>> = (0..self.tangential.len())
+            .map(|index| self.tested_row(index, weights, kappa))
+            .collect();
+        let columns: Vec<Vec<c64>> = (0..rows.len())
+            .map(|index| {
+                let column = self.column(index, weights, kappa);
+                let border = |&dof: &usize| 0.5 * (column[dof] + rows[index][dof].conj());
+                self.others.iter().map(border).collect()
+            })
+            .collect();
+        // Cholesky of the small complement, row by row.
+        let count = rows.len();
+        let mut lower = vec![vec![ZERO; count]; count];
+        let solved: Vec<Vec<c64>> = columns.iter().map(|b| factor.half_solve(b)).collect();
+        for i in 0..count {
+            for j in 0..=i {
+                let (ti, tj) = (self.tangential[i], self.tangential[j]);
+                let mut value = 0.5 * (rows[i][tj] + rows[j][ti].conj());
+                value -= super::problem::dot(&solved[i], &solved[j]);
+                for m in 0..j {
+                    value -= lower[i][m] * lower[j][m].conj();
+                }
+                if i == j {
+                    if value.re.is_nan() || value.re <= 0.0 {
+                        return false;
+                    }
+                    lower[i][i] = c64::new(value.re.sqrt(), 0.0);
+                } else {
+                    lower[i][j] = value / lower[j][j];
+                }
+            }
+        }
+        true
+    }
+
+    /// Row `t` of `T (K - kappa M)`.
+    fn tested_row(&self, index: usize, weights: &[f64; 4], kappa: c64) -> Vec<c64> {
+        let row = self.tangential[index];
+        let unit = units();
+        let mut result = vec![ZERO; self.tangent.mass[0].dimension()];
+        let terms = [
+            (
+                &self.tangent.stiffness,
+                &self.stiffness[index],
+                c64::new(1.0, 0.0),
+            ),
+            (&self.tangent.mass, &self.mass[index], -kappa),
+        ];
+        for (matrices, tested, factor) in terms {
+            for (k, matrix) in matrices.iter().enumerate() {
+                let plain = factor * unit[k] * weights[k];
+                for column in matrix.columns(row) {
+                    result[column] += plain * matrix.get(row, column);
+                }
+                let turned = factor * unit[k + 1] * weights[k + 1];
+                for (sum, value) in result.iter_mut().zip(&tested[k]) {
+                    *sum += turned * *value;
+                }
+            }
+        }
+        result
+    }
+
+    /// Column `t` of `K - kappa M`.
+    fn column(&self, index: usize, weights: &[f64; 4], kappa: c64) -> Vec<c64> {
+        let column = self.tangential[index];
+        let unit = units();
+        let mut result = vec![ZERO; self.tangent.mass[0].dimension()];
+        let terms = [
+            (&self.tangent.stiffness, c64::new(1.0, 0.0)),
+            (&self.tangent.mass, -kappa),
+        ];
+        for (matrices, factor) in terms {
+            for (k, matrix) in matrices.iter().enumerate() {
+                let factor = factor * unit[k] * weights[k];
+                for row in matrix.columns(column) {
+                    result[row] += factor * matrix.get(row, column);
+                }
+            }
+        }
+        result
+    }
+}
+
+/// Powers of `i`.
+fn units() -> [c64; 4] {
+    [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)].map(|(re, im)| c64::new(re, im))
+}
+
+/// `psi^T A`.
+fn multiply_left(psi: &[f64], matrix: &BandedMatrix) -> Vec<f64> {
+    let mut result = vec![0.0; psi.len()];
+    for (row, value) in psi.iter().enumerate() {
+        for column in matrix.columns(row) {
+            result[column] += value * matrix.get(row, column);
+        }
+    }
+    result
+}

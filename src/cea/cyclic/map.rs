@@ -1,0 +1,86 @@
+//! Critical friction as a function of a second parameter.
+
+use super::{CyclicError, ModeLimit, SweepRequest, sweep};
+use crate::cea::UnstableInterval;
+use crate::contact::SlidingContact;
+use crate::fem::ElasticMaterial;
+use crate::mesh::AnnulusSpecification;
+use crate::prestress::TangentOptions;
+use rayon::prelude::*;
+
+/// Everything that a cyclic analysis is made from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CyclicModel {
+    /// The annulus and its mesh.
+    pub specification: AnnulusSpecification,
+    /// Its material.
+    pub material: ElasticMaterial,
+    /// Choices of the linearisation.
+    pub options: TangentOptions,
+    /// The cylinder.
+    pub contact: SlidingContact,
+}
+
+/// The unstable intervals for one value of the second parameter.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StabilityMapPoint {
+    /// The parameter's value.
+    pub value: f64,
+    /// Every unstable interval up to the largest friction coefficient, sorted by critical friction, or
+    /// why this point could not be computed.
+    pub outcome: Result<Vec<UnstableInterval>, CyclicError>,
+}
+
+impl StabilityMapPoint {
+    /// The interval of lowest critical friction: where squeal begins.
+    pub fn lowest_onset(&self) -> Option<&UnstableInterval> {
+        self.outcome.as_ref().ok()?.first()
+    }
+
+    /// Critical friction of one branch.
+    pub fn critical_friction(&self, harmonic: usize, branch: usize, direction: i8) -> Option<f64> {
+        let intervals = self.outcome.as_ref().ok()?;
+        let is_same = |i: &&UnstableInterval| {
+            (i.harmonic, i.branch, i.direction) == (harmonic, branch, direction)
+        };
+        intervals.iter().find(is_same).map(|i| i.critical_friction)
+    }
+}
+
+/// Number of friction steps of each point; crossings are located exactly between them.
+const FRICTION_STEPS: usize = 8;
+
+/// Critical friction coefficients over values of a second parameter, up to `largest_friction`.
+///
+/// `model_at(value)` makes the model for each value; it may change anything. A point that fails is data, the
+/// others go on. Parallel over values; the result does not depend on the number of threads.
+pub fn stability_map(
+    values: &[f64],
+    limit: ModeLimit,
+    largest_friction: f64,
+    model_at: impl Fn(f64) -> CyclicModel + Sync,
+) -> Vec<StabilityMapPoint> {
+    let frictions: Vec<f64> = (0..=FRICTION_STEPS)
+        .map(|i| largest_friction * i as f64 / FRICTION_STEPS as f64)
+        .collect();
+    let request = SweepRequest {
+        friction_coefficients: &frictions,
+        limit,
+        shapes_at: &[],
+    };
+    let solve = |&value: &f64| {
+        let model = model_at(value);
+        let found = sweep(
+            &model.specification,
+            &model.material,
+            &model.options,
+            &model.contact,
+            &request,
+        );
+        StabilityMapPoint {
+            value,
+            outcome: found.map(|found| found.sweep.intervals),
+        }
+    };
+    values.par_iter().map(solve).collect()
+}

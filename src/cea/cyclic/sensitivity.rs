@@ -1,0 +1,173 @@
+//! How each eigenvalue responds to the parameters of the model.
+
+use super::branch::{ModeBranch, path_theta};
+use super::follow::Follower;
+use super::problem::{HarmonicProblem, ZERO};
+use super::{CyclicError, CyclicSweep};
+use crate::prestress::{
+    FrictionPolynomial, HarmonicTangent, Parameter, SectorTangent, TangentRate,
+};
+use faer::c64;
+use rayon::prelude::*;
+
+/// Derivatives of one eigenvalue, `d lambda / d parameter`, rad/s for each unit of the parameter.
+///
+/// ```text
+/// d lambda = - y^H (lambda^2 dM + lambda dC + dK) x / y^H (2 lambda M + C) x
+/// ```
+///
+/// with left and right vectors of one harmonic, so that pairs that coincide at `mu = 0` do no harm. The
+/// matrices' derivatives are analytic and include the change of the prestress.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sensitivity {
+    /// Circumferential harmonic.
+    pub harmonic: usize,
+    /// Branch within the harmonic.
+    pub branch: usize,
+    /// Direction of travel of the branch.
+    pub direction: i8,
+    /// Where the derivatives are taken.
+    pub friction_coefficient: f64,
+    /// Eigenvalue there, rad/s.
+    pub eigenvalue: c64,
+    /// With respect to the friction coefficient `mu`.
+    pub friction: c64,
+    /// With respect to the normal stiffness `k_n`, Pa/m; `None` for rigid contact.
+    pub normal_stiffness: Option<c64>,
+    /// With respect to `alpha_R`, 1/s.
+    pub mass_coefficient: c64,
+    /// With respect to `beta_R`, s.
+    pub stiffness_coefficient: c64,
+    /// With respect to Young's modulus, Pa.
+    pub young_modulus: c64,
+    /// With respect to Poisson's ratio.
+    pub poisson_ratio: c64,
+    /// With respect to the density, kg/m3.
+    pub density: c64,
+}
+
+/// Sensitivities of every branch of a sweep at one friction coefficient within its range.
+///
+/// # Errors
+/// [`CyclicError::Friction`] outside the range; [`CyclicError::LostBranch`] where a branch cannot be
+/// solved for there.
+pub fn sensitivities(
+    result: &CyclicSweep,
+    friction_coefficient: f64,
+) -> Result<Vec<Sensitivity>, CyclicError> {
+    let tangent = &result.tangent;
+    let mut rates = Vec::new();
+    for parameter in PARAMETERS {
+        rates.push(tangent.rate(parameter)?);
+    }
+    result
+        .branches
+        .par_iter()
+        .map(|branch| of_branch(tangent, &rates, branch, friction_coefficient))
+        .collect()
+}
+
+const PARAMETERS: [Parameter; 6] = [
+    Parameter::NormalStiffness,
+    Parameter::MassCoefficient,
+    Parameter::StiffnessCoefficient,
+    Parameter::YoungModulus,
+    Parameter::PoissonRatio,
+    Parameter::Density,
+];
+
+fn of_branch(
+    tangent: &SectorTangent,
+    rates: &[Option<TangentRate>],
+    branch: &ModeBranch,
+    friction: f64,
+) -> Result<Sensitivity, CyclicError> {
+    let n = branch.harmonic;
+    let guess = branch.interpolate(friction);
+    let guess = guess.ok_or(CyclicError::Friction { value: friction })?;
+    let sliding_direction = tangent.base().sliding_direction;
+    let matrices = tangent.harmonic(n);
+    let problem = HarmonicProblem::new(matrices.clone(), tangent.is_standing(n));
+    let is_backward = f64::from(branch.direction) * sliding_direction > 0.0;
+    let theta = path_theta(&problem, is_backward, guess);
+    let found = Follower::new(&problem).find(&problem.at(friction), friction, theta);
+    let found = found.ok_or(CyclicError::LostBranch {
+        harmonic: n,
+        friction,
+    })?;
+    // The wave -n is the complex conjugate of a root of the wave +n's problem with Im < 0.
+    let own = if is_backward {
+        found.theta.conj()
+    } else {
+        found.theta
+    };
+    let eigenvalue = problem.eigenvalue(own);
+    let root = if is_backward {
+        eigenvalue.conj()
+    } else {
+        eigenvalue
+    };
+    let z = c64::new(0.0, friction);
+    let forms = |set: &HarmonicTangent| {
+        let of = |matrix: &FrictionPolynomial| form(matrix, z, &found.y, &found.x);
+        [
+            of(&set.mass),
+            set.damping.as_ref().map_or(ZERO, of),
+            of(&set.stiffness),
+        ]
+    };
+    let rayleigh = tangent.rayleigh();
+    let [m, mut c, k] = forms(&matrices);
+    if problem.is_proportional() {
+        c = m * rayleigh.mass_coefficient + k * rayleigh.stiffness_coefficient;
+    }
+    let slope = m * root * 2.0 + c;
+    let respond = |rate: &Option<TangentRate>| {
+        let rate = tangent.harmonic_rate(rate.as_ref()?, n);
+        let [m, c, k] = forms(&rate);
+        let response = -(root * root * m + root * c + k) / slope;
+        Some(if is_backward {
+            response.conj()
+        } else {
+            response
+        })
+    };
+    let responses: Vec<Option<c64>> = rates.iter().map(respond).collect();
+    let given = |index: usize| responses[index].unwrap_or(ZERO);
+    let theta_rate = if is_backward {
+        found.rate.conj()
+    } else {
+        found.rate
+    };
+    Ok(Sensitivity {
+        harmonic: n,
+        branch: branch.branch,
+        direction: branch.direction,
+        friction_coefficient: friction,
+        eigenvalue,
+        friction: problem.eigenvalue_slope(own) * theta_rate,
+        normal_stiffness: responses[0],
+        mass_coefficient: given(1),
+        stiffness_coefficient: given(2),
+        young_modulus: given(3),
+        poisson_ratio: given(4),
+        density: given(5),
+    })
+}
+
+/// `y^H P(z) x`.
+fn form(polynomial: &FrictionPolynomial, z: c64, y: &[c64], x: &[c64]) -> c64 {
+    let mut power = c64::new(1.0, 0.0);
+    let mut total = ZERO;
+    for matrix in polynomial {
+        for (row, left) in y.iter().enumerate() {
+            let columns = matrix.columns(row);
+            let product: c64 = columns
+                .map(|column| x[column] * matrix.get(row, column))
+                .sum();
+            total += power * left.conj() * product;
+        }
+        power *= z;
+    }
+    total
+}
