@@ -40,6 +40,7 @@ pub struct CommandLine {
 #[derive(Subcommand)]
 enum Command {
     Cea(cea::Arguments),
+    Sweep(sweep::Arguments),
     Collect(collect::Arguments),
     Mesh(mesh::Arguments),
     Check(check::Arguments),
@@ -53,6 +54,7 @@ enum Command {
 pub fn main() -> ExitCode {
     let outcome = match CommandLine::parse().command {
         Command::Cea(arguments) => cea::run(&arguments),
+        Command::Sweep(arguments) => sweep::run(&arguments),
         Command::Collect(arguments) => collect::run(&arguments),
         Command::Mesh(arguments) => mesh::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
