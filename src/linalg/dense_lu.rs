@@ -43,6 +43,11 @@ macro_rules! dense_lu {
                 }
             }
 
+            /// Determinant of the row permutation, +1 or -1.
+            pub fn permutation_sign(&self) -> f64 {
+                if self.swaps.is_multiple_of(2) { 1.0 } else { -1.0 }
+            }
+
             /// Solves `A x = b` for each column, in place.
             pub fn solve_in_place(&self, right_sides: MatMut<'_, $scalar>) {
                 let (n, width) = (self.factors.nrows(), right_sides.ncols());
@@ -92,13 +97,8 @@ dense_lu!(
 impl ComplexDenseLu {
     /// `det A / |det A|`; zero for a singular matrix.
     pub fn determinant_phase(&self) -> c64 {
-        let sign = if self.swaps.is_multiple_of(2) {
-            1.0
-        } else {
-            -1.0
-        };
         let diagonal = (0..self.factors.nrows()).map(|i| self.factors[(i, i)]);
-        diagonal.fold(c64::new(sign, 0.0), |phase, pivot| {
+        diagonal.fold(c64::new(self.permutation_sign(), 0.0), |phase, pivot| {
             let size = pivot.norm();
             if size > 0.0 {
                 phase * (pivot / size)
