@@ -10,6 +10,7 @@ pub mod decimation;
 pub mod field;
 pub mod legend;
 pub mod panel;
+pub mod path;
 pub mod raster;
 pub mod svg;
 pub mod text;
