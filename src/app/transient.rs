@@ -159,7 +159,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let summary = write(&folder, &report)?;
     if end == RunEnd::Stopped {
         write_checkpoint(&folder, &loop_.state(), &record)?;
-        return Err(stopped(&session, folder, &loop_));
+        return Err(stopped(folder, &loop_));
     }
     folder.discard(CHECKPOINT);
     let path = folder.path().to_owned();
@@ -220,7 +220,7 @@ fn find_checkpoint(session: &Session, resume: bool) -> Result<Option<Checkpoint>
 }
 
 /// Ends a run that a signal stopped: what there is stays, and the message says how to go on.
-fn stopped(session: &Session, folder: OutputFolder, run: &CentralDifference<'_>) -> Failure {
+fn stopped(folder: OutputFolder, run: &CentralDifference<'_>) -> Failure {
     let path = folder.path().to_owned();
     if let Err(error) = folder.finish() {
         return error.into();
@@ -229,10 +229,9 @@ fn stopped(session: &Session, folder: OutputFolder, run: &CentralDifference<'_>)
         .plan()
         .sample_time((run.steps_done() - 1) / run.plan().steps_per_sample);
     Failure::run(format!(
-        "stopped at t = {time:.6} s of {:.6} s; results so far are in {}; go on with the same command and --resume: \
-         frictionsim transient {} --resume",
+        "stopped at t = {time:.6} s of {:.6} s; results so far are in {}; the same command with --resume goes on \
+         from there",
         run.plan().end_time(),
         path.display(),
-        session.options.case.display(),
     ))
 }
