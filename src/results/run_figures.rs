@@ -1,5 +1,6 @@
 //! The figures of a transient, from its record.
 
+use super::figures::axis::extremes;
 use super::figures::{
     ContactState, ContactTrace, EnergyFlows, FigureError, HarmonicGrowth, PhasePlot,
     PredictedGrowth, ReferenceFrequency, Snapshot, Snapshots, SpectrogramMap, SpectrumPlot, Stage,
@@ -164,8 +165,9 @@ fn statuses(frame: &ContactFrame) -> Vec<ContactStatus> {
 /// The stages of a run as figure 8 of the paper letters them: A vibrations of the start die out, B
 /// exponential growth, C stick and separation set in, D limit cycle.
 ///
-/// B begins where the strongest harmonic other than zero overtakes the vibration of harmonic zero, D
-/// where it stays within 2 % of its last value for good. A run without a linear stage has none.
+/// B begins where the strongest harmonic other than zero overtakes the vibration of harmonic zero (half
+/// its range over 0.5 ms), D where it stays within 2 % of its last value for good. A run without a
+/// linear stage has none.
 fn stages(record: &Recorder, analysis: &TransientAnalysis) -> Vec<Stage> {
     let rows = &record.rows;
     let (Some(end), Some(last)) = (analysis.first_nonlinearity, rows.last()) else {
@@ -178,10 +180,18 @@ fn stages(record: &Recorder, analysis: &TransientAnalysis) -> Vec<Stage> {
     }) else {
         return Vec::new();
     };
-    let twist = last.harmonics[0][0];
-    let overtaken = rows
-        .iter()
-        .rposition(|row| row.time < end && size(row, main) < (row.harmonics[0][0] - twist).abs());
+    let window = rows
+        .partition_point(|row| row.time < rows[0].time + 5e-4)
+        .max(2);
+    let linear = rows.partition_point(|row| row.time < end);
+    let overtaken = (0..linear / window)
+        .rfind(|&block| {
+            let block = &rows[block * window..(block + 1) * window];
+            let (low, high) = extremes(block.iter().map(|row| row.harmonics[0][0]));
+            let wave = block.iter().map(|row| size(row, main)).sum::<f64>();
+            wave / (window as f64) < 0.5 * (high - low)
+        })
+        .map(|block| (block + 1) * window - 1);
     let settled = rows.iter().rposition(|row| {
         let limit = size(last, main);
         (size(row, main) - limit).abs() > 0.02 * limit

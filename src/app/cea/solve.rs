@@ -1,24 +1,35 @@
 //! Which eigenvalue solver runs, and what it has to say.
 
 use super::model::method_of;
-use super::{Failure, Session, SlidingModel, Solution, terminal};
+use super::{Failure, SlidingModel, Solution};
 use crate::case::{Case, Cea, CeaMethod, ModeSelection};
 use crate::cea::cyclic::{self, Coverage, ModeLimit, SweepRequest};
 use crate::cea::sparse::{self, EigenLimit, EigenRequest};
+use indicatif::ProgressBar;
 
-/// Solves the case's eigenproblems with its method.
+/// Solves the case's eigenproblems with its method; `bar` counts the friction values solved.
 ///
 /// # Errors
 /// Those of the solver.
-pub fn solve(session: &Session, cea: &Cea, model: &SlidingModel) -> Result<Solution, Failure> {
+pub fn solve(
+    case: &Case,
+    cea: &Cea,
+    model: &SlidingModel,
+    bar: &ProgressBar,
+) -> Result<Solution, Failure> {
     match method_of(cea) {
-        CeaMethod::Sparse => solve_sparse(session, cea, model),
-        CeaMethod::Auto | CeaMethod::Cyclic => solve_cyclic(&session.case, cea, model),
+        CeaMethod::Sparse => solve_sparse(case, cea, model, bar),
+        CeaMethod::Auto | CeaMethod::Cyclic => solve_cyclic(case, cea, model),
     }
 }
 
-fn solve_sparse(session: &Session, cea: &Cea, model: &SlidingModel) -> Result<Solution, Failure> {
-    let tangent = model.tangent(&session.case);
+fn solve_sparse(
+    case: &Case,
+    cea: &Cea,
+    model: &SlidingModel,
+    bar: &ProgressBar,
+) -> Result<Solution, Failure> {
+    let tangent = model.tangent(case);
     let friction_coefficients = cea.solved_friction_coefficients();
     let request = EigenRequest {
         limit: match cea.modes {
@@ -27,8 +38,6 @@ fn solve_sparse(session: &Session, cea: &Cea, model: &SlidingModel) -> Result<So
         },
         shapes_at: cea.shapes_at.clone(),
     };
-    let total = friction_coefficients.len() as u64;
-    let bar = terminal::progress(session.options.quiet, total, "friction values");
     let found = sparse::sweep(&tangent, &friction_coefficients, &request, &|progress| {
         bar.set_length(progress.total as u64);
         bar.set_position(progress.solved as u64);
