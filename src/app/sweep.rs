@@ -3,7 +3,6 @@
 mod analyses;
 mod plan;
 mod progress;
-mod transient_point;
 mod workers;
 
 pub use plan::{Shard, SweepPlan, analysis_name};
