@@ -12,6 +12,7 @@ pub mod case;
 pub mod cea;
 pub mod contact;
 pub mod fem;
+pub mod frf;
 pub mod linalg;
 pub mod mesh;
 pub mod prestress;

@@ -2,6 +2,7 @@
 
 pub mod banded;
 pub mod dense;
+mod dense_lu;
 mod error;
 mod krylov_schur;
 mod polynomial;
@@ -9,6 +10,7 @@ mod sparse_ldl;
 mod sparse_lu;
 mod sparse_product;
 
+pub use dense_lu::{ComplexDenseLu, DenseLu};
 pub use error::LinalgError;
 pub use krylov_schur::{BlockOperator, KrylovSchurSettings, RealPairs, Wanted, krylov_schur};
 pub use polynomial::{MatrixPolynomial, SparsityPattern};

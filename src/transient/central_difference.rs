@@ -283,7 +283,7 @@ impl<'a> CentralDifference<'a> {
         let counts = std::mem::take(&mut self.counts);
         let sample = Sample {
             index: step / self.plan.steps_per_sample,
-            time: step as f64 * self.plan.time_step,
+            time: self.plan.sample_time(step / self.plan.steps_per_sample),
             kinetic_energy,
             strain_energy,
             powers,
@@ -389,6 +389,11 @@ impl<'a> CentralDifference<'a> {
             largest_energy: self.largest_energy,
             largest_residual: self.largest_residual,
         }
+    }
+
+    /// The body and its contact.
+    pub fn model(&self) -> &TransientModel<'a> {
+        &self.model
     }
 
     /// The stiffness operator.

@@ -5,7 +5,7 @@ mod solve;
 
 pub use model::SlidingModel;
 
-use super::{Failure, RunOptions, Session};
+use super::{Failure, RunOptions, Session, terminal};
 use crate::case::{Case, Cea, ModeSelection};
 use crate::cea::FrictionSweep;
 use crate::results::Manifest;
@@ -28,7 +28,7 @@ pub struct Arguments {
 /// A bad case, contact that opens, a solver that fails, an output folder that cannot be written.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     run_with(arguments, |session, cea, model| {
-        solve::solve(&session.case, cea, model)
+        solve::solve(&session.case, cea, model, session.options.quiet)
     })
 }
 
@@ -86,7 +86,7 @@ pub fn summarize(case: &Case, manifest: &Manifest) -> Result<Value, Failure> {
         ..case.require_cea()?.clone()
     };
     let model = SlidingModel::new(case, &cea)?;
-    let solution = solve::solve(case, &cea, &model)?;
+    let solution = solve::solve(case, &cea, &model, true)?;
     refuse_no_modes(case, &cea, &solution.sweep)?;
     let field = model.base_field(case);
     let wall_s = start.elapsed().as_secs_f64();

@@ -1,21 +1,55 @@
 //! Which eigenvalue solver runs, and what it has to say.
 
 use super::model::method_of;
-use super::{Failure, SlidingModel, Solution};
+use super::{Failure, SlidingModel, Solution, terminal};
 use crate::case::{Case, Cea, CeaMethod, ModeSelection};
 use crate::cea::cyclic::{self, Coverage, ModeLimit, SweepRequest};
+use crate::cea::sparse::{self, EigenLimit, EigenRequest};
 
-/// Solves the case's eigenproblems with its method.
+/// Solves the case's eigenproblems with its method, without a progress bar if `is_quiet`.
 ///
 /// # Errors
 /// Those of the solver.
-pub fn solve(case: &Case, cea: &Cea, model: &SlidingModel) -> Result<Solution, Failure> {
+pub fn solve(
+    case: &Case,
+    cea: &Cea,
+    model: &SlidingModel,
+    is_quiet: bool,
+) -> Result<Solution, Failure> {
     match method_of(cea) {
-        CeaMethod::Sparse => Err(Failure::usage(
-            "cea.method = \"sparse\" is not built in yet",
-        )),
+        CeaMethod::Sparse => solve_sparse(case, cea, model, is_quiet),
         CeaMethod::Auto | CeaMethod::Cyclic => solve_cyclic(case, cea, model),
     }
+}
+
+fn solve_sparse(
+    case: &Case,
+    cea: &Cea,
+    model: &SlidingModel,
+    is_quiet: bool,
+) -> Result<Solution, Failure> {
+    let tangent = model.tangent(case);
+    let friction_coefficients = cea.solved_friction_coefficients();
+    let request = EigenRequest {
+        limit: match cea.modes {
+            ModeSelection::BelowHz(limit) => EigenLimit::BelowFrequency(limit),
+            ModeSelection::Lowest(count) => EigenLimit::Lowest(count),
+        },
+        shapes_at: cea.shapes_at.clone(),
+    };
+    let total = friction_coefficients.len() as u64;
+    let bar = terminal::progress(is_quiet, total, "friction values");
+    let found = sparse::sweep(&tangent, &friction_coefficients, &request, &|progress| {
+        bar.set_length(progress.total as u64);
+        bar.set_position(progress.solved as u64);
+    });
+    bar.finish_and_clear();
+    Ok(Solution {
+        dofs: tangent.unknowns.len(),
+        method: "sparse",
+        notes: Vec::new(),
+        sweep: found?,
+    })
 }
 
 fn solve_cyclic(case: &Case, cea: &Cea, model: &SlidingModel) -> Result<Solution, Failure> {

@@ -1,8 +1,7 @@
 //! What runs at a point of a sweep.
 
 use super::plan::analysis_name;
-use super::transient_point;
-use crate::app::{Failure, cea};
+use crate::app::{Failure, cea, transient};
 use crate::case::{Analysis, Case};
 use crate::results::Manifest;
 use serde_json::{Map, Value};
@@ -21,7 +20,7 @@ pub fn run_point(
     for &analysis in analyses {
         let mut summary = match analysis {
             Analysis::Cea => cea::summarize(case, manifest)?,
-            Analysis::Transient => transient_point::summarize(case, manifest)?,
+            Analysis::Transient => transient::run_point(case, &manifest.simd)?,
         };
         if let Value::Object(entries) = &mut summary {
             entries.shift_remove("manifest");

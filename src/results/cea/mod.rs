@@ -4,11 +4,13 @@ mod base;
 mod figures;
 mod files;
 mod print;
+mod report;
 
 pub use base::{BaseField, BaseState, write_base};
 pub use figures::draw;
 pub use files::{summary, write, write_eigenvalues, write_stability};
 pub use print::print;
+pub use report::html_report;
 
 use crate::cea::{ComplexMode, FrictionPoint, FrictionSweep, UnstableInterval};
 use crate::mesh::Mesh2d;

@@ -15,6 +15,9 @@ pub const SINGLE_COLUMN: f64 = 85.0 * POINTS_PER_MM;
 /// Width of a figure across two columns, 178 mm, in points.
 pub const DOUBLE_COLUMN: f64 = 178.0 * POINTS_PER_MM;
 
+/// Start of every id in a drawing, so that a page can tell those of several drawings apart.
+pub const ID_PREFIX: &str = "figure-id-";
+
 /// An axis-parallel rectangle, `y` downwards, points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rect {
@@ -278,7 +281,7 @@ impl Svg {
 
     fn id(&mut self) -> String {
         self.ids += 1;
-        format!("f-{}-{}", self.prefix, self.ids)
+        format!("{ID_PREFIX}{}-{}", self.prefix, self.ids)
     }
 
     /// A straight line.
@@ -412,9 +415,9 @@ impl Svg {
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" \
              width=\"{width}pt\" height=\"{height}pt\" viewBox=\"0 0 {width} {height}\" role=\"img\" \
-             aria-labelledby=\"f-{prefix}-title f-{prefix}-desc\" font-family=\"{family}\" \
+             aria-labelledby=\"{ID_PREFIX}{prefix}-title {ID_PREFIX}{prefix}-desc\" font-family=\"{family}\" \
              stroke-linejoin=\"round\">\n\
-             <title id=\"f-{prefix}-title\">{}</title>\n<desc id=\"f-{prefix}-desc\">{}</desc>\n\
+             <title id=\"{ID_PREFIX}{prefix}-title\">{}</title>\n<desc id=\"{ID_PREFIX}{prefix}-desc\">{}</desc>\n\
              <defs>\n{}</defs>\n<rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n{}</svg>\n",
             escape(&text::plain(title)),
             escape(&text::plain(description)),

@@ -27,6 +27,8 @@ const MOST_ROWS: usize = 200;
 pub struct SweepReport<'a> {
     /// Title of the case.
     pub title: &'a str,
+    /// Friction coefficient where it is not swept.
+    pub friction_coefficient: f64,
     /// Swept keys.
     pub keys: &'a [String],
     /// Names of the analyses at each point.
@@ -273,6 +275,7 @@ mod tests {
         };
         let report = SweepReport {
             title: "",
+            friction_coefficient: 0.3,
             keys: &[],
             analyses: &[],
             count: 5,
