@@ -104,6 +104,7 @@ fn points(folder: &Path) -> BTreeMap<String, Value> {
         let text = std::fs::read_to_string(&path).unwrap();
         let mut point: Value = serde_json::from_str(&text).unwrap();
         point["wall_s"] = Value::Null;
+        point["core_s"] = Value::Null;
         for key in ["wall_s", "element_steps_per_s"] {
             point["summaries"]["transient"][key] = Value::Null;
         }
