@@ -104,6 +104,7 @@ fn points(folder: &Path) -> BTreeMap<String, Value> {
         let text = std::fs::read_to_string(&path).unwrap();
         let mut point: Value = serde_json::from_str(&text).unwrap();
         point["wall_s"] = Value::Null;
+        point["core_s"] = Value::Null;
         for key in ["wall_s", "element_steps_per_s"] {
             point["summaries"]["transient"][key] = Value::Null;
         }
@@ -191,7 +192,7 @@ fn processes_side_by_side_share_the_points_of_one_folder() {
 #[test]
 fn shards_collect_to_the_table_of_the_whole_sweep() {
     let study = Study::new();
-    study.run("whole", &["--threads", "1"]);
+    study.run("whole", &[]);
     study.run("shards", &["--shard", "2/3"]);
     let collect = || {
         let mut command = Command::new(PROGRAM);
@@ -277,4 +278,56 @@ fn a_failed_point_ends_in_exit_code_1_after_all_others_are_done() {
             .all(|point| point["swept"]["output.sample_interval"] == 1e-8)
     );
     assert_eq!(table(&study.folder("failing")).lines().count(), 61);
+}
+
+/// The README's way without a sweep: one run after the other, each printing its summary.
+#[test]
+fn a_shell_loop_over_transients_gives_what_the_sweep_gives() {
+    let study = Study::new();
+    let script = "for mu in 0.2 0.3; do \
+         \"$0\" transient study.toml --set contact.friction_coefficient=$mu --json --quiet --no-figures \
+         || exit; done";
+    let mut shell = Command::new("sh");
+    shell
+        .args(["-c", script, PROGRAM])
+        .current_dir(study.root.path());
+    let output = shell.output().unwrap();
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{errors}");
+    let summaries = serde_json::Deserializer::from_slice(&output.stdout).into_iter::<Value>();
+    let looped: Vec<Value> = summaries.map(Result::unwrap).collect();
+    let set = "sweep={ \"contact.friction_coefficient\" = [0.2, 0.3] }";
+    study.run("swept", &["--set", set]);
+    let swept = points(&study.folder("swept"));
+    assert_eq!((looped.len(), swept.len()), (2, 2));
+    for (one, point) in looped.iter().zip(swept.values()) {
+        let other = &point["summaries"]["transient"];
+        for key in [
+            "steps",
+            "main_frequency_hz",
+            "status",
+            "power_w",
+            "harmonics",
+            "growth",
+        ] {
+            assert_eq!(one[key], other[key], "{key}");
+        }
+    }
+}
+
+#[test]
+fn a_terminated_sweep_says_how_to_go_on() {
+    let study = Study::new();
+    let mut command = study.sweep("stopped", &[]);
+    command.stdout(Stdio::null()).stderr(Stdio::piped());
+    let child = command.spawn().unwrap();
+    while points(&study.folder("stopped")).is_empty() {
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    let kill = Command::new("kill").arg(child.id().to_string()).status();
+    assert!(kill.unwrap().success());
+    let output = child.wait_with_output().unwrap();
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{errors}");
+    assert!(errors.contains("--resume"), "{errors}");
 }

@@ -12,7 +12,7 @@ pub use workers::{PointRunner, SweepRun};
 use super::{Failure, RunOptions, Session};
 use crate::results::Manifest;
 use crate::results::sweep::{PointRecord, Start, SweepFolder, SweepReport};
-use crate::results::sweep::{print, summary, write_points};
+use crate::results::sweep::{draw, print, summary, write_points};
 use clap::Args;
 use serde_json::Value;
 
@@ -50,6 +50,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let path = session.folder_path();
     let folder = SweepFolder::open(&path, &session.manifest, plan.count(), &points, start)?;
 
+    catch_signals();
     let progress = SweepProgress::new(arguments.options.quiet, points.len());
     let run = SweepRun {
         plan: &plan,
@@ -65,6 +66,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let records = finished_points(&folder, plan.count())?;
     let report = SweepReport {
         title: &session.case.title,
+        friction_coefficient: session.case.contact.sliding.friction_coefficient,
         keys: &plan.keys(),
         analyses: &plan.analysis_names(),
         count: plan.count(),
@@ -73,7 +75,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         wall_s: session.wall_seconds(),
     };
     let summary = if report.missing().is_empty() {
-        gather(&folder, &report, &session.manifest)?
+        let has_figures = !arguments.options.no_figures;
+        gather(&folder, &report, &session.manifest, has_figures)?
     } else {
         summary(&report, &session.manifest)
     };
@@ -86,6 +89,20 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             points.len()
         ))),
     }
+}
+
+/// Makes Ctrl-C and SIGTERM end the process with a word on how to go on; finished points are files
+/// already.
+fn catch_signals() {
+    let stop = || {
+        use std::io::Write;
+        let text = "\nerror: interrupted; finished points are kept: go on with --resume";
+        // Nobody is left to tell if stderr is closed.
+        let _ = writeln!(std::io::stderr(), "{text}");
+        std::process::exit(1);
+    };
+    // A second sweep of the same process finds the handler in place.
+    let _ = ctrlc::set_handler(stop);
 }
 
 /// Memory that the analyses of one point take, bytes.
@@ -111,7 +128,8 @@ pub fn finished_points(folder: &SweepFolder, count: usize) -> Result<Vec<PointRe
     Ok(records)
 }
 
-/// Writes the table and the summary of the finished points, and returns the summary.
+/// Writes the table, the summary and, if asked, the figures of the finished points, and returns the
+/// summary.
 ///
 /// # Errors
 /// Those of the file system.
@@ -119,7 +137,11 @@ pub fn gather(
     folder: &SweepFolder,
     report: &SweepReport<'_>,
     manifest: &Manifest,
+    has_figures: bool,
 ) -> Result<Value, Failure> {
+    if has_figures {
+        draw(folder, report)?;
+    }
     folder.write("points.csv", |out| {
         write_points(out, report.keys, report.records)
     })?;

@@ -27,6 +27,8 @@ const MOST_ROWS: usize = 200;
 pub struct SweepReport<'a> {
     /// Title of the case.
     pub title: &'a str,
+    /// Friction coefficient where it is not swept.
+    pub friction_coefficient: f64,
     /// Swept keys.
     pub keys: &'a [String],
     /// Names of the analyses at each point.
@@ -55,9 +57,9 @@ impl SweepReport<'_> {
         self.records.iter().filter(|record| record.error.is_some())
     }
 
-    /// Time that the points took on their workers, s.
+    /// Time that the points kept cores busy, s.
     fn core_seconds(&self) -> f64 {
-        self.records.iter().map(|record| record.wall_s).sum()
+        self.records.iter().map(|record| record.core_s).sum()
     }
 
     /// Points done in an hour of one core; failed ones cost time but do not count.
@@ -265,7 +267,8 @@ mod tests {
             swept: Map::new(),
             error: None,
             summaries: Map::new(),
-            wall_s: 2.0,
+            wall_s: 3.0,
+            core_s: 2.0,
             case_hash: String::new(),
             sweep_hash: String::new(),
             version: "1".into(),
@@ -273,6 +276,7 @@ mod tests {
         };
         let report = SweepReport {
             title: "",
+            friction_coefficient: 0.3,
             keys: &[],
             analyses: &[],
             count: 5,
