@@ -8,10 +8,12 @@ mod failure;
 mod frf;
 mod identify;
 mod init;
+mod linear_stage;
 mod man;
 mod measurement;
 mod mesh;
 mod options;
+mod plot;
 mod session;
 mod signal;
 pub mod sweep;
@@ -48,6 +50,7 @@ enum Command {
     Transient(transient::Arguments),
     Sweep(sweep::Arguments),
     Collect(collect::Arguments),
+    Plot(plot::Arguments),
     Mesh(mesh::Arguments),
     Check(check::Arguments),
     Init(init::Arguments),
@@ -66,6 +69,7 @@ pub fn main() -> ExitCode {
         Command::Transient(arguments) => transient::run(&arguments),
         Command::Sweep(arguments) => sweep::run(&arguments),
         Command::Collect(arguments) => collect::run(&arguments),
+        Command::Plot(arguments) => plot::run(&arguments),
         Command::Mesh(arguments) => mesh::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Init(arguments) => init::run(&arguments),
