@@ -3,7 +3,9 @@
 use super::session::start_threads;
 use super::{Failure, cea, collect, terminal, transient};
 use crate::case::{Case, RawCase};
-use crate::results::{DOTS_PER_INCH, FolderError, Manifest, OutputFolder, read_manifest, read_summary};
+use crate::results::{
+    DOTS_PER_INCH, FolderError, Manifest, OutputFolder, read_manifest, read_summary,
+};
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
 

@@ -12,9 +12,9 @@ pub use workers::{PointRunner, SweepRun};
 use super::linear_stage::LinearStage;
 use super::{Failure, RunOptions, Session};
 use crate::case::{Analysis, Case};
-use crate::results::{DOTS_PER_INCH, Manifest};
 use crate::results::sweep::{PointRecord, Start, SweepDrawing, SweepFolder, SweepReport};
 use crate::results::sweep::{draw, print, summary, write_points};
+use crate::results::{DOTS_PER_INCH, Manifest};
 use clap::Args;
 use serde_json::Value;
 

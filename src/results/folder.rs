@@ -338,7 +338,9 @@ pub fn read_summary(path: &Path) -> Result<serde_json::Value, FolderError> {
     };
     let file = path.join(SUMMARY);
     match fs::read(&file) {
-        Ok(bytes) => serde_json::from_slice(&bytes).map_err(|_| lacks("its summary.json is damaged")),
+        Ok(bytes) => {
+            serde_json::from_slice(&bytes).map_err(|_| lacks("its summary.json is damaged"))
+        }
         Err(error) if error.kind() == io::ErrorKind::NotFound => {
             Err(lacks("it has no summary.json: the run did not end"))
         }

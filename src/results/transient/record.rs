@@ -43,8 +43,9 @@ pub fn read_record(folder: &Path) -> Result<Recorder, FolderError> {
         }
         Err(error) => return Err(FolderError::io("read", &path, error)),
     };
-    let record = framed::read(&bytes, MAGIC, VERSION)
-        .and_then(|payload| postcard::from_bytes(payload).map_err(|e| Defect::Damage(e.to_string())));
+    let record = framed::read(&bytes, MAGIC, VERSION).and_then(|payload| {
+        postcard::from_bytes(payload).map_err(|e| Defect::Damage(e.to_string()))
+    });
     record.map_err(|defect| {
         unusable(match defect {
             Defect::Version(found) => format!(

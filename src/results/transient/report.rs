@@ -59,7 +59,10 @@ fn course(summary: &Value) -> String {
         _ => "complete",
     };
     let first = match number(summary, "/first_nonlinearity_s") {
-        Some(time) => format!("the first contact node sticks or opens at {:.3} ms", 1e3 * time),
+        Some(time) => format!(
+            "the first contact node sticks or opens at {:.3} ms",
+            1e3 * time
+        ),
         None => "there is no linear stage that ends in stick or separation".into(),
     };
     format!(
@@ -79,7 +82,10 @@ fn cycle_table(summary: &Value) -> ReportTable {
     let mut rows = Vec::new();
     let mut add = |name: &str, pointer: &str, factor: f64, decimals: usize| {
         if let Some(value) = number(summary, pointer) {
-            rows.push(vec![name.to_owned(), format!("{:.decimals$}", value * factor)]);
+            rows.push(vec![
+                name.to_owned(),
+                format!("{:.decimals$}", value * factor),
+            ]);
         }
     };
     add("main frequency (Hz)", "/main_frequency_hz", 1.0, 1);
