@@ -826,12 +826,12 @@ fn stability_map_equals_single_sweeps_and_survives_failing_points() {
         contact: paper_contact(),
     };
     let limit = ModeLimit::Lowest(12);
-    let values = [-1e-5, 2e-5, 2e-4];
-    let map = stability_map(&values, limit, 1.0, |interference| {
+    let models = [-1e-5, 2e-5, 2e-4].map(|interference| {
         let mut changed = model;
         changed.contact.interference = interference;
-        changed
+        (interference, changed)
     });
+    let map = stability_map(&models, limit, 1.0);
     assert!(
         map[0]
             .outcome
