@@ -11,6 +11,7 @@ use crate::cea::FrictionSweep;
 use crate::results::Manifest;
 use crate::results::cea::{BaseField, CeaReport, draw, print, summary, write};
 use clap::Args;
+use indicatif::ProgressBar;
 use serde_json::Value;
 use std::time::Instant;
 
@@ -28,7 +29,8 @@ pub struct Arguments {
 /// A bad case, contact that opens, a solver that fails, an output folder that cannot be written.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     run_with(arguments, |session, cea, model| {
-        solve::solve(&session.case, cea, model, session.options.quiet)
+        let bar = terminal::progress(session.options.quiet, 0, "friction values");
+        solve::solve(&session.case, cea, model, &bar)
     })
 }
 
@@ -86,7 +88,7 @@ pub fn summarize(case: &Case, manifest: &Manifest) -> Result<Value, Failure> {
         ..case.require_cea()?.clone()
     };
     let model = SlidingModel::new(case, &cea)?;
-    let solution = solve::solve(case, &cea, &model, true)?;
+    let solution = solve::solve(case, &cea, &model, &ProgressBar::hidden())?;
     refuse_no_modes(case, &cea, &solution.sweep)?;
     let field = model.base_field(case);
     let wall_s = start.elapsed().as_secs_f64();

@@ -1,12 +1,13 @@
 //! Which eigenvalue solver runs, and what it has to say.
 
 use super::model::method_of;
-use super::{Failure, SlidingModel, Solution, terminal};
+use super::{Failure, SlidingModel, Solution};
 use crate::case::{Case, Cea, CeaMethod, ModeSelection};
 use crate::cea::cyclic::{self, Coverage, ModeLimit, SweepRequest};
 use crate::cea::sparse::{self, EigenLimit, EigenRequest};
+use indicatif::ProgressBar;
 
-/// Solves the case's eigenproblems with its method, without a progress bar if `is_quiet`.
+/// Solves the case's eigenproblems with its method; `bar` counts the friction values solved.
 ///
 /// # Errors
 /// Those of the solver.
@@ -14,10 +15,10 @@ pub fn solve(
     case: &Case,
     cea: &Cea,
     model: &SlidingModel,
-    is_quiet: bool,
+    bar: &ProgressBar,
 ) -> Result<Solution, Failure> {
     match method_of(cea) {
-        CeaMethod::Sparse => solve_sparse(case, cea, model, is_quiet),
+        CeaMethod::Sparse => solve_sparse(case, cea, model, bar),
         CeaMethod::Auto | CeaMethod::Cyclic => solve_cyclic(case, cea, model),
     }
 }
@@ -26,7 +27,7 @@ fn solve_sparse(
     case: &Case,
     cea: &Cea,
     model: &SlidingModel,
-    is_quiet: bool,
+    bar: &ProgressBar,
 ) -> Result<Solution, Failure> {
     let tangent = model.tangent(case);
     let friction_coefficients = cea.solved_friction_coefficients();
@@ -37,8 +38,6 @@ fn solve_sparse(
         },
         shapes_at: cea.shapes_at.clone(),
     };
-    let total = friction_coefficients.len() as u64;
-    let bar = terminal::progress(is_quiet, total, "friction values");
     let found = sparse::sweep(&tangent, &friction_coefficients, &request, &|progress| {
         bar.set_length(progress.total as u64);
         bar.set_position(progress.solved as u64);
