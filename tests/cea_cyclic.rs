@@ -2,11 +2,12 @@
 
 use faer::linalg::solvers::Solve;
 use faer::{Mat, c64};
-use frictionsim::cea::UnstableInterval;
 use frictionsim::cea::cyclic::{
     CyclicModel, CyclicSweep, ModeBranch, ModeLimit, Sensitivity, SweepRequest, sensitivities,
     stability_map, sweep,
 };
+use frictionsim::cea::sparse::{self, EigenLimit, EigenRequest};
+use frictionsim::cea::{ComplexMode, UnstableInterval};
 use frictionsim::contact::{ContactStiffness, SlidingContact};
 use frictionsim::fem::{
     ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping, assemble_stiffness,
@@ -286,6 +287,57 @@ fn quadratic_problem_equals_dense_companion_solution() {
                 println!("{damping_model:?} {element:?} {worst:e}");
                 assert!(worst < 1e-9, "{damping_model:?} {element:?} {worst:e}");
             }
+        }
+    }
+}
+
+/// Cross-method check: the sparse solver on the whole mesh, which knows nothing of the symmetry.
+#[test]
+fn spectrum_branches_and_onsets_equal_those_of_the_sparse_solver() {
+    let frictions = [0.0, 0.3, 0.6];
+    for (element, sectors, mass, normal_stiffness) in [
+        (ElementKind::Quad4, 36, MassKind::Consistent, Some(7.4e12)),
+        (ElementKind::Quad4, 36, MassKind::Lumped, None),
+        (ElementKind::Quad8, 18, MassKind::Consistent, None),
+        (ElementKind::Quad8, 18, MassKind::Lumped, Some(7.4e12)),
+    ] {
+        let mut options = paper_options();
+        options.mass = mass;
+        options.contact.normal_stiffness = normal_stiffness;
+        let specification = annulus(element, sectors, 6);
+        let cyclic = run(&specification, &options, &frictions, ModeLimit::Lowest(18)).sweep;
+        let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
+        let (material, contact) = (polycarbonate(), paper_contact());
+        let elastic = assemble_stiffness(&mesh, &material);
+        let base = SteadySliding::solve(&mesh, &elastic, &contact).unwrap();
+        let tangent = SlidingTangent::linearize(&mesh, &material, &elastic, &base, &options);
+        let request = EigenRequest {
+            limit: EigenLimit::Lowest(18),
+            shapes_at: Vec::new(),
+        };
+        let sparse = sparse::sweep(&tangent, &frictions, &request, &|_| {}).unwrap();
+        for (ours, theirs) in cyclic.points.iter().zip(&sparse.points) {
+            assert_eq!(ours.modes.len(), theirs.modes.len());
+            for mode in &ours.modes {
+                let distance = |m: &&ComplexMode| (m.eigenvalue - mode.eigenvalue).norm();
+                let is_same = |m: &&ComplexMode| {
+                    (m.harmonic, m.branch, m.direction)
+                        == (mode.harmonic, mode.branch, mode.direction)
+                };
+                let same = theirs.modes.iter().filter(is_same);
+                let nearest = same.map(|m| distance(&m)).fold(f64::MAX, f64::min);
+                assert!(
+                    nearest < 1e-9 * mode.eigenvalue.norm(),
+                    "{element:?} {mass:?} {mode:?} {nearest:e}"
+                );
+            }
+        }
+        for (ours, theirs) in cyclic.intervals.iter().zip(&sparse.intervals) {
+            assert_eq!(
+                (ours.harmonic, ours.direction),
+                (theirs.harmonic, theirs.direction)
+            );
+            assert!((ours.critical_friction - theirs.critical_friction).abs() < 1e-8);
         }
     }
 }
@@ -774,12 +826,12 @@ fn stability_map_equals_single_sweeps_and_survives_failing_points() {
         contact: paper_contact(),
     };
     let limit = ModeLimit::Lowest(12);
-    let values = [-1e-5, 2e-5, 2e-4];
-    let map = stability_map(&values, limit, 1.0, |interference| {
+    let models = [-1e-5, 2e-5, 2e-4].map(|interference| {
         let mut changed = model;
         changed.contact.interference = interference;
-        changed
+        (interference, changed)
     });
+    let map = stability_map(&models, limit, 1.0);
     assert!(
         map[0]
             .outcome

@@ -9,7 +9,7 @@ use super::{Failure, RunOptions, Session, terminal};
 use crate::case::{Case, Cea, ModeSelection};
 use crate::cea::FrictionSweep;
 use crate::results::Manifest;
-use crate::results::cea::{BaseField, CeaReport, draw, print, summary, write};
+use crate::results::cea::{BaseField, CeaReport, SensitivityReport, draw, print, summary, write};
 use clap::Args;
 use indicatif::ProgressBar;
 use serde_json::Value;
@@ -42,6 +42,8 @@ pub struct Solution {
     pub dofs: usize,
     /// Which solver.
     pub method: &'static str,
+    /// Derivatives of the eigenvalues at the case's own friction coefficient.
+    pub sensitivities: Option<SensitivityReport>,
     /// What it has to say.
     pub notes: Vec<String>,
 }
@@ -66,8 +68,16 @@ fn run_with(
     let solution = solve(&session, cea, &model)?;
     refuse_no_modes(case, cea, &solution.sweep)?;
 
+    let map = cea
+        .map
+        .as_ref()
+        .map(|map| solve::map(case, cea, map))
+        .transpose()?;
     let field = model.base_field(case);
-    let report = report(case, cea, &model, &solution, &field, session.wall_seconds());
+    let report = CeaReport {
+        map: map.as_ref(),
+        ..report(case, cea, &model, &solution, &field, session.wall_seconds())
+    };
     let summary = write(&folder, &report)?;
     if !session.options.no_figures {
         draw(&folder, &report, case.damping.rayleigh)?;
@@ -117,6 +127,8 @@ fn report<'a>(
         sweep: &solution.sweep,
         base: model.base_state(case),
         field,
+        sensitivities: solution.sensitivities.as_ref(),
+        map: None,
         notes: solution.notes.clone(),
         wall_s,
     }
@@ -191,6 +203,7 @@ mod tests {
             },
             dofs: 100,
             method: "sparse",
+            sensitivities: None,
             notes: Vec::new(),
         }
     }

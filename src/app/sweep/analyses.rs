@@ -20,7 +20,7 @@ pub fn run_point(
     for &analysis in analyses {
         let mut summary = match analysis {
             Analysis::Cea => cea::summarize(case, manifest)?,
-            Analysis::Transient => transient::run_point(case, &manifest.simd)?,
+            Analysis::Transient => transient::summarize(case, manifest)?,
         };
         if let Value::Object(entries) = &mut summary {
             entries.shift_remove("manifest");

@@ -184,7 +184,7 @@ pub enum StiffnessFactors {
     /// Without friction: a factor five cheaper to compute and to solve with.
     Symmetric(SparseLdl),
     /// With friction.
-    General(SparseLu),
+    General(Box<SparseLu>),
 }
 
 impl StiffnessFactors {
@@ -209,7 +209,8 @@ impl StiffnessFactors {
     ) -> Result<Self, LinalgError> {
         let analysis = cache.get_or_init(|| LuAnalysis::new(tangent.stiffness.pattern()));
         let analysis = analysis.as_ref().map_err(Clone::clone)?;
-        SparseLu::factorize(analysis, tangent.stiffness.evaluate(mu)).map(Self::General)
+        let factors = SparseLu::factorize(analysis, tangent.stiffness.evaluate(mu))?;
+        Ok(Self::General(Box::new(factors)))
     }
 
     /// `K^-1 x` or `K^-T x` for each column, in place.
