@@ -4,6 +4,7 @@ pub mod cea;
 mod check;
 mod collect;
 mod completions;
+pub mod cycle;
 mod failure;
 mod init;
 mod man;
@@ -41,6 +42,7 @@ pub struct CommandLine {
 enum Command {
     Cea(cea::Arguments),
     Collect(collect::Arguments),
+    Cycle(cycle::Arguments),
     Mesh(mesh::Arguments),
     Check(check::Arguments),
     Init(init::Arguments),
@@ -54,6 +56,7 @@ pub fn main() -> ExitCode {
     let outcome = match CommandLine::parse().command {
         Command::Cea(arguments) => cea::run(&arguments),
         Command::Collect(arguments) => collect::run(&arguments),
+        Command::Cycle(arguments) => cycle::run(&arguments),
         Command::Mesh(arguments) => mesh::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Init(arguments) => init::run(&arguments),

@@ -93,6 +93,8 @@ pub const KEYS: &[CaseKey] = &[
     key("cycle.continuation.key", "\"contact.rotation_speed_rpm\"", "the parameter along which a cycle is followed"),
     key("cycle.continuation.from", "10", "its first value"),
     key("cycle.continuation.to", "6000", "its last value"),
+    key("cycle.continuation.count", "61", "how many values from first to last are reported"),
+    key("cycle.continuation.spacing", "\"log\"", "how they are spaced"),
 ];
 
 /// The entry of a dotted key.

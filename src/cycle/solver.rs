@@ -9,6 +9,7 @@ use super::wave::Wave;
 use super::{CycleError, Onset, WaveBody};
 use crate::fem::{ElasticMaterial, RayleighDamping};
 use crate::mesh::AnnulusSpecification;
+use faer::c64;
 use std::f64::consts::TAU;
 
 /// Points along the phase of a wave, unless chosen.
@@ -214,17 +215,13 @@ impl CycleSolver {
         let (first, last) = (samples[0], samples[samples.len() - 1]);
         let start = branch.value();
         let mut direction = direction.signum();
-        let mut is_inside = false;
-        // A start outside the range has nothing to find in the other direction.
+        // A start outside the range has nothing to find on the way out.
         if (start <= first && direction < 0.0) || (start >= last && direction > 0.0) {
-            is_inside = start == first || start == last;
-            let end = BranchEnd::Range;
-            let _ = is_inside;
             return CycleBranch {
                 parameter,
                 cycles,
                 folds,
-                ends: [end; 2],
+                ends: [BranchEnd::Range; 2],
                 factorizations: 0,
             };
         }
@@ -236,10 +233,8 @@ impl CycleSolver {
             let Step::At(value) = step else { return None };
             cycles.push(LimitCycle::new(&wave, branch.state.clone()));
             let leaves = (value == first && direction < 0.0) || (value == last && direction > 0.0);
-            is_inside |= first < value && value < last;
             leaves.then_some(value)
         });
-        let _ = is_inside;
         CycleBranch {
             parameter,
             cycles,
@@ -247,6 +242,33 @@ impl CycleSolver {
             ends: [BranchEnd::Range, end.err().unwrap_or(BranchEnd::Range)],
             factorizations: branch.factorizations,
         }
+    }
+
+    /// Displacement (m) and velocity (m/s) over all dofs of the mesh, in nodal frames, at time zero of the cycle.
+    ///
+    /// The state of a contact node at angle `theta` is that of phase `n theta`.
+    pub fn field(&self, cycle: &LimitCycle) -> [Vec<f64>; 2] {
+        let wave = Wave::new(&self.body);
+        let profiles = cycle.profiles(&wave);
+        let rays = profiles[0].1.len() + 1;
+        let (sectors, harmonic) = (self.body.sector_count, self.body.harmonic());
+        let mut fields = [0, 1].map(|_| vec![0.0; 2 * rays * sectors]);
+        for sector in 0..sectors {
+            for (k, (rate, profile)) in profiles.iter().enumerate() {
+                // Whole turns taken out first, so that high harmonics lose no digits.
+                let turns = (k * harmonic * sector) % sectors;
+                let turn = c64::from_polar(1.0, TAU * turns as f64 / sectors as f64);
+                for (i, value) in profile.iter().enumerate() {
+                    for component in 0..2 {
+                        let dof = 2 * (sector * rays + i) + component;
+                        let amplitude = value[component] * turn;
+                        fields[0][dof] += amplitude.re;
+                        fields[1][dof] += (amplitude * rate).re;
+                    }
+                }
+            }
+        }
+        fields
     }
 
     /// Steps until `done` says so.
