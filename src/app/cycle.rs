@@ -104,7 +104,10 @@ fn solvers(
         let solver = new(harmonic)?;
         let onsets = solver.onsets(&point.damping);
         let friction = point.contact.friction_coefficient;
-        if onsets.iter().any(|onset| onset.friction_coefficient < friction) {
+        if onsets
+            .iter()
+            .any(|onset| onset.friction_coefficient < friction)
+        {
             solvers.push(solver);
         }
     }
@@ -148,5 +151,8 @@ fn refuse_nothing(results: &[CycleResult]) -> Result<(), Failure> {
         .iter()
         .filter_map(|result| result.cycle.as_ref().err().cloned())
         .collect();
-    Err(Failure::run(format!("no limit cycle found: {}", errors.join("; "))))
+    Err(Failure::run(format!(
+        "no limit cycle found: {}",
+        errors.join("; ")
+    )))
 }

@@ -47,19 +47,20 @@ pub(super) fn cycle(root: &Section<'_>, annulus: &AnnulusSpecification) -> Optio
         count: inner.optional_count("count", 2).unwrap_or(61),
         spacing: inner.choice(
             "spacing",
-            &[
-                ("linear", Spacing::Linear),
-                ("log", Spacing::Logarithmic),
-            ],
+            &[("linear", Spacing::Linear), ("log", Spacing::Logarithmic)],
         ),
     });
     if let Some(Continuation { from, to, .. }) = &continuation
-        && continuation.as_ref().is_some_and(|c| c.spacing == Spacing::Logarithmic)
+        && continuation
+            .as_ref()
+            .is_some_and(|c| c.spacing == Spacing::Logarithmic)
         && (*from <= 0.0 || *to <= 0.0)
     {
         inner.reject(
             "spacing",
-            format!("cycle.continuation.spacing = \"log\" needs two positive ends, not {from} and {to}"),
+            format!(
+                "cycle.continuation.spacing = \"log\" needs two positive ends, not {from} and {to}"
+            ),
             "logarithms of positive numbers only".to_owned(),
             Some("use \"linear\"".to_owned()),
         );

@@ -131,7 +131,9 @@ impl<'a> Branch<'a> {
         };
         if sense < 0.0 {
             heading.reverse();
-            inequalities.iter_mut().for_each(|inequality| inequality.2 *= -1.0);
+            inequalities
+                .iter_mut()
+                .for_each(|inequality| inequality.2 *= -1.0);
         }
         self.direction = heading.parameter.signum();
         let (mut length, mut goal) = self.nearest(&inequalities, flipped, &heading, samples);
@@ -223,9 +225,7 @@ impl<'a> Branch<'a> {
                 let friction = self.state.point.contact.friction_coefficient;
                 let cone = friction * heading.normal[i]
                     + match self.parameter {
-                        Parameter::FrictionCoefficient => {
-                            self.state.normal[i] * heading.parameter
-                        }
+                        Parameter::FrictionCoefficient => self.state.normal[i] * heading.parameter,
                         _ => 0.0,
                     };
                 let rate = match event {
@@ -262,7 +262,8 @@ impl<'a> Branch<'a> {
                         .map(|k| columns[0][k] * forces[0][k] + columns[1][k] * forces[1][k]),
                 );
                 for (i, value) in rate.iter_mut().enumerate() {
-                    *value += by_frequency[i] * heading.frequency + by_parameter[i] * along_parameter;
+                    *value +=
+                        by_frequency[i] * heading.frequency + by_parameter[i] * along_parameter;
                 }
                 rate
             })
@@ -293,7 +294,10 @@ impl<'a> Branch<'a> {
         let ahead = if heading.parameter > 0.0 {
             samples.iter().find(|&&sample| sample > value + slightly)
         } else {
-            samples.iter().rev().find(|&&sample| sample < value - slightly)
+            samples
+                .iter()
+                .rev()
+                .find(|&&sample| sample < value - slightly)
         };
         if let Some(&sample) = ahead {
             let length = (sample - value) / heading.parameter;
@@ -346,7 +350,11 @@ impl<'a> Branch<'a> {
         slacks(state, linear)
             .filter(|&(event, slack)| {
                 // The inequality just entered starts at zero and may lag within the corrector's accuracy.
-                let tolerance = if Some(event) == flipped { 1e-6 } else { TOLERANCE };
+                let tolerance = if Some(event) == flipped {
+                    1e-6
+                } else {
+                    TOLERANCE
+                };
                 slack < -tolerance * self.force_scale
             })
             .min_by(|a, b| a.1.total_cmp(&b.1))

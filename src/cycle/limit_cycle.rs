@@ -127,9 +127,17 @@ impl LimitCycle {
     /// Speed of the cylinder above which a cycle without stick no longer depends on it, `max v_theta / a`, rad/s: friction
     /// then knows only the sense of sliding. `None` for a cycle with sticking points.
     pub fn saturation_speed(&self, inner_radius: f64) -> Option<f64> {
-        let sticks = self.points.iter().any(|point| point.status == ContactStatus::Stick);
-        let fastest = self.points.iter().filter(|point| point.status == ContactStatus::Slip);
-        let fastest = fastest.map(|point| point.velocity[1]).fold(f64::NEG_INFINITY, f64::max);
+        let sticks = self
+            .points
+            .iter()
+            .any(|point| point.status == ContactStatus::Stick);
+        let fastest = self
+            .points
+            .iter()
+            .filter(|point| point.status == ContactStatus::Slip);
+        let fastest = fastest
+            .map(|point| point.velocity[1])
+            .fold(f64::NEG_INFINITY, f64::max);
         (!sticks).then_some(fastest / inner_radius)
     }
 
@@ -166,7 +174,9 @@ impl EdgeMotion {
     fn points(&self, wave: &Wave<'_>, state: &WaveState) -> Vec<PhasePoint> {
         let values = |component: usize, by_time: bool| {
             let pairs = self.displacement.iter().zip(&self.rates);
-            wave.values(pairs.map(|(u, rate)| u[component] * if by_time { *rate } else { 1.0.into() }))
+            wave.values(
+                pairs.map(|(u, rate)| u[component] * if by_time { *rate } else { 1.0.into() }),
+            )
         };
         let displacement = [values(0, false), values(1, false)];
         let velocity = [values(0, true), values(1, true)];
@@ -218,7 +228,9 @@ fn material_damping(wave: &Wave<'_>, state: &WaveState, edge: &EdgeMotion) -> f6
         .skip(1)
         .map(|(k, (&u, &rate))| {
             let profile = wave.profile(k, rate, &state.point.damping, u);
-            2.0 / (count * count) * wave.body.damping_form(k, &state.point.damping, &profile) * rate.norm_sqr()
+            2.0 / (count * count)
+                * wave.body.damping_form(k, &state.point.damping, &profile)
+                * rate.norm_sqr()
         })
         .sum()
 }

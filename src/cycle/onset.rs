@@ -33,12 +33,16 @@ pub struct Onset {
 pub fn onsets(wave: &Wave<'_>, damping: &RayleighDamping) -> Vec<Onset> {
     let friction = |frequency: f64| {
         let rate = c64::new(0.0, frequency * wave.order(1));
-        let (r, []) = wave.body.receptance(1, DynamicCoefficients::new(rate, damping), []);
+        let (r, []) = wave
+            .body
+            .receptance(1, DynamicCoefficients::new(rate, damping), []);
         -r[(0, 0)] / r[(0, 1)]
     };
     let highest = TAU * HIGHEST_FREQUENCY_HZ;
     let frequencies = (1..=SCAN_POINTS).map(|i| highest * i as f64 / SCAN_POINTS as f64);
-    let scan: Vec<(f64, f64)> = frequencies.map(|omega| (omega, friction(omega).im)).collect();
+    let scan: Vec<(f64, f64)> = frequencies
+        .map(|omega| (omega, friction(omega).im))
+        .collect();
     let mut found: Vec<Onset> = scan
         .windows(2)
         .filter(|pair| pair[0].1 * pair[1].1 < 0.0)
@@ -71,11 +75,12 @@ fn bisect(mut low: f64, mut high: f64, function: impl Fn(f64) -> f64) -> f64 {
 
 /// The largest wave of full slip at an onset, and the inequality that ends it.
 ///
-/// At the critical friction a wave of any amplitude lives on, up to the one at which the first point opens or sticks.
+/// `origin` is the phase of the wave's tangential displacement. At the critical friction a wave of any amplitude lives on, up to the one at which the first point opens or sticks.
 pub fn largest_linear_wave(
     wave: &Wave<'_>,
     point: &OperatingPoint,
     onset: &Onset,
+    origin: f64,
 ) -> (WaveState, Event) {
     let points = wave.points();
     let mut point = *point;
@@ -91,7 +96,7 @@ pub fn largest_linear_wave(
     let response = edge[(1, 0)] + onset.friction_coefficient * edge[(1, 1)];
     let force = 1.0 / response;
     let velocity = c64::new(0.0, onset.frequency * wave.order(1));
-    let turn = |i: usize| c64::from_polar(1.0, TAU * i as f64 / points as f64);
+    let turn = |i: usize| c64::from_polar(1.0, TAU * i as f64 / points as f64 + origin);
     let surface_speed = point.contact.rotation_speed * wave.body.radius;
     let mut limit = (f64::INFINITY, Event::Lift(0));
     for i in 0..points {
@@ -113,6 +118,7 @@ pub fn largest_linear_wave(
         normal,
         frequency: onset.frequency,
         contact: vec![PointState::SlipForward; points],
+        origin,
         point,
     };
     state.impose_law();

@@ -51,7 +51,9 @@ impl Parameter {
 
     /// The parameter of a case key.
     pub fn from_key(key: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|parameter| parameter.key() == key)
+        Self::ALL
+            .into_iter()
+            .find(|parameter| parameter.key() == key)
     }
 
     /// SI value of one unit of the case key.

@@ -18,6 +18,10 @@ pub const DEFAULT_POINTS: usize = 135;
 /// Most changes of contact state along one branch.
 const MOST_STEPS: usize = 20_000;
 
+/// Where the wave lies on the grid of phases, in steps: where one curve closes on itself near its birth, because the
+/// grid pins the wave, another leads away.
+const ORIGINS: [f64; 4] = [0.0, 0.5, 0.25, 0.75];
+
 /// Limit cycles of the waves of one circumferential harmonic.
 #[derive(Clone, Debug)]
 pub struct CycleSolver {
@@ -126,23 +130,29 @@ impl CycleSolver {
             limit: LARGEST_FRICTION,
             frequency_hz: HIGHEST_FREQUENCY_HZ,
         })?;
-        let (state, event) = largest_linear_wave(&wave, point, &onset);
         let target = point.contact.friction_coefficient;
         let parameter = Parameter::FrictionCoefficient;
-        let mut branch = Branch::new(&wave, parameter, state, 1.0, Some(event));
-        let end = self.run(&mut branch, &[target], |branch, step| {
-            matches!(step, Step::At(_)).then_some(branch.value())
-        });
-        match end {
-            Ok(_) => Ok(LimitCycle::new(&wave, branch.state)),
-            Err(reason) => Err(CycleError::NotReached {
-                harmonic: self.body.harmonic(),
-                key: parameter.key(),
-                value: target,
-                reached: branch.value(),
-                reason: reason.describe().to_owned(),
-            }),
+        let mut failure = (f64::NEG_INFINITY, BranchEnd::Lost);
+        for shift in ORIGINS {
+            let origin = TAU * shift / wave.points() as f64;
+            let (state, event) = largest_linear_wave(&wave, point, &onset, origin);
+            let mut branch = Branch::new(&wave, parameter, state, 1.0, Some(event));
+            let end = self.run(&mut branch, &[target], |branch, step| {
+                matches!(step, Step::At(_)).then_some(branch.value())
+            });
+            match end {
+                Ok(_) => return Ok(LimitCycle::new(&wave, branch.state)),
+                Err(reason) if branch.value() > failure.0 => failure = (branch.value(), reason),
+                Err(_) => {}
+            }
         }
+        Err(CycleError::NotReached {
+            harmonic: self.body.harmonic(),
+            key: parameter.key(),
+            value: target,
+            reached: failure.0,
+            reason: failure.1.describe().to_owned(),
+        })
     }
 
     /// The limit cycle at `point` from the one of a neighbouring point that differs in `parameter`.

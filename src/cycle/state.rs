@@ -47,6 +47,8 @@ pub struct WaveState {
     pub frequency: f64,
     /// Contact state at each phase.
     pub contact: Vec<PointState>,
+    /// Phase of the first harmonic of the edge's tangential displacement, rad: which point of the wave is called zero.
+    pub origin: f64,
     /// Contact and damping.
     pub point: OperatingPoint,
 }
@@ -56,7 +58,9 @@ impl WaveState {
     pub fn active(&self) -> (Vec<usize>, Vec<usize>) {
         let those = |wanted: fn(PointState) -> bool| {
             let points = self.contact.iter().enumerate();
-            points.filter_map(|(i, &state)| wanted(state).then_some(i)).collect()
+            points
+                .filter_map(|(i, &state)| wanted(state).then_some(i))
+                .collect()
         };
         (
             those(|state| state != PointState::Open),
@@ -88,6 +92,11 @@ impl WaveState {
             let count = self.contact.iter().filter(|state| state.status() == status);
             count.count() as f64 / self.contact.len() as f64
         };
-        [ContactStatus::Stick, ContactStatus::Slip, ContactStatus::Open].map(share)
+        [
+            ContactStatus::Stick,
+            ContactStatus::Slip,
+            ContactStatus::Open,
+        ]
+        .map(share)
     }
 }

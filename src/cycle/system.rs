@@ -35,7 +35,9 @@ impl Heading {
     /// Turns it round.
     pub fn reverse(&mut self) {
         self.normal.iter_mut().for_each(|value| *value = -*value);
-        self.tangential.iter_mut().for_each(|value| *value = -*value);
+        self.tangential
+            .iter_mut()
+            .for_each(|value| *value = -*value);
         self.frequency = -self.frequency;
         self.parameter = -self.parameter;
     }
@@ -143,7 +145,14 @@ impl<'a> System<'a> {
         }
         for (j, &i) in self.stick.iter().enumerate() {
             let at = self.contact.len() + j;
-            self.response_row(&mut matrix, at, i, &linear.slip_columns, slip_by, tangential);
+            self.response_row(
+                &mut matrix,
+                at,
+                i,
+                &linear.slip_columns,
+                slip_by,
+                tangential,
+            );
             residual[at] = tangential * linear.slip[i];
         }
         self.phase_row(&mut matrix, &mut residual, linear, normal);
@@ -162,9 +171,8 @@ impl<'a> System<'a> {
         let at = self.size() - 2;
         let points = self.state.contact.len() as f64;
         let friction = self.state.point.contact.friction_coefficient;
-        let turn = |i: usize| {
-            faer::c64::from_polar(1.0, -std::f64::consts::TAU * i as f64 / points)
-        };
+        let turn =
+            |i: usize| faer::c64::from_polar(1.0, -std::f64::consts::TAU * i as f64 / points);
         let force = scale * self.force_scale;
         for (j, &i) in self.contact.iter().enumerate() {
             let drag = friction * self.state.contact[i].drag();
@@ -192,7 +200,8 @@ impl<'a> System<'a> {
             Closure::Event(event) => self.event_row(matrix, residual, linear, event),
             Closure::Value(value) => {
                 matrix[(at, at)] = 1.0;
-                residual[at] = (self.parameter.of(&self.state.point) - value) / self.parameter_scale;
+                residual[at] =
+                    (self.parameter.of(&self.state.point) - value) / self.parameter_scale;
             }
             Closure::AlongParameter => matrix[(at, at)] = 1.0,
             Closure::Along(heading) => {
@@ -257,8 +266,16 @@ impl<'a> System<'a> {
     /// Scaled components of a heading along the unknowns.
     fn scaled(&self, heading: &Heading) -> Vec<f64> {
         let mut values: Vec<f64> = Vec::with_capacity(self.size());
-        values.extend(self.contact.iter().map(|&i| heading.normal[i] / self.force_scale));
-        values.extend(self.stick.iter().map(|&i| heading.tangential[i] / self.force_scale));
+        values.extend(
+            self.contact
+                .iter()
+                .map(|&i| heading.normal[i] / self.force_scale),
+        );
+        values.extend(
+            self.stick
+                .iter()
+                .map(|&i| heading.tangential[i] / self.force_scale),
+        );
         values.push(heading.frequency / self.frequency_scale);
         values.push(heading.parameter / self.parameter_scale);
         values

@@ -140,7 +140,9 @@ pub fn write_branch(
         let powers = cycle.powers.scaled(report.thickness);
         let [stick, slip, open] = cycle.fractions;
         table.numbers(&[
-            branch.parameter.in_key_units(branch.parameter.of(&cycle.state.point)),
+            branch
+                .parameter
+                .in_key_units(branch.parameter.of(&cycle.state.point)),
             cycle.harmonic as f64,
             cycle.frequency_hz(),
             stick,
@@ -268,7 +270,9 @@ fn cycle_object(report: &CycleReport<'_>, cycle: &LimitCycle) -> Value {
 
 fn branch_object(report: &CycleReport<'_>, branch: &CycleBranch) -> Value {
     let folds = branch.folds.iter();
-    let folds: Vec<f64> = folds.map(|&fold| branch.parameter.in_key_units(fold)).collect();
+    let folds: Vec<f64> = folds
+        .map(|&fold| branch.parameter.in_key_units(fold))
+        .collect();
     let saturation = branch
         .cycles
         .iter()
@@ -298,7 +302,16 @@ pub fn print(report: &CycleReport<'_>) -> String {
     let _ = writeln!(
         out,
         "{:>3} {:>10} {:>12} {:>7} {:>7} {:>7} {:>12} {:>7} {:>7} {:>9}",
-        "n", "friction >", "frequency", "stick", "slip", "open", "external", "stick", "slide", "dissipated"
+        "n",
+        "friction >",
+        "frequency",
+        "stick",
+        "slip",
+        "open",
+        "external",
+        "stick",
+        "slide",
+        "dissipated"
     );
     for result in &report.results {
         result_line(&mut out, report, result);
