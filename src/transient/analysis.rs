@@ -150,7 +150,11 @@ fn growth(rows: &[SampleRow], harmonic: usize, rotation_direction: f64) -> Optio
         rate: fit.re,
         frequency_hz: fit.im.abs() / TAU,
         // exp(i (n theta + omega t)) travels towards negative angles.
-        direction: if fit.im * rotation_direction > 0.0 { -1 } else { 1 },
+        direction: if fit.im * rotation_direction > 0.0 {
+            -1
+        } else {
+            1
+        },
     })
 }
 

@@ -110,17 +110,23 @@ fn bar_rebounds_from_a_rigid_wall_as_one_dimensional_theory_says() {
     settings.time_step = TimeStep::Auto;
 
     // Every node but the clamped ones moves inwards.
-    let mut state = CentralDifference::start(model, operator.as_ref(), &settings).unwrap().state();
+    let mut state = CentralDifference::start(model, operator.as_ref(), &settings)
+        .unwrap()
+        .state();
     let masses = lumped_masses(&annulus.mesh, &model.material);
     let mut is_free = vec![true; masses.len()];
-    annulus.mesh.outer_edge.nodes.iter().for_each(|&node| is_free[node as usize] = false);
+    annulus
+        .mesh
+        .outer_edge
+        .nodes
+        .iter()
+        .for_each(|&node| is_free[node as usize] = false);
     for node in (0..masses.len()).filter(|&node| is_free[node]) {
         state.velocity[2 * node] = -speed;
         state.initial_energy += 0.5 * masses[node] * speed * speed;
     }
     state.largest_energy = state.initial_energy;
-    let mut run =
-        CentralDifference::resume(model, operator.as_ref(), &settings, &state).unwrap();
+    let mut run = CentralDifference::resume(model, operator.as_ref(), &settings, &state).unwrap();
     let edge: f64 = annulus.mesh.inner_edge.tributary_lengths.iter().sum();
     let (mut last_contact, mut impulse, mut plateau) = (0.0, 0.0, Vec::new());
     let dt = run.plan().time_step;

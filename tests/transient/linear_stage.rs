@@ -34,7 +34,9 @@ fn harmonic(
         .collect();
     let place = |dof: usize| {
         let sector = dof / 2 / per_sector;
-        let within = local.binary_search(&(dof - 2 * per_sector * sector)).unwrap();
+        let within = local
+            .binary_search(&(dof - 2 * per_sector * sector))
+            .unwrap();
         (sector, within)
     };
     let values = polynomial.evaluate(0.3);
@@ -74,12 +76,16 @@ fn least_stable(model: &TransientModel<'_>, n: usize) -> c64 {
         model.damping.mass_coefficient,
         model.damping.stiffness_coefficient,
     );
-    let roots = reduced.eigenvalues().unwrap().into_iter().flat_map(|kappa| {
-        // lambda^2 + (alpha + beta kappa) lambda + kappa = 0
-        let half = (kappa * beta + alpha) * 0.5;
-        let root = (half * half - kappa).sqrt();
-        [root - half, -root - half]
-    });
+    let roots = reduced
+        .eigenvalues()
+        .unwrap()
+        .into_iter()
+        .flat_map(|kappa| {
+            // lambda^2 + (alpha + beta kappa) lambda + kappa = 0
+            let half = (kappa * beta + alpha) * 0.5;
+            let root = (half * half - kappa).sqrt();
+            [root - half, -root - half]
+        });
     roots.max_by(|a, b| a.re.total_cmp(&b.re)).unwrap()
 }
 

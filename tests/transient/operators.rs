@@ -34,7 +34,9 @@ fn both_operators_equal_the_assembled_matrix_on_any_mesh() {
         let force = stiffness.multiply(total, &x);
         let masses = lumped_masses(&annulus.mesh, &material);
         let mut expected = vec![0.0; total];
-        free.dofs.iter().for_each(|&dof| expected[dof] = force[dof] / masses[dof / 2]);
+        free.dofs
+            .iter()
+            .for_each(|&dof| expected[dof] = force[dof] / masses[dof / 2]);
         for level in LEVELS.into_iter().filter(|level| level.available().is_ok()) {
             let operators: [Box<dyn StiffnessOperator>; 2] = [
                 Box::new(CyclicStencil::assemble(&annulus, &material, level).unwrap()),
@@ -47,7 +49,11 @@ fn both_operators_equal_the_assembled_matrix_on_any_mesh() {
                 let found = gather(operator.as_ref(), &product);
                 // A dozen terms of the size of the largest.
                 let error = largest_difference(&found, &expected) / largest(&expected);
-                assert!(error < 1e-14, "{} {level} {around} x {across}: {error:e}", operator.name());
+                assert!(
+                    error < 1e-14,
+                    "{} {level} {around} x {across}: {error:e}",
+                    operator.name()
+                );
             }
         }
     }
@@ -98,10 +104,14 @@ fn avx2_and_avx512_give_the_same_bits_and_scalar_the_same_motion() {
                 continue;
             }
             let (state, _) = end_state(choice, level);
-            let error =
-                largest_difference(&state.displacement, &scalar.displacement) / largest(&scalar.displacement);
+            let error = largest_difference(&state.displacement, &scalar.displacement)
+                / largest(&scalar.displacement);
             assert!(error < 1e-10, "{choice:?} {level}: {error:e}");
-            assert_eq!(*fused.get_or_insert_with(|| state.clone()), state, "{choice:?}");
+            assert_eq!(
+                *fused.get_or_insert_with(|| state.clone()),
+                state,
+                "{choice:?}"
+            );
         }
     }
 }

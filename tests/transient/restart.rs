@@ -68,7 +68,10 @@ fn restarted_run_equals_uninterrupted_run_bitwise() {
 fn runs_are_bitwise_equal_inside_thread_pools_of_any_size() {
     let annulus = disc(30, 6);
     let end = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
         pool.install(|| {
             let model = model(&annulus, 610.0);
             let operator =
@@ -97,5 +100,11 @@ fn a_state_of_another_mesh_is_refused() {
     let error = CentralDifference::resume(model, operator.as_ref(), &settings(1e-3, &[1]), &saved)
         .err()
         .unwrap();
-    assert_eq!(error, TransientError::ForeignState { found: 96, expected: 120 });
+    assert_eq!(
+        error,
+        TransientError::ForeignState {
+            found: 96,
+            expected: 120
+        }
+    );
 }

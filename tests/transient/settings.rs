@@ -20,7 +20,10 @@ fn failure(change: impl FnOnce(&mut TransientSettings)) -> String {
 #[test]
 fn a_setting_that_does_not_fit_is_named_with_its_bound() {
     let message = failure(|s| s.time_step = TimeStep::Seconds(5e-6));
-    assert!(message.contains("transient.time_step = 5e-6 s is above"), "{message}");
+    assert!(
+        message.contains("transient.time_step = 5e-6 s is above"),
+        "{message}"
+    );
     assert!(message.contains("limit of"), "{message}");
     let message = failure(|s| s.duration = 0.0);
     assert!(message.contains("transient.duration = 0 s"), "{message}");
@@ -28,11 +31,17 @@ fn a_setting_that_does_not_fit_is_named_with_its_bound() {
         s.time_step = TimeStep::Seconds(1e-6);
         s.sample_interval = 1e-9;
     });
-    assert!(message.contains("output.sample_interval = 1e-9 s is below"), "{message}");
+    assert!(
+        message.contains("output.sample_interval = 1e-9 s is below"),
+        "{message}"
+    );
     let message = failure(|s| s.perturbation.harmonics = vec![13]);
     assert!(message.contains("holds 13, above 12"), "{message}");
     let message = failure(|s| s.expansion_time = -1.0);
-    assert!(message.contains("transient.expansion_time = -1"), "{message}");
+    assert!(
+        message.contains("transient.expansion_time = -1"),
+        "{message}"
+    );
 }
 
 #[test]
@@ -82,8 +91,16 @@ fn a_run_that_leaves_the_numbers_says_when_where_and_why() {
     let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
     let error = run.run(&mut Watch(|_: &Sample<'_>| {})).unwrap_err();
     let message = error.to_string();
-    assert!(matches!(error, TransientError::Unstable { .. }), "{message}");
-    for part in ["at t = ", "node is ", "degrees", "contact.rotation_speed_rpm"] {
+    assert!(
+        matches!(error, TransientError::Unstable { .. }),
+        "{message}"
+    );
+    for part in [
+        "at t = ",
+        "node is ",
+        "degrees",
+        "contact.rotation_speed_rpm",
+    ] {
         assert!(message.contains(part), "{message}");
     }
 }

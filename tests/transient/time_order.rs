@@ -3,9 +3,7 @@
 use crate::model::{Watch, disc, largest_difference, model, settings};
 use frictionsim::fem::RayleighDamping;
 use frictionsim::fem::operator::SimdLevel;
-use frictionsim::transient::{
-    CentralDifference, OperatorChoice, Sample, TimeStep, build_operator,
-};
+use frictionsim::transient::{CentralDifference, OperatorChoice, Sample, TimeStep, build_operator};
 
 /// Displacement and velocity of free undamped vibration after 0.2 ms with this many steps.
 fn end(steps: u32) -> (Vec<f64>, Vec<f64>) {
