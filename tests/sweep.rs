@@ -71,6 +71,7 @@ fn write_table(case: &Case, folder: &SweepFolder) {
     let records = finished_points(folder, plan.count()).unwrap();
     let report = SweepReport {
         title: &case.title,
+        friction_coefficient: case.contact.sliding.friction_coefficient,
         keys: &plan.keys(),
         analyses: &plan.analysis_names(),
         count: plan.count(),
@@ -78,7 +79,7 @@ fn write_table(case: &Case, folder: &SweepFolder) {
         ran: None,
         wall_s: 0.0,
     };
-    gather(folder, &report, &manifest(case)).unwrap();
+    gather(folder, &report, &manifest(case), false).unwrap();
 }
 
 fn table(folder: &Path) -> String {

@@ -2,6 +2,7 @@
 
 use crate::case::CaseErrors;
 use crate::cea::cyclic::CyclicError;
+use crate::cea::sparse::CeaError;
 use crate::prestress::PrestressError;
 use crate::results::{DrawingError, FolderError};
 use std::io;
@@ -103,6 +104,17 @@ impl From<CyclicError> for Failure {
             | CyclicError::Limit { .. }
             | CyclicError::TooManyModes { .. }
             | CyclicError::Mesh(_) => Self::Usage(error.into()),
+            _ => Self::Run(error.into()),
+        }
+    }
+}
+
+impl From<CeaError> for Failure {
+    fn from(error: CeaError) -> Self {
+        match error {
+            CeaError::FrictionCoefficients { .. }
+            | CeaError::NoModes { .. }
+            | CeaError::TooManyModes { .. } => Self::Usage(error.into()),
             _ => Self::Run(error.into()),
         }
     }

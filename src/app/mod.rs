@@ -46,6 +46,7 @@ pub struct CommandLine {
 enum Command {
     Cea(cea::Arguments),
     Transient(transient::Arguments),
+    Sweep(sweep::Arguments),
     Collect(collect::Arguments),
     Mesh(mesh::Arguments),
     Check(check::Arguments),
@@ -63,6 +64,7 @@ pub fn main() -> ExitCode {
     let outcome = match CommandLine::parse().command {
         Command::Cea(arguments) => cea::run(&arguments),
         Command::Transient(arguments) => transient::run(&arguments),
+        Command::Sweep(arguments) => sweep::run(&arguments),
         Command::Collect(arguments) => collect::run(&arguments),
         Command::Mesh(arguments) => mesh::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),

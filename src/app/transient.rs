@@ -7,11 +7,11 @@ use super::{Failure, RunOptions, Session};
 use crate::case::{Case, Transient};
 use crate::fem::operator::{SimdLevel, StiffnessOperator};
 use crate::mesh::AnnulusMesh;
-use crate::results::OutputFolder;
 use crate::results::transient::{
-    CHECKPOINT, Checkpoint, CheckpointError, TransientReport, print, read_checkpoint,
-    summary_without_manifest, write, write_checkpoint,
+    CHECKPOINT, Checkpoint, CheckpointError, TransientReport, print, read_checkpoint, summary,
+    write, write_checkpoint,
 };
+use crate::results::{Manifest, OutputFolder};
 use crate::transient::{
     CentralDifference, Recorder, RunEnd, TransientAnalysis, TransientModel, TransientSettings,
     build_operator,
@@ -64,6 +64,15 @@ impl<'a> Prepared<'a> {
         build_operator(&self.model(), choice, self.simd).map_err(|error| self.failure(&error))
     }
 
+    fn resume<'b>(
+        &'b self,
+        operator: &'b dyn StiffnessOperator,
+        saved: &Checkpoint,
+    ) -> Result<CentralDifference<'b>, Failure> {
+        CentralDifference::resume(self.model(), operator, &self.settings, &saved.state)
+            .map_err(|error| self.failure(&error))
+    }
+
     fn failure(&self, error: &crate::transient::TransientError) -> Failure {
         conversion::failure(self.case, error)
     }
@@ -112,19 +121,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let recorder = Recorder::new(&fresh, &conversion::recorder_settings(&session.case))
         .map_err(|error| prepared.failure(&error))?;
     let folder = open(&session, arguments.resume)?;
-    let checkpoint = find_checkpoint(&session, arguments.resume)?;
-    let (mut loop_, record) = match checkpoint {
+    let (mut loop_, record) = match find_checkpoint(&session, arguments.resume)? {
         None => (fresh, recorder),
-        Some(saved) => {
-            let settings = &prepared.settings;
-            let resumed = CentralDifference::resume(
-                prepared.model(),
-                operator.as_ref(),
-                settings,
-                &saved.state,
-            );
-            (resumed.map_err(|error| prepared.failure(&error))?, saved.record)
-        }
+        Some(saved) => (prepared.resume(operator.as_ref(), &saved)?, saved.record),
     };
 
     let first_step = loop_.steps_done();
@@ -132,7 +131,12 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         folder: &folder,
         interval_s: session.case.output.checkpoint_interval,
     };
-    let mut watch = Watch::new(record, loop_.plan(), arguments.options.quiet, Some(checkpoints));
+    let mut watch = Watch::new(
+        record,
+        loop_.plan(),
+        arguments.options.quiet,
+        Some(checkpoints),
+    );
     watch::catch_signals();
     let clock = Instant::now();
     let end = loop_.run(&mut watch);
@@ -151,7 +155,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let summary = write(&folder, &report)?;
     if end == RunEnd::Stopped {
         write_checkpoint(&folder, &loop_.state(), &record)?;
-        return Err(stopped(&session, folder, &loop_));
+        return Err(stopped(folder, &loop_));
     }
     folder.discard(CHECKPOINT);
     let path = folder.path().to_owned();
@@ -159,16 +163,15 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     session.print(&print(&report), &summary, &path)
 }
 
-/// The summary of one point of a parameter study, which has no folder of its own; `simd` is the study's level.
+/// Runs a case without writing a file, and gives its summary.
 ///
 /// # Errors
 /// A bad case; a run that becomes unstable.
-pub fn run_point(case: &Case, simd: &str) -> Result<Value, Failure> {
+pub fn summarize(case: &Case, manifest: &Manifest) -> Result<Value, Failure> {
     let start = Instant::now();
-    let prepared = Prepared::new(case, simd)?;
+    let prepared = Prepared::new(case, &manifest.simd)?;
     let operator = prepared.operator()?;
-    let started =
-        CentralDifference::start(prepared.model(), operator.as_ref(), &prepared.settings);
+    let started = CentralDifference::start(prepared.model(), operator.as_ref(), &prepared.settings);
     let mut loop_ = started.map_err(|error| prepared.failure(&error))?;
     let mut record = Recorder::new(&loop_, &crate::transient::RecorderSettings::default())
         .map_err(|error| prepared.failure(&error))?;
@@ -178,11 +181,12 @@ pub fn run_point(case: &Case, simd: &str) -> Result<Value, Failure> {
         .map_err(|error| prepared.failure(&error))?;
     let stepping_s = clock.elapsed().as_secs_f64();
     let analysis = TransientAnalysis::of(&record, &prepared.settings.perturbation.harmonics);
-    Ok(summary_without_manifest(&TransientReport {
+    let report = TransientReport {
         stepping_s,
         wall_s: start.elapsed().as_secs_f64(),
         ..prepared.report(&loop_, &record, &analysis, operator.name())
-    }))
+    };
+    Ok(summary(&report, manifest))
 }
 
 fn open(session: &Session, resume: bool) -> Result<OutputFolder, Failure> {
@@ -202,7 +206,10 @@ fn find_checkpoint(session: &Session, resume: bool) -> Result<Option<Checkpoint>
     match read_checkpoint(&session.folder_path(), &session.manifest) {
         Ok(checkpoint) => Ok(Some(checkpoint)),
         Err(CheckpointError::Missing { path }) => {
-            tracing::warn!("{} does not exist: starting from the beginning", path.display());
+            tracing::warn!(
+                "{} does not exist: starting from the beginning",
+                path.display()
+            );
             Ok(None)
         }
         Err(error) => Err(Failure::usage(error)),
@@ -210,17 +217,18 @@ fn find_checkpoint(session: &Session, resume: bool) -> Result<Option<Checkpoint>
 }
 
 /// Ends a run that a signal stopped: what there is stays, and the message says how to go on.
-fn stopped(session: &Session, folder: OutputFolder, run: &CentralDifference<'_>) -> Failure {
+fn stopped(folder: OutputFolder, run: &CentralDifference<'_>) -> Failure {
     let path = folder.path().to_owned();
     if let Err(error) = folder.finish() {
         return error.into();
     }
-    let time = run.plan().sample_time((run.steps_done() - 1) / run.plan().steps_per_sample);
+    let time = run
+        .plan()
+        .sample_time((run.steps_done() - 1) / run.plan().steps_per_sample);
     Failure::run(format!(
-        "stopped at t = {time:.6} s of {:.6} s; results so far are in {}; go on with the same command and --resume: \
-         frictionsim transient {} --resume",
+        "stopped at t = {time:.6} s of {:.6} s; results so far are in {}; the same command with --resume goes on \
+         from there",
         run.plan().end_time(),
         path.display(),
-        session.options.case.display(),
     ))
 }

@@ -189,6 +189,9 @@ fn extended(
     let n = system.dimension();
     let mut basis = basis;
     for (start, is_transposed) in [(force, false), (response, true)] {
+        // Each chain is orthogonalized in itself alone: with vectors of the other chain mixed in, the
+        // recursion would leave its Krylov space.
+        let mut chain = Mat::<f64>::zeros(n, 0);
         let mut right = vec![0.0; n];
         right[start] = 1.0;
         for _ in 0..MOMENTS {
@@ -198,15 +201,15 @@ fn extended(
             } else {
                 lu.solve_in_place(x.as_mut());
             }
-            let new = orthonormalize(basis.as_ref(), x, DROP).columns;
+            let new = orthonormalize(chain.as_ref(), x, DROP).columns;
             if new.ncols() == 0 {
                 break;
             }
-            // The orthogonalized vector spans the same space together with those before it.
-            let direction: Vec<f64> = (0..n).map(|i| new[(i, 0)]).collect();
-            basis = join_columns(basis.as_ref(), new.as_ref());
-            right = system.multiply(mass, &direction, is_transposed);
+            right = system.multiply(mass, new.col_as_slice(0), is_transposed);
+            chain = join_columns(chain.as_ref(), new.as_ref());
         }
+        let new = orthonormalize(basis.as_ref(), chain, DROP).columns;
+        basis = join_columns(basis.as_ref(), new.as_ref());
     }
     Ok(basis)
 }

@@ -11,6 +11,7 @@ pub mod report;
 pub mod run_figures;
 pub mod signal;
 pub mod sweep;
+pub mod sweep_figures;
 mod table;
 pub mod transient;
 mod vtu;

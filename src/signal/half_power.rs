@@ -69,8 +69,18 @@ pub fn half_power(response: &FrequencyResponse) -> Result<Vec<HalfPowerBand>, Si
     let y = mobility.magnitudes();
     let mut bands: Vec<HalfPowerBand> = tops
         .iter()
-        .map(|&top| {
-            let mut band = measure(f, &y, top);
+        .enumerate()
+        .map(|(k, &top)| {
+            // The band must end before the valley towards the next resonance.
+            let left = if k > 0 {
+                valley(&y, tops[k - 1], top)
+            } else {
+                0
+            };
+            let right = tops
+                .get(k + 1)
+                .map_or(y.len() - 1, |next| valley(&y, top, *next));
+            let mut band = measure(&f[left..=right], &y[left..=right], top - left);
             band.magnitude = response.values()[top + offset].norm();
             band
         })
@@ -95,6 +105,11 @@ fn resonances(mobility: &FrequencyResponse, measured: &[f64], noise: &NoiseModel
             prominence(&y, i) >= threshold
         })
         .collect()
+}
+
+/// Position of the smallest value between two positions.
+fn valley(y: &[f64], first: usize, last: usize) -> usize {
+    (first..=last).fold(first, |lowest, i| if y[i] < y[lowest] { i } else { lowest })
 }
 
 /// Logarithmic height of a maximum above the higher of the two lowest passes to higher ground.

@@ -96,6 +96,7 @@ impl<'a> Follower<'a> {
             theta = next;
             // Each iteration leaves far less than the square of the change it made.
             if change <= 1e-7 * theta.norm() {
+                theta = self.problem.without_round_off(theta);
                 let residual = self.problem.residual(at, theta, &x);
                 if residual > 1e-14 && change > 1e-13 * theta.norm() {
                     continue;

@@ -219,6 +219,16 @@ impl HarmonicProblem {
         I * (theta - half * half).sqrt() - half
     }
 
+    /// An isolated `kappa` of a standing harmonic, whose spectrum is its own conjugate, is real if it is
+    /// real to round-off.
+    pub fn without_round_off(&self, theta: c64) -> c64 {
+        let is_real = theta.im.abs() <= 1e-10 * theta.norm();
+        if self.is_standing && self.is_proportional() && is_real {
+            return c64::new(theta.re, 0.0);
+        }
+        theta
+    }
+
     /// `d lambda / d theta`.
     pub fn eigenvalue_slope(&self, theta: c64) -> c64 {
         if !self.is_proportional() {

@@ -195,8 +195,8 @@ impl StiffnessFactors {
     pub fn frictionless(tangent: &SlidingTangent) -> Result<Self, LinalgError> {
         let analysis = LdlAnalysis::new(tangent.stiffness.pattern())?;
         let values = tangent.stiffness.evaluate(0.0);
-        let ldl = SparseLdl::factorize(&analysis, &values)?;
-        Ok(Self::Symmetric(Box::new(ldl)))
+        let factors = SparseLdl::factorize(&analysis, &values)?;
+        Ok(Self::Symmetric(Box::new(factors)))
     }
 
     /// Factorizes `K(mu)` on an analysis made once and kept in `cache`.
@@ -210,8 +210,8 @@ impl StiffnessFactors {
     ) -> Result<Self, LinalgError> {
         let analysis = cache.get_or_init(|| LuAnalysis::new(tangent.stiffness.pattern()));
         let analysis = analysis.as_ref().map_err(Clone::clone)?;
-        let lu = SparseLu::factorize(analysis, tangent.stiffness.evaluate(mu))?;
-        Ok(Self::General(Box::new(lu)))
+        let factors = SparseLu::factorize(analysis, tangent.stiffness.evaluate(mu))?;
+        Ok(Self::General(Box::new(factors)))
     }
 
     /// `K^-1 x` or `K^-T x` for each column, in place.

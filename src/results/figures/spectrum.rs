@@ -1,6 +1,6 @@
 //! The amplitude spectrum of a signal beside the frequencies of the eigenvalue analysis.
 
-use super::axis::{Axis, extremes, significant};
+use super::axis::{Axis, extremes};
 use super::colour::{EIGENVALUE, SERIES};
 use super::legend::{self, Key};
 use super::panel::Panel;
@@ -51,7 +51,7 @@ pub fn draw_spectrum(data: &SpectrumPlot) -> Result<String, FigureError> {
     let names = data
         .references
         .iter()
-        .map(|reference| text::width(&name_of(reference), NAME_SIZE, false))
+        .map(|reference| text::width(&reference.label, NAME_SIZE, false))
         .fold(0.0, f64::max);
     let top = if names > 0.0 { names + 24.0 } else { 16.0 };
     let (left, height) = (50.0, 150.0);
@@ -83,11 +83,6 @@ pub fn draw_spectrum(data: &SpectrumPlot) -> Result<String, FigureError> {
 /// Size of the names above the panel, points.
 const NAME_SIZE: f64 = 6.0;
 
-fn name_of(reference: &ReferenceFrequency) -> String {
-    let kilohertz = significant(reference.frequency_hz * 1e-3, 4);
-    format!("{kilohertz} kHz, {}", reference.label)
-}
-
 /// Vertical lines with upright names above the panel.
 fn draw_lines(svg: &mut Svg, panel: &Panel, references: &[ReferenceFrequency]) {
     let mut sorted: Vec<&ReferenceFrequency> = references
@@ -113,6 +108,6 @@ fn draw_lines(svg: &mut Svg, panel: &Panel, references: &[ReferenceFrequency]) {
             &Stroke::solid(EIGENVALUE, 0.4),
         );
         let style = TextStyle::new(NAME_SIZE).rotated(-90.0);
-        svg.text(label_x + 2.1, top - 6.5, &name_of(reference), &style);
+        svg.text(label_x + 2.1, top - 6.5, &reference.label, &style);
     }
 }

@@ -11,6 +11,15 @@ use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+/// Files over all points.
+const OVER_ALL: [&str; 6] = [
+    "points.csv",
+    "summary.json",
+    "figures/frequencies.svg",
+    "figures/frequencies.png",
+    "figures/status.svg",
+    "figures/status.png",
+];
 const POINTS: &str = "points";
 const CLAIM: &str = ".claim-";
 const DOOR: &str = ".door";
@@ -31,7 +40,7 @@ pub enum Start {
 /// ```text
 /// manifest.json              case text, overrides, hash: whose folder it is
 /// points/point-000001.json   one whole file for each finished point
-/// points.csv, summary.json   over all points
+/// points.csv, summary.json   over all points, as are the figures
 /// ```
 ///
 /// Processes share the folder: each holds the lock file shared, so that no other command takes the
@@ -309,7 +318,7 @@ fn take_over(
     }
     let files: BTreeSet<String> = (1..=count)
         .map(point_name)
-        .chain(["points.csv", "summary.json"].map(str::to_owned))
+        .chain(OVER_ALL.map(str::to_owned))
         .collect();
     let manifest = manifest.clone();
     write_contents(path, &Contents { manifest, files })
@@ -324,7 +333,7 @@ fn remove_points(path: &Path, points: &[usize], company: Company) -> Result<(), 
     let names: Vec<String> = points
         .iter()
         .map(|&point| point_name(point))
-        .chain(["points.csv", "summary.json"].map(str::to_owned))
+        .chain(OVER_ALL.map(str::to_owned))
         .collect();
     remove_files(path, names.iter());
     Ok(())

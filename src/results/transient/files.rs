@@ -22,8 +22,12 @@ pub fn write(folder: &OutputFolder, report: &TransientReport<'_>) -> Result<Valu
     }
     folder.write("energy.csv", |out| write_energy(out, report))?;
     folder.write("contact.csv", |out| write_contact(out, &report.record.rows))?;
-    folder.write("harmonics.csv", |out| write_harmonics(out, &report.record.rows))?;
-    folder.write("contact.npz", |out| out.write_all(&encode_contact(report.record)?))?;
+    folder.write("harmonics.csv", |out| {
+        write_harmonics(out, &report.record.rows)
+    })?;
+    folder.write("contact.npz", |out| {
+        out.write_all(&encode_contact(report.record)?)
+    })?;
     write_snapshots(folder, report)?;
     let summary = summary(report, folder.manifest());
     folder.write("summary.json", |out| {

@@ -9,7 +9,7 @@ mod summary;
 pub use checkpoint::{CHECKPOINT, Checkpoint, CheckpointError, read_checkpoint, write_checkpoint};
 pub use files::write;
 pub use print::print;
-pub use summary::{summary, summary_without_manifest};
+pub use summary::summary;
 
 use crate::fem::ElasticMaterial;
 use crate::mesh::Mesh2d;

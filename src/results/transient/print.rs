@@ -31,7 +31,11 @@ pub fn print(report: &TransientReport<'_>) -> String {
             if growth.rate > 0.0 { "grows" } else { "decays" },
             growth.rate.abs(),
             growth.frequency_hz,
-            if growth.direction > 0 { "with" } else { "against" },
+            if growth.direction > 0 {
+                "with"
+            } else {
+                "against"
+            },
         );
     }
     if let Some(time) = report.analysis.first_nonlinearity {
@@ -40,12 +44,18 @@ pub fn print(report: &TransientReport<'_>) -> String {
     let _ = writeln!(out, "over the last fifth of the run:");
     match (cycle.main_frequency_hz, cycle.main_harmonic) {
         (Some(frequency), Some(harmonic)) => {
-            let _ = writeln!(out, "  main frequency {frequency:.1} Hz, {harmonic} nodal diameters");
+            let _ = writeln!(
+                out,
+                "  main frequency {frequency:.1} Hz, {harmonic} nodal diameters"
+            );
         }
         _ => out.push_str("  no vibration\n"),
     }
     let [stick, slip, open] = cycle.status;
-    let _ = writeln!(out, "  contact nodes: stick {stick:.3}, slip {slip:.3}, open {open:.3}");
+    let _ = writeln!(
+        out,
+        "  contact nodes: stick {stick:.3}, slip {slip:.3}, open {open:.3}"
+    );
     powers(&mut out, report);
     out
 }

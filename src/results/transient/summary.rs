@@ -6,13 +6,6 @@ use serde_json::{Value, json};
 
 /// The summary object.
 pub fn summary(report: &TransientReport<'_>, manifest: &Manifest) -> Value {
-    let mut summary = summary_without_manifest(report);
-    summary["manifest"] = json!(manifest);
-    summary
-}
-
-/// The summary object of one point of a study, whose manifest is the study's.
-pub fn summary_without_manifest(report: &TransientReport<'_>) -> Value {
     let (plan, analysis) = (&report.plan, report.analysis);
     let cycle = &analysis.limit_cycle;
     let watts = |power: f64| power * report.thickness;
@@ -62,5 +55,6 @@ pub fn summary_without_manifest(report: &TransientReport<'_>) -> Value {
         "harmonics": cycle.harmonics,
         "growth": growth,
         "first_nonlinearity_s": analysis.first_nonlinearity,
+        "manifest": manifest,
     })
 }

@@ -1,0 +1,230 @@
+//! The body as the harmonics of a rotating wave see it: a 2 x 2 receptance at the contact edge.
+
+use super::CycleError;
+use crate::fem::{ElasticMaterial, MassKind, RayleighDamping, sector};
+use crate::linalg::banded::BandedMatrix;
+use crate::mesh::{AnnulusSpecification, ElementKind, SectorMesh};
+use faer::c64;
+use nalgebra::Matrix2;
+
+/// Receptance of the contact edge: `(u_r, u_theta) = R (f_r, f_theta)`, m for each N/m.
+pub type Receptance = Matrix2<c64>;
+
+/// Real 2 x 2 blocks of one circumferential harmonic of the stiffness, outwards from the contact edge.
+#[derive(Clone, Debug)]
+struct HarmonicStiffness {
+    diagonal: Vec<Matrix2<f64>>,
+    /// Coupling of node `i` to node `i + 1`.
+    outward: Vec<Matrix2<f64>>,
+}
+
+/// Coefficients of the dynamic stiffness `D = c K + m M` of one temporal harmonic.
+///
+/// With the velocity symbol `i s` (so that `v = i s u`): `c = 1 + i s beta_R`, `m = -s^2 + i s alpha_R`. For a
+/// growing motion `i s` is any complex number.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DynamicCoefficients {
+    /// `c`.
+    pub stiffness: c64,
+    /// `m`, 1/s2.
+    pub mass: c64,
+}
+
+impl DynamicCoefficients {
+    /// Coefficients for `v = rate u`, `a = rate^2 u`.
+    pub fn new(rate: c64, damping: &RayleighDamping) -> Self {
+        Self {
+            stiffness: 1.0 + rate * damping.stiffness_coefficient,
+            mass: rate * (rate + damping.mass_coefficient),
+        }
+    }
+
+    /// Their derivative along a change of the rate and of the damping.
+    pub fn derivative(
+        rate: c64,
+        damping: &RayleighDamping,
+        rate_change: c64,
+        damping_change: &RayleighDamping,
+    ) -> Self {
+        Self {
+            stiffness: rate_change * damping.stiffness_coefficient
+                + rate * damping_change.stiffness_coefficient,
+            mass: rate_change * (2.0 * rate + damping.mass_coefficient)
+                + rate * damping_change.mass_coefficient,
+        }
+    }
+}
+
+/// The annulus, free at its contact edge, for the harmonics `0, n, 2 n, ...` of a wave.
+///
+/// The circumferential discretization of the mesh is kept: harmonic `k n` is that of the mesh, aliased above half
+/// the number of sectors just as the nodes of the mesh see it. The mass is lumped.
+#[derive(Clone, Debug)]
+pub struct WaveBody {
+    harmonics: Vec<HarmonicStiffness>,
+    masses: Vec<f64>,
+    harmonic: usize,
+    /// Number of sectors, each with one contact node.
+    pub sector_count: usize,
+    /// Radius of the contact edge `a`, m.
+    pub radius: f64,
+    /// Edge length of one contact node, m.
+    pub tributary_length: f64,
+}
+
+impl WaveBody {
+    /// The body of a mesh for wave harmonics `k = 0..=count` of circumferential harmonic `harmonic`, each shifted by
+    /// `offset` circumferential harmonics (zero for the wave itself).
+    ///
+    /// # Errors
+    /// [`CycleError::Element`] for elements other than Quad4; [`CycleError::Mesh`].
+    pub fn new(
+        specification: &AnnulusSpecification,
+        material: &ElasticMaterial,
+        circumferential_harmonics: impl IntoIterator<Item = isize>,
+        harmonic: usize,
+    ) -> Result<Self, CycleError> {
+        if specification.element != ElementKind::Quad4 {
+            return Err(CycleError::Element);
+        }
+        let mesh = SectorMesh::generate(specification)?;
+        let stiffness = sector::stiffness(&mesh, material);
+        let mass = sector::mass(&mesh, material, MassKind::Lumped).harmonic(0);
+        let sectors = mesh.sector_count() as isize;
+        let harmonics = circumferential_harmonics
+            .into_iter()
+            .map(|n| HarmonicStiffness::new(&stiffness.harmonic(n.rem_euclid(sectors) as usize)))
+            .collect();
+        Ok(Self {
+            harmonics,
+            masses: (0..mesh.free_node_count())
+                .map(|i| mass.get(2 * i, 2 * i))
+                .collect(),
+            harmonic,
+            sector_count: mesh.sector_count(),
+            radius: specification.inner_radius,
+            tributary_length: mesh.tributary_lengths()[0],
+        })
+    }
+
+    /// Circumferential harmonic `n` of the wave.
+    pub fn harmonic(&self) -> usize {
+        self.harmonic
+    }
+
+    /// Number of harmonics held.
+    pub fn harmonic_count(&self) -> usize {
+        self.harmonics.len()
+    }
+
+    /// Receptance of harmonic `k` and its derivatives along changes of the coefficients.
+    ///
+    /// Condensation from the clamped edge inwards, `S_i = D_i - U_i S_{i+1}^-1 U_i^T`, `R = S_0^-1`.
+    pub fn receptance<const N: usize>(
+        &self,
+        k: usize,
+        at: DynamicCoefficients,
+        changes: [DynamicCoefficients; N],
+    ) -> (Receptance, [Receptance; N]) {
+        let blocks = &self.harmonics[k];
+        let mut inverse = Receptance::zeros();
+        let mut rates = [Receptance::zeros(); N];
+        for i in (0..self.masses.len()).rev() {
+            let mass = Receptance::identity() * c64::new(self.masses[i], 0.0);
+            let diagonal = complex(&blocks.diagonal[i]);
+            let mut matrix = diagonal * at.stiffness + mass * at.mass;
+            let mut slopes = changes.map(|change| diagonal * change.stiffness + mass * change.mass);
+            if let Some(outward) = blocks.outward.get(i) {
+                let outward = complex(outward);
+                let across = outward * inverse * outward.transpose();
+                matrix -= across * (at.stiffness * at.stiffness);
+                for (slope, (change, rate)) in slopes.iter_mut().zip(changes.iter().zip(&rates)) {
+                    *slope -= across * (2.0 * at.stiffness * change.stiffness)
+                        + outward * rate * outward.transpose() * (at.stiffness * at.stiffness);
+                }
+            }
+            inverse = inverted(&matrix);
+            rates = slopes.map(|slope| -(inverse * slope * inverse));
+        }
+        (polar(&inverse), rates.map(|rate| polar(&rate)))
+    }
+
+    /// Displacement `(u_r, u_theta)` of every free node outwards for a displacement of the contact edge.
+    pub fn profile(&self, k: usize, at: DynamicCoefficients, edge: [c64; 2]) -> Vec<[c64; 2]> {
+        let blocks = &self.harmonics[k];
+        let count = self.masses.len();
+        let mut inverses = vec![Receptance::zeros(); count];
+        for i in (1..count).rev() {
+            let mass = c64::new(self.masses[i], 0.0) * at.mass;
+            let mut matrix = complex(&blocks.diagonal[i]) * at.stiffness;
+            matrix += Receptance::identity() * mass;
+            if let Some(outward) = blocks.outward.get(i) {
+                let outward = complex(outward);
+                let across = outward * inverses[i + 1] * outward.transpose();
+                matrix -= across * (at.stiffness * at.stiffness);
+            }
+            inverses[i] = inverted(&matrix);
+        }
+        let unit = c64::new(0.0, 1.0);
+        // Real basis: u_theta = i w.
+        let mut current = nalgebra::Vector2::new(edge[0], -unit * edge[1]);
+        let mut profile = vec![edge];
+        for i in 1..count {
+            let inward = complex(&blocks.outward[i - 1]).transpose();
+            current = -(inverses[i] * inward * current) * at.stiffness;
+            profile.push([current[0], unit * current[1]]);
+        }
+        profile
+    }
+}
+
+impl WaveBody {
+    /// `u^H (alpha_R M + beta_R K) u` of one sector for the displacement of its nodes at harmonic `k`.
+    pub fn damping_form(&self, k: usize, damping: &RayleighDamping, profile: &[[c64; 2]]) -> f64 {
+        let blocks = &self.harmonics[k];
+        let unit = c64::new(0.0, 1.0);
+        let real: Vec<_> = profile
+            .iter()
+            .map(|u| nalgebra::Vector2::new(u[0], -unit * u[1]))
+            .collect();
+        let mut sum = 0.0;
+        for (i, u) in real.iter().enumerate() {
+            let force = complex(&blocks.diagonal[i]) * u;
+            sum += damping.stiffness_coefficient * u.dotc(&force).re;
+            sum += damping.mass_coefficient * self.masses[i] * u.norm_squared();
+            if let (Some(outward), Some(next)) = (blocks.outward.get(i), real.get(i + 1)) {
+                let force = complex(outward) * next;
+                sum += 2.0 * damping.stiffness_coefficient * u.dotc(&force).re;
+            }
+        }
+        sum
+    }
+}
+
+impl HarmonicStiffness {
+    fn new(matrix: &BandedMatrix) -> Self {
+        let count = matrix.dimension() / 2;
+        let block = |i: usize, j: usize| {
+            Matrix2::from_fn(|row, column| matrix.get(2 * i + row, 2 * j + column))
+        };
+        Self {
+            diagonal: (0..count).map(|i| block(i, i)).collect(),
+            outward: (1..count).map(|i| block(i - 1, i)).collect(),
+        }
+    }
+}
+
+fn complex(matrix: &Matrix2<f64>) -> Matrix2<c64> {
+    matrix.map(|value| c64::new(value, 0.0))
+}
+
+fn inverted(m: &Matrix2<c64>) -> Matrix2<c64> {
+    let reciprocal = (m[(0, 0)] * m[(1, 1)] - m[(0, 1)] * m[(1, 0)]).inv();
+    Matrix2::new(m[(1, 1)], -m[(0, 1)], -m[(1, 0)], m[(0, 0)]) * reciprocal
+}
+
+/// From the basis `(u_r, -i u_theta)` to `(u_r, u_theta)`.
+fn polar(m: &Matrix2<c64>) -> Matrix2<c64> {
+    let unit = c64::new(0.0, 1.0);
+    Matrix2::new(m[(0, 0)], -unit * m[(0, 1)], unit * m[(1, 0)], m[(1, 1)])
+}

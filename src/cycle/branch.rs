@@ -1,0 +1,378 @@
+//! Following a branch of limit cycles from one change of contact state to the next.
+//!
+//! With the contact state of every point fixed, the equations are smooth: no gap where there is contact, no slip where
+//! there is stick, and the phase fixed by `Im(u_theta,1) = 0`. Forces, frequency and one parameter then move along a
+//! curve. It is followed until the first inequality of Signorini's and Coulomb's laws is about to break; there the
+//! state of that one point changes, and the curve goes on to the side on which its new inequality holds. Folds,
+//! where the parameter turns back, need no special care, and no iteration over contact states can cycle.
+
+use super::parameter::Parameter;
+use super::state::{PointState, WaveState};
+use super::system::{Closure, Heading, System};
+use super::wave::{Linearization, Wave};
+
+/// Longest step along the branch, relative: a twentieth of the mean normal force, frequency or parameter.
+const LONGEST_STEP: f64 = 0.05;
+
+/// Inequalities broken by less than this share of the mean normal force are round-off.
+const TOLERANCE: f64 = 1e-8;
+
+/// The first inequality to break.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Event {
+    /// A normal force vanishes: the point opens.
+    Lift(usize),
+    /// A gap vanishes: the point touches.
+    Touch(usize),
+    /// Stick reaches `+mu N`.
+    SlideForward(usize),
+    /// Stick reaches `-mu N`.
+    SlideBackward(usize),
+    /// Slip comes to rest.
+    Rest(usize),
+}
+
+impl Event {
+    fn point(self) -> usize {
+        match self {
+            Self::Lift(i)
+            | Self::Touch(i)
+            | Self::SlideForward(i)
+            | Self::SlideBackward(i)
+            | Self::Rest(i) => i,
+        }
+    }
+}
+
+/// Where one step along a branch ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Step {
+    /// At a change of contact state, or in the middle of nowhere.
+    Moved,
+    /// At a wanted value of the parameter.
+    At(f64),
+}
+
+/// A branch of limit cycles over one parameter.
+pub struct Branch<'a> {
+    wave: &'a Wave<'a>,
+    parameter: Parameter,
+    /// Where it is.
+    pub state: WaveState,
+    heading: Option<Heading>,
+    pending: Option<Event>,
+    force_scale: f64,
+    /// Sense of the parameter at the start, and at the last step.
+    direction: f64,
+    /// Dense factorizations so far.
+    pub factorizations: usize,
+}
+
+/// An inequality with its slack, N/m, and the slack's rate along the heading.
+type Inequality = (Event, f64, f64);
+
+/// Where a step wants to end.
+#[derive(Clone, Copy, Debug)]
+enum Goal {
+    Event(Event),
+    Value(f64),
+    Length,
+}
+
+impl<'a> Branch<'a> {
+    /// A branch through `state`, at first towards rising (`direction` > 0) or falling parameter.
+    ///
+    /// `pending` is an inequality that the state is on the point of breaking; it then decides the way.
+    pub fn new(
+        wave: &'a Wave<'a>,
+        parameter: Parameter,
+        state: WaveState,
+        direction: f64,
+        pending: Option<Event>,
+    ) -> Self {
+        let force_scale = state.normal.iter().sum::<f64>() / state.normal.len() as f64;
+        Self {
+            wave,
+            parameter,
+            state,
+            heading: None,
+            pending,
+            force_scale,
+            direction,
+            factorizations: 0,
+        }
+    }
+
+    /// The parameter's value, SI.
+    pub fn value(&self) -> f64 {
+        self.parameter.of(&self.state.point)
+    }
+
+    /// Sense in which the parameter moves now: +1 or -1.
+    pub fn direction(&self) -> f64 {
+        self.direction
+    }
+
+    /// One step: to the next change of contact state, the next of `samples` (rising) or the longest step.
+    ///
+    /// # Errors
+    /// `None` where the curve cannot be followed any further.
+    pub fn advance(&mut self, samples: &[f64]) -> Option<Step> {
+        let flipped = self.pending.take().map(|event| self.flip(event));
+        let linear = Linearization::at(self.wave, &self.state, self.parameter);
+        let system = System::new(&self.state, self.parameter, self.force_scale);
+        let mut heading = system.tangent(&linear, self.heading.as_ref())?;
+        self.factorizations += 1;
+        let mut inequalities = self.inequalities(&linear, &heading);
+        let sense = match flipped {
+            Some(event) => inequalities.iter().find(|i| i.0 == event)?.2,
+            None if self.heading.is_none() => self.direction * heading.parameter,
+            None => 1.0,
+        };
+        if sense < 0.0 {
+            heading.reverse();
+            inequalities
+                .iter_mut()
+                .for_each(|inequality| inequality.2 *= -1.0);
+        }
+        self.direction = heading.parameter.signum();
+        let (mut length, mut goal) = self.nearest(&inequalities, flipped, &heading, samples);
+        // An inequality that breaks on the way after all becomes the goal; each such shortening is progress.
+        for _ in 0..12 {
+            let Some((state, linear)) = self.correct(&heading, length, goal) else {
+                length *= 0.3;
+                goal = Goal::Length;
+                continue;
+            };
+            let broken = self.worst(&state, &linear, flipped);
+            let Some((event, slack)) = broken else {
+                return Some(self.accept(state, heading, length, goal));
+            };
+            let before = inequalities.iter().find(|i| i.0 == event);
+            let before = before.map_or(0.0, |i| i.1.max(0.0));
+            length *= before / (before - slack);
+            goal = Goal::Event(event);
+        }
+        None
+    }
+
+    fn accept(&mut self, state: WaveState, heading: Heading, length: f64, goal: Goal) -> Step {
+        // A secant smooths over many short steps; one of no length says nothing.
+        let secant = Heading::between(&self.state, &state, self.parameter);
+        let is_long = length > 1e-9;
+        self.heading = Some(if is_long { secant } else { heading });
+        self.state = state;
+        match goal {
+            Goal::Event(event) => {
+                self.pending = Some(event);
+                Step::Moved
+            }
+            Goal::Value(value) => Step::At(value),
+            Goal::Length => Step::Moved,
+        }
+    }
+
+    /// Changes the state of one point and returns the inequality that must now come to hold.
+    fn flip(&mut self, event: Event) -> Event {
+        let i = event.point();
+        let (state, check) = match event {
+            Event::Lift(_) => (PointState::Open, Event::Touch(i)),
+            Event::Touch(_) => {
+                let linear = Linearization::at(self.wave, &self.state, self.parameter);
+                let slip = if linear.slip[i] < 0.0 {
+                    PointState::SlipForward
+                } else {
+                    PointState::SlipBackward
+                };
+                (slip, Event::Lift(i))
+            }
+            Event::SlideForward(_) => (PointState::SlipForward, Event::Rest(i)),
+            Event::SlideBackward(_) => (PointState::SlipBackward, Event::Rest(i)),
+            Event::Rest(_) if self.state.contact[i] == PointState::SlipForward => {
+                (PointState::Stick, Event::SlideForward(i))
+            }
+            Event::Rest(_) => (PointState::Stick, Event::SlideBackward(i)),
+        };
+        self.state.contact[i] = state;
+        if matches!(event, Event::Lift(_) | Event::Touch(_)) {
+            (self.state.normal[i], self.state.tangential[i]) = (0.0, 0.0);
+        }
+        check
+    }
+
+    fn inequalities(&self, linear: &Linearization, heading: &Heading) -> Vec<Inequality> {
+        let rates = self.wave_rates(linear, heading);
+        slacks(&self.state, linear)
+            .map(|(event, slack)| {
+                let i = event.point();
+                let friction = self.state.point.contact.friction_coefficient;
+                let cone = friction * heading.normal[i]
+                    + match self.parameter {
+                        Parameter::FrictionCoefficient => self.state.normal[i] * heading.parameter,
+                        _ => 0.0,
+                    };
+                let rate = match event {
+                    Event::Lift(_) => heading.normal[i],
+                    Event::Touch(_) => linear.normal_scale() * rates[0][i],
+                    Event::SlideForward(_) => cone - heading.tangential[i],
+                    Event::SlideBackward(_) => cone + heading.tangential[i],
+                    Event::Rest(_) => {
+                        -self.state.contact[i].drag() * linear.tangential_scale() * rates[1][i]
+                    }
+                };
+                (event, slack, rate)
+            })
+            .collect()
+    }
+
+    /// Rates of gap and slip along a heading. Its tangential forces hold the friction coefficient's change already.
+    fn wave_rates(&self, linear: &Linearization, heading: &Heading) -> [Vec<f64>; 2] {
+        let forces = [
+            self.wave.harmonics(&heading.normal),
+            self.wave.harmonics(&heading.tangential),
+        ];
+        let along_parameter = match self.parameter {
+            Parameter::FrictionCoefficient => 0.0,
+            _ => heading.parameter,
+        };
+        [&linear.gap_columns, &linear.slip_columns]
+            .into_iter()
+            .zip(linear.by_frequency.iter().zip(&linear.by_parameter))
+            .map(|(columns, (by_frequency, by_parameter))| {
+                let columns = columns.each_ref().map(|column| self.wave.harmonics(column));
+                let mut rate = self.wave.values(
+                    (0..columns[0].len())
+                        .map(|k| columns[0][k] * forces[0][k] + columns[1][k] * forces[1][k]),
+                );
+                for (i, value) in rate.iter_mut().enumerate() {
+                    *value +=
+                        by_frequency[i] * heading.frequency + by_parameter[i] * along_parameter;
+                }
+                rate
+            })
+            .collect::<Vec<_>>()
+            .try_into()
+            .expect("gap and slip")
+    }
+
+    /// The nearest end of the coming step.
+    fn nearest(
+        &self,
+        inequalities: &[Inequality],
+        flipped: Option<Event>,
+        heading: &Heading,
+        samples: &[f64],
+    ) -> (f64, Goal) {
+        let mut best = (LONGEST_STEP, Goal::Length);
+        for &(event, slack, rate) in inequalities {
+            if Some(event) != flipped && rate < -1e-13 * self.force_scale {
+                let length = slack.max(0.0) / -rate;
+                if length < best.0 {
+                    best = (length, Goal::Event(event));
+                }
+            }
+        }
+        let value = self.value();
+        let slightly = 1e-12 * value.abs();
+        let ahead = if heading.parameter > 0.0 {
+            samples.iter().find(|&&sample| sample > value + slightly)
+        } else {
+            samples
+                .iter()
+                .rev()
+                .find(|&&sample| sample < value - slightly)
+        };
+        if let Some(&sample) = ahead {
+            let length = (sample - value) / heading.parameter;
+            if length <= best.0 {
+                best = (length, Goal::Value(sample));
+            }
+        }
+        best
+    }
+
+    /// Newton's method from the predicted point, onto the goal.
+    fn correct(
+        &mut self,
+        heading: &Heading,
+        length: f64,
+        goal: Goal,
+    ) -> Option<(WaveState, Linearization)> {
+        let mut state = self.state.clone();
+        heading.add_to(&mut state, length, self.parameter);
+        let predicted = state.clone();
+        for _ in 0..8 {
+            let linear = Linearization::at(self.wave, &state, self.parameter);
+            let system = System::new(&state, self.parameter, self.force_scale);
+            let closure = match goal {
+                Goal::Event(event) => Closure::Event(event),
+                Goal::Value(value) => Closure::Value(value),
+                Goal::Length => Closure::Plane(heading, &predicted),
+            };
+            let (matrix, residual) = system.assemble(&linear, closure);
+            if residual.iter().all(|value| value.abs() < 1e-11) {
+                return Some((state, linear));
+            }
+            if !residual.iter().all(|value| value.abs() < 1e6) {
+                return None;
+            }
+            let change = system.solve(matrix, &residual)?;
+            self.factorizations += 1;
+            change.add_to(&mut state, 1.0, self.parameter);
+        }
+        None
+    }
+
+    /// The inequality broken most, beyond round-off.
+    fn worst(
+        &self,
+        state: &WaveState,
+        linear: &Linearization,
+        flipped: Option<Event>,
+    ) -> Option<(Event, f64)> {
+        slacks(state, linear)
+            .filter(|&(event, slack)| {
+                // The inequality just entered starts at zero and may lag within the corrector's accuracy.
+                let tolerance = if Some(event) == flipped {
+                    1e-6
+                } else {
+                    TOLERANCE
+                };
+                slack < -tolerance * self.force_scale
+            })
+            .min_by(|a, b| a.1.total_cmp(&b.1))
+    }
+}
+
+/// Every inequality of a state with its slack, N/m.
+fn slacks<'a>(
+    state: &'a WaveState,
+    linear: &'a Linearization,
+) -> impl Iterator<Item = (Event, f64)> + 'a {
+    let friction = state.point.contact.friction_coefficient;
+    let points = state.contact.iter().enumerate();
+    points.flat_map(move |(i, &contact)| {
+        let (normal, tangential) = (state.normal[i], state.tangential[i]);
+        let list: [Option<(Event, f64)>; 3] = match contact {
+            PointState::Open => [
+                Some((Event::Touch(i), linear.normal_scale() * linear.gap[i])),
+                None,
+                None,
+            ],
+            PointState::Stick => [
+                Some((Event::Lift(i), normal)),
+                Some((Event::SlideForward(i), friction * normal - tangential)),
+                Some((Event::SlideBackward(i), friction * normal + tangential)),
+            ],
+            slip => [
+                Some((Event::Lift(i), normal)),
+                Some((
+                    Event::Rest(i),
+                    -slip.drag() * linear.tangential_scale() * linear.slip[i],
+                )),
+                None,
+            ],
+        };
+        list.into_iter().flatten()
+    })
+}

@@ -1,0 +1,73 @@
+//! What can go wrong on the way to a limit cycle.
+
+use crate::mesh::MeshError;
+
+/// A limit cycle that cannot be looked for or was not found.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum CycleError {
+    /// The mesh has more than one contact node for each sector.
+    #[error("limit cycles need mesh.element = \"quad4\": a contact edge with equal nodes")]
+    Element,
+    /// The mesh cannot be built.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+    /// The cylinder must turn, counter-clockwise.
+    #[error(
+        "contact.rotation_speed_rpm = {rpm} must be positive: limit cycles live on a turning cylinder (the mirror \
+         image of a case turns the other way)"
+    )]
+    RotationSpeed {
+        /// Given speed, 1/min.
+        rpm: f64,
+    },
+    /// A value that must be positive is not.
+    #[error("{key} = {value} must be a positive finite number")]
+    NotPositive {
+        /// Case key.
+        key: &'static str,
+        /// Given value.
+        value: f64,
+    },
+    /// A harmonic that the mesh cannot carry.
+    #[error(
+        "cycle.harmonics holds {harmonic}: a mesh of {sectors} sectors carries waves of 1 to {limit} nodal diameters"
+    )]
+    Harmonic {
+        /// Given harmonic.
+        harmonic: usize,
+        /// Sectors of the mesh.
+        sectors: usize,
+        /// Highest harmonic.
+        limit: usize,
+    },
+    /// Steady sliding never loses stability to this wave.
+    #[error(
+        "harmonic {harmonic}: steady sliding stays stable up to a friction coefficient of {limit} below \
+         {frequency_hz} Hz, so no limit cycle is born; choose another one in cycle.harmonics"
+    )]
+    NoOnset {
+        /// Harmonic.
+        harmonic: usize,
+        /// Largest friction coefficient searched.
+        limit: f64,
+        /// Largest frequency searched, Hz.
+        frequency_hz: f64,
+    },
+    /// The branch ends before the point asked for.
+    #[error(
+        "harmonic {harmonic}: the branch of limit cycles does not reach {key} = {value:.6}: it ends at {reached:.6} \
+         ({reason})"
+    )]
+    NotReached {
+        /// Harmonic.
+        harmonic: usize,
+        /// Case key of the parameter.
+        key: &'static str,
+        /// Value asked for, SI.
+        value: f64,
+        /// Last value, SI.
+        reached: f64,
+        /// Why it ends.
+        reason: String,
+    },
+}

@@ -1,0 +1,205 @@
+//! What a limit cycle is like: motion along its phase, statuses, powers, harmonics.
+
+use super::body::DynamicCoefficients;
+use super::state::WaveState;
+use super::wave::Wave;
+use crate::contact::ContactStatus;
+use faer::c64;
+use std::f64::consts::TAU;
+
+/// Harmonics of the contact edge in a summary, `n = 0..=8`.
+const HARMONIC_COUNT: usize = 9;
+
+/// Mean powers of a cycle, W for each metre of thickness.
+///
+/// `external = stick + slide + contact_dissipated`, and
+/// `stick + slide + normal_contact = material_damping`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct CyclePowers {
+    /// `sum T Omega a`.
+    pub external: f64,
+    /// `sum T v_t` over sticking nodes.
+    pub stick: f64,
+    /// `sum T v_t` over slipping nodes.
+    pub slide: f64,
+    /// `sum T (Omega a - v_t)`.
+    pub contact_dissipated: f64,
+    /// `v^T C v`.
+    pub material_damping: f64,
+    /// `sum N v_n`: negative where landing nodes lose energy.
+    pub normal_contact: f64,
+}
+
+impl CyclePowers {
+    /// `|external + normal_contact - contact_dissipated - material_damping| / external`.
+    pub fn balance_residual(&self) -> f64 {
+        let out = self.contact_dissipated + self.material_damping;
+        ((self.external + self.normal_contact - out) / self.external).abs()
+    }
+
+    /// Every power times `factor`.
+    pub fn scaled(&self, factor: f64) -> Self {
+        Self {
+            external: factor * self.external,
+            stick: factor * self.stick,
+            slide: factor * self.slide,
+            contact_dissipated: factor * self.contact_dissipated,
+            material_damping: factor * self.material_damping,
+            normal_contact: factor * self.normal_contact,
+        }
+    }
+}
+
+/// Contact and motion of the edge at one phase.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PhasePoint {
+    /// `xi`, rad.
+    pub phase: f64,
+    /// Contact status.
+    pub status: ContactStatus,
+    /// Contact pressure, Pa.
+    pub pressure: f64,
+    /// Contact shear, Pa, positive along the rotation.
+    pub shear: f64,
+    /// `u_r, u_theta`, m.
+    pub displacement: [f64; 2],
+    /// `v_r, v_theta`, m/s.
+    pub velocity: [f64; 2],
+}
+
+/// A limit cycle: a wave that turns against the rotor without changing its shape.
+///
+/// `u(r, theta, t) = U(r, n theta + omega t)`. For each metre of thickness.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LimitCycle {
+    /// Circumferential harmonic `n`.
+    pub harmonic: usize,
+    /// Contact forces, frequency, operating point.
+    pub state: WaveState,
+    /// Mean powers.
+    pub powers: CyclePowers,
+    /// Fractions of the contact edge that `[stick, slip, open]`.
+    pub fractions: [f64; 3],
+    /// Amplitude of the tangential displacement of the edge at circumferential harmonics 0 to 8 (the mean twist for 0),
+    /// m.
+    pub harmonics: [f64; HARMONIC_COUNT],
+    /// Contact and motion of the edge along the phase.
+    pub points: Vec<PhasePoint>,
+}
+
+impl LimitCycle {
+    /// Reads a converged state.
+    pub fn new(wave: &Wave<'_>, state: WaveState) -> Self {
+        let edge = EdgeMotion::of(wave, &state);
+        let points = edge.points(wave, &state);
+        let count = wave.points() as f64;
+        let mut harmonics = [0.0; HARMONIC_COUNT];
+        for (k, spectrum) in edge.displacement.iter().enumerate() {
+            if let Some(place) = harmonics.get_mut(k * wave.body.harmonic()) {
+                let share = if k == 0 { 1.0 } else { 2.0 };
+                *place = share * spectrum[1].norm() / count;
+            }
+        }
+        Self {
+            harmonic: wave.body.harmonic(),
+            powers: powers(wave, &state, &edge, &points),
+            fractions: state.fractions(),
+            harmonics,
+            points,
+            state,
+        }
+    }
+
+    /// `omega / 2 pi`, Hz: the main frequency of any point of the body.
+    pub fn frequency_hz(&self) -> f64 {
+        self.state.frequency / TAU
+    }
+}
+
+/// Harmonics of the edge's displacement (unscaled sums), and their velocity symbols.
+struct EdgeMotion {
+    displacement: Vec<[c64; 2]>,
+    rates: Vec<c64>,
+}
+
+impl EdgeMotion {
+    fn of(wave: &Wave<'_>, state: &WaveState) -> Self {
+        let normal = wave.harmonics(&state.normal);
+        let tangential = wave.harmonics(&state.tangential);
+        let rates: Vec<c64> = (0..wave.body.harmonic_count())
+            .map(|k| c64::new(0.0, state.frequency * wave.order(k)))
+            .collect();
+        let displacement = rates.iter().enumerate().map(|(k, &rate)| {
+            let at = DynamicCoefficients::new(rate, &state.point.damping);
+            let (r, []) = wave.body.receptance(k, at, []);
+            [0, 1].map(|row| r[(row, 0)] * normal[k] + r[(row, 1)] * tangential[k])
+        });
+        Self {
+            displacement: displacement.collect(),
+            rates,
+        }
+    }
+
+    fn points(&self, wave: &Wave<'_>, state: &WaveState) -> Vec<PhasePoint> {
+        let values = |component: usize, by_time: bool| {
+            let pairs = self.displacement.iter().zip(&self.rates);
+            wave.values(
+                pairs.map(|(u, rate)| u[component] * if by_time { *rate } else { 1.0.into() }),
+            )
+        };
+        let displacement = [values(0, false), values(1, false)];
+        let velocity = [values(0, true), values(1, true)];
+        let length = wave.body.tributary_length;
+        (0..wave.points())
+            .map(|i| PhasePoint {
+                phase: TAU * i as f64 / wave.points() as f64,
+                status: state.contact[i].status(),
+                pressure: state.normal[i] / length,
+                shear: state.tangential[i] / length,
+                displacement: [displacement[0][i], displacement[1][i]],
+                velocity: [velocity[0][i], velocity[1][i]],
+            })
+            .collect()
+    }
+}
+
+fn powers(
+    wave: &Wave<'_>,
+    state: &WaveState,
+    edge: &EdgeMotion,
+    points: &[PhasePoint],
+) -> CyclePowers {
+    let contact = &state.point.contact;
+    let surface_speed = contact.rotation_speed * wave.body.radius;
+    let mut powers = CyclePowers::default();
+    for (i, point) in points.iter().enumerate() {
+        let (normal, tangential) = (state.normal[i], state.tangential[i]);
+        let [v_n, v_t] = point.velocity;
+        powers.external += tangential * surface_speed;
+        powers.contact_dissipated += tangential * (surface_speed - v_t);
+        powers.normal_contact += normal * v_n;
+        match point.status {
+            ContactStatus::Stick => powers.stick += tangential * v_t,
+            _ => powers.slide += tangential * v_t,
+        }
+    }
+    let nodes = wave.body.sector_count as f64;
+    let mut powers = powers.scaled(nodes / points.len() as f64);
+    powers.material_damping = nodes * material_damping(wave, state, edge);
+    powers
+}
+
+/// Mean of `v^T C v` over one sector, from the motion of every node.
+fn material_damping(wave: &Wave<'_>, state: &WaveState, edge: &EdgeMotion) -> f64 {
+    let count = wave.points() as f64;
+    let pairs = edge.displacement.iter().zip(&edge.rates).enumerate();
+    pairs
+        .skip(1)
+        .map(|(k, (&u, &rate))| {
+            let profile = wave.profile(k, rate, &state.point.damping, u);
+            2.0 / (count * count)
+                * wave.body.damping_form(k, &state.point.damping, &profile)
+                * rate.norm_sqr()
+        })
+        .sum()
+}

@@ -1,0 +1,27 @@
+//! Limit cycles found directly: rotating waves as steady contact problems.
+//!
+//! In a rotationally symmetric disc the limit cycle of an unstable wave is `u(r, theta, t) = U(r, xi)` with
+//! `xi = n theta + omega t`: every contact node goes through the same motion, one after the other. So the cycle is a
+//! *steady* frictional contact problem along the phase `xi`, with one unknown frequency. The body is a 2 x 2
+//! receptance for each temporal harmonic ([`WaveBody`]); Signorini's and Coulomb's laws hold at points along the phase;
+//! a branch of cycles is followed from its birth in steady sliding through every change of contact state
+//! ([`CycleSolver`]).
+
+mod body;
+mod branch;
+mod error;
+mod limit_cycle;
+mod onset;
+mod parameter;
+mod solver;
+mod state;
+mod system;
+mod wave;
+
+pub use body::{DynamicCoefficients, Receptance, WaveBody};
+pub use error::CycleError;
+pub use limit_cycle::{CyclePowers, LimitCycle, PhasePoint};
+pub use onset::Onset;
+pub use parameter::{OperatingPoint, Parameter};
+pub use solver::{BranchEnd, CycleBranch, CycleSolver, DEFAULT_POINTS};
+pub use state::{PointState, WaveState};

@@ -1,0 +1,89 @@
+//! What a limit cycle depends on, and which of it a branch can be followed over.
+
+use crate::contact::SlidingContact;
+use crate::fem::RayleighDamping;
+use std::f64::consts::TAU;
+
+/// Contact and damping of one limit cycle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OperatingPoint {
+    /// The rotating cylinder and its friction law.
+    pub contact: SlidingContact,
+    /// Rayleigh coefficients of the body.
+    pub damping: RayleighDamping,
+}
+
+/// A parameter that a branch of limit cycles is followed over.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Parameter {
+    /// `mu`.
+    FrictionCoefficient,
+    /// `Omega`, rad/s.
+    RotationSpeed,
+    /// `delta`, m.
+    Interference,
+    /// `alpha_R`, 1/s.
+    MassDamping,
+    /// `beta_R`, s.
+    StiffnessDamping,
+}
+
+impl Parameter {
+    /// All of them.
+    pub const ALL: [Self; 5] = [
+        Self::FrictionCoefficient,
+        Self::RotationSpeed,
+        Self::Interference,
+        Self::MassDamping,
+        Self::StiffnessDamping,
+    ];
+
+    /// Its case key.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::FrictionCoefficient => "contact.friction_coefficient",
+            Self::RotationSpeed => "contact.rotation_speed_rpm",
+            Self::Interference => "contact.interference",
+            Self::MassDamping => "damping.mass_coefficient",
+            Self::StiffnessDamping => "damping.stiffness_coefficient",
+        }
+    }
+
+    /// The parameter of a case key.
+    pub fn from_key(key: &str) -> Option<Self> {
+        Self::ALL
+            .into_iter()
+            .find(|parameter| parameter.key() == key)
+    }
+
+    /// SI value of one unit of the case key.
+    pub fn unit(self) -> f64 {
+        match self {
+            Self::RotationSpeed => TAU / 60.0,
+            _ => 1.0,
+        }
+    }
+
+    /// Its SI value at an operating point.
+    pub fn of(self, point: &OperatingPoint) -> f64 {
+        match self {
+            Self::FrictionCoefficient => point.contact.friction_coefficient,
+            Self::RotationSpeed => point.contact.rotation_speed,
+            Self::Interference => point.contact.interference,
+            Self::MassDamping => point.damping.mass_coefficient,
+            Self::StiffnessDamping => point.damping.stiffness_coefficient,
+        }
+    }
+
+    /// Sets its SI value.
+    pub fn set(self, point: &mut OperatingPoint, value: f64) {
+        let place = match self {
+            Self::FrictionCoefficient => &mut point.contact.friction_coefficient,
+            Self::RotationSpeed => &mut point.contact.rotation_speed,
+            Self::Interference => &mut point.contact.interference,
+            Self::MassDamping => &mut point.damping.mass_coefficient,
+            Self::StiffnessDamping => &mut point.damping.stiffness_coefficient,
+        };
+        *place = value;
+    }
+}

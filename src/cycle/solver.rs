@@ -1,0 +1,293 @@
+//! Limit cycles of one harmonic: from birth to an operating point, and along a parameter.
+
+use super::branch::{Branch, Step};
+use super::limit_cycle::LimitCycle;
+use super::onset::{HIGHEST_FREQUENCY_HZ, LARGEST_FRICTION, largest_linear_wave, onsets};
+use super::parameter::{OperatingPoint, Parameter};
+use super::state::{PointState, WaveState};
+use super::wave::Wave;
+use super::{CycleError, Onset, WaveBody};
+use crate::fem::{ElasticMaterial, RayleighDamping};
+use crate::mesh::AnnulusSpecification;
+use std::f64::consts::TAU;
+
+/// Points along the phase of a wave, unless chosen.
+pub const DEFAULT_POINTS: usize = 135;
+
+/// Most changes of contact state along one branch.
+const MOST_STEPS: usize = 20_000;
+
+/// Limit cycles of the waves of one circumferential harmonic.
+#[derive(Clone, Debug)]
+pub struct CycleSolver {
+    body: WaveBody,
+    points: usize,
+}
+
+/// Limit cycles along a parameter.
+#[derive(Clone, Debug)]
+pub struct CycleBranch {
+    /// The parameter.
+    pub parameter: Parameter,
+    /// Cycles in the order of the branch; neighbours may lie on both sides of a fold.
+    pub cycles: Vec<LimitCycle>,
+    /// Parameter values, SI, at which the branch turns back.
+    pub folds: Vec<f64>,
+    /// Why it ends, at its first and at its last cycle.
+    pub ends: [BranchEnd; 2],
+    /// Dense factorizations spent.
+    pub factorizations: usize,
+}
+
+/// Why a branch ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BranchEnd {
+    /// The range asked for ends there.
+    Range,
+    /// The whole edge slips: the cycle shrinks into steady sliding.
+    Birth,
+    /// The curve could not be followed any further.
+    Lost,
+    /// The most steps were spent.
+    Steps,
+}
+
+impl BranchEnd {
+    /// In words.
+    pub fn describe(self) -> &'static str {
+        match self {
+            Self::Range => "the range ends",
+            Self::Birth => "the cycle shrinks into steady sliding",
+            Self::Lost => "the curve cannot be followed",
+            Self::Steps => "too many changes of contact state",
+        }
+    }
+}
+
+impl CycleSolver {
+    /// The solver of waves of `harmonic` nodal diameters on a mesh of Quad4 elements, with `points` phases (odd; the
+    /// next odd number is taken).
+    ///
+    /// # Errors
+    /// [`CycleError`] for other elements, a mesh that cannot be built, a harmonic that it cannot carry.
+    pub fn new(
+        specification: &AnnulusSpecification,
+        material: &ElasticMaterial,
+        harmonic: usize,
+        points: usize,
+    ) -> Result<Self, CycleError> {
+        let (sectors, limit) = (
+            specification.circumferential_elements,
+            specification.circumferential_elements / 2,
+        );
+        if harmonic == 0 || harmonic > limit {
+            return Err(CycleError::Harmonic {
+                harmonic,
+                sectors,
+                limit,
+            });
+        }
+        let highest = (points / 2).max(2);
+        let harmonics = (0..=highest).map(|k| (k * harmonic) as isize);
+        Ok(Self {
+            body: WaveBody::new(specification, material, harmonics, harmonic)?,
+            points: 2 * highest + 1,
+        })
+    }
+
+    /// The body.
+    pub fn body(&self) -> &WaveBody {
+        &self.body
+    }
+
+    /// Number of points along the phase.
+    pub fn points(&self) -> usize {
+        self.points
+    }
+
+    /// Every loss of stability of steady sliding to a wave of this harmonic, by rising friction.
+    pub fn onsets(&self, damping: &RayleighDamping) -> Vec<Onset> {
+        onsets(&Wave::new(&self.body), damping)
+    }
+
+    /// The limit cycle at an operating point.
+    ///
+    /// It is followed over the friction coefficient from its birth at the lowest critical friction.
+    ///
+    /// # Errors
+    /// [`CycleError`] for a point without limit cycle.
+    pub fn find(&self, point: &OperatingPoint) -> Result<LimitCycle, CycleError> {
+        check(point)?;
+        let wave = Wave::new(&self.body);
+        let onset = onsets(&wave, &point.damping).into_iter().next();
+        let onset = onset.ok_or(CycleError::NoOnset {
+            harmonic: self.body.harmonic(),
+            limit: LARGEST_FRICTION,
+            frequency_hz: HIGHEST_FREQUENCY_HZ,
+        })?;
+        let (state, event) = largest_linear_wave(&wave, point, &onset);
+        let target = point.contact.friction_coefficient;
+        let parameter = Parameter::FrictionCoefficient;
+        let mut branch = Branch::new(&wave, parameter, state, 1.0, Some(event));
+        let end = self.run(&mut branch, &[target], |branch, step| {
+            matches!(step, Step::At(_)).then_some(branch.value())
+        });
+        match end {
+            Ok(_) => Ok(LimitCycle::new(&wave, branch.state)),
+            Err(reason) => Err(CycleError::NotReached {
+                harmonic: self.body.harmonic(),
+                key: parameter.key(),
+                value: target,
+                reached: branch.value(),
+                reason: reason.describe().to_owned(),
+            }),
+        }
+    }
+
+    /// The limit cycle at `point` from the one of a neighbouring point that differs in `parameter`.
+    ///
+    /// # Errors
+    /// [`CycleError::NotReached`] if the branch ends before.
+    pub fn continue_to(
+        &self,
+        cycle: &LimitCycle,
+        parameter: Parameter,
+        value: f64,
+    ) -> Result<LimitCycle, CycleError> {
+        let wave = Wave::new(&self.body);
+        let direction = value - parameter.of(&cycle.state.point);
+        if direction == 0.0 {
+            return Ok(cycle.clone());
+        }
+        let mut branch = Branch::new(&wave, parameter, cycle.state.clone(), direction, None);
+        let end = self.run(&mut branch, &[value], |branch, step| {
+            matches!(step, Step::At(_)).then_some(branch.value())
+        });
+        match end {
+            Ok(_) => Ok(LimitCycle::new(&wave, branch.state)),
+            Err(reason) => Err(CycleError::NotReached {
+                harmonic: self.body.harmonic(),
+                key: parameter.key(),
+                value,
+                reached: branch.value(),
+                reason: reason.describe().to_owned(),
+            }),
+        }
+    }
+
+    /// The whole branch through `cycle` over `parameter` between the smallest and the largest of `values` (SI), with a
+    /// cycle at every crossing of a value.
+    pub fn follow(&self, cycle: &LimitCycle, parameter: Parameter, values: &[f64]) -> CycleBranch {
+        let mut samples = values.to_vec();
+        samples.sort_by(f64::total_cmp);
+        samples.dedup();
+        let mut down = self.half(cycle, parameter, &samples, -1.0);
+        let up = self.half(cycle, parameter, &samples, 1.0);
+        down.cycles.reverse();
+        down.folds.reverse();
+        let start = parameter.of(&cycle.state.point);
+        if samples.contains(&start) {
+            down.cycles.push(cycle.clone());
+        }
+        down.cycles.extend(up.cycles);
+        down.folds.extend(up.folds);
+        CycleBranch {
+            parameter,
+            cycles: down.cycles,
+            folds: down.folds,
+            ends: [down.ends[1], up.ends[1]],
+            factorizations: down.factorizations + up.factorizations,
+        }
+    }
+
+    /// The branch from `cycle` in one direction.
+    fn half(
+        &self,
+        cycle: &LimitCycle,
+        parameter: Parameter,
+        samples: &[f64],
+        direction: f64,
+    ) -> CycleBranch {
+        let wave = Wave::new(&self.body);
+        let (mut cycles, mut folds) = (Vec::new(), Vec::new());
+        let mut branch = Branch::new(&wave, parameter, cycle.state.clone(), direction, None);
+        let (first, last) = (samples[0], samples[samples.len() - 1]);
+        let start = branch.value();
+        let mut direction = direction.signum();
+        let mut is_inside = false;
+        // A start outside the range has nothing to find in the other direction.
+        if (start <= first && direction < 0.0) || (start >= last && direction > 0.0) {
+            is_inside = start == first || start == last;
+            let end = BranchEnd::Range;
+            let _ = is_inside;
+            return CycleBranch {
+                parameter,
+                cycles,
+                folds,
+                ends: [end; 2],
+                factorizations: 0,
+            };
+        }
+        let end = self.run(&mut branch, samples, |branch, step| {
+            if branch.direction() != direction {
+                direction = branch.direction();
+                folds.push(branch.value());
+            }
+            let Step::At(value) = step else { return None };
+            cycles.push(LimitCycle::new(&wave, branch.state.clone()));
+            let leaves = (value == first && direction < 0.0) || (value == last && direction > 0.0);
+            is_inside |= first < value && value < last;
+            leaves.then_some(value)
+        });
+        let _ = is_inside;
+        CycleBranch {
+            parameter,
+            cycles,
+            folds,
+            ends: [BranchEnd::Range, end.err().unwrap_or(BranchEnd::Range)],
+            factorizations: branch.factorizations,
+        }
+    }
+
+    /// Steps until `done` says so.
+    fn run<T>(
+        &self,
+        branch: &mut Branch<'_>,
+        samples: &[f64],
+        mut done: impl FnMut(&Branch<'_>, Step) -> Option<T>,
+    ) -> Result<T, BranchEnd> {
+        for _ in 0..MOST_STEPS {
+            let step = branch.advance(samples).ok_or(BranchEnd::Lost)?;
+            if let Some(result) = done(branch, step) {
+                return Ok(result);
+            }
+            if is_full_slip(&branch.state) {
+                return Err(BranchEnd::Birth);
+            }
+        }
+        Err(BranchEnd::Steps)
+    }
+}
+
+fn is_full_slip(state: &WaveState) -> bool {
+    let mut points = state.contact.iter();
+    points.all(|&point| point == PointState::SlipForward)
+}
+
+fn check(point: &OperatingPoint) -> Result<(), CycleError> {
+    let contact = &point.contact;
+    if !(contact.rotation_speed > 0.0 && contact.rotation_speed.is_finite()) {
+        return Err(CycleError::RotationSpeed {
+            rpm: contact.rotation_speed * 60.0 / TAU,
+        });
+    }
+    for (key, value) in [
+        ("contact.interference", contact.interference),
+        ("contact.friction_coefficient", contact.friction_coefficient),
+    ] {
+        if !(value > 0.0 && value.is_finite()) {
+            return Err(CycleError::NotPositive { key, value });
+        }
+    }
+    Ok(())
+}
