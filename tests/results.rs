@@ -111,6 +111,8 @@ fn report<'a>(
             power_w: 1287.0,
         },
         field,
+        sensitivities: None,
+        map: None,
         notes: vec!["harmonics above 6 do not exist on this mesh".to_owned()],
         wall_s: 0.5,
     }

@@ -4,6 +4,7 @@ pub mod cea;
 mod check;
 mod collect;
 mod completions;
+pub mod cycle;
 mod failure;
 mod frf;
 mod identify;
@@ -51,6 +52,7 @@ enum Command {
     Sweep(sweep::Arguments),
     Collect(collect::Arguments),
     Plot(plot::Arguments),
+    Cycle(cycle::Arguments),
     Mesh(mesh::Arguments),
     Check(check::Arguments),
     Init(init::Arguments),
@@ -70,6 +72,7 @@ pub fn main() -> ExitCode {
         Command::Sweep(arguments) => sweep::run(&arguments),
         Command::Collect(arguments) => collect::run(&arguments),
         Command::Plot(arguments) => plot::run(&arguments),
+        Command::Cycle(arguments) => cycle::run(&arguments),
         Command::Mesh(arguments) => mesh::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Init(arguments) => init::run(&arguments),

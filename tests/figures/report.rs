@@ -57,6 +57,8 @@ fn report_of_an_eigenvalue_analysis_holds_every_figure_table_and_the_case() {
             power_w: 1287.0,
         },
         field: &field,
+        sensitivities: None,
+        map: None,
         notes: vec![],
         wall_s: 1.2,
     };

@@ -211,6 +211,7 @@ fn point(number: usize, swept: Value, summaries: Value) -> PointRecord {
         error: None,
         summaries: object(summaries),
         wall_s: 1.0,
+        core_s: 1.0,
         case_hash: String::new(),
         sweep_hash: String::new(),
         version: String::new(),

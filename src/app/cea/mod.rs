@@ -8,7 +8,7 @@ pub use model::SlidingModel;
 use super::{Failure, RunOptions, Session, terminal};
 use crate::case::{Case, Cea, ModeSelection};
 use crate::cea::FrictionSweep;
-use crate::results::cea::{BaseField, CeaReport, draw, print, summary, write};
+use crate::results::cea::{BaseField, CeaReport, SensitivityReport, draw, print, summary, write};
 use crate::results::{DOTS_PER_INCH, Manifest, OutputFolder};
 use clap::Args;
 use indicatif::ProgressBar;
@@ -42,6 +42,8 @@ pub struct Solution {
     pub dofs: usize,
     /// Which solver.
     pub method: &'static str,
+    /// Derivatives of the eigenvalues at the case's own friction coefficient.
+    pub sensitivities: Option<SensitivityReport>,
     /// What it has to say.
     pub notes: Vec<String>,
 }
@@ -66,8 +68,16 @@ fn run_with(
     let solution = solve(&session, cea, &model)?;
     refuse_no_modes(case, cea, &solution.sweep)?;
 
+    let map = cea
+        .map
+        .as_ref()
+        .map(|map| solve::map(case, cea, map))
+        .transpose()?;
     let field = model.base_field(case);
-    let report = report(case, cea, &model, &solution, &field, session.wall_seconds());
+    let report = CeaReport {
+        map: map.as_ref(),
+        ..report(case, cea, &model, &solution, &field, session.wall_seconds())
+    };
     let summary = write(&folder, &report)?;
     if !session.options.no_figures {
         draw(&folder, &report, case.damping.rayleigh, DOTS_PER_INCH)?;
@@ -92,8 +102,13 @@ pub fn redraw(
     let model = SlidingModel::new(case, cea)?;
     let solution = solve::solve(case, cea, &model, &ProgressBar::hidden())?;
     let field = model.base_field(case);
+    let map = cea.map.as_ref();
+    let map = map.map(|map| solve::map(case, cea, map)).transpose()?;
     let wall_s = summary["wall_s"].as_f64().unwrap_or(f64::NAN);
-    let report = report(case, cea, &model, &solution, &field, wall_s);
+    let report = CeaReport {
+        map: map.as_ref(),
+        ..report(case, cea, &model, &solution, &field, wall_s)
+    };
     draw(folder, &report, case.damping.rayleigh, dots_per_inch)?;
     Ok(())
 }
@@ -138,6 +153,8 @@ fn report<'a>(
         sweep: &solution.sweep,
         base: model.base_state(case),
         field,
+        sensitivities: solution.sensitivities.as_ref(),
+        map: None,
         notes: solution.notes.clone(),
         wall_s,
     }
@@ -212,6 +229,7 @@ mod tests {
             },
             dofs: 100,
             method: "sparse",
+            sensitivities: None,
             notes: Vec::new(),
         }
     }

@@ -182,9 +182,9 @@ fn add_complex_multiple(
 /// Factors of `K(mu)`.
 pub enum StiffnessFactors {
     /// Without friction: a factor five cheaper to compute and to solve with.
-    Symmetric(SparseLdl),
+    Symmetric(Box<SparseLdl>),
     /// With friction.
-    General(SparseLu),
+    General(Box<SparseLu>),
 }
 
 impl StiffnessFactors {
@@ -195,7 +195,8 @@ impl StiffnessFactors {
     pub fn frictionless(tangent: &SlidingTangent) -> Result<Self, LinalgError> {
         let analysis = LdlAnalysis::new(tangent.stiffness.pattern())?;
         let values = tangent.stiffness.evaluate(0.0);
-        SparseLdl::factorize(&analysis, &values).map(Self::Symmetric)
+        let factors = SparseLdl::factorize(&analysis, &values)?;
+        Ok(Self::Symmetric(Box::new(factors)))
     }
 
     /// Factorizes `K(mu)` on an analysis made once and kept in `cache`.
@@ -209,7 +210,8 @@ impl StiffnessFactors {
     ) -> Result<Self, LinalgError> {
         let analysis = cache.get_or_init(|| LuAnalysis::new(tangent.stiffness.pattern()));
         let analysis = analysis.as_ref().map_err(Clone::clone)?;
-        SparseLu::factorize(analysis, tangent.stiffness.evaluate(mu)).map(Self::General)
+        let factors = SparseLu::factorize(analysis, tangent.stiffness.evaluate(mu))?;
+        Ok(Self::General(Box::new(factors)))
     }
 
     /// `K^-1 x` or `K^-T x` for each column, in place.

@@ -44,6 +44,10 @@ pub fn draw(
             .filter_map(|p| shapes_job(report, p)),
     );
     jobs.extend(branch_jobs(report));
+    if let Some(map) = report.map {
+        let caption = format!("Critical friction of each branch over {}", map.key);
+        jobs.push(("map".to_owned(), caption, Box::new(|| map.draw())));
+    }
     // Drawing is pure: side by side here, in order below.
     let drawn: Vec<_> = jobs
         .par_iter()

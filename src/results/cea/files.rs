@@ -19,6 +19,12 @@ pub fn write(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<Value, Fol
     folder.write("stability.csv", |out| {
         write_stability(out, &report.sweep.intervals)
     })?;
+    if let Some(sensitivities) = report.sensitivities {
+        folder.write("sensitivities.csv", |out| sensitivities.write(out))?;
+    }
+    if let Some(map) = report.map {
+        folder.write("map.csv", |out| map.write(out))?;
+    }
     write_base(folder, report.mesh, report.field)?;
     write_shapes(folder, report)?;
     let summary = summary(report, folder.manifest());
