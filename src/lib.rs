@@ -14,6 +14,7 @@ pub mod cea;
 pub mod contact;
 pub mod cycle;
 pub mod fem;
+pub mod frf;
 pub mod linalg;
 pub mod mesh;
 pub mod prestress;

@@ -86,12 +86,23 @@ fn the_swept_points_are_the_grid_in_order_with_the_last_key_fastest() {
     assert_eq!(sweep.overrides(25)[0], "contact.friction_coefficient=0.3");
     let speeds = range_values(10.0, 6000.0, 24, Spacing::Logarithmic);
     for index in [0, 25, 71] {
-        let raw = case.raw.with_overrides(&sweep.overrides(index)).unwrap();
+        let raw = case.raw.sweep_point(&sweep.overrides(index)).unwrap();
         let point = Case::from_raw(raw).unwrap();
         let speed = point.contact.sliding.rotation_speed / TAU * 60.0;
         // Two roundings of a product by 2 pi / 60.
         assert!((speed / speeds[index % 24] - 1.0).abs() < 1e-15);
     }
+}
+
+#[test]
+fn a_point_keeps_its_hash_when_the_study_grows() {
+    let point = |text: &str, overrides: &[&str]| {
+        let raw = valid(text, overrides).raw;
+        let at = ["contact.friction_coefficient=0.4".to_owned()];
+        raw.sweep_point(&at).unwrap().hash()
+    };
+    let grown = ["sweep.\"contact.friction_coefficient\"=[0.1, 0.2, 0.3, 0.4]"];
+    assert_eq!(point(STUDY, &[]), point(STUDY, &grown));
 }
 
 #[test]

@@ -106,6 +106,127 @@ fn check_reports_the_cost_as_numbers() {
 }
 
 #[test]
+fn the_shipped_disc_turns_unstable_where_the_continuum_does() {
+    let folder = folder();
+    let mut command = frictionsim(&folder);
+    let run = command
+        .args(["cea", &disc(), "--json", "--no-figures"])
+        .assert()
+        .code(0);
+    let summary: serde_json::Value = serde_json::from_slice(&run.get_output().stdout).unwrap();
+    // Onset of the exact continuum model; the mesh and the prestress move it by less than 0.003.
+    for (harmonic, branch, onset) in [(1, 1, 0.1224), (2, 0, 0.1382), (1, 0, 0.2121)] {
+        let critical = summary["critical_frictions"].as_array().unwrap();
+        let is_it =
+            |row: &&serde_json::Value| row["harmonic"] == harmonic && row["branch"] == branch;
+        let row = critical.iter().find(is_it).unwrap();
+        let found = row["critical_friction"].as_f64().unwrap();
+        assert!((found - onset).abs() < 0.003, "{harmonic} {branch} {found}");
+        assert_eq!(
+            row["direction"], -1,
+            "the unstable wave travels against the rotor"
+        );
+    }
+    assert!(summary["largest_residual"].as_f64().unwrap() < 1e-9);
+    let at = summary["unstable_counts"].as_array().unwrap();
+    let row = at
+        .iter()
+        .find(|row| row["friction_coefficient"] == 0.3)
+        .unwrap();
+    assert_eq!((&row["modes"], &row["unstable"]), (&28.into(), &3.into()));
+}
+
+#[test]
+fn an_eigenvalue_sweep_has_the_same_bytes_for_any_thread_count() {
+    let folder = folder();
+    let tables = ["1", "2"].map(|threads| {
+        let mut command = frictionsim(&folder);
+        command.args([
+            "cea",
+            &disc(),
+            "--no-figures",
+            "--out",
+            threads,
+            "--threads",
+            threads,
+        ]);
+        command.args(COARSE).assert().code(0);
+        [
+            "eigenvalues.csv",
+            "stability.csv",
+            "prestress.csv",
+            "modes.pvd",
+        ]
+        .map(|name| fs::read(folder.path().join(threads).join(name)).unwrap())
+    });
+    assert_eq!(tables[0], tables[1]);
+}
+
+#[test]
+fn cea_prints_the_table_and_draws_its_figures() {
+    let folder = folder();
+    let mut command = frictionsim(&folder);
+    let run = command
+        .args(["cea", &disc(), "--out", "here"])
+        .args(COARSE)
+        .assert()
+        .code(0);
+    run.stdout(
+        contains("critical friction")
+            .and(contains("largest residual"))
+            .and(contains("32 contact nodes slipping, 0 sticking, 0 open"))
+            .and(contains("stable up to")),
+    )
+    .stderr("");
+    for name in [
+        "figures/locus.svg",
+        "figures/pairs.png",
+        "modes/mu-0.3-mode-001.vtu",
+    ] {
+        assert!(folder.path().join("here").join(name).exists(), "{name}");
+    }
+}
+
+#[test]
+fn a_frequency_range_without_modes_is_an_error_of_the_case() {
+    let folder = folder();
+    let mut command = frictionsim(&folder);
+    command
+        .args(["cea", &disc(), "--set", "cea.max_frequency_hz=500"])
+        .args(COARSE);
+    let message = contains("there are no modes below it").and(contains("--set:1:"));
+    command.assert().code(2).stderr(message);
+}
+
+#[test]
+fn a_case_without_the_section_of_the_command_says_what_to_add() {
+    let folder = folder();
+    let study = cases()
+        .join("speed-friction-study.toml")
+        .display()
+        .to_string();
+    let run = frictionsim(&folder).args(["cea", &study]).assert().code(2);
+    run.stderr(contains("no [cea] section").and(contains("max_frequency_hz")));
+}
+
+#[test]
+fn check_tells_scripts_what_is_wrong() {
+    let folder = folder();
+    let bad = damaged(&folder, "density = 1228.0", "density = -1");
+    let run = frictionsim(&folder)
+        .args(["check", "--json", bad])
+        .assert()
+        .code(2);
+    let value: serde_json::Value = serde_json::from_slice(&run.get_output().stdout).unwrap();
+    let errors = &value["cases"][0]["errors"];
+    assert_eq!(errors.as_array().unwrap().len(), 1);
+    assert!(
+        errors[0].as_str().unwrap().contains("material.density"),
+        "{errors}"
+    );
+}
+
+#[test]
 fn check_goes_on_after_a_bad_case() {
     let folder = folder();
     let bad = damaged(&folder, "density = 1228.0", "density = -1");

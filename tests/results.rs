@@ -111,6 +111,8 @@ fn report<'a>(
             power_w: 1287.0,
         },
         field,
+        sensitivities: None,
+        map: None,
         notes: vec!["harmonics above 6 do not exist on this mesh".to_owned()],
         wall_s: 0.5,
     }
@@ -365,6 +367,24 @@ fn a_complete_run_leaves_no_file_of_an_earlier_one() {
         .collect();
     names.sort();
     assert_eq!(names, [".lock", "a.csv", "c.csv", "manifest.json"]);
+}
+
+#[test]
+fn what_a_killed_run_left_does_not_survive_another_case() {
+    let folder = tempfile::tempdir().unwrap();
+    let killed = open(folder.path(), "a", Replace::SameCase).unwrap();
+    killed
+        .write("figures/early.svg", |out| out.write_all(b"1"))
+        .unwrap();
+    // The process dies: no end of the run, and a temporary file half written.
+    drop(killed);
+    fs::write(folder.path().join("figures/.writing-x"), "half").unwrap();
+    let other = open(folder.path(), "b", Replace::Anything).unwrap();
+    assert_eq!(
+        fs::read_dir(folder.path().join("figures")).unwrap().count(),
+        0
+    );
+    other.finish().unwrap();
 }
 
 #[test]

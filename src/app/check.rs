@@ -41,7 +41,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             Err(failure) => {
                 bad += 1;
                 failure.report();
-                reports.push(json!({ "case": name, "valid": false }));
+                let errors = failure.messages();
+                reports.push(json!({ "case": name, "valid": false, "errors": errors }));
             }
         }
     }

@@ -19,6 +19,9 @@ pub struct Arguments {
     /// Print the summary object, alone, on stdout
     #[arg(long)]
     json: bool,
+    /// Draw no figures
+    #[arg(long)]
+    no_figures: bool,
 }
 
 /// Runs the subcommand.
@@ -35,6 +38,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let records = finished_points(&folder, plan.count())?;
     let report = SweepReport {
         title: &case.title,
+        friction_coefficient: case.contact.sliding.friction_coefficient,
         keys: &plan.keys(),
         analyses: &plan.analysis_names(),
         count: plan.count(),
@@ -42,7 +46,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         ran: None,
         wall_s: start.elapsed().as_secs_f64(),
     };
-    let summary = gather(&folder, &report, &manifest)?;
+    let summary = gather(&folder, &report, &manifest, !arguments.no_figures)?;
     if arguments.json {
         terminal::print_json(&summary)?;
     } else {

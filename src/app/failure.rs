@@ -2,6 +2,7 @@
 
 use crate::case::CaseErrors;
 use crate::cea::cyclic::CyclicError;
+use crate::cea::sparse::CeaError;
 use crate::prestress::PrestressError;
 use crate::results::{DrawingError, FolderError};
 use std::io;
@@ -29,6 +30,18 @@ impl Failure {
     /// Failure of a run in words.
     pub fn run(message: impl std::fmt::Display) -> Self {
         Self::Run(anyhow::anyhow!("{message}"))
+    }
+
+    /// What went wrong, one line for each error.
+    pub fn messages(&self) -> Vec<String> {
+        match self {
+            Self::Case(errors) => {
+                let all = errors.diagnostics.iter();
+                all.map(|error| error.message.clone()).collect()
+            }
+            Self::Usage(error) | Self::Run(error) => vec![format!("{error:#}")],
+            Self::BrokenPipe => Vec::new(),
+        }
     }
 
     /// Says on stderr what went wrong, and gives the exit code.
@@ -91,6 +104,17 @@ impl From<CyclicError> for Failure {
             | CyclicError::Limit { .. }
             | CyclicError::TooManyModes { .. }
             | CyclicError::Mesh(_) => Self::Usage(error.into()),
+            _ => Self::Run(error.into()),
+        }
+    }
+}
+
+impl From<CeaError> for Failure {
+    fn from(error: CeaError) -> Self {
+        match error {
+            CeaError::FrictionCoefficients { .. }
+            | CeaError::NoModes { .. }
+            | CeaError::TooManyModes { .. } => Self::Usage(error.into()),
             _ => Self::Run(error.into()),
         }
     }

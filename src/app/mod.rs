@@ -6,13 +6,18 @@ mod collect;
 mod completions;
 pub mod cycle;
 mod failure;
+mod frf;
+mod identify;
 mod init;
 mod man;
+mod measurement;
 mod mesh;
 mod options;
 mod session;
+mod signal;
 pub mod sweep;
 pub mod terminal;
+pub mod transient;
 
 pub use failure::Failure;
 pub use options::{RunOptions, SimdChoice};
@@ -41,11 +46,16 @@ pub struct CommandLine {
 #[derive(Subcommand)]
 enum Command {
     Cea(cea::Arguments),
+    Transient(transient::Arguments),
+    Sweep(sweep::Arguments),
     Collect(collect::Arguments),
     Cycle(cycle::Arguments),
     Mesh(mesh::Arguments),
     Check(check::Arguments),
     Init(init::Arguments),
+    Frf(frf::Arguments),
+    Identify(identify::Arguments),
+    Signal(signal::Arguments),
     Completions(completions::Arguments),
     Man(man::Arguments),
 }
@@ -55,11 +65,16 @@ enum Command {
 pub fn main() -> ExitCode {
     let outcome = match CommandLine::parse().command {
         Command::Cea(arguments) => cea::run(&arguments),
+        Command::Transient(arguments) => transient::run(&arguments),
+        Command::Sweep(arguments) => sweep::run(&arguments),
         Command::Collect(arguments) => collect::run(&arguments),
         Command::Cycle(arguments) => cycle::run(&arguments),
         Command::Mesh(arguments) => mesh::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Init(arguments) => init::run(&arguments),
+        Command::Frf(arguments) => frf::run(&arguments),
+        Command::Identify(arguments) => identify::run(&arguments),
+        Command::Signal(arguments) => signal::run(&arguments),
         Command::Completions(arguments) => completions::run(&arguments),
         Command::Man(arguments) => man::run(&arguments),
     };

@@ -75,6 +75,19 @@ impl Session {
         )?)
     }
 
+    /// Takes the output folder of a run that goes on: it must hold this very case.
+    ///
+    /// # Errors
+    /// Those of [`OutputFolder::open`].
+    pub fn reopen_folder(&self) -> Result<OutputFolder, Failure> {
+        let path = self.folder_path();
+        Ok(OutputFolder::open(
+            &path,
+            &self.manifest,
+            Replace::SameCase,
+        )?)
+    }
+
     /// Where the output folder is.
     pub fn folder_path(&self) -> PathBuf {
         match &self.options.out {

@@ -1,5 +1,6 @@
 //! `frictionsim sweep`: an analysis at every point of a parameter study.
 
+mod analyses;
 mod plan;
 mod progress;
 mod workers;
@@ -11,7 +12,7 @@ pub use workers::{PointRunner, SweepRun};
 use super::{Failure, RunOptions, Session};
 use crate::results::Manifest;
 use crate::results::sweep::{PointRecord, Start, SweepFolder, SweepReport};
-use crate::results::sweep::{print, summary, write_points};
+use crate::results::sweep::{draw, print, summary, write_points};
 use clap::Args;
 use serde_json::Value;
 
@@ -31,14 +32,11 @@ pub struct Arguments {
     resume: bool,
 }
 
-/// Runs the subcommand with what runs at a point.
+/// Runs the subcommand.
 ///
 /// # Errors
 /// A bad case or folder; a folder that cannot be written; failed points, after all others are done.
-pub fn run_with(
-    arguments: &Arguments,
-    runner: impl FnOnce(&Session, &SweepPlan<'_>) -> Box<PointRunner<'static>>,
-) -> Result<(), Failure> {
+pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let session = Session::start("sweep", &arguments.options)?;
     let plan = SweepPlan::new(&session.case)?;
     let threads = session.manifest.threads;
@@ -52,14 +50,14 @@ pub fn run_with(
     let path = session.folder_path();
     let folder = SweepFolder::open(&path, &session.manifest, plan.count(), &points, start)?;
 
+    catch_signals();
     let progress = SweepProgress::new(arguments.options.quiet, points.len());
-    let runner = runner(&session, &plan);
     let run = SweepRun {
         plan: &plan,
         folder: &folder,
         manifest: &session.manifest,
         progress: &progress,
-        runner: &*runner,
+        runner: &|case| analyses::run_point(case, &plan.analyses, &session.manifest),
     };
     let outcome = run.run(&points, threads);
     progress.finish();
@@ -68,6 +66,7 @@ pub fn run_with(
     let records = finished_points(&folder, plan.count())?;
     let report = SweepReport {
         title: &session.case.title,
+        friction_coefficient: session.case.contact.sliding.friction_coefficient,
         keys: &plan.keys(),
         analyses: &plan.analysis_names(),
         count: plan.count(),
@@ -76,7 +75,8 @@ pub fn run_with(
         wall_s: session.wall_seconds(),
     };
     let summary = if report.missing().is_empty() {
-        gather(&folder, &report, &session.manifest)?
+        let has_figures = !arguments.options.no_figures;
+        gather(&folder, &report, &session.manifest, has_figures)?
     } else {
         summary(&report, &session.manifest)
     };
@@ -85,11 +85,24 @@ pub fn run_with(
     match report.failed().filter(of_these).count() {
         0 => Ok(()),
         failed => Err(Failure::run(format!(
-            "{failed} of {} points failed; the others are in {}",
-            points.len(),
-            folder.path().display()
+            "{failed} of {} points failed; the results of the others are kept",
+            points.len()
         ))),
     }
+}
+
+/// Makes Ctrl-C and SIGTERM end the process with a word on how to go on; finished points are files
+/// already.
+fn catch_signals() {
+    let stop = || {
+        use std::io::Write;
+        let text = "\nerror: interrupted; finished points are kept: go on with --resume";
+        // Nobody is left to tell if stderr is closed.
+        let _ = writeln!(std::io::stderr(), "{text}");
+        std::process::exit(1);
+    };
+    // A second sweep of the same process finds the handler in place.
+    let _ = ctrlc::set_handler(stop);
 }
 
 /// Memory that the analyses of one point take, bytes.
@@ -115,7 +128,8 @@ pub fn finished_points(folder: &SweepFolder, count: usize) -> Result<Vec<PointRe
     Ok(records)
 }
 
-/// Writes the table and the summary of the finished points, and returns the summary.
+/// Writes the table, the summary and, if asked, the figures of the finished points, and returns the
+/// summary.
 ///
 /// # Errors
 /// Those of the file system.
@@ -123,7 +137,11 @@ pub fn gather(
     folder: &SweepFolder,
     report: &SweepReport<'_>,
     manifest: &Manifest,
+    has_figures: bool,
 ) -> Result<Value, Failure> {
+    if has_figures {
+        draw(folder, report)?;
+    }
     folder.write("points.csv", |out| {
         write_points(out, report.keys, report.records)
     })?;

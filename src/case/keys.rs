@@ -41,6 +41,7 @@ pub const SECTIONS: &[&str] = &[
     "sweep",
     "cycle",
     "cycle.continuation",
+    "frf",
 ];
 
 /// All keys in the order of the documentation.
@@ -95,6 +96,17 @@ pub const KEYS: &[CaseKey] = &[
     key("cycle.continuation.to", "6000", "its last value"),
     key("cycle.continuation.count", "61", "how many values from first to last are reported"),
     key("cycle.continuation.spacing", "\"log\"", "how they are spaced"),
+    key("frf.boundary", "\"free\"", "how the disc is held while it is excited"),
+    key("frf.force_node", "36", "the id (from 1) of the node that is struck"),
+    key("frf.force_direction", "\"radial\"", "the direction of the force"),
+    key("frf.response_node", "36", "the id (from 1) of the node observed (left out = force_node)"),
+    key("frf.response_direction", "\"radial\"", "the direction observed"),
+    key("frf.frequencies_hz", "{ from = 1.0, to = 10000.0, count = 10000 }", "the frequencies of the response, Hz"),
+    key("frf.quantity", "\"accelerance\"", "what is observed for each unit of force"),
+    key("frf.method", "\"auto\"", "how the response is computed"),
+    key("frf.mass", "\"consistent\"", "the mass matrix"),
+    key("frf.noise", "0.01", "Gaussian noise added to real and imaginary part, relative to the magnitude"),
+    key("frf.noise_seed", "1", "the seed of that noise"),
 ];
 
 /// The entry of a dotted key.

@@ -8,6 +8,7 @@ mod cea;
 mod cost;
 mod cycle;
 mod diagnostic;
+mod frf;
 mod keys;
 mod model;
 mod overrides;
@@ -22,6 +23,7 @@ pub use cea::{Cea, CeaMap, CeaMethod, ModeSelection};
 pub use cost::{CeaCost, Cost, TransientCost};
 pub use cycle::{Continuation, Cycle};
 pub use diagnostic::{CaseErrors, Diagnostic, Location, Source};
+pub use frf::{Frf, FrfMethod};
 pub use keys::{CaseKey, KEYS, SECTIONS};
 pub use model::{Contact, Damping};
 pub use range::{Spacing, range_values};
@@ -60,6 +62,8 @@ pub struct Case {
     pub sweep: Option<Sweep>,
     /// Limit-cycle search, if the case has one.
     pub cycle: Option<Cycle>,
+    /// Frequency response, if the case has one.
+    pub frf: Option<Frf>,
     /// Things that are no errors but that the user should hear of.
     pub warnings: Vec<String>,
 }
@@ -105,6 +109,7 @@ impl Case {
             );
         }
         let cycle = cycle::cycle(&root, &annulus);
+        let frf = frf::read(&root, &annulus);
         let sweep = sweep::read(&root);
         root.close();
         let errors = findings.into_errors();
@@ -123,6 +128,7 @@ impl Case {
             output,
             sweep,
             cycle,
+            frf,
             warnings,
             raw,
         })
@@ -190,6 +196,18 @@ impl Case {
         self.sweep
             .as_ref()
             .ok_or_else(|| self.lacks("sweep", "parameter study", remedy))
+    }
+
+    /// The frequency response.
+    ///
+    /// # Errors
+    /// A case without `[frf]`, with what to add.
+    pub fn require_frf(&self) -> Result<&Frf, CaseErrors> {
+        let remedy =
+            "[frf]\nforce_node = 36\nfrequencies_hz = { from = 1.0, to = 10000.0, count = 10000 }";
+        self.frf
+            .as_ref()
+            .ok_or_else(|| self.lacks("frf", "frequency response", remedy))
     }
 
     fn lacks(&self, section: &str, analysis: &str, remedy: &str) -> CaseErrors {

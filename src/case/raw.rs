@@ -167,6 +167,17 @@ impl RawCase {
         Self::parse(&self.name, self.text.as_bytes(), &overrides)
     }
 
+    /// The point of a parameter study that `overrides` make: a case of its own without `[sweep]`, so
+    /// that its hash stays the same when the study gains other points.
+    ///
+    /// # Errors
+    /// As [`RawCase::parse`].
+    pub fn sweep_point(&self, overrides: &[String]) -> Result<Self, CaseErrors> {
+        let mut point = self.with_overrides(overrides)?;
+        point.root.remove("sweep");
+        Ok(point)
+    }
+
     /// The effective case as canonical TOML, one `section.key = value` line for each key: comments,
     /// white space and the way a number is written leave no trace.
     pub fn canonical(&self) -> String {

@@ -206,7 +206,7 @@ pub(super) fn check_values(case: &Case) -> Result<(), CaseErrors> {
         let tried = key.values.len().min(MOST_TRIED);
         for value in (0..tried).map(|i| &key.values[i * last / tried.max(2).saturating_sub(1)]) {
             let point = [format!("{}={value}", key.key)];
-            let result = case.raw.with_overrides(&point).and_then(read_point);
+            let result = case.raw.sweep_point(&point).and_then(read_point);
             if let Err(bad) = result {
                 for mut error in bad.diagnostics {
                     error.message = format!("swept value {}: {}", point[0], error.message);

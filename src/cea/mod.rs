@@ -1,6 +1,7 @@
 //! Complex eigenvalue analysis: the stability of steady sliding.
 
 pub mod cyclic;
+pub mod sparse;
 mod spectrum;
 
 pub use spectrum::{ComplexMode, FrictionPoint, FrictionSweep, UnstableInterval};

@@ -4,8 +4,8 @@ use super::branch::Event;
 use super::parameter::Parameter;
 use super::state::{PointState, WaveState};
 use super::wave::Linearization;
-use crate::linalg::dense_lu;
-use faer::Mat;
+use crate::linalg::DenseLu;
+use faer::{Mat, MatMut};
 
 /// A change of forces, frequency and parameter.
 #[derive(Clone, Debug)]
@@ -319,7 +319,11 @@ impl<'a> System<'a> {
                 right_side[row] /= largest;
             }
         }
-        dense_lu::solve(matrix, &mut right_side).then_some(right_side)
+        let count = right_side.len();
+        let columns = MatMut::from_column_major_slice_mut(&mut right_side, count, 1);
+        DenseLu::factorize(matrix).solve_in_place(columns);
+        let is_finite = right_side.iter().all(|value| value.is_finite());
+        is_finite.then_some(right_side)
     }
 
     fn heading(&self, solution: &[f64]) -> Heading {

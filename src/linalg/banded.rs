@@ -385,8 +385,9 @@ impl BandedLu {
         for k in 0..n {
             x.swap(k, self.pivots[k]);
             let value = x[k];
-            for i in k + 1..=(k + h).min(n - 1) {
-                x[i] -= self.lower[k * h + i - k - 1] * value;
+            let factors = &self.lower[k * h..(k + 1) * h];
+            for (unknown, factor) in x[k + 1..].iter_mut().zip(factors) {
+                *unknown -= factor * value;
             }
         }
         for k in (0..n).rev() {
@@ -414,9 +415,10 @@ impl BandedLu {
             }
         }
         for k in (0..n).rev() {
+            let factors = &self.lower[k * h..(k + 1) * h];
             let mut sum = x[k];
-            for i in k + 1..=(k + h).min(n - 1) {
-                sum -= self.lower[k * h + i - k - 1].conj() * x[i];
+            for (known, factor) in x[k + 1..].iter().zip(factors) {
+                sum -= factor.conj() * known;
             }
             x[k] = sum;
             x.swap(k, self.pivots[k]);

@@ -115,14 +115,44 @@ pub fn add_product(c: MatMut<'_, f64>, factor: f64, a: MatRef<'_, f64>, b: MatRe
 
 /// Columns `a` followed by columns `b`.
 pub fn join_columns(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
-    let split = a.ncols();
-    Mat::from_fn(a.nrows(), split + b.ncols(), |i, j| {
-        if j < split {
-            a[(i, j)]
-        } else {
-            b[(i, j - split)]
-        }
-    })
+    let mut joined = Mat::zeros(a.nrows(), a.ncols() + b.ncols());
+    let (mut left, mut right) = joined.as_mut().split_at_col_mut(a.ncols());
+    left.copy_from(a);
+    right.copy_from(b);
+    joined
+}
+
+/// Rows `a` above rows `b`.
+pub fn join_rows(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
+    let mut joined = Mat::zeros(a.nrows() + b.nrows(), a.ncols());
+    let (mut top, mut bottom) = joined.as_mut().split_at_row_mut(a.nrows());
+    top.copy_from(a);
+    bottom.copy_from(b);
+    joined
+}
+
+/// Column `j` as a slice.
+///
+/// # Panics
+/// If the rows of the view are not contiguous.
+pub fn column(a: MatRef<'_, f64>, j: usize) -> &[f64] {
+    let column = a.col(j).try_as_col_major();
+    column.expect("columns are contiguous").as_slice()
+}
+
+/// Column `j` of an owned matrix as a slice to write.
+pub fn column_mut(a: &mut Mat<f64>, j: usize) -> &mut [f64] {
+    let column = a.col_mut(j).try_as_col_major_mut();
+    column.expect("owned columns are contiguous").as_slice_mut()
+}
+
+/// Columns `columns` of `a`, in that order.
+pub fn pick_columns(a: &Mat<f64>, columns: &[usize]) -> Mat<f64> {
+    let mut picked = Mat::zeros(a.nrows(), columns.len());
+    for (slot, &j) in columns.iter().enumerate() {
+        column_mut(&mut picked, slot).copy_from_slice(column(a.as_ref(), j));
+    }
+    picked
 }
 
 /// Splits a matrix into blocks of at most `width` neighbouring columns.
@@ -138,6 +168,24 @@ pub fn column_blocks<T>(
         rest = Some(tail);
         Some(block)
     })
+}
+
+/// `a^T b`, summed in eight fixed lanes so that it vectorizes.
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let mut lanes = [0.0; 8];
+    let (a_chunks, b_chunks) = (a.chunks_exact(8), b.chunks_exact(8));
+    let tail: f64 = a_chunks
+        .remainder()
+        .iter()
+        .zip(b_chunks.remainder())
+        .map(|(x, y)| x * y)
+        .sum();
+    for (x, y) in a_chunks.zip(b_chunks) {
+        for lane in 0..8 {
+            lanes[lane] += x[lane] * y[lane];
+        }
+    }
+    lanes.iter().sum::<f64>() + tail
 }
 
 /// Euclidean norm of each column.
@@ -189,14 +237,14 @@ pub fn orthonormalize(basis: MatRef<'_, f64>, mut w: Mat<f64>, drop_below: f64) 
     add_product(w.as_mut(), -1.0, basis, correction.as_ref());
     against += &correction;
 
-    let (n, count) = (w.nrows(), w.ncols());
+    let count = w.ncols();
     let mut within = Mat::<f64>::zeros(count, count);
     let mut kept: Vec<usize> = Vec::with_capacity(count);
     for j in 0..count {
         for _ in 0..2 {
             for (slot, &k) in kept.iter().enumerate() {
                 let (q, v) = two_columns(&mut w, k, j);
-                let overlap: f64 = q.iter().zip(v.iter()).map(|(a, b)| a * b).sum();
+                let overlap = dot(q, v);
                 within[(slot, j)] += overlap;
                 for (a, b) in v.iter_mut().zip(q.iter()) {
                     *a -= overlap * b;
@@ -210,13 +258,51 @@ pub fn orthonormalize(basis: MatRef<'_, f64>, mut w: Mat<f64>, drop_below: f64) 
             kept.push(j);
         }
     }
-    let columns = Mat::from_fn(n, kept.len(), |i, slot| w[(i, kept[slot])]);
+    let columns = pick_columns(&w, &kept);
     let within = within.get(..kept.len(), ..).to_owned();
     Orthonormalized {
         columns,
         against,
         within,
     }
+}
+
+/// Orthonormal basis of what the columns of `w` hold beyond an orthonormal `basis`.
+///
+/// Pivoted: the largest remainder is taken first, and remainders shorter than `drop_below` (absolute)
+/// are left out.
+pub fn orthonormal_complement(
+    basis: MatRef<'_, f64>,
+    mut w: Mat<f64>,
+    drop_below: f64,
+) -> Mat<f64> {
+    let against = transpose_product(basis, w.as_ref());
+    add_product(w.as_mut(), -1.0, basis, against.as_ref());
+    let mut remaining: Vec<usize> = (0..w.ncols()).collect();
+    let mut kept = Vec::new();
+    loop {
+        let norms = remaining.iter().map(|&j| w.col(j).norm_l2());
+        let Some((slot, norm)) = norms.enumerate().max_by(|a, b| a.1.total_cmp(&b.1)) else {
+            break;
+        };
+        if norm.is_nan() || norm < drop_below {
+            break;
+        }
+        let pivot = remaining.remove(slot);
+        w.col_mut(pivot).iter_mut().for_each(|v| *v /= norm);
+        kept.push(pivot);
+        let direction = column(w.as_ref(), pivot).to_vec();
+        for &j in &remaining {
+            let remainder = column_mut(&mut w, j);
+            let overlap = dot(&direction, remainder);
+            for (r, d) in remainder.iter_mut().zip(&direction) {
+                *r -= overlap * d;
+            }
+        }
+    }
+    let chosen = pick_columns(&w, &kept);
+    // Small remainders were scaled up, and their round-off with them: once more.
+    orthonormalize(basis, chosen, 1e-3).columns
 }
 
 /// Column `k` to read and column `j > k` to write.

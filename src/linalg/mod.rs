@@ -2,7 +2,7 @@
 
 pub mod banded;
 pub mod dense;
-pub mod dense_lu;
+mod dense_lu;
 mod error;
 mod krylov_schur;
 mod polynomial;
@@ -10,6 +10,7 @@ mod sparse_ldl;
 mod sparse_lu;
 mod sparse_product;
 
+pub use dense_lu::{ComplexDenseLu, DenseLu};
 pub use error::LinalgError;
 pub use krylov_schur::{BlockOperator, KrylovSchurSettings, RealPairs, Wanted, krylov_schur};
 pub use polynomial::{MatrixPolynomial, SparsityPattern};

@@ -66,6 +66,12 @@ impl SparsityPattern {
         self.symbolic.row_idx()
     }
 
+    /// The nonzeros of one column: `(index among the nonzeros, row)`.
+    pub fn column(&self, column: usize) -> impl Iterator<Item = (usize, usize)> {
+        let range = self.column_pointers()[column]..self.column_pointers()[column + 1];
+        range.map(|position| (position, self.row_indices()[position]))
+    }
+
     /// Index of `(row, column)` among the nonzeros, if it is one.
     pub fn position(&self, row: usize, column: usize) -> Option<usize> {
         let (start, end) = (
@@ -160,6 +166,22 @@ impl MatrixPolynomial {
     /// Number of rows and of columns.
     pub fn dimension(&self) -> usize {
         self.pattern.dimension()
+    }
+
+    /// The coefficient of `mu^power` alone, as a constant on a pattern without its zeros.
+    ///
+    /// Friction touches the contact rows only: on the shared pattern most of such a coefficient is
+    /// structural zeros.
+    pub fn coefficient_without_zeros(&self, power: usize) -> Self {
+        let values = &self.coefficients[power];
+        let entries = (0..self.dimension())
+            .flat_map(|column| {
+                let nonzeros = self.pattern.column(column);
+                nonzeros.map(move |(position, row)| (row, column, values[position]))
+            })
+            .filter(|entry| entry.2 != 0.0)
+            .collect();
+        Self::from_triplets(self.dimension(), &[entries])
     }
 
     /// Nonzero values of `P(mu)`.

@@ -128,9 +128,8 @@ impl SparseLdl {
         self.solve_in_place(x.as_mut());
         let (mut residual, mut row_sums) = (right_side, vec![0.0; n]);
         for column in 0..n {
-            for position in pattern.column_pointers()[column]..pattern.column_pointers()[column + 1]
-            {
-                let (row, value) = (pattern.row_indices()[position], values[position]);
+            for (position, row) in pattern.column(column) {
+                let value = values[position];
                 if row > column {
                     continue;
                 }

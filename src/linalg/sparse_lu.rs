@@ -136,10 +136,7 @@ macro_rules! sparse_lu {
                 let pattern = &self.analysis.pattern;
                 let mut r = Mat::from_fn(right_side.len(), 1, |i, _| right_side[i]);
                 for column in 0..pattern.dimension() {
-                    let range =
-                        pattern.column_pointers()[column]..pattern.column_pointers()[column + 1];
-                    for position in range {
-                        let row = pattern.row_indices()[position];
+                    for (position, row) in pattern.column(column) {
                         r[(row, 0)] -= self.values[position] * x[(column, 0)];
                     }
                 }

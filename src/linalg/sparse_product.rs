@@ -1,6 +1,7 @@
 //! Products of a sparse matrix with blocks of vectors.
 
 use super::SparsityPattern;
+use super::dense::{column, column_mut};
 use faer::{Mat, MatRef};
 
 /// Vectors multiplied together; their entries are interleaved so that each nonzero is read once and
@@ -11,13 +12,11 @@ impl SparsityPattern {
     /// `A x` for each column of `x`, with `A` given by its nonzero `values`.
     pub fn multiply(&self, values: &[f64], x: MatRef<'_, f64>) -> Mat<f64> {
         self.by_lanes(x, |input, output| {
-            for column in 0..self.dimension() {
-                let source = input[column];
-                for position in self.column_pointers()[column]..self.column_pointers()[column + 1] {
+            for (index, source) in input.iter().enumerate() {
+                for (position, row) in self.column(index) {
                     let value = values[position];
-                    let target = &mut output[self.row_indices()[position]];
-                    for lane in 0..LANES {
-                        target[lane] += value * source[lane];
+                    for (t, s) in output[row].iter_mut().zip(source) {
+                        *t += value * s;
                     }
                 }
             }
@@ -27,16 +26,13 @@ impl SparsityPattern {
     /// `A^T x` for each column of `x`, with `A` given by its nonzero `values`.
     pub fn multiply_transpose(&self, values: &[f64], x: MatRef<'_, f64>) -> Mat<f64> {
         self.by_lanes(x, |input, output| {
-            for column in 0..self.dimension() {
-                let mut sum = [0.0; LANES];
-                for position in self.column_pointers()[column]..self.column_pointers()[column + 1] {
+            for (index, target) in output.iter_mut().enumerate() {
+                for (position, row) in self.column(index) {
                     let value = values[position];
-                    let source = &input[self.row_indices()[position]];
-                    for lane in 0..LANES {
-                        sum[lane] += value * source[lane];
+                    for (t, s) in target.iter_mut().zip(&input[row]) {
+                        *t += value * s;
                     }
                 }
-                output[column] = sum;
             }
         })
     }
@@ -54,17 +50,15 @@ impl SparsityPattern {
         for first in (0..x.ncols()).step_by(LANES) {
             let width = LANES.min(x.ncols() - first);
             for lane in 0..width {
-                let column = x.col(first + lane);
-                for (i, entry) in input.iter_mut().enumerate() {
-                    entry[lane] = column[i];
+                for (entry, value) in input.iter_mut().zip(column(x, first + lane)) {
+                    entry[lane] = *value;
                 }
             }
             output.fill([0.0; LANES]);
             kernel(&input, &mut output);
             for lane in 0..width {
-                let mut column = y.col_mut(first + lane);
-                for (i, entry) in output.iter().enumerate() {
-                    column[i] = entry[lane];
+                for (value, entry) in column_mut(&mut y, first + lane).iter_mut().zip(&output) {
+                    *value = entry[lane];
                 }
             }
         }

@@ -132,7 +132,8 @@ impl SectorTangent {
     pub fn unknowns(&self) -> Vec<usize> {
         let total = 2 * self.sector.free_node_count();
         let is_rigid = self.terms.normal_stiffness.is_none();
-        let is_held = |dof: usize| is_rigid && dof % 2 == 0 && dof / 2 < self.sector.contact_count;
+        let is_held =
+            |dof: usize| is_rigid && dof.is_multiple_of(2) && dof / 2 < self.sector.contact_count;
         (0..total).filter(|&dof| !is_held(dof)).collect()
     }
 

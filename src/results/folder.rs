@@ -10,6 +10,8 @@ use std::path::{Path, PathBuf};
 
 pub(super) const MANIFEST: &str = "manifest.json";
 pub(super) const LOCK: &str = ".lock";
+/// Names of the files that a run has written so far; gone when it is complete.
+const JOURNAL: &str = ".written";
 /// How the name of a file that is still being written begins.
 pub(super) const TEMPORARY: &str = ".writing-";
 
@@ -149,6 +151,7 @@ pub struct OutputFolder {
     manifest: Manifest,
     earlier: BTreeSet<String>,
     written: RefCell<BTreeSet<String>>,
+    journal: File,
     _lock: File,
 }
 
@@ -171,8 +174,19 @@ impl OutputFolder {
             None if replace != Replace::Anything => refuse_foreign(path)?,
             None => {}
         }
+        // What a killed run left is known from its journal.
+        let journal_path = path.join(JOURNAL);
+        let unfinished = fs::read_to_string(&journal_path).unwrap_or_default();
+        earlier.extend(unfinished.lines().map(str::to_owned));
+        remove_temporaries(path);
+        let journal = OpenOptions::new()
+            .create(true)
+            .append(true)
+            .open(&journal_path)
+            .map_err(|e| FolderError::io("open", &journal_path, e))?;
         let folder = Self {
             path: path.to_owned(),
+            journal,
             manifest: manifest.clone(),
             earlier,
             written: RefCell::default(),
@@ -206,10 +220,41 @@ impl OutputFolder {
         name: &str,
         fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<PathBuf, FolderError> {
+        self.write_as(name, true, fill)
+    }
+
+    /// Writes one file whole or not at all, but leaves it to the system when it reaches the disk: for
+    /// the many large files (fields, figures) that a run after a power failure would make again.
+    ///
+    /// # Errors
+    /// As [`OutputFolder::write`].
+    pub fn write_bulk(
+        &self,
+        name: &str,
+        fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<PathBuf, FolderError> {
+        self.write_as(name, false, fill)
+    }
+
+    fn write_as(
+        &self,
+        name: &str,
+        is_durable: bool,
+        fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<PathBuf, FolderError> {
         let path = self.path.join(name);
-        write_whole(&path, fill).map_err(|e| FolderError::io("write", &path, e))?;
-        self.written.borrow_mut().insert(name.to_owned());
+        let failed = |error| FolderError::io("write", &path, error);
+        if self.written.borrow_mut().insert(name.to_owned()) {
+            writeln!(&self.journal, "{name}").map_err(failed)?;
+        }
+        write_whole(&path, is_durable, fill).map_err(failed)?;
         Ok(path)
+    }
+
+    /// Removes a file that has served its purpose, written by this run or an earlier one.
+    pub fn discard(&self, name: &str) {
+        self.written.borrow_mut().remove(name);
+        self.remove(std::iter::once(&name.to_owned()));
     }
 
     /// Ends a complete run: removes what an earlier run of the same case left and this one did not
@@ -220,7 +265,9 @@ impl OutputFolder {
     pub fn finish(self) -> Result<(), FolderError> {
         let written = self.written.borrow();
         self.remove(self.earlier.difference(&written));
-        self.write_manifest(&written)
+        self.write_manifest(&written)?;
+        let journal = self.path.join(JOURNAL);
+        fs::remove_file(&journal).map_err(|e| FolderError::io("remove", &journal, e))
     }
 
     fn write_manifest(&self, files: &BTreeSet<String>) -> Result<(), FolderError> {
@@ -238,7 +285,7 @@ impl OutputFolder {
 
 pub(super) fn write_contents(folder: &Path, contents: &Contents) -> Result<(), FolderError> {
     let path = folder.join(MANIFEST);
-    write_whole(&path, |out| {
+    write_whole(&path, true, |out| {
         serde_json::to_writer_pretty(&mut *out, contents)?;
         out.write_all(b"\n")
     })
@@ -276,6 +323,20 @@ fn lock(path: &Path) -> Result<File, FolderError> {
         // A file system without locks: go on as if there were no other process.
         Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => Ok(file),
         Err(TryLockError::Error(error)) => Err(FolderError::io("lock", &lock_path, error)),
+    }
+}
+
+/// Removes half-written files of a killed run; this process holds the lock, so nobody writes them.
+fn remove_temporaries(path: &Path) {
+    for entry in fs::read_dir(path).into_iter().flatten().flatten() {
+        let Ok(kind) = entry.file_type() else {
+            continue;
+        };
+        if kind.is_dir() {
+            remove_temporaries(&entry.path());
+        } else if entry.file_name().to_string_lossy().starts_with(TEMPORARY) {
+            let _ = fs::remove_file(entry.path());
+        }
     }
 }
 
@@ -334,9 +395,11 @@ pub(super) fn refuse_foreign(path: &Path) -> Result<(), FolderError> {
     }
 }
 
-/// Writes a file under a temporary name in the same folder, flushes it to the disk and renames it.
+/// Writes a file under a temporary name in the same folder and renames it, flushed to the disk before
+/// that if it is to be durable.
 pub(super) fn write_whole(
     path: &Path,
+    is_durable: bool,
     fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> io::Result<()> {
     let parent = path.parent().unwrap_or(Path::new("."));
@@ -354,7 +417,9 @@ pub(super) fn write_whole(
     fill(&mut out)?;
     out.flush()?;
     drop(out);
-    temporary.as_file().sync_all()?;
+    if is_durable {
+        temporary.as_file().sync_all()?;
+    }
     temporary.persist(path).map_err(|error| error.error)?;
     Ok(())
 }

@@ -96,7 +96,7 @@ fn compress(bytes: &[u8]) -> io::Result<Vec<u8>> {
     let blocks: Vec<Vec<u8>> = bytes
         .chunks(BLOCK)
         .map(|block| {
-            let mut encoder = ZlibEncoder::new(Vec::new(), Compression::new(4));
+            let mut encoder = ZlibEncoder::new(Vec::new(), Compression::fast());
             encoder.write_all(block)?;
             encoder.finish()
         })

@@ -21,7 +21,7 @@ pub struct Growth {
     pub rate: f64,
     /// Frequency, Hz, positive.
     pub frequency_hz: f64,
-    /// +1 travels with positive angles, -1 against them.
+    /// +1 travels with the rotor, -1 against it.
     pub direction: i8,
 }
 
@@ -69,7 +69,7 @@ impl TransientAnalysis {
             limit_cycle: limit_cycle(&rows[rows.len() - rows.len().div_ceil(5)..]),
             growth: harmonics
                 .iter()
-                .filter_map(|&harmonic| growth(&rows[stage.clone()], harmonic))
+                .filter_map(|&n| growth(&rows[stage.clone()], n, record.rotation_direction))
                 .collect(),
             first_nonlinearity: ended.then(|| rows[stage.end].time),
             largest_residual: residuals.fold(0.0, f64::max),
@@ -133,7 +133,7 @@ fn main_vibration(rows: &[SampleRow]) -> Option<(usize, f64)> {
     Some((harmonic, (fit.im / TAU).abs()))
 }
 
-fn growth(rows: &[SampleRow], harmonic: usize) -> Option<Growth> {
+fn growth(rows: &[SampleRow], harmonic: usize, rotation_direction: f64) -> Option<Growth> {
     // The first third still holds what decays; the last two thirds belong to what grows.
     let rows = &rows[rows.len() / 3..];
     if harmonic >= HARMONIC_COUNT || rows.len() < FEWEST {
@@ -150,7 +150,11 @@ fn growth(rows: &[SampleRow], harmonic: usize) -> Option<Growth> {
         rate: fit.re,
         frequency_hz: fit.im.abs() / TAU,
         // exp(i (n theta + omega t)) travels towards negative angles.
-        direction: if fit.im > 0.0 { -1 } else { 1 },
+        direction: if fit.im * rotation_direction > 0.0 {
+            -1
+        } else {
+            1
+        },
     })
 }
 

@@ -90,6 +90,8 @@ pub struct Recorder {
     pub contact_angles: Vec<f64>,
     /// `cos` and `sin` of `n theta_j`, weighted; by harmonic.
     waves: Vec<Vec<[f64; 2]>>,
+    /// Sense of rotation of the cylinder, +1 counter-clockwise.
+    pub rotation_direction: f64,
 }
 
 impl Recorder {
@@ -118,6 +120,7 @@ impl Recorder {
             tributary_lengths: interface.tributary_lengths.clone(),
             contact_angles: interface.angles.clone(),
             waves: (0..HARMONIC_COUNT).map(|n| wave(interface, n)).collect(),
+            rotation_direction: run.model().contact.sliding_direction(),
         })
     }
 
@@ -188,10 +191,9 @@ impl Observer for Recorder {
 
 /// Sample nearest to each snapshot time, ascending.
 fn snapshot_indices(plan: &StepPlan, times: &[f64]) -> Result<Vec<u64>, TransientError> {
-    let interval = plan.steps_per_sample as f64 * plan.time_step;
     let mut indices = Vec::new();
     for &time in times {
-        let index = (time / interval).round();
+        let index = (time / plan.sample_interval).round();
         if !(index >= 0.0 && index < plan.samples as f64) {
             let duration = plan.end_time();
             return Err(TransientError::SnapshotOutsideRun { time, duration });

@@ -238,6 +238,8 @@ pub struct StepPlan {
     pub steps_per_sample: u64,
     /// Samples of the run, the first at time zero and the last at its end.
     pub samples: u64,
+    /// Time between samples, s.
+    pub sample_interval: f64,
 }
 
 impl StepPlan {
@@ -255,7 +257,7 @@ impl StepPlan {
         let largest_frequency = largest_frequency(operator);
         let limit = stable_step_limit(largest_frequency, damping);
         let wanted = match settings.time_step {
-            TimeStep::Auto => SAFETY * limit,
+            TimeStep::Auto => (SAFETY * limit).min(settings.sample_interval),
             TimeStep::Seconds(step) if step > limit => {
                 return Err(TransientError::StepAboveLimit {
                     step,
@@ -283,6 +285,7 @@ impl StepPlan {
             largest_frequency,
             steps_per_sample: steps_per_sample as u64,
             samples: intervals as u64 + 1,
+            sample_interval: interval,
         })
     }
 
@@ -291,9 +294,14 @@ impl StepPlan {
         (self.samples - 1) * self.steps_per_sample + 1
     }
 
+    /// Time of a sample, s.
+    pub fn sample_time(&self, index: u64) -> f64 {
+        index as f64 * self.sample_interval
+    }
+
     /// Time of the last sample, s.
     pub fn end_time(&self) -> f64 {
-        (self.samples - 1) as f64 * self.steps_per_sample as f64 * self.time_step
+        self.sample_time(self.samples - 1)
     }
 }
 

@@ -3,6 +3,8 @@
 //!
 //! Consistency checks: they look at the drawing, not at the physics.
 
+mod report;
+mod run;
 mod studies;
 mod synthetic;
 mod transient;

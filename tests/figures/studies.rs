@@ -2,6 +2,9 @@
 
 use crate::check;
 use frictionsim::results::figures::*;
+use frictionsim::results::sweep::PointRecord;
+use frictionsim::results::sweep_figures::draw_sweep;
+use serde_json::{Value, json};
 
 fn sweep() -> SpeedSweep {
     let speeds: Vec<f64> = (0..24)
@@ -194,8 +197,87 @@ fn spectrum_names_the_modes_above_its_peaks() {
         &[
             "frequency f (kHz)",
             "amplitude (m/s²)",
-            "9.901 kHz, mode 5",
+            "mode 5",
             "node 1641",
+        ],
+    );
+}
+
+fn point(number: usize, swept: Value, summaries: Value) -> PointRecord {
+    let object = |value: Value| value.as_object().cloned().unwrap_or_default();
+    PointRecord {
+        point: number,
+        swept: object(swept),
+        error: None,
+        summaries: object(summaries),
+        wall_s: 1.0,
+        core_s: 1.0,
+        case_hash: String::new(),
+        sweep_hash: String::new(),
+        version: String::new(),
+        simd: String::new(),
+    }
+}
+
+#[test]
+fn points_of_a_study_become_frequency_and_status_over_speed() {
+    let grid = [0.2, 0.4]
+        .iter()
+        .flat_map(|mu| [10.0, 100.0, 1000.0].map(|rpm| (*mu, rpm)));
+    let records: Vec<PointRecord> = grid
+        .enumerate()
+        .map(|(index, (mu, rpm))| {
+            point(
+                index + 1,
+                json!({ "contact.friction_coefficient": mu, "contact.rotation_speed_rpm": rpm }),
+                json!({ "transient": {
+                    "main_frequency_hz": 10_000.0 - rpm * mu,
+                    "status": { "stick": 0.4, "slip": 0.6 - 2e-4 * rpm, "open": 2e-4 * rpm },
+                }}),
+            )
+        })
+        .collect();
+    let figures = draw_sweep(&records, 0.3, 1.0, &[]).unwrap();
+    let names: Vec<&str> = figures.iter().map(|f| f.name.as_str()).collect();
+    assert_eq!(names, ["sweep-frequency", "sweep-status"]);
+    check(
+        "study-frequency",
+        &figures[0].svg,
+        &["μ = 0.20", "μ = 0.40"],
+    );
+    check("study-status", &figures[1].svg, &["contact nodes (%)"]);
+}
+
+#[test]
+fn eigenvalue_analyses_over_one_key_become_a_critical_friction_line_for_each_branch() {
+    let records: Vec<PointRecord> = (0..8)
+        .map(|i| {
+            let damping = 1e-7 * 1.8f64.powi(i);
+            let entry = |harmonic: usize, factor: f64| {
+                json!({ "harmonic": harmonic, "branch": 0, "direction": -1,
+                        "critical_friction": factor * (damping * 1e7).sqrt() })
+            };
+            let mut found = vec![entry(1, 0.06)];
+            if i < 5 {
+                found.push(entry(2, 0.1));
+            }
+            point(
+                i as usize + 1,
+                json!({ "damping.stiffness_coefficient": damping }),
+                json!({ "cea": { "critical_frictions": found } }),
+            )
+        })
+        .collect();
+    let figures = draw_sweep(&records, 0.3, 1.0, &[]).unwrap();
+    assert_eq!(figures.len(), 1);
+    check(
+        "critical-friction",
+        &figures[0].svg,
+        &[
+            "damping.stiffness_coefficient",
+            "n = 2, branch 0",
+            "stable",
+            "μ (–)",
         ],
     );
 }

@@ -5,11 +5,15 @@ mod solve;
 
 pub use model::SlidingModel;
 
-use super::{Failure, RunOptions, Session};
+use super::{Failure, RunOptions, Session, terminal};
 use crate::case::{Case, Cea, ModeSelection};
 use crate::cea::FrictionSweep;
-use crate::results::cea::{CeaReport, draw, print, write};
+use crate::results::Manifest;
+use crate::results::cea::{BaseField, CeaReport, SensitivityReport, draw, print, summary, write};
 use clap::Args;
+use indicatif::ProgressBar;
+use serde_json::Value;
+use std::time::Instant;
 
 /// Complex eigenvalue sweep over the friction coefficient
 #[derive(Args)]
@@ -25,7 +29,8 @@ pub struct Arguments {
 /// A bad case, contact that opens, a solver that fails, an output folder that cannot be written.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     run_with(arguments, |session, cea, model| {
-        solve::solve(&session.case, cea, model)
+        let bar = terminal::progress(session.options.quiet, 0, "friction values");
+        solve::solve(&session.case, cea, model, &bar)
     })
 }
 
@@ -37,6 +42,8 @@ pub struct Solution {
     pub dofs: usize,
     /// Which solver.
     pub method: &'static str,
+    /// Derivatives of the eigenvalues at the case's own friction coefficient.
+    pub sensitivities: Option<SensitivityReport>,
     /// What it has to say.
     pub notes: Vec<String>,
 }
@@ -61,8 +68,53 @@ fn run_with(
     let solution = solve(&session, cea, &model)?;
     refuse_no_modes(case, cea, &solution.sweep)?;
 
+    let map = cea
+        .map
+        .as_ref()
+        .map(|map| solve::map(case, cea, map))
+        .transpose()?;
     let field = model.base_field(case);
     let report = CeaReport {
+        map: map.as_ref(),
+        ..report(case, cea, &model, &solution, &field, session.wall_seconds())
+    };
+    let summary = write(&folder, &report)?;
+    if !session.options.no_figures {
+        draw(&folder, &report, case.damping.rayleigh)?;
+    }
+    let path = folder.path().to_owned();
+    folder.finish()?;
+    session.print(&print(&report), &summary, &path)
+}
+
+/// Solves a case without writing a file, and gives its summary; mode shapes are not computed.
+///
+/// # Errors
+/// As [`run`].
+pub fn summarize(case: &Case, manifest: &Manifest) -> Result<Value, Failure> {
+    let start = Instant::now();
+    let cea = Cea {
+        shapes_at: Vec::new(),
+        ..case.require_cea()?.clone()
+    };
+    let model = SlidingModel::new(case, &cea)?;
+    let solution = solve::solve(case, &cea, &model, &ProgressBar::hidden())?;
+    refuse_no_modes(case, &cea, &solution.sweep)?;
+    let field = model.base_field(case);
+    let wall_s = start.elapsed().as_secs_f64();
+    let report = report(case, &cea, &model, &solution, &field, wall_s);
+    Ok(summary(&report, manifest))
+}
+
+fn report<'a>(
+    case: &'a Case,
+    cea: &'a Cea,
+    model: &'a SlidingModel,
+    solution: &'a Solution,
+    field: &'a BaseField,
+    wall_s: f64,
+) -> CeaReport<'a> {
+    CeaReport {
         title: &case.title,
         mesh: &model.annulus.mesh,
         dofs: solution.dofs,
@@ -74,17 +126,12 @@ fn run_with(
         friction_coefficients: &cea.friction_coefficients,
         sweep: &solution.sweep,
         base: model.base_state(case),
-        field: &field,
-        notes: solution.notes,
-        wall_s: session.wall_seconds(),
-    };
-    let summary = write(&folder, &report)?;
-    if !session.options.no_figures {
-        draw(&folder, &report, case.damping.rayleigh)?;
+        field,
+        sensitivities: solution.sensitivities.as_ref(),
+        map: None,
+        notes: solution.notes.clone(),
+        wall_s,
     }
-    let path = folder.path().to_owned();
-    folder.finish()?;
-    session.print(&print(&report), &summary, &path)
 }
 
 /// A frequency limit below the first mode is an error of the case.
@@ -156,6 +203,7 @@ mod tests {
             },
             dofs: 100,
             method: "sparse",
+            sensitivities: None,
             notes: Vec::new(),
         }
     }

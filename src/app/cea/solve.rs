@@ -1,31 +1,63 @@
 //! Which eigenvalue solver runs, and what it has to say.
 
-use super::model::method_of;
+use super::model::{method_of, tangent_options};
 use super::{Failure, SlidingModel, Solution};
-use crate::case::{Case, Cea, CeaMethod, ModeSelection};
-use crate::cea::cyclic::{self, Coverage, ModeLimit, SweepRequest};
+use crate::case::{Case, Cea, CeaMap, CeaMethod, ModeSelection};
+use crate::cea::cyclic::{self, Coverage, CyclicModel, ModeLimit, SweepRequest};
+use crate::cea::sparse::{self, EigenLimit, EigenRequest};
+use crate::results::cea::{MapReport, SensitivityReport};
+use indicatif::ProgressBar;
 
-/// Solves the case's eigenproblems with its method.
+/// Solves the case's eigenproblems with its method; `bar` counts the friction values solved.
 ///
 /// # Errors
 /// Those of the solver.
-pub fn solve(case: &Case, cea: &Cea, model: &SlidingModel) -> Result<Solution, Failure> {
+pub fn solve(
+    case: &Case,
+    cea: &Cea,
+    model: &SlidingModel,
+    bar: &ProgressBar,
+) -> Result<Solution, Failure> {
     match method_of(cea) {
-        CeaMethod::Sparse => Err(Failure::usage(
-            "cea.method = \"sparse\" is not built in yet",
-        )),
+        CeaMethod::Sparse => solve_sparse(case, cea, model, bar),
         CeaMethod::Auto | CeaMethod::Cyclic => solve_cyclic(case, cea, model),
     }
+}
+
+fn solve_sparse(
+    case: &Case,
+    cea: &Cea,
+    model: &SlidingModel,
+    bar: &ProgressBar,
+) -> Result<Solution, Failure> {
+    let tangent = model.tangent(case);
+    let friction_coefficients = cea.solved_friction_coefficients();
+    let request = EigenRequest {
+        limit: match cea.modes {
+            ModeSelection::BelowHz(limit) => EigenLimit::BelowFrequency(limit),
+            ModeSelection::Lowest(count) => EigenLimit::Lowest(count),
+        },
+        shapes_at: cea.shapes_at.clone(),
+    };
+    let found = sparse::sweep(&tangent, &friction_coefficients, &request, &|progress| {
+        bar.set_length(progress.total as u64);
+        bar.set_position(progress.solved as u64);
+    });
+    bar.finish_and_clear();
+    Ok(Solution {
+        dofs: tangent.unknowns.len(),
+        method: "sparse",
+        sensitivities: None,
+        notes: Vec::new(),
+        sweep: found?,
+    })
 }
 
 fn solve_cyclic(case: &Case, cea: &Cea, model: &SlidingModel) -> Result<Solution, Failure> {
     let friction_coefficients = cea.solved_friction_coefficients();
     let request = SweepRequest {
         friction_coefficients: &friction_coefficients,
-        limit: match cea.modes {
-            ModeSelection::BelowHz(limit) => ModeLimit::MaxFrequency(limit),
-            ModeSelection::Lowest(count) => ModeLimit::Lowest(count),
-        },
+        limit: mode_limit(cea),
         shapes_at: &cea.shapes_at,
     };
     let found = cyclic::sweep(
@@ -35,11 +67,68 @@ fn solve_cyclic(case: &Case, cea: &Cea, model: &SlidingModel) -> Result<Solution
         &case.contact.sliding,
         &request,
     )?;
+    // Branches are known up to the largest friction coefficient of the sweep.
+    let friction = case.contact.sliding.friction_coefficient;
+    let is_covered = friction_coefficients.iter().any(|&mu| mu >= friction);
+    let sensitivities = is_covered
+        .then(|| cyclic::sensitivities(&found, friction))
+        .transpose()?;
     Ok(Solution {
         dofs: found.tangent.dimension() * found.tangent.sector().sector_count(),
         method: "cyclic",
+        sensitivities: sensitivities.map(|branches| SensitivityReport {
+            branches,
+            values: [
+                case.contact.stiffness.normal_stiffness.unwrap_or(0.0),
+                case.damping.rayleigh.mass_coefficient,
+                case.damping.rayleigh.stiffness_coefficient,
+                case.material.young_modulus,
+                case.material.poisson_ratio,
+                case.material.density,
+            ],
+        }),
         notes: vec![coverage_note(&found.coverage)],
         sweep: found.sweep,
+    })
+}
+
+fn mode_limit(cea: &Cea) -> ModeLimit {
+    match cea.modes {
+        ModeSelection::BelowHz(limit) => ModeLimit::MaxFrequency(limit),
+        ModeSelection::Lowest(count) => ModeLimit::Lowest(count),
+    }
+}
+
+/// The stability map that a case asks for: every value makes a case of its own, validated like any other.
+///
+/// # Errors
+/// A value that makes no valid case.
+pub fn map(case: &Case, cea: &Cea, map: &CeaMap) -> Result<MapReport, Failure> {
+    let models: Result<Vec<(f64, CyclicModel)>, Failure> = map
+        .values
+        .iter()
+        .map(|&value| {
+            let point = case
+                .raw
+                .with_overrides(&[format!("{}={value:?}", map.key)])?;
+            let point = Case::from_raw(point)?;
+            let model = CyclicModel {
+                specification: point.annulus,
+                material: point.material,
+                options: tangent_options(&point, point.require_cea()?),
+                contact: point.contact.sliding,
+            };
+            Ok((value, model))
+        })
+        .collect();
+    let largest_friction = cea
+        .friction_coefficients
+        .iter()
+        .fold(0.0_f64, |m, &mu| m.max(mu));
+    Ok(MapReport {
+        key: map.key.clone(),
+        largest_friction,
+        points: cyclic::stability_map(&models?, mode_limit(cea), largest_friction),
     })
 }
 

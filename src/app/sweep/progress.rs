@@ -52,13 +52,12 @@ impl SweepProgress {
         });
         self.bar.inc(1);
         let (point, swept) = (record.point, swept_text(&record.swept));
-        self.bar.suspend(|| match &record.error {
-            Some(error) => tracing::warn!("point {point} failed ({swept}): {error}"),
-            None if self.bar.is_hidden() => {
-                tracing::info!("point {point} ({swept}): {:.1} s", record.wall_s);
-            }
-            None => {}
-        });
+        if let Some(error) = &record.error {
+            self.bar
+                .suspend(|| tracing::warn!("point {point} failed ({swept}): {error}"));
+        } else if self.bar.is_hidden() {
+            tracing::info!("point {point} ({swept}): {:.1} s", record.wall_s);
+        }
     }
 
     /// Takes the bar away.

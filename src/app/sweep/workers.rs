@@ -98,8 +98,13 @@ impl SweepRun<'_> {
         }
         let swept = self.plan.swept(point);
         self.progress.begin(point, &swept);
-        let start = Instant::now();
+        let (start, busy) = (Instant::now(), thread_core_seconds());
         let (case_hash, outcome) = self.compute(point);
+        let wall_s = start.elapsed().as_secs_f64();
+        let core_s = match (busy, thread_core_seconds(), rayon::current_num_threads()) {
+            (Some(before), Some(after), 1) => after - before,
+            (_, _, threads) => wall_s * threads as f64,
+        };
         let (summaries, error) = match outcome {
             Ok(summaries) => (summaries, None),
             Err(error) => (Map::new(), Some(error)),
@@ -109,7 +114,8 @@ impl SweepRun<'_> {
             swept,
             error,
             summaries,
-            wall_s: start.elapsed().as_secs_f64(),
+            wall_s,
+            core_s,
             case_hash,
             sweep_hash: self.manifest.case_hash.clone(),
             version: self.manifest.version.clone(),
@@ -137,4 +143,11 @@ impl SweepRun<'_> {
         };
         (case.raw.hash(), outcome)
     }
+}
+
+/// Time that this thread has been on a core, s, where the system says so.
+fn thread_core_seconds() -> Option<f64> {
+    let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
+    let nanoseconds: f64 = text.split_whitespace().next()?.parse().ok()?;
+    Some(1e-9 * nanoseconds)
 }

@@ -187,28 +187,22 @@ impl BranchSolver<'_> {
             unstable_from_start: from_start,
         };
         let first = branch.points[0];
-        let mut is_growing = is_positive(&first)
-            || (is_marginal(&first)
-                && first.rate.re > 0.0
-                && first.rate.re > 1e-9 * first.eigenvalue.norm());
-        if is_growing {
-            intervals.push(interval(first.friction_coefficient, first.eigenvalue, true));
+        let mut was_growing = is_growing(&first) || grows_from_zero(&first);
+        if was_growing {
+            let (friction, at) = (first.friction_coefficient, first.eigenvalue);
+            intervals.push(interval(friction, at, true));
         }
         for pair in branch.points.windows(2) {
             let mut start = pair[0];
             for end in self.with_turning_points(&pair[0], &pair[1]) {
-                if is_positive(&end) != is_growing {
-                    let root = if is_marginal(&start) {
-                        start
-                    } else {
-                        self.root(&start, &end)
-                    };
+                if is_growing(&end) != was_growing {
+                    let root = self.root(&start, &end);
                     let (friction, at) = (root.friction_coefficient, root.eigenvalue);
-                    match intervals.last_mut().filter(|_| is_growing) {
+                    match intervals.last_mut().filter(|_| was_growing) {
                         Some(open) => open.restabilized = Some((friction, at.im / TAU)),
                         None => intervals.push(interval(friction, at, false)),
                     }
-                    is_growing = !is_growing;
+                    was_growing = !was_growing;
                 }
                 start = end;
             }
@@ -254,12 +248,12 @@ impl BranchSolver<'_> {
                 break;
             };
             best = point;
-            if is_positive(&point) == is_positive(&low) {
+            if is_growing(&point) == is_growing(&low) {
                 low = point;
             } else {
                 high = point;
             }
-            let newton = friction - point.eigenvalue.re / point.rate.re;
+            let newton = friction - growth(&point) / point.rate.re;
             let is_inside = newton > low.friction_coefficient && newton < high.friction_coefficient;
             let next = if is_inside {
                 newton
@@ -275,15 +269,22 @@ impl BranchSolver<'_> {
     }
 }
 
-/// Round-off of an eigenvalue, relative to `|lambda|`; below it a real part has no sign.
-const ROUND_OFF: f64 = 1e-11;
+/// Round-off of an eigenvalue, relative to `|lambda|`: less growth than this is none.
+const ROUND_OFF: f64 = 1e-13;
 
-fn is_positive(point: &BranchPoint) -> bool {
-    point.eigenvalue.re > ROUND_OFF * point.eigenvalue.norm()
+/// Growth rate beyond round-off, 1/s.
+fn growth(point: &BranchPoint) -> f64 {
+    point.eigenvalue.re - ROUND_OFF * point.eigenvalue.norm()
 }
 
-fn is_marginal(point: &BranchPoint) -> bool {
-    point.eigenvalue.re.abs() <= ROUND_OFF * point.eigenvalue.norm()
+fn is_growing(point: &BranchPoint) -> bool {
+    growth(point) > 0.0
+}
+
+/// Whether a branch without any damping starts to grow with the first friction.
+fn grows_from_zero(point: &BranchPoint) -> bool {
+    let size = point.eigenvalue.norm();
+    growth(point) <= 0.0 && growth(point) > -1e2 * ROUND_OFF * size && point.rate.re > 1e-9 * size
 }
 
 /// Cubic through two points and slopes, over `t` from 0 to 1.

@@ -148,7 +148,12 @@ fn missed(
         );
         edge.into_iter().map(|p| c64::new(p.im, -p.re)).collect()
     } else {
-        rectangle(SLOWEST * limit, limit, WIDEST_GROWTH * limit, EDGE_POINTS)
+        rectangle(
+            SLOWEST * limit,
+            limit,
+            WIDEST_GROWTH * limit,
+            2 * EDGE_POINTS,
+        )
     };
     search.winding(&edge)
 }
@@ -216,17 +221,21 @@ impl Search<'_> {
         Some((total / TAU).round() as i64)
     }
 
-    /// Change of phase along a straight line, halved until it is small.
+    /// Change of phase along a straight line, halved until each half turns little and both agree with the
+    /// whole.
     fn turn(&mut self, from: (c64, f64), to: (c64, f64), depth: usize) -> Option<f64> {
-        let change = (to.1 - from.1 + PI).rem_euclid(TAU) - PI;
-        if change.abs() < FRAC_PI_3 {
-            return Some(change);
+        let change = |a: f64, b: f64| (b - a + PI).rem_euclid(TAU) - PI;
+        let middle = 0.5 * (from.0 + to.0);
+        let middle = (middle, self.phase(middle));
+        let halves = [change(from.1, middle.1), change(middle.1, to.1)];
+        let whole = change(from.1, to.1);
+        let is_smooth = halves.iter().all(|half| half.abs() < FRAC_PI_3);
+        if is_smooth && (halves[0] + halves[1] - whole).abs() < FRAC_PI_3 {
+            return Some(whole);
         }
         if depth == 0 {
             return None;
         }
-        let middle = 0.5 * (from.0 + to.0);
-        let middle = (middle, self.phase(middle));
         Some(self.turn(from, middle, depth - 1)? + self.turn(middle, to, depth - 1)?)
     }
 }

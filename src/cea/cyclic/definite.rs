@@ -152,9 +152,8 @@ impl<'a> TestSpace<'a> {
                 let (ti, tj) = (self.tangential[i], self.tangential[j]);
                 let mut value = 0.5 * (rows[i][tj] + rows[j][ti].conj());
                 value -= super::problem::dot(&solved[i], &solved[j]);
-                for m in 0..j {
-                    value -= lower[i][m] * lower[j][m].conj();
-                }
+                let known = lower[i].iter().zip(&lower[j]).take(j);
+                value -= known.map(|(a, b)| a * b.conj()).sum::<c64>();
                 if i == j {
                     if value.re.is_nan() || value.re <= 0.0 {
                         return false;
@@ -231,4 +230,65 @@ fn multiply_left(psi: &[f64], matrix: &BandedMatrix) -> Vec<f64> {
         }
     }
     result
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fem::RayleighDamping;
+
+    /// Three unknowns, the first tangential: its friction row takes its force from the second.
+    fn example(coupling: f64) -> HarmonicTangent {
+        let (mut mass, mut stiffness) = (BandedMatrix::zeros(3, 2), BandedMatrix::zeros(3, 2));
+        let mut friction = BandedMatrix::zeros(3, 2);
+        for (dof, value) in [4.0, 5.0, 6.0].into_iter().enumerate() {
+            mass.add(dof, dof, 1.0);
+            stiffness.add(dof, dof, value);
+        }
+        for (row, column) in [(0, 1), (1, 0)] {
+            stiffness.add(row, column, 0.5);
+        }
+        friction.add(0, 1, coupling);
+        HarmonicTangent {
+            harmonic: 1,
+            mass: vec![mass],
+            stiffness: vec![stiffness, friction],
+            damping: None,
+            rayleigh: RayleighDamping::default(),
+        }
+    }
+
+    /// `kappa` nearest to the origin, `(4 - k)(5 - k) = 0.5 (0.5 + i mu coupling)`.
+    fn lowest(coupling: f64, mu: f64) -> c64 {
+        let product = c64::new(0.25, 0.5 * mu * coupling);
+        4.5 - (0.25 + product).sqrt()
+    }
+
+    #[test]
+    fn no_region_that_holds_an_eigenvalue_is_declared_empty() {
+        for coupling in [0.5, 3.0, 20.0] {
+            let tangent = example(coupling);
+            for mu in [0.1, 0.5, 1.0] {
+                let kappa = lowest(coupling, mu);
+                for scale in [0.7, 0.95, 1.05, 1.5] {
+                    let region = Region {
+                        real: (scale * kappa.re).max(1e-3),
+                        imaginary: 1.0 + kappa.im.abs(),
+                    };
+                    let is_inside = kappa.re >= 0.0 && kappa.re <= region.real;
+                    assert!(!(is_inside && is_empty(&tangent, &[0], mu, region)));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn friction_much_stronger_than_the_stiffness_does_not_spoil_the_proof() {
+        // Hermitian parts alone would need |coupling| < 2 sqrt(4 * 5).
+        let region = Region {
+            real: 0.05,
+            imaginary: 0.02,
+        };
+        assert!(is_empty(&example(12.0), &[0], 1.0, region));
+    }
 }

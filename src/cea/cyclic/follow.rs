@@ -78,9 +78,7 @@ impl<'a> Follower<'a> {
     ) -> Option<Eigenpair> {
         let (mut x, mut y, mut theta) = (x.to_vec(), y.to_vec(), guess);
         for _ in 0..ITERATIONS {
-            self.problem.assemble(at, theta, &mut self.values);
-            self.lu.factorize(&self.values);
-            self.factorizations += 1;
+            self.factorize(at, theta);
             // The second pair of solves costs a third of a factorization and saves most of one.
             for _ in 0..2 {
                 x = self.problem.apply_slope(at, theta, &x, false);
@@ -98,6 +96,7 @@ impl<'a> Follower<'a> {
             theta = next;
             // Each iteration leaves far less than the square of the change it made.
             if change <= 1e-7 * theta.norm() {
+                theta = self.problem.without_round_off(theta);
                 let residual = self.problem.residual(at, theta, &x);
                 if residual > 1e-14 && change > 1e-13 * theta.norm() {
                     continue;
@@ -114,6 +113,24 @@ impl<'a> Follower<'a> {
             }
         }
         None
+    }
+
+    /// Factorizes `T(theta)` for [`Self::solve`].
+    pub fn factorize(&mut self, at: &Matrices, theta: c64) {
+        self.problem.assemble(at, theta, &mut self.values);
+        self.lu.factorize(&self.values);
+        self.factorizations += 1;
+    }
+
+    /// `T^-1 b` or `T^-H b` with the last factorization.
+    pub fn solve(&self, b: &[c64], adjoint: bool) -> Vec<c64> {
+        let mut x = b.to_vec();
+        if adjoint {
+            self.lu.solve_adjoint(&mut x);
+        } else {
+            self.lu.solve(&mut x);
+        }
+        x
     }
 
     /// Eigenpair nearest to an accurate guess, without vectors to start from.

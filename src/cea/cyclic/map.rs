@@ -52,13 +52,12 @@ const FRICTION_STEPS: usize = 8;
 
 /// Critical friction coefficients over values of a second parameter, up to `largest_friction`.
 ///
-/// `model_at(value)` makes the model for each value; it may change anything. A point that fails is data, the
+/// `models` pairs each value of the parameter with the model that it makes. A point that fails is data, the
 /// others go on. Parallel over values; the result does not depend on the number of threads.
 pub fn stability_map(
-    values: &[f64],
+    models: &[(f64, CyclicModel)],
     limit: ModeLimit,
     largest_friction: f64,
-    model_at: impl Fn(f64) -> CyclicModel + Sync,
 ) -> Vec<StabilityMapPoint> {
     let frictions: Vec<f64> = (0..=FRICTION_STEPS)
         .map(|i| largest_friction * i as f64 / FRICTION_STEPS as f64)
@@ -68,8 +67,7 @@ pub fn stability_map(
         limit,
         shapes_at: &[],
     };
-    let solve = |&value: &f64| {
-        let model = model_at(value);
+    let solve = |&(value, model): &(f64, CyclicModel)| {
         let found = sweep(
             &model.specification,
             &model.material,
@@ -82,5 +80,5 @@ pub fn stability_map(
             outcome: found.map(|found| found.sweep.intervals),
         }
     };
-    values.par_iter().map(solve).collect()
+    models.par_iter().map(solve).collect()
 }

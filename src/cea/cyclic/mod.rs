@@ -6,6 +6,7 @@
 //! followed continuously over the friction coefficient by two-sided Rayleigh quotient iteration.
 
 mod branch;
+mod collision;
 mod completeness;
 mod definite;
 mod error;

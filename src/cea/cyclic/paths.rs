@@ -3,7 +3,7 @@
 use super::CyclicError;
 use super::follow::{Eigenpair, Follower, StepControl};
 use super::problem::{HarmonicProblem, Matrices, dot};
-use super::rest;
+use super::{collision, rest};
 use faer::c64;
 use std::rc::Rc;
 
@@ -94,13 +94,21 @@ fn follow_all(
                 Rc::new(problem.at(value))
             }
         };
-        for path in &mut paths {
-            let done = path.points.len() - 1;
-            if !follower.advance(&mut path.points, friction, control, &mut matrices) {
-                return Err(lost(friction));
+        for index in 0..paths.len() {
+            while !follower.advance(&mut paths[index].points, friction, control, &mut matrices) {
+                let approach = |follower: &mut Follower<'_>, points: &mut Vec<_>, target: f64| {
+                    follower.advance(points, target, control, &mut matrices);
+                };
+                let may_meet = problem.is_standing && problem.is_proportional();
+                if !may_meet || !collision::pass(follower, &mut paths, index, friction, approach) {
+                    return Err(lost(friction));
+                }
             }
+        }
+        for path in &mut paths {
             let reached = path.points.len() - 1;
-            for point in &mut path.points[done..reached] {
+            let earlier = path.points[..reached].iter_mut().rev();
+            for point in earlier.take_while(|point| !point.x.is_empty()) {
                 if !kept.contains(&point.parameter) {
                     (point.x, point.y) = (Vec::new(), Vec::new());
                 }

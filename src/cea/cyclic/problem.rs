@@ -178,15 +178,20 @@ impl HarmonicProblem {
         -change / slope
     }
 
-    /// Residual of the quadratic problem in the largest-entry norm, see [`crate::cea::ComplexMode`].
-    pub fn residual(&self, at: &Matrices, theta: c64, x: &[c64]) -> f64 {
+    /// `T(theta) x`.
+    pub fn apply(&self, at: &Matrices, theta: c64, x: &[c64]) -> Vec<c64> {
         let [a, b, _, _] = self.factors(theta);
-        let one = c64::new(1.0, 0.0);
-        let mut force = self.multiply(&at.stiffness, one, x, false);
+        let mut force = self.multiply(&at.stiffness, c64::new(1.0, 0.0), x, false);
         add(&mut force, &self.multiply(&at.mass, a, x, false));
         if let Some(damping) = &at.damping {
             add(&mut force, &self.multiply(damping, b, x, false));
         }
+        force
+    }
+
+    /// Residual of the quadratic problem in the largest-entry norm, see [`crate::cea::ComplexMode`].
+    pub fn residual(&self, at: &Matrices, theta: c64, x: &[c64]) -> f64 {
+        let force = self.apply(at, theta, x);
         let (lambda, factor) = if self.is_proportional() {
             let lambda = self.eigenvalue(theta);
             (
@@ -196,13 +201,9 @@ impl HarmonicProblem {
         } else {
             (theta, 1.0)
         };
-        let [m, c, k] = self.norms_of(at);
+        let [m, c, k] = at.norms;
         let size = lambda.norm();
         factor * largest(&force) / ((size * size * m + size * c + k) * largest(x))
-    }
-
-    fn norms_of(&self, at: &Matrices) -> [f64; 3] {
-        at.norms
     }
 
     /// `lambda` with `Im >= 0` of the wave `+n`.
@@ -216,6 +217,16 @@ impl HarmonicProblem {
         } = self.rayleigh;
         let half = (alpha + beta * theta) * 0.5;
         I * (theta - half * half).sqrt() - half
+    }
+
+    /// An isolated `kappa` of a standing harmonic, whose spectrum is its own conjugate, is real if it is
+    /// real to round-off.
+    pub fn without_round_off(&self, theta: c64) -> c64 {
+        let is_real = theta.im.abs() <= 1e-10 * theta.norm();
+        if self.is_standing && self.is_proportional() && is_real {
+            return c64::new(theta.re, 0.0);
+        }
+        theta
     }
 
     /// `d lambda / d theta`.

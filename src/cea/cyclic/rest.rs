@@ -141,3 +141,42 @@ fn normalize(x: &mut [f64]) {
     let norm = dot(x, x).sqrt();
     x.iter_mut().for_each(|v| *v /= norm);
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+
+    /// Two uncoupled chains whose spectra coincide, interleaved: every eigenvalue is double.
+    fn twin_chains(n: usize) -> [BandedMatrix; 2] {
+        let (mut mass, mut stiffness) =
+            (BandedMatrix::zeros(2 * n, 3), BandedMatrix::zeros(2 * n, 3));
+        for i in 0..2 * n {
+            mass.add(i, i, 1.0);
+            stiffness.add(i, i, 2.0);
+            if i >= 2 {
+                stiffness.add(i, i - 2, -1.0);
+                stiffness.add(i - 2, i, -1.0);
+            }
+        }
+        [mass, stiffness]
+    }
+
+    #[test]
+    fn double_eigenvalues_are_found_twice_with_independent_vectors() {
+        let n = 20;
+        let [mass, stiffness] = twin_chains(n);
+        let pairs = eigenpairs_below(&mass, &stiffness, 1.0);
+        let exact = (1..=n)
+            .map(|k| 2.0 - 2.0 * (k as f64 * PI / (n as f64 + 1.0)).cos())
+            .filter(|value| *value < 1.0);
+        let exact: Vec<f64> = exact.flat_map(|value| [value, value]).collect();
+        assert_eq!(pairs.len(), exact.len());
+        for ((value, _), exact) in pairs.iter().zip(&exact) {
+            assert!((value - exact).abs() < 1e-12);
+        }
+        for two in pairs.chunks(2) {
+            assert!(dot(&two[0].1, &two[1].1).abs() < 1e-6);
+        }
+    }
+}

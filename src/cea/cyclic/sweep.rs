@@ -90,20 +90,25 @@ pub fn sweep(
     let grid = rising_grid(request.friction_coefficients)?;
     let sector = SectorMesh::generate(specification)?;
     let tangent = SectorTangent::linearize(&sector, material, options, contact)?;
-    let (mut margin, mut missed) = (MARGIN, None);
+    let mut margin = MARGIN;
+    let mut failure = None;
     for _ in 0..MARGIN_ATTEMPTS {
-        let found = solve(&tangent, request, &grid, margin)?;
-        let verdict = completeness::verify(&tangent, &found.followed, found.limit, &checks(&grid));
-        match verdict.missed {
-            None => return Ok(finish(tangent, found, verdict)),
-            Some(_) => margin *= MARGIN,
+        match solve(&tangent, request, &grid, margin) {
+            Ok(found) => {
+                let checks = checks(&grid);
+                let verdict = completeness::verify(&tangent, &found.followed, found.limit, &checks);
+                let Some(harmonic) = verdict.missed else {
+                    return Ok(finish(tangent, found, verdict));
+                };
+                failure = Some(CyclicError::Unproven { harmonic, margin });
+            }
+            // The branch that it meets may lie above the margin.
+            Err(error @ CyclicError::LostBranch { .. }) => failure = Some(error),
+            Err(error) => return Err(error),
         }
-        missed = verdict.missed;
+        margin *= MARGIN;
     }
-    Err(CyclicError::Unproven {
-        harmonic: missed.unwrap_or(0),
-        margin,
-    })
+    Err(failure.unwrap_or(CyclicError::NoFriction))
 }
 
 /// Friction values, out of a rising grid, at which modes are counted: the quarters of the range.
@@ -347,10 +352,10 @@ fn mode(
         .ok()?;
     let pair = &path.points[found];
     let (eigenvalue, _) = eigenvalue_of(problem, waves, pair.theta);
-    if let ModeLimit::MaxFrequency(limit) = request.limit {
-        if eigenvalue.im > TAU * limit {
-            return None;
-        }
+    if let ModeLimit::MaxFrequency(limit) = request.limit
+        && eigenvalue.im > TAU * limit
+    {
+        return None;
     }
     if eigenvalue.im <= 0.0 {
         return None;

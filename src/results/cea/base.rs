@@ -78,7 +78,7 @@ pub fn write_base(
         stress("shear_stress", |stress| stress.shear),
         stress("pressure", NodalStress::pressure),
     ];
-    folder.write("prestress.vtu", |out| {
+    folder.write_bulk("prestress.vtu", |out| {
         write_vtu(out, &EncodedMesh::new(mesh)?, &fields, &[])
     })?;
     Ok(())

@@ -3,12 +3,18 @@
 mod base;
 mod figures;
 mod files;
+mod map;
 mod print;
+mod report;
+mod sensitivity;
 
 pub use base::{BaseField, BaseState, write_base};
 pub use figures::draw;
 pub use files::{summary, write, write_eigenvalues, write_stability};
+pub use map::MapReport;
 pub use print::print;
+pub use report::html_report;
+pub use sensitivity::SensitivityReport;
 
 use crate::cea::{ComplexMode, FrictionPoint, FrictionSweep, UnstableInterval};
 use crate::mesh::Mesh2d;
@@ -34,6 +40,10 @@ pub struct CeaReport<'a> {
     pub base: BaseState,
     /// The same node by node.
     pub field: &'a BaseField,
+    /// Which parameter decides, where the solver knows.
+    pub sensitivities: Option<&'a SensitivityReport>,
+    /// Critical friction over a second parameter, where the case asks for it.
+    pub map: Option<&'a MapReport>,
     /// Anything the solver has to say: lost branches, harmonics left out, and why.
     pub notes: Vec<String>,
     /// Wall time of the run, s.

@@ -141,6 +141,12 @@ fn totals(out: &mut String, report: &CeaReport<'_>) {
         base.torque_n_m,
         base.power_w,
     );
+    if let Some(sensitivities) = report.sensitivities {
+        let _ = writeln!(out, "{}", sensitivities.print());
+    }
+    if let Some(map) = report.map {
+        let _ = writeln!(out, "{}", map.print());
+    }
     for note in &report.notes {
         let _ = writeln!(out, "{note}");
     }

@@ -5,7 +5,7 @@ use super::colour::{self, INK, SERIES};
 use super::contact_status::{draw_status_ring, status_keys};
 use super::legend::{self, Key};
 use super::panel::Panel;
-use super::prestress::angle_axis;
+use super::prestress::{angle_axis, around, around_degrees};
 use super::svg::{DOUBLE_COLUMN, Rect, Stroke, Svg, panel_letter};
 use super::text::{Anchor, TextStyle};
 use super::{FigureError, expect_length, expect_some};
@@ -96,6 +96,9 @@ fn ground(svg: &mut Svg, panel: &Panel, data: &ContactState) {
         svg.rectangle(&cell, pale(data.status[start]), None);
         start = end;
     }
+    // The half of the first node's part that lies before angle zero.
+    let cell = panel.cell((360.0 - half, 360.0), (panel.y.low, panel.y.high));
+    svg.rectangle(&cell, pale(data.status[0]), None);
 }
 
 /// Tints of the status colours light enough for curves on top.
@@ -123,9 +126,9 @@ fn draw_tractions(svg: &mut Svg, place: (f64, f64), data: &ContactState) {
     let y = Axis::linear(&title, (low - room) * factor, (high + room) * factor);
     let panel = right_panel(place, y, false);
     ground(svg, &panel, data);
-    let degrees: Vec<f64> = data.angles.iter().map(|a| a.to_degrees()).collect();
+    let degrees = around_degrees(data.angles);
     for (values, colour) in [(data.pressure, INK), (data.shear, SERIES[1])] {
-        let values: Vec<f64> = values.iter().map(|v| v * factor).collect();
+        let values = around(values, factor);
         panel.series(svg, &degrees, &values, &Stroke::solid(colour, 1.1));
     }
     panel.draw_frame(svg);
@@ -144,9 +147,10 @@ fn draw_velocity(svg: &mut Svg, place: (f64, f64), data: &ContactState) {
     ground(svg, &panel, data);
     let stroke = Stroke::dashed(INK, 0.8);
     panel.horizontal(svg, data.peripheral_speed, &stroke);
-    let degrees: Vec<f64> = data.angles.iter().map(|a| a.to_degrees()).collect();
+    let degrees = around_degrees(data.angles);
     let stroke = Stroke::solid(colour::STICK, 1.1);
-    panel.series(svg, &degrees, data.tangential_velocity, &stroke);
+    let velocity = around(data.tangential_velocity, 1.0);
+    panel.series(svg, &degrees, &velocity, &stroke);
     panel.draw_frame(svg);
     panel_letter(svg, panel.area.x, panel.area.y - 4.0, 2);
     let keys = [

@@ -90,15 +90,19 @@ pub(super) fn draw_status_map(
     Ok((stride > 1).then_some(interval))
 }
 
-/// Samples between the instants shown: the number from `finest` to three times as many after which
-/// the last fifth of the run repeats itself best.
+/// Fewest columns that a strobed map keeps.
+const FEWEST_COLUMNS: usize = 150;
+
+/// Samples between the instants shown: the number from `finest` up, with enough columns left, after
+/// which the last fifth of the run repeats itself best.
 fn strobe_stride(history: &StatusHistory, finest: usize) -> usize {
     let (count, nodes) = (history.times.len(), history.node_count);
     let start = count - count / 5;
-    if finest <= 1 || start + 3 * finest >= count {
+    let coarsest = (3 * finest).max(count / FEWEST_COLUMNS);
+    if finest <= 1 || start + coarsest >= count {
         return finest.max(1);
     }
-    let probes: Vec<usize> = (start..count - 3 * finest)
+    let probes: Vec<usize> = (start..count - coarsest)
         .step_by(((count - start) / 64).max(1))
         .collect();
     let agreement = |lag: usize| {
@@ -112,7 +116,7 @@ fn strobe_stride(history: &StatusHistory, finest: usize) -> usize {
             .sum::<usize>()
     };
     // The shortest of equals: a uniform state needs no strobe.
-    (finest..=3 * finest)
+    (finest..=coarsest)
         .max_by_key(|&lag| (agreement(lag), std::cmp::Reverse(lag)))
         .unwrap_or(finest)
 }

@@ -263,7 +263,10 @@ pub fn draw_pair_sweep(data: &PairSweep) -> Result<String, FigureError> {
     }
     pairs.sort_by(|a, b| a.2.total_cmp(&b.2));
     expect_some("pairs that turn unstable", pairs.len())?;
-    expect_some("second friction value", data.sweep.points.len() - 1)?;
+    expect_some(
+        "second friction value",
+        data.sweep.points.len().saturating_sub(1),
+    )?;
     let all = branches(data.sweep);
     let top = 26.0;
     let pitch = (680.0 / pairs.len() as f64).min(104.0);

@@ -286,7 +286,12 @@ fn draw_cut_peak(svg: &mut Svg, panel: &Panel, times: &[f64], values: &[f64], fa
         return;
     };
     let x = panel.at_x(times[peak]).min(panel.area.right() - 50.0);
-    let label = format!("▲ peak {}", significant(values[peak] * factor, 3));
+    let unit = panel.y.title.rsplit_once('(').map_or("", |(_, unit)| unit);
+    let label = format!(
+        "▲ peak {} {}",
+        significant(values[peak] * factor, 3),
+        unit.trim_end_matches(')')
+    );
     let style = TextStyle::new(6.25).coloured(MUTED).with_halo();
     svg.text(x + 3.0, panel.area.y + 8.0, &label, &style);
 }

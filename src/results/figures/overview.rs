@@ -151,11 +151,8 @@ fn draw_loudness(
 ) -> Result<(), FigureError> {
     let y = Axis::linear("frequency *f* (kHz)", 0.0, data.max_frequency_hz * 1e-3);
     let panel = stack.push(y, 92.0, last).without_grid();
-    svg.rectangle(
-        &panel.area,
-        &super::colour::hex(ColourMap::Inferno.at(0.0)),
-        None,
-    );
+    // Half a window at either end has no spectrum.
+    svg.rectangle(&panel.area, super::colour::GRID, None);
     draw_spectrogram(svg, &panel, map, loudness, stack.factor)?;
     draw_references(svg, &panel, &data.references);
     panel.draw_frame(svg);

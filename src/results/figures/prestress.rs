@@ -36,6 +36,18 @@ pub(super) fn angle_axis(title: &str) -> Axis {
     Axis::linear(title, 0.0, 360.0).with_ticks(ticks)
 }
 
+/// Angles in degrees, the first one again after a full turn.
+pub(super) fn around_degrees(angles: &[f64]) -> Vec<f64> {
+    let again = angles.first().map(|first| first.to_degrees() + 360.0);
+    angles.iter().map(|a| a.to_degrees()).chain(again).collect()
+}
+
+/// Values times a factor, the first one again at the end.
+pub(super) fn around(values: &[f64], factor: f64) -> Vec<f64> {
+    let again = values.first();
+    values.iter().chain(again).map(|v| v * factor).collect()
+}
+
 /// Draws pressure and shear over the angle, and the von Mises field.
 ///
 /// # Errors
@@ -53,10 +65,10 @@ pub fn draw_prestress(data: &PrestressedContact) -> Result<String, FigureError> 
     );
     let reach = extremes(data.pressure.iter().chain(data.shear).map(|v| v.abs())).1;
     let (factor, unit) = prefixed(reach, "Pa");
-    let degrees: Vec<f64> = data.angles.iter().map(|a| a.to_degrees()).collect();
+    let degrees = around_degrees(data.angles);
     let curves = [("pressure *p*", data.pressure), ("shear *τ*", data.shear)];
     for (row, (name, values)) in curves.into_iter().enumerate() {
-        let scaled: Vec<f64> = values.iter().map(|v| v * factor).collect();
+        let scaled = around(values, factor);
         let (low, high) = extremes(scaled.iter().copied().chain([0.0]));
         let room = 0.15 * (high - low);
         let title = format!("{name} ({unit})");

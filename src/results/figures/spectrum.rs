@@ -1,11 +1,11 @@
 //! The amplitude spectrum of a signal beside the frequencies of the eigenvalue analysis.
 
-use super::axis::{Axis, extremes, significant};
+use super::axis::{Axis, extremes};
 use super::colour::{EIGENVALUE, SERIES};
 use super::legend::{self, Key};
 use super::panel::Panel;
 use super::svg::{DOUBLE_COLUMN, Rect, Stroke, Svg};
-use super::text::{Anchor, TextStyle};
+use super::text::{self, TextStyle};
 use super::time_stack::{ReferenceFrequency, spread};
 use super::{FigureError, expect_length, expect_some};
 
@@ -48,11 +48,12 @@ pub fn draw_spectrum(data: &SpectrumPlot) -> Result<String, FigureError> {
     let floor = (0.7 * low).max(high * 10f64.powi(-DECADES));
     let y = Axis::logarithmic(&format!("amplitude ({})", data.unit), floor, 2.5 * high);
     let x = Axis::linear("frequency *f* (kHz)", 0.0, data.max_frequency_hz * 1e-3);
-    let names = if data.references.is_empty() {
-        14.0
-    } else {
-        58.0
-    };
+    let names = data
+        .references
+        .iter()
+        .map(|reference| text::width(&reference.label, NAME_SIZE, false))
+        .fold(0.0, f64::max);
+    let top = if names > 0.0 { names + 24.0 } else { 16.0 };
     let (left, height) = (50.0, 150.0);
     let mut svg = Svg::new("spectrum", DOUBLE_COLUMN, 100.0);
     let entries = [
@@ -64,7 +65,7 @@ pub fn draw_spectrum(data: &SpectrumPlot) -> Result<String, FigureError> {
     ];
     let entries = &entries[..if data.references.is_empty() { 1 } else { 2 }];
     legend::draw_legend(&mut svg, left, 2.0, DOUBLE_COLUMN - left, entries);
-    let area = Rect::new(left, names + 4.0, DOUBLE_COLUMN - left - 12.0, height);
+    let area = Rect::new(left, top, DOUBLE_COLUMN - left - 12.0, height);
     let panel = Panel::new(area, x, y);
     panel.draw_ground(&mut svg);
     draw_lines(&mut svg, &panel, &data.references);
@@ -78,6 +79,9 @@ pub fn draw_spectrum(data: &SpectrumPlot) -> Result<String, FigureError> {
         "Amplitude over frequency, with the frequencies of the eigenvalue analysis as dashed lines.",
     ))
 }
+
+/// Size of the names above the panel, points.
+const NAME_SIZE: f64 = 6.0;
 
 /// Vertical lines with upright names above the panel.
 fn draw_lines(svg: &mut Svg, panel: &Panel, references: &[ReferenceFrequency]) {
@@ -103,12 +107,7 @@ fn draw_lines(svg: &mut Svg, panel: &Panel, references: &[ReferenceFrequency]) {
             (label_x, top - 5.0),
             &Stroke::solid(EIGENVALUE, 0.4),
         );
-        let text = format!(
-            "{} kHz, {}",
-            significant(reference.frequency_hz * 1e-3, 4),
-            reference.label
-        );
-        let style = TextStyle::new(6.0).rotated(-90.0).anchored(Anchor::Start);
-        svg.text(label_x + 2.1, top - 6.5, &text, &style);
+        let style = TextStyle::new(NAME_SIZE).rotated(-90.0);
+        svg.text(label_x + 2.1, top - 6.5, &reference.label, &style);
     }
 }

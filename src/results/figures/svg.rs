@@ -3,6 +3,7 @@
 //! One user unit is one typographic point (1/72 inch). Coordinates are written with two decimals,
 //! so equal input gives equal bytes.
 
+pub use super::path::Path;
 use super::text::{self, Anchor, TextStyle};
 use std::fmt::Write;
 
@@ -14,6 +15,9 @@ pub const SINGLE_COLUMN: f64 = 85.0 * POINTS_PER_MM;
 
 /// Width of a figure across two columns, 178 mm, in points.
 pub const DOUBLE_COLUMN: f64 = 178.0 * POINTS_PER_MM;
+
+/// Start of every id in a drawing, so that a page can tell those of several drawings apart.
+pub const ID_PREFIX: &str = "figure-id-";
 
 /// An axis-parallel rectangle, `y` downwards, points.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -138,100 +142,6 @@ pub fn escape(text: &str) -> String {
     out
 }
 
-/// A path under construction, written relative to its last point to stay short.
-#[derive(Clone, Debug, Default)]
-pub struct Path {
-    data: String,
-    last: (i64, i64),
-}
-
-impl Path {
-    /// An empty path.
-    pub fn new() -> Self {
-        Self::default()
-    }
-
-    /// Starts a new piece at a point.
-    pub fn move_to(&mut self, x: f64, y: f64) {
-        let point = hundredths(x, y);
-        self.data.push('M');
-        push_pair(&mut self.data, point);
-        self.last = point;
-    }
-
-    /// Draws a straight line to a point.
-    pub fn line_to(&mut self, x: f64, y: f64) {
-        let point = hundredths(x, y);
-        self.data.push('l');
-        push_pair(
-            &mut self.data,
-            (point.0 - self.last.0, point.1 - self.last.1),
-        );
-        self.last = point;
-    }
-
-    /// Starts a new piece through all points.
-    pub fn extend(&mut self, points: impl IntoIterator<Item = (f64, f64)>) {
-        for (index, (x, y)) in points.into_iter().enumerate() {
-            if index == 0 {
-                self.move_to(x, y);
-            } else {
-                self.line_to(x, y);
-            }
-        }
-    }
-
-    /// Closes the current piece.
-    pub fn close(&mut self) {
-        self.data.push('z');
-    }
-
-    /// Whether nothing was drawn.
-    pub fn is_empty(&self) -> bool {
-        self.data.is_empty()
-    }
-
-    /// A path through all points, closed or not.
-    pub fn polyline(points: impl IntoIterator<Item = (f64, f64)>, closed: bool) -> Self {
-        let mut path = Self::new();
-        path.extend(points);
-        if closed && !path.is_empty() {
-            path.close();
-        }
-        path
-    }
-}
-
-fn hundredths(x: f64, y: f64) -> (i64, i64) {
-    ((x * 100.0).round() as i64, (y * 100.0).round() as i64)
-}
-
-fn push_pair(out: &mut String, (x, y): (i64, i64)) {
-    push_hundredths(out, x);
-    if y >= 0 {
-        out.push(' ');
-    }
-    push_hundredths(out, y);
-}
-
-fn push_hundredths(out: &mut String, value: i64) {
-    let magnitude = value.unsigned_abs();
-    if value < 0 {
-        out.push('-');
-    }
-    let (whole, rest) = (magnitude / 100, magnitude % 100);
-    if whole > 0 || rest == 0 {
-        let _ = write!(out, "{whole}");
-    }
-    if rest > 0 {
-        if rest % 10 == 0 {
-            let _ = write!(out, ".{}", rest / 10);
-        } else {
-            let _ = write!(out, ".{rest:02}");
-        }
-    }
-}
-
 /// An SVG document under construction.
 #[derive(Clone, Debug)]
 pub struct Svg {
@@ -278,7 +188,7 @@ impl Svg {
 
     fn id(&mut self) -> String {
         self.ids += 1;
-        format!("f-{}-{}", self.prefix, self.ids)
+        format!("{ID_PREFIX}{}-{}", self.prefix, self.ids)
     }
 
     /// A straight line.
@@ -412,9 +322,9 @@ impl Svg {
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" \
              width=\"{width}pt\" height=\"{height}pt\" viewBox=\"0 0 {width} {height}\" role=\"img\" \
-             aria-labelledby=\"f-{prefix}-title f-{prefix}-desc\" font-family=\"{family}\" \
+             aria-labelledby=\"{ID_PREFIX}{prefix}-title {ID_PREFIX}{prefix}-desc\" font-family=\"{family}\" \
              stroke-linejoin=\"round\">\n\
-             <title id=\"f-{prefix}-title\">{}</title>\n<desc id=\"f-{prefix}-desc\">{}</desc>\n\
+             <title id=\"{ID_PREFIX}{prefix}-title\">{}</title>\n<desc id=\"{ID_PREFIX}{prefix}-desc\">{}</desc>\n\
              <defs>\n{}</defs>\n<rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n{}</svg>\n",
             escape(&text::plain(title)),
             escape(&text::plain(description)),

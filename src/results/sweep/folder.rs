@@ -10,14 +10,19 @@ use std::collections::BTreeSet;
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
 
+/// Files over all points.
+const OVER_ALL: [&str; 6] = [
+    "points.csv",
+    "summary.json",
+    "figures/frequencies.svg",
+    "figures/frequencies.png",
+    "figures/status.svg",
+    "figures/status.png",
+];
 const POINTS: &str = "points";
 const CLAIM: &str = ".claim-";
-
-/// How long another process may take to open the folder before it counts as busy: several hundred
-/// array tasks may start at once.
-const PATIENCE: Duration = Duration::from_secs(30);
+const DOOR: &str = ".door";
 
 /// What becomes of finished points that are there already.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,7 +40,7 @@ pub enum Start {
 /// ```text
 /// manifest.json              case text, overrides, hash: whose folder it is
 /// points/point-000001.json   one whole file for each finished point
-/// points.csv, summary.json   over all points
+/// points.csv, summary.json   over all points, as are the figures
 /// ```
 ///
 /// Processes share the folder: each holds the lock file shared, so that no other command takes the
@@ -85,6 +90,7 @@ impl SweepFolder {
             fs::create_dir_all(&points_path)
                 .map_err(|e| FolderError::io("create folder", &points_path, e))?;
             if company == Company::None {
+                clear_remnants(path);
                 clear_remnants(&points_path);
             }
             if start == Start::Over {
@@ -197,7 +203,7 @@ impl SweepFolder {
         fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), FolderError> {
         let path = self.path.join(name);
-        write_whole(&path, fill).map_err(|e| FolderError::io("write", &path, e))
+        write_whole(&path, true, fill).map_err(|e| FolderError::io("write", &path, e))
     }
 
     fn refuse_started(&self, points: &[usize]) -> Result<(), FolderError> {
@@ -244,41 +250,43 @@ enum Company {
 /// process is there.
 fn share(
     path: &Path,
-    enter: impl Fn(Company) -> Result<(), FolderError>,
+    enter: impl FnOnce(Company) -> Result<(), FolderError>,
 ) -> Result<File, FolderError> {
+    // One process enters at a time, which takes a moment; hundreds of them may start at once.
+    let door_path = path.join(DOOR);
+    let door = open_lock(&door_path)?;
+    match door.lock() {
+        Err(error) if error.kind() != io::ErrorKind::Unsupported => {
+            return Err(FolderError::io("lock", &door_path, error));
+        }
+        _ => {}
+    }
     let lock_path = path.join(LOCK);
     let file = open_lock(&lock_path)?;
-    let io_error = |error| FolderError::io("lock", &lock_path, error);
-    let start = Instant::now();
-    loop {
-        match file.try_lock() {
-            Ok(()) => {
-                enter(Company::None)?;
-                // Not every system turns one kind of lock into the other.
-                file.unlock().map_err(io_error)?;
-                file.lock_shared().map_err(io_error)?;
-                return Ok(file);
-            }
-            Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => {
-                enter(Company::Unknown)?;
-                return Ok(file);
-            }
-            Err(TryLockError::Error(error)) => return Err(io_error(error)),
-            Err(TryLockError::WouldBlock) => {}
+    let refusal = |error| match error {
+        TryLockError::WouldBlock => FolderError::Busy {
+            path: path.to_owned(),
+        },
+        TryLockError::Error(error) => FolderError::io("lock", &lock_path, error),
+    };
+    match file.try_lock() {
+        Ok(()) => {
+            enter(Company::None)?;
+            // Not every system turns one kind of lock into the other.
+            file.unlock()
+                .map_err(|error| refusal(TryLockError::Error(error)))?;
+            file.try_lock_shared().map_err(refusal)?;
         }
-        match file.try_lock_shared() {
-            Ok(()) => {
-                enter(Company::Others)?;
-                return Ok(file);
-            }
-            Err(TryLockError::Error(error)) => return Err(io_error(error)),
-            Err(TryLockError::WouldBlock) if start.elapsed() > PATIENCE => {
-                let path = path.to_owned();
-                return Err(FolderError::Busy { path });
-            }
-            Err(TryLockError::WouldBlock) => std::thread::sleep(Duration::from_millis(20)),
+        Err(TryLockError::WouldBlock) => {
+            file.try_lock_shared().map_err(refusal)?;
+            enter(Company::Others)?;
         }
+        Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => {
+            enter(Company::Unknown)?;
+        }
+        Err(error) => return Err(refusal(error)),
     }
+    Ok(file)
 }
 
 /// Makes the folder that of this sweep, or finds that it is.
@@ -310,7 +318,7 @@ fn take_over(
     }
     let files: BTreeSet<String> = (1..=count)
         .map(point_name)
-        .chain(["points.csv", "summary.json"].map(str::to_owned))
+        .chain(OVER_ALL.map(str::to_owned))
         .collect();
     let manifest = manifest.clone();
     write_contents(path, &Contents { manifest, files })
@@ -325,15 +333,15 @@ fn remove_points(path: &Path, points: &[usize], company: Company) -> Result<(), 
     let names: Vec<String> = points
         .iter()
         .map(|&point| point_name(point))
-        .chain(["points.csv", "summary.json"].map(str::to_owned))
+        .chain(OVER_ALL.map(str::to_owned))
         .collect();
     remove_files(path, names.iter());
     Ok(())
 }
 
 /// Removes what killed processes left: files half written under temporary names, and claims.
-fn clear_remnants(points: &Path) {
-    let Ok(entries) = fs::read_dir(points) else {
+fn clear_remnants(folder: &Path) {
+    let Ok(entries) = fs::read_dir(folder) else {
         return;
     };
     for entry in entries.flatten() {

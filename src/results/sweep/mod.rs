@@ -1,10 +1,12 @@
 //! Results of a parameter study: a file for each finished point, one table over them.
 
+mod figures;
 mod folder;
 mod record;
 mod report;
 mod table;
 
+pub use figures::draw;
 pub use folder::{Claim, Start, SweepFolder};
 pub use record::PointRecord;
 pub use report::{SweepReport, print, summary, swept_text};

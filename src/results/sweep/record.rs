@@ -18,6 +18,8 @@ pub struct PointRecord {
     pub summaries: Map<String, Value>,
     /// Wall time on its worker, s.
     pub wall_s: f64,
+    /// Time that it kept cores busy, s; less than the wall time where other programs had them too.
+    pub core_s: f64,
     /// SHA-256 of the point's effective case, without its `[sweep]`.
     pub case_hash: String,
     /// SHA-256 of the effective case of the whole sweep.

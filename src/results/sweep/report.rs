@@ -27,6 +27,8 @@ const MOST_ROWS: usize = 200;
 pub struct SweepReport<'a> {
     /// Title of the case.
     pub title: &'a str,
+    /// Friction coefficient where it is not swept.
+    pub friction_coefficient: f64,
     /// Swept keys.
     pub keys: &'a [String],
     /// Names of the analyses at each point.
@@ -55,10 +57,28 @@ impl SweepReport<'_> {
         self.records.iter().filter(|record| record.error.is_some())
     }
 
-    /// Points finished in an hour of one core, from the wall time of each on its worker.
+    /// Time that the points kept cores busy, s.
+    fn core_seconds(&self) -> f64 {
+        self.records.iter().map(|record| record.core_s).sum()
+    }
+
+    /// Points done in an hour of one core; failed ones cost time but do not count.
     fn points_per_core_hour(&self) -> Option<f64> {
-        let seconds: f64 = self.records.iter().map(|record| record.wall_s).sum();
-        (seconds > 0.0).then(|| self.records.len() as f64 * 3600.0 / seconds)
+        let done = self.records.len() - self.failed().count();
+        (done > 0).then(|| done as f64 * 3600.0 / self.core_seconds())
+    }
+
+    /// Errors in the order of their first points, each with the numbers of all points that have it.
+    fn errors(&self) -> Vec<(&str, Vec<usize>)> {
+        let mut errors: Vec<(&str, Vec<usize>)> = Vec::new();
+        for record in self.failed() {
+            let text = record.error.as_deref().unwrap_or_default();
+            match errors.iter_mut().find(|(known, _)| *known == text) {
+                Some((_, points)) => points.push(record.point),
+                None => errors.push((text, vec![record.point])),
+            }
+        }
+        errors
     }
 
     /// What to know before points are compared: they were not all made alike.
@@ -88,7 +108,6 @@ pub fn summary(report: &SweepReport<'_>, manifest: &Manifest) -> Value {
             |record| json!({ "point": record.point, "swept": record.swept, "error": record.error }),
         )
         .collect();
-    let core_s: f64 = report.records.iter().map(|record| record.wall_s).sum();
     json!({
         "command": manifest.command,
         "title": report.title,
@@ -100,7 +119,7 @@ pub fn summary(report: &SweepReport<'_>, manifest: &Manifest) -> Value {
         "failed": failed,
         "missing": report.missing(),
         "wall_s": report.wall_s,
-        "core_s": core_s,
+        "core_s": report.core_seconds(),
         "points_per_core_hour": report.points_per_core_hour(),
         "notes": report.notes(),
         "manifest": manifest,
@@ -116,14 +135,8 @@ pub fn print(report: &SweepReport<'_>) -> String {
     if report.records.len() <= MOST_ROWS {
         rows(&mut out, report);
     }
-    for record in report.failed() {
-        let _ = writeln!(
-            out,
-            "point {} failed ({}): {}",
-            record.point,
-            swept_text(&record.swept),
-            record.error.as_deref().unwrap_or_default()
-        );
+    for (error, points) in report.errors() {
+        let _ = writeln!(out, "failed: {}: {error}", number_ranges(&points));
     }
     let missing = report.missing();
     let _ = writeln!(
@@ -169,12 +182,14 @@ fn rows(out: &mut String, report: &SweepReport<'_>) {
     table[0].extend(columns.iter().map(|(_, name)| (*name).to_owned()));
     for record in report.records {
         let mut row = vec![record.point.to_string()];
-        row.extend(record.swept.values().map(cell));
+        row.extend(record.swept.values().map(printed));
         row.extend(columns.iter().map(|(pointer, _)| {
-            let value = value_at(record, pointer);
-            match value.as_ref().and_then(Value::as_f64) {
-                Some(number) => significant(number),
-                None => value.as_ref().map(cell).unwrap_or_default(),
+            match record.error {
+                Some(_) => "failed".to_owned(),
+                None => value_at(record, pointer)
+                    .as_ref()
+                    .map(printed)
+                    .unwrap_or_default(),
             }
         }));
         table.push(row);
@@ -189,10 +204,17 @@ fn rows(out: &mut String, report: &SweepReport<'_>) {
     }
 }
 
-/// Five significant digits.
-fn significant(value: f64) -> String {
-    let rounded: f64 = format!("{value:.4e}").parse().unwrap_or(value);
-    format!("{rounded}")
+/// A value as people read it: numbers to five significant digits.
+fn printed(value: &Value) -> String {
+    match value.as_f64() {
+        Some(number) => {
+            let rounded: f64 = format!("{number:.4e}").parse().unwrap_or(number);
+            cell(&Value::from(rounded))
+                .trim_end_matches(".0")
+                .to_owned()
+        }
+        None => cell(value),
+    }
 }
 
 /// The last part of a dotted key.
@@ -204,7 +226,7 @@ fn short(key: &str) -> &str {
 pub fn swept_text(swept: &Map<String, Value>) -> String {
     let parts: Vec<String> = swept
         .iter()
-        .map(|(key, value)| format!("{} = {}", short(key), cell(value)))
+        .map(|(key, value)| format!("{} = {}", short(key), printed(value)))
         .collect();
     parts.join(", ")
 }
@@ -245,7 +267,8 @@ mod tests {
             swept: Map::new(),
             error: None,
             summaries: Map::new(),
-            wall_s: 2.0,
+            wall_s: 3.0,
+            core_s: 2.0,
             case_hash: String::new(),
             sweep_hash: String::new(),
             version: "1".into(),
@@ -253,6 +276,7 @@ mod tests {
         };
         let report = SweepReport {
             title: "",
+            friction_coefficient: 0.3,
             keys: &[],
             analyses: &[],
             count: 5,

@@ -175,6 +175,7 @@ mod tests {
             error: None,
             summaries: object(json!({ "transient": summary })),
             wall_s: 1.0,
+            core_s: 1.0,
             case_hash: String::new(),
             sweep_hash: String::new(),
             version: String::new(),

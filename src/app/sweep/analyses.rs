@@ -1,0 +1,31 @@
+//! What runs at a point of a sweep.
+
+use super::plan::analysis_name;
+use crate::app::{Failure, cea, transient};
+use crate::case::{Analysis, Case};
+use crate::results::Manifest;
+use serde_json::{Map, Value};
+
+/// Runs the analyses of one point and gives the summary of each by its name, without the manifest:
+/// the sweep's folder has it once.
+///
+/// # Errors
+/// Those of the first analysis that fails.
+pub fn run_point(
+    case: &Case,
+    analyses: &[Analysis],
+    manifest: &Manifest,
+) -> Result<Map<String, Value>, Failure> {
+    let mut summaries = Map::new();
+    for &analysis in analyses {
+        let mut summary = match analysis {
+            Analysis::Cea => cea::summarize(case, manifest)?,
+            Analysis::Transient => transient::summarize(case, manifest)?,
+        };
+        if let Value::Object(entries) = &mut summary {
+            entries.shift_remove("manifest");
+        }
+        summaries.insert(analysis_name(analysis).to_owned(), summary);
+    }
+    Ok(summaries)
+}

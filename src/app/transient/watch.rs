@@ -1,0 +1,122 @@
+//! What happens beside the time loop: progress, checkpoints, signals.
+
+use crate::app::{Failure, terminal};
+use crate::results::transient::write_checkpoint;
+use crate::results::{FolderError, OutputFolder};
+use crate::transient::{Observer, Recorder, Sample, StepPlan};
+use indicatif::ProgressBar;
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+/// Set by Ctrl-C and SIGTERM.
+static IS_INTERRUPTED: AtomicBool = AtomicBool::new(false);
+
+/// Exit code of a process that a second Ctrl-C ends.
+const INTERRUPTED: i32 = 130;
+
+/// Makes Ctrl-C and SIGTERM stop the run at its next sample; a second one ends the process at once.
+pub fn catch_signals() {
+    // A second run of the same process finds the handler in place.
+    let _ = ctrlc::set_handler(|| {
+        if IS_INTERRUPTED.swap(true, Ordering::SeqCst) {
+            std::process::exit(INTERRUPTED);
+        }
+    });
+}
+
+/// Where and how often checkpoints are written.
+pub struct Checkpoints<'a> {
+    pub folder: &'a OutputFolder,
+    /// Wall time between two, s.
+    pub interval_s: f64,
+}
+
+/// Records, and looks after the run.
+pub struct Watch<'a> {
+    record: Recorder,
+    checkpoints: Option<Checkpoints<'a>>,
+    bar: ProgressBar,
+    end_time: f64,
+    last_message: Instant,
+    last_checkpoint: Instant,
+    failure: Option<FolderError>,
+}
+
+impl<'a> Watch<'a> {
+    pub fn new(
+        record: Recorder,
+        plan: &StepPlan,
+        quiet: bool,
+        checkpoints: Option<Checkpoints<'a>>,
+    ) -> Self {
+        let bar = terminal::progress(quiet, plan.samples, "transient");
+        let now = Instant::now();
+        bar.set_position(record.rows.len() as u64);
+        bar.reset_eta();
+        Self {
+            record,
+            checkpoints,
+            bar,
+            end_time: plan.end_time(),
+            last_message: now,
+            last_checkpoint: now,
+            failure: None,
+        }
+    }
+
+    /// The record, unless a checkpoint could not be written.
+    pub fn finish(self) -> Result<Recorder, Failure> {
+        self.bar.finish_and_clear();
+        match self.failure {
+            Some(error) => Err(error.into()),
+            None => Ok(self.record),
+        }
+    }
+
+    fn tell(&mut self, sample: &Sample<'_>) {
+        let counts = sample.counts;
+        let steps = (counts.stick + counts.slip + counts.open).max(1) as f64;
+        let nodes = sample.status().len() as f64;
+        let share = |count: u64| (nodes * count as f64 / steps).round();
+        self.bar.set_position(sample.index + 1);
+        self.bar.set_message(format!(
+            "{:.3} of {:.3} ms, stick {} slip {} open {}",
+            1e3 * sample.time,
+            1e3 * self.end_time,
+            share(counts.stick),
+            share(counts.slip),
+            share(counts.open),
+        ));
+    }
+
+    fn save(&mut self, sample: &Sample<'_>) -> Result<(), FolderError> {
+        let Some(checkpoints) = &self.checkpoints else {
+            return Ok(());
+        };
+        if self.last_checkpoint.elapsed().as_secs_f64() < checkpoints.interval_s {
+            return Ok(());
+        }
+        write_checkpoint(checkpoints.folder, &sample.state(), &self.record)?;
+        self.last_checkpoint = Instant::now();
+        Ok(())
+    }
+}
+
+impl Observer for Watch<'_> {
+    fn observe(&mut self, sample: &Sample<'_>) -> ControlFlow<()> {
+        let _ = self.record.observe(sample);
+        if self.last_message.elapsed() > Duration::from_millis(100) {
+            self.last_message = Instant::now();
+            self.tell(sample);
+        }
+        if IS_INTERRUPTED.load(Ordering::Relaxed) {
+            return ControlFlow::Break(());
+        }
+        if let Err(error) = self.save(sample) {
+            self.failure = Some(error);
+            return ControlFlow::Break(());
+        }
+        ControlFlow::Continue(())
+    }
+}

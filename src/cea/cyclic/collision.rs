@@ -1,0 +1,150 @@
+//! Past the friction coefficient at which two branches of a standing harmonic meet.
+//!
+//! The waves of a standing harmonic (`n = 0`, or the shortest on the mesh) see real matrices, so two real
+//! `kappa` can meet and go on as a conjugate pair, or the other way round. No derivative exists at that
+//! point; both are followed on the far side.
+
+use super::follow::{Eigenpair, Follower};
+use super::paths::Path;
+use super::problem::{Matrices, dot, normalize};
+use faer::c64;
+
+/// Two branches closer than this, relative, may be about to meet.
+const NEAR: f64 = 1e-2;
+
+/// Lengths of the jumps tried.
+const JUMPS: [f64; 4] = [1e-5, 1e-4, 1e-3, 1e-2];
+
+/// Carries path `index`, which cannot be followed any further towards `target`, and the path that it meets
+/// past their meeting; `false` where they do not meet.
+///
+/// `approach` follows a path as far as it can towards a parameter; `matrices` gives the problem.
+pub(super) fn pass(
+    follower: &mut Follower<'_>,
+    paths: &mut [Path],
+    index: usize,
+    target: f64,
+    mut approach: impl FnMut(&mut Follower<'_>, &mut Vec<Eigenpair>, f64),
+) -> bool {
+    let Some(stuck) = paths[index].points.last().cloned() else {
+        return false;
+    };
+    let distance = |path: &Path| {
+        let last = path.points.last();
+        last.map_or(f64::INFINITY, |p| (p.theta - stuck.theta).norm())
+    };
+    let others = (0..paths.len()).filter(|&other| other != index);
+    let Some(partner) = others.min_by(|&a, &b| distance(&paths[a]).total_cmp(&distance(&paths[b])))
+    else {
+        return false;
+    };
+    approach(follower, &mut paths[partner].points, stuck.parameter);
+    let Some(met) = paths[partner].points.last().cloned() else {
+        return false;
+    };
+    let gap = (met.theta - stuck.theta).norm();
+    if gap > NEAR * stuck.theta.norm() || met.parameter > stuck.parameter {
+        return false;
+    }
+    for jump in JUMPS {
+        let beyond = (stuck.parameter + jump).min(target);
+        let at = follower.problem.at(beyond);
+        if let Some([first, second]) = pair_near(follower, &at, beyond, &stuck, &met) {
+            let (low, high) = (index.min(partner), index.max(partner));
+            paths[low].points.push(first);
+            paths[high].points.push(second);
+            return true;
+        }
+    }
+    false
+}
+
+/// The two eigenpairs that continue `a` and `b`: real ones rising, or the conjugate pair with the
+/// positive imaginary part first.
+fn pair_near(
+    follower: &mut Follower<'_>,
+    at: &Matrices,
+    parameter: f64,
+    a: &Eigenpair,
+    b: &Eigenpair,
+) -> Option<[Eigenpair; 2]> {
+    let middle = 0.5 * (a.theta + b.theta);
+    let guesses = invariant_pair(follower, at, middle, a, b)?;
+    let found = guesses.map(|guess| follower.find(at, parameter, guess));
+    let [Some(first), Some(second)] = found else {
+        return None;
+    };
+    let separation = (first.theta - second.theta).norm();
+    if separation < 1e-6 * middle.norm() {
+        return None;
+    }
+    // Sideways when they are a conjugate pair, along the axis when they are real.
+    let difference = first.theta - second.theta;
+    let is_pair = difference.im.abs() > difference.re.abs();
+    let is_ordered = if is_pair {
+        difference.im > 0.0
+    } else {
+        difference.re < 0.0
+    };
+    Some(if is_ordered {
+        [first, second]
+    } else {
+        [second, first]
+    })
+}
+
+/// Eigenvalues of the projection on the two-dimensional space that inverse iteration at `shift` finds.
+fn invariant_pair(
+    follower: &mut Follower<'_>,
+    at: &Matrices,
+    shift: c64,
+    a: &Eigenpair,
+    b: &Eigenpair,
+) -> Option<[c64; 2]> {
+    let problem = follower.problem;
+    let (mut right, mut left) = ([a.x.clone(), b.x.clone()], [a.y.clone(), b.y.clone()]);
+    follower.factorize(at, shift);
+    for _ in 0..4 {
+        for x in &mut right {
+            *x = follower.solve(&problem.apply_slope(at, shift, x, false), false);
+        }
+        for y in &mut left {
+            *y = follower.solve(&problem.apply_slope(at, shift, y, true), true);
+        }
+        orthonormalize(&mut right);
+        orthonormalize(&mut left);
+    }
+    // T is linear in theta here: y^H T(theta) x = y^H T(shift) x + (theta - shift) y^H T' x.
+    let entry = |i: usize, j: usize| {
+        let slope = dot(&left[i], &problem.apply_slope(at, shift, &right[j], false));
+        (dot(&left[i], &problem.apply(at, shift, &right[j])), slope)
+    };
+    let [[(k11, m11), (k12, m12)], [(k21, m21), (k22, m22)]] =
+        [[entry(0, 0), entry(0, 1)], [entry(1, 0), entry(1, 1)]];
+    // det(K + t M) = 0.
+    let quadratic = m11 * m22 - m12 * m21;
+    let linear = k11 * m22 + m11 * k22 - k12 * m21 - m12 * k21;
+    let constant = k11 * k22 - k12 * k21;
+    let root = (linear * linear - 4.0 * quadratic * constant).sqrt();
+    let roots = [
+        (root - linear) / (2.0 * quadratic),
+        (-root - linear) / (2.0 * quadratic),
+    ];
+    roots
+        .iter()
+        .all(|r| r.re.is_finite() && r.im.is_finite())
+        .then(|| roots.map(|r| shift + r))
+}
+
+fn orthonormalize(pair: &mut [Vec<c64>; 2]) {
+    let [first, second] = pair;
+    normalize(first);
+    // Twice is enough for vectors that are nearly parallel.
+    for _ in 0..2 {
+        let part = dot(first, second);
+        for (value, other) in second.iter_mut().zip(first.iter()) {
+            *value -= part * other;
+        }
+        normalize(second);
+    }
+}

@@ -1,0 +1,357 @@
+//! Continuation of mode branches over the friction coefficient.
+
+use super::edge::ContactEdge;
+use super::point::SolvedPoint;
+use super::reduced::{ComplexColumns, ReducedMode, ReducedModel};
+use super::structure::Side;
+use crate::linalg::{ComplexDenseLu, LinalgError};
+use faer::{Mat, c64};
+
+/// Overlap above which two modes at neighbouring friction coefficients are one.
+const SAME: f64 = 0.5;
+/// Relative distance of eigenvalues below which modes without friction are degenerate.
+const DEGENERATE: f64 = 1e-7;
+/// Bisections of an interval before modes are matched by their extrapolated eigenvalue.
+const MAX_BISECTIONS: usize = 10;
+
+/// Name of a branch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BranchLabel {
+    /// Circumferential harmonic.
+    pub harmonic: usize,
+    /// Rank by frequency within the harmonic without friction, 0 = lowest.
+    pub branch: usize,
+}
+
+/// One branch over all points of a sweep.
+#[derive(Clone, Debug)]
+pub struct ModeBranch {
+    /// Its name.
+    pub label: BranchLabel,
+    /// Its index among the modes of each point; `None` before it entered the range.
+    pub modes: Vec<Option<usize>>,
+}
+
+/// A branch with no continuation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lost {
+    /// Its name.
+    pub label: BranchLabel,
+    /// Frequency where it was last seen, rad/s.
+    pub frequency: f64,
+    /// Index of the last point where it was seen.
+    pub point: usize,
+}
+
+/// Names the first `count` modes of the frictionless point and rotates degenerate ones so that they are
+/// the limits of the modes with friction.
+///
+/// # Errors
+/// If a dense decomposition fails.
+pub fn label_frictionless(
+    point: &mut SolvedPoint,
+    model: &ReducedModel,
+    edge: &ContactEdge,
+    count: usize,
+) -> Result<Vec<BranchLabel>, LinalgError> {
+    let harmonics: Vec<usize> = point
+        .checks
+        .iter()
+        .take(count)
+        .map(|check| edge.harmonic(&check.edge, check.peak))
+        .collect();
+    let labels = (0..harmonics.len())
+        .map(|i| {
+            let harmonic = harmonics[i];
+            let below = harmonics[..i].iter().filter(|&&n| n == harmonic).count();
+            let branch = if edge.is_paired(harmonic) {
+                below / 2
+            } else {
+                below
+            };
+            BranchLabel { harmonic, branch }
+        })
+        .collect();
+    split_degenerate(&mut point.modes, model, count)?;
+    Ok(labels)
+}
+
+/// First-order perturbation theory within each cluster of equal eigenvalues.
+///
+/// With biorthonormal vectors, `dlambda/dmu` are the eigenvalues of `-W^T T'(lambda) X`, and its
+/// eigenvectors are the combinations that continue into `mu > 0`.
+fn split_degenerate(
+    modes: &mut [ReducedMode],
+    model: &ReducedModel,
+    count: usize,
+) -> Result<(), LinalgError> {
+    let (at, rate) = (model.at(0.0), model.derivative_at(0.0));
+    let mut first = 0;
+    while first < count.min(modes.len()) {
+        let lambda = modes[first].eigenvalue;
+        let size = modes[first..]
+            .iter()
+            .take_while(|m| (m.eigenvalue - lambda).norm() < DEGENERATE * lambda.norm())
+            .count();
+        if size > 1 {
+            let cluster = &mut modes[first..first + size];
+            let columns = ComplexColumns::of(cluster, Side::Right, model.dimension());
+            let gram = cluster_matrix(
+                cluster,
+                &columns,
+                lambda * 2.0,
+                [&at.mass, &at.damping],
+                None,
+            );
+            let coefficients = [&rate.mass, &rate.damping];
+            let change = cluster_matrix(
+                cluster,
+                &columns,
+                lambda,
+                coefficients,
+                Some(&rate.stiffness),
+            );
+            let gram = ComplexDenseLu::factorize(gram);
+            let mut operator = change;
+            gram.solve_in_place(operator.as_mut());
+            rotate(cluster, &operator, &gram)?;
+        }
+        first += size.max(1);
+    }
+    Ok(())
+}
+
+/// `W^T (factor A + B) X` or, with a stiffness, `-W^T (factor^2 A + factor B + K) X`.
+fn cluster_matrix(
+    cluster: &[ReducedMode],
+    columns: &ComplexColumns,
+    factor: c64,
+    [a, b]: [&Mat<f64>; 2],
+    stiffness: Option<&Mat<f64>>,
+) -> Mat<c64> {
+    let (ax, bx) = (columns.mapped(a), columns.mapped(b));
+    let kx = stiffness.map(|k| columns.mapped(k));
+    Mat::from_fn(cluster.len(), cluster.len(), |i, j| {
+        let left = &cluster[i].left;
+        match &kx {
+            None => factor * ax.dot(left, j) + bx.dot(left, j),
+            Some(kx) => {
+                -(factor * factor * ax.dot(left, j) + factor * bx.dot(left, j) + kx.dot(left, j))
+            }
+        }
+    })
+}
+
+/// Replaces the vectors of a cluster by the eigenvectors of `operator`, biorthonormal ones.
+fn rotate(
+    cluster: &mut [ReducedMode],
+    operator: &Mat<c64>,
+    gram: &ComplexDenseLu,
+) -> Result<(), LinalgError> {
+    let size = cluster.len();
+    let eigen = operator
+        .eigen()
+        .map_err(|_| LinalgError::DenseEigen { dimension: size })?;
+    let (values, vectors) = (eigen.S().column_vector(), eigen.U());
+    let mut order: Vec<usize> = (0..size).collect();
+    order.sort_by(|&i, &j| values[i].re.total_cmp(&values[j].re));
+    let vectors = Mat::from_fn(size, size, |i, j| vectors[(i, order[j])]);
+    // Left vectors: P^-1 G^-1 W^T, so that W'^T (2 lambda M + C) X P is the identity.
+    let mut left = Mat::<c64>::identity(size, size);
+    gram.solve_in_place(left.as_mut());
+    ComplexDenseLu::factorize(vectors.clone()).solve_in_place(left.as_mut());
+    let combine = |old: &[Vec<c64>], factor: &dyn Fn(usize) -> c64| -> Vec<c64> {
+        (0..old[0].len())
+            .map(|row| (0..size).map(|i| factor(i) * old[i][row]).sum())
+            .collect()
+    };
+    let rights: Vec<Vec<c64>> = cluster.iter().map(|m| m.right.clone()).collect();
+    let lefts: Vec<Vec<c64>> = cluster.iter().map(|m| m.left.clone()).collect();
+    for (j, mode) in cluster.iter_mut().enumerate() {
+        mode.right = combine(&rights, &|i| vectors[(i, j)]);
+        mode.left = combine(&lefts, &|i| left[(j, i)]);
+        mode.derivative = values[order[j]];
+    }
+    Ok(())
+}
+
+/// Continues all branches over `points` (ascending friction coefficients, the first one frictionless).
+///
+/// Neighbouring points are matched by the overlap
+/// `|w_i^T N x'_j| |w'_j^T N x_i|`, `N = (lambda_i + lambda'_j) M + C`, which is 1 for one mode and 0 for
+/// different modes of one problem, and by `lambda' - lambda = (dlambda/dmu + dlambda'/dmu) dmu / 2`.
+/// Where this is not clear the interval is bisected.
+///
+/// A wanted mode that no branch reaches has come from above the range: it starts a branch.
+///
+/// # Errors
+/// `Ok(Err(lost))` for a branch among the wanted modes with no continuation; `Err` if a dense
+/// decomposition fails.
+pub fn track(
+    points: &[SolvedPoint],
+    model: &ReducedModel,
+    edge: &ContactEdge,
+    labels: &[BranchLabel],
+) -> Result<Result<Vec<ModeBranch>, Lost>, LinalgError> {
+    let mut branches: Vec<ModeBranch> = labels
+        .iter()
+        .enumerate()
+        .map(|(i, &label)| ModeBranch {
+            label,
+            modes: vec![Some(i)],
+        })
+        .collect();
+    for k in 1..points.len() {
+        let (before, after) = (&points[k - 1], &points[k]);
+        let links = match_modes(
+            (before.friction_coefficient, &before.modes),
+            (after.friction_coefficient, &after.modes),
+            before.wanted,
+            model,
+            0,
+        )?;
+        for branch in &mut branches {
+            let last = branch.modes[k - 1];
+            let next = last.and_then(|i| links[i]);
+            if let (Some(i), None) = (last, next)
+                && i < before.wanted
+            {
+                return Ok(Err(Lost {
+                    label: branch.label,
+                    frequency: before.modes[i].eigenvalue.im,
+                    point: k - 1,
+                }));
+            }
+            branch.modes.push(next);
+        }
+        adopt_newcomers(&mut branches, after, edge, k);
+    }
+    Ok(Ok(branches))
+}
+
+/// Starts a branch for every wanted mode of point `k` that has none.
+fn adopt_newcomers(
+    branches: &mut Vec<ModeBranch>,
+    point: &SolvedPoint,
+    edge: &ContactEdge,
+    k: usize,
+) {
+    for i in 0..point.wanted {
+        if branches.iter().any(|b| b.modes[k] == Some(i)) {
+            continue;
+        }
+        let check = &point.checks[i];
+        let harmonic = edge.harmonic(&check.edge, check.peak);
+        let below = branches
+            .iter()
+            .filter(|b| b.label.harmonic == harmonic)
+            .count();
+        let branch = if edge.is_paired(harmonic) {
+            below / 2
+        } else {
+            below
+        };
+        let mut modes = vec![None; k];
+        modes.push(Some(i));
+        let label = BranchLabel { harmonic, branch };
+        branches.push(ModeBranch { label, modes });
+    }
+}
+
+type ModesAt<'a> = (f64, &'a [ReducedMode]);
+
+/// For each mode of `from` the mode of `to` that continues it. The first `needed` modes must be matched
+/// beyond doubt, or the interval is halved.
+fn match_modes(
+    from: ModesAt<'_>,
+    to: ModesAt<'_>,
+    needed: usize,
+    model: &ReducedModel,
+    depth: usize,
+) -> Result<Vec<Option<usize>>, LinalgError> {
+    let overlaps = overlaps(from, to, model);
+    let mut links = clear_links(from, to, &overlaps);
+    let is_clear = links.iter().take(needed).all(Option::is_some);
+    if is_clear {
+        return Ok(links);
+    }
+    if depth < MAX_BISECTIONS {
+        let middle = 0.5 * (from.0 + to.0);
+        let modes = model.solve(middle, from.1.len().max(to.1.len()))?;
+        let first = match_modes(from, (middle, &modes), needed, model, depth + 1)?;
+        let reached = first
+            .iter()
+            .take(needed)
+            .flatten()
+            .max()
+            .map_or(0, |&i| i + 1);
+        let second = match_modes((middle, &modes), to, reached, model, depth + 1)?;
+        return Ok(first
+            .iter()
+            .map(|link| link.and_then(|i| second[i]))
+            .collect());
+    }
+    link_by_extrapolation(from, to, needed, &mut links);
+    Ok(links)
+}
+
+fn overlaps(from: ModesAt<'_>, to: ModesAt<'_>, model: &ReducedModel) -> Mat<f64> {
+    let at = model.at(0.5 * (from.0 + to.0));
+    let forms = |modes: &[ReducedMode]| {
+        let columns = ComplexColumns::of(modes, Side::Right, model.dimension());
+        (columns.mapped(&at.mass), columns.mapped(&at.damping))
+    };
+    let (old, new) = (forms(from.1), forms(to.1));
+    Mat::from_fn(from.1.len(), to.1.len(), |i, j| {
+        let (a, b) = (&from.1[i], &to.1[j]);
+        let sum = a.eigenvalue + b.eigenvalue;
+        let forward = sum * new.0.dot(&a.left, j) + new.1.dot(&a.left, j);
+        let backward = sum * old.0.dot(&b.left, i) + old.1.dot(&b.left, i);
+        (forward * backward).norm()
+    })
+}
+
+/// Links whose overlap is large and whose eigenvalues agree with their derivatives.
+fn clear_links(from: ModesAt<'_>, to: ModesAt<'_>, overlaps: &Mat<f64>) -> Vec<Option<usize>> {
+    let step = to.0 - from.0;
+    let mut links = vec![None; from.1.len()];
+    let mut taken = vec![false; to.1.len()];
+    for (i, link) in links.iter_mut().enumerate() {
+        let a = &from.1[i];
+        let best = (0..to.1.len()).max_by(|&j, &k| overlaps[(i, j)].total_cmp(&overlaps[(i, k)]));
+        let Some(j) = best.filter(|&j| overlaps[(i, j)] > SAME && !taken[j]) else {
+            continue;
+        };
+        let b = &to.1[j];
+        let predicted = a.eigenvalue + (a.derivative + b.derivative) * (0.5 * step);
+        let reach = 0.5 * (a.derivative.norm() + b.derivative.norm()) * step;
+        let error = (b.eigenvalue - predicted).norm();
+        if error <= 0.5 * reach + 1e-6 * a.eigenvalue.norm() {
+            *link = Some(j);
+            taken[j] = true;
+        }
+    }
+    links
+}
+
+/// Last resort, where branches meet in an exceptional point: the nearest free eigenvalue.
+fn link_by_extrapolation(
+    from: ModesAt<'_>,
+    to: ModesAt<'_>,
+    needed: usize,
+    links: &mut [Option<usize>],
+) {
+    let step = to.0 - from.0;
+    for i in 0..needed.min(links.len()) {
+        if links[i].is_some() {
+            continue;
+        }
+        let a = &from.1[i];
+        let distance = |j: usize| (to.1[j].eigenvalue - a.eigenvalue).norm();
+        let free = (0..to.1.len()).filter(|j| !links.contains(&Some(*j)));
+        let nearest = free.min_by(|&j, &k| distance(j).total_cmp(&distance(k)));
+        // Near an exceptional point eigenvalues move like the square root of the step.
+        let reach = (step.abs().sqrt() + 1e-3) * a.eigenvalue.norm();
+        links[i] = nearest.filter(|&j| distance(j) < reach);
+    }
+}

@@ -1,0 +1,121 @@
+//! Circumferential harmonic and travelling direction from the displacement of the contact edge.
+
+use crate::prestress::SlidingTangent;
+use faer::c64;
+
+/// Edge amplitude, relative to the largest displacement of the mode, below which the edge is at rest.
+const SILENT: f64 = 1e-7;
+/// Amplitude ratio of the two travelling waves below which a mode stands.
+const STANDING: f64 = 2.0;
+
+/// Discrete Fourier transform over the contact nodes.
+///
+/// A mode `phi e^{lambda t}`, `Im(lambda) > 0`, whose edge moves as `e^{-i n theta}` travels towards
+/// increasing angle.
+pub struct ContactEdge {
+    /// Unknowns of each displacement component along the edge, in order of angle.
+    components: Vec<Vec<usize>>,
+    angles: Vec<f64>,
+    /// +1 if the rotor turns towards increasing angle.
+    rotor: f64,
+}
+
+/// Amplitudes of the waves `e^{-i n theta}` and `e^{+i n theta}` of a mode's edge.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Waves {
+    forward: f64,
+    backward: f64,
+}
+
+impl ContactEdge {
+    /// The contact edge of `tangent`.
+    pub fn of(tangent: &SlidingTangent) -> Self {
+        let components = [&tangent.contact_tangential, &tangent.contact_normal];
+        Self {
+            components: components
+                .into_iter()
+                .filter(|c| !c.is_empty())
+                .cloned()
+                .collect(),
+            angles: tangent.contact_angles.clone(),
+            rotor: tangent.sliding_direction,
+        }
+    }
+
+    /// Displacements of the edge nodes, component by component, from a vector over the unknowns.
+    pub fn restrict(&self, value: impl Fn(usize) -> c64) -> Vec<c64> {
+        self.components
+            .iter()
+            .flatten()
+            .map(|&unknown| value(unknown))
+            .collect()
+    }
+
+    /// The harmonic of largest amplitude.
+    ///
+    /// 0 where the edge is at rest against the `peak` of the mode: the edge of a rigid cylinder holds
+    /// still in the radial modes, which are axisymmetric, and in no other.
+    pub fn harmonic(&self, edge: &[c64], peak: f64) -> usize {
+        let largest = edge.iter().fold(0.0_f64, |m, v| m.max(v.norm()));
+        if largest <= SILENT * peak {
+            return 0;
+        }
+        let energy = |n: usize| {
+            let waves = self.waves(edge, n);
+            // e^{-i n theta} and e^{+i n theta} are one wave for n = 0 and at the Nyquist harmonic.
+            let share = if n == 0 || 2 * n == self.angles.len() {
+                0.5
+            } else {
+                1.0
+            };
+            share * (waves.forward.powi(2) + waves.backward.powi(2))
+        };
+        (0..=self.angles.len() / 2)
+            .map(|n| (n, energy(n)))
+            .fold(
+                (0, -1.0),
+                |best, next| if next.1 > best.1 { next } else { best },
+            )
+            .0
+    }
+
+    /// +1 if the wave of harmonic `n` travels with the rotor, -1 against it, 0 if it stands.
+    pub fn direction(&self, edge: &[c64], harmonic: usize) -> i8 {
+        if harmonic == 0 {
+            return 0;
+        }
+        let waves = self.waves(edge, harmonic);
+        let sense = if waves.forward > STANDING * waves.backward {
+            1.0
+        } else if waves.backward > STANDING * waves.forward {
+            -1.0
+        } else {
+            0.0
+        };
+        (sense * self.rotor) as i8
+    }
+
+    /// Whether modes of this harmonic come in pairs `e^{-i n theta}`, `e^{+i n theta}`.
+    pub fn is_paired(&self, harmonic: usize) -> bool {
+        harmonic > 0 && 2 * harmonic != self.angles.len()
+    }
+
+    fn waves(&self, edge: &[c64], harmonic: usize) -> Waves {
+        let count = self.angles.len();
+        let (mut forward, mut backward) = (0.0, 0.0);
+        for component in edge.chunks(count.max(1)) {
+            let (mut f, mut b) = (c64::new(0.0, 0.0), c64::new(0.0, 0.0));
+            for (value, angle) in component.iter().zip(&self.angles) {
+                let (sine, cosine) = (harmonic as f64 * angle).sin_cos();
+                f += value * c64::new(cosine, sine);
+                b += value * c64::new(cosine, -sine);
+            }
+            forward += f.norm_sqr();
+            backward += b.norm_sqr();
+        }
+        Waves {
+            forward: forward.sqrt(),
+            backward: backward.sqrt(),
+        }
+    }
+}

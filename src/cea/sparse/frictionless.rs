@@ -1,0 +1,138 @@
+//! The undamped modes without friction, and the proof that none is missing.
+
+use super::error::CeaError;
+use super::structure::{Linearization, ShiftInverted, Side, StiffnessFactors, StructureMatrices};
+use super::{EigenLimit, GUARD_MODES};
+use crate::fem::RayleighDamping;
+use crate::linalg::{
+    KrylovSchurSettings, LdlAnalysis, LinalgError, MatrixPolynomial, SparseLdl, Wanted,
+    krylov_schur,
+};
+use crate::prestress::SlidingTangent;
+use faer::Mat;
+use std::f64::consts::TAU;
+
+/// Bound on the residual of the iteration.
+const TOLERANCE: f64 = 1e-11;
+/// Width of its random start block: a compromise of cheap blocked solves and few vectors.
+const BLOCK: usize = 4;
+
+/// The lowest modes of `K x = kappa M x` at `mu = 0`.
+pub struct FrictionlessModes {
+    /// Vectors, one column each, by rising frequency.
+    pub vectors: Mat<f64>,
+    /// Angular frequencies `sqrt(kappa)`, rad/s.
+    pub frequencies: Vec<f64>,
+}
+
+impl FrictionlessModes {
+    /// Computes the modes within `limit` and a few more, up to a gap in the spectrum, so that no
+    /// multiple eigenvalue is split.
+    ///
+    /// # Errors
+    /// [`CeaError::CountMismatch`] if the inertia of `K - sigma M` in that gap counts another number.
+    pub fn compute(tangent: &SlidingTangent, limit: EigenLimit) -> Result<Self, CeaError> {
+        let inertia = Inertia::new(tangent)?;
+        let wanted = match limit {
+            EigenLimit::Lowest(count) => count,
+            EigenLimit::BelowFrequency(limit_hz) => inertia.count_below(TAU * limit_hz)?,
+        };
+        // An empty range still needs the lowest mode, for the message.
+        let unknowns = tangent.stiffness.dimension();
+        if wanted > unknowns {
+            return Err(CeaError::TooManyModes {
+                wanted,
+                unknowns,
+                bound: unknowns,
+            });
+        }
+        let request = (wanted.max(1) + GUARD_MODES).min(unknowns);
+        let undamped = Linearization::Reduced(RayleighDamping::default());
+        let operator = ShiftInverted {
+            matrices: &StructureMatrices::at(tangent, undamped, 0.0),
+            factors: &StiffnessFactors::frictionless(tangent)?,
+            side: Side::Right,
+        };
+        let settings = KrylovSchurSettings {
+            wanted: Wanted::Largest(request),
+            tolerance: TOLERANCE,
+            block: BLOCK,
+            max_applications: 200 * (request + 20),
+        };
+        let pairs = krylov_schur(&operator, None, &settings)?;
+        let frequencies: Vec<f64> = pairs.values.iter().map(|s| s.re.recip().sqrt()).collect();
+        if wanted == 0
+            && let EigenLimit::BelowFrequency(limit_hz) = limit
+        {
+            return Err(CeaError::NoModes {
+                limit_hz,
+                lowest_hz: frequencies[0] / TAU,
+            });
+        }
+        let kept = if request == unknowns {
+            request
+        } else {
+            let kept = widest_gap(&frequencies, wanted);
+            let middle = 0.5 * (frequencies[kept - 1] + frequencies[kept]);
+            let counted = inertia.count_below(middle)?;
+            if counted != kept {
+                return Err(CeaError::CountMismatch {
+                    found: kept,
+                    counted,
+                    frequency_hz: middle / TAU,
+                });
+            }
+            kept
+        };
+        Ok(Self {
+            vectors: pairs.vectors.get(.., ..kept).to_owned(),
+            frequencies: frequencies[..kept].to_vec(),
+        })
+    }
+}
+
+/// Number of leading frequencies before the widest relative gap at or after `wanted`.
+fn widest_gap(frequencies: &[f64], wanted: usize) -> usize {
+    let gap = |i: usize| frequencies[i] / frequencies[i - 1];
+    (wanted.max(1)..frequencies.len())
+        .max_by(|&i, &j| gap(i).total_cmp(&gap(j)).then(j.cmp(&i)))
+        .unwrap_or(frequencies.len())
+}
+
+/// Counts the eigenvalues of the symmetric pencil at `mu = 0` below a shift.
+struct Inertia<'a> {
+    stiffness: &'a MatrixPolynomial,
+    mass: &'a MatrixPolynomial,
+    analysis: LdlAnalysis,
+}
+
+impl<'a> Inertia<'a> {
+    fn new(tangent: &'a SlidingTangent) -> Result<Self, LinalgError> {
+        Ok(Self {
+            stiffness: &tangent.stiffness,
+            mass: &tangent.mass,
+            analysis: LdlAnalysis::new(tangent.stiffness.pattern())?,
+        })
+    }
+
+    /// Number of modes below an angular frequency, by Sylvester's law of inertia.
+    ///
+    /// A shift that the unpivoted factorization cannot bear is moved by parts in 1e8 a few times.
+    fn count_below(&self, frequency: f64) -> Result<usize, LinalgError> {
+        let (stiffness, mass) = (self.stiffness.evaluate(0.0), self.mass.evaluate(0.0));
+        let mut outcome = Ok(0);
+        for attempt in 0..5 {
+            let shift = (frequency * (1.0 + 1e-8 * f64::from(attempt))).powi(2);
+            let values: Vec<f64> = stiffness
+                .iter()
+                .zip(&mass)
+                .map(|(k, m)| k - shift * m)
+                .collect();
+            outcome = SparseLdl::factorize(&self.analysis, &values).map(|ldl| ldl.negative_count());
+            if outcome.is_ok() {
+                break;
+            }
+        }
+        outcome
+    }
+}

@@ -1,0 +1,43 @@
+//! Sweep over the friction coefficient on any mesh, with sparse matrices.
+//!
+//! 1. [`FrictionlessModes`]: the lowest modes at `mu = 0` by Krylov-Schur iteration; the inertia of
+//!    `K - sigma M` proves that none is missing.
+//! 2. [`BasisBuilder`]: one basis that holds the modes of all friction coefficients, grown by residuals.
+//! 3. [`PointSolver`]: the projected problem at each friction coefficient, in parallel; every mode is
+//!    held to its residual in the full matrices, and the basis grows where one fails.
+//! 4. [`track`]: branches continued from `mu = 0`, so that none is lost on the way.
+//! 5. [`OnsetFinder`]: critical friction coefficients by root finding on the branches.
+//!
+//! [`sweep`] does all of this.
+
+mod basis;
+mod branches;
+mod edge;
+mod error;
+#[cfg(test)]
+mod fixtures;
+mod frictionless;
+mod onset;
+mod point;
+mod reduced;
+mod structure;
+mod sweep;
+
+pub use basis::BasisBuilder;
+pub use branches::{BranchLabel, Lost, ModeBranch, label_frictionless, track};
+pub use edge::ContactEdge;
+pub use error::CeaError;
+pub use frictionless::FrictionlessModes;
+pub use onset::OnsetFinder;
+pub use point::{ModeCheck, PointSolver, SolvedPoint};
+pub use reduced::{ProjectedMatrices, ReducedMode, ReducedModel};
+pub use structure::{Linearization, ShiftInverted, Side, StiffnessFactors, StructureMatrices};
+pub use sweep::{EigenLimit, EigenRequest, SparseSweep, SweepProgress, sweep};
+
+/// Modes beyond the wanted ones that are computed along, so that crossings at the upper end of the range
+/// are seen.
+const GUARD_MODES: usize = 5;
+/// Modes beyond those to which a branch may be matched.
+const TRACKING_MARGIN: usize = 6;
+/// Relative residual of the quadratic problem above which no pair is reported as converged.
+const RESIDUAL_BOUND: f64 = 1e-9;

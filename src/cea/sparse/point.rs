@@ -1,0 +1,153 @@
+//! All modes at one friction coefficient, each held to its residual in the full matrices.
+
+use super::edge::ContactEdge;
+use super::reduced::{PackedModes, ReducedMode, ReducedModel};
+use super::structure::{Linearization, Side, StructureMatrices};
+use super::{EigenLimit, TRACKING_MARGIN};
+use crate::linalg::LinalgError;
+use crate::prestress::SlidingTangent;
+use faer::c64;
+use std::f64::consts::TAU;
+
+/// What the full matrices say about one mode.
+#[derive(Clone, Debug)]
+pub struct ModeCheck {
+    /// `|T(lambda) x| / ((|lambda|^2 |M| + |lambda| |C| + |K|) |x|)`.
+    pub residual: f64,
+    /// `|T(lambda) x| / (|lambda|^2 |M x|)`: stricter, as it does not count the stiffest waves of the mesh.
+    pub force_residual: f64,
+    /// Displacements of the contact edge.
+    pub edge: Vec<c64>,
+    /// Largest displacement.
+    pub peak: f64,
+}
+
+/// The modes at one friction coefficient.
+#[derive(Clone, Debug)]
+pub struct SolvedPoint {
+    /// Friction coefficient.
+    pub friction_coefficient: f64,
+    /// Modes by rising frequency; a few more than wanted.
+    pub modes: Vec<ReducedMode>,
+    /// Number of leading modes that are wanted.
+    pub wanted: usize,
+    /// Checks of leading modes, at least the wanted ones.
+    pub checks: Vec<ModeCheck>,
+}
+
+impl SolvedPoint {
+    /// Largest residuals of the wanted modes: relative to the matrices, and to the inertia force.
+    pub fn worst(&self) -> (f64, f64) {
+        let wanted = self.checks.iter().take(self.wanted);
+        wanted.fold((0.0, 0.0), |(r, f), check| {
+            (check.residual.max(r), check.force_residual.max(f))
+        })
+    }
+}
+
+/// What every point of a sweep needs.
+pub struct PointSolver<'a> {
+    /// The matrices.
+    pub tangent: &'a SlidingTangent,
+    /// How their eigenproblem is solved.
+    pub linearization: Linearization,
+    /// The contact edge.
+    pub edge: &'a ContactEdge,
+    /// Which modes are wanted.
+    pub limit: EigenLimit,
+    /// Modes tracked.
+    pub count: usize,
+}
+
+impl PointSolver<'_> {
+    /// Solves the projected problem at `mu` and checks its modes in the full matrices.
+    ///
+    /// # Errors
+    /// If a dense decomposition fails.
+    pub fn solve(&self, model: &ReducedModel, mu: f64) -> Result<SolvedPoint, LinalgError> {
+        let modes = model.solve(mu, self.count + TRACKING_MARGIN)?;
+        let wanted = match self.limit {
+            EigenLimit::Lowest(count) => count.min(modes.len()),
+            EigenLimit::BelowFrequency(hz) => modes
+                .iter()
+                .take_while(|m| m.eigenvalue.im < TAU * hz)
+                .count(),
+        };
+        let checked = self.count.max(wanted).min(modes.len());
+        let checks = self.check(model, mu, &modes[..checked]);
+        Ok(SolvedPoint {
+            friction_coefficient: mu,
+            modes,
+            wanted,
+            checks,
+        })
+    }
+
+    /// Residuals and edge displacements of `modes` in the full matrices at `mu`.
+    pub fn check(&self, model: &ReducedModel, mu: f64, modes: &[ReducedMode]) -> Vec<ModeCheck> {
+        let matrices = StructureMatrices::at(self.tangent, self.linearization, mu);
+        let packed = PackedModes::of(modes, Side::Right, model.dimension());
+        let x = model.expand(packed.coordinates.as_ref());
+        let products = matrices.multiply(Side::Right, x.as_ref());
+        let norms = matrices.norms();
+        (0..modes.len())
+            .map(|j| {
+                let lambda = modes[j].eigenvalue;
+                let [stiff, damped, inert] =
+                    products.each_ref().map(|product| packed.vector(j, product));
+                let shape = packed.vector(j, &x);
+                let (mut force, mut inertia, mut length, mut peak) = (0.0, 0.0, 0.0, 0.0_f64);
+                for i in 0..x.nrows() {
+                    let acceleration = lambda * lambda * inert.at(i);
+                    let residual = acceleration + lambda * damped.at(i) + stiff.at(i);
+                    force += residual.norm_sqr();
+                    inertia += acceleration.norm_sqr();
+                    let square = shape.at(i).norm_sqr();
+                    length += square;
+                    peak = peak.max(square);
+                }
+                let modulus = lambda.norm();
+                let scale = modulus * modulus * norms[2] + modulus * norms[1] + norms[0];
+                ModeCheck {
+                    residual: (force / length).sqrt() / scale,
+                    force_residual: (force / inertia).sqrt(),
+                    edge: self.edge.restrict(|unknown| shape.at(unknown)),
+                    peak: peak.sqrt(),
+                }
+            })
+            .collect()
+    }
+
+    /// Shapes of `modes` over all nodal dofs, the largest displacement vector of length 1 and real there.
+    pub fn shapes(&self, model: &ReducedModel, modes: &[ReducedMode]) -> Vec<Vec<c64>> {
+        let packed = PackedModes::of(modes, Side::Right, model.dimension());
+        let x = model.expand(packed.coordinates.as_ref());
+        let full = self.tangent.unknowns.unknown_of.len();
+        (0..modes.len())
+            .map(|j| {
+                let vector = packed.vector(j, &x);
+                let mut shape = vec![c64::new(0.0, 0.0); full];
+                for (unknown, &dof) in self.tangent.unknowns.dofs.iter().enumerate() {
+                    shape[dof] = vector.at(unknown);
+                }
+                normalize(&mut shape);
+                shape
+            })
+            .collect()
+    }
+}
+
+/// Scales a nodal vector so that its largest entry is 1.
+fn normalize(shape: &mut [c64]) {
+    let zero = c64::new(0.0, 0.0);
+    let largest = shape.iter().fold(zero, |best, &v| {
+        if v.norm_sqr() > best.norm_sqr() {
+            v
+        } else {
+            best
+        }
+    });
+    if largest != zero {
+        shape.iter_mut().for_each(|v| *v /= largest);
+    }
+}

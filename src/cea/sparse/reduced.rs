@@ -1,0 +1,423 @@
+//! The matrices of small motions projected on one basis that serves every friction coefficient.
+
+use super::structure::{Linearization, Side};
+use crate::linalg::dense::{
+    column, join_columns, orthonormal_complement, product, real_eigen, transpose_product,
+};
+use crate::linalg::{DenseLu, LinalgError, MatrixPolynomial};
+use crate::prestress::SlidingTangent;
+use faer::{Mat, MatRef, c64};
+
+/// One mode of the projected problem.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ReducedMode {
+    /// Eigenvalue `lambda`, `Im > 0`, rad/s.
+    pub eigenvalue: c64,
+    /// The eigenvalue `s` of the shift-inverted operator that it comes from.
+    pub inverse_value: c64,
+    /// `dlambda/dmu`, rad/s.
+    pub derivative: c64,
+    /// Coordinates of the right vector `x`, of unit length.
+    pub right: Vec<c64>,
+    /// Coordinates of the left vector `w`, scaled to `w^T (2 lambda M + C) x = 1` (no conjugation).
+    pub left: Vec<c64>,
+}
+
+/// `K`, `C` and `M` (or their derivatives) projected, at one friction coefficient.
+pub struct ProjectedMatrices {
+    /// `V^T K V`.
+    pub stiffness: Mat<f64>,
+    /// `V^T C V`.
+    pub damping: Mat<f64>,
+    /// `V^T M V`.
+    pub mass: Mat<f64>,
+}
+
+/// `V^T (lambda^2 M(mu) + lambda C(mu) + K(mu)) V` with an orthonormal `V` that holds the wanted right and
+/// left vectors of all friction coefficients.
+///
+/// The basis only grows: coordinates in an earlier one stay valid, with zeros for the columns added
+/// since.
+pub struct ReducedModel {
+    linearization: Linearization,
+    /// Coefficients of `P = K, C, M` by power of `mu`, each without its zeros.
+    terms: [Vec<MatrixPolynomial>; 3],
+    /// `V`, `unknowns x m`.
+    basis: Mat<f64>,
+    /// `V^T P_p V` of `P = K, C, M` for each power of `mu`; `C` only where it is not proportional.
+    projected: [Vec<Mat<f64>>; 3],
+}
+
+impl ReducedModel {
+    /// A model without columns.
+    pub fn empty(tangent: &SlidingTangent, linearization: Linearization) -> Self {
+        let terms = |p: &MatrixPolynomial| -> Vec<MatrixPolynomial> {
+            let powers = 0..p.coefficients().len();
+            powers
+                .map(|power| p.coefficient_without_zeros(power))
+                .collect()
+        };
+        let damping = match linearization {
+            Linearization::Reduced(_) => Vec::new(),
+            Linearization::Companion { .. } => terms(&tangent.damping),
+        };
+        let terms = [terms(&tangent.stiffness), damping, terms(&tangent.mass)];
+        Self {
+            linearization,
+            basis: Mat::zeros(tangent.stiffness.dimension(), 0),
+            projected: terms.each_ref().map(|t| vec![Mat::zeros(0, 0); t.len()]),
+            terms,
+        }
+    }
+
+    /// Number of columns of the basis.
+    pub fn dimension(&self) -> usize {
+        self.basis.ncols()
+    }
+
+    /// Adds what `columns` hold beyond the basis, down to the length `drop_below`.
+    pub fn extend(&mut self, columns: Mat<f64>, drop_below: f64) {
+        let new = orthonormal_complement(self.basis.as_ref(), columns, drop_below);
+        if new.ncols() == 0 {
+            return;
+        }
+        for (projected, terms) in self.projected.iter_mut().zip(&self.terms) {
+            for (power, (small, term)) in projected.iter_mut().zip(terms).enumerate() {
+                *small = grow(small, self.basis.as_ref(), &new, term, power == 0);
+            }
+        }
+        self.basis = join_columns(self.basis.as_ref(), new.as_ref());
+    }
+
+    /// The projected matrices at `mu`.
+    pub fn at(&self, mu: f64) -> ProjectedMatrices {
+        self.combine(|coefficients| horner(coefficients, mu, |_| 1.0, 0))
+    }
+
+    /// Their derivatives by `mu`.
+    pub fn derivative_at(&self, mu: f64) -> ProjectedMatrices {
+        self.combine(|coefficients| horner(coefficients, mu, |power| power as f64, 1))
+    }
+
+    fn combine(&self, evaluate: impl Fn(&[Mat<f64>]) -> Mat<f64>) -> ProjectedMatrices {
+        let [stiffness, damping, mass] = &self.projected;
+        let (stiffness, mass) = (evaluate(stiffness), evaluate(mass));
+        let damping = match self.linearization {
+            Linearization::Reduced(coefficients) => {
+                faer::Scale(coefficients.mass_coefficient) * &mass
+                    + faer::Scale(coefficients.stiffness_coefficient) * &stiffness
+            }
+            Linearization::Companion { .. } => evaluate(damping),
+        };
+        ProjectedMatrices {
+            stiffness,
+            damping,
+            mass,
+        }
+    }
+
+    /// The `count` modes of largest `|s|` that oscillate, by rising frequency; overdamped ones are left
+    /// out.
+    ///
+    /// # Errors
+    /// If the dense eigenvalue decomposition fails.
+    pub fn solve(&self, mu: f64, count: usize) -> Result<Vec<ReducedMode>, LinalgError> {
+        let at = self.at(mu);
+        let lu = DenseLu::factorize(at.stiffness.clone());
+        let eigen = real_eigen(self.shift_inverted(&at, &lu).as_ref(), true)?;
+        // The upper half of a left vector of the operator is K^T times that of the problem.
+        let m = self.dimension();
+        let mut left = eigen.left.expect("left vectors were asked for");
+        lu.solve_transpose_in_place(left.as_mut().split_at_row_mut(m).0);
+
+        let mut order: Vec<usize> = (0..eigen.values.len()).collect();
+        order.sort_by(|&i, &j| eigen.values[j].norm().total_cmp(&eigen.values[i].norm()));
+        let mut modes: Vec<ReducedMode> = order
+            .into_iter()
+            .filter_map(|i| {
+                Some(ReducedMode {
+                    eigenvalue: self.linearization.eigenvalue(eigen.values[i])?,
+                    inverse_value: eigen.values[i],
+                    derivative: c64::new(0.0, 0.0),
+                    right: unpack(&eigen.values, eigen.right.as_ref(), m, i, false),
+                    left: unpack(&eigen.values, left.as_ref(), m, i, true),
+                })
+            })
+            .take(count)
+            .collect();
+        modes.sort_by(|p, q| p.eigenvalue.im.total_cmp(&q.eigenvalue.im));
+        self.complete(&mut modes, &at, mu);
+        Ok(modes)
+    }
+
+    /// The dense shift-inverted operator of the linearisation.
+    fn shift_inverted(&self, at: &ProjectedMatrices, lu: &DenseLu) -> Mat<f64> {
+        let mut inertia = at.mass.clone();
+        lu.solve_in_place(inertia.as_mut());
+        match self.linearization {
+            Linearization::Reduced(_) => inertia,
+            Linearization::Companion {
+                frequency_scale: omega,
+            } => {
+                let m = self.dimension();
+                let mut damped = at.damping.clone();
+                lu.solve_in_place(damped.as_mut());
+                Mat::from_fn(2 * m, 2 * m, |i, j| match (i < m, j < m) {
+                    (true, true) => -omega * damped[(i, j)],
+                    (true, false) => -omega * omega * inertia[(i, j - m)],
+                    (false, _) => f64::from(i - m == j),
+                })
+            }
+        }
+    }
+
+    /// Normalizes vectors and computes `dlambda/dmu = -w^T T'(lambda) x` with
+    /// `w^T (2 lambda M + C) x = 1`.
+    fn complete(&self, modes: &mut [ReducedMode], at: &ProjectedMatrices, mu: f64) {
+        let rate = self.derivative_at(mu);
+        let right = ComplexColumns::of(modes, Side::Right, self.dimension());
+        let [m, c] = [&at.mass, &at.damping].map(|p| right.mapped(p));
+        let [dk, dc, dm] = [&rate.stiffness, &rate.damping, &rate.mass].map(|p| right.mapped(p));
+        for (j, mode) in modes.iter_mut().enumerate() {
+            let lambda = mode.eigenvalue;
+            let length = mode.right.iter().map(|v| v.norm_sqr()).sum::<f64>().sqrt();
+            mode.right.iter_mut().for_each(|v| *v /= length);
+            let along = |columns: &ComplexColumns| columns.dot(&mode.left, j) / length;
+            let scale = lambda * 2.0 * along(&m) + along(&c);
+            let change = lambda * lambda * along(&dm) + lambda * along(&dc) + along(&dk);
+            mode.derivative = -change / scale;
+            mode.left.iter_mut().for_each(|v| *v /= scale);
+        }
+    }
+
+    /// `V` times coordinates (of this or an earlier basis).
+    pub fn expand(&self, coordinates: MatRef<'_, f64>) -> Mat<f64> {
+        product(self.basis.get(.., ..coordinates.nrows()), coordinates)
+    }
+}
+
+/// `V^T P V` with the rows and columns of `new` basis vectors added.
+fn grow(
+    known: &Mat<f64>,
+    basis: MatRef<'_, f64>,
+    new: &Mat<f64>,
+    term: &MatrixPolynomial,
+    is_symmetric: bool,
+) -> Mat<f64> {
+    let (pattern, values) = (term.pattern(), &term.coefficients()[0]);
+    let (old, total) = (basis.ncols(), basis.ncols() + new.ncols());
+    if values.is_empty() {
+        return Mat::zeros(total, total);
+    }
+    let image = pattern.multiply(values, new.as_ref());
+    let above = project(basis, &image);
+    let below = if is_symmetric {
+        above.transpose().to_owned()
+    } else {
+        let image = pattern.multiply_transpose(values, new.as_ref());
+        project(basis, &image).transpose().to_owned()
+    };
+    let mut grown = Mat::zeros(total, total);
+    grown.get_mut(..old, ..old).copy_from(known);
+    grown.get_mut(..old, old..).copy_from(&above);
+    grown.get_mut(old.., ..old).copy_from(&below);
+    grown
+        .get_mut(old.., old..)
+        .copy_from(&project(new.as_ref(), &image));
+    grown
+}
+
+/// `basis^T image`, over the rows only where the image is not zero: friction touches few of them.
+fn project(basis: MatRef<'_, f64>, image: &Mat<f64>) -> Mat<f64> {
+    let mut is_touched = vec![false; image.nrows()];
+    for j in 0..image.ncols() {
+        let entries = is_touched.iter_mut().zip(column(image.as_ref(), j));
+        entries.for_each(|(touched, &v)| *touched |= v != 0.0);
+    }
+    let touched: Vec<usize> = (0..image.nrows()).filter(|&i| is_touched[i]).collect();
+    if touched.len() > image.nrows() / 4 {
+        return transpose_product(basis, image.as_ref());
+    }
+    let gather =
+        |m: MatRef<'_, f64>| Mat::from_fn(touched.len(), m.ncols(), |i, j| m[(touched[i], j)]);
+    transpose_product(gather(basis).as_ref(), gather(image.as_ref()).as_ref())
+}
+
+/// `sum_{p >= first} weight(p) P_p mu^(p - first)`.
+fn horner(
+    coefficients: &[Mat<f64>],
+    mu: f64,
+    weight: impl Fn(usize) -> f64,
+    first: usize,
+) -> Mat<f64> {
+    let size = coefficients[0].nrows();
+    let mut sum = Mat::zeros(size, size);
+    for (power, c) in coefficients.iter().enumerate().skip(first).rev() {
+        sum = faer::Scale(mu) * sum + faer::Scale(weight(power)) * c;
+    }
+    sum
+}
+
+/// The first `rows` entries of column `i` of packed vectors, as a complex vector, conjugated if asked.
+fn unpack(
+    values: &[c64],
+    vectors: MatRef<'_, f64>,
+    rows: usize,
+    i: usize,
+    conjugated: bool,
+) -> Vec<c64> {
+    let (re, im, sign) = match values[i].im {
+        im if im > 0.0 => (i, Some(i + 1), 1.0),
+        im if im < 0.0 => (i - 1, Some(i), -1.0),
+        _ => (i, None, 0.0),
+    };
+    let sign = if conjugated { -sign } else { sign };
+    (0..rows)
+        .map(|row| {
+            let imaginary = im.map_or(0.0, |k| sign * vectors[(row, k)]);
+            c64::new(vectors[(row, re)], imaginary)
+        })
+        .collect()
+}
+
+/// Complex columns as two real matrices, so that products with real matrices are real products.
+pub struct ComplexColumns {
+    real: Mat<f64>,
+    imaginary: Mat<f64>,
+}
+
+impl ComplexColumns {
+    /// The vectors of `modes` on one side, continued by zeros to `dimension` entries.
+    pub fn of(modes: &[ReducedMode], side: Side, dimension: usize) -> Self {
+        let part = |of: fn(&c64) -> f64| {
+            Mat::from_fn(dimension, modes.len(), |i, j| {
+                let vector = match side {
+                    Side::Right => &modes[j].right,
+                    Side::Left => &modes[j].left,
+                };
+                vector.get(i).map_or(0.0, of)
+            })
+        };
+        Self {
+            real: part(|v| v.re),
+            imaginary: part(|v| v.im),
+        }
+    }
+
+    /// `P` times each column.
+    pub fn mapped(&self, p: &Mat<f64>) -> Self {
+        Self {
+            real: product(p.as_ref(), self.real.as_ref()),
+            imaginary: product(p.as_ref(), self.imaginary.as_ref()),
+        }
+    }
+
+    /// `y^T` times column `j`, no conjugation.
+    pub fn dot(&self, y: &[c64], j: usize) -> c64 {
+        let (re, im) = (
+            column(self.real.as_ref(), j),
+            column(self.imaginary.as_ref(), j),
+        );
+        y.iter()
+            .zip(re.iter().zip(im))
+            .map(|(y, (&p, &q))| y * c64::new(p, q))
+            .sum()
+    }
+}
+
+/// Where a vector is among packed columns.
+#[derive(Clone, Copy, Debug)]
+pub struct PackedEntry {
+    /// The eigenvalue `s` it belongs to.
+    pub inverse_value: c64,
+    /// Its first column, the real part.
+    pub column: usize,
+    /// Whether the next column is its imaginary part.
+    pub is_complex: bool,
+}
+
+/// Real and imaginary parts of right (or left) vectors, packed for real arithmetic.
+///
+/// Of two modes with conjugate `s` only the first is stored: the other's vector is its conjugate.
+pub struct PackedModes {
+    /// Coordinates, of unit length; one column for a real vector, two for a complex one.
+    pub coordinates: Mat<f64>,
+    /// The stored vectors.
+    pub entries: Vec<PackedEntry>,
+    /// For each mode its entry, and whether it is the conjugate of it.
+    places: Vec<(usize, bool)>,
+}
+
+impl PackedModes {
+    /// Packs the vectors of `modes` on one side.
+    pub fn of(modes: &[ReducedMode], side: Side, dimension: usize) -> Self {
+        let mut entries: Vec<PackedEntry> = Vec::new();
+        let mut columns: Vec<Vec<f64>> = Vec::new();
+        let mut places = Vec::new();
+        for mode in modes {
+            let s = mode.inverse_value;
+            let twin = entries
+                .iter()
+                .position(|e| s.im != 0.0 && e.inverse_value == s.conj());
+            if let Some(entry) = twin {
+                places.push((entry, true));
+                continue;
+            }
+            let vector = match side {
+                Side::Right => &mode.right,
+                Side::Left => &mode.left,
+            };
+            let length = vector.iter().map(|v| v.norm_sqr()).sum::<f64>().sqrt();
+            places.push((entries.len(), false));
+            let is_complex = vector.iter().any(|v| v.im != 0.0);
+            entries.push(PackedEntry {
+                inverse_value: s,
+                column: columns.len(),
+                is_complex,
+            });
+            columns.push(vector.iter().map(|v| v.re / length).collect());
+            if is_complex {
+                columns.push(vector.iter().map(|v| v.im / length).collect());
+            }
+        }
+        let coordinates = Mat::from_fn(dimension, columns.len(), |i, j| {
+            columns[j].get(i).copied().unwrap_or(0.0)
+        });
+        Self {
+            coordinates,
+            entries,
+            places,
+        }
+    }
+
+    /// A mode's complex vector among expanded (or otherwise mapped) packed columns.
+    pub fn vector<'m>(&self, mode: usize, mapped: &'m Mat<f64>) -> PackedVector<'m> {
+        let (entry, is_conjugate) = self.places[mode];
+        let entry = self.entries[entry];
+        let imaginary = entry.column + 1;
+        PackedVector {
+            real: column(mapped.as_ref(), entry.column),
+            imaginary: entry.is_complex.then(|| column(mapped.as_ref(), imaginary)),
+            sign: if is_conjugate { -1.0 } else { 1.0 },
+        }
+    }
+}
+
+/// A complex vector in two real columns.
+#[derive(Clone, Copy)]
+pub struct PackedVector<'m> {
+    real: &'m [f64],
+    imaginary: Option<&'m [f64]>,
+    sign: f64,
+}
+
+impl PackedVector<'_> {
+    /// Entry `i`.
+    #[inline]
+    pub fn at(&self, i: usize) -> c64 {
+        c64::new(
+            self.real[i],
+            self.imaginary.map_or(0.0, |q| self.sign * q[i]),
+        )
+    }
+}

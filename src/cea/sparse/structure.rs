@@ -1,0 +1,280 @@
+//! The matrices of small motions at one friction coefficient, and how their eigenproblem is solved.
+
+use super::reduced::PackedEntry;
+use crate::fem::RayleighDamping;
+use crate::linalg::dense::{column, column_mut, join_rows};
+use crate::linalg::{
+    BlockOperator, LdlAnalysis, LinalgError, LuAnalysis, MatrixPolynomial, SparseLdl, SparseLu,
+    SparsityPattern,
+};
+use crate::prestress::SlidingTangent;
+use faer::{Mat, MatRef, c64};
+use std::borrow::Cow;
+use std::sync::{Arc, OnceLock};
+
+/// Right vectors, `T(lambda) x = 0`, or left ones, `w^T T(lambda) = 0` (no conjugation).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// Columns: the matrices themselves.
+    Right,
+    /// Rows: their transposes.
+    Left,
+}
+
+/// How `T(lambda) x = (lambda^2 M + lambda C + K) x = 0` becomes a linear eigenproblem.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Linearization {
+    /// Proportional damping `C = alpha M + beta K`: `K x = kappa M x` and
+    /// `lambda^2 + alpha lambda + (1 + beta lambda) kappa = 0`. Half the size.
+    Reduced(RayleighDamping),
+    /// Any damping: `z = (x, nu x)`, `lambda = omega nu`. The scale `omega` makes the two halves of `z`
+    /// alike in size; without it the linearisation loses digits.
+    Companion {
+        /// Scale of the eigenvalues `omega`, rad/s.
+        frequency_scale: f64,
+    },
+}
+
+impl Linearization {
+    /// The cheapest linearisation of `tangent`; `frequency_scale` (rad/s) is a typical wanted frequency.
+    pub fn of(tangent: &SlidingTangent, frequency_scale: f64) -> Self {
+        match tangent.proportional {
+            Some(damping) => Self::Reduced(damping),
+            None => Self::Companion { frequency_scale },
+        }
+    }
+
+    /// `lambda` with `Im > 0` that belongs to the eigenvalue `s` of the shift-inverted operator,
+    /// `s = 1/kappa` or `s = 1/nu`; `None` for an overdamped mode and for the conjugate of a mode.
+    pub fn eigenvalue(self, s: c64) -> Option<c64> {
+        match self {
+            Self::Reduced(damping) => {
+                let kappa = s.inv();
+                let p = kappa * damping.stiffness_coefficient + damping.mass_coefficient;
+                upper_root(p, kappa)
+            }
+            Self::Companion { frequency_scale } => {
+                let nu = s.inv();
+                (nu.im > 0.0).then_some(nu * frequency_scale)
+            }
+        }
+    }
+}
+
+/// Root with `Im > 0` of `lambda^2 + p lambda + q = 0`.
+fn upper_root(p: c64, q: c64) -> Option<c64> {
+    let half = p * 0.5;
+    let root = (q - half * half).sqrt() * c64::new(0.0, 1.0);
+    let candidates = [root - half, -root - half];
+    candidates.into_iter().find(|lambda| lambda.im > 0.0)
+}
+
+/// `K`, `C` and `M` at one friction coefficient, or their coefficients of one power of it.
+pub struct StructureMatrices<'a> {
+    pattern: &'a Arc<SparsityPattern>,
+    /// Nonzero values of `[K, C, M]`; empty where a matrix vanishes or is not needed.
+    values: [Cow<'a, [f64]>; 3],
+    linearization: Linearization,
+}
+
+impl<'a> StructureMatrices<'a> {
+    /// The matrices of `tangent` at friction coefficient `mu`.
+    pub fn at(tangent: &'a SlidingTangent, linearization: Linearization, mu: f64) -> Self {
+        let of = |p: &MatrixPolynomial| Cow::Owned(p.evaluate(mu));
+        let damping = match linearization {
+            Linearization::Reduced(_) => Cow::Borrowed(&[][..]),
+            Linearization::Companion { .. } => of(&tangent.damping),
+        };
+        Self {
+            pattern: tangent.stiffness.pattern(),
+            values: [of(&tangent.stiffness), damping, of(&tangent.mass)],
+            linearization,
+        }
+    }
+
+    /// `P x` (or `P^T x`) for `P = K, C, M`; `C` follows from the others where damping is proportional.
+    pub fn multiply(&self, side: Side, x: MatRef<'_, f64>) -> [Mat<f64>; 3] {
+        let product = |values: &[f64]| match side {
+            Side::Right => self.pattern.multiply(values, x),
+            Side::Left => self.pattern.multiply_transpose(values, x),
+        };
+        let (stiff, inert) = (product(&self.values[0]), product(&self.values[2]));
+        let damped = match self.linearization {
+            Linearization::Reduced(damping) => {
+                faer::Scale(damping.mass_coefficient) * &inert
+                    + faer::Scale(damping.stiffness_coefficient) * &stiff
+            }
+            Linearization::Companion { .. } => product(&self.values[1]),
+        };
+        [stiff, damped, inert]
+    }
+
+    /// `K x - kappa M x` or, of the general problem, `T(lambda) x`, for the packed vectors `x` of
+    /// `entries`, in the same packing.
+    pub fn residuals(&self, side: Side, entries: &[PackedEntry], x: MatRef<'_, f64>) -> Mat<f64> {
+        let product = |values: &[f64]| match side {
+            Side::Right => self.pattern.multiply(values, x),
+            Side::Left => self.pattern.multiply_transpose(values, x),
+        };
+        let mut residual = product(&self.values[0]);
+        let inert = product(&self.values[2]);
+        match self.linearization {
+            Linearization::Reduced(_) => {
+                for entry in entries {
+                    let kappa = entry.inverse_value.inv();
+                    add_complex_multiple(&mut residual, -kappa, &inert, entry);
+                }
+            }
+            Linearization::Companion { frequency_scale } => {
+                let damped = product(&self.values[1]);
+                for entry in entries {
+                    let lambda = entry.inverse_value.inv() * frequency_scale;
+                    add_complex_multiple(&mut residual, lambda * lambda, &inert, entry);
+                    add_complex_multiple(&mut residual, lambda, &damped, entry);
+                }
+            }
+        }
+        residual
+    }
+
+    /// Largest row sums of `|K|`, `|C|` and `|M|`.
+    pub fn norms(&self) -> [f64; 3] {
+        let norm = |values: &[f64]| {
+            let mut sums = vec![0.0; self.pattern.dimension()];
+            for (&row, value) in self.pattern.row_indices().iter().zip(values) {
+                sums[row] += value.abs();
+            }
+            sums.into_iter().fold(0.0, f64::max)
+        };
+        let [stiff, damped, inert] = [0, 1, 2].map(|i| norm(&self.values[i]));
+        let damped = match self.linearization {
+            Linearization::Reduced(damping) => {
+                damping.mass_coefficient * inert + damping.stiffness_coefficient * stiff
+            }
+            Linearization::Companion { .. } => damped,
+        };
+        [stiff, damped, inert]
+    }
+}
+
+/// `target += factor source` on one packed vector.
+fn add_complex_multiple(
+    target: &mut Mat<f64>,
+    factor: c64,
+    source: &Mat<f64>,
+    entry: &PackedEntry,
+) {
+    let j = entry.column;
+    let real = column(source.as_ref(), j);
+    if !entry.is_complex {
+        let sum = column_mut(target, j).iter_mut().zip(real);
+        sum.for_each(|(t, p)| *t += factor.re * p);
+        return;
+    }
+    let imaginary = column(source.as_ref(), j + 1);
+    let parts = || real.iter().zip(imaginary);
+    let sum = column_mut(target, j).iter_mut().zip(parts());
+    sum.for_each(|(t, (p, q))| *t += factor.re * p - factor.im * q);
+    let sum = column_mut(target, j + 1).iter_mut().zip(parts());
+    sum.for_each(|(t, (p, q))| *t += factor.re * q + factor.im * p);
+}
+
+/// Factors of `K(mu)`.
+pub enum StiffnessFactors {
+    /// Without friction: a factor five cheaper to compute and to solve with.
+    Symmetric(SparseLdl),
+    /// With friction.
+    General(Box<SparseLu>),
+}
+
+impl StiffnessFactors {
+    /// Factorizes `K(0)`, which is symmetric.
+    ///
+    /// # Errors
+    /// If it is singular.
+    pub fn frictionless(tangent: &SlidingTangent) -> Result<Self, LinalgError> {
+        let analysis = LdlAnalysis::new(tangent.stiffness.pattern())?;
+        let values = tangent.stiffness.evaluate(0.0);
+        SparseLdl::factorize(&analysis, &values).map(Self::Symmetric)
+    }
+
+    /// Factorizes `K(mu)` on an analysis made once and kept in `cache`.
+    ///
+    /// # Errors
+    /// If it is singular.
+    pub fn general(
+        tangent: &SlidingTangent,
+        cache: &OnceLock<Result<LuAnalysis, LinalgError>>,
+        mu: f64,
+    ) -> Result<Self, LinalgError> {
+        let analysis = cache.get_or_init(|| LuAnalysis::new(tangent.stiffness.pattern()));
+        let analysis = analysis.as_ref().map_err(Clone::clone)?;
+        let factors = SparseLu::factorize(analysis, tangent.stiffness.evaluate(mu))?;
+        Ok(Self::General(Box::new(factors)))
+    }
+
+    /// `K^-1 x` or `K^-T x` for each column, in place.
+    pub fn solve_in_place(&self, side: Side, x: &mut Mat<f64>) {
+        match (self, side) {
+            (Self::Symmetric(ldl), _) => ldl.solve_in_place(x.as_mut()),
+            (Self::General(lu), Side::Right) => lu.solve_in_place(x.as_mut()),
+            (Self::General(lu), Side::Left) => lu.solve_transpose_in_place(x.as_mut()),
+        }
+    }
+}
+
+/// Shift-and-invert about zero, in real arithmetic: the lowest modes are its eigenvalues of largest
+/// modulus.
+///
+/// Reduced problem: `K^-1 M`, eigenvalues `s = 1/kappa`. Quadratic problem:
+///
+/// ```text
+/// [ -omega K^-1 C   -omega^2 K^-1 M ] [ x    ]     1  [ x    ]
+/// [  I               0              ] [ nu x ]  =  -- [ nu x ],    lambda = omega nu.
+///                                                  nu
+/// ```
+///
+/// On the left side the transposes take the place of `K`, `C`, `M`, so that the upper half of a vector is
+/// the left vector of `T(lambda)`.
+pub struct ShiftInverted<'a> {
+    /// Matrices at the friction coefficient of the factors.
+    pub matrices: &'a StructureMatrices<'a>,
+    /// Factors of `K`.
+    pub factors: &'a StiffnessFactors,
+    /// Right or left vectors.
+    pub side: Side,
+}
+
+impl BlockOperator for ShiftInverted<'_> {
+    fn dimension(&self) -> usize {
+        let n = self.matrices.pattern.dimension();
+        match self.matrices.linearization {
+            Linearization::Reduced(_) => n,
+            Linearization::Companion { .. } => 2 * n,
+        }
+    }
+
+    fn apply(&self, z: MatRef<'_, f64>) -> Mat<f64> {
+        let [_, damping, mass] = &self.matrices.values;
+        let product = |values: &[f64], x: MatRef<'_, f64>| match self.side {
+            Side::Right => self.matrices.pattern.multiply(values, x),
+            Side::Left => self.matrices.pattern.multiply_transpose(values, x),
+        };
+        match self.matrices.linearization {
+            Linearization::Reduced(_) => {
+                let mut image = product(mass, z);
+                self.factors.solve_in_place(self.side, &mut image);
+                image
+            }
+            Linearization::Companion {
+                frequency_scale: omega,
+            } => {
+                let (x, y) = z.split_at_row(self.matrices.pattern.dimension());
+                let mut top = faer::Scale(-omega) * product(damping, x)
+                    - faer::Scale(omega * omega) * product(mass, y);
+                self.factors.solve_in_place(self.side, &mut top);
+                join_rows(top.as_ref(), x)
+            }
+        }
+    }
+}

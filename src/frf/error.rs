@@ -1,0 +1,58 @@
+//! What can go wrong with a computed frequency response.
+
+use crate::linalg::LinalgError;
+
+/// A frequency response that cannot be computed.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum FrfError {
+    /// The node does not exist.
+    #[error("frf.{key} = {node} does not exist: the mesh has nodes 1 to {count}")]
+    NoNode {
+        /// Case key.
+        key: &'static str,
+        /// Node id, from 1.
+        node: usize,
+        /// Number of nodes.
+        count: usize,
+    },
+    /// The node cannot move in that direction.
+    #[error(
+        "frf.{key} = {node} cannot move in {direction} direction with this boundary: choose a node \
+         inside the body, or frf.boundary = \"free\""
+    )]
+    Constrained {
+        /// Case key.
+        key: &'static str,
+        /// Node id, from 1.
+        node: usize,
+        /// `radial` or `tangential`.
+        direction: &'static str,
+    },
+    /// A frequency that is not positive.
+    #[error("frequency {value} Hz must be positive and finite: check frf.frequencies")]
+    Frequency {
+        /// The value, Hz.
+        value: f64,
+    },
+    /// The system is singular at a frequency.
+    #[error("at {frequency_hz} Hz: {source}")]
+    Factorization {
+        /// Frequency, Hz.
+        frequency_hz: f64,
+        /// What the factorization reported.
+        source: LinalgError,
+    },
+    /// The reduction does not reach its tolerance.
+    #[error(
+        "the reduced model still errs by {error:.1e} (bound {bound:.0e}) with {vectors} vectors: use \
+         frf.method = \"direct\""
+    )]
+    NotReduced {
+        /// Error found at the check lines.
+        error: f64,
+        /// Bound asked for.
+        bound: f64,
+        /// Vectors in the basis.
+        vectors: usize,
+    },
+}

@@ -1,0 +1,257 @@
+//! Response of a projected model.
+
+use super::direct::direct_response;
+use super::system::check_frequencies;
+use super::{FrfError, FrfSystem};
+use crate::linalg::dense::{join_columns, orthonormalize, transpose_product};
+use crate::linalg::{LuAnalysis, SparseLu};
+use faer::linalg::solvers::Solve;
+use faer::{Mat, c64};
+use std::f64::consts::TAU;
+
+/// Krylov vectors taken at each shift, for force and response each.
+const MOMENTS: usize = 6;
+/// A vector that keeps less than this share of its length adds nothing.
+const DROP: f64 = 1e-10;
+
+/// How far a reduction goes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ReductionSettings {
+    /// Largest relative error at the check lines.
+    pub tolerance: f64,
+    /// Shifts to begin with.
+    pub shifts: usize,
+    /// Most shifts.
+    pub most_shifts: usize,
+}
+
+impl Default for ReductionSettings {
+    fn default() -> Self {
+        Self {
+            tolerance: 1e-6,
+            shifts: 3,
+            most_shifts: 12,
+        }
+    }
+}
+
+/// A response of a reduced model and its error.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ReducedResponse {
+    /// Receptance for each frequency, m/N for each metre of thickness.
+    pub receptance: Vec<c64>,
+    /// Largest `|h_reduced - h_direct| / |h_direct|` at the check lines.
+    pub largest_error: f64,
+    /// Frequencies of the check lines, Hz, solved directly: between the shifts, at both ends, and at
+    /// the largest response.
+    pub checked_hz: Vec<f64>,
+    /// Vectors in the basis.
+    pub vectors: usize,
+}
+
+/// Receptance between two unknowns by a rational Krylov reduction.
+///
+/// At real shifts `sigma_j = omega_j^2` spread over the range, one basis `V` collects
+/// `((K - sigma_j M)^{-1} M)^k (K - sigma_j M)^{-1} e_force` and the same of the transposed system from
+/// `e_response`, `k < 6`; the response is that of `V^T M V, V^T C V, V^T K V`. Direct solutions at
+/// check lines measure its error; where it is above the tolerance, the worst line becomes a shift. Each
+/// shift is moved a little if it hits an undamped resonance.
+///
+/// # Errors
+/// [`FrfError::NotReduced`] if the most shifts do not reach the tolerance; those of
+/// [`direct_response`].
+///
+/// Source: E. J. Grimme, "Krylov projection methods for model reduction", thesis, Urbana (1997).
+pub fn reduced_response(
+    system: &FrfSystem,
+    force: usize,
+    response: usize,
+    frequencies_hz: &[f64],
+    settings: &ReductionSettings,
+) -> Result<ReducedResponse, FrfError> {
+    check_frequencies(frequencies_hz)?;
+    let (low, high) = range(frequencies_hz);
+    if frequencies_hz.is_empty() {
+        return Ok(ReducedResponse {
+            receptance: Vec::new(),
+            largest_error: 0.0,
+            checked_hz: Vec::new(),
+            vectors: 0,
+        });
+    }
+    let analysis = LuAnalysis::new(system.pattern()).map_err(|source| FrfError::Factorization {
+        frequency_hz: low,
+        source,
+    })?;
+    let mut shifts: Vec<f64> = (0..settings.shifts.max(1))
+        .map(|j| low + (high - low) * (j as f64 + 0.5) / settings.shifts.max(1) as f64)
+        .collect();
+    let mut basis = Mat::<f64>::zeros(system.dimension(), 0);
+    for shift in &shifts {
+        basis = extended(system, &analysis, basis, force, response, *shift)?;
+    }
+    let mut checks: Vec<(f64, c64)> = Vec::new();
+    loop {
+        let model = ReducedModel::project(system, &basis, force, response);
+        let receptance: Vec<c64> = frequencies_hz
+            .iter()
+            .map(|f| model.receptance(*f))
+            .collect();
+        let wanted = check_lines(frequencies_hz, &receptance, &shifts);
+        for f in wanted {
+            if checks.iter().all(|(known, _)| *known != f) {
+                let solved = direct_response(system, force, response, &[f])?;
+                checks.push((f, solved.receptance[0]));
+            }
+        }
+        let error = |(f, h): &(f64, c64)| (model.receptance(*f) - h).norm() / h.norm();
+        let worst = checks
+            .iter()
+            .max_by(|a, b| error(a).total_cmp(&error(b)))
+            .expect("both ends of the range are checked");
+        let largest_error = error(worst);
+        if largest_error <= settings.tolerance {
+            let mut checked_hz: Vec<f64> = checks.iter().map(|(f, _)| *f).collect();
+            checked_hz.sort_by(f64::total_cmp);
+            return Ok(ReducedResponse {
+                receptance,
+                largest_error,
+                checked_hz,
+                vectors: basis.ncols(),
+            });
+        }
+        if shifts.len() >= settings.most_shifts {
+            return Err(FrfError::NotReduced {
+                error: largest_error,
+                bound: settings.tolerance,
+                vectors: basis.ncols(),
+            });
+        }
+        let shift = worst.0;
+        shifts.push(shift);
+        basis = extended(system, &analysis, basis, force, response, shift)?;
+    }
+}
+
+/// Least and largest frequency.
+fn range(frequencies_hz: &[f64]) -> (f64, f64) {
+    let low = frequencies_hz.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = frequencies_hz.iter().copied().fold(0.0, f64::max);
+    (low, high)
+}
+
+/// Lines at which the reduction is checked: both ends, midway between neighbouring shifts, and the
+/// largest response.
+fn check_lines(frequencies_hz: &[f64], receptance: &[c64], shifts: &[f64]) -> Vec<f64> {
+    let (low, high) = range(frequencies_hz);
+    let mut sorted = shifts.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let mut lines = vec![low, high];
+    lines.extend(sorted.windows(2).map(|w| 0.5 * (w[0] + w[1])));
+    let top = (0..receptance.len())
+        .max_by(|i, j| {
+            let size = |k: usize| receptance[k].norm() * frequencies_hz[k].powi(2);
+            size(*i).total_cmp(&size(*j))
+        })
+        .map(|k| frequencies_hz[k]);
+    lines.extend(top);
+    lines
+}
+
+/// The basis with the Krylov vectors of one more shift.
+fn extended(
+    system: &FrfSystem,
+    analysis: &LuAnalysis,
+    basis: Mat<f64>,
+    force: usize,
+    response: usize,
+    shift_hz: f64,
+) -> Result<Mat<f64>, FrfError> {
+    let mut frequency_hz = shift_hz;
+    let mut attempt = 0;
+    let lu = loop {
+        match SparseLu::factorize(analysis, system.undamped_stiffness(frequency_hz)) {
+            Ok(lu) => break lu,
+            Err(source) if attempt == 3 => {
+                return Err(FrfError::Factorization {
+                    frequency_hz,
+                    source,
+                });
+            }
+            Err(_) => {
+                // On an undamped resonance: beside it, the space is the same.
+                attempt += 1;
+                frequency_hz *= 1.001;
+            }
+        }
+    };
+    let [mass, _, _] = system.matrices();
+    let n = system.dimension();
+    let mut basis = basis;
+    for (start, is_transposed) in [(force, false), (response, true)] {
+        // Each chain is orthogonalized in itself alone: with vectors of the other chain mixed in, the
+        // recursion would leave its Krylov space.
+        let mut chain = Mat::<f64>::zeros(n, 0);
+        let mut right = vec![0.0; n];
+        right[start] = 1.0;
+        for _ in 0..MOMENTS {
+            let mut x = Mat::from_fn(n, 1, |i, _| right[i]);
+            if is_transposed {
+                lu.solve_transpose_in_place(x.as_mut());
+            } else {
+                lu.solve_in_place(x.as_mut());
+            }
+            let new = orthonormalize(chain.as_ref(), x, DROP).columns;
+            if new.ncols() == 0 {
+                break;
+            }
+            right = system.multiply(mass, new.col_as_slice(0), is_transposed);
+            chain = join_columns(chain.as_ref(), new.as_ref());
+        }
+        let new = orthonormalize(basis.as_ref(), chain, DROP).columns;
+        basis = join_columns(basis.as_ref(), new.as_ref());
+    }
+    Ok(basis)
+}
+
+/// The projected system.
+struct ReducedModel {
+    mass: Mat<f64>,
+    damping: Mat<f64>,
+    stiffness: Mat<f64>,
+    force: Vec<f64>,
+    response: Vec<f64>,
+}
+
+impl ReducedModel {
+    fn project(system: &FrfSystem, basis: &Mat<f64>, force: usize, response: usize) -> Self {
+        let count = basis.ncols();
+        let [mass, damping, stiffness] = system.matrices().map(|values| {
+            let mut image = Mat::<f64>::zeros(basis.nrows(), count);
+            for j in 0..count {
+                let y = system.multiply(values, basis.col_as_slice(j), false);
+                image.col_as_slice_mut(j).copy_from_slice(&y);
+            }
+            transpose_product(basis.as_ref(), image.as_ref())
+        });
+        Self {
+            mass,
+            damping,
+            stiffness,
+            force: (0..count).map(|j| basis[(force, j)]).collect(),
+            response: (0..count).map(|j| basis[(response, j)]).collect(),
+        }
+    }
+
+    fn receptance(&self, frequency_hz: f64) -> c64 {
+        let omega = TAU * frequency_hz;
+        let n = self.force.len();
+        let matrix = Mat::<c64>::from_fn(n, n, |i, j| {
+            let real = self.stiffness[(i, j)] - omega * omega * self.mass[(i, j)];
+            c64::new(real, omega * self.damping[(i, j)])
+        });
+        let right = Mat::from_fn(n, 1, |i, _| c64::new(self.force[i], 0.0));
+        let x = matrix.partial_piv_lu().solve(&right);
+        (0..n).map(|i| x[(i, 0)] * self.response[i]).sum()
+    }
+}

@@ -1,0 +1,189 @@
+//! Mass, damping and stiffness of the body in the state that is excited.
+
+use super::FrfError;
+use crate::fem::{
+    DofMap, ElasticMaterial, MassKind, RayleighDamping, assemble_mass, assemble_stiffness,
+};
+use crate::linalg::{MatrixPolynomial, SparsityPattern};
+use crate::mesh::Mesh2d;
+use crate::prestress::SlidingTangent;
+use faer::c64;
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+/// How the body is held while it is excited.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FrfBoundary {
+    /// Both edges free, as on the strings of a hammer test.
+    Free,
+    /// Outer edge clamped, inner edge free.
+    Clamped,
+    /// Outer edge clamped, inner edge in sliding contact.
+    Sliding,
+}
+
+/// A degree of freedom at which the body is excited or observed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Terminal {
+    /// Node, counted from 0.
+    pub node: usize,
+    /// Tangential instead of radial.
+    pub is_tangential: bool,
+}
+
+/// `M`, `C`, `K` over the unknowns, on one sparsity pattern.
+#[derive(Clone, Debug)]
+pub struct FrfSystem {
+    pattern: Arc<SparsityPattern>,
+    mass: Vec<f64>,
+    damping: Vec<f64>,
+    stiffness: Vec<f64>,
+    unknowns: DofMap,
+}
+
+impl FrfSystem {
+    /// The body without contact and prestress, free or with its outer edge clamped, `C = alpha_R M +
+    /// beta_R K`.
+    pub fn body(
+        mesh: &Mesh2d,
+        material: &ElasticMaterial,
+        mass: MassKind,
+        damping: RayleighDamping,
+        is_clamped: bool,
+    ) -> Self {
+        let unknowns = if is_clamped {
+            DofMap::clamped(mesh)
+        } else {
+            DofMap::excluding(2 * mesh.node_count(), [])
+        };
+        let restricted = |entries: &[(usize, usize, f64)]| -> Vec<(usize, usize, f64)> {
+            let at = |dof: usize| unknowns.unknown_of[dof];
+            entries
+                .iter()
+                .filter_map(|(row, column, value)| Some((at(*row)?, at(*column)?, *value)))
+                .collect()
+        };
+        let mass = restricted(&assemble_mass(mesh, material, mass).entries);
+        let stiffness = restricted(&assemble_stiffness(mesh, material).entries);
+        let positions = mass
+            .iter()
+            .chain(&stiffness)
+            .map(|(row, column, _)| (*row, *column));
+        let pattern = Arc::new(SparsityPattern::from_positions(unknowns.len(), positions));
+        let values = |entries| MatrixPolynomial::on_pattern(&pattern, &[entries]).evaluate(0.0);
+        let (mass, stiffness): (Vec<f64>, Vec<f64>) = (values(mass), values(stiffness));
+        let damping = mass
+            .iter()
+            .zip(&stiffness)
+            .map(|(m, k)| damping.mass_coefficient * m + damping.stiffness_coefficient * k)
+            .collect();
+        Self {
+            pattern,
+            mass,
+            damping,
+            stiffness,
+            unknowns,
+        }
+    }
+
+    /// Small motions around steady sliding at a friction coefficient.
+    ///
+    /// With rigid contact the normal displacement of the contact nodes is no unknown; the force of
+    /// excitation acts on the body, not through the contact.
+    pub fn sliding(tangent: &SlidingTangent, friction_coefficient: f64) -> Self {
+        Self {
+            pattern: Arc::clone(tangent.stiffness.pattern()),
+            mass: tangent.mass.evaluate(friction_coefficient),
+            damping: tangent.damping.evaluate(friction_coefficient),
+            stiffness: tangent.stiffness.evaluate(friction_coefficient),
+            unknowns: tangent.unknowns.clone(),
+        }
+    }
+
+    /// Number of unknowns.
+    pub fn dimension(&self) -> usize {
+        self.unknowns.len()
+    }
+
+    /// Unknown of a terminal; `key` is the case key of its node.
+    ///
+    /// # Errors
+    /// [`FrfError::NoNode`], or [`FrfError::Constrained`] where the boundary holds it.
+    pub fn unknown(&self, terminal: Terminal, key: &'static str) -> Result<usize, FrfError> {
+        let dof = 2 * terminal.node + usize::from(terminal.is_tangential);
+        let node = terminal.node + 1;
+        match self.unknowns.unknown_of.get(dof) {
+            None => Err(FrfError::NoNode {
+                key,
+                node,
+                count: self.unknowns.unknown_of.len() / 2,
+            }),
+            Some(None) => Err(FrfError::Constrained {
+                key,
+                node,
+                direction: if terminal.is_tangential {
+                    "tangential"
+                } else {
+                    "radial"
+                },
+            }),
+            Some(Some(unknown)) => Ok(*unknown),
+        }
+    }
+
+    /// The pattern of all three matrices.
+    pub(super) fn pattern(&self) -> &Arc<SparsityPattern> {
+        &self.pattern
+    }
+
+    /// Nonzeros of `M`, `C`, `K`.
+    pub(super) fn matrices(&self) -> [&[f64]; 3] {
+        [&self.mass, &self.damping, &self.stiffness]
+    }
+
+    /// Nonzeros of `K + i omega C - omega^2 M`.
+    pub(super) fn dynamic_stiffness(&self, frequency_hz: f64) -> Vec<c64> {
+        let omega = TAU * frequency_hz;
+        (0..self.mass.len())
+            .map(|k| {
+                let real = self.stiffness[k] - omega * omega * self.mass[k];
+                c64::new(real, omega * self.damping[k])
+            })
+            .collect()
+    }
+
+    /// Nonzeros of `K - omega^2 M`.
+    pub(super) fn undamped_stiffness(&self, frequency_hz: f64) -> Vec<f64> {
+        let omega = TAU * frequency_hz;
+        let pairs = self.stiffness.iter().zip(&self.mass);
+        pairs.map(|(k, m)| k - omega * omega * m).collect()
+    }
+
+    /// `y = A x` for one of the matrices, or `A^T x`.
+    pub(super) fn multiply(&self, values: &[f64], x: &[f64], is_transposed: bool) -> Vec<f64> {
+        let mut y = vec![0.0; x.len()];
+        for column in 0..x.len() {
+            let pointers = self.pattern.column_pointers();
+            for position in pointers[column]..pointers[column + 1] {
+                let row = self.pattern.row_indices()[position];
+                if is_transposed {
+                    y[column] += values[position] * x[row];
+                } else {
+                    y[row] += values[position] * x[column];
+                }
+            }
+        }
+        y
+    }
+}
+
+/// Checks that every frequency is positive.
+pub(super) fn check_frequencies(frequencies_hz: &[f64]) -> Result<(), FrfError> {
+    match frequencies_hz
+        .iter()
+        .find(|f| !(**f > 0.0 && f.is_finite()))
+    {
+        Some(value) => Err(FrfError::Frequency { value: *value }),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,140 @@
+//! The report of an eigenvalue analysis: figures, critical frictions, eigenvalues.
+
+use super::{CeaReport, direction_name};
+use crate::cea::{FrictionPoint, UnstableInterval};
+use crate::results::Manifest;
+use crate::results::report::{NamedFigure, Report, ReportSection, ReportTable};
+
+/// The report: figures, eigenvalues where shapes were asked for, critical frictions.
+pub fn html_report(
+    report: &CeaReport<'_>,
+    figures: Vec<NamedFigure>,
+    manifest: &Manifest,
+) -> Report {
+    let (fewest, most) = report.mode_counts();
+    let base = &report.base;
+    let mut paragraphs = vec![
+        format!(
+            "Complex eigenvalues {}: {} modes at {} friction values, {} unknowns, {} method; largest \
+             relative residual {:.1e}; {:.2} s.",
+            report.selection,
+            if fewest == most {
+                most.to_string()
+            } else {
+                format!("{fewest} to {most}")
+            },
+            report.friction_coefficients.len(),
+            report.dofs,
+            report.method,
+            report.largest_residual(),
+            report.wall_s
+        ),
+        format!(
+            "Steady sliding at friction coefficient {}: contact pressure {:.4} to {:.4} MPa, torque \
+             {:.4} N m, power {:.1} W.",
+            base.friction_coefficient,
+            base.pressure_pa[0] * 1e-6,
+            base.pressure_pa[1] * 1e-6,
+            base.torque_n_m,
+            base.power_w
+        ),
+    ];
+    paragraphs.extend(report.notes.iter().cloned());
+    let mut tables = vec![critical_table(&report.sweep.intervals)];
+    tables.extend(eigenvalue_tables(report));
+    Report {
+        title: report.title.to_owned(),
+        sections: vec![
+            ReportSection {
+                heading: "Stability of steady sliding".into(),
+                paragraphs,
+                tables: vec![tables.remove(0)],
+                figures,
+            },
+            ReportSection {
+                heading: "Eigenvalues".into(),
+                tables,
+                ..ReportSection::default()
+            },
+        ],
+        manifest: manifest.clone(),
+    }
+}
+
+fn critical_table(intervals: &[UnstableInterval]) -> ReportTable {
+    let rows = intervals.iter().map(|interval| {
+        vec![
+            interval.harmonic.to_string(),
+            interval.branch.to_string(),
+            direction_name(interval.direction).to_owned(),
+            if interval.unstable_from_start {
+                format!("below {}", interval.critical_friction)
+            } else {
+                format!("{:.5}", interval.critical_friction)
+            },
+            format!("{:.1}", interval.frequency_hz),
+            interval
+                .restabilized
+                .map_or(String::new(), |(friction, _)| format!("{friction:.5}")),
+        ]
+    });
+    ReportTable {
+        caption: "Critical friction of each branch that turns unstable".into(),
+        columns: [
+            "harmonic n",
+            "branch",
+            "travels",
+            "critical friction",
+            "frequency (Hz)",
+            "stable again at",
+        ]
+        .map(String::from)
+        .to_vec(),
+        rows: rows.collect(),
+    }
+}
+
+/// All modes at the friction values that have shapes, or at the last value of the sweep.
+fn eigenvalue_tables(report: &CeaReport<'_>) -> Vec<ReportTable> {
+    let points = &report.sweep.points;
+    let with_shapes = |point: &&FrictionPoint| point.modes.iter().any(|m| m.shape.is_some());
+    let mut chosen: Vec<&FrictionPoint> = points.iter().filter(with_shapes).collect();
+    if chosen.is_empty() {
+        chosen.extend(points.last());
+    }
+    chosen.into_iter().map(eigenvalue_table).collect()
+}
+
+fn eigenvalue_table(point: &FrictionPoint) -> ReportTable {
+    let rows = point.modes.iter().enumerate().map(|(index, mode)| {
+        vec![
+            (index + 1).to_string(),
+            format!("{:.2}", mode.real_hz()),
+            format!("{:.2}", mode.frequency_hz()),
+            format!("{:.5}", mode.damping_factor()),
+            mode.harmonic.to_string(),
+            mode.branch.to_string(),
+            direction_name(mode.direction).to_owned(),
+            if mode.is_unstable() { "unstable" } else { "" }.to_owned(),
+        ]
+    });
+    ReportTable {
+        caption: format!(
+            "Eigenvalues at friction coefficient {}",
+            point.friction_coefficient
+        ),
+        columns: [
+            "mode",
+            "Re λ / 2π (Hz)",
+            "Im λ / 2π (Hz)",
+            "damping factor",
+            "harmonic n",
+            "branch",
+            "travels",
+            "stability",
+        ]
+        .map(String::from)
+        .to_vec(),
+        rows: rows.collect(),
+    }
+}

@@ -1,0 +1,117 @@
+//! `sensitivities.csv`: which parameter decides whether a mode grows.
+
+use crate::cea::cyclic::Sensitivity;
+use crate::results::table::{Table, format_number};
+use faer::c64;
+use std::f64::consts::TAU;
+use std::fmt::Write as _;
+use std::io::{self, Write};
+
+/// Derivatives of the eigenvalues at one friction coefficient, and the values of the parameters there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SensitivityReport {
+    /// One entry for each branch.
+    pub branches: Vec<Sensitivity>,
+    /// Normal stiffness, `alpha_R`, `beta_R`, `E`, `nu`, `rho` of the case (0 for rigid contact).
+    pub values: [f64; 6],
+}
+
+/// Short names of the parameters, the friction coefficient first.
+const NAMES: [&str; 7] = [
+    "friction_coefficient",
+    "normal_stiffness",
+    "mass_coefficient",
+    "stiffness_coefficient",
+    "young_modulus",
+    "poisson_ratio",
+    "density",
+];
+
+/// Derivatives in the order of [`NAMES`]; none with respect to a contact stiffness that is rigid.
+fn derivatives(branch: &Sensitivity) -> [Option<c64>; 7] {
+    [
+        Some(branch.friction),
+        branch.normal_stiffness,
+        Some(branch.mass_coefficient),
+        Some(branch.stiffness_coefficient),
+        Some(branch.young_modulus),
+        Some(branch.poisson_ratio),
+        Some(branch.density),
+    ]
+}
+
+impl SensitivityReport {
+    /// Change of growth rate, 1/s, for one per cent more of each parameter, largest first.
+    fn per_cent(&self, branch: &Sensitivity) -> Vec<(&'static str, f64)> {
+        let friction = [branch.friction_coefficient];
+        let values = friction.iter().chain(&self.values);
+        let mut changes: Vec<(&'static str, f64)> = derivatives(branch)
+            .into_iter()
+            .zip(values)
+            .zip(NAMES)
+            .filter_map(|((derivative, value), name)| Some((name, 0.01 * value * derivative?.re)))
+            .collect();
+        changes.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
+        changes
+    }
+
+    /// Writes one row for each branch: the derivative of its growth rate (1/s) and of its frequency (Hz)
+    /// for each unit of each parameter; empty where the contact is rigid.
+    ///
+    /// # Errors
+    /// Those of the writer.
+    pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+        let mut columns: Vec<String> = [
+            "friction_coefficient",
+            "harmonic",
+            "branch",
+            "direction",
+            "growth_rate_per_s",
+            "frequency_hz",
+        ]
+        .map(str::to_owned)
+        .to_vec();
+        for name in NAMES {
+            columns.push(format!("growth_rate_per_{name}"));
+            columns.push(format!("frequency_hz_per_{name}"));
+        }
+        let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
+        let mut table = Table::new(out, &columns)?;
+        for branch in &self.branches {
+            let mut row = vec![
+                format_number(branch.friction_coefficient),
+                branch.harmonic.to_string(),
+                branch.branch.to_string(),
+                branch.direction.to_string(),
+                format_number(branch.eigenvalue.re),
+                format_number(branch.eigenvalue.im / TAU),
+            ];
+            for derivative in derivatives(branch) {
+                let parts = derivative.map_or([f64::NAN; 2], |d| [d.re, d.im / TAU]);
+                row.extend(parts.map(format_number));
+            }
+            table.row(row)?;
+        }
+        table.finish()
+    }
+
+    /// What decides the growth of the mode that grows fastest, in words.
+    pub fn print(&self) -> String {
+        let fastest = self
+            .branches
+            .iter()
+            .max_by(|a, b| a.eigenvalue.re.total_cmp(&b.eigenvalue.re));
+        let Some(branch) = fastest else {
+            return String::new();
+        };
+        let mut text = format!(
+            "at friction {} mode n = {}, branch {} grows at {:.1} 1/s; one per cent more of",
+            branch.friction_coefficient, branch.harmonic, branch.branch, branch.eigenvalue.re,
+        );
+        for (index, (name, change)) in self.per_cent(branch).into_iter().enumerate() {
+            let separator = if index == 0 { "" } else { "," };
+            let _ = write!(text, "{separator} {name} {change:+.2}");
+        }
+        text + " 1/s"
+    }
+}

@@ -1,0 +1,198 @@
+//! The state of a transient on disk, to go on from.
+
+use crate::results::folder::{FolderError, OutputFolder};
+use crate::results::manifest::Manifest;
+use crate::transient::{Recorder, TransientState};
+use serde::{Deserialize, Serialize};
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Name of the checkpoint in its folder.
+pub const CHECKPOINT: &str = "checkpoint.bin";
+
+const MAGIC: [u8; 8] = *b"FRICSIMC";
+const VERSION: u32 = 1;
+/// Magic, version, checksum, length of what follows.
+const HEADER: usize = 8 + 4 + 4 + 8;
+
+/// A checkpoint that cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub enum CheckpointError {
+    /// None there.
+    #[error(
+        "{} does not exist: there is nothing to resume (run without --resume)",
+        path.display()
+    )]
+    Missing {
+        /// The file.
+        path: PathBuf,
+    },
+    /// Cut short or changed.
+    #[error(
+        "{} is damaged ({reason}): it is left as it is; run without --resume to start over",
+        path.display()
+    )]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// What does not fit.
+        reason: String,
+    },
+    /// Of a format that this version does not read.
+    #[error(
+        "{} has format {found}, this version reads format {VERSION}: resume with the version that wrote it, \
+         or run without --resume to start over",
+        path.display()
+    )]
+    Version {
+        /// The file.
+        path: PathBuf,
+        /// Its format.
+        found: u32,
+    },
+    /// Of another case, or of kernels that round differently.
+    #[error(
+        "{} belongs to another run: its {what} is {found}, here it is {expected}; \
+         run without --resume to start over",
+        path.display()
+    )]
+    Foreign {
+        /// The file.
+        path: PathBuf,
+        /// What differs.
+        what: &'static str,
+        /// In the file.
+        found: String,
+        /// Here.
+        expected: String,
+    },
+    /// It cannot be read.
+    #[error("cannot read {}: {source}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+}
+
+/// Everything that a run needs to go on to the same bytes as one that was never stopped.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Checkpoint {
+    /// Hash of the effective case.
+    pub case_hash: String,
+    /// SIMD level: another one rounds differently.
+    pub simd: String,
+    /// State of the time loop.
+    pub state: TransientState,
+    /// What was recorded so far.
+    pub record: Recorder,
+}
+
+/// What a checkpoint is written from, without a copy.
+#[derive(Serialize)]
+struct Borrowed<'a> {
+    case_hash: &'a str,
+    simd: &'a str,
+    state: &'a TransientState,
+    record: &'a Recorder,
+}
+
+/// Writes a checkpoint; the one before stays until this one is complete.
+///
+/// # Errors
+/// Those of the folder.
+pub fn write_checkpoint(
+    folder: &OutputFolder,
+    state: &TransientState,
+    record: &Recorder,
+) -> Result<(), FolderError> {
+    let manifest = folder.manifest();
+    let contents = Borrowed {
+        case_hash: &manifest.case_hash,
+        simd: &manifest.simd,
+        state,
+        record,
+    };
+    folder.write(CHECKPOINT, |out| {
+        let payload = postcard::to_stdvec(&contents).map_err(io::Error::other)?;
+        out.write_all(&MAGIC)?;
+        out.write_all(&VERSION.to_le_bytes())?;
+        out.write_all(&crc32fast::hash(&payload).to_le_bytes())?;
+        out.write_all(&(payload.len() as u64).to_le_bytes())?;
+        out.write_all(&payload)
+    })?;
+    Ok(())
+}
+
+/// Reads the checkpoint of a folder, if it is whole and of this run.
+///
+/// # Errors
+/// [`CheckpointError`] says why it cannot be used; the file is left as it is.
+pub fn read_checkpoint(folder: &Path, manifest: &Manifest) -> Result<Checkpoint, CheckpointError> {
+    let path = folder.join(CHECKPOINT);
+    let bytes = match fs::read(&path) {
+        Ok(bytes) => bytes,
+        Err(source) if source.kind() == io::ErrorKind::NotFound => {
+            return Err(CheckpointError::Missing { path });
+        }
+        Err(source) => return Err(CheckpointError::Io { path, source }),
+    };
+    let checkpoint = decode(&bytes).map_err(|defect| match defect {
+        Defect::Version(found) => CheckpointError::Version {
+            path: path.clone(),
+            found,
+        },
+        Defect::Damage(reason) => CheckpointError::Damaged {
+            path: path.clone(),
+            reason,
+        },
+    })?;
+    for (what, found, expected) in [
+        ("case hash", &checkpoint.case_hash, &manifest.case_hash),
+        ("SIMD level", &checkpoint.simd, &manifest.simd),
+    ] {
+        if found != expected {
+            return Err(CheckpointError::Foreign {
+                path,
+                what,
+                found: found.clone(),
+                expected: expected.clone(),
+            });
+        }
+    }
+    Ok(checkpoint)
+}
+
+enum Defect {
+    Version(u32),
+    Damage(String),
+}
+
+fn decode(bytes: &[u8]) -> Result<Checkpoint, Defect> {
+    let damage = |reason: &str| Defect::Damage(reason.to_owned());
+    let Some((header, payload)) = bytes.split_at_checked(HEADER) else {
+        return Err(damage("it is shorter than its header"));
+    };
+    let (magic, rest) = header.split_at(8);
+    if magic != MAGIC {
+        return Err(damage("it does not begin as a checkpoint does"));
+    }
+    let word = |at: usize| u32::from_le_bytes(std::array::from_fn(|i| rest[at + i]));
+    let (version, checksum) = (word(0), word(4));
+    if version != VERSION {
+        return Err(Defect::Version(version));
+    }
+    let length = u64::from_le_bytes(std::array::from_fn(|i| rest[8 + i]));
+    if length != payload.len() as u64 {
+        return Err(Defect::Damage(format!(
+            "{} bytes where {length} were written",
+            payload.len()
+        )));
+    }
+    if crc32fast::hash(payload) != checksum {
+        return Err(damage("its checksum does not fit its contents"));
+    }
+    postcard::from_bytes(payload).map_err(|error| Defect::Damage(error.to_string()))
+}

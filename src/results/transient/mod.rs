@@ -1,0 +1,60 @@
+//! Results of an explicit transient: what is printed and what is written.
+
+mod checkpoint;
+mod contact;
+mod files;
+mod print;
+mod summary;
+
+pub use checkpoint::{CHECKPOINT, Checkpoint, CheckpointError, read_checkpoint, write_checkpoint};
+pub use files::write;
+pub use print::print;
+pub use summary::summary;
+
+use crate::fem::ElasticMaterial;
+use crate::mesh::Mesh2d;
+use crate::transient::{Perturbation, Recorder, StepPlan, TransientAnalysis};
+
+/// Everything a transient reports. Forces, powers and energies of the record are for one metre of thickness;
+/// tables and summary scale them by the thickness.
+#[derive(Clone, Debug)]
+pub struct TransientReport<'a> {
+    /// Title of the case.
+    pub title: &'a str,
+    /// The mesh, for the snapshots.
+    pub mesh: &'a Mesh2d,
+    /// Its material, for the stresses.
+    pub material: &'a ElasticMaterial,
+    /// Thickness, m.
+    pub thickness: f64,
+    /// State at the start: `"rest"` or `"steady-sliding"`.
+    pub initial: &'a str,
+    /// Initial velocity.
+    pub perturbation: &'a Perturbation,
+    /// Name of the operator.
+    pub operator: &'a str,
+    /// Time step and samples.
+    pub plan: StepPlan,
+    /// What was recorded.
+    pub record: &'a Recorder,
+    /// What it says.
+    pub analysis: &'a TransientAnalysis,
+    /// Steps done since the start, those before a resume included.
+    pub steps: u64,
+    /// Steps done by this process.
+    pub steps_timed: u64,
+    /// Wall time of those steps, s.
+    pub stepping_s: f64,
+    /// Wall time of the run, s.
+    pub wall_s: f64,
+    /// Whether the run reached its end.
+    pub is_finished: bool,
+}
+
+impl TransientReport<'_> {
+    /// Elements times steps for each second of stepping.
+    pub fn element_steps_per_second(&self) -> f64 {
+        let elements = self.mesh.element_count() as f64;
+        elements * self.steps_timed as f64 / self.stepping_s.max(f64::MIN_POSITIVE)
+    }
+}

@@ -1,0 +1,131 @@
+//! What can be wrong with a signal or a frequency response.
+
+/// A signal or frequency response that cannot be analysed as asked.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SignalError {
+    /// Fewer samples than the analysis needs.
+    #[error("{what} has {count} samples; {needed} are needed at least: {remedy}")]
+    TooShort {
+        /// What is short.
+        what: &'static str,
+        /// Samples given.
+        count: usize,
+        /// Samples needed.
+        needed: usize,
+        /// What to change.
+        remedy: &'static str,
+    },
+    /// A number that must be positive and finite is not.
+    #[error("{what} = {value} must be a positive finite number{remedy}")]
+    NotPositive {
+        /// Name of the quantity.
+        what: &'static str,
+        /// Given value.
+        value: f64,
+        /// What to change, beginning with punctuation, or nothing.
+        remedy: &'static str,
+    },
+    /// A sample is NaN or infinite.
+    #[error("{what} number {index} is {value}: remove it or repair the measurement")]
+    NotFinite {
+        /// What is not finite.
+        what: &'static str,
+        /// 1-based position.
+        index: usize,
+        /// The value.
+        value: f64,
+    },
+    /// Frequencies that do not rise.
+    #[error("frequency number {index} ({value} Hz) is not above the one before it: sort the table")]
+    NotRising {
+        /// 1-based position.
+        index: usize,
+        /// The value, Hz.
+        value: f64,
+    },
+    /// Two arrays that must have one length have not.
+    #[error("{left} frequencies but {right} response values")]
+    Length {
+        /// Number of frequencies.
+        left: usize,
+        /// Number of values.
+        right: usize,
+    },
+    /// No resonance stands out of the noise.
+    #[error(
+        "no resonance found between {low_hz} and {high_hz} Hz: no peak stands out of the noise; \
+         widen the frequency range or average more measurements"
+    )]
+    NoResonance {
+        /// Lowest frequency, Hz.
+        low_hz: f64,
+        /// Highest frequency, Hz.
+        high_hz: f64,
+    },
+    /// Resonances exist, but none can be resolved.
+    #[error(
+        "the frequency resolution of {resolution_hz} Hz is too coarse: the half-power band of the \
+         resonance at {frequency_hz} Hz holds fewer than {needed} lines; measure longer, or zoom"
+    )]
+    Unresolved {
+        /// Spacing of the frequency lines, Hz.
+        resolution_hz: f64,
+        /// Resonance, Hz.
+        frequency_hz: f64,
+        /// Lines a half-power band needs.
+        needed: usize,
+    },
+    /// Too few damping factors for the two Rayleigh coefficients.
+    #[error(
+        "{count} usable damping factor(s): two unknowns (alpha_R, beta_R) with an uncertainty need \
+         at least 2 modes of known uncertainty, or 3 without; widen the frequency range"
+    )]
+    TooFewModes {
+        /// Number of modes.
+        count: usize,
+    },
+    /// A time signal without an exponential stage.
+    #[error(
+        "no exponential stage found: the envelope nowhere rises or falls by a factor e with \
+         constant rate at {frequency_hz} Hz"
+    )]
+    NoExponentialStage {
+        /// Frequency at which the signal was demodulated, Hz.
+        frequency_hz: f64,
+    },
+    /// The fit cannot be computed.
+    #[error("the modal fit failed: {reason}")]
+    Fit {
+        /// Why.
+        reason: &'static str,
+    },
+}
+
+/// Checks that every sample is finite.
+pub(super) fn check_finite(what: &'static str, samples: &[f64]) -> Result<(), SignalError> {
+    match samples.iter().position(|v| !v.is_finite()) {
+        Some(i) => Err(SignalError::NotFinite {
+            what,
+            index: i + 1,
+            value: samples[i],
+        }),
+        None => Ok(()),
+    }
+}
+
+/// Checks that a parameter is positive and finite.
+pub(super) fn check_positive(
+    what: &'static str,
+    value: f64,
+    remedy: &'static str,
+) -> Result<(), SignalError> {
+    if value > 0.0 && value.is_finite() {
+        Ok(())
+    } else {
+        Err(SignalError::NotPositive {
+            what,
+            value,
+            remedy,
+        })
+    }
+}

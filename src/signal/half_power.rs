@@ -1,0 +1,316 @@
+//! Resonances of a frequency response and their half-power bandwidths.
+
+use super::error::SignalError;
+use super::noise::NoiseModel;
+use super::{FrequencyResponse, ResponseQuantity};
+
+/// Frequency lines a half-power band must hold: a parabola through the top and two crossings.
+pub(super) const LINES_NEEDED: usize = 5;
+/// Least prominence of a resonance, neper (0.87 dB) ...
+const PROMINENCE: f64 = 0.1;
+/// ... in units of the relative noise at its top ...
+const NOISE_PROMINENCE: f64 = 8.0;
+/// ... but no more than this, neper (6 dB): coarse lines look like noise.
+const ENOUGH_PROMINENCE: f64 = 0.7;
+
+/// Why a half-power damping factor is missing or doubtful.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ResonanceNote {
+    /// The half-power band overlaps that of a resonance at this frequency, Hz.
+    Overlaps(f64),
+    /// The band holds only this many frequency lines.
+    TooCoarse(usize),
+    /// The response does not fall to half power on one side before it rises again or ends.
+    OneSided,
+}
+
+/// A resonance and its half-power points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HalfPowerBand {
+    /// Resonance, Hz: the maximum of the mobility, which is the undamped natural frequency.
+    pub frequency_hz: f64,
+    /// Largest modulus, in the quantity of the response given.
+    pub magnitude: f64,
+    /// Lower and upper half-power frequency, Hz, where both exist.
+    pub band_hz: Option<(f64, f64)>,
+    /// `zeta = (f_2 - f_1) / (2 f_0)`, where both points exist and the band holds lines enough.
+    pub damping_factor: Option<f64>,
+    /// Doubts.
+    pub note: Option<ResonanceNote>,
+}
+
+/// Resonances and damping factors by the half-power method.
+///
+/// Works on the mobility, for which `zeta = (f_2 - f_1) / (2 f_0)` holds exactly at any damping of a
+/// single mode. Near the top `1/|Y|^2` is a parabola in frequency: one is fitted through the top and
+/// one through each flank, so that noise neither lifts the peak nor ends the band early. Does not
+/// correct for neighbouring modes: the tails of others change the width (see
+/// [`fit_modes`](super::fit_modes)); overlapping bands are marked.
+///
+/// # Errors
+/// [`SignalError::NoResonance`] if no peak stands out of the noise.
+///
+/// Source: D. J. Ewins, "Modal Testing", 2nd ed. (2000), section 4.2.
+pub fn half_power(response: &FrequencyResponse) -> Result<Vec<HalfPowerBand>, SignalError> {
+    let mobility = response.converted(ResponseQuantity::Mobility)?;
+    let f = mobility.frequencies_hz();
+    let offset = response.values().len() - f.len();
+    let tops = resonances(
+        &mobility,
+        &response.magnitudes()[offset..],
+        &noise_of(response),
+    );
+    if tops.is_empty() {
+        return Err(SignalError::NoResonance {
+            low_hz: f[0],
+            high_hz: f[f.len() - 1],
+        });
+    }
+    let y = mobility.magnitudes();
+    let mut bands: Vec<HalfPowerBand> = tops
+        .iter()
+        .enumerate()
+        .map(|(k, &top)| {
+            // The band must end before the valley towards the next resonance.
+            let left = if k > 0 {
+                valley(&y, tops[k - 1], top)
+            } else {
+                0
+            };
+            let right = tops
+                .get(k + 1)
+                .map_or(y.len() - 1, |next| valley(&y, top, *next));
+            let mut band = measure(&f[left..=right], &y[left..=right], top - left);
+            band.magnitude = response.values()[top + offset].norm();
+            band
+        })
+        .collect();
+    mark_overlaps(&mut bands);
+    Ok(bands)
+}
+
+/// Noise in the quantity that was measured, where it is most likely uniform.
+fn noise_of(response: &FrequencyResponse) -> NoiseModel {
+    NoiseModel::from_differences(response.values(), response.has_phase())
+}
+
+/// Positions of the maxima of the mobility that stand out of the noise of the `measured` moduli.
+fn resonances(mobility: &FrequencyResponse, measured: &[f64], noise: &NoiseModel) -> Vec<usize> {
+    let y = mobility.magnitudes();
+    (1..y.len() - 1)
+        .filter(|&i| y[i] > y[i - 1] && y[i] >= y[i + 1])
+        .filter(|&i| {
+            let relative = noise.variance(measured[i]).sqrt() / measured[i];
+            let threshold = (NOISE_PROMINENCE * relative).clamp(PROMINENCE, ENOUGH_PROMINENCE);
+            prominence(&y, i) >= threshold
+        })
+        .collect()
+}
+
+/// Position of the smallest value between two positions.
+fn valley(y: &[f64], first: usize, last: usize) -> usize {
+    (first..=last).fold(first, |lowest, i| if y[i] < y[lowest] { i } else { lowest })
+}
+
+/// Logarithmic height of a maximum above the higher of the two lowest passes to higher ground.
+fn prominence(y: &[f64], top: usize) -> f64 {
+    let descent = |walk: &mut dyn Iterator<Item = usize>| {
+        let mut lowest = y[top];
+        for i in walk {
+            if y[i] > y[top] {
+                break;
+            }
+            lowest = lowest.min(y[i]);
+        }
+        lowest
+    };
+    let left = descent(&mut (0..top).rev());
+    let right = descent(&mut (top + 1..y.len()));
+    let pass = left.max(right);
+    if pass > 0.0 {
+        (y[top] / pass).ln()
+    } else {
+        f64::INFINITY
+    }
+}
+
+/// Top and half-power points around one maximum.
+fn measure(f: &[f64], y: &[f64], top: usize) -> HalfPowerBand {
+    // Inverse power relative to the largest sample: 1 at the top, 2 at half power.
+    let inverse = |i: usize| (y[top] / y[i]).powi(2);
+    let walk = |limit: f64, step: isize| {
+        let mut i = top;
+        while let Some(next) = i.checked_add_signed(step).filter(|n| *n < y.len()) {
+            if inverse(next) > limit {
+                break;
+            }
+            i = next;
+        }
+        i
+    };
+    let (mut f0, mut least) = (f[top], 1.0);
+    let (first, last) = (walk(1.4, -1), walk(1.4, 1));
+    if last - first >= 4
+        && let Some([c, b, a]) = parabola(f, first..last + 1, f[top], inverse)
+    {
+        let shift = -0.5 * b / a;
+        if a > 0.0 && f[first] <= f[top] + shift && f[top] + shift <= f[last] {
+            f0 = f[top] + shift;
+            least = c - 0.25 * b * b / a;
+        }
+    }
+    let low = crossing(f, y.len(), top, -1, least, inverse);
+    let high = crossing(f, y.len(), top, 1, least, inverse);
+    let mut band = HalfPowerBand {
+        frequency_hz: f0,
+        magnitude: y[top],
+        band_hz: None,
+        damping_factor: None,
+        note: Some(ResonanceNote::OneSided),
+    };
+    if let (Some(low), Some(high)) = (low, high) {
+        band.band_hz = Some((low, high));
+        let lines = f.partition_point(|f| *f <= high) - f.partition_point(|f| *f < low);
+        if lines < LINES_NEEDED {
+            band.note = Some(ResonanceNote::TooCoarse(lines));
+        } else {
+            band.note = None;
+            band.damping_factor = Some(0.5 * (high - low) / f0);
+        }
+    }
+    band
+}
+
+/// Frequency where the inverse power passes `2 least` on one side of the top.
+fn crossing(
+    f: &[f64],
+    count: usize,
+    top: usize,
+    step: isize,
+    least: f64,
+    inverse: impl Fn(usize) -> f64 + Copy,
+) -> Option<f64> {
+    let level = 2.0 * least;
+    // The flank from 1.5 to 2.7 times the least inverse power; it must be left upwards.
+    let (mut near, mut far) = (top, top);
+    while let Some(i) = far.checked_add_signed(step).filter(|n| *n < count) {
+        far = i;
+        if inverse(i) < 1.5 * least {
+            near = i;
+        }
+        if inverse(i) > 2.7 * least {
+            break;
+        }
+    }
+    let range = near.min(far)..near.max(far) + 1;
+    if range.len() >= 8 {
+        let centre = 0.5 * (f[near] + f[far]);
+        if let Some([c, b, a]) = parabola(f, range, centre, inverse) {
+            // Newton from the centre of the flank, where the slope cannot vanish.
+            let mut x = 0.0;
+            for _ in 0..20 {
+                x -= (c + x * (b + a * x) - level) / (b + 2.0 * a * x);
+            }
+            let reach = (f[far] - f[near]).abs();
+            if x.abs() <= reach {
+                return Some(centre + x);
+            }
+        }
+    }
+    // Few lines: linear between the two around the level.
+    let mut i = top;
+    loop {
+        let next = i.checked_add_signed(step).filter(|n| *n < count)?;
+        if inverse(next) >= level {
+            let t = (level - inverse(i)) / (inverse(next) - inverse(i));
+            return Some(f[i] + t * (f[next] - f[i]));
+        }
+        i = next;
+    }
+}
+
+/// Least-squares parabola `c + b x + a x^2`, `x = f - centre`, through the inverse power.
+fn parabola(
+    f: &[f64],
+    range: std::ops::Range<usize>,
+    centre: f64,
+    inverse: impl Fn(usize) -> f64,
+) -> Option<[f64; 3]> {
+    let scale = (f[range.end - 1] - f[range.start]).max(f64::MIN_POSITIVE);
+    let mut normal = nalgebra::Matrix3::<f64>::zeros();
+    let mut right = nalgebra::Vector3::<f64>::zeros();
+    for i in range {
+        let x = (f[i] - centre) / scale;
+        let row = nalgebra::Vector3::new(1.0, x, x * x);
+        normal += row * row.transpose();
+        right += row * inverse(i);
+    }
+    let s = normal.lu().solve(&right)?;
+    Some([s[0], s[1] / scale, s[2] / (scale * scale)])
+}
+
+/// Marks bands that reach into one another.
+fn mark_overlaps(bands: &mut [HalfPowerBand]) {
+    for i in 1..bands.len() {
+        let (left, right) = (bands[i - 1], bands[i]);
+        let reach = left.band_hz.map_or(left.frequency_hz, |b| b.1);
+        let begin = right.band_hz.map_or(right.frequency_hz, |b| b.0);
+        if reach > begin {
+            bands[i - 1].note = Some(ResonanceNote::Overlaps(right.frequency_hz));
+            bands[i].note = Some(ResonanceNote::Overlaps(left.frequency_hz));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use faer::c64;
+    use std::f64::consts::TAU;
+
+    fn single(zeta: f64, f0: f64, quantity: ResponseQuantity, step: f64) -> FrequencyResponse {
+        let w0 = TAU * f0;
+        let f: Vec<f64> = (1..(2.0 * f0 / step) as usize)
+            .map(|i| i as f64 * step)
+            .collect();
+        let h = f
+            .iter()
+            .map(|f| {
+                let s = c64::new(0.0, TAU * f);
+                s.powi(quantity.derivatives()) / (s * s + s * (2.0 * zeta * w0) + w0 * w0)
+            })
+            .collect();
+        FrequencyResponse::new(f, h, quantity).unwrap()
+    }
+
+    #[test]
+    fn one_mode_gives_its_damping_factor_from_every_quantity() {
+        for quantity in [
+            ResponseQuantity::Receptance,
+            ResponseQuantity::Mobility,
+            ResponseQuantity::Accelerance,
+        ] {
+            for zeta in [0.003, 0.02, 0.1] {
+                let bands = half_power(&single(zeta, 2000.0, quantity, 0.5)).unwrap();
+                assert_eq!(bands.len(), 1);
+                let found = bands[0].damping_factor.unwrap();
+                // The parabolas through the flanks: 0.3 %, growing with the band's asymmetry.
+                assert!(
+                    (found / zeta - 1.0).abs() < 3e-3 + 0.1 * zeta,
+                    "{zeta} {found}"
+                );
+                assert!((bands[0].frequency_hz / 2000.0 - 1.0).abs() < 0.2 * zeta);
+            }
+        }
+    }
+
+    #[test]
+    fn coarse_lines_are_reported_instead_of_a_damping_factor() {
+        let bands = half_power(&single(0.004, 2000.0, ResponseQuantity::Accelerance, 7.0)).unwrap();
+        assert!(matches!(
+            bands[0].note,
+            Some(ResonanceNote::TooCoarse(1..=4))
+        ));
+        assert_eq!(bands[0].damping_factor, None);
+    }
+}

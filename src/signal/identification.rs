@@ -1,0 +1,175 @@
+//! From a frequency response to Rayleigh coefficients, by two estimators side by side.
+
+use super::half_power::{HalfPowerBand, LINES_NEEDED, ResonanceNote, half_power};
+use super::modal_basis::Pole;
+use super::modal_fit::{FittedMode, ModalFit, fit_modes};
+use super::rayleigh::{DampingSample, RayleighFit, fit_rayleigh};
+use super::{FrequencyResponse, SignalError};
+use faer::Mat;
+
+/// Largest relative standard error of a damping factor that still enters the Rayleigh fit.
+const LARGEST_RELATIVE_ERROR: f64 = 0.1;
+
+/// What to identify from.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct IdentificationOptions {
+    /// Frequencies to use, Hz; left out: all.
+    pub range_hz: Option<(f64, f64)>,
+}
+
+/// One mode with both estimates of its damping.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct IdentifiedMode {
+    /// From the fit of the whole response.
+    pub fitted: FittedMode,
+    /// From the half-power points, where the mode shows a peak.
+    pub half_power: Option<HalfPowerBand>,
+    /// Whether the fitted damping factor enters the Rayleigh coefficients: its standard error is
+    /// below 10 %.
+    pub is_used: bool,
+}
+
+/// Modes, Rayleigh coefficients and the evidence for them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Identification {
+    /// Modes by frequency.
+    pub modes: Vec<IdentifiedMode>,
+    /// Coefficients from the fitted damping factors.
+    pub rayleigh: RayleighFit,
+    /// Coefficients from the half-power factors alone, where at least three modes have one that is
+    /// not in doubt.
+    pub half_power_rayleigh: Option<RayleighFit>,
+    /// Peaks of which the fit made no mode.
+    pub unmatched: Vec<HalfPowerBand>,
+    /// The fit.
+    pub fit: ModalFit,
+}
+
+/// Finds the resonances of a response, their damping factors and the Rayleigh coefficients.
+///
+/// [`half_power`] finds the peaks; [`fit_modes`] starts from them; [`fit_rayleigh`] takes the fitted
+/// factors with their covariance, and beside it the half-power factors without. Close modes are
+/// marked in both lists: the half-power Rayleigh fit leaves them out, the other takes them with the
+/// covariance that their overlap gives them.
+///
+/// # Errors
+/// [`SignalError`]: no resonance, resolution too coarse for every one of them, too few modes.
+pub fn identify(
+    response: &FrequencyResponse,
+    options: &IdentificationOptions,
+) -> Result<Identification, SignalError> {
+    let cut;
+    let response = match options.range_hz {
+        Some((low, high)) => {
+            cut = response.within(low, high)?;
+            &cut
+        }
+        None => response,
+    };
+    let bands = half_power(response)?;
+    refuse_coarse(response, &bands)?;
+    let fit = fit_modes(response, &starts(&bands))?;
+    let mut modes: Vec<IdentifiedMode> = fit
+        .modes
+        .iter()
+        .map(|fitted| IdentifiedMode {
+            fitted: *fitted,
+            half_power: None,
+            is_used: fitted.standard_error < LARGEST_RELATIVE_ERROR * fitted.damping_factor.value,
+        })
+        .collect();
+    let mut unmatched = Vec::new();
+    for band in &bands {
+        match nearest(&modes, band.frequency_hz) {
+            Some(k) => modes[k].half_power = Some(with_hidden_neighbour(*band, &fit.modes[k])),
+            None => unmatched.push(*band),
+        }
+    }
+    let used: Vec<usize> = (0..modes.len()).filter(|&k| modes[k].is_used).collect();
+    let samples: Vec<DampingSample> = used
+        .iter()
+        .map(|&k| DampingSample {
+            frequency_hz: modes[k].fitted.frequency_hz.value,
+            damping_factor: modes[k].fitted.damping_factor.value,
+        })
+        .collect();
+    let covariance = Mat::from_fn(used.len(), used.len(), |i, j| {
+        fit.damping_covariance[(used[i], used[j])]
+    });
+    Ok(Identification {
+        rayleigh: fit_rayleigh(&samples, Some(&covariance))?,
+        half_power_rayleigh: half_power_rayleigh(&modes),
+        modes,
+        unmatched,
+        fit,
+    })
+}
+
+/// Coefficients from half-power factors that carry no doubt.
+fn half_power_rayleigh(modes: &[IdentifiedMode]) -> Option<RayleighFit> {
+    let samples: Vec<DampingSample> = modes
+        .iter()
+        .filter_map(|m| m.half_power)
+        .filter(|b| b.note.is_none())
+        .filter_map(|b| {
+            Some(DampingSample {
+                frequency_hz: b.frequency_hz,
+                damping_factor: b.damping_factor?,
+            })
+        })
+        .collect();
+    fit_rayleigh(&samples, None).ok()
+}
+
+/// A response whose every half-power band is too coarse cannot give a damping factor.
+fn refuse_coarse(response: &FrequencyResponse, bands: &[HalfPowerBand]) -> Result<(), SignalError> {
+    let coarse = |b: &HalfPowerBand| matches!(b.note, Some(ResonanceNote::TooCoarse(_)));
+    match bands.first() {
+        Some(first) if bands.iter().all(coarse) => Err(SignalError::Unresolved {
+            resolution_hz: response.resolution_hz(),
+            frequency_hz: first.frequency_hz,
+            needed: LINES_NEEDED,
+        }),
+        _ => Ok(()),
+    }
+}
+
+/// First poles for the fit: half-power widths, or the typical damping where there is none.
+fn starts(bands: &[HalfPowerBand]) -> Vec<Pole> {
+    let width = |b: &HalfPowerBand| {
+        b.band_hz
+            .map(|(low, high)| 0.5 * (high - low) / b.frequency_hz)
+    };
+    let known: Vec<f64> = bands.iter().filter_map(width).collect();
+    let typical = if known.is_empty() {
+        0.01
+    } else {
+        super::statistics::median(&known)
+    };
+    bands
+        .iter()
+        .map(|b| Pole {
+            frequency_hz: b.frequency_hz,
+            damping_factor: width(b).unwrap_or(typical).clamp(1e-5, 0.2),
+        })
+        .collect()
+}
+
+/// The mode whose fitted frequency is nearest to a peak, within its bandwidth.
+fn nearest(modes: &[IdentifiedMode], frequency_hz: f64) -> Option<usize> {
+    let miss = |k: usize| (modes[k].fitted.frequency_hz.value - frequency_hz).abs();
+    let k = (0..modes.len())
+        .filter(|&k| modes[k].half_power.is_none())
+        .min_by(|i, j| miss(*i).total_cmp(&miss(*j)))?;
+    let fitted = modes[k].fitted;
+    let width = 2.0 * fitted.damping_factor.value * fitted.frequency_hz.value;
+    (miss(k) <= width).then_some(k)
+}
+
+/// A single peak over two modes looks sound to the half-power method; the fit knows better.
+fn with_hidden_neighbour(mut band: HalfPowerBand, fitted: &FittedMode) -> HalfPowerBand {
+    if let (None, Some(other)) = (band.note, fitted.overlaps_hz) {
+        band.note = Some(ResonanceNote::Overlaps(other));
+    }
+    band
+}

@@ -1,0 +1,242 @@
+//! A frequency response as a sum of modes and a smooth remainder.
+
+use super::ResponseQuantity;
+use faer::{Mat, c64};
+use std::f64::consts::TAU;
+
+/// Lowest power of `s` in the remainder: damped rigid-body motion, `1/(s^2 + alpha s)`, expanded.
+const LOWEST_POWER: i32 = -3;
+
+/// An underdamped pole pair.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pole {
+    /// Undamped natural frequency, Hz.
+    pub frequency_hz: f64,
+    /// Damping factor.
+    pub damping_factor: f64,
+}
+
+impl Pole {
+    /// Undamped natural frequency, rad/s.
+    pub fn angular_frequency(&self) -> f64 {
+        TAU * self.frequency_hz
+    }
+
+    /// Width of the half-power band, Hz.
+    pub fn bandwidth_hz(&self) -> f64 {
+        2.0 * self.damping_factor * self.frequency_hz
+    }
+}
+
+/// `H(s) = s^p [ sum_k (a_k + b_k s) / (s^2 + 2 zeta_k u_k s + u_k^2) + sum_m c_m s^m ]` with
+/// `s = i f / f_ref`, `u_k = f_k / f_ref` and real `a, b, c`: every response of a real linear system,
+/// its out-of-band modes expanded; `p = 0, 1, 2` for receptance, mobility, accelerance.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ModalModel {
+    /// Quantity of the response.
+    pub quantity: ResponseQuantity,
+    /// Poles.
+    pub poles: Vec<Pole>,
+    /// `[a_k, b_k]` of each pole.
+    pub numerators: Vec<[f64; 2]>,
+    /// `c_m`, `m = -3, -2, ...`.
+    pub remainder: Vec<f64>,
+    /// `f_ref`, Hz.
+    pub reference_hz: f64,
+}
+
+impl ModalModel {
+    /// Response at a frequency above zero, Hz.
+    pub fn evaluate(&self, frequency_hz: f64) -> c64 {
+        let s = c64::new(0.0, frequency_hz / self.reference_hz);
+        let mut sum = c64::new(0.0, 0.0);
+        for c in self.remainder.iter().rev() {
+            sum = sum * s + *c;
+        }
+        sum *= s.powi(LOWEST_POWER);
+        for (pole, [a, b]) in self.poles.iter().zip(&self.numerators) {
+            let u = pole.frequency_hz / self.reference_hz;
+            sum += (s * *b + *a) / (s * s + s * (2.0 * pole.damping_factor * u) + u * u);
+        }
+        s.powi(self.quantity.derivatives()) * sum
+    }
+}
+
+/// The frequency lines at which the functions of a model are needed, with their weights.
+pub(super) struct Lines {
+    /// `f / f_ref`.
+    x: Vec<f64>,
+    /// `s^p` times the weight.
+    factor: Vec<c64>,
+    reference_hz: f64,
+}
+
+/// A complex column of a real matrix: real parts above, imaginary parts below.
+struct Column<'a> {
+    re: &'a mut [f64],
+    im: &'a mut [f64],
+}
+
+impl Column<'_> {
+    fn set(&mut self, i: usize, value: c64) {
+        self.re[i] = value.re;
+        self.im[i] = value.im;
+    }
+}
+
+fn column(matrix: &mut Mat<f64>, k: usize) -> Column<'_> {
+    let half = matrix.nrows() / 2;
+    let (re, im) = matrix.col_as_slice_mut(k).split_at_mut(half);
+    Column { re, im }
+}
+
+impl Lines {
+    pub(super) fn new(
+        frequencies_hz: &[f64],
+        weights: &[f64],
+        quantity: ResponseQuantity,
+        reference_hz: f64,
+    ) -> Self {
+        let x: Vec<f64> = frequencies_hz.iter().map(|f| f / reference_hz).collect();
+        let factor = x
+            .iter()
+            .zip(weights)
+            .map(|(x, w)| c64::new(0.0, *x).powi(quantity.derivatives()) * *w)
+            .collect();
+        Self {
+            x,
+            factor,
+            reference_hz,
+        }
+    }
+
+    pub(super) fn reference_hz(&self) -> f64 {
+        self.reference_hz
+    }
+
+    /// Scaled frequency and scaled damping `(u, 2 zeta u)`.
+    fn parts(&self, pole: Pole) -> (f64, f64) {
+        let u = pole.frequency_hz / self.reference_hz;
+        (u, 2.0 * pole.damping_factor * u)
+    }
+
+    /// Weighted functions in which the model is linear: two columns for each pole, then the
+    /// remainder, from column `first` on.
+    pub(super) fn fill_linear(
+        &self,
+        poles: &[Pole],
+        remainder: usize,
+        first: usize,
+        matrix: &mut Mat<f64>,
+    ) {
+        for (k, pole) in poles.iter().enumerate() {
+            let (u, d) = self.parts(*pole);
+            let mut target = column(matrix, first + 2 * k);
+            for (i, (x, factor)) in self.x.iter().zip(&self.factor).enumerate() {
+                target.set(i, factor * inverse(*x, u, d));
+            }
+            self.fill_times_s(first + 2 * k, matrix);
+        }
+        let from = first + 2 * poles.len();
+        if remainder > 0 {
+            let mut target = column(matrix, from);
+            for (i, (x, factor)) in self.x.iter().zip(&self.factor).enumerate() {
+                target.set(i, factor * c64::new(0.0, *x).powi(LOWEST_POWER));
+            }
+        }
+        for m in 1..remainder {
+            self.fill_times_s(from + m - 1, matrix);
+        }
+    }
+
+    /// Column `k + 1` becomes `s` times column `k`.
+    fn fill_times_s(&self, k: usize, matrix: &mut Mat<f64>) {
+        let half = matrix.nrows() / 2;
+        for (i, x) in self.x.iter().enumerate() {
+            let (re, im) = (matrix[(i, k)], matrix[(half + i, k)]);
+            matrix[(i, k + 1)] = -im * x;
+            matrix[(half + i, k + 1)] = re * x;
+        }
+    }
+
+    /// Weighted derivatives of the model with respect to `ln f_k` and `ln zeta_k`: two columns for
+    /// each pole from column 0 on.
+    pub(super) fn fill_pole_derivatives(&self, model: &ModalModel, matrix: &mut Mat<f64>) {
+        for (k, (pole, [a, b])) in model.poles.iter().zip(&model.numerators).enumerate() {
+            let (u, d) = self.parts(*pole);
+            let slope = |i: usize| {
+                let x = self.x[i];
+                let inverse = inverse(x, u, d);
+                -(self.factor[i] * c64::new(*a, b * x) * inverse * inverse)
+            };
+            let mut target = column(matrix, 2 * k + 1);
+            for (i, x) in self.x.iter().enumerate() {
+                target.set(i, slope(i) * c64::new(0.0, d * x));
+            }
+            // The derivative in frequency is slope (2 u^2 + i d x); the slope is recovered from the
+            // column above instead of divided for again.
+            let half = matrix.nrows() / 2;
+            for (i, x) in self.x.iter().enumerate() {
+                let ratio = 2.0 * u * u / (d * x);
+                let (re, im) = (matrix[(i, 2 * k + 1)], matrix[(half + i, 2 * k + 1)]);
+                matrix[(i, 2 * k)] = re + ratio * im;
+                matrix[(half + i, 2 * k)] = im - ratio * re;
+            }
+        }
+    }
+
+    /// Model times weight on every line.
+    pub(super) fn weighted_values(&self, model: &ModalModel) -> Vec<c64> {
+        let mut sums = vec![c64::new(0.0, 0.0); self.x.len()];
+        for (k, x) in self.x.iter().enumerate() {
+            // Horner over i x, then (i x)^-3 = i / x^3.
+            let mut sum = c64::new(0.0, 0.0);
+            for c in model.remainder.iter().rev() {
+                sum = c64::new(c - x * sum.im, x * sum.re);
+            }
+            let cube = 1.0 / (x * x * x);
+            sums[k] = c64::new(-sum.im * cube, sum.re * cube);
+        }
+        for (pole, [a, b]) in model.poles.iter().zip(&model.numerators) {
+            let (u, d) = self.parts(*pole);
+            for (sum, x) in sums.iter_mut().zip(&self.x) {
+                *sum += c64::new(*a, b * x) * inverse(*x, u, d);
+            }
+        }
+        for (sum, factor) in sums.iter_mut().zip(&self.factor) {
+            *sum *= factor;
+        }
+        sums
+    }
+
+    /// Squared length of the projection of a weighted residual on the two functions of a pole,
+    /// over the lines within `reach` bandwidths.
+    pub(super) fn projection(&self, residual: &[c64], pole: Pole, reach: f64) -> f64 {
+        let (u, d) = self.parts(pole);
+        let first = self.x.partition_point(|x| *x < u - reach * d);
+        let last = self.x.partition_point(|x| *x <= u + reach * d);
+        let (mut gg, mut hh, mut gr, mut hr) = (0.0, 0.0, 0.0, 0.0);
+        let lines = self.x[first..last].iter().zip(&self.factor[first..last]);
+        for ((x, factor), r) in lines.zip(&residual[first..last]) {
+            let g = factor * inverse(*x, u, d);
+            // The second function is s g: g turned by a right angle and stretched by x, hence
+            // orthogonal to it.
+            gg += g.norm_sqr();
+            hh += g.norm_sqr() * x * x;
+            gr += g.re * r.re + g.im * r.im;
+            hr += x * (g.re * r.im - g.im * r.re);
+        }
+        if gg > 0.0 {
+            gr * gr / gg + hr * hr / hh
+        } else {
+            0.0
+        }
+    }
+}
+
+/// `1 / (s^2 + d s + u^2)` at `s = i x`.
+fn inverse(x: f64, u: f64, d: f64) -> c64 {
+    let (re, im) = (u * u - x * x, d * x);
+    let norm = re * re + im * im;
+    c64::new(re / norm, -im / norm)
+}

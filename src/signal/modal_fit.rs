@@ -1,0 +1,304 @@
+//! Modal frequencies and damping factors from a fit of the whole frequency response.
+
+use super::least_squares::{Fitted, Problem};
+use super::modal_basis::{ModalModel, Pole};
+use super::rayleigh::Estimate;
+use super::statistics::{NORMAL_95, median};
+use super::{FrequencyResponse, NoiseModel, SignalError};
+use faer::{Mat, c64};
+
+/// Remainder terms to begin with: `s^-3 .. s^0`.
+const REMAINDER: usize = 4;
+/// Most remainder terms: up to `s^6`.
+const MOST_REMAINDER: usize = 10;
+/// A further pole must lower chi-square by this share at least, whatever its significance.
+const LEAST_SHARE: f64 = 5e-3;
+/// Bandwidths to either side over which a further pole is looked for.
+const REACH: f64 = 10.0;
+/// Largest damping factor of a pole that is called a mode.
+const MOST_DAMPED: f64 = 0.3;
+/// The fit begins at this share of the first resonance: below, a suspension or the damping of
+/// rigid-body motion bends the response.
+const BELOW_FIRST: f64 = 0.5;
+
+/// A mode of the fitted model within the frequency range.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FittedMode {
+    /// Undamped natural frequency, Hz.
+    pub frequency_hz: Estimate,
+    /// Damping factor.
+    pub damping_factor: Estimate,
+    /// Standard error of the damping factor.
+    pub standard_error: f64,
+    /// Frequency of another mode whose half-power band overlaps this one's, Hz.
+    pub overlaps_hz: Option<f64>,
+}
+
+/// A modal model fitted to a frequency response.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ModalFit {
+    /// The model, out-of-range poles included.
+    pub model: ModalModel,
+    /// Modes within the range, by frequency.
+    pub modes: Vec<FittedMode>,
+    /// Covariance of the modes' damping factors.
+    pub damping_covariance: Mat<f64>,
+    /// Noise found from the residuals.
+    pub noise: NoiseModel,
+    /// Poles added to those given, because the residual asked for them, in and out of range.
+    pub added_poles: usize,
+    /// Factor by which correlation of the residuals along frequency widens the variances; 1 for a
+    /// complete model under white noise.
+    pub correlation: f64,
+    /// Lowest and highest frequency used, Hz.
+    pub range_hz: (f64, f64),
+}
+
+/// Fits poles and numerators of a [`ModalModel`] to a response, starting from `starts`.
+///
+/// Maximum likelihood under Gaussian noise with the variance of [`NoiseModel`], which is estimated
+/// along with the model. While the residual shows it, the smooth remainder gets more terms (Akaike's
+/// criterion) and poles are added, within the range or beyond its ends (Bayes' criterion): a
+/// close pair that shows one peak is found as two. Standard errors come from the normal matrix, the
+/// residual variance and the correlation of successive residuals; they do not cover a wrong
+/// calibration nor leakage. Without phase no poles are added and signs of the numerators may be
+/// wrong, which the residual then tells.
+///
+/// # Errors
+/// [`SignalError::NoResonance`] without starts; [`SignalError::TooShort`] for fewer lines than
+/// unknowns; [`SignalError::Fit`] if the normal equations are singular.
+pub fn fit_modes(response: &FrequencyResponse, starts: &[Pole]) -> Result<ModalFit, SignalError> {
+    let f = response.frequencies_hz();
+    let (begin, end) = (f[0], f[f.len() - 1]);
+    let Some(lowest) = starts.iter().map(|p| p.frequency_hz).reduce(f64::min) else {
+        return Err(SignalError::NoResonance {
+            low_hz: begin,
+            high_hz: end,
+        });
+    };
+    let part = response.within((BELOW_FIRST * lowest).max(begin), end)?;
+    let needed = 4 * starts.len() + REMAINDER + 1;
+    let mut noise = NoiseModel::from_differences(part.values(), part.has_phase());
+    let mut problem = Problem::new(&part, noise, &part.magnitudes());
+    if problem.data_count() <= needed {
+        return Err(SignalError::TooShort {
+            what: "the frequency response",
+            count: part.values().len(),
+            needed,
+            remedy: "more lines than unknowns are needed; measure finer or restrict the range",
+        });
+    }
+    let mut fitted = problem.fit(starts, REMAINDER)?;
+    fitted = extended(&problem, fitted, starts.len(), &part)?;
+    for _ in 0..2 {
+        let values = problem.values(&fitted.model);
+        let squares: Vec<f64> = problem
+            .residuals(&values)
+            .iter()
+            .map(|r| r.norm_sqr())
+            .collect();
+        let moduli: Vec<f64> = values.iter().map(|v| v.norm()).collect();
+        noise = NoiseModel::from_squares(&squares, &moduli, part.has_phase());
+        problem = Problem::new(&part, noise, &moduli);
+        fitted = problem.fit(&fitted.model.poles, fitted.model.remainder.len())?;
+    }
+    Ok(summarised(&problem, fitted, noise, starts.len(), &part))
+}
+
+/// Adds remainder terms and poles while the residual asks for them.
+fn extended(
+    problem: &Problem,
+    mut best: Fitted,
+    starts: usize,
+    part: &FrequencyResponse,
+) -> Result<Fitted, SignalError> {
+    let most_poles = if part.has_phase() {
+        2 * starts + 4
+    } else {
+        starts
+    };
+    let count = problem.data_count();
+    for _ in 0..(starts + 8) {
+        let poles = best.model.poles.clone();
+        let terms = best.model.remainder.len();
+        let room = |more: usize| 4 * poles.len() + terms + more < count / 2;
+        let mut gain = 0.0;
+        let mut next = None;
+        if terms + 2 <= MOST_REMAINDER
+            && room(2)
+            && let Ok(trial) = problem.fit(&poles, terms + 2)
+        {
+            let gained = best.chi_square - trial.chi_square - 4.0;
+            // The variance unit is only an estimate, hence the share of the misfit.
+            if gained > 1e-6 * best.chi_square {
+                gain = gained;
+                next = Some(trial);
+            }
+        }
+        if poles.len() < most_poles
+            && room(4)
+            && let Some(candidate) = candidate(problem, &best, part)
+        {
+            let more: Vec<Pole> = poles.iter().copied().chain([candidate]).collect();
+            let penalty = (4.0 * (count as f64).ln()).max(LEAST_SHARE * best.chi_square);
+            if let Ok(trial) = problem.fit(&more, terms) {
+                let gained = best.chi_square - trial.chi_square - penalty;
+                if gained > gain && are_modes(&trial.model.poles) {
+                    next = Some(trial);
+                }
+            }
+        }
+        match next {
+            Some(trial) => best = trial,
+            None => break,
+        }
+    }
+    Ok(best)
+}
+
+/// Whether all poles could be modes, none twice the same.
+fn are_modes(poles: &[Pole]) -> bool {
+    let plausible = poles
+        .iter()
+        .all(|p| p.damping_factor > 1e-6 && p.damping_factor < 0.89);
+    let distinct = poles.iter().enumerate().all(|(i, p)| {
+        poles[..i].iter().all(|q| {
+            let apart = (p.frequency_hz - q.frequency_hz).abs()
+                + (p.bandwidth_hz() - q.bandwidth_hz()).abs();
+            apart > 0.02 * p.bandwidth_hz().min(q.bandwidth_hz())
+        })
+    });
+    plausible && distinct
+}
+
+/// The pole whose functions take most out of the residual, on a grid reaching a tenth beyond the
+/// range.
+fn candidate(problem: &Problem, fitted: &Fitted, part: &FrequencyResponse) -> Option<Pole> {
+    let model = &fitted.model;
+    let residual = problem.weighted_residuals(&problem.values(model));
+    let f = part.frequencies_hz();
+    let dampings: Vec<f64> = model.poles.iter().map(|p| p.damping_factor).collect();
+    let typical = median(&dampings).clamp(1e-4, 0.1);
+    let mut best = None;
+    let mut best_gain = 0.0;
+    for share in [0.5, 1.0, 2.0] {
+        let damping_factor = share * typical;
+        let step = 1.0 + (2.0 * damping_factor).max(0.002);
+        let mut frequency_hz = 0.97 * f[0];
+        while frequency_hz < 1.1 * f[f.len() - 1] {
+            let pole = Pole {
+                frequency_hz,
+                damping_factor,
+            };
+            let gain = problem.lines().projection(&residual, pole, REACH);
+            if gain > best_gain {
+                best_gain = gain;
+                best = Some(pole);
+            }
+            frequency_hz *= step;
+        }
+    }
+    best
+}
+
+/// `1 + 2 sum rho_k` over the first lags at which the residuals are correlated beyond chance.
+fn correlation(residual: &[c64]) -> f64 {
+    let n = residual.len();
+    let power: f64 = residual.iter().map(|r| r.norm_sqr()).sum();
+    let chance = 2.0 / (n as f64).sqrt();
+    let mut factor = 1.0;
+    for lag in 1..(n / 8).max(2) {
+        let sum: f64 = residual[lag..]
+            .iter()
+            .zip(residual)
+            .map(|(a, b)| a.re * b.re + a.im * b.im)
+            .sum();
+        let rho = sum / power;
+        if rho < chance || !rho.is_finite() {
+            break;
+        }
+        factor += 2.0 * rho;
+    }
+    factor
+}
+
+/// Modes within the range, with their errors.
+fn summarised(
+    problem: &Problem,
+    fitted: Fitted,
+    noise: NoiseModel,
+    starts: usize,
+    part: &FrequencyResponse,
+) -> ModalFit {
+    let Fitted {
+        model,
+        chi_square,
+        inverse_normal,
+    } = fitted;
+    let residual = problem.weighted_residuals(&problem.values(&model));
+    let unknowns = (4 * model.poles.len() + model.remainder.len()) as f64;
+    let correlation = correlation(&residual);
+    let variance = correlation * chi_square / (problem.data_count() as f64 - unknowns).max(1.0);
+    let f = part.frequencies_hz();
+    let (begin, end) = (f[0], f[f.len() - 1]);
+    let mut inside: Vec<usize> = (0..model.poles.len())
+        .filter(|&k| {
+            let p = model.poles[k];
+            (begin..=end).contains(&p.frequency_hz) && p.damping_factor < MOST_DAMPED
+        })
+        .collect();
+    inside.sort_by(|i, j| {
+        model.poles[*i]
+            .frequency_hz
+            .total_cmp(&model.poles[*j].frequency_hz)
+    });
+    let estimate = |value: f64, relative_error: f64| Estimate {
+        value,
+        low: value * (1.0 - NORMAL_95 * relative_error),
+        high: value * (1.0 + NORMAL_95 * relative_error),
+    };
+    let error = |column: usize| {
+        (variance * inverse_normal[(column, column)])
+            .max(0.0)
+            .sqrt()
+    };
+    let modes = inside
+        .iter()
+        .map(|&k| {
+            let pole = model.poles[k];
+            let overlaps_hz = inside
+                .iter()
+                .map(|&j| model.poles[j])
+                .filter(|q| *q != pole)
+                .filter(|q| {
+                    let half_widths = 0.5 * (q.bandwidth_hz() + pole.bandwidth_hz());
+                    (q.frequency_hz - pole.frequency_hz).abs() < half_widths
+                })
+                .map(|q| q.frequency_hz)
+                .reduce(|a, b| {
+                    let nearer = |x: f64| (x - pole.frequency_hz).abs();
+                    if nearer(a) <= nearer(b) { a } else { b }
+                });
+            FittedMode {
+                frequency_hz: estimate(pole.frequency_hz, error(2 * k)),
+                damping_factor: estimate(pole.damping_factor, error(2 * k + 1)),
+                standard_error: pole.damping_factor * error(2 * k + 1),
+                overlaps_hz,
+            }
+        })
+        .collect();
+    let damping_covariance = Mat::from_fn(inside.len(), inside.len(), |i, j| {
+        let (p, q) = (inside[i], inside[j]);
+        let zetas = model.poles[p].damping_factor * model.poles[q].damping_factor;
+        variance * zetas * inverse_normal[(2 * p + 1, 2 * q + 1)]
+    });
+    ModalFit {
+        added_poles: model.poles.len() - starts,
+        model,
+        modes,
+        damping_covariance,
+        noise,
+        correlation,
+        range_hz: (begin, end),
+    }
+}

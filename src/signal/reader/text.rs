@@ -1,0 +1,63 @@
+//! Bytes to lines of text.
+
+/// Decodes UTF-8, UTF-16 (with a byte-order mark) or else Latin-1, and drops the mark.
+pub(super) fn decode(bytes: &[u8]) -> String {
+    let wide = |rest: &[u8], join: fn([u8; 2]) -> u16| {
+        let units: Vec<u16> = rest.chunks_exact(2).map(|p| join([p[0], p[1]])).collect();
+        String::from_utf16_lossy(&units)
+    };
+    match bytes {
+        [0xff, 0xfe, rest @ ..] => wide(rest, u16::from_le_bytes),
+        [0xfe, 0xff, rest @ ..] => wide(rest, u16::from_be_bytes),
+        [0xef, 0xbb, 0xbf, rest @ ..] => utf8_or_latin1(rest),
+        _ => utf8_or_latin1(bytes),
+    }
+}
+
+fn utf8_or_latin1(bytes: &[u8]) -> String {
+    match std::str::from_utf8(bytes) {
+        Ok(text) => text.to_string(),
+        Err(_) => bytes.iter().map(|b| char::from(*b)).collect(),
+    }
+}
+
+/// Lines with their 1-based numbers; ends are `\n`, `\r\n` or `\r`.
+pub(super) fn lines(text: &str) -> Vec<(usize, &str)> {
+    let mut out = Vec::new();
+    let mut rest = text;
+    let mut number = 1;
+    while !rest.is_empty() {
+        let (line, after) = match rest.find(['\n', '\r']) {
+            Some(end) => {
+                let skip = if rest[end..].starts_with("\r\n") {
+                    2
+                } else {
+                    1
+                };
+                (&rest[..end], &rest[end + skip..])
+            }
+            None => (rest, ""),
+        };
+        out.push((number, line));
+        number += 1;
+        rest = after;
+    }
+    out
+}
+
+/// The text of a comment line without its mark; `None` for other lines.
+pub(super) fn comment(line: &str) -> Option<&str> {
+    let trimmed = line.trim_start();
+    ["#", "%", "//", "!", "*"]
+        .iter()
+        .find_map(|mark| trimmed.strip_prefix(mark))
+}
+
+/// A field for a message, shortened to what fits.
+pub(super) fn shortened(field: &str) -> String {
+    const MOST: usize = 24;
+    if field.chars().count() <= MOST {
+        return field.to_string();
+    }
+    field.chars().take(MOST).chain("...".chars()).collect()
+}

@@ -1,0 +1,186 @@
+//! Frequency response functions.
+
+use super::error::{SignalError, check_finite};
+use faer::c64;
+use std::f64::consts::TAU;
+
+/// What a frequency response relates to a unit force.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ResponseQuantity {
+    /// Displacement, m/N.
+    Receptance,
+    /// Velocity, m/s/N.
+    Mobility,
+    /// Acceleration, m/s2/N.
+    Accelerance,
+}
+
+impl ResponseQuantity {
+    /// Number of time derivatives of the displacement: receptance times `(i omega)^this`.
+    pub fn derivatives(self) -> i32 {
+        match self {
+            ResponseQuantity::Receptance => 0,
+            ResponseQuantity::Mobility => 1,
+            ResponseQuantity::Accelerance => 2,
+        }
+    }
+
+    /// Name as written in headers, cases and options.
+    pub fn name(self) -> &'static str {
+        match self {
+            ResponseQuantity::Receptance => "receptance",
+            ResponseQuantity::Mobility => "mobility",
+            ResponseQuantity::Accelerance => "accelerance",
+        }
+    }
+}
+
+/// Response to a unit harmonic force over frequency.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FrequencyResponse {
+    frequencies_hz: Vec<f64>,
+    values: Vec<c64>,
+    quantity: ResponseQuantity,
+    has_phase: bool,
+}
+
+impl FrequencyResponse {
+    /// A complex response at rising frequencies, Hz.
+    ///
+    /// # Errors
+    /// [`SignalError`] for arrays of different or too small length (8), values that are not finite,
+    /// or frequencies that are negative or do not rise.
+    pub fn new(
+        frequencies_hz: Vec<f64>,
+        values: Vec<c64>,
+        quantity: ResponseQuantity,
+    ) -> Result<Self, SignalError> {
+        Self::checked(frequencies_hz, values, quantity, true)
+    }
+
+    /// A response of which only the magnitude was measured.
+    ///
+    /// # Errors
+    /// As [`FrequencyResponse::new`].
+    pub fn from_magnitudes(
+        frequencies_hz: Vec<f64>,
+        magnitudes: &[f64],
+        quantity: ResponseQuantity,
+    ) -> Result<Self, SignalError> {
+        let values = magnitudes.iter().map(|m| c64::new(m.abs(), 0.0)).collect();
+        Self::checked(frequencies_hz, values, quantity, false)
+    }
+
+    fn checked(
+        frequencies_hz: Vec<f64>,
+        values: Vec<c64>,
+        quantity: ResponseQuantity,
+        has_phase: bool,
+    ) -> Result<Self, SignalError> {
+        if frequencies_hz.len() != values.len() {
+            return Err(SignalError::Length {
+                left: frequencies_hz.len(),
+                right: values.len(),
+            });
+        }
+        if values.len() < 8 {
+            return Err(SignalError::TooShort {
+                what: "the frequency response",
+                count: values.len(),
+                needed: 8,
+                remedy: "measure more frequency lines",
+            });
+        }
+        check_finite("frequency", &frequencies_hz)?;
+        let parts: Vec<f64> = values.iter().map(|z| z.re + z.im).collect();
+        check_finite("response value", &parts)?;
+        for (i, f) in frequencies_hz.iter().enumerate() {
+            if *f < 0.0 || (i > 0 && *f <= frequencies_hz[i - 1]) {
+                return Err(SignalError::NotRising {
+                    index: i + 1,
+                    value: *f,
+                });
+            }
+        }
+        Ok(Self {
+            frequencies_hz,
+            values,
+            quantity,
+            has_phase,
+        })
+    }
+
+    /// Frequencies, Hz, rising.
+    pub fn frequencies_hz(&self) -> &[f64] {
+        &self.frequencies_hz
+    }
+
+    /// Response values, SI; real and non-negative where the phase is unknown.
+    pub fn values(&self) -> &[c64] {
+        &self.values
+    }
+
+    /// Moduli of the response.
+    pub fn magnitudes(&self) -> Vec<f64> {
+        self.values.iter().map(|z| z.norm()).collect()
+    }
+
+    /// Receptance, mobility or accelerance.
+    pub fn quantity(&self) -> ResponseQuantity {
+        self.quantity
+    }
+
+    /// Whether the phase is known.
+    pub fn has_phase(&self) -> bool {
+        self.has_phase
+    }
+
+    /// Largest distance of successive frequencies, Hz.
+    pub fn resolution_hz(&self) -> f64 {
+        self.frequencies_hz
+            .windows(2)
+            .map(|w| w[1] - w[0])
+            .fold(0.0, f64::max)
+    }
+
+    /// The same response as another quantity: values times `(i omega)^k`, `k` the difference in
+    /// time derivatives. A line at 0 Hz, which cannot be integrated, is left out.
+    ///
+    /// # Errors
+    /// [`SignalError::TooShort`] if fewer than 8 lines remain.
+    pub fn converted(&self, quantity: ResponseQuantity) -> Result<Self, SignalError> {
+        let power = quantity.derivatives() - self.quantity.derivatives();
+        let skip = usize::from(power < 0 && self.frequencies_hz[0] == 0.0);
+        let frequencies_hz = self.frequencies_hz[skip..].to_vec();
+        let values = frequencies_hz
+            .iter()
+            .zip(&self.values[skip..])
+            .map(|(f, z)| {
+                if self.has_phase {
+                    z * c64::new(0.0, TAU * f).powi(power)
+                } else {
+                    z * (TAU * f).powi(power)
+                }
+            })
+            .collect();
+        Self::checked(frequencies_hz, values, quantity, self.has_phase)
+    }
+
+    /// The lines between two frequencies, both included, Hz.
+    ///
+    /// # Errors
+    /// [`SignalError::TooShort`] if fewer than 8 lines remain.
+    pub fn within(&self, low_hz: f64, high_hz: f64) -> Result<Self, SignalError> {
+        let first = self.frequencies_hz.partition_point(|f| *f < low_hz);
+        let last = self
+            .frequencies_hz
+            .partition_point(|f| *f <= high_hz)
+            .max(first);
+        Self::checked(
+            self.frequencies_hz[first..last].to_vec(),
+            self.values[first..last].to_vec(),
+            self.quantity,
+            self.has_phase,
+        )
+    }
+}

@@ -1,0 +1,62 @@
+//! Detection of numbers that stopped making sense.
+
+use super::CentralDifference;
+use crate::transient::TransientError;
+
+/// Relative energy residual beyond which the numbers are not to be trusted; honest runs stay ten million times
+/// below it.
+const RESIDUAL_LIMIT: f64 = 1e-6;
+
+impl CentralDifference<'_> {
+    /// Refuses energies that no honest run has.
+    pub(super) fn check(&self, energy: f64, residual: f64) -> Result<(), TransientError> {
+        let (symptom, cause) = if !energy.is_finite() || !residual.is_finite() {
+            (
+                format!("the energy is {energy}"),
+                "Values left the range of numbers: check contact.rotation_speed_rpm, contact.interference \
+                 and transient.perturbation, or lower transient.time_step.",
+            )
+        } else if energy < -1e-9 * self.largest_energy {
+            (
+                format!("the energy is negative, {energy:.3e} J/m"),
+                "The time step is above the stability limit: lower transient.time_step.",
+            )
+        } else if residual > RESIDUAL_LIMIT {
+            (
+                format!("the energy balance is off by a fraction of {residual:.1e}"),
+                "Round-off dominates: lower transient.time_step, or check that forces and speeds are of a \
+                 sensible size.",
+            )
+        } else {
+            return Ok(());
+        };
+        Err(self.unstable(symptom, cause))
+    }
+
+    fn unstable(&self, symptom: String, cause: &'static str) -> TransientError {
+        let mesh = &self.model.annulus.mesh;
+        let speed = |node: usize| {
+            let [r, t] = [0, 1].map(|c| self.fields.velocity[self.operator.position(2 * node + c)]);
+            let speed = r.hypot(t);
+            if speed.is_nan() { f64::INFINITY } else { speed }
+        };
+        let (mut node, mut largest) = (0, speed(0));
+        for candidate in 1..mesh.node_count() {
+            let value = speed(candidate);
+            if value > largest {
+                (node, largest) = (candidate, value);
+            }
+        }
+        let [x, y] = mesh.nodes[node];
+        TransientError::Unstable {
+            time: (self.next_step - 1) as f64 * self.plan.time_step,
+            step: self.next_step - 1,
+            symptom,
+            node: node + 1,
+            angle_degrees: mesh.frame_angles[node].to_degrees(),
+            radius: x.hypot(y),
+            speed: largest,
+            cause,
+        }
+    }
+}

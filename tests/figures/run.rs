@@ -1,0 +1,110 @@
+//! Figures of a real run: the polycarbonate disc on a coarse mesh, seeded with harmonic 2.
+
+use crate::{check, synthetic};
+use frictionsim::contact::SlidingContact;
+use frictionsim::fem::operator::SimdLevel;
+use frictionsim::fem::{ElasticMaterial, PlaneFormulation, RayleighDamping};
+use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind};
+use frictionsim::results::figures::ReferenceFrequency;
+use frictionsim::results::run_figures::{RunFigures, draw_run};
+use frictionsim::transient::{
+    CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
+    TimeStep, TransientAnalysis, TransientModel, TransientSettings, build_operator,
+};
+use std::f64::consts::TAU;
+
+#[test]
+fn a_run_gets_every_figure_of_its_record() {
+    let annulus = AnnulusMesh::generate(&AnnulusSpecification {
+        inner_radius: 0.0205,
+        outer_radius: 0.0905,
+        circumferential_elements: 60,
+        radial_elements: 12,
+        radial_grading: 1.0,
+        element: ElementKind::Quad4,
+    })
+    .unwrap();
+    let rotation_speed = 610.0 * TAU / 60.0;
+    let model = TransientModel {
+        annulus: &annulus,
+        material: ElasticMaterial {
+            young_modulus: 2.5e9,
+            poisson_ratio: 0.3805,
+            density: 1228.0,
+            formulation: PlaneFormulation::PlaneStrain,
+        },
+        damping: RayleighDamping {
+            mass_coefficient: synthetic::MASS_COEFFICIENT,
+            stiffness_coefficient: synthetic::STIFFNESS_COEFFICIENT,
+        },
+        contact: SlidingContact {
+            friction_coefficient: 0.4,
+            interference: 25e-6,
+            rotation_speed,
+        },
+    };
+    let settings = TransientSettings {
+        duration: 0.02,
+        time_step: TimeStep::Auto,
+        sample_interval: 2e-6,
+        expansion_time: 5e-4,
+        initial: InitialState::Rest,
+        perturbation: Perturbation {
+            harmonics: vec![2],
+            velocity: 1e-2,
+        },
+    };
+    let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
+    let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
+    // Node 1 + 15 * 13 lies on the contact edge at 90 degrees, seven nodes further out on its ray.
+    let mut record = Recorder::new(
+        &run,
+        &RecorderSettings {
+            probes: vec![196, 203],
+            snapshots: vec![0.001, 0.006, 0.0195],
+        },
+    )
+    .unwrap();
+    run.run(&mut record).unwrap();
+    let analysis = TransientAnalysis::of(&record, &[2]);
+    let growth = analysis.growth.iter().map(|g| (g.harmonic, g.rate));
+    let data = RunFigures {
+        record: &record,
+        analysis: &analysis,
+        mesh: &annulus.mesh,
+        material: &model.material,
+        thickness: 0.009,
+        peripheral_speed: rotation_speed * 0.0205,
+        references: vec![ReferenceFrequency {
+            frequency_hz: 9901.0,
+            label: "mode 5, *n* = 2".into(),
+        }],
+        growth_rates: growth.collect(),
+    };
+    let started = std::time::Instant::now();
+    let figures = draw_run(&data).unwrap();
+    println!(
+        "{} figures of a run drawn in {:?}",
+        figures.len(),
+        started.elapsed()
+    );
+    let expected: [(&str, &[&str]); 10] = [
+        ("overview-196", &["node 196", "time t (ms)"]),
+        ("spectrum-196", &["frequency f (kHz)"]),
+        ("overview-203", &["contact status", "mode 5", "angle θ (°)"]),
+        ("spectrum-203", &["node 203"]),
+        ("growth", &["n = 2", "amplitude of uθ (m)"]),
+        ("velocity", &["velocity modulus |v| (m/s)", "t = 19.50 ms"]),
+        ("shear-stress", &["shear stress τrθ (MPa)"]),
+        ("trajectories", &["contact node 196", "radial ur"]),
+        ("contact", &["traction (", "cylinder Ωa"]),
+        ("energy", &["power (", "stored energy"]),
+    ];
+    assert_eq!(figures.len(), expected.len());
+    for (figure, (name, labels)) in figures.iter().zip(expected) {
+        assert_eq!(figure.name, name);
+        check(&format!("run-{name}"), &figure.svg, labels);
+    }
+    let again = draw_run(&data).unwrap();
+    assert_eq!(figures, again);
+}

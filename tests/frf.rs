@@ -1,0 +1,164 @@
+//! Frequency responses of the finite-element model against theory and against each other.
+
+use frictionsim::contact::{ContactStiffness, SlidingContact};
+use frictionsim::fem::{
+    ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping, assemble_stiffness,
+};
+use frictionsim::frf::{
+    FrfError, FrfSystem, ReductionSettings, Terminal, direct_response, reduced_response,
+};
+use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind};
+use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
+use std::f64::consts::{PI, TAU};
+
+const RADIAL: usize = 10;
+
+fn annulus() -> AnnulusMesh {
+    AnnulusMesh::generate(&AnnulusSpecification {
+        inner_radius: 0.0205,
+        outer_radius: 0.0905,
+        circumferential_elements: 48,
+        radial_elements: RADIAL,
+        radial_grading: 1.0,
+        element: ElementKind::Quad4,
+    })
+    .unwrap()
+}
+
+fn material() -> ElasticMaterial {
+    ElasticMaterial {
+        young_modulus: 2.5e9,
+        poisson_ratio: 0.3805,
+        density: 1228.0,
+        formulation: PlaneFormulation::PlaneStrain,
+    }
+}
+
+const DAMPING: RayleighDamping = RayleighDamping {
+    mass_coefficient: 40.0,
+    stiffness_coefficient: 4.5e-7,
+};
+
+fn body(is_clamped: bool, damping: RayleighDamping) -> FrfSystem {
+    let mass = MassKind::Consistent;
+    FrfSystem::body(&annulus().mesh, &material(), mass, damping, is_clamped)
+}
+
+fn sliding(damping_model: DampingModel) -> FrfSystem {
+    let mesh = annulus().mesh;
+    let stiffness = assemble_stiffness(&mesh, &material());
+    let contact = SlidingContact {
+        friction_coefficient: 0.3,
+        interference: 25e-6,
+        rotation_speed: 610.0 * PI / 30.0,
+    };
+    let base = SteadySliding::solve(&mesh, &stiffness, &contact).unwrap();
+    let options = TangentOptions {
+        mass: MassKind::Consistent,
+        geometric_stiffness: true,
+        damping: DAMPING,
+        damping_model,
+        contact: ContactStiffness {
+            normal_stiffness: None,
+            normal_damping: 0.0,
+            tangential_damping: 0.0,
+        },
+    };
+    let tangent = SlidingTangent::linearize(&mesh, &material(), &stiffness, &base, &options);
+    FrfSystem::sliding(&tangent, 0.3)
+}
+
+fn unknown(system: &FrfSystem, node: usize, is_tangential: bool) -> usize {
+    let terminal = Terminal {
+        node,
+        is_tangential,
+    };
+    system.unknown(terminal, "force_node").unwrap()
+}
+
+#[test]
+fn free_disc_moves_as_a_rigid_body_far_below_its_first_resonance() {
+    let undamped = RayleighDamping::default();
+    let system = body(false, undamped);
+    // A radial force passes through the centre: no rotation, acceleration F / m.
+    let rim = unknown(&system, RADIAL, false);
+    let frequency = 20.0;
+    let h = direct_response(&system, rim, rim, &[frequency])
+        .unwrap()
+        .receptance[0];
+    // Mass of the polygonal mesh: that of the polygon with 48 corners.
+    let polygon = 48.0 / 2.0 * (TAU / 48.0).sin();
+    let mass = 1228.0 * polygon * (0.0905f64.powi(2) - 0.0205f64.powi(2));
+    let accelerance = -h.re * (TAU * frequency).powi(2);
+    // Elastic modes add (20 / 2800)^2, times the few modes there are.
+    assert!(
+        (accelerance * mass - 1.0).abs() < 1e-3,
+        "{}",
+        accelerance * mass
+    );
+}
+
+#[test]
+fn excitation_and_response_of_a_body_without_friction_can_be_exchanged() {
+    for is_clamped in [false, true] {
+        let system = body(is_clamped, DAMPING);
+        let (a, b) = (
+            unknown(&system, 3, true),
+            unknown(&system, 5 + 11 * 7, false),
+        );
+        let f = [500.0, 4321.0, 9000.0];
+        let there = direct_response(&system, a, b, &f).unwrap().receptance;
+        let back = direct_response(&system, b, a, &f).unwrap().receptance;
+        for (x, y) in there.iter().zip(&back) {
+            // Round-off of two refined solutions.
+            assert!((x - y).norm() < 1e-9 * x.norm(), "{x} {y}");
+        }
+    }
+}
+
+#[test]
+fn reduction_agrees_with_direct_solution_for_every_boundary() {
+    let systems = [
+        body(false, DAMPING),
+        body(true, DAMPING),
+        sliding(DampingModel::WholeTangent),
+        sliding(DampingModel::BodyOnly),
+    ];
+    let f: Vec<f64> = (1..=300).map(|i| 33.3 * f64::from(i)).collect();
+    for (k, system) in systems.iter().enumerate() {
+        let (a, b) = (unknown(system, 0, true), unknown(system, 4 + 11 * 5, false));
+        let reduced = reduced_response(system, a, b, &f, &ReductionSettings::default()).unwrap();
+        assert!(reduced.largest_error <= 1e-6);
+        let direct = direct_response(system, a, b, &f).unwrap().receptance;
+        let top = direct.iter().map(|h| h.norm()).fold(0.0, f64::max);
+        for (x, y) in reduced.receptance.iter().zip(&direct) {
+            // Between the check lines the stated error is an estimate: ten times it, and at an
+            // antiresonance relative to a thousandth of the largest response.
+            assert!(
+                (x - y).norm() < 1e-5 * y.norm().max(1e-3 * top),
+                "{k}: {x} {y}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_clamped_node_and_a_missing_one_are_refused_with_their_key() {
+    let system = body(true, DAMPING);
+    let at = |node| Terminal {
+        node,
+        is_tangential: false,
+    };
+    let error = system.unknown(at(RADIAL), "force_node").unwrap_err();
+    assert!(
+        matches!(error, FrfError::Constrained { node: 11, .. }),
+        "{error}"
+    );
+    let error = system.unknown(at(100_000), "response_node").unwrap_err();
+    assert!(
+        error.to_string().contains("frf.response_node = 100001"),
+        "{error}"
+    );
+    let error = direct_response(&system, 0, 0, &[-1.0]).unwrap_err();
+    assert!(matches!(error, FrfError::Frequency { value: -1.0 }));
+}

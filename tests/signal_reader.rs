@@ -1,0 +1,328 @@
+//! The table reader: what it understands, what it refuses and with which words, and that no bytes
+//! make it panic.
+
+use frictionsim::signal::ResponseQuantity;
+use frictionsim::signal::reader::{ReadProblem, read_response, read_signal};
+use proptest::prelude::*;
+use std::f64::consts::TAU;
+
+/// Ten rows `f, re, im` with a given field separator, decimal sign and line end.
+fn rows(separator: &str, decimal: &str, end: &str) -> String {
+    (1..=10)
+        .map(|i| {
+            let x = f64::from(i);
+            let fields = [10.0 * x, 0.5 - 0.1 * x, 0.25 * x - 1.0];
+            let fields = fields.map(|v| format!("{v:.4}").replace('.', decimal));
+            fields.join(separator) + end
+        })
+        .collect()
+}
+
+fn message(text: &str) -> String {
+    read_response(text.as_bytes(), "FRF.csv", None)
+        .expect_err("must be refused")
+        .to_string()
+}
+
+#[test]
+fn every_common_dialect_gives_the_same_response() {
+    let plain = format!("frequency_hz,real,imag\n{}", rows(",", ".", "\n"));
+    let want = read_response(plain.as_bytes(), "a", None).unwrap().response;
+    let dialects = [
+        format!("frequency_hz;real;imag\r\n{}", rows(";", ",", "\r\n")),
+        format!("frequency_hz\treal\timag\n{}", rows("\t", ",", "\n")),
+        format!("frequency_hz  real  imag\n{}", rows("  ", ".", "\n")),
+        format!("frequency_hz real imag\n{}", rows(" ", ",", "\n")),
+        format!(
+            "# hammer test\n# frequency_hz, real, imag\n{}",
+            rows(", ", ".", "\n")
+        ),
+        format!(
+            "Disc 3\nFrequency;Real;Imag\n[Hz];[m/s2/N];[m/s2/N]\n{}",
+            rows(";", ".", "\n")
+        ),
+        format!("\u{feff}frequency_hz,real,imag\n{}", rows(",", ".", "\n")),
+        format!("frequency_hz,real,imag,\n{}", rows(",", ".", ",\n")),
+        format!(
+            "\"frequency_hz\",\"real\",\"imag\"\r{}",
+            rows(",", ".", "\r")
+        ),
+        format!("\n\nfrequency_hz,real,imag\n\n{}\n", rows(",", ".", "\n\n")),
+    ];
+    for text in &dialects {
+        let got = read_response(text.as_bytes(), "b", None);
+        let got = got.unwrap_or_else(|e| panic!("{e}\n{text}"));
+        assert_eq!(got.response, want, "{text}");
+    }
+    let wide: Vec<u8> = [0xff, 0xfe]
+        .into_iter()
+        .chain(plain.encode_utf16().flat_map(u16::to_le_bytes))
+        .collect();
+    assert_eq!(read_response(&wide, "c", None).unwrap().response, want);
+}
+
+#[test]
+fn decibel_with_degrees_and_kilohertz_equal_real_with_imaginary() {
+    let mut polar = "Frequency [kHz];Magnitude [dB];Phase [deg]\n".to_string();
+    let mut radians = "omega (rad/s)\tabs\tphase (rad)\n".to_string();
+    let mut parts = "f,re,im\n".to_string();
+    for i in 1..=12 {
+        let (f, m, p) = (
+            100.0 * f64::from(i),
+            0.3 + 0.1 * f64::from(i),
+            20.0 * f64::from(i),
+        );
+        polar += &format!("{};{};{}\n", f / 1e3, 20.0 * m.log10(), p);
+        radians += &format!("{}\t{}\t{}\n", TAU * f, m, p.to_radians());
+        parts += &format!(
+            "{f},{},{}\n",
+            m * p.to_radians().cos(),
+            m * p.to_radians().sin()
+        );
+    }
+    let read = |t: &str| read_response(t.as_bytes(), "x", None).unwrap().response;
+    let (a, b, c) = (read(&polar), read(&radians), read(&parts));
+    for i in 0..12 {
+        assert!((a.frequencies_hz()[i] - c.frequencies_hz()[i]).abs() < 1e-9);
+        assert!((a.values()[i] - c.values()[i]).norm() < 1e-12);
+        assert!((b.values()[i] - c.values()[i]).norm() < 1e-12);
+    }
+}
+
+#[test]
+fn quantity_comes_from_option_name_unit_or_assumption_in_this_order() {
+    let table = |header: &str| format!("{header}\n{}", rows(",", ".", "\n"));
+    let read = |header: &str, option| {
+        let file = read_response(table(header).as_bytes(), "x", option).unwrap();
+        (file.response.quantity(), file.notes.len())
+    };
+    use ResponseQuantity::*;
+    assert_eq!(
+        read("frequency_hz,mobility_real,mobility_imag", None),
+        (Mobility, 0)
+    );
+    assert_eq!(
+        read("# receptance\nfrequency_hz,real,imag", None),
+        (Receptance, 0)
+    );
+    assert_eq!(read("f (Hz),Re (m/N),Im (m/N)", None), (Receptance, 0));
+    assert_eq!(read("f (Hz),Re (m/s/N),Im (m/s/N)", None), (Mobility, 0));
+    assert_eq!(
+        read("f (Hz),Re ((m/s^2)/N),Im ((m/s^2)/N)", None),
+        (Accelerance, 0)
+    );
+    assert_eq!(read("frequency_hz,real,imag", None), (Accelerance, 1));
+    assert_eq!(
+        read("frequency_hz,real,imag", Some(Mobility)),
+        (Mobility, 0)
+    );
+    assert_eq!(
+        read("f (Hz),Re (m/N),Im (m/N)", Some(Mobility)),
+        (Mobility, 1)
+    );
+}
+
+#[test]
+fn rows_out_of_order_are_sorted_and_equal_repeats_dropped_with_a_note() {
+    let mut lines: Vec<String> = rows(",", ".", "\n").lines().map(String::from).collect();
+    lines.swap(2, 7);
+    lines.push(lines[4].clone());
+    let text = format!("frequency_hz,real,imag,\n{}", lines.join("\n"));
+    let file = read_response(text.as_bytes(), "x", Some(ResponseQuantity::Mobility)).unwrap();
+    assert_eq!(file.notes.len(), 2, "{:?}", file.notes);
+    let want = format!("frequency_hz,real,imag\n{}", rows(",", ".", "\n"));
+    let want = read_response(want.as_bytes(), "x", Some(ResponseQuantity::Mobility)).unwrap();
+    assert_eq!(file.response, want.response);
+}
+
+#[test]
+fn every_refusal_names_file_line_column_and_remedy() {
+    let head = "frequency_hz,real,imag\n";
+    let body = rows(",", ".", "\n");
+    let with = |row: &str| format!("{head}{body}{row}\n");
+    assert_eq!(
+        message(&with("110,nan,1")),
+        "FRF.csv:12:5: `nan` in column `real` is not finite; remove the row, or export without \
+         missing values"
+    );
+    assert!(message(&with("110,1,inf")).starts_with("FRF.csv:12:7: `inf`"));
+    assert!(message(&with("110,1,")).starts_with("FRF.csv:12:5: 2 fields where"));
+    assert!(message(&with("110,,1")).starts_with("FRF.csv:12:5: `` in column `real`"));
+    assert!(message(&with("110,one,1")).starts_with("FRF.csv:12:5: `one` in column `real`"));
+    assert!(message(&with("110,1,2,3")).starts_with("FRF.csv:12:9: 4 fields where"));
+    assert!(message(&with("-5,1,2")).starts_with("FRF.csv:12:1: frequency -5 is negative"));
+    assert!(
+        message(&with("20,1,2"))
+            .starts_with("FRF.csv:12:1: frequency 20 Hz stands already in line 3")
+    );
+    assert!(message("").contains("no data"));
+    assert!(message("# nothing\n\n").contains("no data"));
+    assert!(message("words\nmore words\n").contains("no row of numbers"));
+    assert!(
+        message(&format!("frequency_hz,real,other\n{body}"))
+            .contains("no column of imaginary part")
+    );
+    assert!(message(&format!("x,real,imag\n{body}")).contains("no column of frequency"));
+    assert!(message(&format!("frequency_hz,x,y\n{body}")).contains("no column of response"));
+    assert!(message("frequency_hz,real,imag\n10,1,2\n").contains("1 samples; 8 are needed"));
+    assert!(message("frequency_hz,real,imag\n10,x,2\n20,1,2\n").starts_with("FRF.csv:2:4: `x`"));
+    let commas = format!("frequency_hz,real,imag\n{}", rows(",", ",", "\n"));
+    assert!(message(&commas).starts_with("FRF.csv:2:1: 6 fields separated by commas"));
+    let mixed = "f;re;im\n1.000,5;1;2\n".to_string();
+    assert!(
+        message(&mixed).contains("comma and point"),
+        "{}",
+        message(&mixed)
+    );
+    let negative = (1..10).map(|i| format!("{i},-{i}\n")).collect::<String>();
+    assert!(message(&format!("f,magnitude\n{negative}")).contains("decibels"));
+}
+
+#[test]
+fn columns_without_names_are_read_only_where_the_numbers_leave_no_doubt() {
+    let complex = rows(",", ".", "\n");
+    assert!(
+        read_response(complex.as_bytes(), "x", None)
+            .unwrap()
+            .response
+            .has_phase()
+    );
+    let magnitude: String = (1..12)
+        .map(|i| format!("{i} {}\n", 0.1 * f64::from(i)))
+        .collect();
+    assert!(
+        !read_response(magnitude.as_bytes(), "x", None)
+            .unwrap()
+            .response
+            .has_phase()
+    );
+    let doubtful: String = (1..12).map(|i| format!("{i} {i} {i}\n")).collect();
+    assert!(message(&doubtful).contains("add a first line such as"));
+}
+
+#[test]
+fn signals_are_read_with_time_column_or_rate() {
+    let tone = |i: usize| (0.3 * i as f64).sin();
+    let timed: String = (0..40)
+        .map(|i| format!("{:.6},{},{}\n", 2e-6 * i as f64, tone(i), i))
+        .collect();
+    let file = read_signal(
+        format!("time_s,a_r_m_per_s2,other\n{timed}").as_bytes(),
+        "x",
+        None,
+    )
+    .unwrap();
+    assert!((file.sampling_rate / 5e5 - 1.0).abs() < 1e-9);
+    assert_eq!(file.channels.len(), 2);
+    assert_eq!(file.channels[0].name, "a_r_m_per_s2");
+    assert_eq!(file.channels[1].samples[39], 39.0);
+    // Without names: the first column advances evenly, so it is the time.
+    let file = read_signal(timed.as_bytes(), "x", None).unwrap();
+    assert!((file.sampling_rate / 5e5 - 1.0).abs() < 1e-9);
+    let milli: String = (0..40)
+        .map(|i| format!("{}\t{}\n", 0.02 * f64::from(i), tone(i as usize)))
+        .collect();
+    let file = read_signal(format!("Time (ms)\tacc\n{milli}").as_bytes(), "x", None).unwrap();
+    assert!((file.sampling_rate / 5e4 - 1.0).abs() < 1e-9);
+    let bare: String = (0..40).map(|i| format!("{}\n", tone(i))).collect();
+    assert_eq!(
+        read_signal(bare.as_bytes(), "x", Some(51_200.0))
+            .unwrap()
+            .sampling_rate,
+        51_200.0
+    );
+    let stated = format!("# Sampling rate: 51.2 kHz\n{bare}");
+    assert_eq!(
+        read_signal(stated.as_bytes(), "x", None)
+            .unwrap()
+            .sampling_rate,
+        51_200.0
+    );
+    let error = read_signal(bare.as_bytes(), "x", None).unwrap_err();
+    assert_eq!(error.problem, ReadProblem::NoRate);
+}
+
+#[test]
+fn gaps_and_disorder_in_time_are_refused_at_their_line() {
+    let row = |i: u32| format!("{},{}\n", 0.001 * f64::from(i), i);
+    let gap: String = (0..40).filter(|i| *i != 20).map(row).collect();
+    let error = read_signal(format!("t,x\n{gap}").as_bytes(), "s.csv", None).unwrap_err();
+    assert!(
+        error
+            .to_string()
+            .starts_with("s.csv:22:1: time 0.021 s is not on the grid"),
+        "{error}"
+    );
+    let back: String = (0..40).map(|i| row(if i == 20 { 3 } else { i })).collect();
+    let error = read_signal(format!("t,x\n{back}").as_bytes(), "s.csv", None).unwrap_err();
+    assert!(
+        error
+            .to_string()
+            .starts_with("s.csv:22:1: time 0.003 s does not follow"),
+        "{error}"
+    );
+    let good: String = (0..40).map(row).collect();
+    let error = read_signal(format!("t,x\n{good}").as_bytes(), "s.csv", Some(500.0)).unwrap_err();
+    assert!(matches!(
+        error.problem,
+        ReadProblem::RateContradiction { .. }
+    ));
+}
+
+/// Text made of the pieces that tables are made of, so that the fuzzing gets past the first line.
+fn table_like() -> impl Strategy<Value = String> {
+    let piece = prop_oneof![
+        Just(",".to_string()),
+        Just(";".to_string()),
+        Just("\t".to_string()),
+        Just(" ".to_string()),
+        Just("\n".to_string()),
+        Just("\r\n".to_string()),
+        Just("\"".to_string()),
+        Just("# ".to_string()),
+        Just("frequency_hz".to_string()),
+        Just("real".to_string()),
+        Just("imag".to_string()),
+        Just("magnitude_db".to_string()),
+        Just("phase".to_string()),
+        Just("time_ms".to_string()),
+        Just("fs: 1e3 kHz".to_string()),
+        Just("nan".to_string()),
+        Just("1e999".to_string()),
+        Just("1,5".to_string()),
+        Just("-".to_string()),
+        "[0-9]{1,4}",
+        "[0-9]\\.[0-9]{1,3}",
+        "\\PC{0,3}",
+    ];
+    prop::collection::vec(piece, 0..200).prop_map(|v| v.concat())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn no_bytes_make_the_reader_panic(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
+        let _ = read_response(&bytes, "x", None);
+        let _ = read_signal(&bytes, "x", Some(1.0));
+        let _ = read_signal(&bytes, "x", None);
+    }
+
+    #[test]
+    fn no_table_like_text_makes_the_reader_panic(text in table_like()) {
+        let _ = read_response(text.as_bytes(), "x", None);
+        let _ = read_signal(text.as_bytes(), "x", None);
+    }
+
+    #[test]
+    fn written_numbers_come_back_bit_for_bit(
+        values in prop::collection::vec((-1e6f64..1e6, -1e-6f64..1e-6), 8..40),
+    ) {
+        let rows: String = values.iter().enumerate().map(|(i, (a, b))| format!("{i},{a},{b:e}\n")).collect();
+        let text = format!("frequency_hz,real,imaginary\n{rows}");
+        let read = read_response(text.as_bytes(), "x", None).unwrap().response;
+        for (z, (a, b)) in read.values().iter().zip(&values) {
+            prop_assert_eq!((z.re, z.im), (*a, *b));
+        }
+    }
+}

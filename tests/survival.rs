@@ -1,0 +1,333 @@
+//! Consistency checks of sweeps as processes: killed, side by side, without room on the disk. Each
+//! must leave whole files, and end in the very table of a run that nothing happened to.
+#![cfg(unix)]
+
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Output, Stdio};
+use std::time::Instant;
+
+const PROGRAM: &str = env!("CARGO_BIN_EXE_frictionsim");
+
+/// A coarse disc: thirty transients of some ten milliseconds each.
+const STUDY: &str = r#"
+title = "Coarse disc"
+[geometry]
+inner_radius = 0.0205
+outer_radius = 0.0905
+thickness = 0.009
+[mesh]
+circumferential_elements = 36
+radial_elements = 6
+[material]
+young_modulus = 2.5e9
+poisson_ratio = 0.3805
+density = 1228.0
+[damping]
+mass_coefficient = 40.0
+stiffness_coefficient = 4.5e-7
+[contact]
+friction_coefficient = 0.3
+interference = 25e-6
+rotation_speed_rpm = 610.0
+[transient]
+duration = 0.02
+[transient.perturbation]
+harmonics = [1, 2]
+velocity = 1e-3
+[output]
+sample_interval = 4e-6
+[sweep]
+"contact.friction_coefficient" = [0.2, 0.3, 0.4]
+"contact.rotation_speed_rpm" = { from = 10, to = 6000, count = 10, spacing = "log" }
+"#;
+
+struct Study {
+    root: tempfile::TempDir,
+}
+
+impl Study {
+    fn new() -> Self {
+        let root = tempfile::tempdir().unwrap();
+        std::fs::write(root.path().join("study.toml"), STUDY).unwrap();
+        Self { root }
+    }
+
+    fn folder(&self, name: &str) -> PathBuf {
+        self.root.path().join(name)
+    }
+
+    fn sweep(&self, folder: &str, options: &[&str]) -> Command {
+        let mut command = Command::new(PROGRAM);
+        command
+            .args([
+                "sweep",
+                "study.toml",
+                "--quiet",
+                "--threads",
+                "2",
+                "--out",
+                folder,
+            ])
+            .args(options)
+            .current_dir(self.root.path());
+        command
+    }
+
+    fn run(&self, folder: &str, options: &[&str]) -> Output {
+        let output = self.sweep(folder, options).output().unwrap();
+        let errors = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{folder} {options:?}: {errors}");
+        output
+    }
+
+    fn start(&self, folder: &str, options: &[&str]) -> Child {
+        let mut command = self.sweep(folder, options);
+        command.stdout(Stdio::null()).stderr(Stdio::null());
+        command.spawn().unwrap()
+    }
+}
+
+/// The finished points by file name, each whole and without what the clock says.
+fn points(folder: &Path) -> BTreeMap<String, Value> {
+    let Ok(entries) = std::fs::read_dir(folder.join("points")) else {
+        return BTreeMap::new();
+    };
+    let mut points = BTreeMap::new();
+    for entry in entries {
+        let path = entry.unwrap().path();
+        let name = path.file_name().unwrap().to_str().unwrap().to_owned();
+        if name.starts_with('.') {
+            continue;
+        }
+        let text = std::fs::read_to_string(&path).unwrap();
+        let mut point: Value = serde_json::from_str(&text).unwrap();
+        point["wall_s"] = Value::Null;
+        point["core_s"] = Value::Null;
+        for key in ["wall_s", "element_steps_per_s"] {
+            point["summaries"]["transient"][key] = Value::Null;
+        }
+        points.insert(name, point);
+    }
+    points
+}
+
+fn table(folder: &Path) -> String {
+    std::fs::read_to_string(folder.join("points.csv")).unwrap()
+}
+
+/// Numbers from 0 to 1 that look random and are the same every time.
+fn next_random(state: &mut u64) -> f64 {
+    *state = state
+        .wrapping_mul(6364136223846793005)
+        .wrapping_add(1442695040888963407);
+    (*state >> 11) as f64 / (1_u64 << 53) as f64
+}
+
+#[test]
+fn killed_sweeps_resume_to_identical_results() {
+    let study = Study::new();
+    let clock = Instant::now();
+    study.run("whole", &[]);
+    let whole_time = clock.elapsed();
+    let (expected, expected_points) = (
+        table(&study.folder("whole")),
+        points(&study.folder("whole")),
+    );
+    assert_eq!(expected_points.len(), 30);
+    assert!(!expected.contains("failed"));
+
+    // FRICTIONSIM_KILLS asks for more than a quick check does.
+    let wanted = std::env::var("FRICTIONSIM_KILLS").ok();
+    let wanted: usize = wanted.and_then(|text| text.parse().ok()).unwrap_or(4);
+    let (mut seed, mut kills, mut round) = (2, 0, 0);
+    while kills < wanted {
+        let name = format!("killed-{round}");
+        let folder = study.folder(&name);
+        let mut finished = 0;
+        loop {
+            let mut child = study.start(&name, &["--resume"]);
+            std::thread::sleep(whole_time.mul_f64(0.6 * next_random(&mut seed)));
+            if let Some(status) = child.try_wait().unwrap() {
+                assert!(status.success());
+                break;
+            }
+            child.kill().unwrap();
+            child.wait().unwrap();
+            kills += 1;
+            let left = points(&folder);
+            assert!(left.len() >= finished, "a finished point was lost");
+            finished = left.len();
+        }
+        assert_eq!(table(&folder), expected, "after {kills} kills");
+        assert_eq!(points(&folder), expected_points);
+        round += 1;
+    }
+}
+
+#[test]
+fn processes_side_by_side_share_the_points_of_one_folder() {
+    let study = Study::new();
+    study.run("alone", &[]);
+    let mut children: Vec<Child> = (0..3)
+        .map(|_| study.start("shared", &["--resume"]))
+        .collect();
+    for child in &mut children {
+        assert!(child.wait().unwrap().success());
+    }
+    let output = study.run("shared", &["--resume", "--json"]);
+    let summary: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(summary["ran"], 0);
+    assert_eq!(
+        table(&study.folder("shared")),
+        table(&study.folder("alone"))
+    );
+    assert_eq!(
+        points(&study.folder("shared")),
+        points(&study.folder("alone"))
+    );
+}
+
+#[test]
+fn shards_collect_to_the_table_of_the_whole_sweep() {
+    let study = Study::new();
+    study.run("whole", &[]);
+    study.run("shards", &["--shard", "2/3"]);
+    let collect = || {
+        let mut command = Command::new(PROGRAM);
+        command
+            .args(["collect", "shards"])
+            .current_dir(study.root.path());
+        command.output().unwrap()
+    };
+    study.run("shards", &["--shard", "1/3"]);
+    let partial = collect();
+    assert_eq!(partial.status.code(), Some(1));
+    let text = String::from_utf8_lossy(&partial.stdout);
+    assert!(
+        text.contains("missing: 3, 6, 9, 12, 15, 18, 21, 24, 27, 30"),
+        "{text}"
+    );
+    assert_eq!(table(&study.folder("shards")).lines().count(), 21);
+    study.run("shards", &["--shard", "3/3"]);
+    assert!(collect().status.success());
+    assert_eq!(
+        table(&study.folder("shards")),
+        table(&study.folder("whole"))
+    );
+}
+
+#[test]
+fn a_full_disk_is_named_and_leaves_earlier_points_whole() {
+    let study = Study::new();
+    study.run("whole", &[]);
+    study.run("full", &["--shard", "1/2"]);
+    let before = points(&study.folder("full"));
+    // No file above 512 bytes, which no point fits into; the signal that comes with the limit is
+    // ignored, so that writing fails as it does on a full disk.
+    let script = "trap '' XFSZ; ulimit -f 1; exec \"$0\" \"$@\"";
+    let mut limited = Command::new("sh");
+    limited
+        .args([
+            "-c",
+            script,
+            PROGRAM,
+            "sweep",
+            "study.toml",
+            "--quiet",
+            "--out",
+            "full",
+        ])
+        .args(["--shard", "2/2"])
+        .current_dir(study.root.path());
+    let output = limited.output().unwrap();
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{errors}");
+    assert!(
+        errors.contains("no room left") && errors.contains("point-"),
+        "{errors}"
+    );
+    assert_eq!(points(&study.folder("full")), before);
+    study.run("full", &["--resume"]);
+    assert_eq!(table(&study.folder("full")), table(&study.folder("whole")));
+}
+
+#[test]
+fn a_failed_point_ends_in_exit_code_1_after_all_others_are_done() {
+    let study = Study::new();
+    let output = study
+        .sweep(
+            "failing",
+            &[
+                "--set",
+                "sweep.\"output.sample_interval\"=[4e-6, 1e-8]",
+                "--json",
+            ],
+        )
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    let summary: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(summary["finished"], 60);
+    let failed = summary["failed"].as_array().unwrap();
+    assert_eq!(failed.len(), 30, "{failed:?}");
+    assert!(
+        failed
+            .iter()
+            .all(|point| point["swept"]["output.sample_interval"] == 1e-8)
+    );
+    assert_eq!(table(&study.folder("failing")).lines().count(), 61);
+}
+
+/// The README's way without a sweep: one run after the other, each printing its summary.
+#[test]
+fn a_shell_loop_over_transients_gives_what_the_sweep_gives() {
+    let study = Study::new();
+    let script = "for mu in 0.2 0.3; do \
+         \"$0\" transient study.toml --set contact.friction_coefficient=$mu --json --quiet --no-figures \
+         || exit; done";
+    let mut shell = Command::new("sh");
+    shell
+        .args(["-c", script, PROGRAM])
+        .current_dir(study.root.path());
+    let output = shell.output().unwrap();
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{errors}");
+    let summaries = serde_json::Deserializer::from_slice(&output.stdout).into_iter::<Value>();
+    let looped: Vec<Value> = summaries.map(Result::unwrap).collect();
+    let set = "sweep={ \"contact.friction_coefficient\" = [0.2, 0.3] }";
+    study.run("swept", &["--set", set]);
+    let swept = points(&study.folder("swept"));
+    assert_eq!((looped.len(), swept.len()), (2, 2));
+    for (one, point) in looped.iter().zip(swept.values()) {
+        let other = &point["summaries"]["transient"];
+        for key in [
+            "steps",
+            "main_frequency_hz",
+            "status",
+            "power_w",
+            "harmonics",
+            "growth",
+        ] {
+            assert_eq!(one[key], other[key], "{key}");
+        }
+    }
+}
+
+#[test]
+fn a_terminated_sweep_says_how_to_go_on() {
+    let study = Study::new();
+    let mut command = study.sweep("stopped", &[]);
+    command.stdout(Stdio::null()).stderr(Stdio::piped());
+    let child = command.spawn().unwrap();
+    while points(&study.folder("stopped")).is_empty() {
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    let kill = Command::new("kill").arg(child.id().to_string()).status();
+    assert!(kill.unwrap().success());
+    let output = child.wait_with_output().unwrap();
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{errors}");
+    assert!(errors.contains("--resume"), "{errors}");
+}

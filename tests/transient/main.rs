@@ -1,0 +1,10 @@
+//! The explicit contact transient against theory, other methods and itself.
+
+mod contact;
+mod energy;
+mod linear_stage;
+mod model;
+mod operators;
+mod restart;
+mod settings;
+mod time_order;

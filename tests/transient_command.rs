@@ -1,0 +1,290 @@
+//! `frictionsim transient` as a user meets it: files, checkpoints, exit codes, and the shipped cases on coarse meshes.
+
+use assert_cmd::Command;
+use predicates::str::contains;
+use serde_json::Value;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Stdio};
+use std::time::{Duration, Instant};
+use tempfile::TempDir;
+
+fn case(name: &str) -> String {
+    let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
+    cases.join(name).display().to_string()
+}
+
+fn folder() -> TempDir {
+    tempfile::tempdir().unwrap()
+}
+
+/// The 610 rpm case on a mesh that steps in a microsecond, with every override as `KEY=VALUE`.
+fn arguments(out: &Path, overrides: &[&str]) -> Vec<String> {
+    let coarse = [
+        "mesh.circumferential_elements=60",
+        "mesh.radial_elements=12",
+        "output.probes=[1, 200]",
+        "output.snapshots=[0.002]",
+        "transient.duration=0.004",
+    ];
+    let mut arguments = vec!["transient".to_owned(), case("polycarbonate-610rpm.toml")];
+    arguments.extend(["--out".to_owned(), out.display().to_string()]);
+    arguments.push("--no-figures".to_owned());
+    for text in coarse.iter().chain(overrides) {
+        arguments.extend(["--set".to_owned(), (*text).to_owned()]);
+    }
+    arguments
+}
+
+fn frictionsim(arguments: &[String]) -> Command {
+    let mut command = Command::cargo_bin("frictionsim").unwrap();
+    command.args(arguments);
+    command
+}
+
+fn summary(folder: &Path) -> Value {
+    serde_json::from_slice(&fs::read(folder.join("summary.json")).unwrap()).unwrap()
+}
+
+/// Every result file but those that hold wall-clock times.
+fn results(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
+    let names = [
+        "probe-1.csv",
+        "probe-200.csv",
+        "energy.csv",
+        "contact.csv",
+        "contact.npz",
+        "harmonics.csv",
+        "snapshots.pvd",
+        "snapshots/snapshot-001.vtu",
+    ];
+    names
+        .iter()
+        .map(|name| (PathBuf::from(name), fs::read(folder.join(name)).unwrap()))
+        .collect()
+}
+
+#[test]
+fn every_promised_file_column_and_summary_key_is_there() {
+    let folder = folder();
+    let out = folder.path().join("out");
+    frictionsim(&arguments(&out, &[]))
+        .assert()
+        .code(0)
+        .stdout(contains("over the last fifth"));
+    let first_line = |name: &str| {
+        let text = fs::read_to_string(out.join(name)).unwrap();
+        text.lines().next().unwrap().to_owned()
+    };
+    assert_eq!(
+        first_line("probe-200.csv"),
+        "time_s,u_r_m,u_theta_m,v_r_m_per_s,v_theta_m_per_s,a_r_m_per_s2,a_theta_m_per_s2"
+    );
+    assert_eq!(
+        first_line("energy.csv"),
+        "time_s,kinetic_j,strain_j,external_w,stick_w,slide_w,contact_dissipated_w,material_damping_w,\
+         normal_contact_w,balance_residual"
+    );
+    assert_eq!(first_line("contact.csv"), "time_s,stick,slip,open");
+    let summary = summary(&out);
+    for key in [
+        "/steps",
+        "/time_step_s",
+        "/wall_s",
+        "/element_steps_per_s",
+        "/max_balance_residual",
+        "/main_frequency_hz",
+        "/status/stick",
+        "/status/slip",
+        "/status/open",
+        "/power_w/external",
+        "/power_w/stick",
+        "/power_w/slide",
+        "/power_w/contact_dissipated",
+        "/power_w/material_damping",
+        "/harmonics/8",
+        "/growth",
+        "/first_nonlinearity_s",
+        "/manifest/case_hash",
+        "/manifest/simd",
+    ] {
+        assert!(summary.pointer(key).is_some(), "{key}");
+    }
+    assert!(summary["max_balance_residual"].as_f64().unwrap() < 1e-10);
+    assert!(!out.join("checkpoint.bin").exists());
+}
+
+#[test]
+fn results_scale_with_the_thickness_and_nothing_else_does() {
+    let folder = folder();
+    let power = |thickness: &str| {
+        let out = folder.path().join(thickness);
+        let set = format!("geometry.thickness={thickness}");
+        frictionsim(&arguments(&out, &[&set])).assert().code(0);
+        let summary = summary(&out);
+        [
+            summary["power_w"]["external"].as_f64().unwrap(),
+            summary["harmonics"][0].as_f64().unwrap(),
+        ]
+    };
+    let (thin, thick) = (power("0.009"), power("0.018"));
+    assert!((thick[0] / thin[0] - 2.0).abs() < 1e-14);
+    assert_eq!(thin[1], thick[1]);
+}
+
+#[test]
+fn results_are_the_same_bytes_for_any_number_of_threads() {
+    let folder = folder();
+    let run = |threads: &str| {
+        let out = folder.path().join(threads);
+        let mut arguments = arguments(&out, &[]);
+        arguments.extend(["--threads".to_owned(), threads.to_owned()]);
+        frictionsim(&arguments).assert().code(0);
+        results(&out)
+    };
+    assert_eq!(run("1"), run("2"));
+}
+
+/// Starts a run and waits for its first checkpoint.
+fn start_until_checkpoint(arguments: &[String], out: &Path) -> Child {
+    let mut command = std::process::Command::new(assert_cmd::cargo::cargo_bin("frictionsim"));
+    command
+        .args(arguments)
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped());
+    let child = command.spawn().unwrap();
+    let start = Instant::now();
+    while !out.join("checkpoint.bin").exists() {
+        assert!(
+            start.elapsed() < Duration::from_secs(60),
+            "no checkpoint after a minute"
+        );
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    child
+}
+
+const OFTEN: [&str; 2] = ["output.checkpoint_interval=0.02", "transient.duration=0.03"];
+
+#[test]
+fn a_killed_run_resumes_to_the_bytes_of_an_uninterrupted_one() {
+    let folder = folder();
+    let (whole, killed) = (folder.path().join("whole"), folder.path().join("killed"));
+    frictionsim(&arguments(&whole, &OFTEN)).assert().code(0);
+    let mut arguments = arguments(&killed, &OFTEN);
+    let mut child = start_until_checkpoint(&arguments, &killed);
+    child.kill().unwrap();
+    child.wait().unwrap();
+    arguments.push("--resume".to_owned());
+    frictionsim(&arguments).assert().code(0);
+    for (found, expected) in results(&killed).into_iter().zip(results(&whole)) {
+        assert!(found == expected, "{}", expected.0.display());
+    }
+    let without_times = |mut summary: Value| {
+        for key in ["wall_s", "element_steps_per_s"] {
+            summary[key] = Value::Null;
+        }
+        summary
+    };
+    assert_eq!(
+        without_times(summary(&killed)),
+        without_times(summary(&whole))
+    );
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_run_keeps_what_it_has_and_says_how_to_go_on() {
+    let folder = folder();
+    let out = folder.path().join("out");
+    let mut arguments = arguments(&out, &OFTEN);
+    let child = start_until_checkpoint(&arguments, &out);
+    let status = std::process::Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(status.unwrap().success());
+    let output = child.wait_with_output().unwrap();
+    if output.status.code() == Some(0) {
+        // The run ended before the signal came.
+        return;
+    }
+    assert_eq!(output.status.code(), Some(1));
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(message.contains("--resume"), "{message}");
+    assert_eq!(summary(&out)["finished"], false);
+    assert!(out.join("energy.csv").exists());
+    arguments.push("--resume".to_owned());
+    frictionsim(&arguments).assert().code(0);
+    assert_eq!(summary(&out)["finished"], true);
+}
+
+#[test]
+fn a_damaged_checkpoint_is_refused_with_the_reason_and_left_alone() {
+    let folder = folder();
+    let out = folder.path().join("out");
+    let mut arguments = arguments(&out, &OFTEN);
+    let mut child = start_until_checkpoint(&arguments, &out);
+    child.kill().unwrap();
+    child.wait().unwrap();
+    let path = out.join("checkpoint.bin");
+    let mut bytes = fs::read(&path).unwrap();
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 1;
+    fs::write(&path, &bytes).unwrap();
+    arguments.push("--resume".to_owned());
+    frictionsim(&arguments)
+        .assert()
+        .code(2)
+        .stderr(contains("checksum"));
+    fs::write(&path, &bytes[..middle]).unwrap();
+    frictionsim(&arguments)
+        .assert()
+        .code(2)
+        .stderr(contains("bytes where"));
+    bytes[8] = 99;
+    fs::write(&path, &bytes).unwrap();
+    frictionsim(&arguments)
+        .assert()
+        .code(2)
+        .stderr(contains("format 99"));
+    assert_eq!(fs::read(&path).unwrap(), bytes);
+}
+
+#[test]
+fn bad_settings_are_bad_cases_with_their_bound() {
+    let folder = folder();
+    let out = folder.path().join("out");
+    for (overrides, message) in [
+        ("transient.time_step=2e-6", "above the stability limit of"),
+        ("output.probes=[10000]", "10000"),
+        ("transient.duration=0", "transient.duration"),
+        ("transient.perturbation.harmonics=[31]", "30"),
+    ] {
+        frictionsim(&arguments(&out, &[overrides]))
+            .assert()
+            .code(2)
+            .stderr(contains(message));
+    }
+    assert!(!out.join("summary.json").exists());
+}
+
+/// The shipped cases keep their character on a coarse mesh.
+#[test]
+fn shipped_cases_end_in_the_limit_cycles_that_their_titles_say() {
+    let folder = folder();
+    for (name, harmonic, lifts_off) in [
+        ("polycarbonate-610rpm.toml", 2, true),
+        ("polycarbonate-70rpm.toml", 1, false),
+    ] {
+        let out = folder.path().join(name);
+        let mut arguments = arguments(&out, &["transient.duration=0.04"]);
+        arguments[1] = case(name);
+        frictionsim(&arguments).assert().code(0);
+        let summary = summary(&out);
+        assert_eq!(summary["main_harmonic"], harmonic, "{name}");
+        let open = summary["status"]["open"].as_f64().unwrap();
+        assert_eq!(open > 0.0, lifts_off, "{name}: {open}");
+        assert!(summary["status"]["stick"].as_f64().unwrap() > 0.2);
+        assert!(summary["first_nonlinearity_s"].as_f64().unwrap() < 0.03);
+    }
+}
