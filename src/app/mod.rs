@@ -9,10 +9,12 @@ mod failure;
 mod frf;
 mod identify;
 mod init;
+mod linear_stage;
 mod man;
 mod measurement;
 mod mesh;
 mod options;
+mod plot;
 mod session;
 mod signal;
 pub mod sweep;
@@ -49,6 +51,7 @@ enum Command {
     Transient(transient::Arguments),
     Sweep(sweep::Arguments),
     Collect(collect::Arguments),
+    Plot(plot::Arguments),
     Cycle(cycle::Arguments),
     Mesh(mesh::Arguments),
     Check(check::Arguments),
@@ -68,6 +71,7 @@ pub fn main() -> ExitCode {
         Command::Transient(arguments) => transient::run(&arguments),
         Command::Sweep(arguments) => sweep::run(&arguments),
         Command::Collect(arguments) => collect::run(&arguments),
+        Command::Plot(arguments) => plot::run(&arguments),
         Command::Cycle(arguments) => cycle::run(&arguments),
         Command::Mesh(arguments) => mesh::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),

@@ -1,6 +1,7 @@
 //! The output folder of a run: whose it is, who writes it, and whole files only.
 
 use super::Manifest;
+use super::drawing::{FIGURES, REPORT};
 use serde::{Deserialize, Serialize};
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -10,6 +11,7 @@ use std::path::{Path, PathBuf};
 
 pub(super) const MANIFEST: &str = "manifest.json";
 pub(super) const LOCK: &str = ".lock";
+const SUMMARY: &str = "summary.json";
 /// Names of the files that a run has written so far; gone when it is complete.
 const JOURNAL: &str = ".written";
 /// How the name of a file that is still being written begins.
@@ -73,6 +75,14 @@ pub enum FolderError {
         /// What it lacks.
         reason: String,
     },
+    /// It does not hold results that can be gone back to.
+    #[error("{} does not hold the results of a run: {reason}", path.display())]
+    NotResults {
+        /// The folder.
+        path: PathBuf,
+        /// What it lacks.
+        reason: String,
+    },
     /// No space left.
     #[error(
         "no room left: {} was not written, because the disk is full or a quota or file size limit \
@@ -118,6 +128,7 @@ impl FolderError {
                 | Self::Foreign { .. }
                 | Self::Started { .. }
                 | Self::NotASweep { .. }
+                | Self::NotResults { .. }
         )
     }
 }
@@ -197,6 +208,20 @@ impl OutputFolder {
             folder.remove(folder.earlier.iter());
         }
         folder.write_manifest(&folder.earlier)?;
+        Ok(folder)
+    }
+
+    /// Takes the folder of an earlier run to draw its figures anew: figures and report that are not
+    /// written again go, every other file stays.
+    ///
+    /// # Errors
+    /// As [`read_manifest`]; [`FolderError::Busy`]; those of the file system.
+    pub fn reopen(path: &Path) -> Result<Self, FolderError> {
+        let manifest = read_manifest(path)?;
+        let folder = Self::open(path, &manifest, Replace::SameCase)?;
+        let is_drawing = |name: &&String| name.starts_with(FIGURES) || *name == REPORT;
+        let kept = folder.earlier.iter().filter(|name| !is_drawing(name));
+        folder.written.borrow_mut().extend(kept.cloned());
         Ok(folder)
     }
 
@@ -280,6 +305,46 @@ impl OutputFolder {
 
     fn remove<'a>(&self, names: impl Iterator<Item = &'a String>) {
         remove_files(&self.path, names);
+    }
+}
+
+/// The manifest of a results folder.
+///
+/// # Errors
+/// [`FolderError::NotResults`] if there is none; those of the file system.
+pub fn read_manifest(path: &Path) -> Result<Manifest, FolderError> {
+    let lacks = |reason: String| FolderError::NotResults {
+        path: path.to_owned(),
+        reason,
+    };
+    if !path.join(MANIFEST).is_file() {
+        return Err(lacks(format!("it has no {MANIFEST}")));
+    }
+    match read_contents(path)? {
+        Some(contents) => Ok(contents.manifest),
+        None => Err(lacks(format!("its {MANIFEST} is damaged"))),
+    }
+}
+
+/// The `summary.json` of a results folder.
+///
+/// # Errors
+/// [`FolderError::NotResults`] if there is none, as after a run that was killed; those of the file
+/// system.
+pub fn read_summary(path: &Path) -> Result<serde_json::Value, FolderError> {
+    let lacks = |reason: &str| FolderError::NotResults {
+        path: path.to_owned(),
+        reason: reason.to_owned(),
+    };
+    let file = path.join(SUMMARY);
+    match fs::read(&file) {
+        Ok(bytes) => {
+            serde_json::from_slice(&bytes).map_err(|_| lacks("its summary.json is damaged"))
+        }
+        Err(error) if error.kind() == io::ErrorKind::NotFound => {
+            Err(lacks("it has no summary.json: the run did not end"))
+        }
+        Err(error) => Err(FolderError::io("read", &file, error)),
     }
 }
 

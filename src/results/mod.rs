@@ -17,8 +17,10 @@ mod table;
 pub mod transient;
 mod vtu;
 
-pub use drawing::{DrawingError, Figure, render, write_figure, write_figures, write_report};
-pub use folder::{FolderError, OutputFolder, Replace};
+pub use drawing::{
+    DOTS_PER_INCH, DrawingError, FigureFile, figure_files, write_figures, write_report,
+};
+pub use folder::{FolderError, OutputFolder, Replace, read_manifest, read_summary};
 pub use manifest::Manifest;
 pub use mesh::{MeshStatistics, write_mesh, write_mesh_picture};
 pub use table::{Table, format_number};
