@@ -5,7 +5,8 @@ use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::matrix_free::LinOp;
 use faer::matrix_free::eigen::{PartialEigenParams, partial_eigen, partial_eigen_scratch};
 use faer::{Mat, MatMut, MatRef, Par, c64};
-use frictionsim::linalg::dense::{product, random_columns, real_eigen};
+use frictionsim::linalg::dense::{product, random_columns};
+use frictionsim::linalg::dense_eigen::real_eigen;
 use frictionsim::linalg::{
     BlockOperator, ComplexSparseLu, KrylovSchurSettings, LdlAnalysis, LinalgError, LuAnalysis,
     MatrixPolynomial, SparseLdl, SparseLu, Wanted, krylov_schur,
@@ -170,7 +171,7 @@ fn krylov_schur_finds_the_same_pairs_as_a_dense_decomposition() {
     for skew in [0.0, 0.03, 0.15] {
         let p = grid_operator(17, skew);
         let pairs = krylov_schur(&inverse_of(&p), None, &settings(Wanted::Largest(24))).unwrap();
-        let mut dense: Vec<c64> = real_eigen(to_dense(&p).as_ref(), false)
+        let mut dense: Vec<c64> = real_eigen(to_dense(&p).as_ref(), false, 0)
             .unwrap()
             .values
             .iter()
@@ -204,7 +205,7 @@ fn krylov_schur_by_modulus_returns_all_eigenvalues_beyond_the_bound() {
         &settings(Wanted::ModulusAtLeast(bound)),
     )
     .unwrap();
-    let dense = real_eigen(to_dense(&p).as_ref(), false).unwrap().values;
+    let dense = real_eigen(to_dense(&p).as_ref(), false, 0).unwrap().values;
     let expected = dense.iter().filter(|v| v.re < 0.9).count();
     // Degenerate pairs (i, j), (j, i) included, and one witness beyond the bound.
     assert_eq!(

@@ -4,6 +4,7 @@ pub mod cea;
 mod check;
 mod collect;
 mod completions;
+pub mod cycle;
 mod failure;
 mod frf;
 mod identify;
@@ -48,6 +49,7 @@ enum Command {
     Transient(transient::Arguments),
     Sweep(sweep::Arguments),
     Collect(collect::Arguments),
+    Cycle(cycle::Arguments),
     Mesh(mesh::Arguments),
     Check(check::Arguments),
     Init(init::Arguments),
@@ -66,6 +68,7 @@ pub fn main() -> ExitCode {
         Command::Transient(arguments) => transient::run(&arguments),
         Command::Sweep(arguments) => sweep::run(&arguments),
         Command::Collect(arguments) => collect::run(&arguments),
+        Command::Cycle(arguments) => cycle::run(&arguments),
         Command::Mesh(arguments) => mesh::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Init(arguments) => init::run(&arguments),

@@ -146,6 +146,10 @@ impl<'a> Branch<'a> {
             };
             let broken = self.worst(&state, &linear, flipped);
             let Some((event, slack)) = broken else {
+                if let Some(value) = self.skipped(&state, samples, goal) {
+                    goal = Goal::Value(value);
+                    continue;
+                }
                 return Some(self.accept(state, heading, length, goal));
             };
             let before = inequalities.iter().find(|i| i.0 == event);
@@ -154,6 +158,19 @@ impl<'a> Branch<'a> {
             goal = Goal::Event(event);
         }
         None
+    }
+
+    /// A wanted value that lies strictly between here and `state`: the curve bends more than its heading said.
+    fn skipped(&self, state: &WaveState, samples: &[f64], goal: Goal) -> Option<f64> {
+        if matches!(goal, Goal::Value(_)) {
+            return None;
+        }
+        let (from, to) = (self.value(), self.parameter.of(&state.point));
+        let slightly = 1e-12 * from.abs();
+        let mut between = samples.iter().filter(|&&sample| {
+            sample > from.min(to) + slightly && sample < from.max(to) - slightly
+        });
+        between.next().copied()
     }
 
     fn accept(&mut self, state: WaveState, heading: Heading, length: f64, goal: Goal) -> Step {

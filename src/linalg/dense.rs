@@ -1,100 +1,8 @@
 //! Dense kernels over faer, sequential and instantiated once for `f64`.
 
-use super::LinalgError;
-use faer::diag::Diag;
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::evd::{ComputeEigenvectors, evd_real, evd_scratch};
 use faer::linalg::matmul::matmul;
 use faer::prelude::IntoConst;
-use faer::{Accum, Mat, MatMut, MatRef, Par, c64};
-
-/// Eigenvalues and eigenvectors of a real matrix `A`, in real storage.
-///
-/// A real eigenvalue owns one column. A complex pair owns two neighbouring columns `(p, q)`: its
-/// first value, with positive imaginary part, has the vector `p + i q`, its second the conjugate.
-#[derive(Clone, Debug)]
-pub struct RealEigen {
-    /// Eigenvalues; conjugate pairs are neighbours, positive imaginary part first.
-    pub values: Vec<c64>,
-    /// Right vectors, `A x = lambda x`.
-    pub right: Mat<f64>,
-    /// Left vectors, `y^H A = lambda y^H`, where they were asked for.
-    pub left: Option<Mat<f64>>,
-}
-
-/// Eigenvalue decomposition of a real square matrix.
-///
-/// # Errors
-/// If the QR iteration does not converge, or the matrix is not finite.
-pub fn real_eigen(matrix: MatRef<'_, f64>, with_left: bool) -> Result<RealEigen, LinalgError> {
-    let n = matrix.nrows();
-    let failure = LinalgError::DenseEigen { dimension: n };
-    if !matrix.is_all_finite() {
-        return Err(failure);
-    }
-    let (mut real, mut imaginary) = (Diag::<f64>::zeros(n), Diag::<f64>::zeros(n));
-    let mut right = Mat::<f64>::zeros(n, n);
-    let mut left = with_left.then(|| Mat::<f64>::zeros(n, n));
-    let left_mode = if with_left {
-        ComputeEigenvectors::Yes
-    } else {
-        ComputeEigenvectors::No
-    };
-    let scratch = evd_scratch::<f64>(
-        n,
-        left_mode,
-        ComputeEigenvectors::Yes,
-        Par::Seq,
-        Default::default(),
-    );
-    evd_real(
-        matrix,
-        real.as_mut(),
-        imaginary.as_mut(),
-        left.as_mut().map(|l| l.as_mut()),
-        Some(right.as_mut()),
-        Par::Seq,
-        MemStack::new(&mut MemBuffer::new(scratch)),
-        Default::default(),
-    )
-    .map_err(|_| failure)?;
-    let mut values: Vec<c64> = (0..n)
-        .map(|i| c64::new(real.column_vector()[i], imaginary.column_vector()[i]))
-        .collect();
-    order_conjugate_pairs(&mut values, &mut right, left.as_mut());
-    Ok(RealEigen {
-        values,
-        right,
-        left,
-    })
-}
-
-/// Makes the positive imaginary part come first in every pair.
-fn order_conjugate_pairs(
-    values: &mut [c64],
-    right: &mut Mat<f64>,
-    mut left: Option<&mut Mat<f64>>,
-) {
-    let mut i = 0;
-    while i < values.len() {
-        if values[i].im == 0.0 {
-            i += 1;
-            continue;
-        }
-        if values[i].im < 0.0 {
-            values.swap(i, i + 1);
-            for vectors in [Some(&mut *right), left.as_deref_mut()]
-                .into_iter()
-                .flatten()
-            {
-                for row in 0..vectors.nrows() {
-                    vectors[(row, i + 1)] = -vectors[(row, i + 1)];
-                }
-            }
-        }
-        i += 2;
-    }
-}
+use faer::{Accum, Mat, MatMut, MatRef, Par};
 
 /// `a b`.
 pub fn product(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
@@ -323,31 +231,6 @@ fn two_columns(w: &mut Mat<f64>, k: usize, j: usize) -> (&[f64], &mut [f64]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn eigenvectors_of_a_random_real_matrix_satisfy_both_equations() {
-        let a = random_columns(40, 40, 7);
-        let eigen = real_eigen(a.as_ref(), true).unwrap();
-        let left = eigen.left.unwrap();
-        let (ar, al) = (
-            product(a.as_ref(), eigen.right.as_ref()),
-            transpose_product(a.as_ref(), left.as_ref()),
-        );
-        let mut j = 0;
-        while j < 40 {
-            let lambda = eigen.values[j];
-            let width = if lambda.im == 0.0 { 1 } else { 2 };
-            assert!(width == 1 || (lambda.im > 0.0 && eigen.values[j + 1] == lambda.conj()));
-            for i in 0..40 {
-                let at = |m: &Mat<f64>| {
-                    c64::new(m[(i, j)], if width == 2 { m[(i, j + 1)] } else { 0.0 })
-                };
-                assert!((at(&ar) - lambda * at(&eigen.right)).norm() < 1e-12);
-                assert!((at(&al) - lambda.conj() * at(&left)).norm() < 1e-12);
-            }
-            j += width;
-        }
-    }
 
     #[test]
     fn orthonormalization_reproduces_its_input_and_drops_dependent_columns() {

@@ -1,7 +1,8 @@
 //! Block Krylov-Schur iteration for the eigenvalues of largest modulus of a real operator.
 
 use super::LinalgError;
-use super::dense::{RealEigen, join_columns, orthonormalize, product, random_columns, real_eigen};
+use super::dense::{join_columns, orthonormalize, product, random_columns};
+use super::dense_eigen::{RealEigen, real_eigen};
 use faer::{Mat, MatRef, c64};
 
 /// A real linear operator that is applied to blocks of vectors.
@@ -82,7 +83,11 @@ pub fn krylov_schur(
         if too_small && !process.is_exhausted() {
             continue;
         }
-        let eigen = real_eigen(process.projection.as_ref(), false)?;
+        let leading = match settings.wanted {
+            Wanted::Largest(count) => count,
+            Wanted::ModulusAtLeast(_) => usize::MAX,
+        };
+        let eigen = real_eigen(process.projection.as_ref(), false, leading)?;
         let order = by_modulus(&eigen.values);
         let residuals = process.ritz_residuals(&eigen);
         let wanted = wanted_count(&eigen, &order, settings.wanted, process.is_exhausted(), n);

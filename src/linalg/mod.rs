@@ -2,6 +2,7 @@
 
 pub mod banded;
 pub mod dense;
+pub mod dense_eigen;
 mod dense_lu;
 mod error;
 mod krylov_schur;

@@ -9,7 +9,7 @@ use faer::Mat;
 use std::sync::OnceLock;
 
 /// Corrections of right vectors of unit length shorter than this are not added.
-const RIGHT_TOLERANCE: f64 = 5e-12;
+const RIGHT_TOLERANCE: f64 = 2e-12;
 /// The same for left vectors, which only serve overlaps and derivatives.
 const LEFT_TOLERANCE: f64 = 3e-4;
 /// Refinements of one basis before the preconditioner is considered unfit.
@@ -88,12 +88,14 @@ impl<'a> BasisBuilder<'a> {
         Ok(())
     }
 
-    /// One refinement of the right vectors at one friction coefficient.
+    /// One refinement of the right vectors at one friction coefficient; whether it added anything.
     ///
     /// # Errors
     /// If a dense decomposition fails.
-    pub fn refine_at(&mut self, mu: f64) -> Result<(), LinalgError> {
-        self.refine(mu, false).map(|_| ())
+    pub fn refine_at(&mut self, mu: f64) -> Result<bool, LinalgError> {
+        let before = self.model.dimension();
+        self.refine(mu, false)?;
+        Ok(self.model.dimension() > before)
     }
 
     fn refine(&mut self, mu: f64, with_left: bool) -> Result<Corrections, LinalgError> {

@@ -2,8 +2,9 @@
 
 use super::structure::{Linearization, Side};
 use crate::linalg::dense::{
-    column, join_columns, orthonormal_complement, product, real_eigen, transpose_product,
+    column, join_columns, orthonormal_complement, product, transpose_product,
 };
+use crate::linalg::dense_eigen::real_eigen;
 use crate::linalg::{DenseLu, LinalgError, MatrixPolynomial};
 use crate::prestress::SlidingTangent;
 use faer::{Mat, MatRef, c64};
@@ -124,7 +125,11 @@ impl ReducedModel {
     pub fn solve(&self, mu: f64, count: usize) -> Result<Vec<ReducedMode>, LinalgError> {
         let at = self.at(mu);
         let lu = DenseLu::factorize(at.stiffness.clone());
-        let eigen = real_eigen(self.shift_inverted(&at, &lu).as_ref(), true)?;
+        let leading = match self.linearization {
+            Linearization::Reduced(_) => count,
+            Linearization::Companion { .. } => 2 * count,
+        };
+        let eigen = real_eigen(self.shift_inverted(&at, &lu).as_ref(), true, leading)?;
         // The upper half of a left vector of the operator is K^T times that of the problem.
         let m = self.dimension();
         let mut left = eigen.left.expect("left vectors were asked for");

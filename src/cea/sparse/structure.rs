@@ -182,7 +182,7 @@ fn add_complex_multiple(
 /// Factors of `K(mu)`.
 pub enum StiffnessFactors {
     /// Without friction: a factor five cheaper to compute and to solve with.
-    Symmetric(SparseLdl),
+    Symmetric(Box<SparseLdl>),
     /// With friction.
     General(Box<SparseLu>),
 }
@@ -195,7 +195,8 @@ impl StiffnessFactors {
     pub fn frictionless(tangent: &SlidingTangent) -> Result<Self, LinalgError> {
         let analysis = LdlAnalysis::new(tangent.stiffness.pattern())?;
         let values = tangent.stiffness.evaluate(0.0);
-        SparseLdl::factorize(&analysis, &values).map(Self::Symmetric)
+        let factors = SparseLdl::factorize(&analysis, &values)?;
+        Ok(Self::Symmetric(Box::new(factors)))
     }
 
     /// Factorizes `K(mu)` on an analysis made once and kept in `cache`.

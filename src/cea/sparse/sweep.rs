@@ -9,7 +9,7 @@ use super::onset::OnsetFinder;
 use super::point::{PointSolver, SolvedPoint};
 use super::structure::Linearization;
 use super::{RESIDUAL_BOUND, TRACKING_MARGIN};
-use crate::cea::{ComplexMode, FrictionPoint, FrictionSweep};
+use crate::cea::{ComplexMode, FrictionPoint, FrictionSweep, UnstableInterval};
 use crate::linalg::LinalgError;
 use crate::prestress::SlidingTangent;
 use rayon::prelude::*;
@@ -20,6 +20,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 const FORCE_RESIDUAL_GOAL: f64 = 2e-11;
 /// Residual relative to the matrices below which there is only round-off.
 const ROUND_OFF: f64 = 1e-15;
+/// Friction values at which the basis is refined, at least, over a range.
+const MIN_SAMPLES: usize = 6;
 /// Attempts to improve points that miss the goal.
 const MAX_REPAIRS: usize = 8;
 
@@ -85,6 +87,8 @@ pub struct SparseSweep<'a> {
     builder: BasisBuilder<'a>,
     /// Friction coefficients, ascending, 0 first.
     grid: Vec<f64>,
+    /// Smallest friction coefficient asked for.
+    lowest: f64,
     points: Vec<SolvedPoint>,
     labels: Vec<BranchLabel>,
 }
@@ -110,6 +114,10 @@ impl<'a> SparseSweep<'a> {
             edge: ContactEdge::of(tangent),
             builder: BasisBuilder::new(tangent, linearization, &modes.vectors)?,
             grid,
+            lowest: friction_coefficients
+                .iter()
+                .copied()
+                .fold(f64::INFINITY, f64::min),
             points: Vec::new(),
             labels: Vec::new(),
         })
@@ -120,12 +128,22 @@ impl<'a> SparseSweep<'a> {
     /// # Errors
     /// If a dense decomposition fails.
     pub fn cover(&mut self) -> Result<(), CeaError> {
-        // The undamped modes are those of the frictionless problem only where damping is proportional.
-        let from = match self.linearization {
-            Linearization::Reduced(_) => 1,
-            Linearization::Companion { .. } => 0,
-        };
-        Ok(self.builder.cover(&self.grid[from..])?)
+        let (lowest, highest) = (self.lowest, self.grid[self.grid.len() - 1]);
+        let mut samples = self.grid.clone();
+        // Branches are followed between the friction values asked for, too.
+        if highest > lowest {
+            let steps = (0..=MIN_SAMPLES).map(|i| i as f64 / MIN_SAMPLES as f64);
+            samples.extend(steps.map(|t| lowest + t * (highest - lowest)));
+            samples.sort_by(f64::total_cmp);
+            samples.dedup_by(|b, a| *b - *a < 0.4 * (highest - lowest) / MIN_SAMPLES as f64);
+            samples.pop();
+            samples.push(highest);
+        }
+        // The undamped modes are those of the frictionless problem where damping is proportional.
+        if matches!(self.linearization, Linearization::Reduced(_)) && samples.len() > 1 {
+            samples.remove(0);
+        }
+        Ok(self.builder.cover(&samples)?)
     }
 
     /// Solves all points, and grows the basis where a mode misses its residual.
@@ -135,23 +153,23 @@ impl<'a> SparseSweep<'a> {
     pub fn solve(&mut self, progress: &(dyn Fn(SweepProgress) + Sync)) -> Result<(), CeaError> {
         let all: Vec<usize> = (0..self.grid.len()).collect();
         self.points = self.solve_points(&all, progress)?;
-        for attempt in 0..MAX_REPAIRS {
+        for _ in 0..MAX_REPAIRS {
             let missing: Vec<usize> = all
                 .iter()
                 .copied()
-                .filter(|&k| misses_goal(&self.points[k], attempt))
+                .filter(|&k| misses_goal(&self.points[k]))
                 .collect();
-            let Some(&worst) = missing.iter().max_by(|&&a, &&b| {
-                self.points[a]
-                    .worst()
-                    .1
-                    .total_cmp(&self.points[b].worst().1)
-            }) else {
+            let error = |k: usize| self.points[k].worst().1;
+            let Some(&worst) = missing
+                .iter()
+                .max_by(|&&a, &&b| error(a).total_cmp(&error(b)))
+            else {
                 break;
             };
-            if attempt + 2 < MAX_REPAIRS {
-                self.builder.refine_at(self.grid[worst])?;
-            } else {
+            if !self.builder.refine_at(self.grid[worst])? {
+                if self.points[worst].worst().0 <= RESIDUAL_BOUND {
+                    break;
+                }
                 self.builder.search(self.grid[worst], TRACKING_MARGIN)?;
             }
             for (k, point) in missing.iter().zip(self.solve_points(&missing, &|_| {})?) {
@@ -252,7 +270,7 @@ impl<'a> SparseSweep<'a> {
     /// # Errors
     /// As [`sweep`].
     pub fn finish(
-        &self,
+        &mut self,
         friction_coefficients: &[f64],
         request: &EigenRequest,
         branches: &[ModeBranch],
@@ -264,22 +282,37 @@ impl<'a> SparseSweep<'a> {
                 self.friction_point(k, request.shapes_at.contains(&mu), branches)
             })
             .collect();
-        let finder = OnsetFinder {
-            solver: &self.point_solver(),
-            model: &self.builder.model,
-            points: &self.points,
-            lowest: friction_coefficients
-                .iter()
-                .copied()
-                .fold(f64::INFINITY, f64::min),
-        };
-        let found: Result<Vec<_>, CeaError> = branches
-            .par_iter()
-            .map(|branch| finder.intervals(branch))
-            .collect();
-        let mut intervals: Vec<_> = found?.into_iter().flatten().collect();
+        let mut intervals = self.intervals(branches)?;
         intervals.sort_by(|a, b| a.critical_friction.total_cmp(&b.critical_friction));
         Ok(FrictionSweep { points, intervals })
+    }
+
+    /// Unstable intervals of all branches; where a crossing misses its residual, the basis grows there.
+    fn intervals(&mut self, branches: &[ModeBranch]) -> Result<Vec<UnstableInterval>, CeaError> {
+        let mut repairs = 0;
+        loop {
+            let finder = OnsetFinder {
+                solver: &self.point_solver(),
+                model: &self.builder.model,
+                points: &self.points,
+                lowest: self.lowest,
+            };
+            let found: Result<Vec<_>, CeaError> = branches
+                .par_iter()
+                .map(|branch| finder.intervals(branch))
+                .collect();
+            match found {
+                Ok(intervals) => return Ok(intervals.into_iter().flatten().collect()),
+                Err(CeaError::NotConverged {
+                    friction_coefficient,
+                    ..
+                }) if repairs < MAX_REPAIRS => {
+                    self.builder.refine_at(friction_coefficient)?;
+                    repairs += 1;
+                }
+                Err(error) => return Err(error),
+            }
+        }
     }
 
     fn friction_point(
@@ -330,15 +363,10 @@ impl<'a> SparseSweep<'a> {
     }
 }
 
-/// Whether a point misses the goal that holds at this attempt: first the strict one, at last the bound.
-fn misses_goal(point: &SolvedPoint, attempt: usize) -> bool {
+/// Whether a mode of a point could still be improved.
+fn misses_goal(point: &SolvedPoint) -> bool {
     let (residual, force_residual) = point.worst();
-    let is_strict = attempt + 4 < MAX_REPAIRS;
-    let is_met = if is_strict {
-        force_residual <= FORCE_RESIDUAL_GOAL || residual <= ROUND_OFF
-    } else {
-        residual <= RESIDUAL_BOUND
-    };
+    let is_met = force_residual <= FORCE_RESIDUAL_GOAL || residual <= ROUND_OFF;
     !is_met
 }
 

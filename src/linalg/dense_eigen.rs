@@ -1,0 +1,310 @@
+//! Eigenvalue decomposition of dense real matrices.
+
+use super::dense::{column, column_mut, product, random_columns};
+use super::{ComplexDenseLu, LinalgError};
+use faer::diag::Diag;
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::evd::{ComputeEigenvectors, evd_real, evd_scratch};
+use faer::{Mat, MatRef, Par, c64};
+
+/// Residual, relative to the eigenvalue, above which an eigenvector is computed anew.
+const VECTOR_TOLERANCE: f64 = 1e-9;
+
+/// Eigenvalues and eigenvectors of a real matrix `A`, in real storage.
+///
+/// A real eigenvalue owns one column. A complex pair owns two neighbouring columns `(p, q)`: its
+/// first value, with positive imaginary part, has the vector `p + i q`, its second the conjugate.
+#[derive(Clone, Debug)]
+pub struct RealEigen {
+    /// Eigenvalues; conjugate pairs are neighbours, positive imaginary part first.
+    pub values: Vec<c64>,
+    /// Right vectors, `A x = lambda x`.
+    pub right: Mat<f64>,
+    /// Left vectors, `y^H A = lambda y^H`, where they were asked for.
+    pub left: Option<Mat<f64>>,
+}
+
+/// Eigenvalue decomposition of a real square matrix.
+///
+/// The vectors of the `leading` eigenvalues of largest modulus are held to their equation and computed
+/// anew where they miss it by inverse iteration; the others come as the decomposition leaves them.
+///
+/// # Errors
+/// If the QR iteration does not converge, or the matrix is not finite.
+pub fn real_eigen(
+    matrix: MatRef<'_, f64>,
+    with_left: bool,
+    leading: usize,
+) -> Result<RealEigen, LinalgError> {
+    let n = matrix.nrows();
+    let failure = LinalgError::DenseEigen { dimension: n };
+    if !matrix.is_all_finite() {
+        return Err(failure);
+    }
+    let (mut real, mut imaginary) = (Diag::<f64>::zeros(n), Diag::<f64>::zeros(n));
+    let mut right = Mat::<f64>::zeros(n, n);
+    let mut left = with_left.then(|| Mat::<f64>::zeros(n, n));
+    let left_mode = if with_left {
+        ComputeEigenvectors::Yes
+    } else {
+        ComputeEigenvectors::No
+    };
+    let scratch = evd_scratch::<f64>(
+        n,
+        left_mode,
+        ComputeEigenvectors::Yes,
+        Par::Seq,
+        Default::default(),
+    );
+    evd_real(
+        matrix,
+        real.as_mut(),
+        imaginary.as_mut(),
+        left.as_mut().map(|l| l.as_mut()),
+        Some(right.as_mut()),
+        Par::Seq,
+        MemStack::new(&mut MemBuffer::new(scratch)),
+        Default::default(),
+    )
+    .map_err(|_| failure)?;
+    let mut values: Vec<c64> = (0..n)
+        .map(|i| c64::new(real.column_vector()[i], imaginary.column_vector()[i]))
+        .collect();
+    order_conjugate_pairs(&mut values, &mut right, left.as_mut());
+    let mut moduli: Vec<f64> = values.iter().map(|v| v.norm()).collect();
+    moduli.sort_by(|a, b| b.total_cmp(a));
+    let smallest = moduli.get(leading).copied().unwrap_or(0.0);
+    repair(matrix, &values, smallest, &mut right);
+    if let Some(left) = &mut left {
+        // Conjugates of left vectors are right vectors of the transpose.
+        conjugate(&values, left);
+        repair(matrix.transpose(), &values, smallest, left);
+        conjugate(&values, left);
+    }
+    Ok(RealEigen {
+        values,
+        right,
+        left,
+    })
+}
+
+/// Makes the positive imaginary part come first in every pair.
+fn order_conjugate_pairs(
+    values: &mut [c64],
+    right: &mut Mat<f64>,
+    mut left: Option<&mut Mat<f64>>,
+) {
+    let mut i = 0;
+    while i < values.len() {
+        if values[i].im == 0.0 {
+            i += 1;
+            continue;
+        }
+        if values[i].im < 0.0 {
+            values.swap(i, i + 1);
+            for vectors in [Some(&mut *right), left.as_deref_mut()]
+                .into_iter()
+                .flatten()
+            {
+                for row in 0..vectors.nrows() {
+                    vectors[(row, i + 1)] = -vectors[(row, i + 1)];
+                }
+            }
+        }
+        i += 2;
+    }
+}
+
+/// Replaces the columns of `vectors` by their conjugates.
+fn conjugate(values: &[c64], vectors: &mut Mat<f64>) {
+    for (j, value) in values.iter().enumerate() {
+        if value.im < 0.0 {
+            column_mut(vectors, j).iter_mut().for_each(|v| *v = -*v);
+        }
+    }
+}
+
+/// Recomputes eigenvectors, of eigenvalues of at least the modulus `smallest`, that do not satisfy their
+/// equation.
+///
+/// The back substitution of the decomposition loses up to all digits in the vectors of repeated complex
+/// eigenvalues. Inverse iteration restores them; projections against the sound vectors of equal
+/// eigenvalues keep them independent.
+fn repair(matrix: MatRef<'_, f64>, values: &[c64], smallest: f64, vectors: &mut Mat<f64>) {
+    let first_columns: Vec<usize> = (0..values.len())
+        .filter(|&j| values[j].im >= 0.0 && values[j].norm() >= smallest)
+        .collect();
+    let images = product(matrix, vectors.as_ref());
+    let mut sound: Vec<usize> = Vec::new();
+    let mut unsound: Vec<usize> = Vec::new();
+    for j in first_columns {
+        let vector = complex_column(values, vectors, j);
+        let image = complex_column(values, &images, j);
+        let pairs = image.iter().zip(&vector);
+        let error = pairs
+            .map(|(a, x)| (a - values[j] * x).norm_sqr())
+            .sum::<f64>()
+            .sqrt();
+        if error <= VECTOR_TOLERANCE * values[j].norm() * length(&vector) {
+            sound.push(j);
+        } else {
+            unsound.push(j);
+        }
+    }
+    for j in unsound {
+        let alike: Vec<Vec<c64>> = sound
+            .iter()
+            .filter(|&&k| (values[k] - values[j]).norm() < 1e-8 * values[j].norm())
+            .map(|&k| complex_column(values, vectors, k))
+            .collect();
+        let vector = inverse_iteration(matrix, values[j], &orthonormal(alike), j as u64);
+        for (i, v) in vector.iter().enumerate() {
+            vectors[(i, j)] = v.re;
+            if values[j].im > 0.0 {
+                vectors[(i, j + 1)] = v.im;
+            }
+        }
+        sound.push(j);
+    }
+}
+
+/// An eigenvector of `value` orthogonal to `known`, which span others of the same eigenvalue.
+fn inverse_iteration(
+    matrix: MatRef<'_, f64>,
+    value: c64,
+    known: &[Vec<c64>],
+    seed: u64,
+) -> Vec<c64> {
+    let n = matrix.nrows();
+    // Off the eigenvalue by more than its round-off, by far less than its distance to others.
+    let shift = value * (1.0 + 1e-11);
+    let shifted = Mat::from_fn(n, n, |i, j| {
+        c64::new(matrix[(i, j)], 0.0) - if i == j { shift } else { c64::new(0.0, 0.0) }
+    });
+    let lu = ComplexDenseLu::factorize(shifted);
+    let start = random_columns(n, 1, seed);
+    let mut x = Mat::from_fn(n, 1, |i, _| c64::new(start[(i, 0)], 0.0));
+    for _ in 0..3 {
+        let mut vector: Vec<c64> = (0..n).map(|i| x[(i, 0)]).collect();
+        project_out(&mut vector, known);
+        let norm = length(&vector);
+        (0..n).for_each(|i| x[(i, 0)] = vector[i] / norm);
+        lu.solve_in_place(x.as_mut());
+    }
+    let mut vector: Vec<c64> = (0..n).map(|i| x[(i, 0)]).collect();
+    project_out(&mut vector, known);
+    let norm = length(&vector);
+    vector.iter_mut().for_each(|v| *v /= norm);
+    vector
+}
+
+fn complex_column(values: &[c64], vectors: &Mat<f64>, j: usize) -> Vec<c64> {
+    let real = column(vectors.as_ref(), j);
+    if values[j].im == 0.0 {
+        return real.iter().map(|&v| c64::new(v, 0.0)).collect();
+    }
+    let imaginary = column(vectors.as_ref(), j + 1);
+    real.iter()
+        .zip(imaginary)
+        .map(|(&p, &q)| c64::new(p, q))
+        .collect()
+}
+
+fn orthonormal(vectors: Vec<Vec<c64>>) -> Vec<Vec<c64>> {
+    let mut basis: Vec<Vec<c64>> = Vec::new();
+    for mut vector in vectors {
+        project_out(&mut vector, &basis);
+        let norm = length(&vector);
+        vector.iter_mut().for_each(|v| *v /= norm);
+        basis.push(vector);
+    }
+    basis
+}
+
+fn project_out(vector: &mut [c64], basis: &[Vec<c64>]) {
+    for direction in basis {
+        let overlap: c64 = direction
+            .iter()
+            .zip(vector.iter())
+            .map(|(d, v)| d.conj() * v)
+            .sum();
+        vector
+            .iter_mut()
+            .zip(direction)
+            .for_each(|(v, d)| *v -= overlap * d);
+    }
+}
+
+fn length(vector: &[c64]) -> f64 {
+    vector.iter().map(|v| v.norm_sqr()).sum::<f64>().sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::linalg::DenseLu;
+    use crate::linalg::dense::transpose_product;
+
+    #[test]
+    fn eigenvectors_of_a_random_real_matrix_satisfy_both_equations() {
+        let a = random_columns(40, 40, 7);
+        let eigen = real_eigen(a.as_ref(), true, usize::MAX).unwrap();
+        let left = eigen.left.unwrap();
+        let (ar, al) = (
+            product(a.as_ref(), eigen.right.as_ref()),
+            transpose_product(a.as_ref(), left.as_ref()),
+        );
+        let mut j = 0;
+        while j < 40 {
+            let lambda = eigen.values[j];
+            let width = if lambda.im == 0.0 { 1 } else { 2 };
+            assert!(width == 1 || (lambda.im > 0.0 && eigen.values[j + 1] == lambda.conj()));
+            for i in 0..40 {
+                let at = |m: &Mat<f64>| {
+                    c64::new(m[(i, j)], if width == 2 { m[(i, j + 1)] } else { 0.0 })
+                };
+                assert!((at(&ar) - lambda * at(&eigen.right)).norm() < 1e-12);
+                assert!((at(&al) - lambda.conj() * at(&left)).norm() < 1e-12);
+            }
+            j += width;
+        }
+    }
+
+    #[test]
+    fn vectors_of_a_repeated_complex_pair_are_independent_and_satisfy_their_equation() {
+        // Two equal rotation blocks and a few others, in a random basis.
+        let n = 24;
+        let mut blocks = Mat::<f64>::zeros(n, n);
+        for k in 0..n / 2 {
+            let (re, im) = if k < 4 {
+                (-0.01, 0.7)
+            } else {
+                (-0.01 * k as f64, 1.0 / k as f64)
+            };
+            blocks[(2 * k, 2 * k)] = re;
+            blocks[(2 * k + 1, 2 * k + 1)] = re;
+            blocks[(2 * k, 2 * k + 1)] = im;
+            blocks[(2 * k + 1, 2 * k)] = -im;
+        }
+        let basis = random_columns(n, n, 11);
+        let mut inverse = Mat::<f64>::identity(n, n);
+        DenseLu::factorize(basis.clone()).solve_in_place(inverse.as_mut());
+        let a = product(
+            product(basis.as_ref(), blocks.as_ref()).as_ref(),
+            inverse.as_ref(),
+        );
+        let eigen = real_eigen(a.as_ref(), true, usize::MAX).unwrap();
+        let images = product(a.as_ref(), eigen.right.as_ref());
+        for j in (0..n).filter(|&j| eigen.values[j].im > 0.0) {
+            let x = complex_column(&eigen.values, &eigen.right, j);
+            let image = complex_column(&eigen.values, &images, j);
+            for (p, q) in image.iter().zip(&x) {
+                assert!((p - eigen.values[j] * q).norm() < 2e-9 * length(&x));
+            }
+        }
+        // Independent vectors: the matrix of all of them, in real storage, is not near singular.
+        let mut inverse = Mat::<f64>::identity(n, n);
+        DenseLu::factorize(eigen.right).solve_in_place(inverse.as_mut());
+        assert!(inverse.norm_max() < 1e4);
+    }
+}
