@@ -46,10 +46,14 @@ struct Demodulated {
 }
 
 impl Demodulated {
-    /// What the window makes of an exponential: its mean over that at mid-window.
-    fn growth_gain(&self, rate: f64) -> f64 {
-        let weighted = self.taper.iter().map(|(t, w)| w * (rate * t).exp());
-        weighted.sum()
+    /// What the window makes of an exponential of the given rate and distance from the demodulation
+    /// frequency, rad/s: the modulus of its mean over that at mid-window.
+    fn growth_gain(&self, rate: f64, drift: f64) -> f64 {
+        let weighted = self
+            .taper
+            .iter()
+            .map(|(t, w)| c64::from_polar(w * (rate * t).exp(), drift * t));
+        weighted.sum::<c64>().norm()
     }
 }
 
@@ -277,7 +281,7 @@ fn fit(signal: &Demodulated, first: usize, last: usize) -> Result<ExponentialSta
             high: hertz(drift.high),
         },
         initial_amplitude: (mean_log + rate.value * (t[0] - mean_time)).exp()
-            / signal.growth_gain(rate.value),
+            / signal.growth_gain(rate.value, drift.value),
         deviation,
     })
 }
