@@ -59,7 +59,7 @@ fn count(cycle: &LimitCycle, status: ContactStatus) -> usize {
 
 #[test]
 fn external_power_leaves_as_heat_of_body_and_contact() {
-    for (harmonic, rpm) in [(1, 70.0), (2, 70.0), (1, 610.0), (2, 610.0)] {
+    for (harmonic, rpm) in [(1, 70.0), (1, 250.0), (2, 70.0), (2, 610.0)] {
         let cycle = solver(harmonic).find(&operating(rpm)).unwrap();
         // The identity is exact; what remains is round-off of the linear systems.
         assert!(cycle.powers.balance_residual() < 1e-8);
@@ -152,13 +152,14 @@ fn branch_over_friction_is_born_at_the_onset_of_the_linear_theory() {
     let point = operating(610.0);
     let onset = solver.onsets(&point.damping)[0];
     let cycle = solver.find(&point).unwrap();
-    let values: Vec<f64> = (10..=30).map(|i| 0.01 * i as f64).collect();
+    let critical = onset.friction_coefficient;
+    let values = [critical - 2e-3, critical + 5e-4, critical + 2e-3, 0.3];
     let branch = solver.follow(&cycle, Parameter::FrictionCoefficient, &values);
     assert_eq!(branch.ends, [BranchEnd::Birth, BranchEnd::Range]);
     let first = &branch.cycles[0];
     let born = first.state.point.contact.friction_coefficient;
-    // The first sample above the critical friction.
-    assert!(born > onset.friction_coefficient - 1e-3 && born < onset.friction_coefficient + 0.011);
+    // The grid of phases lets the curve dip below the critical friction by little before it rises.
+    assert!((born - critical).abs() < 2.1e-3);
     assert!((first.state.frequency / onset.frequency - 1.0).abs() < 5e-3);
 }
 
@@ -213,6 +214,7 @@ fn reference_cycles_of_the_fine_mesh_have_the_transients_frequencies_and_statuse
         let solver = CycleSolver::new(&specification, &polycarbonate(), harmonic, points).unwrap();
         let cycle = solver.find(&operating(rpm)).unwrap();
         let label = format!("n = {harmonic} at {rpm} rpm");
+        assert!(cycle.powers.balance_residual() < 1e-8, "{label}");
         assert!(
             (cycle.frequency_hz() / frequency - 1.0).abs() < 1e-3,
             "{label}"

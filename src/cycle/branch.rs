@@ -115,7 +115,6 @@ impl<'a> Branch<'a> {
 
     /// One step: to the next change of contact state, the next of `samples` (rising) or the longest step.
     ///
-    /// # Errors
     /// `None` where the curve cannot be followed any further.
     pub fn advance(&mut self, samples: &[f64]) -> Option<Step> {
         let flipped = self.pending.take().map(|event| self.flip(event));

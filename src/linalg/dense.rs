@@ -79,7 +79,7 @@ pub fn column_blocks<T>(
 }
 
 /// `a^T b`, summed in eight fixed lanes so that it vectorizes.
-fn dot(a: &[f64], b: &[f64]) -> f64 {
+pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut lanes = [0.0; 8];
     let (a_chunks, b_chunks) = (a.chunks_exact(8), b.chunks_exact(8));
     let tail: f64 = a_chunks

@@ -8,16 +8,22 @@ use faer::{Mat, MatRef};
 /// meets contiguous memory.
 const LANES: usize = 8;
 
+/// `sum + value * source`, by value: the lanes stay in vector registers.
+#[inline(always)]
+fn add_multiple(mut sum: [f64; LANES], value: f64, source: [f64; LANES]) -> [f64; LANES] {
+    for lane in 0..LANES {
+        sum[lane] += value * source[lane];
+    }
+    sum
+}
+
 impl SparsityPattern {
     /// `A x` for each column of `x`, with `A` given by its nonzero `values`.
     pub fn multiply(&self, values: &[f64], x: MatRef<'_, f64>) -> Mat<f64> {
         self.by_lanes(x, |input, output| {
             for (index, source) in input.iter().enumerate() {
                 for (position, row) in self.column(index) {
-                    let value = values[position];
-                    for (t, s) in output[row].iter_mut().zip(source) {
-                        *t += value * s;
-                    }
+                    output[row] = add_multiple(output[row], values[position], *source);
                 }
             }
         })
@@ -27,12 +33,11 @@ impl SparsityPattern {
     pub fn multiply_transpose(&self, values: &[f64], x: MatRef<'_, f64>) -> Mat<f64> {
         self.by_lanes(x, |input, output| {
             for (index, target) in output.iter_mut().enumerate() {
+                let mut sum = *target;
                 for (position, row) in self.column(index) {
-                    let value = values[position];
-                    for (t, s) in target.iter_mut().zip(&input[row]) {
-                        *t += value * s;
-                    }
+                    sum = add_multiple(sum, values[position], input[row]);
                 }
+                *target = sum;
             }
         })
     }

@@ -3,6 +3,7 @@
 use super::error::CeaError;
 use super::reduced::{PackedModes, ReducedMode, ReducedModel};
 use super::structure::{Linearization, ShiftInverted, Side, StiffnessFactors, StructureMatrices};
+use crate::linalg::dense::{join_columns, orthonormal_complement};
 use crate::linalg::{KrylovSchurSettings, LinalgError, LuAnalysis, Wanted, krylov_schur};
 use crate::prestress::SlidingTangent;
 use faer::Mat;
@@ -12,6 +13,8 @@ use std::sync::OnceLock;
 const RIGHT_TOLERANCE: f64 = 2e-12;
 /// The same for left vectors, which only serve overlaps and derivatives.
 const LEFT_TOLERANCE: f64 = 3e-4;
+/// Friction values whose modes make up the compressed basis, besides the ends.
+const CHEBYSHEV_POINTS: usize = 6;
 /// Refinements of one basis before the preconditioner is considered unfit.
 const MAX_ROUNDS: usize = 40;
 
@@ -85,6 +88,40 @@ impl<'a> BasisBuilder<'a> {
                 break;
             }
         }
+        if values.len() > CHEBYSHEV_POINTS {
+            self.compress(values)?;
+        }
+        Ok(())
+    }
+
+    /// Drops what the modes do not need: keeps their span at eight of `values` (Chebyshev points, as the
+    /// modes are smooth functions of the friction coefficient) and at 0.
+    ///
+    /// # Errors
+    /// If a dense decomposition fails.
+    fn compress(&mut self, values: &[f64]) -> Result<(), LinalgError> {
+        let last = values.len() - 1;
+        let angles = (0..CHEBYSHEV_POINTS).map(|i| (i as f64 + 0.5) / CHEBYSHEV_POINTS as f64);
+        let positions = angles.map(|t| 0.5 - 0.5 * (t * std::f64::consts::PI).cos());
+        let mut picked: Vec<usize> = positions
+            .map(|t| (t * last as f64).round() as usize)
+            .chain([0, last])
+            .collect();
+        picked.sort_unstable();
+        picked.dedup();
+        let m = self.model.dimension();
+        let (mut right, mut left) = (Mat::zeros(m, 0), Mat::zeros(m, 0));
+        for mu in picked.into_iter().map(|i| values[i]).chain([0.0]) {
+            let modes = self.model.solve(mu, self.count)?;
+            let coordinates = |side| PackedModes::of(&modes, side, m).coordinates;
+            right = join_columns(right.as_ref(), coordinates(Side::Right).as_ref());
+            left = join_columns(left.as_ref(), coordinates(Side::Left).as_ref());
+        }
+        let none = Mat::<f64>::zeros(m, 0);
+        let right = orthonormal_complement(none.as_ref(), right, RIGHT_TOLERANCE);
+        let left = orthonormal_complement(right.as_ref(), left, LEFT_TOLERANCE);
+        self.model
+            .compress(&join_columns(right.as_ref(), left.as_ref()));
         Ok(())
     }
 

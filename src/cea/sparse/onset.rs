@@ -90,6 +90,11 @@ impl OnsetFinder<'_> {
     /// If a dense decomposition fails, or the mode at a crossing does not satisfy the full problem.
     pub fn intervals(&self, branch: &ModeBranch) -> Result<Vec<UnstableInterval>, CeaError> {
         let mut found = Found::default();
+        let is_ever_wanted = (branch.modes.iter().zip(self.points))
+            .any(|(index, point)| index.is_some_and(|i| i < point.wanted));
+        if !is_ever_wanted {
+            return Ok(Vec::new());
+        }
         let mut previous: Option<(State, bool)> = None;
         for (k, point) in self.points.iter().enumerate() {
             if point.friction_coefficient < self.lowest {
@@ -179,8 +184,8 @@ impl OnsetFinder<'_> {
         })
     }
 
-    /// Root of the growth rate in a bracket: cubic through both ends, safeguarded by bisection. Returns
-    /// the unstable end of the final bracket.
+    /// Root of the growth rate in a bracket: cubic through both ends, safeguarded by bisection, until a
+    /// Newton step from it would be shorter than the tolerance.
     fn root(&self, from: &State, to: &State) -> Result<State, LinalgError> {
         let (mut from, mut to) = (from.clone(), to.clone());
         let mut bisect = false;
@@ -190,16 +195,19 @@ impl OnsetFinder<'_> {
                 break;
             }
             let t = if bisect { 0.5 } else { cubic_root(&from, &to) };
-            // Stepping a little beyond the estimate closes the bracket from both sides.
-            let nudge = 0.2 * FRICTION_TOLERANCE / width;
-            let guess = if t < 0.5 { t + nudge } else { t - nudge };
-            let state = self.between(&from, &to, guess.clamp(nudge, 1.0 - nudge))?;
+            let state = self.between(&from, &to, t.clamp(1e-6, 1.0 - 1e-6))?;
+            let newton = (state.growth() / state.mode.derivative.re).abs();
+            // Where eigenvalues meet, the derivative is not finite on the stable side: no Newton there.
+            let is_smooth = state.mode.derivative.re.abs() * width < state.mode.eigenvalue.norm();
+            if is_smooth && newton < FRICTION_TOLERANCE && state.growth().abs() > 0.0 && !bisect {
+                return Ok(state);
+            }
             if state.is_unstable() == from.is_unstable() {
                 from = state;
             } else {
                 to = state;
             }
-            bisect = to.mu - from.mu > 0.5 * width;
+            bisect = to.mu - from.mu > 0.5 * width && newton > 0.1 * width;
         }
         Ok(if to.is_unstable() { to } else { from })
     }

@@ -88,31 +88,22 @@ impl PointSolver<'_> {
         let matrices = StructureMatrices::at(self.tangent, self.linearization, mu);
         let packed = PackedModes::of(modes, Side::Right, model.dimension());
         let x = model.expand(packed.coordinates.as_ref());
-        let products = matrices.multiply(Side::Right, x.as_ref());
+        let (residuals, momenta) =
+            matrices.residuals_and_momenta(Side::Right, &packed.entries, x.as_ref());
         let norms = matrices.norms();
         (0..modes.len())
             .map(|j| {
                 let lambda = modes[j].eigenvalue;
-                let [stiff, damped, inert] =
-                    products.each_ref().map(|product| packed.vector(j, product));
-                let shape = packed.vector(j, &x);
-                let (mut force, mut inertia, mut length, mut peak) = (0.0, 0.0, 0.0, 0.0_f64);
-                for i in 0..x.nrows() {
-                    let acceleration = lambda * lambda * inert.at(i);
-                    let residual = acceleration + lambda * damped.at(i) + stiff.at(i);
-                    force += residual.norm_sqr();
-                    inertia += acceleration.norm_sqr();
-                    let square = shape.at(i).norm_sqr();
-                    length += square;
-                    peak = peak.max(square);
-                }
                 let modulus = lambda.norm();
+                let force = matrices.residual_factor(lambda) * packed.vector(j, &residuals).norm();
+                let inertia = modulus * modulus * packed.vector(j, &momenta).norm();
+                let shape = packed.vector(j, &x);
                 let scale = modulus * modulus * norms[2] + modulus * norms[1] + norms[0];
                 ModeCheck {
-                    residual: (force / length).sqrt() / scale,
-                    force_residual: (force / inertia).sqrt(),
+                    residual: force / (scale * shape.norm()),
+                    force_residual: force / inertia,
                     edge: self.edge.restrict(|unknown| shape.at(unknown)),
-                    peak: peak.sqrt(),
+                    peak: shape.peak(),
                 }
             })
             .collect()

@@ -2,7 +2,7 @@
 
 use super::structure::{Linearization, Side};
 use crate::linalg::dense::{
-    column, join_columns, orthonormal_complement, product, transpose_product,
+    column, dot, join_columns, orthonormal_complement, product, transpose_product,
 };
 use crate::linalg::dense_eigen::real_eigen;
 use crate::linalg::{DenseLu, LinalgError, MatrixPolynomial};
@@ -37,8 +37,8 @@ pub struct ProjectedMatrices {
 /// `V^T (lambda^2 M(mu) + lambda C(mu) + K(mu)) V` with an orthonormal `V` that holds the wanted right and
 /// left vectors of all friction coefficients.
 ///
-/// The basis only grows: coordinates in an earlier one stay valid, with zeros for the columns added
-/// since.
+/// Coordinates stay valid when the basis grows, with zeros for the columns added since; not so when it
+/// is compressed.
 pub struct ReducedModel {
     linearization: Linearization,
     /// Coefficients of `P = K, C, M` by power of `mu`, each without its zeros.
@@ -88,6 +88,15 @@ impl ReducedModel {
             }
         }
         self.basis = join_columns(self.basis.as_ref(), new.as_ref());
+    }
+
+    /// Restricts the basis to the span of the orthonormal `columns` of coordinates.
+    pub fn compress(&mut self, columns: &Mat<f64>) {
+        for small in self.projected.iter_mut().flatten() {
+            let image = product(small.as_ref(), columns.as_ref());
+            *small = transpose_product(columns.as_ref(), image.as_ref());
+        }
+        self.basis = product(self.basis.as_ref(), columns.as_ref());
     }
 
     /// The projected matrices at `mu`.
@@ -417,6 +426,25 @@ pub struct PackedVector<'m> {
 }
 
 impl PackedVector<'_> {
+    /// Euclidean length.
+    pub fn norm(&self) -> f64 {
+        let square = |v: &[f64]| dot(v, v);
+        (square(self.real) + self.imaginary.map_or(0.0, square)).sqrt()
+    }
+
+    /// Largest modulus of an entry.
+    pub fn peak(&self) -> f64 {
+        let squares = |v: &f64| v * v;
+        let largest = match self.imaginary {
+            None => self.real.iter().map(squares).fold(0.0, f64::max),
+            Some(imaginary) => {
+                let parts = self.real.iter().zip(imaginary);
+                parts.map(|(p, q)| p * p + q * q).fold(0.0, f64::max)
+            }
+        };
+        largest.sqrt()
+    }
+
     /// Entry `i`.
     #[inline]
     pub fn at(&self, i: usize) -> c64 {

@@ -92,26 +92,19 @@ impl<'a> StructureMatrices<'a> {
         }
     }
 
-    /// `P x` (or `P^T x`) for `P = K, C, M`; `C` follows from the others where damping is proportional.
-    pub fn multiply(&self, side: Side, x: MatRef<'_, f64>) -> [Mat<f64>; 3] {
-        let product = |values: &[f64]| match side {
-            Side::Right => self.pattern.multiply(values, x),
-            Side::Left => self.pattern.multiply_transpose(values, x),
-        };
-        let (stiff, inert) = (product(&self.values[0]), product(&self.values[2]));
-        let damped = match self.linearization {
-            Linearization::Reduced(damping) => {
-                faer::Scale(damping.mass_coefficient) * &inert
-                    + faer::Scale(damping.stiffness_coefficient) * &stiff
-            }
-            Linearization::Companion { .. } => product(&self.values[1]),
-        };
-        [stiff, damped, inert]
-    }
-
     /// `K x - kappa M x` or, of the general problem, `T(lambda) x`, for the packed vectors `x` of
     /// `entries`, in the same packing.
     pub fn residuals(&self, side: Side, entries: &[PackedEntry], x: MatRef<'_, f64>) -> Mat<f64> {
+        self.residuals_and_momenta(side, entries, x).0
+    }
+
+    /// [`Self::residuals`] and `M x`.
+    pub fn residuals_and_momenta(
+        &self,
+        side: Side,
+        entries: &[PackedEntry],
+        x: MatRef<'_, f64>,
+    ) -> (Mat<f64>, Mat<f64>) {
         let product = |values: &[f64]| match side {
             Side::Right => self.pattern.multiply(values, x),
             Side::Left => self.pattern.multiply_transpose(values, x),
@@ -134,7 +127,17 @@ impl<'a> StructureMatrices<'a> {
                 }
             }
         }
-        residual
+        (residual, inert)
+    }
+
+    /// `T(lambda) x` over what [`Self::residuals`] returns: `T(lambda) = (1 + beta lambda) (K - kappa M)`.
+    pub fn residual_factor(&self, lambda: c64) -> f64 {
+        match self.linearization {
+            Linearization::Reduced(damping) => {
+                (lambda * damping.stiffness_coefficient + 1.0).norm()
+            }
+            Linearization::Companion { .. } => 1.0,
+        }
     }
 
     /// Largest row sums of `|K|`, `|C|` and `|M|`.

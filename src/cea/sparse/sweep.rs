@@ -17,7 +17,7 @@ use std::f64::consts::TAU;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Residual force relative to inertia force that every mode should reach.
-const FORCE_RESIDUAL_GOAL: f64 = 2e-11;
+const FORCE_RESIDUAL_GOAL: f64 = 3e-11;
 /// Residual relative to the matrices below which there is only round-off.
 const ROUND_OFF: f64 = 1e-15;
 /// Friction values at which the basis is refined, at least, over a range.
@@ -172,6 +172,7 @@ impl<'a> SparseSweep<'a> {
                 }
                 self.builder.search(self.grid[worst], TRACKING_MARGIN)?;
             }
+            eprintln!("repair {missing:?} {:?}", self.dimension_and_worst());
             for (k, point) in missing.iter().zip(self.solve_points(&missing, &|_| {})?) {
                 self.points[*k] = point;
             }

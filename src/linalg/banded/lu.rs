@@ -27,7 +27,7 @@ impl BandedLu {
         }
     }
 
-    /// Factorizes the matrix whose band has `values`, laid out like [`BandedMatrix::values`].
+    /// Factorizes the matrix whose band has `values`, laid out like [`super::BandedMatrix::values`].
     ///
     /// An exactly singular pivot is replaced by a tiny one: a shift that is an eigenvalue to the last bit
     /// is welcome in inverse iteration.
