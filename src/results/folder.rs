@@ -2,6 +2,7 @@
 
 use super::Manifest;
 use super::drawing::{FIGURES, REPORT};
+use super::reopening::read_manifest;
 use serde::{Deserialize, Serialize};
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -11,7 +12,6 @@ use std::path::{Path, PathBuf};
 
 pub(super) const MANIFEST: &str = "manifest.json";
 pub(super) const LOCK: &str = ".lock";
-const SUMMARY: &str = "summary.json";
 /// Names of the files that a run has written so far; gone when it is complete.
 const JOURNAL: &str = ".written";
 /// How the name of a file that is still being written begins.
@@ -305,46 +305,6 @@ impl OutputFolder {
 
     fn remove<'a>(&self, names: impl Iterator<Item = &'a String>) {
         remove_files(&self.path, names);
-    }
-}
-
-/// The manifest of a results folder.
-///
-/// # Errors
-/// [`FolderError::NotResults`] if there is none; those of the file system.
-pub fn read_manifest(path: &Path) -> Result<Manifest, FolderError> {
-    let lacks = |reason: String| FolderError::NotResults {
-        path: path.to_owned(),
-        reason,
-    };
-    if !path.join(MANIFEST).is_file() {
-        return Err(lacks(format!("it has no {MANIFEST}")));
-    }
-    match read_contents(path)? {
-        Some(contents) => Ok(contents.manifest),
-        None => Err(lacks(format!("its {MANIFEST} is damaged"))),
-    }
-}
-
-/// The `summary.json` of a results folder.
-///
-/// # Errors
-/// [`FolderError::NotResults`] if there is none, as after a run that was killed; those of the file
-/// system.
-pub fn read_summary(path: &Path) -> Result<serde_json::Value, FolderError> {
-    let lacks = |reason: &str| FolderError::NotResults {
-        path: path.to_owned(),
-        reason: reason.to_owned(),
-    };
-    let file = path.join(SUMMARY);
-    match fs::read(&file) {
-        Ok(bytes) => {
-            serde_json::from_slice(&bytes).map_err(|_| lacks("its summary.json is damaged"))
-        }
-        Err(error) if error.kind() == io::ErrorKind::NotFound => {
-            Err(lacks("it has no summary.json: the run did not end"))
-        }
-        Err(error) => Err(FolderError::io("read", &file, error)),
     }
 }
 

@@ -8,6 +8,7 @@ mod folder;
 pub mod identification;
 mod manifest;
 mod mesh;
+mod reopening;
 pub mod report;
 pub mod run_figures;
 pub mod signal;
@@ -20,8 +21,9 @@ mod vtu;
 pub use drawing::{
     DOTS_PER_INCH, DrawingError, FigureFile, figure_files, write_figures, write_report,
 };
-pub use folder::{FolderError, OutputFolder, Replace, read_manifest, read_summary};
+pub use folder::{FolderError, OutputFolder, Replace};
 pub use manifest::Manifest;
 pub use mesh::{MeshStatistics, write_mesh, write_mesh_picture};
+pub use reopening::{read_manifest, read_summary};
 pub use table::{Table, format_number};
 pub use vtu::{EncodedMesh, Field, PvdEntry, cartesian_vectors, write_pvd, write_vtu};
