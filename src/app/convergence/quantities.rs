@@ -117,7 +117,13 @@ pub fn of_transients(sizes: &[f64], summaries: &[Value]) -> Vec<Quantity> {
     };
     let mut quantities = vec![
         each("main frequency", "Hz", &|s| s["main_frequency_hz"].as_f64()),
-        each("main harmonic", "", &|s| s["main_harmonic"].as_f64()),
+        Quantity::count(
+            "main harmonic".to_owned(),
+            summaries
+                .iter()
+                .map(|s| s["main_harmonic"].as_f64().unwrap_or(f64::NAN))
+                .collect(),
+        ),
     ];
     for status in ["stick", "slip", "open"] {
         quantities.push(each(&format!("{status} fraction"), "", &|s| {

@@ -1,5 +1,9 @@
 //! Observed order and limit of one quantity over refinements.
 
+/// Smallest order that counts as convergence: below it, halving the error takes a resolution sixteen times
+/// as fine, and the limit is mostly extrapolation.
+const LOWEST_ORDER: f64 = 0.25;
+
 /// Largest order that is looked for: beyond it the differences say nothing of an order.
 const HIGHEST_ORDER: f64 = 20.0;
 
@@ -16,11 +20,11 @@ pub enum Verdict {
         /// Value at `h = 0` by Richardson's extrapolation.
         limit: f64,
     },
-    /// The last two differences shrink and change sign: the limit lies between, an order cannot be told.
+    /// The last two differences shrink and change sign: no order can be told from them.
     Oscillating,
     /// The last two values agree to round-off.
     Settled,
-    /// The differences do not shrink, or too slowly for any positive order.
+    /// The differences do not shrink, or more slowly than order 1/4 does.
     NotConverging,
     /// A value is missing or not finite.
     Missing,
@@ -58,8 +62,7 @@ impl Verdict {
 /// Reads order and limit from the three finest resolutions.
 ///
 /// `f(h) = f_0 + c h^p` through three points gives `(f_1 - f_2) / (f_2 - f_3) = (h_1^p - h_2^p) / (h_2^p - h_3^p)`,
-/// whose right side rises with `p` from `ln(h_1 / h_2) / ln(h_2 / h_3)` at `p = 0`: there is a positive order
-/// exactly if the differences shrink faster than that. Coarser values play no part. `sizes` fall strictly and
+/// whose right side rises with `p`: there is one order or none. Coarser values play no part. `sizes` fall strictly and
 /// are positive; `values` has one entry for each. It does not tell whether the finest three lie in the
 /// asymptotic range.
 ///
@@ -82,7 +85,7 @@ pub fn estimate(sizes: &[f64], values: &[f64]) -> Verdict {
     // Sizes relative to the coarsest keep the powers within range.
     let (r2, r3) = (h2 / h1, h3 / h1);
     let expected = |p: f64| (1.0 - r2.powf(p)) / (r2.powf(p) - r3.powf(p));
-    let (mut low, mut high) = (1e-3, HIGHEST_ORDER);
+    let (mut low, mut high) = (LOWEST_ORDER, HIGHEST_ORDER);
     if !(ratio > expected(low) && ratio < expected(high)) {
         return Verdict::NotConverging;
     }

@@ -12,7 +12,7 @@ const MOST_CURVES: usize = 7;
 
 /// Draws the figures of every series and writes `report.html`.
 ///
-/// Of each unit the quantities that converge are drawn by their estimated errors, and all of a series by the
+/// Of each group the quantities that converge are drawn by their estimated errors, and all by the
 /// differences between successive levels, which need no limit; the first seven of each.
 ///
 /// # Errors
@@ -34,24 +34,11 @@ pub fn draw(
 fn section(series: &Series) -> Result<ReportSection, FigureError> {
     let (analysis, refinement) = (series.analysis, series.refinement.name());
     let mut figures = Vec::new();
-    let units = unique_units(series);
-    for unit in units {
-        let of_unit: Vec<&Quantity> = series
-            .quantities
-            .iter()
-            .filter(|q| q.unit == unit)
-            .collect();
-        let shown = match unit {
-            "" => "pure numbers".to_owned(),
-            unit => format!("quantities in {unit}"),
-        };
-        let suffix = match unit {
-            "Hz" => "hz",
-            "1/s" => "growth",
-            "W" => "power",
-            "" => "numbers",
-            other => other,
-        };
+    for group in groups(series) {
+        let members = series.quantities.iter();
+        let members: Vec<&Quantity> = members.filter(|q| group_of(q) == group).collect();
+        let unit = members.first().map_or("", |quantity| quantity.unit);
+        let file = group.replace(' ', "-").to_lowercase();
         let kinds: [(
             &str,
             String,
@@ -60,21 +47,21 @@ fn section(series: &Series) -> Result<ReportSection, FigureError> {
             (
                 "errors",
                 format!(
-                    "Estimated errors of {shown} that converge, against their Richardson limits."
+                    "Estimated errors where there is convergence, against Richardson's limit: {group}."
                 ),
                 errors,
             ),
             (
                 "differences",
                 format!(
-                    "Differences between each level and the next, of {shown}: they fall where the \
-                     quantity converges."
+                    "Differences between each level and the next, which fall where there is \
+                     convergence: {group}."
                 ),
                 differences,
             ),
         ];
         for (kind, caption, make) in kinds {
-            let curves = of_unit.iter().filter_map(|quantity| make(series, quantity));
+            let curves = members.iter().filter_map(|quantity| make(series, quantity));
             let study = ConvergenceStudy {
                 size_title: match series.refinement {
                     Refinement::Mesh => "element size (m)".into(),
@@ -88,7 +75,7 @@ fn section(series: &Series) -> Result<ReportSection, FigureError> {
             };
             match draw_convergence(&study) {
                 Ok(svg) => figures.push(NamedFigure {
-                    name: format!("{analysis}-{refinement}-{kind}-{suffix}"),
+                    name: format!("{analysis}-{refinement}-{kind}-{file}"),
                     caption,
                     svg,
                 }),
@@ -108,14 +95,24 @@ fn section(series: &Series) -> Result<ReportSection, FigureError> {
     })
 }
 
-fn unique_units(series: &Series) -> Vec<&'static str> {
-    let mut units = Vec::new();
+/// What shares a figure: the same property of several modes, else whatever has the same unit.
+fn group_of(quantity: &Quantity) -> &str {
+    match (quantity.name.split_once(", "), quantity.unit) {
+        (Some((property, _)), _) => property,
+        (None, "Hz") => "frequency",
+        (None, "W") => "power",
+        (None, _) => "fractions and shares",
+    }
+}
+
+fn groups(series: &Series) -> Vec<&str> {
+    let mut groups = Vec::new();
     for quantity in &series.quantities {
-        if !units.contains(&quantity.unit) {
-            units.push(quantity.unit);
+        if !groups.contains(&group_of(quantity)) {
+            groups.push(group_of(quantity));
         }
     }
-    units
+    groups
 }
 
 fn errors(series: &Series, quantity: &Quantity) -> Option<ConvergenceSeries> {
@@ -135,8 +132,9 @@ fn curve(quantity: &Quantity, sizes: &[f64], errors: &[f64]) -> Option<Convergen
     let points = sizes.iter().zip(errors).map(|(h, e)| (*h, e.abs()));
     let points = points.filter(|&(_, e)| e > 0.0 && e.is_finite());
     let (sizes, errors): (Vec<f64>, Vec<f64>) = points.unzip();
+    let label = quantity.name.split_once(", ").map(|(_, mode)| mode);
     (sizes.len() > 1).then(|| ConvergenceSeries {
-        name: quantity.name.clone(),
+        name: label.unwrap_or(&quantity.name).to_owned(),
         sizes,
         errors,
     })

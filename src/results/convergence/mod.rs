@@ -56,6 +56,24 @@ impl Quantity {
         }
     }
 
+    /// A whole number on each level, which is the same on the three finest or has not converged.
+    pub fn count(name: String, values: Vec<f64>) -> Self {
+        let finest = &values[values.len().saturating_sub(3)..];
+        let verdict = if !finest.iter().all(|value| value.is_finite()) {
+            Verdict::Missing
+        } else if finest.windows(2).all(|pair| pair[0] == pair[1]) {
+            Verdict::Settled
+        } else {
+            Verdict::NotConverging
+        };
+        Self {
+            name,
+            unit: "",
+            values,
+            verdict,
+        }
+    }
+
     /// Estimated error of each level, the value less the limit; NaN without a limit.
     pub fn errors(&self) -> Vec<f64> {
         let limit = self.verdict.limit().unwrap_or(f64::NAN);
