@@ -8,6 +8,9 @@ use serde_json::Value;
 /// Harmonic, branch and direction: what a mode is known by on every mesh.
 type ModeKey = (usize, usize, i8);
 
+/// A part of an eigenvalue, Hz.
+type PartOf = fn(&ComplexMode) -> f64;
+
 fn key_of(mode: &ComplexMode) -> ModeKey {
     (mode.harmonic, mode.branch, mode.direction)
 }
@@ -53,7 +56,7 @@ pub fn of_sweeps(
         })
         .collect();
     let mut quantities = Vec::new();
-    let parts: [(&str, fn(&ComplexMode) -> f64); 2] = [
+    let parts: [(&str, PartOf); 2] = [
         ("frequency", ComplexMode::frequency_hz),
         ("real part", ComplexMode::real_hz),
     ];

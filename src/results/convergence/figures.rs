@@ -10,6 +10,9 @@ use crate::results::report::{NamedFigure, Report, ReportSection, ReportTable};
 /// Curves of one figure: as many as there are colours.
 const MOST_CURVES: usize = 7;
 
+/// Makes the curve of a quantity, where there is one.
+type CurveOf = fn(&Series, &Quantity) -> Option<ConvergenceSeries>;
+
 /// Draws the figures of every series and writes `report.html`.
 ///
 /// Of each group the quantities that converge are drawn by their estimated errors, and all by the
@@ -39,11 +42,7 @@ fn section(series: &Series) -> Result<ReportSection, FigureError> {
         let members: Vec<&Quantity> = members.filter(|q| group_of(q) == group).collect();
         let unit = members.first().map_or("", |quantity| quantity.unit);
         let file = group.replace(' ', "-").to_lowercase();
-        let kinds: [(
-            &str,
-            String,
-            fn(&Series, &Quantity) -> Option<ConvergenceSeries>,
-        ); 2] = [
+        let kinds: [(&str, String, CurveOf); 2] = [
             (
                 "errors",
                 format!(
