@@ -1,8 +1,11 @@
-//! Banded matrices: storage, inertia by `L D L^T`, Cholesky, complex LU with partial pivoting.
+//! Banded matrices: storage, inertia by `L D L^T`, Cholesky, complex LU with partial pivoting,
+//! several complex systems at a time.
 
+mod batch;
 mod lu;
 mod symmetric;
 
+pub use batch::{BandedBatch, LANES, Lanes, Quality};
 pub use lu::BandedLu;
 pub use symmetric::{BandedHermitian, BandedLdl};
 
