@@ -137,7 +137,16 @@ pub struct Orthonormalized {
 /// Block classical Gram-Schmidt, twice, then modified Gram-Schmidt, twice, within the block. A column
 /// that keeps less than `drop_below` of its length is left out: its coefficients stand, its remainder
 /// is lost.
-pub fn orthonormalize(basis: MatRef<'_, f64>, mut w: Mat<f64>, drop_below: f64) -> Orthonormalized {
+pub fn orthonormalize(basis: MatRef<'_, f64>, w: Mat<f64>, drop_below: f64) -> Orthonormalized {
+    orthonormalize_down_to(basis, w, |length| drop_below * length)
+}
+
+/// [`orthonormalize`] with the bound on the remainder of a column as a function of its length.
+fn orthonormalize_down_to(
+    basis: MatRef<'_, f64>,
+    mut w: Mat<f64>,
+    bound: impl Fn(f64) -> f64,
+) -> Orthonormalized {
     let lengths = column_norms(w.as_ref());
     let mut against = transpose_product(basis, w.as_ref());
     add_product(w.as_mut(), -1.0, basis, against.as_ref());
@@ -160,7 +169,7 @@ pub fn orthonormalize(basis: MatRef<'_, f64>, mut w: Mat<f64>, drop_below: f64) 
             }
         }
         let norm = w.col(j).norm_l2();
-        if norm > drop_below * lengths[j] && norm > 0.0 {
+        if norm > bound(lengths[j]) && norm > 0.0 {
             within[(kept.len(), j)] = norm;
             w.col_mut(j).iter_mut().for_each(|v| *v /= norm);
             kept.push(j);
@@ -175,42 +184,59 @@ pub fn orthonormalize(basis: MatRef<'_, f64>, mut w: Mat<f64>, drop_below: f64) 
     }
 }
 
-/// Orthonormal basis of what the columns of `w` hold beyond an orthonormal `basis`.
-///
-/// Pivoted: the largest remainder is taken first, and remainders shorter than `drop_below` (absolute)
-/// are left out.
-pub fn orthonormal_complement(
-    basis: MatRef<'_, f64>,
-    mut w: Mat<f64>,
-    drop_below: f64,
-) -> Mat<f64> {
-    let against = transpose_product(basis, w.as_ref());
-    add_product(w.as_mut(), -1.0, basis, against.as_ref());
-    let mut remaining: Vec<usize> = (0..w.ncols()).collect();
+/// Orthonormal basis of what the columns of `w` hold beyond an orthonormal `basis`, down to the length
+/// `drop_below` (absolute).
+pub fn orthonormal_complement(basis: MatRef<'_, f64>, w: Mat<f64>, drop_below: f64) -> Mat<f64> {
+    let independent = independent_directions(w, drop_below);
+    orthonormalize_down_to(basis, independent, |_| drop_below).columns
+}
+
+/// Orthogonal columns, as long as the remainders of a pivoted Gram-Schmidt process, that span `w` down to
+/// remainders of the length `drop_below`.
+fn independent_directions(mut w: Mat<f64>, drop_below: f64) -> Mat<f64> {
     let mut kept = Vec::new();
-    loop {
-        let norms = remaining.iter().map(|&j| w.col(j).norm_l2());
-        let Some((slot, norm)) = norms.enumerate().max_by(|a, b| a.1.total_cmp(&b.1)) else {
-            break;
-        };
+    // Squares of the remainders, updated as they shrink and computed anew before they lose all digits.
+    let square = |w: &Mat<f64>, j: usize| {
+        let v = column(w.as_ref(), j);
+        dot(v, v)
+    };
+    let mut remaining: Vec<(usize, f64, f64)> = (0..w.ncols())
+        .map(|j| (j, square(&w, j)))
+        .map(|(j, s)| (j, s, s))
+        .collect();
+    while let Some(slot) =
+        (0..remaining.len()).max_by(|&a, &b| remaining[a].1.total_cmp(&remaining[b].1))
+    {
+        let (pivot, _, reference) = remaining[slot];
+        let exact = square(&w, pivot);
+        if remaining[slot].1 < 1e-3 * reference && exact < 0.5 * remaining[slot].1 {
+            remaining[slot] = (pivot, exact, exact);
+            continue;
+        }
+        let norm = exact.sqrt();
         if norm.is_nan() || norm < drop_below {
             break;
         }
-        let pivot = remaining.remove(slot);
-        w.col_mut(pivot).iter_mut().for_each(|v| *v /= norm);
+        remaining.remove(slot);
+        column_mut(&mut w, pivot)
+            .iter_mut()
+            .for_each(|v| *v /= norm);
         kept.push(pivot);
         let direction = column(w.as_ref(), pivot).to_vec();
-        for &j in &remaining {
-            let remainder = column_mut(&mut w, j);
+        for (j, estimate, reference) in &mut remaining {
+            let remainder = column_mut(&mut w, *j);
             let overlap = dot(&direction, remainder);
             for (r, d) in remainder.iter_mut().zip(&direction) {
                 *r -= overlap * d;
             }
+            *estimate -= overlap * overlap;
+            if *estimate < 1e-6 * *reference {
+                *estimate = dot(remainder, remainder);
+                *reference = *estimate;
+            }
         }
     }
-    let chosen = pick_columns(&w, &kept);
-    // Small remainders were scaled up, and their round-off with them: once more.
-    orthonormalize(basis, chosen, 1e-3).columns
+    pick_columns(&w, &kept)
 }
 
 /// Column `k` to read and column `j > k` to write.

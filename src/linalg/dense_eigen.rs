@@ -191,8 +191,9 @@ fn inverse_iteration(
         (0..n).for_each(|i| x[(i, 0)] = vector[i] / norm);
         lu.solve_in_place(x.as_mut());
     }
+    // The last step is a solution, not a projection: it leaves nothing of other eigenvectors, and within
+    // the eigenspace it only scales, so the vector stays independent of the known ones.
     let mut vector: Vec<c64> = (0..n).map(|i| x[(i, 0)]).collect();
-    project_out(&mut vector, known);
     let norm = length(&vector);
     vector.iter_mut().for_each(|v| *v /= norm);
     vector

@@ -10,6 +10,10 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub struct SparsityPattern {
     symbolic: SymbolicSparseColMat<usize>,
+    /// The same nonzeros row by row: start of each row in `row_entries`.
+    row_pointers: Vec<usize>,
+    /// `(index among the nonzeros, column)`, columns ascending within a row.
+    row_entries: Vec<(usize, usize)>,
 }
 
 impl SparsityPattern {
@@ -43,7 +47,12 @@ impl SparsityPattern {
             None,
             row_indices,
         );
-        Self { symbolic }
+        let (row_pointers, row_entries) = by_rows(&symbolic);
+        Self {
+            symbolic,
+            row_pointers,
+            row_entries,
+        }
     }
 
     /// Number of rows and of columns.
@@ -72,6 +81,11 @@ impl SparsityPattern {
         range.map(|position| (position, self.row_indices()[position]))
     }
 
+    /// The nonzeros of one row: `(index among the nonzeros, column)`.
+    pub fn row(&self, row: usize) -> &[(usize, usize)] {
+        &self.row_entries[self.row_pointers[row]..self.row_pointers[row + 1]]
+    }
+
     /// Index of `(row, column)` among the nonzeros, if it is one.
     pub fn position(&self, row: usize, column: usize) -> Option<usize> {
         let (start, end) = (
@@ -93,6 +107,29 @@ impl SparsityPattern {
     pub fn matrix<'a, T>(&'a self, values: &'a [T]) -> SparseColMatRef<'a, usize, T> {
         SparseColMatRef::new(self.symbolic.as_ref(), values)
     }
+}
+
+/// Sorts the nonzeros of a column-wise pattern by rows.
+fn by_rows(symbolic: &SymbolicSparseColMat<usize>) -> (Vec<usize>, Vec<(usize, usize)>) {
+    let dimension = symbolic.ncols();
+    let mut pointers = vec![0; dimension + 1];
+    for &row in symbolic.row_idx() {
+        pointers[row + 1] += 1;
+    }
+    for row in 0..dimension {
+        pointers[row + 1] += pointers[row];
+    }
+    let mut next = pointers.clone();
+    let mut entries = vec![(0, 0); symbolic.row_idx().len()];
+    for column in 0..dimension {
+        let range = symbolic.col_ptr()[column]..symbolic.col_ptr()[column + 1];
+        for position in range {
+            let slot = &mut next[symbolic.row_idx()[position]];
+            entries[*slot] = (position, column);
+            *slot += 1;
+        }
+    }
+    (pointers, entries)
 }
 
 /// A square sparse matrix `P(mu) = P_0 + mu P_1 + mu^2 P_2 + ...` of a real parameter `mu`.
@@ -168,20 +205,36 @@ impl MatrixPolynomial {
         self.pattern.dimension()
     }
 
-    /// The coefficient of `mu^power` alone, as a constant on a pattern without its zeros.
+    /// The coefficient of `mu^power` alone, as a constant over the unknowns that it touches (its nonzero
+    /// rows and columns), and these unknowns in ascending order.
     ///
     /// Friction touches the contact rows only: on the shared pattern most of such a coefficient is
     /// structural zeros.
-    pub fn coefficient_without_zeros(&self, power: usize) -> Self {
+    pub fn compact_coefficient(&self, power: usize) -> (Self, Vec<usize>) {
         let values = &self.coefficients[power];
-        let entries = (0..self.dimension())
-            .flat_map(|column| {
+        let nonzeros = || {
+            (0..self.dimension()).flat_map(|column| {
                 let nonzeros = self.pattern.column(column);
-                nonzeros.map(move |(position, row)| (row, column, values[position]))
+                nonzeros
+                    .map(move |(position, row)| (row, column, values[position]))
+                    .filter(|entry| entry.2 != 0.0)
             })
-            .filter(|entry| entry.2 != 0.0)
+        };
+        let mut touched = vec![false; self.dimension()];
+        for (row, column, _) in nonzeros() {
+            touched[row] = true;
+            touched[column] = true;
+        }
+        let unknowns: Vec<usize> = (0..self.dimension()).filter(|&i| touched[i]).collect();
+        let mut place = vec![0; self.dimension()];
+        unknowns
+            .iter()
+            .enumerate()
+            .for_each(|(slot, &i)| place[i] = slot);
+        let entries = nonzeros()
+            .map(|(row, column, v)| (place[row], place[column], v))
             .collect();
-        Self::from_triplets(self.dimension(), &[entries])
+        (Self::from_triplets(unknowns.len(), &[entries]), unknowns)
     }
 
     /// Nonzero values of `P(mu)`.

@@ -21,10 +21,13 @@ impl SparsityPattern {
     /// `A x` for each column of `x`, with `A` given by its nonzero `values`.
     pub fn multiply(&self, values: &[f64], x: MatRef<'_, f64>) -> Mat<f64> {
         self.by_lanes(x, |input, output| {
-            for (index, source) in input.iter().enumerate() {
-                for (position, row) in self.column(index) {
-                    output[row] = add_multiple(output[row], values[position], *source);
+            // By rows, so that sums stay in registers: scattering by columns waits for its own stores.
+            for (index, target) in output.iter_mut().enumerate() {
+                let mut sum = [0.0; LANES];
+                for &(position, column) in self.row(index) {
+                    sum = add_multiple(sum, values[position], input[column]);
                 }
+                *target = sum;
             }
         })
     }
@@ -33,7 +36,7 @@ impl SparsityPattern {
     pub fn multiply_transpose(&self, values: &[f64], x: MatRef<'_, f64>) -> Mat<f64> {
         self.by_lanes(x, |input, output| {
             for (index, target) in output.iter_mut().enumerate() {
-                let mut sum = *target;
+                let mut sum = [0.0; LANES];
                 for (position, row) in self.column(index) {
                     sum = add_multiple(sum, values[position], input[row]);
                 }
@@ -59,7 +62,6 @@ impl SparsityPattern {
                     entry[lane] = *value;
                 }
             }
-            output.fill([0.0; LANES]);
             kernel(&input, &mut output);
             for lane in 0..width {
                 for (value, entry) in column_mut(&mut y, first + lane).iter_mut().zip(&output) {

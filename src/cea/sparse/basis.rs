@@ -10,11 +10,11 @@ use faer::Mat;
 use std::sync::OnceLock;
 
 /// Corrections of right vectors of unit length shorter than this are not added.
-const RIGHT_TOLERANCE: f64 = 2e-12;
+const RIGHT_TOLERANCE: f64 = 5e-13;
 /// The same for left vectors, which only serve overlaps and derivatives.
-const LEFT_TOLERANCE: f64 = 3e-4;
+const LEFT_TOLERANCE: f64 = 1e-3;
 /// Friction values whose modes make up the compressed basis, besides the ends.
-const CHEBYSHEV_POINTS: usize = 6;
+const CHEBYSHEV_POINTS: usize = 5;
 /// Refinements of one basis before the preconditioner is considered unfit.
 const MAX_ROUNDS: usize = 40;
 
@@ -37,33 +37,24 @@ pub struct BasisBuilder<'a> {
     pub count: usize,
 }
 
-/// Longest corrections of one refinement.
-#[derive(Clone, Copy, Debug)]
-struct Corrections {
-    right: f64,
-    left: f64,
-}
-
 impl<'a> BasisBuilder<'a> {
-    /// Starts from frictionless `modes`, one column each.
-    ///
-    /// # Errors
-    /// If the stiffness without friction is singular.
+    /// Starts from frictionless `modes`, one column each, and the factors of `K(0)`.
     pub fn new(
         tangent: &'a SlidingTangent,
         linearization: Linearization,
         modes: &Mat<f64>,
-    ) -> Result<Self, LinalgError> {
+        factors: StiffnessFactors,
+    ) -> Self {
         let mut model = ReducedModel::empty(tangent, linearization);
         model.extend(modes.clone(), 1e-8);
-        Ok(Self {
+        Self {
             tangent,
             linearization,
-            preconditioner: StiffnessFactors::frictionless(tangent)?,
+            preconditioner: factors,
             analysis: OnceLock::new(),
             model,
             count: modes.ncols(),
-        })
+        }
     }
 
     /// Refines at `values` (friction coefficients, ascending) in a spread-out order until corrections
@@ -74,17 +65,11 @@ impl<'a> BasisBuilder<'a> {
     pub fn cover(&mut self, values: &[f64]) -> Result<(), LinalgError> {
         let order = spread(values);
         let mut needs_left = true;
-        let mut quiet = 0;
         for &mu in order.iter().cycle().take(MAX_ROUNDS) {
-            let corrections = self.refine(mu, needs_left)?;
-            // Corrections of this length are round-off, in part already in the basis.
-            quiet = if corrections.right < 3.0 * RIGHT_TOLERANCE {
-                quiet + 1
-            } else {
-                0
-            };
-            needs_left = corrections.left > LEFT_TOLERANCE;
-            if quiet >= order.len().min(2) && !needs_left {
+            let before = self.model.dimension();
+            let left = self.refine(mu, needs_left)?;
+            needs_left = left > LEFT_TOLERANCE;
+            if self.model.dimension() == before {
                 break;
             }
         }
@@ -94,7 +79,7 @@ impl<'a> BasisBuilder<'a> {
         Ok(())
     }
 
-    /// Drops what the modes do not need: keeps their span at eight of `values` (Chebyshev points, as the
+    /// Drops what the modes do not need: keeps their span at some of `values` (Chebyshev points, as the
     /// modes are smooth functions of the friction coefficient) and at 0.
     ///
     /// # Errors
@@ -111,11 +96,20 @@ impl<'a> BasisBuilder<'a> {
         picked.dedup();
         let m = self.model.dimension();
         let (mut right, mut left) = (Mat::zeros(m, 0), Mat::zeros(m, 0));
-        for mu in picked.into_iter().map(|i| values[i]).chain([0.0]) {
-            let modes = self.model.solve(mu, self.count)?;
+        for (i, mu) in picked
+            .into_iter()
+            .map(|i| values[i])
+            .chain([0.0])
+            .enumerate()
+        {
+            // Left vectors need fewer points, as they need fewer digits.
+            let with_left = i % 2 == 0;
+            let modes = self.modes(mu, with_left)?;
             let coordinates = |side| PackedModes::of(&modes, side, m).coordinates;
             right = join_columns(right.as_ref(), coordinates(Side::Right).as_ref());
-            left = join_columns(left.as_ref(), coordinates(Side::Left).as_ref());
+            if with_left {
+                left = join_columns(left.as_ref(), coordinates(Side::Left).as_ref());
+            }
         }
         let none = Mat::<f64>::zeros(m, 0);
         let right = orthonormal_complement(none.as_ref(), right, RIGHT_TOLERANCE);
@@ -135,20 +129,26 @@ impl<'a> BasisBuilder<'a> {
         Ok(self.model.dimension() > before)
     }
 
-    fn refine(&mut self, mu: f64, with_left: bool) -> Result<Corrections, LinalgError> {
-        let modes = self.model.solve(mu, self.count)?;
+    /// Adds corrections at `mu`; returns the longest left one.
+    fn refine(&mut self, mu: f64, with_left: bool) -> Result<f64, LinalgError> {
+        let modes = self.modes(mu, with_left)?;
         let right = self.corrections(&modes, mu, Side::Right);
-        let mut longest = Corrections {
-            right: longest_column(&right),
-            left: 0.0,
-        };
         self.model.extend(right, RIGHT_TOLERANCE);
-        if with_left {
-            let left = self.corrections(&modes, mu, Side::Left);
-            longest.left = longest_column(&left);
-            self.model.extend(left, LEFT_TOLERANCE);
+        if !with_left {
+            return Ok(0.0);
         }
+        let left = self.corrections(&modes, mu, Side::Left);
+        let longest = longest_column(&left);
+        self.model.extend(left, LEFT_TOLERANCE);
         Ok(longest)
+    }
+
+    fn modes(&self, mu: f64, with_left: bool) -> Result<Vec<ReducedMode>, LinalgError> {
+        if with_left {
+            self.model.solve(mu, self.count)
+        } else {
+            self.model.solve_right(mu, self.count)
+        }
     }
 
     /// `K(0)^-1 r` of the modes' vectors on one side.

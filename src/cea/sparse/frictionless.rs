@@ -15,7 +15,7 @@ use std::f64::consts::TAU;
 /// Bound on the residual of the iteration.
 const TOLERANCE: f64 = 1e-11;
 /// Width of its random start block: a compromise of cheap blocked solves and few vectors.
-const BLOCK: usize = 4;
+const BLOCK: usize = 6;
 
 /// The lowest modes of `K x = kappa M x` at `mu = 0`.
 pub struct FrictionlessModes {
@@ -23,6 +23,8 @@ pub struct FrictionlessModes {
     pub vectors: Mat<f64>,
     /// Angular frequencies `sqrt(kappa)`, rad/s.
     pub frequencies: Vec<f64>,
+    /// Factors of `K(0)`.
+    pub factors: StiffnessFactors,
 }
 
 impl FrictionlessModes {
@@ -48,9 +50,10 @@ impl FrictionlessModes {
         }
         let request = (wanted.max(1) + GUARD_MODES).min(unknowns);
         let undamped = Linearization::Reduced(RayleighDamping::default());
+        let factors = inertia.factorize_stiffness()?;
         let operator = ShiftInverted {
             matrices: &StructureMatrices::at(tangent, undamped, 0.0),
-            factors: &StiffnessFactors::frictionless(tangent)?,
+            factors: &factors,
             side: Side::Right,
         };
         let settings = KrylovSchurSettings {
@@ -87,6 +90,7 @@ impl FrictionlessModes {
         Ok(Self {
             vectors: pairs.vectors.get(.., ..kept).to_owned(),
             frequencies: frequencies[..kept].to_vec(),
+            factors,
         })
     }
 }
@@ -113,6 +117,11 @@ impl<'a> Inertia<'a> {
             mass: &tangent.mass,
             analysis: LdlAnalysis::new(tangent.stiffness.pattern())?,
         })
+    }
+
+    fn factorize_stiffness(&self) -> Result<StiffnessFactors, LinalgError> {
+        let ldl = SparseLdl::factorize(&self.analysis, &self.stiffness.evaluate(0.0))?;
+        Ok(StiffnessFactors::Symmetric(Box::new(ldl)))
     }
 
     /// Number of modes below an angular frequency, by Sylvester's law of inertia.

@@ -41,10 +41,12 @@ pub struct ProjectedMatrices {
 /// is compressed.
 pub struct ReducedModel {
     linearization: Linearization,
-    /// Coefficients of `P = K, C, M` by power of `mu`, each without its zeros.
-    terms: [Vec<MatrixPolynomial>; 3],
-    /// `V`, `unknowns x m`.
-    basis: Mat<f64>,
+    /// Coefficients of `P = K, C, M` by power of `mu`.
+    terms: [Vec<Term>; 3],
+    /// `V`, `unknowns x m`, in the first `m` columns.
+    storage: Mat<f64>,
+    /// `m`.
+    columns: usize,
     /// `V^T P_p V` of `P = K, C, M` for each power of `mu`; `C` only where it is not proportional.
     projected: [Vec<Mat<f64>>; 3],
 }
@@ -52,11 +54,9 @@ pub struct ReducedModel {
 impl ReducedModel {
     /// A model without columns.
     pub fn empty(tangent: &SlidingTangent, linearization: Linearization) -> Self {
-        let terms = |p: &MatrixPolynomial| -> Vec<MatrixPolynomial> {
+        let terms = |p: &MatrixPolynomial| -> Vec<Term> {
             let powers = 0..p.coefficients().len();
-            powers
-                .map(|power| p.coefficient_without_zeros(power))
-                .collect()
+            powers.map(|power| Term::new(p, power)).collect()
         };
         let damping = match linearization {
             Linearization::Reduced(_) => Vec::new(),
@@ -65,7 +65,8 @@ impl ReducedModel {
         let terms = [terms(&tangent.stiffness), damping, terms(&tangent.mass)];
         Self {
             linearization,
-            basis: Mat::zeros(tangent.stiffness.dimension(), 0),
+            storage: Mat::zeros(tangent.stiffness.dimension(), 0),
+            columns: 0,
             projected: terms.each_ref().map(|t| vec![Mat::zeros(0, 0); t.len()]),
             terms,
         }
@@ -73,30 +74,57 @@ impl ReducedModel {
 
     /// Number of columns of the basis.
     pub fn dimension(&self) -> usize {
-        self.basis.ncols()
+        self.columns
     }
 
     /// Adds what `columns` hold beyond the basis, down to the length `drop_below`.
     pub fn extend(&mut self, columns: Mat<f64>, drop_below: f64) {
-        let new = orthonormal_complement(self.basis.as_ref(), columns, drop_below);
+        let new = orthonormal_complement(self.basis(), columns, drop_below);
         if new.ncols() == 0 {
             return;
         }
-        for (projected, terms) in self.projected.iter_mut().zip(&self.terms) {
+        let basis = self.storage.get(.., ..self.columns);
+        for (projected, terms) in self.projected.iter_mut().zip(&mut self.terms) {
             for (power, (small, term)) in projected.iter_mut().zip(terms).enumerate() {
-                *small = grow(small, self.basis.as_ref(), &new, term, power == 0);
+                *small = term.grow(small, basis, &new, power == 0);
             }
         }
-        self.basis = join_columns(self.basis.as_ref(), new.as_ref());
+        self.append(&new);
+    }
+
+    /// Appends columns to the basis, moving the old ones only when the room is used up.
+    fn append(&mut self, new: &Mat<f64>) {
+        let (known, total) = (self.columns, self.columns + new.ncols());
+        if self.storage.ncols() < total {
+            let mut roomy = Mat::zeros(self.storage.nrows(), 2 * total);
+            roomy.get_mut(.., ..known).copy_from(self.basis());
+            self.storage = roomy;
+        }
+        self.storage.get_mut(.., known..total).copy_from(new);
+        self.columns = total;
+    }
+
+    /// `V`.
+    fn basis(&self) -> MatRef<'_, f64> {
+        self.storage.get(.., ..self.columns)
     }
 
     /// Restricts the basis to the span of the orthonormal `columns` of coordinates.
     pub fn compress(&mut self, columns: &Mat<f64>) {
+        let partial = self
+            .terms
+            .iter_mut()
+            .flatten()
+            .filter(|t| t.support.is_some());
+        for term in partial {
+            term.restricted = product(term.restricted.as_ref(), columns.as_ref());
+        }
         for small in self.projected.iter_mut().flatten() {
             let image = product(small.as_ref(), columns.as_ref());
             *small = transpose_product(columns.as_ref(), image.as_ref());
         }
-        self.basis = product(self.basis.as_ref(), columns.as_ref());
+        self.storage = product(self.basis(), columns.as_ref());
+        self.columns = columns.ncols();
     }
 
     /// The projected matrices at `mu`.
@@ -132,17 +160,36 @@ impl ReducedModel {
     /// # Errors
     /// If the dense eigenvalue decomposition fails.
     pub fn solve(&self, mu: f64, count: usize) -> Result<Vec<ReducedMode>, LinalgError> {
+        self.solve_sides(mu, count, true)
+    }
+
+    /// [`Self::solve`] for eigenvalues and right vectors only: left ones stay empty, derivatives zero.
+    ///
+    /// # Errors
+    /// If the dense eigenvalue decomposition fails.
+    pub fn solve_right(&self, mu: f64, count: usize) -> Result<Vec<ReducedMode>, LinalgError> {
+        self.solve_sides(mu, count, false)
+    }
+
+    fn solve_sides(
+        &self,
+        mu: f64,
+        count: usize,
+        with_left: bool,
+    ) -> Result<Vec<ReducedMode>, LinalgError> {
         let at = self.at(mu);
         let lu = DenseLu::factorize(at.stiffness.clone());
         let leading = match self.linearization {
             Linearization::Reduced(_) => count,
             Linearization::Companion { .. } => 2 * count,
         };
-        let eigen = real_eigen(self.shift_inverted(&at, &lu).as_ref(), true, leading)?;
+        let eigen = real_eigen(self.shift_inverted(&at, &lu).as_ref(), with_left, leading)?;
         // The upper half of a left vector of the operator is K^T times that of the problem.
         let m = self.dimension();
-        let mut left = eigen.left.expect("left vectors were asked for");
-        lu.solve_transpose_in_place(left.as_mut().split_at_row_mut(m).0);
+        let mut left = eigen.left;
+        if let Some(left) = &mut left {
+            lu.solve_transpose_in_place(left.as_mut().split_at_row_mut(m).0);
+        }
 
         let mut order: Vec<usize> = (0..eigen.values.len()).collect();
         order.sort_by(|&i, &j| eigen.values[j].norm().total_cmp(&eigen.values[i].norm()));
@@ -154,13 +201,17 @@ impl ReducedModel {
                     inverse_value: eigen.values[i],
                     derivative: c64::new(0.0, 0.0),
                     right: unpack(&eigen.values, eigen.right.as_ref(), m, i, false),
-                    left: unpack(&eigen.values, left.as_ref(), m, i, true),
+                    left: left.as_ref().map_or_else(Vec::new, |left| {
+                        unpack(&eigen.values, left.as_ref(), m, i, true)
+                    }),
                 })
             })
             .take(count)
             .collect();
         modes.sort_by(|p, q| p.eigenvalue.im.total_cmp(&q.eigenvalue.im));
-        self.complete(&mut modes, &at, mu);
+        if with_left {
+            self.complete(&mut modes, &at, mu);
+        }
         Ok(modes)
     }
 
@@ -206,55 +257,73 @@ impl ReducedModel {
 
     /// `V` times coordinates (of this or an earlier basis).
     pub fn expand(&self, coordinates: MatRef<'_, f64>) -> Mat<f64> {
-        product(self.basis.get(.., ..coordinates.nrows()), coordinates)
+        product(self.storage.get(.., ..coordinates.nrows()), coordinates)
     }
 }
 
-/// `V^T P V` with the rows and columns of `new` basis vectors added.
-fn grow(
-    known: &Mat<f64>,
-    basis: MatRef<'_, f64>,
-    new: &Mat<f64>,
-    term: &MatrixPolynomial,
-    is_symmetric: bool,
-) -> Mat<f64> {
-    let (pattern, values) = (term.pattern(), &term.coefficients()[0]);
-    let (old, total) = (basis.ncols(), basis.ncols() + new.ncols());
-    if values.is_empty() {
-        return Mat::zeros(total, total);
-    }
-    let image = pattern.multiply(values, new.as_ref());
-    let above = project(basis, &image);
-    let below = if is_symmetric {
-        above.transpose().to_owned()
-    } else {
-        let image = pattern.multiply_transpose(values, new.as_ref());
-        project(basis, &image).transpose().to_owned()
-    };
-    let mut grown = Mat::zeros(total, total);
-    grown.get_mut(..old, ..old).copy_from(known);
-    grown.get_mut(..old, old..).copy_from(&above);
-    grown.get_mut(old.., ..old).copy_from(&below);
-    grown
-        .get_mut(old.., old..)
-        .copy_from(&project(new.as_ref(), &image));
-    grown
+/// One coefficient `P` of a matrix polynomial, over the unknowns that it touches.
+struct Term {
+    matrix: MatrixPolynomial,
+    /// The unknowns, where they are not all.
+    support: Option<Vec<usize>>,
+    /// Rows of `V` of these unknowns.
+    restricted: Mat<f64>,
 }
 
-/// `basis^T image`, over the rows only where the image is not zero: friction touches few of them.
-fn project(basis: MatRef<'_, f64>, image: &Mat<f64>) -> Mat<f64> {
-    let mut is_touched = vec![false; image.nrows()];
-    for j in 0..image.ncols() {
-        let entries = is_touched.iter_mut().zip(column(image.as_ref(), j));
-        entries.for_each(|(touched, &v)| *touched |= v != 0.0);
+impl Term {
+    fn new(polynomial: &MatrixPolynomial, power: usize) -> Self {
+        let (matrix, unknowns) = polynomial.compact_coefficient(power);
+        let support = (unknowns.len() < polynomial.dimension()).then_some(unknowns);
+        let rows = support.as_ref().map_or(0, Vec::len);
+        Self {
+            matrix,
+            support,
+            restricted: Mat::zeros(rows, 0),
+        }
     }
-    let touched: Vec<usize> = (0..image.nrows()).filter(|&i| is_touched[i]).collect();
-    if touched.len() > image.nrows() / 4 {
-        return transpose_product(basis, image.as_ref());
+
+    /// `V^T P V` with the rows and columns of `new` basis vectors added.
+    fn grow(
+        &mut self,
+        known: &Mat<f64>,
+        basis: MatRef<'_, f64>,
+        new: &Mat<f64>,
+        is_symmetric: bool,
+    ) -> Mat<f64> {
+        let Some(support) = &self.support else {
+            return self.grown(known, basis, new.as_ref(), is_symmetric);
+        };
+        let rows = Mat::from_fn(support.len(), new.ncols(), |i, j| new[(support[i], j)]);
+        let grown = self.grown(known, self.restricted.as_ref(), rows.as_ref(), is_symmetric);
+        self.restricted = join_columns(self.restricted.as_ref(), rows.as_ref());
+        grown
     }
-    let gather =
-        |m: MatRef<'_, f64>| Mat::from_fn(touched.len(), m.ncols(), |i, j| m[(touched[i], j)]);
-    transpose_product(gather(basis).as_ref(), gather(image.as_ref()).as_ref())
+
+    fn grown(
+        &self,
+        known: &Mat<f64>,
+        basis: MatRef<'_, f64>,
+        new: MatRef<'_, f64>,
+        is_symmetric: bool,
+    ) -> Mat<f64> {
+        let (pattern, values) = (self.matrix.pattern(), &self.matrix.coefficients()[0]);
+        let (old, total) = (known.ncols(), known.ncols() + new.ncols());
+        let image = pattern.multiply(values, new);
+        let above = transpose_product(basis, image.as_ref());
+        let below = if is_symmetric {
+            above.transpose().to_owned()
+        } else {
+            transpose_product(pattern.multiply_transpose(values, new).as_ref(), basis)
+        };
+        let mut grown = Mat::zeros(total, total);
+        grown.get_mut(..old, ..old).copy_from(known);
+        grown.get_mut(..old, old..).copy_from(&above);
+        grown.get_mut(old.., ..old).copy_from(&below);
+        grown
+            .get_mut(old.., old..)
+            .copy_from(&transpose_product(new, image.as_ref()));
+        grown
+    }
 }
 
 /// `sum_{p >= first} weight(p) P_p mu^(p - first)`.

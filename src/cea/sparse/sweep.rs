@@ -16,8 +16,8 @@ use rayon::prelude::*;
 use std::f64::consts::TAU;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Residual force relative to inertia force that every mode should reach.
-const FORCE_RESIDUAL_GOAL: f64 = 3e-11;
+/// Residual force relative to inertia force above which a point is improved; the basis aims lower.
+const FORCE_RESIDUAL_GOAL: f64 = 1e-10;
 /// Residual relative to the matrices below which there is only round-off.
 const ROUND_OFF: f64 = 1e-15;
 /// Friction values at which the basis is refined, at least, over a range.
@@ -112,7 +112,7 @@ impl<'a> SparseSweep<'a> {
             linearization,
             limit: request.limit,
             edge: ContactEdge::of(tangent),
-            builder: BasisBuilder::new(tangent, linearization, &modes.vectors)?,
+            builder: BasisBuilder::new(tangent, linearization, &modes.vectors, modes.factors),
             grid,
             lowest: friction_coefficients
                 .iter()
@@ -172,7 +172,6 @@ impl<'a> SparseSweep<'a> {
                 }
                 self.builder.search(self.grid[worst], TRACKING_MARGIN)?;
             }
-            eprintln!("repair {missing:?} {:?}", self.dimension_and_worst());
             for (k, point) in missing.iter().zip(self.solve_points(&missing, &|_| {})?) {
                 self.points[*k] = point;
             }
@@ -394,6 +393,7 @@ fn grid(friction_coefficients: &[f64]) -> Result<Vec<f64>, CeaError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cea::sparse::StiffnessFactors;
     use crate::cea::sparse::fixtures::string_on_belt;
 
     fn request(count: usize) -> EigenRequest {
@@ -433,11 +433,13 @@ mod tests {
         let modes = FrictionlessModes::compute(&tangent, EigenLimit::Lowest(6)).unwrap();
         let linearization = Linearization::of(&tangent, 1.0);
         let without_second = crate::linalg::dense::pick_columns(&modes.vectors, &[0, 2, 3, 4, 5]);
-        let mut builder = BasisBuilder::new(&tangent, linearization, &without_second).unwrap();
+        let mut builder =
+            BasisBuilder::new(&tangent, linearization, &without_second, modes.factors);
         let before = builder.model.solve(0.2, 5).unwrap();
         builder.search(0.2, 2).unwrap();
         let after = builder.model.solve(0.2, 5).unwrap();
-        let mut complete = BasisBuilder::new(&tangent, linearization, &modes.vectors).unwrap();
+        let factors = StiffnessFactors::frictionless(&tangent).unwrap();
+        let mut complete = BasisBuilder::new(&tangent, linearization, &modes.vectors, factors);
         complete.cover(&[0.2]).unwrap();
         for (found, exact) in after.iter().zip(complete.model.solve(0.2, 5).unwrap()) {
             assert!((found.eigenvalue - exact.eigenvalue).norm() < 1e-9 * exact.eigenvalue.norm());

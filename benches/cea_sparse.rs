@@ -1,0 +1,149 @@
+//! The sparse eigenvalue sweep in phases, on one thread: 180 x 35 Quad4, 30 modes, 21 friction values from
+//! 0 to 1, consistent mass, no prestress; and one friction value on 200,000 unknowns.
+
+use divan::Bencher;
+use frictionsim::cea::sparse::{EigenLimit, EigenRequest, SparseSweep, StiffnessFactors, sweep};
+use frictionsim::contact::{ContactStiffness, SlidingContact};
+use frictionsim::fem::{
+    ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping, assemble_stiffness,
+};
+use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind};
+use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
+use std::sync::OnceLock;
+
+fn main() {
+    divan::main();
+}
+
+fn tangent(circumferential: usize, radial: usize) -> SlidingTangent {
+    let mesh = AnnulusMesh::generate(&AnnulusSpecification {
+        inner_radius: 0.0205,
+        outer_radius: 0.0905,
+        circumferential_elements: circumferential,
+        radial_elements: radial,
+        radial_grading: 1.0,
+        element: ElementKind::Quad4,
+    })
+    .expect("a valid annulus")
+    .mesh;
+    let material = ElasticMaterial {
+        young_modulus: 2.5e9,
+        poisson_ratio: 0.3805,
+        density: 1228.0,
+        formulation: PlaneFormulation::PlaneStrain,
+    };
+    let elastic = assemble_stiffness(&mesh, &material);
+    let contact = SlidingContact {
+        friction_coefficient: 0.3,
+        interference: 25e-6,
+        rotation_speed: 63.9,
+    };
+    let base = SteadySliding::solve(&mesh, &elastic, &contact).expect("the disc is in contact");
+    let options = TangentOptions {
+        mass: MassKind::Consistent,
+        geometric_stiffness: false,
+        damping: RayleighDamping {
+            mass_coefficient: 40.0,
+            stiffness_coefficient: 4.5e-7,
+        },
+        damping_model: DampingModel::WholeTangent,
+        contact: ContactStiffness::default(),
+    };
+    SlidingTangent::linearize(&mesh, &material, &elastic, &base, &options)
+}
+
+fn request() -> EigenRequest {
+    EigenRequest {
+        limit: EigenLimit::Lowest(30),
+        shapes_at: Vec::new(),
+    }
+}
+
+fn values() -> Vec<f64> {
+    (0..21).map(|i| f64::from(i) / 20.0).collect()
+}
+
+fn on_one_thread<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+    pool.expect("a thread can be started").install(work)
+}
+
+#[divan::bench(sample_count = 5)]
+fn phase_1_mesh_base_state_and_assembly() -> SlidingTangent {
+    tangent(180, 35)
+}
+
+#[divan::bench(sample_count = 5)]
+fn phase_2_symmetric_factorization(bencher: Bencher<'_, '_>) {
+    let tangent = tangent(180, 35);
+    bencher.bench_local(|| StiffnessFactors::frictionless(&tangent).expect("definite"));
+}
+
+#[divan::bench(sample_count = 5)]
+fn phase_2_unsymmetric_factorization_one_value(bencher: Bencher<'_, '_>) {
+    let tangent = tangent(180, 35);
+    let analysis = OnceLock::new();
+    let factorize = |mu| StiffnessFactors::general(&tangent, &analysis, mu).expect("regular");
+    factorize(0.1);
+    bencher.bench_local(|| factorize(0.5));
+}
+
+#[divan::bench(sample_count = 5)]
+fn phase_3_frictionless_modes(bencher: Bencher<'_, '_>) {
+    let tangent = tangent(180, 35);
+    bencher.bench_local(|| SparseSweep::prepare(&tangent, &values(), &request()).expect("solved"));
+}
+
+#[divan::bench(sample_count = 5)]
+fn phase_4_common_basis(bencher: Bencher<'_, '_>) {
+    let tangent = tangent(180, 35);
+    bencher
+        .with_inputs(|| SparseSweep::prepare(&tangent, &values(), &request()).expect("solved"))
+        .bench_local_values(|mut sweep| sweep.cover().map(|()| sweep));
+}
+
+#[divan::bench(sample_count = 5)]
+fn phase_5_points_with_residuals(bencher: Bencher<'_, '_>) {
+    let tangent = tangent(180, 35);
+    bencher
+        .with_inputs(|| {
+            let mut sweep = SparseSweep::prepare(&tangent, &values(), &request()).expect("solved");
+            sweep.cover().expect("covered");
+            sweep
+        })
+        .bench_local_values(|mut sweep| on_one_thread(|| sweep.solve(&|_| {}).map(|()| sweep)));
+}
+
+#[divan::bench(sample_count = 5)]
+fn phase_6_tracking_and_onsets(bencher: Bencher<'_, '_>) {
+    let tangent = tangent(180, 35);
+    bencher
+        .with_inputs(|| {
+            let mut sweep = SparseSweep::prepare(&tangent, &values(), &request()).expect("solved");
+            sweep.cover().expect("covered");
+            sweep.solve(&|_| {}).expect("solved");
+            sweep
+        })
+        .bench_local_values(|mut sweep| {
+            on_one_thread(|| {
+                let branches = sweep.track().expect("tracked");
+                sweep.finish(&values(), &request(), &branches)
+            })
+        });
+}
+
+#[divan::bench(sample_count = 5)]
+fn whole_sweep_of_21_friction_values(bencher: Bencher<'_, '_>) {
+    let tangent = tangent(180, 35);
+    bencher.bench_local(|| {
+        on_one_thread(|| sweep(&tangent, &values(), &request(), &|_| {}).expect("solved"))
+    });
+}
+
+#[divan::bench(sample_count = 1)]
+fn one_friction_value_on_200_000_unknowns(bencher: Bencher<'_, '_>) {
+    let tangent = tangent(720, 139);
+    bencher.bench_local(|| {
+        on_one_thread(|| sweep(&tangent, &[0.3], &request(), &|_| {}).expect("solved"))
+    });
+}
