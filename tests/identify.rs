@@ -284,7 +284,7 @@ fn the_command_prints_both_estimators_and_a_block_that_parses() {
     let block = std::fs::read_to_string(results.join("damping.toml")).unwrap();
     let parsed: toml::Table = block.parse().unwrap();
     assert!(parsed["damping"]["mass_coefficient"].is_float());
-    assert!(results.join("identification.svg").exists());
+    assert!(results.join("figures/identification.png").exists());
     let text = String::from_utf8(run(&[]).stdout).unwrap();
     assert!(
         text.contains("half-power") && text.contains("[damping]"),

@@ -78,12 +78,8 @@ fn a_squeal_is_named_by_its_mode_with_superharmonics_and_growth_rate() {
     assert_eq!(channel["mode"]["harmonic"], 2);
     assert_eq!(channel["mode"]["branch"], 0);
     assert_eq!(channel["mode"]["direction"], -1);
-    assert!(
-        folder
-            .path()
-            .join("results/probe/signal/signal-1.svg")
-            .exists()
-    );
+    let figures = folder.path().join("results/probe/signal/figures");
+    assert!(figures.join("signal-1.svg").exists() && figures.join("spectrum-1.png").exists());
 }
 
 #[test]

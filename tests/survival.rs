@@ -261,7 +261,7 @@ fn a_failed_point_ends_in_exit_code_1_after_all_others_are_done() {
             "failing",
             &[
                 "--set",
-                "sweep.\"output.sample_interval\"=[4e-6, 1e-8]",
+                "sweep.\"transient.time_step\"=[\"auto\", 3.9e-6]",
                 "--json",
             ],
         )
@@ -275,7 +275,7 @@ fn a_failed_point_ends_in_exit_code_1_after_all_others_are_done() {
     assert!(
         failed
             .iter()
-            .all(|point| point["swept"]["output.sample_interval"] == 1e-8)
+            .all(|point| point["swept"]["transient.time_step"] == 3.9e-6)
     );
     assert_eq!(table(&study.folder("failing")).lines().count(), 61);
 }

@@ -79,7 +79,7 @@ fn write_table(case: &Case, folder: &SweepFolder) {
         ran: None,
         wall_s: 0.0,
     };
-    gather(folder, &report, &manifest(case), false).unwrap();
+    gather(folder, &report, &manifest(case), None).unwrap();
 }
 
 fn table(folder: &Path) -> String {

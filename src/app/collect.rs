@@ -1,11 +1,13 @@
 //! `frictionsim collect`: the table over the points that a sweep has finished so far.
 
-use super::sweep::{SweepPlan, finished_points, gather};
+use super::plot::recorded_case;
+use super::session::start_threads;
+use super::sweep::{SweepPlan, drawing, finished_points, gather};
 use super::{Failure, terminal};
-use crate::case::{Case, RawCase};
-use crate::results::sweep::{SweepFolder, SweepReport, print};
+use crate::results::DOTS_PER_INCH;
+use crate::results::sweep::{SweepFolder, SweepReport, draw, print};
 use clap::{Args, ValueHint};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// Gather a sharded sweep's points: points.csv and summary.json
@@ -30,10 +32,9 @@ pub struct Arguments {
 /// A folder that is no sweep's, missing points, a folder that cannot be written.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let start = Instant::now();
+    start_threads(None);
     let (folder, manifest) = SweepFolder::find(&arguments.folder)?;
-    let text = manifest.case_text.as_bytes();
-    let raw = RawCase::parse(&manifest.case_file, text, &manifest.overrides)?;
-    let case = Case::from_raw(raw)?;
+    let case = recorded_case(&manifest)?;
     let plan = SweepPlan::new(&case)?;
     let records = finished_points(&folder, plan.count())?;
     let report = SweepReport {
@@ -46,7 +47,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         ran: None,
         wall_s: start.elapsed().as_secs_f64(),
     };
-    let summary = gather(&folder, &report, &manifest, !arguments.no_figures)?;
+    let drawing = (!arguments.no_figures).then(|| drawing(&case, &plan, DOTS_PER_INCH));
+    let summary = gather(&folder, &report, &manifest, drawing.as_ref())?;
     if arguments.json {
         terminal::print_json(&summary)?;
     } else {
@@ -60,4 +62,32 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             report.count
         ))),
     }
+}
+
+/// Draws the figures of the points that a sweep has finished so far.
+///
+/// # Errors
+/// A folder that is no sweep's or cannot be written.
+pub fn redraw(path: &Path, dots_per_inch: f64) -> Result<(), Failure> {
+    let (folder, manifest) = SweepFolder::find(path)?;
+    let case = recorded_case(&manifest)?;
+    let plan = SweepPlan::new(&case)?;
+    let records = finished_points(&folder, plan.count())?;
+    let report = SweepReport {
+        title: &case.title,
+        friction_coefficient: case.contact.sliding.friction_coefficient,
+        keys: &plan.keys(),
+        analyses: &plan.analysis_names(),
+        count: plan.count(),
+        records: &records,
+        ran: None,
+        wall_s: 0.0,
+    };
+    draw(
+        &folder,
+        &report,
+        &manifest,
+        &drawing(&case, &plan, dots_per_inch),
+    )?;
+    Ok(())
 }

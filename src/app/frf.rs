@@ -4,11 +4,13 @@ use super::{Failure, RunOptions, Session};
 use crate::case::{Case, Frf, FrfMethod};
 use crate::fem::assemble_stiffness;
 use crate::frf::{
-    FrfBoundary, FrfError, FrfSystem, ReductionSettings, Terminal, direct_response,
-    reduced_response,
+    CyclicSystem, FrfBoundary, FrfSystem, ReductionSettings, Terminal, cyclic_response,
+    direct_response, reduced_response,
 };
-use crate::mesh::AnnulusMesh;
-use crate::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
+use crate::mesh::{AnnulusMesh, SectorMesh};
+use crate::prestress::{
+    DampingModel, SectorTangent, SlidingTangent, SteadySliding, TangentOptions,
+};
 use crate::results::Table;
 use clap::Args;
 use faer::c64;
@@ -28,10 +30,13 @@ pub struct Arguments {
 /// A computed response and how it came about.
 struct Computed {
     receptance: Vec<c64>,
+    dofs: usize,
     method: &'static str,
     /// Largest relative error found at the check lines of a reduction.
     error: Option<f64>,
     vectors: Option<usize>,
+    /// Largest backward error of the solutions, harmonic by harmonic.
+    backward_error: Option<f64>,
 }
 
 /// Runs the subcommand.
@@ -44,18 +49,18 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let frf = case.require_frf()?;
     session.check_memory(case.cost().mesh_memory_bytes)?;
     let folder = session.open_folder()?;
-    let system = system(case, frf)?;
-    let computed = compute(&system, frf)?;
+    let computed = compute(case, frf)?;
     let values = observed(case, frf, &computed.receptance);
     folder.write("frf.csv", |out| write_table(out, frf, &values))?;
     let summary = json!({
         "command": "frf",
         "title": case.title,
-        "dofs": system.dimension(),
+        "dofs": computed.dofs,
         "lines": frf.frequencies_hz.len(),
         "method": computed.method,
         "largest_error": computed.error,
         "basis_vectors": computed.vectors,
+        "backward_error": computed.backward_error,
         "quantity": frf.quantity.name(),
         "noise": frf.noise,
         "wall_s": session.wall_seconds(),
@@ -67,77 +72,107 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     })?;
     let path = folder.path().to_owned();
     folder.finish()?;
-    session.print(&described(&system, frf, &computed), &summary, &path)
+    session.print(&described(frf, &computed), &summary, &path)
 }
 
-/// Matrices of the body as it is held.
-fn system(case: &Case, frf: &Frf) -> Result<FrfSystem, Failure> {
+/// Receptance by the method of the case.
+fn compute(case: &Case, frf: &Frf) -> Result<Computed, Failure> {
+    match frf.method {
+        FrfMethod::Auto | FrfMethod::Cyclic => cyclic(case, frf),
+        FrfMethod::Direct => direct(case, frf),
+        FrfMethod::Reduced => reduced(case, frf),
+    }
+}
+
+fn cyclic(case: &Case, frf: &Frf) -> Result<Computed, Failure> {
+    let sector = SectorMesh::generate(&case.annulus).map_err(Failure::usage)?;
+    let contact = &case.contact.sliding;
+    let system = if frf.boundary == FrfBoundary::Sliding {
+        let options = tangent_options(case, frf);
+        let tangent = SectorTangent::linearize(&sector, &case.material, &options, contact)?;
+        CyclicSystem::sliding(&tangent, contact.friction_coefficient)
+    } else {
+        let is_clamped = frf.boundary == FrfBoundary::Clamped;
+        let rayleigh = case.damping.rayleigh;
+        CyclicSystem::body(&sector, &case.material, frf.mass, rayleigh, is_clamped)
+    };
+    for (terminal, key) in [(frf.force, "force_node"), (frf.response, "response_node")] {
+        system.check(terminal, key).map_err(Failure::usage)?;
+    }
+    let solved = cyclic_response(&system, frf.force, frf.response, &frf.frequencies_hz)
+        .map_err(Failure::run)?;
+    Ok(Computed {
+        receptance: solved.receptance,
+        dofs: system.dimension(),
+        method: "cyclic",
+        error: None,
+        vectors: None,
+        backward_error: Some(solved.backward_error),
+    })
+}
+
+fn direct(case: &Case, frf: &Frf) -> Result<Computed, Failure> {
+    let (system, force, response) = whole_mesh(case, frf)?;
+    let solved =
+        direct_response(&system, force, response, &frf.frequencies_hz).map_err(Failure::run)?;
+    Ok(Computed {
+        receptance: solved.receptance,
+        dofs: system.dimension(),
+        method: "direct",
+        error: None,
+        vectors: None,
+        backward_error: None,
+    })
+}
+
+fn reduced(case: &Case, frf: &Frf) -> Result<Computed, Failure> {
+    let (system, force, response) = whole_mesh(case, frf)?;
+    let settings = ReductionSettings::default();
+    let reduced = reduced_response(&system, force, response, &frf.frequencies_hz, &settings)
+        .map_err(Failure::run)?;
+    Ok(Computed {
+        receptance: reduced.receptance,
+        dofs: system.dimension(),
+        method: "reduced",
+        error: Some(reduced.largest_error),
+        vectors: Some(reduced.vectors),
+        backward_error: None,
+    })
+}
+
+/// Matrices of the body as it is held, and the unknowns of force and response.
+fn whole_mesh(case: &Case, frf: &Frf) -> Result<(FrfSystem, usize, usize), Failure> {
     let annulus = AnnulusMesh::generate(&case.annulus).map_err(Failure::usage)?;
     let mesh = &annulus.mesh;
-    let rayleigh = case.damping.rayleigh;
-    if frf.boundary != FrfBoundary::Sliding {
+    let system = if frf.boundary == FrfBoundary::Sliding {
+        let stiffness = assemble_stiffness(mesh, &case.material);
+        let base = SteadySliding::solve(mesh, &stiffness, &case.contact.sliding)?;
+        let options = tangent_options(case, frf);
+        let tangent = SlidingTangent::linearize(mesh, &case.material, &stiffness, &base, &options);
+        FrfSystem::sliding(&tangent, case.contact.sliding.friction_coefficient)
+    } else {
         let is_clamped = frf.boundary == FrfBoundary::Clamped;
-        return Ok(FrfSystem::body(
-            mesh,
-            &case.material,
-            frf.mass,
-            rayleigh,
-            is_clamped,
-        ));
-    }
-    let stiffness = assemble_stiffness(mesh, &case.material);
-    let base = SteadySliding::solve(mesh, &stiffness, &case.contact.sliding)?;
-    let options = TangentOptions {
+        let rayleigh = case.damping.rayleigh;
+        FrfSystem::body(mesh, &case.material, frf.mass, rayleigh, is_clamped)
+    };
+    let unknown = |terminal, key| system.unknown(terminal, key).map_err(Failure::usage);
+    let force = unknown(frf.force, "force_node")?;
+    let response = unknown(frf.response, "response_node")?;
+    Ok((system, force, response))
+}
+
+fn tangent_options(case: &Case, frf: &Frf) -> TangentOptions {
+    TangentOptions {
         mass: frf.mass,
         geometric_stiffness: case.cea.as_ref().is_none_or(|cea| cea.geometric_stiffness),
-        damping: rayleigh,
+        damping: case.damping.rayleigh,
         damping_model: if case.damping.include_contact {
             DampingModel::WholeTangent
         } else {
             DampingModel::BodyOnly
         },
         contact: case.contact.stiffness,
-    };
-    let tangent = SlidingTangent::linearize(mesh, &case.material, &stiffness, &base, &options);
-    Ok(FrfSystem::sliding(
-        &tangent,
-        case.contact.sliding.friction_coefficient,
-    ))
-}
-
-/// Receptance by the method of the case.
-fn compute(system: &FrfSystem, frf: &Frf) -> Result<Computed, Failure> {
-    let force = system
-        .unknown(frf.force, "force_node")
-        .map_err(Failure::usage)?;
-    let response = system
-        .unknown(frf.response, "response_node")
-        .map_err(Failure::usage)?;
-    let f = &frf.frequencies_hz;
-    if frf.method != FrfMethod::Direct {
-        let settings = ReductionSettings::default();
-        match reduced_response(system, force, response, f, &settings) {
-            Ok(reduced) => {
-                return Ok(Computed {
-                    receptance: reduced.receptance,
-                    method: "reduced",
-                    error: Some(reduced.largest_error),
-                    vectors: Some(reduced.vectors),
-                });
-            }
-            Err(error @ FrfError::NotReduced { .. }) if frf.method == FrfMethod::Auto => {
-                tracing::warn!("{error}; solved directly instead");
-            }
-            Err(error) => return Err(Failure::run(error)),
-        }
     }
-    let direct = direct_response(system, force, response, f).map_err(Failure::run)?;
-    Ok(Computed {
-        receptance: direct.receptance,
-        method: "direct",
-        error: None,
-        vectors: None,
-    })
 }
 
 /// The quantity asked for, for the disc's thickness, with noise.
@@ -191,7 +226,7 @@ fn write_table(out: &mut dyn std::io::Write, frf: &Frf, values: &[c64]) -> std::
     table.finish()
 }
 
-fn described(system: &FrfSystem, frf: &Frf, computed: &Computed) -> String {
+fn described(frf: &Frf, computed: &Computed) -> String {
     let place = |t: Terminal| {
         let direction = if t.is_tangential {
             "tangential"
@@ -200,10 +235,11 @@ fn described(system: &FrfSystem, frf: &Frf, computed: &Computed) -> String {
         };
         format!("node {} {direction}", t.node + 1)
     };
-    let error = match (computed.error, computed.vectors) {
-        (Some(error), Some(vectors)) => {
+    let error = match (computed.error, computed.vectors, computed.backward_error) {
+        (Some(error), Some(vectors), _) => {
             format!(" ({vectors} vectors, largest relative error at the check lines {error:.1e})")
         }
+        (_, _, Some(error)) => format!(" (largest backward error {error:.1e})"),
         _ => String::new(),
     };
     format!(
@@ -212,7 +248,7 @@ fn described(system: &FrfSystem, frf: &Frf, computed: &Computed) -> String {
         place(frf.force),
         place(frf.response),
         frf.frequencies_hz.len(),
-        system.dimension(),
+        computed.dofs,
         computed.method,
     )
 }

@@ -6,6 +6,8 @@ use crate::results::figures::{
     DampingIdentification, FigureError, Resonance, draw_damping_identification,
 };
 use crate::results::identification::{IdentificationReport, print, write};
+use crate::results::report::NamedFigure;
+use crate::results::{DOTS_PER_INCH, write_figures};
 use crate::signal::reader::read_response;
 use crate::signal::{
     FrequencyResponse, Identification, IdentificationOptions, ResponseQuantity, identify,
@@ -89,7 +91,13 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     if !arguments.output.no_figures {
         match draw(&file.response, &found) {
             Ok(svg) => {
-                folder.write("identification.svg", |out| out.write_all(svg.as_bytes()))?;
+                let figure = NamedFigure {
+                    name: "identification".into(),
+                    caption: "Response with its half-power points, damping factors with the fit."
+                        .into(),
+                    svg,
+                };
+                write_figures(&folder, &[figure], DOTS_PER_INCH)?;
             }
             Err(error) => tracing::warn!("figure left out: {error}"),
         }

@@ -4,14 +4,17 @@ pub mod cea;
 mod check;
 mod collect;
 mod completions;
+pub mod cycle;
 mod failure;
 mod frf;
 mod identify;
 mod init;
+mod linear_stage;
 mod man;
 mod measurement;
 mod mesh;
 mod options;
+mod plot;
 mod session;
 mod signal;
 pub mod sweep;
@@ -48,6 +51,8 @@ enum Command {
     Transient(transient::Arguments),
     Sweep(sweep::Arguments),
     Collect(collect::Arguments),
+    Plot(plot::Arguments),
+    Cycle(cycle::Arguments),
     Mesh(mesh::Arguments),
     Check(check::Arguments),
     Init(init::Arguments),
@@ -66,6 +71,8 @@ pub fn main() -> ExitCode {
         Command::Transient(arguments) => transient::run(&arguments),
         Command::Sweep(arguments) => sweep::run(&arguments),
         Command::Collect(arguments) => collect::run(&arguments),
+        Command::Plot(arguments) => plot::run(&arguments),
+        Command::Cycle(arguments) => cycle::run(&arguments),
         Command::Mesh(arguments) => mesh::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Init(arguments) => init::run(&arguments),

@@ -157,7 +157,7 @@ fn default_folder(case: &Path, command: &str) -> PathBuf {
 }
 
 /// Fixes the number of worker threads of the whole process and returns it.
-fn start_threads(asked: Option<u16>) -> usize {
+pub fn start_threads(asked: Option<u16>) -> usize {
     // Threads belong to the outer loops (friction values, harmonics); inside them faer would only
     // make small factorizations slower.
     faer::set_global_parallelism(faer::Par::Seq);

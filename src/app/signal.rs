@@ -9,9 +9,12 @@ use crate::cea::cyclic::{ModeLimit, SweepRequest, sweep};
 use crate::fem::MassKind;
 use crate::prestress::{DampingModel, TangentOptions};
 use crate::results::figures::{
-    ReferenceFrequency, SpectrogramMap, TransientOverview, draw_transient_overview,
+    FigureError, ReferenceFrequency, SpectrogramMap, SpectrumPlot, TransientOverview,
+    draw_spectrum, draw_transient_overview,
 };
+use crate::results::report::NamedFigure;
 use crate::results::signal::{ChannelReport, SignalReport, print, write};
+use crate::results::{DOTS_PER_INCH, write_figures};
 use crate::signal::reader::{Channel, SignalFile, read_signal};
 use crate::signal::{
     SpectrogramOptions, Window, amplitude_spectrum, exponential_stage, spectral_lines, spectrogram,
@@ -109,13 +112,16 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     let summary = write(&folder, &report)?;
     if !arguments.output.no_figures {
-        for (k, channel) in selected.iter().enumerate() {
-            if let Some(svg) = figure(arguments, &file, channel, &report)? {
-                folder.write(&format!("signal-{}.svg", k + 1), |out| {
-                    out.write_all(svg.as_bytes())
-                })?;
-            }
-        }
+        let drawn = selected.iter().enumerate().filter_map(|(k, channel)| {
+            Some(NamedFigure {
+                name: format!("signal-{}", k + 1),
+                caption: format!("Signal and spectrograms of {}.", channel.name),
+                svg: figure(arguments, &file, channel, &report)?,
+            })
+        });
+        let spectra = (0..selected.len()).filter_map(|k| spectrum_figure(arguments, &report, k));
+        let figures: Vec<NamedFigure> = drawn.chain(spectra).collect();
+        write_figures(&folder, &figures, DOTS_PER_INCH)?;
     }
     folder.finish()?;
     measurement.print(&print(&report), &summary)
@@ -214,7 +220,7 @@ fn figure(
     file: &SignalFile,
     channel: &Channel,
     report: &SignalReport,
-) -> Result<Option<String>, Failure> {
+) -> Option<String> {
     let options = SpectrogramOptions {
         window_length: arguments.window,
         hop: 0.25 * arguments.window,
@@ -224,23 +230,13 @@ fn figure(
         Ok(map) => map.below(arguments.max_frequency).normalized(),
         Err(error) => {
             tracing::warn!("no spectrogram of {}: {error}; try --window", channel.name);
-            return Ok(None);
+            return None;
         }
     };
     let times: Vec<f64> = (0..channel.samples.len())
         .map(|j| file.start + j as f64 / file.sampling_rate)
         .collect();
     let centres: Vec<f64> = map.times.iter().map(|t| file.start + t).collect();
-    let references = report
-        .modes
-        .iter()
-        .enumerate()
-        .filter(|(_, mode)| mode.is_unstable())
-        .map(|(number, mode)| ReferenceFrequency {
-            frequency_hz: mode.frequency_hz(),
-            label: format!("mode {}, *n* = {}", number + 1, mode.harmonic),
-        })
-        .collect();
     let data = TransientOverview {
         signal_name: channel.name.clone(),
         signal_unit: String::new(),
@@ -252,18 +248,53 @@ fn figure(
             amplitude: &map.magnitudes,
         }),
         max_frequency_hz: arguments.max_frequency.min(0.5 * file.sampling_rate),
-        references,
+        references: references(report),
         status: None,
         stages: Vec::new(),
         enlarged: 0.0,
     };
-    match draw_transient_overview(&data) {
-        Ok(svg) => Ok(Some(svg)),
-        Err(error) => {
-            tracing::warn!("figure of {} left out: {error}", channel.name);
-            Ok(None)
-        }
-    }
+    drawn(draw_transient_overview(&data), &channel.name)
+}
+
+/// The spectrum that the peaks are taken from.
+fn spectrum_figure(
+    arguments: &Arguments,
+    report: &SignalReport,
+    index: usize,
+) -> Option<NamedFigure> {
+    let channel = &report.channels[index];
+    let (from, to) = channel.interval_s;
+    let data = SpectrumPlot {
+        signal_name: channel.name.clone(),
+        unit: String::new(),
+        frequencies_hz: &channel.spectrum.frequencies_hz,
+        amplitude: &channel.spectrum.amplitudes,
+        max_frequency_hz: arguments.max_frequency.min(0.5 * report.sampling_rate),
+        references: references(report),
+    };
+    Some(NamedFigure {
+        name: format!("spectrum-{}", index + 1),
+        caption: format!("Spectrum of {} from {from:.4} to {to:.4} s.", channel.name),
+        svg: drawn(draw_spectrum(&data), &channel.name)?,
+    })
+}
+
+/// A drawing, or a warning why there is none.
+fn drawn(drawing: Result<String, FigureError>, channel: &str) -> Option<String> {
+    let warn = |error: &FigureError| tracing::warn!("figure of {channel} left out: {error}");
+    drawing.inspect_err(warn).ok()
+}
+
+/// The unstable modes of the case.
+fn references(report: &SignalReport) -> Vec<ReferenceFrequency> {
+    let unstable = report.modes.iter().enumerate();
+    unstable
+        .filter(|(_, mode)| mode.is_unstable())
+        .map(|(number, mode)| ReferenceFrequency {
+            frequency_hz: mode.frequency_hz(),
+            label: format!("mode {}, *n* = {}", number + 1, mode.harmonic),
+        })
+        .collect()
 }
 
 /// Options that change the result.

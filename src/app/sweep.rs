@@ -9,10 +9,12 @@ pub use plan::{Shard, SweepPlan, analysis_name};
 pub use progress::SweepProgress;
 pub use workers::{PointRunner, SweepRun};
 
+use super::linear_stage::LinearStage;
 use super::{Failure, RunOptions, Session};
-use crate::results::Manifest;
-use crate::results::sweep::{PointRecord, Start, SweepFolder, SweepReport};
+use crate::case::{Analysis, Case};
+use crate::results::sweep::{PointRecord, Start, SweepDrawing, SweepFolder, SweepReport};
 use crate::results::sweep::{draw, print, summary, write_points};
+use crate::results::{DOTS_PER_INCH, Manifest};
 use clap::Args;
 use serde_json::Value;
 
@@ -75,8 +77,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         wall_s: session.wall_seconds(),
     };
     let summary = if report.missing().is_empty() {
-        let has_figures = !arguments.options.no_figures;
-        gather(&folder, &report, &session.manifest, has_figures)?
+        let is_drawn = !arguments.options.no_figures;
+        let drawing = is_drawn.then(|| drawing(&session.case, &plan, DOTS_PER_INCH));
+        gather(&folder, &report, &session.manifest, drawing.as_ref())?
     } else {
         summary(&report, &session.manifest)
     };
@@ -128,6 +131,25 @@ pub fn finished_points(folder: &SweepFolder, count: usize) -> Result<Vec<PointRe
     Ok(records)
 }
 
+/// What the figures of a study need besides its points: the modes of the case at its own friction, if
+/// the points are transients that differ in speed or friction alone, and its range of friction.
+pub fn drawing(case: &Case, plan: &SweepPlan<'_>, dots_per_inch: f64) -> SweepDrawing {
+    let is_same_body = |key: &String| key.starts_with("contact.");
+    let has_modes =
+        plan.analyses.contains(&Analysis::Transient) && plan.keys().iter().all(is_same_body);
+    let own = case.contact.sliding.friction_coefficient;
+    let cea = case.cea.as_ref().map(|cea| &cea.friction_coefficients);
+    SweepDrawing {
+        references: if has_modes {
+            LinearStage::of(case).references
+        } else {
+            Vec::new()
+        },
+        highest_friction: cea.into_iter().flatten().copied().fold(own, f64::max),
+        dots_per_inch,
+    }
+}
+
 /// Writes the table, the summary and, if asked, the figures of the finished points, and returns the
 /// summary.
 ///
@@ -137,10 +159,10 @@ pub fn gather(
     folder: &SweepFolder,
     report: &SweepReport<'_>,
     manifest: &Manifest,
-    has_figures: bool,
+    drawing: Option<&SweepDrawing>,
 ) -> Result<Value, Failure> {
-    if has_figures {
-        draw(folder, report)?;
+    if let Some(drawing) = drawing {
+        draw(folder, report, manifest, drawing)?;
     }
     folder.write("points.csv", |out| {
         write_points(out, report.keys, report.records)

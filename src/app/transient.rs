@@ -1,7 +1,10 @@
 //! `frictionsim transient`: the disc from first expansion to limit cycle.
 
 mod conversion;
+mod figures;
 mod watch;
+
+pub use figures::redraw;
 
 use super::{Failure, RunOptions, Session};
 use crate::case::{Case, Transient};
@@ -11,7 +14,7 @@ use crate::results::transient::{
     CHECKPOINT, Checkpoint, CheckpointError, TransientReport, print, read_checkpoint, summary,
     write, write_checkpoint,
 };
-use crate::results::{Manifest, OutputFolder};
+use crate::results::{DOTS_PER_INCH, Manifest, OutputFolder};
 use crate::transient::{
     CentralDifference, Recorder, RunEnd, TransientAnalysis, TransientModel, TransientSettings,
     build_operator,
@@ -156,6 +159,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     if end == RunEnd::Stopped {
         write_checkpoint(&folder, &loop_.state(), &record)?;
         return Err(stopped(folder, &loop_));
+    }
+    if !arguments.options.no_figures {
+        figures::draw_record(&folder, &prepared, &record, &summary, DOTS_PER_INCH)?;
     }
     folder.discard(CHECKPOINT);
     let path = folder.path().to_owned();

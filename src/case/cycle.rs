@@ -1,5 +1,6 @@
 //! `[cycle]`: limit cycles found directly.
 
+use super::range::{Spacing, range_values};
 use super::reader::{Bound, Section};
 use super::rules::{harmonics, parameter};
 use crate::mesh::AnnulusSpecification;
@@ -22,6 +23,17 @@ pub struct Continuation {
     pub from: f64,
     /// Its last value.
     pub to: f64,
+    /// Values between them, ends included, at which cycles are reported.
+    pub count: usize,
+    /// How those values are spaced.
+    pub spacing: Spacing,
+}
+
+impl Continuation {
+    /// The values, from first to last.
+    pub fn values(&self) -> Vec<f64> {
+        range_values(self.from, self.to, self.count, self.spacing)
+    }
 }
 
 pub(super) fn cycle(root: &Section<'_>, annulus: &AnnulusSpecification) -> Option<Cycle> {
@@ -32,7 +44,27 @@ pub(super) fn cycle(root: &Section<'_>, annulus: &AnnulusSpecification) -> Optio
         key: parameter(&inner, "key"),
         from: inner.number("from", Bound::Finite),
         to: inner.number("to", Bound::Finite),
+        count: inner.optional_count("count", 2).unwrap_or(61),
+        spacing: inner.choice(
+            "spacing",
+            &[("linear", Spacing::Linear), ("log", Spacing::Logarithmic)],
+        ),
     });
+    if let Some(Continuation { from, to, .. }) = &continuation
+        && continuation
+            .as_ref()
+            .is_some_and(|c| c.spacing == Spacing::Logarithmic)
+        && (*from <= 0.0 || *to <= 0.0)
+    {
+        inner.reject(
+            "spacing",
+            format!(
+                "cycle.continuation.spacing = \"log\" needs two positive ends, not {from} and {to}"
+            ),
+            "logarithms of positive numbers only".to_owned(),
+            Some("use \"linear\"".to_owned()),
+        );
+    }
     if let Some(Continuation { from, to, .. }) = &continuation
         && from == to
     {

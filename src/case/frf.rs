@@ -10,9 +10,11 @@ use crate::signal::ResponseQuantity;
 /// How a frequency response is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FrfMethod {
-    /// Reduced; direct where the reduction misses its tolerance.
+    /// The fastest that needs no tolerance: cyclic.
     Auto,
-    /// A factorization at each frequency.
+    /// Every circumferential harmonic at each frequency.
+    Cyclic,
+    /// A sparse solution of the whole mesh at each frequency.
     Direct,
     /// Rational Krylov reduction with its error stated.
     Reduced,
@@ -109,6 +111,7 @@ pub(super) fn read(root: &Section<'_>, annulus: &AnnulusSpecification) -> Option
             "method",
             &[
                 ("auto", FrfMethod::Auto),
+                ("cyclic", FrfMethod::Cyclic),
                 ("direct", FrfMethod::Direct),
                 ("reduced", FrfMethod::Reduced),
             ],

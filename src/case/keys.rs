@@ -94,6 +94,8 @@ pub const KEYS: &[CaseKey] = &[
     key("cycle.continuation.key", "\"contact.rotation_speed_rpm\"", "the parameter along which a cycle is followed"),
     key("cycle.continuation.from", "10", "its first value"),
     key("cycle.continuation.to", "6000", "its last value"),
+    key("cycle.continuation.count", "61", "how many values from first to last are reported"),
+    key("cycle.continuation.spacing", "\"log\"", "how they are spaced"),
     key("frf.boundary", "\"free\"", "how the disc is held while it is excited"),
     key("frf.force_node", "36", "the id (from 1) of the node that is struck"),
     key("frf.force_direction", "\"radial\"", "the direction of the force"),

@@ -166,6 +166,27 @@ impl Case {
         Ok(transient)
     }
 
+    /// The search for limit cycles.
+    ///
+    /// # Errors
+    /// A case without `[cycle]`, and one of Quad8 elements, whose contact nodes are not all alike.
+    pub fn require_cycle(&self) -> Result<&Cycle, CaseErrors> {
+        let remedy = "[cycle]\nharmonics = [1, 2]";
+        let cycle = self
+            .cycle
+            .as_ref()
+            .ok_or_else(|| self.lacks("cycle", "limit cycle", remedy))?;
+        if self.annulus.element == ElementKind::Quad8 {
+            return Err(self.error_at(
+                "mesh.element",
+                "mesh.element = \"quad8\" is for the complex eigenvalue analysis only".to_owned(),
+                "limit cycles need \"quad4\"".to_owned(),
+                Some("add --set mesh.element=quad4, and refine the mesh if need be".to_owned()),
+            ));
+        }
+        Ok(cycle)
+    }
+
     /// The parameter study.
     ///
     /// # Errors

@@ -73,8 +73,8 @@ pub struct WaveBody {
 }
 
 impl WaveBody {
-    /// The body of a mesh for wave harmonics `k = 0..=count` of circumferential harmonic `harmonic`, each shifted by
-    /// `offset` circumferential harmonics (zero for the wave itself).
+    /// The body of a mesh for a wave of `harmonic` nodal diameters: entry `k` sees circumferential harmonic `k` of the
+    /// list given.
     ///
     /// # Errors
     /// [`CycleError::Element`] for elements other than Quad4; [`CycleError::Mesh`].
@@ -112,7 +112,7 @@ impl WaveBody {
         self.harmonic
     }
 
-    /// Number of harmonics held.
+    /// Number of temporal harmonics held, zero included.
     pub fn harmonic_count(&self) -> usize {
         self.harmonics.len()
     }

@@ -115,7 +115,6 @@ impl<'a> Branch<'a> {
 
     /// One step: to the next change of contact state, the next of `samples` (rising) or the longest step.
     ///
-    /// # Errors
     /// `None` where the curve cannot be followed any further.
     pub fn advance(&mut self, samples: &[f64]) -> Option<Step> {
         let flipped = self.pending.take().map(|event| self.flip(event));
@@ -146,6 +145,10 @@ impl<'a> Branch<'a> {
             };
             let broken = self.worst(&state, &linear, flipped);
             let Some((event, slack)) = broken else {
+                if let Some(value) = self.skipped(&state, samples, goal) {
+                    goal = Goal::Value(value);
+                    continue;
+                }
                 return Some(self.accept(state, heading, length, goal));
             };
             let before = inequalities.iter().find(|i| i.0 == event);
@@ -154,6 +157,19 @@ impl<'a> Branch<'a> {
             goal = Goal::Event(event);
         }
         None
+    }
+
+    /// A wanted value that lies strictly between here and `state`: the curve bends more than its heading said.
+    fn skipped(&self, state: &WaveState, samples: &[f64], goal: Goal) -> Option<f64> {
+        if matches!(goal, Goal::Value(_)) {
+            return None;
+        }
+        let (from, to) = (self.value(), self.parameter.of(&state.point));
+        let slightly = 1e-12 * from.abs();
+        let mut between = samples.iter().filter(|&&sample| {
+            sample > from.min(to) + slightly && sample < from.max(to) - slightly
+        });
+        between.next().copied()
     }
 
     fn accept(&mut self, state: WaveState, heading: Heading, length: f64, goal: Goal) -> Step {

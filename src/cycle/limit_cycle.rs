@@ -110,6 +110,37 @@ impl LimitCycle {
         }
     }
 
+    /// Rate `i s` and displacement amplitude of every free node outwards, for each temporal harmonic.
+    pub fn profiles(&self, wave: &Wave<'_>) -> Vec<(c64, Vec<[c64; 2]>)> {
+        let edge = EdgeMotion::of(wave, &self.state);
+        let damping = &self.state.point.damping;
+        let pairs = edge.displacement.iter().zip(&edge.rates).enumerate();
+        pairs
+            .map(|(k, (u, &rate))| {
+                let share = if k == 0 { 1.0 } else { 2.0 } / wave.points() as f64;
+                let amplitude = u.map(|value| value * share);
+                (rate, wave.profile(k, rate, damping, amplitude))
+            })
+            .collect()
+    }
+
+    /// Speed of the cylinder above which a cycle without stick no longer depends on it, `max v_theta / a`, rad/s: friction
+    /// then knows only the sense of sliding. `None` for a cycle with sticking points.
+    pub fn saturation_speed(&self, inner_radius: f64) -> Option<f64> {
+        let sticks = self
+            .points
+            .iter()
+            .any(|point| point.status == ContactStatus::Stick);
+        let fastest = self
+            .points
+            .iter()
+            .filter(|point| point.status == ContactStatus::Slip);
+        let fastest = fastest
+            .map(|point| point.velocity[1])
+            .fold(f64::NEG_INFINITY, f64::max);
+        (!sticks).then_some(fastest / inner_radius)
+    }
+
     /// `omega / 2 pi`, Hz: the main frequency of any point of the body.
     pub fn frequency_hz(&self) -> f64 {
         self.state.frequency / TAU

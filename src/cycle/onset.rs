@@ -75,11 +75,12 @@ fn bisect(mut low: f64, mut high: f64, function: impl Fn(f64) -> f64) -> f64 {
 
 /// The largest wave of full slip at an onset, and the inequality that ends it.
 ///
-/// At the critical friction a wave of any amplitude lives on, up to the one at which the first point opens or sticks.
+/// `origin` is the phase of the wave's tangential displacement. At the critical friction a wave of any amplitude lives on, up to the one at which the first point opens or sticks.
 pub fn largest_linear_wave(
     wave: &Wave<'_>,
     point: &OperatingPoint,
     onset: &Onset,
+    origin: f64,
 ) -> (WaveState, Event) {
     let points = wave.points();
     let mut point = *point;
@@ -95,7 +96,7 @@ pub fn largest_linear_wave(
     let response = edge[(1, 0)] + onset.friction_coefficient * edge[(1, 1)];
     let force = 1.0 / response;
     let velocity = c64::new(0.0, onset.frequency * wave.order(1));
-    let turn = |i: usize| c64::from_polar(1.0, TAU * i as f64 / points as f64);
+    let turn = |i: usize| c64::from_polar(1.0, TAU * i as f64 / points as f64 + origin);
     let surface_speed = point.contact.rotation_speed * wave.body.radius;
     let mut limit = (f64::INFINITY, Event::Lift(0));
     for i in 0..points {
@@ -117,6 +118,7 @@ pub fn largest_linear_wave(
         normal,
         frequency: onset.frequency,
         contact: vec![PointState::SlipForward; points],
+        origin,
         point,
     };
     state.impose_law();

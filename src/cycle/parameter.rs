@@ -75,6 +75,12 @@ impl Parameter {
         }
     }
 
+    /// Its value in units of the case key, rounded to 14 digits so that 6000 rpm and back is 6000 rpm.
+    pub fn in_key_units(self, value: f64) -> f64 {
+        let value = value / self.unit();
+        format!("{value:.13e}").parse().unwrap_or(value)
+    }
+
     /// Sets its SI value.
     pub fn set(self, point: &mut OperatingPoint, value: f64) {
         let place = match self {

@@ -9,6 +9,7 @@ use super::wave::Wave;
 use super::{CycleError, Onset, WaveBody};
 use crate::fem::{ElasticMaterial, RayleighDamping};
 use crate::mesh::AnnulusSpecification;
+use faer::c64;
 use std::f64::consts::TAU;
 
 /// Points along the phase of a wave, unless chosen.
@@ -16,6 +17,10 @@ pub const DEFAULT_POINTS: usize = 135;
 
 /// Most changes of contact state along one branch.
 const MOST_STEPS: usize = 20_000;
+
+/// Where the wave lies on the grid of phases, in steps: where one curve closes on itself near its birth, because the
+/// grid pins the wave, another leads away.
+const ORIGINS: [f64; 4] = [0.0, 0.5, 0.25, 0.75];
 
 /// Limit cycles of the waves of one circumferential harmonic.
 #[derive(Clone, Debug)]
@@ -125,23 +130,29 @@ impl CycleSolver {
             limit: LARGEST_FRICTION,
             frequency_hz: HIGHEST_FREQUENCY_HZ,
         })?;
-        let (state, event) = largest_linear_wave(&wave, point, &onset);
         let target = point.contact.friction_coefficient;
         let parameter = Parameter::FrictionCoefficient;
-        let mut branch = Branch::new(&wave, parameter, state, 1.0, Some(event));
-        let end = self.run(&mut branch, &[target], |branch, step| {
-            matches!(step, Step::At(_)).then_some(branch.value())
-        });
-        match end {
-            Ok(_) => Ok(LimitCycle::new(&wave, branch.state)),
-            Err(reason) => Err(CycleError::NotReached {
-                harmonic: self.body.harmonic(),
-                key: parameter.key(),
-                value: target,
-                reached: branch.value(),
-                reason: reason.describe().to_owned(),
-            }),
+        let mut failure = (f64::NEG_INFINITY, BranchEnd::Lost);
+        for shift in ORIGINS {
+            let origin = TAU * shift / wave.points() as f64;
+            let (state, event) = largest_linear_wave(&wave, point, &onset, origin);
+            let mut branch = Branch::new(&wave, parameter, state, 1.0, Some(event));
+            let end = self.run(&mut branch, &[target], |branch, step| {
+                matches!(step, Step::At(_)).then_some(branch.value())
+            });
+            match end {
+                Ok(_) => return Ok(LimitCycle::new(&wave, branch.state)),
+                Err(reason) if branch.value() > failure.0 => failure = (branch.value(), reason),
+                Err(_) => {}
+            }
         }
+        Err(CycleError::NotReached {
+            harmonic: self.body.harmonic(),
+            key: parameter.key(),
+            value: target,
+            reached: failure.0,
+            reason: failure.1.describe().to_owned(),
+        })
     }
 
     /// The limit cycle at `point` from the one of a neighbouring point that differs in `parameter`.
@@ -214,17 +225,13 @@ impl CycleSolver {
         let (first, last) = (samples[0], samples[samples.len() - 1]);
         let start = branch.value();
         let mut direction = direction.signum();
-        let mut is_inside = false;
-        // A start outside the range has nothing to find in the other direction.
+        // A start outside the range has nothing to find on the way out.
         if (start <= first && direction < 0.0) || (start >= last && direction > 0.0) {
-            is_inside = start == first || start == last;
-            let end = BranchEnd::Range;
-            let _ = is_inside;
             return CycleBranch {
                 parameter,
                 cycles,
                 folds,
-                ends: [end; 2],
+                ends: [BranchEnd::Range; 2],
                 factorizations: 0,
             };
         }
@@ -236,10 +243,8 @@ impl CycleSolver {
             let Step::At(value) = step else { return None };
             cycles.push(LimitCycle::new(&wave, branch.state.clone()));
             let leaves = (value == first && direction < 0.0) || (value == last && direction > 0.0);
-            is_inside |= first < value && value < last;
             leaves.then_some(value)
         });
-        let _ = is_inside;
         CycleBranch {
             parameter,
             cycles,
@@ -247,6 +252,33 @@ impl CycleSolver {
             ends: [BranchEnd::Range, end.err().unwrap_or(BranchEnd::Range)],
             factorizations: branch.factorizations,
         }
+    }
+
+    /// Displacement (m) and velocity (m/s) over all dofs of the mesh, in nodal frames, at time zero of the cycle.
+    ///
+    /// The state of a contact node at angle `theta` is that of phase `n theta`.
+    pub fn field(&self, cycle: &LimitCycle) -> [Vec<f64>; 2] {
+        let wave = Wave::new(&self.body);
+        let profiles = cycle.profiles(&wave);
+        let rays = profiles[0].1.len() + 1;
+        let (sectors, harmonic) = (self.body.sector_count, self.body.harmonic());
+        let mut fields = [0, 1].map(|_| vec![0.0; 2 * rays * sectors]);
+        for sector in 0..sectors {
+            for (k, (rate, profile)) in profiles.iter().enumerate() {
+                // Whole turns taken out first, so that high harmonics lose no digits.
+                let turns = (k * harmonic * sector) % sectors;
+                let turn = c64::from_polar(1.0, TAU * turns as f64 / sectors as f64);
+                for (i, value) in profile.iter().enumerate() {
+                    for component in 0..2 {
+                        let dof = 2 * (sector * rays + i) + component;
+                        let amplitude = value[component] * turn;
+                        fields[0][dof] += amplitude.re;
+                        fields[1][dof] += (amplitude * rate).re;
+                    }
+                }
+            }
+        }
+        fields
     }
 
     /// Steps until `done` says so.

@@ -47,6 +47,8 @@ pub struct WaveState {
     pub frequency: f64,
     /// Contact state at each phase.
     pub contact: Vec<PointState>,
+    /// Phase of the first harmonic of the edge's tangential displacement, rad: which point of the wave is called zero.
+    pub origin: f64,
     /// Contact and damping.
     pub point: OperatingPoint,
 }

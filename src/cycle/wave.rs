@@ -101,7 +101,8 @@ pub struct Linearization {
     pub gap_columns: [Vec<f64>; 2],
     /// Response of the tangential velocity.
     pub slip_columns: [Vec<f64>; 2],
-    /// First harmonic of the tangential displacement (m) for unit first harmonics of the forces.
+    /// First harmonic of the tangential displacement (m), turned back by the state's origin, for unit first harmonics of
+    /// the forces.
     pub first_row: [c64; 2],
     /// First harmonic of the tangential displacement of the edge, m.
     pub first: c64,
@@ -198,7 +199,7 @@ impl Linearization {
         let surface_speed = contact.rotation_speed * wave.body.radius;
         slip.iter_mut().for_each(|slip| *slip -= surface_speed);
 
-        let share = 2.0 / wave.points as f64;
+        let share = c64::from_polar(2.0 / wave.points as f64, -state.origin);
         let first_row = [0, 1].map(|j| share * responses[1].receptance[(1, j)]);
         let mut first_by = [share * moved[1][1][1], share * moved[1][2][1]];
         let mut by_parameter = [gap_of(2), velocity_change(1)];

@@ -1,5 +1,6 @@
 //! What can go wrong with a computed frequency response.
 
+use super::Terminal;
 use crate::linalg::LinalgError;
 
 /// A frequency response that cannot be computed.
@@ -55,4 +56,19 @@ pub enum FrfError {
         /// Vectors in the basis.
         vectors: usize,
     },
+}
+
+impl FrfError {
+    /// The boundary holds this terminal.
+    pub(super) fn constrained(terminal: Terminal, key: &'static str) -> Self {
+        Self::Constrained {
+            key,
+            node: terminal.node + 1,
+            direction: if terminal.is_tangential {
+                "tangential"
+            } else {
+                "radial"
+            },
+        }
+    }
 }

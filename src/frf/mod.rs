@@ -1,15 +1,21 @@
-//! Frequency responses of the model: direct solution line by line, or by model reduction.
+//! Frequency responses of the model: direct solution line by line, harmonic by harmonic or of the
+//! whole mesh, or by model reduction.
 //!
-//! [`FrfSystem`] holds mass, damping and stiffness of a free, clamped or sliding body;
+//! [`cyclic_response`] solves each circumferential harmonic of an annulus ([`CyclicSystem`]), nothing
+//! neglected. [`FrfSystem`] holds mass, damping and stiffness of a free, clamped or sliding body;
 //! [`direct_response`] solves `(K + i omega C - omega^2 M) u = f` with a sparse complex factorization
 //! for each line; [`reduced_response`] projects the system on a few Krylov spaces first, and states the
 //! error that direct solutions at check lines find.
 
+mod cyclic;
+mod cyclic_system;
 mod direct;
 mod error;
 mod reduction;
 mod system;
 
+pub use cyclic::{CyclicResponse, cyclic_response};
+pub use cyclic_system::CyclicSystem;
 pub use direct::{DirectResponse, direct_response};
 pub use error::FrfError;
 pub use reduction::{ReducedResponse, ReductionSettings, reduced_response};

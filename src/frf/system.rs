@@ -118,15 +118,7 @@ impl FrfSystem {
                 node,
                 count: self.unknowns.unknown_of.len() / 2,
             }),
-            Some(None) => Err(FrfError::Constrained {
-                key,
-                node,
-                direction: if terminal.is_tangential {
-                    "tangential"
-                } else {
-                    "radial"
-                },
-            }),
+            Some(None) => Err(FrfError::constrained(terminal, key)),
             Some(Some(unknown)) => Ok(*unknown),
         }
     }

@@ -9,6 +9,8 @@ use faer::{Mat, MatRef, Par, c64};
 
 /// Residual, relative to the eigenvalue, above which an eigenvector is computed anew.
 const VECTOR_TOLERANCE: f64 = 1e-9;
+/// Part of a vector that must lie beyond the others of an equal eigenvalue.
+const INDEPENDENT: f64 = 1e-3;
 
 /// Eigenvalues and eigenvectors of a real matrix `A`, in real storage.
 ///
@@ -145,19 +147,18 @@ fn repair(matrix: MatRef<'_, f64>, values: &[c64], smallest: f64, vectors: &mut 
             .map(|(a, x)| (a - values[j] * x).norm_sqr())
             .sum::<f64>()
             .sqrt();
-        if error <= VECTOR_TOLERANCE * values[j].norm() * length(&vector) {
+        let mut beyond = vector.clone();
+        project_out(&mut beyond, &orthonormal(alike(values, vectors, &sound, j)));
+        let is_independent = length(&beyond) > INDEPENDENT * length(&vector);
+        if is_independent && error <= VECTOR_TOLERANCE * values[j].norm() * length(&vector) {
             sound.push(j);
         } else {
             unsound.push(j);
         }
     }
     for j in unsound {
-        let alike: Vec<Vec<c64>> = sound
-            .iter()
-            .filter(|&&k| (values[k] - values[j]).norm() < 1e-8 * values[j].norm())
-            .map(|&k| complex_column(values, vectors, k))
-            .collect();
-        let vector = inverse_iteration(matrix, values[j], &orthonormal(alike), j as u64);
+        let known = orthonormal(alike(values, vectors, &sound, j));
+        let vector = inverse_iteration(matrix, values[j], &known, j as u64);
         for (i, v) in vector.iter().enumerate() {
             vectors[(i, j)] = v.re;
             if values[j].im > 0.0 {
@@ -166,6 +167,13 @@ fn repair(matrix: MatRef<'_, f64>, values: &[c64], smallest: f64, vectors: &mut 
         }
         sound.push(j);
     }
+}
+
+/// The vectors of those `sound` eigenvalues that equal eigenvalue `j`.
+fn alike(values: &[c64], vectors: &Mat<f64>, sound: &[usize], j: usize) -> Vec<Vec<c64>> {
+    let is_equal = |k: usize| (values[k] - values[j]).norm() < 1e-8 * values[j].norm();
+    let equal = sound.iter().filter(|&&k| is_equal(k));
+    equal.map(|&k| complex_column(values, vectors, k)).collect()
 }
 
 /// An eigenvector of `value` orthogonal to `known`, which span others of the same eigenvalue.

@@ -21,6 +21,8 @@ pub struct SectorMesh {
     pub numbering: Vec<usize>,
     /// Sector nodes on the contact edge; they come first. One for Quad4, two for Quad8.
     pub contact_count: usize,
+    /// Sector nodes on the outer edge that are clamped; they come last.
+    pub clamped_count: usize,
 }
 
 impl SectorMesh {
@@ -53,10 +55,19 @@ impl SectorMesh {
                 .map(|node| 2 * (node / per_sector) + is_middle(node))
                 .collect(),
             contact_count: strip.inner_edge.nodes.len(),
+            clamped_count: strip.inner_edge.nodes.len(),
             strip,
             specification: *specification,
             numbering,
         })
+    }
+
+    /// The same sector with its outer edge free.
+    pub fn with_free_outer_edge(self) -> Self {
+        Self {
+            clamped_count: 0,
+            ..self
+        }
     }
 
     /// Nodes of one sector, clamped ones included.
@@ -66,7 +77,7 @@ impl SectorMesh {
 
     /// Nodes of one sector that are not clamped.
     pub fn free_node_count(&self) -> usize {
-        self.node_count() - self.contact_count
+        self.node_count() - self.clamped_count
     }
 
     /// Number of sectors of the annulus, `N_theta`.

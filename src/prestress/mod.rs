@@ -7,12 +7,12 @@
 
 mod equilibrium;
 mod sector;
+mod sector_rate;
 mod sector_tangent;
 mod tangent;
 
 pub use equilibrium::{PrestressError, SteadySliding};
 pub use sector::SectorSliding;
-pub use sector_tangent::{
-    FrictionPolynomial, HarmonicTangent, Parameter, SectorTangent, TangentRate,
-};
+pub use sector_rate::{Parameter, TangentRate};
+pub use sector_tangent::{FrictionPolynomial, HarmonicTangent, SectorTangent};
 pub use tangent::{DampingModel, SlidingTangent, TangentOptions};

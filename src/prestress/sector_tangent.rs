@@ -3,7 +3,7 @@
 use super::{DampingModel, PrestressError, SectorSliding, TangentOptions};
 use crate::contact::SlidingContact;
 use crate::fem::sector::{self, MirrorParity, SectorMatrix};
-use crate::fem::{ElasticMaterial, PlaneFormulation, RayleighDamping};
+use crate::fem::{ElasticMaterial, RayleighDamping};
 use crate::linalg::banded::BandedMatrix;
 use crate::mesh::{ElementKind, SectorMesh};
 
@@ -29,54 +29,30 @@ pub struct HarmonicTangent {
     pub rayleigh: RayleighDamping,
 }
 
-/// A parameter that eigenvalues respond to, besides the friction coefficient.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Parameter {
-    /// `contact.normal_stiffness`, Pa/m.
-    NormalStiffness,
-    /// `damping.mass_coefficient`, 1/s.
-    MassCoefficient,
-    /// `damping.stiffness_coefficient`, s.
-    StiffnessCoefficient,
-    /// `material.young_modulus`, Pa.
-    YoungModulus,
-    /// `material.poisson_ratio`.
-    PoissonRatio,
-    /// `material.density`, kg/m3.
-    Density,
-}
-
 /// [`super::SlidingTangent`] of an annulus, from the matrices of one sector.
 ///
 /// The same equations, whose discrete Fourier transform over the sectors is exact: all contact nodes are
 /// alike in steady sliding. The size of the annulus in the circumferential direction costs nothing.
 #[derive(Clone, Debug)]
 pub struct SectorTangent {
-    sector: SectorMesh,
-    material: ElasticMaterial,
-    options: TangentOptions,
-    base: SectorSliding,
-    terms: Terms,
-}
-
-/// Derivative of a [`SectorTangent`] with respect to one [`Parameter`].
-#[derive(Clone, Debug)]
-pub struct TangentRate {
-    terms: Terms,
-    rayleigh: RayleighDamping,
+    pub(super) sector: SectorMesh,
+    pub(super) material: ElasticMaterial,
+    pub(super) options: TangentOptions,
+    pub(super) base: SectorSliding,
+    pub(super) terms: Terms,
 }
 
 /// What the matrices are made of; each term may also be a derivative.
 #[derive(Clone, Debug)]
-struct Terms {
-    elastic: Option<SectorMatrix>,
-    mass: Option<SectorMatrix>,
+pub(super) struct Terms {
+    pub(super) elastic: Option<SectorMatrix>,
+    pub(super) mass: Option<SectorMatrix>,
     /// Stress of the pressed state and, for each unit of friction, of the sheared state.
-    stress: Option<[SectorMatrix; 2]>,
+    pub(super) stress: Option<[SectorMatrix; 2]>,
     /// `N / a` of each contact node, zero without geometric stiffness.
-    turning: Vec<f64>,
+    pub(super) turning: Vec<f64>,
     /// `k_n w` of each contact node; `None` for rigid contact.
-    normal_stiffness: Option<Vec<f64>>,
+    pub(super) normal_stiffness: Option<Vec<f64>>,
 }
 
 impl SectorTangent {
@@ -185,84 +161,6 @@ impl SectorTangent {
         [mass, stiffness].map(|matrix| matrix.restricted_to(&unknowns))
     }
 
-    /// Derivative of the matrices of harmonic `n`; `damping` is always given.
-    pub fn harmonic_rate(&self, rate: &TangentRate, n: usize) -> HarmonicTangent {
-        let follows = self.damping(&rate.terms, self.options.damping, false, n);
-        let shared = self.damping(&self.terms, rate.rayleigh, false, n);
-        HarmonicTangent {
-            harmonic: n,
-            mass: self.mass(&rate.terms, n),
-            stiffness: self.stiffness(&rate.terms, n),
-            damping: Some(sum(follows, shared)),
-            rayleigh: rate.rayleigh,
-        }
-    }
-
-    /// Derivative with respect to `parameter`, the base state following; `None` for a normal stiffness that
-    /// the contact does not have.
-    ///
-    /// # Errors
-    /// [`PrestressError::Singular`] as for the base state itself.
-    pub fn rate(&self, parameter: Parameter) -> Result<Option<TangentRate>, PrestressError> {
-        let mut terms = Terms {
-            elastic: None,
-            mass: None,
-            stress: None,
-            turning: vec![0.0; self.terms.turning.len()],
-            normal_stiffness: self
-                .terms
-                .normal_stiffness
-                .as_ref()
-                .map(|k| vec![0.0; k.len()]),
-        };
-        let mut share = RayleighDamping::default();
-        let scaled = |matrix: &SectorMatrix, value: f64| matrix.scaled(1.0 / value);
-        match parameter {
-            Parameter::MassCoefficient => share.mass_coefficient = 1.0,
-            Parameter::StiffnessCoefficient => share.stiffness_coefficient = 1.0,
-            Parameter::NormalStiffness => {
-                if terms.normal_stiffness.is_none() {
-                    return Ok(None);
-                }
-                terms.normal_stiffness = Some(self.sector.tributary_lengths().to_vec());
-            }
-            Parameter::Density => {
-                let mass = self.terms.mass.as_ref();
-                terms.mass = mass.map(|m| scaled(m, self.material.density));
-            }
-            Parameter::YoungModulus => {
-                // The base displacements do not depend on E, so every stress is proportional to it.
-                let e = self.material.young_modulus;
-                terms.elastic = self.terms.elastic.as_ref().map(|k| scaled(k, e));
-                let stress = self.terms.stress.as_ref();
-                terms.stress = stress.map(|[a, b]| [scaled(a, e), scaled(b, e)]);
-                terms.turning = self.terms.turning.iter().map(|value| value / e).collect();
-            }
-            Parameter::PoissonRatio => self.poisson_rate(&mut terms)?,
-        }
-        Ok(Some(TangentRate {
-            terms,
-            rayleigh: share,
-        }))
-    }
-
-    fn poisson_rate(&self, terms: &mut Terms) -> Result<(), PrestressError> {
-        let Some(elastic) = &self.terms.elastic else {
-            return Ok(());
-        };
-        let rate = poisson_rate_material(&self.material);
-        let elastic_rate = sector::stiffness(&self.sector, &rate);
-        if self.terms.stress.is_some() {
-            let base_rate = self.base.rate(&self.sector, elastic, &elastic_rate)?;
-            let moved = stress_stiffness(&self.sector, &self.material, &base_rate);
-            let stiffened = stress_stiffness(&self.sector, &rate, &self.base);
-            terms.stress = Some([moved[0].plus(&stiffened[0]), moved[1].plus(&stiffened[1])]);
-            terms.turning = turning(&self.sector, &self.options, &base_rate);
-        }
-        terms.elastic = Some(elastic_rate);
-        Ok(())
-    }
-
     /// Whether `C = alpha_R M + beta_R K_t` exactly.
     pub fn is_proportional(&self) -> bool {
         let contact = self.options.contact;
@@ -284,12 +182,12 @@ impl SectorTangent {
             .map_or_else(|| self.zero(), |m| m.harmonic(n))
     }
 
-    fn mass(&self, terms: &Terms, n: usize) -> FrictionPolynomial {
+    pub(super) fn mass(&self, terms: &Terms, n: usize) -> FrictionPolynomial {
         self.project(vec![self.harmonic_of(&terms.mass, n)])
     }
 
     /// `K_e + K_sigma`, the contact forces that turn with the edge, and the normal law.
-    fn stiffness(&self, terms: &Terms, n: usize) -> FrictionPolynomial {
+    pub(super) fn stiffness(&self, terms: &Terms, n: usize) -> FrictionPolynomial {
         let mut full = vec![self.harmonic_of(&terms.elastic, n), self.zero()];
         self.add_at_rest(terms, n, &mut full[0]);
         if let Some([_, sheared]) = &terms.stress {
@@ -319,7 +217,7 @@ impl SectorTangent {
     }
 
     /// `alpha_R M + beta_R K` with the options' damping model; dashpots if `with_dashpots`.
-    fn damping(
+    pub(super) fn damping(
         &self,
         terms: &Terms,
         rayleigh: RayleighDamping,
@@ -387,7 +285,7 @@ impl SectorTangent {
 }
 
 /// Geometric stiffness of the pressed and of the sheared state.
-fn stress_stiffness(
+pub(super) fn stress_stiffness(
     sector: &SectorMesh,
     material: &ElasticMaterial,
     base: &SectorSliding,
@@ -402,7 +300,11 @@ fn stress_stiffness(
 }
 
 /// `N / a` of each contact node, zero where the prestress does not act back.
-fn turning(sector: &SectorMesh, options: &TangentOptions, base: &SectorSliding) -> Vec<f64> {
+pub(super) fn turning(
+    sector: &SectorMesh,
+    options: &TangentOptions,
+    base: &SectorSliding,
+) -> Vec<f64> {
     let radius = sector.specification.inner_radius;
     let factor = if options.geometric_stiffness {
         1.0
@@ -415,25 +317,6 @@ fn turning(sector: &SectorMesh, options: &TangentOptions, base: &SectorSliding) 
         .collect()
 }
 
-/// A material whose Lamé constants are the derivatives of `material`'s with respect to Poisson's ratio,
-/// so that whatever is linear in the Lamé constants differentiates itself.
-fn poisson_rate_material(material: &ElasticMaterial) -> ElasticMaterial {
-    let (e, nu) = (material.young_modulus, material.poisson_ratio);
-    let shear = -e / (2.0 * (1.0 + nu).powi(2));
-    let lambda = match material.formulation {
-        PlaneFormulation::PlaneStrain => {
-            e * (1.0 + 2.0 * nu * nu) / ((1.0 + nu) * (1.0 - 2.0 * nu)).powi(2)
-        }
-        PlaneFormulation::PlaneStress => e * (1.0 + nu * nu) / (1.0 - nu * nu).powi(2),
-    };
-    ElasticMaterial {
-        young_modulus: shear * (3.0 * lambda + 2.0 * shear) / (lambda + shear),
-        poisson_ratio: lambda / (2.0 * (lambda + shear)),
-        density: material.density,
-        formulation: PlaneFormulation::PlaneStrain,
-    }
-}
-
 fn multiplied(mut polynomial: FrictionPolynomial, factor: f64) -> FrictionPolynomial {
     for coefficient in &mut polynomial {
         coefficient.scale(factor);
@@ -441,7 +324,7 @@ fn multiplied(mut polynomial: FrictionPolynomial, factor: f64) -> FrictionPolyno
     polynomial
 }
 
-fn sum(mut a: FrictionPolynomial, b: FrictionPolynomial) -> FrictionPolynomial {
+pub(super) fn sum(mut a: FrictionPolynomial, b: FrictionPolynomial) -> FrictionPolynomial {
     for (power, term) in b.into_iter().enumerate() {
         match a.get_mut(power) {
             Some(total) => total.add_scaled(1.0, &term),

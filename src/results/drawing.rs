@@ -5,8 +5,14 @@ use super::folder::{FolderError, OutputFolder};
 use super::report::{NamedFigure, Report};
 use rayon::prelude::*;
 
-/// Resolution of the PNG files, dots per inch.
-const DOTS_PER_INCH: f64 = 200.0;
+/// Resolution of the PNG files unless asked otherwise, dots per inch.
+pub const DOTS_PER_INCH: f64 = 200.0;
+
+/// Name of the report in its folder.
+pub const REPORT: &str = "report.html";
+
+/// Folder of the figures in a results folder.
+pub const FIGURES: &str = "figures/";
 
 /// A figure that could not be drawn or written.
 #[derive(Debug, thiserror::Error)]
@@ -19,58 +25,51 @@ pub enum DrawingError {
     Folder(#[from] FolderError),
 }
 
-/// A figure ready to be written.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Figure {
-    /// The drawing.
-    pub svg: String,
-    /// The same as pixels.
-    pub png: Vec<u8>,
+/// A figure as a file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FigureFile {
+    /// Name in the results folder: `figures/NAME.svg` or `figures/NAME.png`.
+    pub name: String,
+    /// Its bytes.
+    pub bytes: Vec<u8>,
 }
 
-/// Renders a drawing as SVG and PNG; `None` where there was nothing to draw.
+/// Every figure as SVG and as PNG of `dots_per_inch`, in order.
 ///
 /// # Errors
-/// Those of the drawing but [`FigureError::Empty`], and those of the raster image.
-pub fn render(drawing: Result<String, FigureError>) -> Result<Option<Figure>, FigureError> {
-    match drawing {
-        Ok(svg) => {
-            let png = render_png(&svg, DOTS_PER_INCH)?;
-            Ok(Some(Figure { svg, png }))
-        }
-        Err(FigureError::Empty { .. }) => Ok(None),
-        Err(error) => Err(error),
-    }
-}
-
-/// Writes `figures/NAME.svg` and `figures/NAME.png`.
-///
-/// # Errors
-/// Those of the folder.
-pub fn write_figure(folder: &OutputFolder, name: &str, figure: &Figure) -> Result<(), FolderError> {
-    folder.write_bulk(&format!("figures/{name}.svg"), |out| {
-        out.write_all(figure.svg.as_bytes())
-    })?;
-    folder.write_bulk(&format!("figures/{name}.png"), |out| {
-        out.write_all(&figure.png)
-    })?;
-    Ok(())
+/// Those of the raster image.
+pub fn figure_files(
+    figures: &[NamedFigure],
+    dots_per_inch: f64,
+) -> Result<Vec<FigureFile>, FigureError> {
+    let rendered: Result<Vec<_>, FigureError> = figures
+        .par_iter()
+        .map(|figure| {
+            let file = |extension: &str, bytes: Vec<u8>| FigureFile {
+                name: format!("{FIGURES}{}.{extension}", figure.name),
+                bytes,
+            };
+            let png = render_png(&figure.svg, dots_per_inch)?;
+            Ok([
+                file("svg", figure.svg.clone().into_bytes()),
+                file("png", png),
+            ])
+        })
+        .collect();
+    Ok(rendered?.into_iter().flatten().collect())
 }
 
 /// Writes SVG and PNG of each figure.
 ///
 /// # Errors
 /// Those of the raster image and of the folder.
-pub fn write_figures(folder: &OutputFolder, figures: &[NamedFigure]) -> Result<(), DrawingError> {
-    // Rendering is pure: side by side here, written in order below.
-    let rendered: Vec<_> = figures
-        .par_iter()
-        .map(|figure| render(Ok(figure.svg.clone())))
-        .collect();
-    for (figure, image) in figures.iter().zip(rendered) {
-        if let Some(image) = image? {
-            write_figure(folder, &figure.name, &image)?;
-        }
+pub fn write_figures(
+    folder: &OutputFolder,
+    figures: &[NamedFigure],
+    dots_per_inch: f64,
+) -> Result<(), DrawingError> {
+    for file in figure_files(figures, dots_per_inch)? {
+        folder.write_bulk(&file.name, |out| out.write_all(&file.bytes))?;
     }
     Ok(())
 }
@@ -79,11 +78,15 @@ pub fn write_figures(folder: &OutputFolder, figures: &[NamedFigure]) -> Result<(
 ///
 /// # Errors
 /// As [`write_figures`].
-pub fn write_report(folder: &OutputFolder, report: &Report) -> Result<(), DrawingError> {
+pub fn write_report(
+    folder: &OutputFolder,
+    report: &Report,
+    dots_per_inch: f64,
+) -> Result<(), DrawingError> {
     for section in &report.sections {
-        write_figures(folder, &section.figures)?;
+        write_figures(folder, &section.figures, dots_per_inch)?;
     }
     let html = report.to_html();
-    folder.write("report.html", |out| out.write_all(html.as_bytes()))?;
+    folder.write(REPORT, |out| out.write_all(html.as_bytes()))?;
     Ok(())
 }

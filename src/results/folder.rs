@@ -1,6 +1,8 @@
 //! The output folder of a run: whose it is, who writes it, and whole files only.
 
 use super::Manifest;
+use super::drawing::{FIGURES, REPORT};
+use super::reopening::read_manifest;
 use serde::{Deserialize, Serialize};
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -73,6 +75,14 @@ pub enum FolderError {
         /// What it lacks.
         reason: String,
     },
+    /// It does not hold results that can be gone back to.
+    #[error("{} does not hold the results of a run: {reason}", path.display())]
+    NotResults {
+        /// The folder.
+        path: PathBuf,
+        /// What it lacks.
+        reason: String,
+    },
     /// No space left.
     #[error(
         "no room left: {} was not written, because the disk is full or a quota or file size limit \
@@ -118,6 +128,7 @@ impl FolderError {
                 | Self::Foreign { .. }
                 | Self::Started { .. }
                 | Self::NotASweep { .. }
+                | Self::NotResults { .. }
         )
     }
 }
@@ -197,6 +208,20 @@ impl OutputFolder {
             folder.remove(folder.earlier.iter());
         }
         folder.write_manifest(&folder.earlier)?;
+        Ok(folder)
+    }
+
+    /// Takes the folder of an earlier run to draw its figures anew: figures and report that are not
+    /// written again go, every other file stays.
+    ///
+    /// # Errors
+    /// As [`read_manifest`]; [`FolderError::Busy`]; those of the file system.
+    pub fn reopen(path: &Path) -> Result<Self, FolderError> {
+        let manifest = read_manifest(path)?;
+        let folder = Self::open(path, &manifest, Replace::SameCase)?;
+        let is_drawing = |name: &&String| name.starts_with(FIGURES) || *name == REPORT;
+        let kept = folder.earlier.iter().filter(|name| !is_drawing(name));
+        folder.written.borrow_mut().extend(kept.cloned());
         Ok(folder)
     }
 

@@ -1,7 +1,8 @@
 //! What a mesh looks like: statistics, VTU, outline picture.
 
-use super::drawing::{DrawingError, render, write_figure};
+use super::drawing::{DOTS_PER_INCH, DrawingError, write_figures};
 use super::folder::{FolderError, OutputFolder};
+use super::report::NamedFigure;
 use super::vtu::{EncodedMesh, Field, write_vtu};
 use crate::mesh::{AnnulusMesh, ElementKind, Mesh2d};
 use serde::Serialize;
@@ -138,10 +139,12 @@ pub fn write_mesh_picture(
     annulus: &AnnulusMesh,
     title: &str,
 ) -> Result<(), DrawingError> {
-    if let Some(figure) = render(Ok(picture(annulus, title)))? {
-        write_figure(folder, "mesh", &figure)?;
-    }
-    Ok(())
+    let figure = NamedFigure {
+        name: "mesh".into(),
+        caption: title.into(),
+        svg: picture(annulus, title),
+    };
+    write_figures(folder, &[figure], DOTS_PER_INCH)
 }
 
 fn picture(annulus: &AnnulusMesh, title: &str) -> String {

@@ -1,12 +1,14 @@
 //! Result files: tables, fields, figures, manifest.
 
 pub mod cea;
+pub mod cycle;
 mod drawing;
 pub mod figures;
 mod folder;
 pub mod identification;
 mod manifest;
 mod mesh;
+mod reopening;
 pub mod report;
 pub mod run_figures;
 pub mod signal;
@@ -16,9 +18,12 @@ mod table;
 pub mod transient;
 mod vtu;
 
-pub use drawing::{DrawingError, Figure, render, write_figure, write_figures, write_report};
+pub use drawing::{
+    DOTS_PER_INCH, DrawingError, FigureFile, figure_files, write_figures, write_report,
+};
 pub use folder::{FolderError, OutputFolder, Replace};
 pub use manifest::Manifest;
 pub use mesh::{MeshStatistics, write_mesh, write_mesh_picture};
+pub use reopening::{read_manifest, read_summary};
 pub use table::{Table, format_number};
 pub use vtu::{EncodedMesh, Field, PvdEntry, cartesian_vectors, write_pvd, write_vtu};

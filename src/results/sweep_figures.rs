@@ -17,8 +17,8 @@ const FRICTION: &str = "contact.friction_coefficient";
 /// that was swept, critical friction if one other key was swept through eigenvalue analyses.
 ///
 /// `friction_coefficient` is the case's own, for studies that do not sweep it; `highest_friction` the
-/// largest of its eigenvalue analysis. Other keys swept beside speed and friction must not be: points
-/// that differ in them are drawn as they come.
+/// largest of its eigenvalue analysis. Nothing is drawn over speed where any other key than speed and
+/// friction was swept as well.
 ///
 /// # Errors
 /// That of a figure that cannot be drawn although there is something to draw.
@@ -30,16 +30,16 @@ pub fn draw_sweep(
 ) -> Result<Vec<NamedFigure>, FigureError> {
     let mut figures = Vec::new();
     let speeds = speed_sweep(records, friction_coefficient, references);
-    if speeds.series.iter().any(|s| s.speeds_rpm.len() > 1) {
+    if speeds.series.iter().any(has_values) {
         figures.push(NamedFigure {
-            name: "sweep-frequency".into(),
+            name: "frequencies".into(),
             caption:
                 "Main frequency of the limit cycle over rotation speed; dashed: unstable modes."
                     .into(),
             svg: draw_speed_frequencies(&speeds)?,
         });
         figures.push(NamedFigure {
-            name: "sweep-status".into(),
+            name: "status".into(),
             caption: "Shares of sticking, slipping and open contact nodes over rotation speed."
                 .into(),
             svg: draw_speed_status(&speeds)?,
@@ -57,6 +57,11 @@ pub fn draw_sweep(
     Ok(figures)
 }
 
+/// Whether a series has two speeds or more, and a vibration at any.
+fn has_values(series: &SpeedSeries) -> bool {
+    series.speeds_rpm.len() > 1 && series.main_frequency_hz.iter().any(|f| f.is_finite())
+}
+
 fn number(value: Option<&Value>) -> f64 {
     value.and_then(Value::as_f64).unwrap_or(f64::NAN)
 }
@@ -70,7 +75,8 @@ fn speed_sweep(
     let mut points: Vec<(f64, f64, [f64; 4])> = Vec::new();
     for record in records {
         let speed = number(record.swept.get(SPEED));
-        if !speed.is_finite() {
+        let is_known = |key: &String| key == SPEED || key == FRICTION;
+        if !speed.is_finite() || !record.swept.keys().all(is_known) {
             continue;
         }
         let friction = record.swept.get(FRICTION).and_then(Value::as_f64);

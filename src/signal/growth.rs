@@ -41,6 +41,20 @@ struct Demodulated {
     /// Correlated neighbours: window length over sample distance.
     correlated: f64,
     frequency: f64,
+    /// Time from the middle of the window, s, and weight of each sample of it; the weights sum to 1.
+    taper: Vec<(f64, f64)>,
+}
+
+impl Demodulated {
+    /// What the window makes of an exponential of the given rate and distance from the demodulation
+    /// frequency, rad/s: the modulus of its mean over that at mid-window.
+    fn growth_gain(&self, rate: f64, drift: f64) -> f64 {
+        let weighted = self
+            .taper
+            .iter()
+            .map(|(t, w)| c64::from_polar(w * (rate * t).exp(), drift * t));
+        weighted.sum::<c64>().norm()
+    }
 }
 
 /// Finds the exponential stage of a signal and fits its rate and frequency.
@@ -164,6 +178,12 @@ fn demodulate(
         phase: Vec::new(),
         correlated: block as f64 / hop as f64,
         frequency,
+        taper: (taper.iter().enumerate())
+            .map(|(j, w)| {
+                let offset = (j as f64 - 0.5 * block as f64) / sampling_rate;
+                (offset, 0.5 * gain * w)
+            })
+            .collect(),
     };
     let mut turns = 0.0;
     for start in (0..=x.len() - block).step_by(hop) {
@@ -260,7 +280,8 @@ fn fit(signal: &Demodulated, first: usize, last: usize) -> Result<ExponentialSta
             low: hertz(drift.low),
             high: hertz(drift.high),
         },
-        initial_amplitude: (mean_log + rate.value * (t[0] - mean_time)).exp(),
+        initial_amplitude: (mean_log + rate.value * (t[0] - mean_time)).exp()
+            / signal.growth_gain(rate.value, drift.value),
         deviation,
     })
 }

@@ -239,7 +239,7 @@ fn points_of_a_study_become_frequency_and_status_over_speed() {
         .collect();
     let figures = draw_sweep(&records, 0.3, 1.0, &[]).unwrap();
     let names: Vec<&str> = figures.iter().map(|f| f.name.as_str()).collect();
-    assert_eq!(names, ["sweep-frequency", "sweep-status"]);
+    assert_eq!(names, ["frequencies", "status"]);
     check(
         "study-frequency",
         &figures[0].svg,

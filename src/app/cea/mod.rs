@@ -8,8 +8,8 @@ pub use model::SlidingModel;
 use super::{Failure, RunOptions, Session, terminal};
 use crate::case::{Case, Cea, ModeSelection};
 use crate::cea::FrictionSweep;
-use crate::results::Manifest;
 use crate::results::cea::{BaseField, CeaReport, SensitivityReport, draw, print, summary, write};
+use crate::results::{DOTS_PER_INCH, Manifest, OutputFolder};
 use clap::Args;
 use indicatif::ProgressBar;
 use serde_json::Value;
@@ -80,11 +80,37 @@ fn run_with(
     };
     let summary = write(&folder, &report)?;
     if !session.options.no_figures {
-        draw(&folder, &report, case.damping.rayleigh)?;
+        draw(&folder, &report, case.damping.rayleigh, DOTS_PER_INCH)?;
     }
     let path = folder.path().to_owned();
     folder.finish()?;
     session.print(&print(&report), &summary, &path)
+}
+
+/// Draws the figures of a folder again: solves the case anew, which the same case answers with the same
+/// bytes; `summary` says how long the run took.
+///
+/// # Errors
+/// As [`run`].
+pub fn redraw(
+    folder: &OutputFolder,
+    case: &Case,
+    summary: &Value,
+    dots_per_inch: f64,
+) -> Result<(), Failure> {
+    let cea = case.require_cea()?;
+    let model = SlidingModel::new(case, cea)?;
+    let solution = solve::solve(case, cea, &model, &ProgressBar::hidden())?;
+    let field = model.base_field(case);
+    let map = cea.map.as_ref();
+    let map = map.map(|map| solve::map(case, cea, map)).transpose()?;
+    let wall_s = summary["wall_s"].as_f64().unwrap_or(f64::NAN);
+    let report = CeaReport {
+        map: map.as_ref(),
+        ..report(case, cea, &model, &solution, &field, wall_s)
+    };
+    draw(folder, &report, case.damping.rayleigh, dots_per_inch)?;
+    Ok(())
 }
 
 /// Solves a case without writing a file, and gives its summary; mode shapes are not computed.

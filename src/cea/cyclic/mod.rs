@@ -12,6 +12,7 @@ mod definite;
 mod error;
 mod follow;
 mod map;
+mod modes;
 mod paths;
 mod problem;
 mod rest;

@@ -33,6 +33,7 @@ pub fn draw(
     folder: &OutputFolder,
     report: &CeaReport<'_>,
     damping: RayleighDamping,
+    dots_per_inch: f64,
 ) -> Result<(), DrawingError> {
     let mut jobs = sweep_jobs(report, damping);
     jobs.extend(
@@ -64,7 +65,8 @@ pub fn draw(
             Err(error) => return Err(error.into()),
         }
     }
-    write_report(folder, &html_report(report, figures, folder.manifest()))
+    let report = html_report(report, figures, folder.manifest());
+    write_report(folder, &report, dots_per_inch)
 }
 
 fn sweep_jobs<'a>(report: &'a CeaReport<'a>, damping: RayleighDamping) -> Vec<Job<'a>> {

@@ -219,8 +219,11 @@ fn lattice(mesh: &Mesh2d, positions: &[[f64; 2]], rect: &Rect, view: &View, want
     }
     let mut path = Path::new();
     for (lines, count, closed) in [(&rays, wanted, false), (&circles, wanted.div_ceil(3), true)] {
-        let stride = lines.len().div_ceil(count).max(1);
-        for nodes in lines.values().step_by(stride).filter(|n| n.len() > 2) {
+        let lines: Vec<&Vec<usize>> = lines.values().collect();
+        // Spread evenly, also where the count does not divide the lines there are.
+        let count = count.min(lines.len());
+        let chosen = (0..count).map(|index| lines[index * lines.len() / count]);
+        for nodes in chosen.filter(|nodes| nodes.len() > 2) {
             let mut points: Vec<(f64, f64)> = nodes
                 .iter()
                 .map(|&node| view.to_drawing(rect, positions[node]))

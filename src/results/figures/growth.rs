@@ -3,9 +3,8 @@
 use super::axis::{Axis, extremes, significant};
 use super::colour::{INK, MUTED, SERIES};
 use super::legend::{self, Key};
-use super::panel::Panel;
 use super::svg::{DOUBLE_COLUMN, Stroke, Svg};
-use super::text::{Anchor, TextStyle};
+use super::text::TextStyle;
 use super::time_stack::{TimeStack, scaled, span};
 use super::{FigureError, expect_length, expect_some};
 
@@ -36,12 +35,18 @@ pub struct HarmonicGrowth<'a> {
 /// Decades below the largest amplitude that are shown at most.
 const DECADES: i32 = 9;
 
+/// Lengths of the linear stage that are shown: behind it nothing grows for long.
+const SHOWN_STAGES: f64 = 3.0;
+
 /// Draws the amplitudes on a logarithmic axis.
 ///
 /// # Errors
 /// [`FigureError`] if arrays do not fit together or are empty.
 pub fn draw_harmonic_growth(data: &HarmonicGrowth) -> Result<String, FigureError> {
-    let range = span(data.times)?;
+    let mut range = span(data.times)?;
+    if let Some(time) = data.first_nonlinearity {
+        range.1 = range.1.min(range.0 + SHOWN_STAGES * (time - range.0));
+    }
     expect_some("harmonics", data.amplitudes.len())?;
     for (harmonic, amplitude) in &data.amplitudes {
         let what = format!("amplitude of harmonic {harmonic}");
@@ -59,14 +64,28 @@ pub fn draw_harmonic_growth(data: &HarmonicGrowth) -> Result<String, FigureError
             (key, format!("*n* = {harmonic}"))
         })
         .collect();
-    if !data.predictions.is_empty() {
-        let key = Key::dashed(INK);
-        entries.push((key, "rate of the eigenvalue analysis".into()));
+    let axis = amplitude_axis(data);
+    let lines: Vec<(PredictedGrowth, f64)> = data
+        .predictions
+        .iter()
+        .filter_map(|&prediction| Some((prediction, offset(data, &prediction)?)))
+        .filter(|&(prediction, offset)| {
+            (offset + prediction.rate_per_s * prediction.window.1).exp() > axis.low
+        })
+        .collect();
+    if !lines.is_empty() {
+        let rates = lines.iter().map(|(prediction, _)| {
+            let rate = significant(prediction.rate_per_s, 4);
+            format!("*n* = {}: {rate} s^{{−1}}", prediction.harmonic)
+        });
+        let rates = rates.collect::<Vec<_>>().join(", ");
+        let text = format!("rate of the eigenvalue analysis, {rates}");
+        entries.push((Key::dashed(INK), text));
     }
     legend::draw_legend(&mut svg, left, 2.0, width, &entries);
     let top = 6.0 + legend::legend_height(&entries, width);
     let mut stack = TimeStack::new(left, width, top, range);
-    let panel = stack.push(amplitude_axis(data), 190.0, true);
+    let panel = stack.push(axis, 190.0, true);
     panel.draw_ground(&mut svg);
     svg.begin_clip(&panel.area);
     let times = scaled(data.times, stack.factor);
@@ -79,7 +98,14 @@ pub fn draw_harmonic_growth(data: &HarmonicGrowth) -> Result<String, FigureError
         panel.series(&mut svg, &times, amplitude, &stroke);
     }
     svg.end_group();
-    draw_predictions(&mut svg, &panel, data, stack.factor);
+    svg.begin_clip(&panel.area);
+    for (prediction, offset) in &lines {
+        let (from, to) = prediction.window;
+        let at = |t: f64| (offset + prediction.rate_per_s * t).exp();
+        let line = [from, to].map(|t| (panel.at_x(t * stack.factor), panel.at_y(at(t))));
+        svg.line(line[0], line[1], &Stroke::dashed(INK, 1.1));
+    }
+    svg.end_group();
     if let Some(time) = data.first_nonlinearity {
         let stroke = Stroke {
             dash: &[1.0, 1.6],
@@ -117,36 +143,18 @@ fn amplitude_axis(data: &HarmonicGrowth) -> Axis {
     Axis::logarithmic("amplitude of *u*_{θ} (m)", floor, top)
 }
 
-fn draw_predictions(svg: &mut Svg, panel: &Panel, data: &HarmonicGrowth, factor: f64) {
-    for prediction in &data.predictions {
-        let series = data
-            .amplitudes
-            .iter()
-            .find(|(harmonic, _)| *harmonic == prediction.harmonic);
-        let Some((_, amplitude)) = series else {
-            continue;
-        };
-        let (from, to) = prediction.window;
-        let offsets: Vec<f64> = data
-            .times
-            .iter()
-            .zip(*amplitude)
-            .filter(|&(&t, &a)| (from..=to).contains(&t) && a > 0.0)
-            .map(|(&t, &a)| a.ln() - prediction.rate_per_s * t)
-            .collect();
-        if offsets.is_empty() {
-            continue;
-        }
-        let offset = offsets.iter().sum::<f64>() / offsets.len() as f64;
-        let at = |t: f64| (offset + prediction.rate_per_s * t).exp();
-        svg.begin_clip(&panel.area);
-        let line = [from, to].map(|t| (panel.at_x(t * factor), panel.at_y(at(t))));
-        svg.line(line[0], line[1], &Stroke::dashed(INK, 1.1));
-        svg.end_group();
-        let middle = 0.5 * (from + to);
-        let label = format!("{} s^{{−1}}", significant(prediction.rate_per_s, 4));
-        let style = TextStyle::new(6.75).with_halo().anchored(Anchor::End);
-        let (x, y) = (panel.at_x(middle * factor), panel.at_y(at(middle)));
-        svg.text(x - 6.0, y - 3.0, &label, &style);
-    }
+/// Logarithm of the amplitude that a prediction has at time zero, laid through its harmonic's amplitude
+/// over its window; `None` without amplitude there.
+fn offset(data: &HarmonicGrowth, prediction: &PredictedGrowth) -> Option<f64> {
+    let own = |(harmonic, _): &&(usize, &[f64])| *harmonic == prediction.harmonic;
+    let (_, amplitude) = data.amplitudes.iter().find(own)?;
+    let (from, to) = prediction.window;
+    let offsets: Vec<f64> = data
+        .times
+        .iter()
+        .zip(*amplitude)
+        .filter(|&(&t, &a)| (from..=to).contains(&t) && a > 0.0)
+        .map(|(&t, &a)| a.ln() - prediction.rate_per_s * t)
+        .collect();
+    (!offsets.is_empty()).then(|| offsets.iter().sum::<f64>() / offsets.len() as f64)
 }

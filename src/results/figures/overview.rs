@@ -189,7 +189,8 @@ fn draw_status(
         let caption = match (index, strobe) {
             (0, None) => "contact status".into(),
             (0, Some(interval)) => {
-                format!("contact status every {} ms", significant(interval * 1e3, 3))
+                let interval = significant(interval * 1e3, 3);
+                format!("contact status, strobed every {interval} ms")
             }
             _ => "end of the run".to_string(),
         };

@@ -108,10 +108,9 @@ fn draw_frame(
         let reach = low.abs().max(high.abs()).max(f64::MIN_POSITIVE);
         ((-reach, reach), ColourMap::Diverging)
     } else {
-        (
-            (low.min(0.0), high.max(f64::MIN_POSITIVE)),
-            ColourMap::Viridis,
-        )
+        // A body at rest has a scale all the same.
+        let top = if high > low.min(0.0) { high } else { 1.0 };
+        ((low.min(0.0), top), ColourMap::Viridis)
     };
     let style = FieldStyle {
         range,

@@ -162,6 +162,10 @@ pub(super) enum Loudness {
     Decibels(u32),
 }
 
+/// Windows that are this much weaker than the loudest hold round-off, and are left blank where each is
+/// shown relative to its own maximum.
+const SILENCE: f64 = 1e-10;
+
 /// Draws a spectrogram into a panel whose axes are time and kilohertz.
 pub(super) fn draw_spectrogram(
     svg: &mut Svg,
@@ -194,6 +198,9 @@ pub(super) fn draw_spectrogram(
         let own = extremes(values.iter().copied()).1;
         for (line, &value) in values.iter().take(shown).enumerate() {
             let level = match loudness {
+                Loudness::Normalized if own <= SILENCE * loudest => {
+                    level_of(f64::NAN, 0.0, 1.0, FINE)
+                }
                 Loudness::Normalized => level_of(value / own.max(1e-300), 0.0, 1.0, FINE),
                 Loudness::Decibels(depth) => {
                     let decibels = 20.0 * (value / loudest.max(1e-300)).max(1e-30).log10();

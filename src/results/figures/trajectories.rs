@@ -169,7 +169,11 @@ fn draw_by_status(
     status: &[ContactStatus],
     start: usize,
 ) {
-    for wanted in STATUSES {
+    for wanted in [
+        ContactStatus::Slip,
+        ContactStatus::Stick,
+        ContactStatus::Open,
+    ] {
         let mut pieces = super::svg::Path::new();
         let mut from = start;
         while from < xs.len() {
@@ -187,6 +191,11 @@ fn draw_by_status(
             }
             from = to;
         }
-        svg.path(&pieces, &Stroke::solid(trace_colour(wanted), 0.8));
+        // On the cylinder the node sticks one way and slips back over the same line.
+        let width = match wanted {
+            ContactStatus::Slip => 1.8,
+            ContactStatus::Stick | ContactStatus::Open => 0.8,
+        };
+        svg.path(&pieces, &Stroke::solid(trace_colour(wanted), width));
     }
 }

@@ -2,6 +2,7 @@
 
 mod signals;
 
+use super::figures::axis::extremes;
 use super::figures::{
     ContactState, ContactTrace, EnergyFlows, FigureError, PhasePlot, ReferenceFrequency, Snapshot,
     Snapshots, Stage, Trajectories, draw_contact_state, draw_energy_flows, draw_snapshots,
@@ -172,10 +173,13 @@ fn frame_at(record: &Recorder, time: f64) -> Option<&ContactFrame> {
 
 fn velocity_fields(data: &RunFigures<'_>) -> Result<String, FigureError> {
     let snapshots = || data.record.snapshots.iter().take(FIELD_LIMIT);
+    // What is that much slower than the cylinder is round-off of a body at rest.
+    let rest = 1e-9 * data.peripheral_speed.abs();
+    let modulus = |v: &[f64]| Some(v[0].hypot(v[1])).filter(|&speed| speed > rest);
     let fields: Vec<Vec<f64>> = snapshots()
         .map(|snapshot| {
             let pairs = snapshot.velocity.chunks_exact(2);
-            pairs.map(|v| v[0].hypot(v[1])).collect()
+            pairs.map(|v| modulus(v).unwrap_or(0.0)).collect()
         })
         .collect();
     let status: Vec<Option<Vec<ContactStatus>>> = snapshots()
@@ -229,8 +233,8 @@ fn trajectories(data: &RunFigures<'_>) -> Result<String, FigureError> {
     let inside = probes()
         .find(|&probe| contact_position(data, probe).is_none())
         .ok_or_else(|| nothing("probe inside the body"))?;
-    let (edge, position) = probes()
-        .find_map(|probe| Some((probe, contact_position(data, probe)?)))
+    let edge = probes()
+        .find(|&probe| contact_position(data, probe).is_some())
         .ok_or_else(|| nothing("probe on the contact edge"))?;
     let column = |probe: usize, column: usize| -> Vec<f64> {
         record.probe_rows[probe]
@@ -241,14 +245,8 @@ fn trajectories(data: &RunFigures<'_>) -> Result<String, FigureError> {
     let (name, offset) = component(record, inside);
     let (displacement, velocity) = (column(inside, offset), column(inside, 2 + offset));
     let (radial, tangential) = (column(edge, 0), column(edge, 1));
-    let stride = record.frame_stride as usize;
-    let status: Option<Vec<ContactStatus>> = (0..radial.len())
-        .map(|sample| {
-            let frame = record.frames.get((sample + stride / 2) / stride);
-            let frame = frame.or(record.frames.last())?;
-            statuses(frame).get(position).copied()
-        })
-        .collect();
+    let cycle_start = radial.len() - radial.len().div_ceil(5);
+    let status = traced_status(&record.probe_rows[edge], cycle_start, data.peripheral_speed);
     draw_trajectories(&Trajectories {
         phase: PhasePlot {
             name: format!("node {}, {name}", record.probes[inside]),
@@ -259,10 +257,34 @@ fn trajectories(data: &RunFigures<'_>) -> Result<String, FigureError> {
             name: format!("contact node {}", record.probes[edge]),
             tangential: &tangential,
             radial: &radial,
-            status: status.as_deref(),
+            status: Some(&status),
         },
-        cycle_start: radial.len() - radial.len().div_ceil(5),
+        cycle_start,
     })
+}
+
+/// Status of a contact node at every sample, from its motion: off the cylinder it is open, with the
+/// cylinder's velocity it sticks. Finer in time than the contact frames; from `cycle_start` on, where the
+/// node touches the cylinder at its smallest radial displacement.
+fn traced_status(
+    rows: &[[f64; 6]],
+    cycle_start: usize,
+    peripheral_speed: f64,
+) -> Vec<ContactStatus> {
+    let (low, high) = extremes(rows[cycle_start..].iter().map(|row| row[0]));
+    let distance = 1e-6 * low.abs().max(high.abs());
+    let slowness = 1e-6 * peripheral_speed.abs().max(f64::MIN_POSITIVE);
+    rows.iter()
+        .map(|row| {
+            if row[0] - low > distance {
+                ContactStatus::Open
+            } else if (row[3] - peripheral_speed).abs() <= slowness {
+                ContactStatus::Stick
+            } else {
+                ContactStatus::Slip
+            }
+        })
+        .collect()
 }
 
 fn contact_state(data: &RunFigures<'_>) -> Result<String, FigureError> {

@@ -1,80 +1,77 @@
-//! Figures of a study of transients over speed and friction.
+//! Figures and `report.html` of a study.
 
-use super::super::figures::{SpeedSeries, SpeedSweep, draw_speed_frequencies, draw_speed_status};
-use super::super::{DrawingError, render};
+use super::super::figures::ReferenceFrequency;
+use super::super::report::{Report, ReportSection, ReportTable};
+use super::super::sweep_figures::draw_sweep;
+use super::super::{DrawingError, Manifest, figure_files};
+use super::report::rows;
 use super::{SweepFolder, SweepReport};
-use serde_json::Value;
+use crate::results::drawing::REPORT;
 
-const SPEED: &str = "contact.rotation_speed_rpm";
-const FRICTION: &str = "contact.friction_coefficient";
+/// What the figures of a study need besides its points.
+#[derive(Clone, Debug)]
+pub struct SweepDrawing {
+    /// Unstable modes of the case, drawn across its frequencies.
+    pub references: Vec<ReferenceFrequency>,
+    /// Largest friction coefficient of its eigenvalue analyses.
+    pub highest_friction: f64,
+    /// Resolution of the PNG files.
+    pub dots_per_inch: f64,
+}
 
-/// Draws main frequency and contact status over speed, one series for each friction coefficient, as
-/// `figures/frequencies` and `figures/status`.
-///
-/// Draws nothing unless transients were swept over speed, and over friction or nothing else.
+/// Draws what the study has points for into `figures/`, each as SVG and PNG, and writes `report.html`.
 ///
 /// # Errors
 /// Those of the drawing and of the folder.
-pub fn draw(folder: &SweepFolder, report: &SweepReport<'_>) -> Result<(), DrawingError> {
-    let Some(data) = speed_sweep(report) else {
-        return Ok(());
-    };
-    for (name, drawing) in [
-        ("frequencies", draw_speed_frequencies(&data)),
-        ("status", draw_speed_status(&data)),
-    ] {
-        if let Some(figure) = render(drawing)? {
-            folder.write(&format!("figures/{name}.svg"), |out| {
-                out.write_all(figure.svg.as_bytes())
-            })?;
-            folder.write(&format!("figures/{name}.png"), |out| {
-                out.write_all(&figure.png)
-            })?;
-        }
+pub fn draw(
+    folder: &SweepFolder,
+    report: &SweepReport<'_>,
+    manifest: &Manifest,
+    drawing: &SweepDrawing,
+) -> Result<(), DrawingError> {
+    let figures = draw_sweep(
+        report.records,
+        report.friction_coefficient,
+        drawing.highest_friction,
+        &drawing.references,
+    )?;
+    for file in figure_files(&figures, drawing.dots_per_inch)? {
+        folder.write(&file.name, |out| out.write_all(&file.bytes))?;
     }
+    let html = Report {
+        title: report.title.to_owned(),
+        sections: vec![
+            ReportSection {
+                heading: "Study".into(),
+                paragraphs: vec![format!(
+                    "{} of {} points, {} failed; {} at each.",
+                    report.records.len(),
+                    report.count,
+                    report.failed().count(),
+                    report.analyses.join(" and "),
+                )],
+                tables: Vec::new(),
+                figures,
+            },
+            ReportSection {
+                heading: "Points".into(),
+                tables: vec![points_table(report)],
+                ..ReportSection::default()
+            },
+        ],
+        manifest: manifest.clone(),
+    }
+    .to_html();
+    folder.write(REPORT, |out| out.write_all(html.as_bytes()))?;
     Ok(())
 }
 
-/// Limit cycles over speed; `None` if the points are not of that kind.
-fn speed_sweep(report: &SweepReport<'_>) -> Option<SpeedSweep> {
-    let (keys, records) = (report.keys, report.records);
-    let is_known = |key: &String| key == SPEED || key == FRICTION;
-    if !keys.iter().any(|key| key == SPEED) || !keys.iter().all(is_known) {
-        return None;
+/// What a person wants first of every point; `points.csv` has all.
+fn points_table(report: &SweepReport<'_>) -> ReportTable {
+    let mut rows = rows(report);
+    ReportTable {
+        caption: "Finished points (every quantity: points.csv)".into(),
+        columns: rows.remove(0),
+        rows,
     }
-    let mut series: Vec<SpeedSeries> = Vec::new();
-    for record in records {
-        let speed = record.swept.get(SPEED)?.as_f64()?;
-        // Friction that is not swept is the same for all points and has no value here.
-        let friction = record.swept.get(FRICTION).and_then(Value::as_f64);
-        let friction = friction.unwrap_or(f64::NAN);
-        let same = |known: &SpeedSeries| known.friction_coefficient.to_bits() == friction.to_bits();
-        let at = series.iter().position(same).unwrap_or_else(|| {
-            series.push(SpeedSeries {
-                friction_coefficient: friction,
-                speeds_rpm: Vec::new(),
-                main_frequency_hz: Vec::new(),
-                stick: Vec::new(),
-                slip: Vec::new(),
-                open: Vec::new(),
-            });
-            series.len() - 1
-        });
-        let summary = record.summaries.get("transient");
-        let number = |pointer: &str| {
-            let value = summary.and_then(|summary| summary.pointer(pointer));
-            value.and_then(Value::as_f64).unwrap_or(f64::NAN)
-        };
-        let line = &mut series[at];
-        line.speeds_rpm.push(speed);
-        line.main_frequency_hz.push(number("/main_frequency_hz"));
-        line.stick.push(number("/status/stick"));
-        line.slip.push(number("/status/slip"));
-        line.open.push(number("/status/open"));
-    }
-    let has_values = |line: &SpeedSeries| line.main_frequency_hz.iter().any(|f| f.is_finite());
-    series.iter().any(has_values).then(|| SpeedSweep {
-        series,
-        references: Vec::new(),
-    })
 }

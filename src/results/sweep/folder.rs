@@ -12,9 +12,12 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// Files over all points.
-const OVER_ALL: [&str; 6] = [
+const OVER_ALL: [&str; 9] = [
     "points.csv",
     "summary.json",
+    "report.html",
+    "figures/critical-friction.svg",
+    "figures/critical-friction.png",
     "figures/frequencies.svg",
     "figures/frequencies.png",
     "figures/status.svg",

@@ -6,7 +6,7 @@ mod record;
 mod report;
 mod table;
 
-pub use figures::draw;
+pub use figures::{SweepDrawing, draw};
 pub use folder::{Claim, Start, SweepFolder};
 pub use record::PointRecord;
 pub use report::{SweepReport, print, summary, swept_text};

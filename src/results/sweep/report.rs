@@ -133,7 +133,7 @@ pub fn print(report: &SweepReport<'_>) -> String {
         let _ = writeln!(out, "{}", report.title);
     }
     if report.records.len() <= MOST_ROWS {
-        rows(&mut out, report);
+        write_rows(&mut out, &rows(report));
     }
     for (error, points) in report.errors() {
         let _ = writeln!(out, "failed: {}: {error}", number_ranges(&points));
@@ -163,8 +163,8 @@ pub fn print(report: &SweepReport<'_>) -> String {
     out
 }
 
-/// One aligned row for each finished point.
-fn rows(out: &mut String, report: &SweepReport<'_>) {
+/// Column names, then a row for each finished point, with what a person wants first.
+pub(super) fn rows(report: &SweepReport<'_>) -> Vec<Vec<String>> {
     let value_at = |record: &PointRecord, pointer: &str| {
         let mut summaries = record.summaries.values();
         summaries.find_map(|summary| summary.pointer(pointer).cloned())
@@ -194,7 +194,12 @@ fn rows(out: &mut String, report: &SweepReport<'_>) {
         }));
         table.push(row);
     }
-    for row in &table {
+    table
+}
+
+/// Aligned columns.
+fn write_rows(out: &mut String, table: &[Vec<String>]) {
+    for row in table {
         for (at, text) in row.iter().enumerate() {
             let width = table.iter().map(|row| row[at].chars().count()).max();
             let _ = write!(out, "{text:>width$}  ", width = width.unwrap_or(0));

@@ -1,5 +1,6 @@
 //! The state of a transient on disk, to go on from.
 
+use super::framed::{self, Defect};
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::manifest::Manifest;
 use crate::transient::{Recorder, TransientState};
@@ -13,8 +14,6 @@ pub const CHECKPOINT: &str = "checkpoint.bin";
 
 const MAGIC: [u8; 8] = *b"FRICSIMC";
 const VERSION: u32 = 1;
-/// Magic, version, checksum, length of what follows.
-const HEADER: usize = 8 + 4 + 4 + 8;
 
 /// A checkpoint that cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -117,11 +116,7 @@ pub fn write_checkpoint(
     };
     folder.write(CHECKPOINT, |out| {
         let payload = postcard::to_stdvec(&contents).map_err(io::Error::other)?;
-        out.write_all(&MAGIC)?;
-        out.write_all(&VERSION.to_le_bytes())?;
-        out.write_all(&crc32fast::hash(&payload).to_le_bytes())?;
-        out.write_all(&(payload.len() as u64).to_le_bytes())?;
-        out.write_all(&payload)
+        framed::write(out, MAGIC, VERSION, &payload)
     })?;
     Ok(())
 }
@@ -165,34 +160,7 @@ pub fn read_checkpoint(folder: &Path, manifest: &Manifest) -> Result<Checkpoint,
     Ok(checkpoint)
 }
 
-enum Defect {
-    Version(u32),
-    Damage(String),
-}
-
 fn decode(bytes: &[u8]) -> Result<Checkpoint, Defect> {
-    let damage = |reason: &str| Defect::Damage(reason.to_owned());
-    let Some((header, payload)) = bytes.split_at_checked(HEADER) else {
-        return Err(damage("it is shorter than its header"));
-    };
-    let (magic, rest) = header.split_at(8);
-    if magic != MAGIC {
-        return Err(damage("it does not begin as a checkpoint does"));
-    }
-    let word = |at: usize| u32::from_le_bytes(std::array::from_fn(|i| rest[at + i]));
-    let (version, checksum) = (word(0), word(4));
-    if version != VERSION {
-        return Err(Defect::Version(version));
-    }
-    let length = u64::from_le_bytes(std::array::from_fn(|i| rest[8 + i]));
-    if length != payload.len() as u64 {
-        return Err(Defect::Damage(format!(
-            "{} bytes where {length} were written",
-            payload.len()
-        )));
-    }
-    if crc32fast::hash(payload) != checksum {
-        return Err(damage("its checksum does not fit its contents"));
-    }
+    let payload = framed::read(bytes, MAGIC, VERSION)?;
     postcard::from_bytes(payload).map_err(|error| Defect::Damage(error.to_string()))
 }

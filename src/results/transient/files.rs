@@ -1,6 +1,7 @@
 //! Probes, energies, contact, snapshots, summary.
 
 use super::contact::encode_contact;
+use super::record::write_record;
 use super::{TransientReport, summary};
 use crate::fem::nodal_stress;
 use crate::results::folder::{FolderError, OutputFolder};
@@ -29,6 +30,7 @@ pub fn write(folder: &OutputFolder, report: &TransientReport<'_>) -> Result<Valu
         out.write_all(&encode_contact(report.record)?)
     })?;
     write_snapshots(folder, report)?;
+    write_record(folder, report.record)?;
     let summary = summary(report, folder.manifest());
     folder.write("summary.json", |out| {
         serde_json::to_writer_pretty(&mut *out, &summary)?;

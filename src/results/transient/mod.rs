@@ -3,12 +3,17 @@
 mod checkpoint;
 mod contact;
 mod files;
+mod framed;
 mod print;
+mod record;
+mod report;
 mod summary;
 
 pub use checkpoint::{CHECKPOINT, Checkpoint, CheckpointError, read_checkpoint, write_checkpoint};
 pub use files::write;
 pub use print::print;
+pub use record::read_record;
+pub use report::{draw, html_report};
 pub use summary::summary;
 
 use crate::fem::ElasticMaterial;

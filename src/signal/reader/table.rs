@@ -253,7 +253,8 @@ fn numbers(
             return Err(ReadError::at(source, *line, *at, problem));
         }
         if fields.len() != expected {
-            let at = fields[fields.len().min(expected + 1) - 1].0;
+            let surplus = fields.get(expected).or(fields.last());
+            let at = surplus.map_or(1, |(at, _)| *at);
             let problem = ReadProblem::FieldCount {
                 found: fields.len(),
                 expected,

@@ -1,0 +1,132 @@
+//! Cost of frequency responses of the disc of 180 x 35 elements at 1000 frequencies, one thread.
+//!
+//! `cargo bench --bench frf`. Matrices and meshes are made outside the measured time.
+
+use divan::Bencher;
+use frictionsim::contact::{ContactStiffness, SlidingContact};
+use frictionsim::fem::{
+    ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping, assemble_stiffness,
+};
+use frictionsim::frf::{
+    CyclicSystem, FrfSystem, ReductionSettings, Terminal, cyclic_response, direct_response,
+    reduced_response,
+};
+use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind, SectorMesh};
+use frictionsim::prestress::{
+    DampingModel, SectorTangent, SlidingTangent, SteadySliding, TangentOptions,
+};
+
+fn main() {
+    divan::main();
+}
+
+const SPECIFICATION: AnnulusSpecification = AnnulusSpecification {
+    inner_radius: 0.0205,
+    outer_radius: 0.0905,
+    circumferential_elements: 180,
+    radial_elements: 35,
+    radial_grading: 1.0,
+    element: ElementKind::Quad4,
+};
+const MATERIAL: ElasticMaterial = ElasticMaterial {
+    young_modulus: 2.5e9,
+    poisson_ratio: 0.3805,
+    density: 1228.0,
+    formulation: PlaneFormulation::PlaneStrain,
+};
+const DAMPING: RayleighDamping = RayleighDamping {
+    mass_coefficient: 40.0,
+    stiffness_coefficient: 4.5e-7,
+};
+const CONTACT: SlidingContact = SlidingContact {
+    friction_coefficient: 0.3,
+    interference: 25e-6,
+    rotation_speed: 63.9,
+};
+const FORCE: Terminal = Terminal {
+    node: 5,
+    is_tangential: false,
+};
+const RESPONSE: Terminal = Terminal {
+    node: 36 * 40 + 20,
+    is_tangential: true,
+};
+
+fn options() -> TangentOptions {
+    TangentOptions {
+        mass: MassKind::Consistent,
+        geometric_stiffness: true,
+        damping: DAMPING,
+        damping_model: DampingModel::WholeTangent,
+        contact: ContactStiffness {
+            normal_stiffness: Some(7.4e12),
+            ..ContactStiffness::default()
+        },
+    }
+}
+
+fn cyclic_system(boundary: &str) -> CyclicSystem {
+    let sector = SectorMesh::generate(&SPECIFICATION).expect("a valid mesh");
+    if boundary == "sliding" {
+        let tangent = SectorTangent::linearize(&sector, &MATERIAL, &options(), &CONTACT)
+            .expect("contact stays closed");
+        return CyclicSystem::sliding(&tangent, CONTACT.friction_coefficient);
+    }
+    let mass = MassKind::Consistent;
+    CyclicSystem::body(&sector, &MATERIAL, mass, DAMPING, boundary == "clamped")
+}
+
+fn whole_system(boundary: &str) -> FrfSystem {
+    let annulus = AnnulusMesh::generate(&SPECIFICATION).expect("a valid mesh");
+    if boundary == "sliding" {
+        let stiffness = assemble_stiffness(&annulus.mesh, &MATERIAL);
+        let base = SteadySliding::solve(&annulus.mesh, &stiffness, &CONTACT)
+            .expect("contact stays closed");
+        let mesh = &annulus.mesh;
+        let tangent = SlidingTangent::linearize(mesh, &MATERIAL, &stiffness, &base, &options());
+        return FrfSystem::sliding(&tangent, CONTACT.friction_coefficient);
+    }
+    let mass = MassKind::Consistent;
+    FrfSystem::body(
+        &annulus.mesh,
+        &MATERIAL,
+        mass,
+        DAMPING,
+        boundary == "clamped",
+    )
+}
+
+fn frequencies() -> Vec<f64> {
+    (1..=1000).map(|line| 10.0 * f64::from(line)).collect()
+}
+
+fn on_one_thread<T: Send>(work: impl Fn() -> T + Sync + Send) -> T {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+    pool.expect("a thread can be started").install(work)
+}
+
+/// Every circumferential harmonic.
+#[divan::bench(args = ["free", "clamped", "sliding"], max_time = 4)]
+fn cyclic(bencher: Bencher<'_, '_>, boundary: &str) {
+    let (system, f) = (cyclic_system(boundary), frequencies());
+    bencher.bench(|| on_one_thread(|| cyclic_response(&system, FORCE, RESPONSE, &f).unwrap()));
+}
+
+/// Sparse solution of the whole mesh.
+#[divan::bench(args = ["free", "clamped", "sliding"], sample_count = 1)]
+fn direct(bencher: Bencher<'_, '_>, boundary: &str) {
+    let (system, f) = (whole_system(boundary), frequencies());
+    let [force, response] = [FORCE, RESPONSE].map(|t| system.unknown(t, "node").unwrap());
+    bencher.bench(|| on_one_thread(|| direct_response(&system, force, response, &f).unwrap()));
+}
+
+/// Rational Krylov reduction.
+#[divan::bench(args = ["free", "clamped", "sliding"], max_time = 4)]
+fn reduced(bencher: Bencher<'_, '_>, boundary: &str) {
+    let (system, f) = (whole_system(boundary), frequencies());
+    let [force, response] = [FORCE, RESPONSE].map(|t| system.unknown(t, "node").unwrap());
+    let settings = ReductionSettings::default();
+    bencher.bench(|| {
+        on_one_thread(|| reduced_response(&system, force, response, &f, &settings).unwrap())
+    });
+}

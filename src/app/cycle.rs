@@ -1,0 +1,158 @@
+//! `frictionsim cycle`: limit cycles found directly, and followed over a parameter.
+
+use super::{Failure, RunOptions, Session};
+use crate::case::{Case, Cycle};
+use crate::cycle::{CycleError, CycleSolver, DEFAULT_POINTS, OperatingPoint, Parameter};
+use crate::mesh::AnnulusMesh;
+use crate::results::cycle::{CycleReport, CycleResult, print, write};
+use clap::Args;
+use rayon::prelude::*;
+use std::time::Instant;
+
+/// Highest harmonic that is looked at where the case names none.
+const HIGHEST_HARMONIC: usize = 8;
+
+/// Limit cycles without time stepping
+#[derive(Args)]
+pub struct Arguments {
+    /// The case and how to run it.
+    #[command(flatten)]
+    pub options: RunOptions,
+}
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// A bad case, a search that finds no cycle at all, an output folder that cannot be written.
+pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let session = Session::start("cycle", &arguments.options)?;
+    let case = &session.case;
+    let cycle = case.require_cycle()?;
+    let point = OperatingPoint {
+        contact: case.contact.sliding,
+        damping: case.damping.rayleigh,
+    };
+    let continuation = continuation(case, cycle)?;
+    let annulus = AnnulusMesh::generate(&case.annulus).map_err(Failure::usage)?;
+    let solvers = solvers(case, cycle, &point)?;
+    let folder = session.open_folder()?;
+
+    let results: Vec<CycleResult> = solvers
+        .par_iter()
+        .map(|solver| solve(solver, &point, continuation.as_ref()))
+        .collect();
+    refuse_nothing(&results)?;
+
+    let report = CycleReport {
+        title: &case.title,
+        mesh: &annulus.mesh,
+        inner_radius: case.annulus.inner_radius,
+        thickness: case.thickness,
+        points: solvers.first().map_or(0, CycleSolver::points),
+        results,
+        wall_s: session.wall_seconds(),
+    };
+    let summary = write(&folder, &report)?;
+    let path = folder.path().to_owned();
+    folder.finish()?;
+    session.print(&print(&report), &summary, &path)
+}
+
+/// The parameter of `[cycle.continuation]` and its SI values.
+fn continuation(case: &Case, cycle: &Cycle) -> Result<Option<(Parameter, Vec<f64>)>, Failure> {
+    let Some(continuation) = &cycle.continuation else {
+        return Ok(None);
+    };
+    let Some(parameter) = Parameter::from_key(&continuation.key) else {
+        let known: Vec<&str> = Parameter::ALL.iter().map(|known| known.key()).collect();
+        return Err(Failure::Case(case.error_at(
+            "cycle.continuation.key",
+            format!("limit cycles cannot be followed over {}", continuation.key),
+            "not one of the parameters of a cycle".to_owned(),
+            Some(format!("one of {}", known.join(", "))),
+        )));
+    };
+    if continuation.from.min(continuation.to) < 0.0 {
+        return Err(Failure::Case(case.error_at(
+            "cycle.continuation.from",
+            format!("{} cannot be negative along a branch", continuation.key),
+            "must not be negative".to_owned(),
+            None,
+        )));
+    }
+    let values = continuation.values().into_iter();
+    let values = values.map(|value| value * parameter.unit()).collect();
+    Ok(Some((parameter, values)))
+}
+
+/// One solver for each harmonic asked for; where none is, for those unstable at the case's friction.
+fn solvers(
+    case: &Case,
+    cycle: &Cycle,
+    point: &OperatingPoint,
+) -> Result<Vec<CycleSolver>, Failure> {
+    let new = |harmonic| {
+        CycleSolver::new(&case.annulus, &case.material, harmonic, DEFAULT_POINTS)
+            .map_err(Failure::usage)
+    };
+    if let Some(harmonics) = &cycle.harmonics {
+        return harmonics.iter().map(|&harmonic| new(harmonic)).collect();
+    }
+    let highest = HIGHEST_HARMONIC.min(case.annulus.circumferential_elements / 2);
+    let mut solvers = Vec::new();
+    for harmonic in 1..=highest {
+        let solver = new(harmonic)?;
+        let onsets = solver.onsets(&point.damping);
+        let friction = point.contact.friction_coefficient;
+        if onsets
+            .iter()
+            .any(|onset| onset.friction_coefficient < friction)
+        {
+            solvers.push(solver);
+        }
+    }
+    if solvers.is_empty() {
+        return Err(Failure::run(format!(
+            "steady sliding is stable against waves of 1 to {highest} nodal diameters at \
+             contact.friction_coefficient = {}: there is no limit cycle to find; raise it, or name \
+             cycle.harmonics",
+            point.contact.friction_coefficient
+        )));
+    }
+    Ok(solvers)
+}
+
+fn solve(
+    solver: &CycleSolver,
+    point: &OperatingPoint,
+    continuation: Option<&(Parameter, Vec<f64>)>,
+) -> CycleResult {
+    let start = Instant::now();
+    let found = solver.find(point);
+    let branch = match (&found, continuation) {
+        (Ok(cycle), Some((parameter, values))) => Some(solver.follow(cycle, *parameter, values)),
+        _ => None,
+    };
+    CycleResult {
+        harmonic: solver.body().harmonic(),
+        onsets: solver.onsets(&point.damping),
+        field: found.as_ref().ok().map(|cycle| solver.field(cycle)),
+        cycle: found.map_err(|error: CycleError| error.to_string()),
+        branch,
+        wall_s: start.elapsed().as_secs_f64(),
+    }
+}
+
+fn refuse_nothing(results: &[CycleResult]) -> Result<(), Failure> {
+    if results.iter().any(|result| result.cycle.is_ok()) {
+        return Ok(());
+    }
+    let errors: Vec<String> = results
+        .iter()
+        .filter_map(|result| result.cycle.as_ref().err().cloned())
+        .collect();
+    Err(Failure::run(format!(
+        "no limit cycle found: {}",
+        errors.join("; ")
+    )))
+}

@@ -1,0 +1,74 @@
+//! The modes that a transient has in its linear stage, for its figures.
+
+use crate::case::{Case, ModeSelection};
+use crate::cea::ComplexMode;
+use crate::cea::cyclic::{self, CyclicError, ModeLimit, SweepRequest};
+use crate::contact::ContactStiffness;
+use crate::fem::MassKind;
+use crate::prestress::{DampingModel, TangentOptions};
+use crate::results::figures::ReferenceFrequency;
+
+/// Modes looked at where the case has no `[cea]`.
+const MODES: usize = 30;
+
+/// Unstable modes of steady sliding as the time loop has it: the same mesh, lumped mass, rigid contact,
+/// small displacements, damping on the whole tangent.
+pub struct LinearStage {
+    /// Frequencies, numbered among all modes by frequency.
+    pub references: Vec<ReferenceFrequency>,
+    /// Largest growth rate of each unstable harmonic, 1/s, harmonics rising.
+    pub growth_rates: Vec<(usize, f64)>,
+}
+
+impl LinearStage {
+    /// Solves at the case's own friction coefficient; where that fails (steady sliding would open, say)
+    /// there are no modes, and the log says why.
+    pub fn of(case: &Case) -> Self {
+        let modes = modes(case).unwrap_or_else(|error| {
+            tracing::warn!("figures without modes of the eigenvalue analysis: {error}");
+            Vec::new()
+        });
+        let unstable = || modes.iter().enumerate().filter(|(_, m)| m.is_unstable());
+        let mut growth_rates: Vec<(usize, f64)> = Vec::new();
+        for (_, mode) in unstable() {
+            let rate = mode.growth_rate();
+            match growth_rates.iter_mut().find(|(n, _)| *n == mode.harmonic) {
+                Some((_, known)) => *known = known.max(rate),
+                None => growth_rates.push((mode.harmonic, rate)),
+            }
+        }
+        growth_rates.sort_by_key(|&(harmonic, _)| harmonic);
+        Self {
+            references: unstable()
+                .map(|(index, mode)| ReferenceFrequency {
+                    frequency_hz: mode.frequency_hz(),
+                    label: format!("mode {}, *n* = {}", index + 1, mode.harmonic),
+                })
+                .collect(),
+            growth_rates,
+        }
+    }
+}
+
+fn modes(case: &Case) -> Result<Vec<ComplexMode>, CyclicError> {
+    let options = TangentOptions {
+        mass: MassKind::Lumped,
+        geometric_stiffness: false,
+        damping: case.damping.rayleigh,
+        damping_model: DampingModel::WholeTangent,
+        contact: ContactStiffness::default(),
+    };
+    let request = SweepRequest {
+        friction_coefficients: &[case.contact.sliding.friction_coefficient],
+        limit: match case.cea.as_ref().map(|cea| cea.modes) {
+            Some(ModeSelection::BelowHz(limit)) => ModeLimit::MaxFrequency(limit),
+            Some(ModeSelection::Lowest(count)) => ModeLimit::Lowest(count),
+            None => ModeLimit::Lowest(MODES),
+        },
+        shapes_at: &[],
+    };
+    let sliding = &case.contact.sliding;
+    let found = cyclic::sweep(&case.annulus, &case.material, &options, sliding, &request)?;
+    let point = found.sweep.points.into_iter().next();
+    Ok(point.map_or_else(Vec::new, |point| point.modes))
+}

@@ -1,0 +1,54 @@
+//! Figures of a transient: after the run, and again from its record.
+
+use super::Prepared;
+use crate::app::Failure;
+use crate::app::linear_stage::LinearStage;
+use crate::case::Case;
+use crate::results::OutputFolder;
+use crate::results::run_figures::RunFigures;
+use crate::results::transient::{draw, read_record};
+use crate::transient::{Recorder, TransientAnalysis};
+use serde_json::Value;
+
+/// Draws the figures and the report of a record.
+///
+/// # Errors
+/// Those of the drawing and of the folder.
+pub(super) fn draw_record(
+    folder: &OutputFolder,
+    prepared: &Prepared<'_>,
+    record: &Recorder,
+    summary: &Value,
+    dots_per_inch: f64,
+) -> Result<(), Failure> {
+    let case = prepared.case;
+    let sliding = &case.contact.sliding;
+    let stage = LinearStage::of(case);
+    let run = RunFigures {
+        record,
+        analysis: &TransientAnalysis::of(record, &prepared.settings.perturbation.harmonics),
+        mesh: &prepared.annulus.mesh,
+        material: &case.material,
+        thickness: case.thickness,
+        peripheral_speed: sliding.rotation_speed * case.annulus.inner_radius,
+        references: stage.references,
+        growth_rates: stage.growth_rates,
+    };
+    draw(folder, &run, summary, dots_per_inch)?;
+    Ok(())
+}
+
+/// Draws the figures of a folder again, from its `record.bin`.
+///
+/// # Errors
+/// A folder without a whole record; those of the drawing and of the folder.
+pub fn redraw(
+    folder: &OutputFolder,
+    case: &Case,
+    summary: &Value,
+    dots_per_inch: f64,
+) -> Result<(), Failure> {
+    let prepared = Prepared::new(case, "scalar")?;
+    let record = read_record(folder.path())?;
+    draw_record(folder, &prepared, &record, summary, dots_per_inch)
+}

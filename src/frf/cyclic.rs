@@ -1,0 +1,250 @@
+//! Direct solution of each harmonic at each frequency.
+
+use super::cyclic_system::{Damping, Harmonic, Place};
+use super::system::check_frequencies;
+use super::{CyclicSystem, FrfError, Terminal};
+use crate::linalg::LinalgError;
+use crate::linalg::banded::{BandedBatch, BandedLu, LANES, Lanes};
+use faer::c64;
+use rayon::prelude::*;
+use std::f64::consts::{PI, TAU};
+
+/// Backward error above which a solution without pivoting is found again with pivoting.
+const BACKWARD_ERROR_BOUND: f64 = 1e-14;
+/// `|A| |x| / |b|` above which a matrix has no inverse in double precision.
+const GROWTH_BOUND: f64 = 1e15;
+/// Harmonics held in memory at a time.
+const HARMONICS_AT_ONCE: usize = 16;
+
+/// A response summed over all harmonics.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CyclicResponse {
+    /// Receptance `u / f` for each frequency, m/N for each metre of thickness.
+    pub receptance: Vec<c64>,
+    /// Largest backward error `|f - A x| / (|A| |x|)` of all harmonics and frequencies.
+    pub backward_error: f64,
+}
+
+/// Receptance between two terminals, by direct solution of every circumferential harmonic.
+///
+/// A force at one node is a sum of waves over all `N` sectors, which an annulus answers one by one:
+///
+/// ```text
+/// h = 1/N sum_n e^{i n (theta_response - theta_force)} [(K_n + i omega C_n - omega^2 M_n)^{-1}]_{response, force}
+/// ```
+///
+/// No harmonic is left out: this is [`super::direct_response`] up to round-off, in sliding contact
+/// too. Frequencies in parallel, the result independent of their number of threads. For a body of
+/// thickness `b` divide by `b`.
+///
+/// # Errors
+/// [`FrfError::NoNode`], [`FrfError::Constrained`]; [`FrfError::Frequency`];
+/// [`FrfError::Factorization`] where an undamped system is at resonance.
+pub fn cyclic_response(
+    system: &CyclicSystem,
+    force: Terminal,
+    response: Terminal,
+    frequencies_hz: &[f64],
+) -> Result<CyclicResponse, FrfError> {
+    check_frequencies(frequencies_hz)?;
+    let force = system.place(force, "force_node")?;
+    let response = system.place(response, "response_node")?;
+    let mut receptance = vec![c64::new(0.0, 0.0); frequencies_hz.len()];
+    let mut backward_error = 0.0_f64;
+    let all: Vec<usize> = (0..=system.sector_count() / 2).collect();
+    for numbers in all.chunks(HARMONICS_AT_ONCE) {
+        let waves: Vec<Wave> = numbers
+            .par_iter()
+            .map(|&n| Wave::new(system, n, force, response))
+            .collect();
+        let errors: Vec<f64> = receptance
+            .par_chunks_mut(LANES)
+            .zip(frequencies_hz.par_chunks(LANES))
+            .map(|(sums, frequencies)| Lines::new(system, frequencies).add(&waves, sums))
+            .collect::<Result<_, _>>()?;
+        backward_error = errors.into_iter().fold(backward_error, f64::max);
+    }
+    let share = 1.0 / system.sector_count() as f64;
+    receptance.iter_mut().for_each(|h| *h *= share);
+    Ok(CyclicResponse {
+        receptance,
+        backward_error,
+    })
+}
+
+/// One harmonic with what it has to do with force and response.
+struct Wave {
+    harmonic: Harmonic,
+    force: usize,
+    response: usize,
+    /// From a solution for a unit force in the basis `(u_r, -i u_theta)` to the response.
+    factor: c64,
+    /// Harmonic `-n` has the same solution.
+    is_real: bool,
+}
+
+impl Wave {
+    fn new(system: &CyclicSystem, n: usize, force: Place, response: Place) -> Self {
+        let harmonic = system.harmonic(n);
+        let sectors = system.sector_count();
+        // Modulo a full turn, so that high harmonics lose no digits.
+        let steps = response.half_steps + 2 * sectors - force.half_steps;
+        let turns = (n * steps) % (2 * sectors);
+        let angle = PI * turns as f64 / sectors as f64;
+        let i = c64::new(0.0, 1.0);
+        let mut factor = c64::from_polar(1.0, angle);
+        if response.is_tangential {
+            factor *= i;
+        }
+        if force.is_tangential {
+            factor *= -i;
+        }
+        let is_real = |band: &[c64]| band.iter().all(|value| value.im == 0.0);
+        let has_real_damping = match &harmonic.damping {
+            Damping::Proportional(_) => true,
+            Damping::Band(band) => is_real(band),
+        };
+        Self {
+            is_real: is_real(&harmonic.mass) && is_real(&harmonic.stiffness) && has_real_damping,
+            force: force.unknown,
+            response: response.unknown,
+            harmonic,
+            factor,
+        }
+    }
+}
+
+/// A few frequencies solved together.
+struct Lines<'a> {
+    frequencies_hz: &'a [f64],
+    dimension: usize,
+    batch: Option<BandedBatch>,
+}
+
+impl<'a> Lines<'a> {
+    fn new(system: &CyclicSystem, frequencies_hz: &'a [f64]) -> Self {
+        Self {
+            frequencies_hz,
+            dimension: system.harmonic_dimension(),
+            batch: None,
+        }
+    }
+
+    /// Adds the waves' shares of the response; returns the largest backward error.
+    fn add(&mut self, waves: &[Wave], sums: &mut [c64]) -> Result<f64, FrfError> {
+        let mut largest = 0.0_f64;
+        for wave in waves {
+            let (ahead, error) = self.solve(wave, 1.0)?;
+            largest = largest.max(error);
+            if wave.harmonic.is_standing {
+                // The wave and its mirror image are one.
+                for (sum, x) in sums.iter_mut().zip(&ahead) {
+                    *sum += wave.factor * x;
+                }
+            } else if wave.is_real {
+                for (sum, x) in sums.iter_mut().zip(&ahead) {
+                    *sum += *x * (2.0 * wave.factor.re);
+                }
+            } else {
+                // Harmonic -n sees the conjugate matrices: the conjugate solution at -omega.
+                let (back, error) = self.solve(wave, -1.0)?;
+                largest = largest.max(error);
+                for (sum, (x, y)) in sums.iter_mut().zip(ahead.iter().zip(&back)) {
+                    *sum += wave.factor * x + (wave.factor * y).conj();
+                }
+            }
+        }
+        Ok(largest)
+    }
+
+    /// The response unknown of one harmonic at `sign` times the frequencies, and the backward error.
+    fn solve(&mut self, wave: &Wave, sign: f64) -> Result<([c64; LANES], f64), FrfError> {
+        let harmonic = &wave.harmonic;
+        let frequencies = self.frequencies_hz;
+        // Lanes left over repeat the last frequency.
+        let lane_frequency = |lane: usize| frequencies[lane.min(frequencies.len() - 1)];
+        let omega = |lane: usize| sign * TAU * lane_frequency(lane);
+        let batch = self
+            .batch
+            .get_or_insert_with(|| BandedBatch::new(self.dimension, harmonic.half_bandwidth));
+        let lanes = |factor: &dyn Fn(f64) -> c64| Lanes::from_fn(|lane| factor(omega(lane)));
+        match &harmonic.damping {
+            Damping::Proportional(rayleigh) => {
+                let (alpha, beta) = (rayleigh.mass_coefficient, rayleigh.stiffness_coefficient);
+                let mass = lanes(&|w| c64::new(-w * w, w * alpha));
+                let stiffness = lanes(&|w| c64::new(1.0, w * beta));
+                batch.assemble(&[(stiffness, &harmonic.stiffness), (mass, &harmonic.mass)]);
+            }
+            Damping::Band(damping) => batch.assemble(&[
+                (lanes(&|_| c64::new(1.0, 0.0)), &harmonic.stiffness),
+                (lanes(&|w| c64::new(-w * w, 0.0)), &harmonic.mass),
+                (lanes(&|w| c64::new(0.0, w)), damping),
+            ]),
+        }
+        let quality = batch.solve(wave.force);
+        let mut result = [c64::new(0.0, 0.0); LANES];
+        let mut largest = 0.0_f64;
+        for lane in 0..frequencies.len() {
+            let mut growth = quality[lane].growth;
+            result[lane] = batch.solution()[wave.response].get(lane);
+            if quality[lane].backward_error <= BACKWARD_ERROR_BOUND {
+                largest = largest.max(quality[lane].backward_error);
+            } else {
+                let solved = Pivoted::solve(&batch.system(lane), harmonic, wave.force);
+                (result[lane], growth) = (solved.solution[wave.response], solved.growth);
+                largest = largest.max(solved.backward_error);
+            }
+            if growth.is_nan() || growth >= GROWTH_BOUND {
+                return Err(self.singular(lane_frequency(lane), growth));
+            }
+        }
+        Ok((result, largest))
+    }
+
+    fn singular(&self, frequency_hz: f64, growth: f64) -> FrfError {
+        FrfError::Factorization {
+            frequency_hz,
+            source: LinalgError::Factorization {
+                dimension: self.dimension,
+                reason: format!(
+                    "singular to working precision (condition at least {growth:.1e}, the bound is \
+                     {GROWTH_BOUND:.0e})"
+                ),
+            },
+        }
+    }
+}
+
+/// A solution with pivoting.
+struct Pivoted {
+    solution: Vec<c64>,
+    backward_error: f64,
+    growth: f64,
+}
+
+impl Pivoted {
+    fn solve(band: &[c64], harmonic: &Harmonic, force: usize) -> Self {
+        let h = harmonic.half_bandwidth;
+        let dimension = band.len() / (2 * h + 1);
+        let mut lu = BandedLu::new(dimension, h);
+        lu.factorize(band);
+        let mut solution = vec![c64::new(0.0, 0.0); dimension];
+        solution[force] = c64::new(1.0, 0.0);
+        lu.solve(&mut solution);
+        let (mut residual, mut norm) = (0.0_f64, 0.0_f64);
+        for (i, row) in band.chunks_exact(2 * h + 1).enumerate() {
+            let columns = i.saturating_sub(h)..(i + h + 1).min(dimension);
+            let unit = if i == force { 1.0 } else { 0.0 };
+            let image: c64 = columns.map(|j| row[j + h - i] * solution[j]).sum();
+            residual = residual.max((image - unit).norm());
+            norm = norm.max(row.iter().map(|value| value.norm()).sum());
+        }
+        let largest = solution.iter().fold(0.0, |m: f64, x| m.max(x.norm()));
+        let growth = norm * largest;
+        Self {
+            solution,
+            backward_error: residual / growth,
+            growth,
+        }
+    }
+}

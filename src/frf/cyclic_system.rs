@@ -1,0 +1,199 @@
+//! Harmonics of the annulus in the state that is excited.
+
+use super::{FrfError, Terminal};
+use crate::fem::sector::{self, SectorMatrix};
+use crate::fem::{ElasticMaterial, MassKind, RayleighDamping};
+use crate::linalg::banded::BandedMatrix;
+use crate::mesh::SectorMesh;
+use crate::prestress::SectorTangent;
+use faer::c64;
+
+/// [`super::FrfSystem`] of an annulus, as the matrices of its circumferential harmonics.
+#[derive(Clone, Debug)]
+pub struct CyclicSystem {
+    sector: SectorMesh,
+    state: State,
+    /// Unknown of each dof of the sector.
+    unknown_of: Vec<Option<usize>>,
+    dimension: usize,
+}
+
+#[derive(Clone, Debug)]
+enum State {
+    Body {
+        mass: SectorMatrix,
+        stiffness: SectorMatrix,
+        damping: RayleighDamping,
+    },
+    Sliding {
+        tangent: Box<SectorTangent>,
+        friction_coefficient: f64,
+    },
+}
+
+/// Bands of one harmonic, in the basis `(u_r, -i u_theta)`.
+pub(super) struct Harmonic {
+    pub half_bandwidth: usize,
+    pub mass: Vec<c64>,
+    pub stiffness: Vec<c64>,
+    pub damping: Damping,
+    /// No other harmonic is the mirror image of this one.
+    pub is_standing: bool,
+}
+
+/// Damping of one harmonic.
+pub(super) enum Damping {
+    /// `alpha_R M + beta_R K`.
+    Proportional(RayleighDamping),
+    /// Any other.
+    Band(Vec<c64>),
+}
+
+/// Where a terminal lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Place {
+    pub unknown: usize,
+    /// Angle in halves of a sector.
+    pub half_steps: usize,
+    pub is_tangential: bool,
+}
+
+impl CyclicSystem {
+    /// The body without contact and prestress, free or with its outer edge clamped, `C = alpha_R M +
+    /// beta_R K`.
+    pub fn body(
+        sector: &SectorMesh,
+        material: &ElasticMaterial,
+        mass: MassKind,
+        damping: RayleighDamping,
+        is_clamped: bool,
+    ) -> Self {
+        let mut sector = sector.clone();
+        if !is_clamped {
+            sector = sector.with_free_outer_edge();
+        }
+        let state = State::Body {
+            mass: sector::mass(&sector, material, mass),
+            stiffness: sector::stiffness(&sector, material),
+            damping,
+        };
+        let unknowns = (0..2 * sector.free_node_count()).collect();
+        Self::new(sector, state, unknowns)
+    }
+
+    /// Small motions around steady sliding at a friction coefficient.
+    pub fn sliding(tangent: &SectorTangent, friction_coefficient: f64) -> Self {
+        let state = State::Sliding {
+            tangent: Box::new(tangent.clone()),
+            friction_coefficient,
+        };
+        Self::new(tangent.sector().clone(), state, tangent.unknowns())
+    }
+
+    fn new(sector: SectorMesh, state: State, unknowns: Vec<usize>) -> Self {
+        let mut unknown_of = vec![None; 2 * sector.node_count()];
+        for (unknown, &dof) in unknowns.iter().enumerate() {
+            unknown_of[dof] = Some(unknown);
+        }
+        Self {
+            sector,
+            state,
+            unknown_of,
+            dimension: unknowns.len(),
+        }
+    }
+
+    /// Number of unknowns of the annulus.
+    pub fn dimension(&self) -> usize {
+        self.dimension * self.sector_count()
+    }
+
+    /// Checks that a terminal can move; `key` is the case key of its node.
+    ///
+    /// # Errors
+    /// [`FrfError::NoNode`], or [`FrfError::Constrained`] where the boundary holds it.
+    pub fn check(&self, terminal: Terminal, key: &'static str) -> Result<(), FrfError> {
+        self.place(terminal, key).map(|_| ())
+    }
+
+    /// Number of unknowns of one harmonic.
+    pub(super) fn harmonic_dimension(&self) -> usize {
+        self.dimension
+    }
+
+    pub(super) fn sector_count(&self) -> usize {
+        self.sector.sector_count()
+    }
+
+    /// Place of a terminal; `key` is the case key of its node.
+    ///
+    /// # Errors
+    /// [`FrfError::NoNode`], or [`FrfError::Constrained`] where the boundary holds it.
+    pub(super) fn place(&self, terminal: Terminal, key: &'static str) -> Result<Place, FrfError> {
+        let per_sector = self.sector.node_count();
+        let count = per_sector * self.sector_count();
+        let node = terminal.node + 1;
+        if node > count {
+            return Err(FrfError::NoNode { key, node, count });
+        }
+        let (sector, position) = (terminal.node / per_sector, terminal.node % per_sector);
+        let sector_node = self.sector.sector_node_of[position];
+        let unknown = self.unknown_of[2 * sector_node + usize::from(terminal.is_tangential)];
+        Ok(Place {
+            unknown: unknown.ok_or_else(|| FrfError::constrained(terminal, key))?,
+            half_steps: 2 * sector + self.sector.half_step(sector_node),
+            is_tangential: terminal.is_tangential,
+        })
+    }
+
+    /// Matrices of harmonic `n`.
+    pub(super) fn harmonic(&self, n: usize) -> Harmonic {
+        let is_standing = n == 0 || 2 * n == self.sector_count();
+        match &self.state {
+            State::Body {
+                mass,
+                stiffness,
+                damping,
+            } => {
+                let mass = mass.harmonic(n);
+                Harmonic {
+                    half_bandwidth: mass.half_bandwidth(),
+                    mass: evaluate(&[mass], 0.0),
+                    stiffness: evaluate(&[stiffness.harmonic(n)], 0.0),
+                    damping: Damping::Proportional(*damping),
+                    is_standing,
+                }
+            }
+            State::Sliding {
+                tangent,
+                friction_coefficient,
+            } => {
+                let mu = *friction_coefficient;
+                let harmonic = tangent.harmonic(n);
+                Harmonic {
+                    half_bandwidth: harmonic.mass[0].half_bandwidth(),
+                    mass: evaluate(&harmonic.mass, mu),
+                    stiffness: evaluate(&harmonic.stiffness, mu),
+                    damping: match &harmonic.damping {
+                        Some(damping) => Damping::Band(evaluate(damping, mu)),
+                        None => Damping::Proportional(harmonic.rayleigh),
+                    },
+                    is_standing,
+                }
+            }
+        }
+    }
+}
+
+/// `sum_p P_p (i mu)^p`.
+fn evaluate(polynomial: &[BandedMatrix], friction_coefficient: f64) -> Vec<c64> {
+    let mut band = vec![c64::new(0.0, 0.0); polynomial[0].values().len()];
+    let mut power = c64::new(1.0, 0.0);
+    for coefficient in polynomial {
+        for (sum, value) in band.iter_mut().zip(coefficient.values()) {
+            *sum += power * *value;
+        }
+        power *= c64::new(0.0, friction_coefficient);
+    }
+    band
+}

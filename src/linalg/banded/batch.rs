@@ -1,0 +1,232 @@
+//! Several complex banded systems of one shape, solved side by side.
+
+use faer::c64;
+
+/// Systems solved side by side.
+pub const LANES: usize = 8;
+
+/// One complex number of each system.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lanes {
+    /// Real parts.
+    pub re: [f64; LANES],
+    /// Imaginary parts.
+    pub im: [f64; LANES],
+}
+
+impl Lanes {
+    /// Zero in every system.
+    pub const ZERO: Self = Self {
+        re: [0.0; LANES],
+        im: [0.0; LANES],
+    };
+
+    /// The number `value(lane)` in each system.
+    pub fn from_fn(value: impl Fn(usize) -> c64) -> Self {
+        let mut result = Self::ZERO;
+        for lane in 0..LANES {
+            (result.re[lane], result.im[lane]) = (value(lane).re, value(lane).im);
+        }
+        result
+    }
+
+    /// The number of one system.
+    pub fn get(&self, lane: usize) -> c64 {
+        c64::new(self.re[lane], self.im[lane])
+    }
+
+    /// Adds `factor * value`, the same `value` in each system.
+    #[inline]
+    pub fn add_scaled(&mut self, factor: &Self, value: c64) {
+        for lane in 0..LANES {
+            self.re[lane] += factor.re[lane] * value.re;
+            self.im[lane] += factor.im[lane] * value.re;
+        }
+        if value.im != 0.0 {
+            for lane in 0..LANES {
+                self.re[lane] -= factor.im[lane] * value.im;
+                self.im[lane] += factor.re[lane] * value.im;
+            }
+        }
+    }
+
+    #[inline]
+    fn subtract_product(&mut self, a: &Self, b: &Self) {
+        for lane in 0..LANES {
+            self.re[lane] -= a.re[lane] * b.re[lane] - a.im[lane] * b.im[lane];
+            self.im[lane] -= a.re[lane] * b.im[lane] + a.im[lane] * b.re[lane];
+        }
+    }
+
+    #[inline]
+    fn times(&self, b: &Self) -> Self {
+        let mut result = Self::ZERO;
+        for lane in 0..LANES {
+            result.re[lane] = self.re[lane] * b.re[lane] - self.im[lane] * b.im[lane];
+            result.im[lane] = self.re[lane] * b.im[lane] + self.im[lane] * b.re[lane];
+        }
+        result
+    }
+
+    #[inline]
+    fn inverse(&self) -> Self {
+        let mut result = Self::ZERO;
+        for lane in 0..LANES {
+            let square = self.re[lane] * self.re[lane] + self.im[lane] * self.im[lane];
+            result.re[lane] = self.re[lane] / square;
+            result.im[lane] = -self.im[lane] / square;
+        }
+        result
+    }
+
+    /// `|re| + |im|` of each system.
+    #[inline]
+    fn sizes(&self) -> [f64; LANES] {
+        std::array::from_fn(|lane| self.re[lane].abs() + self.im[lane].abs())
+    }
+}
+
+/// [`LANES`] complex banded systems, eliminated together without pivoting.
+///
+/// Not every matrix allows that: [`BandedBatch::solve`] returns the backward error of each solution,
+/// and [`super::BandedLu`] solves what fails.
+#[derive(Clone, Debug)]
+pub struct BandedBatch {
+    dimension: usize,
+    half_bandwidth: usize,
+    /// Laid out like [`super::BandedMatrix::values`].
+    values: Vec<Lanes>,
+    /// `U`, its diagonal inverted.
+    factors: Vec<Lanes>,
+    solution: Vec<Lanes>,
+}
+
+/// What a solution of one system is worth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Quality {
+    /// `|b - A x| / (|A| |x|)` in the largest norm; not a number if the elimination broke down.
+    pub backward_error: f64,
+    /// `|A| |x| / |b|`, a lower bound of the condition number.
+    pub growth: f64,
+}
+
+impl BandedBatch {
+    /// Space for the systems.
+    pub fn new(dimension: usize, half_bandwidth: usize) -> Self {
+        let zeros = vec![Lanes::ZERO; dimension * (2 * half_bandwidth + 1)];
+        Self {
+            dimension,
+            half_bandwidth,
+            factors: zeros.clone(),
+            values: zeros,
+            solution: vec![Lanes::ZERO; dimension],
+        }
+    }
+
+    /// Sets `A = sum_t factor_t band_t` from bands laid out like [`super::BandedMatrix::values`].
+    pub fn assemble(&mut self, terms: &[(Lanes, &[c64])]) {
+        for (place, value) in self.values.iter_mut().enumerate() {
+            *value = Lanes::ZERO;
+            for (factor, band) in terms {
+                value.add_scaled(factor, band[place]);
+            }
+        }
+    }
+
+    /// Band of one system.
+    pub fn system(&self, lane: usize) -> Vec<c64> {
+        self.values.iter().map(|value| value.get(lane)).collect()
+    }
+
+    /// Solves `A x = e_unknown` in each system.
+    pub fn solve(&mut self, unknown: usize) -> [Quality; LANES] {
+        self.solution.fill(Lanes::ZERO);
+        self.solution[unknown].re = [1.0; LANES];
+        self.factors.copy_from_slice(&self.values);
+        self.eliminate();
+        self.substitute();
+        self.quality(unknown)
+    }
+
+    /// The unknowns that [`Self::solve`] found.
+    pub fn solution(&self) -> &[Lanes] {
+        &self.solution
+    }
+
+    fn eliminate(&mut self) {
+        let (n, h) = (self.dimension, self.half_bandwidth);
+        let width = 2 * h + 1;
+        for k in 0..n {
+            let last = (k + h).min(n - 1);
+            let columns = last - k;
+            let (above, below) = self.factors.split_at_mut((k + 1) * width);
+            let top = &mut above[k * width + h..][..=columns];
+            top[0] = top[0].inverse();
+            let (known, unknown) = self.solution.split_at_mut(k + 1);
+            for i in k + 1..=last {
+                let start = (i - k - 1) * width + k + h - i;
+                let row = &mut below[start..=start + columns];
+                let factor = row[0].times(&top[0]);
+                for (value, above) in row[1..].iter_mut().zip(&top[1..]) {
+                    value.subtract_product(&factor, above);
+                }
+                unknown[i - k - 1].subtract_product(&factor, &known[k]);
+            }
+        }
+    }
+
+    fn substitute(&mut self) {
+        let (n, h) = (self.dimension, self.half_bandwidth);
+        let width = 2 * h + 1;
+        for k in (0..n).rev() {
+            let columns = (k + h).min(n - 1) - k;
+            let row = &self.factors[k * width + h..][..=columns];
+            let mut sum = self.solution[k];
+            for (value, known) in row[1..].iter().zip(&self.solution[k + 1..]) {
+                sum.subtract_product(value, known);
+            }
+            self.solution[k] = sum.times(&row[0]);
+        }
+    }
+
+    fn quality(&self, unknown: usize) -> [Quality; LANES] {
+        let (n, h) = (self.dimension, self.half_bandwidth);
+        let mut residuals = [0.0; LANES];
+        let mut solutions = [0.0; LANES];
+        let mut norms = [0.0; LANES];
+        for (i, row) in self.values.chunks_exact(2 * h + 1).enumerate() {
+            let (first, last) = (i.saturating_sub(h), (i + h).min(n - 1));
+            let mut residual = Lanes::ZERO;
+            if i == unknown {
+                residual.re = [1.0; LANES];
+            }
+            let mut sum = [0.0; LANES];
+            let entries = &row[first + h - i..=last + h - i];
+            for (value, x) in entries.iter().zip(&self.solution[first..=last]) {
+                residual.subtract_product(value, x);
+                let sizes = value.sizes();
+                (0..LANES).for_each(|lane| sum[lane] += sizes[lane]);
+            }
+            raise(&mut residuals, residual.sizes());
+            raise(&mut solutions, self.solution[i].sizes());
+            raise(&mut norms, sum);
+        }
+        std::array::from_fn(|lane| {
+            let growth = norms[lane] * solutions[lane];
+            Quality {
+                backward_error: residuals[lane] / growth,
+                growth,
+            }
+        })
+    }
+}
+
+/// Largest value so far; what is not a number stays so.
+#[inline]
+fn raise(largest: &mut [f64; LANES], sizes: [f64; LANES]) {
+    for lane in 0..LANES {
+        if sizes[lane] > largest[lane] || sizes[lane].is_nan() {
+            largest[lane] = sizes[lane];
+        }
+    }
+}

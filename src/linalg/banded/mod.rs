@@ -1,0 +1,133 @@
+//! Banded matrices: storage, inertia by `L D L^T`, Cholesky, complex LU with partial pivoting,
+//! several complex systems at a time.
+
+mod batch;
+mod lu;
+mod symmetric;
+
+pub use batch::{BandedBatch, LANES, Lanes, Quality};
+pub use lu::BandedLu;
+pub use symmetric::{BandedHermitian, BandedLdl};
+
+/// A real square matrix whose entries vanish beyond a fixed distance from the diagonal.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BandedMatrix {
+    dimension: usize,
+    half_bandwidth: usize,
+    /// Row by row, columns `i - h ..= i + h`, places outside the matrix zero.
+    values: Vec<f64>,
+}
+
+impl BandedMatrix {
+    /// The zero matrix with `half_bandwidth` off-diagonals on either side.
+    pub fn zeros(dimension: usize, half_bandwidth: usize) -> Self {
+        Self {
+            dimension,
+            half_bandwidth,
+            values: vec![0.0; dimension * (2 * half_bandwidth + 1)],
+        }
+    }
+
+    /// Number of rows and of columns.
+    pub fn dimension(&self) -> usize {
+        self.dimension
+    }
+
+    /// Off-diagonals on either side.
+    pub fn half_bandwidth(&self) -> usize {
+        self.half_bandwidth
+    }
+
+    /// All stored values, row by row, `2 h + 1` for each.
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// Index into [`Self::values`].
+    ///
+    /// # Panics
+    /// If `(row, column)` lies outside the band.
+    fn place(&self, row: usize, column: usize) -> usize {
+        let h = self.half_bandwidth;
+        assert!(column + h >= row && column <= row + h && column.max(row) < self.dimension);
+        row * (2 * h + 1) + column + h - row
+    }
+
+    /// Entry `(row, column)`, zero outside the band.
+    pub fn get(&self, row: usize, column: usize) -> f64 {
+        if row.abs_diff(column) > self.half_bandwidth {
+            return 0.0;
+        }
+        self.values[self.place(row, column)]
+    }
+
+    /// Adds to an entry.
+    ///
+    /// # Panics
+    /// If `(row, column)` lies outside the band.
+    pub fn add(&mut self, row: usize, column: usize, value: f64) {
+        let place = self.place(row, column);
+        self.values[place] += value;
+    }
+
+    /// Columns of the band in row `row`.
+    pub fn columns(&self, row: usize) -> std::ops::Range<usize> {
+        let h = self.half_bandwidth;
+        row.saturating_sub(h)..(row + h + 1).min(self.dimension)
+    }
+
+    /// Stored values of row `row`, columns `row - h ..= row + h`.
+    pub fn row(&self, row: usize) -> &[f64] {
+        let width = 2 * self.half_bandwidth + 1;
+        &self.values[row * width..][..width]
+    }
+
+    /// Stored values of row `row`, to be changed; places outside the matrix must stay zero.
+    pub fn row_mut(&mut self, row: usize) -> &mut [f64] {
+        let width = 2 * self.half_bandwidth + 1;
+        &mut self.values[row * width..][..width]
+    }
+
+    /// Adds `factor * other`.
+    ///
+    /// # Panics
+    /// If the shapes differ.
+    pub fn add_scaled(&mut self, factor: f64, other: &Self) {
+        assert_eq!(
+            (self.dimension, self.half_bandwidth),
+            (other.dimension, other.half_bandwidth)
+        );
+        for (sum, value) in self.values.iter_mut().zip(&other.values) {
+            *sum += factor * value;
+        }
+    }
+
+    /// Multiplies every entry.
+    pub fn scale(&mut self, factor: f64) {
+        self.values.iter_mut().for_each(|value| *value *= factor);
+    }
+
+    /// Rows and columns `kept` (ascending) alone.
+    pub fn restricted_to(&self, kept: &[usize]) -> Self {
+        let mut result = Self::zeros(kept.len(), self.half_bandwidth);
+        for (row, &old_row) in kept.iter().enumerate() {
+            for column in result.columns(row) {
+                let value = self.get(old_row, kept[column]);
+                let place = result.place(row, column);
+                result.values[place] = value;
+            }
+        }
+        result
+    }
+
+    /// `A x`.
+    pub fn multiply(&self, x: &[f64]) -> Vec<f64> {
+        (0..self.dimension)
+            .map(|row| {
+                self.columns(row)
+                    .map(|column| self.values[self.place(row, column)] * x[column])
+                    .sum()
+            })
+            .collect()
+    }
+}

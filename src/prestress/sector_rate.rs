@@ -1,0 +1,131 @@
+//! Derivatives of an annulus's tangent with respect to the parameters of the model.
+
+use super::PrestressError;
+use super::sector_tangent::{
+    HarmonicTangent, SectorTangent, Terms, stress_stiffness, sum, turning,
+};
+use crate::fem::sector::{self, SectorMatrix};
+use crate::fem::{ElasticMaterial, PlaneFormulation, RayleighDamping};
+
+/// A parameter that eigenvalues respond to, besides the friction coefficient.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Parameter {
+    /// `contact.normal_stiffness`, Pa/m.
+    NormalStiffness,
+    /// `damping.mass_coefficient`, 1/s.
+    MassCoefficient,
+    /// `damping.stiffness_coefficient`, s.
+    StiffnessCoefficient,
+    /// `material.young_modulus`, Pa.
+    YoungModulus,
+    /// `material.poisson_ratio`.
+    PoissonRatio,
+    /// `material.density`, kg/m3.
+    Density,
+}
+
+/// Derivative of a [`SectorTangent`] with respect to one [`Parameter`].
+#[derive(Clone, Debug)]
+pub struct TangentRate {
+    terms: Terms,
+    rayleigh: RayleighDamping,
+}
+
+impl SectorTangent {
+    /// Derivative of the matrices of harmonic `n`; `damping` is always given.
+    pub fn harmonic_rate(&self, rate: &TangentRate, n: usize) -> HarmonicTangent {
+        let follows = self.damping(&rate.terms, self.options.damping, false, n);
+        let shared = self.damping(&self.terms, rate.rayleigh, false, n);
+        HarmonicTangent {
+            harmonic: n,
+            mass: self.mass(&rate.terms, n),
+            stiffness: self.stiffness(&rate.terms, n),
+            damping: Some(sum(follows, shared)),
+            rayleigh: rate.rayleigh,
+        }
+    }
+
+    /// Derivative with respect to `parameter`, the base state following; `None` for a normal stiffness that
+    /// the contact does not have.
+    ///
+    /// # Errors
+    /// [`PrestressError::Singular`] as for the base state itself.
+    pub fn rate(&self, parameter: Parameter) -> Result<Option<TangentRate>, PrestressError> {
+        let mut terms = Terms {
+            elastic: None,
+            mass: None,
+            stress: None,
+            turning: vec![0.0; self.terms.turning.len()],
+            normal_stiffness: self
+                .terms
+                .normal_stiffness
+                .as_ref()
+                .map(|k| vec![0.0; k.len()]),
+        };
+        let mut share = RayleighDamping::default();
+        let scaled = |matrix: &SectorMatrix, value: f64| matrix.scaled(1.0 / value);
+        match parameter {
+            Parameter::MassCoefficient => share.mass_coefficient = 1.0,
+            Parameter::StiffnessCoefficient => share.stiffness_coefficient = 1.0,
+            Parameter::NormalStiffness => {
+                if terms.normal_stiffness.is_none() {
+                    return Ok(None);
+                }
+                terms.normal_stiffness = Some(self.sector.tributary_lengths().to_vec());
+            }
+            Parameter::Density => {
+                let mass = self.terms.mass.as_ref();
+                terms.mass = mass.map(|m| scaled(m, self.material.density));
+            }
+            Parameter::YoungModulus => {
+                // The base displacements do not depend on E, so every stress is proportional to it.
+                let e = self.material.young_modulus;
+                terms.elastic = self.terms.elastic.as_ref().map(|k| scaled(k, e));
+                let stress = self.terms.stress.as_ref();
+                terms.stress = stress.map(|[a, b]| [scaled(a, e), scaled(b, e)]);
+                terms.turning = self.terms.turning.iter().map(|value| value / e).collect();
+            }
+            Parameter::PoissonRatio => self.poisson_rate(&mut terms)?,
+        }
+        Ok(Some(TangentRate {
+            terms,
+            rayleigh: share,
+        }))
+    }
+
+    fn poisson_rate(&self, terms: &mut Terms) -> Result<(), PrestressError> {
+        let Some(elastic) = &self.terms.elastic else {
+            return Ok(());
+        };
+        let rate = poisson_rate_material(&self.material);
+        let elastic_rate = sector::stiffness(&self.sector, &rate);
+        if self.terms.stress.is_some() {
+            let base_rate = self.base.rate(&self.sector, elastic, &elastic_rate)?;
+            let moved = stress_stiffness(&self.sector, &self.material, &base_rate);
+            let stiffened = stress_stiffness(&self.sector, &rate, &self.base);
+            terms.stress = Some([moved[0].plus(&stiffened[0]), moved[1].plus(&stiffened[1])]);
+            terms.turning = turning(&self.sector, &self.options, &base_rate);
+        }
+        terms.elastic = Some(elastic_rate);
+        Ok(())
+    }
+}
+
+/// A material whose Lamé constants are the derivatives of `material`'s with respect to Poisson's ratio,
+/// so that whatever is linear in the Lamé constants differentiates itself.
+fn poisson_rate_material(material: &ElasticMaterial) -> ElasticMaterial {
+    let (e, nu) = (material.young_modulus, material.poisson_ratio);
+    let shear = -e / (2.0 * (1.0 + nu).powi(2));
+    let lambda = match material.formulation {
+        PlaneFormulation::PlaneStrain => {
+            e * (1.0 + 2.0 * nu * nu) / ((1.0 + nu) * (1.0 - 2.0 * nu)).powi(2)
+        }
+        PlaneFormulation::PlaneStress => e * (1.0 + nu * nu) / (1.0 - nu * nu).powi(2),
+    };
+    ElasticMaterial {
+        young_modulus: shear * (3.0 * lambda + 2.0 * shear) / (lambda + shear),
+        poisson_ratio: lambda / (2.0 * (lambda + shear)),
+        density: material.density,
+        formulation: PlaneFormulation::PlaneStrain,
+    }
+}

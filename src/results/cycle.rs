@@ -1,0 +1,371 @@
+//! Results of a search for limit cycles: what is printed and what is written.
+
+use crate::contact::ContactStatus;
+use crate::cycle::{CycleBranch, LimitCycle, Onset};
+use crate::mesh::Mesh2d;
+use crate::results::folder::{FolderError, OutputFolder};
+use crate::results::manifest::Manifest;
+use crate::results::table::{Table, format_number};
+use crate::results::vtu::{EncodedMesh, Field, PvdEntry, write_pvd, write_vtu};
+use serde_json::{Value, json};
+use std::f64::consts::TAU;
+use std::fmt::Write as _;
+use std::io::{self, Write};
+
+/// The limit cycle of one harmonic, and its branch.
+#[derive(Clone, Debug)]
+pub struct CycleResult {
+    /// Circumferential harmonic.
+    pub harmonic: usize,
+    /// Every onset of the harmonic, by rising friction; the cycle is born at the first.
+    pub onsets: Vec<Onset>,
+    /// The cycle at the case's own operating point, or why there is none.
+    pub cycle: Result<LimitCycle, String>,
+    /// Displacement and velocity over all dofs at time zero, where there is a cycle.
+    pub field: Option<[Vec<f64>; 2]>,
+    /// The branch over the case's parameter, where one was asked for and there is a cycle to start from.
+    pub branch: Option<CycleBranch>,
+    /// Wall time of cycle and branch, s.
+    pub wall_s: f64,
+}
+
+/// Everything a search for limit cycles reports.
+#[derive(Clone, Debug)]
+pub struct CycleReport<'a> {
+    /// Title of the case.
+    pub title: &'a str,
+    /// The mesh.
+    pub mesh: &'a Mesh2d,
+    /// Radius of the contact edge, m.
+    pub inner_radius: f64,
+    /// Thickness, m: scales powers.
+    pub thickness: f64,
+    /// Points along the phase.
+    pub points: usize,
+    /// One entry for each harmonic.
+    pub results: Vec<CycleResult>,
+    /// Wall time of the run, s.
+    pub wall_s: f64,
+}
+
+/// Writes all files and returns the summary.
+///
+/// # Errors
+/// Those of the folder.
+pub fn write(folder: &OutputFolder, report: &CycleReport<'_>) -> Result<Value, FolderError> {
+    for result in &report.results {
+        if let Ok(cycle) = &result.cycle {
+            let name = format!("cycle-n{}.csv", result.harmonic);
+            folder.write(&name, |out| write_phases(out, cycle))?;
+        }
+        if let Some(branch) = &result.branch {
+            let name = format!("branch-n{}.csv", result.harmonic);
+            folder.write(&name, |out| write_branch(out, branch, report))?;
+        }
+    }
+    write_fields(folder, report)?;
+    let summary = summary(report, folder.manifest());
+    folder.write("summary.json", |out| {
+        serde_json::to_writer_pretty(&mut *out, &summary)?;
+        out.write_all(b"\n")
+    })?;
+    Ok(summary)
+}
+
+/// Writes contact and motion of the edge along the phase, which is also the history of the contact node at angle zero.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write_phases(out: &mut dyn Write, cycle: &LimitCycle) -> io::Result<()> {
+    let columns = [
+        "phase_rad",
+        "time_s",
+        "status",
+        "pressure_pa",
+        "shear_pa",
+        "u_r_m",
+        "u_theta_m",
+        "v_r_m_per_s",
+        "v_theta_m_per_s",
+    ];
+    let mut table = Table::new(out, &columns)?;
+    for point in &cycle.points {
+        let status = match point.status {
+            ContactStatus::Open => "open",
+            ContactStatus::Stick => "stick",
+            ContactStatus::Slip => "slip",
+        };
+        table.row([
+            format_number(point.phase),
+            format_number(point.phase / cycle.state.frequency),
+            status.to_owned(),
+            format_number(point.pressure),
+            format_number(point.shear),
+            format_number(point.displacement[0]),
+            format_number(point.displacement[1]),
+            format_number(point.velocity[0]),
+            format_number(point.velocity[1]),
+        ])?;
+    }
+    table.finish()
+}
+
+/// Writes one row for each cycle of a branch, in the order of the branch.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write_branch(
+    out: &mut dyn Write,
+    branch: &CycleBranch,
+    report: &CycleReport<'_>,
+) -> io::Result<()> {
+    let columns = [
+        branch.parameter.key(),
+        "harmonic",
+        "main_frequency_hz",
+        "stick",
+        "slip",
+        "open",
+        "external_w",
+        "stick_w",
+        "slide_w",
+        "contact_dissipated_w",
+        "material_damping_w",
+        "normal_contact_w",
+        "amplitude_m",
+        "balance_residual",
+    ];
+    let mut table = Table::new(out, &columns)?;
+    for cycle in &branch.cycles {
+        let powers = cycle.powers.scaled(report.thickness);
+        let [stick, slip, open] = cycle.fractions;
+        table.numbers(&[
+            branch
+                .parameter
+                .in_key_units(branch.parameter.of(&cycle.state.point)),
+            cycle.harmonic as f64,
+            cycle.frequency_hz(),
+            stick,
+            slip,
+            open,
+            powers.external,
+            powers.stick,
+            powers.slide,
+            powers.contact_dissipated,
+            powers.material_damping,
+            powers.normal_contact,
+            amplitude(cycle),
+            cycle.powers.balance_residual(),
+        ])?;
+    }
+    table.finish()
+}
+
+/// Amplitude of the wave's own harmonic of the edge's tangential displacement, m; half the peak-to-peak motion where the
+/// summary's harmonics do not reach.
+fn amplitude(cycle: &LimitCycle) -> f64 {
+    match cycle.harmonics.get(cycle.harmonic) {
+        Some(&amplitude) => amplitude,
+        None => {
+            let motion = cycle.points.iter().map(|point| point.displacement[1]);
+            let largest = motion.clone().fold(f64::NEG_INFINITY, f64::max);
+            0.5 * (largest - motion.fold(f64::INFINITY, f64::min))
+        }
+    }
+}
+
+fn write_fields(folder: &OutputFolder, report: &CycleReport<'_>) -> Result<(), FolderError> {
+    let mut entries = Vec::new();
+    for result in &report.results {
+        let Some([displacement, velocity]) = &result.field else {
+            continue;
+        };
+        let name = format!("cycle-n{}.vtu", result.harmonic);
+        folder.write(&name, |out| {
+            let fields = [
+                Field::vectors("displacement", report.mesh, displacement),
+                Field::vectors("velocity", report.mesh, velocity),
+            ];
+            write_vtu(out, &EncodedMesh::new(report.mesh)?, &fields, &[])
+        })?;
+        entries.push(PvdEntry {
+            time: result.harmonic as f64,
+            group: format!("limit cycle of {} nodal diameters", result.harmonic),
+            file: name,
+        });
+    }
+    if !entries.is_empty() {
+        folder.write("cycles.pvd", |out| write_pvd(out, &entries))?;
+    }
+    Ok(())
+}
+
+/// The summary object.
+pub fn summary(report: &CycleReport<'_>, manifest: &Manifest) -> Value {
+    let cycles: Vec<Value> = report
+        .results
+        .iter()
+        .map(|result| result_object(report, result))
+        .collect();
+    json!({
+        "command": "cycle",
+        "title": report.title,
+        "points": report.points,
+        "wall_s": report.wall_s,
+        "cycles": cycles,
+        "manifest": manifest,
+    })
+}
+
+fn result_object(report: &CycleReport<'_>, result: &CycleResult) -> Value {
+    let onsets: Vec<Value> = result
+        .onsets
+        .iter()
+        .map(|onset| {
+            json!({
+                "critical_friction": onset.friction_coefficient,
+                "frequency_hz": onset.frequency / TAU,
+            })
+        })
+        .collect();
+    let mut object = json!({
+        "harmonic": result.harmonic,
+        "onsets": onsets,
+        "wall_s": result.wall_s,
+    });
+    match &result.cycle {
+        Ok(cycle) => {
+            let found = cycle_object(report, cycle);
+            let found = found.as_object().into_iter().flatten();
+            for (key, value) in found {
+                object[key] = value.clone();
+            }
+        }
+        Err(error) => object["error"] = json!(error),
+    }
+    if let Some(branch) = &result.branch {
+        object["branch"] = branch_object(report, branch);
+    }
+    object
+}
+
+fn cycle_object(report: &CycleReport<'_>, cycle: &LimitCycle) -> Value {
+    let powers = cycle.powers.scaled(report.thickness);
+    let [stick, slip, open] = cycle.fractions;
+    json!({
+        "main_frequency_hz": cycle.frequency_hz(),
+        "status": { "stick": stick, "slip": slip, "open": open },
+        "power_w": {
+            "external": powers.external,
+            "stick": powers.stick,
+            "slide": powers.slide,
+            "contact_dissipated": powers.contact_dissipated,
+            "material_damping": powers.material_damping,
+            "normal_contact": powers.normal_contact,
+        },
+        "harmonics": cycle.harmonics,
+        "balance_residual": cycle.powers.balance_residual(),
+    })
+}
+
+fn branch_object(report: &CycleReport<'_>, branch: &CycleBranch) -> Value {
+    let folds = branch.folds.iter();
+    let folds: Vec<f64> = folds
+        .map(|&fold| branch.parameter.in_key_units(fold))
+        .collect();
+    let saturation = branch
+        .cycles
+        .iter()
+        .find_map(|cycle| cycle.saturation_speed(report.inner_radius))
+        .map(|speed| speed * 60.0 / TAU);
+    json!({
+        "key": branch.parameter.key(),
+        "cycles": branch.cycles.len(),
+        "folds": folds,
+        "ends": branch.ends.map(|end| end.describe()),
+        "saturation_speed_rpm": saturation,
+        "factorizations": branch.factorizations,
+    })
+}
+
+/// The report as text.
+pub fn print(report: &CycleReport<'_>) -> String {
+    let mut out = String::new();
+    if !report.title.is_empty() {
+        let _ = writeln!(out, "{}", report.title);
+    }
+    let _ = writeln!(
+        out,
+        "limit cycles as rotating waves, {} points along the phase\n",
+        report.points
+    );
+    let _ = writeln!(
+        out,
+        "{:>3} {:>10} {:>12} {:>7} {:>7} {:>7} {:>12} {:>7} {:>7} {:>9}",
+        "n",
+        "friction >",
+        "frequency",
+        "stick",
+        "slip",
+        "open",
+        "external",
+        "stick",
+        "slide",
+        "dissipated"
+    );
+    for result in &report.results {
+        result_line(&mut out, report, result);
+    }
+    for result in &report.results {
+        if let Some(branch) = &result.branch {
+            branch_line(&mut out, result.harmonic, branch);
+        }
+    }
+    let _ = writeln!(out, "{:.3} s", report.wall_s);
+    out
+}
+
+fn result_line(out: &mut String, report: &CycleReport<'_>, result: &CycleResult) {
+    let critical = match result.onsets.first() {
+        Some(onset) => format!("{:.5}", onset.friction_coefficient),
+        None => "-".to_owned(),
+    };
+    let _ = write!(out, "{:>3} {critical:>10} ", result.harmonic);
+    let _ = match &result.cycle {
+        Ok(cycle) => {
+            let powers = cycle.powers.scaled(report.thickness);
+            let [stick, slip, open] = cycle.fractions;
+            let share = |power: f64| power / powers.external;
+            writeln!(
+                out,
+                "{:>9.2} Hz {stick:>7.3} {slip:>7.3} {open:>7.3} {:>10.2} W {:>7.3} {:>7.3} {:>9.3}",
+                cycle.frequency_hz(),
+                powers.external,
+                share(powers.stick),
+                share(powers.slide),
+                share(powers.contact_dissipated),
+            )
+        }
+        Err(error) => writeln!(out, "{error}"),
+    };
+}
+
+fn branch_line(out: &mut String, harmonic: usize, branch: &CycleBranch) {
+    let value = |cycle: Option<&LimitCycle>| {
+        cycle.map_or(f64::NAN, |cycle| {
+            let value = branch.parameter.of(&cycle.state.point);
+            branch.parameter.in_key_units(value)
+        })
+    };
+    let _ = writeln!(
+        out,
+        "n = {harmonic}: {} cycles over {} from {} ({}) to {} ({}), {} folds",
+        branch.cycles.len(),
+        branch.parameter.key(),
+        value(branch.cycles.first()),
+        branch.ends[0].describe(),
+        value(branch.cycles.last()),
+        branch.ends[1].describe(),
+        branch.folds.len(),
+    );
+}

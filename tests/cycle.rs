@@ -1,0 +1,250 @@
+//! Limit cycles found directly, held to theory: onset, scaling, energy, saturation, continuation, and the motion that
+//! the explicit transient keeps.
+//!
+//! The comparison with the transient is independent: time stepping from the cycle's fields shares with the search only
+//! the element matrices. The others are theory.
+
+use frictionsim::contact::{ContactStatus, SlidingContact};
+use frictionsim::cycle::{
+    BranchEnd, CycleError, CycleSolver, LimitCycle, OperatingPoint, Parameter,
+};
+use frictionsim::fem::{ElasticMaterial, PlaneFormulation, RayleighDamping};
+use frictionsim::mesh::{AnnulusSpecification, ElementKind};
+use std::f64::consts::TAU;
+
+const POINTS: usize = 91;
+
+fn disc() -> AnnulusSpecification {
+    AnnulusSpecification {
+        inner_radius: 0.0205,
+        outer_radius: 0.0905,
+        circumferential_elements: 90,
+        radial_elements: 18,
+        radial_grading: 1.0,
+        element: ElementKind::Quad4,
+    }
+}
+
+fn polycarbonate() -> ElasticMaterial {
+    ElasticMaterial {
+        young_modulus: 2.5e9,
+        poisson_ratio: 0.3805,
+        density: 1228.0,
+        formulation: PlaneFormulation::PlaneStrain,
+    }
+}
+
+fn operating(rpm: f64) -> OperatingPoint {
+    OperatingPoint {
+        contact: SlidingContact {
+            friction_coefficient: 0.3,
+            interference: 25e-6,
+            rotation_speed: rpm * TAU / 60.0,
+        },
+        damping: RayleighDamping {
+            mass_coefficient: 40.0,
+            stiffness_coefficient: 4.5e-7,
+        },
+    }
+}
+
+fn solver(harmonic: usize) -> CycleSolver {
+    CycleSolver::new(&disc(), &polycarbonate(), harmonic, POINTS).unwrap()
+}
+
+fn count(cycle: &LimitCycle, status: ContactStatus) -> usize {
+    let points = cycle.points.iter().filter(|point| point.status == status);
+    points.count()
+}
+
+#[test]
+fn external_power_leaves_as_heat_of_body_and_contact() {
+    for (harmonic, rpm) in [(1, 70.0), (1, 250.0), (2, 70.0), (2, 610.0)] {
+        let cycle = solver(harmonic).find(&operating(rpm)).unwrap();
+        // The identity is exact; what remains is round-off of the linear systems.
+        assert!(cycle.powers.balance_residual() < 1e-8);
+        let p = &cycle.powers;
+        let parts = p.stick + p.slide + p.contact_dissipated;
+        assert!((parts / p.external - 1.0).abs() < 1e-12);
+        assert!(p.contact_dissipated > 0.0 && p.material_damping > 0.0);
+    }
+}
+
+#[test]
+fn signorini_and_coulomb_hold_at_every_point() {
+    let point = operating(610.0);
+    let cycle = solver(2).find(&point).unwrap();
+    let surface_speed = point.contact.rotation_speed * disc().inner_radius;
+    let largest = cycle.points.iter().fold(0.0_f64, |m, p| m.max(p.pressure));
+    for p in &cycle.points {
+        let cone = 0.3 * p.pressure;
+        let slip = p.velocity[1] - surface_speed;
+        match p.status {
+            ContactStatus::Open => assert_eq!((p.pressure, p.shear), (0.0, 0.0)),
+            ContactStatus::Stick => {
+                assert!(p.shear.abs() <= cone + 1e-6 * largest);
+                assert!(slip.abs() < 1e-6 * surface_speed);
+            }
+            ContactStatus::Slip => {
+                assert!((p.shear.abs() - cone).abs() < 1e-9 * largest);
+                assert!(p.shear * slip <= 1e-6 * largest * surface_speed);
+            }
+        }
+        assert!(p.pressure >= -1e-7 * largest);
+    }
+    assert!(count(&cycle, ContactStatus::Open) > 0 && count(&cycle, ContactStatus::Stick) > 0);
+}
+
+#[test]
+fn interference_and_speed_scaled_alike_scale_the_cycle() {
+    let solver = solver(2);
+    let point = operating(610.0);
+    let mut double = point;
+    double.contact.interference *= 2.0;
+    double.contact.rotation_speed *= 2.0;
+    let (one, two) = (solver.find(&point).unwrap(), solver.find(&double).unwrap());
+    // All laws are homogeneous of degree one: lengths and speeds double, powers grow fourfold.
+    assert!((two.state.frequency / one.state.frequency - 1.0).abs() < 1e-9);
+    assert!((two.powers.external / one.powers.external / 4.0 - 1.0).abs() < 1e-7);
+    assert_eq!(one.fractions, two.fractions);
+}
+
+#[test]
+fn cycle_without_opening_scales_with_the_speed_alone() {
+    let solver = solver(1);
+    let slow = solver.find(&operating(20.0)).unwrap();
+    let fast = solver.find(&operating(40.0)).unwrap();
+    assert_eq!(count(&slow, ContactStatus::Open), 0);
+    // Without opening the mean pressure is a mere offset: the wave lives on the speed.
+    assert!((fast.state.frequency / slow.state.frequency - 1.0).abs() < 1e-9);
+    assert!((fast.harmonics[1] / slow.harmonics[1] / 2.0 - 1.0).abs() < 1e-7);
+}
+
+#[test]
+fn cycle_without_stick_does_not_depend_on_the_speed() {
+    let solver = solver(2);
+    let mut point = operating(610.0);
+    point.contact.friction_coefficient = 0.2;
+    let start = solver.find(&point).unwrap();
+    let speed = |rpm: f64| rpm * TAU / 60.0;
+    let fast = solver
+        .continue_to(&start, Parameter::RotationSpeed, speed(5000.0))
+        .unwrap();
+    let saturation = fast.saturation_speed(disc().inner_radius).unwrap();
+    assert!(saturation < speed(5000.0));
+    let faster = solver
+        .continue_to(&fast, Parameter::RotationSpeed, speed(6000.0))
+        .unwrap();
+    assert!((faster.state.frequency / fast.state.frequency - 1.0).abs() < 1e-9);
+    assert!((faster.powers.external / fast.powers.external / 1.2 - 1.0).abs() < 1e-9);
+    // Just below that speed points stick, just above none does.
+    let at = |factor: f64| {
+        let value = factor * saturation;
+        let cycle = solver.continue_to(&fast, Parameter::RotationSpeed, value);
+        count(&cycle.unwrap(), ContactStatus::Stick)
+    };
+    assert_eq!((at(1.001), at(0.98) > 0), (0, true));
+}
+
+#[test]
+fn branch_over_friction_is_born_at_the_onset_of_the_linear_theory() {
+    let solver = solver(2);
+    let point = operating(610.0);
+    let onset = solver.onsets(&point.damping)[0];
+    let cycle = solver.find(&point).unwrap();
+    let critical = onset.friction_coefficient;
+    let values = [critical - 2e-3, critical + 5e-4, critical + 2e-3, 0.3];
+    let branch = solver.follow(&cycle, Parameter::FrictionCoefficient, &values);
+    assert_eq!(branch.ends, [BranchEnd::Birth, BranchEnd::Range]);
+    let first = &branch.cycles[0];
+    let born = first.state.point.contact.friction_coefficient;
+    // The grid of phases lets the curve dip below the critical friction by little before it rises.
+    assert!((born - critical).abs() < 2.1e-3);
+    assert!((first.state.frequency / onset.frequency - 1.0).abs() < 5e-3);
+}
+
+#[test]
+fn branch_visits_every_value_and_meets_the_cycle_found_from_birth() {
+    let solver = solver(2);
+    let start = solver.find(&operating(400.0)).unwrap();
+    let values: Vec<f64> = (0..9)
+        .map(|i| (200.0 + 100.0 * i as f64) * TAU / 60.0)
+        .collect();
+    let branch = solver.follow(&start, Parameter::RotationSpeed, &values);
+    assert_eq!(branch.ends, [BranchEnd::Range; 2]);
+    for value in &values {
+        let found = branch
+            .cycles
+            .iter()
+            .any(|c| c.state.point.contact.rotation_speed == *value);
+        assert!(found, "{value}");
+    }
+    let along = branch.cycles.iter().find(|c| {
+        (c.state.point.contact.rotation_speed - operating(600.0).contact.rotation_speed).abs()
+            < 1e-9
+    });
+    let along = along.unwrap();
+    let born = solver.find(&operating(600.0)).unwrap();
+    // Both ways lead to one cycle, up to where its phase lies on the grid.
+    assert!((along.state.frequency / born.state.frequency - 1.0).abs() < 1e-3);
+    assert!((along.powers.external / born.powers.external - 1.0).abs() < 1e-2);
+    for i in 0..3 {
+        assert!((along.fractions[i] - born.fractions[i]).abs() < 0.03);
+    }
+}
+
+#[test]
+fn reference_cycles_of_the_fine_mesh_have_the_transients_frequencies_and_statuses() {
+    // Explicit transients on 180 x 35 elements at friction 0.3: harmonic, rpm, Hz, stick, open, external W/m, stick share.
+    let transients = [
+        (2, 610.0, 9433.0, 0.363, 0.415, 152_256.0, 0.704),
+        (1, 610.0, 10229.7, 0.342, 0.406, 132_808.0, 0.643),
+        (2, 300.0, 9791.4, 0.360, 0.289, 52_374.0, 0.542),
+        (1, 300.0, 10639.5, 0.411, 0.111, 44_523.0, 0.536),
+        (2, 70.0, 9962.6, 0.362, 0.0, 14_894.0, 0.387),
+        (1, 70.0, 10641.7, 0.411, 0.0, 15_030.0, 0.431),
+    ];
+    let specification = AnnulusSpecification {
+        circumferential_elements: 180,
+        radial_elements: 35,
+        ..disc()
+    };
+    for (harmonic, rpm, frequency, stick, open, external, share) in transients {
+        let points = frictionsim::cycle::DEFAULT_POINTS;
+        let solver = CycleSolver::new(&specification, &polycarbonate(), harmonic, points).unwrap();
+        let cycle = solver.find(&operating(rpm)).unwrap();
+        let label = format!("n = {harmonic} at {rpm} rpm");
+        assert!(cycle.powers.balance_residual() < 1e-8, "{label}");
+        assert!(
+            (cycle.frequency_hz() / frequency - 1.0).abs() < 1e-3,
+            "{label}"
+        );
+        // Two ends of an arc, each within a point of 135, and the pressure jump of a landing edge.
+        assert!((cycle.fractions[0] - stick).abs() < 0.02, "{label}");
+        assert!((cycle.fractions[2] - open).abs() < 0.02, "{label}");
+        assert!(
+            (cycle.powers.external / external - 1.0).abs() < 0.01,
+            "{label}"
+        );
+        let found = cycle.powers.stick / cycle.powers.external;
+        assert!((found - share).abs() < 0.02, "{label} {found}");
+    }
+}
+
+#[test]
+fn impossible_requests_say_which_key_to_change() {
+    let standing = solver(1).find(&operating(0.0)).unwrap_err();
+    assert!(standing.to_string().contains("rotation_speed_rpm"));
+    let harmonic = CycleSolver::new(&disc(), &polycarbonate(), 46, POINTS).unwrap_err();
+    assert!(matches!(harmonic, CycleError::Harmonic { limit: 45, .. }));
+    let quad8 = AnnulusSpecification {
+        element: ElementKind::Quad8,
+        ..disc()
+    };
+    let element = CycleSolver::new(&quad8, &polycarbonate(), 1, POINTS).unwrap_err();
+    assert_eq!(element, CycleError::Element);
+    let mut weak = operating(610.0);
+    weak.contact.friction_coefficient = 0.05;
+    let stable = solver(1).find(&weak).unwrap_err();
+    assert!(matches!(stable, CycleError::NotReached { .. }), "{stable}");
+}

@@ -1,0 +1,23 @@
+//! The examples run, and the claims that they assert hold.
+
+#[path = "../examples/annulus_modes.rs"]
+mod annulus_modes;
+#[path = "../examples/friction_sweep.rs"]
+mod friction_sweep;
+#[path = "../examples/limit_cycle.rs"]
+mod limit_cycle;
+
+#[test]
+fn modes_of_an_annulus_are_those_of_the_continuum() {
+    annulus_modes::main().unwrap();
+}
+
+#[test]
+fn friction_sweep_finds_the_wave_that_turns_unstable_first() {
+    friction_sweep::main().unwrap();
+}
+
+#[test]
+fn limit_cycle_closes_its_energy_balance() {
+    limit_cycle::main().unwrap();
+}

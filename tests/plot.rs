@@ -1,0 +1,233 @@
+//! Figures and report after every analysis, and `frictionsim plot`, which draws them again to the same bytes.
+//!
+//! Consistency checks: what the figures show is checked where they are drawn.
+
+use assert_cmd::Command;
+use predicates::str::contains;
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+use tempfile::TempDir;
+
+fn case(name: &str) -> String {
+    let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
+    cases.join(name).display().to_string()
+}
+
+/// Runs a command into `folder/out` with overrides.
+fn run(folder: &TempDir, command: &str, case_name: &str, set: &[&str], more: &[&str]) {
+    let mut run = Command::cargo_bin("frictionsim").unwrap();
+    run.current_dir(folder.path());
+    run.args([command, &case(case_name), "--out", "out", "--quiet"]);
+    run.args(more);
+    for text in set {
+        run.args(["--set", text]);
+    }
+    run.assert().code(0);
+}
+
+fn plot(folder: &TempDir, more: &[&str]) -> Command {
+    let mut run = Command::cargo_bin("frictionsim").unwrap();
+    run.current_dir(folder.path());
+    run.args(["plot", "out"]).args(more);
+    run
+}
+
+/// Every file below a folder with its bytes; locks and the manifest, whose file list grows, left out.
+fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut found = BTreeMap::new();
+    let mut folders = vec![folder.to_owned()];
+    while let Some(at) = folders.pop() {
+        for entry in fs::read_dir(at).unwrap() {
+            let path = entry.unwrap().path();
+            let name = path.strip_prefix(folder).unwrap().display().to_string();
+            if path.is_dir() {
+                folders.push(path);
+            } else if !name.starts_with('.') && name != "manifest.json" {
+                found.insert(name, fs::read(&path).unwrap());
+            }
+        }
+    }
+    found
+}
+
+/// Holds a run to its figures, and `plot` to the same bytes: over them, and after they are lost.
+fn check_redrawn(folder: &TempDir, expected: &[&str]) {
+    let out = folder.path().join("out");
+    let first = files(&out);
+    for name in expected {
+        for extension in ["svg", "png"] {
+            let file = format!("figures/{name}.{extension}");
+            assert!(first.contains_key(&file), "{file}: {:?}", first.keys());
+        }
+    }
+    let report = String::from_utf8(first["report.html"].clone()).unwrap();
+    let drawings = first.keys().filter(|name| name.ends_with(".svg")).count();
+    assert_eq!(report.matches("<figcaption>").count(), drawings);
+
+    plot(folder, &["--threads", "1"])
+        .assert()
+        .code(0)
+        .stdout(contains("figures in"))
+        .stderr("");
+    assert_same(&first, &files(&out));
+    fs::remove_dir_all(out.join("figures")).unwrap();
+    fs::remove_file(out.join("report.html")).unwrap();
+    plot(folder, &[]).assert().code(0);
+    assert_same(&first, &files(&out));
+
+    plot(folder, &["--dpi", "50"]).assert().code(0);
+    for (name, bytes) in files(&out) {
+        let is_smaller = bytes.len() < first[&name].len();
+        assert_eq!(is_smaller, name.ends_with(".png"), "{name}");
+    }
+}
+
+fn assert_same(first: &BTreeMap<String, Vec<u8>>, second: &BTreeMap<String, Vec<u8>>) {
+    assert!(first.keys().eq(second.keys()), "{:?}", second.keys());
+    for (name, bytes) in first {
+        assert!(*bytes == second[name], "{name} differs");
+    }
+}
+
+const COARSE: [&str; 2] = [
+    "mesh.circumferential_elements=60",
+    "mesh.radial_elements=12",
+];
+
+#[test]
+fn eigenvalue_figures_are_drawn_again_to_the_same_bytes() {
+    let folder = tempfile::tempdir().unwrap();
+    let set = [
+        COARSE[0],
+        COARSE[1],
+        "cea.friction_coefficients={from=0.0,to=0.4,count=5}",
+        "cea.shapes_at=[0.2,0.3]",
+    ];
+    run(&folder, "cea", "polycarbonate-disc.toml", &set, &[]);
+    let expected = [
+        "locus",
+        "pairs",
+        "prestress",
+        "modes-mu-0.3",
+        "branch-n1-1-against",
+    ];
+    check_redrawn(&folder, &expected);
+}
+
+const SHORT: [&str; 5] = [
+    COARSE[0],
+    COARSE[1],
+    "output.probes=[1,200]",
+    "output.snapshots=[0.002]",
+    "transient.duration=0.004",
+];
+
+#[test]
+fn transient_figures_are_drawn_again_to_the_same_bytes() {
+    let folder = tempfile::tempdir().unwrap();
+    run(
+        &folder,
+        "transient",
+        "polycarbonate-610rpm.toml",
+        &SHORT,
+        &[],
+    );
+    let expected = [
+        "overview-1",
+        "overview-200",
+        "spectrum-200",
+        "growth",
+        "velocity",
+        "shear-stress",
+        "trajectories",
+        "contact",
+        "energy",
+    ];
+    check_redrawn(&folder, &expected);
+    // The modes are those of the run's own linear stage: lumped mass, rigid contact.
+    let growth = fs::read_to_string(folder.path().join("out/figures/growth.svg")).unwrap();
+    assert!(growth.contains("rate of the eigenvalue analysis"));
+}
+
+#[test]
+fn study_figures_are_drawn_again_to_the_same_bytes() {
+    let folder = tempfile::tempdir().unwrap();
+    let set = [
+        COARSE[0],
+        COARSE[1],
+        "output.probes=[1]",
+        "transient.duration=0.004",
+        "sweep.\"contact.rotation_speed_rpm\"=[70,610]",
+        "sweep.\"contact.friction_coefficient\"=[0.3]",
+    ];
+    run(&folder, "sweep", "speed-friction-study.toml", &set, &[]);
+    check_redrawn(&folder, &["frequencies", "status"]);
+    let drawing = folder.path().join("out/figures/frequencies.svg");
+    let text = fs::read_to_string(drawing).unwrap();
+    assert!(text.contains("unstable mode of the eigenvalue analysis"));
+}
+
+#[test]
+fn a_run_without_figures_is_drawn_later_and_loses_no_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let no_figures = ["--no-figures"];
+    run(
+        &folder,
+        "transient",
+        "polycarbonate-610rpm.toml",
+        &SHORT,
+        &no_figures,
+    );
+    let before = files(&out);
+    assert!(!out.join("figures").exists() && !out.join("report.html").exists());
+    plot(&folder, &[]).assert().code(0);
+    let after = files(&out);
+    assert!(after.contains_key("figures/overview-200.png"));
+    for (name, bytes) in &before {
+        assert!(after.get(name) == Some(bytes), "{name}");
+    }
+    // Figures belong to the run from now on: without them it starts from a clean folder.
+    run(
+        &folder,
+        "transient",
+        "polycarbonate-610rpm.toml",
+        &SHORT,
+        &no_figures,
+    );
+    assert!(!out.join("figures/overview-200.png").exists());
+}
+
+#[test]
+fn folders_that_cannot_be_drawn_are_bad_usage_with_a_reason() {
+    let folder = tempfile::tempdir().unwrap();
+    let refuse = |more: &[&str], reason: &str| {
+        plot(&folder, more)
+            .assert()
+            .code(2)
+            .stderr(contains(reason));
+    };
+    refuse(&[], "it has no manifest.json");
+    refuse(&["--dpi", "5"], "20 to 1200");
+    run(&folder, "mesh", "polycarbonate-disc.toml", &COARSE, &[]);
+    refuse(&[], "belongs to frictionsim mesh");
+    fs::remove_dir_all(folder.path().join("out")).unwrap();
+    run(
+        &folder,
+        "transient",
+        "polycarbonate-610rpm.toml",
+        &SHORT,
+        &["--no-figures"],
+    );
+    let record = folder.path().join("out/record.bin");
+    let mut bytes = fs::read(&record).unwrap();
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 1;
+    fs::write(&record, &bytes).unwrap();
+    refuse(&[], "its record.bin is damaged (its checksum");
+    fs::remove_file(&record).unwrap();
+    refuse(&[], "it has no record.bin");
+    fs::remove_file(folder.path().join("out/summary.json")).unwrap();
+    refuse(&[], "the run did not end");
+}
