@@ -68,7 +68,7 @@ fn terminals(specification: &AnnulusSpecification, is_sliding: bool) -> Vec<[Ter
 }
 
 const FREQUENCIES: [f64; 11] = [
-    20.0, 777.0, 1500.0, 2345.0, 2800.0, 3456.0, 4321.0, 5678.0, 7000.0, 8765.0, 10_000.0,
+    100.0, 777.0, 1500.0, 2345.0, 2800.0, 3456.0, 4321.0, 5678.0, 7000.0, 8765.0, 10_000.0,
 ];
 
 fn assert_agreement(
@@ -87,8 +87,9 @@ fn assert_agreement(
         assert!(solved.backward_error <= 1e-14);
         let top = direct.iter().map(|h| h.norm()).fold(0.0, f64::max);
         for ((f, x), y) in FREQUENCIES.iter().zip(&solved.receptance).zip(&direct) {
-            // Backward errors of 1e-16 and condition numbers up to 1e6; far from the force relative
-            // to a thousandth of the largest response.
+            // Backward errors of at most 1e-14 and condition numbers up to 1e5, that of the rigid motion
+            // of the free body at 100 Hz; far from the force relative to a thousandth of the largest
+            // response.
             let scale = y.norm().max(1e-3 * top);
             assert!(
                 (x - y).norm() < 1e-9 * scale,

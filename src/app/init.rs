@@ -29,6 +29,11 @@ const TEMPLATES: &[Template] = &[
         meaning: "transients over rotation speed and friction",
         text: include_str!("../../cases/speed-friction-study.toml"),
     },
+    Template {
+        name: "convergence",
+        meaning: "eigenvalues and a transient over mesh and time step",
+        text: include_str!("../../cases/convergence.toml"),
+    },
 ];
 
 /// Write a commented case to start from

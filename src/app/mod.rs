@@ -4,6 +4,7 @@ pub mod cea;
 mod check;
 mod collect;
 mod completions;
+mod convergence;
 pub mod cycle;
 mod failure;
 mod frf;
@@ -53,6 +54,7 @@ enum Command {
     Collect(collect::Arguments),
     Plot(plot::Arguments),
     Cycle(cycle::Arguments),
+    Convergence(convergence::Arguments),
     Mesh(mesh::Arguments),
     Check(check::Arguments),
     Init(init::Arguments),
@@ -73,6 +75,7 @@ pub fn main() -> ExitCode {
         Command::Collect(arguments) => collect::run(&arguments),
         Command::Plot(arguments) => plot::run(&arguments),
         Command::Cycle(arguments) => cycle::run(&arguments),
+        Command::Convergence(arguments) => convergence::run(&arguments),
         Command::Mesh(arguments) => mesh::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Init(arguments) => init::run(&arguments),

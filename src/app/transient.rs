@@ -195,6 +195,18 @@ pub fn summarize(case: &Case, manifest: &Manifest) -> Result<Value, Failure> {
     Ok(summary(&report, manifest))
 }
 
+/// The time step that a case's run takes, s.
+///
+/// # Errors
+/// A bad case.
+pub fn time_step(case: &Case, manifest: &Manifest) -> Result<f64, Failure> {
+    let prepared = Prepared::new(case, &manifest.simd)?;
+    let operator = prepared.operator()?;
+    let started = CentralDifference::start(prepared.model(), operator.as_ref(), &prepared.settings);
+    let started = started.map_err(|error| prepared.failure(&error))?;
+    Ok(started.plan().time_step)
+}
+
 fn open(session: &Session, resume: bool) -> Result<OutputFolder, Failure> {
     if resume {
         return session.reopen_folder();

@@ -42,6 +42,7 @@ pub const SECTIONS: &[&str] = &[
     "cycle",
     "cycle.continuation",
     "frf",
+    "convergence",
 ];
 
 /// All keys in the order of the documentation.
@@ -107,6 +108,9 @@ pub const KEYS: &[CaseKey] = &[
     key("frf.mass", "\"consistent\"", "the mass matrix"),
     key("frf.noise", "0.01", "Gaussian noise added to real and imaginary part, relative to the magnitude"),
     key("frf.noise_seed", "1", "the seed of that noise"),
+    key("convergence.factors", "[1, 1.5, 2.25]", "the refinements of the mesh, applied to both element counts"),
+    key("convergence.time_step_factors", "[1, 0.5, 0.25]", "the factors on the transient's time step, on the case's own mesh"),
+    key("convergence.analyses", "[\"cea\", \"transient\"]", "what is studied (left out = every analysis the case has)"),
 ];
 
 /// The entry of a dotted key.

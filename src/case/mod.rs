@@ -5,6 +5,7 @@
 //! checked, all errors reported at once as [`CaseErrors`].
 
 mod cea;
+mod convergence;
 mod cost;
 mod cycle;
 mod diagnostic;
@@ -20,6 +21,7 @@ mod sweep;
 mod transient;
 
 pub use cea::{Cea, CeaMap, CeaMethod, ModeSelection};
+pub use convergence::Convergence;
 pub use cost::{CeaCost, Cost, TransientCost};
 pub use cycle::{Continuation, Cycle};
 pub use diagnostic::{CaseErrors, Diagnostic, Location, Source};
@@ -64,6 +66,8 @@ pub struct Case {
     pub cycle: Option<Cycle>,
     /// Frequency response, if the case has one.
     pub frf: Option<Frf>,
+    /// Convergence study, if the case has one.
+    pub convergence: Option<Convergence>,
     /// Things that are no errors but that the user should hear of.
     pub warnings: Vec<String>,
 }
@@ -110,6 +114,8 @@ impl Case {
         }
         let cycle = cycle::cycle(&root, &annulus);
         let frf = frf::read(&root, &annulus);
+        let has = [cea.is_some(), transient.is_some()];
+        let convergence = convergence::read(&root, &annulus, has, &mut warnings);
         let sweep = sweep::read(&root);
         root.close();
         let errors = findings.into_errors();
@@ -129,6 +135,7 @@ impl Case {
             sweep,
             cycle,
             frf,
+            convergence,
             warnings,
             raw,
         })
@@ -208,6 +215,17 @@ impl Case {
         self.frf
             .as_ref()
             .ok_or_else(|| self.lacks("frf", "frequency response", remedy))
+    }
+
+    /// The convergence study.
+    ///
+    /// # Errors
+    /// A case without `[convergence]`, with what to add.
+    pub fn require_convergence(&self) -> Result<&Convergence, CaseErrors> {
+        let remedy = "[convergence]\nfactors = [1, 1.5, 2.25]";
+        self.convergence
+            .as_ref()
+            .ok_or_else(|| self.lacks("convergence", "convergence study", remedy))
     }
 
     fn lacks(&self, section: &str, analysis: &str, remedy: &str) -> CaseErrors {

@@ -2,7 +2,7 @@
 //!
 //! All sectors are alike, so a wave `u = U(r) e^{i n theta}` over the nodes sees one small matrix for
 //! each harmonic `n`: block-tridiagonal in the radius, with the contact edge free and the outer edge
-//! clamped. In the basis `(u_r, -i u_theta)` that matrix is real where the annulus looks the same in a
+//! clamped (or free too). In the basis `(u_r, -i u_theta)` that matrix is real where the annulus looks the same in a
 //! mirror, and `i` times real where the mirror reverses it (the stress of sliding friction).
 
 use super::element;

@@ -46,7 +46,7 @@ pub enum FrfError {
     /// The reduction does not reach its tolerance.
     #[error(
         "the reduced model still errs by {error:.1e} (bound {bound:.0e}) with {vectors} vectors: use \
-         frf.method = \"direct\""
+         frf.method = \"cyclic\""
     )]
     NotReduced {
         /// Error found at the check lines.

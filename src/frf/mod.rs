@@ -3,14 +3,15 @@
 //!
 //! [`cyclic_response`] solves each circumferential harmonic of an annulus ([`CyclicSystem`]), nothing
 //! neglected. [`FrfSystem`] holds mass, damping and stiffness of a free, clamped or sliding body;
-//! [`direct_response`] solves `(K + i omega C - omega^2 M) u = f` with a sparse complex factorization
-//! for each line; [`reduced_response`] projects the system on a few Krylov spaces first, and states the
+//! [`direct_response`] solves `(K + i omega C - omega^2 M) u = f` of the whole mesh from sparse
+//! factorizations, to round-off at each line; [`reduced_response`] projects the system on a few Krylov spaces first, and states the
 //! error that direct solutions at check lines find.
 
 mod cyclic;
 mod cyclic_system;
 mod direct;
 mod error;
+mod neighbours;
 mod reduction;
 mod system;
 

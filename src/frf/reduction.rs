@@ -1,6 +1,6 @@
 //! Response of a projected model.
 
-use super::direct::direct_response;
+use super::direct::factorized;
 use super::system::check_frequencies;
 use super::{FrfError, FrfSystem};
 use crate::linalg::dense::{join_columns, orthonormalize, transpose_product};
@@ -59,7 +59,7 @@ pub struct ReducedResponse {
 ///
 /// # Errors
 /// [`FrfError::NotReduced`] if the most shifts do not reach the tolerance; those of
-/// [`direct_response`].
+/// [`super::direct_response`].
 ///
 /// Source: E. J. Grimme, "Krylov projection methods for model reduction", thesis, Urbana (1997).
 pub fn reduced_response(
@@ -100,8 +100,8 @@ pub fn reduced_response(
         let wanted = check_lines(frequencies_hz, &receptance, &shifts);
         for f in wanted {
             if checks.iter().all(|(known, _)| *known != f) {
-                let solved = direct_response(system, force, response, &[f])?;
-                checks.push((f, solved.receptance[0]));
+                let solved = factorized(system, &analysis, force, response, f)?;
+                checks.push((f, solved));
             }
         }
         let error = |(f, h): &(f64, c64)| (model.receptance(*f) - h).norm() / h.norm();

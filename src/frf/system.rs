@@ -38,6 +38,8 @@ pub struct FrfSystem {
     mass: Vec<f64>,
     damping: Vec<f64>,
     stiffness: Vec<f64>,
+    proportional: Option<RayleighDamping>,
+    is_symmetric: bool,
     unknowns: DofMap,
 }
 
@@ -72,16 +74,15 @@ impl FrfSystem {
         let pattern = Arc::new(SparsityPattern::from_positions(unknowns.len(), positions));
         let values = |entries| MatrixPolynomial::on_pattern(&pattern, &[entries]).evaluate(0.0);
         let (mass, stiffness): (Vec<f64>, Vec<f64>) = (values(mass), values(stiffness));
-        let damping = mass
-            .iter()
-            .zip(&stiffness)
-            .map(|(m, k)| damping.mass_coefficient * m + damping.stiffness_coefficient * k)
-            .collect();
+        let proportional =
+            |(m, k): (&f64, &f64)| damping.mass_coefficient * m + damping.stiffness_coefficient * k;
         Self {
             pattern,
+            damping: mass.iter().zip(&stiffness).map(proportional).collect(),
             mass,
-            damping,
             stiffness,
+            proportional: Some(damping),
+            is_symmetric: true,
             unknowns,
         }
     }
@@ -96,6 +97,8 @@ impl FrfSystem {
             mass: tangent.mass.evaluate(friction_coefficient),
             damping: tangent.damping.evaluate(friction_coefficient),
             stiffness: tangent.stiffness.evaluate(friction_coefficient),
+            proportional: tangent.proportional,
+            is_symmetric: false,
             unknowns: tangent.unknowns.clone(),
         }
     }
@@ -131,6 +134,40 @@ impl FrfSystem {
     /// Nonzeros of `M`, `C`, `K`.
     pub(super) fn matrices(&self) -> [&[f64]; 3] {
         [&self.mass, &self.damping, &self.stiffness]
+    }
+
+    /// Coefficients of `C = alpha_R M + beta_R K`; `None` for any other damping.
+    pub(super) fn proportional(&self) -> Option<RayleighDamping> {
+        self.proportional
+    }
+
+    /// Whether `M` and `K` are known to be symmetric.
+    pub(super) fn is_symmetric(&self) -> bool {
+        self.is_symmetric
+    }
+
+    /// `|e_force - A x|` and `|A| |x|` for `A = K + i omega C - omega^2 M`, in the largest norm.
+    pub(super) fn residual(&self, frequency_hz: f64, x: &[c64], force: usize) -> (f64, f64) {
+        let omega = TAU * frequency_hz;
+        let mut residual = vec![c64::new(0.0, 0.0); x.len()];
+        let mut row_sums = vec![0.0; x.len()];
+        residual[force] = c64::new(1.0, 0.0);
+        for (column, x) in x.iter().enumerate() {
+            for (k, row) in self.pattern.column(column) {
+                let real = self.stiffness[k] - omega * omega * self.mass[k];
+                let value = c64::new(real, omega * self.damping[k]);
+                residual[row] -= value * x;
+                row_sums[row] += value.re.abs() + value.im.abs();
+            }
+        }
+        let largest = |sizes: &mut dyn Iterator<Item = f64>| sizes.fold(0.0, f64::max);
+        let norm = largest(&mut row_sums.iter().copied());
+        let size = norm * largest(&mut x.iter().map(|v| v.norm()));
+        let is_finite = residual
+            .iter()
+            .all(|r| r.re.is_finite() && r.im.is_finite());
+        let residual = largest(&mut residual.iter().map(|r| r.norm()));
+        (if is_finite { residual } else { f64::INFINITY }, size)
     }
 
     /// Nonzeros of `K + i omega C - omega^2 M`.

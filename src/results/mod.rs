@@ -1,6 +1,7 @@
 //! Result files: tables, fields, figures, manifest.
 
 pub mod cea;
+pub mod convergence;
 pub mod cycle;
 mod drawing;
 pub mod figures;

@@ -8,6 +8,7 @@ pub use model::SlidingModel;
 use super::{Failure, RunOptions, Session, terminal};
 use crate::case::{Case, Cea, ModeSelection};
 use crate::cea::FrictionSweep;
+use crate::cea::cyclic;
 use crate::results::cea::{BaseField, CeaReport, SensitivityReport, draw, print, summary, write};
 use crate::results::{DOTS_PER_INCH, Manifest, OutputFolder};
 use clap::Args;
@@ -130,6 +131,29 @@ pub fn summarize(case: &Case, manifest: &Manifest) -> Result<Value, Failure> {
     let wall_s = start.elapsed().as_secs_f64();
     let report = report(case, &cea, &model, &solution, &field, wall_s);
     Ok(summary(&report, manifest))
+}
+
+/// Modes at the case's own friction coefficient and the onsets over its sweep, by the cyclic method;
+/// mode shapes are not computed.
+///
+/// # Errors
+/// As [`run`].
+pub fn modes_and_onsets(case: &Case) -> Result<FrictionSweep, Failure> {
+    let cea = Cea {
+        // Solved beside the values of the sweep, where it is none of them.
+        shapes_at: vec![case.contact.sliding.friction_coefficient],
+        ..case.require_cea()?.clone()
+    };
+    let request = cyclic::SweepRequest {
+        friction_coefficients: &cea.solved_friction_coefficients(),
+        limit: solve::mode_limit(&cea),
+        shapes_at: &[],
+    };
+    let options = model::tangent_options(case, &cea);
+    let sliding = &case.contact.sliding;
+    let found = cyclic::sweep(&case.annulus, &case.material, &options, sliding, &request)?;
+    refuse_no_modes(case, &cea, &found.sweep)?;
+    Ok(found.sweep)
 }
 
 fn report<'a>(

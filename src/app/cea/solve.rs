@@ -92,7 +92,8 @@ fn solve_cyclic(case: &Case, cea: &Cea, model: &SlidingModel) -> Result<Solution
     })
 }
 
-fn mode_limit(cea: &Cea) -> ModeLimit {
+/// The modes that a case asks for.
+pub fn mode_limit(cea: &Cea) -> ModeLimit {
     match cea.modes {
         ModeSelection::BelowHz(limit) => ModeLimit::MaxFrequency(limit),
         ModeSelection::Lowest(count) => ModeLimit::Lowest(count),

@@ -230,3 +230,60 @@ fn raise(largest: &mut [f64; LANES], sizes: [f64; LANES]) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::BandedLu;
+    use super::*;
+
+    #[test]
+    fn systems_side_by_side_have_the_solutions_of_a_pivoting_factorization() {
+        let (n, h) = (17, 3);
+        let entry = |k: usize| (k as f64 * 0.618_033_988_749_895).fract() - 0.5;
+        // Places outside the matrix are zero in a band.
+        let band = |seed: usize, diagonal: f64| -> Vec<c64> {
+            let place = |k: usize| (k / (2 * h + 1), (k % (2 * h + 1)) as isize - h as isize);
+            (0..n * (2 * h + 1))
+                .map(|k| {
+                    let (row, offset) = place(k);
+                    let is_inside = (0..n as isize).contains(&(row as isize + offset));
+                    let value = c64::new(entry(seed + 2 * k), entry(seed + 2 * k + 1));
+                    let unit = if offset == 0 { diagonal } else { 0.0 };
+                    if is_inside {
+                        value + unit
+                    } else {
+                        c64::new(0.0, 0.0)
+                    }
+                })
+                .collect()
+        };
+        let (a, b) = (band(3, 4.0), band(1000, 0.0));
+        let factor = Lanes::from_fn(|lane| c64::new(0.1 * lane as f64, 0.3));
+        let mut batch = BandedBatch::new(n, h);
+        batch.assemble(&[(Lanes::from_fn(|_| c64::new(1.0, 0.0)), &a), (factor, &b)]);
+        let quality = batch.solve(5);
+        for lane in 0..LANES {
+            let mut lu = BandedLu::new(n, h);
+            lu.factorize(&batch.system(lane));
+            let mut x = vec![c64::new(0.0, 0.0); n];
+            x[5] = c64::new(1.0, 0.0);
+            lu.solve(&mut x);
+            for (found, known) in batch.solution().iter().zip(&x) {
+                // Diagonally strong: condition of a few units.
+                assert!((found.get(lane) - known).norm() < 1e-14);
+            }
+            assert!(quality[lane].backward_error < 1e-15);
+        }
+    }
+
+    #[test]
+    fn vanishing_pivot_is_seen_in_the_backward_error() {
+        let [zero, one] = [0.0, 1.0].map(|re| c64::new(re, 0.0));
+        // [[0, 1], [1, 0]], which needs pivoting.
+        let band = [zero, zero, one, one, zero, zero];
+        let mut batch = BandedBatch::new(2, 1);
+        batch.assemble(&[(Lanes::from_fn(|_| one), &band)]);
+        let quality = batch.solve(0);
+        assert!(quality.iter().all(|q| q.backward_error.is_nan()));
+    }
+}

@@ -1,0 +1,210 @@
+//! `frictionsim convergence`: a case on several meshes and with several time steps.
+
+mod quantities;
+
+use super::{Failure, RunOptions, Session, cea, transient};
+use crate::case::{Analysis, Case, Convergence, TimeStep};
+use crate::cea::FrictionSweep;
+use crate::results::convergence::{ConvergenceReport, Refinement, Series, draw, print, write};
+use crate::results::{DOTS_PER_INCH, Manifest};
+use clap::Args;
+use rayon::prelude::*;
+use serde_json::Value;
+use std::f64::consts::TAU;
+use std::time::Instant;
+
+/// Convergence over mesh and time step
+///
+/// Runs the eigenvalue analysis and the transient of a case on refined meshes, and the transient with
+/// shorter time steps; reads the observed order off the three finest, extrapolates after Richardson, and
+/// says where a quantity does not converge. Needs a [convergence] section in the case.
+#[derive(Args)]
+pub struct Arguments {
+    #[command(flatten)]
+    options: RunOptions,
+}
+
+/// Levels of one series: the same case refined.
+struct Study {
+    analysis: Analysis,
+    refinement: Refinement,
+    /// One case for each level, coarsest first.
+    cases: Vec<Case>,
+}
+
+/// What one level gave.
+enum Outcome {
+    Cea(FrictionSweep),
+    Transient(Value),
+}
+
+/// A level done, and its wall time, s.
+type Timed = (Outcome, f64);
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// A bad case (exit code 2); a level that cannot be solved (1).
+pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let session = Session::start("convergence", &arguments.options)?;
+    let case = &session.case;
+    let convergence = case.require_convergence()?;
+    let studies = studies(case, convergence, &session.manifest)?;
+    session.check_memory(studies.iter().map(memory_bytes).sum())?;
+    let folder = session.open_folder()?;
+
+    let series: Result<Vec<Series>, Failure> = solve(&studies, &session.manifest)?
+        .into_iter()
+        .zip(&studies)
+        .map(|(outcomes, study)| series(case, study, outcomes))
+        .collect();
+    let report = ConvergenceReport {
+        title: &case.title,
+        series: series?,
+        wall_s: session.wall_seconds(),
+    };
+    let summary = write(&folder, &report)?;
+    if !session.options.no_figures {
+        draw(&folder, &report, DOTS_PER_INCH)?;
+    }
+    let path = folder.path().to_owned();
+    folder.finish()?;
+    session.print(&print(&report), &summary, &path)
+}
+
+/// The levels that a case asks for.
+fn studies(
+    case: &Case,
+    convergence: &Convergence,
+    manifest: &Manifest,
+) -> Result<Vec<Study>, Failure> {
+    let meshes = convergence.factors.iter().map(|&factor| Case {
+        annulus: Convergence::refined(&case.annulus, factor),
+        ..case.clone()
+    });
+    let meshes: Vec<Case> = meshes.collect();
+    let over_meshes = convergence.analyses.iter().map(|&analysis| Study {
+        analysis,
+        refinement: Refinement::Mesh,
+        cases: meshes.clone(),
+    });
+    let mut studies: Vec<Study> = over_meshes.collect();
+    if !convergence.time_step_factors.is_empty() {
+        let step = transient::time_step(case, manifest)?;
+        let factors = convergence.time_step_factors.iter();
+        studies.push(Study {
+            analysis: Analysis::Transient,
+            refinement: Refinement::TimeStep,
+            cases: factors.map(|&f| with_time_step(case, f * step)).collect(),
+        });
+    }
+    Ok(studies)
+}
+
+fn with_time_step(case: &Case, step: f64) -> Case {
+    let mut case = case.clone();
+    if let Some(transient) = &mut case.transient {
+        transient.time_step = TimeStep::Seconds(step);
+    }
+    case
+}
+
+/// Memory of all levels of a study at once: they run side by side.
+fn memory_bytes(study: &Study) -> f64 {
+    let bytes = study.cases.iter().map(|case| {
+        let cost = case.cost();
+        cost.mesh_memory_bytes
+            + match study.analysis {
+                Analysis::Cea => cost.cea.map_or(0.0, |cea| cea.memory_bytes),
+                Analysis::Transient => cost.transient.map_or(0.0, |run| run.memory_bytes),
+            }
+    });
+    bytes.sum()
+}
+
+/// Solves every level of every study, side by side, the costliest first.
+fn solve(studies: &[Study], manifest: &Manifest) -> Result<Vec<Vec<Timed>>, Failure> {
+    let jobs = studies.iter().flat_map(|study| {
+        let cases = study.cases.iter();
+        cases.map(|case| (study.analysis, case))
+    });
+    // Finest meshes and shortest steps stand last in each study.
+    let jobs: Vec<(Analysis, &Case)> = jobs.collect();
+    let solved: Vec<Result<Timed, Failure>> = jobs
+        .par_iter()
+        .with_max_len(1)
+        .rev()
+        .map(|(analysis, case)| {
+            let start = Instant::now();
+            let outcome = match analysis {
+                Analysis::Cea => Outcome::Cea(cea::modes_and_onsets(case)?),
+                Analysis::Transient => Outcome::Transient(transient::summarize(case, manifest)?),
+            };
+            Ok((outcome, start.elapsed().as_secs_f64()))
+        })
+        .collect();
+    // The first level that failed speaks, whichever thread was first.
+    let mut solved = solved.into_iter().rev();
+    studies
+        .iter()
+        .map(|study| solved.by_ref().take(study.cases.len()).collect())
+        .collect()
+}
+
+fn series(case: &Case, study: &Study, outcomes: Vec<Timed>) -> Result<Series, Failure> {
+    let (outcomes, wall_s): (Vec<Outcome>, Vec<f64>) = outcomes.into_iter().unzip();
+    let (mut sweeps, mut summaries) = (Vec::new(), Vec::new());
+    for outcome in outcomes {
+        match outcome {
+            Outcome::Cea(sweep) => sweeps.push(sweep),
+            Outcome::Transient(summary) => summaries.push(summary),
+        }
+    }
+    let steps = summaries.iter().filter_map(|s| s["time_step_s"].as_f64());
+    let steps: Vec<f64> = steps.collect();
+    let (sizes, levels): (Vec<f64>, Vec<String>) = match study.refinement {
+        Refinement::Mesh => study.cases.iter().map(mesh_level).unzip(),
+        Refinement::TimeStep => steps.iter().map(|&s| (s, format!("{s:.4e}"))).unzip(),
+    };
+    if sizes.windows(2).any(|pair| pair[1] >= pair[0]) {
+        return Err(Failure::Case(case.error_at(
+            "convergence.time_step_factors",
+            format!(
+                "convergence.time_step_factors gives the time steps {} s: two are the same, as a step \
+                 divides output.sample_interval",
+                levels.join(", ")
+            ),
+            "factors further apart".to_owned(),
+            None,
+        )));
+    }
+    let (quantities, mut notes) = match study.analysis {
+        Analysis::Cea => quantities::of_sweeps(case, &sizes, &sweeps),
+        Analysis::Transient => (quantities::of_transients(&sizes, &summaries), Vec::new()),
+    };
+    if study.analysis == Analysis::Transient && study.refinement == Refinement::Mesh {
+        let steps: Vec<String> = steps.iter().map(|step| format!("{step:.4e}")).collect();
+        notes.push(format!("time steps {} s", steps.join(", ")));
+    }
+    Ok(Series {
+        analysis: match study.analysis {
+            Analysis::Cea => "cea",
+            Analysis::Transient => "transient",
+        },
+        refinement: study.refinement,
+        levels,
+        sizes,
+        quantities,
+        wall_s,
+        notes,
+    })
+}
+
+/// Element size and name of a mesh: the size is the side of a square of the mean element area, m.
+fn mesh_level(case: &Case) -> (f64, String) {
+    let annulus = &case.annulus;
+    let area = 0.5 * TAU * (annulus.outer_radius.powi(2) - annulus.inner_radius.powi(2));
+    let (around, radial) = (annulus.circumferential_elements, annulus.radial_elements);
+    let size = (area / (around as f64 * radial as f64)).sqrt();
+    (size, format!("{around} x {radial}"))
+}

@@ -1,0 +1,178 @@
+//! What is compared between the levels of a convergence study.
+
+use crate::case::Case;
+use crate::cea::{ComplexMode, FrictionSweep, UnstableInterval};
+use crate::results::convergence::Quantity;
+use serde_json::Value;
+
+/// Harmonic, branch and direction: what a mode is known by on every mesh.
+type ModeKey = (usize, usize, i8);
+
+/// A part of an eigenvalue, Hz.
+type PartOf = fn(&ComplexMode) -> f64;
+
+fn key_of(mode: &ComplexMode) -> ModeKey {
+    (mode.harmonic, mode.branch, mode.direction)
+}
+
+fn interval_key(interval: &UnstableInterval) -> ModeKey {
+    (interval.harmonic, interval.branch, interval.direction)
+}
+
+fn name_of((harmonic, branch, direction): ModeKey) -> String {
+    let direction = match direction {
+        1.. => ", with the rotor",
+        0 => "",
+        ..0 => ", against the rotor",
+    };
+    format!("n = {harmonic}, branch {branch}{direction}")
+}
+
+/// Frequency and real part of every mode at the case's friction coefficient, and every first onset,
+/// that all levels have; notes name those that some level lacks.
+pub fn of_sweeps(
+    case: &Case,
+    sizes: &[f64],
+    sweeps: &[FrictionSweep],
+) -> (Vec<Quantity>, Vec<String>) {
+    let friction = case.contact.sliding.friction_coefficient;
+    let modes: Vec<&[ComplexMode]> = sweeps
+        .iter()
+        .map(|sweep| {
+            let mut points = sweep.points.iter();
+            let point = points.find(|point| point.friction_coefficient == friction);
+            point.map_or(&[][..], |point| &point.modes)
+        })
+        .collect();
+    let finest = modes.last().copied().unwrap_or_default();
+    let everywhere: Vec<Vec<&ComplexMode>> = finest
+        .iter()
+        .filter_map(|mode| {
+            let same = |level: &&'_ [ComplexMode]| -> Option<usize> {
+                level.iter().position(|other| key_of(other) == key_of(mode))
+            };
+            let found = modes.iter().map(|level| Some(&level[same(level)?]));
+            found.collect()
+        })
+        .collect();
+    let mut quantities = Vec::new();
+    let parts: [(&str, PartOf); 2] = [
+        ("frequency", ComplexMode::frequency_hz),
+        ("real part", ComplexMode::real_hz),
+    ];
+    for (part, value) in parts {
+        for levels in &everywhere {
+            let name = format!("{part}, {}", name_of(key_of(levels[0])));
+            let values = levels.iter().map(|mode| value(mode)).collect();
+            quantities.push(Quantity::new(name, "Hz", sizes, values));
+        }
+    }
+    quantities.extend(onsets(sizes, sweeps));
+    let mut notes = vec![format!(
+        "{} modes at friction coefficient {friction}",
+        everywhere.len()
+    )];
+    let most = modes.iter().map(|level| level.len()).max().unwrap_or(0);
+    if most > everywhere.len() {
+        notes.push(format!(
+            "left out: {} modes that not every mesh has in the range asked for",
+            most - everywhere.len()
+        ));
+    }
+    (quantities, notes)
+}
+
+/// Critical friction of every branch that turns unstable within the range of every level.
+fn onsets(sizes: &[f64], sweeps: &[FrictionSweep]) -> Vec<Quantity> {
+    let mut quantities: Vec<Quantity> = Vec::new();
+    let Some(finest) = sweeps.last() else {
+        return quantities;
+    };
+    let mut seen: Vec<ModeKey> = Vec::new();
+    for interval in finest.intervals.iter().filter(|i| !i.unstable_from_start) {
+        let key = interval_key(interval);
+        if seen.contains(&key) {
+            continue;
+        }
+        seen.push(key);
+        let values: Option<Vec<f64>> = sweeps
+            .iter()
+            .map(|sweep| {
+                let mut all = sweep.intervals.iter();
+                all.find(|other| interval_key(other) == key)
+                    .filter(|other| !other.unstable_from_start)
+                    .map(|other| other.critical_friction)
+            })
+            .collect();
+        if let Some(values) = values {
+            let name = format!("critical friction, {}", name_of(key));
+            quantities.push(Quantity::new(name, "", sizes, values));
+        }
+    }
+    quantities
+}
+
+/// Frequency, status, powers and growth rates of transients, from their summaries.
+pub fn of_transients(sizes: &[f64], summaries: &[Value]) -> Vec<Quantity> {
+    let each = |name: &str, unit: &'static str, value: &dyn Fn(&Value) -> Option<f64>| {
+        let values = summaries.iter().map(|s| value(s).unwrap_or(f64::NAN));
+        Quantity::new(name.to_owned(), unit, sizes, values.collect())
+    };
+    let mut quantities = vec![
+        each("main frequency", "Hz", &|s| s["main_frequency_hz"].as_f64()),
+        Quantity::count(
+            "main harmonic".to_owned(),
+            summaries
+                .iter()
+                .map(|s| s["main_harmonic"].as_f64().unwrap_or(f64::NAN))
+                .collect(),
+        ),
+    ];
+    for status in ["stick", "slip", "open"] {
+        quantities.push(each(&format!("{status} fraction"), "", &|s| {
+            s["status"][status].as_f64()
+        }));
+    }
+    let power = |s: &Value, name: &str| s["power_w"][name].as_f64();
+    quantities.push(each("external power", "W", &|s| power(s, "external")));
+    for (name, key) in [
+        ("stick", "stick"),
+        ("slide", "slide"),
+        ("contact dissipation", "contact_dissipated"),
+        ("material damping", "material_damping"),
+    ] {
+        quantities.push(each(&format!("{name} / external power"), "", &|s| {
+            Some(power(s, key)? / power(s, "external")?)
+        }));
+    }
+    quantities.extend(growth_rates(sizes, summaries));
+    quantities
+}
+
+/// Growth rate of each harmonic that some run has one of.
+fn growth_rates(sizes: &[f64], summaries: &[Value]) -> Vec<Quantity> {
+    let all = |summary: &Value| summary["growth"].as_array().cloned().unwrap_or_default();
+    let mut harmonics: Vec<u64> = summaries
+        .iter()
+        .flat_map(|summary| {
+            all(summary)
+                .into_iter()
+                .filter_map(|g| g["harmonic"].as_u64())
+        })
+        .collect();
+    harmonics.sort_unstable();
+    harmonics.dedup();
+    let of = |harmonic: u64| {
+        let values = summaries.iter().map(|summary| {
+            let growth = all(summary);
+            let mut growth = growth.iter();
+            let found = growth.find(|g| g["harmonic"].as_u64() == Some(harmonic));
+            found
+                .and_then(|g| g["rate_per_s"].as_f64())
+                .unwrap_or(f64::NAN)
+        });
+        let name = format!("growth rate, n = {harmonic}");
+        Quantity::new(name, "1/s", sizes, values.collect())
+    };
+    harmonics.into_iter().map(of).collect()
+}

@@ -1,0 +1,225 @@
+//! `[convergence]`: the same case on several meshes and with several time steps.
+
+use super::Analysis;
+use super::model::node_count;
+use super::reader::{Bound, Section};
+use crate::mesh::{AnnulusSpecification, ElementKind};
+
+/// Fewest refinements that an order can be observed from.
+const FEWEST: usize = 3;
+
+/// Refinements of the two directions may differ by this much before the user hears of it.
+const UNEVEN: f64 = 0.02;
+
+/// `[convergence]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Convergence {
+    /// Refinements of both element counts, rising.
+    pub factors: Vec<f64>,
+    /// Factors on the transient's time step on the case's own mesh, falling; empty for no such study.
+    pub time_step_factors: Vec<f64>,
+    /// What is studied, each once, at least one.
+    pub analyses: Vec<Analysis>,
+}
+
+impl Convergence {
+    /// The mesh of a refinement: both element counts times `factor`, rounded; a graded mesh keeps its
+    /// distribution of element sizes over the radius.
+    pub fn refined(annulus: &AnnulusSpecification, factor: f64) -> AnnulusSpecification {
+        let times = |count: usize| (count as f64 * factor).round() as usize;
+        let radial_elements = times(annulus.radial_elements);
+        // Element k of n begins at the same radius as element (factor k) of (factor n).
+        let exponent = annulus.radial_elements as f64 / radial_elements.max(1) as f64;
+        AnnulusSpecification {
+            circumferential_elements: times(annulus.circumferential_elements),
+            radial_elements,
+            radial_grading: annulus.radial_grading.powf(exponent),
+            ..*annulus
+        }
+    }
+}
+
+/// Reads the section of a case that `has` a `[cea]` and a `[transient]`.
+pub(super) fn read(
+    root: &Section<'_>,
+    annulus: &AnnulusSpecification,
+    has: [bool; 2],
+    warnings: &mut Vec<String>,
+) -> Option<Convergence> {
+    let section = root.section("convergence", false);
+    if !section.is_given() {
+        return None;
+    }
+    let factors = section.numbers("factors", Bound::Positive);
+    let factors = factors.unwrap_or_else(|| vec![1.0, 1.5, 2.25]);
+    if has_enough(&section, "factors", &factors) && is_ordered(&section, "factors", &factors, 1.0) {
+        check_meshes(&section, annulus, &factors, warnings);
+    }
+    let steps = section.numbers("time_step_factors", Bound::Positive);
+    let time_step_factors = steps.unwrap_or_default();
+    if section.has("time_step_factors")
+        && has_enough(&section, "time_step_factors", &time_step_factors)
+    {
+        is_ordered(&section, "time_step_factors", &time_step_factors, -1.0);
+    }
+    let analyses = analyses(&section, annulus, has);
+    if !time_step_factors.is_empty() && !analyses.contains(&Analysis::Transient) {
+        section.reject(
+            "time_step_factors",
+            "convergence.time_step_factors has no transient to act on".to_owned(),
+            "only a transient has a time step".to_owned(),
+            Some(
+                "add a [transient] section of quad4 elements, or leave time_step_factors out"
+                    .to_owned(),
+            ),
+        );
+    }
+    section.close();
+    Some(Convergence {
+        factors,
+        time_step_factors,
+        analyses,
+    })
+}
+
+/// Refuses fewer than three values.
+fn has_enough(section: &Section<'_>, key: &'static str, values: &[f64]) -> bool {
+    let is_enough = values.len() >= FEWEST;
+    if !is_enough {
+        section.reject(
+            key,
+            format!(
+                "{} has {} values, an order is observed from {FEWEST} or more",
+                section.name(key),
+                values.len()
+            ),
+            format!("at least {FEWEST} values"),
+            None,
+        );
+    }
+    is_enough
+}
+
+/// Refuses values that do not strictly rise (`sign` 1) or fall (-1).
+fn is_ordered(section: &Section<'_>, key: &'static str, values: &[f64], sign: f64) -> bool {
+    let pair = values
+        .windows(2)
+        .find(|pair| sign * (pair[1] - pair[0]) <= 0.0);
+    if let Some(pair) = pair {
+        let (word, why) = if sign > 0.0 {
+            ("rise", "each mesh finer than the one before")
+        } else {
+            ("fall", "each step shorter than the one before")
+        };
+        section.reject(
+            key,
+            format!(
+                "{} must {word}, but {} follows {}",
+                section.name(key),
+                pair[1],
+                pair[0]
+            ),
+            why.to_owned(),
+            None,
+        );
+    }
+    pair.is_none()
+}
+
+/// Refuses factors whose rounded meshes are none, too large, or not refinements of each other.
+fn check_meshes(
+    section: &Section<'_>,
+    annulus: &AnnulusSpecification,
+    factors: &[f64],
+    warnings: &mut Vec<String>,
+) {
+    if annulus.circumferential_elements == 0 || annulus.radial_elements == 0 {
+        return;
+    }
+    let reject = |message: String, label: &str| {
+        section.reject("factors", message, label.to_owned(), None);
+    };
+    let mut previous: Option<(f64, AnnulusSpecification)> = None;
+    for &factor in factors {
+        let mesh = Convergence::refined(annulus, factor);
+        let (around, radial) = (mesh.circumferential_elements, mesh.radial_elements);
+        let name = format!("the mesh of convergence.factors = {factor}, {around} x {radial}");
+        if around < 3 || radial < 1 {
+            return reject(
+                format!("{name}, has too few elements"),
+                "at least 3 around and 1 along the radius",
+            );
+        }
+        let (nodes, limit) = (node_count(&mesh), u128::from(u32::MAX / 2));
+        if nodes > limit {
+            return reject(
+                format!("{name}, would have {nodes} nodes, above the limit of {limit}"),
+                "too many elements",
+            );
+        }
+        if let Some((other, coarser)) = &previous
+            && (around <= coarser.circumferential_elements || radial <= coarser.radial_elements)
+        {
+            return reject(
+                format!(
+                    "{name}, is no refinement of that of {other}, {} x {}, in both directions",
+                    coarser.circumferential_elements, coarser.radial_elements
+                ),
+                "factors further apart, or a finer mesh to start from",
+            );
+        }
+        let [a, r] = [
+            around as f64 / annulus.circumferential_elements as f64,
+            radial as f64 / annulus.radial_elements as f64,
+        ];
+        if (a / r - 1.0).abs() > UNEVEN {
+            warnings.push(format!(
+                "{name}, refines by {a:.3} around and {r:.3} along the radius after rounding: the \
+                 observed order suffers from that"
+            ));
+        }
+        previous = Some((factor, mesh));
+    }
+}
+
+/// What is studied: what the section names, else what the case has sections for and its elements can run.
+fn analyses(
+    section: &Section<'_>,
+    annulus: &AnnulusSpecification,
+    [has_cea, has_transient]: [bool; 2],
+) -> Vec<Analysis> {
+    let words = [("cea", Analysis::Cea), ("transient", Analysis::Transient)];
+    let named = section.choices("analyses", &words, &[]);
+    let can_step = has_transient && annulus.element == ElementKind::Quad4;
+    if named.is_empty() {
+        let all = [(has_cea, Analysis::Cea), (can_step, Analysis::Transient)];
+        let all: Vec<Analysis> = all.iter().filter(|a| a.0).map(|a| a.1).collect();
+        if all.is_empty() && !section.has("analyses") {
+            section.reject(
+                "analyses",
+                "[convergence] has nothing to study: the case has neither [cea] nor a [transient] \
+                 that its elements can run"
+                    .to_owned(),
+                "no analysis in the case".to_owned(),
+                Some("add\n[cea]\nmax_frequency_hz = 17500.0".to_owned()),
+            );
+        }
+        return all;
+    }
+    for (word, analysis) in words {
+        let is_there = match analysis {
+            Analysis::Cea => has_cea,
+            Analysis::Transient => can_step,
+        };
+        if named.contains(&analysis) && !is_there {
+            section.reject(
+                "analyses",
+                format!("convergence.analyses names \"{word}\", which this case cannot run"),
+                "needs its section (and quad4 elements, for a transient)".to_owned(),
+                None,
+            );
+        }
+    }
+    let once = words.iter().map(|w| w.1);
+    once.filter(|analysis| named.contains(analysis)).collect()
+}

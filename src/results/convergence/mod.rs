@@ -1,0 +1,207 @@
+//! Results of a convergence study: what is printed, written and drawn.
+
+mod estimate;
+mod figures;
+mod print;
+
+pub use estimate::{Verdict, estimate};
+pub use figures::draw;
+pub use print::print;
+
+use crate::results::folder::{FolderError, OutputFolder};
+use crate::results::table::{Table, format_number};
+use serde_json::{Value, json};
+use std::io::{self, Write};
+
+/// What is refined.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Refinement {
+    /// The mesh; sizes are element sizes, m.
+    Mesh,
+    /// The time step; sizes are steps, s.
+    TimeStep,
+}
+
+impl Refinement {
+    /// Name in tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Mesh => "mesh",
+            Self::TimeStep => "time-step",
+        }
+    }
+}
+
+/// A quantity over the levels of its series.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Quantity {
+    /// Name, with the mode it belongs to.
+    pub name: String,
+    /// Unit; empty for a pure number.
+    pub unit: &'static str,
+    /// One value for each level; NaN where there is none.
+    pub values: Vec<f64>,
+    /// Order and limit.
+    pub verdict: Verdict,
+}
+
+impl Quantity {
+    /// Judges values on levels of these sizes.
+    pub fn new(name: String, unit: &'static str, sizes: &[f64], values: Vec<f64>) -> Self {
+        Self {
+            verdict: estimate(sizes, &values),
+            name,
+            unit,
+            values,
+        }
+    }
+
+    /// A whole number on each level, which is the same on the three finest or has not converged.
+    pub fn count(name: String, values: Vec<f64>) -> Self {
+        let finest = &values[values.len().saturating_sub(3)..];
+        let verdict = if !finest.iter().all(|value| value.is_finite()) {
+            Verdict::Missing
+        } else if finest.windows(2).all(|pair| pair[0] == pair[1]) {
+            Verdict::Settled
+        } else {
+            Verdict::NotConverging
+        };
+        Self {
+            name,
+            unit: "",
+            values,
+            verdict,
+        }
+    }
+
+    /// Estimated error of each level, the value less the limit; NaN without a limit.
+    pub fn errors(&self) -> Vec<f64> {
+        let limit = self.verdict.limit().unwrap_or(f64::NAN);
+        self.values.iter().map(|value| value - limit).collect()
+    }
+
+    /// Spread of the three finest levels: largest less smallest value.
+    pub fn spread(&self) -> f64 {
+        let finest = &self.values[self.values.len().saturating_sub(3)..];
+        let largest = finest.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        largest - finest.iter().copied().fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// One analysis over refinements of one kind.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Series {
+    /// `cea` or `transient`.
+    pub analysis: &'static str,
+    /// What is refined.
+    pub refinement: Refinement,
+    /// Name of each level: `90 x 18`, or the time step.
+    pub levels: Vec<String>,
+    /// Element size, m, or time step, s, of each level, strictly falling.
+    pub sizes: Vec<f64>,
+    /// The quantities.
+    pub quantities: Vec<Quantity>,
+    /// Wall time of each level, s; levels run side by side.
+    pub wall_s: Vec<f64>,
+    /// What else there is to say.
+    pub notes: Vec<String>,
+}
+
+/// Everything that a convergence study reports.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ConvergenceReport<'a> {
+    /// Title of the case.
+    pub title: &'a str,
+    /// What was studied.
+    pub series: Vec<Series>,
+    /// Wall time, s.
+    pub wall_s: f64,
+}
+
+/// Writes `convergence.csv` and `summary.json`; returns the summary.
+///
+/// # Errors
+/// Those of the folder.
+pub fn write(folder: &OutputFolder, report: &ConvergenceReport<'_>) -> Result<Value, FolderError> {
+    folder.write("convergence.csv", |out| write_table(out, report))?;
+    let summary = json!({
+        "command": "convergence",
+        "title": report.title,
+        "series": report.series.iter().map(series_object).collect::<Vec<_>>(),
+        "wall_s": report.wall_s,
+        "manifest": folder.manifest(),
+    });
+    folder.write("summary.json", |out| {
+        serde_json::to_writer_pretty(&mut *out, &summary)?;
+        out.write_all(b"\n")
+    })?;
+    Ok(summary)
+}
+
+fn series_object(series: &Series) -> Value {
+    let quantities: Vec<Value> = series
+        .quantities
+        .iter()
+        .map(|quantity| {
+            json!({
+                "name": quantity.name,
+                "unit": quantity.unit,
+                "values": quantity.values,
+                "verdict": quantity.verdict.name(),
+                "order": quantity.verdict.order(),
+                "extrapolated": quantity.verdict.limit(),
+                "errors": quantity.verdict.limit().map(|_| quantity.errors()),
+                "spread": quantity.spread(),
+            })
+        })
+        .collect();
+    json!({
+        "analysis": series.analysis,
+        "refinement": series.refinement.name(),
+        "levels": series.levels,
+        "sizes": series.sizes,
+        "wall_s": series.wall_s,
+        "notes": series.notes,
+        "quantities": quantities,
+    })
+}
+
+/// Writes one row for each quantity on each level.
+fn write_table(out: &mut dyn Write, report: &ConvergenceReport<'_>) -> io::Result<()> {
+    let columns = [
+        "analysis",
+        "refinement",
+        "quantity",
+        "unit",
+        "level",
+        "size",
+        "value",
+        "error",
+        "extrapolated",
+        "order",
+        "verdict",
+    ];
+    let mut table = Table::new(out, &columns)?;
+    for series in &report.series {
+        for quantity in &series.quantities {
+            let errors = quantity.errors();
+            let number = |value: Option<f64>| format_number(value.unwrap_or(f64::NAN));
+            for (level, name) in series.levels.iter().enumerate() {
+                table.row([
+                    series.analysis.to_owned(),
+                    series.refinement.name().to_owned(),
+                    quantity.name.clone(),
+                    quantity.unit.to_owned(),
+                    name.clone(),
+                    format_number(series.sizes[level]),
+                    format_number(quantity.values[level]),
+                    format_number(errors[level]),
+                    number(quantity.verdict.limit()),
+                    number(quantity.verdict.order()),
+                    quantity.verdict.name().to_owned(),
+                ])?;
+            }
+        }
+    }
+    table.finish()
+}

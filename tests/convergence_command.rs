@@ -1,0 +1,227 @@
+//! `frictionsim convergence`: observed orders against the theory of the elements, the table of a transient, and what
+//! it refuses.
+
+use assert_cmd::Command;
+use serde_json::Value;
+use std::path::Path;
+
+/// A coarse disc; every test adds its analyses.
+const DISC: &str = r#"
+[geometry]
+inner_radius = 0.0205
+outer_radius = 0.0905
+[mesh]
+circumferential_elements = 36
+radial_elements = 8
+element = "quad4"
+[material]
+young_modulus = 2.5e9
+poisson_ratio = 0.3805
+density = 1228.0
+[damping]
+mass_coefficient = 40.0
+stiffness_coefficient = 4.5e-7
+[contact]
+friction_coefficient = 0.3
+interference = 25e-6
+rotation_speed_rpm = 610.0
+"#;
+
+const CEA: &str = "[cea]\nmax_frequency_hz = 9000.0\nfriction_coefficients = [0.0, 0.5]\n";
+
+const TRANSIENT: &str = "[transient]\nduration = 0.002\n\
+                         [transient.perturbation]\nharmonics = [2]\n";
+
+fn command(folder: &Path, text: &str, arguments: &[&str]) -> assert_cmd::assert::Assert {
+    std::fs::write(folder.join("disc.toml"), text).unwrap();
+    Command::cargo_bin("frictionsim")
+        .unwrap()
+        .current_dir(folder)
+        .args(["convergence", "disc.toml", "--quiet", "--out", "out"])
+        .args(arguments)
+        .assert()
+}
+
+/// The summary of a run that works.
+fn summary(folder: &Path, text: &str, arguments: &[&str]) -> Value {
+    let arguments = [arguments, &["--json"]].concat();
+    let run = command(folder, text, &arguments).code(0);
+    serde_json::from_slice(&run.get_output().stdout).unwrap()
+}
+
+fn quantities(series: &Value) -> &Vec<Value> {
+    series["quantities"].as_array().unwrap()
+}
+
+/// Observed orders of all frequencies.
+fn frequency_orders(summary: &Value) -> Vec<f64> {
+    quantities(&summary["series"][0])
+        .iter()
+        .filter(|q| q["name"].as_str().unwrap().starts_with("frequency"))
+        .map(|q| q["order"].as_f64().unwrap())
+        .collect()
+}
+
+#[test]
+fn eigenvalues_of_bilinear_elements_converge_with_order_two() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = format!("{DISC}{CEA}[convergence]\nfactors = [1, 2, 4]\n");
+    let summary = summary(folder.path(), &text, &["--no-figures"]);
+    let orders = frequency_orders(&summary);
+    // n = 0 once and n = 1 in both directions.
+    assert_eq!(orders.len(), 3);
+    // Eigenvalues converge with twice the degree; coarse meshes are not quite asymptotic.
+    assert!(
+        orders.iter().all(|order| (order - 2.0).abs() < 0.2),
+        "{orders:?}"
+    );
+    let all = quantities(&summary["series"][0]);
+    let onset = all
+        .iter()
+        .find(|q| q["name"].as_str().unwrap().starts_with("critical"));
+    assert_eq!(onset.unwrap()["verdict"], "converging");
+}
+
+#[test]
+fn eigenvalues_of_quadratic_elements_converge_with_order_four() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = format!("{DISC}{CEA}[convergence]\nfactors = [1, 1.5, 2.25]\n");
+    let coarse = [
+        "--set",
+        "mesh.element=quad8",
+        "--set",
+        "mesh.circumferential_elements=16",
+        "--set",
+        "mesh.radial_elements=4",
+        "--no-figures",
+    ];
+    let orders = frequency_orders(&summary(folder.path(), &text, &coarse));
+    assert_eq!(orders.len(), 3);
+    assert!(
+        orders.iter().all(|order| (order - 4.0).abs() < 0.5),
+        "{orders:?}"
+    );
+}
+
+#[test]
+fn richardson_of_coarse_meshes_comes_nearer_to_a_fine_one_than_the_finest_of_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = format!("{DISC}{CEA}[convergence]\nfactors = [1, 1.5, 2.25]\n");
+    let coarse = summary(folder.path(), &text, &["--no-figures"]);
+    let text = text.replace("[1, 1.5, 2.25]", "[4, 6, 8]");
+    let fine = summary(folder.path(), &text, &["--no-figures", "--force"]);
+    let limit = |q: &Value| q["extrapolated"].as_f64().unwrap();
+    for (coarse, fine) in quantities(&coarse["series"][0])
+        .iter()
+        .zip(quantities(&fine["series"][0]))
+    {
+        if !coarse["name"].as_str().unwrap().starts_with("frequency") {
+            continue;
+        }
+        assert_eq!(coarse["name"], fine["name"]);
+        let exact = limit(fine);
+        let finest = coarse["values"][2].as_f64().unwrap();
+        let gain = (finest - exact).abs() / (limit(coarse) - exact).abs();
+        assert!(gain > 3.0, "{}: {gain}", coarse["name"]);
+    }
+}
+
+#[test]
+fn a_transient_is_tabled_over_mesh_and_time_step_with_figures_and_report() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = format!(
+        "{DISC}{CEA}{TRANSIENT}[convergence]\nfactors = [0.5, 0.75, 1]\n\
+         time_step_factors = [1, 0.5, 0.25]\n"
+    );
+    let run = command(folder.path(), &text, &[]).code(0);
+    let printed = String::from_utf8(run.get_output().stdout.clone()).unwrap();
+    for line in [
+        "cea over the mesh",
+        "transient over the mesh",
+        "transient over the time step",
+    ] {
+        assert!(printed.contains(line), "{printed}");
+    }
+    let out = folder.path().join("out");
+    for name in [
+        "convergence.csv",
+        "summary.json",
+        "report.html",
+        "figures/cea-mesh-errors-frequency.svg",
+        "figures/transient-time-step-differences-power.png",
+    ] {
+        assert!(out.join(name).exists(), "{name}");
+    }
+    let summary: Value =
+        serde_json::from_str(&std::fs::read_to_string(out.join("summary.json")).unwrap()).unwrap();
+    let [cea, mesh, step] = [0, 1, 2].map(|k| &summary["series"][k]);
+    assert_eq!(
+        cea["levels"],
+        serde_json::json!(["18 x 4", "27 x 6", "36 x 8"])
+    );
+    let steps: Vec<f64> = serde_json::from_value(step["sizes"].clone()).unwrap();
+    // A quarter of a step that divides the sample interval divides it too.
+    assert!((steps[0] / steps[2] - 4.0).abs() < 1e-12, "{steps:?}");
+    let table = std::fs::read_to_string(out.join("convergence.csv")).unwrap();
+    let rows = [cea, mesh, step].map(|s| 3 * quantities(s).len());
+    assert_eq!(table.lines().count(), 1 + rows.iter().sum::<usize>());
+    // The finest mesh and the longest step are the case itself: both series hold the same run.
+    for (a, b) in quantities(mesh).iter().zip(quantities(step)) {
+        assert_eq!((&a["name"], &a["values"][2]), (&b["name"], &b["values"][0]));
+    }
+}
+
+#[test]
+fn bad_factors_are_refused_with_file_line_and_key() {
+    let folder = tempfile::tempdir().unwrap();
+    let lines = DISC.lines().count() + CEA.lines().count() + 2;
+    for (keys, message) in [
+        ("factors = [1, 2]", "convergence.factors has 2 values"),
+        (
+            "factors = [1, 3, 2]",
+            "convergence.factors must rise, but 2 follows 3",
+        ),
+        (
+            "factors = [-1, 1, 2]",
+            "convergence.factors = -1 must be positive",
+        ),
+        (
+            "factors = \"fine\"",
+            "convergence.factors = \"fine\" must be a list",
+        ),
+        (
+            "factors = [1, 1.01, 2]",
+            "is no refinement of that of 1, 36 x 8",
+        ),
+        ("factors = [0.01, 1, 2]", "0 x 0, has too few elements"),
+        ("factors = [1, 2, 1e9]", "above the limit"),
+        (
+            "time_step_factors = [1, 0.5, 0.25]",
+            "convergence.time_step_factors has no transient",
+        ),
+        (
+            "analyses = [\"transient\"]",
+            "names \"transient\", which this case cannot run",
+        ),
+        ("factor = [1, 2, 3]", "unknown key `convergence.factor`"),
+    ] {
+        let text = format!("{DISC}{CEA}[convergence]\n{keys}\n");
+        let run = command(folder.path(), &text, &[]).code(2);
+        let stderr = String::from_utf8(run.get_output().stderr.clone()).unwrap();
+        assert!(stderr.contains(message), "{keys}: {stderr}");
+        assert!(
+            stderr.contains(&format!("disc.toml:{lines}")),
+            "{lines}: {stderr}"
+        );
+    }
+    let rising = format!("{DISC}{TRANSIENT}[convergence]\ntime_step_factors = [1, 2, 4]\n");
+    let run = command(folder.path(), &rising, &[]).code(2);
+    let stderr = String::from_utf8(run.get_output().stderr.clone()).unwrap();
+    assert!(
+        stderr.contains("convergence.time_step_factors must fall"),
+        "{stderr}"
+    );
+    let none = command(folder.path(), DISC, &[]).code(2);
+    let stderr = String::from_utf8(none.get_output().stderr.clone()).unwrap();
+    assert!(stderr.contains("no [convergence] section"), "{stderr}");
+}
