@@ -9,8 +9,7 @@ use faer::{Mat, MatRef, Par, c64};
 
 /// Residual, relative to the eigenvalue, above which an eigenvector is computed anew.
 const VECTOR_TOLERANCE: f64 = 1e-9;
-
-/// Part of a vector outside those of equal eigenvalues below which it counts as one of them.
+/// Part of a vector that must lie beyond the others of an equal eigenvalue.
 const INDEPENDENT: f64 = 1e-3;
 
 /// Eigenvalues and eigenvectors of a real matrix `A`, in real storage.
@@ -131,8 +130,8 @@ fn conjugate(values: &[c64], vectors: &mut Mat<f64>) {
 /// equation.
 ///
 /// The back substitution of the decomposition loses up to all digits in the vectors of repeated complex
-/// eigenvalues, or leaves several of them parallel. Inverse iteration restores them; projections against
-/// the sound vectors of equal eigenvalues keep them independent.
+/// eigenvalues. Inverse iteration restores them; projections against the sound vectors of equal
+/// eigenvalues keep them independent.
 fn repair(matrix: MatRef<'_, f64>, values: &[c64], smallest: f64, vectors: &mut Mat<f64>) {
     let first_columns: Vec<usize> = (0..values.len())
         .filter(|&j| values[j].im >= 0.0 && values[j].norm() >= smallest)
@@ -148,13 +147,10 @@ fn repair(matrix: MatRef<'_, f64>, values: &[c64], smallest: f64, vectors: &mut 
             .map(|(a, x)| (a - values[j] * x).norm_sqr())
             .sum::<f64>()
             .sqrt();
-        let holds = error <= VECTOR_TOLERANCE * values[j].norm() * length(&vector);
-        let mut remainder = vector.clone();
-        project_out(
-            &mut remainder,
-            &orthonormal(alike(values, vectors, &sound, j)),
-        );
-        if holds && length(&remainder) > INDEPENDENT * length(&vector) {
+        let mut beyond = vector.clone();
+        project_out(&mut beyond, &orthonormal(alike(values, vectors, &sound, j)));
+        let is_independent = length(&beyond) > INDEPENDENT * length(&vector);
+        if is_independent && error <= VECTOR_TOLERANCE * values[j].norm() * length(&vector) {
             sound.push(j);
         } else {
             unsound.push(j);
@@ -173,13 +169,11 @@ fn repair(matrix: MatRef<'_, f64>, values: &[c64], smallest: f64, vectors: &mut 
     }
 }
 
-/// Vectors among the columns `sound` whose eigenvalues equal that of column `j`.
+/// The vectors of those `sound` eigenvalues that equal eigenvalue `j`.
 fn alike(values: &[c64], vectors: &Mat<f64>, sound: &[usize], j: usize) -> Vec<Vec<c64>> {
-    let is_alike = |k: usize| (values[k] - values[j]).norm() < 1e-8 * values[j].norm();
-    let columns = sound.iter().filter(|&&k| is_alike(k));
-    columns
-        .map(|&k| complex_column(values, vectors, k))
-        .collect()
+    let is_equal = |k: usize| (values[k] - values[j]).norm() < 1e-8 * values[j].norm();
+    let equal = sound.iter().filter(|&&k| is_equal(k));
+    equal.map(|&k| complex_column(values, vectors, k)).collect()
 }
 
 /// An eigenvector of `value` orthogonal to `known`, which span others of the same eigenvalue.

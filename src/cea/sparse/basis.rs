@@ -1,7 +1,8 @@
 //! Growth of the common basis until it holds the modes of every friction coefficient.
 
 use super::error::CeaError;
-use super::reduced::{PackedModes, ReducedMode, ReducedModel};
+use super::packed::PackedModes;
+use super::reduced::{ReducedMode, ReducedModel};
 use super::structure::{Linearization, ShiftInverted, Side, StiffnessFactors, StructureMatrices};
 use crate::linalg::dense::{join_columns, orthonormal_complement};
 use crate::linalg::{KrylovSchurSettings, LinalgError, LuAnalysis, Wanted, krylov_schur};

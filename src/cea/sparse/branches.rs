@@ -1,8 +1,9 @@
 //! Continuation of mode branches over the friction coefficient.
 
 use super::edge::ContactEdge;
+use super::packed::ComplexColumns;
 use super::point::SolvedPoint;
-use super::reduced::{ComplexColumns, ReducedMode, ReducedModel};
+use super::reduced::{ReducedMode, ReducedModel};
 use super::structure::Side;
 use crate::linalg::{ComplexDenseLu, LinalgError};
 use faer::{Mat, c64};

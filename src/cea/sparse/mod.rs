@@ -18,10 +18,13 @@ mod error;
 mod fixtures;
 mod frictionless;
 mod onset;
+mod packed;
 mod point;
 mod reduced;
+mod request;
 mod structure;
 mod sweep;
+mod term;
 
 pub use basis::BasisBuilder;
 pub use branches::{BranchLabel, Lost, ModeBranch, label_frictionless, track};
@@ -31,8 +34,9 @@ pub use frictionless::FrictionlessModes;
 pub use onset::OnsetFinder;
 pub use point::{ModeCheck, PointSolver, SolvedPoint};
 pub use reduced::{ProjectedMatrices, ReducedMode, ReducedModel};
+pub use request::{EigenLimit, EigenRequest, SweepProgress, sweep};
 pub use structure::{Linearization, ShiftInverted, Side, StiffnessFactors, StructureMatrices};
-pub use sweep::{EigenLimit, EigenRequest, SparseSweep, SweepProgress, sweep};
+pub use sweep::SparseSweep;
 
 /// Modes beyond the wanted ones that are computed along, so that crossings at the upper end of the range
 /// are seen.

@@ -1,8 +1,9 @@
 //! Where branches turn unstable and stable again, by root finding on the branch.
 
 use super::branches::ModeBranch;
+use super::packed::ComplexColumns;
 use super::point::{PointSolver, SolvedPoint};
-use super::reduced::{ComplexColumns, ReducedMode, ReducedModel};
+use super::reduced::{ReducedMode, ReducedModel};
 use super::structure::Side;
 use super::{CeaError, RESIDUAL_BOUND};
 use crate::cea::UnstableInterval;

@@ -1,7 +1,8 @@
 //! All modes at one friction coefficient, each held to its residual in the full matrices.
 
 use super::edge::ContactEdge;
-use super::reduced::{PackedModes, ReducedMode, ReducedModel};
+use super::packed::PackedModes;
+use super::reduced::{ReducedMode, ReducedModel};
 use super::structure::{Linearization, Side, StructureMatrices};
 use super::{EigenLimit, TRACKING_MARGIN};
 use crate::linalg::LinalgError;

@@ -1,9 +1,9 @@
 //! The matrices of small motions projected on one basis that serves every friction coefficient.
 
+use super::packed::ComplexColumns;
 use super::structure::{Linearization, Side};
-use crate::linalg::dense::{
-    column, dot, join_columns, orthonormal_complement, product, transpose_product,
-};
+use super::term::Term;
+use crate::linalg::dense::{orthonormal_complement, product, transpose_product};
 use crate::linalg::dense_eigen::real_eigen;
 use crate::linalg::{DenseLu, LinalgError, MatrixPolynomial};
 use crate::prestress::SlidingTangent;
@@ -111,13 +111,8 @@ impl ReducedModel {
 
     /// Restricts the basis to the span of the orthonormal `columns` of coordinates.
     pub fn compress(&mut self, columns: &Mat<f64>) {
-        let partial = self
-            .terms
-            .iter_mut()
-            .flatten()
-            .filter(|t| t.support.is_some());
-        for term in partial {
-            term.restricted = product(term.restricted.as_ref(), columns.as_ref());
+        for term in self.terms.iter_mut().flatten() {
+            term.compress(columns);
         }
         for small in self.projected.iter_mut().flatten() {
             let image = product(small.as_ref(), columns.as_ref());
@@ -261,71 +256,6 @@ impl ReducedModel {
     }
 }
 
-/// One coefficient `P` of a matrix polynomial, over the unknowns that it touches.
-struct Term {
-    matrix: MatrixPolynomial,
-    /// The unknowns, where they are not all.
-    support: Option<Vec<usize>>,
-    /// Rows of `V` of these unknowns.
-    restricted: Mat<f64>,
-}
-
-impl Term {
-    fn new(polynomial: &MatrixPolynomial, power: usize) -> Self {
-        let (matrix, unknowns) = polynomial.compact_coefficient(power);
-        let support = (unknowns.len() < polynomial.dimension()).then_some(unknowns);
-        let rows = support.as_ref().map_or(0, Vec::len);
-        Self {
-            matrix,
-            support,
-            restricted: Mat::zeros(rows, 0),
-        }
-    }
-
-    /// `V^T P V` with the rows and columns of `new` basis vectors added.
-    fn grow(
-        &mut self,
-        known: &Mat<f64>,
-        basis: MatRef<'_, f64>,
-        new: &Mat<f64>,
-        is_symmetric: bool,
-    ) -> Mat<f64> {
-        let Some(support) = &self.support else {
-            return self.grown(known, basis, new.as_ref(), is_symmetric);
-        };
-        let rows = Mat::from_fn(support.len(), new.ncols(), |i, j| new[(support[i], j)]);
-        let grown = self.grown(known, self.restricted.as_ref(), rows.as_ref(), is_symmetric);
-        self.restricted = join_columns(self.restricted.as_ref(), rows.as_ref());
-        grown
-    }
-
-    fn grown(
-        &self,
-        known: &Mat<f64>,
-        basis: MatRef<'_, f64>,
-        new: MatRef<'_, f64>,
-        is_symmetric: bool,
-    ) -> Mat<f64> {
-        let (pattern, values) = (self.matrix.pattern(), &self.matrix.coefficients()[0]);
-        let (old, total) = (known.ncols(), known.ncols() + new.ncols());
-        let image = pattern.multiply(values, new);
-        let above = transpose_product(basis, image.as_ref());
-        let below = if is_symmetric {
-            above.transpose().to_owned()
-        } else {
-            transpose_product(pattern.multiply_transpose(values, new).as_ref(), basis)
-        };
-        let mut grown = Mat::zeros(total, total);
-        grown.get_mut(..old, ..old).copy_from(known);
-        grown.get_mut(..old, old..).copy_from(&above);
-        grown.get_mut(old.., ..old).copy_from(&below);
-        grown
-            .get_mut(old.., old..)
-            .copy_from(&transpose_product(new, image.as_ref()));
-        grown
-    }
-}
-
 /// `sum_{p >= first} weight(p) P_p mu^(p - first)`.
 fn horner(
     coefficients: &[Mat<f64>],
@@ -361,165 +291,4 @@ fn unpack(
             c64::new(vectors[(row, re)], imaginary)
         })
         .collect()
-}
-
-/// Complex columns as two real matrices, so that products with real matrices are real products.
-pub struct ComplexColumns {
-    real: Mat<f64>,
-    imaginary: Mat<f64>,
-}
-
-impl ComplexColumns {
-    /// The vectors of `modes` on one side, continued by zeros to `dimension` entries.
-    pub fn of(modes: &[ReducedMode], side: Side, dimension: usize) -> Self {
-        let part = |of: fn(&c64) -> f64| {
-            Mat::from_fn(dimension, modes.len(), |i, j| {
-                let vector = match side {
-                    Side::Right => &modes[j].right,
-                    Side::Left => &modes[j].left,
-                };
-                vector.get(i).map_or(0.0, of)
-            })
-        };
-        Self {
-            real: part(|v| v.re),
-            imaginary: part(|v| v.im),
-        }
-    }
-
-    /// `P` times each column.
-    pub fn mapped(&self, p: &Mat<f64>) -> Self {
-        Self {
-            real: product(p.as_ref(), self.real.as_ref()),
-            imaginary: product(p.as_ref(), self.imaginary.as_ref()),
-        }
-    }
-
-    /// `y^T` times column `j`, no conjugation.
-    pub fn dot(&self, y: &[c64], j: usize) -> c64 {
-        let (re, im) = (
-            column(self.real.as_ref(), j),
-            column(self.imaginary.as_ref(), j),
-        );
-        y.iter()
-            .zip(re.iter().zip(im))
-            .map(|(y, (&p, &q))| y * c64::new(p, q))
-            .sum()
-    }
-}
-
-/// Where a vector is among packed columns.
-#[derive(Clone, Copy, Debug)]
-pub struct PackedEntry {
-    /// The eigenvalue `s` it belongs to.
-    pub inverse_value: c64,
-    /// Its first column, the real part.
-    pub column: usize,
-    /// Whether the next column is its imaginary part.
-    pub is_complex: bool,
-}
-
-/// Real and imaginary parts of right (or left) vectors, packed for real arithmetic.
-///
-/// Of two modes with conjugate `s` only the first is stored: the other's vector is its conjugate.
-pub struct PackedModes {
-    /// Coordinates, of unit length; one column for a real vector, two for a complex one.
-    pub coordinates: Mat<f64>,
-    /// The stored vectors.
-    pub entries: Vec<PackedEntry>,
-    /// For each mode its entry, and whether it is the conjugate of it.
-    places: Vec<(usize, bool)>,
-}
-
-impl PackedModes {
-    /// Packs the vectors of `modes` on one side.
-    pub fn of(modes: &[ReducedMode], side: Side, dimension: usize) -> Self {
-        let mut entries: Vec<PackedEntry> = Vec::new();
-        let mut columns: Vec<Vec<f64>> = Vec::new();
-        let mut places = Vec::new();
-        for mode in modes {
-            let s = mode.inverse_value;
-            let twin = entries
-                .iter()
-                .position(|e| s.im != 0.0 && e.inverse_value == s.conj());
-            if let Some(entry) = twin {
-                places.push((entry, true));
-                continue;
-            }
-            let vector = match side {
-                Side::Right => &mode.right,
-                Side::Left => &mode.left,
-            };
-            let length = vector.iter().map(|v| v.norm_sqr()).sum::<f64>().sqrt();
-            places.push((entries.len(), false));
-            let is_complex = vector.iter().any(|v| v.im != 0.0);
-            entries.push(PackedEntry {
-                inverse_value: s,
-                column: columns.len(),
-                is_complex,
-            });
-            columns.push(vector.iter().map(|v| v.re / length).collect());
-            if is_complex {
-                columns.push(vector.iter().map(|v| v.im / length).collect());
-            }
-        }
-        let coordinates = Mat::from_fn(dimension, columns.len(), |i, j| {
-            columns[j].get(i).copied().unwrap_or(0.0)
-        });
-        Self {
-            coordinates,
-            entries,
-            places,
-        }
-    }
-
-    /// A mode's complex vector among expanded (or otherwise mapped) packed columns.
-    pub fn vector<'m>(&self, mode: usize, mapped: &'m Mat<f64>) -> PackedVector<'m> {
-        let (entry, is_conjugate) = self.places[mode];
-        let entry = self.entries[entry];
-        let imaginary = entry.column + 1;
-        PackedVector {
-            real: column(mapped.as_ref(), entry.column),
-            imaginary: entry.is_complex.then(|| column(mapped.as_ref(), imaginary)),
-            sign: if is_conjugate { -1.0 } else { 1.0 },
-        }
-    }
-}
-
-/// A complex vector in two real columns.
-#[derive(Clone, Copy)]
-pub struct PackedVector<'m> {
-    real: &'m [f64],
-    imaginary: Option<&'m [f64]>,
-    sign: f64,
-}
-
-impl PackedVector<'_> {
-    /// Euclidean length.
-    pub fn norm(&self) -> f64 {
-        let square = |v: &[f64]| dot(v, v);
-        (square(self.real) + self.imaginary.map_or(0.0, square)).sqrt()
-    }
-
-    /// Largest modulus of an entry.
-    pub fn peak(&self) -> f64 {
-        let squares = |v: &f64| v * v;
-        let largest = match self.imaginary {
-            None => self.real.iter().map(squares).fold(0.0, f64::max),
-            Some(imaginary) => {
-                let parts = self.real.iter().zip(imaginary);
-                parts.map(|(p, q)| p * p + q * q).fold(0.0, f64::max)
-            }
-        };
-        largest.sqrt()
-    }
-
-    /// Entry `i`.
-    #[inline]
-    pub fn at(&self, i: usize) -> c64 {
-        c64::new(
-            self.real[i],
-            self.imaginary.map_or(0.0, |q| self.sign * q[i]),
-        )
-    }
 }

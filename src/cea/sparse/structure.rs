@@ -1,6 +1,6 @@
 //! The matrices of small motions at one friction coefficient, and how their eigenproblem is solved.
 
-use super::reduced::PackedEntry;
+use super::packed::PackedEntry;
 use crate::fem::RayleighDamping;
 use crate::linalg::dense::{column, column_mut, join_rows};
 use crate::linalg::{

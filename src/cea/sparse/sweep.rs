@@ -1,4 +1,4 @@
-//! The sweep from its request to its result.
+//! The stages of a sweep.
 
 use super::basis::BasisBuilder;
 use super::branches::{BranchLabel, ModeBranch, label_frictionless, track};
@@ -7,6 +7,7 @@ use super::error::CeaError;
 use super::frictionless::FrictionlessModes;
 use super::onset::OnsetFinder;
 use super::point::{PointSolver, SolvedPoint};
+use super::request::{EigenLimit, EigenRequest, SweepProgress};
 use super::structure::Linearization;
 use super::{RESIDUAL_BOUND, TRACKING_MARGIN};
 use crate::cea::{ComplexMode, FrictionPoint, FrictionSweep, UnstableInterval};
@@ -25,60 +26,7 @@ const MIN_SAMPLES: usize = 6;
 /// Attempts to improve points that miss the goal.
 const MAX_REPAIRS: usize = 8;
 
-/// Which modes are wanted at each friction coefficient.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum EigenLimit {
-    /// All modes below this frequency, Hz.
-    BelowFrequency(f64),
-    /// This many modes of lowest frequency.
-    Lowest(usize),
-}
-
-/// What a sweep is asked for.
-#[derive(Clone, Debug, PartialEq)]
-pub struct EigenRequest {
-    /// Which modes.
-    pub limit: EigenLimit,
-    /// Friction coefficients whose mode shapes are returned; those that are not swept are ignored.
-    pub shapes_at: Vec<f64>,
-}
-
-/// How far a sweep has come.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct SweepProgress {
-    /// Friction values solved.
-    pub solved: usize,
-    /// Friction values in all.
-    pub total: usize,
-}
-
-/// Complex modes of `tangent` at every one of `friction_coefficients`, and where their branches turn
-/// unstable.
-///
-/// Oscillating modes of lowest natural frequency only: overdamped motions, and modes whose eigenvalue is
-/// far from the origin because of damping alone, are not searched. Friction values are solved in parallel
-/// on the current rayon pool; the result is the same, bit for bit, for any number of threads. `progress`
-/// is called from those threads.
-///
-/// Points come in the order given; repeated values are computed once.
-///
-/// # Errors
-/// [`CeaError`]: a bad request, a mode count that the inertia contradicts, a pair above the residual
-/// bound, a lost branch.
-pub fn sweep(
-    tangent: &SlidingTangent,
-    friction_coefficients: &[f64],
-    request: &EigenRequest,
-    progress: &(dyn Fn(SweepProgress) + Sync),
-) -> Result<FrictionSweep, CeaError> {
-    let mut sweep = SparseSweep::prepare(tangent, friction_coefficients, request)?;
-    sweep.cover()?;
-    sweep.solve(progress)?;
-    let branches = sweep.track()?;
-    sweep.finish(friction_coefficients, request, &branches)
-}
-
-/// The stages of [`sweep`], in order.
+/// The stages of [`super::sweep`], in order.
 pub struct SparseSweep<'a> {
     tangent: &'a SlidingTangent,
     linearization: Linearization,
@@ -97,7 +45,7 @@ impl<'a> SparseSweep<'a> {
     /// Computes the frictionless modes, where the sweep starts.
     ///
     /// # Errors
-    /// As [`sweep`].
+    /// As [`super::sweep`].
     pub fn prepare(
         tangent: &'a SlidingTangent,
         friction_coefficients: &[f64],
@@ -149,7 +97,7 @@ impl<'a> SparseSweep<'a> {
     /// Solves all points, and grows the basis where a mode misses its residual.
     ///
     /// # Errors
-    /// As [`sweep`].
+    /// As [`super::sweep`].
     pub fn solve(&mut self, progress: &(dyn Fn(SweepProgress) + Sync)) -> Result<(), CeaError> {
         let all: Vec<usize> = (0..self.grid.len()).collect();
         self.points = self.solve_points(&all, progress)?;
@@ -268,7 +216,7 @@ impl<'a> SparseSweep<'a> {
     /// The result, with shapes and critical friction coefficients.
     ///
     /// # Errors
-    /// As [`sweep`].
+    /// As [`super::sweep`].
     pub fn finish(
         &mut self,
         friction_coefficients: &[f64],

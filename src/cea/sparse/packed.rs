@@ -1,0 +1,167 @@
+//! Complex vectors of modes in real matrices, for real arithmetic.
+
+use super::reduced::ReducedMode;
+use super::structure::Side;
+use crate::linalg::dense::{column, dot, product};
+use faer::{Mat, c64};
+
+/// Complex columns as two real matrices, so that products with real matrices are real products.
+pub struct ComplexColumns {
+    real: Mat<f64>,
+    imaginary: Mat<f64>,
+}
+
+impl ComplexColumns {
+    /// The vectors of `modes` on one side, continued by zeros to `dimension` entries.
+    pub fn of(modes: &[ReducedMode], side: Side, dimension: usize) -> Self {
+        let part = |of: fn(&c64) -> f64| {
+            Mat::from_fn(dimension, modes.len(), |i, j| {
+                let vector = match side {
+                    Side::Right => &modes[j].right,
+                    Side::Left => &modes[j].left,
+                };
+                vector.get(i).map_or(0.0, of)
+            })
+        };
+        Self {
+            real: part(|v| v.re),
+            imaginary: part(|v| v.im),
+        }
+    }
+
+    /// `P` times each column.
+    pub fn mapped(&self, p: &Mat<f64>) -> Self {
+        Self {
+            real: product(p.as_ref(), self.real.as_ref()),
+            imaginary: product(p.as_ref(), self.imaginary.as_ref()),
+        }
+    }
+
+    /// `y^T` times column `j`, no conjugation.
+    pub fn dot(&self, y: &[c64], j: usize) -> c64 {
+        let (re, im) = (
+            column(self.real.as_ref(), j),
+            column(self.imaginary.as_ref(), j),
+        );
+        y.iter()
+            .zip(re.iter().zip(im))
+            .map(|(y, (&p, &q))| y * c64::new(p, q))
+            .sum()
+    }
+}
+
+/// Where a vector is among packed columns.
+#[derive(Clone, Copy, Debug)]
+pub struct PackedEntry {
+    /// The eigenvalue `s` it belongs to.
+    pub inverse_value: c64,
+    /// Its first column, the real part.
+    pub column: usize,
+    /// Whether the next column is its imaginary part.
+    pub is_complex: bool,
+}
+
+/// Real and imaginary parts of right (or left) vectors, packed for real arithmetic.
+///
+/// Of two modes with conjugate `s` only the first is stored: the other's vector is its conjugate.
+pub struct PackedModes {
+    /// Coordinates, of unit length; one column for a real vector, two for a complex one.
+    pub coordinates: Mat<f64>,
+    /// The stored vectors.
+    pub entries: Vec<PackedEntry>,
+    /// For each mode its entry, and whether it is the conjugate of it.
+    places: Vec<(usize, bool)>,
+}
+
+impl PackedModes {
+    /// Packs the vectors of `modes` on one side.
+    pub fn of(modes: &[ReducedMode], side: Side, dimension: usize) -> Self {
+        let mut entries: Vec<PackedEntry> = Vec::new();
+        let mut columns: Vec<Vec<f64>> = Vec::new();
+        let mut places = Vec::new();
+        for mode in modes {
+            let s = mode.inverse_value;
+            let twin = entries
+                .iter()
+                .position(|e| s.im != 0.0 && e.inverse_value == s.conj());
+            if let Some(entry) = twin {
+                places.push((entry, true));
+                continue;
+            }
+            let vector = match side {
+                Side::Right => &mode.right,
+                Side::Left => &mode.left,
+            };
+            let length = vector.iter().map(|v| v.norm_sqr()).sum::<f64>().sqrt();
+            places.push((entries.len(), false));
+            let is_complex = vector.iter().any(|v| v.im != 0.0);
+            entries.push(PackedEntry {
+                inverse_value: s,
+                column: columns.len(),
+                is_complex,
+            });
+            columns.push(vector.iter().map(|v| v.re / length).collect());
+            if is_complex {
+                columns.push(vector.iter().map(|v| v.im / length).collect());
+            }
+        }
+        let coordinates = Mat::from_fn(dimension, columns.len(), |i, j| {
+            columns[j].get(i).copied().unwrap_or(0.0)
+        });
+        Self {
+            coordinates,
+            entries,
+            places,
+        }
+    }
+
+    /// A mode's complex vector among expanded (or otherwise mapped) packed columns.
+    pub fn vector<'m>(&self, mode: usize, mapped: &'m Mat<f64>) -> PackedVector<'m> {
+        let (entry, is_conjugate) = self.places[mode];
+        let entry = self.entries[entry];
+        let imaginary = entry.column + 1;
+        PackedVector {
+            real: column(mapped.as_ref(), entry.column),
+            imaginary: entry.is_complex.then(|| column(mapped.as_ref(), imaginary)),
+            sign: if is_conjugate { -1.0 } else { 1.0 },
+        }
+    }
+}
+
+/// A complex vector in two real columns.
+#[derive(Clone, Copy)]
+pub struct PackedVector<'m> {
+    real: &'m [f64],
+    imaginary: Option<&'m [f64]>,
+    sign: f64,
+}
+
+impl PackedVector<'_> {
+    /// Euclidean length.
+    pub fn norm(&self) -> f64 {
+        let square = |v: &[f64]| dot(v, v);
+        (square(self.real) + self.imaginary.map_or(0.0, square)).sqrt()
+    }
+
+    /// Largest modulus of an entry.
+    pub fn peak(&self) -> f64 {
+        let squares = |v: &f64| v * v;
+        let largest = match self.imaginary {
+            None => self.real.iter().map(squares).fold(0.0, f64::max),
+            Some(imaginary) => {
+                let parts = self.real.iter().zip(imaginary);
+                parts.map(|(p, q)| p * p + q * q).fold(0.0, f64::max)
+            }
+        };
+        largest.sqrt()
+    }
+
+    /// Entry `i`.
+    #[inline]
+    pub fn at(&self, i: usize) -> c64 {
+        c64::new(
+            self.real[i],
+            self.imaginary.map_or(0.0, |q| self.sign * q[i]),
+        )
+    }
+}
