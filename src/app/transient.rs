@@ -63,7 +63,7 @@ impl<'a> Prepared<'a> {
     }
 
     fn operator(&self) -> Result<Box<dyn StiffnessOperator>, Failure> {
-        let choice = conversion::operator_choice(self.transient);
+        let choice = self.transient.operator;
         build_operator(&self.model(), choice, self.simd).map_err(|error| self.failure(&error))
     }
 

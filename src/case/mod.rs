@@ -20,6 +20,7 @@ mod rules;
 mod sweep;
 mod transient;
 
+pub use crate::transient::{InitialState, OperatorChoice, TimeStep};
 pub use cea::{Cea, CeaMap, CeaMethod, ModeSelection};
 pub use convergence::Convergence;
 pub use cost::{CeaCost, Cost, TransientCost};
@@ -31,7 +32,7 @@ pub use model::{Contact, Damping};
 pub use range::{Spacing, range_values};
 pub use raw::{RawCase, RawEntry, RawItem, RawTable, RawValue};
 pub use sweep::{Analysis, Combination, Sweep, SweptKey};
-pub use transient::{InitialState, OperatorChoice, Output, Perturbation, TimeStep, Transient};
+pub use transient::{Output, Perturbation, Transient};
 
 use crate::fem::ElasticMaterial;
 use crate::mesh::{AnnulusSpecification, ElementKind};

@@ -4,35 +4,7 @@ use super::model::node_count;
 use super::reader::{Bound, Section};
 use super::rules::{harmonics, rising};
 use crate::mesh::AnnulusSpecification;
-
-/// Time step of the transient.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum TimeStep {
-    /// From the operator's largest frequency.
-    Auto,
-    /// Given, s.
-    Seconds(f64),
-}
-
-/// State that a transient starts from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum InitialState {
-    /// Undeformed, the cylinder not yet expanded.
-    Rest,
-    /// The prestressed equilibrium of steady sliding.
-    SteadySliding,
-}
-
-/// How the transient applies the stiffness.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum OperatorChoice {
-    /// Cyclic where the mesh has the symmetry.
-    Auto,
-    /// The stencil of one sector.
-    Cyclic,
-    /// Sparse 2 x 2 block rows.
-    Sparse,
-}
+use crate::transient::{InitialState, OperatorChoice, TimeStep};
 
 /// `[transient.perturbation]`: initial velocity of the body, summed over harmonics.
 #[derive(Clone, Debug, Default, PartialEq)]

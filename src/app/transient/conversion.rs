@@ -1,11 +1,10 @@
 //! From the case's terms to those of the time loop, and its errors back to keys of the case.
 
 use crate::app::Failure;
-use crate::case::{self, Case, Transient};
+use crate::case::{Case, Transient};
 use crate::mesh::AnnulusMesh;
 use crate::transient::{
-    InitialState, OperatorChoice, Perturbation, RecorderSettings, TimeStep, TransientError,
-    TransientModel, TransientSettings,
+    InitialState, Perturbation, RecorderSettings, TransientError, TransientModel, TransientSettings,
 };
 
 pub fn model<'a>(case: &Case, annulus: &'a AnnulusMesh) -> TransientModel<'a> {
@@ -20,16 +19,10 @@ pub fn model<'a>(case: &Case, annulus: &'a AnnulusMesh) -> TransientModel<'a> {
 pub fn settings(case: &Case, transient: &Transient) -> TransientSettings {
     TransientSettings {
         duration: transient.duration,
-        time_step: match transient.time_step {
-            case::TimeStep::Auto => TimeStep::Auto,
-            case::TimeStep::Seconds(step) => TimeStep::Seconds(step),
-        },
+        time_step: transient.time_step,
         sample_interval: case.output.sample_interval,
         expansion_time: transient.expansion_time,
-        initial: match transient.initial {
-            case::InitialState::Rest => InitialState::Rest,
-            case::InitialState::SteadySliding => InitialState::SteadySliding,
-        },
+        initial: transient.initial,
         perturbation: Perturbation {
             harmonics: transient.perturbation.harmonics.clone(),
             velocity: transient.perturbation.velocity,
@@ -37,18 +30,10 @@ pub fn settings(case: &Case, transient: &Transient) -> TransientSettings {
     }
 }
 
-pub fn operator_choice(transient: &Transient) -> OperatorChoice {
-    match transient.operator {
-        case::OperatorChoice::Auto => OperatorChoice::Auto,
-        case::OperatorChoice::Cyclic => OperatorChoice::Cyclic,
-        case::OperatorChoice::Sparse => OperatorChoice::Sparse,
-    }
-}
-
 pub fn initial_name(transient: &Transient) -> &'static str {
     match transient.initial {
-        case::InitialState::Rest => "rest",
-        case::InitialState::SteadySliding => "steady-sliding",
+        InitialState::Rest => "rest",
+        InitialState::SteadySliding => "steady-sliding",
     }
 }
 
