@@ -142,7 +142,7 @@ fn solve(
     CycleResult {
         harmonic: solver.body().harmonic(),
         onsets: solver.onsets(&point.damping),
-        field: found.as_ref().ok().map(|cycle| solver.field(cycle)),
+        field: found.as_ref().ok().map(|cycle| solver.field(cycle, 0.0)),
         cycle: found.map_err(|error: CycleError| error.to_string()),
         branch,
         wall_s: start.elapsed().as_secs_f64(),

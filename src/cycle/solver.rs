@@ -268,10 +268,10 @@ impl CycleSolver {
         }
     }
 
-    /// Displacement (m) and velocity (m/s) over all dofs of the mesh, in nodal frames, at time zero of the cycle.
+    /// Displacement (m) and velocity (m/s) over all dofs of the mesh, in nodal frames, at a time (s).
     ///
-    /// The state of a contact node at angle `theta` is that of phase `n theta`.
-    pub fn field(&self, cycle: &LimitCycle) -> [Vec<f64>; 2] {
+    /// The state of a contact node at angle `theta` is that of phase `n theta + omega t`.
+    pub fn field(&self, cycle: &LimitCycle, time: f64) -> [Vec<f64>; 2] {
         let wave = self.wave();
         let profiles = cycle.profiles(&wave);
         let rays = profiles[0].1.len() + 1;
@@ -281,7 +281,8 @@ impl CycleSolver {
             for (k, (rate, profile)) in profiles.iter().enumerate() {
                 // Whole turns taken out first, so that high harmonics lose no digits.
                 let turns = (k * harmonic * sector) % sectors;
-                let turn = c64::from_polar(1.0, TAU * turns as f64 / sectors as f64);
+                let later = k as f64 * cycle.state.frequency * time;
+                let turn = c64::from_polar(1.0, TAU * turns as f64 / sectors as f64 + later);
                 for (i, value) in profile.iter().enumerate() {
                     for component in 0..2 {
                         let dof = 2 * (sector * rays + i) + component;
