@@ -1,7 +1,7 @@
 //! `frictionsim plot`: the figures of a results folder once more.
 
 use super::session::start_threads;
-use super::{Failure, cea, collect, terminal, transient};
+use super::{Failure, cea, collect, cycle, terminal, transient};
 use crate::case::{Case, RawCase};
 use crate::results::{
     DOTS_PER_INCH, FolderError, Manifest, OutputFolder, read_manifest, read_summary,
@@ -65,6 +65,12 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             let summary = read_summary(path)?;
             let folder = OutputFolder::reopen(path)?;
             transient::redraw(&folder, &case, &summary, arguments.dpi)?;
+            folder.finish()?;
+        }
+        "cycle" => {
+            let summary = read_summary(path)?;
+            let folder = OutputFolder::reopen(path)?;
+            cycle::redraw(&folder, &case, &summary, arguments.dpi)?;
             folder.finish()?;
         }
         "sweep" => collect::redraw(path, arguments.dpi)?,

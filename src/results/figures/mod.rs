@@ -15,6 +15,7 @@ pub mod raster;
 pub mod svg;
 pub mod text;
 
+mod branches;
 mod contact_state;
 mod contact_status;
 mod convergence;
@@ -24,6 +25,8 @@ mod energy;
 mod growth;
 mod identification;
 mod mode_shapes;
+mod node_cycle;
+mod node_orbit;
 mod overview;
 mod prestress;
 mod snapshots;
@@ -33,6 +36,9 @@ mod sweep;
 mod time_stack;
 mod trajectories;
 
+pub use branches::{
+    BranchCurve, BranchCurves, Stability, draw_branch_frequencies, draw_branch_shares,
+};
 pub use contact_state::{ContactState, draw_contact_state};
 pub use contact_status::StatusHistory;
 pub use convergence::{ConvergenceSeries, ConvergenceStudy, draw_convergence, observed_order};
@@ -42,6 +48,8 @@ pub use energy::{EnergyFlows, draw_energy_flows, moving_average};
 pub use growth::{HarmonicGrowth, PredictedGrowth, draw_harmonic_growth};
 pub use identification::{DampingIdentification, Resonance, draw_damping_identification};
 pub use mode_shapes::{ModeShape, ModeShapes, draw_mode_over_friction, draw_mode_shapes};
+pub use node_cycle::{NodeCycle, draw_node_cycle};
+pub use node_orbit::draw_node_orbit;
 pub use overview::{TransientOverview, draw_transient_overview};
 pub use prestress::{PrestressedContact, draw_prestress};
 pub use raster::render_png;

@@ -121,7 +121,11 @@ pub fn draw_speed_frequencies(data: &SpeedSweep) -> Result<String, FigureError> 
     ))
 }
 
-fn draw_reference_lines(svg: &mut Svg, panel: &Panel, references: &[ReferenceFrequency]) {
+pub(super) fn draw_reference_lines(
+    svg: &mut Svg,
+    panel: &Panel,
+    references: &[ReferenceFrequency],
+) {
     let mut sorted: Vec<&ReferenceFrequency> = references.iter().collect();
     sorted.sort_by(|a, b| b.frequency_hz.total_cmp(&a.frequency_hz));
     let wanted: Vec<f64> = sorted
