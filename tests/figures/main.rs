@@ -3,6 +3,7 @@
 //!
 //! Consistency checks: they look at the drawing, not at the physics.
 
+mod cycles;
 mod report;
 mod run;
 mod studies;

@@ -126,8 +126,8 @@ pub fn draw_branches(data: &CycleFigures<'_>) -> Result<Vec<NamedFigure>, Figure
     collect(vec![
         (
             "branch-frequencies".into(),
-            "Main frequency (a) and amplitude (b) of the limit cycles along their branches; dashed: onsets of \
-             the eigenvalue analysis."
+            "Main frequency (a) and amplitude (b) of the limit cycles along their branches; dashed: where \
+             linear theory has them begin."
                 .into(),
             Box::new(move || draw_branch_frequencies(curves)),
         ),
@@ -152,7 +152,7 @@ fn contact_state(
     let angles: Vec<f64> = (0..count).map(|i| TAU * i as f64 / count as f64).collect();
     let status: Vec<ContactStatus> = wave.statuses().into_iter().cycle().take(count).collect();
     draw_contact_state(&ContactState {
-        name: format!("*n* = {n}, {:.2} kHz", wave.frequency_hz * 1e-3),
+        name: format!("{}, wave ↻", caption(n, wave)),
         angles: &angles,
         status: &status,
         pressure: &around(&wave.pressure),
@@ -257,7 +257,7 @@ fn branch_curves(data: &CycleFigures<'_>) -> BranchCurves {
             .map(|(family, branch)| branch_curve(family, branch))
             .collect(),
         references: families()
-            .flat_map(|(family, branch)| references(data, family, branch))
+            .filter_map(|(family, _)| reference(family))
             .collect(),
     }
 }
@@ -282,24 +282,13 @@ fn branch_curve(family: &FamilyRecord, branch: &BranchRecord) -> BranchCurve {
     }
 }
 
-/// Onsets below the largest friction that the branch sees: the modes that are unstable along it.
-fn references(
-    data: &CycleFigures<'_>,
-    family: &FamilyRecord,
-    branch: &BranchRecord,
-) -> Vec<ReferenceFrequency> {
-    let own = data.contact.friction_coefficient;
-    let friction = match branch.key.as_str() {
-        FRICTION => branch.values.iter().copied().fold(own, f64::max),
-        _ => own,
-    };
-    let onsets = family.onsets.iter().filter(|onset| onset[0] < friction);
-    onsets
-        .map(|&[critical, frequency_hz]| ReferenceFrequency {
-            frequency_hz,
-            label: format!("*n* = {} at *μ* = {critical:.3}", family.harmonic),
-        })
-        .collect()
+/// The onset that the family is born at.
+fn reference(family: &FamilyRecord) -> Option<ReferenceFrequency> {
+    let [critical, frequency_hz] = *family.onsets.first()?;
+    Some(ReferenceFrequency {
+        frequency_hz,
+        label: format!("*n* = {} at *μ* = {critical:.3}", family.harmonic),
+    })
 }
 
 const FRICTION: &str = "contact.friction_coefficient";

@@ -1,15 +1,10 @@
-//! Branches of limit cycles over a parameter: frequency and amplitude, statuses and powers.
+//! Branches of limit cycles over a parameter, as curves that may turn back.
 
-use super::axis::{Axis, extremes, prefixed};
-use super::colour::{
-    CONTACT_DISSIPATION, INK, MATERIAL_DISSIPATION, NORMAL_POWER, SERIES, SLIDE_POWER, SLIP, STICK,
-    STICK_POWER,
-};
-use super::legend::{self, Key};
+use super::axis::{Axis, extremes};
+use super::colour::INK;
+use super::legend::Key;
 use super::panel::{Marker, Panel};
-use super::svg::{DOUBLE_COLUMN, Rect, Stroke, Svg, panel_letter};
-use super::sweep::draw_reference_lines;
-use super::text::{Anchor, TextStyle};
+use super::svg::{Stroke, Svg};
 use super::time_stack::ReferenceFrequency;
 use super::{FigureError, expect_length, expect_some};
 
@@ -164,7 +159,7 @@ impl BranchCurve {
     }
 
     /// Draws one quantity along the branch: stable pieces strong, unstable ones dashed, others plain.
-    fn draw(&self, svg: &mut Svg, panel: &Panel, ys: &[f64], factor: f64, colour: &str) {
+    pub(super) fn draw(&self, svg: &mut Svg, panel: &Panel, ys: &[f64], factor: f64, colour: &str) {
         let places = self.places();
         let mut start = 0;
         while start + 1 < places.len() {
@@ -184,7 +179,15 @@ impl BranchCurve {
         }
     }
 
-    fn draw_folds(&self, svg: &mut Svg, panel: &Panel, ys: &[f64], factor: f64, colour: &str) {
+    /// Diamonds where the branch turns back.
+    pub(super) fn draw_folds(
+        &self,
+        svg: &mut Svg,
+        panel: &Panel,
+        ys: &[f64],
+        factor: f64,
+        colour: &str,
+    ) {
         let folds = self.fold_places().into_iter();
         let points = folds.map(|(place, _)| (place.value, factor * place.of(ys)));
         panel.points(svg, points, Marker::Diamond, 1.9, colour);
@@ -199,7 +202,8 @@ fn stroke(stability: Stability, colour: &str) -> Stroke<'_> {
     }
 }
 
-fn check(data: &BranchCurves) -> Result<Axis, FigureError> {
+/// The parameter's axis, once the arrays are known to fit together.
+pub(super) fn parameter_axis(data: &BranchCurves) -> Result<Axis, FigureError> {
     expect_some("branches", data.curves.len())?;
     for curve in &data.curves {
         curve.check()?;
@@ -221,8 +225,8 @@ fn check(data: &BranchCurves) -> Result<Axis, FigureError> {
     })
 }
 
-/// Legend entries for what a line's dash and the marks mean, where the branches have them.
-fn style_entries(data: &BranchCurves) -> Vec<(Key, String)> {
+/// Legend entries for what a line's dash and the mark of a fold mean, where the branches have them.
+pub(super) fn style_entries(data: &BranchCurves, fold: Key) -> Vec<(Key, String)> {
     let has = |wanted| {
         data.curves
             .iter()
@@ -245,186 +249,9 @@ fn style_entries(data: &BranchCurves) -> Vec<(Key, String)> {
         entries.push((line(Stability::Unstable), "unstable".into()));
     }
     if data.curves.iter().any(|curve| !curve.folds.is_empty()) {
-        entries.push((Key::Point(Marker::Diamond, INK.into()), "fold".into()));
+        entries.push((fold, "fold".into()));
     }
     entries
-}
-
-/// Draws main frequency and amplitude of the limit cycles over the parameter, one curve for each family.
-///
-/// # Errors
-/// [`FigureError`] if arrays do not fit together or are empty.
-pub fn draw_branch_frequencies(data: &BranchCurves) -> Result<String, FigureError> {
-    let x = check(data)?;
-    let colours = || SERIES.iter().cycle();
-    let mut entries: Vec<(Key, String)> = data
-        .curves
-        .iter()
-        .zip(colours())
-        .map(|(curve, colour)| (Key::line(colour), curve.name.clone()))
-        .collect();
-    entries.extend(style_entries(data));
-    if data.curves.iter().any(|curve| curve.marked.is_some()) {
-        entries.push((
-            Key::Point(Marker::Circle, INK.into()),
-            "the case's own cycle".into(),
-        ));
-    }
-    if !data.references.is_empty() {
-        entries.push((Key::dashed(INK), "onset in the eigenvalue analysis".into()));
-    }
-    let kilohertz = data.curves.iter().flat_map(|curve| &curve.frequency_hz);
-    let lines = data.references.iter().map(|line| &line.frequency_hz);
-    let upper = Axis::around(
-        "main frequency *f* (kHz)",
-        kilohertz.chain(lines).map(|f| f * 1e-3),
-    );
-    let reach = extremes(
-        data.curves
-            .iter()
-            .flat_map(|curve| curve.amplitude.iter().copied()),
-    )
-    .1;
-    let (factor, unit) = prefixed(reach, "m");
-    let lower = Axis::linear(
-        &format!("amplitude of *u*_{{θ}} ({unit})"),
-        0.0,
-        1.06 * reach * factor,
-    );
-    let mut svg = Svg::new("branch-frequencies", DOUBLE_COLUMN, 100.0);
-    let (left, heights) = (44.0, [150.0, 92.0]);
-    let width = DOUBLE_COLUMN - left - 112.0;
-    let legend_width = DOUBLE_COLUMN - left;
-    legend::draw_legend(&mut svg, left, 2.0, legend_width, &entries);
-    let top = 16.0 + legend::legend_height(&entries, legend_width);
-    let mut panels = [
-        Panel::new(Rect::new(left, top, width, heights[0]), x.clone(), upper).without_x_labels(),
-        Panel::new(
-            Rect::new(left, top + heights[0] + 16.0, width, heights[1]),
-            x,
-            lower,
-        ),
-    ];
-    for (index, panel) in panels.iter_mut().enumerate() {
-        panel.title_distance = Some(33.0);
-        panel.draw_ground(&mut svg);
-        panel_letter(&mut svg, left, panel.area.y - 4.0, index);
-    }
-    draw_reference_lines(&mut svg, &panels[0], &data.references);
-    for (curve, colour) in data.curves.iter().zip(colours()) {
-        for (part, (panel, ys, factor)) in [
-            (&panels[0], &curve.frequency_hz, 1e-3),
-            (&panels[1], &curve.amplitude, factor),
-        ]
-        .into_iter()
-        .enumerate()
-        {
-            curve.draw(&mut svg, panel, ys, factor, colour);
-            curve.draw_folds(&mut svg, panel, ys, factor, colour);
-            let marked = curve
-                .marked
-                .map(|cycle| (cycle[0], factor * cycle[1 + part]));
-            panel.points(&mut svg, marked, Marker::Circle, 2.2, colour);
-        }
-    }
-    for panel in &panels {
-        panel.draw_frame(&mut svg);
-    }
-    svg.set_height(panels[1].area.bottom() + Panel::bottom_margin());
-    Ok(svg.finish(
-        "Limit cycles over a parameter",
-        "Main frequency and amplitude along the branch of each family of limit cycles; dashed lines mark onsets of the \
-         eigenvalue analysis.",
-    ))
-}
-
-/// Draws statuses and power shares of the limit cycles over the parameter, one column for each family.
-///
-/// # Errors
-/// [`FigureError`] if arrays do not fit together or are empty.
-pub fn draw_branch_shares(data: &BranchCurves) -> Result<String, FigureError> {
-    let x = check(data)?;
-    let statuses = [("stick", STICK), ("slip", SLIP), ("open", INK)];
-    let powers = [
-        ("stick", STICK_POWER),
-        ("slide", SLIDE_POWER),
-        ("dissipated in the contact", CONTACT_DISSIPATION),
-        ("material damping", MATERIAL_DISSIPATION),
-        ("normal contact", NORMAL_POWER),
-    ];
-    let columns = data.curves.len().min(3);
-    let (left, gap, height) = (44.0, 14.0, 104.0);
-    let width =
-        ((DOUBLE_COLUMN - left - 8.0 - gap * (columns - 1) as f64) / columns as f64).min(300.0);
-    let all = data
-        .curves
-        .iter()
-        .flat_map(|curve| curve.shares.iter().flatten());
-    let share_axis = Axis::around(
-        "share of external power (%)",
-        all.map(|s| 100.0 * s).chain([0.0, 100.0]),
-    );
-    let mut svg = Svg::new("branch-shares", DOUBLE_COLUMN, 100.0);
-    let keys = |named: &[(&str, &str)]| -> Vec<(Key, String)> {
-        named
-            .iter()
-            .map(|(name, colour)| (Key::line(colour), (*name).to_string()))
-            .collect()
-    };
-    let block = 2.0 * (height + 24.0) + Panel::bottom_margin() + 4.0;
-    for (index, curve) in data.curves.iter().enumerate() {
-        let (row, column) = (index / columns, index % columns);
-        let top = 26.0 + row as f64 * block;
-        let x_left = left + column as f64 * (width + gap);
-        if column == 0 {
-            let mut entries = keys(&statuses);
-            entries.extend(style_entries(data));
-            legend::draw_legend(&mut svg, left, top - 24.0, DOUBLE_COLUMN - left, &entries);
-            legend::draw_legend(
-                &mut svg,
-                left,
-                top + height + 6.0,
-                DOUBLE_COLUMN - left,
-                &keys(&powers),
-            );
-        }
-        let areas = [0.0, height + 30.0].map(|down| Rect::new(x_left, top + down, width, height));
-        let axes = [
-            Axis::linear("contact nodes (%)", 0.0, 100.0),
-            share_axis.clone(),
-        ];
-        let parts: [Vec<(&Vec<f64>, &str)>; 2] = [
-            curve.status.iter().zip(statuses.map(|s| s.1)).collect(),
-            curve.shares.iter().zip(powers.map(|p| p.1)).collect(),
-        ];
-        for (part, ((area, y), series)) in areas.into_iter().zip(axes).zip(parts).enumerate() {
-            let mut panel = Panel::new(area, x.clone(), y);
-            panel.labels_x = part == 1;
-            panel.labels_y = column == 0;
-            panel.title_distance = Some(33.0);
-            panel.draw_ground(&mut svg);
-            for (values, colour) in series {
-                curve.draw(&mut svg, &panel, values, 100.0, colour);
-                curve.draw_folds(&mut svg, &panel, values, 100.0, colour);
-            }
-            panel.draw_frame(&mut svg);
-            panel_letter(
-                &mut svg,
-                panel.area.x,
-                panel.area.y - 4.0,
-                part * data.curves.len() + index,
-            );
-        }
-        let style = TextStyle::new(7.5).anchored(Anchor::Middle);
-        svg.text(x_left + 0.5 * width, top - 4.0, &curve.name, &style);
-    }
-    let rows = data.curves.len().div_ceil(columns);
-    svg.set_height(26.0 + rows as f64 * block);
-    Ok(svg.finish(
-        "Contact status and power shares over a parameter",
-        "Shares of sticking, slipping and open contact, and powers relative to the external one, along the branch of each \
-         family of limit cycles.",
-    ))
 }
 
 #[cfg(test)]

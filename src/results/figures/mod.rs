@@ -15,6 +15,7 @@ pub mod raster;
 pub mod svg;
 pub mod text;
 
+mod branch_figures;
 mod branches;
 mod contact_state;
 mod contact_status;
@@ -29,6 +30,7 @@ mod node_cycle;
 mod node_orbit;
 mod overview;
 mod prestress;
+mod response;
 mod snapshots;
 mod spectrum;
 mod stability;
@@ -36,9 +38,8 @@ mod sweep;
 mod time_stack;
 mod trajectories;
 
-pub use branches::{
-    BranchCurve, BranchCurves, Stability, draw_branch_frequencies, draw_branch_shares,
-};
+pub use branch_figures::{draw_branch_frequencies, draw_branch_shares};
+pub use branches::{BranchCurve, BranchCurves, Stability};
 pub use contact_state::{ContactState, draw_contact_state};
 pub use contact_status::StatusHistory;
 pub use convergence::{ConvergenceSeries, ConvergenceStudy, draw_convergence, observed_order};
@@ -53,6 +54,7 @@ pub use node_orbit::draw_node_orbit;
 pub use overview::{TransientOverview, draw_transient_overview};
 pub use prestress::{PrestressedContact, draw_prestress};
 pub use raster::render_png;
+pub use response::{ResponsePlot, draw_response};
 pub use snapshots::{Snapshot, Snapshots, draw_snapshots};
 pub use spectrum::{SpectrumPlot, draw_spectrum};
 pub use stability::{StabilityMap, draw_stability_map};

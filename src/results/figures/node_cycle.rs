@@ -65,13 +65,13 @@ pub fn draw_node_cycle(data: &NodeCycle) -> Result<String, FigureError> {
     let keys =
         STATUSES.map(|status| (Key::patch(pale(status)), name_of_status(status).to_string()));
     legend::draw_legend(&mut svg, left, 2.0, 200.0, &keys);
-    for (component, name) in [(1, "tangential *u*_{θ}"), (0, "radial *u*_{r}")] {
+    for (component, name) in [(1, "tangential displacement"), (0, "radial displacement")] {
         let values = data.displacement[component];
         let (factor, y) = axis_for(["*u*_{r}", "*u*_{θ}"][component], values, "m");
         let panel = stack.push(y, 62.0, false);
         let curve = (Key::line(INK), "", repeated(values, factor));
         draw_curves(&mut svg, &panel, data, &stack, &[curve]);
-        stack.caption(&mut svg, &panel, &format!("{name}, displacement"));
+        stack.caption(&mut svg, &panel, name);
     }
     draw_velocity(&mut svg, &mut stack, data);
     draw_tractions(&mut svg, &mut stack, data);
