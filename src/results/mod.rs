@@ -11,6 +11,7 @@ mod framed;
 pub mod identification;
 mod manifest;
 mod mesh;
+mod parameter;
 mod record;
 mod reopening;
 pub mod report;

@@ -6,12 +6,12 @@ mod report;
 pub use record::{BranchRecord, CycleRecord, FamilyRecord, WaveRecord};
 pub use report::draw;
 
-use super::figures::text::literal;
 use super::figures::{
     BranchCurve, BranchCurves, ContactState, FigureError, NodeCycle, ReferenceFrequency, Snapshot,
     Snapshots, Stability, draw_branch_frequencies, draw_branch_shares, draw_contact_state,
     draw_node_cycle, draw_node_orbit, draw_snapshots,
 };
+use super::parameter::parameter_title;
 use super::report::NamedFigure;
 use crate::contact::{ContactStatus, SlidingContact};
 use crate::fem::{ElasticMaterial, nodal_stress};
@@ -289,18 +289,4 @@ fn reference(family: &FamilyRecord) -> Option<ReferenceFrequency> {
         frequency_hz,
         label: format!("*n* = {} at *μ* = {critical:.3}", family.harmonic),
     })
-}
-
-const FRICTION: &str = "contact.friction_coefficient";
-
-/// Title of a parameter's axis, with its unit.
-fn parameter_title(key: &str) -> String {
-    match key {
-        FRICTION => "friction coefficient *μ* (–)".into(),
-        "contact.rotation_speed_rpm" => "rotation speed *Ω* (rpm)".into(),
-        "contact.interference" => "interference *δ* (m)".into(),
-        "damping.mass_coefficient" => "mass damping *α*_{R} (1/s)".into(),
-        "damping.stiffness_coefficient" => "stiffness damping *β*_{R} (s)".into(),
-        other => literal(other),
-    }
 }

@@ -1,5 +1,6 @@
 //! The figures of an analysed time signal, and what is kept to draw them again.
 
+use crate::results::figures::text::literal;
 use crate::results::figures::{
     FigureError, ReferenceFrequency, SpectrogramMap, SpectrumPlot, TransientOverview,
     draw_spectrum, draw_transient_overview,
@@ -96,7 +97,7 @@ fn overview(record: &SignalRecord, channel: &ChannelRecord) -> Result<String, St
         .collect();
     let centres: Vec<f64> = map.times.iter().map(|t| record.start + t).collect();
     let drawing = draw_transient_overview(&TransientOverview {
-        signal_name: channel.name.clone(),
+        signal_name: literal(&channel.name),
         signal_unit: String::new(),
         times: &times,
         signal: &channel.samples,
@@ -117,7 +118,7 @@ fn overview(record: &SignalRecord, channel: &ChannelRecord) -> Result<String, St
 /// The spectrum that the peaks are taken from.
 fn spectrum(record: &SignalRecord, channel: &ChannelRecord) -> Result<String, String> {
     let drawing = draw_spectrum(&SpectrumPlot {
-        signal_name: channel.name.clone(),
+        signal_name: literal(&channel.name),
         unit: String::new(),
         frequencies_hz: &channel.frequencies_hz,
         amplitude: &channel.amplitudes,
