@@ -127,7 +127,7 @@ pub fn draw_branches(data: &CycleFigures<'_>) -> Result<Vec<NamedFigure>, Figure
         (
             "branch-frequencies".into(),
             "Main frequency (a) and amplitude (b) of the limit cycles along their branches; dashed: where \
-             linear theory has them begin."
+             linear theory has them begin; diamonds: folds wider than the spacing of the cycles."
                 .into(),
             Box::new(move || draw_branch_frequencies(curves)),
         ),

@@ -2,6 +2,7 @@
 
 use super::{CycleFigures, draw_branches, draw_cycles};
 use crate::results::drawing::{DrawingError, write_report};
+use crate::results::figures::axis::extremes;
 use crate::results::folder::OutputFolder;
 use crate::results::manifest::Manifest;
 use crate::results::report::{Report, ReportSection, ReportTable};
@@ -116,14 +117,22 @@ fn branch_text(cycle: &Value) -> Option<String> {
             .unwrap_or("?")
     };
     let folds = branch["folds"].as_array().map_or(&[][..], Vec::as_slice);
-    let places: Vec<String> = folds
-        .iter()
-        .filter_map(Value::as_f64)
-        .map(|fold| format!("{fold:.5}"))
-        .collect();
-    let folds = match places.is_empty() {
-        true => "no fold".to_owned(),
-        false => format!("folds at {}", places.join(", ")),
+    let folds: Vec<f64> = folds.iter().filter_map(Value::as_f64).collect();
+    // Any parameter, of any size.
+    let text_of = |value: f64| {
+        format!("{value:.6e}")
+            .parse::<f64>()
+            .map_or_else(|_| String::new(), |v| format!("{v:?}"))
+    };
+    let (low, high) = extremes(folds.iter().copied());
+    let folds = match folds.len() {
+        0 => "no fold".to_owned(),
+        1 => format!("a fold at {}", text_of(low)),
+        count => format!(
+            "{count} folds between {} and {}",
+            text_of(low),
+            text_of(high)
+        ),
     };
     let saturation = match branch["saturation_speed_rpm"].as_f64() {
         Some(speed) => format!("; no point sticks above {speed:.1} rpm"),

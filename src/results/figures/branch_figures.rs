@@ -207,14 +207,14 @@ fn draw_share_legends(svg: &mut Svg, top: f64, data: &BranchCurves) {
     legend::draw_legend(svg, LEFT, top + SHARE_HEIGHT + 6.0, room, &keys(&POWERS));
 }
 
-/// The statuses (`part` 0) or the powers (1) of a branch; dotted lines at its folds.
+/// The statuses (`part` 0) or the powers (1) of a branch; dotted lines where it is seen to turn back.
 fn draw_shares(svg: &mut Svg, panel: &Panel, curve: &BranchCurve, part: usize) {
     let (series, named): (&[Vec<f64>], &[Named]) = match part {
         0 => (&curve.status, &STATUSES),
         _ => (&curve.shares, &POWERS),
     };
     panel.draw_ground(svg);
-    for &fold in &curve.folds {
+    for fold in curve.visible_folds() {
         panel.vertical(svg, fold, &fold_stroke());
     }
     for (values, (_, colour)) in series.iter().zip(named) {

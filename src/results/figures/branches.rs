@@ -79,53 +79,30 @@ impl BranchCurve {
         expect_length("stability of limit cycles", self.stability.len(), count)
     }
 
-    /// Where the folds lie, and whether the curve is seen to turn there: it then meets the same value before and after.
+    /// Where the curve is seen to turn: it meets the same value before and after a fold.
     ///
-    /// A branch that turns twice between two cycles goes on as if it had not; its folds are placed on the line.
-    fn fold_places(&self) -> Vec<(Place, bool)> {
+    /// Where the branch turns twice between two values, the curve goes on as if it had not: such folds are narrower than
+    /// the spacing of its cycles.
+    fn fold_places(&self) -> Vec<Place> {
         let mut left = self.folds.clone();
         let mut places = Vec::new();
-        let count = self.values.len();
-        for before in 0..count.saturating_sub(1) {
-            let value = self.values[before];
-            if value != self.values[before + 1] {
-                continue;
-            }
-            let distance = |i: &usize| (left[*i] - value).abs();
+        for (before, pair) in self.values.windows(2).enumerate() {
+            let distance = |i: &usize| (left[*i] - pair[0]).abs();
             let nearest = (0..left.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
-            if let Some(nearest) = nearest {
-                let value = left.remove(nearest);
-                places.push((
-                    Place {
-                        value,
-                        before,
-                        weight: 0.5,
-                    },
-                    true,
-                ));
-            }
-        }
-        for value in left {
-            let outside = |i: &usize| {
-                let (a, b) = (self.values[*i], self.values[*i + 1]);
-                (a.min(b) - value).max(value - a.max(b)).max(0.0)
-            };
-            let nearest =
-                (0..count.saturating_sub(1)).min_by(|a, b| outside(a).total_cmp(&outside(b)));
-            if let Some(before) = nearest {
-                let (from, to) = (self.values[before], self.values[before + 1]);
-                let weight = ((value - from) / (to - from)).clamp(0.0, 1.0);
-                places.push((
-                    Place {
-                        value,
-                        before,
-                        weight,
-                    },
-                    false,
-                ));
+            if let Some(nearest) = nearest.filter(|_| pair[0] == pair[1]) {
+                places.push(Place {
+                    value: left.remove(nearest),
+                    before,
+                    weight: 0.5,
+                });
             }
         }
         places
+    }
+
+    /// Parameter values at which the curve is seen to turn.
+    pub(super) fn visible_folds(&self) -> Vec<f64> {
+        self.fold_places().iter().map(|place| place.value).collect()
     }
 
     /// The curve's points, each with the stability of the piece after it.
@@ -143,10 +120,8 @@ impl BranchCurve {
                 },
                 stability,
             ));
-            let turn = folds
-                .iter()
-                .find(|(place, turns)| *turns && place.before == before);
-            places.extend(turn.map(|(place, _)| (*place, stability)));
+            let turn = folds.iter().find(|place| place.before == before);
+            places.extend(turn.map(|place| (*place, stability)));
         }
         places
     }
@@ -179,7 +154,7 @@ impl BranchCurve {
         }
     }
 
-    /// Diamonds where the branch turns back.
+    /// Diamonds where the curve turns back.
     pub(super) fn draw_folds(
         &self,
         svg: &mut Svg,
@@ -189,7 +164,7 @@ impl BranchCurve {
         colour: &str,
     ) {
         let folds = self.fold_places().into_iter();
-        let points = folds.map(|(place, _)| (place.value, factor * place.of(ys)));
+        let points = folds.map(|place| (place.value, factor * place.of(ys)));
         panel.points(svg, points, Marker::Diamond, 1.9, colour);
     }
 }
@@ -248,7 +223,11 @@ pub(super) fn style_entries(data: &BranchCurves, fold: Key) -> Vec<(Key, String)
     if has(Stability::Unstable) {
         entries.push((line(Stability::Unstable), "unstable".into()));
     }
-    if data.curves.iter().any(|curve| !curve.folds.is_empty()) {
+    if data
+        .curves
+        .iter()
+        .any(|curve| !curve.visible_folds().is_empty())
+    {
         entries.push((fold, "fold".into()));
     }
     entries
@@ -276,14 +255,13 @@ mod tests {
     }
 
     #[test]
-    fn folds_between_two_cycles_lie_on_the_line_between_them() {
-        let found = curve(&[1.0, 2.0, 4.0], &[3.5, 3.0]).fold_places();
-        let ordinates: Vec<f64> = found
-            .iter()
-            .map(|(place, _)| place.of(&[0.0, 10.0, 20.0]))
-            .collect();
-        assert_eq!(ordinates, [17.5, 15.0]);
-        assert!(found.iter().all(|(_, turns)| !turns));
+    fn folds_narrower_than_the_spacing_of_the_cycles_are_not_seen() {
+        let found = curve(&[1.0, 2.0, 4.0], &[3.5, 3.0]);
+        assert!(found.visible_folds().is_empty());
+        assert_eq!(found.places().len(), 3);
+        // Two of four folds belong to the turns, each the nearest.
+        let found = curve(&[1.0, 2.0, 2.0, 1.0, 1.0, 2.0], &[1.3, 1.2, 2.3, 0.9]);
+        assert_eq!(found.visible_folds(), [2.3, 0.9]);
     }
 
     #[test]
