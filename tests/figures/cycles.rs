@@ -77,7 +77,7 @@ fn orbit_of_a_contact_node_shows_phase_plots_and_path() {
     let svg = draw_node_orbit(&cycle(&node)).unwrap();
     let expected = [
         "velocity vθ (m/s)",
-        "velocity vr (m/s)",
+        "velocity vr (mm/s)",
         "displacement ur (µm)",
         "path",
         "slip",

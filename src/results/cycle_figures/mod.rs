@@ -126,7 +126,7 @@ pub fn draw_branches(data: &CycleFigures<'_>) -> Result<Vec<NamedFigure>, Figure
     collect(vec![
         (
             "branch-frequencies".into(),
-            "Main frequency (a) and amplitude (b) of the limit cycles along their branches; dashed: where \
+            "Main frequency (a) and amplitude (b) of the limit cycles along their branches; dotted: where \
              linear theory has them begin; diamonds: folds wider than the spacing of the cycles."
                 .into(),
             Box::new(move || draw_branch_frequencies(curves)),

@@ -61,7 +61,7 @@ pub fn draw_branch_frequencies(data: &BranchCurves) -> Result<String, FigureErro
         panel.draw_ground(&mut svg);
         panel_letter(&mut svg, LEFT, panel.area.y - 4.0, index);
         if index == 0 {
-            draw_reference_lines(&mut svg, &panel, &data.references);
+            draw_reference_lines(&mut svg, &panel, &data.references, &dotted());
         }
         for (curve, colour) in data.curves.iter().zip(SERIES.iter().cycle()) {
             let values = quantity(curve);
@@ -75,7 +75,7 @@ pub fn draw_branch_frequencies(data: &BranchCurves) -> Result<String, FigureErro
     svg.set_height(lower.bottom() + Panel::bottom_margin());
     Ok(svg.finish(
         "Limit cycles over a parameter",
-        "Main frequency and amplitude along the branch of each family of limit cycles; dashed lines mark the onset of \
+        "Main frequency and amplitude along the branch of each family of limit cycles; dotted lines mark the onset of \
          each family.",
     ))
 }
@@ -92,7 +92,7 @@ fn family_entries(data: &BranchCurves) -> Vec<(Key, String)> {
     }
     if !data.references.is_empty() {
         let name = "onset of the instability, linear theory";
-        entries.push((Key::dashed(INK), name.into()));
+        entries.push((key_of(&dotted()), name.into()));
     }
     entries
 }
@@ -176,11 +176,16 @@ pub fn draw_branch_shares(data: &BranchCurves) -> Result<String, FigureError> {
     ))
 }
 
-fn fold_stroke() -> Stroke<'static> {
+/// What is no curve of a branch: dashes there mean unstable cycles.
+fn dotted() -> Stroke<'static> {
     Stroke {
         dash: &[0.8, 1.4],
-        ..Stroke::solid(MUTED, 0.7)
+        ..Stroke::solid(MUTED, 0.8)
     }
+}
+
+fn key_of(stroke: &Stroke<'_>) -> Key {
+    Key::Line(stroke.colour.into(), stroke.width, stroke.dash.to_vec())
 }
 
 /// One legend above the statuses, one above the powers.
@@ -191,17 +196,8 @@ fn draw_share_legends(svg: &mut Svg, top: f64, data: &BranchCurves) {
             .map(|(name, colour)| (Key::line(colour), (*name).to_string()))
             .collect()
     };
-    let Stroke {
-        colour,
-        width,
-        dash,
-        ..
-    } = fold_stroke();
     let mut entries = keys(&STATUSES);
-    entries.extend(style_entries(
-        data,
-        Key::Line(colour.into(), width, dash.to_vec()),
-    ));
+    entries.extend(style_entries(data, key_of(&dotted())));
     let room = DOUBLE_COLUMN - LEFT;
     legend::draw_legend(svg, LEFT, top - 24.0, room, &entries);
     legend::draw_legend(svg, LEFT, top + SHARE_HEIGHT + 6.0, room, &keys(&POWERS));
@@ -215,7 +211,7 @@ fn draw_shares(svg: &mut Svg, panel: &Panel, curve: &BranchCurve, part: usize) {
     };
     panel.draw_ground(svg);
     for fold in curve.visible_folds() {
-        panel.vertical(svg, fold, &fold_stroke());
+        panel.vertical(svg, fold, &dotted());
     }
     for (values, (_, colour)) in series.iter().zip(named) {
         curve.draw(svg, panel, values, 100.0, colour);

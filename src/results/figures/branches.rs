@@ -111,17 +111,19 @@ impl BranchCurve {
         let mut places = Vec::new();
         for before in 0..self.values.len() {
             let value = self.values[before];
-            let stability = self.piece(before);
-            places.push((
-                Place {
-                    value,
-                    before,
-                    weight: 0.0,
-                },
-                stability,
-            ));
             let turn = folds.iter().find(|place| place.before == before);
-            places.extend(turn.map(|place| (*place, stability)));
+            // At a fold stability changes, or does not change at all.
+            let stability = match turn {
+                Some(_) => self.stability[before],
+                None => self.piece(before),
+            };
+            let place = Place {
+                value,
+                before,
+                weight: 0.0,
+            };
+            places.push((place, stability));
+            places.extend(turn.map(|place| (*place, self.stability[before + 1])));
         }
         places
     }
@@ -265,10 +267,16 @@ mod tests {
     }
 
     #[test]
-    fn a_piece_is_stable_only_between_two_stable_cycles() {
+    fn a_piece_is_stable_only_between_two_stable_cycles_or_up_to_a_fold() {
         let mut curve = curve(&[1.0, 2.0, 3.0], &[]);
         curve.stability = vec![Stability::Stable, Stability::Stable, Stability::Unstable];
         assert_eq!(curve.piece(0), Stability::Stable);
         assert_eq!(curve.piece(1), Stability::Unknown);
+        // A fold between two cycles is where stability changes.
+        curve.values[2] = 2.0;
+        curve.folds = vec![2.2];
+        let pieces: Vec<Stability> = curve.places().iter().map(|(_, s)| *s).collect();
+        let (stable, unstable) = (Stability::Stable, Stability::Unstable);
+        assert_eq!(pieces[..3], [stable, stable, unstable]);
     }
 }
