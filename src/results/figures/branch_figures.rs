@@ -25,6 +25,9 @@ const SHARE_HEIGHT: f64 = 104.0;
 /// Name and colour of a curve.
 type Named = (&'static str, &'static str);
 
+/// One quantity along a branch.
+type Column = fn(&BranchCurve) -> &Vec<f64>;
+
 /// Open contact is drawn darker than its areas are.
 const STATUSES: [Named; 3] = [("stick", STICK), ("slip", SLIP), ("open", INK)];
 
@@ -52,7 +55,7 @@ pub fn draw_branch_frequencies(data: &BranchCurves) -> Result<String, FigureErro
     let (metre, amplitude) = amplitude_axis(data, x.scale);
     let frequency = Panel::new(upper, x.clone(), frequency_axis(data)).without_x_labels();
     let amplitude = Panel::new(lower, x, amplitude);
-    let quantities: [(Panel, fn(&BranchCurve) -> &Vec<f64>, f64); 2] = [
+    let quantities: [(Panel, Column, f64); 2] = [
         (frequency, |curve| &curve.frequency_hz, 1e-3),
         (amplitude, |curve| &curve.amplitude, metre),
     ];
