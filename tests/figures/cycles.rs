@@ -115,6 +115,7 @@ fn folded(name: &str) -> BranchCurve {
                 _ => Stability::Unknown,
             })
             .collect(),
+        growth_rate: vec![f64::NAN; count],
         folds: vec![0.44, 0.17],
         marked: Some([0.3, 9700.0, 4e-6]),
         values,
@@ -188,6 +189,7 @@ fn branches_of_a_single_cycle_are_no_curves() {
             status: [0; 3].map(|_| vec![0.5]),
             shares: [0; 5].map(|_| vec![0.5]),
             stability: vec![Stability::Unknown],
+            growth_rate: vec![f64::NAN],
             ..BranchCurve::default()
         }],
         ..branches()

@@ -274,7 +274,7 @@ fn eigenvalue_analyses_over_one_key_become_a_critical_friction_line_for_each_bra
         "critical-friction",
         &figures[0].svg,
         &[
-            "damping.stiffness_coefficient",
+            "stiffness damping βR (s)",
             "n = 2, branch 0",
             "stable",
             "μ (–)",

@@ -277,6 +277,7 @@ fn branch_curve(family: &FamilyRecord, branch: &BranchRecord) -> BranchCurve {
         status: branch.status.clone(),
         shares: branch.shares.clone(),
         stability: branch.stable.iter().map(stability).collect(),
+        growth_rate: branch.growth_rate.clone(),
         folds: branch.folds.clone(),
         marked: own.map(|wave| [branch.own_value, wave.frequency_hz, wave.amplitude]),
     }

@@ -75,6 +75,8 @@ pub struct BranchRecord {
     pub shares: [Vec<f64>; 5],
     /// Whether the cycle is stable, where that is known.
     pub stable: Vec<Option<bool>>,
+    /// Growth rate of its leading perturbation, 1/s; NaN where it is not known.
+    pub growth_rate: Vec<f64>,
     /// Parameter values at which the branch turns back.
     pub folds: Vec<f64>,
 }
@@ -145,6 +147,10 @@ impl BranchRecord {
             branch.cycles.iter().map(of).collect()
         };
         let share = |of: fn(&LimitCycle) -> f64| column(&|c| of(c) / c.powers.external);
+        let verdicts = || {
+            let cycles = 0..branch.cycles.len();
+            cycles.map(|i| result.branch_stability.get(i).and_then(known))
+        };
         Self {
             key: branch.parameter.key().to_owned(),
             values: column(&value),
@@ -159,10 +165,13 @@ impl BranchRecord {
                 share(|c| c.powers.material_damping),
                 share(|c| c.powers.normal_contact),
             ],
-            stable: (0..branch.cycles.len())
-                .map(|i| {
-                    let verdict = result.branch_stability.get(i).and_then(known);
-                    verdict.map(CycleStability::is_stable)
+            stable: verdicts()
+                .map(|found| found.map(CycleStability::is_stable))
+                .collect(),
+            growth_rate: verdicts()
+                .map(|found| {
+                    let leading = found.and_then(CycleStability::leading);
+                    leading.map_or(f64::NAN, |leading| leading.exponent.re)
                 })
                 .collect(),
             folds: branch

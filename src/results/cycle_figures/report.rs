@@ -32,9 +32,7 @@ fn html_report(summary: &Value, manifest: &Manifest) -> Report {
     let mut sections = vec![ReportSection {
         heading: "Limit cycles".into(),
         paragraphs: vec![format!(
-            "Waves that turn against the rotor without changing their shape, {} points along the phase; \
-             {:.1} s.",
-            summary["points"],
+            "Waves that turn against the rotor without changing their shape; {:.1} s.",
             number(summary, "/wall_s")
         )],
         tables: vec![cycle_table(cycles)],
@@ -71,8 +69,9 @@ fn cell(value: &Value, pointer: &str, factor: f64, decimals: usize) -> String {
 }
 
 fn cycle_table(cycles: &[Value]) -> ReportTable {
-    let quantities: [(&str, &str, f64, usize); 12] = [
+    let quantities: [(&str, &str, f64, usize); 14] = [
         ("harmonic n", "/harmonic", 1.0, 0),
+        ("phases", "/phases", 1.0, 0),
         ("critical friction", "/onsets/0/critical_friction", 1.0, 5),
         ("main frequency (Hz)", "/main_frequency_hz", 1.0, 2),
         ("stick (%)", "/status/stick", 100.0, 1),
@@ -89,13 +88,27 @@ fn cycle_table(cycles: &[Value]) -> ReportTable {
         ),
         ("material damping (W)", "/power_w/material_damping", 1.0, 2),
         ("normal contact (W)", "/power_w/normal_contact", 1.0, 2),
+        (
+            "fastest growth of a perturbation (1/s)",
+            "/stability/leading/growth_rate_per_s",
+            1.0,
+            1,
+        ),
     ];
     let rows = cycles.iter().map(|cycle| {
         let cells = quantities.iter();
         let cells =
             cells.map(|(_, pointer, factor, decimals)| cell(cycle, pointer, *factor, *decimals));
+        let stable = match cycle
+            .pointer("/stability/is_stable")
+            .and_then(Value::as_bool)
+        {
+            Some(true) => "yes",
+            Some(false) => "no",
+            None => "",
+        };
         let error = cycle["error"].as_str().unwrap_or_default().to_owned();
-        cells.chain([error]).collect()
+        cells.chain([stable.to_owned(), error]).collect()
     });
     let names = quantities.iter().map(|quantity| quantity.0);
     ReportTable {
@@ -138,8 +151,21 @@ fn branch_text(cycle: &Value) -> Option<String> {
         Some(speed) => format!("; no point sticks above {speed:.1} rpm"),
         None => String::new(),
     };
+    let changes = branch["stability_changes"].as_array();
+    let changes: Vec<String> = changes
+        .into_iter()
+        .flatten()
+        .map(|change| {
+            let at = text_of(number(change, "/at"));
+            format!("{at} ({} nodal diameters)", change["harmonic"])
+        })
+        .collect();
+    let changes = match changes.is_empty() {
+        true => String::new(),
+        false => format!("; stability changes at {}", changes.join(", ")),
+    };
     Some(format!(
-        "n = {}: {} cycles over {}, at the one end until {}, at the other until {}; {folds}{saturation}.",
+        "n = {}: {} cycles over {}, at the one end until {}, at the other until {}; {folds}{saturation}{changes}.",
         cycle["harmonic"],
         branch["cycles"],
         text("/key"),

@@ -37,6 +37,8 @@ pub struct BranchCurve {
     pub shares: [Vec<f64>; 5],
     /// Stability of each cycle.
     pub stability: Vec<Stability>,
+    /// Growth rate of its leading perturbation, 1/s; `NaN` where it is not known.
+    pub growth_rate: Vec<f64>,
     /// Parameter values at which the branch turns back, in its order.
     pub folds: Vec<f64>,
     /// Parameter, frequency and amplitude of a cycle to be marked.
@@ -72,7 +74,7 @@ impl Place {
 impl BranchCurve {
     fn check(&self) -> Result<(), FigureError> {
         let count = self.values.len();
-        let series = [&self.frequency_hz, &self.amplitude].into_iter();
+        let series = [&self.frequency_hz, &self.amplitude, &self.growth_rate].into_iter();
         for values in series.chain(&self.status).chain(&self.shares) {
             expect_length("branch of limit cycles", values.len(), count)?;
         }
@@ -110,29 +112,49 @@ impl BranchCurve {
         let folds = self.fold_places();
         let mut places = Vec::new();
         for before in 0..self.values.len() {
-            let value = self.values[before];
             let turn = folds.iter().find(|place| place.before == before);
-            // At a fold stability changes, or does not change at all.
-            let stability = match turn {
-                Some(_) => self.stability[before],
-                None => self.piece(before),
-            };
-            let place = Place {
-                value,
+            let change = turn.copied().or_else(|| self.change(before));
+            let own = Place {
+                value: self.values[before],
                 before,
                 weight: 0.0,
             };
-            places.push((place, stability));
-            places.extend(turn.map(|place| (*place, self.stability[before + 1])));
+            places.push((own, self.piece(before, change.is_some())));
+            places.extend(change.map(|place| (place, self.stability[before + 1])));
         }
         places
     }
 
-    /// Stability between a cycle and the next: known where both agree.
-    fn piece(&self, before: usize) -> Stability {
+    /// Where stability changes between a cycle and the next: where the growth rate vanishes on the line between them, or
+    /// half-way.
+    fn change(&self, before: usize) -> Option<Place> {
+        let [a, b] = [self.stability.get(before)?, self.stability.get(before + 1)?];
+        if a == b || [a, b].contains(&&Stability::Unknown) {
+            return None;
+        }
+        let (from, to) = (self.growth_rate[before], self.growth_rate[before + 1]);
+        let weight = if from * to < 0.0 {
+            from / (from - to)
+        } else {
+            0.5
+        };
+        let value = self.values[before];
+        Some(Place {
+            value: value + weight * (self.values[before + 1] - value),
+            before,
+            weight,
+        })
+    }
+
+    /// Stability from a cycle to the next, or to where it changes.
+    fn piece(&self, before: usize, changes: bool) -> Stability {
         let next = (before + 1).min(self.stability.len() - 1);
         let (a, b) = (self.stability[before], self.stability[next]);
-        if a == b { a } else { Stability::Unknown }
+        if a == b || changes {
+            a
+        } else {
+            Stability::Unknown
+        }
     }
 
     /// Draws one quantity along the branch: stable pieces strong, unstable ones dashed, others plain.
@@ -244,6 +266,7 @@ mod tests {
             values: values.to_vec(),
             folds: folds.to_vec(),
             stability: vec![Stability::Unknown; values.len()],
+            growth_rate: vec![f64::NAN; values.len()],
             ..BranchCurve::default()
         }
     }
@@ -267,16 +290,21 @@ mod tests {
     }
 
     #[test]
-    fn a_piece_is_stable_only_between_two_stable_cycles_or_up_to_a_fold() {
+    fn stability_changes_where_the_growth_rate_vanishes_or_at_a_fold() {
+        let (stable, unstable) = (Stability::Stable, Stability::Unstable);
         let mut curve = curve(&[1.0, 2.0, 3.0], &[]);
-        curve.stability = vec![Stability::Stable, Stability::Stable, Stability::Unstable];
-        assert_eq!(curve.piece(0), Stability::Stable);
-        assert_eq!(curve.piece(1), Stability::Unknown);
-        // A fold between two cycles is where stability changes.
+        curve.stability = vec![stable, stable, unstable];
+        curve.growth_rate = vec![-5.0, -1.0, 3.0];
+        let found = curve.places();
+        assert_eq!(found[2].0.value, 2.25);
+        let pieces: Vec<Stability> = found.iter().map(|(_, s)| *s).collect();
+        assert_eq!(pieces, [stable, stable, unstable, unstable]);
         curve.values[2] = 2.0;
         curve.folds = vec![2.2];
-        let pieces: Vec<Stability> = curve.places().iter().map(|(_, s)| *s).collect();
-        let (stable, unstable) = (Stability::Stable, Stability::Unstable);
-        assert_eq!(pieces[..3], [stable, stable, unstable]);
+        let found = curve.places();
+        assert_eq!((found[2].0.value, found[2].1), (2.2, unstable));
+        curve.folds.clear();
+        curve.stability[2] = Stability::Unknown;
+        assert_eq!(curve.places()[1].1, Stability::Unknown);
     }
 }
