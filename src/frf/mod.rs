@@ -12,6 +12,7 @@ mod cyclic;
 mod cyclic_system;
 mod direct;
 mod error;
+mod krylov;
 mod neighbours;
 mod noise;
 mod reduction;
