@@ -5,7 +5,7 @@
 //! over 61 speeds from 10 to 6000 rpm.
 
 use frictionsim::contact::SlidingContact;
-use frictionsim::cycle::{CycleSolver, DEFAULT_POINTS, OperatingPoint, Parameter};
+use frictionsim::cycle::{CycleSolver, OperatingPoint, Parameter};
 use frictionsim::fem::{ElasticMaterial, PlaneFormulation, RayleighDamping};
 use frictionsim::mesh::{AnnulusSpecification, ElementKind};
 use std::f64::consts::TAU;
@@ -39,7 +39,7 @@ fn main() {
     };
     println!("n  from birth  neighbour  61 speeds  factorizations");
     for harmonic in [1, 2] {
-        let solver = CycleSolver::new(&specification, &material, harmonic, DEFAULT_POINTS)
+        let solver = CycleSolver::new(&specification, &material, &point.damping, harmonic, None)
             .expect("a valid mesh");
         let start = Instant::now();
         let cycle = solver.find(&point).expect("a limit cycle");

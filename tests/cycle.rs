@@ -12,8 +12,6 @@ use frictionsim::fem::{ElasticMaterial, PlaneFormulation, RayleighDamping};
 use frictionsim::mesh::{AnnulusSpecification, ElementKind};
 use std::f64::consts::TAU;
 
-const POINTS: usize = 91;
-
 fn disc() -> AnnulusSpecification {
     AnnulusSpecification {
         inner_radius: 0.0205,
@@ -34,6 +32,13 @@ fn polycarbonate() -> ElasticMaterial {
     }
 }
 
+fn damping() -> RayleighDamping {
+    RayleighDamping {
+        mass_coefficient: 40.0,
+        stiffness_coefficient: 4.5e-7,
+    }
+}
+
 fn operating(rpm: f64) -> OperatingPoint {
     OperatingPoint {
         contact: SlidingContact {
@@ -41,15 +46,12 @@ fn operating(rpm: f64) -> OperatingPoint {
             interference: 25e-6,
             rotation_speed: rpm * TAU / 60.0,
         },
-        damping: RayleighDamping {
-            mass_coefficient: 40.0,
-            stiffness_coefficient: 4.5e-7,
-        },
+        damping: damping(),
     }
 }
 
 fn solver(harmonic: usize) -> CycleSolver {
-    CycleSolver::new(&disc(), &polycarbonate(), harmonic, POINTS).unwrap()
+    CycleSolver::new(&disc(), &polycarbonate(), &damping(), harmonic, None).unwrap()
 }
 
 fn count(cycle: &LimitCycle, status: ContactStatus) -> usize {
@@ -210,8 +212,8 @@ fn reference_cycles_of_the_fine_mesh_have_the_transients_frequencies_and_statuse
         ..disc()
     };
     for (harmonic, rpm, frequency, stick, open, external, share) in transients {
-        let points = frictionsim::cycle::DEFAULT_POINTS;
-        let solver = CycleSolver::new(&specification, &polycarbonate(), harmonic, points).unwrap();
+        let solver =
+            CycleSolver::new(&specification, &polycarbonate(), &damping(), harmonic, None).unwrap();
         let cycle = solver.find(&operating(rpm)).unwrap();
         let label = format!("n = {harmonic} at {rpm} rpm");
         assert!(cycle.powers.balance_residual() < 1e-8, "{label}");
@@ -235,13 +237,13 @@ fn reference_cycles_of_the_fine_mesh_have_the_transients_frequencies_and_statuse
 fn impossible_requests_say_which_key_to_change() {
     let standing = solver(1).find(&operating(0.0)).unwrap_err();
     assert!(standing.to_string().contains("rotation_speed_rpm"));
-    let harmonic = CycleSolver::new(&disc(), &polycarbonate(), 46, POINTS).unwrap_err();
+    let harmonic = CycleSolver::new(&disc(), &polycarbonate(), &damping(), 46, None).unwrap_err();
     assert!(matches!(harmonic, CycleError::Harmonic { limit: 45, .. }));
     let quad8 = AnnulusSpecification {
         element: ElementKind::Quad8,
         ..disc()
     };
-    let element = CycleSolver::new(&quad8, &polycarbonate(), 1, POINTS).unwrap_err();
+    let element = CycleSolver::new(&quad8, &polycarbonate(), &damping(), 1, None).unwrap_err();
     assert_eq!(element, CycleError::Element);
     let mut weak = operating(610.0);
     weak.contact.friction_coefficient = 0.05;

@@ -2,7 +2,7 @@
 
 use super::{Failure, RunOptions, Session};
 use crate::case::{Case, Cycle};
-use crate::cycle::{CycleError, CycleSolver, DEFAULT_POINTS, OperatingPoint, Parameter};
+use crate::cycle::{CycleError, CycleSolver, OperatingPoint, Parameter};
 use crate::mesh::AnnulusMesh;
 use crate::results::cycle::{CycleReport, CycleResult, print, write};
 use clap::Args;
@@ -48,7 +48,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         mesh: &annulus.mesh,
         inner_radius: case.annulus.inner_radius,
         thickness: case.thickness,
-        points: solvers.first().map_or(0, CycleSolver::points),
+        points: solvers.first().map_or(0, |solver| solver.grid().points),
         results,
         wall_s: session.wall_seconds(),
     };
@@ -92,8 +92,14 @@ fn solvers(
     point: &OperatingPoint,
 ) -> Result<Vec<CycleSolver>, Failure> {
     let new = |harmonic| {
-        CycleSolver::new(&case.annulus, &case.material, harmonic, DEFAULT_POINTS)
-            .map_err(Failure::usage)
+        CycleSolver::new(
+            &case.annulus,
+            &case.material,
+            &case.damping.rayleigh,
+            harmonic,
+            cycle.phases,
+        )
+        .map_err(Failure::usage)
     };
     if let Some(harmonics) = &cycle.harmonics {
         return harmonics.iter().map(|&harmonic| new(harmonic)).collect();
@@ -136,7 +142,7 @@ fn solve(
     CycleResult {
         harmonic: solver.body().harmonic(),
         onsets: solver.onsets(&point.damping),
-        field: found.as_ref().ok().map(|cycle| solver.field(cycle)),
+        field: found.as_ref().ok().map(|cycle| solver.field(cycle, 0.0)),
         cycle: found.map_err(|error: CycleError| error.to_string()),
         branch,
         wall_s: start.elapsed().as_secs_f64(),

@@ -2,6 +2,7 @@
 
 mod conversion;
 mod figures;
+mod initial;
 mod watch;
 
 pub use figures::redraw;
@@ -16,8 +17,8 @@ use crate::results::transient::{
 };
 use crate::results::{DOTS_PER_INCH, Manifest, OutputFolder};
 use crate::transient::{
-    CentralDifference, Recorder, RunEnd, TransientAnalysis, TransientModel, TransientSettings,
-    build_operator,
+    CentralDifference, InitialState, Recorder, RunEnd, StepPlan, TransientAnalysis, TransientModel,
+    TransientSettings, build_operator,
 };
 use clap::Args;
 use serde_json::Value;
@@ -65,6 +66,24 @@ impl<'a> Prepared<'a> {
     fn operator(&self) -> Result<Box<dyn StiffnessOperator>, Failure> {
         let choice = self.transient.operator;
         build_operator(&self.model(), choice, self.simd).map_err(|error| self.failure(&error))
+    }
+
+    /// The run from its initial state.
+    fn start<'b>(
+        &'b self,
+        operator: &'b dyn StiffnessOperator,
+    ) -> Result<CentralDifference<'b>, Failure> {
+        let started = match self.settings.initial {
+            InitialState::LimitCycle { harmonic } => {
+                let damping = &self.case.damping.rayleigh;
+                let plan = StepPlan::new(operator, damping, &self.settings)
+                    .map_err(|error| self.failure(&error))?;
+                let [u, v] = initial::limit_cycle(self.case, harmonic, plan.time_step)?;
+                CentralDifference::start_from(self.model(), operator, &self.settings, &u, v)
+            }
+            _ => CentralDifference::start(self.model(), operator, &self.settings),
+        };
+        started.map_err(|error| self.failure(&error))
     }
 
     fn resume<'b>(
@@ -119,8 +138,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     session.check_memory(cost.mesh_memory_bytes + record_bytes)?;
     let operator = prepared.operator()?;
     // Whatever is wrong with the case is said before the folder is touched.
-    let fresh = CentralDifference::start(prepared.model(), operator.as_ref(), &prepared.settings)
-        .map_err(|error| prepared.failure(&error))?;
+    let fresh = prepared.start(operator.as_ref())?;
     let recorder = Recorder::new(&fresh, &conversion::recorder_settings(&session.case))
         .map_err(|error| prepared.failure(&error))?;
     let folder = open(&session, arguments.resume)?;
@@ -177,8 +195,7 @@ pub fn summarize(case: &Case, manifest: &Manifest) -> Result<Value, Failure> {
     let start = Instant::now();
     let prepared = Prepared::new(case, &manifest.simd)?;
     let operator = prepared.operator()?;
-    let started = CentralDifference::start(prepared.model(), operator.as_ref(), &prepared.settings);
-    let mut loop_ = started.map_err(|error| prepared.failure(&error))?;
+    let mut loop_ = prepared.start(operator.as_ref())?;
     let mut record = Recorder::new(&loop_, &crate::transient::RecorderSettings::default())
         .map_err(|error| prepared.failure(&error))?;
     let clock = Instant::now();
@@ -202,9 +219,12 @@ pub fn summarize(case: &Case, manifest: &Manifest) -> Result<Value, Failure> {
 pub fn time_step(case: &Case, manifest: &Manifest) -> Result<f64, Failure> {
     let prepared = Prepared::new(case, &manifest.simd)?;
     let operator = prepared.operator()?;
-    let started = CentralDifference::start(prepared.model(), operator.as_ref(), &prepared.settings);
-    let started = started.map_err(|error| prepared.failure(&error))?;
-    Ok(started.plan().time_step)
+    let plan = StepPlan::new(
+        operator.as_ref(),
+        &case.damping.rayleigh,
+        &prepared.settings,
+    );
+    Ok(plan.map_err(|error| prepared.failure(&error))?.time_step)
 }
 
 fn open(session: &Session, resume: bool) -> Result<OutputFolder, Failure> {

@@ -10,6 +10,8 @@ use crate::mesh::AnnulusSpecification;
 pub struct Cycle {
     /// Circumferential harmonics; `None` takes those that are unstable.
     pub harmonics: Option<Vec<usize>>,
+    /// Phases along the wave; `None` takes as many as the mesh asks for.
+    pub phases: Option<usize>,
     /// Continuation over a parameter.
     pub continuation: Option<Continuation>,
 }
@@ -39,6 +41,7 @@ impl Continuation {
 pub(super) fn cycle(root: &Section<'_>, annulus: &AnnulusSpecification) -> Option<Cycle> {
     let section = root.section("cycle", false);
     let harmonics = harmonics(&section, 1, annulus);
+    let phases = section.optional_count("phases", 31);
     let inner = section.section("continuation", false);
     let continuation = inner.is_given().then(|| Continuation {
         key: parameter(&inner, "key"),
@@ -80,6 +83,7 @@ pub(super) fn cycle(root: &Section<'_>, annulus: &AnnulusSpecification) -> Optio
     section.close();
     is_given.then_some(Cycle {
         harmonics,
+        phases,
         continuation,
     })
 }

@@ -67,17 +67,12 @@ pub(super) fn transient(root: &Section<'_>, annulus: &AnnulusSpecification) -> O
             None,
         );
     }
+    let initial = initial(&section, annulus);
     let transient = Transient {
         duration,
         time_step,
         expansion_time: section.number_or("expansion_time", Bound::NotNegative, 5e-4),
-        initial: section.choice(
-            "initial",
-            &[
-                ("rest", InitialState::Rest),
-                ("steady-sliding", InitialState::SteadySliding),
-            ],
-        ),
+        initial,
         operator: section.choice(
             "operator",
             &[
@@ -90,6 +85,37 @@ pub(super) fn transient(root: &Section<'_>, annulus: &AnnulusSpecification) -> O
     };
     section.close();
     Some(transient)
+}
+
+/// `initial`, with the harmonic that a limit cycle needs.
+fn initial(section: &Section<'_>, annulus: &AnnulusSpecification) -> InitialState {
+    let initial = section.choice(
+        "initial",
+        &[
+            ("rest", InitialState::Rest),
+            ("steady-sliding", InitialState::SteadySliding),
+            ("limit-cycle", InitialState::LimitCycle { harmonic: 1 }),
+        ],
+    );
+    let InitialState::LimitCycle { .. } = initial else {
+        return initial;
+    };
+    let harmonic = section.count("limit_cycle_harmonic", 1);
+    let highest = annulus.circumferential_elements / 2;
+    if harmonic > highest {
+        section.reject(
+            "limit_cycle_harmonic",
+            format!(
+                "transient.limit_cycle_harmonic = {harmonic} is above the mesh's highest, {highest}"
+            ),
+            format!(
+                "at most half of {} elements",
+                annulus.circumferential_elements
+            ),
+            None,
+        );
+    }
+    InitialState::LimitCycle { harmonic }
 }
 
 fn perturbation(transient: &Section<'_>, annulus: &AnnulusSpecification) -> Perturbation {

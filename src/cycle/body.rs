@@ -70,6 +70,8 @@ pub struct WaveBody {
     pub radius: f64,
     /// Edge length of one contact node, m.
     pub tributary_length: f64,
+    /// Radial frequency of a contact node between fixed neighbours, `sqrt(k / m)`, rad/s.
+    pub node_frequency: f64,
 }
 
 impl WaveBody {
@@ -91,6 +93,9 @@ impl WaveBody {
         let stiffness = sector::stiffness(&mesh, material);
         let mass = sector::mass(&mesh, material, MassKind::Lumped).harmonic(0);
         let sectors = mesh.sector_count() as isize;
+        // Neighbours turn the node's own stiffness by `cos(2 pi n / N)`: opposite at n = 0 and N / 2.
+        let own = [0, mesh.sector_count() / 2].map(|n| stiffness.harmonic(n).get(0, 0));
+        let node_frequency = (0.5 * (own[0] + own[1]) / mass.get(0, 0)).sqrt();
         let harmonics = circumferential_harmonics
             .into_iter()
             .map(|n| HarmonicStiffness::new(&stiffness.harmonic(n.rem_euclid(sectors) as usize)))
@@ -104,6 +109,7 @@ impl WaveBody {
             sector_count: mesh.sector_count(),
             radius: specification.inner_radius,
             tributary_length: mesh.tributary_lengths()[0],
+            node_frequency,
         })
     }
 

@@ -23,5 +23,6 @@ pub use error::CycleError;
 pub use limit_cycle::{CyclePowers, LimitCycle, PhasePoint};
 pub use onset::Onset;
 pub use parameter::{OperatingPoint, Parameter};
-pub use solver::{BranchEnd, CycleBranch, CycleSolver, DEFAULT_POINTS};
+pub use solver::{BranchEnd, CycleBranch, CycleSolver};
 pub use state::{PointState, WaveState};
+pub use wave::PhaseGrid;

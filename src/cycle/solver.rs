@@ -5,15 +5,12 @@ use super::limit_cycle::LimitCycle;
 use super::onset::{HIGHEST_FREQUENCY_HZ, LARGEST_FRICTION, largest_linear_wave, onsets};
 use super::parameter::{OperatingPoint, Parameter};
 use super::state::{PointState, WaveState};
-use super::wave::Wave;
+use super::wave::{PhaseGrid, Wave};
 use super::{CycleError, Onset, WaveBody};
 use crate::fem::{ElasticMaterial, RayleighDamping};
 use crate::mesh::AnnulusSpecification;
 use faer::c64;
 use std::f64::consts::TAU;
-
-/// Points along the phase of a wave, unless chosen.
-pub const DEFAULT_POINTS: usize = 135;
 
 /// Most changes of contact state along one branch.
 const MOST_STEPS: usize = 20_000;
@@ -26,7 +23,7 @@ const ORIGINS: [f64; 4] = [0.0, 0.5, 0.25, 0.75];
 #[derive(Clone, Debug)]
 pub struct CycleSolver {
     body: WaveBody,
-    points: usize,
+    grid: PhaseGrid,
 }
 
 /// Limit cycles along a parameter.
@@ -71,15 +68,18 @@ impl BranchEnd {
 
 impl CycleSolver {
     /// The solver of waves of `harmonic` nodal diameters on a mesh of Quad4 elements, with `points` phases (odd; the
-    /// next odd number is taken).
+    /// next odd number is taken) or as many as the mesh asks for, see [`PhaseGrid`].
+    ///
+    /// `damping` serves to find the frequency at birth, nothing else.
     ///
     /// # Errors
     /// [`CycleError`] for other elements, a mesh that cannot be built, a harmonic that it cannot carry.
     pub fn new(
         specification: &AnnulusSpecification,
         material: &ElasticMaterial,
+        damping: &RayleighDamping,
         harmonic: usize,
-        points: usize,
+        points: Option<usize>,
     ) -> Result<Self, CycleError> {
         let (sectors, limit) = (
             specification.circumferential_elements,
@@ -92,11 +92,21 @@ impl CycleSolver {
                 limit,
             });
         }
-        let highest = (points / 2).max(2);
-        let harmonics = (0..=highest).map(|k| (k * harmonic) as isize);
+        let body = |highest: usize| {
+            let harmonics = (0..=highest).map(|k| (k * harmonic) as isize);
+            WaveBody::new(specification, material, harmonics, harmonic)
+        };
+        let probe = body(1)?;
+        let wave = Wave::new(&probe, 0.0);
+        let born = onsets(&wave, damping).into_iter().next();
+        // Three phases slow the wave down; what it lives at is `s`.
+        let frequency = born.map_or(TAU * HIGHEST_FREQUENCY_HZ, |onset| {
+            onset.frequency * wave.order(1)
+        });
+        let grid = PhaseGrid::new(frequency, probe.node_frequency, points);
         Ok(Self {
-            body: WaveBody::new(specification, material, harmonics, harmonic)?,
-            points: 2 * highest + 1,
+            body: body(grid.points / 2)?,
+            grid,
         })
     }
 
@@ -105,14 +115,18 @@ impl CycleSolver {
         &self.body
     }
 
-    /// Number of points along the phase.
-    pub fn points(&self) -> usize {
-        self.points
+    /// Its phases.
+    pub fn grid(&self) -> PhaseGrid {
+        self.grid
+    }
+
+    fn wave(&self) -> Wave<'_> {
+        Wave::new(&self.body, self.grid.landing_share)
     }
 
     /// Every loss of stability of steady sliding to a wave of this harmonic, by rising friction.
     pub fn onsets(&self, damping: &RayleighDamping) -> Vec<Onset> {
-        onsets(&Wave::new(&self.body), damping)
+        onsets(&self.wave(), damping)
     }
 
     /// The limit cycle at an operating point.
@@ -123,7 +137,7 @@ impl CycleSolver {
     /// [`CycleError`] for a point without limit cycle.
     pub fn find(&self, point: &OperatingPoint) -> Result<LimitCycle, CycleError> {
         check(point)?;
-        let wave = Wave::new(&self.body);
+        let wave = self.wave();
         let onset = onsets(&wave, &point.damping).into_iter().next();
         let onset = onset.ok_or(CycleError::NoOnset {
             harmonic: self.body.harmonic(),
@@ -165,7 +179,7 @@ impl CycleSolver {
         parameter: Parameter,
         value: f64,
     ) -> Result<LimitCycle, CycleError> {
-        let wave = Wave::new(&self.body);
+        let wave = self.wave();
         let direction = value - parameter.of(&cycle.state.point);
         if direction == 0.0 {
             return Ok(cycle.clone());
@@ -219,7 +233,7 @@ impl CycleSolver {
         samples: &[f64],
         direction: f64,
     ) -> CycleBranch {
-        let wave = Wave::new(&self.body);
+        let wave = self.wave();
         let (mut cycles, mut folds) = (Vec::new(), Vec::new());
         let mut branch = Branch::new(&wave, parameter, cycle.state.clone(), direction, None);
         let (first, last) = (samples[0], samples[samples.len() - 1]);
@@ -254,11 +268,11 @@ impl CycleSolver {
         }
     }
 
-    /// Displacement (m) and velocity (m/s) over all dofs of the mesh, in nodal frames, at time zero of the cycle.
+    /// Displacement (m) and velocity (m/s) over all dofs of the mesh, in nodal frames, at a time (s).
     ///
-    /// The state of a contact node at angle `theta` is that of phase `n theta`.
-    pub fn field(&self, cycle: &LimitCycle) -> [Vec<f64>; 2] {
-        let wave = Wave::new(&self.body);
+    /// The state of a contact node at angle `theta` is that of phase `n theta + omega t`.
+    pub fn field(&self, cycle: &LimitCycle, time: f64) -> [Vec<f64>; 2] {
+        let wave = self.wave();
         let profiles = cycle.profiles(&wave);
         let rays = profiles[0].1.len() + 1;
         let (sectors, harmonic) = (self.body.sector_count, self.body.harmonic());
@@ -267,7 +281,8 @@ impl CycleSolver {
             for (k, (rate, profile)) in profiles.iter().enumerate() {
                 // Whole turns taken out first, so that high harmonics lose no digits.
                 let turns = (k * harmonic * sector) % sectors;
-                let turn = c64::from_polar(1.0, TAU * turns as f64 / sectors as f64);
+                let later = k as f64 * cycle.state.frequency * time;
+                let turn = c64::from_polar(1.0, TAU * turns as f64 / sectors as f64 + later);
                 for (i, value) in profile.iter().enumerate() {
                     for component in 0..2 {
                         let dof = 2 * (sector * rays + i) + component;

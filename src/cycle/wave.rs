@@ -18,11 +18,44 @@ use rustfft::{Fft, FftPlanner};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
-/// Share of a step over which the gap is looked ahead.
+/// Phases of a wave, and how softly it lands.
 ///
-/// Contact obeys `0 <= N ⟂ gap + tau v_n >= 0` with `tau` half a step: touching nodes land softly over `tau` instead of
-/// at one instant, which takes the kinetic energy of the lumped edge mass out as an inelastic impact does.
-const LOOK_AHEAD: f64 = 0.5;
+/// Contact obeys `0 <= N ⟂ gap + tau v_n >= 0`: a touching node comes to rest over the landing time `tau` instead of at
+/// one instant, which takes the kinetic energy of the lumped edge mass out as an inelastic impact does. A landing time
+/// below the node's own `1 / omega` blurs nothing that the mesh resolves, and shrinks with it; but the phases must
+/// resolve it, or points open and close at random around each landing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PhaseGrid {
+    /// Number of phases `M`, odd.
+    pub points: usize,
+    /// Landing time `tau`, as a share of the period.
+    pub landing_share: f64,
+}
+
+/// Landing time, in units of `1 / omega` of a contact node between fixed neighbours.
+const LANDING: f64 = 0.7;
+/// Landing time, in phases, that is resolved.
+const RESOLVED: f64 = 0.67;
+/// Fewest and most phases where none are given.
+const POINTS: (usize, usize) = (91, 181);
+
+impl PhaseGrid {
+    /// The grid for a wave of about `frequency` (rad/s) on a mesh whose contact nodes have the frequency `node`.
+    ///
+    /// With `points` given, the landing time is never below what they resolve.
+    pub fn new(frequency: f64, node: f64, points: Option<usize>) -> Self {
+        let wanted = LANDING / node * frequency / TAU;
+        let points = points.unwrap_or_else(|| {
+            let points = (RESOLVED / wanted).round() as usize;
+            points.clamp(POINTS.0, POINTS.1)
+        });
+        let points = 2 * (points / 2).max(2) + 1;
+        Self {
+            points,
+            landing_share: wanted.max(RESOLVED / points as f64),
+        }
+    }
+}
 
 /// A wave of one body on a grid of phases.
 #[derive(Clone)]
@@ -30,18 +63,20 @@ pub struct Wave<'a> {
     /// The body.
     pub body: &'a WaveBody,
     points: usize,
+    landing_share: f64,
     forward: Arc<dyn Fft<f64>>,
     inverse: Arc<dyn Fft<f64>>,
 }
 
 impl<'a> Wave<'a> {
-    /// The wave on `2 K + 1` points, with `K + 1` harmonics in `body`.
-    pub fn new(body: &'a WaveBody) -> Self {
+    /// The wave on `2 K + 1` points, with `K + 1` harmonics in `body`, landing over `landing_share` of its period.
+    pub fn new(body: &'a WaveBody, landing_share: f64) -> Self {
         let points = 2 * body.harmonic_count() - 1;
         let mut planner = FftPlanner::new();
         Self {
             body,
             points,
+            landing_share,
             forward: planner.plan_fft_forward(points),
             inverse: planner.plan_fft_inverse(points),
         }
@@ -59,7 +94,7 @@ impl<'a> Wave<'a> {
 
     /// Factor that turns a displacement into `u + tau v`.
     pub fn look_ahead(&self, k: usize) -> c64 {
-        c64::new(1.0, TAU * LOOK_AHEAD / self.points as f64 * self.order(k))
+        c64::new(1.0, TAU * self.landing_share * self.order(k))
     }
 
     /// Harmonics `0..=K` of values on the points, `sum_i f_i e^{-i k xi_i}`.

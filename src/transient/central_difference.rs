@@ -91,28 +91,57 @@ pub struct CentralDifference<'a> {
 impl<'a> CentralDifference<'a> {
     /// A run from its initial state.
     ///
-    /// The initial velocity is that of the half step before time zero.
-    ///
     /// # Errors
-    /// [`TransientError`] names the setting that does not fit, with its bound.
+    /// [`TransientError`] names the setting that does not fit, with its bound;
+    /// [`TransientError::FieldsMissing`] for a limit cycle, which [`Self::start_from`] takes.
     pub fn start(
         model: TransientModel<'a>,
         operator: &'a dyn StiffnessOperator,
         settings: &TransientSettings,
     ) -> Result<Self, TransientError> {
-        let plan = StepPlan::new(operator, &model.damping, settings)?;
-        let velocity = settings.perturbation.field(model.annulus)?;
         let mesh = &model.annulus.mesh;
+        let still = vec![0.0; operator.dof_count()];
         let displacement = match settings.initial {
-            InitialState::Rest => vec![0.0; operator.dof_count()],
+            InitialState::Rest => still.clone(),
             InitialState::SteadySliding => {
                 let stiffness = assemble_stiffness(mesh, &model.material);
                 let base = SteadySliding::solve(mesh, &stiffness, &model.contact)?;
                 base.displacement(model.contact.friction_coefficient)
             }
+            InitialState::LimitCycle { harmonic } => {
+                return Err(TransientError::FieldsMissing { harmonic });
+            }
         };
+        Self::start_from(model, operator, settings, &displacement, still)
+    }
+
+    /// A run from given fields, `u_0` (m) and `v_{-1/2}` (m/s) over all dofs in nodal frames; the perturbation is added
+    /// to the velocity.
+    ///
+    /// # Errors
+    /// [`TransientError`] names the setting that does not fit, with its bound;
+    /// [`TransientError::ForeignState`] for fields of another size.
+    pub fn start_from(
+        model: TransientModel<'a>,
+        operator: &'a dyn StiffnessOperator,
+        settings: &TransientSettings,
+        displacement: &[f64],
+        mut velocity: Vec<f64>,
+    ) -> Result<Self, TransientError> {
+        let plan = StepPlan::new(operator, &model.damping, settings)?;
+        let expected = operator.dof_count();
+        for found in [displacement.len(), velocity.len()] {
+            if found != expected {
+                return Err(TransientError::ForeignState { found, expected });
+            }
+        }
+        let perturbation = settings.perturbation.field(model.annulus)?;
+        velocity
+            .iter_mut()
+            .zip(perturbation)
+            .for_each(|(v, p)| *v += p);
         let mut run = Self::new(model, operator, plan, settings);
-        run.fields.displacement = scatter(operator, &displacement);
+        run.fields.displacement = scatter(operator, displacement);
         run.fields.velocity = scatter(operator, &velocity);
         let fields = &mut run.fields;
         operator.multiply(&mut fields.displacement, &mut fields.elastic);
@@ -168,10 +197,10 @@ impl<'a> CentralDifference<'a> {
     ) -> Self {
         let interface = ContactInterface::of(&model.annulus.mesh);
         let zeros = || AlignedVector::zeros(operator.field_length());
-        // Steady sliding starts fully expanded: a ramp of no length.
+        // All others start fully expanded: a ramp of no length.
         let expansion_time = match settings.initial {
             InitialState::Rest => settings.expansion_time,
-            InitialState::SteadySliding => 0.0,
+            InitialState::SteadySliding | InitialState::LimitCycle { .. } => 0.0,
         };
         Self {
             coefficients: StepCoefficients {

@@ -41,6 +41,12 @@ pub enum InitialState {
     Rest,
     /// The prestressed sliding equilibrium, with the cylinder fully expanded.
     SteadySliding,
+    /// The limit cycle of a circumferential harmonic, with the cylinder fully expanded; its fields are handed to
+    /// [`CentralDifference::start_from`](super::CentralDifference::start_from).
+    LimitCycle {
+        /// Circumferential harmonic.
+        harmonic: usize,
+    },
 }
 
 /// Which operator applies the stiffness.
@@ -173,6 +179,14 @@ pub enum TransientError {
         found: usize,
         /// Dofs of the model.
         expected: usize,
+    },
+    /// A start that the time loop cannot work out by itself.
+    #[error(
+        "transient.initial = \"limit-cycle\" needs the fields of the cycle of {harmonic} nodal diameters"
+    )]
+    FieldsMissing {
+        /// Circumferential harmonic.
+        harmonic: usize,
     },
     /// The operator cannot represent the mesh.
     #[error(transparent)]

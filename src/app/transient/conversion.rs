@@ -34,6 +34,7 @@ pub fn initial_name(transient: &Transient) -> &'static str {
     match transient.initial {
         InitialState::Rest => "rest",
         InitialState::SteadySliding => "steady-sliding",
+        InitialState::LimitCycle { .. } => "limit-cycle",
     }
 }
 
@@ -66,6 +67,7 @@ pub fn failure(case: &Case, error: &TransientError) -> Failure {
         TransientError::Operator(_) => ("transient.operator", "not on this mesh".to_owned()),
         TransientError::Unstable { .. }
         | TransientError::ForeignState { .. }
+        | TransientError::FieldsMissing { .. }
         | TransientError::Prestress(_) => return Failure::run(error),
     };
     Failure::Case(case.error_at(key, error.to_string(), label, None))

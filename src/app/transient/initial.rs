@@ -1,0 +1,30 @@
+//! A transient that starts on a limit cycle.
+
+use crate::app::Failure;
+use crate::case::Case;
+use crate::cycle::{CycleSolver, OperatingPoint};
+
+/// Displacement at time zero (m) and velocity half a step earlier (m/s) of the limit cycle of `harmonic` at the case's own
+/// operating point, over all dofs in nodal frames.
+///
+/// # Errors
+/// No such cycle, or elements that a cycle cannot be sought on.
+pub fn limit_cycle(case: &Case, harmonic: usize, time_step: f64) -> Result<[Vec<f64>; 2], Failure> {
+    let point = OperatingPoint {
+        contact: case.contact.sliding,
+        damping: case.damping.rayleigh,
+    };
+    let phases = case.cycle.as_ref().and_then(|cycle| cycle.phases);
+    let solver = CycleSolver::new(
+        &case.annulus,
+        &case.material,
+        &point.damping,
+        harmonic,
+        phases,
+    )
+    .map_err(Failure::usage)?;
+    let cycle = solver.find(&point).map_err(Failure::run)?;
+    let [displacement, _] = solver.field(&cycle, 0.0);
+    let [_, velocity] = solver.field(&cycle, -0.5 * time_step);
+    Ok([displacement, velocity])
+}
