@@ -6,13 +6,13 @@ use std::ops::Mul;
 
 /// Relative residual of the projected systems at which the space is large enough.
 const RESIDUAL: f64 = 1e-15;
-/// Most vectors of a space: about what complex factorizations of all lines cost.
-const MOST_VECTORS: usize = 72;
 /// Vectors between two looks at the residuals.
 const STRIDE: usize = 6;
 
 /// Real or complex entries of vectors.
 pub(super) trait Entry: Copy + Into<c64> + Mul<f64, Output = Self> {
+    /// Most vectors of a space: about what complex factorizations of all its lines cost.
+    const MOST_VECTORS: usize;
     /// `a^H b`.
     fn dot(a: &[Self], b: &[Self]) -> Self;
     /// `a -= factor b`.
@@ -22,6 +22,8 @@ pub(super) trait Entry: Copy + Into<c64> + Mul<f64, Output = Self> {
 }
 
 impl Entry for f64 {
+    const MOST_VECTORS: usize = 72;
+
     fn dot(a: &[f64], b: &[f64]) -> f64 {
         // Eight partial sums, so that additions need not wait for each other.
         let mut sums = [0.0; 8];
@@ -50,6 +52,8 @@ impl Entry for f64 {
 }
 
 impl Entry for c64 {
+    const MOST_VECTORS: usize = 42;
+
     fn dot(a: &[c64], b: &[c64]) -> c64 {
         // Real and imaginary parts of four products each, summed apart for the same reason.
         let (mut re, mut im) = ([0.0; 4], [0.0; 4]);
@@ -102,7 +106,7 @@ impl<T: Entry> KrylovSpace<T> {
     /// Coordinates of the solution at each distance `d`.
     ///
     /// The space grows by `multiply`, `v -> B v`, until all residuals are those of round-off, it is
-    /// complete, or it has [`MOST_VECTORS`] vectors: the caller looks what the solutions are worth.
+    /// complete, or it has [`Entry::MOST_VECTORS`]: the caller looks what the solutions are worth.
     pub fn solve(&mut self, distances: &[c64], multiply: impl Fn(&[T]) -> Vec<T>) -> Vec<Vec<c64>> {
         loop {
             let is_closed = (0..STRIDE).any(|_| {
@@ -112,7 +116,7 @@ impl<T: Entry> KrylovSpace<T> {
             let (solved, residuals): (Vec<_>, Vec<f64>) =
                 distances.iter().map(|d| self.project(*d)).unzip();
             let is_enough = residuals.iter().all(|residual| *residual <= RESIDUAL);
-            if is_closed || is_enough || self.images.len() >= MOST_VECTORS {
+            if is_closed || is_enough || self.images.len() >= T::MOST_VECTORS {
                 return solved;
             }
         }

@@ -147,3 +147,76 @@ fn shift(rayleigh: RayleighDamping, frequency_hz: f64) -> c64 {
     c64::new(omega * omega, -omega * rayleigh.mass_coefficient)
         / c64::new(1.0, omega * rayleigh.stiffness_coefficient)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::{ContactStiffness, SlidingContact};
+    use crate::fem::{ElasticMaterial, MassKind, PlaneFormulation, assemble_stiffness};
+    use crate::frf::direct::factorized;
+    use crate::linalg::{LdlAnalysis, LuAnalysis};
+    use crate::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind};
+    use crate::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
+
+    fn sliding(damping_model: DampingModel) -> FrfSystem {
+        let specification = AnnulusSpecification {
+            inner_radius: 0.0205,
+            outer_radius: 0.0905,
+            circumferential_elements: 36,
+            radial_elements: 8,
+            radial_grading: 1.0,
+            element: ElementKind::Quad4,
+        };
+        let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
+        let material = ElasticMaterial {
+            young_modulus: 2.5e9,
+            poisson_ratio: 0.3805,
+            density: 1228.0,
+            formulation: PlaneFormulation::PlaneStrain,
+        };
+        let contact = SlidingContact {
+            friction_coefficient: 0.3,
+            interference: 25e-6,
+            rotation_speed: 63.9,
+        };
+        let stiffness = assemble_stiffness(&mesh, &material);
+        let base = SteadySliding::solve(&mesh, &stiffness, &contact).unwrap();
+        let options = TangentOptions {
+            mass: MassKind::Consistent,
+            geometric_stiffness: true,
+            damping: RayleighDamping {
+                mass_coefficient: 40.0,
+                stiffness_coefficient: 4.5e-7,
+            },
+            damping_model,
+            contact: ContactStiffness::default(),
+        };
+        let tangent = SlidingTangent::linearize(&mesh, &material, &stiffness, &base, &options);
+        FrfSystem::sliding(&tangent, contact.friction_coefficient)
+    }
+
+    #[test]
+    fn lines_10_hz_apart_need_no_factorization_of_their_own() {
+        for damping_model in [DampingModel::WholeTangent, DampingModel::BodyOnly] {
+            let system = sliding(damping_model);
+            let analyses = Analyses {
+                lu: LuAnalysis::new(system.pattern()).unwrap(),
+                ldl: LdlAnalysis::new(system.pattern()).unwrap(),
+            };
+            // Two of the lines lie within the bandwidth of unstable modes (9.9 and 10.5 kHz).
+            for first in [500.0, 5000.0, 9850.0, 10_450.0] {
+                let lines: Vec<f64> = (0..16).map(|k| first + 10.0 * f64::from(k)).collect();
+                let shared = solve_together(&system, &analyses, 5, 200, &lines);
+                for (f, found) in lines.iter().zip(shared) {
+                    let own = factorized(&system, &analyses.lu, 5, 200, *f).unwrap();
+                    // Backward errors of 1e-14 times condition numbers of 1e4 or less.
+                    let found = found.expect("solved together");
+                    assert!(
+                        (found - own).norm() < 1e-10 * own.norm(),
+                        "{f}: {found} {own}"
+                    );
+                }
+            }
+        }
+    }
+}
