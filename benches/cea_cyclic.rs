@@ -1,10 +1,14 @@
 //! Solve times of the cyclic eigenvalue analysis on one thread and on all.
 
+#[path = "../tests/common/disc.rs"]
+mod disc;
+
+use disc::{DAMPING, POLYCARBONATE, annulus, contact};
 use divan::Bencher;
 use frictionsim::cea::cyclic::{CyclicSweep, ModeLimit, SweepRequest, sweep};
-use frictionsim::contact::{ContactStiffness, SlidingContact};
-use frictionsim::fem::{ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping};
-use frictionsim::mesh::{AnnulusSpecification, ElementKind};
+use frictionsim::contact::ContactStiffness;
+use frictionsim::fem::MassKind;
+use frictionsim::mesh::ElementKind;
 use frictionsim::prestress::{DampingModel, TangentOptions};
 
 fn main() {
@@ -13,37 +17,16 @@ fn main() {
 
 /// 30 modes of the disc with prestress, `values` friction coefficients from 0 to 1.
 fn solve(circumferential: usize, radial: usize, values: usize) -> CyclicSweep {
-    let specification = AnnulusSpecification {
-        inner_radius: 0.0205,
-        outer_radius: 0.0905,
-        circumferential_elements: circumferential,
-        radial_elements: radial,
-        radial_grading: 1.0,
-        element: ElementKind::Quad4,
-    };
-    let material = ElasticMaterial {
-        young_modulus: 2.5e9,
-        poisson_ratio: 0.3805,
-        density: 1228.0,
-        formulation: PlaneFormulation::PlaneStrain,
-    };
+    let specification = annulus(ElementKind::Quad4, circumferential, radial);
     let options = TangentOptions {
         mass: MassKind::Consistent,
         geometric_stiffness: true,
-        damping: RayleighDamping {
-            mass_coefficient: 40.0,
-            stiffness_coefficient: 4.5e-7,
-        },
+        damping: DAMPING,
         damping_model: DampingModel::WholeTangent,
         contact: ContactStiffness {
             normal_stiffness: Some(7.4e12),
             ..ContactStiffness::default()
         },
-    };
-    let contact = SlidingContact {
-        friction_coefficient: 0.3,
-        interference: 25e-6,
-        rotation_speed: 63.9,
     };
     let last = (values - 1) as f64;
     let frictions: Vec<f64> = (0..values).map(|i| i as f64 / last).collect();
@@ -52,7 +35,14 @@ fn solve(circumferential: usize, radial: usize, values: usize) -> CyclicSweep {
         limit: ModeLimit::Lowest(30),
         shapes_at: &[],
     };
-    sweep(&specification, &material, &options, &contact, &request).expect("the disc can be solved")
+    sweep(
+        &specification,
+        &POLYCARBONATE,
+        &options,
+        &contact(610.0),
+        &request,
+    )
+    .expect("the disc can be solved")
 }
 
 fn on_threads(threads: usize, work: impl Fn() -> CyclicSweep + Sync + Send) -> CyclicSweep {

@@ -1,13 +1,15 @@
 //! The sparse eigenvalue sweep in phases, on one thread: 180 x 35 Quad4, 30 modes, 21 friction values from
 //! 0 to 1, consistent mass, no prestress; and one friction value on 200,000 unknowns.
 
+#[path = "../tests/common/disc.rs"]
+mod disc;
+
+use disc::{DAMPING, POLYCARBONATE, annulus, contact};
 use divan::Bencher;
 use frictionsim::cea::sparse::{EigenLimit, EigenRequest, SparseSweep, StiffnessFactors, sweep};
-use frictionsim::contact::{ContactStiffness, SlidingContact};
-use frictionsim::fem::{
-    ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping, assemble_stiffness,
-};
-use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind};
+use frictionsim::contact::ContactStiffness;
+use frictionsim::fem::{MassKind, assemble_stiffness};
+use frictionsim::mesh::{AnnulusMesh, ElementKind};
 use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
 use std::sync::OnceLock;
 
@@ -16,40 +18,21 @@ fn main() {
 }
 
 fn tangent(circumferential: usize, radial: usize) -> SlidingTangent {
-    let mesh = AnnulusMesh::generate(&AnnulusSpecification {
-        inner_radius: 0.0205,
-        outer_radius: 0.0905,
-        circumferential_elements: circumferential,
-        radial_elements: radial,
-        radial_grading: 1.0,
-        element: ElementKind::Quad4,
-    })
-    .expect("a valid annulus")
-    .mesh;
-    let material = ElasticMaterial {
-        young_modulus: 2.5e9,
-        poisson_ratio: 0.3805,
-        density: 1228.0,
-        formulation: PlaneFormulation::PlaneStrain,
-    };
-    let elastic = assemble_stiffness(&mesh, &material);
-    let contact = SlidingContact {
-        friction_coefficient: 0.3,
-        interference: 25e-6,
-        rotation_speed: 63.9,
-    };
+    let specification = annulus(ElementKind::Quad4, circumferential, radial);
+    let mesh = AnnulusMesh::generate(&specification)
+        .expect("a valid annulus")
+        .mesh;
+    let elastic = assemble_stiffness(&mesh, &POLYCARBONATE);
+    let contact = contact(610.0);
     let base = SteadySliding::solve(&mesh, &elastic, &contact).expect("the disc is in contact");
     let options = TangentOptions {
         mass: MassKind::Consistent,
         geometric_stiffness: false,
-        damping: RayleighDamping {
-            mass_coefficient: 40.0,
-            stiffness_coefficient: 4.5e-7,
-        },
+        damping: DAMPING,
         damping_model: DampingModel::WholeTangent,
         contact: ContactStiffness::default(),
     };
-    SlidingTangent::linearize(&mesh, &material, &elastic, &base, &options)
+    SlidingTangent::linearize(&mesh, &POLYCARBONATE, &elastic, &base, &options)
 }
 
 fn request() -> EigenRequest {

@@ -4,10 +4,12 @@
 //! (the fastest of many batches, so that other load on the machine counts little), nanoseconds an element-step,
 //! and the share of the processor's fused multiply-add peak, which it measures first.
 
-use frictionsim::contact::SlidingContact;
+#[path = "../tests/common/disc.rs"]
+mod disc;
+
+use disc::{DAMPING, POLYCARBONATE, annulus, contact};
 use frictionsim::fem::operator::SimdLevel;
-use frictionsim::fem::{ElasticMaterial, PlaneFormulation, RayleighDamping};
-use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind};
+use frictionsim::mesh::{AnnulusMesh, ElementKind};
 use frictionsim::transient::{
     CentralDifference, InitialState, Observer, OperatorChoice, Perturbation, Sample, TimeStep,
     TransientModel, TransientSettings, build_operator,
@@ -40,7 +42,7 @@ fn main() {
         peak / 1e9
     );
     for (elements, radial) in [(180, 35), (270, 52)] {
-        let annulus = disc(elements, radial);
+        let annulus = mesh(elements, radial);
         println!(
             "\n{elements} x {radial} elements, {} dofs",
             2 * annulus.mesh.node_count()
@@ -56,36 +58,17 @@ fn main() {
     }
 }
 
-fn disc(circumferential_elements: usize, radial_elements: usize) -> AnnulusMesh {
-    AnnulusMesh::generate(&AnnulusSpecification {
-        inner_radius: 0.0205,
-        outer_radius: 0.0905,
-        circumferential_elements,
-        radial_elements,
-        radial_grading: 1.0,
-        element: ElementKind::Quad4,
-    })
-    .expect("a valid mesh")
+fn mesh(circumferential: usize, radial: usize) -> AnnulusMesh {
+    let specification = annulus(ElementKind::Quad4, circumferential, radial);
+    AnnulusMesh::generate(&specification).expect("a valid mesh")
 }
 
 fn report(annulus: &AnnulusMesh, choice: OperatorChoice, level: SimdLevel, peak: f64) {
     let model = TransientModel {
         annulus,
-        material: ElasticMaterial {
-            young_modulus: 2.5e9,
-            poisson_ratio: 0.3805,
-            density: 1228.0,
-            formulation: PlaneFormulation::PlaneStrain,
-        },
-        damping: RayleighDamping {
-            mass_coefficient: 40.0,
-            stiffness_coefficient: 4.5e-7,
-        },
-        contact: SlidingContact {
-            friction_coefficient: 0.3,
-            interference: 25e-6,
-            rotation_speed: 63.9,
-        },
+        material: POLYCARBONATE,
+        damping: DAMPING,
+        contact: contact(610.0),
     };
     let operator = build_operator(&model, choice, level).expect("an operator");
     let sample_interval = 2e-6;

@@ -1,23 +1,28 @@
 //! The sparse eigenvalue sweep against closed forms, dense decompositions, other linearisations and the
 //! paper's Table 1 (independent checks, unless a test says otherwise).
 
+#[path = "common/disc.rs"]
+mod disc;
+#[path = "common/table_1.rs"]
+mod table_1;
+
+use disc::{DAMPING, POLYCARBONATE, annulus, contact};
 use faer::{Mat, c64};
 use frictionsim::cea::sparse::{
     CeaError, EigenLimit, EigenRequest, FrictionlessModes, Linearization, ShiftInverted, Side,
     StiffnessFactors, StructureMatrices, sweep,
 };
 use frictionsim::cea::{ComplexMode, FrictionSweep};
-use frictionsim::contact::{ContactStiffness, SlidingContact};
-use frictionsim::fem::{
-    DofMap, ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping, assemble_stiffness,
-};
+use frictionsim::contact::ContactStiffness;
+use frictionsim::fem::{DofMap, MassKind, RayleighDamping, assemble_stiffness};
 use frictionsim::linalg::dense::random_columns;
 use frictionsim::linalg::dense_eigen::real_eigen;
 use frictionsim::linalg::{DenseLu, KrylovSchurSettings, MatrixPolynomial, Wanted, krylov_schur};
-use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind};
+use frictionsim::mesh::{AnnulusMesh, ElementKind};
 use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
 use std::f64::consts::TAU;
 use std::sync::OnceLock;
+use table_1::TABLE_1;
 
 type Entries = Vec<(usize, usize, f64)>;
 
@@ -78,36 +83,16 @@ impl Disc {
 
     /// The paper's disc; `nu`, `rho` and `k_n` from a fit of the exact continuum to its Table 1.
     fn tangent(&self) -> SlidingTangent {
-        let mesh = AnnulusMesh::generate(&AnnulusSpecification {
-            inner_radius: 0.0205,
-            outer_radius: 0.0905,
-            circumferential_elements: self.circumferential,
-            radial_elements: self.radial,
-            radial_grading: 1.0,
-            element: self.element,
-        })
-        .unwrap()
-        .mesh;
-        let material = ElasticMaterial {
-            young_modulus: 2.5e9,
-            poisson_ratio: 0.3805,
-            density: 1228.0,
-            formulation: PlaneFormulation::PlaneStrain,
-        };
+        let specification = annulus(self.element, self.circumferential, self.radial);
+        let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
+        let material = POLYCARBONATE;
         let elastic = assemble_stiffness(&mesh, &material);
-        let contact = SlidingContact {
-            friction_coefficient: 0.3,
-            interference: 25e-6,
-            rotation_speed: 610.0 * TAU / 60.0,
-        };
+        let contact = contact(610.0);
         let base = SteadySliding::solve(&mesh, &elastic, &contact).unwrap();
         let options = TangentOptions {
             mass: MassKind::Consistent,
             geometric_stiffness: self.geometric_stiffness,
-            damping: RayleighDamping {
-                mass_coefficient: 40.0,
-                stiffness_coefficient: 4.5e-7,
-            },
+            damping: DAMPING,
             damping_model: self.damping_model,
             contact: ContactStiffness {
                 normal_stiffness: self.normal_stiffness,
@@ -384,39 +369,6 @@ fn bad_requests_are_refused_with_the_bound() {
         CeaError::FrictionCoefficients { .. }
     ));
 }
-
-/// Table 1 of the paper at friction coefficient 0.3: real part and frequency, Hz; harmonic and branch
-/// are not printed there but identified with the exact continuum model.
-const TABLE_1: [(f64, f64, usize, usize); 28] = [
-    (-51.7, 5857.0, 0, 0),
-    (-207.1, 7655.0, 1, 0),
-    (34.9, 7660.0, 1, 0),
-    (-438.6, 9884.0, 2, 0),
-    (155.7, 9901.0, 2, 0),
-    (-556.3, 10502.0, 1, 1),
-    (237.8, 10525.0, 1, 1),
-    (-176.7, 11077.0, 0, 1),
-    (-330.9, 11258.0, 3, 0),
-    (-34.1, 11268.0, 3, 0),
-    (-281.8, 11770.0, 2, 1),
-    (-116.5, 11775.0, 2, 1),
-    (-285.7, 12915.0, 4, 0),
-    (-192.6, 12918.0, 4, 0),
-    (-318.8, 14673.0, 5, 0),
-    (-296.7, 14674.0, 5, 0),
-    (-366.7, 14777.0, 3, 1),
-    (-257.5, 14781.0, 3, 1),
-    (-314.3, 14832.0, 0, 2),
-    (-726.9, 16345.0, 1, 2),
-    (-36.4, 16377.0, 1, 2),
-    (-387.3, 16433.0, 6, 0),
-    (-383.0, 16434.0, 6, 0),
-    (-394.9, 16641.0, 0, 3),
-    (-842.6, 17145.0, 2, 2),
-    (3.1, 17186.0, 2, 2),
-    (-500.1, 17444.0, 4, 1),
-    (-367.5, 17451.0, 4, 1),
-];
 
 #[test]
 fn paper_disc_reproduces_table_1_and_the_critical_friction_coefficients() {

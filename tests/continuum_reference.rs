@@ -3,11 +3,14 @@
 //! D'Ambrogio, "System dynamic instabilities induced by sliding contact").
 
 mod continuum;
+#[path = "common/table_1.rs"]
+mod table_1;
 
 use continuum::bessel::{determinant, of_complex_argument, of_real_argument, root_near};
 use continuum::{Annulus, Contact, Eigenvalue, Rayleigh};
 use faer::c64;
 use std::f64::consts::TAU;
+use table_1::TABLE_1;
 
 /// The disc of the paper with rounded material data.
 const DISC: Annulus = Annulus {
@@ -30,39 +33,6 @@ const NORMAL_STIFFNESS: f64 = 7.4e12;
 
 /// `alpha_R` and `beta_R` of the paper.
 const RAYLEIGH: Rayleigh = (40.0, 4.5e-7);
-
-/// Table 1 of the paper, mu = 0.3: (real part Hz, frequency Hz, harmonic, branch). Harmonic and
-/// branch are not printed there; of a pair the row with the larger real part travels backwards.
-const TABLE_1: [(f64, f64, usize, usize); 28] = [
-    (-51.7, 5857.0, 0, 0),
-    (-207.1, 7655.0, 1, 0),
-    (34.9, 7660.0, 1, 0),
-    (-438.6, 9884.0, 2, 0),
-    (155.7, 9901.0, 2, 0),
-    (-556.3, 10502.0, 1, 1),
-    (237.8, 10525.0, 1, 1),
-    (-176.7, 11077.0, 0, 1),
-    (-330.9, 11258.0, 3, 0),
-    (-34.1, 11268.0, 3, 0),
-    (-281.8, 11770.0, 2, 1),
-    (-116.5, 11775.0, 2, 1),
-    (-285.7, 12915.0, 4, 0),
-    (-192.6, 12918.0, 4, 0),
-    (-318.8, 14673.0, 5, 0),
-    (-296.7, 14674.0, 5, 0),
-    (-366.7, 14777.0, 3, 1),
-    (-257.5, 14781.0, 3, 1),
-    (-314.3, 14832.0, 0, 2),
-    (-726.9, 16345.0, 1, 2),
-    (-36.4, 16377.0, 1, 2),
-    (-387.3, 16433.0, 6, 0),
-    (-383.0, 16434.0, 6, 0),
-    (-394.9, 16641.0, 0, 3),
-    (-842.6, 17145.0, 2, 2),
-    (3.1, 17186.0, 2, 2),
-    (-500.1, 17444.0, 4, 1),
-    (-367.5, 17451.0, 4, 1),
-];
 
 /// Exact eigenvalue of each row of Table 1.
 fn table_1_reference(annulus: &Annulus, contact: &Contact) -> Vec<Eigenvalue> {

@@ -6,7 +6,7 @@ use super::{Failure, RunOptions, Session, cea, transient};
 use crate::case::{Analysis, Case, Convergence, TimeStep};
 use crate::cea::FrictionSweep;
 use crate::results::convergence::{ConvergenceReport, Refinement, Series, draw, print, write};
-use crate::results::{DOTS_PER_INCH, Manifest};
+use crate::results::{DOTS_PER_INCH, Manifest, OutputFolder, read_record};
 use clap::Args;
 use rayon::prelude::*;
 use serde_json::Value;
@@ -59,7 +59,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         .map(|(outcomes, study)| series(case, study, outcomes))
         .collect();
     let report = ConvergenceReport {
-        title: &case.title,
+        title: case.title.clone(),
         series: series?,
         wall_s: session.wall_seconds(),
     };
@@ -70,6 +70,16 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let path = folder.path().to_owned();
     folder.finish()?;
     session.print(&print(&report), &summary, &path)
+}
+
+/// Draws the figures of a folder again, from its `record.bin`.
+///
+/// # Errors
+/// A folder without a whole record; those of the drawing and of the folder.
+pub fn redraw(folder: &OutputFolder, dots_per_inch: f64) -> Result<(), Failure> {
+    let report: ConvergenceReport = read_record(folder.path())?;
+    draw(folder, &report, dots_per_inch)?;
+    Ok(())
 }
 
 /// The levels that a case asks for.
@@ -188,8 +198,8 @@ fn series(case: &Case, study: &Study, outcomes: Vec<Timed>) -> Result<Series, Fa
     }
     Ok(Series {
         analysis: match study.analysis {
-            Analysis::Cea => "cea",
-            Analysis::Transient => "transient",
+            Analysis::Cea => "cea".to_owned(),
+            Analysis::Transient => "transient".to_owned(),
         },
         refinement: study.refinement,
         levels,

@@ -1,9 +1,14 @@
 //! `frictionsim cycle`: limit cycles found directly, and followed over a parameter.
 
+mod figures;
+
+pub use figures::redraw;
+
 use super::{Failure, RunOptions, Session};
 use crate::case::{Case, Cycle};
 use crate::cycle::{CycleError, CycleSolver, OperatingPoint, Parameter};
 use crate::mesh::AnnulusMesh;
+use crate::results::DOTS_PER_INCH;
 use crate::results::cycle::{CycleReport, CycleResult, print, write};
 use clap::Args;
 use rayon::prelude::*;
@@ -53,6 +58,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         wall_s: session.wall_seconds(),
     };
     let summary = write(&folder, &report)?;
+    if !session.options.no_figures {
+        figures::redraw(&folder, case, &summary, DOTS_PER_INCH)?;
+    }
     let path = folder.path().to_owned();
     folder.finish()?;
     session.print(&print(&report), &summary, &path)

@@ -11,11 +11,18 @@ use crate::mesh::{AnnulusMesh, SectorMesh};
 use crate::prestress::{
     DampingModel, SectorTangent, SlidingTangent, SteadySliding, TangentOptions,
 };
-use crate::results::Table;
+use crate::results::figures::{ResponsePlot, draw_response};
+use crate::results::identification::unit_of;
+use crate::results::report::NamedFigure;
+use crate::results::{DOTS_PER_INCH, DrawingError, OutputFolder, Table, write_figures};
+use crate::signal::reader::read_response;
 use clap::Args;
 use faer::c64;
 use serde_json::json;
 use std::f64::consts::TAU;
+
+/// Table of the response in its folder.
+const TABLE: &str = "frf.csv";
 
 /// Frequency response of the model between two nodes
 ///
@@ -51,7 +58,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let folder = session.open_folder()?;
     let computed = compute(case, frf)?;
     let values = observed(case, frf, &computed.receptance);
-    folder.write("frf.csv", |out| write_table(out, frf, &values))?;
+    folder.write(TABLE, |out| write_table(out, frf, &values))?;
     let summary = json!({
         "command": "frf",
         "title": case.title,
@@ -70,9 +77,37 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         serde_json::to_writer_pretty(&mut *out, &summary)?;
         out.write_all(b"\n")
     })?;
+    if !session.options.no_figures {
+        redraw(&folder, DOTS_PER_INCH)?;
+    }
     let path = folder.path().to_owned();
     folder.finish()?;
     session.print(&described(frf, &computed), &summary, &path)
+}
+
+/// Draws the figure of a folder from its `frf.csv`.
+///
+/// # Errors
+/// A folder without a table that can be read; those of the drawing and of the folder.
+pub fn redraw(folder: &OutputFolder, dots_per_inch: f64) -> Result<(), Failure> {
+    let path = folder.path().join(TABLE);
+    let name = path.display().to_string();
+    let bytes = std::fs::read(&path)
+        .map_err(|error| Failure::usage(format!("cannot read {name}: {error}")))?;
+    let file = read_response(&bytes, &name, None)?;
+    let response = &file.response;
+    let figure = NamedFigure {
+        name: "response".into(),
+        caption: "Frequency response of the model: magnitude and phase.".into(),
+        svg: draw_response(&ResponsePlot {
+            frequencies_hz: response.frequencies_hz(),
+            values: response.values(),
+            unit: unit_of(response.quantity()).to_owned(),
+        })
+        .map_err(DrawingError::Figure)?,
+    };
+    write_figures(folder, &[figure], dots_per_inch)?;
+    Ok(())
 }
 
 /// Receptance by the method of the case.

@@ -2,16 +2,12 @@
 
 use super::Failure;
 use super::measurement::{Measurement, OutputOptions};
-use crate::results::figures::{
-    DampingIdentification, FigureError, Resonance, draw_damping_identification,
+use crate::results::identification::{
+    IdentificationRecord, IdentificationReport, draw, print, write,
 };
-use crate::results::identification::{IdentificationReport, print, write};
-use crate::results::report::NamedFigure;
-use crate::results::{DOTS_PER_INCH, write_figures};
+use crate::results::{DOTS_PER_INCH, OutputFolder, read_record, write_figures, write_record};
 use crate::signal::reader::read_response;
-use crate::signal::{
-    FrequencyResponse, Identification, IdentificationOptions, ResponseQuantity, identify,
-};
+use crate::signal::{IdentificationOptions, ResponseQuantity, identify};
 use clap::{Args, ValueEnum, ValueHint};
 use std::path::PathBuf;
 
@@ -88,58 +84,25 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         wall_s: measurement.wall_seconds(),
     };
     let summary = write(&folder, &report)?;
+    write_record(&folder, &IdentificationRecord::of(&file.response, &found))?;
     if !arguments.output.no_figures {
-        match draw(&file.response, &found) {
-            Ok(svg) => {
-                let figure = NamedFigure {
-                    name: "identification".into(),
-                    caption: "Response with its half-power points, damping factors with the fit."
-                        .into(),
-                    svg,
-                };
-                write_figures(&folder, &[figure], DOTS_PER_INCH)?;
-            }
-            Err(error) => tracing::warn!("figure left out: {error}"),
-        }
+        redraw(&folder, DOTS_PER_INCH)?;
     }
     folder.finish()?;
     measurement.print(&print(&report), &summary)
 }
 
-/// Figure 3: the response with its half-power points, the damping factors with the fitted curve.
-fn draw(response: &FrequencyResponse, found: &Identification) -> Result<String, FigureError> {
-    let magnitude = response.magnitudes();
-    let resonances = found
-        .modes
-        .iter()
-        .filter_map(|mode| {
-            let band = mode.half_power?;
-            Some(Resonance {
-                frequency_hz: band.frequency_hz,
-                half_power_hz: band.band_hz?,
-                damping_factor: mode.fitted.damping_factor.value,
-            })
-        })
-        .collect();
-    let (alpha, beta) = (
-        found.rayleigh.mass_coefficient,
-        found.rayleigh.stiffness_coefficient,
-    );
-    draw_damping_identification(&DampingIdentification {
-        frequencies_hz: response.frequencies_hz(),
-        magnitude: &magnitude,
-        magnitude_unit: match response.quantity() {
-            ResponseQuantity::Accelerance => "m/s²/N",
-            ResponseQuantity::Mobility => "m/s/N",
-            ResponseQuantity::Receptance => "m/N",
-        }
-        .to_owned(),
-        resonances,
-        mass_coefficient: alpha.value,
-        stiffness_coefficient: beta.value,
-        mass_interval: (alpha.low, alpha.high),
-        stiffness_interval: (beta.low, beta.high),
-    })
+/// Draws the figure of a folder from its `record.bin`.
+///
+/// # Errors
+/// A folder without a whole record; those of the folder.
+pub fn redraw(folder: &OutputFolder, dots_per_inch: f64) -> Result<(), Failure> {
+    let record: IdentificationRecord = read_record(folder.path())?;
+    match draw(&record) {
+        Ok(figure) => write_figures(folder, &[figure], dots_per_inch)?,
+        Err(error) => tracing::warn!("figure left out: {error}"),
+    }
+    Ok(())
 }
 
 /// The frequency range, checked.

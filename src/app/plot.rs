@@ -1,19 +1,21 @@
 //! `frictionsim plot`: the figures of a results folder once more.
 
 use super::session::start_threads;
-use super::{Failure, cea, collect, terminal, transient};
+use super::{
+    Failure, cea, collect, convergence, cycle, frf, identify, signal, terminal, transient,
+};
 use crate::case::{Case, RawCase};
 use crate::results::{
     DOTS_PER_INCH, FolderError, Manifest, OutputFolder, read_manifest, read_summary,
 };
 use clap::{Args, ValueHint};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-/// Draw the figures of a results folder again: cea, transient, sweep
+/// Draw the figures of a results folder again
 ///
 /// Writes figures/*.svg, figures/*.png and report.html, the same bytes that the run itself draws, and
-/// leaves every other file as it is. A transient is drawn from its record.bin and a sweep from its
-/// points; the eigenvalues of a cea are solved again from the case in manifest.json.
+/// leaves every other file as it is. A sweep is drawn from its points, an frf from its table, all others
+/// from their record.bin; the eigenvalues of a cea are solved again from the case in manifest.json.
 #[derive(Args)]
 pub struct Arguments {
     /// Results folder
@@ -46,7 +48,6 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     start_threads(arguments.threads);
     let path = &arguments.folder;
     let manifest = read_manifest(path)?;
-    let case = recorded_case(&manifest)?;
     if manifest.version != env!("CARGO_PKG_VERSION") {
         tracing::warn!(
             "{} was written by version {}: figures of this version may differ from its tables",
@@ -54,31 +55,39 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             manifest.version
         );
     }
-    match manifest.command.as_str() {
-        "cea" => {
-            let summary = read_summary(path)?;
-            let folder = OutputFolder::reopen(path)?;
-            cea::redraw(&folder, &case, &summary, arguments.dpi)?;
-            folder.finish()?;
-        }
-        "transient" => {
-            let summary = read_summary(path)?;
-            let folder = OutputFolder::reopen(path)?;
-            transient::redraw(&folder, &case, &summary, arguments.dpi)?;
-            folder.finish()?;
-        }
-        "sweep" => collect::redraw(path, arguments.dpi)?,
+    redraw(path, &manifest, arguments.dpi)?;
+    let figures = path.join("figures");
+    terminal::print(&format!("figures in {}\n", figures.display()))
+}
+
+/// Draws the figures of a folder as its command does.
+fn redraw(path: &Path, manifest: &Manifest, dots_per_inch: f64) -> Result<(), Failure> {
+    let command = manifest.command.as_str();
+    match command {
+        // A sweep's folder has its own lock and list of files.
+        "sweep" => return collect::redraw(path, dots_per_inch),
+        "cea" | "transient" | "cycle" | "convergence" | "frf" | "identify" | "signal" => {}
         other => {
-            let reason = format!(
-                "it belongs to frictionsim {other}, which draws its own when it runs; plot draws those of \
-                 cea, transient and sweep"
-            );
-            let path = path.clone();
+            let reason =
+                format!("it belongs to frictionsim {other}, which draws no figures to repeat");
+            let path = path.to_owned();
             return Err(FolderError::NotResults { path, reason }.into());
         }
     }
-    let figures = path.join("figures");
-    terminal::print(&format!("figures in {}\n", figures.display()))
+    let summary = read_summary(path)?;
+    // Of the commands that start from a table there is no case.
+    let case = || recorded_case(manifest);
+    let folder = OutputFolder::reopen(path)?;
+    match command {
+        "cea" => cea::redraw(&folder, &case()?, &summary, dots_per_inch)?,
+        "transient" => transient::redraw(&folder, &case()?, &summary, dots_per_inch)?,
+        "cycle" => cycle::redraw(&folder, &case()?, &summary, dots_per_inch)?,
+        "convergence" => convergence::redraw(&folder, dots_per_inch)?,
+        "frf" => frf::redraw(&folder, dots_per_inch)?,
+        "identify" => identify::redraw(&folder, dots_per_inch)?,
+        _ => signal::redraw(&folder, dots_per_inch)?,
+    }
+    Ok(folder.finish()?)
 }
 
 /// The case that a manifest records, overrides included.

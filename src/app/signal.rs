@@ -8,17 +8,12 @@ use crate::cea::ComplexMode;
 use crate::cea::cyclic::{ModeLimit, SweepRequest, sweep};
 use crate::fem::MassKind;
 use crate::prestress::{DampingModel, TangentOptions};
-use crate::results::figures::{
-    FigureError, ReferenceFrequency, SpectrogramMap, SpectrumPlot, TransientOverview,
-    draw_spectrum, draw_transient_overview,
+use crate::results::signal::{
+    ChannelRecord, ChannelReport, SignalRecord, SignalReport, draw, print, write,
 };
-use crate::results::report::NamedFigure;
-use crate::results::signal::{ChannelReport, SignalReport, print, write};
-use crate::results::{DOTS_PER_INCH, write_figures};
+use crate::results::{DOTS_PER_INCH, OutputFolder, read_record, write_figures, write_record};
 use crate::signal::reader::{Channel, SignalFile, read_signal};
-use crate::signal::{
-    SpectrogramOptions, Window, amplitude_spectrum, exponential_stage, spectral_lines, spectrogram,
-};
+use crate::signal::{Window, amplitude_spectrum, exponential_stage, spectral_lines};
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
 
@@ -111,17 +106,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         wall_s: measurement.wall_seconds(),
     };
     let summary = write(&folder, &report)?;
+    write_record(&folder, &record(arguments, &file, &selected, &report))?;
     if !arguments.output.no_figures {
-        let drawn = selected.iter().enumerate().filter_map(|(k, channel)| {
-            Some(NamedFigure {
-                name: format!("signal-{}", k + 1),
-                caption: format!("Signal and spectrograms of {}.", channel.name),
-                svg: figure(arguments, &file, channel, &report)?,
-            })
-        });
-        let spectra = (0..selected.len()).filter_map(|k| spectrum_figure(arguments, &report, k));
-        let figures: Vec<NamedFigure> = drawn.chain(spectra).collect();
-        write_figures(&folder, &figures, DOTS_PER_INCH)?;
+        redraw(&folder, DOTS_PER_INCH)?;
     }
     folder.finish()?;
     measurement.print(&print(&report), &summary)
@@ -214,86 +201,53 @@ fn modes_below(case: &Case, frequency_hz: f64) -> Result<Vec<ComplexMode>, Failu
     Ok(points.next().map_or_else(Vec::new, |point| point.modes))
 }
 
-/// Signal over its spectrogram, with the frequencies of the modes named.
-fn figure(
+/// What the figures show.
+fn record(
     arguments: &Arguments,
     file: &SignalFile,
-    channel: &Channel,
+    selected: &[&Channel],
     report: &SignalReport,
-) -> Option<String> {
-    let options = SpectrogramOptions {
-        window_length: arguments.window,
-        hop: 0.25 * arguments.window,
-        ..SpectrogramOptions::default()
-    };
-    let map = match spectrogram(&channel.samples, file.sampling_rate, &options) {
-        Ok(map) => map.below(arguments.max_frequency).normalized(),
-        Err(error) => {
-            tracing::warn!("no spectrogram of {}: {error}; try --window", channel.name);
-            return None;
-        }
-    };
-    let times: Vec<f64> = (0..channel.samples.len())
-        .map(|j| file.start + j as f64 / file.sampling_rate)
-        .collect();
-    let centres: Vec<f64> = map.times.iter().map(|t| file.start + t).collect();
-    let data = TransientOverview {
-        signal_name: channel.name.clone(),
-        signal_unit: String::new(),
-        times: &times,
-        signal: &channel.samples,
-        spectrogram: Some(SpectrogramMap {
-            times: &centres,
-            frequencies_hz: &map.frequencies_hz,
-            amplitude: &map.magnitudes,
-        }),
-        max_frequency_hz: arguments.max_frequency.min(0.5 * file.sampling_rate),
+) -> SignalRecord {
+    let channels = selected.iter().zip(&report.channels);
+    SignalRecord {
+        sampling_rate: file.sampling_rate,
+        start: file.start,
+        window: arguments.window,
+        max_frequency_hz: arguments.max_frequency,
         references: references(report),
-        status: None,
-        stages: Vec::new(),
-        enlarged: 0.0,
-    };
-    drawn(draw_transient_overview(&data), &channel.name)
+        channels: channels
+            .map(|(channel, found)| ChannelRecord {
+                name: channel.name.clone(),
+                samples: channel.samples.clone(),
+                interval_s: found.interval_s,
+                frequencies_hz: found.spectrum.frequencies_hz.clone(),
+                amplitudes: found.spectrum.amplitudes.clone(),
+            })
+            .collect(),
+    }
 }
 
-/// The spectrum that the peaks are taken from.
-fn spectrum_figure(
-    arguments: &Arguments,
-    report: &SignalReport,
-    index: usize,
-) -> Option<NamedFigure> {
-    let channel = &report.channels[index];
-    let (from, to) = channel.interval_s;
-    let data = SpectrumPlot {
-        signal_name: channel.name.clone(),
-        unit: String::new(),
-        frequencies_hz: &channel.spectrum.frequencies_hz,
-        amplitude: &channel.spectrum.amplitudes,
-        max_frequency_hz: arguments.max_frequency.min(0.5 * report.sampling_rate),
-        references: references(report),
-    };
-    Some(NamedFigure {
-        name: format!("spectrum-{}", index + 1),
-        caption: format!("Spectrum of {} from {from:.4} to {to:.4} s.", channel.name),
-        svg: drawn(draw_spectrum(&data), &channel.name)?,
-    })
+/// Draws the figures of a folder from its `record.bin`.
+///
+/// # Errors
+/// A folder without a whole record; those of the drawing and of the folder.
+pub fn redraw(folder: &OutputFolder, dots_per_inch: f64) -> Result<(), Failure> {
+    let record: SignalRecord = read_record(folder.path())?;
+    let drawn = draw(&record);
+    for reason in &drawn.left_out {
+        tracing::warn!("{reason}");
+    }
+    write_figures(folder, &drawn.figures, dots_per_inch)?;
+    Ok(())
 }
 
-/// A drawing, or a warning why there is none.
-fn drawn(drawing: Result<String, FigureError>, channel: &str) -> Option<String> {
-    let warn = |error: &FigureError| tracing::warn!("figure of {channel} left out: {error}");
-    drawing.inspect_err(warn).ok()
-}
-
-/// The unstable modes of the case.
-fn references(report: &SignalReport) -> Vec<ReferenceFrequency> {
-    let unstable = report.modes.iter().enumerate();
+/// The unstable modes of the case: frequency, Hz, and name.
+fn references(report: &SignalReport) -> Vec<(f64, String)> {
+    let modes = report.modes.iter().enumerate();
+    let unstable = modes.filter(|(_, mode)| mode.is_unstable());
+    let name = |number: usize, n: usize| format!("mode {}, *n* = {n}", number + 1);
     unstable
-        .filter(|(_, mode)| mode.is_unstable())
-        .map(|(number, mode)| ReferenceFrequency {
-            frequency_hz: mode.frequency_hz(),
-            label: format!("mode {}, *n* = {}", number + 1, mode.harmonic),
-        })
+        .map(|(number, mode)| (mode.frequency_hz(), name(number, mode.harmonic)))
         .collect()
 }
 

@@ -70,4 +70,13 @@ pub enum CycleError {
         /// Why it ends.
         reason: String,
     },
+    /// The linearized wave has no finite response.
+    #[error(
+        "the stability of this limit cycle to perturbations of class {class} cannot be told: its linearized \
+         contact conditions are singular"
+    )]
+    Stability {
+        /// Class of harmonics.
+        class: usize,
+    },
 }

@@ -4,6 +4,8 @@ use super::branch::{Branch, Step};
 use super::limit_cycle::LimitCycle;
 use super::onset::{HIGHEST_FREQUENCY_HZ, LARGEST_FRICTION, largest_linear_wave, onsets};
 use super::parameter::{OperatingPoint, Parameter};
+use super::perturbed::Perturbed;
+use super::stability::PerturbationGrowth;
 use super::state::{PointState, WaveState};
 use super::wave::{PhaseGrid, Wave};
 use super::{CycleError, Onset, WaveBody};
@@ -24,6 +26,8 @@ const ORIGINS: [f64; 4] = [0.0, 0.5, 0.25, 0.75];
 pub struct CycleSolver {
     body: WaveBody,
     grid: PhaseGrid,
+    specification: AnnulusSpecification,
+    material: ElasticMaterial,
 }
 
 /// Limit cycles along a parameter.
@@ -107,6 +111,8 @@ impl CycleSolver {
         Ok(Self {
             body: body(grid.points / 2)?,
             grid,
+            specification: *specification,
+            material: *material,
         })
     }
 
@@ -266,6 +272,32 @@ impl CycleSolver {
             ends: [BranchEnd::Range, end.err().unwrap_or(BranchEnd::Range)],
             factorizations: branch.factorizations,
         }
+    }
+
+    /// Growth of small perturbations, one entry for each class `0 <= p <= n / 2` of harmonics `+-p + k n`.
+    ///
+    /// # Errors
+    /// [`CycleError::Stability`] where the linearized contact conditions have no finite response.
+    pub fn stability(&self, cycle: &LimitCycle) -> Result<Vec<PerturbationGrowth>, CycleError> {
+        let n = self.body.harmonic();
+        let highest = (self.grid.points / 2) as isize;
+        let body = |class: usize| {
+            let harmonics = (-highest..=highest).map(|k| class as isize + k * n as isize);
+            WaveBody::new(&self.specification, &self.material, harmonics, n)
+        };
+        let own = body(0)?;
+        let mut perturbed = Perturbed::new(&own, &self.wave(), cycle);
+        perturbed.calibrate();
+        let mut growth = vec![PerturbationGrowth::of(&perturbed, 0, n)?];
+        for class in 1..=n / 2 {
+            let other = body(class)?;
+            growth.push(PerturbationGrowth::of(
+                &perturbed.with_body(&other),
+                class,
+                n,
+            )?);
+        }
+        Ok(growth)
     }
 
     /// Displacement (m) and velocity (m/s) over all dofs of the mesh, in nodal frames, at a time (s).

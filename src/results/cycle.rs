@@ -3,8 +3,10 @@
 use crate::contact::ContactStatus;
 use crate::cycle::{CycleBranch, LimitCycle, Onset};
 use crate::mesh::Mesh2d;
+use crate::results::cycle_figures::CycleRecord;
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::manifest::Manifest;
+use crate::results::record::write_record;
 use crate::results::table::{Table, format_number};
 use crate::results::vtu::{EncodedMesh, Field, PvdEntry, write_pvd, write_vtu};
 use serde_json::{Value, json};
@@ -64,6 +66,7 @@ pub fn write(folder: &OutputFolder, report: &CycleReport<'_>) -> Result<Value, F
         }
     }
     write_fields(folder, report)?;
+    write_record(folder, &CycleRecord::of(report))?;
     let summary = summary(report, folder.manifest());
     folder.write("summary.json", |out| {
         serde_json::to_writer_pretty(&mut *out, &summary)?;
@@ -163,7 +166,7 @@ pub fn write_branch(
 
 /// Amplitude of the wave's own harmonic of the edge's tangential displacement, m; half the peak-to-peak motion where the
 /// summary's harmonics do not reach.
-fn amplitude(cycle: &LimitCycle) -> f64 {
+pub(super) fn amplitude(cycle: &LimitCycle) -> f64 {
     match cycle.harmonics.get(cycle.harmonic) {
         Some(&amplitude) => amplitude,
         None => {

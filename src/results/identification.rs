@@ -1,5 +1,9 @@
 //! Tables of an identified damping.
 
+mod figures;
+
+pub use figures::{IdentificationRecord, draw, unit_of};
+
 use super::folder::{FolderError, OutputFolder};
 use super::table::{Table, format_number};
 use crate::signal::{

@@ -3,12 +3,16 @@
 pub mod cea;
 pub mod convergence;
 pub mod cycle;
+pub mod cycle_figures;
 mod drawing;
 pub mod figures;
 mod folder;
+mod framed;
 pub mod identification;
 mod manifest;
 mod mesh;
+mod parameter;
+mod record;
 mod reopening;
 pub mod report;
 pub mod run_figures;
@@ -25,6 +29,7 @@ pub use drawing::{
 pub use folder::{FolderError, OutputFolder, Replace};
 pub use manifest::Manifest;
 pub use mesh::{MeshStatistics, write_mesh, write_mesh_picture};
+pub use record::{Record, read_record, write_record};
 pub use reopening::{read_manifest, read_summary};
 pub use table::{Table, format_number};
 pub use vtu::{EncodedMesh, Field, PvdEntry, cartesian_vectors, write_pvd, write_vtu};

@@ -1,5 +1,9 @@
 //! Tables of an analysed time signal.
 
+mod figures;
+
+pub use figures::{ChannelRecord, SignalFigures, SignalRecord, draw};
+
 use super::folder::{FolderError, OutputFolder};
 use super::table::{Table, format_number};
 use crate::cea::ComplexMode;

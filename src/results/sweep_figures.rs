@@ -1,11 +1,11 @@
 //! The figures of a parameter study, from its points.
 
 use super::figures::axis::Scale;
-use super::figures::text::literal;
 use super::figures::{
     CriticalFriction, FigureError, ReferenceFrequency, SpeedSeries, SpeedSweep,
     draw_critical_friction, draw_speed_frequencies, draw_speed_status,
 };
+use super::parameter::parameter_title;
 use super::report::NamedFigure;
 use super::sweep::PointRecord;
 use serde_json::Value;
@@ -163,7 +163,7 @@ fn critical_friction(records: &[PointRecord], highest_friction: f64) -> Option<C
     let values: Vec<f64> = points.iter().map(|point| point.0).collect();
     let (low, high) = (values[0], values[values.len() - 1]);
     Some(CriticalFriction {
-        parameter_title: literal(key),
+        parameter_title: parameter_title(key),
         scale: if low > 0.0 && high / low > 20.0 {
             Scale::Logarithmic
         } else {

@@ -1,6 +1,7 @@
 //! Independent checks: dense solutions of harmonics folded from the matrices of the full mesh.
 
-use crate::model::{annulus, paper_contact, paper_options, polycarbonate, run};
+use crate::disc::{POLYCARBONATE, annulus, contact};
+use crate::model::{paper_options, run};
 use faer::linalg::solvers::Solve;
 use faer::{Mat, c64};
 use frictionsim::cea::cyclic::{ModeLimit, SweepRequest, sweep};
@@ -163,7 +164,7 @@ fn spectrum_equals_dense_solution_of_every_harmonic_of_the_full_mesh() {
                     options.mass = mass;
                     options.contact.normal_stiffness = normal_stiffness;
                     options.geometric_stiffness = geometric_stiffness;
-                    let mut contact = paper_contact();
+                    let mut contact = contact(610.0);
                     if geometric_stiffness {
                         // A strong prestress, and the other sense of rotation.
                         contact.interference = 4e-4;
@@ -172,7 +173,7 @@ fn spectrum_equals_dense_solution_of_every_harmonic_of_the_full_mesh() {
                     let specification = annulus(element, n_theta, 6);
                     let worst = worst_difference(
                         &specification,
-                        &polycarbonate(),
+                        &POLYCARBONATE,
                         &options,
                         &contact,
                         &[0.0, 0.3, 0.9],
@@ -208,9 +209,9 @@ fn quadratic_problem_equals_dense_companion_solution() {
             for element in [ElementKind::Quad4, ElementKind::Quad8] {
                 let worst = worst_difference(
                     &annulus(element, 14, 5),
-                    &polycarbonate(),
+                    &POLYCARBONATE,
                     &options,
-                    &paper_contact(),
+                    &contact(610.0),
                     &[0.0, 0.4, 1.0],
                     15000.0,
                 );
@@ -252,9 +253,9 @@ fn random_models_lose_no_mode_and_gain_none() {
         let material = ElasticMaterial {
             poisson_ratio: -0.2 + 0.69 * random(),
             formulation,
-            ..polycarbonate()
+            ..POLYCARBONATE
         };
-        let mut contact = paper_contact();
+        let mut contact = contact(610.0);
         contact.interference = 1e-3 * random();
         contact.rotation_speed = if random() < 0.5 { -3.0 } else { 9.0 };
         let frictions = [0.0, 0.5 * random(), 0.5 + 1.5 * random()];
@@ -278,12 +279,12 @@ fn branches_of_a_standing_harmonic_that_meet_are_followed_beyond() {
     options.mass = MassKind::Lumped;
     options.damping.stiffness_coefficient = 3.195e-6;
     options.contact.normal_stiffness = Some(3e11);
-    let mut contact = paper_contact();
+    let mut contact = contact(610.0);
     contact.interference = 9.876e-5;
     let material = ElasticMaterial {
         poisson_ratio: 0.266,
         formulation: PlaneFormulation::PlaneStress,
-        ..polycarbonate()
+        ..POLYCARBONATE
     };
     let mut specification = annulus(ElementKind::Quad8, 10, 4);
     specification.inner_radius = 0.0387;

@@ -1,6 +1,7 @@
 //! Independent check: sensitivities against finite differences of the whole analysis.
 
-use crate::model::{annulus, paper_contact, paper_options, polycarbonate};
+use crate::disc::{POLYCARBONATE, annulus, contact};
+use crate::model::paper_options;
 use faer::c64;
 use frictionsim::cea::cyclic::{
     CyclicModel, ModeBranch, ModeLimit, Sensitivity, SweepRequest, sensitivities, sweep,
@@ -53,12 +54,12 @@ fn sensitivities_equal_finite_differences() {
         (rigid, PlaneFormulation::PlaneStress, ElementKind::Quad8),
         (dashpots, PlaneFormulation::PlaneStrain, ElementKind::Quad4),
     ] {
-        let mut contact = paper_contact();
+        let mut contact = contact(610.0);
         // A strong prestress, so that its share cannot hide.
         contact.interference = 3e-4;
         let material = ElasticMaterial {
             formulation,
-            ..polycarbonate()
+            ..POLYCARBONATE
         };
         let model = CyclicModel {
             specification: annulus(element, 24, 6),

@@ -1,44 +1,14 @@
 //! Onsets, intervals, completeness and maps, against the paper, the continuum and each other.
 
-use crate::model::{annulus, paper_contact, paper_options, polycarbonate, run};
+use crate::disc::{POLYCARBONATE, annulus, contact};
+use crate::model::{paper_options, run};
+use crate::table_1::TABLE_1;
 use frictionsim::cea::UnstableInterval;
 use frictionsim::cea::cyclic::{
     CyclicModel, ModeBranch, ModeLimit, SweepRequest, stability_map, sweep,
 };
 use frictionsim::fem::ElasticMaterial;
 use frictionsim::mesh::ElementKind;
-
-/// Table 1 of Brunetti et al. at friction 0.3: mode, Re / 2 pi and Im / 2 pi in Hz, harmonic.
-const TABLE_1: [(f64, f64, usize); 28] = [
-    (-51.7, 5857.0, 0),
-    (-207.1, 7655.0, 1),
-    (34.9, 7660.0, 1),
-    (-438.6, 9884.0, 2),
-    (155.7, 9901.0, 2),
-    (-556.3, 10502.0, 1),
-    (237.8, 10525.0, 1),
-    (-176.7, 11077.0, 0),
-    (-330.9, 11258.0, 3),
-    (-34.1, 11268.0, 3),
-    (-281.8, 11770.0, 2),
-    (-116.5, 11775.0, 2),
-    (-285.7, 12915.0, 4),
-    (-192.6, 12918.0, 4),
-    (-318.8, 14673.0, 5),
-    (-296.7, 14674.0, 5),
-    (-366.7, 14777.0, 3),
-    (-257.5, 14781.0, 3),
-    (-314.3, 14832.0, 0),
-    (-726.9, 16345.0, 1),
-    (-36.4, 16377.0, 1),
-    (-387.3, 16433.0, 6),
-    (-383.0, 16434.0, 6),
-    (-394.9, 16641.0, 0),
-    (-842.6, 17145.0, 2),
-    (3.1, 17186.0, 2),
-    (-500.1, 17444.0, 4),
-    (-367.5, 17451.0, 4),
-];
 
 #[test]
 fn eigenvalues_equal_table_1_of_the_paper() {
@@ -49,7 +19,7 @@ fn eigenvalues_equal_table_1_of_the_paper() {
         &[0.3],
         ModeLimit::Lowest(28),
     );
-    for ((real, frequency, harmonic), mode) in TABLE_1.iter().zip(&found.sweep.points[0].modes) {
+    for ((real, frequency, harmonic, _), mode) in TABLE_1.iter().zip(&found.sweep.points[0].modes) {
         assert_eq!(mode.harmonic, *harmonic, "{mode:?}");
         assert!(
             (mode.frequency_hz() / frequency - 1.0).abs() < 3e-3,
@@ -99,7 +69,7 @@ fn unstable_intervals_do_not_depend_on_the_grid() {
     options.damping.stiffness_coefficient = 0.0;
     let material = ElasticMaterial {
         poisson_ratio: 0.45,
-        ..polycarbonate()
+        ..POLYCARBONATE
     };
     let solve = |frictions: &[f64]| {
         let request = SweepRequest {
@@ -112,7 +82,7 @@ fn unstable_intervals_do_not_depend_on_the_grid() {
             &specification,
             &material,
             &options,
-            &paper_contact(),
+            &contact(610.0),
             &request,
         )
         .unwrap()
@@ -194,9 +164,9 @@ fn results_are_the_same_to_the_last_bit_on_any_number_of_threads() {
 fn stability_map_equals_single_sweeps_and_survives_failing_points() {
     let model = CyclicModel {
         specification: annulus(ElementKind::Quad4, 40, 10),
-        material: polycarbonate(),
+        material: POLYCARBONATE,
         options: paper_options(),
-        contact: paper_contact(),
+        contact: contact(610.0),
     };
     let limit = ModeLimit::Lowest(12);
     let models = [-1e-5, 2e-5, 2e-4].map(|interference| {
@@ -260,12 +230,12 @@ fn impossible_requests_name_their_key() {
             limit,
             shapes_at: &[],
         };
-        let (material, options) = (polycarbonate(), paper_options());
+        let (material, options) = (POLYCARBONATE, paper_options());
         let outcome = sweep(
             &specification,
             &material,
             &options,
-            &paper_contact(),
+            &contact(610.0),
             &request,
         );
         assert!(outcome.unwrap_err().to_string().contains(key));

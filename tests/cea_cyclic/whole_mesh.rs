@@ -1,6 +1,7 @@
 //! Cross-method checks: the sparse solver and the matrices of the whole mesh.
 
-use crate::model::{annulus, paper_contact, paper_options, polycarbonate, run};
+use crate::disc::{POLYCARBONATE, annulus, contact};
+use crate::model::{paper_options, run};
 use faer::c64;
 use frictionsim::cea::ComplexMode;
 use frictionsim::cea::cyclic::{ModeLimit, SweepRequest, sweep};
@@ -26,7 +27,7 @@ fn spectrum_branches_and_onsets_equal_those_of_the_sparse_solver() {
         let specification = annulus(element, sectors, 6);
         let cyclic = run(&specification, &options, &frictions, ModeLimit::Lowest(18)).sweep;
         let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
-        let (material, contact) = (polycarbonate(), paper_contact());
+        let (material, contact) = (POLYCARBONATE, contact(610.0));
         let elastic = assemble_stiffness(&mesh, &material);
         let base = SteadySliding::solve(&mesh, &elastic, &contact).unwrap();
         let tangent = SlidingTangent::linearize(&mesh, &material, &elastic, &base, &options);
@@ -76,7 +77,7 @@ fn expanded_shapes_are_eigenvectors_of_the_full_mesh() {
             limit: ModeLimit::Lowest(20),
             shapes_at: &[0.6],
         };
-        let (material, contact) = (polycarbonate(), paper_contact());
+        let (material, contact) = (POLYCARBONATE, contact(610.0));
         let found = sweep(&specification, &material, &options, &contact, &request).unwrap();
         let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
         let elastic = assemble_stiffness(&mesh, &material);

@@ -3,6 +3,9 @@
 //!
 //! Consistency checks: they look at the drawing, not at the physics.
 
+mod cycles;
+#[path = "../common/disc.rs"]
+mod disc;
 mod report;
 mod run;
 mod studies;

@@ -1,47 +1,30 @@
 //! Figures of a real run: the polycarbonate disc on a coarse mesh, seeded with harmonic 2.
 
-use crate::{check, synthetic};
+use crate::check;
+use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact};
 use frictionsim::contact::SlidingContact;
 use frictionsim::fem::operator::SimdLevel;
-use frictionsim::fem::{ElasticMaterial, PlaneFormulation, RayleighDamping};
-use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind};
+use frictionsim::mesh::{AnnulusMesh, ElementKind};
 use frictionsim::results::figures::ReferenceFrequency;
 use frictionsim::results::run_figures::{RunFigures, draw_run};
 use frictionsim::transient::{
     CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
     TimeStep, TransientAnalysis, TransientModel, TransientSettings, build_operator,
 };
-use std::f64::consts::TAU;
 
 #[test]
 fn a_run_gets_every_figure_of_its_record() {
-    let annulus = AnnulusMesh::generate(&AnnulusSpecification {
-        inner_radius: 0.0205,
-        outer_radius: 0.0905,
-        circumferential_elements: 60,
-        radial_elements: 12,
-        radial_grading: 1.0,
-        element: ElementKind::Quad4,
-    })
-    .unwrap();
-    let rotation_speed = 610.0 * TAU / 60.0;
+    let annulus = AnnulusMesh::generate(&annulus(ElementKind::Quad4, 60, 12)).unwrap();
+    let contact = SlidingContact {
+        friction_coefficient: 0.4,
+        ..contact(610.0)
+    };
+    let rotation_speed = contact.rotation_speed;
     let model = TransientModel {
         annulus: &annulus,
-        material: ElasticMaterial {
-            young_modulus: 2.5e9,
-            poisson_ratio: 0.3805,
-            density: 1228.0,
-            formulation: PlaneFormulation::PlaneStrain,
-        },
-        damping: RayleighDamping {
-            mass_coefficient: synthetic::MASS_COEFFICIENT,
-            stiffness_coefficient: synthetic::STIFFNESS_COEFFICIENT,
-        },
-        contact: SlidingContact {
-            friction_coefficient: 0.4,
-            interference: 25e-6,
-            rotation_speed,
-        },
+        material: POLYCARBONATE,
+        damping: DAMPING,
+        contact,
     };
     let settings = TransientSettings {
         duration: 0.02,

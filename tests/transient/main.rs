@@ -1,5 +1,8 @@
 //! The explicit contact transient against theory, other methods and itself.
 
+#[path = "../common/disc.rs"]
+mod disc;
+
 mod contact;
 mod energy;
 mod linear_stage;

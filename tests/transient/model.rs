@@ -1,44 +1,27 @@
 //! The disc of the paper on meshes that run in seconds.
 
-use frictionsim::contact::SlidingContact;
-use frictionsim::fem::{ElasticMaterial, PlaneFormulation, RayleighDamping};
-use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind};
+use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact};
+use frictionsim::mesh::{AnnulusMesh, ElementKind};
 use frictionsim::transient::{
     InitialState, Observer, Perturbation, Sample, TimeStep, TransientModel, TransientSettings,
 };
-use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 
 pub fn disc(circumferential_elements: usize, radial_elements: usize) -> AnnulusMesh {
-    AnnulusMesh::generate(&AnnulusSpecification {
-        inner_radius: 0.0205,
-        outer_radius: 0.0905,
+    let specification = annulus(
+        ElementKind::Quad4,
         circumferential_elements,
         radial_elements,
-        radial_grading: 1.0,
-        element: ElementKind::Quad4,
-    })
-    .unwrap()
+    );
+    AnnulusMesh::generate(&specification).unwrap()
 }
 
 pub fn model(annulus: &AnnulusMesh, rotation_speed_rpm: f64) -> TransientModel<'_> {
     TransientModel {
         annulus,
-        material: ElasticMaterial {
-            young_modulus: 2.5e9,
-            poisson_ratio: 0.3805,
-            density: 1228.0,
-            formulation: PlaneFormulation::PlaneStrain,
-        },
-        damping: RayleighDamping {
-            mass_coefficient: 40.0,
-            stiffness_coefficient: 4.5e-7,
-        },
-        contact: SlidingContact {
-            friction_coefficient: 0.3,
-            interference: 25e-6,
-            rotation_speed: rotation_speed_rpm * TAU / 60.0,
-        },
+        material: POLYCARBONATE,
+        damping: DAMPING,
+        contact: contact(rotation_speed_rpm),
     }
 }
 

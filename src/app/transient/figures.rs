@@ -5,8 +5,9 @@ use crate::app::Failure;
 use crate::app::linear_stage::LinearStage;
 use crate::case::Case;
 use crate::results::OutputFolder;
+use crate::results::read_record;
 use crate::results::run_figures::RunFigures;
-use crate::results::transient::{draw, read_record};
+use crate::results::transient::draw;
 use crate::transient::{Recorder, TransientAnalysis};
 use serde_json::Value;
 
@@ -49,6 +50,6 @@ pub fn redraw(
     dots_per_inch: f64,
 ) -> Result<(), Failure> {
     let prepared = Prepared::new(case, "scalar")?;
-    let record = read_record(folder.path())?;
+    let record: Recorder = read_record(folder.path())?;
     draw_record(folder, &prepared, &record, summary, dots_per_inch)
 }

@@ -4,6 +4,7 @@ use crate::cea::UnstableInterval;
 use crate::cea::cyclic::StabilityMapPoint;
 use crate::results::figures::axis::Scale;
 use crate::results::figures::{CriticalFriction, FigureError, draw_critical_friction};
+use crate::results::parameter::parameter_title;
 use crate::results::table::{Table, format_number};
 use std::io::{self, Write};
 
@@ -84,7 +85,7 @@ impl MapReport {
         branches.dedup();
         let values: Vec<f64> = self.points.iter().map(|point| point.value).collect();
         draw_critical_friction(&CriticalFriction {
-            parameter_title: self.key.clone(),
+            parameter_title: parameter_title(&self.key),
             scale: scale_of(&values),
             highest_friction: self.largest_friction,
             branches: branches

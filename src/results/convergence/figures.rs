@@ -22,12 +22,12 @@ type CurveOf = fn(&Series, &Quantity) -> Option<ConvergenceSeries>;
 /// Those of the drawing and of the folder.
 pub fn draw(
     folder: &OutputFolder,
-    report: &ConvergenceReport<'_>,
+    report: &ConvergenceReport,
     dots_per_inch: f64,
 ) -> Result<(), DrawingError> {
     let sections: Result<Vec<_>, FigureError> = report.series.iter().map(section).collect();
     let html = Report {
-        title: report.title.to_owned(),
+        title: report.title.clone(),
         sections: sections?,
         manifest: folder.manifest().clone(),
     };
@@ -35,12 +35,12 @@ pub fn draw(
 }
 
 fn section(series: &Series) -> Result<ReportSection, FigureError> {
-    let (analysis, refinement) = (series.analysis, series.refinement.name());
+    let (analysis, refinement) = (&series.analysis, series.refinement.name());
     let mut figures = Vec::new();
     for group in groups(series) {
         let members = series.quantities.iter();
         let members: Vec<&Quantity> = members.filter(|q| group_of(q) == group).collect();
-        let unit = members.first().map_or("", |quantity| quantity.unit);
+        let unit = members.first().map_or("", |quantity| &quantity.unit);
         let file = group.replace(' ', "-").to_lowercase();
         let kinds: [(&str, String, CurveOf); 2] = [
             (
@@ -96,7 +96,7 @@ fn section(series: &Series) -> Result<ReportSection, FigureError> {
 
 /// What shares a figure: the same property of several modes, else whatever has the same unit.
 fn group_of(quantity: &Quantity) -> &str {
-    match (quantity.name.split_once(", "), quantity.unit) {
+    match (quantity.name.split_once(", "), quantity.unit.as_str()) {
         (Some((property, _)), _) => property,
         (None, "Hz") => "frequency",
         (None, "W") => "power",
@@ -145,7 +145,7 @@ fn table(series: &Series) -> ReportTable {
     columns.extend(["extrapolated", "order", "spread", "verdict"].map(str::to_owned));
     let optional = |value: Option<f64>| value.map_or_else(String::new, significant);
     let rows = series.quantities.iter().map(|quantity| {
-        let mut row = vec![quantity.name.clone(), quantity.unit.to_owned()];
+        let mut row = vec![quantity.name.clone(), quantity.unit.clone()];
         row.extend(quantity.values.iter().map(|value| significant(*value)));
         row.push(optional(quantity.verdict.limit()));
         row.push(

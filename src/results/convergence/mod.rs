@@ -9,12 +9,14 @@ pub use figures::draw;
 pub use print::print;
 
 use crate::results::folder::{FolderError, OutputFolder};
+use crate::results::record::{Record, write_record};
 use crate::results::table::{Table, format_number};
+use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use std::io::{self, Write};
 
 /// What is refined.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Refinement {
     /// The mesh; sizes are element sizes, m.
     Mesh,
@@ -33,12 +35,12 @@ impl Refinement {
 }
 
 /// A quantity over the levels of its series.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Quantity {
     /// Name, with the mode it belongs to.
     pub name: String,
     /// Unit; empty for a pure number.
-    pub unit: &'static str,
+    pub unit: String,
     /// One value for each level; NaN where there is none.
     pub values: Vec<f64>,
     /// Order and limit.
@@ -47,11 +49,11 @@ pub struct Quantity {
 
 impl Quantity {
     /// Judges values on levels of these sizes.
-    pub fn new(name: String, unit: &'static str, sizes: &[f64], values: Vec<f64>) -> Self {
+    pub fn new(name: String, unit: &str, sizes: &[f64], values: Vec<f64>) -> Self {
         Self {
             verdict: estimate(sizes, &values),
             name,
-            unit,
+            unit: unit.to_owned(),
             values,
         }
     }
@@ -68,7 +70,7 @@ impl Quantity {
         };
         Self {
             name,
-            unit: "",
+            unit: String::new(),
             values,
             verdict,
         }
@@ -89,10 +91,10 @@ impl Quantity {
 }
 
 /// One analysis over refinements of one kind.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Series {
     /// `cea` or `transient`.
-    pub analysis: &'static str,
+    pub analysis: String,
     /// What is refined.
     pub refinement: Refinement,
     /// Name of each level: `90 x 18`, or the time step.
@@ -108,22 +110,28 @@ pub struct Series {
 }
 
 /// Everything that a convergence study reports.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ConvergenceReport<'a> {
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ConvergenceReport {
     /// Title of the case.
-    pub title: &'a str,
+    pub title: String,
     /// What was studied.
     pub series: Vec<Series>,
     /// Wall time, s.
     pub wall_s: f64,
 }
 
+impl Record for ConvergenceReport {
+    const MAGIC: [u8; 8] = *b"FRICSIMV";
+    const VERSION: u32 = 1;
+}
+
 /// Writes `convergence.csv` and `summary.json`; returns the summary.
 ///
 /// # Errors
 /// Those of the folder.
-pub fn write(folder: &OutputFolder, report: &ConvergenceReport<'_>) -> Result<Value, FolderError> {
+pub fn write(folder: &OutputFolder, report: &ConvergenceReport) -> Result<Value, FolderError> {
     folder.write("convergence.csv", |out| write_table(out, report))?;
+    write_record(folder, report)?;
     let summary = json!({
         "command": "convergence",
         "title": report.title,
@@ -167,7 +175,7 @@ fn series_object(series: &Series) -> Value {
 }
 
 /// Writes one row for each quantity on each level.
-fn write_table(out: &mut dyn Write, report: &ConvergenceReport<'_>) -> io::Result<()> {
+fn write_table(out: &mut dyn Write, report: &ConvergenceReport) -> io::Result<()> {
     let columns = [
         "analysis",
         "refinement",
@@ -188,10 +196,10 @@ fn write_table(out: &mut dyn Write, report: &ConvergenceReport<'_>) -> io::Resul
             let number = |value: Option<f64>| format_number(value.unwrap_or(f64::NAN));
             for (level, name) in series.levels.iter().enumerate() {
                 table.row([
-                    series.analysis.to_owned(),
+                    series.analysis.clone(),
                     series.refinement.name().to_owned(),
                     quantity.name.clone(),
-                    quantity.unit.to_owned(),
+                    quantity.unit.clone(),
                     name.clone(),
                     format_number(series.sizes[level]),
                     format_number(quantity.values[level]),

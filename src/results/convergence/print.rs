@@ -4,7 +4,7 @@ use super::{ConvergenceReport, Quantity, Refinement, Series, Verdict};
 use std::fmt::Write as _;
 
 /// The report as text: one table for each series.
-pub fn print(report: &ConvergenceReport<'_>) -> String {
+pub fn print(report: &ConvergenceReport) -> String {
     let mut out = String::new();
     if !report.title.is_empty() {
         let _ = writeln!(out, "{}", report.title);
@@ -62,7 +62,7 @@ fn write_series(out: &mut String, series: &Series) {
 }
 
 fn heading(quantity: &Quantity) -> String {
-    match quantity.unit {
+    match quantity.unit.as_str() {
         "" => quantity.name.clone(),
         unit => format!("{} ({unit})", quantity.name),
     }

@@ -2,7 +2,7 @@
 
 use super::axis::{Axis, extremes, prefixed};
 use super::colour::{self, INK, SERIES};
-use super::contact_status::{draw_status_ring, status_keys};
+use super::contact_status::{draw_status_ground, draw_status_ring, status_keys};
 use super::legend::{self, Key};
 use super::panel::Panel;
 use super::prestress::{angle_axis, around, around_degrees};
@@ -81,33 +81,17 @@ fn draw_circle(svg: &mut Svg, top: f64, total: f64, data: &ContactState) {
     legend::draw_legend(svg, 26.0, top + total + 4.0, 200.0, &status_keys());
 }
 
+/// Each node colours half the way to its neighbours; the first one's part begins before angle zero.
 fn ground(svg: &mut Svg, panel: &Panel, data: &ContactState) {
-    let half = 180.0 / data.angles.len() as f64;
-    let count = data.status.len();
-    let mut start = 0;
-    while start < count {
-        let mut end = start + 1;
-        while end < count && data.status[end] == data.status[start] {
-            end += 1;
-        }
-        let from = data.angles[start].to_degrees() - half;
-        let to = data.angles[end - 1].to_degrees() + half;
-        let cell = panel.cell((from, to), (panel.y.low, panel.y.high));
-        svg.rectangle(&cell, pale(data.status[start]), None);
-        start = end;
-    }
-    // The half of the first node's part that lies before angle zero.
-    let cell = panel.cell((360.0 - half, 360.0), (panel.y.low, panel.y.high));
-    svg.rectangle(&cell, pale(data.status[0]), None);
-}
-
-/// Tints of the status colours light enough for curves on top.
-fn pale(status: ContactStatus) -> &'static str {
-    match status {
-        ContactStatus::Stick => "#cce3f0",
-        ContactStatus::Slip => "#faeccc",
-        ContactStatus::Open => "#f2f2f2",
-    }
+    let width = 360.0 / data.angles.len() as f64;
+    let first = data.angles[0].to_degrees() - 0.5 * width;
+    let around: Vec<ContactStatus> = data
+        .status
+        .iter()
+        .chain(&data.status[..1])
+        .copied()
+        .collect();
+    draw_status_ground(svg, panel, &around, |i| first + i as f64 * width);
 }
 
 fn right_panel((top, height): (f64, f64), y: Axis, last: bool) -> Panel {

@@ -30,6 +30,31 @@ pub(super) fn status_keys() -> Vec<(Key, String)> {
         .collect()
 }
 
+/// Tint of a status colour light enough for curves on top.
+pub(super) fn pale(status: ContactStatus) -> &'static str {
+    match status {
+        ContactStatus::Stick => "#cce3f0",
+        ContactStatus::Slip => "#faeccc",
+        ContactStatus::Open => "#f2f2f2",
+    }
+}
+
+/// Colours the ground of a panel by status: sample `i` from abscissa `edge(i)` to `edge(i + 1)`.
+pub(super) fn draw_status_ground(
+    svg: &mut Svg,
+    panel: &Panel,
+    status: &[ContactStatus],
+    edge: impl Fn(usize) -> f64,
+) {
+    let mut start = 0;
+    for run in status.chunk_by(|a, b| a == b) {
+        let end = start + run.len();
+        let cell = panel.cell((edge(start), edge(end)), (panel.y.low, panel.y.high));
+        svg.rectangle(&cell, pale(run[0]), None);
+        start = end;
+    }
+}
+
 /// Draws the status map into a panel whose axes are time and degrees, and returns the interval between
 /// the instants shown (s) if not every sample is shown.
 ///

@@ -85,7 +85,9 @@ pub fn draw_convergence(data: &ConvergenceStudy) -> Result<String, FigureError> 
     let y = Axis::logarithmic(&data.error_title, errors.0 / 1.6, errors.1 * 1.6);
     let x = Axis::logarithmic(&data.size_title, sizes.0 / 1.25, sizes.1 * 1.25);
     let left = Panel::left_margin(&y, 150.0);
-    let panel = Panel::new(Rect::new(left, top, width - left - 8.0, 150.0), x, y);
+    // A label may stand at the very end of the axis.
+    let area = Rect::new(left, top, width - left - 16.0, 150.0);
+    let panel = Panel::new(area, x, y);
     panel.draw_ground(&mut svg);
     for (index, series) in data.series.iter().enumerate() {
         let colour = SERIES[index % 7];

@@ -61,6 +61,11 @@ fn wrap(entries: &[(Key, String)], width: f64) -> Vec<Vec<usize>> {
     lines
 }
 
+/// Width of a legend set into one line, points.
+pub fn legend_width(entries: &[(Key, String)]) -> f64 {
+    entries.iter().map(|(_, name)| entry_width(name)).sum()
+}
+
 /// Height of a legend set into lines of `width`, points.
 pub fn legend_height(entries: &[(Key, String)], width: f64) -> f64 {
     if entries.is_empty() {

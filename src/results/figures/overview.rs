@@ -21,7 +21,7 @@ const DEPTH: u32 = 80;
 pub struct TransientOverview<'a> {
     /// What the signal is, in mark-up without unit: `node 1641, radial acceleration`.
     pub signal_name: String,
-    /// Unit of the signal.
+    /// Unit of the signal; empty where it is not known.
     pub signal_unit: String,
     /// Sample times of the signal, s.
     pub times: &'a [f64],
@@ -77,6 +77,9 @@ pub fn draw_transient_overview(data: &TransientOverview) -> Result<String, Figur
 
 fn signal_axis(data: &TransientOverview) -> (f64, Axis) {
     let reach = extremes(data.signal.iter().map(|v| v.abs())).1;
+    if data.signal_unit.is_empty() {
+        return (1.0, Axis::symmetric("signal", [reach]));
+    }
     let (factor, unit) = prefixed(reach, &data.signal_unit);
     // "km/s²" is no unit anyone uses: accelerations stay in m/s² and let the axis take the power.
     let (factor, unit) = if data.signal_unit.contains('/') {

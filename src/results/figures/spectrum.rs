@@ -14,7 +14,7 @@ use super::{FigureError, expect_length, expect_some};
 pub struct SpectrumPlot<'a> {
     /// What the signal is, in mark-up.
     pub signal_name: String,
-    /// Unit of the amplitude.
+    /// Unit of the amplitude; empty where it is not known.
     pub unit: String,
     /// Frequencies, Hz, rising.
     pub frequencies_hz: &'a [f64],
@@ -46,7 +46,11 @@ pub fn draw_spectrum(data: &SpectrumPlot) -> Result<String, FigureError> {
     let shown = &data.amplitude[..count];
     let (low, high) = extremes(shown.iter().copied().filter(|&a| a > 0.0));
     let floor = (0.7 * low).max(high * 10f64.powi(-DECADES));
-    let y = Axis::logarithmic(&format!("amplitude ({})", data.unit), floor, 2.5 * high);
+    let title = match data.unit.as_str() {
+        "" => "amplitude".to_owned(),
+        unit => format!("amplitude ({unit})"),
+    };
+    let y = Axis::logarithmic(&title, floor, 2.5 * high);
     let x = Axis::linear("frequency *f* (kHz)", 0.0, data.max_frequency_hz * 1e-3);
     let names = data
         .references

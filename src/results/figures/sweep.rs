@@ -99,7 +99,8 @@ pub fn draw_speed_frequencies(data: &SpeedSweep) -> Result<String, FigureError> 
     let x = Axis::logarithmic("rotation speed *Ω* (rpm)", low * 0.9, high * 1.1);
     let panel = Panel::new(area, x, y);
     panel.draw_ground(&mut svg);
-    draw_reference_lines(&mut svg, &panel, &data.references);
+    let dashed = Stroke::dashed(INK, 0.8);
+    draw_reference_lines(&mut svg, &panel, &data.references, &dashed);
     for (index, series) in data.series.iter().enumerate() {
         let values: Vec<f64> = series.main_frequency_hz.iter().map(|f| f * 1e-3).collect();
         let colour = SERIES[index % 7];
@@ -121,7 +122,13 @@ pub fn draw_speed_frequencies(data: &SpeedSweep) -> Result<String, FigureError> 
     ))
 }
 
-fn draw_reference_lines(svg: &mut Svg, panel: &Panel, references: &[ReferenceFrequency]) {
+/// Lines at the frequencies, named at the right of the panel.
+pub(super) fn draw_reference_lines(
+    svg: &mut Svg,
+    panel: &Panel,
+    references: &[ReferenceFrequency],
+    stroke: &Stroke,
+) {
     let mut sorted: Vec<&ReferenceFrequency> = references.iter().collect();
     sorted.sort_by(|a, b| b.frequency_hz.total_cmp(&a.frequency_hz));
     let wanted: Vec<f64> = sorted
@@ -130,11 +137,7 @@ fn draw_reference_lines(svg: &mut Svg, panel: &Panel, references: &[ReferenceFre
         .collect();
     let places = spread(&wanted, 8.5, panel.area.y, panel.area.bottom());
     for ((reference, &y), &label_y) in sorted.iter().zip(&wanted).zip(&places) {
-        panel.horizontal(
-            svg,
-            reference.frequency_hz * 1e-3,
-            &Stroke::dashed(INK, 0.8),
-        );
+        panel.horizontal(svg, reference.frequency_hz * 1e-3, stroke);
         let right = panel.area.right();
         svg.line((right, y), (right + 6.0, label_y), &Stroke::solid(INK, 0.4));
         let text = format!(

@@ -90,14 +90,14 @@ pub fn draw_trajectories(data: &Trajectories) -> Result<String, FigureError> {
 }
 
 /// Lines need a darker tone for open than areas do.
-fn trace_colour(status: ContactStatus) -> &'static str {
+pub(super) fn trace_colour(status: ContactStatus) -> &'static str {
     match status {
         ContactStatus::Open => "#000000",
         other => colour::of_status(other),
     }
 }
 
-fn axis_for(name: &str, values: &[f64], unit: &str) -> (f64, Axis) {
+pub(super) fn axis_for(name: &str, values: &[f64], unit: &str) -> (f64, Axis) {
     let (low, high) = extremes(values.iter().copied());
     let (factor, unit) = prefixed(low.abs().max(high.abs()), unit);
     let title = format!("{name} ({unit})");
@@ -128,7 +128,7 @@ fn draw_phase(svg: &mut Svg, height: f64, data: &Trajectories) {
     title(svg, &panel, 0, &phase.name);
 }
 
-fn title(svg: &mut Svg, panel: &Panel, index: usize, name: &str) {
+pub(super) fn title(svg: &mut Svg, panel: &Panel, index: usize, name: &str) {
     let baseline = panel.area.y - 4.0;
     panel_letter(svg, panel.area.x, baseline, index);
     svg.text(panel.area.x + 16.0, baseline, name, &TextStyle::new(6.75));
@@ -162,7 +162,7 @@ fn draw_trace(svg: &mut Svg, height: f64, data: &Trajectories) {
 }
 
 /// One path for each status: the pieces of the curve that start in it.
-fn draw_by_status(
+pub(super) fn draw_by_status(
     svg: &mut Svg,
     panel: &Panel,
     (xs, ys): (&[f64], &[f64]),

@@ -1,7 +1,7 @@
 //! The state of a transient on disk, to go on from.
 
-use super::framed::{self, Defect};
 use crate::results::folder::{FolderError, OutputFolder};
+use crate::results::framed::{self, Defect};
 use crate::results::manifest::Manifest;
 use crate::transient::{Recorder, TransientState};
 use serde::{Deserialize, Serialize};

@@ -1,10 +1,10 @@
 //! Probes, energies, contact, snapshots, summary.
 
 use super::contact::encode_contact;
-use super::record::write_record;
 use super::{TransientReport, summary};
 use crate::fem::nodal_stress;
 use crate::results::folder::{FolderError, OutputFolder};
+use crate::results::record::write_record;
 use crate::results::table::{Table, format_number};
 use crate::results::vtu::{EncodedMesh, Field, PvdEntry, write_pvd, write_vtu};
 use crate::transient::{SampleRow, Snapshot};

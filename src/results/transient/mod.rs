@@ -3,7 +3,6 @@
 mod checkpoint;
 mod contact;
 mod files;
-mod framed;
 mod print;
 mod record;
 mod report;
@@ -12,7 +11,6 @@ mod summary;
 pub use checkpoint::{CHECKPOINT, Checkpoint, CheckpointError, read_checkpoint, write_checkpoint};
 pub use files::write;
 pub use print::print;
-pub use record::read_record;
 pub use report::{draw, html_report};
 pub use summary::summary;
 

@@ -1,0 +1,31 @@
+//! Figures of limit cycles: after the search, and again from its record.
+
+use crate::app::Failure;
+use crate::case::Case;
+use crate::mesh::AnnulusMesh;
+use crate::results::cycle_figures::{CycleFigures, CycleRecord, draw};
+use crate::results::{OutputFolder, read_record};
+use serde_json::Value;
+
+/// Draws the figures of a folder from its `record.bin`.
+///
+/// # Errors
+/// A folder without a whole record; those of the drawing and of the folder.
+pub fn redraw(
+    folder: &OutputFolder,
+    case: &Case,
+    summary: &Value,
+    dots_per_inch: f64,
+) -> Result<(), Failure> {
+    let record: CycleRecord = read_record(folder.path())?;
+    let annulus = AnnulusMesh::generate(&case.annulus).map_err(Failure::usage)?;
+    let data = CycleFigures {
+        record: &record,
+        mesh: &annulus.mesh,
+        material: &case.material,
+        contact: case.contact.sliding,
+        inner_radius: case.annulus.inner_radius,
+    };
+    draw(folder, &data, summary, dots_per_inch)?;
+    Ok(())
+}

@@ -1,0 +1,292 @@
+//! The figures of limit cycles and of their branches, from their record.
+
+mod record;
+mod report;
+
+pub use record::{BranchRecord, CycleRecord, FamilyRecord, WaveRecord};
+pub use report::draw;
+
+use super::figures::{
+    BranchCurve, BranchCurves, ContactState, FigureError, NodeCycle, ReferenceFrequency, Snapshot,
+    Snapshots, Stability, draw_branch_frequencies, draw_branch_shares, draw_contact_state,
+    draw_node_cycle, draw_node_orbit, draw_snapshots,
+};
+use super::parameter::parameter_title;
+use super::report::NamedFigure;
+use crate::contact::{ContactStatus, SlidingContact};
+use crate::fem::{ElasticMaterial, nodal_stress};
+use crate::mesh::Mesh2d;
+use rayon::prelude::*;
+use std::f64::consts::TAU;
+
+/// Whole-field pictures of one kind, at most.
+const FIELD_LIMIT: usize = 8;
+
+/// Limit cycles and what their figures show besides.
+#[derive(Clone, Copy, Debug)]
+pub struct CycleFigures<'a> {
+    /// The record.
+    pub record: &'a CycleRecord,
+    /// The mesh.
+    pub mesh: &'a Mesh2d,
+    /// The material, for the stress fields.
+    pub material: &'a ElasticMaterial,
+    /// The contact at the case's own operating point.
+    pub contact: SlidingContact,
+    /// Radius of the contact edge, m.
+    pub inner_radius: f64,
+}
+
+impl CycleFigures<'_> {
+    fn peripheral_speed(&self) -> f64 {
+        self.contact.rotation_speed * self.inner_radius
+    }
+
+    /// Harmonics that have a cycle.
+    fn cycles(&self) -> impl Iterator<Item = (usize, &WaveRecord)> {
+        let families = self.record.families.iter();
+        families.filter_map(|family| Some((family.harmonic, family.cycle.as_ref()?)))
+    }
+}
+
+type Job<'a> = (
+    String,
+    String,
+    Box<dyn Fn() -> Result<String, FigureError> + Sync + Send + 'a>,
+);
+
+/// Runs the jobs side by side and keeps what had something to draw, in order.
+fn collect(jobs: Vec<Job<'_>>) -> Result<Vec<NamedFigure>, FigureError> {
+    let drawn: Vec<_> = jobs
+        .into_par_iter()
+        .map(|(name, caption, job)| (name, caption, job()))
+        .collect();
+    let mut figures = Vec::new();
+    for (name, caption, drawing) in drawn {
+        match drawing {
+            Ok(svg) => figures.push(NamedFigure { name, caption, svg }),
+            Err(FigureError::Empty { .. }) => {}
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(figures)
+}
+
+/// Draws the cycles at the case's own operating point: contact around the circle, history and closed curves of a contact
+/// node for each harmonic, then the fields of all.
+///
+/// # Errors
+/// That of a figure that cannot be drawn although there is something to draw.
+pub fn draw_cycles(data: &CycleFigures<'_>) -> Result<Vec<NamedFigure>, FigureError> {
+    let mut jobs: Vec<Job<'_>> = Vec::new();
+    for (n, wave) in data.cycles() {
+        jobs.push((
+            format!("contact-n{n}"),
+            format!(
+                "Limit cycle of {n} nodal diameters at one instant: status around the circle (a), tractions \
+                 (b), velocity (c); the pattern turns against the rotor at 1/{n} of the frequency."
+            ),
+            Box::new(move || contact_state(data, n, wave)),
+        ));
+        jobs.push((
+            format!("history-n{n}"),
+            format!(
+                "A contact node through two periods of the limit cycle of {n} nodal diameters."
+            ),
+            Box::new(move || draw_node_cycle(&node_cycle(data, wave, &wave.statuses()))),
+        ));
+        jobs.push((
+            format!("orbit-n{n}"),
+            format!(
+                "Phase plots, tangential (a) and radial (b), and path (c) of a contact node in the limit \
+                 cycle of {n} nodal diameters."
+            ),
+            Box::new(move || draw_node_orbit(&node_cycle(data, wave, &wave.statuses()))),
+        ));
+    }
+    jobs.push((
+        "velocity".into(),
+        "Velocity modulus and contact status of the waves at one instant.".into(),
+        Box::new(move || velocity_fields(data)),
+    ));
+    jobs.push((
+        "shear-stress".into(),
+        "Shear stress of the waves at one instant.".into(),
+        Box::new(move || stress_fields(data)),
+    ));
+    collect(jobs)
+}
+
+/// Draws the branches over their parameter.
+///
+/// # Errors
+/// As [`draw_cycles`].
+pub fn draw_branches(data: &CycleFigures<'_>) -> Result<Vec<NamedFigure>, FigureError> {
+    let curves = &branch_curves(data);
+    collect(vec![
+        (
+            "branch-frequencies".into(),
+            "Main frequency (a) and amplitude (b) of the limit cycles along their branches; dotted: where \
+             linear theory has them begin; diamonds: folds wider than the spacing of the cycles."
+                .into(),
+            Box::new(move || draw_branch_frequencies(curves)),
+        ),
+        (
+            "branch-shares".into(),
+            "Contact status, and powers relative to the external one, along the branch of each family."
+                .into(),
+            Box::new(move || draw_branch_shares(curves)),
+        ),
+    ])
+}
+
+/// The wave at time zero around the whole circle: a node at angle `theta` is in phase `n theta`.
+fn contact_state(
+    data: &CycleFigures<'_>,
+    n: usize,
+    wave: &WaveRecord,
+) -> Result<String, FigureError> {
+    let count = n * wave.status.len();
+    let around =
+        |values: &[f64]| -> Vec<f64> { values.iter().copied().cycle().take(count).collect() };
+    let angles: Vec<f64> = (0..count).map(|i| TAU * i as f64 / count as f64).collect();
+    let status: Vec<ContactStatus> = wave.statuses().into_iter().cycle().take(count).collect();
+    draw_contact_state(&ContactState {
+        name: format!("{}, wave ↻", caption(n, wave)),
+        angles: &angles,
+        status: &status,
+        pressure: &around(&wave.pressure),
+        shear: &around(&wave.shear),
+        tangential_velocity: &around(&wave.velocity[1]),
+        peripheral_speed: data.peripheral_speed(),
+    })
+}
+
+/// The contact node at angle zero, which goes through the phases in their order.
+fn node_cycle<'a>(
+    data: &CycleFigures<'_>,
+    wave: &'a WaveRecord,
+    status: &'a [ContactStatus],
+) -> NodeCycle<'a> {
+    let [u_r, u_t] = &wave.displacement;
+    let [v_r, v_t] = &wave.velocity;
+    NodeCycle {
+        period: 1.0 / wave.frequency_hz,
+        status,
+        displacement: [u_r, u_t],
+        velocity: [v_r, v_t],
+        pressure: &wave.pressure,
+        shear: &wave.shear,
+        friction_coefficient: data.contact.friction_coefficient,
+        peripheral_speed: data.peripheral_speed(),
+    }
+}
+
+fn caption(n: usize, wave: &WaveRecord) -> String {
+    format!("*n* = {n}, {:.2} kHz", wave.frequency_hz * 1e-3)
+}
+
+fn velocity_fields(data: &CycleFigures<'_>) -> Result<String, FigureError> {
+    let cycles = || data.cycles().take(FIELD_LIMIT);
+    let fields: Vec<Vec<f64>> = cycles()
+        .map(|(_, wave)| {
+            let pairs = wave.velocity_field.chunks_exact(2);
+            pairs.map(|v| v[0].hypot(v[1])).collect()
+        })
+        .collect();
+    let nodes = data.mesh.inner_edge.nodes.len();
+    let status: Vec<Vec<ContactStatus>> = cycles()
+        .map(|(n, wave)| {
+            let (all, points) = (wave.statuses(), wave.status.len());
+            // The phase nearest to that of each node.
+            let nearest = |node: usize| (2 * n * node * points + nodes) / (2 * nodes) % points;
+            (0..nodes).map(|node| all[nearest(node)]).collect()
+        })
+        .collect();
+    draw_snapshots(&Snapshots {
+        name: "velocity",
+        quantity: "velocity modulus |*v*| (m/s)".into(),
+        signed: false,
+        mesh: data.mesh,
+        frames: cycles()
+            .zip(fields.iter().zip(&status))
+            .map(|((n, wave), (values, status))| Snapshot {
+                caption: caption(n, wave),
+                values,
+                status: Some(status),
+            })
+            .collect(),
+    })
+}
+
+fn stress_fields(data: &CycleFigures<'_>) -> Result<String, FigureError> {
+    let cycles = || data.cycles().take(FIELD_LIMIT);
+    let fields: Vec<Vec<f64>> = cycles()
+        .map(|(_, wave)| {
+            let stress = nodal_stress(data.mesh, data.material, &wave.displacement_field);
+            stress.iter().map(|node| node.shear * 1e-6).collect()
+        })
+        .collect();
+    draw_snapshots(&Snapshots {
+        name: "shear-stress",
+        quantity: "shear stress *τ*_{rθ} (MPa)".into(),
+        signed: true,
+        mesh: data.mesh,
+        frames: cycles()
+            .zip(&fields)
+            .map(|((n, wave), values)| Snapshot {
+                caption: caption(n, wave),
+                values,
+                status: None,
+            })
+            .collect(),
+    })
+}
+
+fn branch_curves(data: &CycleFigures<'_>) -> BranchCurves {
+    let families = || {
+        let families = data.record.families.iter();
+        families.filter_map(|family| Some((family, family.branch.as_ref()?)))
+    };
+    // A branch of a single cycle is no curve.
+    let families = || families().filter(|(_, branch)| branch.values.len() > 1);
+    let key = families().next().map_or("", |(_, branch)| &branch.key);
+    BranchCurves {
+        parameter_title: parameter_title(key),
+        curves: families()
+            .map(|(family, branch)| branch_curve(family, branch))
+            .collect(),
+        references: families()
+            .filter_map(|(family, _)| reference(family))
+            .collect(),
+    }
+}
+
+fn branch_curve(family: &FamilyRecord, branch: &BranchRecord) -> BranchCurve {
+    let stability = |stable: &Option<bool>| match stable {
+        None => Stability::Unknown,
+        Some(true) => Stability::Stable,
+        Some(false) => Stability::Unstable,
+    };
+    let own = family.cycle.as_ref();
+    BranchCurve {
+        name: format!("*n* = {}", family.harmonic),
+        values: branch.values.clone(),
+        frequency_hz: branch.frequency_hz.clone(),
+        amplitude: branch.amplitude.clone(),
+        status: branch.status.clone(),
+        shares: branch.shares.clone(),
+        stability: branch.stable.iter().map(stability).collect(),
+        folds: branch.folds.clone(),
+        marked: own.map(|wave| [branch.own_value, wave.frequency_hz, wave.amplitude]),
+    }
+}
+
+/// The onset that the family is born at.
+fn reference(family: &FamilyRecord) -> Option<ReferenceFrequency> {
+    let [critical, frequency_hz] = *family.onsets.first()?;
+    Some(ReferenceFrequency {
+        frequency_hz,
+        label: format!("*n* = {} at *μ* = {critical:.3}", family.harmonic),
+    })
+}

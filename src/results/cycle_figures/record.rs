@@ -1,0 +1,169 @@
+//! What a search for limit cycles keeps to draw its figures again.
+
+use crate::contact::ContactStatus;
+use crate::cycle::{CycleBranch, LimitCycle};
+use crate::results::cycle::{CycleReport, CycleResult, amplitude};
+use crate::results::record::Record;
+use serde::{Deserialize, Serialize};
+use std::f64::consts::TAU;
+
+/// Everything that the figures show.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CycleRecord {
+    /// One entry for each harmonic.
+    pub families: Vec<FamilyRecord>,
+}
+
+impl Record for CycleRecord {
+    const MAGIC: [u8; 8] = *b"FRICSIMY";
+    const VERSION: u32 = 1;
+}
+
+/// The limit cycles of one harmonic.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FamilyRecord {
+    /// Circumferential harmonic `n`.
+    pub harmonic: usize,
+    /// Critical friction and frequency (Hz) of every onset.
+    pub onsets: Vec<[f64; 2]>,
+    /// The cycle at the case's own operating point.
+    pub cycle: Option<WaveRecord>,
+    /// Its branch.
+    pub branch: Option<BranchRecord>,
+}
+
+/// One limit cycle: contact and motion of the edge along the phase, and the whole field at time zero.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct WaveRecord {
+    /// Main frequency, Hz.
+    pub frequency_hz: f64,
+    /// Amplitude of the edge's tangential displacement, m.
+    pub amplitude: f64,
+    /// Status at each phase: 0 open, 1 stick, 2 slip.
+    pub status: Vec<u8>,
+    /// Contact pressure, Pa.
+    pub pressure: Vec<f64>,
+    /// Contact shear, Pa.
+    pub shear: Vec<f64>,
+    /// `u_r, u_theta`, m.
+    pub displacement: [Vec<f64>; 2],
+    /// `v_r, v_theta`, m/s.
+    pub velocity: [Vec<f64>; 2],
+    /// Displacement of every dof in nodal frames, m.
+    pub displacement_field: Vec<f64>,
+    /// Velocity, m/s.
+    pub velocity_field: Vec<f64>,
+}
+
+/// Cycles along a branch, in its order.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BranchRecord {
+    /// Case key of the parameter.
+    pub key: String,
+    /// The parameter at each cycle, in units of the key.
+    pub values: Vec<f64>,
+    /// The case's own value.
+    pub own_value: f64,
+    /// Main frequency, Hz.
+    pub frequency_hz: Vec<f64>,
+    /// Amplitude of the edge's tangential displacement, m.
+    pub amplitude: Vec<f64>,
+    /// Fractions that stick, slip, are open.
+    pub status: [Vec<f64>; 3],
+    /// Powers relative to the external one: stick, slide, dissipated in the contact, material damping, normal contact.
+    pub shares: [Vec<f64>; 5],
+    /// Whether the cycle is stable, where that is known.
+    pub stable: Vec<Option<bool>>,
+    /// Parameter values at which the branch turns back.
+    pub folds: Vec<f64>,
+}
+
+impl CycleRecord {
+    /// What the figures show of a report.
+    pub fn of(report: &CycleReport<'_>) -> Self {
+        Self {
+            families: report.results.iter().map(FamilyRecord::of).collect(),
+        }
+    }
+}
+
+impl FamilyRecord {
+    fn of(result: &CycleResult) -> Self {
+        let onsets = result.onsets.iter();
+        let found = result.cycle.as_ref().ok();
+        let branch = result.branch.as_ref().zip(found);
+        Self {
+            harmonic: result.harmonic,
+            onsets: onsets
+                .map(|onset| [onset.friction_coefficient, onset.frequency / TAU])
+                .collect(),
+            cycle: found
+                .zip(result.field.as_ref())
+                .map(|(cycle, field)| WaveRecord::of(cycle, field)),
+            branch: branch.map(|(branch, cycle)| BranchRecord::of(branch, cycle)),
+        }
+    }
+}
+
+impl WaveRecord {
+    fn of(cycle: &LimitCycle, [displacement, velocity]: &[Vec<f64>; 2]) -> Self {
+        let points = &cycle.points;
+        let component = |i: usize| points.iter().map(|p| p.displacement[i]).collect();
+        let speed = |i: usize| points.iter().map(|p| p.velocity[i]).collect();
+        Self {
+            frequency_hz: cycle.frequency_hz(),
+            amplitude: amplitude(cycle),
+            status: points.iter().map(|p| p.status as u8).collect(),
+            pressure: points.iter().map(|p| p.pressure).collect(),
+            shear: points.iter().map(|p| p.shear).collect(),
+            displacement: [component(0), component(1)],
+            velocity: [speed(0), speed(1)],
+            displacement_field: displacement.clone(),
+            velocity_field: velocity.clone(),
+        }
+    }
+
+    /// Status at each phase.
+    pub fn statuses(&self) -> Vec<ContactStatus> {
+        let named = |&code: &u8| match code {
+            1 => ContactStatus::Stick,
+            2 => ContactStatus::Slip,
+            _ => ContactStatus::Open,
+        };
+        self.status.iter().map(named).collect()
+    }
+}
+
+impl BranchRecord {
+    fn of(branch: &CycleBranch, own: &LimitCycle) -> Self {
+        let value = |cycle: &LimitCycle| {
+            let value = branch.parameter.of(&cycle.state.point);
+            branch.parameter.in_key_units(value)
+        };
+        let column = |of: &dyn Fn(&LimitCycle) -> f64| -> Vec<f64> {
+            branch.cycles.iter().map(of).collect()
+        };
+        let share = |of: fn(&LimitCycle) -> f64| column(&|c| of(c) / c.powers.external);
+        Self {
+            key: branch.parameter.key().to_owned(),
+            values: column(&value),
+            own_value: value(own),
+            frequency_hz: column(&LimitCycle::frequency_hz),
+            amplitude: column(&amplitude),
+            status: [0, 1, 2].map(|i| column(&|c| c.fractions[i])),
+            shares: [
+                share(|c| c.powers.stick),
+                share(|c| c.powers.slide),
+                share(|c| c.powers.contact_dissipated),
+                share(|c| c.powers.material_damping),
+                share(|c| c.powers.normal_contact),
+            ],
+            stable: vec![None; branch.cycles.len()],
+            folds: branch
+                .folds
+                .iter()
+                .map(|&fold| branch.parameter.in_key_units(fold))
+                .collect(),
+        }
+    }
+}

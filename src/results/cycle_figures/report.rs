@@ -1,0 +1,149 @@
+//! `report.html` of limit cycles: figures, cycles, branches.
+
+use super::{CycleFigures, draw_branches, draw_cycles};
+use crate::results::drawing::{DrawingError, write_report};
+use crate::results::figures::axis::extremes;
+use crate::results::folder::OutputFolder;
+use crate::results::manifest::Manifest;
+use crate::results::report::{Report, ReportSection, ReportTable};
+use serde_json::Value;
+
+/// Draws every figure of the cycles into `figures/`, each as SVG and PNG, and writes `report.html`.
+///
+/// # Errors
+/// Those of the folder; a figure that cannot be drawn although there is something to draw.
+pub fn draw(
+    folder: &OutputFolder,
+    data: &CycleFigures<'_>,
+    summary: &Value,
+    dots_per_inch: f64,
+) -> Result<(), DrawingError> {
+    let mut report = html_report(summary, folder.manifest());
+    report.sections[0].figures = draw_cycles(data)?;
+    if let Some(branches) = report.sections.get_mut(1) {
+        branches.figures = draw_branches(data)?;
+    }
+    write_report(folder, &report, dots_per_inch)
+}
+
+/// The report without figures: the cycles, and the branches where the summary has any.
+fn html_report(summary: &Value, manifest: &Manifest) -> Report {
+    let cycles = summary["cycles"].as_array().map_or(&[][..], Vec::as_slice);
+    let mut sections = vec![ReportSection {
+        heading: "Limit cycles".into(),
+        paragraphs: vec![format!(
+            "Waves that turn against the rotor without changing their shape, {} points along the phase; \
+             {:.1} s.",
+            summary["points"],
+            number(summary, "/wall_s")
+        )],
+        tables: vec![cycle_table(cycles)],
+        figures: Vec::new(),
+    }];
+    let branches: Vec<String> = cycles.iter().filter_map(branch_text).collect();
+    if !branches.is_empty() {
+        sections.push(ReportSection {
+            heading: "Branches".into(),
+            paragraphs: branches,
+            ..ReportSection::default()
+        });
+    }
+    Report {
+        title: summary["title"].as_str().unwrap_or_default().to_owned(),
+        sections,
+        manifest: manifest.clone(),
+    }
+}
+
+fn number(value: &Value, pointer: &str) -> f64 {
+    value
+        .pointer(pointer)
+        .and_then(Value::as_f64)
+        .unwrap_or(f64::NAN)
+}
+
+/// A number with so many decimals, or nothing.
+fn cell(value: &Value, pointer: &str, factor: f64, decimals: usize) -> String {
+    let found = value.pointer(pointer).and_then(Value::as_f64);
+    found.map_or_else(String::new, |found| {
+        format!("{:.decimals$}", factor * found)
+    })
+}
+
+fn cycle_table(cycles: &[Value]) -> ReportTable {
+    let quantities: [(&str, &str, f64, usize); 12] = [
+        ("harmonic n", "/harmonic", 1.0, 0),
+        ("critical friction", "/onsets/0/critical_friction", 1.0, 5),
+        ("main frequency (Hz)", "/main_frequency_hz", 1.0, 2),
+        ("stick (%)", "/status/stick", 100.0, 1),
+        ("slip (%)", "/status/slip", 100.0, 1),
+        ("open (%)", "/status/open", 100.0, 1),
+        ("power of the rotor (W)", "/power_w/external", 1.0, 2),
+        ("of it while sticking (W)", "/power_w/stick", 1.0, 2),
+        ("while sliding (W)", "/power_w/slide", 1.0, 2),
+        (
+            "dissipated in the contact (W)",
+            "/power_w/contact_dissipated",
+            1.0,
+            2,
+        ),
+        ("material damping (W)", "/power_w/material_damping", 1.0, 2),
+        ("normal contact (W)", "/power_w/normal_contact", 1.0, 2),
+    ];
+    let rows = cycles.iter().map(|cycle| {
+        let cells = quantities.iter();
+        let cells =
+            cells.map(|(_, pointer, factor, decimals)| cell(cycle, pointer, *factor, *decimals));
+        let error = cycle["error"].as_str().unwrap_or_default().to_owned();
+        cells.chain([error]).collect()
+    });
+    let names = quantities.iter().map(|quantity| quantity.0);
+    ReportTable {
+        caption: "Limit cycles at the case's own operating point".into(),
+        columns: names
+            .chain(["why there is none"])
+            .map(String::from)
+            .collect(),
+        rows: rows.collect(),
+    }
+}
+
+fn branch_text(cycle: &Value) -> Option<String> {
+    let branch = cycle.get("branch")?;
+    let text = |pointer: &str| {
+        branch
+            .pointer(pointer)
+            .and_then(Value::as_str)
+            .unwrap_or("?")
+    };
+    let folds = branch["folds"].as_array().map_or(&[][..], Vec::as_slice);
+    let folds: Vec<f64> = folds.iter().filter_map(Value::as_f64).collect();
+    // Any parameter, of any size.
+    let text_of = |value: f64| {
+        format!("{value:.6e}")
+            .parse::<f64>()
+            .map_or_else(|_| String::new(), |v| format!("{v:?}"))
+    };
+    let (low, high) = extremes(folds.iter().copied());
+    let folds = match folds.len() {
+        0 => "no fold".to_owned(),
+        1 => format!("a fold at {}", text_of(low)),
+        count => format!(
+            "{count} folds between {} and {}",
+            text_of(low),
+            text_of(high)
+        ),
+    };
+    let saturation = match branch["saturation_speed_rpm"].as_f64() {
+        Some(speed) => format!("; no point sticks above {speed:.1} rpm"),
+        None => String::new(),
+    };
+    Some(format!(
+        "n = {}: {} cycles over {}, at the one end until {}, at the other until {}; {folds}{saturation}.",
+        cycle["harmonic"],
+        branch["cycles"],
+        text("/key"),
+        text("/ends/0"),
+        text("/ends/1"),
+    ))
+}
