@@ -5,8 +5,8 @@ mod figures;
 pub use figures::redraw;
 
 use super::{Failure, RunOptions, Session};
-use crate::case::{Case, Cycle};
-use crate::cycle::{CycleError, CycleSolver, OperatingPoint, Parameter};
+use crate::case::{Case, Cycle, StabilityChoice};
+use crate::cycle::{CycleError, CycleSolver, LimitCycle, OperatingPoint, Parameter};
 use crate::mesh::AnnulusMesh;
 use crate::results::DOTS_PER_INCH;
 use crate::results::cycle::{CycleReport, CycleResult, print, write};
@@ -44,7 +44,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 
     let results: Vec<CycleResult> = solvers
         .par_iter()
-        .map(|solver| solve(solver, &point, continuation.as_ref()))
+        .map(|solver| solve(solver, &point, continuation.as_ref(), cycle.stability))
         .collect();
     refuse_nothing(&results)?;
 
@@ -53,7 +53,6 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         mesh: &annulus.mesh,
         inner_radius: case.annulus.inner_radius,
         thickness: case.thickness,
-        points: solvers.first().map_or(0, |solver| solver.grid().points),
         results,
         wall_s: session.wall_seconds(),
     };
@@ -140,6 +139,7 @@ fn solve(
     solver: &CycleSolver,
     point: &OperatingPoint,
     continuation: Option<&(Parameter, Vec<f64>)>,
+    stability: StabilityChoice,
 ) -> CycleResult {
     let start = Instant::now();
     let found = solver.find(point);
@@ -147,8 +147,25 @@ fn solve(
         (Ok(cycle), Some((parameter, values))) => Some(solver.follow(cycle, *parameter, values)),
         _ => None,
     };
+    let verdict = |cycle: &LimitCycle| {
+        let stability = solver.stability(cycle);
+        Some(stability.map_err(|error| error.to_string()))
+    };
+    let own = match &found {
+        Ok(cycle) if stability != StabilityChoice::None => verdict(cycle),
+        _ => None,
+    };
+    let branch_stability = match &branch {
+        Some(branch) if stability == StabilityChoice::Branch => {
+            branch.cycles.par_iter().map(verdict).collect()
+        }
+        _ => Vec::new(),
+    };
     CycleResult {
         harmonic: solver.body().harmonic(),
+        phases: solver.grid().points,
+        stability: own,
+        branch_stability,
         onsets: solver.onsets(&point.damping),
         field: found.as_ref().ok().map(|cycle| solver.field(cycle, 0.0)),
         cycle: found.map_err(|error: CycleError| error.to_string()),

@@ -12,8 +12,21 @@ pub struct Cycle {
     pub harmonics: Option<Vec<usize>>,
     /// Phases along the wave; `None` takes as many as the mesh asks for.
     pub phases: Option<usize>,
+    /// What stability is worked out for.
+    pub stability: StabilityChoice,
     /// Continuation over a parameter.
     pub continuation: Option<Continuation>,
+}
+
+/// `cycle.stability`: which cycles' stability is worked out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StabilityChoice {
+    /// Those at the case's own operating point.
+    Point,
+    /// Those along the branch, too.
+    Branch,
+    /// None.
+    None,
 }
 
 /// `[cycle.continuation]`.
@@ -42,6 +55,14 @@ pub(super) fn cycle(root: &Section<'_>, annulus: &AnnulusSpecification) -> Optio
     let section = root.section("cycle", false);
     let harmonics = harmonics(&section, 1, annulus);
     let phases = section.optional_count("phases", 31);
+    let stability = section.choice(
+        "stability",
+        &[
+            ("point", StabilityChoice::Point),
+            ("branch", StabilityChoice::Branch),
+            ("none", StabilityChoice::None),
+        ],
+    );
     let inner = section.section("continuation", false);
     let continuation = inner.is_given().then(|| Continuation {
         key: parameter(&inner, "key"),
@@ -78,12 +99,21 @@ pub(super) fn cycle(root: &Section<'_>, annulus: &AnnulusSpecification) -> Optio
             None,
         );
     }
+    if stability == StabilityChoice::Branch && continuation.is_none() {
+        section.reject(
+            "stability",
+            "cycle.stability = \"branch\" has no branch to follow".to_owned(),
+            "needs [cycle.continuation]".to_owned(),
+            Some("add that table, or use \"point\"".to_owned()),
+        );
+    }
     inner.close();
     let is_given = section.is_given();
     section.close();
     is_given.then_some(Cycle {
         harmonics,
         phases,
+        stability,
         continuation,
     })
 }

@@ -26,6 +26,6 @@ pub use limit_cycle::{CyclePowers, LimitCycle, PhasePoint};
 pub use onset::Onset;
 pub use parameter::{OperatingPoint, Parameter};
 pub use solver::{BranchEnd, CycleBranch, CycleSolver};
-pub use stability::{FloquetExponent, PerturbationGrowth};
+pub use stability::{CycleStability, FloquetExponent, PerturbationGrowth};
 pub use state::{PointState, WaveState};
 pub use wave::PhaseGrid;

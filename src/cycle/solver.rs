@@ -5,7 +5,7 @@ use super::limit_cycle::LimitCycle;
 use super::onset::{HIGHEST_FREQUENCY_HZ, LARGEST_FRICTION, largest_linear_wave, onsets};
 use super::parameter::{OperatingPoint, Parameter};
 use super::perturbed::Perturbed;
-use super::stability::PerturbationGrowth;
+use super::stability::{CycleStability, PerturbationGrowth};
 use super::state::{PointState, WaveState};
 use super::wave::{PhaseGrid, Wave};
 use super::{CycleError, Onset, WaveBody};
@@ -274,11 +274,11 @@ impl CycleSolver {
         }
     }
 
-    /// Growth of small perturbations, one entry for each class `0 <= p <= n / 2` of harmonics `+-p + k n`.
+    /// Growth of small perturbations, of each class `0 <= p <= n / 2` of harmonics `+-p + k n`.
     ///
     /// # Errors
     /// [`CycleError::Stability`] where the linearized contact conditions have no finite response.
-    pub fn stability(&self, cycle: &LimitCycle) -> Result<Vec<PerturbationGrowth>, CycleError> {
+    pub fn stability(&self, cycle: &LimitCycle) -> Result<CycleStability, CycleError> {
         let n = self.body.harmonic();
         let highest = (self.grid.points / 2) as isize;
         let body = |class: usize| {
@@ -288,16 +288,16 @@ impl CycleSolver {
         let own = body(0)?;
         let mut perturbed = Perturbed::new(&own, &self.wave(), cycle);
         perturbed.calibrate();
-        let mut growth = vec![PerturbationGrowth::of(&perturbed, 0, n)?];
+        let mut classes = vec![PerturbationGrowth::of(&perturbed, 0, n)?];
         for class in 1..=n / 2 {
             let other = body(class)?;
-            growth.push(PerturbationGrowth::of(
+            classes.push(PerturbationGrowth::of(
                 &perturbed.with_body(&other),
                 class,
                 n,
             )?);
         }
-        Ok(growth)
+        Ok(CycleStability { classes })
     }
 
     /// Displacement (m) and velocity (m/s) over all dofs of the mesh, in nodal frames, at a time (s).

@@ -47,12 +47,41 @@ pub struct PerturbationGrowth {
     pub exponents: Vec<FloquetExponent>,
 }
 
-impl PerturbationGrowth {
-    /// Largest growth rate, 1/s; `None` if all decay faster than a twentieth of `omega`.
-    pub fn growth_rate(&self) -> Option<f64> {
-        self.exponents.first().map(|leading| leading.exponent.re)
+/// Stability of a limit cycle to every perturbation that its mesh can carry.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CycleStability {
+    /// One entry for each class `p = 0..=n / 2`.
+    pub classes: Vec<PerturbationGrowth>,
+}
+
+impl CycleStability {
+    /// The exponent that grows fastest or decays slowest; `None` if all decay faster than a twentieth of `omega`.
+    pub fn leading(&self) -> Option<&FloquetExponent> {
+        let leading = self
+            .classes
+            .iter()
+            .filter_map(|class| class.exponents.first());
+        leading.max_by(|a, b| a.exponent.re.total_cmp(&b.exponent.re))
     }
 
+    /// Whether every perturbation decays.
+    pub fn is_stable(&self) -> bool {
+        self.leading()
+            .is_none_or(|leading| leading.exponent.re < 0.0)
+    }
+
+    /// Circumferential harmonics of the modes that grow, rising.
+    pub fn growing_harmonics(&self) -> Vec<usize> {
+        let exponents = self.classes.iter().flat_map(|class| &class.exponents);
+        let growing = exponents.filter(|found| found.exponent.re >= 0.0);
+        let mut harmonics: Vec<usize> = growing.map(|found| found.harmonic).collect();
+        harmonics.sort_unstable();
+        harmonics.dedup();
+        harmonics
+    }
+}
+
+impl PerturbationGrowth {
     /// The leading exponents of one class, from the poles of the response of the contact conditions: sampled beside the
     /// imaginary axis, read off a rational fit, refined on the conditions themselves.
     pub(super) fn of(

@@ -1,9 +1,12 @@
 //! Results of a search for limit cycles: what is printed and what is written.
 
 use crate::contact::ContactStatus;
-use crate::cycle::{CycleBranch, LimitCycle, Onset};
+use crate::cycle::{CycleBranch, CycleStability, LimitCycle, Onset};
 use crate::mesh::Mesh2d;
 use crate::results::cycle_figures::CycleRecord;
+use crate::results::cycle_stability::{
+    Verdict, changes, known, print_stability, stability_object, write_stability,
+};
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::manifest::Manifest;
 use crate::results::record::write_record;
@@ -25,6 +28,12 @@ pub struct CycleResult {
     pub cycle: Result<LimitCycle, String>,
     /// Displacement and velocity over all dofs at time zero, where there is a cycle.
     pub field: Option<[Vec<f64>; 2]>,
+    /// Points along the phase.
+    pub phases: usize,
+    /// Stability of that cycle, where it was asked for.
+    pub stability: Verdict,
+    /// Stability of each cycle of the branch, where it was asked for; else empty.
+    pub branch_stability: Vec<Verdict>,
     /// The branch over the case's parameter, where one was asked for and there is a cycle to start from.
     pub branch: Option<CycleBranch>,
     /// Wall time of cycle and branch, s.
@@ -42,8 +51,6 @@ pub struct CycleReport<'a> {
     pub inner_radius: f64,
     /// Thickness, m: scales powers.
     pub thickness: f64,
-    /// Points along the phase.
-    pub points: usize,
     /// One entry for each harmonic.
     pub results: Vec<CycleResult>,
     /// Wall time of the run, s.
@@ -62,7 +69,13 @@ pub fn write(folder: &OutputFolder, report: &CycleReport<'_>) -> Result<Value, F
         }
         if let Some(branch) = &result.branch {
             let name = format!("branch-n{}.csv", result.harmonic);
-            folder.write(&name, |out| write_branch(out, branch, report))?;
+            folder.write(&name, |out| {
+                write_branch(out, branch, &result.branch_stability, report)
+            })?;
+        }
+        if result.stability.is_some() {
+            let name = format!("stability-n{}.csv", result.harmonic);
+            folder.write(&name, |out| write_stability(out, result))?;
         }
     }
     write_fields(folder, report)?;
@@ -120,6 +133,7 @@ pub fn write_phases(out: &mut dyn Write, cycle: &LimitCycle) -> io::Result<()> {
 pub fn write_branch(
     out: &mut dyn Write,
     branch: &CycleBranch,
+    stability: &[Verdict],
     report: &CycleReport<'_>,
 ) -> io::Result<()> {
     let columns = [
@@ -137,9 +151,12 @@ pub fn write_branch(
         "normal_contact_w",
         "amplitude_m",
         "balance_residual",
+        "growth_rate_per_s",
     ];
     let mut table = Table::new(out, &columns)?;
-    for cycle in &branch.cycles {
+    for (i, cycle) in branch.cycles.iter().enumerate() {
+        let leading = stability.get(i).and_then(known);
+        let leading = leading.and_then(CycleStability::leading);
         let powers = cycle.powers.scaled(report.thickness);
         let [stick, slip, open] = cycle.fractions;
         table.numbers(&[
@@ -159,6 +176,7 @@ pub fn write_branch(
             powers.normal_contact,
             amplitude(cycle),
             cycle.powers.balance_residual(),
+            leading.map_or(f64::NAN, |leading| leading.exponent.re),
         ])?;
     }
     table.finish()
@@ -213,7 +231,6 @@ pub fn summary(report: &CycleReport<'_>, manifest: &Manifest) -> Value {
     json!({
         "command": "cycle",
         "title": report.title,
-        "points": report.points,
         "wall_s": report.wall_s,
         "cycles": cycles,
         "manifest": manifest,
@@ -233,6 +250,7 @@ fn result_object(report: &CycleReport<'_>, result: &CycleResult) -> Value {
         .collect();
     let mut object = json!({
         "harmonic": result.harmonic,
+        "phases": result.phases,
         "onsets": onsets,
         "wall_s": result.wall_s,
     });
@@ -246,8 +264,12 @@ fn result_object(report: &CycleReport<'_>, result: &CycleResult) -> Value {
         }
         Err(error) => object["error"] = json!(error),
     }
+    object["stability"] = stability_object(&result.stability);
     if let Some(branch) = &result.branch {
         object["branch"] = branch_object(report, branch);
+        let changes = changes(result).into_iter();
+        let changes = changes.map(|(value, harmonic)| json!({ "at": value, "harmonic": harmonic }));
+        object["branch"]["stability_changes"] = changes.collect();
     }
     object
 }
@@ -297,10 +319,16 @@ pub fn print(report: &CycleReport<'_>) -> String {
     if !report.title.is_empty() {
         let _ = writeln!(out, "{}", report.title);
     }
+    let mut phases: Vec<String> = report
+        .results
+        .iter()
+        .map(|result| result.phases.to_string())
+        .collect();
+    phases.dedup();
     let _ = writeln!(
         out,
-        "limit cycles as rotating waves, {} points along the phase\n",
-        report.points
+        "limit cycles as rotating waves, {} phases\n",
+        phases.join(" and ")
     );
     let _ = writeln!(
         out,
@@ -320,6 +348,7 @@ pub fn print(report: &CycleReport<'_>) -> String {
         result_line(&mut out, report, result);
     }
     for result in &report.results {
+        print_stability(&mut out, result);
         if let Some(branch) = &result.branch {
             branch_line(&mut out, result.harmonic, branch);
         }

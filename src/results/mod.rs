@@ -4,6 +4,7 @@ pub mod cea;
 pub mod convergence;
 pub mod cycle;
 pub mod cycle_figures;
+pub mod cycle_stability;
 mod drawing;
 pub mod figures;
 mod folder;

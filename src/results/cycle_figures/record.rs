@@ -1,8 +1,9 @@
 //! What a search for limit cycles keeps to draw its figures again.
 
 use crate::contact::ContactStatus;
-use crate::cycle::{CycleBranch, LimitCycle};
+use crate::cycle::{CycleBranch, CycleStability, LimitCycle};
 use crate::results::cycle::{CycleReport, CycleResult, amplitude};
+use crate::results::cycle_stability::known;
 use crate::results::record::Record;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
@@ -100,7 +101,7 @@ impl FamilyRecord {
             cycle: found
                 .zip(result.field.as_ref())
                 .map(|(cycle, field)| WaveRecord::of(cycle, field)),
-            branch: branch.map(|(branch, cycle)| BranchRecord::of(branch, cycle)),
+            branch: branch.map(|(branch, cycle)| BranchRecord::of(branch, cycle, result)),
         }
     }
 }
@@ -135,7 +136,7 @@ impl WaveRecord {
 }
 
 impl BranchRecord {
-    fn of(branch: &CycleBranch, own: &LimitCycle) -> Self {
+    fn of(branch: &CycleBranch, own: &LimitCycle, result: &CycleResult) -> Self {
         let value = |cycle: &LimitCycle| {
             let value = branch.parameter.of(&cycle.state.point);
             branch.parameter.in_key_units(value)
@@ -158,7 +159,12 @@ impl BranchRecord {
                 share(|c| c.powers.material_damping),
                 share(|c| c.powers.normal_contact),
             ],
-            stable: vec![None; branch.cycles.len()],
+            stable: (0..branch.cycles.len())
+                .map(|i| {
+                    let verdict = result.branch_stability.get(i).and_then(known);
+                    verdict.map(CycleStability::is_stable)
+                })
+                .collect(),
             folds: branch
                 .folds
                 .iter()

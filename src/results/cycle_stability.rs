@@ -1,0 +1,150 @@
+//! Stability of limit cycles: tables, summary and words.
+
+use super::cycle::CycleResult;
+use super::table::{Table, format_number};
+use crate::cycle::{CycleBranch, CycleStability, LimitCycle};
+use serde_json::{Value, json};
+use std::fmt::Write as _;
+use std::io::{self, Write};
+
+/// What is known of the stability of a cycle.
+pub type Verdict = Option<Result<CycleStability, String>>;
+
+/// Its analysis, where there is one.
+pub fn known(verdict: &Verdict) -> Option<&CycleStability> {
+    verdict.as_ref().and_then(|verdict| verdict.as_ref().ok())
+}
+
+/// Writes the leading exponents of each class, one row each: for the cycle at the case's own operating point, then along the
+/// branch.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write_stability(out: &mut dyn Write, result: &CycleResult) -> io::Result<()> {
+    let key = result.branch.as_ref().map(|branch| branch.parameter.key());
+    let columns = [
+        key.unwrap_or("point"),
+        "class",
+        "growth_rate_per_s",
+        "wave_frequency_rad_per_s",
+        "harmonic",
+        "frequency_hz",
+    ];
+    let mut table = Table::new(out, &columns)?;
+    let mut rows = |at: f64, verdict: &Verdict| -> io::Result<()> {
+        for class in known(verdict).into_iter().flat_map(|found| &found.classes) {
+            for found in &class.exponents {
+                table.row([
+                    format_number(at),
+                    class.class.to_string(),
+                    format_number(found.exponent.re),
+                    format_number(found.exponent.im),
+                    found.harmonic.to_string(),
+                    format_number(found.frequency_hz),
+                ])?;
+            }
+        }
+        Ok(())
+    };
+    match (&result.branch, &result.cycle) {
+        (Some(branch), Ok(own)) => {
+            rows(value(branch, own), &result.stability)?;
+            for (cycle, verdict) in branch.cycles.iter().zip(&result.branch_stability) {
+                rows(value(branch, cycle), verdict)?;
+            }
+        }
+        _ => rows(0.0, &result.stability)?,
+    }
+    table.finish()
+}
+
+fn value(branch: &CycleBranch, cycle: &LimitCycle) -> f64 {
+    let value = branch.parameter.of(&cycle.state.point);
+    branch.parameter.in_key_units(value)
+}
+
+/// Parameter values at which neighbouring cycles of a branch differ in stability, by linear interpolation of the growth
+/// rate, and the harmonic that starts or ceases to grow there.
+pub fn changes(result: &CycleResult) -> Vec<(f64, usize)> {
+    let Some(branch) = &result.branch else {
+        return Vec::new();
+    };
+    let found: Vec<(f64, f64, usize)> = branch
+        .cycles
+        .iter()
+        .zip(&result.branch_stability)
+        .filter_map(|(cycle, verdict)| {
+            let leading = known(verdict)?.leading()?;
+            let rate = leading.exponent.re;
+            Some((value(branch, cycle), rate, leading.harmonic))
+        })
+        .collect();
+    found
+        .windows(2)
+        .filter(|pair| (pair[0].1 < 0.0) != (pair[1].1 < 0.0))
+        .map(|pair| {
+            let [(from, before, first), (to, after, second)] = [pair[0], pair[1]];
+            let growing = if before < 0.0 { second } else { first };
+            (from + (to - from) * before / (before - after), growing)
+        })
+        .collect()
+}
+
+/// The summary's object.
+pub fn stability_object(verdict: &Verdict) -> Value {
+    match verdict {
+        None => Value::Null,
+        Some(Err(error)) => json!({ "error": error }),
+        Some(Ok(stability)) => {
+            let leading = stability.leading().map(|leading| {
+                json!({
+                    "growth_rate_per_s": leading.exponent.re,
+                    "wave_frequency_rad_per_s": leading.exponent.im,
+                    "harmonic": leading.harmonic,
+                    "frequency_hz": leading.frequency_hz,
+                })
+            });
+            json!({
+                "is_stable": stability.is_stable(),
+                "growing_harmonics": stability.growing_harmonics(),
+                "leading": leading,
+            })
+        }
+    }
+}
+
+/// One line on the cycle at the case's own operating point, and one for each change along the branch.
+pub fn print_stability(out: &mut String, result: &CycleResult) {
+    let n = result.harmonic;
+    match &result.stability {
+        None => {}
+        Some(Err(error)) => {
+            let _ = writeln!(out, "n = {n}: {error}");
+        }
+        Some(Ok(stability)) => {
+            let _ = match stability.leading() {
+                Some(leading) if stability.is_stable() => writeln!(
+                    out,
+                    "n = {n}: stable; the slowest perturbation, {} nodal diameters at {:.0} Hz, decays at {:.0} 1/s",
+                    leading.harmonic, leading.frequency_hz, -leading.exponent.re,
+                ),
+                Some(leading) => writeln!(
+                    out,
+                    "n = {n}: UNSTABLE to {} nodal diameters at {:.0} Hz, growing at {:.0} 1/s",
+                    leading.harmonic, leading.frequency_hz, leading.exponent.re,
+                ),
+                None => writeln!(out, "n = {n}: stable; every perturbation decays fast"),
+            };
+        }
+    }
+    let key = result
+        .branch
+        .as_ref()
+        .map_or("", |branch| branch.parameter.key());
+    for (value, harmonic) in changes(result) {
+        let _ = writeln!(
+            out,
+            "n = {n}: stability changes at {key} = {value:.4} ({harmonic} nodal diameters)"
+        );
+    }
+}
