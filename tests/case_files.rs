@@ -557,3 +557,41 @@ proptest! {
         prop_assert_eq!(case.contact.stiffness.normal_stiffness, Some(value));
     }
 }
+
+#[test]
+fn a_start_on_a_limit_cycle_names_a_harmonic_that_the_mesh_carries() {
+    use frictionsim::transient::InitialState;
+    let start = "transient.initial=\"limit-cycle\"";
+    let case = valid(RUN, &[start, "transient.limit_cycle_harmonic=2"]);
+    let initial = case.require_transient().unwrap().initial;
+    assert_eq!(initial, InitialState::LimitCycle { harmonic: 2 });
+    assert_reports(&report(RUN, &[start]), &["transient.limit_cycle_harmonic"]);
+    assert_reports(
+        &report(RUN, &["transient.limit_cycle_harmonic=2"]),
+        &["initial = \"limit-cycle\""],
+    );
+    assert_reports(
+        &report(RUN, &[start, "transient.limit_cycle_harmonic=91"]),
+        &["above the mesh's highest, 90"],
+    );
+}
+
+#[test]
+fn stability_along_a_branch_needs_a_branch() {
+    use frictionsim::case::StabilityChoice;
+    const CYCLES: &str = include_str!("../cases/limit-cycle.toml");
+    let case = valid(CYCLES, &["cycle.stability=\"branch\"", "cycle.phases=151"]);
+    let cycle = case.require_cycle().unwrap();
+    assert_eq!(
+        (cycle.stability, cycle.phases),
+        (StabilityChoice::Branch, Some(151))
+    );
+    assert_reports(
+        &report(RUN, &["cycle.stability=\"branch\""]),
+        &["cycle.stability", "[cycle.continuation]"],
+    );
+    assert_reports(
+        &report(CYCLES, &["cycle.phases=3"]),
+        &["cycle.phases", "31 or more"],
+    );
+}

@@ -10,6 +10,7 @@ use crate::cycle::{CycleError, CycleSolver, LimitCycle, OperatingPoint, Paramete
 use crate::mesh::AnnulusMesh;
 use crate::results::DOTS_PER_INCH;
 use crate::results::cycle::{CycleReport, CycleResult, print, write};
+use crate::results::cycle_stability::Verdict;
 use clap::Args;
 use rayon::prelude::*;
 use std::time::Instant;
@@ -156,9 +157,7 @@ fn solve(
         _ => None,
     };
     let branch_stability = match &branch {
-        Some(branch) if stability == StabilityChoice::Branch => {
-            branch.cycles.par_iter().map(verdict).collect()
-        }
+        Some(branch) if stability == StabilityChoice::Branch => along(&branch.cycles, verdict),
         _ => Vec::new(),
     };
     CycleResult {
@@ -172,6 +171,23 @@ fn solve(
         branch,
         wall_s: start.elapsed().as_secs_f64(),
     }
+}
+
+/// A verdict for each cycle of a branch. Where a wave only scales from one cycle to the next, its stability is the same.
+fn along(cycles: &[LimitCycle], verdict: impl Fn(&LimitCycle) -> Verdict + Sync) -> Vec<Verdict> {
+    let is_scaled = |a: &LimitCycle, b: &LimitCycle| {
+        let drift = a.state.frequency / b.state.frequency - 1.0;
+        a.state.contact == b.state.contact && drift.abs() < 1e-9
+    };
+    let groups: Vec<&[LimitCycle]> = cycles.chunk_by(is_scaled).collect();
+    let verdicts: Vec<(Verdict, usize)> = groups
+        .par_iter()
+        .map(|group| (verdict(&group[0]), group.len()))
+        .collect();
+    verdicts
+        .into_iter()
+        .flat_map(|(verdict, count)| std::iter::repeat_n(verdict, count))
+        .collect()
 }
 
 fn refuse_nothing(results: &[CycleResult]) -> Result<(), Failure> {

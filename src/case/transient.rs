@@ -97,7 +97,17 @@ fn initial(section: &Section<'_>, annulus: &AnnulusSpecification) -> InitialStat
             ("limit-cycle", InitialState::LimitCycle { harmonic: 1 }),
         ],
     );
+    let given = section.optional_count("limit_cycle_harmonic", 1);
     let InitialState::LimitCycle { .. } = initial else {
+        if given.is_some() {
+            section.reject(
+                "limit_cycle_harmonic",
+                "transient.limit_cycle_harmonic is given, but the run does not start on a limit cycle"
+                    .to_owned(),
+                "only with initial = \"limit-cycle\"".to_owned(),
+                None,
+            );
+        }
         return initial;
     };
     let harmonic = section.count("limit_cycle_harmonic", 1);
