@@ -4,54 +4,30 @@
 //! The comparison with the transient is independent: time stepping from the cycle's fields shares with the search only
 //! the element matrices. The others are theory.
 
-use frictionsim::contact::{ContactStatus, SlidingContact};
+#[path = "common/disc.rs"]
+mod disc;
+
+use disc::{DAMPING, POLYCARBONATE, annulus, contact};
+use frictionsim::contact::ContactStatus;
 use frictionsim::cycle::{
     BranchEnd, CycleError, CycleSolver, LimitCycle, OperatingPoint, Parameter,
 };
-use frictionsim::fem::{ElasticMaterial, PlaneFormulation, RayleighDamping};
 use frictionsim::mesh::{AnnulusSpecification, ElementKind};
 use std::f64::consts::TAU;
 
 fn disc() -> AnnulusSpecification {
-    AnnulusSpecification {
-        inner_radius: 0.0205,
-        outer_radius: 0.0905,
-        circumferential_elements: 90,
-        radial_elements: 18,
-        radial_grading: 1.0,
-        element: ElementKind::Quad4,
-    }
-}
-
-fn polycarbonate() -> ElasticMaterial {
-    ElasticMaterial {
-        young_modulus: 2.5e9,
-        poisson_ratio: 0.3805,
-        density: 1228.0,
-        formulation: PlaneFormulation::PlaneStrain,
-    }
-}
-
-fn damping() -> RayleighDamping {
-    RayleighDamping {
-        mass_coefficient: 40.0,
-        stiffness_coefficient: 4.5e-7,
-    }
+    annulus(ElementKind::Quad4, 90, 18)
 }
 
 fn operating(rpm: f64) -> OperatingPoint {
     OperatingPoint {
-        contact: SlidingContact {
-            friction_coefficient: 0.3,
-            interference: 25e-6,
-            rotation_speed: rpm * TAU / 60.0,
-        },
-        damping: damping(),
+        contact: contact(rpm),
+        damping: DAMPING,
     }
 }
 
 fn solver(harmonic: usize) -> CycleSolver {
-    CycleSolver::new(&disc(), &polycarbonate(), &damping(), harmonic, None).unwrap()
+    CycleSolver::new(&disc(), &POLYCARBONATE, &DAMPING, harmonic, None).unwrap()
 }
 
 fn count(cycle: &LimitCycle, status: ContactStatus) -> usize {
@@ -206,30 +182,50 @@ fn reference_cycles_of_the_fine_mesh_have_the_transients_frequencies_and_statuse
         (2, 70.0, 9962.6, 0.362, 0.0, 14_894.0, 0.387),
         (1, 70.0, 10641.7, 0.411, 0.0, 15_030.0, 0.431),
     ];
-    let specification = AnnulusSpecification {
-        circumferential_elements: 180,
-        radial_elements: 35,
-        ..disc()
-    };
+    let specification = annulus(ElementKind::Quad4, 180, 35);
     for (harmonic, rpm, frequency, stick, open, external, share) in transients {
         let solver =
-            CycleSolver::new(&specification, &polycarbonate(), &damping(), harmonic, None).unwrap();
+            CycleSolver::new(&specification, &POLYCARBONATE, &DAMPING, harmonic, None).unwrap();
         let cycle = solver.find(&operating(rpm)).unwrap();
         let label = format!("n = {harmonic} at {rpm} rpm");
         assert!(cycle.powers.balance_residual() < 1e-8, "{label}");
         assert!(
-            (cycle.frequency_hz() / frequency - 1.0).abs() < 1e-3,
+            (cycle.frequency_hz() / frequency - 1.0).abs() < 5e-4,
             "{label}"
         );
-        // Two ends of an arc, each within a point of 135, and the pressure jump of a landing edge.
-        assert!((cycle.fractions[0] - stick).abs() < 0.02, "{label}");
-        assert!((cycle.fractions[2] - open).abs() < 0.02, "{label}");
+        // Two ends of an arc, each within a phase of 159 or 171.
+        assert!((cycle.fractions[0] - stick).abs() < 0.0126, "{label}");
+        assert!((cycle.fractions[2] - open).abs() < 0.0126, "{label}");
         assert!(
-            (cycle.powers.external / external - 1.0).abs() < 0.01,
+            (cycle.powers.external / external - 1.0).abs() < 0.005,
             "{label}"
         );
         let found = cycle.powers.stick / cycle.powers.external;
-        assert!((found - share).abs() < 0.02, "{label} {found}");
+        assert!((found - share).abs() < 0.0126, "{label} {found}");
+    }
+}
+
+#[test]
+fn number_of_phases_does_not_decide_what_is_found() {
+    for (harmonic, rpm) in [(2, 610.0), (1, 300.0)] {
+        let with = |phases: Option<usize>| {
+            let solver =
+                CycleSolver::new(&disc(), &POLYCARBONATE, &DAMPING, harmonic, phases).unwrap();
+            solver.find(&operating(rpm)).unwrap()
+        };
+        let reference = with(None);
+        for phases in [81, 101, 111, 121, 135] {
+            let cycle = with(Some(phases));
+            // A few times what two ends of an arc can move within one phase of 81.
+            for i in 0..3 {
+                let difference = cycle.fractions[i] - reference.fractions[i];
+                assert!(difference.abs() < 0.05, "{phases}: {difference}");
+            }
+            let frequency = cycle.frequency_hz() / reference.frequency_hz() - 1.0;
+            assert!(frequency.abs() < 1e-3, "{phases}: {frequency}");
+            let power = cycle.powers.external / reference.powers.external - 1.0;
+            assert!(power.abs() < 0.01, "{phases}: {power}");
+        }
     }
 }
 
@@ -237,13 +233,10 @@ fn reference_cycles_of_the_fine_mesh_have_the_transients_frequencies_and_statuse
 fn impossible_requests_say_which_key_to_change() {
     let standing = solver(1).find(&operating(0.0)).unwrap_err();
     assert!(standing.to_string().contains("rotation_speed_rpm"));
-    let harmonic = CycleSolver::new(&disc(), &polycarbonate(), &damping(), 46, None).unwrap_err();
+    let harmonic = CycleSolver::new(&disc(), &POLYCARBONATE, &DAMPING, 46, None).unwrap_err();
     assert!(matches!(harmonic, CycleError::Harmonic { limit: 45, .. }));
-    let quad8 = AnnulusSpecification {
-        element: ElementKind::Quad8,
-        ..disc()
-    };
-    let element = CycleSolver::new(&quad8, &polycarbonate(), &damping(), 1, None).unwrap_err();
+    let quad8 = annulus(ElementKind::Quad8, 90, 18);
+    let element = CycleSolver::new(&quad8, &POLYCARBONATE, &DAMPING, 1, None).unwrap_err();
     assert_eq!(element, CycleError::Element);
     let mut weak = operating(610.0);
     weak.contact.friction_coefficient = 0.05;

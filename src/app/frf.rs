@@ -4,8 +4,8 @@ use super::{Failure, RunOptions, Session};
 use crate::case::{Case, Frf, FrfMethod};
 use crate::fem::assemble_stiffness;
 use crate::frf::{
-    CyclicSystem, FrfBoundary, FrfSystem, ReductionSettings, Terminal, cyclic_response,
-    direct_response, reduced_response,
+    CyclicSystem, FrfBoundary, FrfSystem, GaussianNoise, ReductionSettings, Terminal,
+    cyclic_response, direct_response, reduced_response,
 };
 use crate::mesh::{AnnulusMesh, SectorMesh};
 use crate::prestress::{
@@ -219,32 +219,9 @@ fn observed(case: &Case, frf: &Frf, receptance: &[c64]) -> Vec<c64> {
         .map(|(f, h)| {
             let rate = c64::new(0.0, TAU * f).powi(frf.quantity.derivatives());
             let value = h * rate / case.thickness;
-            value + noise.next() * (frf.noise * value.norm())
+            value + noise.draw() * (frf.noise * value.norm())
         })
         .collect()
-}
-
-/// Pairs of independent standard normal numbers (Box and Muller over splitmix64).
-struct GaussianNoise(u64);
-
-impl GaussianNoise {
-    fn new(seed: u64) -> Self {
-        Self(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15))
-    }
-
-    fn uniform(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    fn next(&mut self) -> c64 {
-        // 1 - u lies in (0, 1], where the logarithm exists.
-        let radius = (-2.0 * (1.0 - self.uniform()).ln()).sqrt();
-        c64::from_polar(radius, TAU * self.uniform())
-    }
 }
 
 fn write_table(out: &mut dyn std::io::Write, frf: &Frf, values: &[c64]) -> std::io::Result<()> {

@@ -1,14 +1,16 @@
 //! Sparse solution of the whole mesh at each frequency.
 
-use super::neighbours::Neighbours;
+use super::neighbours::solve_together;
 use super::system::check_frequencies;
 use super::{FrfError, FrfSystem};
 use crate::linalg::{ComplexSparseLu, LdlAnalysis, LuAnalysis};
 use faer::c64;
 use rayon::prelude::*;
 
-/// Lines that share one real factorization.
+/// Lines that share one real factorization ...
 const LINES_AT_ONCE: usize = 8;
+/// ... and one complex factorization, which costs several times as much.
+const GENERAL_LINES_AT_ONCE: usize = 16;
 
 /// A response computed line by line.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,10 +27,10 @@ pub(super) struct Analyses {
 
 /// Receptance between two unknowns, `h = e_response^T (K + i omega C - omega^2 M)^{-1} e_force`.
 ///
-/// With proportional damping neighbouring lines share one real sparse factorization, and each is solved
-/// from it in a Krylov space until its own backward error is that of round-off (`1e-14`); a line that
-/// does not get there, and every line where damping is not proportional, has a sparse complex LU
-/// factorization of its own, with one step of refinement. Frequencies in parallel, the result
+/// Neighbouring lines share one sparse factorization, real with proportional damping and complex with
+/// any other, and each is solved from it in a Krylov space until its own backward error is that of
+/// round-off (`1e-14`); a line that does not get there has a sparse complex LU factorization of its
+/// own, with one step of refinement. Frequencies in parallel, the result
 /// independent of the number of threads. For a body of thickness `b` divide by `b`.
 ///
 /// # Errors
@@ -49,10 +51,14 @@ pub fn direct_response(
         lu: LuAnalysis::new(system.pattern()).map_err(fail)?,
         ldl: LdlAnalysis::new(system.pattern()).map_err(fail)?,
     };
+    let at_once = match system.proportional() {
+        Some(_) => LINES_AT_ONCE,
+        None => GENERAL_LINES_AT_ONCE,
+    };
     let receptance = frequencies_hz
-        .par_chunks(LINES_AT_ONCE)
+        .par_chunks(at_once)
         .map(|lines| {
-            let shared = Neighbours::solve(system, &analyses, force, response, lines);
+            let shared = solve_together(system, &analyses, force, response, lines);
             lines
                 .iter()
                 .zip(shared)

@@ -4,14 +4,17 @@
 //! [`cyclic_response`] solves each circumferential harmonic of an annulus ([`CyclicSystem`]), nothing
 //! neglected. [`FrfSystem`] holds mass, damping and stiffness of a free, clamped or sliding body;
 //! [`direct_response`] solves `(K + i omega C - omega^2 M) u = f` of the whole mesh from sparse
-//! factorizations, to round-off at each line; [`reduced_response`] projects the system on a few Krylov spaces first, and states the
-//! error that direct solutions at check lines find.
+//! factorizations, to round-off at each line; [`reduced_response`] projects the system on a few
+//! Krylov spaces first, and states the error that direct solutions at check lines find.
+//! [`GaussianNoise`] turns a computed response into a synthetic measurement.
 
 mod cyclic;
 mod cyclic_system;
 mod direct;
 mod error;
+mod krylov;
 mod neighbours;
+mod noise;
 mod reduction;
 mod system;
 
@@ -19,5 +22,6 @@ pub use cyclic::{CyclicResponse, cyclic_response};
 pub use cyclic_system::CyclicSystem;
 pub use direct::{DirectResponse, direct_response};
 pub use error::FrfError;
+pub use noise::GaussianNoise;
 pub use reduction::{ReducedResponse, ReductionSettings, reduced_response};
 pub use system::{FrfBoundary, FrfSystem, Terminal};

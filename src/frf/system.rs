@@ -181,6 +181,19 @@ impl FrfSystem {
             .collect()
     }
 
+    /// `(2 omega M - i C) x + omega M w`.
+    pub(super) fn slope(&self, omega: f64, x: &[c64], w: &[c64]) -> Vec<c64> {
+        let mut y = vec![c64::new(0.0, 0.0); x.len()];
+        for (column, (x, w)) in x.iter().zip(w).enumerate() {
+            let moved = (x * 2.0 + w) * omega;
+            let turned = c64::new(x.im, -x.re);
+            for (k, row) in self.pattern.column(column) {
+                y[row] += moved * self.mass[k] + turned * self.damping[k];
+            }
+        }
+        y
+    }
+
     /// Nonzeros of `K - omega^2 M`.
     pub(super) fn undamped_stiffness(&self, frequency_hz: f64) -> Vec<f64> {
         let omega = TAU * frequency_hz;

@@ -1,0 +1,185 @@
+//! Krylov spaces in which many lines are solved at once.
+
+use faer::linalg::solvers::Solve;
+use faer::{Mat, c64};
+use std::ops::Mul;
+
+/// Relative residual of the projected systems at which the space is large enough.
+const RESIDUAL: f64 = 1e-15;
+/// Vectors between two looks at the residuals.
+const STRIDE: usize = 6;
+
+/// Real or complex entries of vectors.
+pub(super) trait Entry: Copy + Into<c64> + Mul<f64, Output = Self> {
+    /// Most vectors of a space: about what complex factorizations of all its lines cost.
+    const MOST_VECTORS: usize;
+    /// `a^H b`.
+    fn dot(a: &[Self], b: &[Self]) -> Self;
+    /// `a -= factor b`.
+    fn subtract(a: &mut [Self], factor: Self, b: &[Self]);
+    /// `sum += factor b`.
+    fn add(sum: &mut [c64], factor: c64, b: &[Self]);
+}
+
+impl Entry for f64 {
+    const MOST_VECTORS: usize = 72;
+
+    fn dot(a: &[f64], b: &[f64]) -> f64 {
+        // Eight partial sums, so that additions need not wait for each other.
+        let mut sums = [0.0; 8];
+        let (a_blocks, b_blocks) = (a.chunks_exact(8), b.chunks_exact(8));
+        let tail = a_blocks.remainder().iter().zip(b_blocks.remainder());
+        let rest: f64 = tail.map(|(x, y)| x * y).sum();
+        for (x, y) in a_blocks.zip(b_blocks) {
+            for lane in 0..8 {
+                sums[lane] += x[lane] * y[lane];
+            }
+        }
+        sums.iter().sum::<f64>() + rest
+    }
+
+    fn subtract(a: &mut [f64], factor: f64, b: &[f64]) {
+        for (a, b) in a.iter_mut().zip(b) {
+            *a -= factor * b;
+        }
+    }
+
+    fn add(sum: &mut [c64], factor: c64, b: &[f64]) {
+        for (sum, b) in sum.iter_mut().zip(b) {
+            *sum += factor * *b;
+        }
+    }
+}
+
+impl Entry for c64 {
+    const MOST_VECTORS: usize = 42;
+
+    fn dot(a: &[c64], b: &[c64]) -> c64 {
+        // Real and imaginary parts of four products each, summed apart for the same reason.
+        let (mut re, mut im) = ([0.0; 4], [0.0; 4]);
+        let (a_blocks, b_blocks) = (a.chunks_exact(4), b.chunks_exact(4));
+        let tail = a_blocks.remainder().iter().zip(b_blocks.remainder());
+        let rest: c64 = tail.map(|(x, y)| x.conj() * y).sum();
+        for (x, y) in a_blocks.zip(b_blocks) {
+            for lane in 0..4 {
+                re[lane] += x[lane].re * y[lane].re + x[lane].im * y[lane].im;
+                im[lane] += x[lane].re * y[lane].im - x[lane].im * y[lane].re;
+            }
+        }
+        c64::new(re.iter().sum(), im.iter().sum()) + rest
+    }
+
+    fn subtract(a: &mut [c64], factor: c64, b: &[c64]) {
+        for (a, b) in a.iter_mut().zip(b) {
+            *a -= factor * b;
+        }
+    }
+
+    fn add(sum: &mut [c64], factor: c64, b: &[c64]) {
+        for (sum, b) in sum.iter_mut().zip(b) {
+            *sum += factor * b;
+        }
+    }
+}
+
+/// The space `g, B g, B^2 g, ...` for systems `(1 - d B) x = g` with many `d`.
+pub(super) struct KrylovSpace<T> {
+    /// Orthonormal vectors, one more than [`Self::images`].
+    vectors: Vec<Vec<T>>,
+    /// Column `k`: coefficients of `B v_k` in the vectors.
+    images: Vec<Vec<c64>>,
+    /// `|g|`.
+    length: f64,
+}
+
+impl<T: Entry> KrylovSpace<T> {
+    /// The space of `g` alone.
+    pub fn new(start: Vec<T>) -> Self {
+        let length = norm(&start);
+        Self {
+            vectors: vec![scaled(start, 1.0 / length)],
+            images: Vec::new(),
+            length,
+        }
+    }
+
+    /// Coordinates of the solution at each distance `d`.
+    ///
+    /// The space grows by `multiply`, `v -> B v`, until all residuals are those of round-off, it is
+    /// complete, or it has [`Entry::MOST_VECTORS`]: the caller looks what the solutions are worth.
+    pub fn solve(&mut self, distances: &[c64], multiply: impl Fn(&[T]) -> Vec<T>) -> Vec<Vec<c64>> {
+        loop {
+            let is_closed = (0..STRIDE).any(|_| {
+                let image = multiply(&self.vectors[self.vectors.len() - 1]);
+                !self.extend(image)
+            });
+            let (solved, residuals): (Vec<_>, Vec<f64>) =
+                distances.iter().map(|d| self.project(*d)).unzip();
+            let is_enough = residuals.iter().all(|residual| *residual <= RESIDUAL);
+            if is_closed || is_enough || self.images.len() >= T::MOST_VECTORS {
+                return solved;
+            }
+        }
+    }
+
+    /// The first `count` entries of the vector of these coordinates.
+    pub fn combined(&self, coordinates: &[c64], count: usize) -> Vec<c64> {
+        let mut sum = vec![c64::new(0.0, 0.0); count];
+        for (coordinate, vector) in coordinates.iter().zip(&self.vectors) {
+            T::add(&mut sum, *coordinate, vector);
+        }
+        sum
+    }
+
+    /// One more vector, from the image of the last; `false` if the space is complete.
+    fn extend(&mut self, mut image: Vec<T>) -> bool {
+        let before = norm(&image);
+        let mut coefficients = vec![c64::new(0.0, 0.0); self.vectors.len()];
+        // Twice is enough for orthogonality to round-off.
+        for _ in 0..2 {
+            for (coefficient, vector) in coefficients.iter_mut().zip(&self.vectors) {
+                let product = T::dot(vector, &image);
+                *coefficient += product.into();
+                T::subtract(&mut image, product, vector);
+            }
+        }
+        let left = norm(&image);
+        let is_new = left > f64::EPSILON * before;
+        coefficients.push(c64::new(if is_new { left } else { 0.0 }, 0.0));
+        self.images.push(coefficients);
+        if is_new {
+            self.vectors.push(scaled(image, 1.0 / left));
+        }
+        is_new
+    }
+
+    /// Coordinates of the Galerkin solution of `(1 - distance B) x = g`, and its relative residual.
+    fn project(&self, distance: c64) -> (Vec<c64>, f64) {
+        let m = self.images.len();
+        let zero = c64::new(0.0, 0.0);
+        let matrix = Mat::<c64>::from_fn(m, m, |i, j| {
+            let image = self.images[j].get(i).copied().unwrap_or(zero);
+            let unit = if i == j { 1.0 } else { 0.0 };
+            c64::new(unit, 0.0) - distance * image
+        });
+        let right = Mat::from_fn(m, 1, |i, _| {
+            c64::new(if i == 0 { self.length } else { 0.0 }, 0.0)
+        });
+        let y = matrix.partial_piv_lu().solve(&right);
+        let y: Vec<c64> = (0..m).map(|i| y[(i, 0)]).collect();
+        let size = y.iter().map(|v| v.norm_sqr()).sum::<f64>().sqrt();
+        let next = self.images[m - 1][m];
+        let residual = (distance * next * y[m - 1]).norm() / size;
+        (y, residual)
+    }
+}
+
+fn norm<T: Entry>(a: &[T]) -> f64 {
+    let square: c64 = T::dot(a, a).into();
+    square.re.sqrt()
+}
+
+fn scaled<T: Entry>(mut a: Vec<T>, factor: f64) -> Vec<T> {
+    a.iter_mut().for_each(|value| *value = *value * factor);
+    a
+}
