@@ -9,7 +9,7 @@ use super::wave::{Linearization, Wave};
 use crate::linalg::ComplexDenseLu;
 use faer::{Mat, MatMut, c64};
 use rustfft::{Fft, FftPlanner};
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
 const ZERO: c64 = c64::new(0.0, 0.0);
@@ -79,13 +79,16 @@ impl<'a> Perturbed<'a> {
     /// Number of a temporal harmonic, symbol of its velocity and receptance of the edge, for each harmonic.
     fn responses(&self, exponent: c64) -> impl Iterator<Item = (isize, c64, Receptance)> + '_ {
         let omega = self.frequency();
-        let half_step = PI / (omega * self.points() as f64);
+        let step = TAU / (omega * self.points() as f64);
         let harmonics = (-self.highest..=self.highest).enumerate();
         harmonics.map(move |(index, k)| {
             let shifted = exponent + c64::new(0.0, k as f64 * omega);
-            let rate = (shifted * half_step).sinh() / half_step;
+            let angle = shifted * step;
+            let rate = (8.0 * angle.sinh() - (2.0 * angle).sinh()) / (6.0 * step);
+            let back = (-angle).exp();
+            let contact_rate = (1.0 - back) / step;
             let at = DynamicCoefficients::new(rate, &self.cycle.state.point.damping);
-            (k, rate, self.body.receptance(index, at, []).0)
+            (k, contact_rate, self.body.receptance(index, at, []).0)
         })
     }
 

@@ -15,7 +15,10 @@ use faer::c64;
 use std::f64::consts::TAU;
 
 /// Most changes of contact state along one branch.
-const MOST_STEPS: usize = 20_000;
+const MOST_STEPS: usize = 6_000;
+
+/// Friction coefficient beyond which no branch is followed.
+const HIGHEST_FRICTION: f64 = 10.0;
 
 /// Where the wave lies on the grid of phases, in steps: where one curve closes on itself near its birth, because the
 /// grid pins the wave, another leads away.
@@ -56,6 +59,8 @@ pub enum BranchEnd {
     Lost,
     /// The most steps were spent.
     Steps,
+    /// The wave is no motion of the disc, see [`LimitCycle::is_physical`].
+    Unphysical,
 }
 
 impl BranchEnd {
@@ -66,6 +71,9 @@ impl BranchEnd {
             Self::Birth => "the cycle shrinks into steady sliding",
             Self::Lost => "the curve cannot be followed",
             Self::Steps => "too many changes of contact state",
+            Self::Unphysical => {
+                "the wave opens inside the cylinder or draws energy from the normal contact: refine the mesh"
+            }
         }
     }
 }
@@ -107,7 +115,8 @@ impl CycleSolver {
         let frequency = born.map_or(TAU * HIGHEST_FREQUENCY_HZ, |onset| {
             onset.frequency * wave.order(1)
         });
-        let grid = PhaseGrid::new(frequency, probe.node_frequency, points);
+        let nodes = sectors as f64 / harmonic as f64;
+        let grid = PhaseGrid::new(frequency, probe.node_frequency, nodes, points);
         Ok(Self {
             body: body(grid.points / 2)?,
             grid,
@@ -160,8 +169,15 @@ impl CycleSolver {
             let end = self.run(&mut branch, &[target], |branch, step| {
                 matches!(step, Step::At(_)).then_some(branch.value())
             });
+            let end = end.and_then(|_| {
+                let cycle = LimitCycle::new(&wave, branch.state.clone());
+                cycle
+                    .is_physical()
+                    .then_some(cycle)
+                    .ok_or(BranchEnd::Unphysical)
+            });
             match end {
-                Ok(_) => return Ok(LimitCycle::new(&wave, branch.state)),
+                Ok(cycle) => return Ok(cycle),
                 Err(reason) if branch.value() > failure.0 => failure = (branch.value(), reason),
                 Err(_) => {}
             }
@@ -261,15 +277,19 @@ impl CycleSolver {
                 folds.push(branch.value());
             }
             let Step::At(value) = step else { return None };
-            cycles.push(LimitCycle::new(&wave, branch.state.clone()));
+            let cycle = LimitCycle::new(&wave, branch.state.clone());
+            if !cycle.is_physical() {
+                return Some(BranchEnd::Unphysical);
+            }
+            cycles.push(cycle);
             let leaves = (value == first && direction < 0.0) || (value == last && direction > 0.0);
-            leaves.then_some(value)
+            leaves.then_some(BranchEnd::Range)
         });
         CycleBranch {
             parameter,
             cycles,
             folds,
-            ends: [BranchEnd::Range, end.err().unwrap_or(BranchEnd::Range)],
+            ends: [BranchEnd::Range, end.unwrap_or_else(|reason| reason)],
             factorizations: branch.factorizations,
         }
     }
@@ -342,6 +362,10 @@ impl CycleSolver {
             }
             if is_full_slip(&branch.state) {
                 return Err(BranchEnd::Birth);
+            }
+            let friction = branch.state.point.contact.friction_coefficient;
+            if !(friction < HIGHEST_FRICTION) {
+                return Err(BranchEnd::Lost);
             }
         }
         Err(BranchEnd::Steps)

@@ -3,11 +3,16 @@
 //! The wave `u(r, theta, t) = U(r, xi)`, `xi = n theta + omega t`, is sampled at an odd number `M` of phases
 //! `xi_i = 2 pi i / M`. Time steps of `h = 2 pi / (omega M)` take each contact node from one phase to the next, so
 //! that the discrete Fourier transform over the phases turns the equation of motion into one receptance for each
-//! temporal harmonic `k`, with central differences' velocity symbol
+//! temporal harmonic `k`. With `phi = 2 pi k / M`, motion has the velocity of central differences of fourth order,
+//! contact that of the last step:
 //!
 //! ```text
-//! v = i s u,   s = (2 / h) sin(pi k / M),   D = K_kn + i s C - s^2 M
+//! v = i s u,   s = (8 sin phi - sin 2 phi) / (6 h),   D = K_kn + i s C - s^2 M
+//! v = b u,     b = (1 - e^{-i phi}) / h               in the gap and in the slip velocity
 //! ```
+//!
+//! Both reach a few neighbours only: a jump of the force disturbs the phases around it, and no others. `s` is real, so that
+//! the motion itself neither gains nor loses energy; `b` looks back, so that a point that touches can only push.
 
 use super::body::{DynamicCoefficients, Receptance, WaveBody};
 use super::parameter::{OperatingPoint, Parameter};
@@ -15,7 +20,7 @@ use super::state::WaveState;
 use crate::fem::RayleighDamping;
 use faer::c64;
 use rustfft::{Fft, FftPlanner};
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
 /// Phases of a wave, and how softly it lands.
@@ -33,23 +38,38 @@ pub struct PhaseGrid {
 }
 
 /// Landing time, in units of `1 / omega` of a contact node between fixed neighbours.
-const LANDING: f64 = 0.7;
+const LANDING: f64 = 0.5;
 /// Landing time, in phases, that is resolved.
-const RESOLVED: f64 = 0.67;
+const RESOLVED: f64 = 0.5;
 /// Fewest and most phases where none are given.
 const POINTS: (usize, usize) = (91, 181);
 
+/// Phases kept between `M` and a multiple of `2 N / n`, at most.
+const CLEARANCE: f64 = 12.0;
+
 impl PhaseGrid {
-    /// The grid for a wave of about `frequency` (rad/s) on a mesh whose contact nodes have the frequency `node`.
+    /// The grid for a wave of about `frequency` (rad/s) on a mesh whose contact nodes have the frequency `node`, with
+    /// `nodes` of them along one wave.
     ///
-    /// With `points` given, the landing time is never below what they resolve.
-    pub fn new(frequency: f64, node: f64, points: Option<usize>) -> Self {
+    /// With `points` given, the landing time is never below what they resolve. Near a multiple of twice `nodes` the
+    /// highest harmonics, which the differences in time take for slow ones, are long waves to the mesh and would
+    /// resonate: there fewer phases are taken.
+    pub fn new(frequency: f64, node: f64, nodes: f64, points: Option<usize>) -> Self {
         let wanted = LANDING / node * frequency / TAU;
-        let points = points.unwrap_or_else(|| {
+        let wished = points.unwrap_or_else(|| {
             let points = (RESOLVED / wanted).round() as usize;
             points.clamp(POINTS.0, POINTS.1)
-        });
-        let points = 2 * (points / 2).max(2) + 1;
+        }) as f64;
+        let period = 2.0 * nodes;
+        let clearance = CLEARANCE.min(0.25 * period);
+        let resonant = period * (wished / period).round().max(1.0);
+        let distance = (wished - resonant).abs();
+        let points = if distance < clearance {
+            resonant - clearance
+        } else {
+            wished
+        };
+        let points = 2 * (points as usize / 2).max(2) + 1;
         Self {
             points,
             landing_share: wanted.max(RESOLVED / points as f64),
@@ -94,12 +114,21 @@ impl<'a> Wave<'a> {
 
     /// `s / omega` of harmonic `k`: `k` itself in the limit of many points.
     pub fn order(&self, k: usize) -> f64 {
-        self.points as f64 / PI * (PI * k as f64 / self.points as f64).sin()
+        let step = TAU / self.points as f64;
+        let angle = k as f64 * step;
+        (8.0 * angle.sin() - (2.0 * angle).sin()) / (6.0 * step)
+    }
+
+    /// `b / omega` of harmonic `k`: `i k` in the limit of many points.
+    pub fn contact_order(&self, k: usize) -> c64 {
+        let step = TAU / self.points as f64;
+        let back = c64::from_polar(1.0, -(k as f64) * step);
+        (1.0 - back) / step
     }
 
     /// Factor that turns a displacement into `u + tau v`.
     pub fn look_ahead(&self, k: usize) -> c64 {
-        c64::new(1.0, TAU * self.landing_share * self.order(k))
+        1.0 + TAU * self.landing_share * self.contact_order(k)
     }
 
     /// Harmonics `0..=K` of values on the points, `sum_i f_i e^{-i k xi_i}`.
@@ -152,10 +181,10 @@ pub struct Linearization {
 
 /// What a unit of both forces does at one harmonic, and its derivatives with frequency and parameter.
 struct HarmonicResponse {
-    rate: c64,
+    slip_rate: c64,
     receptance: Receptance,
     changes: [Receptance; 2],
-    rate_changes: [c64; 2],
+    slip_rate_changes: [c64; 2],
 }
 
 impl HarmonicResponse {
@@ -188,10 +217,10 @@ impl HarmonicResponse {
             ],
         );
         Self {
-            rate,
+            slip_rate: frequency * wave.contact_order(k),
             receptance,
             changes,
-            rate_changes,
+            slip_rate_changes: [wave.contact_order(k), c64::new(0.0, 0.0)],
         }
     }
 
@@ -218,7 +247,7 @@ impl Linearization {
             wave.values(enumerated().map(|(k, r)| wave.look_ahead(k) * r.receptance[(0, j)]))
         };
         let slip_column =
-            |j: usize| wave.values(enumerated().map(|(_, r)| r.rate * r.receptance[(1, j)]));
+            |j: usize| wave.values(enumerated().map(|(_, r)| r.slip_rate * r.receptance[(1, j)]));
         let normal = wave.harmonics(&state.normal);
         let tangential = wave.harmonics(&state.tangential);
         let moved: Vec<[[c64; 2]; 3]> = enumerated()
@@ -229,11 +258,12 @@ impl Linearization {
         };
         let velocity_change = |which: usize| {
             wave.values(enumerated().map(|(k, r)| {
-                r.rate * moved[k][1 + which][1] + r.rate_changes[which] * moved[k][0][1]
+                let change = r.slip_rate_changes[which];
+                r.slip_rate * moved[k][1 + which][1] + change * moved[k][0][1]
             }))
         };
         let mut gap = gap_of(0);
-        let mut slip = wave.values(enumerated().map(|(k, r)| r.rate * moved[k][0][1]));
+        let mut slip = wave.values(enumerated().map(|(k, r)| r.slip_rate * moved[k][0][1]));
         let contact = &state.point.contact;
         gap.iter_mut().for_each(|gap| *gap -= contact.interference);
         let surface_speed = contact.rotation_speed * wave.body.radius;
@@ -250,7 +280,7 @@ impl Linearization {
                 let respond = |row: usize, k: usize| responses[k].receptance[(row, 1)] * change[k];
                 by_parameter = [
                     wave.values(enumerated().map(|(k, _)| wave.look_ahead(k) * respond(0, k))),
-                    wave.values(enumerated().map(|(k, r)| r.rate * respond(1, k))),
+                    wave.values(enumerated().map(|(k, r)| r.slip_rate * respond(1, k))),
                 ];
                 first_by[1] = share * respond(1, 1);
             }
