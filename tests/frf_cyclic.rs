@@ -1,32 +1,18 @@
 //! Frequency responses harmonic by harmonic against sparse solutions of the whole mesh (another
 //! assembly, another factorization: independent checks).
 
-use frictionsim::contact::{ContactStiffness, SlidingContact};
-use frictionsim::fem::{
-    ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping, assemble_stiffness,
-};
+#[path = "common/disc.rs"]
+mod disc;
+
+use disc::{DAMPING, POLYCARBONATE, annulus, contact};
+use frictionsim::contact::ContactStiffness;
+use frictionsim::fem::{MassKind, assemble_stiffness};
 use frictionsim::frf::{
     CyclicSystem, FrfError, FrfSystem, Terminal, cyclic_response, direct_response,
 };
 use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind, SectorMesh};
 use frictionsim::prestress::{
     DampingModel, SectorTangent, SlidingTangent, SteadySliding, TangentOptions,
-};
-
-const MATERIAL: ElasticMaterial = ElasticMaterial {
-    young_modulus: 2.5e9,
-    poisson_ratio: 0.3805,
-    density: 1228.0,
-    formulation: PlaneFormulation::PlaneStrain,
-};
-const DAMPING: RayleighDamping = RayleighDamping {
-    mass_coefficient: 40.0,
-    stiffness_coefficient: 4.5e-7,
-};
-const CONTACT: SlidingContact = SlidingContact {
-    friction_coefficient: 0.3,
-    interference: 25e-6,
-    rotation_speed: 63.9,
 };
 
 /// Even and odd numbers of sectors differ in their last harmonic.
@@ -36,13 +22,9 @@ fn meshes() -> [AnnulusSpecification; 3] {
         (25, ElementKind::Quad4),
         (16, ElementKind::Quad8),
     ]
-    .map(|(circumferential_elements, element)| AnnulusSpecification {
-        inner_radius: 0.0205,
-        outer_radius: 0.0905,
-        circumferential_elements,
-        radial_elements: 6,
+    .map(|(circumferential, element)| AnnulusSpecification {
         radial_grading: 1.1,
-        element,
+        ..annulus(element, circumferential, 6)
     })
 }
 
@@ -106,8 +88,8 @@ fn harmonics_of_a_free_and_a_clamped_body_sum_to_the_response_of_the_whole_mesh(
         let sector = SectorMesh::generate(specification).unwrap();
         for is_clamped in [false, true] {
             for mass in [MassKind::Consistent, MassKind::Lumped] {
-                let whole = FrfSystem::body(&mesh, &MATERIAL, mass, DAMPING, is_clamped);
-                let cyclic = CyclicSystem::body(&sector, &MATERIAL, mass, DAMPING, is_clamped);
+                let whole = FrfSystem::body(&mesh, &POLYCARBONATE, mass, DAMPING, is_clamped);
+                let cyclic = CyclicSystem::body(&sector, &POLYCARBONATE, mass, DAMPING, is_clamped);
                 let what = format!(
                     "{:?}, clamped {is_clamped}, {mass:?}",
                     specification.element
@@ -123,8 +105,8 @@ fn harmonics_in_sliding_contact_sum_to_the_response_of_the_whole_mesh() {
     for specification in &meshes() {
         let mesh = AnnulusMesh::generate(specification).unwrap().mesh;
         let sector = SectorMesh::generate(specification).unwrap();
-        let stiffness = assemble_stiffness(&mesh, &MATERIAL);
-        let base = SteadySliding::solve(&mesh, &stiffness, &CONTACT).unwrap();
+        let stiffness = assemble_stiffness(&mesh, &POLYCARBONATE);
+        let base = SteadySliding::solve(&mesh, &stiffness, &contact(610.0)).unwrap();
         for damping_model in [DampingModel::WholeTangent, DampingModel::BodyOnly] {
             for normal_stiffness in [None, Some(7.4e12)] {
                 let options = TangentOptions {
@@ -138,9 +120,10 @@ fn harmonics_in_sliding_contact_sum_to_the_response_of_the_whole_mesh() {
                     },
                 };
                 let whole =
-                    SlidingTangent::linearize(&mesh, &MATERIAL, &stiffness, &base, &options);
+                    SlidingTangent::linearize(&mesh, &POLYCARBONATE, &stiffness, &base, &options);
                 let cyclic =
-                    SectorTangent::linearize(&sector, &MATERIAL, &options, &CONTACT).unwrap();
+                    SectorTangent::linearize(&sector, &POLYCARBONATE, &options, &contact(610.0))
+                        .unwrap();
                 let what = format!(
                     "{:?}, {damping_model:?}, {normal_stiffness:?}",
                     specification.element
@@ -161,7 +144,7 @@ fn held_and_missing_nodes_and_negative_frequencies_are_refused_with_their_key() 
     let [specification, ..] = meshes();
     let sector = SectorMesh::generate(&specification).unwrap();
     let mass = MassKind::Consistent;
-    let system = CyclicSystem::body(&sector, &MATERIAL, mass, DAMPING, true);
+    let system = CyclicSystem::body(&sector, &POLYCARBONATE, mass, DAMPING, true);
     let at = |node| Terminal {
         node,
         is_tangential: false,
@@ -185,7 +168,7 @@ fn response_has_the_same_bits_for_any_number_of_threads() {
     let [specification, ..] = meshes();
     let sector = SectorMesh::generate(&specification).unwrap();
     let mass = MassKind::Consistent;
-    let system = CyclicSystem::body(&sector, &MATERIAL, mass, DAMPING, false);
+    let system = CyclicSystem::body(&sector, &POLYCARBONATE, mass, DAMPING, false);
     let f: Vec<f64> = (1..=77).map(|line| 100.0 * f64::from(line)).collect();
     let [force, response] = terminals(&specification, false)[1];
     let on = |threads: usize| {

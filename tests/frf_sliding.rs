@@ -1,12 +1,14 @@
 //! Frequency responses in sliding contact against eigenvalues and eigenvectors: of a dense
 //! decomposition, and of the eigenvalue analysis (other equations, other solvers: independent checks).
 
+#[path = "common/disc.rs"]
+mod disc;
+
+use disc::{DAMPING, POLYCARBONATE, annulus, contact};
 use faer::{Mat, c64};
 use frictionsim::cea::sparse::{EigenLimit, EigenRequest, sweep};
-use frictionsim::contact::{ContactStiffness, SlidingContact};
-use frictionsim::fem::{
-    ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping, assemble_stiffness,
-};
+use frictionsim::contact::ContactStiffness;
+use frictionsim::fem::{MassKind, assemble_stiffness};
 use frictionsim::frf::{CyclicSystem, FrfSystem, Terminal, cyclic_response, direct_response};
 use frictionsim::linalg::{DenseLu, MatrixPolynomial};
 use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind, SectorMesh};
@@ -15,29 +17,14 @@ use frictionsim::prestress::{
 };
 use std::f64::consts::TAU;
 
-const MATERIAL: ElasticMaterial = ElasticMaterial {
-    young_modulus: 2.5e9,
-    poisson_ratio: 0.3805,
-    density: 1228.0,
-    formulation: PlaneFormulation::PlaneStrain,
-};
-const CONTACT: SlidingContact = SlidingContact {
-    friction_coefficient: 0.3,
-    interference: 25e-6,
-    rotation_speed: 63.9,
-};
 const RADIAL: usize = 5;
 /// Scale between displacement and velocity in the state, rad/s: balances the companion matrix.
 const OMEGA: f64 = TAU * 1e5;
 
 fn specification() -> AnnulusSpecification {
     AnnulusSpecification {
-        inner_radius: 0.0205,
-        outer_radius: 0.0905,
-        circumferential_elements: 18,
-        radial_elements: RADIAL,
         radial_grading: 1.1,
-        element: ElementKind::Quad4,
+        ..annulus(ElementKind::Quad4, 18, RADIAL)
     }
 }
 
@@ -45,10 +32,7 @@ fn options(damping_model: DampingModel, contact: ContactStiffness) -> TangentOpt
     TangentOptions {
         mass: MassKind::Consistent,
         geometric_stiffness: true,
-        damping: RayleighDamping {
-            mass_coefficient: 40.0,
-            stiffness_coefficient: 4.5e-7,
-        },
+        damping: DAMPING,
         damping_model,
         contact,
     }
@@ -56,14 +40,15 @@ fn options(damping_model: DampingModel, contact: ContactStiffness) -> TangentOpt
 
 fn tangent(options: &TangentOptions) -> SlidingTangent {
     let mesh = AnnulusMesh::generate(&specification()).unwrap().mesh;
-    let stiffness = assemble_stiffness(&mesh, &MATERIAL);
-    let base = SteadySliding::solve(&mesh, &stiffness, &CONTACT).unwrap();
-    SlidingTangent::linearize(&mesh, &MATERIAL, &stiffness, &base, options)
+    let stiffness = assemble_stiffness(&mesh, &POLYCARBONATE);
+    let base = SteadySliding::solve(&mesh, &stiffness, &contact(610.0)).unwrap();
+    SlidingTangent::linearize(&mesh, &POLYCARBONATE, &stiffness, &base, options)
 }
 
 fn cyclic(options: &TangentOptions, friction_coefficient: f64) -> CyclicSystem {
     let sector = SectorMesh::generate(&specification()).unwrap();
-    let tangent = SectorTangent::linearize(&sector, &MATERIAL, options, &CONTACT).unwrap();
+    let tangent =
+        SectorTangent::linearize(&sector, &POLYCARBONATE, options, &contact(610.0)).unwrap();
     CyclicSystem::sliding(&tangent, friction_coefficient)
 }
 

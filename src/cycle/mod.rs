@@ -10,6 +10,7 @@
 mod body;
 mod branch;
 mod error;
+mod grid;
 mod limit_cycle;
 mod onset;
 mod parameter;
@@ -22,10 +23,10 @@ mod wave;
 
 pub use body::{DynamicCoefficients, Receptance, WaveBody};
 pub use error::CycleError;
+pub use grid::PhaseGrid;
 pub use limit_cycle::{CyclePowers, LimitCycle, PhasePoint};
 pub use onset::Onset;
 pub use parameter::{OperatingPoint, Parameter};
 pub use solver::{BranchEnd, CycleBranch, CycleSolver};
 pub use stability::{CycleStability, FloquetExponent, PerturbationGrowth};
 pub use state::{PointState, WaveState};
-pub use wave::PhaseGrid;

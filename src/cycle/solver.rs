@@ -1,13 +1,14 @@
 //! Limit cycles of one harmonic: from birth to an operating point, and along a parameter.
 
 use super::branch::{Branch, Step};
+use super::grid::PhaseGrid;
 use super::limit_cycle::LimitCycle;
 use super::onset::{HIGHEST_FREQUENCY_HZ, LARGEST_FRICTION, largest_linear_wave, onsets};
 use super::parameter::{OperatingPoint, Parameter};
 use super::perturbed::Perturbed;
 use super::stability::{CycleStability, PerturbationGrowth};
 use super::state::{PointState, WaveState};
-use super::wave::{PhaseGrid, Wave};
+use super::wave::Wave;
 use super::{CycleError, Onset, WaveBody};
 use crate::fem::{ElasticMaterial, RayleighDamping};
 use crate::mesh::AnnulusSpecification;

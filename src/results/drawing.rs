@@ -34,6 +34,33 @@ pub struct FigureFile {
     pub bytes: Vec<u8>,
 }
 
+/// Name and caption of a figure, and what draws it.
+pub type FigureJob<'a> = (
+    String,
+    String,
+    Box<dyn Fn() -> Result<String, FigureError> + Sync + Send + 'a>,
+);
+
+/// Runs the jobs side by side and keeps what had something to draw, in order.
+///
+/// # Errors
+/// That of a figure that cannot be drawn although there is something to draw.
+pub fn draw_figures(jobs: Vec<FigureJob<'_>>) -> Result<Vec<NamedFigure>, FigureError> {
+    let drawn: Vec<_> = jobs
+        .into_par_iter()
+        .map(|(name, caption, job)| (name, caption, job()))
+        .collect();
+    let mut figures = Vec::new();
+    for (name, caption, drawing) in drawn {
+        match drawing {
+            Ok(svg) => figures.push(NamedFigure { name, caption, svg }),
+            Err(FigureError::Empty { .. }) => {}
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(figures)
+}
+
 /// Every figure as SVG and as PNG of `dots_per_inch`, in order.
 ///
 /// # Errors

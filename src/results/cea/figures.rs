@@ -3,25 +3,16 @@
 use super::{CeaReport, direction_name, html_report};
 use crate::cea::{ComplexMode, FrictionPoint};
 use crate::fem::{NodalStress, RayleighDamping};
-use crate::results::drawing::{DrawingError, write_report};
+use crate::results::drawing::{DrawingError, FigureJob, draw_figures, write_report};
 use crate::results::figures::{
     EigenvalueLocus, FigureError, ModeShape, ModeShapes, PairSweep, PrestressedContact,
     draw_eigenvalue_locus, draw_mode_over_friction, draw_mode_shapes, draw_pair_sweep,
     draw_prestress,
 };
 use crate::results::folder::OutputFolder;
-use crate::results::report::NamedFigure;
-use rayon::prelude::*;
 
 /// Branches whose shape is followed over friction, at most.
 const FOLLOWED_BRANCHES: usize = 4;
-
-/// Name and caption of a figure, and what draws it.
-type Job<'a> = (
-    String,
-    String,
-    Box<dyn Fn() -> Result<String, FigureError> + Sync + Send + 'a>,
-);
 
 /// Draws every figure that the report has data for into `figures/`, each as SVG and PNG, and writes
 /// `report.html`: eigenvalue locus with stability bars, pairs that turn unstable, base state, mode
@@ -48,28 +39,12 @@ pub fn draw(
         let caption = format!("Critical friction of each branch over {}", map.key);
         jobs.push(("map".to_owned(), caption, Box::new(|| map.draw())));
     }
-    // Drawing is pure: side by side here, in order below.
-    let drawn: Vec<_> = jobs
-        .par_iter()
-        .map(|(name, caption, job)| (name, caption, job()))
-        .collect();
-    let mut figures = Vec::new();
-    for (name, caption, drawing) in drawn {
-        match drawing {
-            Ok(svg) => figures.push(NamedFigure {
-                name: name.clone(),
-                caption: caption.clone(),
-                svg,
-            }),
-            Err(FigureError::Empty { .. }) => {}
-            Err(error) => return Err(error.into()),
-        }
-    }
+    let figures = draw_figures(jobs)?;
     let report = html_report(report, figures, folder.manifest());
     write_report(folder, &report, dots_per_inch)
 }
 
-fn sweep_jobs<'a>(report: &'a CeaReport<'a>, damping: RayleighDamping) -> Vec<Job<'a>> {
+fn sweep_jobs<'a>(report: &'a CeaReport<'a>, damping: RayleighDamping) -> Vec<FigureJob<'a>> {
     let sweep = report.sweep;
     vec![
         (
@@ -127,7 +102,7 @@ fn shapes_of(point: &FrictionPoint) -> Vec<ModeShape<'_>> {
 }
 
 /// All modes of one friction value.
-fn shapes_job<'a>(report: &'a CeaReport<'a>, point: &'a FrictionPoint) -> Option<Job<'a>> {
+fn shapes_job<'a>(report: &'a CeaReport<'a>, point: &'a FrictionPoint) -> Option<FigureJob<'a>> {
     let shapes = shapes_of(point);
     if shapes.is_empty() {
         return None;
@@ -146,10 +121,10 @@ fn shapes_job<'a>(report: &'a CeaReport<'a>, point: &'a FrictionPoint) -> Option
 }
 
 /// The first branches that turn unstable, each at every friction value that has shapes.
-fn branch_jobs<'a>(report: &'a CeaReport<'a>) -> Vec<Job<'a>> {
+fn branch_jobs<'a>(report: &'a CeaReport<'a>) -> Vec<FigureJob<'a>> {
     let (sweep, mesh) = (report.sweep, report.mesh);
     let mut drawn: Vec<(usize, usize, i8)> = Vec::new();
-    let mut jobs: Vec<Job<'a>> = Vec::new();
+    let mut jobs: Vec<FigureJob<'a>> = Vec::new();
     for interval in &sweep.intervals {
         let branch = (interval.harmonic, interval.branch, interval.direction);
         let of_branch = |point: &'a FrictionPoint| {

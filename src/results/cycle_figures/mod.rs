@@ -6,6 +6,7 @@ mod report;
 pub use record::{BranchRecord, CycleRecord, FamilyRecord, WaveRecord};
 pub use report::draw;
 
+use super::drawing::{FigureJob, draw_figures};
 use super::figures::{
     BranchCurve, BranchCurves, ContactState, FigureError, NodeCycle, ReferenceFrequency, Snapshot,
     Snapshots, Stability, draw_branch_frequencies, draw_branch_shares, draw_contact_state,
@@ -16,7 +17,6 @@ use super::report::NamedFigure;
 use crate::contact::{ContactStatus, SlidingContact};
 use crate::fem::{ElasticMaterial, nodal_stress};
 use crate::mesh::Mesh2d;
-use rayon::prelude::*;
 use std::f64::consts::TAU;
 
 /// Whole-field pictures of one kind, at most.
@@ -49,36 +49,13 @@ impl CycleFigures<'_> {
     }
 }
 
-type Job<'a> = (
-    String,
-    String,
-    Box<dyn Fn() -> Result<String, FigureError> + Sync + Send + 'a>,
-);
-
-/// Runs the jobs side by side and keeps what had something to draw, in order.
-fn collect(jobs: Vec<Job<'_>>) -> Result<Vec<NamedFigure>, FigureError> {
-    let drawn: Vec<_> = jobs
-        .into_par_iter()
-        .map(|(name, caption, job)| (name, caption, job()))
-        .collect();
-    let mut figures = Vec::new();
-    for (name, caption, drawing) in drawn {
-        match drawing {
-            Ok(svg) => figures.push(NamedFigure { name, caption, svg }),
-            Err(FigureError::Empty { .. }) => {}
-            Err(error) => return Err(error),
-        }
-    }
-    Ok(figures)
-}
-
 /// Draws the cycles at the case's own operating point: contact around the circle, history and closed curves of a contact
 /// node for each harmonic, then the fields of all.
 ///
 /// # Errors
 /// That of a figure that cannot be drawn although there is something to draw.
 pub fn draw_cycles(data: &CycleFigures<'_>) -> Result<Vec<NamedFigure>, FigureError> {
-    let mut jobs: Vec<Job<'_>> = Vec::new();
+    let mut jobs: Vec<FigureJob<'_>> = Vec::new();
     for (n, wave) in data.cycles() {
         jobs.push((
             format!("contact-n{n}"),
@@ -114,7 +91,7 @@ pub fn draw_cycles(data: &CycleFigures<'_>) -> Result<Vec<NamedFigure>, FigureEr
         "Shear stress of the waves at one instant.".into(),
         Box::new(move || stress_fields(data)),
     ));
-    collect(jobs)
+    draw_figures(jobs)
 }
 
 /// Draws the branches over their parameter.
@@ -123,7 +100,7 @@ pub fn draw_cycles(data: &CycleFigures<'_>) -> Result<Vec<NamedFigure>, FigureEr
 /// As [`draw_cycles`].
 pub fn draw_branches(data: &CycleFigures<'_>) -> Result<Vec<NamedFigure>, FigureError> {
     let curves = &branch_curves(data);
-    collect(vec![
+    draw_figures(vec![
         (
             "branch-frequencies".into(),
             "Main frequency (a) and amplitude (b) of the limit cycles along their branches; dotted: where \

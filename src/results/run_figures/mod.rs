@@ -2,6 +2,7 @@
 
 mod signals;
 
+use super::drawing::{FigureJob, draw_figures};
 use super::figures::axis::extremes;
 use super::figures::{
     ContactState, ContactTrace, EnergyFlows, FigureError, PhasePlot, ReferenceFrequency, Snapshot,
@@ -13,7 +14,6 @@ use crate::contact::ContactStatus;
 use crate::fem::{ElasticMaterial, nodal_stress};
 use crate::mesh::Mesh2d;
 use crate::transient::{ContactFrame, Recorder, SampleRow, TransientAnalysis};
-use rayon::prelude::*;
 use signals::{acceleration, component, growth, overview, spectrum, stages};
 
 /// Whole-field pictures of one kind, at most.
@@ -40,12 +40,6 @@ pub struct RunFigures<'a> {
     pub growth_rates: Vec<(usize, f64)>,
 }
 
-type Job<'a> = (
-    String,
-    String,
-    Box<dyn Fn() -> Result<String, FigureError> + Sync + Send + 'a>,
-);
-
 /// Draws every figure that the record has data for.
 ///
 /// # Errors
@@ -53,7 +47,7 @@ type Job<'a> = (
 pub fn draw_run(data: &RunFigures<'_>) -> Result<Vec<NamedFigure>, FigureError> {
     let series = Series::of(data);
     let series = &series;
-    let mut jobs: Vec<Job<'_>> = Vec::new();
+    let mut jobs: Vec<FigureJob<'_>> = Vec::new();
     for (index, node) in data.record.probes.iter().enumerate() {
         jobs.push((
             format!("overview-{node}"),
@@ -104,24 +98,7 @@ pub fn draw_run(data: &RunFigures<'_>) -> Result<Vec<NamedFigure>, FigureError> 
             .into(),
         Box::new(move || energy(data, series)),
     ));
-    collect(jobs)
-}
-
-/// Runs the jobs side by side and keeps what had something to draw, in order.
-fn collect(jobs: Vec<Job<'_>>) -> Result<Vec<NamedFigure>, FigureError> {
-    let drawn: Vec<_> = jobs
-        .into_par_iter()
-        .map(|(name, caption, job)| (name, caption, job()))
-        .collect();
-    let mut figures = Vec::new();
-    for (name, caption, drawing) in drawn {
-        match drawing {
-            Ok(svg) => figures.push(NamedFigure { name, caption, svg }),
-            Err(FigureError::Empty { .. }) => {}
-            Err(error) => return Err(error),
-        }
-    }
-    Ok(figures)
+    draw_figures(jobs)
 }
 
 /// Columns of the record that several figures share.
