@@ -178,7 +178,11 @@ fn study_figures_are_drawn_again_to_the_same_bytes() {
     assert!(text.contains("unstable mode of the eigenvalue analysis"));
 }
 
-const CYCLE: [&str; 3] = [COARSE[0], COARSE[1], "cycle.continuation.count=9"];
+const CYCLE_MESH: [&str; 2] = [
+    "mesh.circumferential_elements=90",
+    "mesh.radial_elements=18",
+];
+const CYCLE: [&str; 3] = [CYCLE_MESH[0], CYCLE_MESH[1], "cycle.continuation.count=9"];
 
 #[test]
 fn limit_cycle_figures_are_drawn_again_to_the_same_bytes() {
@@ -206,8 +210,8 @@ fn limit_cycle_figures_are_drawn_again_to_the_same_bytes() {
 fn limit_cycles_without_figures_are_drawn_later() {
     let folder = tempfile::tempdir().unwrap();
     let set = [
-        COARSE[0],
-        COARSE[1],
+        CYCLE_MESH[0],
+        CYCLE_MESH[1],
         "cycle.harmonics=[2]",
         "cycle.continuation.count=2",
     ];

@@ -328,7 +328,7 @@ pub fn print(report: &CycleReport<'_>) -> String {
     let _ = writeln!(
         out,
         "limit cycles as rotating waves, {} phases\n",
-        phases.join(" and ")
+        phases.join(", ")
     );
     let _ = writeln!(
         out,

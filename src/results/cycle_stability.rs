@@ -125,13 +125,17 @@ pub fn print_stability(out: &mut String, result: &CycleResult) {
             let _ = match stability.leading() {
                 Some(leading) if stability.is_stable() => writeln!(
                     out,
-                    "n = {n}: stable; the slowest perturbation, {} nodal diameters at {:.0} Hz, decays at {:.0} 1/s",
-                    leading.harmonic, leading.frequency_hz, -leading.exponent.re,
+                    "n = {n}: stable; the slowest perturbation, {} at {:.0} Hz, decays at {:.0} 1/s",
+                    diameters(leading.harmonic),
+                    leading.frequency_hz,
+                    -leading.exponent.re,
                 ),
                 Some(leading) => writeln!(
                     out,
-                    "n = {n}: UNSTABLE to {} nodal diameters at {:.0} Hz, growing at {:.0} 1/s",
-                    leading.harmonic, leading.frequency_hz, leading.exponent.re,
+                    "n = {n}: UNSTABLE to {} at {:.0} Hz, growing at {:.0} 1/s",
+                    diameters(leading.harmonic),
+                    leading.frequency_hz,
+                    leading.exponent.re,
                 ),
                 None => writeln!(out, "n = {n}: stable; every perturbation decays fast"),
             };
@@ -144,7 +148,15 @@ pub fn print_stability(out: &mut String, result: &CycleResult) {
     for (value, harmonic) in changes(result) {
         let _ = writeln!(
             out,
-            "n = {n}: stability changes at {key} = {value:.4} ({harmonic} nodal diameters)"
+            "n = {n}: stability changes at {key} = {value:.4} ({})",
+            diameters(harmonic),
         );
+    }
+}
+
+fn diameters(harmonic: usize) -> String {
+    match harmonic {
+        1 => "1 nodal diameter".to_owned(),
+        n => format!("{n} nodal diameters"),
     }
 }
