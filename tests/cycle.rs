@@ -232,6 +232,24 @@ fn number_of_phases_does_not_decide_what_is_found() {
 }
 
 #[test]
+fn wave_travels_against_the_rotor_without_changing_its_shape() {
+    let solver = solver(2);
+    let cycle = solver.find(&operating(610.0)).unwrap();
+    let sectors = solver.body().sector_count;
+    // Phase n theta + omega t: after this time each sector has the state that the next one had.
+    let passing = TAU * 2.0 / sectors as f64 / cycle.state.frequency;
+    let (now, later) = (solver.field(&cycle, 0.0), solver.field(&cycle, passing));
+    for (now, later) in now.iter().zip(&later) {
+        let per_sector = now.len() / sectors;
+        let largest = now.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        for i in 0..now.len() {
+            let next = now[(i + per_sector) % now.len()];
+            assert!((later[i] - next).abs() < 1e-12 * largest, "{i}");
+        }
+    }
+}
+
+#[test]
 fn impossible_requests_say_which_key_to_change() {
     let standing = solver(1).find(&operating(0.0)).unwrap_err();
     assert!(standing.to_string().contains("rotation_speed_rpm"));

@@ -25,7 +25,7 @@ fn error(arguments: &[&str]) -> (i32, String) {
 fn shipped_case_follows_both_waves_over_the_speed_and_says_where_the_single_one_loses_stability() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("cycle");
-    let output = run(&[], &out);
+    let output = run(&["--set", "cycle.frames=3"], &out);
     assert!(output.status.success(), "{output:?}");
     let summary: Value = serde_json::from_slice(&output.stdout).unwrap();
     let [one, two] = summary["cycles"].as_array().unwrap().as_slice() else {
@@ -50,6 +50,10 @@ fn shipped_case_follows_both_waves_over_the_speed_and_says_where_the_single_one_
             .unwrap()
             .is_empty()
     );
+
+    let frames = std::fs::read_to_string(out.join("cycle-n2.pvd")).unwrap();
+    assert!(frames.contains("cycle-n2.vtu") && frames.contains("cycle-n2-002.vtu"));
+    assert!(out.join("cycle-n1-001.vtu").exists() && !out.join("cycle-n1-003.vtu").exists());
 
     let table = std::fs::read_to_string(out.join("stability-n1.csv")).unwrap();
     let header = "contact.rotation_speed_rpm,class,growth_rate_per_s,wave_frequency_rad_per_s,harmonic,frequency_hz";

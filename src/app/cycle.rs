@@ -10,6 +10,7 @@ use crate::cycle::{CycleError, CycleSolver, LimitCycle, OperatingPoint, Paramete
 use crate::mesh::AnnulusMesh;
 use crate::results::DOTS_PER_INCH;
 use crate::results::cycle::{CycleReport, CycleResult, print, write};
+use crate::results::cycle_fields::CycleFrame;
 use crate::results::cycle_stability::Verdict;
 use clap::Args;
 use rayon::prelude::*;
@@ -45,7 +46,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 
     let results: Vec<CycleResult> = solvers
         .par_iter()
-        .map(|solver| solve(solver, &point, continuation.as_ref(), cycle.stability))
+        .map(|solver| solve(solver, &point, continuation.as_ref(), cycle))
         .collect();
     refuse_nothing(&results)?;
 
@@ -140,8 +141,9 @@ fn solve(
     solver: &CycleSolver,
     point: &OperatingPoint,
     continuation: Option<&(Parameter, Vec<f64>)>,
-    stability: StabilityChoice,
+    choices: &Cycle,
 ) -> CycleResult {
+    let stability = choices.stability;
     let start = Instant::now();
     let found = solver.find(point);
     let branch = match (&found, continuation) {
@@ -166,11 +168,27 @@ fn solve(
         stability: own,
         branch_stability,
         onsets: solver.onsets(&point.damping),
-        field: found.as_ref().ok().map(|cycle| solver.field(cycle, 0.0)),
+        frames: found
+            .as_ref()
+            .map_or(Vec::new(), |cycle| frames(solver, cycle, choices.frames)),
         cycle: found.map_err(|error: CycleError| error.to_string()),
         branch,
         wall_s: start.elapsed().as_secs_f64(),
     }
+}
+
+/// The whole field at `count` times over one period.
+fn frames(solver: &CycleSolver, cycle: &LimitCycle, count: usize) -> Vec<CycleFrame> {
+    let period = 1.0 / cycle.frequency_hz();
+    (0..count)
+        .map(|i| {
+            let time = period * i as f64 / count as f64;
+            CycleFrame {
+                time,
+                fields: solver.field(cycle, time),
+            }
+        })
+        .collect()
 }
 
 /// A verdict for each cycle of a branch. Where a wave only scales from one cycle to the next, its stability is the same.

@@ -12,6 +12,8 @@ pub struct Cycle {
     pub harmonics: Option<Vec<usize>>,
     /// Phases along the wave; `None` takes as many as the mesh asks for.
     pub phases: Option<usize>,
+    /// Times over one period at which the whole field is written.
+    pub frames: usize,
     /// What stability is worked out for.
     pub stability: StabilityChoice,
     /// Continuation over a parameter.
@@ -55,6 +57,7 @@ pub(super) fn cycle(root: &Section<'_>, annulus: &AnnulusSpecification) -> Optio
     let section = root.section("cycle", false);
     let harmonics = harmonics(&section, 1, annulus);
     let phases = section.optional_count("phases", 31);
+    let frames = section.optional_count("frames", 1).unwrap_or(1);
     let stability = section.choice(
         "stability",
         &[
@@ -113,6 +116,7 @@ pub(super) fn cycle(root: &Section<'_>, annulus: &AnnulusSpecification) -> Optio
     is_given.then_some(Cycle {
         harmonics,
         phases,
+        frames,
         stability,
         continuation,
     })

@@ -3,6 +3,7 @@
 use crate::contact::ContactStatus;
 use crate::cycle::{CycleBranch, CycleStability, LimitCycle, Onset};
 use crate::mesh::Mesh2d;
+use crate::results::cycle_fields::{CycleFrame, write_fields};
 use crate::results::cycle_figures::CycleRecord;
 use crate::results::cycle_stability::{
     Verdict, changes, known, print_stability, stability_object, write_stability,
@@ -11,7 +12,6 @@ use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::manifest::Manifest;
 use crate::results::record::write_record;
 use crate::results::table::{Table, format_number};
-use crate::results::vtu::{EncodedMesh, Field, PvdEntry, write_pvd, write_vtu};
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
@@ -26,8 +26,8 @@ pub struct CycleResult {
     pub onsets: Vec<Onset>,
     /// The cycle at the case's own operating point, or why there is none.
     pub cycle: Result<LimitCycle, String>,
-    /// Displacement and velocity over all dofs at time zero, where there is a cycle.
-    pub field: Option<[Vec<f64>; 2]>,
+    /// The whole field at times over one period, from zero on; empty where there is no cycle.
+    pub frames: Vec<CycleFrame>,
     /// Points along the phase.
     pub phases: usize,
     /// Stability of that cycle, where it was asked for.
@@ -193,32 +193,6 @@ pub(super) fn amplitude(cycle: &LimitCycle) -> f64 {
             0.5 * (largest - motion.fold(f64::INFINITY, f64::min))
         }
     }
-}
-
-fn write_fields(folder: &OutputFolder, report: &CycleReport<'_>) -> Result<(), FolderError> {
-    let mut entries = Vec::new();
-    for result in &report.results {
-        let Some([displacement, velocity]) = &result.field else {
-            continue;
-        };
-        let name = format!("cycle-n{}.vtu", result.harmonic);
-        folder.write(&name, |out| {
-            let fields = [
-                Field::vectors("displacement", report.mesh, displacement),
-                Field::vectors("velocity", report.mesh, velocity),
-            ];
-            write_vtu(out, &EncodedMesh::new(report.mesh)?, &fields, &[])
-        })?;
-        entries.push(PvdEntry {
-            time: result.harmonic as f64,
-            group: format!("limit cycle of {} nodal diameters", result.harmonic),
-            file: name,
-        });
-    }
-    if !entries.is_empty() {
-        folder.write("cycles.pvd", |out| write_pvd(out, &entries))?;
-    }
-    Ok(())
 }
 
 /// The summary object.

@@ -101,8 +101,8 @@ impl FamilyRecord {
                 .map(|onset| [onset.friction_coefficient, onset.frequency / TAU])
                 .collect(),
             cycle: found
-                .zip(result.field.as_ref())
-                .map(|(cycle, field)| WaveRecord::of(cycle, field)),
+                .zip(result.frames.first())
+                .map(|(cycle, frame)| WaveRecord::of(cycle, &frame.fields)),
             branch: branch.map(|(branch, cycle)| BranchRecord::of(branch, cycle, result)),
         }
     }

@@ -1,0 +1,69 @@
+//! Whole fields of limit cycles, for ParaView.
+
+use super::cycle::{CycleReport, CycleResult};
+use super::folder::{FolderError, OutputFolder};
+use super::vtu::{EncodedMesh, Field, PvdEntry, write_pvd, write_vtu};
+
+/// The whole field of a limit cycle at one time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CycleFrame {
+    /// Time, s.
+    pub time: f64,
+    /// Displacement (m) and velocity (m/s) over all dofs.
+    pub fields: [Vec<f64>; 2],
+}
+
+/// Writes each frame as a VTU file, `cycles.pvd` over the waves at time zero and, where there are several frames,
+/// `cycle-nN.pvd` over the time.
+///
+/// # Errors
+/// Those of the folder.
+pub fn write_fields(folder: &OutputFolder, report: &CycleReport<'_>) -> Result<(), FolderError> {
+    let mut waves = Vec::new();
+    for result in &report.results {
+        let frames = write_frames(folder, report, result)?;
+        if let Some(first) = frames.first() {
+            waves.push(PvdEntry {
+                time: result.harmonic as f64,
+                ..first.clone()
+            });
+        }
+        if frames.len() > 1 {
+            let name = format!("cycle-n{}.pvd", result.harmonic);
+            folder.write(&name, |out| write_pvd(out, &frames))?;
+        }
+    }
+    if !waves.is_empty() {
+        folder.write("cycles.pvd", |out| write_pvd(out, &waves))?;
+    }
+    Ok(())
+}
+
+fn write_frames(
+    folder: &OutputFolder,
+    report: &CycleReport<'_>,
+    result: &CycleResult,
+) -> Result<Vec<PvdEntry>, FolderError> {
+    let n = result.harmonic;
+    let mut entries = Vec::new();
+    for (i, frame) in result.frames.iter().enumerate() {
+        let name = match i {
+            0 => format!("cycle-n{n}.vtu"),
+            _ => format!("cycle-n{n}-{i:03}.vtu"),
+        };
+        let [displacement, velocity] = &frame.fields;
+        folder.write(&name, |out| {
+            let fields = [
+                Field::vectors("displacement", report.mesh, displacement),
+                Field::vectors("velocity", report.mesh, velocity),
+            ];
+            write_vtu(out, &EncodedMesh::new(report.mesh)?, &fields, &[])
+        })?;
+        entries.push(PvdEntry {
+            time: frame.time,
+            group: format!("limit cycle of {n} nodal diameters"),
+            file: name,
+        });
+    }
+    Ok(entries)
+}
