@@ -85,5 +85,8 @@ fn what_cannot_be_found_says_why_and_what_to_change() {
     let arguments: Vec<&str> = coarse.iter().flat_map(|set| ["--set", set]).collect();
     let (code, text) = error(&arguments);
     assert_eq!(code, 1, "{text}");
-    assert!(text.contains("refine the mesh"), "{text}");
+    assert!(
+        text.contains("refine the mesh") && text.contains("mesh.circumferential_elements"),
+        "{text}"
+    );
 }

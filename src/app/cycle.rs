@@ -6,12 +6,14 @@ pub use figures::redraw;
 
 use super::{Failure, RunOptions, Session};
 use crate::case::{Case, Cycle, StabilityChoice};
-use crate::cycle::{CycleError, CycleSolver, LimitCycle, OperatingPoint, Parameter};
+use crate::cycle::{
+    CycleBranch, CycleError, CycleSolver, LimitCycle, OperatingPoint, Parameter, StabilityChange,
+};
 use crate::mesh::AnnulusMesh;
 use crate::results::DOTS_PER_INCH;
 use crate::results::cycle::{CycleReport, CycleResult, print, write};
 use crate::results::cycle_fields::CycleFrame;
-use crate::results::cycle_stability::Verdict;
+use crate::results::cycle_stability::{Verdict, known};
 use clap::Args;
 use rayon::prelude::*;
 use std::time::Instant;
@@ -166,6 +168,9 @@ fn solve(
         harmonic: solver.body().harmonic(),
         phases: solver.grid().points,
         stability: own,
+        stability_changes: branch.as_ref().map_or(Vec::new(), |branch| {
+            changes(solver, branch, &branch_stability)
+        }),
         branch_stability,
         onsets: solver.onsets(&point.damping),
         frames: found
@@ -206,6 +211,33 @@ fn along(cycles: &[LimitCycle], verdict: impl Fn(&LimitCycle) -> Verdict + Sync)
         .into_iter()
         .flat_map(|(verdict, count)| std::iter::repeat_n(verdict, count))
         .collect()
+}
+
+/// Where neighbours along a branch differ in stability.
+fn changes(
+    solver: &CycleSolver,
+    branch: &CycleBranch,
+    verdicts: &[Verdict],
+) -> Vec<StabilityChange> {
+    let known: Vec<(&LimitCycle, bool)> = branch
+        .cycles
+        .iter()
+        .zip(verdicts)
+        .filter_map(|(cycle, verdict)| Some((cycle, known(verdict)?.is_stable())))
+        .collect();
+    let pairs = known.windows(2).filter(|pair| pair[0].1 != pair[1].1);
+    let found = pairs.filter_map(|pair| {
+        let [(first, is_stable), (second, _)] = [pair[0], pair[1]];
+        let (stable, unstable) = if is_stable {
+            (first, second)
+        } else {
+            (second, first)
+        };
+        solver
+            .stability_change(branch.parameter, stable, unstable)
+            .ok()
+    });
+    found.collect()
 }
 
 fn refuse_nothing(results: &[CycleResult]) -> Result<(), Failure> {

@@ -70,6 +70,18 @@ pub enum CycleError {
         /// Why it ends.
         reason: String,
     },
+    /// What was found is no motion of the disc.
+    #[error(
+        "harmonic {harmonic}: the wave found on {sectors} elements around the circumference opens inside the cylinder \
+         or draws energy from the normal contact; it is no motion of the disc: refine the mesh \
+         (mesh.circumferential_elements and radial_elements), or try another cycle.phases"
+    )]
+    Unphysical {
+        /// Harmonic.
+        harmonic: usize,
+        /// Sectors of the mesh.
+        sectors: usize,
+    },
     /// The linearized wave has no finite response.
     #[error(
         "the stability of this limit cycle to perturbations of class {class} cannot be told: its linearized \

@@ -9,6 +9,7 @@
 
 mod body;
 mod branch;
+mod cycle_branch;
 mod error;
 mod grid;
 mod limit_cycle;
@@ -16,17 +17,19 @@ mod onset;
 mod parameter;
 mod perturbed;
 mod solver;
+mod solver_stability;
 mod stability;
 mod state;
 mod system;
 mod wave;
 
 pub use body::{DynamicCoefficients, Receptance, WaveBody};
+pub use cycle_branch::{BranchEnd, CycleBranch};
 pub use error::CycleError;
 pub use grid::PhaseGrid;
 pub use limit_cycle::{CyclePowers, LimitCycle, PhasePoint};
 pub use onset::Onset;
 pub use parameter::{OperatingPoint, Parameter};
-pub use solver::{BranchEnd, CycleBranch, CycleSolver};
-pub use stability::{CycleStability, FloquetExponent, PerturbationGrowth};
+pub use solver::CycleSolver;
+pub use stability::{CycleStability, FloquetExponent, PerturbationGrowth, StabilityChange};
 pub use state::{PointState, WaveState};

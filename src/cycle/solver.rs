@@ -1,12 +1,11 @@
 //! Limit cycles of one harmonic: from birth to an operating point, and along a parameter.
 
 use super::branch::{Branch, Step};
+use super::cycle_branch::{BranchEnd, CycleBranch};
 use super::grid::PhaseGrid;
 use super::limit_cycle::LimitCycle;
 use super::onset::{HIGHEST_FREQUENCY_HZ, LARGEST_FRICTION, largest_linear_wave, onsets};
 use super::parameter::{OperatingPoint, Parameter};
-use super::perturbed::Perturbed;
-use super::stability::{CycleStability, PerturbationGrowth};
 use super::state::{PointState, WaveState};
 use super::wave::Wave;
 use super::{CycleError, Onset, WaveBody};
@@ -17,6 +16,9 @@ use std::f64::consts::TAU;
 
 /// Most changes of contact state along one branch.
 const MOST_STEPS: usize = 6_000;
+
+/// Most changes of contact state from birth to an operating point.
+const MOST_STEPS_FROM_BIRTH: usize = 2_000;
 
 /// Friction coefficient beyond which no branch is followed.
 const HIGHEST_FRICTION: f64 = 10.0;
@@ -30,53 +32,8 @@ const ORIGINS: [f64; 4] = [0.0, 0.5, 0.25, 0.75];
 pub struct CycleSolver {
     body: WaveBody,
     grid: PhaseGrid,
-    specification: AnnulusSpecification,
-    material: ElasticMaterial,
-}
-
-/// Limit cycles along a parameter.
-#[derive(Clone, Debug)]
-pub struct CycleBranch {
-    /// The parameter.
-    pub parameter: Parameter,
-    /// Cycles in the order of the branch; neighbours may lie on both sides of a fold.
-    pub cycles: Vec<LimitCycle>,
-    /// Parameter values, SI, at which the branch turns back.
-    pub folds: Vec<f64>,
-    /// Why it ends, at its first and at its last cycle.
-    pub ends: [BranchEnd; 2],
-    /// Dense factorizations spent.
-    pub factorizations: usize,
-}
-
-/// Why a branch ends.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BranchEnd {
-    /// The range asked for ends there.
-    Range,
-    /// The whole edge slips: the cycle shrinks into steady sliding.
-    Birth,
-    /// The curve could not be followed any further.
-    Lost,
-    /// The most steps were spent.
-    Steps,
-    /// The wave is no motion of the disc, see [`LimitCycle::is_physical`].
-    Unphysical,
-}
-
-impl BranchEnd {
-    /// In words.
-    pub fn describe(self) -> &'static str {
-        match self {
-            Self::Range => "the range ends",
-            Self::Birth => "the cycle shrinks into steady sliding",
-            Self::Lost => "the curve cannot be followed",
-            Self::Steps => "too many changes of contact state",
-            Self::Unphysical => {
-                "the wave opens inside the cylinder or draws energy from the normal contact: refine the mesh"
-            }
-        }
-    }
+    pub(super) specification: AnnulusSpecification,
+    pub(super) material: ElasticMaterial,
 }
 
 impl CycleSolver {
@@ -136,7 +93,7 @@ impl CycleSolver {
         self.grid
     }
 
-    fn wave(&self) -> Wave<'_> {
+    pub(super) fn wave(&self) -> Wave<'_> {
         Wave::new(&self.body, self.grid.landing_share)
     }
 
@@ -167,9 +124,12 @@ impl CycleSolver {
             let origin = TAU * shift / wave.points() as f64;
             let (state, event) = largest_linear_wave(&wave, point, &onset, origin);
             let mut branch = Branch::new(&wave, parameter, state, 1.0, Some(event));
-            let end = self.run(&mut branch, &[target], |branch, step| {
-                matches!(step, Step::At(_)).then_some(branch.value())
-            });
+            let end = run(
+                &mut branch,
+                &[target],
+                MOST_STEPS_FROM_BIRTH,
+                |branch, step| matches!(step, Step::At(_)).then_some(branch.value()),
+            );
             let end = end.and_then(|_| {
                 let cycle = LimitCycle::new(&wave, branch.state.clone());
                 cycle
@@ -183,6 +143,9 @@ impl CycleSolver {
                 Err(_) => {}
             }
         }
+        if failure.1 == BranchEnd::Unphysical {
+            return Err(self.unphysical());
+        }
         Err(CycleError::NotReached {
             harmonic: self.body.harmonic(),
             key: parameter.key(),
@@ -195,7 +158,8 @@ impl CycleSolver {
     /// The limit cycle at `point` from the one of a neighbouring point that differs in `parameter`.
     ///
     /// # Errors
-    /// [`CycleError::NotReached`] if the branch ends before.
+    /// [`CycleError::NotReached`] if the branch ends before, [`CycleError::Unphysical`] if it leaves the motions of the
+    /// disc.
     pub fn continue_to(
         &self,
         cycle: &LimitCycle,
@@ -208,11 +172,17 @@ impl CycleSolver {
             return Ok(cycle.clone());
         }
         let mut branch = Branch::new(&wave, parameter, cycle.state.clone(), direction, None);
-        let end = self.run(&mut branch, &[value], |branch, step| {
+        let end = run(&mut branch, &[value], MOST_STEPS, |branch, step| {
             matches!(step, Step::At(_)).then_some(branch.value())
         });
         match end {
-            Ok(_) => Ok(LimitCycle::new(&wave, branch.state)),
+            Ok(_) => {
+                let cycle = LimitCycle::new(&wave, branch.state);
+                if cycle.is_physical() {
+                    return Ok(cycle);
+                }
+                Err(self.unphysical())
+            }
             Err(reason) => Err(CycleError::NotReached {
                 harmonic: self.body.harmonic(),
                 key: parameter.key(),
@@ -220,6 +190,13 @@ impl CycleSolver {
                 reached: branch.value(),
                 reason: reason.describe().to_owned(),
             }),
+        }
+    }
+
+    fn unphysical(&self) -> CycleError {
+        CycleError::Unphysical {
+            harmonic: self.body.harmonic(),
+            sectors: self.body.sector_count,
         }
     }
 
@@ -272,7 +249,7 @@ impl CycleSolver {
                 factorizations: 0,
             };
         }
-        let end = self.run(&mut branch, samples, |branch, step| {
+        let end = run(&mut branch, samples, MOST_STEPS, |branch, step| {
             if branch.direction() != direction {
                 direction = branch.direction();
                 folds.push(branch.value());
@@ -293,32 +270,6 @@ impl CycleSolver {
             ends: [BranchEnd::Range, end.unwrap_or_else(|reason| reason)],
             factorizations: branch.factorizations,
         }
-    }
-
-    /// Growth of small perturbations, of each class `0 <= p <= n / 2` of harmonics `+-p + k n`.
-    ///
-    /// # Errors
-    /// [`CycleError::Stability`] where the linearized contact conditions have no finite response.
-    pub fn stability(&self, cycle: &LimitCycle) -> Result<CycleStability, CycleError> {
-        let n = self.body.harmonic();
-        let highest = (self.grid.points / 2) as isize;
-        let body = |class: usize| {
-            let harmonics = (-highest..=highest).map(|k| class as isize + k * n as isize);
-            WaveBody::new(&self.specification, &self.material, harmonics, n)
-        };
-        let own = body(0)?;
-        let mut perturbed = Perturbed::new(&own, &self.wave(), cycle);
-        perturbed.calibrate();
-        let mut classes = vec![PerturbationGrowth::of(&perturbed, 0, n)?];
-        for class in 1..=n / 2 {
-            let other = body(class)?;
-            classes.push(PerturbationGrowth::of(
-                &perturbed.with_body(&other),
-                class,
-                n,
-            )?);
-        }
-        Ok(CycleStability { classes })
     }
 
     /// Displacement (m) and velocity (m/s) over all dofs of the mesh, in nodal frames, at a time (s).
@@ -348,29 +299,29 @@ impl CycleSolver {
         }
         fields
     }
+}
 
-    /// Steps until `done` says so.
-    fn run<T>(
-        &self,
-        branch: &mut Branch<'_>,
-        samples: &[f64],
-        mut done: impl FnMut(&Branch<'_>, Step) -> Option<T>,
-    ) -> Result<T, BranchEnd> {
-        for _ in 0..MOST_STEPS {
-            let step = branch.advance(samples).ok_or(BranchEnd::Lost)?;
-            if let Some(result) = done(branch, step) {
-                return Ok(result);
-            }
-            if is_full_slip(&branch.state) {
-                return Err(BranchEnd::Birth);
-            }
-            let friction = branch.state.point.contact.friction_coefficient;
-            if !(friction < HIGHEST_FRICTION) {
-                return Err(BranchEnd::Lost);
-            }
+/// Steps until `done` says so.
+fn run<T>(
+    branch: &mut Branch<'_>,
+    samples: &[f64],
+    most_steps: usize,
+    mut done: impl FnMut(&Branch<'_>, Step) -> Option<T>,
+) -> Result<T, BranchEnd> {
+    for _ in 0..most_steps {
+        let step = branch.advance(samples).ok_or(BranchEnd::Lost)?;
+        if let Some(result) = done(branch, step) {
+            return Ok(result);
         }
-        Err(BranchEnd::Steps)
+        if is_full_slip(&branch.state) {
+            return Err(BranchEnd::Birth);
+        }
+        let friction = branch.state.point.contact.friction_coefficient;
+        if !(friction < HIGHEST_FRICTION) {
+            return Err(BranchEnd::Lost);
+        }
     }
+    Err(BranchEnd::Steps)
 }
 
 fn is_full_slip(state: &WaveState) -> bool {

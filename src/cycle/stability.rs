@@ -54,6 +54,17 @@ pub struct CycleStability {
     pub classes: Vec<PerturbationGrowth>,
 }
 
+/// Where a branch of limit cycles changes its stability.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StabilityChange {
+    /// The parameter, SI.
+    pub value: f64,
+    /// Circumferential harmonic of the mode that starts or ceases to grow.
+    pub harmonic: usize,
+    /// Its frequency in the fixed frame, Hz.
+    pub frequency_hz: f64,
+}
+
 impl CycleStability {
     /// The exponent that grows fastest or decays slowest; `None` if all decay faster than a twentieth of `omega`.
     pub fn leading(&self) -> Option<&FloquetExponent> {

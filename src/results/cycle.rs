@@ -1,12 +1,12 @@
 //! Results of a search for limit cycles: what is printed and what is written.
 
 use crate::contact::ContactStatus;
-use crate::cycle::{CycleBranch, CycleStability, LimitCycle, Onset};
+use crate::cycle::{CycleBranch, CycleStability, LimitCycle, Onset, StabilityChange};
 use crate::mesh::Mesh2d;
 use crate::results::cycle_fields::{CycleFrame, write_fields};
 use crate::results::cycle_figures::CycleRecord;
 use crate::results::cycle_stability::{
-    Verdict, changes, known, print_stability, stability_object, write_stability,
+    Verdict, known, print_stability, stability_object, write_stability,
 };
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::manifest::Manifest;
@@ -34,6 +34,8 @@ pub struct CycleResult {
     pub stability: Verdict,
     /// Stability of each cycle of the branch, where it was asked for; else empty.
     pub branch_stability: Vec<Verdict>,
+    /// Where the branch changes its stability, in its order.
+    pub stability_changes: Vec<StabilityChange>,
     /// The branch over the case's parameter, where one was asked for and there is a cycle to start from.
     pub branch: Option<CycleBranch>,
     /// Wall time of cycle and branch, s.
@@ -241,8 +243,14 @@ fn result_object(report: &CycleReport<'_>, result: &CycleResult) -> Value {
     object["stability"] = stability_object(&result.stability);
     if let Some(branch) = &result.branch {
         object["branch"] = branch_object(report, branch);
-        let changes = changes(result).into_iter();
-        let changes = changes.map(|(value, harmonic)| json!({ "at": value, "harmonic": harmonic }));
+        let changes = result.stability_changes.iter();
+        let changes = changes.map(|change| {
+            json!({
+                "at": branch.parameter.in_key_units(change.value),
+                "harmonic": change.harmonic,
+                "frequency_hz": change.frequency_hz,
+            })
+        });
         object["branch"]["stability_changes"] = changes.collect();
     }
     object

@@ -63,33 +63,6 @@ fn value(branch: &CycleBranch, cycle: &LimitCycle) -> f64 {
     branch.parameter.in_key_units(value)
 }
 
-/// Parameter values at which neighbouring cycles of a branch differ in stability, by linear interpolation of the growth
-/// rate, and the harmonic that starts or ceases to grow there.
-pub fn changes(result: &CycleResult) -> Vec<(f64, usize)> {
-    let Some(branch) = &result.branch else {
-        return Vec::new();
-    };
-    let found: Vec<(f64, f64, usize)> = branch
-        .cycles
-        .iter()
-        .zip(&result.branch_stability)
-        .filter_map(|(cycle, verdict)| {
-            let leading = known(verdict)?.leading()?;
-            let rate = leading.exponent.re;
-            Some((value(branch, cycle), rate, leading.harmonic))
-        })
-        .collect();
-    found
-        .windows(2)
-        .filter(|pair| (pair[0].1 < 0.0) != (pair[1].1 < 0.0))
-        .map(|pair| {
-            let [(from, before, first), (to, after, second)] = [pair[0], pair[1]];
-            let growing = if before < 0.0 { second } else { first };
-            (from + (to - from) * before / (before - after), growing)
-        })
-        .collect()
-}
-
 /// The summary's object.
 pub fn stability_object(verdict: &Verdict) -> Value {
     match verdict {
@@ -145,11 +118,15 @@ pub fn print_stability(out: &mut String, result: &CycleResult) {
         .branch
         .as_ref()
         .map_or("", |branch| branch.parameter.key());
-    for (value, harmonic) in changes(result) {
+    for change in &result.stability_changes {
+        let value = result.branch.as_ref().map_or(f64::NAN, |branch| {
+            branch.parameter.in_key_units(change.value)
+        });
         let _ = writeln!(
             out,
-            "n = {n}: stability changes at {key} = {value:.4} ({})",
-            diameters(harmonic),
+            "n = {n}: stability changes at {key} = {value:.1} ({} at {:.0} Hz)",
+            diameters(change.harmonic),
+            change.frequency_hz,
         );
     }
 }
