@@ -442,7 +442,8 @@ fn an_output_folder_that_cannot_be_made_fails_the_run_with_its_path() {
     command
         .assert()
         .code(1)
-        .stderr(contains("cannot create folder file/below"));
+        .stderr(contains("cannot create folder file/below"))
+        .stderr(contains("os error").count(1));
 }
 
 #[test]

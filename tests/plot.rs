@@ -66,11 +66,18 @@ fn check_redrawn(folder: &TempDir, expected: &[&str]) {
             assert!(first.contains_key(&file), "{file}: {:?}", first.keys());
         }
     }
-    // Commands that start from a table have no report.
-    if let Some(report) = first.get("report.html") {
-        let report = String::from_utf8(report.clone()).unwrap();
-        let drawings = first.keys().filter(|name| name.ends_with(".svg")).count();
-        assert_eq!(report.matches("<figcaption>").count(), drawings);
+    let report = String::from_utf8(first["report.html"].clone()).unwrap();
+    let drawings = first.keys().filter(|name| name.ends_with(".svg")).count();
+    assert_eq!(report.matches("<figcaption>").count(), drawings);
+    // Every row of a table has a cell for each of its columns.
+    for table in report.split("<table>").skip(1) {
+        let columns = table.split("</thead>").next().unwrap();
+        let columns = columns.matches("<th scope=\"col\"").count();
+        let rows = table.split("<tr>").filter(|row| row.contains("<td"));
+        assert!(
+            rows.into_iter()
+                .all(|row| columns == 0 || row.matches("<td").count() == columns)
+        );
     }
 
     plot(folder, &["--threads", "1"])
@@ -80,9 +87,7 @@ fn check_redrawn(folder: &TempDir, expected: &[&str]) {
         .stderr("");
     assert_same(&first, &files(&out));
     fs::remove_dir_all(out.join("figures")).unwrap();
-    if first.contains_key("report.html") {
-        fs::remove_file(out.join("report.html")).unwrap();
-    }
+    fs::remove_file(out.join("report.html")).unwrap();
     plot(folder, &[]).assert().code(0);
     assert_same(&first, &files(&out));
 

@@ -39,12 +39,12 @@ impl Failure {
                 let all = errors.diagnostics.iter();
                 all.map(|error| error.message.clone()).collect()
             }
-            Self::Usage(error) | Self::Run(error) => vec![format!("{error:#}")],
+            Self::Usage(error) | Self::Run(error) => vec![error.to_string()],
             Self::BrokenPipe => Vec::new(),
         }
     }
 
-    /// Says on stderr what went wrong, and gives the exit code.
+    /// Says on stderr what went wrong (every error names its cause itself), and gives the exit code.
     pub fn report(&self) -> ExitCode {
         use std::io::{IsTerminal, Write};
         let stderr = io::stderr();
@@ -53,7 +53,7 @@ impl Failure {
                 let color = stderr.is_terminal() && std::env::var_os("NO_COLOR").is_none();
                 errors.render(color)
             }
-            Self::Usage(error) | Self::Run(error) => format!("error: {error:#}"),
+            Self::Usage(error) | Self::Run(error) => format!("error: {error}"),
             Self::BrokenPipe => return ExitCode::SUCCESS,
         };
         // Nobody is left to tell if stderr is closed.

@@ -11,18 +11,14 @@ use crate::mesh::{AnnulusMesh, SectorMesh};
 use crate::prestress::{
     DampingModel, SectorTangent, SlidingTangent, SteadySliding, TangentOptions,
 };
-use crate::results::figures::{ResponsePlot, draw_response};
-use crate::results::identification::unit_of;
-use crate::results::report::NamedFigure;
-use crate::results::{DOTS_PER_INCH, DrawingError, OutputFolder, Table, write_figures};
+use crate::results::{
+    DOTS_PER_INCH, OutputFolder, RESPONSE_TABLE, draw_response_report, write_response,
+};
 use crate::signal::reader::read_response;
 use clap::Args;
 use faer::c64;
-use serde_json::json;
+use serde_json::{Value, json};
 use std::f64::consts::TAU;
-
-/// Table of the response in its folder.
-const TABLE: &str = "frf.csv";
 
 /// Frequency response of the model between two nodes
 ///
@@ -58,10 +54,12 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let folder = session.open_folder()?;
     let computed = compute(case, frf)?;
     let values = observed(case, frf, &computed.receptance);
-    folder.write(TABLE, |out| write_table(out, frf, &values))?;
+    write_response(&folder, frf.quantity, &frf.frequencies_hz, &values)?;
+    let description = described(frf, &computed);
     let summary = json!({
         "command": "frf",
         "title": case.title,
+        "description": description,
         "dofs": computed.dofs,
         "lines": frf.frequencies_hz.len(),
         "method": computed.method,
@@ -78,35 +76,24 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         out.write_all(b"\n")
     })?;
     if !session.options.no_figures {
-        redraw(&folder, DOTS_PER_INCH)?;
+        redraw(&folder, &summary, DOTS_PER_INCH)?;
     }
     let path = folder.path().to_owned();
     folder.finish()?;
-    session.print(&described(frf, &computed), &summary, &path)
+    session.print(&format!("{description}\n"), &summary, &path)
 }
 
-/// Draws the figure of a folder from its `frf.csv`.
+/// Draws the figure and the report of a folder from its `frf.csv` and its summary.
 ///
 /// # Errors
 /// A folder without a table that can be read; those of the drawing and of the folder.
-pub fn redraw(folder: &OutputFolder, dots_per_inch: f64) -> Result<(), Failure> {
-    let path = folder.path().join(TABLE);
+pub fn redraw(folder: &OutputFolder, summary: &Value, dots_per_inch: f64) -> Result<(), Failure> {
+    let path = folder.path().join(RESPONSE_TABLE);
     let name = path.display().to_string();
     let bytes = std::fs::read(&path)
         .map_err(|error| Failure::usage(format!("cannot read {name}: {error}")))?;
     let file = read_response(&bytes, &name, None)?;
-    let response = &file.response;
-    let figure = NamedFigure {
-        name: "response".into(),
-        caption: "Frequency response of the model: magnitude and phase.".into(),
-        svg: draw_response(&ResponsePlot {
-            frequencies_hz: response.frequencies_hz(),
-            values: response.values(),
-            unit: unit_of(response.quantity()).to_owned(),
-        })
-        .map_err(DrawingError::Figure)?,
-    };
-    write_figures(folder, &[figure], dots_per_inch)?;
+    draw_response_report(folder, &file.response, summary, dots_per_inch)?;
     Ok(())
 }
 
@@ -224,20 +211,6 @@ fn observed(case: &Case, frf: &Frf, receptance: &[c64]) -> Vec<c64> {
         .collect()
 }
 
-fn write_table(out: &mut dyn std::io::Write, frf: &Frf, values: &[c64]) -> std::io::Result<()> {
-    let name = frf.quantity.name();
-    let columns = [
-        "frequency_hz",
-        &format!("{name}_real"),
-        &format!("{name}_imaginary"),
-    ];
-    let mut table = Table::new(out, &columns)?;
-    for (f, h) in frf.frequencies_hz.iter().zip(values) {
-        table.numbers(&[*f, h.re, h.im])?;
-    }
-    table.finish()
-}
-
 fn described(frf: &Frf, computed: &Computed) -> String {
     let place = |t: Terminal| {
         let direction = if t.is_tangential {
@@ -255,7 +228,7 @@ fn described(frf: &Frf, computed: &Computed) -> String {
         _ => String::new(),
     };
     format!(
-        "{} from {} to {}: {} lines, {} unknowns, {}{error}\n",
+        "{} from {} to {}: {} lines, {} unknowns, {}{error}",
         frf.quantity.name(),
         place(frf.force),
         place(frf.response),

@@ -3,12 +3,13 @@
 use super::Failure;
 use super::measurement::{Measurement, OutputOptions};
 use crate::results::identification::{
-    IdentificationRecord, IdentificationReport, draw, print, write,
+    IdentificationRecord, IdentificationReport, draw_report, print, write,
 };
-use crate::results::{DOTS_PER_INCH, OutputFolder, read_record, write_figures, write_record};
+use crate::results::{DOTS_PER_INCH, OutputFolder, read_record, write_record};
 use crate::signal::reader::read_response;
 use crate::signal::{IdentificationOptions, ResponseQuantity, identify};
 use clap::{Args, ValueEnum, ValueHint};
+use serde_json::Value;
 use std::path::PathBuf;
 
 /// Rayleigh coefficients from a measured frequency response
@@ -86,21 +87,20 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let summary = write(&folder, &report)?;
     write_record(&folder, &IdentificationRecord::of(&file.response, &found))?;
     if !arguments.output.no_figures {
-        redraw(&folder, DOTS_PER_INCH)?;
+        redraw(&folder, &summary, DOTS_PER_INCH)?;
     }
     folder.finish()?;
     measurement.print(&print(&report), &summary)
 }
 
-/// Draws the figure of a folder from its `record.bin`.
+/// Draws the figure and the report of a folder from its `record.bin` and its summary.
 ///
 /// # Errors
 /// A folder without a whole record; those of the folder.
-pub fn redraw(folder: &OutputFolder, dots_per_inch: f64) -> Result<(), Failure> {
+pub fn redraw(folder: &OutputFolder, summary: &Value, dots_per_inch: f64) -> Result<(), Failure> {
     let record: IdentificationRecord = read_record(folder.path())?;
-    match draw(&record) {
-        Ok(figure) => write_figures(folder, &[figure], dots_per_inch)?,
-        Err(error) => tracing::warn!("figure left out: {error}"),
+    if let Some(error) = draw_report(folder, &record, summary, dots_per_inch)? {
+        tracing::warn!("figure left out: {error}");
     }
     Ok(())
 }

@@ -83,9 +83,9 @@ fn redraw(path: &Path, manifest: &Manifest, dots_per_inch: f64) -> Result<(), Fa
         "transient" => transient::redraw(&folder, &case()?, &summary, dots_per_inch)?,
         "cycle" => cycle::redraw(&folder, &case()?, &summary, dots_per_inch)?,
         "convergence" => convergence::redraw(&folder, dots_per_inch)?,
-        "frf" => frf::redraw(&folder, dots_per_inch)?,
-        "identify" => identify::redraw(&folder, dots_per_inch)?,
-        _ => signal::redraw(&folder, dots_per_inch)?,
+        "frf" => frf::redraw(&folder, &summary, dots_per_inch)?,
+        "identify" => identify::redraw(&folder, &summary, dots_per_inch)?,
+        _ => signal::redraw(&folder, &summary, dots_per_inch)?,
     }
     Ok(folder.finish()?)
 }

@@ -9,12 +9,13 @@ use crate::cea::cyclic::{ModeLimit, SweepRequest, sweep};
 use crate::fem::MassKind;
 use crate::prestress::{DampingModel, TangentOptions};
 use crate::results::signal::{
-    ChannelRecord, ChannelReport, SignalRecord, SignalReport, draw, print, write,
+    ChannelRecord, ChannelReport, SignalRecord, SignalReport, draw_report, print, write,
 };
-use crate::results::{DOTS_PER_INCH, OutputFolder, read_record, write_figures, write_record};
+use crate::results::{DOTS_PER_INCH, OutputFolder, read_record, write_record};
 use crate::signal::reader::{Channel, SignalFile, read_signal};
 use crate::signal::{Window, amplitude_spectrum, exponential_stage, spectral_lines};
 use clap::{Args, ValueHint};
+use serde_json::Value;
 use std::path::PathBuf;
 
 /// Lines reported for each channel.
@@ -108,7 +109,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let summary = write(&folder, &report)?;
     write_record(&folder, &record(arguments, &file, &selected, &report))?;
     if !arguments.output.no_figures {
-        redraw(&folder, DOTS_PER_INCH)?;
+        redraw(&folder, &summary, DOTS_PER_INCH)?;
     }
     folder.finish()?;
     measurement.print(&print(&report), &summary)
@@ -227,17 +228,15 @@ fn record(
     }
 }
 
-/// Draws the figures of a folder from its `record.bin`.
+/// Draws the figures and the report of a folder from its `record.bin` and its summary.
 ///
 /// # Errors
 /// A folder without a whole record; those of the drawing and of the folder.
-pub fn redraw(folder: &OutputFolder, dots_per_inch: f64) -> Result<(), Failure> {
+pub fn redraw(folder: &OutputFolder, summary: &Value, dots_per_inch: f64) -> Result<(), Failure> {
     let record: SignalRecord = read_record(folder.path())?;
-    let drawn = draw(&record);
-    for reason in &drawn.left_out {
+    for reason in draw_report(folder, &record, summary, dots_per_inch)? {
         tracing::warn!("{reason}");
     }
-    write_figures(folder, &drawn.figures, dots_per_inch)?;
     Ok(())
 }
 

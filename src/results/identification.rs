@@ -1,8 +1,10 @@
 //! Tables of an identified damping.
 
 mod figures;
+mod report;
 
 pub use figures::{IdentificationRecord, draw, unit_of};
+pub use report::draw_report;
 
 use super::folder::{FolderError, OutputFolder};
 use super::table::{Table, format_number};
@@ -11,6 +13,9 @@ use crate::signal::{
 };
 use serde_json::{Value, json};
 use std::fmt::Write as _;
+
+/// Name of the `[damping]` section in its folder.
+const DAMPING_BLOCK: &str = "damping.toml";
 
 /// What `identify` found, and where.
 #[derive(Clone, Debug)]
@@ -34,7 +39,7 @@ pub struct IdentificationReport<'a> {
 pub fn write(folder: &OutputFolder, report: &IdentificationReport) -> Result<Value, FolderError> {
     folder.write("modes.csv", |out| write_modes(out, report.identification))?;
     folder.write("fit.csv", |out| write_fit(out, report))?;
-    folder.write("damping.toml", |out| {
+    folder.write(DAMPING_BLOCK, |out| {
         out.write_all(damping_block(report).as_bytes())
     })?;
     let mut summary = summary(report);

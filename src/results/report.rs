@@ -2,6 +2,7 @@
 
 use super::Manifest;
 use super::figures::svg::{ID_PREFIX, escape};
+use serde_json::Value;
 use std::fmt::Write;
 
 /// A finished drawing with its file name and caption.
@@ -31,7 +32,7 @@ pub struct ReportTable {
 pub struct ReportSection {
     /// Heading.
     pub heading: String,
-    /// Paragraphs of plain text.
+    /// Paragraphs of plain text; one of several lines is set as a block.
     pub paragraphs: Vec<String>,
     /// Tables.
     pub tables: Vec<ReportTable>,
@@ -50,6 +51,29 @@ pub struct Report {
     pub sections: Vec<ReportSection>,
     /// What the result was made from.
     pub manifest: Manifest,
+}
+
+/// The number at a JSON pointer of a summary, if there is one.
+pub fn number(summary: &Value, pointer: &str) -> Option<f64> {
+    summary.pointer(pointer).and_then(Value::as_f64)
+}
+
+/// The number at a JSON pointer times a factor, with so many decimals; empty if there is none.
+pub fn cell(summary: &Value, pointer: &str, factor: f64, decimals: usize) -> String {
+    number(summary, pointer).map_or_else(String::new, |value| {
+        format!("{:.decimals$}", factor * value)
+    })
+}
+
+/// The entries of an array of a summary; none if there is no such array.
+pub fn entries<'a>(summary: &'a Value, key: &str) -> &'a [Value] {
+    summary[key].as_array().map_or(&[][..], Vec::as_slice)
+}
+
+/// The texts of an array of a summary.
+pub fn texts(summary: &Value, key: &str) -> Vec<String> {
+    let texts = entries(summary, key).iter().filter_map(Value::as_str);
+    texts.map(str::to_owned).collect()
 }
 
 const STYLE: &str = "\
@@ -86,10 +110,11 @@ impl Report {
              <p>{1}</p>\n</header>\n",
             escape(&title),
             escape(&format!(
-                "{} {} {}, case {}",
+                "{} {} {}, {} {}",
                 self.manifest.program,
                 self.manifest.version,
                 self.manifest.command,
+                if self.has_case() { "case" } else { "table" },
                 self.manifest.case_file
             ))
         );
@@ -104,6 +129,11 @@ impl Report {
         out
     }
 
+    /// Whether it is made from a case, or else from a table of measurements.
+    fn has_case(&self) -> bool {
+        !self.manifest.case_text.is_empty()
+    }
+
     fn write_contents(&self, out: &mut String) {
         out.push_str("<nav aria-label=\"Contents\">\n<ul>\n");
         for (index, section) in self.sections.iter().enumerate() {
@@ -114,19 +144,25 @@ impl Report {
                 index + 1
             );
         }
-        out.push_str(
-            "<li><a href=\"#case\">Case</a></li>\n<li><a href=\"#manifest\">Manifest</a></li>\n\
-             </ul>\n</nav>\n",
-        );
+        if self.has_case() {
+            out.push_str("<li><a href=\"#case\">Case</a></li>\n");
+        }
+        out.push_str("<li><a href=\"#manifest\">Manifest</a></li>\n</ul>\n</nav>\n");
     }
 
     fn write_origin(&self, out: &mut String) {
         let manifest = &self.manifest;
-        let _ = write!(
-            out,
-            "<section id=\"case\">\n<h2>Case</h2>\n<pre><code>{}</code></pre>\n</section>\n",
-            escape(&manifest.case_text)
-        );
+        if self.has_case() {
+            let _ = write!(
+                out,
+                "<section id=\"case\">\n<h2>Case</h2>\n<pre><code>{}</code></pre>\n</section>\n",
+                escape(&manifest.case_text)
+            );
+        }
+        let (file, hash, overrides_name) = match self.has_case() {
+            true => ("case file", "SHA-256 of the effective case", "overrides"),
+            false => ("table", "SHA-256 of table and options", "options"),
+        };
         let overrides = match manifest.overrides.is_empty() {
             true => "none".to_string(),
             false => manifest.overrides.join(", "),
@@ -135,9 +171,9 @@ impl Report {
             ("program", manifest.program.clone()),
             ("version", manifest.version.clone()),
             ("command", manifest.command.clone()),
-            ("case file", manifest.case_file.clone()),
-            ("SHA-256 of the effective case", manifest.case_hash.clone()),
-            ("overrides", overrides),
+            (file, manifest.case_file.clone()),
+            (hash, manifest.case_hash.clone()),
+            (overrides_name, overrides),
             ("threads", manifest.threads.to_string()),
             ("SIMD level", manifest.simd.clone()),
         ];
@@ -156,6 +192,15 @@ impl Report {
     }
 }
 
+/// A paragraph; text of several lines, a block to paste, as it stands.
+fn write_paragraph(out: &mut String, text: &str) {
+    let text = escape(text);
+    let _ = match text.contains('\n') {
+        true => writeln!(out, "<pre><code>{text}</code></pre>"),
+        false => writeln!(out, "<p>{text}</p>"),
+    };
+}
+
 fn write_section(out: &mut String, index: usize, section: &ReportSection, figures: &mut usize) {
     let _ = write!(
         out,
@@ -164,7 +209,7 @@ fn write_section(out: &mut String, index: usize, section: &ReportSection, figure
         escape(&section.heading)
     );
     for paragraph in &section.paragraphs {
-        let _ = writeln!(out, "<p>{}</p>", escape(paragraph));
+        write_paragraph(out, paragraph);
     }
     for table in &section.tables {
         write_table(out, table);
@@ -219,6 +264,7 @@ fn write_table(out: &mut String, table: &ReportTable) {
     }
     out.push_str("</tr></thead>\n<tbody>\n");
     for row in &table.rows {
+        debug_assert_eq!(row.len(), table.columns.len(), "{}", table.caption);
         out.push_str("<tr>");
         for (column, cell) in row.iter().enumerate() {
             let _ = write!(out, "<td{}>{}</td>", class(column), escape(cell));
@@ -265,6 +311,17 @@ mod tests {
         for outside in ["<script", "src=\"http", "href=\"http", "@import"] {
             assert!(!html.contains(outside), "{outside}");
         }
+    }
+
+    #[test]
+    fn report_on_a_table_has_no_case() {
+        let mut report = report();
+        report.manifest.case_text.clear();
+        report.manifest.case_file = "frf.csv".into();
+        report.sections[0].paragraphs = vec!["[damping]\nmass_coefficient = 40.0\n".into()];
+        let html = report.to_html();
+        assert!(html.contains("table frf.csv") && !html.contains("id=\"case\""));
+        assert!(html.contains("<pre><code>[damping]\nmass_coefficient = 40.0\n</code></pre>"));
     }
 
     #[test]

@@ -1,8 +1,10 @@
 //! Tables of an analysed time signal.
 
 mod figures;
+mod report;
 
 pub use figures::{ChannelRecord, SignalFigures, SignalRecord, draw};
+pub use report::draw_report;
 
 use super::folder::{FolderError, OutputFolder};
 use super::table::{Table, format_number};

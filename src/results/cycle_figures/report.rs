@@ -5,7 +5,7 @@ use crate::results::drawing::{DrawingError, write_report};
 use crate::results::figures::axis::extremes;
 use crate::results::folder::OutputFolder;
 use crate::results::manifest::Manifest;
-use crate::results::report::{Report, ReportSection, ReportTable};
+use crate::results::report::{Report, ReportSection, ReportTable, cell, entries, number};
 use serde_json::Value;
 
 /// Draws every figure of the cycles into `figures/`, each as SVG and PNG, and writes `report.html`.
@@ -28,12 +28,12 @@ pub fn draw(
 
 /// The report without figures: the cycles, and the branches where the summary has any.
 fn html_report(summary: &Value, manifest: &Manifest) -> Report {
-    let cycles = summary["cycles"].as_array().map_or(&[][..], Vec::as_slice);
+    let cycles = entries(summary, "cycles");
     let mut sections = vec![ReportSection {
         heading: "Limit cycles".into(),
         paragraphs: vec![format!(
             "Waves that turn against the rotor without changing their shape; {:.1} s.",
-            number(summary, "/wall_s")
+            number(summary, "/wall_s").unwrap_or(f64::NAN)
         )],
         tables: vec![cycle_table(cycles)],
         figures: Vec::new(),
@@ -51,21 +51,6 @@ fn html_report(summary: &Value, manifest: &Manifest) -> Report {
         sections,
         manifest: manifest.clone(),
     }
-}
-
-fn number(value: &Value, pointer: &str) -> f64 {
-    value
-        .pointer(pointer)
-        .and_then(Value::as_f64)
-        .unwrap_or(f64::NAN)
-}
-
-/// A number with so many decimals, or nothing.
-fn cell(value: &Value, pointer: &str, factor: f64, decimals: usize) -> String {
-    let found = value.pointer(pointer).and_then(Value::as_f64);
-    found.map_or_else(String::new, |found| {
-        format!("{:.decimals$}", factor * found)
-    })
 }
 
 fn cycle_table(cycles: &[Value]) -> ReportTable {
@@ -114,7 +99,7 @@ fn cycle_table(cycles: &[Value]) -> ReportTable {
     ReportTable {
         caption: "Limit cycles at the case's own operating point".into(),
         columns: names
-            .chain(["why there is none"])
+            .chain(["stable", "why there is none"])
             .map(String::from)
             .collect(),
         rows: rows.collect(),
@@ -129,8 +114,8 @@ fn branch_text(cycle: &Value) -> Option<String> {
             .and_then(Value::as_str)
             .unwrap_or("?")
     };
-    let folds = branch["folds"].as_array().map_or(&[][..], Vec::as_slice);
-    let folds: Vec<f64> = folds.iter().filter_map(Value::as_f64).collect();
+    let folds = entries(branch, "folds").iter();
+    let folds: Vec<f64> = folds.filter_map(Value::as_f64).collect();
     // Any parameter, of any size.
     let text_of = |value: f64| {
         format!("{value:.6e}")
@@ -156,7 +141,7 @@ fn branch_text(cycle: &Value) -> Option<String> {
         .into_iter()
         .flatten()
         .map(|change| {
-            let at = text_of(number(change, "/at"));
+            let at = text_of(number(change, "/at").unwrap_or(f64::NAN));
             format!("{at} ({} nodal diameters)", change["harmonic"])
         })
         .collect();

@@ -3,7 +3,7 @@
 use crate::results::drawing::{DrawingError, write_report};
 use crate::results::folder::OutputFolder;
 use crate::results::manifest::Manifest;
-use crate::results::report::{Report, ReportSection, ReportTable};
+use crate::results::report::{Report, ReportSection, ReportTable, entries, number};
 use crate::results::run_figures::{RunFigures, draw_run};
 use serde_json::Value;
 
@@ -45,10 +45,6 @@ pub fn html_report(summary: &Value, predicted: &[(usize, f64)], manifest: &Manif
         ],
         manifest: manifest.clone(),
     }
-}
-
-fn number(summary: &Value, pointer: &str) -> Option<f64> {
-    summary.pointer(pointer).and_then(Value::as_f64)
 }
 
 fn course(summary: &Value) -> String {
@@ -108,8 +104,7 @@ fn cycle_table(summary: &Value) -> ReportTable {
 }
 
 fn growth_table(summary: &Value, predicted: &[(usize, f64)]) -> ReportTable {
-    let found = summary["growth"].as_array().map_or(&[][..], Vec::as_slice);
-    let rows = found.iter().map(|growth| {
+    let rows = entries(summary, "growth").iter().map(|growth| {
         let harmonic = growth["harmonic"].as_u64();
         let own = predicted.iter().find(|(n, _)| Some(*n as u64) == harmonic);
         let measured = number(growth, "/rate_per_s").unwrap_or(f64::NAN);
