@@ -225,3 +225,34 @@ fn bad_factors_are_refused_with_file_line_and_key() {
     let stderr = String::from_utf8(none.get_output().stderr.clone()).unwrap();
     assert!(stderr.contains("no [convergence] section"), "{stderr}");
 }
+
+#[test]
+fn limit_cycles_are_compared_harmonic_by_harmonic_and_doubtful_levels_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = format!("{DISC}[cycle]\nharmonics = [1, 2]\n[convergence]\nfactors = [2, 2.5, 3]\n");
+    let found = summary(folder.path(), &text, &["--no-figures"]);
+    let series = found["series"].as_array().unwrap();
+    let names: Vec<&str> = series
+        .iter()
+        .map(|s| s["analysis"].as_str().unwrap())
+        .collect();
+    assert_eq!(names, ["cycle-n1", "cycle-n2"]);
+    // Frequencies of transients on 270 x 52 elements, last fifth of 50 ms.
+    for (series, wanted) in series.iter().zip([10229.8, 9431.5]) {
+        let frequency = &quantities(series)[0];
+        assert_eq!(frequency["name"], "main frequency");
+        let finest = frequency["values"][2].as_f64().unwrap();
+        assert!((finest / wanted - 1.0).abs() < 3e-3, "{finest}");
+    }
+    let text = text
+        .replace("[2, 2.5, 3]", "[1, 1.5, 2]")
+        .replace("[1, 2]", "[2]");
+    let found = summary(folder.path(), &text, &["--no-figures", "--force"]);
+    let notes = found["series"][0]["notes"].to_string();
+    assert!(
+        notes.contains("36 x 8: NOT CONFIRMED") && notes.contains("54 x 12: harmonic 2"),
+        "{notes}"
+    );
+    let verdict = &quantities(&found["series"][0])[0]["verdict"];
+    assert_eq!(verdict, "missing");
+}

@@ -212,6 +212,31 @@ fn limit_cycle_figures_are_drawn_again_to_the_same_bytes() {
 }
 
 #[test]
+fn study_of_limit_cycles_is_drawn_again_to_the_same_bytes() {
+    let folder = tempfile::tempdir().unwrap();
+    let set = [
+        CYCLE[0],
+        CYCLE[1],
+        "cycle.continuation.count=5",
+        "cycle.stability=none",
+        "cycle.confirmation_periods=0",
+        "sweep.\"contact.friction_coefficient\"=[0.2,0.3]",
+    ];
+    run(&folder, "sweep", "limit-cycle.toml", &set, &[]);
+    check_redrawn(&folder, &["branch-frequencies", "branch-shares"]);
+    let drawing = folder.path().join("out/figures/branch-shares.svg");
+    let text = fs::read_to_string(drawing).unwrap();
+    for curve in [
+        "n</tspan> = 1",
+        "n</tspan> = 2",
+        "μ</tspan> = 0.2",
+        "μ</tspan> = 0.3",
+    ] {
+        assert!(text.contains(curve), "{curve}");
+    }
+}
+
+#[test]
 fn limit_cycles_without_figures_are_drawn_later() {
     let folder = tempfile::tempdir().unwrap();
     let set = [

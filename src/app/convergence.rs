@@ -2,10 +2,12 @@
 
 mod quantities;
 
-use super::{Failure, RunOptions, Session, cea, transient};
-use crate::case::{Analysis, Case, Convergence, TimeStep};
+use super::{Failure, RunOptions, Session, cea, cycle, transient};
+use crate::case::{Analysis, Case, Convergence, StabilityChoice, TimeStep};
 use crate::cea::FrictionSweep;
-use crate::results::convergence::{ConvergenceReport, Refinement, Series, draw, print, write};
+use crate::results::convergence::{
+    ConvergenceReport, Quantity, Refinement, Series, draw, print, write,
+};
 use crate::results::{DOTS_PER_INCH, Manifest, OutputFolder, read_record};
 use clap::Args;
 use rayon::prelude::*;
@@ -15,8 +17,8 @@ use std::time::Instant;
 
 /// Convergence over mesh and time step
 ///
-/// Runs the eigenvalue analysis and the transient of a case on refined meshes, and the transient with
-/// shorter time steps; reads the observed order off the three finest, extrapolates after Richardson, and
+/// Runs the eigenvalue analysis, the transient and the limit cycles of a case on refined meshes, and the
+/// transient with shorter time steps; reads the observed order off the three finest, extrapolates after Richardson, and
 /// says where a quantity does not converge. Needs a [convergence] section in the case.
 #[derive(Args)]
 pub struct Arguments {
@@ -35,7 +37,7 @@ struct Study {
 /// What one level gave.
 enum Outcome {
     Cea(FrictionSweep),
-    Transient(Value),
+    Summary(Value),
 }
 
 /// A level done, and its wall time, s.
@@ -53,14 +55,16 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     session.check_memory(studies.iter().map(memory_bytes).sum())?;
     let folder = session.open_folder()?;
 
-    let series: Result<Vec<Series>, Failure> = solve(&studies, &session.manifest)?
+    let mut all = Vec::new();
+    for (outcomes, study) in solve(&studies, &session.manifest)?
         .into_iter()
         .zip(&studies)
-        .map(|(outcomes, study)| series(case, study, outcomes))
-        .collect();
+    {
+        all.extend(series(case, study, outcomes)?);
+    }
     let report = ConvergenceReport {
         title: case.title.clone(),
-        series: series?,
+        series: all,
         wall_s: session.wall_seconds(),
     };
     let summary = write(&folder, &report)?;
@@ -127,6 +131,8 @@ fn memory_bytes(study: &Study) -> f64 {
             + match study.analysis {
                 Analysis::Cea => cost.cea.map_or(0.0, |cea| cea.memory_bytes),
                 Analysis::Transient => cost.transient.map_or(0.0, |run| run.memory_bytes),
+                // Receptances of one sector at a few hundred phases.
+                Analysis::Cycle => 0.0,
             }
     });
     bytes.sum()
@@ -148,7 +154,8 @@ fn solve(studies: &[Study], manifest: &Manifest) -> Result<Vec<Vec<Timed>>, Fail
             let start = Instant::now();
             let outcome = match analysis {
                 Analysis::Cea => Outcome::Cea(cea::modes_and_onsets(case)?),
-                Analysis::Transient => Outcome::Transient(transient::summarize(case, manifest)?),
+                Analysis::Transient => Outcome::Summary(transient::summarize(case, manifest)?),
+                Analysis::Cycle => Outcome::Summary(cycle::attempt(&own_cycles(case), manifest)?),
             };
             Ok((outcome, start.elapsed().as_secs_f64()))
         })
@@ -161,13 +168,24 @@ fn solve(studies: &[Study], manifest: &Manifest) -> Result<Vec<Vec<Timed>>, Fail
         .collect()
 }
 
-fn series(case: &Case, study: &Study, outcomes: Vec<Timed>) -> Result<Series, Failure> {
+/// The case with the limit cycles at its own operating point alone.
+fn own_cycles(case: &Case) -> Case {
+    let mut case = case.clone();
+    if let Some(cycle) = &mut case.cycle {
+        cycle.continuation = None;
+        cycle.stability = StabilityChoice::None;
+    }
+    case
+}
+
+/// The series of a study: one, or for limit cycles one for each harmonic.
+fn series(case: &Case, study: &Study, outcomes: Vec<Timed>) -> Result<Vec<Series>, Failure> {
     let (outcomes, wall_s): (Vec<Outcome>, Vec<f64>) = outcomes.into_iter().unzip();
     let (mut sweeps, mut summaries) = (Vec::new(), Vec::new());
     for outcome in outcomes {
         match outcome {
             Outcome::Cea(sweep) => sweeps.push(sweep),
-            Outcome::Transient(summary) => summaries.push(summary),
+            Outcome::Summary(summary) => summaries.push(summary),
         }
     }
     let steps = summaries.iter().filter_map(|s| s["time_step_s"].as_f64());
@@ -188,25 +206,47 @@ fn series(case: &Case, study: &Study, outcomes: Vec<Timed>) -> Result<Series, Fa
             None,
         )));
     }
-    let (quantities, mut notes) = match study.analysis {
-        Analysis::Cea => quantities::of_sweeps(case, &sizes, &sweeps),
-        Analysis::Transient => (quantities::of_transients(&sizes, &summaries), Vec::new()),
-    };
-    if study.analysis == Analysis::Transient && study.refinement == Refinement::Mesh {
-        let steps: Vec<String> = steps.iter().map(|step| format!("{step:.4e}")).collect();
-        notes.push(format!("time steps {} s", steps.join(", ")));
-    }
-    Ok(Series {
-        analysis: match study.analysis {
-            Analysis::Cea => "cea".to_owned(),
-            Analysis::Transient => "transient".to_owned(),
-        },
+    let of = |analysis: &str, quantities: Vec<Quantity>, notes: Vec<String>| Series {
+        analysis: analysis.to_owned(),
         refinement: study.refinement,
-        levels,
-        sizes,
+        levels: levels.clone(),
+        sizes: sizes.clone(),
         quantities,
-        wall_s,
+        wall_s: wall_s.clone(),
         notes,
+    };
+    Ok(match study.analysis {
+        Analysis::Cea => {
+            let (quantities, notes) = quantities::of_sweeps(case, &sizes, &sweeps);
+            vec![of("cea", quantities, notes)]
+        }
+        Analysis::Transient => {
+            let steps: Vec<String> = steps.iter().map(|step| format!("{step:.4e}")).collect();
+            let notes = match study.refinement {
+                Refinement::Mesh => vec![format!("time steps {} s", steps.join(", "))],
+                Refinement::TimeStep => Vec::new(),
+            };
+            let quantities = quantities::of_transients(&sizes, &summaries);
+            vec![of("transient", quantities, notes)]
+        }
+        Analysis::Cycle => quantities::by_harmonic(&summaries)
+            .into_iter()
+            .map(|(harmonic, cycles)| {
+                let phases = cycles.iter().map(|cycle| cycle["phases"].to_string());
+                let mut notes = vec![format!("{} phases", phases.collect::<Vec<_>>().join(", "))];
+                for (level, cycle) in levels.iter().zip(&cycles) {
+                    let error = cycle["error"].as_str();
+                    notes.extend(error.map(|error| format!("{level}: {error}")));
+                    if cycle.pointer("/confirmation/agrees") == Some(&Value::Bool(false)) {
+                        notes.push(format!(
+                            "{level}: NOT CONFIRMED: a transient does not stay on the cycle found: take a finer mesh"
+                        ));
+                    }
+                }
+                let quantities = quantities::of_limit_cycles(&sizes, &cycles);
+                of(&format!("cycle-n{harmonic}"), quantities, notes)
+            })
+            .collect(),
     })
 }
 

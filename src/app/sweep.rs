@@ -18,7 +18,7 @@ use crate::results::{DOTS_PER_INCH, Manifest};
 use clap::Args;
 use serde_json::Value;
 
-/// Grid of transients and/or eigenvalue analyses
+/// Grid of transients, eigenvalue analyses, limit cycles
 ///
 /// Every finished point is a file of its own in the output folder: a sweep that is killed goes on
 /// with --resume, and several processes may work on one folder.

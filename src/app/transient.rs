@@ -6,6 +6,7 @@ mod initial;
 mod watch;
 
 pub use figures::redraw;
+pub use initial::cycle_fields;
 
 use super::{Failure, RunOptions, Session};
 use crate::case::{Case, Transient};

@@ -39,11 +39,11 @@ impl Convergence {
     }
 }
 
-/// Reads the section of a case that `has` a `[cea]` and a `[transient]`.
+/// Reads the section of a case that `has` a `[cea]`, a `[transient]` and a `[cycle]`.
 pub(super) fn read(
     root: &Section<'_>,
     annulus: &AnnulusSpecification,
-    has: [bool; 2],
+    has: [bool; 3],
     warnings: &mut Vec<String>,
 ) -> Option<Convergence> {
     let section = root.section("convergence", false);
@@ -186,19 +186,28 @@ fn check_meshes(
 fn analyses(
     section: &Section<'_>,
     annulus: &AnnulusSpecification,
-    [has_cea, has_transient]: [bool; 2],
+    [has_cea, has_transient, has_cycle]: [bool; 3],
 ) -> Vec<Analysis> {
-    let words = [("cea", Analysis::Cea), ("transient", Analysis::Transient)];
+    let words = [
+        ("cea", Analysis::Cea),
+        ("transient", Analysis::Transient),
+        ("cycle", Analysis::Cycle),
+    ];
     let named = section.choices("analyses", &words, &[]);
-    let can_step = has_transient && annulus.element == ElementKind::Quad4;
+    let is_linear = annulus.element == ElementKind::Quad4;
+    let is_there = |analysis: Analysis| match analysis {
+        Analysis::Cea => has_cea,
+        Analysis::Transient => has_transient && is_linear,
+        Analysis::Cycle => has_cycle && is_linear,
+    };
     if named.is_empty() {
-        let all = [(has_cea, Analysis::Cea), (can_step, Analysis::Transient)];
-        let all: Vec<Analysis> = all.iter().filter(|a| a.0).map(|a| a.1).collect();
+        let all = words.iter().map(|word| word.1);
+        let all: Vec<Analysis> = all.filter(|analysis| is_there(*analysis)).collect();
         if all.is_empty() && !section.has("analyses") {
             section.reject(
                 "analyses",
-                "[convergence] has nothing to study: the case has neither [cea] nor a [transient] \
-                 that its elements can run"
+                "[convergence] has nothing to study: the case has neither [cea] nor a [transient] or a \
+                 [cycle] that its elements can run"
                     .to_owned(),
                 "no analysis in the case".to_owned(),
                 Some("add\n[cea]\nmax_frequency_hz = 17500.0".to_owned()),
@@ -207,15 +216,11 @@ fn analyses(
         return all;
     }
     for (word, analysis) in words {
-        let is_there = match analysis {
-            Analysis::Cea => has_cea,
-            Analysis::Transient => can_step,
-        };
-        if named.contains(&analysis) && !is_there {
+        if named.contains(&analysis) && !is_there(analysis) {
             section.reject(
                 "analyses",
                 format!("convergence.analyses names \"{word}\", which this case cannot run"),
-                "needs its section (and quad4 elements, for a transient)".to_owned(),
+                "needs its section (and quad4 elements, for a transient or a cycle)".to_owned(),
                 None,
             );
         }

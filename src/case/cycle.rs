@@ -5,6 +5,10 @@ use super::reader::{Bound, Section};
 use super::rules::{harmonics, parameter};
 use crate::mesh::AnnulusSpecification;
 
+/// Length of the transient that puts a cycle to the test where the case does not say: a wave that is no motion of the
+/// disc is gone by then.
+const CONFIRMATION_PERIODS: usize = 20;
+
 /// `[cycle]`: limit cycles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cycle {
@@ -14,6 +18,8 @@ pub struct Cycle {
     pub phases: Option<usize>,
     /// Times over one period at which the whole field is written.
     pub frames: usize,
+    /// Periods of the transient that puts a cycle to the test; 0 for none.
+    pub confirmation_periods: usize,
     /// What stability is worked out for.
     pub stability: StabilityChoice,
     /// Continuation over a parameter.
@@ -58,6 +64,7 @@ pub(super) fn cycle(root: &Section<'_>, annulus: &AnnulusSpecification) -> Optio
     let harmonics = harmonics(&section, 1, annulus);
     let phases = section.optional_count("phases", 31);
     let frames = section.optional_count("frames", 1).unwrap_or(1);
+    let confirmation_periods = section.optional_count("confirmation_periods", 0);
     let stability = section.choice(
         "stability",
         &[
@@ -117,6 +124,7 @@ pub(super) fn cycle(root: &Section<'_>, annulus: &AnnulusSpecification) -> Optio
         harmonics,
         phases,
         frames,
+        confirmation_periods: confirmation_periods.unwrap_or(CONFIRMATION_PERIODS),
         stability,
         continuation,
     })

@@ -95,6 +95,7 @@ pub const KEYS: &[CaseKey] = &[
     key("cycle.harmonics", "[1, 2]", "the harmonics whose limit cycle is sought"),
     key("cycle.phases", "171", "the number of phases along the wave (left out = as the mesh asks for)"),
     key("cycle.frames", "24", "the times over one period at which the whole field is written"),
+    key("cycle.confirmation_periods", "20", "the periods of the transient that puts each cycle to the test (0 = none)"),
     key("cycle.stability", "\"point\"", "the cycles whose stability is worked out"),
     key("cycle.continuation.key", "\"contact.rotation_speed_rpm\"", "the parameter along which a cycle is followed"),
     key("cycle.continuation.from", "10", "its first value"),

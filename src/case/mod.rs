@@ -115,7 +115,7 @@ impl Case {
         }
         let cycle = cycle::cycle(&root, &annulus);
         let frf = frf::read(&root, &annulus);
-        let has = [cea.is_some(), transient.is_some()];
+        let has = [cea.is_some(), transient.is_some(), cycle.is_some()];
         let convergence = convergence::read(&root, &annulus, has, &mut warnings);
         let sweep = sweep::read(&root);
         root.close();

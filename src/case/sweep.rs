@@ -13,6 +13,8 @@ pub enum Analysis {
     Cea,
     /// The explicit transient.
     Transient,
+    /// The direct search for limit cycles.
+    Cycle,
 }
 
 /// How several swept keys combine.
@@ -92,7 +94,11 @@ pub(super) fn read(root: &Section<'_>) -> Option<Sweep> {
     );
     let analyses = section.choices(
         "analyses",
-        &[("transient", Analysis::Transient), ("cea", Analysis::Cea)],
+        &[
+            ("transient", Analysis::Transient),
+            ("cea", Analysis::Cea),
+            ("cycle", Analysis::Cycle),
+        ],
         &[],
     );
     let mut keys = Vec::new();

@@ -3,6 +3,7 @@
 use crate::contact::ContactStatus;
 use crate::cycle::{CycleBranch, CycleStability, LimitCycle, Onset, StabilityChange};
 use crate::mesh::Mesh2d;
+use crate::results::cycle_confirmation::{Confirmation, confirmation_object, confirmation_text};
 use crate::results::cycle_fields::{CycleFrame, write_fields};
 use crate::results::cycle_figures::CycleRecord;
 use crate::results::cycle_stability::{
@@ -30,6 +31,8 @@ pub struct CycleResult {
     pub frames: Vec<CycleFrame>,
     /// Points along the phase.
     pub phases: usize,
+    /// A transient that started on that cycle, where one was asked for.
+    pub confirmation: Option<Result<Confirmation, String>>,
     /// Stability of that cycle, where it was asked for.
     pub stability: Verdict,
     /// Stability of each cycle of the branch, where it was asked for; else empty.
@@ -240,6 +243,7 @@ fn result_object(report: &CycleReport<'_>, result: &CycleResult) -> Value {
         }
         Err(error) => object["error"] = json!(error),
     }
+    object["confirmation"] = confirmation_object(report, result);
     object["stability"] = stability_object(&result.stability);
     if let Some(branch) = &result.branch {
         object["branch"] = branch_object(report, branch);
@@ -330,6 +334,9 @@ pub fn print(report: &CycleReport<'_>) -> String {
         result_line(&mut out, report, result);
     }
     for result in &report.results {
+        if let Some(text) = confirmation_text(report, result) {
+            let _ = writeln!(out, "{text}");
+        }
         print_stability(&mut out, result);
         if let Some(branch) = &result.branch {
             branch_line(&mut out, result.harmonic, branch);

@@ -3,6 +3,7 @@
 pub mod cea;
 pub mod convergence;
 pub mod cycle;
+pub mod cycle_confirmation;
 pub mod cycle_fields;
 pub mod cycle_figures;
 pub mod cycle_stability;

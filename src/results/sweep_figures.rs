@@ -1,20 +1,24 @@
 //! The figures of a parameter study, from its points.
 
+use super::cycle_figures::{FamilyRecord, branch_curves, draw_branches};
 use super::figures::axis::Scale;
+use super::figures::text::literal;
 use super::figures::{
     CriticalFriction, FigureError, ReferenceFrequency, SpeedSeries, SpeedSweep,
     draw_critical_friction, draw_speed_frequencies, draw_speed_status,
 };
 use super::parameter::parameter_title;
 use super::report::NamedFigure;
-use super::sweep::PointRecord;
-use serde_json::Value;
+use super::sweep::{PointRecord, swept_text};
+use serde::Deserialize;
+use serde_json::{Map, Value};
 
 const SPEED: &str = "contact.rotation_speed_rpm";
 const FRICTION: &str = "contact.friction_coefficient";
 
 /// Draws what a study has points for: main frequency and contact status over the rotation speed if
-/// that was swept, critical friction if one other key was swept through eigenvalue analyses.
+/// that was swept, critical friction if one other key was swept through eigenvalue analyses, branches of limit cycles if
+/// they were followed at its points.
 ///
 /// `friction_coefficient` is the case's own, for studies that do not sweep it; `highest_friction` the
 /// largest of its eigenvalue analysis. Nothing is drawn over speed where any other key than speed and
@@ -54,7 +58,34 @@ pub fn draw_sweep(
             svg: draw_critical_friction(&critical)?,
         });
     }
+    figures.extend(limit_cycles(records)?);
     Ok(figures)
+}
+
+/// The branches of limit cycles of all points, harmonic by harmonic.
+fn limit_cycles(records: &[PointRecord]) -> Result<Vec<NamedFigure>, FigureError> {
+    let mut families: Vec<(String, FamilyRecord)> = Vec::new();
+    for record in records {
+        let summary = record.summaries.get("cycle");
+        let curves = summary.and_then(|summary| summary.get("curves")?.as_array());
+        for curve in curves.into_iter().flatten() {
+            // A record of another version has no curves that this one knows.
+            if let Ok(family) = FamilyRecord::deserialize(curve) {
+                families.push((format!(", {}", swept_label(&record.swept)), family));
+            }
+        }
+    }
+    families.sort_by_key(|(_, family)| family.harmonic);
+    let families: Vec<_> = families.iter().map(|(l, f)| (l.clone(), f)).collect();
+    draw_branches(&branch_curves(&families))
+}
+
+/// What a point is known by, in mark-up.
+fn swept_label(swept: &Map<String, Value>) -> String {
+    match (swept.len(), swept.get(FRICTION)) {
+        (1, Some(friction)) => format!("*μ* = {friction}"),
+        _ => literal(&swept_text(swept)),
+    }
 }
 
 /// Whether a series has two speeds or more, and a vibration at any.

@@ -112,22 +112,25 @@ fn onsets(sizes: &[f64], sweeps: &[FrictionSweep]) -> Vec<Quantity> {
     quantities
 }
 
-/// Frequency, status, powers and growth rates of transients, from their summaries.
+/// Frequency, harmonic, status, powers and growth rates of transients, from their summaries.
 pub fn of_transients(sizes: &[f64], summaries: &[Value]) -> Vec<Quantity> {
+    let harmonics = summaries.iter().map(|s| s["main_harmonic"].as_f64());
+    let harmonics = harmonics.map(|harmonic| harmonic.unwrap_or(f64::NAN));
+    let harmonic = Quantity::count("main harmonic".to_owned(), harmonics.collect());
+    let mut quantities = of_limit_cycles(sizes, summaries);
+    quantities.insert(1, harmonic);
+    quantities.extend(growth_rates(sizes, summaries));
+    quantities
+}
+
+/// Frequency, status and powers of limit cycles, from the summaries of transients or of a direct search.
+pub fn of_limit_cycles(sizes: &[f64], summaries: &[Value]) -> Vec<Quantity> {
     let each = |name: &str, unit: &'static str, value: &dyn Fn(&Value) -> Option<f64>| {
         let values = summaries.iter().map(|s| value(s).unwrap_or(f64::NAN));
         Quantity::new(name.to_owned(), unit, sizes, values.collect())
     };
-    let mut quantities = vec![
-        each("main frequency", "Hz", &|s| s["main_frequency_hz"].as_f64()),
-        Quantity::count(
-            "main harmonic".to_owned(),
-            summaries
-                .iter()
-                .map(|s| s["main_harmonic"].as_f64().unwrap_or(f64::NAN))
-                .collect(),
-        ),
-    ];
+    let frequency = each("main frequency", "Hz", &|s| s["main_frequency_hz"].as_f64());
+    let mut quantities = vec![frequency];
     for status in ["stick", "slip", "open"] {
         quantities.push(each(&format!("{status} fraction"), "", &|s| {
             s["status"][status].as_f64()
@@ -145,8 +148,24 @@ pub fn of_transients(sizes: &[f64], summaries: &[Value]) -> Vec<Quantity> {
             Some(power(s, key)? / power(s, "external")?)
         }));
     }
-    quantities.extend(growth_rates(sizes, summaries));
     quantities
+}
+
+/// The limit cycles of each harmonic that some search looked for, level by level; null where one did not.
+pub fn by_harmonic(summaries: &[Value]) -> Vec<(u64, Vec<Value>)> {
+    let cycles = |summary: &Value| summary["cycles"].as_array().cloned().unwrap_or_default();
+    let all = summaries.iter().flat_map(cycles);
+    let mut harmonics: Vec<u64> = all.filter_map(|c| c["harmonic"].as_u64()).collect();
+    harmonics.sort_unstable();
+    harmonics.dedup();
+    let of = |harmonic: u64| {
+        let own = |cycle: &Value| cycle["harmonic"].as_u64() == Some(harmonic);
+        let levels = summaries.iter().map(cycles);
+        levels
+            .map(|level| level.into_iter().find(own).unwrap_or_default())
+            .collect()
+    };
+    harmonics.into_iter().map(|n| (n, of(n))).collect()
 }
 
 /// Growth rate of each harmonic that some run has one of.

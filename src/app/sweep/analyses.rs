@@ -1,7 +1,7 @@
 //! What runs at a point of a sweep.
 
 use super::plan::analysis_name;
-use crate::app::{Failure, cea, transient};
+use crate::app::{Failure, cea, cycle, transient};
 use crate::case::{Analysis, Case};
 use crate::results::Manifest;
 use serde_json::{Map, Value};
@@ -21,6 +21,7 @@ pub fn run_point(
         let mut summary = match analysis {
             Analysis::Cea => cea::summarize(case, manifest)?,
             Analysis::Transient => transient::summarize(case, manifest)?,
+            Analysis::Cycle => cycle::summarize(case, manifest)?,
         };
         if let Value::Object(entries) = &mut summary {
             entries.shift_remove("manifest");

@@ -56,6 +56,7 @@ impl<'a> SweepPlan<'a> {
             [] => [
                 first.transient.as_ref().map(|_| Analysis::Transient),
                 first.cea.as_ref().map(|_| Analysis::Cea),
+                first.cycle.as_ref().map(|_| Analysis::Cycle),
             ]
             .into_iter()
             .flatten()
@@ -65,6 +66,9 @@ impl<'a> SweepPlan<'a> {
         let wants = |analysis| plan.analyses.contains(&analysis);
         if first.cea.is_none() && wants(Analysis::Cea) {
             first.require_cea()?;
+        }
+        if first.cycle.is_none() && wants(Analysis::Cycle) {
+            first.require_cycle()?;
         }
         if first.transient.is_none() && (wants(Analysis::Transient) || plan.analyses.is_empty()) {
             first.require_transient()?;
@@ -124,6 +128,7 @@ pub fn analysis_name(analysis: Analysis) -> &'static str {
     match analysis {
         Analysis::Cea => "cea",
         Analysis::Transient => "transient",
+        Analysis::Cycle => "cycle",
     }
 }
 
@@ -135,7 +140,7 @@ pub fn one_line(failure: &Failure) -> String {
             let messages: Vec<&str> = messages.map(|error| error.message.as_str()).collect();
             messages.join("; ")
         }
-        Failure::Usage(error) | Failure::Run(error) => format!("{error:#}"),
+        Failure::Usage(error) | Failure::Run(error) => error.to_string(),
         Failure::BrokenPipe => "broken pipe".to_owned(),
     };
     text.split_whitespace().collect::<Vec<_>>().join(" ")

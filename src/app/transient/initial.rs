@@ -2,7 +2,7 @@
 
 use crate::app::Failure;
 use crate::case::Case;
-use crate::cycle::{CycleSolver, OperatingPoint};
+use crate::cycle::{CycleSolver, LimitCycle, OperatingPoint};
 
 /// Displacement at time zero (m) and velocity half a step earlier (m/s) of the limit cycle of `harmonic` at the case's own
 /// operating point, over all dofs in nodal frames.
@@ -24,7 +24,13 @@ pub fn limit_cycle(case: &Case, harmonic: usize, time_step: f64) -> Result<[Vec<
     )
     .map_err(Failure::usage)?;
     let cycle = solver.find(&point).map_err(Failure::run)?;
-    let [displacement, _] = solver.field(&cycle, 0.0);
-    let [_, velocity] = solver.field(&cycle, -0.5 * time_step);
-    Ok([displacement, velocity])
+    Ok(cycle_fields(&solver, &cycle, time_step))
+}
+
+/// Displacement of a limit cycle at time zero (m) and its velocity half a step earlier (m/s), over all dofs in nodal
+/// frames: what the time loop starts from.
+pub fn cycle_fields(solver: &CycleSolver, cycle: &LimitCycle, time_step: f64) -> [Vec<f64>; 2] {
+    let [displacement, _] = solver.field(cycle, 0.0);
+    let [_, velocity] = solver.field(cycle, -0.5 * time_step);
+    [displacement, velocity]
 }

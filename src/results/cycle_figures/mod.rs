@@ -94,12 +94,11 @@ pub fn draw_cycles(data: &CycleFigures<'_>) -> Result<Vec<NamedFigure>, FigureEr
     draw_figures(jobs)
 }
 
-/// Draws the branches over their parameter.
+/// Draws frequency, amplitude, statuses and powers along the branches.
 ///
 /// # Errors
 /// As [`draw_cycles`].
-pub fn draw_branches(data: &CycleFigures<'_>) -> Result<Vec<NamedFigure>, FigureError> {
-    let curves = &branch_curves(data);
+pub fn draw_branches(curves: &BranchCurves) -> Result<Vec<NamedFigure>, FigureError> {
     draw_figures(vec![
         (
             "branch-frequencies".into(),
@@ -220,26 +219,30 @@ fn stress_fields(data: &CycleFigures<'_>) -> Result<String, FigureError> {
     })
 }
 
-fn branch_curves(data: &CycleFigures<'_>) -> BranchCurves {
-    let families = || {
-        let families = data.record.families.iter();
-        families.filter_map(|family| Some((family, family.branch.as_ref()?)))
-    };
+/// The branches of several families as curves, each with what its name says besides the harmonic.
+pub fn branch_curves(families: &[(String, &FamilyRecord)]) -> BranchCurves {
     // A branch of a single cycle is no curve.
-    let families = || families().filter(|(_, branch)| branch.values.len() > 1);
-    let key = families().next().map_or("", |(_, branch)| &branch.key);
+    let curves: Vec<(&String, &FamilyRecord, &BranchRecord)> = families
+        .iter()
+        .filter_map(|(suffix, family)| Some((suffix, *family, family.branch.as_ref()?)))
+        .filter(|(_, _, branch)| branch.values.len() > 1)
+        .collect();
+    let mut references: Vec<ReferenceFrequency> = curves
+        .iter()
+        .filter_map(|(_, family, _)| reference(family))
+        .collect();
+    references.dedup();
     BranchCurves {
-        parameter_title: parameter_title(key),
-        curves: families()
-            .map(|(family, branch)| branch_curve(family, branch))
+        parameter_title: parameter_title(curves.first().map_or("", |(_, _, branch)| &branch.key)),
+        curves: curves
+            .iter()
+            .map(|(suffix, family, branch)| branch_curve(suffix, family, branch))
             .collect(),
-        references: families()
-            .filter_map(|(family, _)| reference(family))
-            .collect(),
+        references,
     }
 }
 
-fn branch_curve(family: &FamilyRecord, branch: &BranchRecord) -> BranchCurve {
+fn branch_curve(suffix: &str, family: &FamilyRecord, branch: &BranchRecord) -> BranchCurve {
     let stability = |stable: &Option<bool>| match stable {
         None => Stability::Unknown,
         Some(true) => Stability::Stable,
@@ -247,20 +250,24 @@ fn branch_curve(family: &FamilyRecord, branch: &BranchRecord) -> BranchCurve {
     };
     let own = family.cycle.as_ref();
     BranchCurve {
-        name: format!("*n* = {}", family.harmonic),
+        name: format!("*n* = {}{suffix}", family.harmonic),
         values: branch.values.clone(),
         frequency_hz: branch.frequency_hz.clone(),
         amplitude: branch.amplitude.clone(),
         status: branch.status.clone(),
         shares: branch.shares.clone(),
         stability: branch.stable.iter().map(stability).collect(),
-        growth_rate: branch.growth_rate.clone(),
+        growth_rate: branch
+            .growth_rate
+            .iter()
+            .map(|rate| rate.unwrap_or(f64::NAN))
+            .collect(),
         folds: branch.folds.clone(),
         marked: own.map(|wave| [branch.own_value, wave.frequency_hz, wave.amplitude]),
     }
 }
 
-/// The onset that the family is born at.
+/// The onset that the family is born at, drawn as a line.
 fn reference(family: &FamilyRecord) -> Option<ReferenceFrequency> {
     let [critical, frequency_hz] = *family.onsets.first()?;
     Some(ReferenceFrequency {

@@ -17,7 +17,7 @@ pub struct CycleRecord {
 
 impl Record for CycleRecord {
     const MAGIC: [u8; 8] = *b"FRICSIMY";
-    const VERSION: u32 = 1;
+    const VERSION: u32 = 2;
 }
 
 /// The limit cycles of one harmonic.
@@ -75,8 +75,8 @@ pub struct BranchRecord {
     pub shares: [Vec<f64>; 5],
     /// Whether the cycle is stable, where that is known.
     pub stable: Vec<Option<bool>>,
-    /// Growth rate of its leading perturbation, 1/s; NaN where it is not known.
-    pub growth_rate: Vec<f64>,
+    /// Growth rate of its leading perturbation, 1/s, where it is known.
+    pub growth_rate: Vec<Option<f64>>,
     /// Parameter values at which the branch turns back.
     pub folds: Vec<f64>,
 }
@@ -91,7 +91,8 @@ impl CycleRecord {
 }
 
 impl FamilyRecord {
-    fn of(result: &CycleResult) -> Self {
+    /// What the figures show of the cycles of one harmonic.
+    pub fn of(result: &CycleResult) -> Self {
         let onsets = result.onsets.iter();
         let found = result.cycle.as_ref().ok();
         let branch = result.branch.as_ref().zip(found);
@@ -171,7 +172,7 @@ impl BranchRecord {
             growth_rate: verdicts()
                 .map(|found| {
                     let leading = found.and_then(CycleStability::leading);
-                    leading.map_or(f64::NAN, |leading| leading.exponent.re)
+                    leading.map(|leading| leading.exponent.re)
                 })
                 .collect(),
             folds: branch

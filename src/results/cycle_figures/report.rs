@@ -1,6 +1,6 @@
 //! `report.html` of limit cycles: figures, cycles, branches.
 
-use super::{CycleFigures, draw_branches, draw_cycles};
+use super::{CycleFigures, branch_curves, draw_branches, draw_cycles};
 use crate::results::drawing::{DrawingError, write_report};
 use crate::results::figures::axis::extremes;
 use crate::results::folder::OutputFolder;
@@ -21,7 +21,9 @@ pub fn draw(
     let mut report = html_report(summary, folder.manifest());
     report.sections[0].figures = draw_cycles(data)?;
     if let Some(branches) = report.sections.get_mut(1) {
-        branches.figures = draw_branches(data)?;
+        let families = data.record.families.iter();
+        let families: Vec<_> = families.map(|family| (String::new(), family)).collect();
+        branches.figures = draw_branches(&branch_curves(&families))?;
     }
     write_report(folder, &report, dots_per_inch)
 }
@@ -54,7 +56,7 @@ fn html_report(summary: &Value, manifest: &Manifest) -> Report {
 }
 
 fn cycle_table(cycles: &[Value]) -> ReportTable {
-    let quantities: [(&str, &str, f64, usize); 14] = [
+    let quantities: [(&str, &str, f64, usize); 15] = [
         ("harmonic n", "/harmonic", 1.0, 0),
         ("phases", "/phases", 1.0, 0),
         ("critical friction", "/onsets/0/critical_friction", 1.0, 5),
@@ -74,6 +76,12 @@ fn cycle_table(cycles: &[Value]) -> ReportTable {
         ("material damping (W)", "/power_w/material_damping", 1.0, 2),
         ("normal contact (W)", "/power_w/normal_contact", 1.0, 2),
         (
+            "transient from it (Hz)",
+            "/confirmation/main_frequency_hz",
+            1.0,
+            2,
+        ),
+        (
             "fastest growth of a perturbation (1/s)",
             "/stability/leading/growth_rate_per_s",
             1.0,
@@ -84,22 +92,20 @@ fn cycle_table(cycles: &[Value]) -> ReportTable {
         let cells = quantities.iter();
         let cells =
             cells.map(|(_, pointer, factor, decimals)| cell(cycle, pointer, *factor, *decimals));
-        let stable = match cycle
-            .pointer("/stability/is_stable")
-            .and_then(Value::as_bool)
-        {
-            Some(true) => "yes",
-            Some(false) => "no",
-            None => "",
+        let answer = |pointer: &str| match cycle.pointer(pointer).and_then(Value::as_bool) {
+            Some(true) => "yes".to_owned(),
+            Some(false) => "no".to_owned(),
+            None => String::new(),
         };
+        let answers = ["/stability/is_stable", "/confirmation/agrees"].map(answer);
         let error = cycle["error"].as_str().unwrap_or_default().to_owned();
-        cells.chain([stable.to_owned(), error]).collect()
+        cells.chain(answers).chain([error]).collect()
     });
     let names = quantities.iter().map(|quantity| quantity.0);
     ReportTable {
         caption: "Limit cycles at the case's own operating point".into(),
         columns: names
-            .chain(["stable", "why there is none"])
+            .chain(["stable", "a transient stays on it", "why there is none"])
             .map(String::from)
             .collect(),
         rows: rows.collect(),

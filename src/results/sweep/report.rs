@@ -7,7 +7,7 @@ use serde_json::{Map, Value, json};
 use std::fmt::Write as _;
 
 /// Columns of a transient's or an eigenvalue analysis' summary that a person wants first.
-const FIRST_COLUMNS: [(&str, &str); 6] = [
+const FIRST_COLUMNS: [(&str, &str); 14] = [
     ("/main_frequency_hz", "frequency Hz"),
     ("/main_harmonic", "n"),
     ("/status/stick", "stick"),
@@ -17,6 +17,14 @@ const FIRST_COLUMNS: [(&str, &str); 6] = [
         "/critical_frictions/0/critical_friction",
         "critical friction",
     ),
+    ("/cycles/0/harmonic", "n"),
+    ("/cycles/0/main_frequency_hz", "frequency Hz"),
+    ("/cycles/0/status/stick", "stick"),
+    ("/cycles/0/status/open", "open"),
+    ("/cycles/1/harmonic", "n"),
+    ("/cycles/1/main_frequency_hz", "frequency Hz"),
+    ("/cycles/1/status/stick", "stick"),
+    ("/cycles/1/status/open", "open"),
 ];
 
 /// Longest table that is printed.

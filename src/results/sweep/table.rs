@@ -10,9 +10,11 @@ use std::io::{self, Write};
 const LONGEST_LIST: usize = 16;
 
 /// What a table over many points leaves out of a summary: what is the same for all of them, and
-/// what the clock says, so that the table does not depend on who computed it and how fast.
-const LEFT_OUT: [&str; 6] = [
+/// what the clock says, so that the table does not depend on who computed it and how fast; and the branches of limit
+/// cycles, which are tables of their own.
+const LEFT_OUT: [&str; 7] = [
     "command",
+    "curves",
     "title",
     "manifest",
     "notes",
@@ -106,7 +108,7 @@ fn flatten(
 ) {
     match value {
         Value::Object(entries) => {
-            for (key, value) in entries {
+            for (key, value) in entries.iter().filter(|(key, _)| *key != "wall_s") {
                 flatten(&join(path, key), value, out, longest);
             }
         }
