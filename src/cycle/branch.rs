@@ -14,6 +14,16 @@ use super::wave::{Linearization, Wave};
 /// Longest step along the branch, relative: a twentieth of the mean normal force, frequency or parameter.
 const LONGEST_STEP: f64 = 0.05;
 
+/// The corrector may go as far as the step is long, or as this: what lies farther is another curve.
+const SHORTEST_REACH: f64 = 1e-3;
+
+/// Scaled residuals below this are a solution.
+const CONVERGED: f64 = 1e-11;
+
+/// Scaled residuals below this are round-off once they shrink no more: the lighter the damping, the more the forces of
+/// resonant harmonics cancel.
+const STAGNANT: f64 = 1e-9;
+
 /// Inequalities broken by less than this share of the mean normal force are round-off.
 const TOLERANCE: f64 = 1e-8;
 
@@ -143,7 +153,7 @@ impl<'a> Branch<'a> {
                 goal = Goal::Length;
                 continue;
             };
-            let broken = self.worst(&state, &linear, flipped);
+            let broken = self.worst(&state, &linear);
             let Some((event, slack)) = broken else {
                 if let Some(value) = self.skipped(&state, samples, goal) {
                     goal = Goal::Value(value);
@@ -151,6 +161,12 @@ impl<'a> Branch<'a> {
                 }
                 return Some(self.accept(state, heading, length, goal));
             };
+            if Some(event) == flipped {
+                // It came to hold and breaks again within the step: a shorter one ends where it holds.
+                length *= 0.3;
+                goal = Goal::Length;
+                continue;
+            }
             let before = inequalities.iter().find(|i| i.0 == event);
             let before = before.map_or(0.0, |i| i.1.max(0.0));
             length *= before / (before - slack);
@@ -317,6 +333,7 @@ impl<'a> Branch<'a> {
         let mut state = self.state.clone();
         heading.add_to(&mut state, length, self.parameter);
         let predicted = state.clone();
+        let mut previous = f64::INFINITY;
         for _ in 0..8 {
             let linear = Linearization::at(self.wave, &state, self.parameter);
             let system = System::new(&state, self.parameter, self.force_scale);
@@ -326,12 +343,15 @@ impl<'a> Branch<'a> {
                 Goal::Length => Closure::Plane(heading, &predicted),
             };
             let (matrix, residual) = system.assemble(&linear, closure);
-            if residual.iter().all(|value| value.abs() < 1e-11) {
-                return Some((state, linear));
+            let largest = residual.iter().fold(0.0_f64, |m, value| m.max(value.abs()));
+            if largest < CONVERGED || (largest < STAGNANT && largest > 0.25 * previous) {
+                let strayed = system.distance(&predicted);
+                return (strayed <= length.max(SHORTEST_REACH)).then_some((state, linear));
             }
             if !residual.iter().all(|value| value.abs() < 1e6) {
                 return None;
             }
+            previous = largest;
             let change = system.solve(matrix, &residual)?;
             self.factorizations += 1;
             change.add_to(&mut state, 1.0, self.parameter);
@@ -340,22 +360,9 @@ impl<'a> Branch<'a> {
     }
 
     /// The inequality broken most, beyond round-off.
-    fn worst(
-        &self,
-        state: &WaveState,
-        linear: &Linearization,
-        flipped: Option<Event>,
-    ) -> Option<(Event, f64)> {
+    fn worst(&self, state: &WaveState, linear: &Linearization) -> Option<(Event, f64)> {
         slacks(state, linear)
-            .filter(|&(event, slack)| {
-                // The inequality just entered starts at zero and may lag within the corrector's accuracy.
-                let tolerance = if Some(event) == flipped {
-                    1e-6
-                } else {
-                    TOLERANCE
-                };
-                slack < -tolerance * self.force_scale
-            })
+            .filter(|&(_, slack)| slack < -TOLERANCE * self.force_scale)
             .min_by(|a, b| a.1.total_cmp(&b.1))
     }
 }

@@ -281,6 +281,21 @@ impl<'a> System<'a> {
         values
     }
 
+    /// Distance from another state, in the measure in which headings have length one.
+    pub fn distance(&self, other: &WaveState) -> f64 {
+        let change = Heading::between(other, self.state, self.parameter);
+        self.length(&self.scaled(&change))
+    }
+
+    /// Root of the mean square of the forces, and of the squares of frequency and parameter, all scaled.
+    fn length(&self, scaled: &[f64]) -> f64 {
+        let points = self.state.contact.len() as f64;
+        let (forces, rest) = scaled.split_at(self.size() - 2);
+        let forces: f64 = forces.iter().map(|value| value * value).sum();
+        let rest: f64 = rest.iter().map(|value| value * value).sum();
+        (forces / points + rest).sqrt()
+    }
+
     /// The change that takes the residual away.
     pub fn solve(&self, matrix: Mat<f64>, residual: &[f64]) -> Option<Heading> {
         let right_side = residual.iter().map(|value| -value).collect();
@@ -295,11 +310,7 @@ impl<'a> System<'a> {
         let mut right_side = vec![0.0; self.size()];
         right_side[self.size() - 1] = 1.0;
         let solution = self.solved(matrix, right_side)?;
-        let points = self.state.contact.len() as f64;
-        let (forces, rest) = solution.split_at(self.size() - 2);
-        let forces: f64 = forces.iter().map(|value| value * value).sum();
-        let rest: f64 = rest.iter().map(|value| value * value).sum();
-        let mut length = (forces / points + rest).sqrt();
+        let mut length = self.length(&solution);
         // The closure may have picked the plane at an angle beyond a right one.
         if let Some(previous) = previous {
             let row = self.scaled(previous);

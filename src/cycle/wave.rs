@@ -247,15 +247,20 @@ impl Linearization {
         }
     }
 
-    /// Normal force that closes a unit of gap at the point itself, N/m for each m.
+    /// Normal force for a unit of gap, N/m for each m: what closes it where the response is largest. The point's own
+    /// response will not do: with little damping a resonance can take it through zero.
     pub fn normal_scale(&self) -> f64 {
-        1.0 / self.gap_columns[0][0]
+        1.0 / largest(&self.gap_columns[0])
     }
 
-    /// Tangential force for a unit of velocity at the point itself.
+    /// Tangential force for a unit of velocity, likewise.
     pub fn tangential_scale(&self) -> f64 {
-        1.0 / self.slip_columns[1][0]
+        1.0 / largest(&self.slip_columns[1])
     }
+}
+
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0_f64, |m, value| m.max(value.abs()))
 }
 
 impl Wave<'_> {
