@@ -564,7 +564,23 @@ fn a_start_on_a_limit_cycle_names_a_harmonic_that_the_mesh_carries() {
     let start = "transient.initial=\"limit-cycle\"";
     let case = valid(RUN, &[start, "transient.limit_cycle_harmonic=2"]);
     let initial = case.require_transient().unwrap().initial;
-    assert_eq!(initial, InitialState::LimitCycle { harmonic: 2 });
+    assert_eq!(
+        initial,
+        InitialState::LimitCycle {
+            harmonic: 2,
+            onset: 1
+        }
+    );
+    let second = "transient.limit_cycle_onset=2";
+    let case = valid(RUN, &[start, "transient.limit_cycle_harmonic=1", second]);
+    assert_eq!(
+        case.require_transient().unwrap().initial,
+        InitialState::LimitCycle {
+            harmonic: 1,
+            onset: 2
+        }
+    );
+    assert_reports(&report(RUN, &[second]), &["transient.limit_cycle_onset"]);
     assert_reports(&report(RUN, &[start]), &["transient.limit_cycle_harmonic"]);
     assert_reports(
         &report(RUN, &["transient.limit_cycle_harmonic=2"]),

@@ -10,7 +10,7 @@ mod disc;
 use disc::{DAMPING, POLYCARBONATE, annulus, contact};
 use frictionsim::contact::ContactStatus;
 use frictionsim::cycle::{
-    BranchEnd, CycleError, CycleSolver, LimitCycle, OperatingPoint, Parameter,
+    BranchEnd, CycleError, CycleSolver, Family, LimitCycle, OperatingPoint, Parameter,
 };
 use frictionsim::fem::RayleighDamping;
 use frictionsim::mesh::{AnnulusSpecification, ElementKind};
@@ -232,6 +232,43 @@ fn lightly_damped_cycle_has_the_transients_frequency_and_statuses() {
         .continue_to(&from, Parameter::StiffnessDamping, 1.5e-7)
         .unwrap();
     assert!((along.frequency_hz() / cycle.frequency_hz() - 1.0).abs() < 5e-4);
+}
+
+#[test]
+fn cycle_of_the_second_onset_is_the_transients_and_loses_stability_where_they_leave_it() {
+    let family = Family {
+        harmonic: 1,
+        onset: 2,
+    };
+    let specification = annulus(ElementKind::Quad4, 180, 35);
+    let solver =
+        CycleSolver::of_family(&specification, &POLYCARBONATE, &DAMPING, family, None).unwrap();
+    // Transients that start on the cycle, 60 ms: constant at 610 and 1100 rpm, gone to 9.9 kHz at 1250 rpm.
+    let cycle = solver.find(&operating(610.0)).unwrap();
+    assert!((cycle.frequency_hz() / 7666.9 - 1.0).abs() < 5e-4);
+    for (found, wanted) in cycle.fractions.iter().zip([0.248, 0.752, 0.0]) {
+        assert!((found - wanted).abs() < 0.006, "{:?}", cycle.fractions);
+    }
+    for (rpm, is_stable) in [(610.0, true), (1100.0, true), (1250.0, false)] {
+        let cycle = solver.find(&operating(rpm)).unwrap();
+        assert_eq!(
+            solver.stability(&cycle).unwrap().is_stable(),
+            is_stable,
+            "{rpm} rpm"
+        );
+    }
+    let third = Family {
+        harmonic: 1,
+        onset: 30,
+    };
+    let none = CycleSolver::of_family(&specification, &POLYCARBONATE, &DAMPING, third, None)
+        .unwrap()
+        .find(&operating(610.0))
+        .unwrap_err();
+    assert!(
+        none.to_string()
+            .starts_with("n = 1, onset 30: steady sliding has no such")
+    );
 }
 
 #[test]

@@ -44,6 +44,7 @@ fn run(solver: &CycleSolver, cycle: &LimitCycle, perturbed: usize, duration: f64
         expansion_time: 0.0,
         initial: InitialState::LimitCycle {
             harmonic: cycle.harmonic,
+            onset: 1,
         },
         perturbation: Perturbation {
             harmonics: vec![perturbed],

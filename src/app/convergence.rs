@@ -178,7 +178,7 @@ fn own_cycles(case: &Case) -> Case {
     case
 }
 
-/// The series of a study: one, or for limit cycles one for each harmonic.
+/// The series of a study: one, or for limit cycles one for each family.
 fn series(case: &Case, study: &Study, outcomes: Vec<Timed>) -> Result<Vec<Series>, Failure> {
     let (outcomes, wall_s): (Vec<Outcome>, Vec<f64>) = outcomes.into_iter().unzip();
     let (mut sweeps, mut summaries) = (Vec::new(), Vec::new());
@@ -229,9 +229,9 @@ fn series(case: &Case, study: &Study, outcomes: Vec<Timed>) -> Result<Vec<Series
             let quantities = quantities::of_transients(&sizes, &summaries);
             vec![of("transient", quantities, notes)]
         }
-        Analysis::Cycle => quantities::by_harmonic(&summaries)
+        Analysis::Cycle => quantities::by_family(&summaries)
             .into_iter()
-            .map(|(harmonic, cycles)| {
+            .map(|(family, cycles)| {
                 let phases = cycles.iter().map(|cycle| cycle["phases"].to_string());
                 let mut notes = vec![format!("{} phases", phases.collect::<Vec<_>>().join(", "))];
                 for (level, cycle) in levels.iter().zip(&cycles) {
@@ -244,7 +244,7 @@ fn series(case: &Case, study: &Study, outcomes: Vec<Timed>) -> Result<Vec<Series
                     }
                 }
                 let quantities = quantities::of_limit_cycles(&sizes, &cycles);
-                of(&format!("cycle-n{harmonic}"), quantities, notes)
+                of(&format!("cycle-{}", family.tag()), quantities, notes)
             })
             .collect(),
     })

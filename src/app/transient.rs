@@ -10,6 +10,7 @@ pub use initial::cycle_fields;
 
 use super::{Failure, RunOptions, Session};
 use crate::case::{Case, Transient};
+use crate::cycle::Family;
 use crate::fem::operator::{SimdLevel, StiffnessOperator};
 use crate::mesh::AnnulusMesh;
 use crate::results::transient::{
@@ -75,11 +76,12 @@ impl<'a> Prepared<'a> {
         operator: &'b dyn StiffnessOperator,
     ) -> Result<CentralDifference<'b>, Failure> {
         let started = match self.settings.initial {
-            InitialState::LimitCycle { harmonic } => {
+            InitialState::LimitCycle { harmonic, onset } => {
+                let family = Family { harmonic, onset };
                 let damping = &self.case.damping.rayleigh;
                 let plan = StepPlan::new(operator, damping, &self.settings)
                     .map_err(|error| self.failure(&error))?;
-                let [u, v] = initial::limit_cycle(self.case, harmonic, plan.time_step)?;
+                let [u, v] = initial::limit_cycle(self.case, family, plan.time_step)?;
                 CentralDifference::start_from(self.model(), operator, &self.settings, &u, v)
             }
             _ => CentralDifference::start(self.model(), operator, &self.settings),

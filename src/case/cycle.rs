@@ -14,6 +14,8 @@ const CONFIRMATION_PERIODS: usize = 20;
 pub struct Cycle {
     /// Circumferential harmonics; `None` takes those that are unstable.
     pub harmonics: Option<Vec<usize>>,
+    /// Onsets of each harmonic.
+    pub onsets: OnsetChoice,
     /// Phases along the wave; `None` takes as many as the mesh asks for.
     pub phases: Option<usize>,
     /// Times over one period at which the whole field is written.
@@ -24,6 +26,15 @@ pub struct Cycle {
     pub stability: StabilityChoice,
     /// Continuation over a parameter.
     pub continuation: Option<Continuation>,
+}
+
+/// `cycle.onsets`: at which losses of stability of a harmonic the cycles are born.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OnsetChoice {
+    /// At every one below the case's friction coefficient; where there is none, at the lowest.
+    All,
+    /// At the lowest.
+    Lowest,
 }
 
 /// `cycle.stability`: which cycles' stability is worked out.
@@ -62,6 +73,8 @@ impl Continuation {
 pub(super) fn cycle(root: &Section<'_>, annulus: &AnnulusSpecification) -> Option<Cycle> {
     let section = root.section("cycle", false);
     let harmonics = harmonics(&section, 1, annulus);
+    let choices = [("all", OnsetChoice::All), ("lowest", OnsetChoice::Lowest)];
+    let onsets = section.choice("onsets", &choices);
     let phases = section.optional_count("phases", 31);
     let frames = section.optional_count("frames", 1).unwrap_or(1);
     let confirmation_periods = section.optional_count("confirmation_periods", 0);
@@ -122,6 +135,7 @@ pub(super) fn cycle(root: &Section<'_>, annulus: &AnnulusSpecification) -> Optio
     section.close();
     is_given.then_some(Cycle {
         harmonics,
+        onsets,
         phases,
         frames,
         confirmation_periods: confirmation_periods.unwrap_or(CONFIRMATION_PERIODS),

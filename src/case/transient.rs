@@ -94,16 +94,26 @@ fn initial(section: &Section<'_>, annulus: &AnnulusSpecification) -> InitialStat
         &[
             ("rest", InitialState::Rest),
             ("steady-sliding", InitialState::SteadySliding),
-            ("limit-cycle", InitialState::LimitCycle { harmonic: 1 }),
+            (
+                "limit-cycle",
+                InitialState::LimitCycle {
+                    harmonic: 1,
+                    onset: 1,
+                },
+            ),
         ],
     );
-    let given = section.optional_count("limit_cycle_harmonic", 1);
+    let keys = ["limit_cycle_harmonic", "limit_cycle_onset"];
+    let [given, onset] = keys.map(|key| section.optional_count(key, 1));
     let InitialState::LimitCycle { .. } = initial else {
-        if given.is_some() {
+        for (key, _) in keys
+            .iter()
+            .zip([given, onset])
+            .filter(|pair| pair.1.is_some())
+        {
             section.reject(
-                "limit_cycle_harmonic",
-                "transient.limit_cycle_harmonic is given, but the run does not start on a limit cycle"
-                    .to_owned(),
+                key,
+                format!("transient.{key} is given, but the run does not start on a limit cycle"),
                 "only with initial = \"limit-cycle\"".to_owned(),
                 None,
             );
@@ -125,7 +135,10 @@ fn initial(section: &Section<'_>, annulus: &AnnulusSpecification) -> InitialStat
             None,
         );
     }
-    InitialState::LimitCycle { harmonic }
+    InitialState::LimitCycle {
+        harmonic,
+        onset: onset.unwrap_or(1),
+    }
 }
 
 fn perturbation(transient: &Section<'_>, annulus: &AnnulusSpecification) -> Perturbation {

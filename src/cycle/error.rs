@@ -1,5 +1,6 @@
 //! What can go wrong on the way to a limit cycle.
 
+use super::Family;
 use crate::mesh::MeshError;
 
 /// A limit cycle that cannot be looked for or was not found.
@@ -42,12 +43,12 @@ pub enum CycleError {
     },
     /// Steady sliding never loses stability to this wave.
     #[error(
-        "harmonic {harmonic}: steady sliding stays stable up to a friction coefficient of {limit} below \
+        "{family}: steady sliding has no such loss of stability up to a friction coefficient of {limit} below \
          {frequency_hz} Hz, so no limit cycle is born; choose another one in cycle.harmonics"
     )]
     NoOnset {
-        /// Harmonic.
-        harmonic: usize,
+        /// Which limit cycle.
+        family: Family,
         /// Largest friction coefficient searched.
         limit: f64,
         /// Largest frequency searched, Hz.
@@ -55,12 +56,12 @@ pub enum CycleError {
     },
     /// The branch ends before the point asked for.
     #[error(
-        "harmonic {harmonic}: the branch of limit cycles does not reach {key} = {value:.6}: it ends at {reached:.6} \
+        "{family}: the branch of limit cycles does not reach {key} = {value:.6}: it ends at {reached:.6} \
          ({reason})"
     )]
     NotReached {
-        /// Harmonic.
-        harmonic: usize,
+        /// Which limit cycle.
+        family: Family,
         /// Case key of the parameter.
         key: &'static str,
         /// Value asked for, SI.
@@ -72,13 +73,13 @@ pub enum CycleError {
     },
     /// What was found is no motion of the disc.
     #[error(
-        "harmonic {harmonic}: the wave found on {sectors} elements around the circumference opens inside the cylinder \
+        "{family}: the wave found on {sectors} elements around the circumference opens inside the cylinder \
          or draws energy from the normal contact; it is no motion of the disc: refine the mesh \
          (mesh.circumferential_elements and radial_elements), or try another cycle.phases"
     )]
     Unphysical {
-        /// Harmonic.
-        harmonic: usize,
+        /// Which limit cycle.
+        family: Family,
         /// Sectors of the mesh.
         sectors: usize,
     },

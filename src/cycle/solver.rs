@@ -8,7 +8,7 @@ use super::onset::{HIGHEST_FREQUENCY_HZ, LARGEST_FRICTION, largest_linear_wave, 
 use super::parameter::{OperatingPoint, Parameter};
 use super::state::{PointState, WaveState};
 use super::wave::Wave;
-use super::{CycleError, Onset, WaveBody};
+use super::{CycleError, Family, Onset, WaveBody};
 use crate::fem::{ElasticMaterial, RayleighDamping};
 use crate::mesh::AnnulusSpecification;
 use faer::c64;
@@ -27,9 +27,10 @@ const HIGHEST_FRICTION: f64 = 10.0;
 /// grid pins the wave, another leads away.
 const ORIGINS: [f64; 4] = [0.0, 0.5, 0.25, 0.75];
 
-/// Limit cycles of the waves of one circumferential harmonic.
+/// Limit cycles of one family.
 #[derive(Clone, Debug)]
 pub struct CycleSolver {
+    family: Family,
     body: WaveBody,
     grid: PhaseGrid,
     pub(super) specification: AnnulusSpecification,
@@ -37,13 +38,10 @@ pub struct CycleSolver {
 }
 
 impl CycleSolver {
-    /// The solver of waves of `harmonic` nodal diameters on a mesh of Quad4 elements, with `points` phases (odd; the
-    /// next odd number is taken) or as many as the mesh asks for, see [`PhaseGrid`].
-    ///
-    /// `damping` serves to find the frequency at birth, nothing else.
+    /// As [`Self::of_family`], for the cycles that are born at the lowest critical friction of `harmonic`.
     ///
     /// # Errors
-    /// [`CycleError`] for other elements, a mesh that cannot be built, a harmonic that it cannot carry.
+    /// As [`Self::of_family`].
     pub fn new(
         specification: &AnnulusSpecification,
         material: &ElasticMaterial,
@@ -51,6 +49,25 @@ impl CycleSolver {
         harmonic: usize,
         points: Option<usize>,
     ) -> Result<Self, CycleError> {
+        let family = Family::lowest(harmonic);
+        Self::of_family(specification, material, damping, family, points)
+    }
+
+    /// The solver of the waves of `family` on a mesh of Quad4 elements, with `points` phases (odd; the next odd number
+    /// is taken) or as many as the mesh asks for, see [`PhaseGrid`].
+    ///
+    /// `damping` serves to find the frequency at birth, nothing else.
+    ///
+    /// # Errors
+    /// [`CycleError`] for other elements, a mesh that cannot be built, a harmonic that it cannot carry.
+    pub fn of_family(
+        specification: &AnnulusSpecification,
+        material: &ElasticMaterial,
+        damping: &RayleighDamping,
+        family: Family,
+        points: Option<usize>,
+    ) -> Result<Self, CycleError> {
+        let harmonic = family.harmonic;
         let (sectors, limit) = (
             specification.circumferential_elements,
             specification.circumferential_elements / 2,
@@ -68,7 +85,7 @@ impl CycleSolver {
         };
         let probe = body(1)?;
         let wave = Wave::new(&probe, 0.0);
-        let born = onsets(&wave, damping).into_iter().next();
+        let born = onsets(&wave, damping).into_iter().nth(family.onset - 1);
         // Three phases slow the wave down; what it lives at is `s`.
         let frequency = born.map_or(TAU * HIGHEST_FREQUENCY_HZ, |onset| {
             onset.frequency * wave.order(1)
@@ -76,11 +93,17 @@ impl CycleSolver {
         let nodes = sectors as f64 / harmonic as f64;
         let grid = PhaseGrid::new(frequency, probe.node_frequency, nodes, points);
         Ok(Self {
+            family,
             body: body(grid.points / 2)?,
             grid,
             specification: *specification,
             material: *material,
         })
+    }
+
+    /// The family that it solves for.
+    pub fn family(&self) -> Family {
+        self.family
     }
 
     /// The body.
@@ -104,16 +127,18 @@ impl CycleSolver {
 
     /// The limit cycle at an operating point.
     ///
-    /// It is followed over the friction coefficient from its birth at the lowest critical friction.
+    /// It is followed over the friction coefficient from its birth at the family's onset.
     ///
     /// # Errors
     /// [`CycleError`] for a point without limit cycle.
     pub fn find(&self, point: &OperatingPoint) -> Result<LimitCycle, CycleError> {
         check(point)?;
         let wave = self.wave();
-        let onset = onsets(&wave, &point.damping).into_iter().next();
+        let onset = onsets(&wave, &point.damping)
+            .into_iter()
+            .nth(self.family.onset - 1);
         let onset = onset.ok_or(CycleError::NoOnset {
-            harmonic: self.body.harmonic(),
+            family: self.family,
             limit: LARGEST_FRICTION,
             frequency_hz: HIGHEST_FREQUENCY_HZ,
         })?;
@@ -147,7 +172,7 @@ impl CycleSolver {
             return Err(self.unphysical());
         }
         Err(CycleError::NotReached {
-            harmonic: self.body.harmonic(),
+            family: self.family,
             key: parameter.key(),
             value: target,
             reached: failure.0,
@@ -184,7 +209,7 @@ impl CycleSolver {
                 Err(self.unphysical())
             }
             Err(reason) => Err(CycleError::NotReached {
-                harmonic: self.body.harmonic(),
+                family: self.family,
                 key: parameter.key(),
                 value,
                 reached: branch.value(),
@@ -195,7 +220,7 @@ impl CycleSolver {
 
     fn unphysical(&self) -> CycleError {
         CycleError::Unphysical {
-            harmonic: self.body.harmonic(),
+            family: self.family,
             sectors: self.body.sector_count,
         }
     }

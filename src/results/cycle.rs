@@ -1,7 +1,7 @@
 //! Results of a search for limit cycles: what is printed and what is written.
 
 use crate::contact::ContactStatus;
-use crate::cycle::{CycleBranch, CycleStability, LimitCycle, Onset, StabilityChange};
+use crate::cycle::{CycleBranch, CycleStability, Family, LimitCycle, Onset, StabilityChange};
 use crate::mesh::Mesh2d;
 use crate::results::cycle_confirmation::{Confirmation, confirmation_object, confirmation_text};
 use crate::results::cycle_fields::{CycleFrame, write_fields};
@@ -21,9 +21,9 @@ use std::io::{self, Write};
 /// The limit cycle of one harmonic, and its branch.
 #[derive(Clone, Debug)]
 pub struct CycleResult {
-    /// Circumferential harmonic.
-    pub harmonic: usize,
-    /// Every onset of the harmonic, by rising friction; the cycle is born at the first.
+    /// Which limit cycle.
+    pub family: Family,
+    /// Every onset of the harmonic, by rising friction; the cycle is born at that of its family.
     pub onsets: Vec<Onset>,
     /// The cycle at the case's own operating point, or why there is none.
     pub cycle: Result<LimitCycle, String>,
@@ -43,6 +43,13 @@ pub struct CycleResult {
     pub branch: Option<CycleBranch>,
     /// Wall time of cycle and branch, s.
     pub wall_s: f64,
+}
+
+impl CycleResult {
+    /// The onset that the cycle is born at.
+    pub fn birth(&self) -> Option<&Onset> {
+        self.onsets.get(self.family.onset - 1)
+    }
 }
 
 /// Everything a search for limit cycles reports.
@@ -69,17 +76,17 @@ pub struct CycleReport<'a> {
 pub fn write(folder: &OutputFolder, report: &CycleReport<'_>) -> Result<Value, FolderError> {
     for result in &report.results {
         if let Ok(cycle) = &result.cycle {
-            let name = format!("cycle-n{}.csv", result.harmonic);
+            let name = format!("cycle-{}.csv", result.family.tag());
             folder.write(&name, |out| write_phases(out, cycle))?;
         }
         if let Some(branch) = &result.branch {
-            let name = format!("branch-n{}.csv", result.harmonic);
+            let name = format!("branch-{}.csv", result.family.tag());
             folder.write(&name, |out| {
                 write_branch(out, branch, &result.branch_stability, report)
             })?;
         }
         if result.stability.is_some() {
-            let name = format!("stability-n{}.csv", result.harmonic);
+            let name = format!("stability-{}.csv", result.family.tag());
             folder.write(&name, |out| write_stability(out, result))?;
         }
     }
@@ -228,7 +235,9 @@ fn result_object(report: &CycleReport<'_>, result: &CycleResult) -> Value {
         })
         .collect();
     let mut object = json!({
-        "harmonic": result.harmonic,
+        "harmonic": result.family.harmonic,
+        "onset": result.family.onset,
+        "critical_friction": result.birth().map(|onset| onset.friction_coefficient),
         "phases": result.phases,
         "onsets": onsets,
         "wall_s": result.wall_s,
@@ -339,7 +348,7 @@ pub fn print(report: &CycleReport<'_>) -> String {
         }
         print_stability(&mut out, result);
         if let Some(branch) = &result.branch {
-            branch_line(&mut out, result.harmonic, branch);
+            branch_line(&mut out, result.family, branch);
         }
     }
     let _ = writeln!(out, "{:.3} s", report.wall_s);
@@ -347,11 +356,11 @@ pub fn print(report: &CycleReport<'_>) -> String {
 }
 
 fn result_line(out: &mut String, report: &CycleReport<'_>, result: &CycleResult) {
-    let critical = match result.onsets.first() {
+    let critical = match result.birth() {
         Some(onset) => format!("{:.5}", onset.friction_coefficient),
         None => "-".to_owned(),
     };
-    let _ = write!(out, "{:>3} {critical:>10} ", result.harmonic);
+    let _ = write!(out, "{:>3} {critical:>10} ", result.family.harmonic);
     let _ = match &result.cycle {
         Ok(cycle) => {
             let powers = cycle.powers.scaled(report.thickness);
@@ -371,7 +380,7 @@ fn result_line(out: &mut String, report: &CycleReport<'_>, result: &CycleResult)
     };
 }
 
-fn branch_line(out: &mut String, harmonic: usize, branch: &CycleBranch) {
+fn branch_line(out: &mut String, family: Family, branch: &CycleBranch) {
     let value = |cycle: Option<&LimitCycle>| {
         cycle.map_or(f64::NAN, |cycle| {
             let value = branch.parameter.of(&cycle.state.point);
@@ -380,7 +389,7 @@ fn branch_line(out: &mut String, harmonic: usize, branch: &CycleBranch) {
     };
     let _ = writeln!(
         out,
-        "n = {harmonic}: {} cycles over {} from {} ({}) to {} ({}), {} folds",
+        "{family}: {} cycles over {} from {} ({}) to {} ({}), {} folds",
         branch.cycles.len(),
         branch.parameter.key(),
         value(branch.cycles.first()),

@@ -71,11 +71,11 @@ pub fn confirmation_object(report: &CycleReport<'_>, result: &CycleResult) -> Va
 
 /// What the transient says of the cycle, in words; nothing where none was asked for.
 pub fn confirmation_text(report: &CycleReport<'_>, result: &CycleResult) -> Option<String> {
-    let n = result.harmonic;
+    let family = result.family;
     let Some((cycle, found)) = confirmed(result) else {
         let error = result.confirmation.as_ref()?.as_ref().err()?;
         return Some(format!(
-            "n = {n}: no transient can start on the cycle: {error}"
+            "{family}: no transient can start on the cycle: {error}"
         ));
     };
     let [stick, slip, open] = found.status;
@@ -84,7 +84,7 @@ pub fn confirmation_text(report: &CycleReport<'_>, result: &CycleResult) -> Opti
         false => "NOT CONFIRMED: a transient does not stay on it",
     };
     Some(format!(
-        "n = {n}: {verdict}: after {} periods {:.2} Hz, stick {stick:.3}, slip {slip:.3}, open {open:.3}, {:.2} W",
+        "{family}: {verdict}: after {} periods {:.2} Hz, stick {stick:.3}, slip {slip:.3}, open {open:.3}, {:.2} W",
         found.periods,
         found.main_frequency_hz.unwrap_or(0.0),
         found.external_power * report.thickness,

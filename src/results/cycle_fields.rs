@@ -20,16 +20,16 @@ pub struct CycleFrame {
 /// Those of the folder.
 pub fn write_fields(folder: &OutputFolder, report: &CycleReport<'_>) -> Result<(), FolderError> {
     let mut waves = Vec::new();
-    for result in &report.results {
+    for (place, result) in report.results.iter().enumerate() {
         let frames = write_frames(folder, report, result)?;
         if let Some(first) = frames.first() {
             waves.push(PvdEntry {
-                time: result.harmonic as f64,
+                time: (place + 1) as f64,
                 ..first.clone()
             });
         }
         if frames.len() > 1 {
-            let name = format!("cycle-n{}.pvd", result.harmonic);
+            let name = format!("cycle-{}.pvd", result.family.tag());
             folder.write(&name, |out| write_pvd(out, &frames))?;
         }
     }
@@ -44,12 +44,12 @@ fn write_frames(
     report: &CycleReport<'_>,
     result: &CycleResult,
 ) -> Result<Vec<PvdEntry>, FolderError> {
-    let n = result.harmonic;
+    let (tag, n) = (result.family.tag(), result.family.harmonic);
     let mut entries = Vec::new();
     for (i, frame) in result.frames.iter().enumerate() {
         let name = match i {
-            0 => format!("cycle-n{n}.vtu"),
-            _ => format!("cycle-n{n}-{i:03}.vtu"),
+            0 => format!("cycle-{tag}.vtu"),
+            _ => format!("cycle-{tag}-{i:03}.vtu"),
         };
         let [displacement, velocity] = &frame.fields;
         folder.write(&name, |out| {

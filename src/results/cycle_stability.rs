@@ -88,29 +88,29 @@ pub fn stability_object(verdict: &Verdict) -> Value {
 
 /// One line on the cycle at the case's own operating point, and one for each change along the branch.
 pub fn print_stability(out: &mut String, result: &CycleResult) {
-    let n = result.harmonic;
+    let family = result.family;
     match &result.stability {
         None => {}
         Some(Err(error)) => {
-            let _ = writeln!(out, "n = {n}: {error}");
+            let _ = writeln!(out, "{family}: {error}");
         }
         Some(Ok(stability)) => {
             let _ = match stability.leading() {
                 Some(leading) if stability.is_stable() => writeln!(
                     out,
-                    "n = {n}: stable; the slowest perturbation, {} at {:.0} Hz, decays at {:.0} 1/s",
+                    "{family}: stable; the slowest perturbation, {} at {:.0} Hz, decays at {:.0} 1/s",
                     diameters(leading.harmonic),
                     leading.frequency_hz,
                     -leading.exponent.re,
                 ),
                 Some(leading) => writeln!(
                     out,
-                    "n = {n}: UNSTABLE to {} at {:.0} Hz, growing at {:.0} 1/s",
+                    "{family}: UNSTABLE to {} at {:.0} Hz, growing at {:.0} 1/s",
                     diameters(leading.harmonic),
                     leading.frequency_hz,
                     leading.exponent.re,
                 ),
-                None => writeln!(out, "n = {n}: stable; every perturbation decays fast"),
+                None => writeln!(out, "{family}: stable; every perturbation decays fast"),
             };
         }
     }
@@ -124,7 +124,7 @@ pub fn print_stability(out: &mut String, result: &CycleResult) {
         });
         let _ = writeln!(
             out,
-            "n = {n}: stability changes at {key} = {value:.1} ({} at {:.0} Hz)",
+            "{family}: stability changes at {key} = {value:.1} ({} at {:.0} Hz)",
             diameters(change.harmonic),
             change.frequency_hz,
         );

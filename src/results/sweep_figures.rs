@@ -75,7 +75,7 @@ fn limit_cycles(records: &[PointRecord]) -> Result<Vec<NamedFigure>, FigureError
             }
         }
     }
-    families.sort_by_key(|(_, family)| family.harmonic);
+    families.sort_by_key(|(_, family)| family.family());
     let families: Vec<_> = families.iter().map(|(l, f)| (l.clone(), f)).collect();
     draw_branches(&branch_curves(&families))
 }

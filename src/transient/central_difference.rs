@@ -108,7 +108,7 @@ impl<'a> CentralDifference<'a> {
                 let base = SteadySliding::solve(mesh, &stiffness, &model.contact)?;
                 base.displacement(model.contact.friction_coefficient)
             }
-            InitialState::LimitCycle { harmonic } => {
+            InitialState::LimitCycle { harmonic, .. } => {
                 return Err(TransientError::FieldsMissing { harmonic });
             }
         };

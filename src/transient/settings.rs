@@ -46,6 +46,8 @@ pub enum InitialState {
     LimitCycle {
         /// Circumferential harmonic.
         harmonic: usize,
+        /// Onset of that harmonic that the cycle is born at, from 1 by rising critical friction.
+        onset: usize,
     },
 }
 

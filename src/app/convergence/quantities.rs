@@ -2,6 +2,7 @@
 
 use crate::case::Case;
 use crate::cea::{ComplexMode, FrictionSweep, UnstableInterval};
+use crate::cycle::Family;
 use crate::results::convergence::Quantity;
 use serde_json::Value;
 
@@ -151,21 +152,27 @@ pub fn of_limit_cycles(sizes: &[f64], summaries: &[Value]) -> Vec<Quantity> {
     quantities
 }
 
-/// The limit cycles of each harmonic that some search looked for, level by level; null where one did not.
-pub fn by_harmonic(summaries: &[Value]) -> Vec<(u64, Vec<Value>)> {
+/// The limit cycles of each family that some search looked for, level by level; null where one did not.
+pub fn by_family(summaries: &[Value]) -> Vec<(Family, Vec<Value>)> {
     let cycles = |summary: &Value| summary["cycles"].as_array().cloned().unwrap_or_default();
+    let family = |cycle: &Value| {
+        Some(Family {
+            harmonic: cycle["harmonic"].as_u64()? as usize,
+            onset: cycle["onset"].as_u64()? as usize,
+        })
+    };
     let all = summaries.iter().flat_map(cycles);
-    let mut harmonics: Vec<u64> = all.filter_map(|c| c["harmonic"].as_u64()).collect();
-    harmonics.sort_unstable();
-    harmonics.dedup();
-    let of = |harmonic: u64| {
-        let own = |cycle: &Value| cycle["harmonic"].as_u64() == Some(harmonic);
+    let mut families: Vec<Family> = all.filter_map(|cycle| family(&cycle)).collect();
+    families.sort_unstable();
+    families.dedup();
+    let of = |wanted: Family| {
+        let own = |cycle: &Value| family(cycle) == Some(wanted);
         let levels = summaries.iter().map(cycles);
         levels
             .map(|level| level.into_iter().find(own).unwrap_or_default())
             .collect()
     };
-    harmonics.into_iter().map(|n| (n, of(n))).collect()
+    families.into_iter().map(|f| (f, of(f))).collect()
 }
 
 /// Growth rate of each harmonic that some run has one of.

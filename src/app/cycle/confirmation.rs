@@ -41,6 +41,7 @@ pub fn confirm(
         expansion_time: 0.0,
         initial: InitialState::LimitCycle {
             harmonic: cycle.harmonic,
+            onset: solver.family().onset,
         },
         perturbation: Perturbation {
             harmonics: Vec::new(),

@@ -2,9 +2,10 @@
 
 use super::confirmation::confirm;
 use crate::app::Failure;
-use crate::case::{Case, Cycle, StabilityChoice};
+use crate::case::{Case, Cycle, OnsetChoice, StabilityChoice};
 use crate::cycle::{
-    CycleBranch, CycleError, CycleSolver, LimitCycle, OperatingPoint, Parameter, StabilityChange,
+    CycleBranch, CycleError, CycleSolver, Family, LimitCycle, OperatingPoint, Parameter,
+    StabilityChange,
 };
 use crate::fem::operator::SimdLevel;
 use crate::mesh::AnnulusMesh;
@@ -116,7 +117,7 @@ impl<'a> Search<'a> {
             _ => Vec::new(),
         };
         CycleResult {
-            harmonic: solver.body().harmonic(),
+            family: solver.family(),
             phases: solver.grid().points,
             confirmation: found
                 .as_ref()
@@ -165,44 +166,47 @@ fn continuation(case: &Case, cycle: &Cycle) -> Result<Option<(Parameter, Vec<f64
     Ok(Some((parameter, values)))
 }
 
-/// One solver for each harmonic asked for; where none is, for those unstable at the case's friction.
+/// One solver for each family asked for; where no harmonic is named, for all that are unstable at the case's friction.
 fn solvers(
     case: &Case,
     cycle: &Cycle,
     point: &OperatingPoint,
 ) -> Result<Vec<CycleSolver>, Failure> {
-    let new = |harmonic| {
-        CycleSolver::new(
-            &case.annulus,
-            &case.material,
-            &case.damping.rayleigh,
-            harmonic,
-            cycle.phases,
-        )
-        .map_err(Failure::usage)
+    let friction = point.contact.friction_coefficient;
+    let damping = &point.damping;
+    let of = |family| {
+        CycleSolver::of_family(&case.annulus, &case.material, damping, family, cycle.phases)
+            .map_err(Failure::usage)
     };
-    if let Some(harmonics) = &cycle.harmonics {
-        return harmonics.iter().map(|&harmonic| new(harmonic)).collect();
-    }
     let highest = HIGHEST_HARMONIC.min(case.annulus.circumferential_elements / 2);
+    let harmonics = match &cycle.harmonics {
+        Some(harmonics) => harmonics.clone(),
+        None => (1..=highest).collect(),
+    };
     let mut solvers = Vec::new();
-    for harmonic in 1..=highest {
-        let solver = new(harmonic)?;
-        let onsets = solver.onsets(&point.damping);
-        let friction = point.contact.friction_coefficient;
-        if onsets
+    for harmonic in harmonics {
+        let lowest = of(Family::lowest(harmonic))?;
+        let onsets = lowest.onsets(damping);
+        let unstable = onsets
             .iter()
-            .any(|onset| onset.friction_coefficient < friction)
-        {
-            solvers.push(solver);
+            .filter(|onset| onset.friction_coefficient < friction);
+        let mut count = unstable.count();
+        if cycle.onsets == OnsetChoice::Lowest {
+            count = count.min(1);
+        }
+        // A harmonic that is named is sought even where steady sliding is stable.
+        if count > 0 || cycle.harmonics.is_some() {
+            solvers.push(lowest);
+        }
+        for onset in 2..=count {
+            solvers.push(of(Family { harmonic, onset })?);
         }
     }
     if solvers.is_empty() {
         return Err(Failure::run(format!(
             "steady sliding is stable against waves of 1 to {highest} nodal diameters at \
-             contact.friction_coefficient = {}: there is no limit cycle to find; raise it, or name \
-             cycle.harmonics",
-            point.contact.friction_coefficient
+             contact.friction_coefficient = {friction}: there is no limit cycle to find; raise it, or name \
+             cycle.harmonics"
         )));
     }
     Ok(solvers)

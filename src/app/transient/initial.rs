@@ -2,24 +2,24 @@
 
 use crate::app::Failure;
 use crate::case::Case;
-use crate::cycle::{CycleSolver, LimitCycle, OperatingPoint};
+use crate::cycle::{CycleSolver, Family, LimitCycle, OperatingPoint};
 
-/// Displacement at time zero (m) and velocity half a step earlier (m/s) of the limit cycle of `harmonic` at the case's own
+/// Displacement at time zero (m) and velocity half a step earlier (m/s) of the limit cycle of `family` at the case's own
 /// operating point, over all dofs in nodal frames.
 ///
 /// # Errors
 /// No such cycle, or elements that a cycle cannot be sought on.
-pub fn limit_cycle(case: &Case, harmonic: usize, time_step: f64) -> Result<[Vec<f64>; 2], Failure> {
+pub fn limit_cycle(case: &Case, family: Family, time_step: f64) -> Result<[Vec<f64>; 2], Failure> {
     let point = OperatingPoint {
         contact: case.contact.sliding,
         damping: case.damping.rayleigh,
     };
     let phases = case.cycle.as_ref().and_then(|cycle| cycle.phases);
-    let solver = CycleSolver::new(
+    let solver = CycleSolver::of_family(
         &case.annulus,
         &case.material,
         &point.damping,
-        harmonic,
+        family,
         phases,
     )
     .map_err(Failure::usage)?;

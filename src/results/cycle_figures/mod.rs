@@ -15,6 +15,7 @@ use super::figures::{
 use super::parameter::parameter_title;
 use super::report::NamedFigure;
 use crate::contact::{ContactStatus, SlidingContact};
+use crate::cycle::Family;
 use crate::fem::{ElasticMaterial, nodal_stress};
 use crate::mesh::Mesh2d;
 use std::f64::consts::TAU;
@@ -42,10 +43,10 @@ impl CycleFigures<'_> {
         self.contact.rotation_speed * self.inner_radius
     }
 
-    /// Harmonics that have a cycle.
-    fn cycles(&self) -> impl Iterator<Item = (usize, &WaveRecord)> {
+    /// Families that have a cycle.
+    fn cycles(&self) -> impl Iterator<Item = (Family, &WaveRecord)> {
         let families = self.record.families.iter();
-        families.filter_map(|family| Some((family.harmonic, family.cycle.as_ref()?)))
+        families.filter_map(|family| Some((family.family(), family.cycle.as_ref()?)))
     }
 }
 
@@ -56,9 +57,10 @@ impl CycleFigures<'_> {
 /// That of a figure that cannot be drawn although there is something to draw.
 pub fn draw_cycles(data: &CycleFigures<'_>) -> Result<Vec<NamedFigure>, FigureError> {
     let mut jobs: Vec<FigureJob<'_>> = Vec::new();
-    for (n, wave) in data.cycles() {
+    for (family, wave) in data.cycles() {
+        let (n, tag) = (family.harmonic, family.tag());
         jobs.push((
-            format!("contact-n{n}"),
+            format!("contact-{tag}"),
             format!(
                 "Limit cycle of {n} nodal diameters at one instant: status around the circle (a), tractions \
                  (b), velocity (c); the pattern turns against the rotor at 1/{n} of the frequency."
@@ -66,14 +68,14 @@ pub fn draw_cycles(data: &CycleFigures<'_>) -> Result<Vec<NamedFigure>, FigureEr
             Box::new(move || contact_state(data, n, wave)),
         ));
         jobs.push((
-            format!("history-n{n}"),
+            format!("history-{tag}"),
             format!(
                 "A contact node through two periods of the limit cycle of {n} nodal diameters."
             ),
             Box::new(move || draw_node_cycle(&node_cycle(data, wave, &wave.statuses()))),
         ));
         jobs.push((
-            format!("orbit-n{n}"),
+            format!("orbit-{tag}"),
             format!(
                 "Phase plots, tangential (a) and radial (b), and path (c) of a contact node in the limit \
                  cycle of {n} nodal diameters."
@@ -172,7 +174,8 @@ fn velocity_fields(data: &CycleFigures<'_>) -> Result<String, FigureError> {
         .collect();
     let nodes = data.mesh.inner_edge.nodes.len();
     let status: Vec<Vec<ContactStatus>> = cycles()
-        .map(|(n, wave)| {
+        .map(|(family, wave)| {
+            let n = family.harmonic;
             let (all, points) = (wave.statuses(), wave.status.len());
             // The phase nearest to that of each node.
             let nearest = |node: usize| (2 * n * node * points + nodes) / (2 * nodes) % points;
@@ -186,8 +189,8 @@ fn velocity_fields(data: &CycleFigures<'_>) -> Result<String, FigureError> {
         mesh: data.mesh,
         frames: cycles()
             .zip(fields.iter().zip(&status))
-            .map(|((n, wave), (values, status))| Snapshot {
-                caption: caption(n, wave),
+            .map(|((family, wave), (values, status))| Snapshot {
+                caption: caption(family.harmonic, wave),
                 values,
                 status: Some(status),
             })
@@ -210,8 +213,8 @@ fn stress_fields(data: &CycleFigures<'_>) -> Result<String, FigureError> {
         mesh: data.mesh,
         frames: cycles()
             .zip(&fields)
-            .map(|((n, wave), values)| Snapshot {
-                caption: caption(n, wave),
+            .map(|((family, wave), values)| Snapshot {
+                caption: caption(family.harmonic, wave),
                 values,
                 status: None,
             })
@@ -250,7 +253,10 @@ fn branch_curve(suffix: &str, family: &FamilyRecord, branch: &BranchRecord) -> B
     };
     let own = family.cycle.as_ref();
     BranchCurve {
-        name: format!("*n* = {}{suffix}", family.harmonic),
+        name: format!(
+            "*{}{suffix}",
+            family.family().to_string().replacen(' ', "* ", 1)
+        ),
         values: branch.values.clone(),
         frequency_hz: branch.frequency_hz.clone(),
         amplitude: branch.amplitude.clone(),
@@ -269,7 +275,7 @@ fn branch_curve(suffix: &str, family: &FamilyRecord, branch: &BranchRecord) -> B
 
 /// The onset that the family is born at, drawn as a line.
 fn reference(family: &FamilyRecord) -> Option<ReferenceFrequency> {
-    let [critical, frequency_hz] = *family.onsets.first()?;
+    let [critical, frequency_hz] = *family.onsets.get(family.onset - 1)?;
     Some(ReferenceFrequency {
         frequency_hz,
         label: format!("*n* = {} at *μ* = {critical:.3}", family.harmonic),

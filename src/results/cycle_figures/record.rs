@@ -1,7 +1,7 @@
 //! What a search for limit cycles keeps to draw its figures again.
 
 use crate::contact::ContactStatus;
-use crate::cycle::{CycleBranch, CycleStability, LimitCycle};
+use crate::cycle::{CycleBranch, CycleStability, Family, LimitCycle};
 use crate::results::cycle::{CycleReport, CycleResult, amplitude};
 use crate::results::cycle_stability::known;
 use crate::results::record::Record;
@@ -25,6 +25,8 @@ impl Record for CycleRecord {
 pub struct FamilyRecord {
     /// Circumferential harmonic `n`.
     pub harmonic: usize,
+    /// Onset of that harmonic at which the cycles are born, from 1.
+    pub onset: usize,
     /// Critical friction and frequency (Hz) of every onset.
     pub onsets: Vec<[f64; 2]>,
     /// The cycle at the case's own operating point.
@@ -91,13 +93,22 @@ impl CycleRecord {
 }
 
 impl FamilyRecord {
+    /// Which limit cycles.
+    pub fn family(&self) -> Family {
+        Family {
+            harmonic: self.harmonic,
+            onset: self.onset,
+        }
+    }
+
     /// What the figures show of the cycles of one harmonic.
     pub fn of(result: &CycleResult) -> Self {
         let onsets = result.onsets.iter();
         let found = result.cycle.as_ref().ok();
         let branch = result.branch.as_ref().zip(found);
         Self {
-            harmonic: result.harmonic,
+            harmonic: result.family.harmonic,
+            onset: result.family.onset,
             onsets: onsets
                 .map(|onset| [onset.friction_coefficient, onset.frequency / TAU])
                 .collect(),

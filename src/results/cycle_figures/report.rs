@@ -56,10 +56,11 @@ fn html_report(summary: &Value, manifest: &Manifest) -> Report {
 }
 
 fn cycle_table(cycles: &[Value]) -> ReportTable {
-    let quantities: [(&str, &str, f64, usize); 15] = [
+    let quantities: [(&str, &str, f64, usize); 16] = [
         ("harmonic n", "/harmonic", 1.0, 0),
         ("phases", "/phases", 1.0, 0),
-        ("critical friction", "/onsets/0/critical_friction", 1.0, 5),
+        ("onset", "/onset", 1.0, 0),
+        ("critical friction", "/critical_friction", 1.0, 5),
         ("main frequency (Hz)", "/main_frequency_hz", 1.0, 2),
         ("stick (%)", "/status/stick", 100.0, 1),
         ("slip (%)", "/status/slip", 100.0, 1),
@@ -156,8 +157,9 @@ fn branch_text(cycle: &Value) -> Option<String> {
         false => format!("; stability changes at {}", changes.join(", ")),
     };
     Some(format!(
-        "n = {}: {} cycles over {}, at the one end until {}, at the other until {}; {folds}{saturation}{changes}.",
+        "n = {}, onset {}: {} cycles over {}, at the one end until {}, at the other until {}; {folds}{saturation}{changes}.",
         cycle["harmonic"],
+        cycle["onset"],
         branch["cycles"],
         text("/key"),
         text("/ends/0"),
