@@ -19,8 +19,8 @@ use std::time::Instant;
 /// Limit cycles without time stepping
 ///
 /// Finds the rotating wave that steady sliding gives way to, for each harmonic asked for, as a steady contact problem
-/// along its phase; follows it over a parameter with [cycle.continuation]; says whether it is stable, and lets a short
-/// transient confirm it. Needs a [cycle] section in the case.
+/// along its phase; follows it over a parameter (cycle.continuation); says whether it is stable, and lets a short
+/// transient confirm it. Needs a cycle section in the case.
 #[derive(Args)]
 pub struct Arguments {
     /// The case and how to run it.

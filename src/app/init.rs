@@ -31,8 +31,18 @@ const TEMPLATES: &[Template] = &[
     },
     Template {
         name: "convergence",
-        meaning: "eigenvalues and a transient over mesh and time step",
+        meaning: "eigenvalues, a transient and a limit cycle over mesh and time step",
         text: include_str!("../../cases/convergence.toml"),
+    },
+    Template {
+        name: "cycle",
+        meaning: "limit cycles over the rotation speed, without time stepping",
+        text: include_str!("../../cases/limit-cycle.toml"),
+    },
+    Template {
+        name: "frf",
+        meaning: "frequency response of a free disc, as in a hammer test",
+        text: include_str!("../../cases/hammer-test.toml"),
     },
 ];
 

@@ -46,7 +46,7 @@ pub struct RunOptions {
 pub enum SimdChoice {
     /// The widest that the machine has
     Auto,
-    /// None
+    /// No vector instructions
     Scalar,
     /// AVX2 with FMA
     Avx2,
