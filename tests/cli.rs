@@ -103,6 +103,19 @@ fn check_reports_the_cost_as_numbers() {
     );
     let covered = step.as_f64().unwrap() * steps.as_f64().unwrap();
     assert!((covered / 0.05 - 1.0).abs() < 1e-4, "{covered}");
+    let cycles = cases().join("limit-cycle.toml");
+    let run = frictionsim(&folder)
+        .args(["check", "--json"])
+        .arg(cycles)
+        .assert()
+        .code(0);
+    let report: serde_json::Value = serde_json::from_slice(&run.get_output().stdout).unwrap();
+    let cycle = &report["cases"][0]["cycle"];
+    assert_eq!(
+        (&cycle["families"], &cycle["cycles"]),
+        (&2.into(), &62.into())
+    );
+    assert!(cycle["estimated_s"].as_f64().unwrap() > 1.0);
 }
 
 #[test]

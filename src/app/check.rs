@@ -65,7 +65,8 @@ fn memory(cost: &Cost) -> f64 {
     let transient = cost
         .transient
         .map_or(0.0, |transient| transient.memory_bytes);
-    cost.mesh_memory_bytes + cea.max(transient)
+    let cycle = cost.cycle.map_or(0.0, |cycle| cycle.memory_bytes);
+    cost.mesh_memory_bytes + cea.max(transient).max(cycle)
 }
 
 fn fits_memory(case: Case) -> Result<Case, Failure> {
@@ -118,6 +119,16 @@ fn describe(name: &str, case: &Case, cost: &Cost) -> String {
             duration(transient.seconds)
         );
     }
+    if let Some(cycle) = &cost.cycle {
+        let _ = writeln!(
+            out,
+            "  cycle: {} families of {} cycles, {}, {} on one thread",
+            cycle.families,
+            cycle.cycles,
+            size(cycle.memory_bytes),
+            duration(cycle.seconds)
+        );
+    }
     if let Some(points) = cost.sweep_points {
         let _ = writeln!(out, "  sweep: {points} points");
     }
@@ -148,6 +159,12 @@ fn object(name: &str, case: &Case, cost: &Cost) -> Value {
             "steps": transient.steps,
             "memory_bytes": transient.memory_bytes,
             "estimated_s": transient.seconds,
+        })),
+        "cycle": cost.cycle.map(|cycle| json!({
+            "families": cycle.families,
+            "cycles": cycle.cycles,
+            "memory_bytes": cycle.memory_bytes,
+            "estimated_s": cycle.seconds,
         })),
         "sweep_points": cost.sweep_points,
         "warnings": case.warnings,

@@ -23,7 +23,7 @@ mod transient;
 pub use crate::transient::{InitialState, OperatorChoice, TimeStep};
 pub use cea::{Cea, CeaMap, CeaMethod, ModeSelection};
 pub use convergence::Convergence;
-pub use cost::{CeaCost, Cost, TransientCost};
+pub use cost::{CeaCost, Cost, CycleCost, TransientCost};
 pub use cycle::{Continuation, Cycle, OnsetChoice, StabilityChoice};
 pub use diagnostic::{CaseErrors, Diagnostic, Location, Source};
 pub use frf::{Frf, FrfMethod};
