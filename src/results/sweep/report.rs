@@ -6,7 +6,7 @@ use super::table::cell;
 use serde_json::{Map, Value, json};
 use std::fmt::Write as _;
 
-/// Columns of a transient's or an eigenvalue analysis' summary that a person wants first.
+/// Columns of an analysis' summary that a person wants first.
 const FIRST_COLUMNS: [(&str, &str); 14] = [
     ("/main_frequency_hz", "frequency Hz"),
     ("/main_harmonic", "n"),
