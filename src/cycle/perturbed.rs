@@ -179,6 +179,11 @@ impl<'a> Perturbed<'a> {
             .sum()
     }
 
+    /// Whether the phases carry temporal harmonic `k`: six of them to a period, or more.
+    pub fn resolves(&self, k: isize) -> bool {
+        6 * k.unsigned_abs() <= self.points()
+    }
+
     /// Temporal harmonic `k` at which the mode of an exponent moves the edge most.
     pub fn dominant_harmonic(&self, exponent: c64) -> isize {
         // Close to the exponent any right-hand side answers with its mode.

@@ -16,6 +16,8 @@ const FIT_TOLERANCE: f64 = 1e-10;
 const MOST_SUPPORTS: usize = 56;
 /// Exponents decaying faster than this share of `omega` are not looked at.
 const DEEPEST: f64 = 0.05;
+/// Halves of `omega` up to which exponents are looked for.
+const REACH: i32 = 4;
 /// Exponents kept for each class.
 const KEPT: usize = 4;
 /// An exponent of class zero within this share of `omega` is the wave's own shift in phase.
@@ -101,54 +103,91 @@ impl PerturbationGrowth {
         harmonic: usize,
     ) -> Result<Self, CycleError> {
         let omega = perturbed.frequency();
-        // A little beyond both ends, so that exponents at the ends lie within.
-        let points: Vec<c64> = (0..SAMPLES)
-            .map(|i| {
-                let share = i as f64 / (SAMPLES - 1) as f64;
-                c64::new(OFFSET * omega, omega * (-0.03 + 0.56 * share))
-            })
-            .collect();
-        let values: Vec<c64> = points
-            .iter()
-            .map(|&point| perturbed.response(point))
-            .collect();
-        let fit = RationalFit::new(&points, &values, FIT_TOLERANCE, MOST_SUPPORTS);
-        let fit = fit.ok_or(CycleError::Stability { class })?;
-        let mut poles = fit.poles();
-        poles.retain(|pole| {
-            pole.re > -DEEPEST * omega && (-0.01..0.51).contains(&(pole.im / omega))
-        });
-        poles.sort_by(|a, b| b.re.total_cmp(&a.re));
         let mut found: Vec<c64> = Vec::new();
-        for pole in poles {
-            let Some(exponent) = refined(perturbed, pole) else {
-                continue;
-            };
-            let is_known = found
-                .iter()
-                .any(|known| (known - exponent).norm() < 1e-6 * omega);
-            let is_neutral = class == 0 && exponent.norm() < NEUTRAL * omega;
-            if !is_known && !is_neutral {
-                found.push(exponent);
-            }
-            if found.len() == KEPT {
-                break;
+        for window in windows(class, harmonic) {
+            for exponent in exponents_in(perturbed, window, class)? {
+                let is_known = found
+                    .iter()
+                    .any(|known| (known - exponent).norm() < 1e-6 * omega);
+                if !is_known {
+                    found.push(exponent);
+                }
             }
         }
         found.sort_by(|a, b| b.re.total_cmp(&a.re));
-        let exponents = found.into_iter().map(|exponent| {
+        let exponents = found.into_iter().filter_map(|exponent| {
             let k = perturbed.dominant_harmonic(exponent);
-            FloquetExponent {
+            // What moves from phase to phase is the grid's own.
+            perturbed.resolves(k).then(|| FloquetExponent {
                 exponent,
                 harmonic: (class as isize + k * harmonic as isize).unsigned_abs(),
                 frequency_hz: (exponent.im + k as f64 * omega).abs() / TAU,
-            }
+            })
         });
+        let exponents = exponents.take(KEPT);
         Ok(Self {
             class,
             exponents: exponents.collect(),
         })
     }
+}
+
+/// Windows of `Im lambda`, in halves of `omega`, that hold each pair of exponents once.
+///
+/// Class `p` and `-p` are conjugate, and class `p + n` with `lambda + i omega` is class `p` again. So class 0 is
+/// symmetric about zero, class `n / 2` about `omega / 2`, and no other is symmetric.
+fn windows(class: usize, harmonic: usize) -> std::ops::Range<i32> {
+    match class {
+        0 => 0..REACH,
+        _ if 2 * class == harmonic => 1 - REACH..1,
+        _ => 1 - REACH..REACH,
+    }
+}
+
+/// The leading exponents of one window.
+fn exponents_in(
+    perturbed: &Perturbed<'_>,
+    window: i32,
+    class: usize,
+) -> Result<Vec<c64>, CycleError> {
+    let omega = perturbed.frequency();
+    let start = 0.5 * f64::from(window);
+    // A little beyond both ends, so that exponents at the ends lie within.
+    let points: Vec<c64> = (0..SAMPLES)
+        .map(|i| {
+            let share = i as f64 / (SAMPLES - 1) as f64;
+            c64::new(OFFSET * omega, omega * (start - 0.03 + 0.56 * share))
+        })
+        .collect();
+    let values: Vec<c64> = points
+        .iter()
+        .map(|&point| perturbed.response(point))
+        .collect();
+    let fit = RationalFit::new(&points, &values, FIT_TOLERANCE, MOST_SUPPORTS);
+    let fit = fit.ok_or(CycleError::Stability { class })?;
+    let mut poles = fit.poles();
+    poles.retain(|pole| {
+        let place = pole.im / omega - start;
+        pole.re > -DEEPEST * omega && (-0.01..0.51).contains(&place)
+    });
+    poles.sort_by(|a, b| b.re.total_cmp(&a.re));
+    let mut found: Vec<c64> = Vec::new();
+    for pole in poles {
+        let Some(exponent) = refined(perturbed, pole) else {
+            continue;
+        };
+        let is_known = found
+            .iter()
+            .any(|known| (known - exponent).norm() < 1e-6 * omega);
+        let is_neutral = class == 0 && exponent.norm() < NEUTRAL * omega;
+        if !is_known && !is_neutral {
+            found.push(exponent);
+        }
+        if found.len() == KEPT {
+            break;
+        }
+    }
+    Ok(found)
 }
 
 /// The zero of `1 / (b^T A^-1 c)` near a start, by the secant method; `None` where it leads away, as from a pole that
