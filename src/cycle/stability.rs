@@ -7,17 +7,17 @@ use faer::c64;
 use std::f64::consts::TAU;
 
 /// Samples of the response along the window of frequencies.
-const SAMPLES: usize = 112;
+const SAMPLES: usize = 72;
 /// Growth rate along which it is sampled, as a share of `omega`: off the neutral shift in phase.
 const OFFSET: f64 = 2e-3;
 /// Relative accuracy asked of the rational fit.
 const FIT_TOLERANCE: f64 = 1e-10;
 /// Most support points of the fit.
-const MOST_SUPPORTS: usize = 56;
+const MOST_SUPPORTS: usize = 36;
 /// Exponents decaying faster than this share of `omega` are not looked at.
 const DEEPEST: f64 = 0.05;
-/// Halves of `omega` up to which exponents are looked for.
-const REACH: i32 = 4;
+/// Quarters of `omega` up to which exponents are looked for.
+const REACH: i32 = 8;
 /// Exponents kept for each class.
 const KEPT: usize = 4;
 /// An exponent of class zero within this share of `omega` is the wave's own shift in phase.
@@ -38,8 +38,9 @@ pub struct FloquetExponent {
 ///
 /// A perturbation `e^{lambda t} e^{i p theta} W(r, n theta + omega t)` holds the circumferential harmonics `p + k n`; its
 /// exponents `lambda` are those with a nontrivial `W` under the contact laws linearized at fixed contact states,
-/// landing boundaries moving along. They come in pairs `lambda, conj(lambda) + i m omega`, of which one is kept,
-/// `0 <= Im lambda <= omega / 2`.
+/// landing boundaries moving along. Harmonic `p + k n` then has the frequency `Im lambda + k omega`, so that `lambda` and
+/// `lambda + i omega` are different motions of one class (the same ones of classes `p` and `p + n`). Of each pair of
+/// `lambda` in class `p` and `conj(lambda)` in class `-p` one is kept; exponents are looked for up to `|Im lambda| = 2 omega`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PerturbationGrowth {
     /// Class `p`, `0 <= p <= n / 2`: harmonics that differ from `+-p` by a multiple of `n`.
@@ -132,15 +133,15 @@ impl PerturbationGrowth {
     }
 }
 
-/// Windows of `Im lambda`, in halves of `omega`, that hold each pair of exponents once.
+/// Windows of `Im lambda`, in quarters of `omega`, that hold each pair of exponents once.
 ///
 /// Class `p` and `-p` are conjugate, and class `p + n` with `lambda + i omega` is class `p` again. So class 0 is
 /// symmetric about zero, class `n / 2` about `omega / 2`, and no other is symmetric.
 fn windows(class: usize, harmonic: usize) -> std::ops::Range<i32> {
     match class {
         0 => 0..REACH,
-        _ if 2 * class == harmonic => 1 - REACH..1,
-        _ => 1 - REACH..REACH,
+        _ if 2 * class == harmonic => 2 - REACH..2,
+        _ => 2 - REACH..REACH,
     }
 }
 
@@ -151,12 +152,12 @@ fn exponents_in(
     class: usize,
 ) -> Result<Vec<c64>, CycleError> {
     let omega = perturbed.frequency();
-    let start = 0.5 * f64::from(window);
+    let start = 0.25 * f64::from(window);
     // A little beyond both ends, so that exponents at the ends lie within.
     let points: Vec<c64> = (0..SAMPLES)
         .map(|i| {
             let share = i as f64 / (SAMPLES - 1) as f64;
-            c64::new(OFFSET * omega, omega * (start - 0.03 + 0.56 * share))
+            c64::new(OFFSET * omega, omega * (start - 0.03 + 0.31 * share))
         })
         .collect();
     let values: Vec<c64> = points
@@ -168,7 +169,7 @@ fn exponents_in(
     let mut poles = fit.poles();
     poles.retain(|pole| {
         let place = pole.im / omega - start;
-        pole.re > -DEEPEST * omega && (-0.01..0.51).contains(&place)
+        pole.re > -DEEPEST * omega && (-0.01..0.26).contains(&place)
     });
     poles.sort_by(|a, b| b.re.total_cmp(&a.re));
     let mut found: Vec<c64> = Vec::new();
