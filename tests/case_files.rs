@@ -607,6 +607,13 @@ fn stability_along_a_branch_needs_a_branch() {
         &["cycle.stability", "[cycle.continuation]"],
     );
     assert_reports(
+        &report(CYCLES, &["cycle.confirmation_periods=19"]),
+        &["cycle.confirmation_periods", "20 and more"],
+    );
+    for periods in [0, 20] {
+        valid(CYCLES, &[&format!("cycle.confirmation_periods={periods}")]);
+    }
+    assert_reports(
         &report(CYCLES, &["cycle.phases=3"]),
         &["cycle.phases", "31 or more"],
     );

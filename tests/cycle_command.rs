@@ -172,3 +172,49 @@ fn a_study_of_limit_cycles_has_the_same_table_for_any_threads() {
     assert!(!header.contains("wall_s") && !header.contains("curves"));
     assert_eq!(text.lines().count(), 4);
 }
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_search_says_what_is_kept_and_can_be_started_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("cycle");
+    let case = concat!(env!("CARGO_MANIFEST_DIR"), "/cases/limit-cycle.toml");
+    // Hours of work, if it were let.
+    let child = Command::new(env!("CARGO_BIN_EXE_frictionsim"))
+        .args(["cycle", case, "--no-figures", "--out"])
+        .arg(&out)
+        .args(["--set", "cycle.continuation.count=100000"])
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    let begin = std::time::Instant::now();
+    while !out.join("manifest.json").exists() {
+        assert!(begin.elapsed().as_secs() < 60);
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    // The handler is in place as soon as the folder is.
+    std::thread::sleep(std::time::Duration::from_millis(200));
+    let killed = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status()
+        .unwrap();
+    assert!(killed.success());
+    let output = child.wait_with_output().unwrap();
+    let text = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(1), "{text}");
+    assert!(
+        text.contains("interrupted; nothing of this run is kept"),
+        "{text}"
+    );
+    let again = run(
+        &[
+            "--force",
+            "--set",
+            "cycle.continuation.count=2",
+            "--set",
+            "cycle.stability=none",
+        ],
+        &out,
+    );
+    assert!(again.status.success(), "{again:?}");
+}

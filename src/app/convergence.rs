@@ -2,7 +2,7 @@
 
 mod quantities;
 
-use super::{Failure, RunOptions, Session, cea, cycle, transient};
+use super::{Failure, RunOptions, Session, cea, cycle, terminal, transient};
 use crate::case::{Analysis, Case, Convergence, StabilityChoice, TimeStep};
 use crate::cea::FrictionSweep;
 use crate::results::convergence::{
@@ -54,6 +54,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let studies = studies(case, convergence, &session.manifest)?;
     session.check_memory(studies.iter().map(memory_bytes).sum())?;
     let folder = session.open_folder()?;
+    terminal::catch_signals(terminal::NOTHING_KEPT);
 
     let mut all = Vec::new();
     for (outcomes, study) in solve(&studies, &session.manifest)?

@@ -6,7 +6,7 @@ mod search;
 
 pub use figures::redraw;
 
-use super::{Failure, RunOptions, Session};
+use super::{Failure, RunOptions, Session, terminal};
 use crate::case::Case;
 use crate::results::cycle::{CycleResult, print, write};
 use crate::results::cycle_confirmation::doubt;
@@ -37,6 +37,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let case = &session.case;
     let search = Search::of(case, &session.manifest)?;
     let folder = session.open_folder()?;
+    terminal::catch_signals(terminal::NOTHING_KEPT);
     let results = search.run(search.choices.frames);
     refuse_nothing(&results)?;
     let report = search.report(results, session.wall_seconds());

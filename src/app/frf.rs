@@ -1,6 +1,6 @@
 //! `frictionsim frf`: frequency response of the model between two nodes.
 
-use super::{Failure, RunOptions, Session};
+use super::{Failure, RunOptions, Session, terminal};
 use crate::case::{Case, Frf, FrfMethod};
 use crate::fem::assemble_stiffness;
 use crate::frf::{
@@ -52,6 +52,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let frf = case.require_frf()?;
     session.check_memory(case.cost().mesh_memory_bytes)?;
     let folder = session.open_folder()?;
+    terminal::catch_signals(terminal::NOTHING_KEPT);
     let computed = compute(case, frf)?;
     let values = observed(case, frf, &computed.receptance);
     write_response(&folder, frf.quantity, &frf.frequencies_hz, &values)?;

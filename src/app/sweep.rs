@@ -10,7 +10,7 @@ pub use progress::SweepProgress;
 pub use workers::{PointRunner, SweepRun};
 
 use super::linear_stage::LinearStage;
-use super::{Failure, RunOptions, Session};
+use super::{Failure, RunOptions, Session, terminal};
 use crate::case::{Analysis, Case};
 use crate::results::sweep::{PointRecord, Start, SweepDrawing, SweepFolder, SweepReport};
 use crate::results::sweep::{draw, print, summary, write_points};
@@ -52,7 +52,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let path = session.folder_path();
     let folder = SweepFolder::open(&path, &session.manifest, plan.count(), &points, start)?;
 
-    catch_signals();
+    terminal::catch_signals("finished points are kept: go on with --resume");
     let progress = SweepProgress::new(arguments.options.quiet, points.len());
     let run = SweepRun {
         plan: &plan,
@@ -92,20 +92,6 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             points.len()
         ))),
     }
-}
-
-/// Makes Ctrl-C and SIGTERM end the process with a word on how to go on; finished points are files
-/// already.
-fn catch_signals() {
-    let stop = || {
-        use std::io::Write;
-        let text = "\nerror: interrupted; finished points are kept: go on with --resume";
-        // Nobody is left to tell if stderr is closed.
-        let _ = writeln!(std::io::stderr(), "{text}");
-        std::process::exit(1);
-    };
-    // A second sweep of the same process finds the handler in place.
-    let _ = ctrlc::set_handler(stop);
 }
 
 /// Memory that the analyses of one point take, bytes.

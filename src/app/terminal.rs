@@ -22,6 +22,20 @@ pub fn print_json(value: &serde_json::Value) -> Result<(), Failure> {
     print(&format!("{value:#}\n"))
 }
 
+/// Advice for a run that keeps nothing before its end.
+pub const NOTHING_KEPT: &str = "nothing of this run is kept: the same command starts it again";
+
+/// Makes Ctrl-C and SIGTERM end the process with exit code 1 and a word on what is kept and how to go on.
+pub fn catch_signals(advice: &'static str) {
+    let stop = move || {
+        // Nobody is left to tell if stderr is closed.
+        let _ = writeln!(io::stderr(), "\nerror: interrupted; {advice}");
+        std::process::exit(1);
+    };
+    // A second run of the same process finds the handler in place.
+    let _ = ctrlc::set_handler(stop);
+}
+
 /// Sends the log to stderr: warnings, with `quiet` only errors.
 pub fn start_log(quiet: bool) {
     let level = if quiet {

@@ -135,12 +135,12 @@ impl Case {
             StabilityChoice::Point => 1,
             StabilityChoice::Branch => 1 + followed,
         };
-        // Measured with 169 phases: 0.25 s from birth, 6 ms to a neighbour, 0.15 s for the exponents; dense factorizations.
+        // Measured with 169 phases: 0.25 s from birth, 6 ms to a neighbour, 0.4 s for the exponents; dense factorizations.
         let factorization = (phases / 169.0).powi(3);
         let steps = cycle.confirmation_periods as f64 * 800.0;
         let elements =
             (self.annulus.circumferential_elements * self.annulus.radial_elements) as f64;
-        let each = factorization * (0.25 + 0.006 * followed as f64 + 0.15 * stable as f64);
+        let each = factorization * (0.25 + 0.006 * followed as f64 + 0.4 * stable as f64);
         CycleCost {
             families,
             cycles: 1 + followed,

@@ -5,8 +5,8 @@ use super::reader::{Bound, Section};
 use super::rules::{harmonics, parameter};
 use crate::mesh::AnnulusSpecification;
 
-/// Length of the transient that puts a cycle to the test where the case does not say: a wave that is no motion of the
-/// disc is gone by then.
+/// Length of the transient that puts a cycle to the test where the case does not say, and the shortest: its last fifth
+/// has the four periods that a frequency is read from, and a wave that is no motion of the disc is gone by then.
 const CONFIRMATION_PERIODS: usize = 20;
 
 /// `[cycle]`: limit cycles.
@@ -78,6 +78,14 @@ pub(super) fn cycle(root: &Section<'_>, annulus: &AnnulusSpecification) -> Optio
     let phases = section.optional_count("phases", 31);
     let frames = section.optional_count("frames", 1).unwrap_or(1);
     let confirmation_periods = section.optional_count("confirmation_periods", 0);
+    if let Some(periods @ 1..CONFIRMATION_PERIODS) = confirmation_periods {
+        section.reject(
+            "confirmation_periods",
+            format!("cycle.confirmation_periods = {periods} is too short to read a frequency from its last fifth"),
+            format!("0 for none, or {CONFIRMATION_PERIODS} and more"),
+            None,
+        );
+    }
     let stability = section.choice(
         "stability",
         &[

@@ -44,7 +44,7 @@ pub enum CycleError {
     /// Steady sliding never loses stability to this wave.
     #[error(
         "{family}: steady sliding has no such loss of stability up to a friction coefficient of {limit} below \
-         {frequency_hz} Hz, so no limit cycle is born; choose another one in cycle.harmonics"
+         {frequency_hz} Hz, so no limit cycle is born; name another harmonic or onset"
     )]
     NoOnset {
         /// Which limit cycle.

@@ -116,6 +116,8 @@ pub struct Linearization {
     pub gap_columns: [Vec<f64>; 2],
     /// Response of the tangential velocity.
     pub slip_columns: [Vec<f64>; 2],
+    /// Forces for a unit of gap and of velocity.
+    scales: [f64; 2],
     /// First harmonic of the tangential displacement (m), turned back by the state's origin, for unit first harmonics of
     /// the forces.
     pub first_row: [c64; 2],
@@ -234,13 +236,16 @@ impl Linearization {
             Parameter::Interference => by_parameter[0].fill(-1.0),
             Parameter::MassDamping | Parameter::StiffnessDamping => {}
         }
+        let gap_columns = [gap_column(0), gap_column(1)];
+        let slip_columns = [slip_column(0), slip_column(1)];
         Self {
             gap,
             slip,
             by_frequency: [gap_of(1), velocity_change(0)],
             by_parameter,
-            gap_columns: [gap_column(0), gap_column(1)],
-            slip_columns: [slip_column(0), slip_column(1)],
+            scales: [&gap_columns[0], &slip_columns[1]].map(|column| 1.0 / largest(column)),
+            gap_columns,
+            slip_columns,
             first_row,
             first: share * moved[1][0][1],
             first_by,
@@ -250,12 +255,12 @@ impl Linearization {
     /// Normal force for a unit of gap, N/m for each m: what closes it where the response is largest. The point's own
     /// response will not do: with little damping a resonance can take it through zero.
     pub fn normal_scale(&self) -> f64 {
-        1.0 / largest(&self.gap_columns[0])
+        self.scales[0]
     }
 
     /// Tangential force for a unit of velocity, likewise.
     pub fn tangential_scale(&self) -> f64 {
-        1.0 / largest(&self.slip_columns[1])
+        self.scales[1]
     }
 }
 

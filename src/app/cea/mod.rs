@@ -64,6 +64,7 @@ fn run_with(
     let solver_bytes = cost.cea.map_or(0.0, |cea| cea.memory_bytes);
     session.check_memory(cost.mesh_memory_bytes + solver_bytes)?;
     let folder = session.open_folder()?;
+    terminal::catch_signals(terminal::NOTHING_KEPT);
 
     let model = SlidingModel::new(case, cea)?;
     let solution = solve(&session, cea, &model)?;
