@@ -167,7 +167,7 @@ fn object(name: &str, case: &Case, cost: &Cost) -> Value {
             "estimated_s": cycle.seconds,
         })),
         "sweep_points": cost.sweep_points,
-        "warnings": case.warnings,
+        "warnings": case.warnings.iter().map(ToString::to_string).collect::<Vec<_>>(),
     })
 }
 

@@ -10,6 +10,7 @@ mod failure;
 mod frf;
 mod identify;
 mod init;
+mod keys;
 mod linear_stage;
 mod man;
 mod measurement;
@@ -58,6 +59,7 @@ enum Command {
     Mesh(mesh::Arguments),
     Check(check::Arguments),
     Init(init::Arguments),
+    Keys(keys::Arguments),
     Frf(frf::Arguments),
     Identify(identify::Arguments),
     Signal(signal::Arguments),
@@ -79,6 +81,7 @@ pub fn main() -> ExitCode {
         Command::Mesh(arguments) => mesh::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Init(arguments) => init::run(&arguments),
+        Command::Keys(arguments) => keys::run(&arguments),
         Command::Frf(arguments) => frf::run(&arguments),
         Command::Identify(arguments) => identify::run(&arguments),
         Command::Signal(arguments) => signal::run(&arguments),

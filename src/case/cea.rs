@@ -1,7 +1,7 @@
 //! `[cea]`: the complex eigenvalue analysis.
 
 use super::model::node_count;
-use super::reader::{Bound, Section};
+use super::reader::Section;
 use super::rules::{parameter, rising};
 use crate::fem::MassKind;
 use crate::mesh::AnnulusSpecification;
@@ -78,8 +78,8 @@ pub(super) fn cea(
     if !section.is_given() {
         return None;
     }
-    let friction_coefficients = rising(&section, "friction_coefficients", Bound::NotNegative)
-        .unwrap_or_else(|| vec![friction_coefficient]);
+    let friction_coefficients =
+        rising(&section, "friction_coefficients").unwrap_or_else(|| vec![friction_coefficient]);
     if friction_coefficients.is_empty() && section.is_empty_list("friction_coefficients") {
         section.reject(
             "friction_coefficients",
@@ -90,24 +90,10 @@ pub(super) fn cea(
     }
     let cea = Cea {
         modes: mode_selection(&section, annulus),
-        method: section.choice(
-            "method",
-            &[
-                ("auto", CeaMethod::Auto),
-                ("cyclic", CeaMethod::Cyclic),
-                ("sparse", CeaMethod::Sparse),
-            ],
-        ),
-        mass: section.choice(
-            "mass",
-            &[
-                ("consistent", MassKind::Consistent),
-                ("lumped", MassKind::Lumped),
-            ],
-        ),
-        geometric_stiffness: section.flag_or("geometric_stiffness", true),
-        shapes_at: rising(&section, "shapes_at", Bound::NotNegative)
-            .unwrap_or_else(|| vec![friction_coefficient]),
+        method: section.choice("method"),
+        mass: section.choice("mass"),
+        geometric_stiffness: section.flag("geometric_stiffness"),
+        shapes_at: rising(&section, "shapes_at").unwrap_or_else(|| vec![friction_coefficient]),
         friction_coefficients,
         map: cea_map(&section),
     };
@@ -116,8 +102,8 @@ pub(super) fn cea(
 }
 
 fn mode_selection(section: &Section<'_>, annulus: &AnnulusSpecification) -> ModeSelection {
-    let limit = section.optional_number("max_frequency_hz", Bound::Positive);
-    let modes = section.optional_count("modes", 1);
+    let limit = section.optional_number("max_frequency_hz");
+    let modes = section.optional_count("modes");
     let unknowns = node_count(annulus).saturating_mul(2);
     if let Some(modes) = modes.filter(|modes| *modes as u128 > unknowns && unknowns > 0) {
         section.reject(
@@ -181,7 +167,7 @@ fn cea_map(cea: &Section<'_>) -> Option<CeaMap> {
             None,
         );
     }
-    let values = rising(&section, "values", Bound::Finite).unwrap_or_default();
+    let values = rising(&section, "values").unwrap_or_default();
     if !section.has("values") || section.is_empty_list("values") {
         section.reject(
             "values",

@@ -2,7 +2,7 @@
 
 use super::Analysis;
 use super::model::node_count;
-use super::reader::{Bound, Section};
+use super::reader::Section;
 use crate::mesh::{AnnulusSpecification, ElementKind};
 
 /// Fewest refinements that an order can be observed from.
@@ -44,18 +44,16 @@ pub(super) fn read(
     root: &Section<'_>,
     annulus: &AnnulusSpecification,
     has: [bool; 3],
-    warnings: &mut Vec<String>,
 ) -> Option<Convergence> {
     let section = root.section("convergence", false);
     if !section.is_given() {
         return None;
     }
-    let factors = section.numbers("factors", Bound::Positive);
-    let factors = factors.unwrap_or_else(|| vec![1.0, 1.5, 2.25]);
+    let factors = section.numbers("factors").unwrap_or_default();
     if has_enough(&section, "factors", &factors) && is_ordered(&section, "factors", &factors, 1.0) {
-        check_meshes(&section, annulus, &factors, warnings);
+        check_meshes(&section, annulus, &factors);
     }
-    let steps = section.numbers("time_step_factors", Bound::Positive);
+    let steps = section.numbers("time_step_factors");
     let time_step_factors = steps.unwrap_or_default();
     if section.has("time_step_factors")
         && has_enough(&section, "time_step_factors", &time_step_factors)
@@ -127,12 +125,7 @@ fn is_ordered(section: &Section<'_>, key: &'static str, values: &[f64], sign: f6
 }
 
 /// Refuses factors whose rounded meshes are none, too large, or not refinements of each other.
-fn check_meshes(
-    section: &Section<'_>,
-    annulus: &AnnulusSpecification,
-    factors: &[f64],
-    warnings: &mut Vec<String>,
-) {
+fn check_meshes(section: &Section<'_>, annulus: &AnnulusSpecification, factors: &[f64]) {
     if annulus.circumferential_elements == 0 || annulus.radial_elements == 0 {
         return;
     }
@@ -173,10 +166,14 @@ fn check_meshes(
             radial as f64 / annulus.radial_elements as f64,
         ];
         if (a / r - 1.0).abs() > UNEVEN {
-            warnings.push(format!(
-                "{name}, refines by {a:.3} around and {r:.3} along the radius after rounding: the \
-                 observed order suffers from that"
-            ));
+            section.warn(
+                "factors",
+                format!(
+                    "{name}, refines by {a:.3} around and {r:.3} along the radius after rounding: \
+                     the observed order suffers from that"
+                ),
+                "uneven after rounding",
+            );
         }
         previous = Some((factor, mesh));
     }
@@ -193,7 +190,7 @@ fn analyses(
         ("transient", Analysis::Transient),
         ("cycle", Analysis::Cycle),
     ];
-    let named = section.choices("analyses", &words, &[]);
+    let named = section.choices("analyses");
     let is_linear = annulus.element == ElementKind::Quad4;
     let is_there = |analysis: Analysis| match analysis {
         Analysis::Cea => has_cea,

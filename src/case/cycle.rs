@@ -1,12 +1,12 @@
 //! `[cycle]`: limit cycles found directly.
 
 use super::range::{Spacing, range_values};
-use super::reader::{Bound, Section};
+use super::reader::Section;
 use super::rules::{harmonics, parameter};
 use crate::mesh::AnnulusSpecification;
 
-/// Length of the transient that puts a cycle to the test where the case does not say, and the shortest: its last fifth
-/// has the four periods that a frequency is read from, and a wave that is no motion of the disc is gone by then.
+/// Shortest transient that puts a cycle to the test: its last fifth has the four periods that a frequency is read from,
+/// and a wave that is no motion of the disc is gone by then.
 const CONFIRMATION_PERIODS: usize = 20;
 
 /// `[cycle]`: limit cycles.
@@ -72,13 +72,12 @@ impl Continuation {
 
 pub(super) fn cycle(root: &Section<'_>, annulus: &AnnulusSpecification) -> Option<Cycle> {
     let section = root.section("cycle", false);
-    let harmonics = harmonics(&section, 1, annulus);
-    let choices = [("all", OnsetChoice::All), ("lowest", OnsetChoice::Lowest)];
-    let onsets = section.choice("onsets", &choices);
-    let phases = section.optional_count("phases", 31);
-    let frames = section.optional_count("frames", 1).unwrap_or(1);
-    let confirmation_periods = section.optional_count("confirmation_periods", 0);
-    if let Some(periods @ 1..CONFIRMATION_PERIODS) = confirmation_periods {
+    let harmonics = harmonics(&section, annulus);
+    let onsets = section.choice("onsets");
+    let phases = section.optional_count("phases");
+    let frames = section.count("frames");
+    let confirmation_periods = section.count("confirmation_periods");
+    if let periods @ 1..CONFIRMATION_PERIODS = confirmation_periods {
         section.reject(
             "confirmation_periods",
             format!("cycle.confirmation_periods = {periods} is too short to read a frequency from its last fifth"),
@@ -86,24 +85,14 @@ pub(super) fn cycle(root: &Section<'_>, annulus: &AnnulusSpecification) -> Optio
             None,
         );
     }
-    let stability = section.choice(
-        "stability",
-        &[
-            ("point", StabilityChoice::Point),
-            ("branch", StabilityChoice::Branch),
-            ("none", StabilityChoice::None),
-        ],
-    );
+    let stability = section.choice("stability");
     let inner = section.section("continuation", false);
     let continuation = inner.is_given().then(|| Continuation {
         key: parameter(&inner, "key"),
-        from: inner.number("from", Bound::Finite),
-        to: inner.number("to", Bound::Finite),
-        count: inner.optional_count("count", 2).unwrap_or(61),
-        spacing: inner.choice(
-            "spacing",
-            &[("linear", Spacing::Linear), ("log", Spacing::Logarithmic)],
-        ),
+        from: inner.number("from"),
+        to: inner.number("to"),
+        count: inner.count("count"),
+        spacing: inner.choice("spacing"),
     });
     if let Some(Continuation { from, to, .. }) = &continuation
         && continuation
@@ -146,7 +135,7 @@ pub(super) fn cycle(root: &Section<'_>, annulus: &AnnulusSpecification) -> Optio
         onsets,
         phases,
         frames,
-        confirmation_periods: confirmation_periods.unwrap_or(CONFIRMATION_PERIODS),
+        confirmation_periods,
         stability,
         continuation,
     })

@@ -1,7 +1,8 @@
 //! `[frf]`: a frequency response of the model.
 
 use super::model::node_count;
-use super::reader::{Bound, Section};
+use super::reader::Section;
+use super::words::Direction;
 use crate::fem::MassKind;
 use crate::frf::{FrfBoundary, Terminal};
 use crate::mesh::AnnulusSpecification;
@@ -48,9 +49,8 @@ pub(super) fn read(root: &Section<'_>, annulus: &AnnulusSpecification) -> Option
     if !section.is_given() {
         return None;
     }
-    let directions = [("radial", false), ("tangential", true)];
-    let force_node = section.count("force_node", 1);
-    let response_node = section.optional_count("response_node", 1);
+    let force_node = section.count("force_node");
+    let response_node = section.optional_count("response_node");
     let nodes = node_count(annulus);
     for (key, node) in [
         ("force_node", force_node),
@@ -68,9 +68,7 @@ pub(super) fn read(root: &Section<'_>, annulus: &AnnulusSpecification) -> Option
             );
         }
     }
-    let mut frequencies_hz = section
-        .numbers("frequencies_hz", Bound::Positive)
-        .unwrap_or_default();
+    let mut frequencies_hz = section.numbers("frequencies_hz").unwrap_or_default();
     if frequencies_hz.is_empty() {
         section.reject(
             "frequencies_hz",
@@ -81,50 +79,23 @@ pub(super) fn read(root: &Section<'_>, annulus: &AnnulusSpecification) -> Option
     }
     frequencies_hz.sort_by(f64::total_cmp);
     frequencies_hz.dedup();
+    let is_tangential = |key| section.choice::<Direction>(key) == Direction::Tangential;
     let frf = Frf {
-        boundary: section.choice(
-            "boundary",
-            &[
-                ("free", FrfBoundary::Free),
-                ("clamped", FrfBoundary::Clamped),
-                ("sliding", FrfBoundary::Sliding),
-            ],
-        ),
+        boundary: section.choice("boundary"),
         force: Terminal {
             node: force_node.saturating_sub(1),
-            is_tangential: section.choice("force_direction", &directions),
+            is_tangential: is_tangential("force_direction"),
         },
         response: Terminal {
             node: response_node.unwrap_or(force_node).saturating_sub(1),
-            is_tangential: section.choice("response_direction", &directions),
+            is_tangential: is_tangential("response_direction"),
         },
         frequencies_hz,
-        quantity: section.choice(
-            "quantity",
-            &[
-                ("accelerance", ResponseQuantity::Accelerance),
-                ("mobility", ResponseQuantity::Mobility),
-                ("receptance", ResponseQuantity::Receptance),
-            ],
-        ),
-        method: section.choice(
-            "method",
-            &[
-                ("auto", FrfMethod::Auto),
-                ("cyclic", FrfMethod::Cyclic),
-                ("direct", FrfMethod::Direct),
-                ("reduced", FrfMethod::Reduced),
-            ],
-        ),
-        mass: section.choice(
-            "mass",
-            &[
-                ("consistent", MassKind::Consistent),
-                ("lumped", MassKind::Lumped),
-            ],
-        ),
-        noise: section.number_or("noise", Bound::NotNegative, 0.0),
-        noise_seed: section.optional_count("noise_seed", 0).unwrap_or(1),
+        quantity: section.choice("quantity"),
+        method: section.choice("method"),
+        mass: section.choice("mass"),
+        noise: section.number("noise"),
+        noise_seed: section.count("noise_seed"),
     };
     section.close();
     Some(frf)

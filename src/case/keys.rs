@@ -1,177 +1,164 @@
-//! Every key a case can have, with its meaning and an example: what error messages quote.
+//! Every key a case can have: the one declaration that readers, messages, `frictionsim keys`, the
+//! JSON schema and the commented template are made from.
 
-/// A key of the case file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct CaseKey {
-    /// Dotted name.
-    pub name: &'static str,
-    /// A valid value, in TOML.
-    pub example: &'static str,
-    /// What it is, with its unit.
-    pub meaning: &'static str,
-}
+use super::key::Bound::{Between, Finite, NotNegative, Positive};
+use super::key::Default::{Otherwise, Required, Value};
+use super::key::Kind::{
+    Choice, Choices, Count, Counts, Flag, Number, NumberOr, Numbers, Parameter, Text,
+};
+use super::key::{CaseKey, Default, Kind, words};
+use super::words::Direction;
+use super::{
+    Analysis, CeaMethod, Combination, FrfMethod, InitialState, OnsetChoice, OperatorChoice,
+    Spacing, StabilityChoice,
+};
+use crate::fem::{MassKind, PlaneFormulation};
+use crate::frf::FrfBoundary;
+use crate::mesh::ElementKind;
+use crate::signal::ResponseQuantity;
 
-const fn key(name: &'static str, example: &'static str, meaning: &'static str) -> CaseKey {
+/// A key that every command uses which reads its section.
+const fn key(
+    name: &'static str,
+    kind: Kind,
+    unit: &'static str,
+    default: Default,
+    example: &'static str,
+    meaning: &'static str,
+) -> CaseKey {
     CaseKey {
         name,
+        kind,
+        unit,
+        default,
         example,
         meaning,
+        used_by: &[],
+        otherwise: "",
+        since: "0.1",
     }
 }
 
 impl CaseKey {
-    /// Whether the value is a number.
-    pub fn is_numeric(&self) -> bool {
-        self.example.parse::<f64>().is_ok()
+    /// This key, used by these commands alone; in the others something else holds.
+    const fn used_by(self, commands: &'static [&'static str], otherwise: &'static str) -> Self {
+        Self {
+            used_by: commands,
+            otherwise,
+            ..self
+        }
     }
 }
 
-/// The sections of a case file.
-pub const SECTIONS: &[&str] = &[
-    "geometry",
-    "mesh",
-    "material",
-    "damping",
-    "contact",
-    "cea",
-    "cea.map",
-    "transient",
-    "transient.perturbation",
-    "output",
-    "sweep",
-    "cycle",
-    "cycle.continuation",
-    "frf",
-    "convergence",
-];
+/// Commands whose model has the tangent of the sliding contact.
+const TANGENT: &[&str] = &["cea", "frf"];
 
-/// All keys in the order of the documentation.
+/// All keys in the order of the documentation: name, values, unit, default, example, meaning.
 #[rustfmt::skip]
 pub const KEYS: &[CaseKey] = &[
-    key("title", "\"Polycarbonate disc\"", "a line that heads tables and figures"),
-    key("geometry.inner_radius", "0.0205", "the radius of the contact edge, m"),
-    key("geometry.outer_radius", "0.0905", "the radius of the clamped edge, m"),
-    key("geometry.thickness", "0.009", "the thickness of the disc, m"),
-    key("mesh.circumferential_elements", "180", "the number of elements around the disc"),
-    key("mesh.radial_elements", "35", "the number of elements along a radius"),
-    key("mesh.radial_grading", "1.0", "the size ratio of successive elements outwards (1 = uniform)"),
-    key("mesh.element", "\"quad4\"", "the element shape"),
-    key("material.young_modulus", "2.5e9", "Young's modulus, Pa"),
-    key("material.poisson_ratio", "0.3805", "Poisson's ratio"),
-    key("material.density", "1228.0", "the density, kg/m3"),
-    key("material.formulation", "\"plane-strain\"", "the out-of-plane assumption"),
-    key("damping.mass_coefficient", "40.0", "Rayleigh's alpha, 1/s"),
-    key("damping.stiffness_coefficient", "4.5e-7", "Rayleigh's beta, s"),
-    key("damping.include_contact", "true", "whether beta acts on contact and friction terms as well as on the body"),
-    key("contact.friction_coefficient", "0.3", "Coulomb's friction coefficient"),
-    key("contact.interference", "25e-6", "the radial expansion of the cylinder, m"),
-    key("contact.rotation_speed_rpm", "610.0", "the rotation speed of the cylinder, revolutions per minute"),
-    key("contact.normal_stiffness", "7.4e12", "the normal contact stiffness of the eigenvalue analysis, Pa/m (left out or \"rigid\" = rigid)"),
-    key("contact.normal_damping", "0.0", "a normal dashpot on the contact, Pa s/m"),
-    key("contact.tangential_damping", "0.0", "a tangential dashpot on the contact, Pa s/m"),
-    key("cea.friction_coefficients", "{ from = 0.0, to = 1.0, count = 51 }", "the friction coefficients of the sweep"),
-    key("cea.max_frequency_hz", "17500.0", "the frequency below which all modes are found, Hz"),
-    key("cea.modes", "28", "how many of the lowest modes are found"),
-    key("cea.method", "\"auto\"", "the eigenvalue solver"),
-    key("cea.mass", "\"consistent\"", "the mass matrix"),
-    key("cea.geometric_stiffness", "true", "whether the prestress enters the tangent stiffness"),
-    key("cea.shapes_at", "[0.3]", "friction coefficients whose mode shapes are written"),
-    key("cea.map.key", "\"contact.normal_stiffness\"", "the second parameter of the stability map"),
-    key("cea.map.values", "{ from = 1e12, to = 1e14, count = 21, spacing = \"log\" }", "its values"),
-    key("transient.duration", "0.05", "the simulated time, s"),
-    key("transient.time_step", "\"auto\"", "the time step, s, or \"auto\""),
-    key("transient.expansion_time", "5e-4", "the time over which the cylinder expands, s"),
-    key("transient.initial", "\"rest\"", "the initial state"),
-    key("transient.limit_cycle_onset", "1", "the onset of that harmonic, by rising friction, at which the limit cycle is born"),
-    key("transient.limit_cycle_harmonic", "2", "the harmonic of the limit cycle that `initial` names"),
-    key("transient.operator", "\"auto\"", "how the stiffness is applied"),
-    key("transient.perturbation.harmonics", "[2]", "the circumferential harmonics of the initial velocity"),
-    key("transient.perturbation.velocity", "1e-3", "the initial velocity amplitude of each harmonic, m/s"),
-    key("output.probes", "[1621, 1641]", "the ids (from 1) of the nodes whose motion is written"),
-    key("output.sample_interval", "2e-6", "the time between two samples, s"),
-    key("output.snapshots", "[0.005, 0.03]", "the times of the field snapshots, s"),
-    key("output.checkpoint_interval", "600", "the wall time between two checkpoints, s"),
-    key("sweep.combine", "\"grid\"", "how several swept keys combine"),
-    key("sweep.analyses", "[\"transient\"]", "what runs at each point"),
-    key("cycle.harmonics", "[1, 2]", "the harmonics whose limit cycle is sought"),
-    key("cycle.onsets", "\"lowest\"", "the losses of stability of each harmonic whose limit cycles are sought (left out = all below the friction)"),
-    key("cycle.phases", "171", "the number of phases along the wave (left out = as the mesh asks for)"),
-    key("cycle.frames", "24", "the times over one period at which the whole field is written"),
-    key("cycle.confirmation_periods", "20", "the periods of the transient that puts each cycle to the test (0 = none)"),
-    key("cycle.stability", "\"point\"", "the cycles whose stability is worked out"),
-    key("cycle.continuation.key", "\"contact.rotation_speed_rpm\"", "the parameter along which a cycle is followed"),
-    key("cycle.continuation.from", "10", "its first value"),
-    key("cycle.continuation.to", "6000", "its last value"),
-    key("cycle.continuation.count", "61", "how many values from first to last are reported"),
-    key("cycle.continuation.spacing", "\"log\"", "how they are spaced"),
-    key("frf.boundary", "\"free\"", "how the disc is held while it is excited"),
-    key("frf.force_node", "36", "the id (from 1) of the node that is struck"),
-    key("frf.force_direction", "\"radial\"", "the direction of the force"),
-    key("frf.response_node", "36", "the id (from 1) of the node observed (left out = force_node)"),
-    key("frf.response_direction", "\"radial\"", "the direction observed"),
-    key("frf.frequencies_hz", "{ from = 1.0, to = 10000.0, count = 10000 }", "the frequencies of the response, Hz"),
-    key("frf.quantity", "\"accelerance\"", "what is observed for each unit of force"),
-    key("frf.method", "\"auto\"", "how the response is computed"),
-    key("frf.mass", "\"consistent\"", "the mass matrix"),
-    key("frf.noise", "0.01", "Gaussian noise added to real and imaginary part, relative to the magnitude"),
-    key("frf.noise_seed", "1", "the seed of that noise"),
-    key("convergence.factors", "[1, 1.5, 2.25]", "the refinements of the mesh, applied to both element counts"),
-    key("convergence.time_step_factors", "[1, 0.5, 0.25]", "the factors on the transient's time step, on the case's own mesh"),
-    key("convergence.analyses", "[\"cea\", \"transient\"]", "what is studied (left out = every analysis the case has)"),
+    key("title", Text, "", Otherwise("none"), "\"Polycarbonate disc\"", "a line that heads tables and figures"),
+
+    key("geometry.inner_radius", Number(Positive), "m", Required, "0.0205", "the radius of the contact edge"),
+    key("geometry.outer_radius", Number(Positive), "m", Required, "0.0905", "the radius of the clamped edge"),
+    key("geometry.thickness", Number(Positive), "m", Value("1.0"), "0.009", "the thickness of the disc, which scales forces, torque, power and energy"),
+
+    key("mesh.circumferential_elements", Count(3), "", Required, "180", "the number of elements around the disc"),
+    key("mesh.radial_elements", Count(1), "", Required, "35", "the number of elements along a radius"),
+    key("mesh.radial_grading", Number(Positive), "", Value("1.0"), "1.0", "the size ratio of successive elements outwards (1 = uniform)"),
+    key("mesh.element", Choice(words::<ElementKind>), "", Value("\"quad4\""), "\"quad4\"", "the element shape"),
+
+    key("material.young_modulus", Number(Positive), "Pa", Required, "2.5e9", "Young's modulus"),
+    key("material.poisson_ratio", Number(Between(-1.0, 0.5)), "", Required, "0.3805", "Poisson's ratio"),
+    key("material.density", Number(Positive), "kg/m3", Required, "1228.0", "the density"),
+    key("material.formulation", Choice(words::<PlaneFormulation>), "", Value("\"plane-strain\""), "\"plane-strain\"", "the out-of-plane assumption"),
+
+    key("damping.mass_coefficient", Number(NotNegative), "1/s", Value("0.0"), "40.0", "Rayleigh's alpha"),
+    key("damping.stiffness_coefficient", Number(NotNegative), "s", Value("0.0"), "4.5e-7", "Rayleigh's beta"),
+    key("damping.include_contact", Flag, "", Value("true"), "true", "whether beta acts on contact and friction terms as well as on the body").used_by(TANGENT, "beta acts on the body alone"),
+
+    key("contact.friction_coefficient", Number(NotNegative), "", Required, "0.3", "Coulomb's friction coefficient"),
+    key("contact.interference", Number(Positive), "m", Required, "25e-6", "the radial expansion of the cylinder"),
+    key("contact.rotation_speed_rpm", Number(Finite), "1/min", Required, "610.0", "the rotation speed of the cylinder"),
+    key("contact.normal_stiffness", NumberOr(Positive, "rigid"), "Pa/m", Otherwise("rigid"), "7.4e12", "the normal stiffness of the linearised contact (left out or \"rigid\" = rigid)").used_by(TANGENT, "its contact is rigid"),
+    key("contact.normal_damping", Number(NotNegative), "Pa s/m", Value("0.0"), "0.0", "a normal dashpot on the contact").used_by(TANGENT, "its contact is rigid"),
+    key("contact.tangential_damping", Number(NotNegative), "Pa s/m", Value("0.0"), "0.0", "a tangential dashpot on the contact").used_by(TANGENT, "Coulomb's law alone acts along its contact"),
+
+    key("cea.friction_coefficients", Numbers(NotNegative), "", Otherwise("contact.friction_coefficient"), "{ from = 0.0, to = 1.0, count = 51 }", "the friction coefficients of the sweep"),
+    key("cea.max_frequency_hz", Number(Positive), "Hz", Otherwise("cea.modes decides"), "17500.0", "the frequency below which all modes are found"),
+    key("cea.modes", Count(1), "", Otherwise("cea.max_frequency_hz decides"), "28", "how many of the lowest modes are found"),
+    key("cea.method", Choice(words::<CeaMethod>), "", Value("\"auto\""), "\"auto\"", "the eigenvalue solver (auto = cyclic where the model has the symmetry)"),
+    key("cea.mass", Choice(words::<MassKind>), "", Value("\"consistent\""), "\"consistent\"", "the mass matrix"),
+    key("cea.geometric_stiffness", Flag, "", Value("true"), "true", "whether the prestress enters the tangent stiffness"),
+    key("cea.shapes_at", Numbers(NotNegative), "", Otherwise("contact.friction_coefficient"), "[0.3]", "the friction coefficients whose mode shapes are written"),
+    key("cea.map.key", Parameter, "", Required, "\"contact.normal_stiffness\"", "the second parameter of the stability map"),
+    key("cea.map.values", Numbers(Finite), "", Required, "{ from = 1e12, to = 1e14, count = 21, spacing = \"log\" }", "the values of that parameter"),
+
+    key("transient.duration", Number(Positive), "s", Required, "0.05", "the simulated time"),
+    key("transient.time_step", NumberOr(Positive, "auto"), "s", Value("\"auto\""), "\"auto\"", "the time step (\"auto\" = 0.95 of the stability limit, at most)"),
+    key("transient.expansion_time", Number(NotNegative), "s", Value("5e-4"), "5e-4", "the time over which the cylinder expands, linearly"),
+    key("transient.initial", Choice(words::<InitialState>), "", Value("\"rest\""), "\"rest\"", "the initial state"),
+    key("transient.limit_cycle_onset", Count(1), "", Otherwise("1"), "1", "the onset of that harmonic, by rising friction, at which the limit cycle is born"),
+    key("transient.limit_cycle_harmonic", Count(1), "", Otherwise("needed by initial = \"limit-cycle\""), "2", "the harmonic of the limit cycle that `initial` names"),
+    key("transient.operator", Choice(words::<OperatorChoice>), "", Value("\"auto\""), "\"auto\"", "how the stiffness is applied"),
+    key("transient.perturbation.harmonics", Counts(0), "", Otherwise("[]"), "[2]", "the circumferential harmonics of the initial velocity"),
+    key("transient.perturbation.velocity", Number(NotNegative), "m/s", Value("1e-3"), "1e-3", "the initial velocity amplitude of each harmonic"),
+
+    key("output.probes", Counts(1), "", Otherwise("[]"), "[1621, 1641]", "the ids (from 1) of the nodes whose motion is written"),
+    key("output.sample_interval", Number(Positive), "s", Value("2e-6"), "2e-6", "the time between two samples"),
+    key("output.snapshots", Numbers(NotNegative), "s", Otherwise("[]"), "[0.005, 0.03]", "the times of the field snapshots"),
+    key("output.checkpoint_interval", Number(Positive), "s", Value("600.0"), "600", "the wall time between two checkpoints"),
+
+    key("sweep.combine", Choice(words::<Combination>), "", Value("\"grid\""), "\"grid\"", "how several swept keys combine"),
+    key("sweep.analyses", Choices(words::<Analysis>), "", Otherwise("every one that the case has a section for"), "[\"transient\"]", "what runs at each point"),
+
+    key("cycle.harmonics", Counts(1), "", Otherwise("those that are unstable"), "[1, 2]", "the harmonics whose limit cycle is sought"),
+    key("cycle.onsets", Choice(words::<OnsetChoice>), "", Value("\"all\""), "\"lowest\"", "the losses of stability of each harmonic whose limit cycles are sought (left out = all below the friction)"),
+    key("cycle.phases", Count(31), "", Otherwise("as the mesh asks for"), "171", "the number of phases along the wave"),
+    key("cycle.frames", Count(1), "", Value("1"), "24", "the times over one period at which the whole field is written"),
+    key("cycle.confirmation_periods", Count(0), "", Value("20"), "20", "the periods of the transient that puts each cycle to the test (0 = none)"),
+    key("cycle.stability", Choice(words::<StabilityChoice>), "", Value("\"point\""), "\"point\"", "the cycles whose stability is worked out"),
+    key("cycle.continuation.key", Parameter, "", Required, "\"contact.rotation_speed_rpm\"", "the parameter along which a cycle is followed"),
+    key("cycle.continuation.from", Number(Finite), "", Required, "10", "the first value of that parameter"),
+    key("cycle.continuation.to", Number(Finite), "", Required, "6000", "the last value of that parameter"),
+    key("cycle.continuation.count", Count(2), "", Value("61"), "61", "how many values from first to last are reported"),
+    key("cycle.continuation.spacing", Choice(words::<Spacing>), "", Value("\"linear\""), "\"log\"", "how they are spaced"),
+
+    key("frf.boundary", Choice(words::<FrfBoundary>), "", Value("\"free\""), "\"free\"", "how the disc is held while it is excited"),
+    key("frf.force_node", Count(1), "", Required, "36", "the id (from 1) of the node that is struck"),
+    key("frf.force_direction", Choice(words::<Direction>), "", Value("\"radial\""), "\"radial\"", "the direction of the force"),
+    key("frf.response_node", Count(1), "", Otherwise("frf.force_node"), "36", "the id (from 1) of the node observed"),
+    key("frf.response_direction", Choice(words::<Direction>), "", Value("\"radial\""), "\"radial\"", "the direction observed"),
+    key("frf.frequencies_hz", Numbers(Positive), "Hz", Required, "{ from = 1.0, to = 10000.0, count = 10000 }", "the frequencies of the response"),
+    key("frf.quantity", Choice(words::<ResponseQuantity>), "", Value("\"accelerance\""), "\"accelerance\"", "what is observed for each unit of force"),
+    key("frf.method", Choice(words::<FrfMethod>), "", Value("\"auto\""), "\"auto\"", "how the response is computed (auto = cyclic)"),
+    key("frf.mass", Choice(words::<MassKind>), "", Value("\"consistent\""), "\"consistent\"", "the mass matrix"),
+    key("frf.noise", Number(NotNegative), "", Value("0.0"), "0.01", "Gaussian noise added to real and imaginary part, relative to the magnitude"),
+    key("frf.noise_seed", Count(0), "", Value("1"), "1", "the seed of that noise"),
+
+    key("convergence.factors", Numbers(Positive), "", Value("[1, 1.5, 2.25]"), "[1, 1.5, 2.25]", "the refinements of the mesh, applied to both element counts"),
+    key("convergence.time_step_factors", Numbers(Positive), "", Otherwise("no such study"), "[1, 0.5, 0.25]", "the factors on the transient's time step, on the case's own mesh"),
+    key("convergence.analyses", Choices(words::<Analysis>), "", Otherwise("every one that the case has a section for"), "[\"cea\", \"transient\"]", "what is studied"),
 ];
 
-/// The entry of a dotted key.
+/// The keys of a range, which stands for a list of numbers.
+#[rustfmt::skip]
+pub(super) const RANGE: &[CaseKey] = &[
+    key("from", Number(Finite), "", Required, "0.0", "the first value"),
+    key("to", Number(Finite), "", Required, "1.0", "the last value"),
+    key("count", Count(1), "", Required, "11", "how many values, both ends included"),
+    key("spacing", Choice(words::<Spacing>), "", Value("\"linear\""), "\"log\"", "how they are spaced"),
+];
+
+/// The entry of a dotted key, or of a key of a range.
 pub fn find(name: &str) -> Option<&'static CaseKey> {
-    KEYS.iter().find(|key| key.name == name)
+    KEYS.iter().find(|key| key.is_named(name))
 }
 
-/// What to write for a key: meaning and example.
-pub fn usage(name: &str) -> Option<String> {
-    let key = find(name)?;
-    let short = key.name.rsplit('.').next().unwrap_or(key.name);
-    Some(format!(
-        "`{name}` is {}, for example `{short} = {}`",
-        key.meaning, key.example
-    ))
-}
-
-/// The candidate nearest to `word`, if it is near enough to be a slip of the keyboard.
-pub fn nearest<'a>(word: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'a str> {
-    candidates
-        .map(|candidate| (strsim::damerau_levenshtein(word, candidate), candidate))
-        .filter(|(distance, candidate)| 3 * distance <= word.len().max(candidate.len()) + 2)
-        .min_by_key(|(distance, _)| *distance)
-        .map(|(_, candidate)| candidate)
-}
-
-/// A hint for a key that does not exist: a near miss in its section, the same key of another
-/// section, or the keys there are.
-pub fn suggest(section: &str, word: &str, known: &[&str]) -> Option<String> {
-    // A word that begins one key alone is short for it.
-    let mut begun = known
-        .iter()
-        .filter(|key| word.len() > 2 && key.starts_with(word));
-    let abbreviated = begun.next().filter(|_| begun.next().is_none());
-    if let Some(near) = nearest(word, known.iter().copied()).or(abbreviated.copied()) {
-        return Some(format!("did you mean `{near}`?"));
-    }
-    let elsewhere = |near: &str| {
-        let (home, short) = near.rsplit_once('.').unwrap_or(("", near));
-        format!("did you mean `{short}` of [{home}]?")
-    };
-    let same = |key: &&CaseKey| key.name.rsplit('.').next() == Some(word);
-    if let Some(found) = KEYS.iter().find(same) {
-        return Some(elsewhere(found.name));
-    }
-    let full = format!("{section}.{word}");
-    if let Some(near) = nearest(&full, KEYS.iter().map(|key| key.name)) {
-        return Some(elsewhere(near));
-    }
-    let mut listed = known.to_vec();
-    listed.sort_unstable();
-    Some(if section.is_empty() {
-        format!("sections and keys here: {}", listed.join(", "))
-    } else {
-        format!("keys of [{section}]: {}", listed.join(", "))
-    })
+/// Whether a dotted name is that of a key or of a section.
+pub(super) fn is_key_or_section(name: &str) -> bool {
+    find(name).is_some()
+        || KEYS.iter().any(|key| {
+            let section = key.name.strip_prefix(name);
+            section.is_some_and(|rest| rest.starts_with('.'))
+        })
 }

@@ -10,15 +10,20 @@ mod cost;
 mod cycle;
 mod diagnostic;
 mod frf;
+mod key;
 mod keys;
 mod model;
 mod overrides;
+mod plausibility;
 mod range;
 mod raw;
 mod reader;
+pub mod reference;
 mod rules;
+mod suggestion;
 mod sweep;
 mod transient;
+mod words;
 
 pub use crate::transient::{InitialState, OperatorChoice, TimeStep};
 pub use cea::{Cea, CeaMap, CeaMethod, ModeSelection};
@@ -27,8 +32,10 @@ pub use cost::{CeaCost, Cost, CycleCost, TransientCost};
 pub use cycle::{Continuation, Cycle, OnsetChoice, StabilityChoice};
 pub use diagnostic::{CaseErrors, Diagnostic, Location, Source};
 pub use frf::{Frf, FrfMethod};
-pub use keys::{CaseKey, KEYS, SECTIONS};
+pub use key::{Bound, CaseKey, Default, Kind};
+pub use keys::{KEYS, find as find_key};
 pub use model::{Contact, Damping};
+pub use overrides::unset;
 pub use range::{Spacing, range_values};
 pub use raw::{RawCase, RawEntry, RawItem, RawTable, RawValue};
 pub use sweep::{Analysis, Combination, Sweep, SweptKey};
@@ -70,7 +77,7 @@ pub struct Case {
     /// Convergence study, if the case has one.
     pub convergence: Option<Convergence>,
     /// Things that are no errors but that the user should hear of.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Diagnostic>,
 }
 
 impl Case {
@@ -97,33 +104,34 @@ impl Case {
         let findings = Findings::default();
         let end = Location::new(0, raw.text.trim_end().len()..raw.text.trim_end().len());
         let root = Section::root(&findings, &raw.root, end);
-        let title = root.text_or("title", "");
+        let title = title(&raw, root.optional_text("title").unwrap_or_default());
         let (annulus, thickness) = model::annulus(&root);
         let material = model::material(&root);
         let damping = model::damping(&root);
         let contact = model::contact(&root);
-        let mut warnings = Vec::new();
         let cea = cea::cea(&root, &annulus, contact.sliding.friction_coefficient);
         let transient = transient::transient(&root, &annulus);
-        let output = transient::output(&root, &annulus, transient.as_ref(), &mut warnings);
+        let output = transient::output(&root, &annulus, transient.as_ref());
         if transient.is_some() && annulus.element == ElementKind::Quad8 {
-            warnings.push(
+            root.section("mesh", false).warn(
+                "element",
                 "mesh.element = \"quad8\" is for the complex eigenvalue analysis only: the \
                  transient of this case cannot run"
                     .to_owned(),
+                "no transient",
             );
         }
         let cycle = cycle::cycle(&root, &annulus);
         let frf = frf::read(&root, &annulus);
         let has = [cea.is_some(), transient.is_some(), cycle.is_some()];
-        let convergence = convergence::read(&root, &annulus, has, &mut warnings);
+        let convergence = convergence::read(&root, &annulus, has);
         let sweep = sweep::read(&root);
         root.close();
-        let errors = findings.into_errors();
+        let (errors, warnings) = findings.into_parts();
         if !errors.is_empty() {
             return Err(raw.errors(errors));
         }
-        Ok(Self {
+        let mut case = Self {
             title,
             thickness,
             annulus,
@@ -139,7 +147,21 @@ impl Case {
             convergence,
             warnings,
             raw,
-        })
+        };
+        case.warnings.extend(plausibility::implausible(&case));
+        Ok(case)
+    }
+
+    /// The warnings of the case and those of a command, as errors.
+    ///
+    /// # Errors
+    /// [`CaseErrors`] with every warning, if there is one.
+    pub fn deny_warnings(&self, further: &[Diagnostic]) -> Result<(), CaseErrors> {
+        let all = [self.warnings.as_slice(), further].concat();
+        if all.is_empty() {
+            return Ok(());
+        }
+        Err(self.raw.errors(all))
     }
 
     /// The complex eigenvalue analysis.
@@ -257,8 +279,22 @@ impl Case {
                 None => break Location::default(),
             }
         };
-        let help = help.or_else(|| keys::usage(key));
+        let help = help.or_else(|| suggestion::usage(key));
         self.raw
             .errors(vec![Diagnostic::error(message, label, at, help)])
     }
+}
+
+/// The title, with the overrides beside it: a title may name what an override changes.
+fn title(raw: &RawCase, title: String) -> String {
+    const MOST: usize = 3;
+    if title.is_empty() || raw.overrides.is_empty() {
+        return title;
+    }
+    let shown = raw.overrides.iter().take(MOST);
+    let mut shown: Vec<String> = shown.map(|text| overrides::shown(text)).collect();
+    if raw.overrides.len() > MOST {
+        shown.push(format!("{} more", raw.overrides.len() - MOST));
+    }
+    format!("{title}  [with {}]", shown.join(", "))
 }

@@ -1,8 +1,8 @@
 //! The sections that describe the model: geometry, mesh, material, damping, contact.
 
-use super::reader::{Bound, Section};
+use super::reader::Section;
 use crate::contact::{ContactStiffness, SlidingContact};
-use crate::fem::{ElasticMaterial, PlaneFormulation, RayleighDamping};
+use crate::fem::{ElasticMaterial, RayleighDamping};
 use crate::mesh::{AnnulusSpecification, ElementKind};
 use std::f64::consts::TAU;
 
@@ -37,9 +37,9 @@ pub(super) fn node_count(annulus: &AnnulusSpecification) -> u128 {
 
 pub(super) fn annulus(root: &Section<'_>) -> (AnnulusSpecification, f64) {
     let geometry = root.section("geometry", true);
-    let inner_radius = geometry.number("inner_radius", Bound::Positive);
-    let outer_radius = geometry.number("outer_radius", Bound::Positive);
-    let thickness = geometry.number_or("thickness", Bound::Positive, 1.0);
+    let inner_radius = geometry.number("inner_radius");
+    let outer_radius = geometry.number("outer_radius");
+    let thickness = geometry.number("thickness");
     if outer_radius <= inner_radius {
         geometry.reject(
             "outer_radius",
@@ -56,13 +56,10 @@ pub(super) fn annulus(root: &Section<'_>) -> (AnnulusSpecification, f64) {
     let annulus = AnnulusSpecification {
         inner_radius,
         outer_radius,
-        circumferential_elements: mesh.count("circumferential_elements", 3),
-        radial_elements: mesh.count("radial_elements", 1),
-        radial_grading: mesh.number_or("radial_grading", Bound::Positive, 1.0),
-        element: mesh.choice(
-            "element",
-            &[("quad4", ElementKind::Quad4), ("quad8", ElementKind::Quad8)],
-        ),
+        circumferential_elements: mesh.count("circumferential_elements"),
+        radial_elements: mesh.count("radial_elements"),
+        radial_grading: mesh.number("radial_grading"),
+        element: mesh.choice("element"),
     };
     check_mesh(&mesh, &annulus);
     mesh.close();
@@ -98,18 +95,11 @@ fn check_mesh(mesh: &Section<'_>, annulus: &AnnulusSpecification) {
 
 pub(super) fn material(root: &Section<'_>) -> ElasticMaterial {
     let section = root.section("material", true);
-    let poisson_ratio = section.number("poisson_ratio", Bound::Between(-1.0, 0.5));
     let material = ElasticMaterial {
-        young_modulus: section.number("young_modulus", Bound::Positive),
-        poisson_ratio,
-        density: section.number("density", Bound::Positive),
-        formulation: section.choice(
-            "formulation",
-            &[
-                ("plane-strain", PlaneFormulation::PlaneStrain),
-                ("plane-stress", PlaneFormulation::PlaneStress),
-            ],
-        ),
+        young_modulus: section.number("young_modulus"),
+        poisson_ratio: section.number("poisson_ratio"),
+        density: section.number("density"),
+        formulation: section.choice("formulation"),
     };
     section.close();
     material
@@ -119,14 +109,10 @@ pub(super) fn damping(root: &Section<'_>) -> Damping {
     let section = root.section("damping", false);
     let damping = Damping {
         rayleigh: RayleighDamping {
-            mass_coefficient: section.number_or("mass_coefficient", Bound::NotNegative, 0.0),
-            stiffness_coefficient: section.number_or(
-                "stiffness_coefficient",
-                Bound::NotNegative,
-                0.0,
-            ),
+            mass_coefficient: section.number("mass_coefficient"),
+            stiffness_coefficient: section.number("stiffness_coefficient"),
         },
-        include_contact: section.flag_or("include_contact", true),
+        include_contact: section.flag("include_contact"),
     };
     section.close();
     damping
@@ -136,14 +122,14 @@ pub(super) fn contact(root: &Section<'_>) -> Contact {
     let section = root.section("contact", true);
     let contact = Contact {
         sliding: SlidingContact {
-            friction_coefficient: section.number("friction_coefficient", Bound::NotNegative),
-            interference: section.number("interference", Bound::Positive),
-            rotation_speed: section.number("rotation_speed_rpm", Bound::Finite) * TAU / 60.0,
+            friction_coefficient: section.number("friction_coefficient"),
+            interference: section.number("interference"),
+            rotation_speed: section.number("rotation_speed_rpm") * TAU / 60.0,
         },
         stiffness: ContactStiffness {
-            normal_stiffness: section.number_or_word("normal_stiffness", Bound::Positive, "rigid"),
-            normal_damping: section.number_or("normal_damping", Bound::NotNegative, 0.0),
-            tangential_damping: section.number_or("tangential_damping", Bound::NotNegative, 0.0),
+            normal_stiffness: section.optional_number("normal_stiffness"),
+            normal_damping: section.number("normal_damping"),
+            tangential_damping: section.number("tangential_damping"),
         },
     };
     let stiffness = &contact.stiffness;

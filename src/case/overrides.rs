@@ -1,47 +1,130 @@
-//! `--set KEY=VALUE`: one TOML assignment laid over the case.
+//! `--set KEY=VALUE` and `--unset KEY`: assignments laid over the case, keys taken away.
 
-use super::diagnostic::{Diagnostic, Location};
+use super::diagnostic::{Diagnostic, Location, Source};
 use super::raw::{RawEntry, RawItem, RawTable, RawValue, convert};
+use super::{keys, suggestion};
 use toml::de::{DeTable, DeValue};
 
 /// Path of an override: each key with its place.
-pub(super) type KeyPath = Vec<(String, Location)>;
+type KeyPath = Vec<(String, Location)>;
+
+/// How an override begins that takes a key away.
+const UNSET: &str = "unset ";
+
+/// The override that takes a key away, as `--unset KEY` asks for.
+pub fn unset(key: &str) -> String {
+    format!("{UNSET}{key}")
+}
+
+/// The text that errors of an override point into.
+pub(super) fn source(text: &str) -> Source {
+    let (name, text) = match text.strip_prefix(UNSET) {
+        Some(key) => ("--unset", key),
+        None => ("--set", text),
+    };
+    Source {
+        name: name.to_owned(),
+        text: text.to_owned(),
+    }
+}
+
+/// An override as a title quotes it.
+pub(super) fn shown(text: &str) -> String {
+    const LONGEST: usize = 60;
+    let text = match (text.strip_prefix(UNSET), text.split_once('=')) {
+        (Some(key), _) => format!("no {key}"),
+        (None, Some((key, value))) => format!("{} = {}", key.trim(), value.trim()),
+        (None, None) => text.to_owned(),
+    };
+    match text.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("{}...", &text[..end]),
+        None => text,
+    }
+}
+
+/// Lays one override over a case: `KEY=VALUE`, or what [`unset`] gives.
+pub(super) fn lay(
+    root: &mut RawTable,
+    text: &str,
+    source: usize,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    if let Some(key) = text.strip_prefix(UNSET) {
+        if let Some(path) = path(key, source, "--unset takes a dotted key", diagnostics) {
+            remove(root, &path, source, diagnostics);
+        }
+    } else if let Some((path, item)) = parse(text, source, diagnostics) {
+        insert(root, &path, item);
+    }
+}
+
+/// Parses a dotted key.
+fn path(
+    text: &str,
+    source: usize,
+    help: &str,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Option<KeyPath> {
+    // The key alone tells how deep the path goes; an inline table as value is not part of it.
+    match DeTable::parse(&format!("{text}=0")) {
+        Ok(table) if table.get_ref().len() == 1 => Some(key_path(table.get_ref(), source)),
+        _ => {
+            diagnostics.push(Diagnostic::error(
+                format!("`{text}` is not a key"),
+                "expected a dotted key".to_owned(),
+                Location::new(source, 0..text.len()),
+                Some(help.to_owned()),
+            ));
+            None
+        }
+    }
+}
+
+/// Takes a key, or a whole section, away; one that the case does not have may go, too.
+fn remove(
+    root: &mut RawTable,
+    path: &[(String, Location)],
+    source: usize,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    let parts: Vec<&str> = path.iter().map(|part| part.0.as_str()).collect();
+    let mut table = Some(root);
+    for part in &parts[..parts.len() - 1] {
+        table = table.and_then(|table| match &mut table.get_mut(*part)?.item.value {
+            RawValue::Table(inner) => Some(inner),
+            _ => None,
+        });
+    }
+    let taken = table.and_then(|table| table.remove(parts[parts.len() - 1]));
+    let name = parts.join(".");
+    if taken.is_none() && !keys::is_key_or_section(&name) {
+        diagnostics.push(Diagnostic::error(
+            format!("unknown key `{name}`"),
+            "nothing to take away".to_owned(),
+            Location::new(source, 0..name.len()),
+            suggestion::nearest_key(&name).map(|near| format!("did you mean `{near}`?")),
+        ));
+    }
+}
 
 /// Parses one `KEY=VALUE`.
-pub(super) fn parse(
+fn parse(
     text: &str,
     source: usize,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Option<(KeyPath, RawItem)> {
-    let whole = Location::new(source, 0..text.len());
-    let help = Some(
-        "an override is KEY=VALUE with a dotted key and a TOML value, \
-         for example --set contact.friction_coefficient=0.4"
-            .to_owned(),
-    );
+    let help = "an override is KEY=VALUE with a dotted key and a TOML value, \
+                for example --set contact.friction_coefficient=0.4";
     let Some(equals) = assignment(text) else {
         diagnostics.push(Diagnostic::error(
             "the override has no `=`".to_owned(),
             "expected KEY=VALUE".to_owned(),
-            whole,
-            help,
+            Location::new(source, 0..text.len()),
+            Some(help.to_owned()),
         ));
         return None;
     };
-    // The key alone tells how deep the path goes; an inline table as value is not part of it.
-    let key_text = format!("{}=0", &text[..equals]);
-    let path = match DeTable::parse(&key_text) {
-        Ok(table) if table.get_ref().len() == 1 => key_path(table.get_ref(), source),
-        _ => {
-            diagnostics.push(Diagnostic::error(
-                format!("`{}` is not a key", &text[..equals]),
-                "expected a dotted key".to_owned(),
-                Location::new(source, 0..equals),
-                help,
-            ));
-            return None;
-        }
-    };
+    let path = path(&text[..equals], source, help, diagnostics)?;
     let value_text = &text[equals + 1..];
     let value_at = Location::new(source, equals + 1..text.len());
     let mut errors = Vec::new();
@@ -52,7 +135,7 @@ pub(super) fn parse(
                 format!("the value is not TOML: {}", error.message()),
                 String::new(),
                 value_at.clone(),
-                help,
+                Some(help.to_owned()),
             ));
             RawValue::Boolean(false)
         }
@@ -66,6 +149,14 @@ pub(super) fn parse(
     };
     relocate(&mut item, &value_at);
     Some((path, item))
+}
+
+/// A value alone, in TOML; none if it is not.
+pub(super) fn value(text: &str) -> Option<RawValue> {
+    let parsed = DeValue::parse(text).ok()?;
+    let mut errors = Vec::new();
+    let value = convert(parsed.get_ref(), 0, 0..text.len(), &mut errors);
+    errors.is_empty().then_some(value)
 }
 
 /// Position of the `=` between key and value: the first one outside quotes.
@@ -117,7 +208,7 @@ fn place_within(at: &Location, errors: &mut [Diagnostic]) {
 }
 
 /// Puts a value at a path, making the tables on the way.
-pub(super) fn insert(table: &mut RawTable, path: &[(String, Location)], item: RawItem) {
+fn insert(table: &mut RawTable, path: &[(String, Location)], item: RawItem) {
     let Some(((key, key_at), rest)) = path.split_first() else {
         return;
     };

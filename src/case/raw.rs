@@ -62,6 +62,42 @@ impl RawValue {
     }
 }
 
+impl RawValue {
+    /// How many values it holds, those that ranges stand for included.
+    pub(super) fn length(&self) -> usize {
+        match self {
+            Self::Array(items) => items.iter().map(|item| item.value.length()).sum(),
+            Self::Table(table) => {
+                let count = match table.get("count").map(|entry| &entry.item.value) {
+                    Some(Self::Integer(count)) => usize::try_from(*count).unwrap_or(0),
+                    _ => 0,
+                };
+                let lengths = table.values().map(|entry| entry.item.value.length());
+                lengths.fold(count, usize::saturating_add)
+            }
+            _ => 1,
+        }
+    }
+
+    /// The value as messages quote it: no longer than a line.
+    pub(super) fn shortened(&self) -> String {
+        const LONGEST: usize = 60;
+        // A long list is not written out to be cut off.
+        let text = match self {
+            Self::Array(items) if items.len() > LONGEST => {
+                let first = items.iter().take(4).map(|item| item.value.shortened());
+                let first: Vec<String> = first.collect();
+                format!("[{}, ... ({} values)]", first.join(", "), items.len())
+            }
+            value => value.to_string(),
+        };
+        match text.char_indices().nth(LONGEST) {
+            Some((end, _)) => format!("{}...", &text[..end]),
+            None => text,
+        }
+    }
+}
+
 impl std::fmt::Display for RawValue {
     /// Canonical TOML: tables inline, integers and equal floats alike, keys in order.
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -127,34 +163,41 @@ impl RawCase {
     /// # Errors
     /// [`CaseErrors`] with every syntax error of the file and of the overrides.
     pub fn parse(name: &str, bytes: &[u8], overrides: &[String]) -> Result<Self, CaseErrors> {
-        let text = String::from_utf8_lossy(bytes).into_owned();
         let mut case = Self {
             name: name.to_owned(),
-            text,
-            overrides: overrides.to_vec(),
+            text: String::new(),
+            overrides: Vec::new(),
             root: RawTable::new(),
         };
         let mut diagnostics = Vec::new();
-        if let Err(error) = std::str::from_utf8(bytes) {
-            let start = error.valid_up_to();
-            diagnostics.push(Diagnostic::error(
-                "the case file is not UTF-8 text".to_owned(),
-                "the first byte that is not".to_owned(),
-                Location::new(0, start..start + 1),
-                Some("save the file as UTF-8".to_owned()),
-            ));
-        } else {
-            case.root = parse_document(&case.text, 0, &mut diagnostics);
-        }
-        for (index, text) in overrides.iter().enumerate() {
-            if let Some((path, item)) = overrides::parse(text, index + 1, &mut diagnostics) {
-                overrides::insert(&mut case.root, &path, item);
+        match readable_text(bytes) {
+            Ok(text) => {
+                case.root = parse_document(text, 0, &mut diagnostics);
+                case.text = text.to_owned();
+            }
+            Err((error, text)) => {
+                diagnostics.push(error);
+                case.text = text;
             }
         }
+        case.lay(overrides, diagnostics)
+    }
+
+    /// Lays overrides over the case, or gives the errors so far and theirs.
+    fn lay(
+        mut self,
+        overrides: &[String],
+        mut diagnostics: Vec<Diagnostic>,
+    ) -> Result<Self, CaseErrors> {
+        for text in overrides {
+            self.overrides.push(text.clone());
+            let source = self.overrides.len();
+            overrides::lay(&mut self.root, text, source, &mut diagnostics);
+        }
         if diagnostics.is_empty() {
-            Ok(case)
+            Ok(self)
         } else {
-            Err(case.errors(diagnostics))
+            Err(self.errors(diagnostics))
         }
     }
 
@@ -163,8 +206,7 @@ impl RawCase {
     /// # Errors
     /// As [`RawCase::parse`].
     pub fn with_overrides(&self, further: &[String]) -> Result<Self, CaseErrors> {
-        let overrides = [self.overrides.as_slice(), further].concat();
-        Self::parse(&self.name, self.text.as_bytes(), &overrides)
+        self.clone().lay(further, Vec::new())
     }
 
     /// The point of a parameter study that `overrides` make: a case of its own without `[sweep]`, so
@@ -214,10 +256,7 @@ impl RawCase {
             name: self.name.clone(),
             text: self.text.clone(),
         }];
-        sources.extend(self.overrides.iter().map(|text| Source {
-            name: "--set".to_owned(),
-            text: text.clone(),
-        }));
+        sources.extend(self.overrides.iter().map(|text| overrides::source(text)));
         CaseErrors {
             sources,
             diagnostics,
@@ -238,6 +277,40 @@ impl RawCase {
         }
         None
     }
+}
+
+/// The text of a case file; else what it is instead, and as much of it as is fit to be shown.
+fn readable_text(bytes: &[u8]) -> Result<&str, (Diagnostic, String)> {
+    let refuse = |message: &str, at: std::ops::Range<usize>, shown: String| {
+        let label = if at.is_empty() {
+            ""
+        } else {
+            "the first byte that is not"
+        };
+        let (message, label) = (message.to_owned(), label.to_owned());
+        let help = Some("save the file as UTF-8 text".to_owned());
+        let error = Diagnostic::error(message, label, Location::new(0, at), help);
+        Err((error, shown))
+    };
+    if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
+        return refuse(
+            "the case file is UTF-16 text, not UTF-8",
+            0..0,
+            String::new(),
+        );
+    }
+    if bytes.contains(&0) {
+        return refuse(
+            "the case file is no text: it holds zero bytes",
+            0..0,
+            String::new(),
+        );
+    }
+    std::str::from_utf8(bytes).or_else(|error| {
+        let start = error.valid_up_to();
+        let shown = String::from_utf8_lossy(bytes).into_owned();
+        refuse("the case file is not UTF-8 text", start..start + 1, shown)
+    })
 }
 
 /// Parses a whole document; syntax errors are added to `diagnostics`.

@@ -1,84 +1,64 @@
-//! Typed, bounded access to the raw tree that collects every error instead of stopping at one.
+//! Typed access to the raw tree, held to the declaration of each key, that collects every error
+//! instead of stopping at one.
 
 mod lists;
 
 use super::diagnostic::{Diagnostic, Location};
-use super::keys;
+use super::key::{Bound, CaseKey, Choice, Default, Kind};
 use super::raw::{RawEntry, RawItem, RawTable, RawValue};
+use super::{keys, suggestion};
 use std::cell::RefCell;
 
-/// Where a number must lie.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Bound {
-    /// Above zero.
-    Positive,
-    /// Zero or above.
-    NotNegative,
-    /// Strictly between two values.
-    Between(f64, f64),
-    /// Any finite number.
-    Finite,
-}
-
-impl Bound {
-    fn admits(self, value: f64) -> bool {
-        value.is_finite()
-            && match self {
-                Self::Positive => value > 0.0,
-                Self::NotNegative => value >= 0.0,
-                Self::Between(low, high) => value > low && value < high,
-                Self::Finite => true,
-            }
-    }
-
-    fn text(self) -> String {
-        match self {
-            Self::Positive => "must be positive and finite".to_owned(),
-            Self::NotNegative => "must be zero or positive, and finite".to_owned(),
-            Self::Between(low, high) => format!("must lie strictly between {low} and {high}"),
-            Self::Finite => "must be finite".to_owned(),
-        }
-    }
-}
-
-/// Errors found so far.
+/// Errors and warnings found so far.
 #[derive(Debug, Default)]
 pub(super) struct Findings {
     errors: RefCell<Vec<Diagnostic>>,
+    warnings: RefCell<Vec<Diagnostic>>,
 }
 
 impl Findings {
-    /// Adds an error.
-    pub fn push(&self, message: String, label: String, at: Location, help: Option<String>) {
-        self.errors
-            .borrow_mut()
-            .push(Diagnostic::error(message, label, at, help));
+    fn push(&self, message: String, label: String, at: Location, help: Option<String>) {
+        let error = Diagnostic::error(message, label, at, help);
+        self.errors.borrow_mut().push(error);
     }
 
-    /// All errors, in the order found.
-    pub fn into_errors(self) -> Vec<Diagnostic> {
-        self.errors.into_inner()
+    /// All errors and all warnings, each in the order found.
+    pub fn into_parts(self) -> (Vec<Diagnostic>, Vec<Diagnostic>) {
+        (self.errors.into_inner(), self.warnings.into_inner())
     }
 }
 
 /// One section of the case. Getters record what is wrong and then return a harmless value (NaN or
 /// zero), which later comparisons must not mistake for input: they ask in the form that NaN fails.
+///
+/// Kind, bound and default of a key are those of its declaration in [`keys::KEYS`].
 pub(super) struct Section<'a> {
     findings: &'a Findings,
     path: String,
     table: Option<&'a RawTable>,
     at: Location,
-    asked: RefCell<Vec<&'static str>>,
+    is_range: bool,
+    asked: RefCell<Vec<String>>,
 }
 
 impl<'a> Section<'a> {
     /// The whole document; `at` is where missing sections are reported.
     pub fn root(findings: &'a Findings, table: &'a RawTable, at: Location) -> Self {
+        Self::new(findings, String::new(), Some(table), at)
+    }
+
+    fn new(
+        findings: &'a Findings,
+        path: String,
+        table: Option<&'a RawTable>,
+        at: Location,
+    ) -> Self {
         Self {
             findings,
-            path: String::new(),
-            table: Some(table),
+            path,
+            table,
             at,
+            is_range: false,
             asked: RefCell::default(),
         }
     }
@@ -97,8 +77,19 @@ impl<'a> Section<'a> {
         }
     }
 
-    fn item(&self, key: &'static str) -> Option<&'a RawItem> {
-        self.asked.borrow_mut().push(key);
+    /// The declaration of a key; what is declared nowhere is free text.
+    fn declared(&self, key: &str) -> &'static CaseKey {
+        let found = if self.is_range {
+            keys::RANGE.iter().find(|known| known.name == key)
+        } else {
+            keys::find(&self.name(key))
+        };
+        debug_assert!(found.is_some(), "{} is not declared", self.name(key));
+        found.unwrap_or(&keys::KEYS[0])
+    }
+
+    fn item(&self, key: &str) -> Option<&'a RawItem> {
+        self.asked.borrow_mut().push(key.to_owned());
         self.table?.get(key).map(|entry| &entry.item)
     }
 
@@ -121,7 +112,7 @@ impl<'a> Section<'a> {
 
     /// Reports an error at a key, with the key's meaning as remedy unless another is given.
     pub fn reject(&self, key: &str, message: String, label: String, help: Option<String>) {
-        let help = help.or_else(|| keys::usage(&self.name(key)));
+        let help = help.or_else(|| suggestion::usage(&self.name(key)));
         self.findings.push(message, label, self.place(key), help);
     }
 
@@ -129,6 +120,12 @@ impl<'a> Section<'a> {
     pub fn reject_there(&self, at: &Location, message: String, label: String, help: &str) {
         self.findings
             .push(message, label, at.clone(), Some(help.to_owned()));
+    }
+
+    /// Says at a key what is no error but what the user should hear of.
+    pub fn warn(&self, key: &str, message: String, label: &str) {
+        let warning = Diagnostic::error(message, label.to_owned(), self.place(key), None);
+        self.findings.warnings.borrow_mut().push(warning);
     }
 
     /// Whether a key is given as an empty list.
@@ -151,11 +148,12 @@ impl<'a> Section<'a> {
     }
 
     fn reject_at(&self, item: &RawItem, key: &str, bound: &str) {
+        let help = decimal_comma(&item.value).or_else(|| suggestion::usage(&self.name(key)));
         self.findings.push(
-            format!("{} = {} {bound}", self.name(key), item.value),
+            format!("{} = {} {bound}", self.name(key), item.value.shortened()),
             bound.to_owned(),
             item.at.clone(),
-            keys::usage(&self.name(key)),
+            help,
         );
     }
 
@@ -166,23 +164,16 @@ impl<'a> Section<'a> {
                 format!("missing key `{}`", self.name(key)),
                 format!("`{key}` belongs in this section"),
                 self.at.clone(),
-                keys::usage(&self.name(key)),
+                suggestion::usage(&self.name(key)),
             );
         }
     }
 
     /// A subsection; `required` ones are reported where absent.
-    pub fn section(&self, key: &'static str, required: bool) -> Section<'a> {
-        let path = self.name(key);
-        self.asked.borrow_mut().push(key);
+    pub fn section(&self, key: &str, required: bool) -> Section<'a> {
+        self.asked.borrow_mut().push(key.to_owned());
         let entry = self.table.and_then(|table| table.get(key));
-        let mut section = Section {
-            findings: self.findings,
-            path,
-            table: None,
-            at: self.at.clone(),
-            asked: RefCell::default(),
-        };
+        let mut section = Self::new(self.findings, self.name(key), None, self.at.clone());
         match entry {
             Some(entry) => {
                 section.at = entry.key_at.clone();
@@ -210,6 +201,7 @@ impl<'a> Section<'a> {
     /// Reports every key that nobody asked for.
     pub fn close(self) {
         let asked = self.asked.borrow();
+        let asked: Vec<&str> = asked.iter().map(String::as_str).collect();
         for (key, entry) in self.table.into_iter().flatten() {
             if asked.contains(&key.as_str()) {
                 continue;
@@ -223,7 +215,7 @@ impl<'a> Section<'a> {
                 format!("unknown key `{}`", self.name(key)),
                 place,
                 entry.key_at.clone(),
-                keys::suggest(&self.path, key, &asked),
+                suggestion::suggest(&self.path, key, &asked),
             );
         }
     }
@@ -233,7 +225,7 @@ impl<'a> Section<'a> {
         let asked = self.asked.borrow();
         let entries = self.table.into_iter().flatten();
         entries
-            .filter(|(key, _)| !asked.contains(&key.as_str()))
+            .filter(|(key, _)| !asked.contains(key))
             .map(|(key, entry)| (key.as_str(), entry))
             .collect()
     }
@@ -243,11 +235,8 @@ impl<'a> Section<'a> {
             RawValue::Integer(value) => value as f64,
             RawValue::Float(value) => value,
             ref other => {
-                self.reject_at(
-                    item,
-                    key,
-                    &format!("must be a number, not {}", other.kind()),
-                );
+                let kind = other.kind();
+                self.reject_at(item, key, &format!("must be a number, not {kind}"));
                 return None;
             }
         };
@@ -259,39 +248,36 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// A number that may be left out.
-    pub fn optional_number(&self, key: &'static str, bound: Bound) -> Option<f64> {
-        let item = self.item(key)?;
-        Some(self.read_number(key, item, bound).unwrap_or(f64::NAN))
-    }
-
-    /// A number with a default.
-    pub fn number_or(&self, key: &'static str, bound: Bound, default: f64) -> f64 {
-        self.optional_number(key, bound).unwrap_or(default)
-    }
-
-    /// A number that must be there.
-    pub fn number(&self, key: &'static str, bound: Bound) -> f64 {
-        self.optional_number(key, bound).unwrap_or_else(|| {
-            self.missing(key);
-            f64::NAN
-        })
-    }
-
-    /// A number or one word that stands for its absence.
-    pub fn number_or_word(&self, key: &'static str, bound: Bound, word: &str) -> Option<f64> {
-        match self.item(key) {
-            Some(RawItem {
-                value: RawValue::String(text),
-                ..
-            }) if text == word => None,
-            Some(item) if matches!(item.value, RawValue::String(_)) => {
+    /// A number: as given (NaN where that is wrong), else its default, else none. The word that a
+    /// key may have in a number's place is none, too.
+    pub fn optional_number(&self, key: &str) -> Option<f64> {
+        let declared = self.declared(key);
+        let (bound, word) = match declared.kind {
+            Kind::Number(bound) | Kind::Numbers(bound) => (bound, None),
+            Kind::NumberOr(bound, word) => (bound, Some(word)),
+            _ => (Bound::Finite, None),
+        };
+        match (self.item(key), word) {
+            (Some(_), Some(word)) if self.is_text(key, word) => None,
+            (Some(item), Some(word)) if self.is_some_text(key) => {
                 self.reject_at(item, key, &format!("must be a number or \"{word}\""));
                 None
             }
-            Some(item) => self.read_number(key, item, bound),
-            None => None,
+            (Some(item), _) => Some(self.read_number(key, item, bound).unwrap_or(f64::NAN)),
+            (None, _) => match declared.default_value()? {
+                RawValue::Float(value) => Some(value),
+                RawValue::Integer(value) => Some(value as f64),
+                _ => None,
+            },
         }
+    }
+
+    /// A number that is given or has a default; NaN where it is missing.
+    pub fn number(&self, key: &str) -> f64 {
+        self.optional_number(key).unwrap_or_else(|| {
+            self.missing(key);
+            f64::NAN
+        })
     }
 
     fn read_count(&self, key: &str, item: &RawItem, least: usize) -> Option<usize> {
@@ -314,22 +300,35 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// A whole number of at least `least` that may be left out.
-    pub fn optional_count(&self, key: &'static str, least: usize) -> Option<usize> {
-        let item = self.item(key)?;
-        Some(self.read_count(key, item, least).unwrap_or(0))
+    fn least(&self, key: &str) -> usize {
+        match self.declared(key).kind {
+            Kind::Count(least) | Kind::Counts(least) => least,
+            _ => 0,
+        }
     }
 
-    /// A whole number of at least `least` that must be there; 0 where it is not.
-    pub fn count(&self, key: &'static str, least: usize) -> usize {
-        self.optional_count(key, least).unwrap_or_else(|| {
+    /// A whole number: as given (0 where that is wrong), else its default, else none.
+    pub fn optional_count(&self, key: &str) -> Option<usize> {
+        match self.item(key) {
+            Some(item) => Some(self.read_count(key, item, self.least(key)).unwrap_or(0)),
+            None => match self.declared(key).default_value()? {
+                RawValue::Integer(value) => usize::try_from(value).ok(),
+                _ => None,
+            },
+        }
+    }
+
+    /// A whole number that is given or has a default; 0 where it is missing.
+    pub fn count(&self, key: &str) -> usize {
+        self.optional_count(key).unwrap_or_else(|| {
             self.missing(key);
             0
         })
     }
 
-    /// True or false.
-    pub fn flag_or(&self, key: &'static str, default: bool) -> bool {
+    /// True or false; false without a default.
+    pub fn flag(&self, key: &str) -> bool {
+        let default = self.declared(key).default == Default::Value("true");
         match self.item(key) {
             None => default,
             Some(RawItem {
@@ -343,55 +342,68 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// Free text.
-    pub fn text_or(&self, key: &'static str, default: &str) -> String {
-        match self.item(key) {
-            None => default.to_owned(),
-            Some(RawItem {
-                value: RawValue::String(text),
-                ..
-            }) => text.clone(),
-            Some(item) => {
-                self.reject_at(item, key, "must be a string");
-                default.to_owned()
-            }
+    /// Text; none where it is not given.
+    pub fn optional_text(&self, key: &str) -> Option<String> {
+        let item = self.item(key)?;
+        if let RawValue::String(text) = &item.value {
+            return Some(text.clone());
         }
+        self.reject_at(item, key, "must be a string");
+        None
     }
 
     /// Text that must be there.
-    pub fn text(&self, key: &'static str) -> String {
+    pub fn text(&self, key: &str) -> String {
         if !self.has(key) {
             self.missing(key);
         }
-        self.text_or(key, "")
+        self.optional_text(key).unwrap_or_default()
     }
 
-    /// One of a few words; the first is the default.
-    pub fn choice<T: Copy>(&self, key: &'static str, choices: &[(&str, T)]) -> T {
-        match self.item(key) {
-            None => choices[0].1,
-            Some(item) => self.read_choice(key, item, choices).unwrap_or(choices[0].1),
-        }
+    /// One of a few words; the default where the key is left out or wrong.
+    pub fn choice<T: Choice>(&self, key: &str) -> T {
+        let given = self.item(key);
+        given
+            .and_then(|item| self.read_choice(key, item))
+            .unwrap_or_else(|| {
+                let default = self.declared(key).default_text().trim_matches('"');
+                let found = T::WORDS.iter().find(|pair| pair.0 == default);
+                found.map_or(T::WORDS[0].1, |pair| pair.1)
+            })
     }
 
-    fn read_choice<T: Copy>(&self, key: &str, item: &RawItem, choices: &[(&str, T)]) -> Option<T> {
-        let words: Vec<&str> = choices.iter().map(|choice| choice.0).collect();
+    fn read_choice<T: Choice>(&self, key: &str, item: &RawItem) -> Option<T> {
+        let words = super::key::words::<T>();
+        let bound = format!("must be one of \"{}\"", words.join("\", \""));
         if let RawValue::String(text) = &item.value {
-            if let Some(choice) = choices.iter().find(|choice| choice.0 == text) {
+            if let Some(choice) = T::WORDS.iter().find(|choice| choice.0 == text) {
                 return Some(choice.1);
             }
-            if let Some(near) = keys::nearest(text, words.iter().copied()) {
+            if let Some(near) = suggestion::nearest_word(text, &words) {
                 self.findings.push(
-                    format!("{} = \"{text}\" is not one of its values", self.name(key)),
-                    format!("must be one of \"{}\"", words.join("\", \"")),
+                    format!(
+                        "{} = {} is not one of its values",
+                        self.name(key),
+                        item.value.shortened()
+                    ),
+                    bound,
                     item.at.clone(),
                     Some(format!("did you mean \"{near}\"?")),
                 );
                 return None;
             }
         }
-        let bound = format!("must be one of \"{}\"", words.join("\", \""));
         self.reject_at(item, key, &bound);
         None
     }
+}
+
+/// A hint where a string is a number with a decimal comma.
+fn decimal_comma(value: &RawValue) -> Option<String> {
+    let RawValue::String(text) = value else {
+        return None;
+    };
+    let point = text.replace(',', ".");
+    let is_number = text.matches(',').count() == 1 && point.parse::<f64>().is_ok();
+    is_number.then(|| format!("write the number with a decimal point: {point}"))
 }

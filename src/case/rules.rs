@@ -1,12 +1,12 @@
 //! Rules that several sections share.
 
-use super::keys;
-use super::reader::{Bound, Section};
+use super::reader::Section;
+use super::{keys, suggestion};
 use crate::mesh::AnnulusSpecification;
 
 /// A list of numbers in rising order; equal ones are an error.
-pub(super) fn rising(section: &Section<'_>, key: &'static str, bound: Bound) -> Option<Vec<f64>> {
-    let mut values = section.numbers(key, bound)?;
+pub(super) fn rising(section: &Section<'_>, key: &str) -> Option<Vec<f64>> {
+    let mut values = section.numbers(key)?;
     values.sort_by(f64::total_cmp);
     if let Some(pair) = values.windows(2).find(|pair| pair[0] == pair[1]) {
         section.reject(
@@ -20,7 +20,7 @@ pub(super) fn rising(section: &Section<'_>, key: &'static str, bound: Bound) -> 
 }
 
 /// A key whose value names a numeric case key.
-pub(super) fn parameter(section: &Section<'_>, key: &'static str) -> String {
+pub(super) fn parameter(section: &Section<'_>, key: &str) -> String {
     let name = section.text(key);
     if section.is_some_text(key) && keys::find(&name).is_none_or(|known| !known.is_numeric()) {
         let numeric = keys::KEYS.iter().filter(|known| known.is_numeric());
@@ -31,7 +31,7 @@ pub(super) fn parameter(section: &Section<'_>, key: &'static str) -> String {
                 section.name(key)
             ),
             "must name a key whose value is a number".to_owned(),
-            keys::nearest(&name, numeric.map(|known| known.name))
+            suggestion::nearest(&name, numeric.map(|known| known.name))
                 .map(|near| format!("did you mean \"{near}\"?")),
         );
     }
@@ -41,10 +41,9 @@ pub(super) fn parameter(section: &Section<'_>, key: &'static str) -> String {
 /// A list of harmonics that the mesh can hold.
 pub(super) fn harmonics(
     section: &Section<'_>,
-    least: usize,
     annulus: &AnnulusSpecification,
 ) -> Option<Vec<usize>> {
-    let values = section.counts("harmonics", least)?;
+    let values = section.counts("harmonics")?;
     let highest = annulus.circumferential_elements / 2;
     for (value, at) in &values {
         if *value > highest && annulus.circumferential_elements > 0 {

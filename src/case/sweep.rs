@@ -1,10 +1,10 @@
 //! `[sweep]`: any case key over several values.
 
 use super::diagnostic::{CaseErrors, Location};
-use super::keys;
+use super::key::Bound;
 use super::raw::{RawEntry, RawValue};
-use super::reader::{Bound, Section};
-use super::{Case, RawCase};
+use super::reader::Section;
+use super::{Case, RawCase, keys, suggestion};
 
 /// What runs at a point of a sweep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -88,23 +88,20 @@ pub(super) fn read(root: &Section<'_>) -> Option<Sweep> {
         section.close();
         return None;
     }
-    let combination = section.choice(
-        "combine",
-        &[("grid", Combination::Grid), ("zip", Combination::Zip)],
-    );
-    let analyses = section.choices(
-        "analyses",
-        &[
-            ("transient", Analysis::Transient),
-            ("cea", Analysis::Cea),
-            ("cycle", Analysis::Cycle),
-        ],
-        &[],
-    );
-    let mut keys = Vec::new();
+    let combination = section.choice("combine");
+    let analyses = section.choices("analyses");
+    let mut entries = Vec::new();
     for (name, entry) in section.remaining() {
-        collect(&section, name, entry, &mut keys);
+        swept(&section, name.to_owned(), entry, &mut entries);
     }
+    // Sizes are known before a single value is made.
+    if !fits(&section, combination, &entries) {
+        return None;
+    }
+    let keys: Vec<SweptKey> = entries
+        .into_iter()
+        .map(|(name, entry)| values(&section, name, entry))
+        .collect();
     if keys.is_empty() {
         section.reject_there(
             &section.place(""),
@@ -122,33 +119,75 @@ pub(super) fn read(root: &Section<'_>) -> Option<Sweep> {
     Some(sweep)
 }
 
-/// Reads one swept key; tables that are no range are dotted keys written without quotes.
-fn collect(section: &Section<'_>, name: &str, entry: &RawEntry, keys: &mut Vec<SweptKey>) {
-    if keys::find(name).is_none()
-        && let RawValue::Table(inner) = &entry.item.value
-    {
-        for (key, entry) in inner {
-            collect(section, &format!("{name}.{key}"), entry, keys);
+/// Most points of a study, and most values of its keys together.
+const MOST_POINTS: usize = 1_000_000;
+
+/// Finds the swept keys; tables that are no range are dotted keys written without quotes.
+fn swept<'a>(
+    section: &Section<'_>,
+    name: String,
+    entry: &'a RawEntry,
+    entries: &mut Vec<(String, &'a RawEntry)>,
+) {
+    match (&entry.item.value, keys::find(&name)) {
+        (_, Some(_)) if !name.starts_with("sweep.") => entries.push((name, entry)),
+        (RawValue::Table(inner), None) => {
+            for (key, entry) in inner {
+                swept(section, format!("{name}.{key}"), entry, entries);
+            }
         }
-        return;
-    }
-    if keys::find(name).is_none() || name.starts_with("sweep.") {
-        let all = keys::KEYS.iter().map(|key| key.name);
-        section.reject_there(
+        _ => section.reject_there(
             &entry.key_at,
             format!("unknown key `{name}` in [sweep]"),
             "not a case key that can be swept".to_owned(),
-            &keys::nearest(name, all).map_or_else(
+            &suggestion::nearest_key(&name).map_or_else(
                 || "a swept key is a dotted case key in quotes".to_owned(),
                 |near| format!("did you mean \"{near}\"?"),
             ),
-        );
-        return;
+        ),
     }
+}
+
+/// How many values an entry stands for.
+fn length(entry: &RawEntry) -> usize {
+    match &entry.item.value {
+        RawValue::Array(items) => items.len(),
+        RawValue::Table(table) => match table.get("count").map(|count| &count.item.value) {
+            Some(RawValue::Integer(count)) => usize::try_from(*count).unwrap_or(0),
+            _ => 0,
+        },
+        _ => 1,
+    }
+}
+
+/// Refuses studies of too many points or values.
+fn fits(section: &Section<'_>, combination: Combination, entries: &[(String, &RawEntry)]) -> bool {
+    let lengths = entries.iter().map(|(_, entry)| length(entry));
+    let (count, what) = match combination {
+        Combination::Grid => (lengths.fold(1, usize::saturating_mul), "points"),
+        Combination::Zip => (lengths.fold(0, usize::saturating_add), "values"),
+    };
+    if count <= MOST_POINTS {
+        return true;
+    }
+    let longest = entries.iter().max_by_key(|(_, entry)| length(entry));
+    if let Some((name, entry)) = longest {
+        section.reject_there(
+            &entry.item.at,
+            format!("[sweep] has {count} {what}, most of them for \"{name}\""),
+            format!("at most {MOST_POINTS}"),
+            "sweep fewer values",
+        );
+    }
+    false
+}
+
+/// The values of a swept key.
+fn values(section: &Section<'_>, key: String, entry: &RawEntry) -> SweptKey {
     let values: Vec<String> = match &entry.item.value {
         RawValue::Array(items) => items.iter().map(|item| item.value.to_string()).collect(),
         RawValue::Table(table) => section
-            .range(name, table, &entry.item, Bound::Finite)
+            .range(&key, table, &entry.item, Bound::Finite)
             .into_iter()
             .map(|value| RawValue::Float(value).to_string())
             .collect(),
@@ -157,20 +196,19 @@ fn collect(section: &Section<'_>, name: &str, entry: &RawEntry, keys: &mut Vec<S
     if values.is_empty() && matches!(entry.item.value, RawValue::Array(_)) {
         section.reject_there(
             &entry.item.at,
-            format!("\"{name}\" in [sweep] has no values"),
+            format!("\"{key}\" in [sweep] has no values"),
             "at least one value".to_owned(),
             "list its values or give a range { from, to, count }",
         );
     }
-    keys.push(SweptKey {
-        key: name.to_owned(),
+    SweptKey {
+        key,
         values,
         at: entry.item.at.clone(),
-    });
+    }
 }
 
 fn check_lengths(section: &Section<'_>, sweep: &Sweep) {
-    const MOST_POINTS: usize = 1_000_000;
     if sweep.combination == Combination::Zip
         && let Some((first, rest)) = sweep.keys.split_first()
         && let Some(other) = rest.iter().find(|k| k.values.len() != first.values.len())
@@ -188,34 +226,30 @@ fn check_lengths(section: &Section<'_>, sweep: &Sweep) {
             "give them the same count, or combine = \"grid\"",
         );
     }
-    if sweep.point_count() > MOST_POINTS {
-        section.reject_there(
-            &sweep.keys[0].at,
-            format!("[sweep] has {} points", sweep.point_count()),
-            format!("at most {MOST_POINTS}"),
-            "sweep fewer values",
-        );
-    }
 }
 
 /// Checks each swept value on its own, all others as the case has them, so that a bad one is
-/// reported before anything runs. Of a very long list only evenly spaced ones are tried: the sweep
-/// itself reports the rest, point by point.
+/// reported before anything runs. Where the lists are long only evenly spaced values are tried: the
+/// sweep itself reports the rest, point by point.
 pub(super) fn check_values(case: &Case) -> Result<(), CaseErrors> {
     let Some(sweep) = &case.sweep else {
         return Ok(());
     };
-    const MOST_TRIED: usize = 1000;
+    // A point is read at the cost of its key lines and of the lists that they stand for.
+    const EFFORT: usize = 400_000;
+    let point = case.raw.sweep_point(&[])?;
+    let each = 200 + RawValue::Table(point.root.clone()).length();
+    let most = (EFFORT / (each * sweep.keys.len().max(1))).clamp(2, 1000);
     let mut errors = Vec::new();
     for key in &sweep.keys {
         let last = key.values.len().saturating_sub(1);
-        let tried = key.values.len().min(MOST_TRIED);
+        let tried = key.values.len().min(most);
         for value in (0..tried).map(|i| &key.values[i * last / tried.max(2).saturating_sub(1)]) {
-            let point = [format!("{}={value}", key.key)];
-            let result = case.raw.sweep_point(&point).and_then(read_point);
+            let change = [format!("{}={value}", key.key)];
+            let result = point.with_overrides(&change).and_then(read_point);
             if let Err(bad) = result {
                 for mut error in bad.diagnostics {
-                    error.message = format!("swept value {}: {}", point[0], error.message);
+                    error.message = format!("swept value {}: {}", change[0], error.message);
                     error.at = key.at.clone();
                     errors.push(error);
                 }

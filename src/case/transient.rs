@@ -1,7 +1,7 @@
 //! `[transient]` and `[output]`: the explicit transient and what it writes.
 
 use super::model::node_count;
-use super::reader::{Bound, Section};
+use super::reader::Section;
 use super::rules::{harmonics, rising};
 use crate::mesh::AnnulusSpecification;
 use crate::transient::{InitialState, OperatorChoice, TimeStep};
@@ -50,8 +50,8 @@ pub(super) fn transient(root: &Section<'_>, annulus: &AnnulusSpecification) -> O
     if !section.is_given() {
         return None;
     }
-    let duration = section.number("duration", Bound::Positive);
-    let time_step = match section.number_or_word("time_step", Bound::Positive, "auto") {
+    let duration = section.number("duration");
+    let time_step = match section.optional_number("time_step") {
         Some(step) => TimeStep::Seconds(step),
         None => TimeStep::Auto,
     };
@@ -71,16 +71,9 @@ pub(super) fn transient(root: &Section<'_>, annulus: &AnnulusSpecification) -> O
     let transient = Transient {
         duration,
         time_step,
-        expansion_time: section.number_or("expansion_time", Bound::NotNegative, 5e-4),
+        expansion_time: section.number("expansion_time"),
         initial,
-        operator: section.choice(
-            "operator",
-            &[
-                ("auto", OperatorChoice::Auto),
-                ("cyclic", OperatorChoice::Cyclic),
-                ("sparse", OperatorChoice::Sparse),
-            ],
-        ),
+        operator: section.choice("operator"),
         perturbation: perturbation(&section, annulus),
     };
     section.close();
@@ -89,22 +82,9 @@ pub(super) fn transient(root: &Section<'_>, annulus: &AnnulusSpecification) -> O
 
 /// `initial`, with the harmonic that a limit cycle needs.
 fn initial(section: &Section<'_>, annulus: &AnnulusSpecification) -> InitialState {
-    let initial = section.choice(
-        "initial",
-        &[
-            ("rest", InitialState::Rest),
-            ("steady-sliding", InitialState::SteadySliding),
-            (
-                "limit-cycle",
-                InitialState::LimitCycle {
-                    harmonic: 1,
-                    onset: 1,
-                },
-            ),
-        ],
-    );
+    let initial = section.choice("initial");
     let keys = ["limit_cycle_harmonic", "limit_cycle_onset"];
-    let [given, onset] = keys.map(|key| section.optional_count(key, 1));
+    let [given, onset] = keys.map(|key| section.optional_count(key));
     let InitialState::LimitCycle { .. } = initial else {
         for (key, _) in keys
             .iter()
@@ -120,7 +100,7 @@ fn initial(section: &Section<'_>, annulus: &AnnulusSpecification) -> InitialStat
         }
         return initial;
     };
-    let harmonic = section.count("limit_cycle_harmonic", 1);
+    let harmonic = section.count("limit_cycle_harmonic");
     let highest = annulus.circumferential_elements / 2;
     if harmonic > highest {
         section.reject(
@@ -143,8 +123,8 @@ fn initial(section: &Section<'_>, annulus: &AnnulusSpecification) -> InitialStat
 
 fn perturbation(transient: &Section<'_>, annulus: &AnnulusSpecification) -> Perturbation {
     let section = transient.section("perturbation", false);
-    let harmonics = harmonics(&section, 0, annulus).unwrap_or_default();
-    let velocity = section.number_or("velocity", Bound::NotNegative, 1e-3);
+    let harmonics = harmonics(&section, annulus).unwrap_or_default();
+    let velocity = section.number("velocity");
     section.close();
     Perturbation {
         harmonics,
@@ -156,10 +136,9 @@ pub(super) fn output(
     root: &Section<'_>,
     annulus: &AnnulusSpecification,
     transient: Option<&Transient>,
-    warnings: &mut Vec<String>,
 ) -> Output {
     let section = root.section("output", false);
-    let probes = section.counts("probes", 1).unwrap_or_default();
+    let probes = section.counts("probes").unwrap_or_default();
     let nodes = node_count(annulus);
     for (probe, at) in &probes {
         if *probe as u128 > nodes && nodes > 0 {
@@ -171,8 +150,8 @@ pub(super) fn output(
             );
         }
     }
-    let sample_interval = section.number_or("sample_interval", Bound::Positive, 2e-6);
-    let snapshots = rising(&section, "snapshots", Bound::NotNegative).unwrap_or_default();
+    let sample_interval = section.number("sample_interval");
+    let snapshots = rising(&section, "snapshots").unwrap_or_default();
     if let Some(transient) = transient {
         if let TimeStep::Seconds(step) = transient.time_step
             && sample_interval < step
@@ -188,18 +167,22 @@ pub(super) fn output(
             );
         }
         for time in snapshots.iter().filter(|time| **time > transient.duration) {
-            warnings.push(format!(
-                "output.snapshots: {time} s lies after the end of the run \
-                 (transient.duration = {} s) and is left out",
-                transient.duration
-            ));
+            section.warn(
+                "snapshots",
+                format!(
+                    "output.snapshots: {time} s lies after the end of the run \
+                     (transient.duration = {} s) and is left out",
+                    transient.duration
+                ),
+                "after the end",
+            );
         }
     }
     let output = Output {
         probes: probes.into_iter().map(|(probe, _)| probe).collect(),
         sample_interval,
         snapshots,
-        checkpoint_interval: section.number_or("checkpoint_interval", Bound::Positive, 600.0),
+        checkpoint_interval: section.number("checkpoint_interval"),
     };
     section.close();
     output

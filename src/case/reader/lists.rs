@@ -1,96 +1,108 @@
 //! Lists and ranges.
 
-use super::{Bound, Section};
+use super::Section;
 use crate::case::diagnostic::Location;
+use crate::case::key::{Bound, Choice, Kind};
 use crate::case::range::{Spacing, range_values};
 use crate::case::raw::{RawItem, RawTable, RawValue};
-use std::cell::RefCell;
 
 /// Longest list that a range may stand for.
-const LONGEST_RANGE: usize = 1_000_000;
+const LONGEST_RANGE: usize = 100_000;
+
+/// The items of a list; anything else is a list of itself alone.
+fn listed(item: &RawItem) -> &[RawItem] {
+    match &item.value {
+        RawValue::Array(items) => items,
+        _ => std::slice::from_ref(item),
+    }
+}
 
 impl<'a> Section<'a> {
-    /// A list of words out of a few.
-    pub fn choices<T: Copy>(
-        &self,
-        key: &'static str,
-        choices: &[(&str, T)],
-        default: &[T],
-    ) -> Vec<T> {
-        match self.item(key) {
-            None => default.to_vec(),
-            Some(RawItem {
-                value: RawValue::Array(items),
-                ..
-            }) if !items.is_empty() => items
-                .iter()
-                .filter_map(|item| self.read_choice(key, item, choices))
-                .collect(),
-            Some(item) => self
-                .read_choice(key, item, choices)
-                .map_or_else(Vec::new, |choice| vec![choice]),
+    /// A list of words out of a few; empty where it is not given.
+    pub fn choices<T: Choice>(&self, key: &str) -> Vec<T> {
+        let items = self.item(key).map_or(&[][..], listed);
+        if self.is_empty_list(key) {
+            self.reject(
+                key,
+                format!("{} is an empty list", self.name(key)),
+                "at least one word".to_owned(),
+                None,
+            );
         }
+        let words = items.iter();
+        words
+            .filter_map(|item| self.read_choice(key, item))
+            .collect()
     }
 
-    /// A list of whole numbers of at least `least`, without repetition, each with its place.
-    pub fn counts(&self, key: &'static str, least: usize) -> Option<Vec<(usize, Location)>> {
-        let item = self.item(key)?;
-        let RawValue::Array(items) = &item.value else {
-            self.reject_at(item, key, "must be a list of integers");
-            return Some(Vec::new());
-        };
+    /// A list of whole numbers without repetition, each with its place.
+    pub fn counts(&self, key: &str) -> Option<Vec<(usize, Location)>> {
+        let (item, least) = (self.item(key)?, self.least(key));
         let mut values: Vec<(usize, Location)> = Vec::new();
-        for item in items {
+        let mut seen = std::collections::BTreeSet::new();
+        for item in listed(item) {
             let Some(value) = self.read_count(key, item, least) else {
                 continue;
             };
-            if values.iter().any(|(other, _)| *other == value) {
-                self.reject_at(item, key, "must not be listed twice");
-            } else {
+            if seen.insert(value) {
                 values.push((value, item.at.clone()));
+            } else {
+                self.reject_at(item, key, "must not be listed twice");
             }
         }
         Some(values)
     }
 
-    /// A list of numbers: one by one, a single number, or a range.
-    pub fn numbers(&self, key: &'static str, bound: Bound) -> Option<Vec<f64>> {
-        let item = self.item(key)?;
-        Some(match &item.value {
-            RawValue::Array(items) => items
-                .iter()
+    /// A list of numbers: one by one, a single number, a range, or the default.
+    pub fn numbers(&self, key: &str) -> Option<Vec<f64>> {
+        let declared = self.declared(key);
+        let bound = match declared.kind {
+            Kind::Numbers(bound) => bound,
+            _ => Bound::Finite,
+        };
+        let Some(item) = self.item(key) else {
+            let RawValue::Array(items) = declared.default_value()? else {
+                return None;
+            };
+            let values = items.iter();
+            return Some(
+                values
+                    .filter_map(|item| self.read_number(key, item, bound))
+                    .collect(),
+            );
+        };
+        if let RawValue::Table(table) = &item.value {
+            return Some(self.range(key, table, item, bound));
+        }
+        if self.is_some_text(key) {
+            let wanted = "must be a list of numbers or a range { from, to, count }";
+            self.reject_at(item, key, wanted);
+            return Some(Vec::new());
+        }
+        let values = listed(item).iter();
+        Some(
+            values
                 .filter_map(|item| self.read_number(key, item, bound))
                 .collect(),
-            RawValue::Table(table) => self.range(key, table, item, bound),
-            RawValue::Integer(_) | RawValue::Float(_) => self
-                .read_number(key, item, bound)
-                .map_or_else(Vec::new, |value| vec![value]),
-            _ => {
-                self.reject_at(
-                    item,
-                    key,
-                    "must be a list of numbers or a range { from, to, count }",
-                );
-                Vec::new()
-            }
-        })
+        )
     }
 
     /// The values of `{ from, to, count, spacing }`; none where something is wrong with it.
     pub fn range(&self, key: &str, table: &'a RawTable, item: &RawItem, bound: Bound) -> Vec<f64> {
-        let range = Section {
-            findings: self.findings,
-            path: self.name(key),
-            table: Some(table),
-            at: item.at.clone(),
-            asked: RefCell::default(),
-        };
-        let (from, to) = (range.number("from", bound), range.number("to", bound));
-        let count = range.count("count", 1);
-        let spacing = range.choice(
-            "spacing",
-            &[("linear", Spacing::Linear), ("log", Spacing::Logarithmic)],
-        );
+        let mut range = Section::new(self.findings, self.name(key), Some(table), item.at.clone());
+        range.is_range = true;
+        let [from, to] = ["from", "to"].map(|end| {
+            let value = range.number(end);
+            match table.get(end) {
+                Some(entry) if !bound.admits(value) && value.is_finite() => {
+                    range.reject_at(&entry.item, end, &bound.text());
+                    f64::NAN
+                }
+                _ => value,
+            }
+        });
+        let count = range.count("count");
+        let spacing = range.choice("spacing");
         range.close();
         if from.is_nan() || to.is_nan() || count == 0 {
             return Vec::new();

@@ -1,0 +1,82 @@
+//! `frictionsim keys`: every key of a case file.
+
+use super::{Failure, terminal};
+use crate::case::{CaseKey, KEYS, reference};
+use clap::Args;
+use serde_json::{Value, json};
+use std::fmt::Write as _;
+
+/// List the keys of a case file with unit, default and meaning
+#[derive(Args)]
+pub struct Arguments {
+    /// Only keys whose name or meaning holds this word
+    word: Option<String>,
+    /// One object for each key
+    #[arg(long, conflicts_with_all = ["markdown", "schema"])]
+    json: bool,
+    /// Tables in Markdown
+    #[arg(long, conflicts_with_all = ["word", "schema"])]
+    markdown: bool,
+    /// The JSON schema of a case file, for editors
+    #[arg(long, conflicts_with = "word")]
+    schema: bool,
+}
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// A word that no key has; those of stdout.
+pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    if arguments.schema {
+        return terminal::print_json(&reference::schema());
+    }
+    if arguments.markdown {
+        return terminal::print(&reference::markdown());
+    }
+    let word = arguments.word.as_deref().unwrap_or("");
+    let lower = word.to_lowercase();
+    let holds =
+        |key: &&CaseKey| key.name.contains(&lower) || key.meaning.to_lowercase().contains(&lower);
+    let keys: Vec<&CaseKey> = KEYS.iter().filter(holds).collect();
+    if keys.is_empty() {
+        return Err(Failure::usage(format!(
+            "no key of a case has \"{word}\" in its name or its meaning"
+        )));
+    }
+    if arguments.json {
+        let objects: Vec<Value> = keys.iter().map(|key| reference::object(key)).collect();
+        return terminal::print_json(&json!({ "command": "keys", "keys": objects }));
+    }
+    terminal::print(&describe(&keys))
+}
+
+/// Two lines for each key, section by section.
+fn describe(keys: &[&CaseKey]) -> String {
+    let mut out = String::new();
+    let mut section = "";
+    for key in keys {
+        if key.section() != section {
+            section = key.section();
+            let _ = writeln!(out, "[{section}]");
+        }
+        let unit = match key.unit {
+            "" => String::new(),
+            unit => format!(" {unit}"),
+        };
+        let _ = writeln!(
+            out,
+            "{}: {}{unit}; {}\n    {}",
+            key.short(),
+            key.values(),
+            match key.default_text() {
+                "required" => "required".to_owned(),
+                default => format!("default {default}"),
+            },
+            key.meaning
+        );
+        if !key.used_by.is_empty() {
+            let _ = writeln!(out, "    used by {} only", key.used_by.join(" and "));
+        }
+    }
+    out
+}

@@ -1,0 +1,202 @@
+//! What a key of the case file is: the kind of its value, bound, unit, default, meaning.
+
+use super::raw::RawValue;
+
+/// Where a number must lie.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Bound {
+    /// Above zero.
+    Positive,
+    /// Zero or above.
+    NotNegative,
+    /// Strictly between two values.
+    Between(f64, f64),
+    /// This value or above.
+    AtLeast(f64),
+    /// Any finite number but zero.
+    /// Any finite number.
+    Finite,
+}
+
+impl Bound {
+    /// Whether a value lies there; NaN and infinities never do.
+    pub fn admits(self, value: f64) -> bool {
+        value.is_finite()
+            && match self {
+                Self::Positive => value > 0.0,
+                Self::NotNegative => value >= 0.0,
+                Self::Between(low, high) => value > low && value < high,
+                Self::AtLeast(least) => value >= least,
+                Self::Finite => true,
+            }
+    }
+
+    /// What an error says.
+    pub fn text(self) -> String {
+        match self {
+            Self::Positive => "must be positive and finite".to_owned(),
+            Self::NotNegative => "must be zero or positive, and finite".to_owned(),
+            Self::Between(low, high) => format!("must lie strictly between {low} and {high}"),
+            Self::AtLeast(least) => format!("must be {least} or more, and finite"),
+            Self::Finite => "must be finite".to_owned(),
+        }
+    }
+
+    /// As a condition behind the word "number".
+    pub(super) fn condition(self) -> String {
+        match self {
+            Self::Positive => " > 0".to_owned(),
+            Self::NotNegative => " >= 0".to_owned(),
+            Self::Between(low, high) => format!(" between {low} and {high}"),
+            Self::AtLeast(least) => format!(" >= {least}"),
+            Self::Finite => String::new(),
+        }
+    }
+}
+
+/// The kind of value that a key takes.
+#[derive(Clone, Copy, Debug)]
+pub enum Kind {
+    /// Free text.
+    Text,
+    /// True or false.
+    Flag,
+    /// A number.
+    Number(Bound),
+    /// A number, or one word that stands for its absence.
+    NumberOr(Bound, &'static str),
+    /// Numbers: one, a list, or a range `{ from, to, count, spacing }`.
+    Numbers(Bound),
+    /// A whole number of at least this.
+    Count(usize),
+    /// Whole numbers of at least this: one or a list without repetition.
+    Counts(usize),
+    /// One of a few words.
+    Choice(fn() -> Vec<&'static str>),
+    /// Some of a few words: one or a list.
+    Choices(fn() -> Vec<&'static str>),
+    /// The dotted name of a case key whose value is a number.
+    Parameter,
+    /// A table of dotted case keys, each with what its section says of it.
+    Parameters,
+}
+
+/// What holds where a key is left out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Default {
+    /// Nothing: its section needs the key.
+    Required,
+    /// This value, in TOML.
+    Value(&'static str),
+    /// What these words say.
+    Otherwise(&'static str),
+}
+
+/// A key of the case file: everything that is known of it but what it does.
+///
+/// A `*` in the name stands for any one name, as in `materials.*.density`.
+#[derive(Clone, Copy, Debug)]
+pub struct CaseKey {
+    /// Dotted name.
+    pub name: &'static str,
+    /// The values it takes.
+    pub kind: Kind,
+    /// Unit of the value; empty for a pure number and for what is no number.
+    pub unit: &'static str,
+    /// What holds where it is left out.
+    pub default: Default,
+    /// A valid value, in TOML.
+    pub example: &'static str,
+    /// What it is, to be read behind "is".
+    pub meaning: &'static str,
+    /// Commands that use it; empty for all that read its section.
+    pub used_by: &'static [&'static str],
+    /// What holds in the others.
+    pub otherwise: &'static str,
+    /// First version that knows it.
+    pub since: &'static str,
+}
+
+impl CaseKey {
+    /// Whether the value is a single number, as a parameter study or a branch varies it.
+    pub fn is_numeric(&self) -> bool {
+        matches!(
+            self.kind,
+            Kind::Number(_) | Kind::NumberOr(..) | Kind::Count(_)
+        )
+    }
+
+    /// The name without its section.
+    pub fn short(&self) -> &'static str {
+        self.name.rsplit('.').next().unwrap_or(self.name)
+    }
+
+    /// The section; empty for keys of the case itself.
+    pub fn section(&self) -> &'static str {
+        self.name.rsplit_once('.').map_or("", |pair| pair.0)
+    }
+
+    /// Whether this is the entry of a dotted name.
+    pub(super) fn is_named(&self, name: &str) -> bool {
+        let mut parts = name.split('.');
+        let all = self.name.split('.');
+        self.name == name
+            || (self.name.contains('*')
+                && all
+                    .map(|part| (part, parts.next()))
+                    .all(|(part, given)| given.is_some_and(|given| part == "*" || part == given))
+                && parts.next().is_none())
+    }
+
+    /// What it is, with its unit.
+    pub(super) fn meaning_with_unit(&self) -> String {
+        match self.unit {
+            "" => self.meaning.to_owned(),
+            unit => format!("{}, {unit}", self.meaning),
+        }
+    }
+
+    /// The values it takes, in words.
+    pub fn values(&self) -> String {
+        match self.kind {
+            Kind::Text => "text".to_owned(),
+            Kind::Flag => "true or false".to_owned(),
+            Kind::Number(bound) => format!("number{}", bound.condition()),
+            Kind::NumberOr(bound, word) => format!("number{} or \"{word}\"", bound.condition()),
+            Kind::Numbers(bound) => format!("number{}, list or range", bound.condition()),
+            Kind::Count(least) => format!("integer >= {least}"),
+            Kind::Counts(least) => format!("integer >= {least} or list"),
+            Kind::Choice(words) => format!("\"{}\"", words().join("\", \"")),
+            Kind::Choices(words) => format!("some of \"{}\"", words().join("\", \"")),
+            Kind::Parameter => "numeric case key".to_owned(),
+            Kind::Parameters => "table of case keys".to_owned(),
+        }
+    }
+
+    /// What holds where it is left out, in words.
+    pub fn default_text(&self) -> &'static str {
+        match self.default {
+            Default::Required => "required",
+            Default::Value(text) | Default::Otherwise(text) => text,
+        }
+    }
+
+    /// The default's value, where it has one.
+    pub(super) fn default_value(&self) -> Option<RawValue> {
+        match self.default {
+            Default::Value(text) => super::overrides::value(text),
+            _ => None,
+        }
+    }
+}
+
+/// A choice that a case names by a word.
+pub(super) trait Choice: Copy + 'static {
+    /// Every word with what it stands for, in the order of the documentation.
+    const WORDS: &'static [(&'static str, Self)];
+}
+
+/// The words of a choice.
+pub(super) fn words<T: Choice>() -> Vec<&'static str> {
+    T::WORDS.iter().map(|pair| pair.0).collect()
+}

@@ -1,0 +1,225 @@
+//! Values that are possible but that hardly anybody means: warnings, each with its reason.
+
+use super::Case;
+use super::diagnostic::{Diagnostic, Location};
+use super::key::CaseKey;
+use super::keys::KEYS;
+use crate::fem::PlaneFormulation;
+
+/// Share of the radius beyond which an interference is no small displacement.
+const LARGEST_INTERFERENCE: f64 = 0.05;
+/// Friction coefficients of real pairs lie below.
+const LARGEST_FRICTION: f64 = 2.0;
+/// Share of the modulus beyond which a contact pressure is no small strain.
+const LARGEST_PRESSURE: f64 = 0.1;
+/// Speeds of bar waves, m/s: soft rubber to ceramics.
+const WAVE_SPEEDS: [f64; 2] = [100.0, 10_000.0];
+/// Lengths that a case has, m.
+const LENGTHS: [f64; 2] = [1e-5, 10.0];
+/// Poisson's ratio beyond which plane-strain elements lock.
+const LARGEST_POISSON_RATIO: f64 = 0.49;
+/// Times the modulus over the radius beyond which a contact stiffness drowns the body in round-off.
+const LARGEST_STIFFNESS_RATIO: f64 = 1e8;
+
+/// What of a case is hardly meant.
+pub(super) fn implausible(case: &Case) -> Vec<Diagnostic> {
+    [
+        lengths(case),
+        wave_speed(case),
+        poisson_ratio(case),
+        friction(case),
+        interference(case),
+        contact_stiffness(case),
+        overdamping(case),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}
+
+fn warning(case: &Case, key: &str, message: String, label: &str, help: &str) -> Diagnostic {
+    let at = case
+        .raw
+        .find(key)
+        .map_or_else(Location::default, |item| item.at.clone());
+    Diagnostic::error(message, label.to_owned(), at, Some(help.to_owned()))
+}
+
+fn lengths(case: &Case) -> Option<Diagnostic> {
+    let [least, most] = LENGTHS;
+    let named = [
+        ("geometry.inner_radius", case.annulus.inner_radius),
+        ("geometry.outer_radius", case.annulus.outer_radius),
+        ("geometry.thickness", case.thickness),
+    ];
+    let (key, value) = named
+        .into_iter()
+        .find(|(_, value)| *value < least || *value > most)?;
+    Some(warning(
+        case,
+        key,
+        format!("{key} = {value} m is a length outside {least} to {most} m"),
+        "metres?",
+        "a case is in SI: are these millimetres or micrometres?",
+    ))
+}
+
+/// Speed of waves in a bar, `sqrt(E / rho)`.
+fn wave_speed(case: &Case) -> Option<Diagnostic> {
+    let (modulus, density) = (case.material.young_modulus, case.material.density);
+    let speed = (modulus / density).sqrt();
+    let [least, most] = WAVE_SPEEDS;
+    if (least..=most).contains(&speed) {
+        return None;
+    }
+    Some(warning(
+        case,
+        "material.young_modulus",
+        format!(
+            "material.young_modulus = {modulus:e} Pa and material.density = {density:e} kg/m3 give \
+             waves of {speed:.3e} m/s, outside {least} to {most} m/s"
+        ),
+        "pascals?",
+        "a case is in SI: Pa, not MPa or GPa; kg/m3, not g/cm3 or t/mm3",
+    ))
+}
+
+fn poisson_ratio(case: &Case) -> Option<Diagnostic> {
+    let ratio = case.material.poisson_ratio;
+    let is_plane_strain = case.material.formulation == PlaneFormulation::PlaneStrain;
+    if ratio <= LARGEST_POISSON_RATIO || !is_plane_strain {
+        return None;
+    }
+    Some(warning(
+        case,
+        "material.poisson_ratio",
+        format!(
+            "material.poisson_ratio = {ratio} is all but incompressible: the elements lock, and the \
+             time step of a transient shrinks by {:.3} against 0.45",
+            // c_p grows with sqrt((1 - nu) / ((1 + nu) (1 - 2 nu))).
+            (0.55 / (1.45 * 0.1) / ((1.0 - ratio) / ((1.0 + ratio) * (1.0 - 2.0 * ratio)))).sqrt()
+        ),
+        "above 0.49",
+        "use a lower ratio or plane stress, and study the convergence",
+    ))
+}
+
+fn friction(case: &Case) -> Option<Diagnostic> {
+    let largest = |values: &[f64]| values.iter().fold(0.0, |a: f64, b| a.max(*b));
+    let own = case.contact.sliding.friction_coefficient;
+    let swept = case.cea.as_ref();
+    let swept = swept.map_or(0.0, |cea| largest(&cea.solved_friction_coefficients()));
+    let (key, value) = if own > LARGEST_FRICTION {
+        ("contact.friction_coefficient", own)
+    } else if swept > LARGEST_FRICTION {
+        ("cea.friction_coefficients", swept)
+    } else {
+        return None;
+    };
+    Some(warning(
+        case,
+        key,
+        format!("{key} = {value} is above {LARGEST_FRICTION}, beyond dry pairs of materials"),
+        "above 2",
+        "a friction coefficient is a ratio, not a percentage",
+    ))
+}
+
+/// Interference against the radius, else the contact pressure against the modulus.
+///
+/// Pressure of an annulus clamped at `b` and widened by `delta` at `a`, after Lame:
+/// `p = 2 B ((lambda + mu) / b^2 + mu / a^2)` with `B = delta a b^2 / (b^2 - a^2)`.
+fn interference(case: &Case) -> Option<Diagnostic> {
+    let key = "contact.interference";
+    let (a, b) = (case.annulus.inner_radius, case.annulus.outer_radius);
+    let delta = case.contact.sliding.interference;
+    let help = "is it in metres? 25 micrometres are 25e-6";
+    if delta > LARGEST_INTERFERENCE * a {
+        let share = format!(
+            "{key} = {delta} m is {:.3} of geometry.inner_radius = {a} m: a model of small \
+             displacements holds below {LARGEST_INTERFERENCE}",
+            delta / a
+        );
+        return Some(warning(case, key, share, "above 5 % of the radius", help));
+    }
+    let [lambda, shear] = case.material.lame_constants();
+    let widening = delta * a * b * b / (b * b - a * a);
+    let pressure = 2.0 * widening * ((lambda + shear) / (b * b) + shear / (a * a));
+    let modulus = case.material.young_modulus;
+    (pressure > LARGEST_PRESSURE * modulus).then(|| {
+        let message = format!(
+            "{key} = {delta} m gives a contact pressure of about {pressure:.3e} Pa, {:.2} of \
+             material.young_modulus = {modulus:e} Pa: strains are not small",
+            pressure / modulus
+        );
+        warning(case, key, message, "a large pressure", help)
+    })
+}
+
+fn contact_stiffness(case: &Case) -> Option<Diagnostic> {
+    let stiffness = case.contact.stiffness.normal_stiffness?;
+    let scale = case.material.young_modulus / case.annulus.inner_radius;
+    (stiffness > LARGEST_STIFFNESS_RATIO * scale).then(|| {
+        warning(
+            case,
+            "contact.normal_stiffness",
+            format!(
+                "contact.normal_stiffness = {stiffness:e} Pa/m is {:.1e} times the modulus over the \
+                 radius: eigenvalues lose as many digits",
+                stiffness / scale
+            ),
+            "all but rigid",
+            "use \"rigid\", which is exact",
+        )
+    })
+}
+
+/// `zeta = (alpha / omega + beta omega) / 2` at the highest frequency asked for.
+fn overdamping(case: &Case) -> Option<Diagnostic> {
+    let Some(super::ModeSelection::BelowHz(limit)) = case.cea.as_ref().map(|cea| cea.modes) else {
+        return None;
+    };
+    let zeta = case
+        .damping
+        .rayleigh
+        .damping_factor(std::f64::consts::TAU * limit);
+    (zeta > 1.0).then(|| {
+        warning(
+            case,
+            "damping.stiffness_coefficient",
+            format!(
+                "damping.stiffness_coefficient and damping.mass_coefficient give a damping factor of \
+                 {zeta:.3} at {limit} Hz: modes there do not vibrate"
+            ),
+            "beyond critical",
+            "alpha is in 1/s and beta in s",
+        )
+    })
+}
+
+impl Case {
+    /// Keys that the case gives and that a command does not use, each with the reason.
+    pub fn ignored_by(&self, command: &str) -> Vec<Diagnostic> {
+        let given = |key: &&CaseKey| {
+            let item = self.raw.find(key.name);
+            item.is_some_and(|item| {
+                let value = item.value.to_string();
+                let default = key.default_text();
+                value.trim_matches('"') != default.trim_matches('"')
+                    && Some(&value) != key.default_value().map(|value| value.to_string()).as_ref()
+            })
+        };
+        KEYS.iter()
+            .filter(|key| !key.used_by.is_empty() && !key.used_by.contains(&command))
+            .filter(given)
+            .map(|key| {
+                let message = format!("{} is not used by {command}: {}", key.name, key.otherwise);
+                warning(self, key.name, message, "not used", "leave it out")
+            })
+            .map(|warning| Diagnostic {
+                help: None,
+                ..warning
+            })
+            .collect()
+    }
+}

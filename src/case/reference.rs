@@ -1,0 +1,198 @@
+//! What the declarations of the keys say, in the forms that people and editors read.
+
+use super::key::{Bound, CaseKey, Default, Kind};
+use super::keys::KEYS;
+use serde_json::{Map, Value, json};
+use std::fmt::Write as _;
+
+/// Sections that every case has.
+const REQUIRED_SECTIONS: &[&str] = &["geometry", "mesh", "material", "contact"];
+
+/// The sections, in the order of the documentation; the case itself is the empty one.
+pub fn sections() -> Vec<&'static str> {
+    let mut sections: Vec<&str> = KEYS.iter().map(CaseKey::section).collect();
+    sections.dedup();
+    sections
+}
+
+/// The keys of a section.
+fn keys_of(section: &str) -> impl Iterator<Item = &'static CaseKey> {
+    KEYS.iter().filter(move |key| key.section() == section)
+}
+
+/// Tables in Markdown, one for each section.
+pub fn markdown() -> String {
+    let mut out = String::new();
+    for section in sections() {
+        let _ = match section {
+            "" => writeln!(out, "| key | values | unit | default | meaning |"),
+            _ => writeln!(
+                out,
+                "\n`[{section}]`\n\n| key | values | unit | default | meaning |"
+            ),
+        };
+        let _ = writeln!(out, "|---|---|---|---|---|");
+        for key in keys_of(section) {
+            let default = match key.default {
+                Default::Value(value) => format!("`{value}`"),
+                _ => key.default_text().to_owned(),
+            };
+            let _ = writeln!(
+                out,
+                "| `{}` | {} | {} | {default} | {} |",
+                key.short(),
+                key.values(),
+                key.unit,
+                key.meaning
+            );
+        }
+    }
+    out
+}
+
+/// A case with every key: those that it needs with an example, all others as comments that show
+/// their default, or an example where they have none.
+pub fn template() -> String {
+    let mut out =
+        "# Every key of a case. Lines that are not commented out are needed.\n".to_owned();
+    for section in sections() {
+        let needed = section.is_empty() || REQUIRED_SECTIONS.contains(&section);
+        if !section.is_empty() {
+            let comment = if needed { "" } else { "# " };
+            let name = section.replace('*', "NAME");
+            let _ = writeln!(out, "\n{comment}[{name}]");
+        }
+        for key in keys_of(section) {
+            let (value, note) = match key.default {
+                Default::Required => (key.example, String::new()),
+                Default::Value(value) => (value, String::new()),
+                Default::Otherwise(words) => (key.example, format!("; left out: {words}")),
+            };
+            let active = needed && key.default == Default::Required;
+            let comment = if active { "" } else { "# " };
+            let line = format!("{comment}{} = {value}", key.short());
+            let unit = match key.unit {
+                "" => String::new(),
+                unit => format!("{unit}, "),
+            };
+            let _ = writeln!(out, "{line:<38}# {unit}{}{note}", key.meaning);
+        }
+    }
+    out
+}
+
+/// One object for each key.
+pub fn object(key: &CaseKey) -> Value {
+    json!({
+        "name": key.name,
+        "values": key.values(),
+        "unit": key.unit,
+        "default": key.default_text(),
+        "required": key.default == Default::Required,
+        "example": key.example,
+        "meaning": key.meaning,
+        "used_by": key.used_by,
+        "since": key.since,
+    })
+}
+
+/// The JSON schema of a case file, for editors.
+pub fn schema() -> Value {
+    let mut root = object_schema();
+    for key in KEYS {
+        let mut place = &mut root;
+        for part in key.section().split('.').filter(|part| !part.is_empty()) {
+            place = child(place, part, object_schema);
+        }
+        if key.default == Default::Required
+            && let Some(required) = place["required"].as_array_mut()
+        {
+            required.push(json!(key.short()));
+        }
+        *child(place, key.short(), || Value::Null) = key_schema(key);
+    }
+    root["required"] = json!(REQUIRED_SECTIONS);
+    // A swept key is any key of the case, quoted or as tables.
+    root["properties"]["sweep"]["additionalProperties"] = json!(true);
+    root["$schema"] = json!("http://json-schema.org/draft-07/schema#");
+    root["title"] = json!("frictionsim case");
+    root["definitions"] = json!({ "range": {
+        "type": "object",
+        "properties": {
+            "from": { "type": "number" },
+            "to": { "type": "number" },
+            "count": { "type": "integer", "minimum": 1 },
+            "spacing": { "enum": ["linear", "log"] },
+        },
+        "required": ["from", "to", "count"],
+        "additionalProperties": false,
+    }});
+    root
+}
+
+fn object_schema() -> Value {
+    json!({ "type": "object", "properties": {}, "required": [], "additionalProperties": false })
+}
+
+/// The schema of a part of a section, made where it is not there; `*` is every other name.
+fn child<'a>(place: &'a mut Value, part: &str, make: fn() -> Value) -> &'a mut Value {
+    if part == "*" {
+        if place["additionalProperties"] == json!(false) {
+            place["additionalProperties"] = make();
+        }
+        return &mut place["additionalProperties"];
+    }
+    let properties = &mut place["properties"];
+    if properties.get(part).is_none() {
+        properties[part] = make();
+    }
+    &mut properties[part]
+}
+
+fn key_schema(key: &CaseKey) -> Value {
+    let of_one = |one: Value| json!({ "anyOf": [one, { "type": "array", "items": one }] });
+    let mut schema = match key.kind {
+        Kind::Text => json!({ "type": "string" }),
+        Kind::Flag => json!({ "type": "boolean" }),
+        Kind::Number(bound) => number(bound),
+        Kind::NumberOr(bound, word) => json!({ "anyOf": [number(bound), { "const": word }] }),
+        Kind::Numbers(bound) => json!({ "anyOf": [
+            number(bound),
+            { "type": "array", "items": number(bound) },
+            { "$ref": "#/definitions/range" },
+        ]}),
+        Kind::Count(least) => json!({ "type": "integer", "minimum": least }),
+        Kind::Counts(least) => of_one(json!({ "type": "integer", "minimum": least })),
+        Kind::Choice(words) => json!({ "enum": words() }),
+        Kind::Choices(words) => of_one(json!({ "enum": words() })),
+        Kind::Parameter => {
+            let numeric = KEYS.iter().filter(|key| key.is_numeric());
+            let numeric = numeric.filter(|key| !key.name.contains('*'));
+            json!({ "enum": numeric.map(|key| key.name).collect::<Vec<_>>() })
+        }
+        Kind::Parameters => json!({ "type": "object" }),
+    };
+    schema["description"] = json!(format!(
+        "{} ({}; {})",
+        key.meaning_with_unit(),
+        key.values(),
+        match key.default {
+            Default::Required => "required".to_owned(),
+            _ => format!("default {}", key.default_text()),
+        }
+    ));
+    schema
+}
+
+fn number(bound: Bound) -> Value {
+    let limits = match bound {
+        Bound::Positive => json!({ "exclusiveMinimum": 0 }),
+        Bound::NotNegative => json!({ "minimum": 0 }),
+        Bound::Between(low, high) => json!({ "exclusiveMinimum": low, "exclusiveMaximum": high }),
+        Bound::AtLeast(least) => json!({ "minimum": least }),
+        Bound::Finite => json!({}),
+    };
+    let mut schema = Map::from_iter([("type".to_owned(), json!("number"))]);
+    schema.extend(limits.as_object().cloned().unwrap_or_default());
+    Value::Object(schema)
+}

@@ -1,0 +1,59 @@
+//! The words by which a case names its choices.
+
+use super::key::Choice;
+use super::{
+    Analysis, CeaMethod, Combination, FrfMethod, InitialState, OnsetChoice, OperatorChoice,
+    Spacing, StabilityChoice,
+};
+use crate::fem::{MassKind, PlaneFormulation};
+use crate::frf::FrfBoundary;
+use crate::mesh::ElementKind;
+use crate::signal::ResponseQuantity;
+
+/// Direction of a force or of an observed motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Direction {
+    Radial,
+    Tangential,
+}
+
+/// States the words of each choice.
+macro_rules! words {
+    ($($choice:ty { $($word:literal = $value:expr),+ $(,)? })+) => {$(
+        impl Choice for $choice {
+            const WORDS: &'static [(&'static str, Self)] = &[$(($word, $value)),+];
+        }
+    )+};
+}
+
+words! {
+    ElementKind { "quad4" = Self::Quad4, "quad8" = Self::Quad8 }
+    PlaneFormulation { "plane-strain" = Self::PlaneStrain, "plane-stress" = Self::PlaneStress }
+    MassKind { "consistent" = Self::Consistent, "lumped" = Self::Lumped }
+    Spacing { "linear" = Self::Linear, "log" = Self::Logarithmic }
+    CeaMethod { "auto" = Self::Auto, "cyclic" = Self::Cyclic, "sparse" = Self::Sparse }
+    InitialState {
+        "rest" = Self::Rest,
+        "steady-sliding" = Self::SteadySliding,
+        // Harmonic and onset are keys of their own.
+        "limit-cycle" = Self::LimitCycle { harmonic: 1, onset: 1 },
+    }
+    OperatorChoice { "auto" = Self::Auto, "cyclic" = Self::Cyclic, "sparse" = Self::Sparse }
+    Combination { "grid" = Self::Grid, "zip" = Self::Zip }
+    Analysis { "transient" = Self::Transient, "cea" = Self::Cea, "cycle" = Self::Cycle }
+    OnsetChoice { "all" = Self::All, "lowest" = Self::Lowest }
+    StabilityChoice { "point" = Self::Point, "branch" = Self::Branch, "none" = Self::None }
+    FrfBoundary { "free" = Self::Free, "clamped" = Self::Clamped, "sliding" = Self::Sliding }
+    Direction { "radial" = Self::Radial, "tangential" = Self::Tangential }
+    ResponseQuantity {
+        "accelerance" = Self::Accelerance,
+        "mobility" = Self::Mobility,
+        "receptance" = Self::Receptance,
+    }
+    FrfMethod {
+        "auto" = Self::Auto,
+        "cyclic" = Self::Cyclic,
+        "direct" = Self::Direct,
+        "reduced" = Self::Reduced,
+    }
+}
