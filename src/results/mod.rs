@@ -14,6 +14,7 @@ mod framed;
 pub mod identification;
 mod manifest;
 mod mesh;
+mod npz;
 mod parameter;
 mod record;
 mod reopening;

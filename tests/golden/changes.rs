@@ -1,0 +1,45 @@
+//! What changed on purpose since 0.1.0, and why.
+
+/// `(case, file, key, reason)`; a name that ends in `*` stands for all that begin so.
+const CHANGES: &[(&str, &str, &str, &str)] = &[];
+
+/// Whether a listed change explains a difference.
+pub fn explains(case: &str, file: &str, key: &str) -> bool {
+    let fits = |pattern: &str, name: &str| match pattern.strip_suffix('*') {
+        Some(start) => name.starts_with(start),
+        None => pattern == name,
+    };
+    CHANGES
+        .iter()
+        .any(|(c, f, k, _)| fits(c, case) && fits(f, file) && fits(k, key))
+}
+
+/// Wall times and speeds.
+pub fn depends_on_the_clock(key: &str) -> bool {
+    [
+        "wall_s",
+        "core_s",
+        "points_per_core_hour",
+        "element_steps_per_s",
+    ]
+    .iter()
+    .any(|name| key.contains(name))
+}
+
+/// Relative to the largest value of the column or list.
+pub fn tolerance(case: &str, _file: &str, key: &str) -> f64 {
+    match key {
+        // Sizes of round-off: only their order is a result.
+        _ if key.contains("residual")
+            || key.contains("backward_error")
+            || key.contains("largest_error") =>
+        {
+            f64::INFINITY
+        }
+        // The search for an onset ends at a tolerance.
+        _ if key.contains("critical_friction") || key.contains("restabilized") => 1e-9,
+        // Iterations end at a residual.
+        _ if case.contains("sparse") => 1e-9,
+        _ => 1e-12,
+    }
+}

@@ -1,0 +1,223 @@
+//! Consistency check: every command gives the keys, columns and numbers that version 0.1.0 gave, but for the listed
+//! changes, each with its reason.
+//!
+//! `frozen.json` was written by the 0.1.0 program: `GOLDEN_FREEZE=path/to/frictionsim cargo test --test golden`.
+//! Numbers agree to 1e-12 of the largest of their column or list (onsets, whose search ends at a tolerance, to 1e-9).
+//! Keys and columns may be added, never lost. Kernels run without vector instructions, so that the machine does not matter.
+
+mod cases;
+mod changes;
+
+use cases::{CASES, Case};
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// A list of numbers, by its size and three values that a change would move.
+#[derive(Serialize, Deserialize, Clone, Debug, Default, PartialEq)]
+struct Numbers {
+    count: usize,
+    first: f64,
+    last: f64,
+    sum_of_magnitudes: f64,
+    largest: f64,
+}
+
+impl Numbers {
+    fn add(&mut self, value: f64) {
+        if self.count == 0 {
+            self.first = value;
+        }
+        self.count += 1;
+        self.last = value;
+        self.sum_of_magnitudes += value.abs();
+        self.largest = self.largest.max(value.abs());
+    }
+
+    fn differs(&self, now: &Self, tolerance: f64) -> Option<String> {
+        if self.count != now.count {
+            return Some(format!("{} numbers instead of {}", now.count, self.count));
+        }
+        let scale = self.largest.max(f64::MIN_POSITIVE);
+        let sums =
+            (self.sum_of_magnitudes - now.sum_of_magnitudes).abs() / self.count.max(1) as f64;
+        let worst = [
+            (self.first - now.first).abs(),
+            (self.last - now.last).abs(),
+            sums,
+        ]
+        .into_iter()
+        .fold(0.0, f64::max);
+        (worst > tolerance * scale)
+            .then(|| format!("differs by {:.1e} of its scale", worst / scale))
+    }
+}
+
+/// What a command wrote: for each file, its columns or keys with their numbers (none where they hold text).
+type Result = BTreeMap<String, BTreeMap<String, Numbers>>;
+
+fn repository() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Runs the case in its own folder and reads what it wrote.
+fn run(binary: &Path, case: &Case, folder: &Path) -> Result {
+    let out = folder.join(case.name);
+    let mut command = Command::new(binary);
+    command.current_dir(folder).arg(case.command);
+    for input in case.inputs {
+        let shipped = repository().join(input);
+        command.arg(if shipped.exists() {
+            shipped
+        } else {
+            folder.join(input)
+        });
+    }
+    command
+        .args(case.options)
+        .arg("--out")
+        .arg(&out)
+        .arg("--quiet");
+    if case.has_simd {
+        command.args(["--simd", "scalar"]);
+    }
+    let output = command.output().expect("the program starts");
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.success(), "{}: {message}", case.name);
+    let mut result = Result::new();
+    read_folder(&out, &out, &mut result);
+    result
+}
+
+fn read_folder(root: &Path, folder: &Path, result: &mut Result) {
+    let mut entries: Vec<PathBuf> = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .collect();
+    entries.sort();
+    for path in entries {
+        let name = path
+            .strip_prefix(root)
+            .unwrap()
+            .to_string_lossy()
+            .replace('\\', "/");
+        if path.is_dir() {
+            read_folder(root, &path, result);
+            continue;
+        }
+        match path.extension().and_then(|extension| extension.to_str()) {
+            Some("csv") => {
+                result.insert(name, read_table(&path));
+            }
+            Some("json") if !name.contains("manifest") => {
+                let text = fs::read_to_string(&path).unwrap();
+                let mut keys = BTreeMap::new();
+                read_value("", &serde_json::from_str(&text).unwrap(), &mut keys);
+                result.insert(name, keys);
+            }
+            _ => {}
+        }
+    }
+}
+
+fn read_table(path: &Path) -> BTreeMap<String, Numbers> {
+    let mut reader = csv::Reader::from_path(path).unwrap();
+    let names: Vec<String> = reader
+        .headers()
+        .unwrap()
+        .iter()
+        .map(str::to_owned)
+        .collect();
+    let mut columns: Vec<Numbers> = vec![Numbers::default(); names.len()];
+    for row in reader.records() {
+        for (column, text) in columns.iter_mut().zip(row.unwrap().iter()) {
+            if let Ok(value) = text.parse() {
+                column.add(value);
+            }
+        }
+    }
+    names.into_iter().zip(columns).collect()
+}
+
+fn read_value(path: &str, value: &Value, keys: &mut BTreeMap<String, Numbers>) {
+    match value {
+        Value::Object(object) => {
+            for (key, value) in object {
+                let dot = if path.is_empty() { "" } else { "." };
+                read_value(&format!("{path}{dot}{key}"), value, keys);
+            }
+        }
+        Value::Array(list) => {
+            keys.entry(format!("{path}[]")).or_default();
+            for value in list {
+                read_value(&format!("{path}[]"), value, keys);
+            }
+        }
+        Value::Number(number) => {
+            let numbers = keys.entry(path.to_owned()).or_default();
+            numbers.add(number.as_f64().unwrap());
+        }
+        _ => {
+            keys.entry(path.to_owned()).or_default();
+        }
+    }
+}
+
+/// Differences of a case that no listed change explains.
+fn compare(case: &str, frozen: &Result, now: &Result) -> Vec<String> {
+    let mut differences = Vec::new();
+    let mut note = |file: &str, key: &str, text: String| {
+        if !changes::explains(case, file, key) {
+            differences.push(format!("{case}: {file}: {key}: {text}"));
+        }
+    };
+    for (file, keys) in frozen {
+        let Some(found) = now.get(file) else {
+            note(file, "", "the file is missing".to_owned());
+            continue;
+        };
+        for (key, numbers) in keys {
+            match found.get(key) {
+                None => note(file, key, "is missing".to_owned()),
+                Some(_) if changes::depends_on_the_clock(key) => {}
+                Some(found) => {
+                    if let Some(text) = numbers.differs(found, changes::tolerance(case, file, key))
+                    {
+                        note(file, key, text);
+                    }
+                }
+            }
+        }
+    }
+    differences
+}
+
+#[test]
+fn every_command_gives_the_keys_columns_and_numbers_of_version_0_1_0() {
+    let folder = tempfile::tempdir().unwrap();
+    let frozen_path = repository().join("tests/golden/frozen.json");
+    let freezing = std::env::var_os("GOLDEN_FREEZE").map(PathBuf::from);
+    let binary = freezing
+        .clone()
+        .unwrap_or_else(|| PathBuf::from(env!("CARGO_BIN_EXE_frictionsim")));
+    let with_slow = freezing.is_some() || std::env::var_os("GOLDEN_SLOW").is_some();
+    let mut now = BTreeMap::new();
+    for case in CASES.iter().filter(|case| with_slow || !case.is_slow) {
+        now.insert(case.name.to_owned(), run(&binary, case, folder.path()));
+    }
+    if freezing.is_some() {
+        let text = serde_json::to_string(&now).unwrap();
+        fs::write(&frozen_path, text.replace("},\"", "},\n\"") + "\n").unwrap();
+        return;
+    }
+    let text = fs::read_to_string(&frozen_path).unwrap();
+    let frozen: BTreeMap<String, Result> = serde_json::from_str(&text).unwrap();
+    let differences: Vec<String> = now
+        .iter()
+        .flat_map(|(name, result)| compare(name, &frozen[name], result))
+        .collect();
+    assert!(differences.is_empty(), "{}", differences.join("\n"));
+}
