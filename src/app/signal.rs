@@ -1,20 +1,25 @@
 //! `frictionsim signal`: what vibrates in a measured or computed time signal.
 
-use super::Failure;
 use super::measurement::{Measurement, OutputOptions};
 use super::session::read_case;
+use super::{Failure, terminal};
 use crate::case::Case;
 use crate::cea::ComplexMode;
 use crate::cea::cyclic::{ModeLimit, SweepRequest, sweep};
 use crate::fem::MassKind;
 use crate::prestress::{DampingModel, TangentOptions};
 use crate::results::signal::{
-    ChannelRecord, ChannelReport, SignalRecord, SignalReport, draw_report, print, write,
+    ChannelRecord, ChannelSummary, ModeSummary, SignalRecord, SignalSummary, draw_report, write,
 };
-use crate::results::{DOTS_PER_INCH, OutputFolder, read_record, write_record};
+use crate::results::{DOTS_PER_INCH, FolderError, OutputFolder, read_record, write_record};
 use crate::signal::reader::{Channel, SignalFile, read_signal};
-use crate::signal::{Window, amplitude_spectrum, exponential_stage, spectral_lines};
+use crate::signal::{
+    AmplitudeSpectrum, SignalError, SpectralResolution, Window, averaged_spectrum,
+    exponential_stage, spectral_lines,
+};
 use clap::{Args, ValueHint};
+use rayon::prelude::*;
+use serde::Deserialize;
 use serde_json::Value;
 use std::path::PathBuf;
 
@@ -50,9 +55,13 @@ pub struct Arguments {
     /// End of the interval for the peaks, s after the first sample
     #[arg(long, value_name = "S")]
     to: Option<f64>,
-    /// Window of the spectrogram, s
-    #[arg(long, value_name = "S", default_value_t = 5e-4)]
-    window: f64,
+    /// Smallest distance of two peaks: the spectrum is averaged over blocks of 4/HZ seconds [default: 2 Hz,
+    /// or what a shorter interval gives]
+    #[arg(long, value_name = "HZ")]
+    resolution: Option<f64>,
+    /// Window of the spectrogram, s [default: 0.0005, or 1/400 of a record longer than 0.2 s]
+    #[arg(long, value_name = "S")]
+    window: Option<f64>,
     /// Highest frequency drawn
     #[arg(long, value_name = "HZ", default_value_t = 40_000.0)]
     max_frequency: f64,
@@ -80,39 +89,82 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         tracing::warn!("{}: {note}", measurement.source);
     }
     let selected = selected(arguments, &file)?;
-    let channels = selected
-        .iter()
-        .map(|channel| analyse(arguments, &file, channel))
-        .collect::<Result<Vec<ChannelReport>, Failure>>()?;
-    let highest = channels
-        .iter()
-        .flat_map(|c| c.lines.iter().filter(|l| l.superharmonic_of.is_none()))
-        .map(|l| l.frequency_hz)
-        .fold(0.0, f64::max);
+    check_drawing(arguments, &file)?;
+    let bar = terminal::progress(arguments.output.quiet, selected.len() as u64, "channels");
+    let analysed = selected
+        .par_iter()
+        .map(|channel| {
+            let found = analyse(arguments, &file, channel);
+            bar.inc(1);
+            found
+        })
+        .collect::<Result<Vec<_>, Failure>>()?;
+    bar.finish_and_clear();
+    let (mut channels, spectra): (Vec<ChannelSummary>, Vec<AmplitudeSpectrum>) =
+        analysed.into_iter().unzip();
+    let main = channels.iter().filter_map(|c| c.main_frequency_hz);
+    let highest = main.fold(0.0, f64::max);
     let modes = match &case {
-        Some(case) if highest > 0.0 => modes_below(case, 1.3 * highest)?,
+        Some(case) if highest > 0.0 => ModeSummary::all(&modes_below(case, 1.3 * highest)?),
         _ => Vec::new(),
     };
+    for channel in &mut channels {
+        channel.name_modes(&modes);
+    }
     let folder = measurement.open_folder()?;
-    let report = SignalReport {
+    let friction = |case: &Case| case.contact.sliding.friction_coefficient;
+    let summary = SignalSummary {
+        command: "signal".into(),
         source: measurement.source.clone(),
-        sampling_rate: file.sampling_rate,
+        sampling_rate_hz: file.sampling_rate,
         samples: selected.first().map_or(0, |c| c.samples.len()),
+        friction_coefficient: case.as_ref().map(friction),
+        mode_tolerance: SignalSummary::MODE_TOLERANCE,
         channels,
-        modes,
-        friction_coefficient: case
-            .as_ref()
-            .map(|c| c.contact.sliding.friction_coefficient),
         notes: file.notes.clone(),
         wall_s: measurement.wall_seconds(),
+        manifest: folder.manifest().clone(),
     };
-    let summary = write(&folder, &report)?;
-    write_record(&folder, &record(arguments, &file, &selected, &report))?;
+    write(&folder, &summary, &spectra)?;
+    let record = record(arguments, &file, &selected, &summary, &modes, spectra);
+    write_record(&folder, &record)?;
     if !arguments.output.no_figures {
-        redraw(&folder, &summary, DOTS_PER_INCH)?;
+        draw_all(&folder, &record, &summary, DOTS_PER_INCH)?;
     }
     folder.finish()?;
-    measurement.print(&print(&report), &summary)
+    let object = serde_json::to_value(&summary).map_err(Failure::run)?;
+    measurement.print(&summary.print(), &object)
+}
+
+/// Length of the spectrogram's window, s.
+fn window_length(arguments: &Arguments, file: &SignalFile) -> f64 {
+    let duration = file.channels[0].samples.len() as f64 / file.sampling_rate;
+    arguments.window.unwrap_or_else(|| {
+        let samples = 16.0 / file.sampling_rate;
+        5e-4f64.max(duration / 400.0).max(samples).min(duration)
+    })
+}
+
+/// Refuses a window or a frequency with which nothing can be drawn.
+fn check_drawing(arguments: &Arguments, file: &SignalFile) -> Result<(), Failure> {
+    let window = window_length(arguments, file);
+    let (shortest, longest) = (
+        4.0 / file.sampling_rate,
+        file.channels[0].samples.len() as f64 / file.sampling_rate,
+    );
+    if !(window >= shortest && window <= longest) {
+        return Err(Failure::usage(format!(
+            "--window {window}: the window of the spectrogram must be {shortest} (4 samples) to {longest} s \
+             (the record)"
+        )));
+    }
+    let highest = arguments.max_frequency;
+    if !(highest > 0.0 && highest.is_finite()) {
+        return Err(Failure::usage(format!(
+            "--max-frequency {highest}: the highest frequency drawn must be positive and finite (Hz)"
+        )));
+    }
+    Ok(())
 }
 
 /// The channels asked for.
@@ -144,11 +196,15 @@ fn analyse(
     arguments: &Arguments,
     file: &SignalFile,
     channel: &Channel,
-) -> Result<ChannelReport, Failure> {
+) -> Result<(ChannelSummary, AmplitudeSpectrum), Failure> {
     let rate = file.sampling_rate;
-    let stage = exponential_stage(&channel.samples, rate, None).ok();
+    let stage = exponential_stage(&channel.samples, rate, None);
+    // Of a record that grows and then settles the lines are those of its end.
     let end = channel.samples.len() as f64 / rate;
-    let grows = stage.is_some_and(|s| s.rate_per_s.value > 0.0 && s.end < (1.0 - LAST_SHARE) * end);
+    let settles = |end_of_stage: f64| end_of_stage < (1.0 - LAST_SHARE) * end;
+    let grows = stage
+        .as_ref()
+        .is_ok_and(|stage| stage.is_growing() && settles(stage.end));
     let begin = if grows { (1.0 - LAST_SHARE) * end } else { 0.0 };
     let from = arguments.from.unwrap_or(begin);
     let to = arguments.to.unwrap_or(end).min(end);
@@ -159,14 +215,28 @@ fn analyse(
     }
     let index = |t: f64| ((t * rate).round() as usize).min(channel.samples.len());
     let part = &channel.samples[index(from)..index(to)];
-    let fail = |error| Failure::run(format!("channel {}: {error}", channel.name));
-    Ok(ChannelReport {
-        name: channel.name.clone(),
-        interval_s: (file.start + from, file.start + to),
-        lines: spectral_lines(part, rate, MOST_LINES).map_err(fail)?,
+    let fail = |error: SignalError| {
+        let message = format!("channel {}: {error}", channel.name);
+        match error {
+            SignalError::Resolution { .. } | SignalError::NotPositive { .. } => {
+                Failure::usage(message)
+            }
+            _ => Failure::run(message),
+        }
+    };
+    let resolution =
+        SpectralResolution::of(part.len(), rate, arguments.resolution).map_err(fail)?;
+    let lines = spectral_lines(part, rate, resolution, MOST_LINES).map_err(fail)?;
+    let spectrum =
+        averaged_spectrum(part, rate, Window::Hann, resolution.block, 1).map_err(fail)?;
+    let summary = ChannelSummary::new(
+        &channel.name,
+        [file.start + from, file.start + to],
+        (resolution, spectrum.averages),
+        &lines,
         stage,
-        spectrum: amplitude_spectrum(part, rate, Window::Hann, 1).map_err(fail)?,
-    })
+    );
+    Ok((summary, spectrum))
 }
 
 /// Modes of the case at its friction coefficient.
@@ -207,22 +277,32 @@ fn record(
     arguments: &Arguments,
     file: &SignalFile,
     selected: &[&Channel],
-    report: &SignalReport,
+    summary: &SignalSummary,
+    modes: &[ModeSummary],
+    spectra: Vec<AmplitudeSpectrum>,
 ) -> SignalRecord {
-    let channels = selected.iter().zip(&report.channels);
+    let unstable = modes.iter().filter(|mode| mode.unstable);
+    let channels = selected.iter().zip(&summary.channels).zip(spectra);
     SignalRecord {
         sampling_rate: file.sampling_rate,
         start: file.start,
-        window: arguments.window,
+        window: window_length(arguments, file),
         max_frequency_hz: arguments.max_frequency,
-        references: references(report),
+        references: unstable
+            .map(|m| {
+                (
+                    m.frequency_hz,
+                    format!("mode {}, *n* = {}", m.mode, m.harmonic),
+                )
+            })
+            .collect(),
         channels: channels
-            .map(|(channel, found)| ChannelRecord {
+            .map(|((channel, found), spectrum)| ChannelRecord {
                 name: channel.name.clone(),
                 samples: channel.samples.clone(),
-                interval_s: found.interval_s,
-                frequencies_hz: found.spectrum.frequencies_hz.clone(),
-                amplitudes: found.spectrum.amplitudes.clone(),
+                interval_s: (found.interval_s[0], found.interval_s[1]),
+                frequencies_hz: spectrum.frequencies_hz,
+                amplitudes: spectrum.amplitudes,
             })
             .collect(),
     }
@@ -231,23 +311,26 @@ fn record(
 /// Draws the figures and the report of a folder from its `record.bin` and its summary.
 ///
 /// # Errors
-/// A folder without a whole record; those of the drawing and of the folder.
+/// A folder without a whole record or summary; those of the drawing and of the folder.
 pub fn redraw(folder: &OutputFolder, summary: &Value, dots_per_inch: f64) -> Result<(), Failure> {
     let record: SignalRecord = read_record(folder.path())?;
-    for reason in draw_report(folder, &record, summary, dots_per_inch)? {
+    let summary = SignalSummary::deserialize(summary).map_err(|error| FolderError::NotResults {
+        path: folder.path().to_owned(),
+        reason: format!("its summary.json is not whole ({error}): run it again"),
+    })?;
+    draw_all(folder, &record, &summary, dots_per_inch)
+}
+
+fn draw_all(
+    folder: &OutputFolder,
+    record: &SignalRecord,
+    summary: &SignalSummary,
+    dots_per_inch: f64,
+) -> Result<(), Failure> {
+    for reason in draw_report(folder, record, summary, dots_per_inch)? {
         tracing::warn!("{reason}");
     }
     Ok(())
-}
-
-/// The unstable modes of the case: frequency, Hz, and name.
-fn references(report: &SignalReport) -> Vec<(f64, String)> {
-    let modes = report.modes.iter().enumerate();
-    let unstable = modes.filter(|(_, mode)| mode.is_unstable());
-    let name = |number: usize, n: usize| format!("mode {}, *n* = {n}", number + 1);
-    unstable
-        .map(|(number, mode)| (mode.frequency_hz(), name(number, mode.harmonic)))
-        .collect()
 }
 
 /// Options that change the result.
@@ -257,6 +340,7 @@ fn choices(arguments: &Arguments, case: Option<&Case>) -> Vec<String> {
         number("rate", arguments.rate),
         number("from", arguments.from),
         number("to", arguments.to),
+        number("resolution", arguments.resolution),
         case.map(|c| format!("case={}", c.raw.hash())),
     ]
     .into_iter()

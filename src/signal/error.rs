@@ -84,14 +84,18 @@ pub enum SignalError {
         /// Number of modes.
         count: usize,
     },
-    /// A time signal without an exponential stage.
+    /// A resolution of a spectrum that the record cannot give.
     #[error(
-        "no exponential stage found: the envelope nowhere rises or falls by a factor e with \
-         constant rate at {frequency_hz} Hz"
+        "a resolution of {asked_hz} Hz is out of reach: this record gives {finest_hz} to \
+         {coarsest_hz} Hz; change --resolution, or the interval"
     )]
-    NoExponentialStage {
-        /// Frequency at which the signal was demodulated, Hz.
-        frequency_hz: f64,
+    Resolution {
+        /// Asked for, Hz.
+        asked_hz: f64,
+        /// Finest that the length gives, Hz.
+        finest_hz: f64,
+        /// Coarsest that the sampling rate gives, Hz.
+        coarsest_hz: f64,
     },
     /// The fit cannot be computed.
     #[error("the modal fit failed: {reason}")]

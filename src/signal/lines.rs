@@ -1,18 +1,27 @@
-//! Spectral lines with sub-bin frequency, and the superharmonics among them.
+//! Spectral lines that stand out of the noise, and the superharmonics among them.
 
 use super::Window;
 use super::error::SignalError;
-use super::spectrum::{amplitude_spectrum, centred, check_signal};
-use std::f64::consts::TAU;
+use super::spectrum::{AmplitudeSpectrum, averaged_spectrum, check_signal};
+use super::statistics::{mean_power_exceeded, median, normal_exceeded};
 
 /// Weakest line reported, relative to the strongest (-46 dB).
 const WEAKEST: f64 = 5e-3;
-/// A line must exceed the median of the spectrum by this factor to count as more than noise.
-const ABOVE_MEDIAN: f64 = 8.0;
+/// Probability that noise alone shows a line anywhere in a spectrum.
+const FALSE_ALARM: f64 = 1e-3;
+/// The noise beside a line is the median over a band of this ratio of frequencies ...
+const NOISE_BAND: f64 = 1.15;
+/// ... that holds this many half lobes of the window at least.
+const NOISE_LOBES: usize = 8;
 /// Highest order of a superharmonic that is looked for.
 const HIGHEST_ORDER: usize = 10;
 /// A fundamental is at least this strong relative to the superharmonic it explains.
 const FUNDAMENTAL_SHARE: f64 = 0.05;
+/// Longest block that is transformed at once where no resolution is asked for, s.
+const LONGEST_BLOCK: f64 = 2.0;
+/// Zero-padding, in block lengths: lines are located between its bins by a parabola.
+const PADDING: usize = 4;
+const WINDOW: Window = Window::BlackmanHarris;
 
 /// One line of a spectrum.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,131 +35,171 @@ pub struct SpectralLine {
     pub superharmonic_of: Option<(usize, usize)>,
 }
 
+/// How finely a spectrum tells lines apart, and over how many blocks it is a mean.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpectralResolution {
+    /// Smallest distance of two lines that are told apart, Hz: 4 over the length of a block.
+    pub resolution_hz: f64,
+    /// Samples of a block.
+    pub block: usize,
+}
+
+impl SpectralResolution {
+    /// Blocks for a resolution asked for, or of at most 2 s.
+    ///
+    /// # Errors
+    /// [`SignalError::Resolution`] for one that the signal is too short or too coarsely sampled for.
+    pub fn of(
+        count: usize,
+        sampling_rate: f64,
+        asked_hz: Option<f64>,
+    ) -> Result<Self, SignalError> {
+        let lobe = WINDOW.half_lobe_bins();
+        let block = match asked_hz {
+            Some(asked) => {
+                super::error::check_positive("resolution", asked, " (Hz): change --resolution")?;
+                let block = (lobe * sampling_rate / asked).round();
+                if !(block <= count as f64 && block >= 16.0) {
+                    return Err(SignalError::Resolution {
+                        asked_hz: asked,
+                        finest_hz: lobe * sampling_rate / count as f64,
+                        coarsest_hz: lobe * sampling_rate / 16.0,
+                    });
+                }
+                block as usize
+            }
+            None => count.min((LONGEST_BLOCK * sampling_rate).max(16.0) as usize),
+        };
+        Ok(Self {
+            resolution_hz: lobe * sampling_rate / block as f64,
+            block,
+        })
+    }
+}
+
 /// The strongest lines, strongest first, at most `most`, with superharmonics recognised.
 ///
-/// Lines are the maxima of a Blackman-Harris spectrum, each moved to the maximum of the continuous
-/// transform `|sum_j w_j x_j e^{-2 pi i f t_j}|`. Line `q` is superharmonic `k` of line `p` when
-/// `|f_q - k f_p|` is below half a bin (or 0.2 %) and `p` has at least 5 % of its amplitude. Does
-/// not separate lines closer than 8 bins (`8 / duration`), nor sees lines 46 dB below the strongest.
+/// Lines are the maxima of a Blackman-Harris spectrum averaged over blocks, each the largest within one
+/// resolution to either side and located by a parabola through the logarithms of the padded spectrum. A
+/// line must be so far above the noise beside it that noise alone shows one in a spectrum out of 1000:
+/// its power exceeds the local median by the quantile of a mean of as many exponential variables as there
+/// are blocks. Line `q` is superharmonic `k` of line `p` when `|f_q - k f_p|` is below half a bin (or
+/// 0.2 %) and `p` has at least 5 % of its amplitude. Does not see lines 46 dB below the strongest.
 ///
 /// # Errors
 /// [`SignalError`] for fewer than 16 samples, a sample that is not finite, or a rate not positive.
 pub fn spectral_lines(
     samples: &[f64],
     sampling_rate: f64,
+    resolution: SpectralResolution,
     most: usize,
 ) -> Result<Vec<SpectralLine>, SignalError> {
     check_signal(samples, sampling_rate, 16)?;
-    let window = Window::BlackmanHarris;
-    let mut lines = peaks(samples, sampling_rate, window)?;
+    let spectrum = averaged_spectrum(samples, sampling_rate, WINDOW, resolution.block, PADDING)?;
+    let scale = samples.iter().fold(0.0f64, |m, v| m.max(v.abs()));
+    let mut lines = peaks(&spectrum, scale);
     lines.truncate(most);
-    name_superharmonics(&mut lines, sampling_rate / samples.len() as f64);
+    let bin = sampling_rate / resolution.block as f64;
+    name_superharmonics(&mut lines, bin);
     Ok(lines)
 }
 
-/// Frequency and amplitude of the strongest line, by a Hann window.
-///
-/// For a single tone the frequency error is far below a bin; another tone `d` bins away disturbs it
-/// by about `1/d^3` bins. Superharmonics are integer multiples of it, hence far away.
+/// Frequency and amplitude of the strongest line.
 ///
 /// # Errors
-/// As [`spectral_lines`]; a constant signal has no line and is an error too.
+/// As [`spectral_lines`]; a signal of which no line stands out is an error too.
 pub fn main_frequency(samples: &[f64], sampling_rate: f64) -> Result<SpectralLine, SignalError> {
     check_signal(samples, sampling_rate, 16)?;
-    let lines = peaks(samples, sampling_rate, Window::Hann)?;
+    let resolution = SpectralResolution::of(samples.len(), sampling_rate, None)?;
+    let lines = spectral_lines(samples, sampling_rate, resolution, 1)?;
     lines.into_iter().next().ok_or(SignalError::NoResonance {
         low_hz: 0.0,
         high_hz: 0.5 * sampling_rate,
     })
 }
 
-/// Maxima of the windowed spectrum that stand out, refined, strongest first.
-fn peaks(
-    samples: &[f64],
-    sampling_rate: f64,
-    window: Window,
-) -> Result<Vec<SpectralLine>, SignalError> {
-    let padding = 4;
-    let spectrum = amplitude_spectrum(samples, sampling_rate, window, padding)?;
+/// Maxima of the spectrum that stand out, strongest first.
+fn peaks(spectrum: &AmplitudeSpectrum, scale: f64) -> Vec<SpectralLine> {
     let a = &spectrum.amplitudes;
+    let reach = WINDOW.half_lobe_bins() as usize * PADDING;
     let top = a.iter().copied().fold(0.0, f64::max);
-    let scale = samples.iter().fold(0.0f64, |m, v| m.max(v.abs()));
     // A constant leaves nothing but the round-off of its mean.
     if top <= 1e-14 * scale || top == 0.0 {
-        return Ok(Vec::new());
+        return Vec::new();
     }
-    let mut sorted = a.clone();
-    sorted.sort_by(f64::total_cmp);
-    let floor = (WEAKEST * top).max((ABOVE_MEDIAN * sorted[sorted.len() / 2]).min(0.5 * top));
-    let reach = (window.half_lobe_bins() * padding as f64) as usize;
-    let x = centred(samples);
-    let taper = window.coefficients(samples.len());
-    let gain = 2.0 / taper.iter().sum::<f64>();
-    let weighted: Vec<f64> = x.iter().zip(&taper).map(|(x, w)| gain * x * w).collect();
-    let bin = spectrum.frequencies_hz[1];
+    // Noise powers are exponential; a padded bin in four is independent of its neighbours.
+    let count = spectrum.averages as f64;
+    let exceeded = normal_exceeded(FALSE_ALARM / a.len() as f64);
+    let ratio = mean_power_exceeded(count, exceeded) / mean_power_exceeded(count, 0.0);
+    let noise = LocalNoise::of(a, reach);
     let mut lines = Vec::new();
-    for k in padding..a.len().saturating_sub(1) {
-        let neighbours = &a[k.saturating_sub(reach / 2)..(k + reach / 2 + 1).min(a.len())];
-        let is_peak =
-            a[k] > a[k - 1] && a[k] >= a[k + 1] && neighbours.iter().all(|other| *other <= a[k]);
-        if is_peak && a[k] >= floor {
-            let f = spectrum.frequencies_hz[k];
-            lines.push(refined(&weighted, sampling_rate, f - bin, f + bin));
+    for k in PADDING..a.len() - 1 {
+        let neighbours = &a[k.saturating_sub(reach)..(k + reach + 1).min(a.len())];
+        let is_peak = a[k] > a[k - 1] && a[k] >= a[k + 1] && a[k] >= WEAKEST * top;
+        if is_peak
+            && neighbours.iter().all(|other| *other <= a[k])
+            && a[k] > noise.amplitude(k) * ratio.sqrt()
+        {
+            lines.push(located(spectrum, k));
         }
     }
     lines.sort_by(|p, q| q.amplitude.total_cmp(&p.amplitude));
-    Ok(lines)
+    lines
 }
 
-/// Maximum of the continuous transform between two frequencies, by golden section.
-fn refined(weighted: &[f64], sampling_rate: f64, mut low: f64, mut high: f64) -> SpectralLine {
-    let amplitude = |f: f64| transform_at(weighted, f / sampling_rate);
-    let ratio = 0.5 * (5f64.sqrt() - 1.0);
-    let (mut p, mut q) = (high - ratio * (high - low), low + ratio * (high - low));
-    let (mut ap, mut aq) = (amplitude(p), amplitude(q));
-    // 0.618^30 = 5e-7 of a quarter bin: the maximum is flat, more digits would be noise.
-    for _ in 0..30 {
-        if ap > aq {
-            (high, q, aq) = (q, p, ap);
-            p = high - ratio * (high - low);
-            ap = amplitude(p);
-        } else {
-            (low, p, ap) = (p, q, aq);
-            q = low + ratio * (high - low);
-            aq = amplitude(q);
+/// Median amplitudes over bands of a spectrum, narrow at low frequencies.
+struct LocalNoise {
+    /// First bin behind each band, and the median in it.
+    bands: Vec<(usize, f64)>,
+}
+
+impl LocalNoise {
+    fn of(amplitudes: &[f64], reach: usize) -> Self {
+        let mut bands = Vec::new();
+        let mut first = 0;
+        while first < amplitudes.len() {
+            let width = ((NOISE_BAND - 1.0) * first as f64) as usize;
+            let mut end = first + width.max(NOISE_LOBES * reach);
+            // A remnant at the end belongs to the band before it.
+            if end + NOISE_LOBES * reach > amplitudes.len() {
+                end = amplitudes.len();
+            }
+            bands.push((end, median(&amplitudes[first..end])));
+            first = end;
         }
+        Self { bands }
     }
+
+    fn amplitude(&self, bin: usize) -> f64 {
+        let k = self.bands.partition_point(|(end, _)| *end <= bin);
+        self.bands[k].1
+    }
+}
+
+/// Top of the parabola through the logarithms of three bins: the main lobe is nearly Gaussian.
+fn located(spectrum: &AmplitudeSpectrum, k: usize) -> SpectralLine {
+    let log = |i: usize| spectrum.amplitudes[i].max(f64::MIN_POSITIVE).ln();
+    let (left, middle, right) = (log(k - 1), log(k), log(k + 1));
+    let bend = left - 2.0 * middle + right;
+    let shift = if bend < 0.0 {
+        (0.5 * (left - right) / bend).clamp(-0.5, 0.5)
+    } else {
+        0.0
+    };
     SpectralLine {
-        frequency_hz: 0.5 * (low + high),
-        amplitude: ap.max(aq),
+        frequency_hz: (k as f64 + shift) * spectrum.frequencies_hz[1],
+        amplitude: (middle - 0.25 * (left - right) * shift).exp(),
         superharmonic_of: None,
     }
 }
 
-/// `|sum_j x_j e^{-2 pi i j nu}|` at a frequency `nu` in cycles for each sample (Goertzel's sum by
-/// rotation, restarted often enough that its round-off stays small).
-fn transform_at(weighted: &[f64], nu: f64) -> f64 {
-    let (mut re, mut im) = (0.0, 0.0);
-    let (sin, cos) = (TAU * nu).sin_cos();
-    for (block, chunk) in weighted.chunks(256).enumerate() {
-        let phase = TAU * (nu * (256 * block) as f64).fract();
-        let (mut s, mut c) = phase.sin_cos();
-        for x in chunk {
-            re += x * c;
-            im -= x * s;
-            (c, s) = (c * cos - s * sin, s * cos + c * sin);
-        }
-    }
-    re.hypot(im)
-}
-
 /// Marks every line that is an integer multiple of a lower one.
-fn name_superharmonics(lines: &mut [SpectralLine], resolution: f64) {
+fn name_superharmonics(lines: &mut [SpectralLine], bin: f64) {
     let mut by_frequency: Vec<usize> = (0..lines.len()).collect();
     by_frequency.sort_by(|i, j| lines[*i].frequency_hz.total_cmp(&lines[*j].frequency_hz));
     for (place, &q) in by_frequency.iter().enumerate() {
         let line = lines[q];
-        let tolerance = (0.5 * resolution).max(2e-3 * line.frequency_hz);
+        let tolerance = (0.5 * bin).max(2e-3 * line.frequency_hz);
         lines[q].superharmonic_of = by_frequency[..place].iter().find_map(|&p| {
             let fundamental = lines[p];
             let order = (line.frequency_hz / fundamental.frequency_hz).round();
@@ -170,6 +219,13 @@ fn name_superharmonics(lines: &mut [SpectralLine], resolution: f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::signal::statistics::gaussian_sequence;
+    use std::f64::consts::TAU;
+
+    fn lines(samples: &[f64], rate: f64, asked_hz: Option<f64>) -> Vec<SpectralLine> {
+        let resolution = SpectralResolution::of(samples.len(), rate, asked_hz).unwrap();
+        spectral_lines(samples, rate, resolution, 12).unwrap()
+    }
 
     #[test]
     fn main_frequency_of_a_short_record_is_sub_bin_accurate() {
@@ -203,7 +259,7 @@ mod tests {
                     + 0.5 * (5856.0 * t).sin()
             })
             .collect();
-        let lines = spectral_lines(&x, rate, 10).unwrap();
+        let lines = lines(&x, rate, None);
         assert_eq!(lines.len(), 4);
         // Strongest is the first superharmonic; its fundamental stands second.
         assert_eq!(lines[0].superharmonic_of, Some((1, 2)));
@@ -214,8 +270,53 @@ mod tests {
     }
 
     #[test]
+    fn noise_has_no_lines_and_a_tone_in_it_is_one_line_at_every_resolution() {
+        let rate = 51_200.0;
+        let mut false_alarms = 0;
+        for seed in 1..=40 {
+            let mut noise = gaussian_sequence(seed);
+            let mut x: Vec<f64> = (0..25_000).map(|_| noise()).collect();
+            // A first-order low-pass colours every second record.
+            if seed % 2 == 0 {
+                for j in 1..x.len() {
+                    x[j] += 0.9 * x[j - 1];
+                }
+            }
+            false_alarms += lines(&x, rate, None).len() + lines(&x, rate, Some(40.0)).len();
+        }
+        // 80 spectra at one in a thousand each: two would happen once in 300 times.
+        assert!(false_alarms <= 1, "{false_alarms}");
+        let mut noise = gaussian_sequence(7);
+        // The tone sounds a third of the time.
+        let x: Vec<f64> = (0..512_000)
+            .map(|j| {
+                let tone = (TAU * 9433.0 * f64::from(j) / rate).sin();
+                0.1 * noise()
+                    + if (170_000..340_000).contains(&j) {
+                        tone
+                    } else {
+                        0.0
+                    }
+            })
+            .collect();
+        for resolution in [None, Some(5.0), Some(50.0)] {
+            let found = lines(&x, rate, resolution);
+            assert_eq!(found.len(), 1, "{resolution:?}: {found:?}");
+            assert!((found[0].frequency_hz - 9433.0).abs() < 1.0, "{found:?}");
+        }
+    }
+
+    #[test]
+    fn a_resolution_that_the_record_cannot_give_is_refused_with_what_it_can() {
+        let error = SpectralResolution::of(1000, 1000.0, Some(0.5)).unwrap_err();
+        assert!(error.to_string().contains("gives 4 to 250 Hz"), "{error}");
+        assert!(SpectralResolution::of(1000, 1000.0, Some(0.0)).is_err());
+        assert!(SpectralResolution::of(1000, 1000.0, Some(900.0)).is_err());
+    }
+
+    #[test]
     fn a_constant_signal_has_no_lines() {
-        assert!(spectral_lines(&[0.1; 100], 1.0, 5).unwrap().is_empty());
+        assert!(lines(&[0.1; 100], 1.0, None).is_empty());
         assert!(main_frequency(&[0.1; 100], 1.0).is_err());
     }
 }

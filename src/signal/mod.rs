@@ -1,9 +1,9 @@
 //! Measured and computed signals: spectra, spectrograms, growth rates, modal damping.
 //!
 //! Two roads lead through this module. A *time signal* becomes a spectrum
-//! ([`amplitude_spectrum`], [`power_spectral_density`]), a [`spectrogram`], spectral lines with
+//! ([`amplitude_spectrum`], [`averaged_spectrum`]), a [`spectrogram`], spectral lines with
 //! their superharmonics ([`spectral_lines`]) and the rate of its exponential stage
-//! ([`exponential_stage`]). A *frequency response* becomes modal frequencies and damping factors
+//! ([`exponential_stage`], [`harmonic_growth`]). A *frequency response* becomes modal frequencies and damping factors
 //! ([`half_power`], [`fit_modes`]) and from them the two Rayleigh coefficients of
 //! `zeta = (alpha_R / omega + beta_R omega) / 2` ([`fit_rayleigh`]); [`identify`] does all of it.
 //!
@@ -27,15 +27,18 @@ mod statistics;
 mod window;
 
 pub use error::SignalError;
-pub use growth::{ExponentialStage, exponential_stage, stage_in_interval};
+pub use growth::{
+    ExponentialStage, NoGrowth, exponential_stage, harmonic_growth, round_off_floor,
+    strongest_vibration,
+};
 pub use half_power::{HalfPowerBand, ResonanceNote, half_power};
 pub use identification::{Identification, IdentificationOptions, IdentifiedMode, identify};
-pub use lines::{SpectralLine, main_frequency, spectral_lines};
+pub use lines::{SpectralLine, SpectralResolution, main_frequency, spectral_lines};
 pub use modal_basis::{ModalModel, Pole};
 pub use modal_fit::{FittedMode, ModalFit, fit_modes};
 pub use noise::NoiseModel;
 pub use rayleigh::{DampingSample, Estimate, RayleighFit, fit_rayleigh};
 pub use response::{FrequencyResponse, ResponseQuantity};
 pub use spectrogram::{Spectrogram, SpectrogramOptions, spectrogram};
-pub use spectrum::{AmplitudeSpectrum, PowerSpectrum, amplitude_spectrum, power_spectral_density};
+pub use spectrum::{AmplitudeSpectrum, amplitude_spectrum, averaged_spectrum};
 pub use window::Window;

@@ -1,4 +1,4 @@
-//! One-sided amplitude spectrum and power spectral density of a real signal.
+//! One-sided amplitude spectrum of a real signal, of one block or averaged over many.
 
 use super::Window;
 use super::error::{SignalError, check_finite, check_positive};
@@ -10,17 +10,10 @@ use realfft::RealFftPlanner;
 pub struct AmplitudeSpectrum {
     /// Frequencies, Hz, from 0 to half the sampling rate.
     pub frequencies_hz: Vec<f64>,
-    /// Peak amplitude, in the unit of the signal.
+    /// Peak amplitude, root mean square over the blocks, in the unit of the signal.
     pub amplitudes: Vec<f64>,
-}
-
-/// One-sided power spectral density: its integral over frequency is the variance.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PowerSpectrum {
-    /// Frequencies, Hz, from 0 to half the sampling rate.
-    pub frequencies_hz: Vec<f64>,
-    /// Density, unit of the signal squared per Hz.
-    pub densities: Vec<f64>,
+    /// Number of blocks averaged.
+    pub averages: usize,
 }
 
 /// Amplitude spectrum of the whole signal, mean removed.
@@ -36,80 +29,95 @@ pub fn amplitude_spectrum(
     window: Window,
     padding: usize,
 ) -> Result<AmplitudeSpectrum, SignalError> {
-    check_signal(samples, sampling_rate, 4)?;
-    let (taper, length) = (
-        window.coefficients(samples.len()),
-        samples.len() * padding.max(1),
-    );
-    let gain = 2.0 / taper.iter().sum::<f64>();
-    let mut fft = RealFftPlanner::<f64>::new();
-    let lines = transform(&mut fft, &centred(samples), &taper, length);
-    Ok(AmplitudeSpectrum {
-        frequencies_hz: frequency_axis(lines.len(), length, sampling_rate),
-        amplitudes: lines.iter().map(|z| gain * z.norm()).collect(),
-    })
+    averaged_spectrum(samples, sampling_rate, window, samples.len(), padding)
 }
 
-/// Power spectral density by Welch's method: mean over blocks of `block` samples, half overlapping.
+/// Amplitude spectrum by Welch's method: root mean square over blocks of `block` samples, half
+/// overlapping, each as in [`amplitude_spectrum`].
 ///
-/// `S_k = 2 |X_k|^2 / (f_s sum_j w_j^2)`, half of that at 0 and at half the sampling rate. The mean
-/// of the whole signal is removed first; a tail shorter than half a block is not used.
+/// The mean of the whole signal is removed first; a tail shorter than half a block is not used. Noise
+/// reads `sqrt(4 S / (T s))` for a density `S`, with `T` the length of a block and `s` about 1: longer
+/// blocks lower it beside a line.
 ///
 /// # Errors
-/// [`SignalError`] for a signal shorter than one block, a block under 4 samples, a sample that is
-/// not finite, or a rate not positive.
-pub fn power_spectral_density(
+/// [`SignalError`] for a signal shorter than one block, a block under 4 samples, a sample that is not
+/// finite, or a rate not positive.
+///
+/// Source: P. D. Welch, "The use of fast Fourier transform for the estimation of power spectra", IEEE
+/// Trans. Audio Electroacoust. 15 (1967).
+pub fn averaged_spectrum(
     samples: &[f64],
     sampling_rate: f64,
     window: Window,
     block: usize,
-) -> Result<PowerSpectrum, SignalError> {
-    check_signal(samples, sampling_rate, block.max(4))?;
+    padding: usize,
+) -> Result<AmplitudeSpectrum, SignalError> {
     let block = block.max(4);
+    check_signal(samples, sampling_rate, block)?;
     let taper = window.coefficients(block);
-    let scale = 1.0 / (sampling_rate * taper.iter().map(|w| w * w).sum::<f64>());
-    let x = centred(samples);
-    let mut fft = RealFftPlanner::<f64>::new();
-    let mut densities = vec![0.0; block / 2 + 1];
-    let mut count = 0.0;
+    let gain = 2.0 / taper.iter().sum::<f64>();
+    let mut transform = BlockTransform::new(taper, block * padding.max(1));
+    let mean = samples.iter().sum::<f64>() / samples.len() as f64;
+    let mut powers = vec![0.0; transform.lines()];
+    let mut averages = 0;
     for start in (0..=samples.len() - block).step_by((block / 2).max(1)) {
-        let lines = transform(&mut fft, &x[start..start + block], &taper, block);
-        for (k, (s, z)) in densities.iter_mut().zip(&lines).enumerate() {
-            let sides = if k == 0 || 2 * k == block { 1.0 } else { 2.0 };
-            *s += sides * scale * z.norm_sqr();
+        let lines = transform.of(&samples[start..start + block], mean);
+        for (power, z) in powers.iter_mut().zip(lines) {
+            *power += z.norm_sqr();
         }
-        count += 1.0;
+        averages += 1;
     }
-    densities.iter_mut().for_each(|s| *s /= count);
-    Ok(PowerSpectrum {
-        frequencies_hz: frequency_axis(densities.len(), block, sampling_rate),
-        densities,
+    let scale = gain / f64::sqrt(averages as f64);
+    Ok(AmplitudeSpectrum {
+        frequencies_hz: transform.frequencies_hz(sampling_rate),
+        amplitudes: powers.iter().map(|p| scale * p.sqrt()).collect(),
+        averages,
     })
 }
 
-/// Windowed real transform of one block, zero-padded to `length` samples.
-pub(super) fn transform(
-    planner: &mut RealFftPlanner<f64>,
-    block: &[f64],
-    taper: &[f64],
-    length: usize,
-) -> Vec<c64> {
-    let fft = planner.plan_fft_forward(length);
-    let mut input = fft.make_input_vec();
-    for (slot, (x, w)) in input.iter_mut().zip(block.iter().zip(taper)) {
-        *slot = x * w;
-    }
-    let mut output = fft.make_output_vec();
-    fft.process(&mut input, &mut output)
-        .expect("buffers come from the plan");
-    output
+/// Windowed real transform of blocks of one length, zero-padded.
+pub(super) struct BlockTransform {
+    fft: std::sync::Arc<dyn realfft::RealToComplex<f64>>,
+    taper: Vec<f64>,
+    input: Vec<f64>,
+    output: Vec<c64>,
+    scratch: Vec<c64>,
 }
 
-/// Frequencies of the first `count` bins of a transform over `length` samples, Hz.
-pub(super) fn frequency_axis(count: usize, length: usize, sampling_rate: f64) -> Vec<f64> {
-    (0..count)
-        .map(|k| k as f64 * sampling_rate / length as f64)
-        .collect()
+impl BlockTransform {
+    pub(super) fn new(taper: Vec<f64>, length: usize) -> Self {
+        let fft = RealFftPlanner::<f64>::new().plan_fft_forward(length);
+        Self {
+            input: fft.make_input_vec(),
+            output: fft.make_output_vec(),
+            scratch: fft.make_scratch_vec(),
+            fft,
+            taper,
+        }
+    }
+
+    /// Number of bins.
+    pub(super) fn lines(&self) -> usize {
+        self.output.len()
+    }
+
+    /// Frequencies of the bins, Hz.
+    pub(super) fn frequencies_hz(&self, sampling_rate: f64) -> Vec<f64> {
+        let step = sampling_rate / self.input.len() as f64;
+        (0..self.lines()).map(|k| k as f64 * step).collect()
+    }
+
+    /// Transform of one block less `mean`.
+    pub(super) fn of(&mut self, block: &[f64], mean: f64) -> &[c64] {
+        self.input.fill(0.0);
+        for (slot, (x, w)) in self.input.iter_mut().zip(block.iter().zip(&self.taper)) {
+            *slot = (x - mean) * w;
+        }
+        self.fft
+            .process_with_scratch(&mut self.input, &mut self.output, &mut self.scratch)
+            .expect("buffers come from the plan");
+        &self.output
+    }
 }
 
 /// The signal less its mean.
@@ -140,6 +148,7 @@ pub(super) fn check_signal(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::signal::statistics::gaussian_sequence;
     use std::f64::consts::TAU;
 
     fn tone(count: usize, rate: f64, frequency: f64, amplitude: f64) -> Vec<f64> {
@@ -149,34 +158,35 @@ mod tests {
     }
 
     #[test]
-    fn amplitude_of_a_tone_on_a_bin_is_read_exactly_with_every_window() {
+    fn amplitude_of_a_tone_on_a_bin_is_read_exactly_with_every_window_and_average() {
         let x: Vec<f64> = tone(1000, 1e4, 1200.0, 2.5)
             .iter()
             .map(|v| v + 7.0)
             .collect();
-        for window in [Window::Rectangular, Window::Hann, Window::BlackmanHarris] {
-            let s = amplitude_spectrum(&x, 1e4, window, 1).unwrap();
-            assert_eq!(s.frequencies_hz[120], 1200.0);
-            // Round-off of a 1000-point transform.
-            assert!((s.amplitudes[120] - 2.5).abs() < 1e-12);
+        for window in [Window::Hann, Window::BlackmanHarris] {
+            for (block, averages) in [(1000, 1), (250, 7)] {
+                let s = averaged_spectrum(&x, 1e4, window, block, 1).unwrap();
+                let k = block * 12 / 100;
+                assert_eq!((s.frequencies_hz[k], s.averages), (1200.0, averages));
+                // Round-off of a 1000-point transform.
+                assert!((s.amplitudes[k] - 2.5).abs() < 1e-12);
+            }
         }
     }
 
     #[test]
-    fn integral_of_the_power_spectrum_is_the_variance() {
-        let mut state = 1u64;
-        let x: Vec<f64> = (0..1 << 15)
-            .map(|_| {
-                state = state
-                    .wrapping_mul(6364136223846793005)
-                    .wrapping_add(1442695040888963407);
-                (state >> 11) as f64 / (1u64 << 53) as f64 - 0.5
-            })
-            .collect();
-        let s = power_spectral_density(&x, 2e3, Window::Hann, 256).unwrap();
-        let power: f64 = s.densities.iter().sum::<f64>() * s.frequencies_hz[1];
-        // Uniform noise of width 1 has variance 1/12; 32,768 samples know it to about 1 %.
-        assert!((power * 12.0 - 1.0).abs() < 0.02, "{power}");
+    fn noise_of_known_variance_reads_its_density_in_every_block_length() {
+        let mut noise = gaussian_sequence(1);
+        let x: Vec<f64> = (0..1 << 15).map(|_| noise()).collect();
+        for block in [128, 256] {
+            let s = averaged_spectrum(&x, 2e3, Window::Hann, block, 1).unwrap();
+            let inner = &s.amplitudes[2..block / 2 - 2];
+            let mean = inner.iter().map(|a| a * a).sum::<f64>() / inner.len() as f64;
+            // E|X_k|^2 = variance sum w^2, and sum w = N/2, sum w^2 = 3 N/8 for Hann.
+            let expected = 4.0 * 0.375 / 0.25 / block as f64;
+            // 32,768 samples know the variance to about 1 %.
+            assert!((mean / expected - 1.0).abs() < 0.03, "{mean} {expected}");
+        }
     }
 
     #[test]
@@ -184,6 +194,6 @@ mod tests {
         assert!(amplitude_spectrum(&[1.0; 3], 1.0, Window::Hann, 1).is_err());
         assert!(amplitude_spectrum(&[1.0, f64::NAN, 1.0, 1.0], 1.0, Window::Hann, 1).is_err());
         assert!(amplitude_spectrum(&[1.0; 8], 0.0, Window::Hann, 1).is_err());
-        assert!(power_spectral_density(&[1.0; 8], 1.0, Window::Hann, 9).is_err());
+        assert!(averaged_spectrum(&[1.0; 8], 1.0, Window::Hann, 9, 1).is_err());
     }
 }

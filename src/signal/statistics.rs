@@ -20,6 +20,22 @@ pub(super) fn student_95(degrees: f64) -> f64 {
         + z * (((3.0 * z2 + 19.0) * z2 + 17.0) * z2 - 15.0) / (384.0 * n * n * n)
 }
 
+/// Upper quantile of the normal distribution: exceeded with a probability of at most 0.5.
+///
+/// Absolute error below 4.5e-4 (Abramowitz and Stegun 26.2.23).
+pub(super) fn normal_exceeded(probability: f64) -> f64 {
+    let t = (-2.0 * probability.ln()).sqrt();
+    let numerator = 2.515_517 + t * (0.802_853 + t * 0.010_328);
+    t - numerator / (1.0 + t * (1.432_788 + t * (0.189_269 + t * 0.001_308)))
+}
+
+/// Quantiles of a mean of `count` exponential variables of mean 1 (Wilson and Hilferty): exceeded with
+/// the probability at which a normal variable exceeds `z`.
+pub(super) fn mean_power_exceeded(count: f64, z: f64) -> f64 {
+    let share = 1.0 / (9.0 * count);
+    (1.0 - share + z * share.sqrt()).powi(3)
+}
+
 /// Median; 0 of nothing.
 pub(super) fn median(values: &[f64]) -> f64 {
     if values.is_empty() {
@@ -35,9 +51,35 @@ pub(super) fn median(values: &[f64]) -> f64 {
     }
 }
 
+/// Standard normal numbers from sums of twelve uniform ones, for tests.
+#[cfg(test)]
+pub(super) fn gaussian_sequence(seed: u64) -> impl FnMut() -> f64 {
+    let mut state = seed;
+    move || {
+        let uniform = || {
+            state = state
+                .wrapping_mul(6364136223846793005)
+                .wrapping_add(1442695040888963407);
+            (state >> 11) as f64 / (1u64 << 53) as f64
+        };
+        std::iter::repeat_with(uniform).take(12).sum::<f64>() - 6.0
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn quantiles_of_noise_powers_match_closed_forms() {
+        // Of one exponential variable the quantile is -ln p, and the median ln 2.
+        for probability in [1e-2, 1e-4, 1e-7] {
+            let found = mean_power_exceeded(1.0, normal_exceeded(probability));
+            assert!((found / -probability.ln() - 1.0).abs() < 0.12, "{found}");
+        }
+        assert!((mean_power_exceeded(1.0, 0.0) / std::f64::consts::LN_2 - 1.0).abs() < 0.02);
+        assert!((normal_exceeded(0.025) - NORMAL_95).abs() < 5e-4);
+    }
 
     #[test]
     fn student_quantiles_match_the_published_table() {

@@ -5,8 +5,6 @@ use std::f64::consts::TAU;
 /// Taper applied to a block of samples before its Fourier transform.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Window {
-    /// No taper: the narrowest line, the slowest decay beside it (-13 dB, 6 dB per octave).
-    Rectangular,
     /// `w_j = (1 - cos(2 pi j / N)) / 2`: sidelobes -31 dB, 18 dB per octave.
     #[default]
     Hann,
@@ -21,7 +19,6 @@ impl Window {
     /// transform", Proc. IEEE 66 (1978).
     pub fn coefficients(self, length: usize) -> Vec<f64> {
         let a: &[f64] = match self {
-            Window::Rectangular => &[1.0],
             Window::Hann => &[0.5, -0.5],
             Window::BlackmanHarris => &[0.35875, -0.48829, 0.14128, -0.01168],
         };
@@ -39,7 +36,6 @@ impl Window {
     /// Half the width of the main lobe, in bins of an unpadded transform.
     pub fn half_lobe_bins(self) -> f64 {
         match self {
-            Window::Rectangular => 1.0,
             Window::Hann => 2.0,
             Window::BlackmanHarris => 4.0,
         }

@@ -111,9 +111,12 @@ pub(super) fn overview(
     let interval = series.interval();
     let top = highest_frequency(data, interval);
     // A run shorter than a window has no spectrogram, and needs none.
-    let map = spectrogram(&signal, 1.0 / interval, &SpectrogramOptions::default())
+    let options = SpectrogramOptions {
+        max_frequency_hz: 1.05 * top,
+        ..SpectrogramOptions::default()
+    };
+    let map = spectrogram(&signal, 1.0 / interval, &options)
         .ok()
-        .map(|map| map.below(1.05 * top))
         .filter(|map| map.times.len() > 1 && map.frequencies_hz.len() > 1);
     let main = data.analysis.limit_cycle.main_frequency_hz;
     draw_transient_overview(&TransientOverview {

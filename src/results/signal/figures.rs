@@ -87,11 +87,11 @@ fn overview(record: &SignalRecord, channel: &ChannelRecord) -> Result<String, St
     let options = SpectrogramOptions {
         window_length: record.window,
         hop: 0.25 * record.window,
+        max_frequency_hz: record.max_frequency_hz,
         ..SpectrogramOptions::default()
     };
     let map = spectrogram(&channel.samples, record.sampling_rate, &options)
         .map_err(|error| format!("no spectrogram of {}: {error}; try --window", channel.name))?;
-    let map = map.below(record.max_frequency_hz).normalized();
     let times: Vec<f64> = (0..channel.samples.len())
         .map(|j| record.start + j as f64 / record.sampling_rate)
         .collect();
