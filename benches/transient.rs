@@ -78,10 +78,7 @@ fn report(annulus: &AnnulusMesh, choice: OperatorChoice, level: SimdLevel, peak:
         sample_interval,
         expansion_time: 5e-4,
         initial: InitialState::SteadySliding,
-        perturbation: Perturbation {
-            harmonics: vec![1, 2],
-            velocity: 1.0,
-        },
+        perturbation: Perturbation::of(&[1, 2], 1.0),
     };
     settings.duration = 0.002;
     let mut run = CentralDifference::start(model, operator.as_ref(), &settings).expect("a start");

@@ -46,10 +46,7 @@ fn run(solver: &CycleSolver, cycle: &LimitCycle, perturbed: usize, duration: f64
             harmonic: cycle.harmonic,
             onset: 1,
         },
-        perturbation: Perturbation {
-            harmonics: vec![perturbed],
-            velocity: 1e-3,
-        },
+        perturbation: Perturbation::of(&[perturbed], 1e-3),
     };
     let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
     let operator = operator.as_ref();

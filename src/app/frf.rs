@@ -4,9 +4,10 @@ use super::{Failure, RunOptions, Session, terminal};
 use crate::case::{Case, Frf, FrfMethod};
 use crate::fem::assemble_stiffness;
 use crate::frf::{
-    CyclicSystem, FrfBoundary, FrfSystem, GaussianNoise, ReductionSettings, Terminal,
-    cyclic_response, direct_response, reduced_response,
+    CyclicSystem, FrfBoundary, FrfSystem, ReductionSettings, Terminal, cyclic_response,
+    direct_response, reduced_response,
 };
+use crate::linalg::GaussianNoise;
 use crate::mesh::{AnnulusMesh, SectorMesh};
 use crate::prestress::{
     DampingModel, SectorTangent, SlidingTangent, SteadySliding, TangentOptions,

@@ -168,7 +168,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let record = watch.finish()?;
     let end = end.map_err(|error| prepared.failure(&error))?;
 
-    let analysis = TransientAnalysis::of(&record, &prepared.settings.perturbation.harmonics);
+    let analysis = TransientAnalysis::of(&record, &prepared.settings.perturbation.harmonics());
     let report = TransientReport {
         steps_timed: loop_.steps_done() - first_step,
         stepping_s,
@@ -206,7 +206,7 @@ pub fn summarize(case: &Case, manifest: &Manifest) -> Result<Value, Failure> {
         .run(&mut record)
         .map_err(|error| prepared.failure(&error))?;
     let stepping_s = clock.elapsed().as_secs_f64();
-    let analysis = TransientAnalysis::of(&record, &prepared.settings.perturbation.harmonics);
+    let analysis = TransientAnalysis::of(&record, &prepared.settings.perturbation.harmonics());
     let report = TransientReport {
         stepping_s,
         wall_s: start.elapsed().as_secs_f64(),

@@ -101,7 +101,12 @@ pub const KEYS: &[CaseKey] = &[
     key("transient.limit_cycle_harmonic", Count(1), "", Otherwise("needed by initial = \"limit-cycle\""), "2", "the harmonic of the limit cycle that `initial` names"),
     key("transient.operator", Choice(words::<OperatorChoice>), "", Value("\"auto\""), "\"auto\"", "how the stiffness is applied"),
     key("transient.perturbation.harmonics", Counts(0), "", Otherwise("[]"), "[2]", "the circumferential harmonics of the initial velocity"),
-    key("transient.perturbation.velocity", Number(NotNegative), "m/s", Value("1e-3"), "1e-3", "the initial velocity amplitude of each harmonic"),
+    key("transient.perturbation.velocity", Numbers(NotNegative), "m/s", Value("[1e-3]"), "1e-3", "the velocity amplitude of the harmonics, one for all or one for each"),
+    key("transient.perturbation.phase_deg", Numbers(Finite), "degrees", Value("[0.0]"), "[0.0, 90.0]", "the phase of the harmonics, one for all or one for each: a crest stands at phase / n"),
+    key("transient.perturbation.relative", Flag, "", Value("false"), "true", "whether the velocities are in units of the slip speed Omega a"),
+    key("transient.perturbation.noise", Number(NotNegative), "m/s", Value("0.0"), "1e-6", "the standard deviation of a random velocity of every node, in each direction"),
+    key("transient.perturbation.noise_seed", Count(0), "", Value("1"), "1", "the seed of that random velocity"),
+    key("transient.perturbation.at", Number(NotNegative), "s", Value("0.0"), "0.01", "when the velocity is added"),
 
     key("output.probes", Counts(1), "", Otherwise("[]"), "[1621, 1641]", "the ids (from 1) of the nodes whose motion is written"),
     key("output.sample_interval", Number(Positive), "s", Value("2e-6"), "2e-6", "the time between two samples"),

@@ -25,7 +25,7 @@ mod sweep;
 mod transient;
 mod words;
 
-pub use crate::transient::{InitialState, OperatorChoice, TimeStep};
+pub use crate::transient::{InitialState, OperatorChoice, Perturbation, TimeStep};
 pub use cea::{Cea, CeaMap, CeaMethod, ModeSelection};
 pub use convergence::Convergence;
 pub use cost::{CeaCost, Cost, CycleCost, TransientCost};
@@ -39,7 +39,7 @@ pub use overrides::unset;
 pub use range::{Spacing, range_values};
 pub use raw::{RawCase, RawEntry, RawItem, RawTable, RawValue};
 pub use sweep::{Analysis, Combination, Sweep, SweptKey};
-pub use transient::{Output, Perturbation, Transient};
+pub use transient::{Output, Transient};
 
 use crate::fem::ElasticMaterial;
 use crate::mesh::{AnnulusSpecification, ElementKind};
@@ -110,7 +110,7 @@ impl Case {
         let damping = model::damping(&root);
         let contact = model::contact(&root);
         let cea = cea::cea(&root, &annulus, contact.sliding.friction_coefficient);
-        let transient = transient::transient(&root, &annulus);
+        let transient = transient::transient(&root, &annulus, &contact.sliding);
         let output = transient::output(&root, &annulus, transient.as_ref());
         if transient.is_some() && annulus.element == ElementKind::Quad8 {
             root.section("mesh", false).warn(

@@ -133,6 +133,14 @@ impl<'a> Section<'a> {
         matches!(self.given(key), Some(RawValue::Array(items)) if items.is_empty())
     }
 
+    /// Length of a key that is given as a list.
+    pub fn list_length(&self, key: &str) -> Option<usize> {
+        match self.given(key) {
+            Some(RawValue::Array(items)) => Some(items.len()),
+            _ => None,
+        }
+    }
+
     /// Whether a key is given as this word.
     pub fn is_text(&self, key: &str, word: &str) -> bool {
         matches!(self.given(key), Some(RawValue::String(text)) if text == word)

@@ -3,17 +3,11 @@
 use super::model::node_count;
 use super::reader::Section;
 use super::rules::{harmonics, rising};
+use crate::contact::SlidingContact;
 use crate::mesh::AnnulusSpecification;
-use crate::transient::{InitialState, OperatorChoice, TimeStep};
-
-/// `[transient.perturbation]`: initial velocity of the body, summed over harmonics.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Perturbation {
-    /// Circumferential harmonics.
-    pub harmonics: Vec<usize>,
-    /// Amplitude of each, m/s.
-    pub velocity: f64,
-}
+use crate::transient::{
+    InitialState, OperatorChoice, Perturbation, StandingWave, TimeStep, whole_intervals,
+};
 
 /// `[transient]`.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,7 +39,11 @@ pub struct Output {
     pub checkpoint_interval: f64,
 }
 
-pub(super) fn transient(root: &Section<'_>, annulus: &AnnulusSpecification) -> Option<Transient> {
+pub(super) fn transient(
+    root: &Section<'_>,
+    annulus: &AnnulusSpecification,
+    sliding: &SlidingContact,
+) -> Option<Transient> {
     let section = root.section("transient", false);
     if !section.is_given() {
         return None;
@@ -68,13 +66,30 @@ pub(super) fn transient(root: &Section<'_>, annulus: &AnnulusSpecification) -> O
         );
     }
     let initial = initial(&section, annulus);
+    let expansion_time = section.number("expansion_time");
+    if initial == InitialState::Rest && expansion_time > duration {
+        let default = if section.has("expansion_time") {
+            ""
+        } else {
+            ", the default,"
+        };
+        reject(
+            &section,
+            "expansion_time",
+            format!(
+                "= {expansion_time:?} s{default} is above transient.duration = {duration:?} s: \
+                 the cylinder would never be fully expanded"
+            ),
+            "at most the duration",
+        );
+    }
     let transient = Transient {
         duration,
         time_step,
-        expansion_time: section.number("expansion_time"),
+        expansion_time,
         initial,
         operator: section.choice("operator"),
-        perturbation: perturbation(&section, annulus),
+        perturbation: perturbation(&section, annulus, sliding, duration),
     };
     section.close();
     Some(transient)
@@ -121,14 +136,113 @@ fn initial(section: &Section<'_>, annulus: &AnnulusSpecification) -> InitialStat
     }
 }
 
-fn perturbation(transient: &Section<'_>, annulus: &AnnulusSpecification) -> Perturbation {
+/// `[transient.perturbation]`: the velocity that is added to the body's.
+fn perturbation(
+    transient: &Section<'_>,
+    annulus: &AnnulusSpecification,
+    sliding: &SlidingContact,
+    duration: f64,
+) -> Perturbation {
     let section = transient.section("perturbation", false);
     let harmonics = harmonics(&section, annulus).unwrap_or_default();
-    let velocity = section.number("velocity");
+    let unit = velocity_unit(&section, annulus, sliding);
+    let velocities = one_for_each(&section, "velocity", &harmonics);
+    let phases = one_for_each(&section, "phase_deg", &harmonics);
+    if harmonics.is_empty() && section.has("phase_deg") {
+        reject(
+            &section,
+            "phase_deg",
+            "is given without harmonics".to_owned(),
+            "needs transient.perturbation.harmonics",
+        );
+    }
+    let noise = section.number("noise");
+    let noise_seed = section.count("noise_seed");
+    if section.has("noise_seed") && noise == 0.0 {
+        reject(
+            &section,
+            "noise_seed",
+            "is given without noise".to_owned(),
+            "needs transient.perturbation.noise",
+        );
+    }
+    let time = section.number("at");
+    if time > duration {
+        reject(
+            &section,
+            "at",
+            format!(
+                "= {time:?} s is after the end of the run, transient.duration = {duration:?} s"
+            ),
+            "must be within the run",
+        );
+    }
+    if time > 0.0 && harmonics.is_empty() && noise == 0.0 {
+        reject(
+            &section,
+            "at",
+            "is given, but there is no velocity to add".to_owned(),
+            "needs harmonics or noise",
+        );
+    }
     section.close();
+    let waves = harmonics.iter().zip(velocities.iter().zip(&phases));
     Perturbation {
-        harmonics,
-        velocity,
+        waves: waves
+            .map(|(&harmonic, (velocity, phase))| StandingWave {
+                harmonic,
+                velocity: unit * velocity,
+                phase: phase.to_radians(),
+            })
+            .collect(),
+        noise: unit * noise,
+        noise_seed: noise_seed as u64,
+        time,
+    }
+}
+
+fn reject(section: &Section<'_>, key: &'static str, what: String, label: &str) {
+    let message = format!("{} {what}", section.name(key));
+    section.reject(key, message, label.to_owned(), None);
+}
+
+/// What the velocities of a perturbation are given in, m/s: 1, or with `relative` the slip speed `Omega a`.
+fn velocity_unit(
+    section: &Section<'_>,
+    annulus: &AnnulusSpecification,
+    sliding: &SlidingContact,
+) -> f64 {
+    if !section.flag("relative") {
+        return 1.0;
+    }
+    if sliding.rotation_speed == 0.0 {
+        reject(
+            section,
+            "relative",
+            "= true, but contact.rotation_speed_rpm = 0: there is no slip speed".to_owned(),
+            "needs a cylinder that turns",
+        );
+    }
+    sliding.rotation_speed.abs() * annulus.inner_radius
+}
+
+/// One number for all harmonics or one for each.
+fn one_for_each(section: &Section<'_>, key: &'static str, harmonics: &[usize]) -> Vec<f64> {
+    let values = section.numbers(key).unwrap_or_default();
+    match values.as_slice() {
+        [value] => vec![*value; harmonics.len()],
+        _ if values.len() == harmonics.len() => values,
+        // An item that is no number has been reported.
+        _ if section.list_length(key) == Some(harmonics.len()) => values,
+        _ => {
+            let what = format!(
+                "has {} values for {} harmonics",
+                values.len(),
+                harmonics.len()
+            );
+            reject(section, key, what, "one for all, or one for each harmonic");
+            Vec::new()
+        }
     }
 }
 
@@ -151,7 +265,7 @@ pub(super) fn output(
         }
     }
     let sample_interval = section.number("sample_interval");
-    let snapshots = rising(&section, "snapshots").unwrap_or_default();
+    let mut snapshots = rising(&section, "snapshots").unwrap_or_default();
     if let Some(transient) = transient {
         if let TimeStep::Seconds(step) = transient.time_step
             && sample_interval < step
@@ -166,17 +280,23 @@ pub(super) fn output(
                 None,
             );
         }
-        for time in snapshots.iter().filter(|time| **time > transient.duration) {
-            section.warn(
-                "snapshots",
-                format!(
-                    "output.snapshots: {time} s lies after the end of the run \
-                     (transient.duration = {} s) and is left out",
-                    transient.duration
-                ),
-                "after the end",
-            );
-        }
+        let last = whole_intervals(transient.duration, sample_interval) as f64;
+        snapshots.retain(|time| {
+            let is_inside = (time / sample_interval).round() <= last;
+            if !is_inside {
+                section.warn(
+                    "snapshots",
+                    format!(
+                        "output.snapshots: {time} s lies after the end of the run \
+                         (transient.duration = {} s) and is left out",
+                        transient.duration
+                    ),
+                    "after the end",
+                );
+            }
+            is_inside
+        });
+        contradictions(&section, transient, sample_interval);
     }
     let output = Output {
         probes: probes.into_iter().map(|(probe, _)| probe).collect(),
@@ -186,4 +306,17 @@ pub(super) fn output(
     };
     section.close();
     output
+}
+
+/// Times that do not fit into the run.
+fn contradictions(output: &Section<'_>, transient: &Transient, sample_interval: f64) {
+    let duration = transient.duration;
+    if sample_interval > duration {
+        reject(
+            output,
+            "sample_interval",
+            format!("= {sample_interval:?} s is above transient.duration = {duration:?} s"),
+            "a run has two samples at least",
+        );
+    }
 }

@@ -6,7 +6,7 @@
 //! [`direct_response`] solves `(K + i omega C - omega^2 M) u = f` of the whole mesh from sparse
 //! factorizations, to round-off at each line; [`reduced_response`] projects the system on a few
 //! Krylov spaces first, and states the error that direct solutions at check lines find.
-//! [`GaussianNoise`] turns a computed response into a synthetic measurement.
+//! [`GaussianNoise`](crate::linalg::GaussianNoise) turns a computed response into a synthetic measurement.
 
 mod cyclic;
 mod cyclic_system;
@@ -14,7 +14,6 @@ mod direct;
 mod error;
 mod krylov;
 mod neighbours;
-mod noise;
 mod reduction;
 mod system;
 
@@ -22,6 +21,5 @@ pub use cyclic::{CyclicResponse, cyclic_response};
 pub use cyclic_system::CyclicSystem;
 pub use direct::{DirectResponse, direct_response};
 pub use error::FrfError;
-pub use noise::GaussianNoise;
 pub use reduction::{ReducedResponse, ReductionSettings, reduced_response};
 pub use system::{FrfBoundary, FrfSystem, Terminal};

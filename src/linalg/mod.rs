@@ -5,6 +5,7 @@ pub mod dense;
 pub mod dense_eigen;
 mod dense_lu;
 mod error;
+mod gaussian_noise;
 mod krylov_schur;
 mod polynomial;
 mod rational;
@@ -14,6 +15,7 @@ mod sparse_product;
 
 pub use dense_lu::{ComplexDenseLu, DenseLu};
 pub use error::LinalgError;
+pub use gaussian_noise::GaussianNoise;
 pub use krylov_schur::{BlockOperator, KrylovSchurSettings, RealPairs, Wanted, krylov_schur};
 pub use polynomial::{MatrixPolynomial, SparsityPattern};
 pub use rational::RationalFit;

@@ -5,6 +5,7 @@ use super::{ContactPowers, Recorder, SampleRow, StatusCounts};
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex64;
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 /// Fewest samples that a frequency is read from.
 const FEWEST: usize = 64;
@@ -59,17 +60,17 @@ pub struct TransientAnalysis {
 }
 
 impl TransientAnalysis {
-    /// Reads `record`; growth is fitted for `harmonics` up to 8.
+    /// Reads `record`; growth is fitted for those of `harmonics` that it follows.
     pub fn of(record: &Recorder, harmonics: &[usize]) -> Self {
         let rows = &record.rows;
         let stage = linear_stage(rows);
         let ended = stage.end < rows.len() && !stage.is_empty();
         let residuals = rows.iter().map(|row| row.balance_residual);
         Self {
-            limit_cycle: limit_cycle(&rows[rows.len() - rows.len().div_ceil(5)..]),
+            limit_cycle: limit_cycle(record, rows.len() - rows.len().div_ceil(5)..rows.len()),
             growth: harmonics
                 .iter()
-                .filter_map(|&n| growth(&rows[stage.clone()], n, record.rotation_direction))
+                .filter_map(|&n| growth(record, stage.clone(), n))
                 .collect(),
             first_nonlinearity: ended.then(|| rows[stage.end].time),
             largest_residual: residuals.fold(0.0, f64::max),
@@ -78,7 +79,7 @@ impl TransientAnalysis {
 }
 
 /// Longest range of samples over which every contact node slipped all the time.
-fn linear_stage(rows: &[SampleRow]) -> std::ops::Range<usize> {
+fn linear_stage(rows: &[SampleRow]) -> Range<usize> {
     let (mut best, mut start) = (0..0, 0);
     for (i, row) in rows.iter().enumerate() {
         if row.counts.stick + row.counts.open > 0 {
@@ -90,7 +91,8 @@ fn linear_stage(rows: &[SampleRow]) -> std::ops::Range<usize> {
     best
 }
 
-fn limit_cycle(rows: &[SampleRow]) -> LimitCycle {
+fn limit_cycle(record: &Recorder, range: Range<usize>) -> LimitCycle {
+    let rows = &record.rows[range.clone()];
     let mut counts = StatusCounts::default();
     let mut powers = ContactPowers::default();
     let (mut material_damping, mut harmonics) = (0.0, [0.0; HARMONIC_COUNT]);
@@ -103,7 +105,7 @@ fn limit_cycle(rows: &[SampleRow]) -> LimitCycle {
             *sum += share * re.hypot(im);
         }
     }
-    let main = main_vibration(rows);
+    let main = main_vibration(record, range);
     LimitCycle {
         main_frequency_hz: main.map(|(_, frequency)| frequency),
         main_harmonic: main.map(|(harmonic, _)| harmonic),
@@ -115,11 +117,16 @@ fn limit_cycle(rows: &[SampleRow]) -> LimitCycle {
 }
 
 /// Harmonic and frequency of the strongest vibration.
-fn main_vibration(rows: &[SampleRow]) -> Option<(usize, f64)> {
+fn main_vibration(record: &Recorder, range: Range<usize>) -> Option<(usize, f64)> {
+    let rows = &record.rows[range.clone()];
     if rows.len() < FEWEST {
         return None;
     }
-    let peaks = (0..HARMONIC_COUNT).map(|n| (n, strongest_line(&series(rows, n))));
+    let series: Vec<(usize, Vec<Complex64>)> = record
+        .followed_harmonics()
+        .filter_map(|n| Some((n, series(record, range.clone(), n)?)))
+        .collect();
+    let peaks = series.iter().map(|(n, series)| (n, strongest_line(series)));
     let (harmonic, (line, amplitude)) = peaks.max_by(|a, b| a.1.1.total_cmp(&b.1.1))?;
     let scale = rows
         .iter()
@@ -129,28 +136,29 @@ fn main_vibration(rows: &[SampleRow]) -> Option<(usize, f64)> {
     if !(amplitude > 1e-6 * scale) {
         return None;
     }
-    let fit = fit_exponential(&series(rows, harmonic), line, interval(rows));
-    Some((harmonic, (fit.im / TAU).abs()))
+    let (_, main) = series.iter().find(|(n, _)| n == harmonic)?;
+    let fit = fit_exponential(main, line, interval(rows));
+    Some((*harmonic, (fit.im / TAU).abs()))
 }
 
-fn growth(rows: &[SampleRow], harmonic: usize, rotation_direction: f64) -> Option<Growth> {
+fn growth(record: &Recorder, stage: Range<usize>, harmonic: usize) -> Option<Growth> {
     // The first third still holds what decays; the last two thirds belong to what grows.
-    let rows = &rows[rows.len() / 3..];
-    if harmonic >= HARMONIC_COUNT || rows.len() < FEWEST {
+    let range = stage.start + stage.len() / 3..stage.end;
+    if range.len() < FEWEST {
         return None;
     }
-    let series = series(rows, harmonic);
+    let series = series(record, range.clone(), harmonic)?;
     let (line, amplitude) = strongest_line(&series);
     if amplitude == 0.0 {
         return None;
     }
-    let fit = fit_exponential(&series, line, interval(rows));
+    let fit = fit_exponential(&series, line, interval(&record.rows[range]));
     Some(Growth {
         harmonic,
         rate: fit.re,
         frequency_hz: fit.im.abs() / TAU,
         // exp(i (n theta + omega t)) travels towards negative angles.
-        direction: if fit.im * rotation_direction > 0.0 {
+        direction: if fit.im * record.rotation_direction > 0.0 {
             -1
         } else {
             1
@@ -162,12 +170,16 @@ fn interval(rows: &[SampleRow]) -> f64 {
     (rows[rows.len() - 1].time - rows[0].time) / (rows.len() - 1) as f64
 }
 
-fn series(rows: &[SampleRow], harmonic: usize) -> Vec<Complex64> {
-    let values = rows.iter().map(|row| row.harmonics[harmonic]);
-    let mut series: Vec<Complex64> = values.map(|[re, im]| Complex64::new(re, im)).collect();
-    let mean = series.iter().sum::<Complex64>() / series.len() as f64;
+/// A followed harmonic about its mean.
+fn series(record: &Recorder, range: Range<usize>, harmonic: usize) -> Option<Vec<Complex64>> {
+    let count = range.len() as f64;
+    let mut series = range
+        .map(|sample| record.amplitude(sample, harmonic))
+        .map(|parts| parts.map(|[re, im]| Complex64::new(re, im)))
+        .collect::<Option<Vec<Complex64>>>()?;
+    let mean = series.iter().sum::<Complex64>() / count;
     series.iter_mut().for_each(|value| *value -= mean);
-    series
+    Some(series)
 }
 
 fn hann(index: usize, count: usize) -> f64 {

@@ -1,6 +1,7 @@
 //! The time loop.
 
 mod breakdown;
+mod energy;
 
 use super::{
     ContactPowers, InitialState, LagrangeContact, Observer, Sample, StatusCounts, StepPlan,
@@ -51,6 +52,14 @@ pub struct TransientState {
     pub largest_residual: f64,
 }
 
+/// A velocity to come.
+struct Kick {
+    /// Step before which it is added.
+    step: u64,
+    /// Over all dofs in nodal frames, m/s.
+    velocity: Vec<f64>,
+}
+
 /// Central differences at half steps with Lagrange multiplier contact.
 ///
 /// ```text
@@ -72,6 +81,8 @@ pub struct CentralDifference<'a> {
     operator: &'a dyn StiffnessOperator,
     plan: StepPlan,
     expansion_time: f64,
+    kick: Option<Kick>,
+    seeded_harmonics: Vec<usize>,
     coefficients: StepCoefficients,
     fields: MotionFields,
     contact: LagrangeContact,
@@ -115,8 +126,8 @@ impl<'a> CentralDifference<'a> {
         Self::start_from(model, operator, settings, &displacement, still)
     }
 
-    /// A run from given fields, `u_0` (m) and `v_{-1/2}` (m/s) over all dofs in nodal frames; the perturbation is added
-    /// to the velocity.
+    /// A run from given fields, `u_0` (m) and `v_{-1/2}` (m/s) over all dofs in nodal frames; a perturbation at the
+    /// start is added to the velocity.
     ///
     /// # Errors
     /// [`TransientError`] names the setting that does not fit, with its bound;
@@ -135,18 +146,19 @@ impl<'a> CentralDifference<'a> {
                 return Err(TransientError::ForeignState { found, expected });
             }
         }
-        let perturbation = settings.perturbation.field(model.annulus)?;
-        velocity
-            .iter_mut()
-            .zip(perturbation)
-            .for_each(|(v, p)| *v += p);
-        let mut run = Self::new(model, operator, plan, settings);
+        let mut run = Self::new(model, operator, plan, settings)?;
+        if let Some(kick) = run.kick.take_if(|kick| kick.step == 0) {
+            velocity
+                .iter_mut()
+                .zip(kick.velocity)
+                .for_each(|(v, p)| *v += p);
+        }
         run.fields.displacement = scatter(operator, displacement);
         run.fields.velocity = scatter(operator, &velocity);
         let fields = &mut run.fields;
         operator.multiply(&mut fields.displacement, &mut fields.elastic);
         operator.multiply(&mut fields.velocity, &mut fields.elastic_rate);
-        run.initial_energy = run.energy_before_start();
+        run.initial_energy = run.energy_before_step();
         run.largest_energy = run.initial_energy;
         Ok(run)
     }
@@ -174,7 +186,9 @@ impl<'a> CentralDifference<'a> {
                 return Err(TransientError::ForeignState { found, expected });
             }
         }
-        let mut run = Self::new(model, operator, plan, settings);
+        let mut run = Self::new(model, operator, plan, settings)?;
+        // What was added at the start is in the state.
+        run.kick.take_if(|kick| kick.step == 0);
         run.fields = MotionFields {
             displacement: scatter(operator, &state.displacement),
             velocity: scatter(operator, &state.velocity),
@@ -194,7 +208,7 @@ impl<'a> CentralDifference<'a> {
         operator: &'a dyn StiffnessOperator,
         plan: StepPlan,
         settings: &TransientSettings,
-    ) -> Self {
+    ) -> Result<Self, TransientError> {
         let interface = ContactInterface::of(&model.annulus.mesh);
         let zeros = || AlignedVector::zeros(operator.field_length());
         // All others start fully expanded: a ramp of no length.
@@ -202,7 +216,11 @@ impl<'a> CentralDifference<'a> {
             InitialState::Rest => settings.expansion_time,
             InitialState::SteadySliding | InitialState::LimitCycle { .. } => 0.0,
         };
-        Self {
+        let kick = Kick {
+            step: (settings.perturbation.time / plan.time_step).round() as u64,
+            velocity: settings.perturbation.field(model.annulus)?,
+        };
+        Ok(Self {
             coefficients: StepCoefficients {
                 time_step: plan.time_step,
                 mass_coefficient: model.damping.mass_coefficient,
@@ -230,7 +248,9 @@ impl<'a> CentralDifference<'a> {
             operator,
             plan,
             expansion_time,
-        }
+            kick: Some(kick),
+            seeded_harmonics: settings.perturbation.harmonics(),
+        })
     }
 
     /// Steps to the last sample, or until the observer stops it.
@@ -240,6 +260,9 @@ impl<'a> CentralDifference<'a> {
     pub fn run(&mut self, observer: &mut dyn Observer) -> Result<RunEnd, TransientError> {
         let last = self.plan.total_steps();
         while self.next_step < last {
+            if let Some(kick) = self.kick.take_if(|kick| kick.step == self.next_step) {
+                self.kick(&kick.velocity);
+            }
             let is_sampled = self.next_step.is_multiple_of(self.plan.steps_per_sample);
             if is_sampled {
                 self.displacement_before
@@ -259,16 +282,21 @@ impl<'a> CentralDifference<'a> {
         let step = self.next_step;
         let time_after = (step + 1) as f64 * self.plan.time_step;
         let expansion = self.expansion(time_after);
+        // (6): multipliers of this step, which hold the constraints at its end.
         self.contact
             .apply(&mut self.fields, &self.coefficients, expansion);
+        // (7) with beta_2 = 1/2; the power of material damping is (11), with one of its velocities half a step old.
         let damping = self.operator.advance(&mut self.fields, &self.coefficients);
+        // (9), (10): powers at the contact.
         let (powers, counts) = self.contact.settle(&mut self.fields, &self.coefficients);
+        // (12), with the work of the normal forces, which the paper leaves out.
         let net = powers.stick + powers.slide + powers.normal - damping;
         self.net_work += self.plan.time_step * net;
         self.powers += powers;
         self.damping_power += damping;
         self.counts += counts;
         self.next_step = step + 1;
+        // Round-off of the running sum of dt K v goes.
         if self.next_step.is_multiple_of(REFRESH) {
             let fields = &mut self.fields;
             self.operator
@@ -324,33 +352,6 @@ impl<'a> CentralDifference<'a> {
         Ok(observer.observe(&sample))
     }
 
-    /// Kinetic and strain energy at `n + 1/2`, from `K u_{n+1}` and the copy of `u_n`.
-    fn energies(&self) -> [f64; 2] {
-        let masses = self.operator.masses();
-        let velocity = self.fields.velocity.iter().zip(masses);
-        let kinetic: f64 = velocity.map(|(v, m)| m * v * v).sum();
-        let forces = self.fields.elastic.iter().zip(masses);
-        let strain: f64 = forces
-            .zip(self.displacement_before.iter())
-            .map(|((q, m), u)| m * q * u)
-            .sum();
-        [0.5 * kinetic, 0.5 * strain]
-    }
-
-    /// `E_{-1/2}`, with `u_{-1} = u_0 - dt v_{-1/2}`.
-    fn energy_before_start(&self) -> f64 {
-        let dt = self.plan.time_step;
-        let fields = &self.fields;
-        let dofs = 0..self.operator.dof_count();
-        dofs.map(|dof| {
-            let k = self.operator.position(dof);
-            let (u, v) = (fields.displacement[k], fields.velocity[k]);
-            let force = fields.elastic[k] - dt * fields.elastic_rate[k];
-            0.5 * self.operator.masses()[k] * (v * v + u * force)
-        })
-        .sum()
-    }
-
     /// The complete state; exact for a restart when taken at a sample.
     pub fn state(&self) -> TransientState {
         let dofs = |field: &[f64]| gather(self.operator, field);
@@ -395,6 +396,11 @@ impl<'a> CentralDifference<'a> {
     /// The contact edge.
     pub fn interface(&self) -> &ContactInterface {
         &self.interface
+    }
+
+    /// Harmonics that the perturbation names.
+    pub fn seeded_harmonics(&self) -> &[usize] {
+        &self.seeded_harmonics
     }
 
     /// Steps done.

@@ -16,10 +16,10 @@ mod settings;
 pub use analysis::{Growth, LimitCycle, TransientAnalysis};
 pub use central_difference::{CentralDifference, RunEnd, TransientState};
 pub use contact::{ContactPowers, LagrangeContact, StatusCounts};
-pub use perturbation::Perturbation;
+pub use perturbation::{Perturbation, StandingWave};
 pub use recorder::{ContactFrame, Recorder, RecorderSettings, SampleRow, Snapshot};
 pub use sample::{Observer, Sample};
 pub use settings::{
-    InitialState, OperatorChoice, StepPlan, TimeStep, TransientError, TransientModel,
-    TransientSettings, build_operator, stable_step_limit,
+    Breakdown, InitialState, OperatorChoice, StepPlan, TimeStep, TransientError, TransientModel,
+    TransientSettings, build_operator, stable_step_limit, whole_intervals,
 };

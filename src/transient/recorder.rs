@@ -8,8 +8,14 @@ use crate::contact::ContactInterface;
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 
-/// Harmonics of the contact edge that are followed, `n = 0..=8`.
+/// Harmonics of the contact edge that every sample holds, `n = 0..=8`.
 pub const HARMONIC_COUNT: usize = 9;
+
+/// Highest harmonic that is followed although no perturbation names it: the third superharmonic of `n = 8`.
+const HIGHEST_FOLLOWED: usize = 24;
+
+/// Share of the largest harmonic above which one matters.
+pub const SIGNIFICANT_SHARE: f64 = 1e-3;
 
 /// Contact frames kept at most; longer runs keep every second, third ... sample.
 const FRAME_LIMIT: u64 = 5000;
@@ -88,8 +94,12 @@ pub struct Recorder {
     tributary_lengths: Vec<f64>,
     /// Angle of each contact node, rad.
     pub contact_angles: Vec<f64>,
-    /// `cos` and `sin` of `n theta_j`, weighted; by harmonic.
-    waves: Vec<Vec<[f64; 2]>>,
+    /// Harmonics above 8 that are followed too: up to 24 where the mesh holds them, and those of the perturbation.
+    pub higher_harmonics: Vec<usize>,
+    /// Their amplitudes as in [`SampleRow::harmonics`], sample by sample, m.
+    higher_amplitudes: Vec<[f32; 2]>,
+    /// `cos` and `sin` of `n theta_j`, weighted; node by node, harmonics rising.
+    waves: Vec<[f64; 2]>,
     /// Sense of rotation of the cylinder, +1 counter-clockwise.
     pub rotation_direction: f64,
 }
@@ -104,6 +114,7 @@ impl Recorder {
         settings: &RecorderSettings,
     ) -> Result<Self, TransientError> {
         let (plan, interface) = (run.plan(), run.interface());
+        let higher_harmonics = higher_harmonics(interface.len() / 2, run.seeded_harmonics());
         let count = run.operator().dof_count() / 2;
         let mut nodes = settings.probes.iter();
         if let Some(&probe) = nodes.find(|&&node| node == 0 || node > count) {
@@ -119,18 +130,50 @@ impl Recorder {
             snapshot_indices: snapshot_indices(plan, &settings.snapshots)?,
             tributary_lengths: interface.tributary_lengths.clone(),
             contact_angles: interface.angles.clone(),
-            waves: (0..HARMONIC_COUNT).map(|n| wave(interface, n)).collect(),
+            waves: waves(interface, &higher_harmonics),
+            higher_harmonics,
+            higher_amplitudes: Vec::new(),
             rotation_direction: run.model().contact.sliding_direction(),
         })
     }
 
-    fn harmonics(&self, sample: &Sample<'_>) -> [[f64; 2]; HARMONIC_COUNT] {
-        let mut amplitudes = [[0.0; 2]; HARMONIC_COUNT];
-        for i in 0..self.contact_angles.len() {
+    /// Harmonics that are followed.
+    pub fn followed_harmonics(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..HARMONIC_COUNT).chain(self.higher_harmonics.iter().copied())
+    }
+
+    /// Amplitude of a followed harmonic at a sample, real and imaginary part, m; `None` for one that is not followed.
+    pub fn amplitude(&self, sample: usize, harmonic: usize) -> Option<[f64; 2]> {
+        if harmonic < HARMONIC_COUNT {
+            return Some(self.rows[sample].harmonics[harmonic]);
+        }
+        let followed = &self.higher_harmonics;
+        let place = followed.iter().position(|&n| n == harmonic)?;
+        let amplitude = self.higher_amplitudes[sample * followed.len() + place];
+        Some(amplitude.map(f64::from))
+    }
+
+    /// Harmonics `0..=8`, and the higher ones that reach [`SIGNIFICANT_SHARE`] of the largest of `n >= 1` at any time.
+    pub fn significant_harmonics(&self) -> Vec<usize> {
+        let largest = |harmonic: usize| {
+            let amplitudes = (0..self.rows.len()).filter_map(|k| self.amplitude(k, harmonic));
+            amplitudes.fold(0.0_f64, |m, [re, im]| m.max(re.hypot(im)))
+        };
+        let all: Vec<(usize, f64)> = self.followed_harmonics().map(|n| (n, largest(n))).collect();
+        let limit = SIGNIFICANT_SHARE * all[1..].iter().fold(0.0, |m: f64, (_, a)| m.max(*a));
+        let matters = |&&(n, a): &&(usize, f64)| n < HARMONIC_COUNT || (a > 0.0 && a >= limit);
+        all.iter().filter(matters).map(|&(n, _)| n).collect()
+    }
+
+    /// Amplitudes of all followed harmonics, real and imaginary part, m.
+    fn harmonics(&self, sample: &Sample<'_>) -> Vec<[f64; 2]> {
+        let mut amplitudes = vec![[0.0; 2]; HARMONIC_COUNT + self.higher_harmonics.len()];
+        // Node by node, so that the harmonics of one node are summed side by side.
+        for (i, waves) in self.waves.chunks_exact(amplitudes.len()).enumerate() {
             let u = sample.contact_tangential_displacement(i);
-            for (amplitude, wave) in amplitudes.iter_mut().zip(&self.waves) {
-                amplitude[0] += u * wave[i][0];
-                amplitude[1] -= u * wave[i][1];
+            for (amplitude, wave) in amplitudes.iter_mut().zip(waves) {
+                amplitude[0] += u * wave[0];
+                amplitude[1] -= u * wave[1];
             }
         }
         amplitudes
@@ -154,6 +197,10 @@ impl Recorder {
 
 impl Observer for Recorder {
     fn observe(&mut self, sample: &Sample<'_>) -> ControlFlow<()> {
+        let amplitudes = self.harmonics(sample);
+        let higher = amplitudes[HARMONIC_COUNT..].iter();
+        self.higher_amplitudes
+            .extend(higher.map(|parts| parts.map(|part| part as f32)));
         self.rows.push(SampleRow {
             time: sample.time,
             kinetic_energy: sample.kinetic_energy,
@@ -162,7 +209,7 @@ impl Observer for Recorder {
             material_damping: sample.material_damping,
             counts: sample.counts,
             balance_residual: sample.balance_residual,
-            harmonics: self.harmonics(sample),
+            harmonics: std::array::from_fn(|n| amplitudes[n]),
         });
         for (&node, rows) in self.probes.iter().zip(&mut self.probe_rows) {
             let (r, t) = (2 * (node - 1), 2 * (node - 1) + 1);
@@ -205,14 +252,28 @@ fn snapshot_indices(plan: &StepPlan, times: &[f64]) -> Result<Vec<u64>, Transien
     Ok(indices)
 }
 
-fn wave(interface: &ContactInterface, harmonic: usize) -> Vec<[f64; 2]> {
+/// Harmonics above 8 to follow on an edge that holds them up to `limit`.
+fn higher_harmonics(limit: usize, seeded: &[usize]) -> Vec<usize> {
+    let mut followed: Vec<usize> = (HARMONIC_COUNT..=HIGHEST_FOLLOWED.min(limit)).collect();
+    let beyond = |n: &usize| *n > HIGHEST_FOLLOWED && *n <= limit;
+    followed.extend(seeded.iter().copied().filter(beyond));
+    followed.sort_unstable();
+    followed.dedup();
+    followed
+}
+
+/// `cos` and `sin` of each harmonic at each contact node, times the weight of its amplitude.
+fn waves(interface: &ContactInterface, higher: &[usize]) -> Vec<[f64; 2]> {
     let total: f64 = interface.tributary_lengths.iter().sum();
-    let scale = if harmonic == 0 { 1.0 } else { 2.0 } / total;
     let nodes = interface.angles.iter().zip(&interface.tributary_lengths);
     nodes
-        .map(|(angle, length)| {
-            let (sin, cos) = (harmonic as f64 * angle).sin_cos();
-            [scale * length * cos, scale * length * sin]
+        .flat_map(|(angle, length)| {
+            let harmonics = (0..HARMONIC_COUNT).chain(higher.iter().copied());
+            harmonics.map(move |harmonic| {
+                let scale = if harmonic == 0 { 1.0 } else { 2.0 } / total;
+                let (sin, cos) = (harmonic as f64 * angle).sin_cos();
+                [scale * length * cos, scale * length * sin]
+            })
         })
         .collect()
 }

@@ -83,24 +83,38 @@ pub struct TransientSettings {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum TransientError {
     /// A time that must be positive is not.
-    #[error("{key} = {value} s must be a positive finite time")]
+    #[error("{setting} = {value} s must be a positive finite time")]
     Time {
-        /// Case key.
-        key: &'static str,
+        /// Name of the setting.
+        setting: &'static str,
         /// Given value, s.
         value: f64,
     },
     /// A value that must not be negative is.
-    #[error("{key} = {value} must be zero or a positive finite number")]
+    #[error("{setting} = {value} must be zero or a positive finite number")]
     Negative {
-        /// Case key.
-        key: &'static str,
+        /// Name of the setting.
+        setting: &'static str,
         /// Given value.
         value: f64,
     },
+    /// A time that must lie within the run does not.
+    #[error(
+        "{setting} = {value:?} s is beyond the end of the run, duration = {duration:?} s: {remedy}"
+    )]
+    BeyondEnd {
+        /// Name of the setting.
+        setting: &'static str,
+        /// Given value, s.
+        value: f64,
+        /// Duration, s.
+        duration: f64,
+        /// What to change.
+        remedy: &'static str,
+    },
     /// The step is unstable.
     #[error(
-        "transient.time_step = {step:e} s is above the stability limit of {limit:.4e} s on this mesh \
+        "time_step = {step:e} s is above the stability limit of {limit:.4e} s on this mesh \
          (largest frequency {largest_frequency:.4e} rad/s, damping included): lower it, or use \"auto\""
     )]
     StepAboveLimit {
@@ -113,7 +127,7 @@ pub enum TransientError {
     },
     /// Samples more often than steps.
     #[error(
-        "output.sample_interval = {interval:e} s is below the time step of {step:.4e} s: raise it to at \
+        "sample_interval = {interval:e} s is below the time step of {step:.4e} s: raise it to at \
          least the step"
     )]
     SampleBelowStep {
@@ -124,7 +138,7 @@ pub enum TransientError {
     },
     /// A harmonic that the mesh cannot carry.
     #[error(
-        "transient.perturbation.harmonics holds {harmonic}, above {limit}, the highest harmonic that \
+        "perturbation.harmonics holds {harmonic}, above {limit}, the highest harmonic that \
          {elements} elements around the circumference can carry"
     )]
     HarmonicAboveNyquist {
@@ -136,7 +150,7 @@ pub enum TransientError {
         elements: usize,
     },
     /// A probe that is no node.
-    #[error("output.probes holds {probe}: the mesh has nodes 1 to {count}")]
+    #[error("probes holds {probe}: the mesh has nodes 1 to {count}")]
     UnknownProbe {
         /// Given 1-based node.
         probe: usize,
@@ -144,7 +158,7 @@ pub enum TransientError {
         count: usize,
     },
     /// A snapshot outside the run.
-    #[error("output.snapshots holds {time} s: the run covers 0 to {duration} s")]
+    #[error("snapshots holds {time} s: the run covers 0 to {duration} s")]
     SnapshotOutsideRun {
         /// Given time, s.
         time: f64,
@@ -154,7 +168,7 @@ pub enum TransientError {
     /// The numbers stopped making sense.
     #[error(
         "the run became numerically unstable at t = {time:.6e} s (step {step}): {symptom}; the fastest node \
-         is {node}, at {angle_degrees:.2} degrees and radius {radius:.4e} m, moving at {speed:.3e} m/s. {cause}"
+         is {node}, at {angle_degrees:.2} degrees and radius {radius:.4e} m, moving at {speed:.3e} m/s; {cause}"
     )]
     Unstable {
         /// Time, s.
@@ -171,8 +185,8 @@ pub enum TransientError {
         radius: f64,
         /// Its speed, m/s.
         speed: f64,
-        /// Likely cause and what to change.
-        cause: &'static str,
+        /// Likely cause.
+        cause: Breakdown,
     },
     /// A saved state that does not belong to this model.
     #[error("the saved state has {found} dofs, this model {expected}: it belongs to another case")]
@@ -183,9 +197,7 @@ pub enum TransientError {
         expected: usize,
     },
     /// A start that the time loop cannot work out by itself.
-    #[error(
-        "transient.initial = \"limit-cycle\" needs the fields of the cycle of {harmonic} nodal diameters"
-    )]
+    #[error("a start on a limit cycle needs the fields of the cycle of {harmonic} nodal diameters")]
     FieldsMissing {
         /// Circumferential harmonic.
         harmonic: usize,
@@ -196,6 +208,41 @@ pub enum TransientError {
     /// The steady sliding start does not exist.
     #[error(transparent)]
     Prestress(#[from] PrestressError),
+}
+
+impl TransientError {
+    /// Name of the setting that does not fit, which the message begins with; `None` where no single one is to blame.
+    pub fn setting(&self) -> Option<&'static str> {
+        Some(match self {
+            Self::Time { setting, .. }
+            | Self::Negative { setting, .. }
+            | Self::BeyondEnd { setting, .. } => setting,
+            Self::StepAboveLimit { .. } => "time_step",
+            Self::SampleBelowStep { .. } => "sample_interval",
+            Self::HarmonicAboveNyquist { .. } => "perturbation.harmonics",
+            Self::UnknownProbe { .. } => "probes",
+            Self::SnapshotOutsideRun { .. } => "snapshots",
+            _ => return None,
+        })
+    }
+}
+
+/// Why the numbers of a run stopped making sense.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Breakdown {
+    /// Beyond the range of numbers.
+    #[error(
+        "values left the range of numbers: rotation speed, interference or perturbation is too large, or the time step"
+    )]
+    Overflow,
+    /// The step is unstable.
+    #[error("the time step is above the stability limit")]
+    StepTooLong,
+    /// Forces and speeds of very different size.
+    #[error(
+        "round-off dominates: forces and speeds are not of a sensible size, or the time step is too long"
+    )]
+    RoundOff,
 }
 
 /// The operator of `model` on `annulus`.
@@ -259,8 +306,8 @@ pub struct StepPlan {
 }
 
 impl StepPlan {
-    /// Chooses the step: the given one, or 0.95 of the limit, lowered so that it divides the sample interval; the
-    /// run is as many whole sample intervals as reach its duration.
+    /// Chooses the step: the given one, or 0.95 of the limit, lowered so that it divides the sample interval. It does
+    /// not depend on the duration; the run is as many whole sample intervals as lie within that.
     ///
     /// # Errors
     /// [`TransientError`] names the setting that does not fit, with its bound.
@@ -292,15 +339,12 @@ impl StepPlan {
             });
         }
         let steps_per_sample = (interval / wanted * (1.0 - 1e-6)).ceil().max(1.0);
-        let intervals = (settings.duration / interval * (1.0 - 1e-9))
-            .ceil()
-            .max(1.0);
         Ok(Self {
             time_step: interval / steps_per_sample,
             limit,
             largest_frequency,
             steps_per_sample: steps_per_sample as u64,
-            samples: intervals as u64 + 1,
+            samples: whole_intervals(settings.duration, interval) + 1,
             sample_interval: interval,
         })
     }
@@ -321,28 +365,65 @@ impl StepPlan {
     }
 }
 
+/// Whole sample intervals within a duration (both s), a billionth of slack for their round-off.
+pub fn whole_intervals(duration: f64, sample_interval: f64) -> u64 {
+    (duration / sample_interval * (1.0 + 1e-9)).floor() as u64
+}
+
 fn check_times(settings: &TransientSettings) -> Result<(), TransientError> {
+    let perturbation = &settings.perturbation;
     let mut positive = vec![
-        ("transient.duration", settings.duration),
-        ("output.sample_interval", settings.sample_interval),
+        ("duration", settings.duration),
+        ("sample_interval", settings.sample_interval),
     ];
     if let TimeStep::Seconds(step) = settings.time_step {
-        positive.push(("transient.time_step", step));
+        positive.push(("time_step", step));
     }
-    for (key, value) in positive {
+    for (setting, value) in positive {
         if !(value > 0.0 && value.is_finite()) {
-            return Err(TransientError::Time { key, value });
+            return Err(TransientError::Time { setting, value });
         }
     }
-    for (key, value) in [
-        ("transient.expansion_time", settings.expansion_time),
-        (
-            "transient.perturbation.velocity",
-            settings.perturbation.velocity.abs(),
-        ),
+    let velocities = perturbation.waves.iter().map(|wave| wave.velocity.abs());
+    for (setting, value) in [
+        ("expansion_time", settings.expansion_time),
+        ("perturbation.velocity", velocities.fold(0.0, f64::max)),
+        ("perturbation.noise", perturbation.noise),
+        ("perturbation.at", perturbation.time),
     ] {
         if !(value >= 0.0 && value.is_finite()) {
-            return Err(TransientError::Negative { key, value });
+            return Err(TransientError::Negative { setting, value });
+        }
+    }
+    let expansion_time = match settings.initial {
+        InitialState::Rest => settings.expansion_time,
+        InitialState::SteadySliding | InitialState::LimitCycle { .. } => 0.0,
+    };
+    let duration = settings.duration;
+    for (setting, value, remedy) in [
+        (
+            "sample_interval",
+            settings.sample_interval,
+            "a run has two samples at least",
+        ),
+        (
+            "expansion_time",
+            expansion_time,
+            "the cylinder would never be fully expanded",
+        ),
+        (
+            "perturbation.at",
+            perturbation.time,
+            "the velocity would never be added",
+        ),
+    ] {
+        if value > duration * (1.0 + 1e-9) {
+            return Err(TransientError::BeyondEnd {
+                setting,
+                value,
+                duration,
+                remedy,
+            });
         }
     }
     Ok(())

@@ -32,10 +32,7 @@ fn a_run_gets_every_figure_of_its_record() {
         sample_interval: 2e-6,
         expansion_time: 5e-4,
         initial: InitialState::Rest,
-        perturbation: Perturbation {
-            harmonics: vec![2],
-            velocity: 1e-2,
-        },
+        perturbation: Perturbation::of(&[2], 1e-2),
     };
     let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
     let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();

@@ -7,7 +7,7 @@ use frictionsim::fem::{RayleighDamping, assemble_stiffness, lumped_masses};
 use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification};
 use frictionsim::prestress::SteadySliding;
 use frictionsim::transient::{
-    CentralDifference, InitialState, OperatorChoice, Sample, TimeStep, build_operator,
+    CentralDifference, InitialState, OperatorChoice, Perturbation, Sample, TimeStep, build_operator,
 };
 
 /// Theory: the laws of Signorini and Coulomb at every node of every step.
@@ -18,7 +18,7 @@ fn multipliers_obey_signorini_and_coulomb_at_every_step() {
         let model = model(&annulus, rpm);
         let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
         let mut settings = settings(3e-3, &[1, 2]);
-        settings.perturbation.velocity = 2.0;
+        settings.perturbation = Perturbation::of(&[1, 2], 2.0);
         let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
         let surface_speed = model.contact.rotation_speed * 0.0205;
         let mut seen = [0; 3];

@@ -4,7 +4,8 @@ use crate::model::{Watch, disc, model, settings};
 use frictionsim::fem::RayleighDamping;
 use frictionsim::fem::operator::SimdLevel;
 use frictionsim::transient::{
-    CentralDifference, OperatorChoice, Recorder, RecorderSettings, Sample, TimeStep, build_operator,
+    CentralDifference, OperatorChoice, Perturbation, Recorder, RecorderSettings, Sample, TimeStep,
+    build_operator,
 };
 
 /// Theory: the discrete energy identity is exact, whatever contact and damping do.
@@ -15,7 +16,7 @@ fn every_joule_is_accounted_for_through_stick_slip_and_separation() {
         let model = model(&annulus, 610.0);
         let operator = build_operator(&model, choice, SimdLevel::detect()).unwrap();
         let mut settings = settings(6e-3, &[1, 2]);
-        settings.perturbation.velocity = 2.0;
+        settings.perturbation = Perturbation::of(&[1, 2], 2.0);
         let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
         let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
         run.run(&mut record).unwrap();
@@ -47,7 +48,7 @@ fn free_undamped_vibration_keeps_its_energy_over_a_million_steps() {
     let operator = build_operator(&model, OperatorChoice::Cyclic, SimdLevel::detect()).unwrap();
     let mut settings = settings(1.0, &[1, 2, 3]);
     settings.expansion_time = 0.0;
-    settings.perturbation.velocity = 1.0;
+    settings.perturbation = Perturbation::of(&[1, 2, 3], 1.0);
     settings.time_step = TimeStep::Seconds(1e-6);
     settings.sample_interval = 1e-3;
     let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();

@@ -10,8 +10,8 @@ use frictionsim::linalg::MatrixPolynomial;
 use frictionsim::mesh::AnnulusMesh;
 use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
 use frictionsim::transient::{
-    CentralDifference, InitialState, OperatorChoice, Recorder, RecorderSettings, TransientAnalysis,
-    TransientModel, build_operator,
+    CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
+    TransientAnalysis, TransientModel, build_operator,
 };
 use std::f64::consts::TAU;
 
@@ -102,7 +102,7 @@ fn compare(annulus: &AnnulusMesh, duration: f64) {
         let mut settings = settings(duration, &[n]);
         settings.initial = InitialState::SteadySliding;
         // Small enough to stay linear over the whole run.
-        settings.perturbation.velocity = 1e-8;
+        settings.perturbation = Perturbation::of(&[n], 1e-8);
         let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
         let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
         run.run(&mut record).unwrap();

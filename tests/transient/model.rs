@@ -32,10 +32,7 @@ pub fn settings(duration: f64, harmonics: &[usize]) -> TransientSettings {
         sample_interval: 4e-6,
         expansion_time: 1e-4,
         initial: InitialState::Rest,
-        perturbation: Perturbation {
-            harmonics: harmonics.to_vec(),
-            velocity: 1e-3,
-        },
+        perturbation: Perturbation::of(harmonics, 1e-3),
     }
 }
 

@@ -64,7 +64,7 @@ fn end_state(choice: OperatorChoice, level: SimdLevel) -> (TransientState, [u64;
     let model = model(&annulus, 610.0);
     let operator = build_operator(&model, choice, level).unwrap();
     let mut settings = settings(4e-3, &[1, 2]);
-    settings.perturbation.velocity = 2.0;
+    settings.perturbation = Perturbation::of(&[1, 2], 2.0);
     let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
     let mut counts = [0; 3];
     run.run(&mut Watch(|sample: &frictionsim::transient::Sample<'_>| {
@@ -146,10 +146,7 @@ fn steps_are_stable_below_the_limit_and_unstable_above() {
     let model = model(&annulus, 0.0);
     let operator = build_operator(&model, OperatorChoice::Cyclic, SimdLevel::detect()).unwrap();
     let limit = stable_step_limit(largest_frequency(operator.as_ref()), &model.damping);
-    let start = Perturbation {
-        harmonics: vec![1, 12],
-        velocity: 1.0,
-    };
+    let start = Perturbation::of(&[1, 12], 1.0);
     for (factor, is_stable) in [(0.999, true), (1.001, false)] {
         let zeros = || AlignedVector::zeros(operator.field_length());
         let mut fields = MotionFields {

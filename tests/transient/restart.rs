@@ -3,8 +3,8 @@
 use crate::model::{Watch, disc, model, settings};
 use frictionsim::fem::operator::SimdLevel;
 use frictionsim::transient::{
-    CentralDifference, Observer, OperatorChoice, Recorder, RecorderSettings, RunEnd, Sample,
-    TransientError, TransientState, build_operator,
+    CentralDifference, Observer, OperatorChoice, Perturbation, Recorder, RecorderSettings, RunEnd,
+    Sample, TransientError, TransientState, build_operator,
 };
 use std::ops::ControlFlow;
 
@@ -34,7 +34,7 @@ fn restarted_run_equals_uninterrupted_run_bitwise() {
         let model = model(&annulus, 610.0);
         let operator = build_operator(&model, choice, SimdLevel::detect()).unwrap();
         let mut settings = settings(4e-3, &[1, 2]);
-        settings.perturbation.velocity = 2.0;
+        settings.perturbation = Perturbation::of(&[1, 2], 2.0);
         let wanted = RecorderSettings {
             probes: vec![1, 17],
             snapshots: vec![1e-3, 3e-3],

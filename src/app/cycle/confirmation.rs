@@ -43,10 +43,7 @@ pub fn confirm(
             harmonic: cycle.harmonic,
             onset: solver.family().onset,
         },
-        perturbation: Perturbation {
-            harmonics: Vec::new(),
-            velocity: 0.0,
-        },
+        perturbation: Perturbation::default(),
     };
     let operator = build_operator(&model, OperatorChoice::Auto, simd)?;
     let operator = operator.as_ref();

@@ -4,7 +4,7 @@ use crate::app::Failure;
 use crate::case::{Case, Transient};
 use crate::mesh::AnnulusMesh;
 use crate::transient::{
-    InitialState, Perturbation, RecorderSettings, TransientError, TransientModel, TransientSettings,
+    Breakdown, InitialState, RecorderSettings, TransientError, TransientModel, TransientSettings,
 };
 
 pub fn model<'a>(case: &Case, annulus: &'a AnnulusMesh) -> TransientModel<'a> {
@@ -23,10 +23,7 @@ pub fn settings(case: &Case, transient: &Transient) -> TransientSettings {
         sample_interval: case.output.sample_interval,
         expansion_time: transient.expansion_time,
         initial: transient.initial,
-        perturbation: Perturbation {
-            harmonics: transient.perturbation.harmonics.clone(),
-            velocity: transient.perturbation.velocity,
-        },
+        perturbation: transient.perturbation.clone(),
     }
 }
 
@@ -45,30 +42,49 @@ pub fn recorder_settings(case: &Case) -> RecorderSettings {
     }
 }
 
+/// Settings that stand in `[output]`; the others stand in `[transient]`.
+const OUTPUT: [&str; 3] = ["probes", "sample_interval", "snapshots"];
+
 /// An error of the case at its key where there is one, else of the run.
 pub fn failure(case: &Case, error: &TransientError) -> Failure {
-    let (key, label) = match error {
-        TransientError::StepAboveLimit { limit, .. } => {
-            ("transient.time_step", format!("at most {limit:.4e}"))
+    let label = match error {
+        TransientError::StepAboveLimit { limit, .. } => format!("at most {limit:.4e}"),
+        TransientError::SampleBelowStep { step, .. } => format!("at least {step:.4e}"),
+        TransientError::Time { .. } => "a positive time".to_owned(),
+        TransientError::Negative { .. } => "zero or more".to_owned(),
+        TransientError::BeyondEnd { duration, .. } => format!("at most {duration:?}"),
+        TransientError::HarmonicAboveNyquist { limit, .. } => format!("at most {limit}"),
+        TransientError::UnknownProbe { count, .. } => format!("1 to {count}"),
+        TransientError::SnapshotOutsideRun { duration, .. } => format!("0 to {duration}"),
+        TransientError::Unstable { cause, .. } => {
+            return Failure::run(format!("{error}: {}", remedy(*cause)));
         }
-        TransientError::SampleBelowStep { step, .. } => {
-            ("output.sample_interval", format!("at least {step:.4e}"))
-        }
-        TransientError::Time { key, .. } => (*key, "a positive time".to_owned()),
-        TransientError::Negative { key, .. } => (*key, "zero or more".to_owned()),
-        TransientError::HarmonicAboveNyquist { limit, .. } => (
-            "transient.perturbation.harmonics",
-            format!("at most {limit}"),
-        ),
-        TransientError::UnknownProbe { count, .. } => ("output.probes", format!("1 to {count}")),
-        TransientError::SnapshotOutsideRun { duration, .. } => {
-            ("output.snapshots", format!("0 to {duration}"))
-        }
-        TransientError::Operator(_) => ("transient.operator", "not on this mesh".to_owned()),
-        TransientError::Unstable { .. }
-        | TransientError::ForeignState { .. }
-        | TransientError::FieldsMissing { .. }
-        | TransientError::Prestress(_) => return Failure::run(error),
+        _ => "not on this mesh".to_owned(),
     };
-    Failure::Case(case.error_at(key, error.to_string(), label, None))
+    match (error.setting(), error) {
+        (Some(setting), _) => {
+            let is_output = OUTPUT.contains(&setting);
+            let section = if is_output { "output" } else { "transient" };
+            let (key, message) = (format!("{section}.{setting}"), format!("{section}.{error}"));
+            Failure::Case(case.error_at(&key, message, label, None))
+        }
+        (None, TransientError::Operator(_)) => {
+            Failure::Case(case.error_at("transient.operator", error.to_string(), label, None))
+        }
+        _ => Failure::run(error),
+    }
+}
+
+/// Which keys to change after a breakdown.
+fn remedy(cause: Breakdown) -> &'static str {
+    match cause {
+        Breakdown::Overflow => {
+            "check contact.rotation_speed_rpm, contact.interference and transient.perturbation, \
+             or lower transient.time_step"
+        }
+        Breakdown::StepTooLong => "lower transient.time_step",
+        Breakdown::RoundOff => {
+            "lower transient.time_step, or check contact.interference and contact.rotation_speed_rpm"
+        }
+    }
 }

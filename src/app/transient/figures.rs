@@ -27,7 +27,7 @@ pub(super) fn draw_record(
     let stage = LinearStage::of(case);
     let run = RunFigures {
         record,
-        analysis: &TransientAnalysis::of(record, &prepared.settings.perturbation.harmonics),
+        analysis: &TransientAnalysis::of(record, &prepared.settings.perturbation.harmonics()),
         mesh: &prepared.annulus.mesh,
         material: &case.material,
         thickness: case.thickness,

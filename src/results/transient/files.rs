@@ -7,7 +7,7 @@ use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::record::write_record;
 use crate::results::table::{Table, format_number};
 use crate::results::vtu::{EncodedMesh, Field, PvdEntry, write_pvd, write_vtu};
-use crate::transient::{SampleRow, Snapshot};
+use crate::transient::{Recorder, SampleRow, Snapshot};
 use serde_json::Value;
 use std::io::{self, Write};
 
@@ -23,9 +23,7 @@ pub fn write(folder: &OutputFolder, report: &TransientReport<'_>) -> Result<Valu
     }
     folder.write("energy.csv", |out| write_energy(out, report))?;
     folder.write("contact.csv", |out| write_contact(out, &report.record.rows))?;
-    folder.write("harmonics.csv", |out| {
-        write_harmonics(out, &report.record.rows)
-    })?;
+    folder.write("harmonics.csv", |out| write_harmonics(out, report.record))?;
     folder.write("contact.npz", |out| {
         out.write_all(&encode_contact(report.record)?)
     })?;
@@ -98,15 +96,21 @@ fn write_contact(out: &mut dyn Write, rows: &[SampleRow]) -> io::Result<()> {
     table.finish()
 }
 
-/// Complex amplitude of each harmonic of the contact edge's tangential displacement.
-fn write_harmonics(out: &mut dyn Write, rows: &[SampleRow]) -> io::Result<()> {
-    let count = rows.first().map_or(0, |row| row.harmonics.len());
-    let parts = (0..count).flat_map(|n| [format!("n{n}_real_m"), format!("n{n}_imaginary_m")]);
+/// Complex amplitude of each harmonic of the contact edge's tangential displacement: `n = 0..=8`, and of the higher
+/// ones those that matter.
+fn write_harmonics(out: &mut dyn Write, record: &Recorder) -> io::Result<()> {
+    let harmonics = record.significant_harmonics();
+    let parts = harmonics
+        .iter()
+        .flat_map(|n| [format!("n{n}_real_m"), format!("n{n}_imaginary_m")]);
     let columns: Vec<String> = std::iter::once("time_s".to_owned()).chain(parts).collect();
     let names: Vec<&str> = columns.iter().map(String::as_str).collect();
     let mut table = Table::new(out, &names)?;
-    for row in rows {
-        let parts = row.harmonics.iter().flatten().copied();
+    for (sample, row) in record.rows.iter().enumerate() {
+        let amplitudes = harmonics
+            .iter()
+            .filter_map(|&n| record.amplitude(sample, n));
+        let parts = amplitudes.flatten();
         table.row(std::iter::once(row.time).chain(parts).map(format_number))?;
     }
     table.finish()

@@ -2,6 +2,7 @@
 
 use super::TransientReport;
 use crate::results::manifest::Manifest;
+use crate::transient::Perturbation;
 use serde_json::{Value, json};
 
 /// The summary object.
@@ -34,10 +35,7 @@ pub fn summary(report: &TransientReport<'_>, manifest: &Manifest) -> Value {
         "largest_frequency_rad_per_s": plan.largest_frequency,
         "operator": report.operator,
         "initial": report.initial,
-        "perturbation": {
-            "harmonics": report.perturbation.harmonics,
-            "velocity": report.perturbation.velocity,
-        },
+        "perturbation": perturbation(report.perturbation),
         "wall_s": report.wall_s,
         "element_steps_per_s": report.element_steps_per_second(),
         "max_balance_residual": analysis.largest_residual,
@@ -56,5 +54,23 @@ pub fn summary(report: &TransientReport<'_>, manifest: &Manifest) -> Value {
         "growth": growth,
         "first_nonlinearity_s": analysis.first_nonlinearity,
         "manifest": manifest,
+    })
+}
+
+/// The velocity that was added: one amplitude (m/s) and phase (degrees) for all harmonics, or one for each.
+fn perturbation(perturbation: &Perturbation) -> Value {
+    let of_all = |values: Vec<f64>| match values.as_slice() {
+        [first, others @ ..] if others.iter().all(|v| v == first) => json!(first),
+        _ => json!(values),
+    };
+    let waves = perturbation.waves.iter();
+    let phases = waves.clone().map(|wave| wave.phase.to_degrees()).collect();
+    json!({
+        "harmonics": perturbation.harmonics(),
+        "velocity": of_all(waves.map(|wave| wave.velocity).collect()),
+        "phase_deg": of_all(phases),
+        "noise": perturbation.noise,
+        "noise_seed": perturbation.noise_seed,
+        "at_s": perturbation.time,
     })
 }

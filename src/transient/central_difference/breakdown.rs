@@ -1,7 +1,7 @@
 //! Detection of numbers that stopped making sense.
 
 use super::CentralDifference;
-use crate::transient::TransientError;
+use crate::transient::{Breakdown, TransientError};
 
 /// Relative energy residual beyond which the numbers are not to be trusted; honest runs stay ten million times
 /// below it.
@@ -12,20 +12,18 @@ impl CentralDifference<'_> {
     pub(super) fn check(&self, energy: f64, residual: f64) -> Result<(), TransientError> {
         let (symptom, cause) = if !energy.is_finite() || !residual.is_finite() {
             (
-                format!("the energy is {energy}"),
-                "Values left the range of numbers: check contact.rotation_speed_rpm, contact.interference \
-                 and transient.perturbation, or lower transient.time_step.",
+                "the energy is not a number any more".to_owned(),
+                Breakdown::Overflow,
             )
         } else if energy < -1e-9 * self.largest_energy {
             (
                 format!("the energy is negative, {energy:.3e} J/m"),
-                "The time step is above the stability limit: lower transient.time_step.",
+                Breakdown::StepTooLong,
             )
         } else if residual > RESIDUAL_LIMIT {
             (
                 format!("the energy balance is off by a fraction of {residual:.1e}"),
-                "Round-off dominates: lower transient.time_step, or check that forces and speeds are of a \
-                 sensible size.",
+                Breakdown::RoundOff,
             )
         } else {
             return Ok(());
@@ -33,12 +31,12 @@ impl CentralDifference<'_> {
         Err(self.unstable(symptom, cause))
     }
 
-    fn unstable(&self, symptom: String, cause: &'static str) -> TransientError {
+    fn unstable(&self, symptom: String, cause: Breakdown) -> TransientError {
         let mesh = &self.model.annulus.mesh;
         let speed = |node: usize| {
             let [r, t] = [0, 1].map(|c| self.fields.velocity[self.operator.position(2 * node + c)]);
             let speed = r.hypot(t);
-            if speed.is_nan() { f64::INFINITY } else { speed }
+            if speed.is_finite() { speed } else { f64::MAX }
         };
         let (mut node, mut largest) = (0, speed(0));
         for candidate in 1..mesh.node_count() {

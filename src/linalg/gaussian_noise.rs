@@ -1,4 +1,4 @@
-//! Noise for synthesised measurements.
+//! Pseudo-random numbers: noise of synthesised measurements, random seeds of a transient.
 
 use faer::c64;
 use std::f64::consts::TAU;

@@ -1,0 +1,46 @@
+//! The energy of the body, and a velocity added to it.
+
+use super::CentralDifference;
+use crate::fem::operator::scatter;
+
+impl CentralDifference<'_> {
+    /// Kinetic and strain energy (8) at `n + 1/2`, from `K u_{n+1}` and the copy of `u_n`.
+    pub(super) fn energies(&self) -> [f64; 2] {
+        let masses = self.operator.masses();
+        let velocity = self.fields.velocity.iter().zip(masses);
+        let kinetic: f64 = velocity.map(|(v, m)| m * v * v).sum();
+        let forces = self.fields.elastic.iter().zip(masses);
+        let strain: f64 = forces
+            .zip(self.displacement_before.iter())
+            .map(|((q, m), u)| m * q * u)
+            .sum();
+        [0.5 * kinetic, 0.5 * strain]
+    }
+
+    /// `E_{n-1/2}` (8) before step `n`, with `u_{n-1} = u_n - dt v_{n-1/2}`.
+    pub(super) fn energy_before_step(&self) -> f64 {
+        let dt = self.plan.time_step;
+        let fields = &self.fields;
+        let dofs = 0..self.operator.dof_count();
+        dofs.map(|dof| {
+            let k = self.operator.position(dof);
+            let (u, v) = (fields.displacement[k], fields.velocity[k]);
+            let force = fields.elastic[k] - dt * fields.elastic_rate[k];
+            0.5 * self.operator.masses()[k] * (v * v + u * force)
+        })
+        .sum()
+    }
+
+    /// Adds a velocity (m/s, over all dofs in nodal frames) to `v_{n-1/2}`; the energy that comes with it counts as work.
+    pub(super) fn kick(&mut self, velocity: &[f64]) {
+        let before = self.energy_before_step();
+        let kick = scatter(self.operator, velocity);
+        let fields = &mut self.fields;
+        for (v, added) in fields.velocity.iter_mut().zip(kick.iter()) {
+            *v += added;
+        }
+        self.operator
+            .multiply(&mut fields.velocity, &mut fields.elastic_rate);
+        self.net_work += self.energy_before_step() - before;
+    }
+}
