@@ -48,7 +48,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
         sample_interval: 2e-6,
         expansion_time: 5e-4,
         initial: InitialState::Rest,
-        perturbation: Perturbation::of(harmonics, 1e-3),
+        perturbation: Perturbation::of(&harmonics, 1e-3),
     };
     let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect())?;
     let mut run = CentralDifference::start(model, operator.as_ref(), &settings)?;

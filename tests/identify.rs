@@ -6,7 +6,8 @@
 use assert_cmd::Command;
 use faer::c64;
 use frictionsim::fem::{ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping};
-use frictionsim::frf::{FrfSystem, GaussianNoise, ReductionSettings, Terminal, reduced_response};
+use frictionsim::frf::{FrfSystem, ReductionSettings, Terminal, reduced_response};
+use frictionsim::linalg::GaussianNoise;
 use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind};
 use frictionsim::signal::{
     Estimate, FrequencyResponse, Identification, IdentificationOptions, ResonanceNote,

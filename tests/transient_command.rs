@@ -259,6 +259,21 @@ fn bad_settings_are_bad_cases_with_their_bound() {
         ("output.probes=[10000]", "10000"),
         ("transient.duration=0", "transient.duration"),
         ("transient.perturbation.harmonics=[31]", "30"),
+        (
+            "transient.perturbation.velocity=[1e-3, 2e-3]",
+            "has 2 values, transient.perturbation.harmonics has 1",
+        ),
+        (
+            "transient.perturbation={ phase_deg = 90 }",
+            "without harmonics",
+        ),
+        (
+            "transient.perturbation.at=0.0041",
+            "after the end of the run",
+        ),
+        ("transient.perturbation.noise_seed=2", "without noise"),
+        ("transient.expansion_time=0.005", "never be fully expanded"),
+        ("output.sample_interval=0.01", "above transient.duration"),
     ] {
         frictionsim(&arguments(&out, &[overrides]))
             .assert()

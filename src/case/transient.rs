@@ -236,7 +236,7 @@ fn one_for_each(section: &Section<'_>, key: &'static str, harmonics: &[usize]) -
         _ if section.list_length(key) == Some(harmonics.len()) => values,
         _ => {
             let what = format!(
-                "has {} values for {} harmonics",
+                "has {} values, transient.perturbation.harmonics has {}",
                 values.len(),
                 harmonics.len()
             );

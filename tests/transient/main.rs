@@ -9,5 +9,6 @@ mod linear_stage;
 mod model;
 mod operators;
 mod restart;
+mod seeds;
 mod settings;
 mod time_order;
