@@ -163,9 +163,9 @@ fn a_study_of_limit_cycles_has_the_same_table_for_any_threads() {
     let header = text.lines().next().unwrap();
     for column in [
         "contact.friction_coefficient,",
-        "cycles.1.main_frequency_hz",
-        "cycles.0.confirmation.agrees",
-        "cycles.0.branch.saturation_speed_rpm",
+        "cycles.n2_o1.main_frequency_hz",
+        "cycles.n1_o1.confirmation.agrees",
+        "cycles.n1_o1.branch.saturation_speed_rpm",
     ] {
         assert!(header.contains(column), "{column}");
     }

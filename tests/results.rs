@@ -36,6 +36,8 @@ fn mode(real_hz: f64, frequency_hz: f64, harmonic: usize, direction: i8) -> Comp
         branch: 0,
         direction,
         residual: 1e-13,
+        uncertainty: 1e-12,
+        contact_share: 0.2,
         shape: None,
     }
 }
@@ -138,7 +140,7 @@ fn tables_hold_one_row_for_each_mode_of_a_tabulated_friction_value() {
     assert_eq!(
         lines.next().unwrap(),
         "friction_coefficient,mode,real_hz,frequency_hz,damping_factor,growth_rate_per_s,harmonic,\
-         branch,direction,unstable,residual"
+         branch,direction,unstable,residual,contact_share"
     );
     let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
     assert_eq!(rows.len(), 6);

@@ -12,8 +12,8 @@ pub use workers::{PointRunner, SweepRun};
 use super::linear_stage::LinearStage;
 use super::{Failure, RunOptions, Session, terminal};
 use crate::case::{Analysis, Case};
+use crate::results::sweep::{LONG_TABLES, draw, print, summary, write_points};
 use crate::results::sweep::{PointRecord, Start, SweepDrawing, SweepFolder, SweepReport};
-use crate::results::sweep::{draw, print, summary, write_points};
 use crate::results::{DOTS_PER_INCH, Manifest};
 use clap::Args;
 use serde_json::Value;
@@ -153,6 +153,14 @@ pub fn gather(
     folder.write("points.csv", |out| {
         write_points(out, report.keys, report.records)
     })?;
+    for table in LONG_TABLES
+        .iter()
+        .filter(|table| table.is_of(report.analyses))
+    {
+        folder.write(table.file, |out| {
+            table.write(out, report.keys, report.records)
+        })?;
+    }
     let summary = summary(report, manifest);
     folder.write("summary.json", |out| {
         serde_json::to_writer_pretty(&mut *out, &summary)?;

@@ -4,4 +4,4 @@ pub mod cyclic;
 pub mod sparse;
 mod spectrum;
 
-pub use spectrum::{ComplexMode, FrictionPoint, FrictionSweep, UnstableInterval};
+pub use spectrum::{ComplexMode, FrictionPoint, FrictionSweep, UnstableInterval, keeping_ties};

@@ -17,6 +17,16 @@ pub struct ComplexMode {
     /// Relative residual of the quadratic problem,
     /// `|(lambda^2 M + lambda C + K) phi| / ((|lambda|^2 |M| + |lambda| |C| + |K|) |phi|)`.
     pub residual: f64,
+    /// Relative change of the eigenvalue where the matrices change by one rounding error,
+    /// `epsilon (|lambda|^2 |M| + |lambda| |C| + |K|) |w| |x| / (|w^T (2 lambda M + C) x| |lambda|)`: what no
+    /// solver can better.
+    pub uncertainty: f64,
+    /// Kinetic energy of the contact edge's nodes over that of the body, `Re(x_c^H (M x)_c) / x^H M x` with
+    /// the mass of the body alone: how much the mode moves where friction works.
+    ///
+    /// The nodes' mass shrinks with the elements: compare modes of one mesh, or divide by the edge's share of
+    /// the mass.
+    pub contact_share: f64,
     /// Displacement shape over all nodes in nodal frames, `2 * node_count` values with
     /// `max |u| = 1`, where it was asked for.
     pub shape: Option<Vec<c64>>,
@@ -56,6 +66,23 @@ pub struct FrictionPoint {
     pub friction_coefficient: f64,
     /// Modes in order of rising frequency.
     pub modes: Vec<ComplexMode>,
+}
+
+/// Relative distance of two frequencies below which they are one: modes of a degenerate pair.
+const TIE: f64 = 1e-9;
+
+/// Number of leading modes to keep of those with the rising `frequencies` where `count` are wanted: more where
+/// the cut would split a pair of equal frequency, whose members have no order of their own.
+pub fn keeping_ties(frequencies: impl Iterator<Item = f64>, count: usize) -> usize {
+    let mut last = f64::NAN;
+    frequencies
+        .enumerate()
+        .take_while(|&(index, frequency)| {
+            let is_kept = index < count || frequency - last <= TIE * frequency;
+            last = frequency;
+            is_kept
+        })
+        .count()
 }
 
 /// A range of friction coefficients over which one branch grows, located by root finding.

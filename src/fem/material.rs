@@ -1,5 +1,7 @@
 //! Isotropic linear elasticity in the plane, and Rayleigh damping.
 
+use crate::linalg::c64;
+
 /// Which out-of-plane quantity vanishes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlaneFormulation {
@@ -110,5 +112,48 @@ impl RayleighDamping {
     /// undamped angular frequency `omega`, rad/s.
     pub fn damping_factor(&self, omega: f64) -> f64 {
         0.5 * (self.mass_coefficient / omega + self.stiffness_coefficient * omega)
+    }
+
+    /// The eigenvalue `lambda` with `Im >= 0`, rad/s, of `lambda^2 + alpha_R lambda + (1 + beta_R lambda) kappa = 0`,
+    /// where `K x = kappa M x`; with `Im = 0` for an overdamped mode.
+    ///
+    /// The relation to which proportional damping reduces `(lambda^2 M + lambda C + K) x = 0`.
+    pub fn eigenvalue(&self, kappa: c64) -> c64 {
+        let half = (self.mass_coefficient + self.stiffness_coefficient * kappa) * 0.5;
+        c64::new(0.0, 1.0) * (kappa - half * half).sqrt() - half
+    }
+
+    /// `d lambda / d kappa` of [`Self::eigenvalue`] at a root `lambda` of `kappa`.
+    pub fn eigenvalue_slope(&self, lambda: c64, kappa: c64) -> c64 {
+        -(1.0 + self.stiffness_coefficient * lambda)
+            / (2.0 * lambda + self.mass_coefficient + self.stiffness_coefficient * kappa)
+    }
+
+    /// The `kappa` of which `lambda` is a root, `-lambda (lambda + alpha_R) / (1 + beta_R lambda)`.
+    pub fn kappa(&self, lambda: c64) -> c64 {
+        -lambda * (lambda + self.mass_coefficient) / (1.0 + self.stiffness_coefficient * lambda)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn eigenvalue_and_kappa_are_inverse_and_the_slope_is_their_derivative() {
+        let damping = RayleighDamping {
+            mass_coefficient: 40.0,
+            stiffness_coefficient: 4.5e-7,
+        };
+        let kappa = c64::new(4e9, 3e8);
+        let lambda = damping.eigenvalue(kappa);
+        assert!(lambda.im > 0.0);
+        assert!((damping.kappa(lambda) - kappa).norm() < 1e-13 * kappa.norm());
+        let h = 1e3;
+        let difference =
+            (damping.eigenvalue(kappa + h) - damping.eigenvalue(kappa - h)) / (2.0 * h);
+        // Central difference: error of order (h / kappa)^2 and round-off of lambda over h.
+        let slope = damping.eigenvalue_slope(lambda, kappa);
+        assert!((slope - difference).norm() < 1e-8 * slope.norm());
     }
 }

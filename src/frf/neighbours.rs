@@ -143,9 +143,7 @@ impl RealFactors {
 
 /// `s` at a frequency.
 fn shift(rayleigh: RayleighDamping, frequency_hz: f64) -> c64 {
-    let omega = TAU * frequency_hz;
-    c64::new(omega * omega, -omega * rayleigh.mass_coefficient)
-        / c64::new(1.0, omega * rayleigh.stiffness_coefficient)
+    rayleigh.kappa(c64::new(0.0, TAU * frequency_hz))
 }
 
 #[cfg(test)]

@@ -13,6 +13,8 @@ mod sparse_ldl;
 mod sparse_lu;
 mod sparse_product;
 
+pub use faer::c64;
+
 pub use dense_lu::{ComplexDenseLu, DenseLu};
 pub use error::LinalgError;
 pub use gaussian_noise::GaussianNoise;

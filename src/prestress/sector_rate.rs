@@ -38,6 +38,7 @@ impl SectorTangent {
         let shared = self.damping(&self.terms, rate.rayleigh, false, n);
         HarmonicTangent {
             harmonic: n,
+            contact_count: self.contact_unknowns(),
             mass: self.mass(&rate.terms, n),
             stiffness: self.stiffness(&rate.terms, n),
             damping: Some(sum(follows, shared)),

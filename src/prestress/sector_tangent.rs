@@ -27,6 +27,8 @@ pub struct HarmonicTangent {
     pub damping: Option<FrictionPolynomial>,
     /// Rayleigh coefficients.
     pub rayleigh: RayleighDamping,
+    /// Number of leading unknowns that belong to the contact edge.
+    pub contact_count: usize,
 }
 
 /// [`super::SlidingTangent`] of an annulus, from the matrices of one sector.
@@ -113,6 +115,16 @@ impl SectorTangent {
         (0..total).filter(|&dof| !is_held(dof)).collect()
     }
 
+    /// Number of leading unknowns that belong to contact nodes, which come first in a sector.
+    pub(super) fn contact_unknowns(&self) -> usize {
+        let components = if self.terms.normal_stiffness.is_none() {
+            1
+        } else {
+            2
+        };
+        components * self.sector.contact_count
+    }
+
     /// Unknown of each contact node's tangential displacement.
     pub fn tangential_unknowns(&self) -> Vec<usize> {
         let unknowns = self.unknowns();
@@ -141,6 +153,7 @@ impl SectorTangent {
         let rayleigh = self.options.damping;
         HarmonicTangent {
             harmonic: n,
+            contact_count: self.contact_unknowns(),
             mass: self.mass(&self.terms, n),
             stiffness: self.stiffness(&self.terms, n),
             damping: (!self.is_proportional())

@@ -50,6 +50,12 @@ fn spectrum_branches_and_onsets_equal_those_of_the_sparse_solver() {
                     nearest < 1e-9 * mode.eigenvalue.norm(),
                     "{element:?} {mass:?} {mode:?} {nearest:e}"
                 );
+                let shares = theirs.modes.iter().filter(is_same).map(|m| m.contact_share);
+                let share = shares
+                    .map(|s| (s - mode.contact_share).abs())
+                    .fold(f64::MAX, f64::min);
+                // A quadratic form of a vector that is known to 1e-8.
+                assert!(share < 1e-7, "{element:?} {mass:?} {mode:?} {share:e}");
             }
         }
         for (ours, theirs) in cyclic.intervals.iter().zip(&sparse.intervals) {
@@ -58,6 +64,76 @@ fn spectrum_branches_and_onsets_equal_those_of_the_sparse_solver() {
                 (theirs.harmonic, theirs.direction)
             );
             assert!((ours.critical_friction - theirs.critical_friction).abs() < 1e-8);
+        }
+    }
+}
+
+/// Consistency check: without friction every mode but those of `n = 0` is double, and no count cuts a pair.
+#[test]
+fn a_cut_through_a_pair_keeps_both_members_in_both_solvers() {
+    let specification = annulus(ElementKind::Quad4, 24, 5);
+    let options = paper_options();
+    let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
+    let elastic = assemble_stiffness(&mesh, &POLYCARBONATE);
+    let base = SteadySliding::solve(&mesh, &elastic, &contact(610.0)).unwrap();
+    let tangent = SlidingTangent::linearize(&mesh, &POLYCARBONATE, &elastic, &base, &options);
+    for asked in 2..6 {
+        let cyclic = run(
+            &specification,
+            &options,
+            &[0.0, 0.4],
+            ModeLimit::Lowest(asked),
+        )
+        .sweep;
+        let request = EigenRequest {
+            limit: EigenLimit::Lowest(asked),
+            shapes_at: Vec::new(),
+        };
+        let sparse = sparse::sweep(&tangent, &[0.0, 0.4], &request, &|_| {}).unwrap();
+        for found in [cyclic, sparse] {
+            let [rest, sliding] = [0, 1].map(|i| &found.points[i].modes);
+            let singles = rest.iter().filter(|mode| mode.harmonic == 0).count();
+            assert!((rest.len() - singles).is_multiple_of(2), "{asked}");
+            assert!(rest.len() == asked || rest.len() == asked + 1, "{asked}");
+            // With friction the members differ in frequency.
+            assert_eq!(sliding.len(), asked);
+        }
+    }
+}
+
+/// Consistency check: the uncertainty says what a penalty of any size does to the digits that both solvers share.
+#[test]
+fn solvers_differ_by_no_more_than_the_uncertainty_that_they_state() {
+    let specification = annulus(ElementKind::Quad4, 24, 5);
+    for penalty in [7.4e12, 7.4e18, 7.4e24] {
+        let mut options = paper_options();
+        options.contact.normal_stiffness = Some(penalty);
+        let cyclic = run(&specification, &options, &[0.4], ModeLimit::Lowest(8)).sweep;
+        let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
+        let elastic = assemble_stiffness(&mesh, &POLYCARBONATE);
+        let base = SteadySliding::solve(&mesh, &elastic, &contact(610.0)).unwrap();
+        let tangent = SlidingTangent::linearize(&mesh, &POLYCARBONATE, &elastic, &base, &options);
+        let request = EigenRequest {
+            limit: EigenLimit::Lowest(8),
+            shapes_at: Vec::new(),
+        };
+        let Ok(sparse) = sparse::sweep(&tangent, &[0.4], &request, &|_| {}) else {
+            assert!(penalty > 1e20, "{penalty:e}");
+            continue;
+        };
+        let pairs = cyclic.points[0].modes.iter().zip(&sparse.points[0].modes);
+        for (ours, theirs) in pairs {
+            let difference = (ours.eigenvalue - theirs.eigenvalue).norm() / ours.eigenvalue.norm();
+            // Beside it the sparse iteration stops at 1e-10.
+            assert!(
+                difference < ours.uncertainty.max(1e-10),
+                "{penalty:e} {difference:e} {ours:?}"
+            );
+            assert_eq!(
+                ours.uncertainty > 1e-9,
+                penalty > 1e14,
+                "{penalty:e} {ours:?}"
+            );
         }
     }
 }

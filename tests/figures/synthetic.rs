@@ -62,6 +62,8 @@ pub fn modes(friction: f64, mesh: Option<&Mesh2d>) -> Vec<ComplexMode> {
                 branch,
                 direction: if friction == 0.0 { 0 } else { direction },
                 residual: 1e-12,
+                uncertainty: 1e-12,
+                contact_share: 0.1,
                 shape: mesh.map(|mesh| shape(mesh, harmonic, branch, direction, friction)),
             });
         }

@@ -238,6 +238,8 @@ mod tests {
             branch: 0,
             direction: 0,
             residual: 1e-14,
+            uncertainty: 1e-13,
+            contact_share: 0.1,
             shape: Some(shape),
         };
         let values = cea.solved_friction_coefficients();

@@ -3,6 +3,7 @@
 use super::model::{method_of, tangent_options};
 use super::{Failure, SlidingModel, Solution};
 use crate::case::{Case, Cea, CeaMap, CeaMethod, ModeSelection};
+use crate::cea::FrictionSweep;
 use crate::cea::cyclic::{self, Coverage, CyclicModel, ModeLimit, SweepRequest};
 use crate::cea::sparse::{self, EigenLimit, EigenRequest};
 use crate::results::cea::{MapReport, SensitivityReport};
@@ -18,10 +19,65 @@ pub fn solve(
     model: &SlidingModel,
     bar: &ProgressBar,
 ) -> Result<Solution, Failure> {
-    match method_of(cea) {
-        CeaMethod::Sparse => solve_sparse(case, cea, model, bar),
-        CeaMethod::Auto | CeaMethod::Cyclic => solve_cyclic(case, cea, model),
+    let mut solution = match method_of(cea) {
+        CeaMethod::Sparse => solve_sparse(case, cea, model, bar)?,
+        CeaMethod::Auto | CeaMethod::Cyclic => solve_cyclic(case, cea, model)?,
+    };
+    solution
+        .notes
+        .extend(uncertainty_note(case, &solution.sweep));
+    solution.notes.extend(damping_note(case, &solution.sweep));
+    Ok(solution)
+}
+
+/// Relative uncertainty of an eigenvalue from which on the digits that are printed are in doubt.
+const DOUBTFUL: f64 = 1e-8;
+
+/// What an ill-conditioned model does to its eigenvalues.
+fn uncertainty_note(case: &Case, sweep: &FrictionSweep) -> Option<String> {
+    let modes = sweep.points.iter().flat_map(|point| &point.modes);
+    let worst = modes.map(|mode| mode.uncertainty).fold(0.0, f64::max);
+    if worst < DOUBTFUL {
+        return None;
     }
+    let penalty = case
+        .contact
+        .stiffness
+        .normal_stiffness
+        .map_or_else(String::new, |stiffness| {
+            let size = stiffness * case.annulus.inner_radius / case.material.young_modulus;
+            format!(
+                "contact.normal_stiffness times geometry.inner_radius is {size:.1e} times \
+             material.young_modulus (from 1e6 on leave it out: rigid contact); "
+            )
+        });
+    Some(format!(
+        "rounding of the matrices alone leaves eigenvalues uncertain by up to {worst:.0e} (relative): {penalty}\
+         material.poisson_ratio is {}, contact.friction_coefficient {}, and where branches meet no digit is safe",
+        case.material.poisson_ratio, case.contact.sliding.friction_coefficient,
+    ))
+}
+
+/// What damping near the critical one hides.
+fn damping_note(case: &Case, sweep: &FrictionSweep) -> Option<String> {
+    let modes = || sweep.points.iter().flat_map(|point| &point.modes);
+    let largest = modes()
+        .map(|mode| mode.damping_factor())
+        .fold(0.0, f64::max);
+    let size = modes()
+        .map(|mode| mode.eigenvalue.norm())
+        .fold(0.0, f64::max);
+    let at_limit = case
+        .damping
+        .rayleigh
+        .damping_factor(size.max(f64::MIN_POSITIVE));
+    (largest.max(at_limit) > 0.5).then(|| {
+        format!(
+            "a mode is damped by a factor of {:.2}: motions beyond critical damping (1) do not oscillate and are \
+             not listed; damping.mass_coefficient and damping.stiffness_coefficient set it",
+            largest.max(at_limit)
+        )
+    })
 }
 
 fn solve_sparse(

@@ -58,11 +58,7 @@ impl ModeBranch {
 /// `theta` of the path that carries a wave of eigenvalue `lambda`.
 pub(super) fn path_theta(problem: &HarmonicProblem, is_backward: bool, lambda: c64) -> c64 {
     let own = if problem.is_proportional() {
-        let (alpha, beta) = (
-            problem.rayleigh.mass_coefficient,
-            problem.rayleigh.stiffness_coefficient,
-        );
-        -lambda * (lambda + alpha) / (1.0 + beta * lambda)
+        problem.rayleigh.kappa(lambda)
     } else {
         lambda
     };

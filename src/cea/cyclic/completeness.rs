@@ -85,13 +85,12 @@ pub(super) fn verify(
 /// the edge of that rectangle.
 fn region(tangent: &SectorTangent, limit: f64) -> Region {
     let rayleigh = tangent.rayleigh();
-    let (alpha, beta) = (rayleigh.mass_coefficient, rayleigh.stiffness_coefficient);
     let mut region = Region {
         real: 0.0,
         imaginary: 0.0,
     };
     for lambda in rectangle(0.0, limit, WIDEST_GROWTH * limit, 64) {
-        let kappa = -lambda * (lambda + alpha) / (1.0 + beta * lambda);
+        let kappa = rayleigh.kappa(lambda);
         region.real = region.real.max(1.001 * kappa.re);
         region.imaginary = region.imaginary.max(1.001 * kappa.im.abs());
     }

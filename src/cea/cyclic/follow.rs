@@ -18,6 +18,10 @@ pub(super) struct Eigenpair {
     /// Left vector, unit Euclidean length.
     pub y: Vec<c64>,
     pub residual: f64,
+    /// See [`crate::cea::ComplexMode::contact_share`]; known at the friction values asked for.
+    pub contact_share: f64,
+    /// See [`crate::cea::ComplexMode::uncertainty`]; known at the same values.
+    pub uncertainty: f64,
 }
 
 /// How far apart two successive points of a path may lie.
@@ -109,6 +113,8 @@ impl<'a> Follower<'a> {
                     x,
                     y,
                     residual,
+                    contact_share: f64::NAN,
+                    uncertainty: f64::NAN,
                 });
             }
         }
@@ -153,6 +159,8 @@ impl<'a> Follower<'a> {
             theta,
             rate: self.problem.rate_of(at, theta, &x, &y, slope),
             residual: self.problem.residual(at, theta, &x),
+            contact_share: f64::NAN,
+            uncertainty: f64::NAN,
             x,
             y,
         }

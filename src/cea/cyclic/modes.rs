@@ -4,7 +4,7 @@ use super::branch::{direction_of, eigenvalue_of, waves_of};
 use super::paths::{HarmonicPaths, Path, Waves};
 use super::problem::HarmonicProblem;
 use super::{ModeLimit, SweepRequest};
-use crate::cea::{ComplexMode, FrictionPoint};
+use crate::cea::{ComplexMode, FrictionPoint, keeping_ties};
 use crate::prestress::SectorTangent;
 use faer::c64;
 use std::f64::consts::{PI, TAU};
@@ -37,7 +37,10 @@ pub(super) fn point(
         by_frequency.then_with(|| key(a).cmp(&key(b)))
     });
     if let ModeLimit::Lowest(count) = request.limit {
-        modes.truncate(count);
+        modes.truncate(keeping_ties(
+            modes.iter().map(|mode| mode.eigenvalue.im),
+            count,
+        ));
     }
     FrictionPoint {
         friction_coefficient: friction,
@@ -76,6 +79,8 @@ fn mode(
         branch: path.branch,
         direction: if friction == 0.0 { 0 } else { direction },
         residual: pair.residual,
+        uncertainty: pair.uncertainty,
+        contact_share: pair.contact_share,
         shape: wants_shape.then(|| expand(tangent, problem.harmonic, waves, &pair.x)),
     })
 }

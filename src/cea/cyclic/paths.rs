@@ -107,7 +107,12 @@ fn follow_all(
         }
         for path in &mut paths {
             let reached = path.points.len() - 1;
-            let earlier = path.points[..reached].iter_mut().rev();
+            let (earlier, last) = path.points.split_at_mut(reached);
+            for point in last {
+                point.contact_share = problem.contact_share(&point.x);
+                point.uncertainty = problem.uncertainty(&shared, point);
+            }
+            let earlier = earlier.iter_mut().rev();
             for point in earlier.take_while(|point| !point.x.is_empty()) {
                 if !kept.contains(&point.parameter) {
                     (point.x, point.y) = (Vec::new(), Vec::new());

@@ -1,5 +1,6 @@
 //! The eigenproblem of one harmonic as a function of one scalar `theta`.
 
+use super::follow::Eigenpair;
 use crate::fem::RayleighDamping;
 use crate::linalg::banded::{BandedLu, BandedMatrix};
 use crate::prestress::{FrictionPolynomial, HarmonicTangent};
@@ -23,6 +24,8 @@ pub(super) struct HarmonicProblem {
     stiffness: FrictionPolynomial,
     damping: Option<FrictionPolynomial>,
     pub rayleigh: RayleighDamping,
+    /// Leading unknowns that belong to the contact edge.
+    contact_count: usize,
 }
 
 /// The matrices at one friction value and their derivatives with respect to it, as bands of values.
@@ -41,6 +44,7 @@ impl HarmonicProblem {
     pub fn new(tangent: HarmonicTangent, is_standing: bool) -> Self {
         Self {
             harmonic: tangent.harmonic,
+            contact_count: tangent.contact_count,
             is_standing,
             dimension: tangent.mass[0].dimension(),
             half_bandwidth: tangent.mass[0].half_bandwidth(),
@@ -206,17 +210,44 @@ impl HarmonicProblem {
         factor * largest(&force) / ((size * size * m + size * c + k) * largest(x))
     }
 
+    /// How well rounded matrices determine an eigenvalue, see [`crate::cea::ComplexMode`].
+    pub fn uncertainty(&self, at: &Matrices, pair: &Eigenpair) -> f64 {
+        let lambda = self.eigenvalue(pair.theta);
+        let slope = dot(&pair.y, &self.apply_slope(at, pair.theta, &pair.x, false));
+        // dT/dlambda from dT/dtheta; of the reduced problem T(lambda) = (1 + beta lambda) (K - kappa M).
+        let [factor, rate] = if self.is_proportional() {
+            let factor = 1.0 + self.rayleigh.stiffness_coefficient * lambda;
+            [factor, self.eigenvalue_slope(pair.theta)]
+        } else {
+            [c64::new(1.0, 0.0); 2]
+        };
+        let [m, c, k] = at.norms;
+        let size = lambda.norm();
+        let scale = size * size * m + size * c + k;
+        f64::EPSILON * scale / ((factor * slope / rate).norm() * size)
+    }
+
+    /// Kinetic energy of the contact edge's nodes over the whole, see [`crate::cea::ComplexMode`].
+    pub fn contact_share(&self, x: &[c64]) -> f64 {
+        let part = |of: fn(&c64) -> f64| {
+            let x: Vec<f64> = x.iter().map(of).collect();
+            let momentum = self.mass[0].multiply(&x);
+            let energy = |last: usize| {
+                let pairs = x[..last].iter().zip(&momentum);
+                pairs.map(|(x, p)| x * p).sum::<f64>()
+            };
+            [energy(self.contact_count), energy(x.len())]
+        };
+        let (real, imaginary) = (part(|v| v.re), part(|v| v.im));
+        (real[0] + imaginary[0]) / (real[1] + imaginary[1])
+    }
+
     /// `lambda` with `Im >= 0` of the wave `+n`.
     pub fn eigenvalue(&self, theta: c64) -> c64 {
         if !self.is_proportional() {
             return theta;
         }
-        let RayleighDamping {
-            mass_coefficient: alpha,
-            stiffness_coefficient: beta,
-        } = self.rayleigh;
-        let half = (alpha + beta * theta) * 0.5;
-        I * (theta - half * half).sqrt() - half
+        self.rayleigh.eigenvalue(theta)
     }
 
     /// An isolated `kappa` of a standing harmonic, whose spectrum is its own conjugate, is real if it is
@@ -234,12 +265,8 @@ impl HarmonicProblem {
         if !self.is_proportional() {
             return c64::new(1.0, 0.0);
         }
-        let RayleighDamping {
-            mass_coefficient: alpha,
-            stiffness_coefficient: beta,
-        } = self.rayleigh;
-        let lambda = self.eigenvalue(theta);
-        -(1.0 + beta * lambda) / (2.0 * lambda + alpha + beta * theta)
+        self.rayleigh
+            .eigenvalue_slope(self.eigenvalue(theta), theta)
     }
 
     /// `factor A x` or `factor A^H x` of a band of values.

@@ -1,10 +1,11 @@
 //! All modes at one friction coefficient, each held to its residual in the full matrices.
 
 use super::edge::ContactEdge;
-use super::packed::PackedModes;
+use super::packed::{PackedModes, PackedVector};
 use super::reduced::{ReducedMode, ReducedModel};
 use super::structure::{Linearization, Side, StructureMatrices};
 use super::{EigenLimit, TRACKING_MARGIN};
+use crate::cea::keeping_ties;
 use crate::linalg::LinalgError;
 use crate::prestress::SlidingTangent;
 use faer::c64;
@@ -17,6 +18,10 @@ pub struct ModeCheck {
     pub residual: f64,
     /// `|T(lambda) x| / (|lambda|^2 |M x|)`: stricter, as it does not count the stiffest waves of the mesh.
     pub force_residual: f64,
+    /// See [`crate::cea::ComplexMode::uncertainty`].
+    pub uncertainty: f64,
+    /// See [`crate::cea::ComplexMode::contact_share`].
+    pub contact_share: f64,
     /// Displacements of the contact edge.
     pub edge: Vec<c64>,
     /// Largest displacement.
@@ -68,7 +73,7 @@ impl PointSolver<'_> {
     pub fn solve(&self, model: &ReducedModel, mu: f64) -> Result<SolvedPoint, LinalgError> {
         let modes = model.solve(mu, self.count + TRACKING_MARGIN)?;
         let wanted = match self.limit {
-            EigenLimit::Lowest(count) => count.min(modes.len()),
+            EigenLimit::Lowest(count) => keeping_ties(modes.iter().map(|m| m.eigenvalue.im), count),
             EigenLimit::BelowFrequency(hz) => modes
                 .iter()
                 .take_while(|m| m.eigenvalue.im < TAU * hz)
@@ -103,11 +108,36 @@ impl PointSolver<'_> {
                 ModeCheck {
                     residual: force / (scale * shape.norm()),
                     force_residual: force / inertia,
+                    uncertainty: f64::EPSILON * scale * length(&modes[j].left) / modulus,
+                    contact_share: self.contact_share(shape, packed.vector(j, &momenta)),
                     edge: self.edge.restrict(|unknown| shape.at(unknown)),
                     peak: shape.peak(),
                 }
             })
             .collect()
+    }
+
+    /// Kinetic energy of the contact edge's nodes over the whole. `momentum` is `M(mu) x`, which differs from
+    /// that of the body alone, `M(0) x`, in the rows of these nodes.
+    fn contact_share(&self, x: PackedVector<'_>, momentum: PackedVector<'_>) -> f64 {
+        let mass = &self.tangent.mass;
+        let (pattern, values) = (mass.pattern(), &mass.coefficients()[0]);
+        let along = |i: usize, p: c64| x.at(i).re * p.re + x.at(i).im * p.im;
+        let (mut edge, mut friction) = (0.0, 0.0);
+        let contact = [
+            &self.tangent.contact_tangential,
+            &self.tangent.contact_normal,
+        ];
+        for &i in contact.into_iter().flatten() {
+            let row = pattern.row(i).iter();
+            let own: c64 = row.map(|&(position, j)| x.at(j) * values[position]).sum();
+            edge += along(i, own);
+            friction += along(i, momentum.at(i) - own);
+        }
+        let whole: f64 = (0..pattern.dimension())
+            .map(|i| along(i, momentum.at(i)))
+            .sum();
+        edge / (whole - friction)
     }
 
     /// Shapes of `modes` over all nodal dofs, the largest displacement vector of length 1 and real there.
@@ -127,6 +157,10 @@ impl PointSolver<'_> {
             })
             .collect()
     }
+}
+
+fn length(vector: &[c64]) -> f64 {
+    vector.iter().map(|v| v.norm_sqr()).sum::<f64>().sqrt()
 }
 
 /// Scales a nodal vector so that its largest entry is 1.

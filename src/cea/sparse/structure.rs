@@ -49,9 +49,8 @@ impl Linearization {
     pub fn eigenvalue(self, s: c64) -> Option<c64> {
         match self {
             Self::Reduced(damping) => {
-                let kappa = s.inv();
-                let p = kappa * damping.stiffness_coefficient + damping.mass_coefficient;
-                upper_root(p, kappa)
+                let lambda = damping.eigenvalue(s.inv());
+                (lambda.im > 0.0).then_some(lambda)
             }
             Self::Companion { frequency_scale } => {
                 let nu = s.inv();
@@ -59,14 +58,6 @@ impl Linearization {
             }
         }
     }
-}
-
-/// Root with `Im > 0` of `lambda^2 + p lambda + q = 0`.
-fn upper_root(p: c64, q: c64) -> Option<c64> {
-    let half = p * 0.5;
-    let root = (q - half * half).sqrt() * c64::new(0.0, 1.0);
-    let candidates = [root - half, -root - half];
-    candidates.into_iter().find(|lambda| lambda.im > 0.0)
 }
 
 /// `K`, `C` and `M` at one friction coefficient, or their coefficients of one power of it.

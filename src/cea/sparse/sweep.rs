@@ -301,6 +301,8 @@ impl<'a> SparseSweep<'a> {
                     branch: label.branch,
                     direction,
                     residual: check.residual,
+                    uncertainty: check.uncertainty,
+                    contact_share: check.contact_share,
                     shape: shapes.next(),
                 }
             });

@@ -52,6 +52,7 @@ pub fn write_eigenvalues(out: &mut dyn Write, report: &CeaReport<'_>) -> io::Res
         "direction",
         "unstable",
         "residual",
+        "contact_share",
     ];
     let mut table = Table::new(out, &columns)?;
     for point in report.tabulated() {
@@ -68,6 +69,7 @@ pub fn write_eigenvalues(out: &mut dyn Write, report: &CeaReport<'_>) -> io::Res
                 mode.direction.to_string(),
                 mode.is_unstable().to_string(),
                 format_number(mode.residual),
+                format_number(mode.contact_share),
             ])?;
         }
     }
@@ -134,10 +136,30 @@ pub fn summary(report: &CeaReport<'_>, manifest: &Manifest) -> Value {
         "unstable_counts": unstable_counts,
         "critical_frictions": critical,
         "largest_residual": report.largest_residual(),
+        "modes_at_friction": own_modes(report),
         "base_state": report.base,
         "notes": report.notes,
         "manifest": manifest,
     })
+}
+
+/// The modes at the case's own friction coefficient, where it is one of those solved.
+fn own_modes(report: &CeaReport<'_>) -> Option<Vec<Value>> {
+    let own = report.base.friction_coefficient;
+    let mut points = report.sweep.points.iter();
+    let point = points.find(|point| point.friction_coefficient == own)?;
+    let modes = point.modes.iter().map(|mode| {
+        json!({
+            "harmonic": mode.harmonic,
+            "branch": mode.branch,
+            "direction": mode.direction,
+            "real_hz": mode.real_hz(),
+            "frequency_hz": mode.frequency_hz(),
+            "unstable": mode.is_unstable(),
+            "contact_share": mode.contact_share,
+        })
+    });
+    Some(modes.collect())
 }
 
 fn interval_object(interval: &UnstableInterval) -> Value {

@@ -12,8 +12,11 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// Files over all points.
-const OVER_ALL: [&str; 9] = [
+const OVER_ALL: [&str; 12] = [
     "points.csv",
+    "stability.csv",
+    "modes.csv",
+    "branches.csv",
     "summary.json",
     "report.html",
     "figures/critical-friction.svg",
@@ -43,7 +46,7 @@ pub enum Start {
 /// ```text
 /// manifest.json              case text, overrides, hash: whose folder it is
 /// points/point-000001.json   one whole file for each finished point
-/// points.csv, summary.json   over all points, as are the figures
+/// points.csv, summary.json   over all points, as are stability.csv, modes.csv, branches.csv and the figures
 /// ```
 ///
 /// Processes share the folder: each holds the lock file shared, so that no other command takes the

@@ -2,12 +2,14 @@
 
 mod figures;
 mod folder;
+mod long;
 mod record;
 mod report;
 mod table;
 
 pub use figures::{SweepDrawing, draw};
 pub use folder::{Claim, Start, SweepFolder};
+pub use long::{LONG_TABLES, LongTable};
 pub use record::PointRecord;
 pub use report::{SweepReport, print, summary, swept_text};
 pub use table::write_points;

@@ -10,11 +10,12 @@ use std::io::{self, Write};
 const LONGEST_LIST: usize = 16;
 
 /// What a table over many points leaves out of a summary: what is the same for all of them, and
-/// what the clock says, so that the table does not depend on who computed it and how fast; and the branches of limit
-/// cycles, which are tables of their own.
-const LEFT_OUT: [&str; 7] = [
+/// what the clock says, so that the table does not depend on who computed it and how fast; and the modes and the
+/// branches of limit cycles, which are tables of their own.
+const LEFT_OUT: [&str; 8] = [
     "command",
     "curves",
+    "modes_at_friction",
     "title",
     "manifest",
     "notes",
@@ -24,7 +25,9 @@ const LEFT_OUT: [&str; 7] = [
 
 /// Writes the table: swept keys, the scalars of the summaries, `point` and `error`.
 ///
-/// A scalar inside an object or a list has a dotted name, `status.stick`, `growth.0.rate_per_s`.
+/// A scalar inside an object or a list has a dotted name, `status.stick`, `harmonics.0`; an item of a list that is a
+/// mode goes by the mode and not by its rank, so that a column has one mode in all rows:
+/// `critical_frictions.n1_b1_against.critical_friction`, `cycles.n2.main_frequency_hz`.
 /// With more than one analysis to a point the name begins with the analysis. The bytes depend on
 /// the points alone, not on the order or the number of processes and threads that made them.
 ///
@@ -116,13 +119,38 @@ fn flatten(
             let length = longest.entry(path.to_owned()).or_default();
             *length = items.len().max(*length);
             if items.len() <= LONGEST_LIST {
+                let mut names: Vec<String> = Vec::new();
                 for (index, item) in items.iter().enumerate() {
-                    flatten(&join(path, &index.to_string()), item, out, longest);
+                    let name = item_name(item).unwrap_or_else(|| index.to_string());
+                    let earlier = names.iter().filter(|known| **known == name).count();
+                    let again = match earlier {
+                        0 => name.clone(),
+                        _ => format!("{name}_again{earlier}"),
+                    };
+                    flatten(&join(path, &again), item, out, longest);
+                    names.push(name);
                 }
             }
         }
         scalar => out.push((path.to_owned(), cell(scalar))),
     }
+}
+
+/// Name of a list's item that is a mode: harmonic, branch (or onset) and direction.
+fn item_name(item: &Value) -> Option<String> {
+    let number = |key: &str| item.get(key).and_then(Value::as_i64);
+    let mut name = format!("n{}", number("harmonic")?);
+    for (key, letter) in [("branch", 'b'), ("onset", 'o')] {
+        if let Some(rank) = number(key) {
+            name += &format!("_{letter}{rank}");
+        }
+    }
+    name += match number("direction") {
+        Some(1) => "_with",
+        Some(-1) => "_against",
+        _ => "",
+    };
+    Some(name)
 }
 
 fn join(path: &str, key: &str) -> String {
@@ -195,12 +223,33 @@ mod tests {
     fn nested_scalars_have_dotted_names_and_the_clock_is_left_out() {
         let summary = json!({
             "steps": 10, "wall_s": 3.0, "status": { "stick": 0.25 },
-            "growth": [{ "rate_per_s": 1e-7 }], "notes": ["slow"]
+            "growth": [{ "rate_per_s": 1e-7, "harmonic": 2 }], "notes": ["slow"]
         });
         assert_eq!(
             table(&[record(1, summary)]),
-            "contact.friction_coefficient,steps,status.stick,growth.0.rate_per_s,point,error\n\
-             0.3,10,0.25,1e-7,1,\n"
+            "contact.friction_coefficient,steps,status.stick,growth.n2.rate_per_s,growth.n2.harmonic,\
+             point,error\n0.3,10,0.25,1e-7,2,1,\n"
+        );
+    }
+
+    #[test]
+    fn a_column_has_one_mode_in_all_rows_whatever_its_rank() {
+        let onset = |branch: usize, mu: f64| json!({ "harmonic": 1, "branch": branch, "direction": -1, "critical_friction": mu });
+        let both = record(1, json!({ "onsets": [onset(1, 0.1), onset(0, 0.2)] }));
+        let one = record(2, json!({ "onsets": [onset(0, 0.15)] }));
+        let text = table(&[both, one]);
+        let rows: Vec<Vec<&str>> = text.lines().map(|row| row.split(',').collect()).collect();
+        let column = |name: &str| {
+            let at = rows[0].iter().position(|known| *known == name).unwrap();
+            [rows[1][at], rows[2][at]]
+        };
+        assert_eq!(
+            column("onsets.n1_b0_against.critical_friction"),
+            ["0.2", "0.15"]
+        );
+        assert_eq!(
+            column("onsets.n1_b1_against.critical_friction"),
+            ["0.1", ""]
         );
     }
 
