@@ -39,11 +39,12 @@
 //!
 //! # Floors
 //!
-//! Each module names only those below it: [`linalg`], [`mesh`], [`signal`]; [`fem`]; [`contact`]; [`prestress`];
+//! Each module names only those below it: [`linalg`], [`mesh`], [`signal`], [`chart`]; [`fem`]; [`contact`]; [`prestress`];
 //! [`cea`], [`transient`], [`frf`], [`cycle`]; [`case`], [`results`]; [`app`].
 
 pub mod case;
 pub mod cea;
+pub mod chart;
 pub mod contact;
 pub mod cycle;
 pub mod fem;

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 /// Modules by floor, lowest first.
 const FLOORS: [&[&str]; 7] = [
-    &["linalg", "mesh", "signal"],
+    &["linalg", "mesh", "signal", "chart"],
     &["fem"],
     &["contact"],
     &["prestress"],

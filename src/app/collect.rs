@@ -1,10 +1,11 @@
 //! `frictionsim collect`: the table over the points that a sweep has finished so far.
 
+use super::figure_options::FigureOptions;
 use super::plot::recorded_case;
 use super::session::start_threads;
 use super::sweep::{SweepPlan, drawing, finished_points, gather};
 use super::{Failure, terminal};
-use crate::results::DOTS_PER_INCH;
+use crate::results::DrawingOptions;
 use crate::results::sweep::{SweepFolder, SweepReport, draw, print};
 use clap::{Args, ValueHint};
 use std::path::{Path, PathBuf};
@@ -24,6 +25,8 @@ pub struct Arguments {
     /// Draw no figures
     #[arg(long)]
     no_figures: bool,
+    #[command(flatten)]
+    figures: FigureOptions,
 }
 
 /// Runs the subcommand.
@@ -47,7 +50,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         ran: None,
         wall_s: start.elapsed().as_secs_f64(),
     };
-    let drawing = (!arguments.no_figures).then(|| drawing(&case, &plan, DOTS_PER_INCH));
+    let drawing =
+        (!arguments.no_figures).then(|| drawing(&case, &plan, &arguments.figures.drawing()));
     let summary = gather(&folder, &report, &manifest, drawing.as_ref())?;
     if arguments.json {
         terminal::print_json(&summary)?;
@@ -68,7 +72,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 ///
 /// # Errors
 /// A folder that is no sweep's or cannot be written.
-pub fn redraw(path: &Path, dots_per_inch: f64) -> Result<(), Failure> {
+pub fn redraw(path: &Path, options: &DrawingOptions) -> Result<(), Failure> {
     let (folder, manifest) = SweepFolder::find(path)?;
     let case = recorded_case(&manifest)?;
     let plan = SweepPlan::new(&case)?;
@@ -83,11 +87,6 @@ pub fn redraw(path: &Path, dots_per_inch: f64) -> Result<(), Failure> {
         ran: None,
         wall_s: 0.0,
     };
-    draw(
-        &folder,
-        &report,
-        &manifest,
-        &drawing(&case, &plan, dots_per_inch),
-    )?;
+    draw(&folder, &report, &manifest, &drawing(&case, &plan, options))?;
     Ok(())
 }

@@ -8,7 +8,7 @@ use crate::cea::FrictionSweep;
 use crate::results::convergence::{
     ConvergenceReport, Quantity, Refinement, Series, draw, print, write,
 };
-use crate::results::{DOTS_PER_INCH, Manifest, OutputFolder, read_record};
+use crate::results::{DrawingOptions, Manifest, OutputFolder, read_record};
 use clap::Args;
 use rayon::prelude::*;
 use serde_json::Value;
@@ -70,7 +70,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     let summary = write(&folder, &report)?;
     if !session.options.no_figures {
-        draw(&folder, &report, DOTS_PER_INCH)?;
+        draw(&folder, &report, &session.options.figures.drawing())?;
     }
     let path = folder.path().to_owned();
     folder.finish()?;
@@ -81,9 +81,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 ///
 /// # Errors
 /// A folder without a whole record; those of the drawing and of the folder.
-pub fn redraw(folder: &OutputFolder, dots_per_inch: f64) -> Result<(), Failure> {
+pub fn redraw(folder: &OutputFolder, options: &DrawingOptions) -> Result<(), Failure> {
     let report: ConvergenceReport = read_record(folder.path())?;
-    draw(folder, &report, dots_per_inch)?;
+    draw(folder, &report, options)?;
     Ok(())
 }
 

@@ -8,9 +8,9 @@ pub use figures::redraw;
 
 use super::{Failure, RunOptions, Session, terminal};
 use crate::case::Case;
+use crate::results::Manifest;
 use crate::results::cycle::{CycleResult, print, write};
 use crate::results::cycle_confirmation::doubt;
-use crate::results::{DOTS_PER_INCH, Manifest};
 use clap::Args;
 use search::Search;
 use serde_json::Value;
@@ -48,7 +48,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     let summary = write(&folder, &report)?;
     if !session.options.no_figures {
-        figures::redraw(&folder, case, &summary, DOTS_PER_INCH)?;
+        figures::redraw(&folder, case, &summary, &session.options.figures.drawing())?;
     }
     let path = folder.path().to_owned();
     folder.finish()?;

@@ -13,7 +13,7 @@ use crate::prestress::{
     DampingModel, SectorTangent, SlidingTangent, SteadySliding, TangentOptions,
 };
 use crate::results::{
-    DOTS_PER_INCH, OutputFolder, RESPONSE_TABLE, draw_response_report, write_response,
+    DrawingOptions, OutputFolder, RESPONSE_TABLE, draw_response_report, write_response,
 };
 use crate::signal::reader::read_response;
 use clap::Args;
@@ -78,7 +78,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         out.write_all(b"\n")
     })?;
     if !session.options.no_figures {
-        redraw(&folder, &summary, DOTS_PER_INCH)?;
+        redraw(&folder, &summary, &session.options.figures.drawing())?;
     }
     let path = folder.path().to_owned();
     folder.finish()?;
@@ -89,13 +89,17 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 ///
 /// # Errors
 /// A folder without a table that can be read; those of the drawing and of the folder.
-pub fn redraw(folder: &OutputFolder, summary: &Value, dots_per_inch: f64) -> Result<(), Failure> {
+pub fn redraw(
+    folder: &OutputFolder,
+    summary: &Value,
+    options: &DrawingOptions,
+) -> Result<(), Failure> {
     let path = folder.path().join(RESPONSE_TABLE);
     let name = path.display().to_string();
     let bytes = std::fs::read(&path)
         .map_err(|error| Failure::usage(format!("cannot read {name}: {error}")))?;
     let file = read_response(&bytes, &name, None)?;
-    draw_response_report(folder, &file.response, summary, dots_per_inch)?;
+    draw_response_report(folder, &file.response, summary, options)?;
     Ok(())
 }
 

@@ -5,7 +5,7 @@ use super::measurement::{Measurement, OutputOptions};
 use crate::results::identification::{
     IdentificationRecord, IdentificationReport, draw_report, print, write,
 };
-use crate::results::{DOTS_PER_INCH, OutputFolder, read_record, write_record};
+use crate::results::{DrawingOptions, OutputFolder, read_record, write_record};
 use crate::signal::reader::read_response;
 use crate::signal::{IdentificationOptions, ResponseQuantity, identify};
 use clap::{Args, ValueEnum, ValueHint};
@@ -87,7 +87,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let summary = write(&folder, &report)?;
     write_record(&folder, &IdentificationRecord::of(&file.response, &found))?;
     if !arguments.output.no_figures {
-        redraw(&folder, &summary, DOTS_PER_INCH)?;
+        redraw(&folder, &summary, &arguments.output.figures.drawing())?;
     }
     folder.finish()?;
     measurement.print(&print(&report), &summary)
@@ -97,9 +97,13 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 ///
 /// # Errors
 /// A folder without a whole record; those of the folder.
-pub fn redraw(folder: &OutputFolder, summary: &Value, dots_per_inch: f64) -> Result<(), Failure> {
+pub fn redraw(
+    folder: &OutputFolder,
+    summary: &Value,
+    options: &DrawingOptions,
+) -> Result<(), Failure> {
     let record: IdentificationRecord = read_record(folder.path())?;
-    if let Some(error) = draw_report(folder, &record, summary, dots_per_inch)? {
+    if let Some(error) = draw_report(folder, &record, summary, options)? {
         tracing::warn!("figure left out: {error}");
     }
     Ok(())

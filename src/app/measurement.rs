@@ -1,5 +1,6 @@
 //! What the commands on measured tables share: options, reading the file, the output folder.
 
+use super::figure_options::FigureOptions;
 use super::{Failure, terminal};
 use crate::results::{Manifest, OutputFolder, Replace};
 use crate::signal::reader::ReadError;
@@ -29,6 +30,9 @@ pub struct OutputOptions {
     /// Draw no figures
     #[arg(long)]
     pub no_figures: bool,
+    /// How figures are drawn
+    #[command(flatten)]
+    pub figures: FigureOptions,
     /// Replace an output folder of another table
     #[arg(long)]
     pub force: bool,

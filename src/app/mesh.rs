@@ -25,7 +25,12 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let statistics = MeshStatistics::new(&annulus);
     write_mesh(&folder, &annulus.mesh)?;
     if !session.options.no_figures {
-        write_mesh_picture(&folder, &annulus, &session.case.title)?;
+        write_mesh_picture(
+            &folder,
+            &annulus,
+            &session.case.title,
+            &session.options.figures.drawing(),
+        )?;
     }
     let summary = json!({
         "command": "mesh",

@@ -7,6 +7,7 @@ mod completions;
 mod convergence;
 pub mod cycle;
 mod failure;
+mod figure_options;
 mod frf;
 mod identify;
 mod init;

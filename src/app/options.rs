@@ -1,5 +1,6 @@
 //! Options that every running subcommand shares.
 
+use super::figure_options::FigureOptions;
 use clap::{Args, ValueEnum, ValueHint};
 use std::path::PathBuf;
 
@@ -35,6 +36,9 @@ pub struct RunOptions {
     /// Draw no figures
     #[arg(long)]
     pub no_figures: bool,
+    /// How figures are drawn
+    #[command(flatten)]
+    pub figures: FigureOptions,
     /// Replace an output folder of a different case
     #[arg(long)]
     pub force: bool,

@@ -1,12 +1,13 @@
 //! `frictionsim plot`: the figures of a results folder once more.
 
+use super::figure_options::FigureOptions;
 use super::session::start_threads;
 use super::{
     Failure, cea, collect, convergence, cycle, frf, identify, signal, terminal, transient,
 };
 use crate::case::{Case, RawCase};
 use crate::results::{
-    DOTS_PER_INCH, FolderError, Manifest, OutputFolder, read_manifest, read_summary,
+    DrawingOptions, FolderError, Manifest, OutputFolder, read_manifest, read_summary,
 };
 use clap::{Args, ValueHint};
 use std::path::{Path, PathBuf};
@@ -21,22 +22,14 @@ pub struct Arguments {
     /// Results folder
     #[arg(value_name = "DIR", value_hint = ValueHint::DirPath)]
     folder: PathBuf,
-    /// Resolution of the PNG files, dots per inch
-    #[arg(long, value_name = "DPI", default_value_t = DOTS_PER_INCH, value_parser = resolution)]
-    dpi: f64,
+    #[command(flatten)]
+    figures: FigureOptions,
     /// Worker threads [default: all cores]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
     /// No progress, no log but errors
     #[arg(long, short)]
     quiet: bool,
-}
-
-fn resolution(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(dpi) if (20.0..=1200.0).contains(&dpi) => Ok(dpi),
-        _ => Err("20 to 1200 dots per inch".to_owned()),
-    }
 }
 
 /// Runs the subcommand.
@@ -55,17 +48,17 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             manifest.version
         );
     }
-    redraw(path, &manifest, arguments.dpi)?;
+    redraw(path, &manifest, &arguments.figures.drawing())?;
     let figures = path.join("figures");
     terminal::print(&format!("figures in {}\n", figures.display()))
 }
 
 /// Draws the figures of a folder as its command does.
-fn redraw(path: &Path, manifest: &Manifest, dots_per_inch: f64) -> Result<(), Failure> {
+fn redraw(path: &Path, manifest: &Manifest, options: &DrawingOptions) -> Result<(), Failure> {
     let command = manifest.command.as_str();
     match command {
         // A sweep's folder has its own lock and list of files.
-        "sweep" => return collect::redraw(path, dots_per_inch),
+        "sweep" => return collect::redraw(path, options),
         "cea" | "transient" | "cycle" | "convergence" | "frf" | "identify" | "signal" => {}
         other => {
             let reason =
@@ -79,13 +72,13 @@ fn redraw(path: &Path, manifest: &Manifest, dots_per_inch: f64) -> Result<(), Fa
     let case = || recorded_case(manifest);
     let folder = OutputFolder::reopen(path)?;
     match command {
-        "cea" => cea::redraw(&folder, &case()?, &summary, dots_per_inch)?,
-        "transient" => transient::redraw(&folder, &case()?, &summary, dots_per_inch)?,
-        "cycle" => cycle::redraw(&folder, &case()?, &summary, dots_per_inch)?,
-        "convergence" => convergence::redraw(&folder, dots_per_inch)?,
-        "frf" => frf::redraw(&folder, &summary, dots_per_inch)?,
-        "identify" => identify::redraw(&folder, &summary, dots_per_inch)?,
-        _ => signal::redraw(&folder, &summary, dots_per_inch)?,
+        "cea" => cea::redraw(&folder, &case()?, &summary, options)?,
+        "transient" => transient::redraw(&folder, &case()?, &summary, options)?,
+        "cycle" => cycle::redraw(&folder, &case()?, &summary, options)?,
+        "convergence" => convergence::redraw(&folder, options)?,
+        "frf" => frf::redraw(&folder, &summary, options)?,
+        "identify" => identify::redraw(&folder, &summary, options)?,
+        _ => signal::redraw(&folder, &summary, options)?,
     }
     Ok(folder.finish()?)
 }

@@ -11,7 +11,7 @@ use crate::prestress::{DampingModel, TangentOptions};
 use crate::results::signal::{
     ChannelRecord, ChannelSummary, ModeSummary, SignalRecord, SignalSummary, draw_report, write,
 };
-use crate::results::{DOTS_PER_INCH, FolderError, OutputFolder, read_record, write_record};
+use crate::results::{DrawingOptions, FolderError, OutputFolder, read_record, write_record};
 use crate::signal::reader::{Channel, SignalFile, read_signal};
 use crate::signal::{
     AmplitudeSpectrum, SignalError, SpectralResolution, Window, averaged_spectrum,
@@ -129,7 +129,12 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let record = record(arguments, &file, &selected, &summary, &modes, spectra);
     write_record(&folder, &record)?;
     if !arguments.output.no_figures {
-        draw_all(&folder, &record, &summary, DOTS_PER_INCH)?;
+        draw_all(
+            &folder,
+            &record,
+            &summary,
+            &arguments.output.figures.drawing(),
+        )?;
     }
     folder.finish()?;
     let object = serde_json::to_value(&summary).map_err(Failure::run)?;
@@ -312,22 +317,26 @@ fn record(
 ///
 /// # Errors
 /// A folder without a whole record or summary; those of the drawing and of the folder.
-pub fn redraw(folder: &OutputFolder, summary: &Value, dots_per_inch: f64) -> Result<(), Failure> {
+pub fn redraw(
+    folder: &OutputFolder,
+    summary: &Value,
+    options: &DrawingOptions,
+) -> Result<(), Failure> {
     let record: SignalRecord = read_record(folder.path())?;
     let summary = SignalSummary::deserialize(summary).map_err(|error| FolderError::NotResults {
         path: folder.path().to_owned(),
         reason: format!("its summary.json is not whole ({error}): run it again"),
     })?;
-    draw_all(folder, &record, &summary, dots_per_inch)
+    draw_all(folder, &record, &summary, options)
 }
 
 fn draw_all(
     folder: &OutputFolder,
     record: &SignalRecord,
     summary: &SignalSummary,
-    dots_per_inch: f64,
+    options: &DrawingOptions,
 ) -> Result<(), Failure> {
-    for reason in draw_report(folder, record, summary, dots_per_inch)? {
+    for reason in draw_report(folder, record, summary, options)? {
         tracing::warn!("{reason}");
     }
     Ok(())

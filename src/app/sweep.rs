@@ -14,7 +14,7 @@ use super::{Failure, RunOptions, Session, terminal};
 use crate::case::{Analysis, Case};
 use crate::results::sweep::{LONG_TABLES, draw, print, summary, write_points};
 use crate::results::sweep::{PointRecord, Start, SweepDrawing, SweepFolder, SweepReport};
-use crate::results::{DOTS_PER_INCH, Manifest};
+use crate::results::{DrawingOptions, Manifest};
 use clap::Args;
 use serde_json::Value;
 
@@ -78,7 +78,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     let summary = if report.missing().is_empty() {
         let is_drawn = !arguments.options.no_figures;
-        let drawing = is_drawn.then(|| drawing(&session.case, &plan, DOTS_PER_INCH));
+        let drawing =
+            is_drawn.then(|| drawing(&session.case, &plan, &arguments.options.figures.drawing()));
         gather(&folder, &report, &session.manifest, drawing.as_ref())?
     } else {
         summary(&report, &session.manifest)
@@ -119,7 +120,7 @@ pub fn finished_points(folder: &SweepFolder, count: usize) -> Result<Vec<PointRe
 
 /// What the figures of a study need besides its points: the modes of the case at its own friction, if
 /// the points are transients that differ in speed or friction alone, and its range of friction.
-pub fn drawing(case: &Case, plan: &SweepPlan<'_>, dots_per_inch: f64) -> SweepDrawing {
+pub fn drawing(case: &Case, plan: &SweepPlan<'_>, options: &DrawingOptions) -> SweepDrawing {
     let is_same_body = |key: &String| key.starts_with("contact.");
     let has_modes =
         plan.analyses.contains(&Analysis::Transient) && plan.keys().iter().all(is_same_body);
@@ -132,7 +133,7 @@ pub fn drawing(case: &Case, plan: &SweepPlan<'_>, dots_per_inch: f64) -> SweepDr
             Vec::new()
         },
         highest_friction: cea.into_iter().flatten().copied().fold(own, f64::max),
-        dots_per_inch,
+        options: options.clone(),
     }
 }
 

@@ -17,7 +17,7 @@ use crate::results::transient::{
     CHECKPOINT, Checkpoint, CheckpointError, TransientReport, print, read_checkpoint, summary,
     write, write_checkpoint,
 };
-use crate::results::{DOTS_PER_INCH, Manifest, OutputFolder};
+use crate::results::{Manifest, OutputFolder};
 use crate::transient::{
     CentralDifference, InitialState, Recorder, RunEnd, StepPlan, TransientAnalysis, TransientModel,
     TransientSettings, build_operator,
@@ -182,7 +182,13 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         return Err(stopped(folder, &loop_));
     }
     if !arguments.options.no_figures {
-        figures::draw_record(&folder, &prepared, &record, &summary, DOTS_PER_INCH)?;
+        figures::draw_record(
+            &folder,
+            &prepared,
+            &record,
+            &summary,
+            &arguments.options.figures.drawing(),
+        )?;
     }
     folder.discard(CHECKPOINT);
     let path = folder.path().to_owned();

@@ -1,6 +1,6 @@
 //! What a mesh looks like: statistics, VTU, outline picture.
 
-use super::drawing::{DOTS_PER_INCH, DrawingError, write_figures};
+use super::drawing::{DrawingError, DrawingOptions, write_figures};
 use super::folder::{FolderError, OutputFolder};
 use super::report::NamedFigure;
 use super::vtu::{EncodedMesh, Field, write_vtu};
@@ -138,13 +138,14 @@ pub fn write_mesh_picture(
     folder: &OutputFolder,
     annulus: &AnnulusMesh,
     title: &str,
+    options: &DrawingOptions,
 ) -> Result<(), DrawingError> {
     let figure = NamedFigure {
         name: "mesh".into(),
         caption: title.into(),
         svg: picture(annulus, title),
     };
-    write_figures(folder, &[figure], DOTS_PER_INCH)
+    write_figures(folder, &[figure], options)
 }
 
 fn picture(annulus: &AnnulusMesh, title: &str) -> String {

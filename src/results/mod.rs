@@ -1,6 +1,7 @@
 //! Result files: tables, fields, figures, manifest.
 
 pub mod cea;
+pub mod charts;
 pub mod convergence;
 pub mod cycle;
 pub mod cycle_confirmation;
@@ -29,7 +30,8 @@ pub mod transient;
 mod vtu;
 
 pub use drawing::{
-    DOTS_PER_INCH, DrawingError, FigureFile, figure_files, write_figures, write_report,
+    DOTS_PER_INCH, DrawingError, DrawingOptions, FigureFile, Format, figure_files, write_figures,
+    write_report,
 };
 pub use folder::{FolderError, OutputFolder, Replace};
 pub use manifest::Manifest;

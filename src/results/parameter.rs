@@ -1,26 +1,31 @@
 //! How case keys are named on the axes of figures.
 
-use super::figures::text::literal;
+use crate::chart::{Axis, literal};
 
-/// Title of an axis over the values of a case key: quantity, symbol and unit; the key itself where it is not one of those
-/// that studies go over.
-pub fn parameter_title(key: &str) -> String {
-    let known = match key {
-        "geometry.inner_radius" => "inner radius *a* (m)",
-        "geometry.outer_radius" => "outer radius (m)",
-        "geometry.thickness" => "thickness (m)",
-        "material.young_modulus" => "Young's modulus *E* (Pa)",
-        "material.poisson_ratio" => "Poisson's ratio *ν* (–)",
-        "material.density" => "density *ρ* (kg/m³)",
-        "damping.mass_coefficient" => "mass damping *α*_{R} (1/s)",
-        "damping.stiffness_coefficient" => "stiffness damping *β*_{R} (s)",
-        "contact.friction_coefficient" => "friction coefficient *μ* (–)",
-        "contact.interference" => "interference *δ* (m)",
-        "contact.rotation_speed_rpm" => "rotation speed *Ω* (rpm)",
-        "contact.normal_stiffness" => "contact stiffness *k*_{n} (Pa/m)",
-        "contact.normal_damping" => "normal contact damping (Pa s/m)",
-        "contact.tangential_damping" => "tangential contact damping (Pa s/m)",
-        other => return literal(other),
+/// An axis over the values of a case key: quantity, symbol and unit; the key itself where it is not one of those that
+/// studies go over.
+pub fn parameter_axis(key: &str) -> Axis {
+    let (quantity, unit) = match key {
+        "geometry.inner_radius" => ("inner radius *a*", "m"),
+        "geometry.outer_radius" => ("outer radius", "m"),
+        "geometry.thickness" => ("thickness", "m"),
+        "material.young_modulus" => ("Young's modulus *E*", "Pa"),
+        "material.poisson_ratio" => ("Poisson's ratio *ν*", "–"),
+        "material.density" => ("density *ρ*", "kg/m³"),
+        "damping.mass_coefficient" => ("mass damping *α*_{R}", "1/s"),
+        "damping.stiffness_coefficient" => ("stiffness damping *β*_{R}", "s"),
+        "contact.friction_coefficient" => ("friction coefficient *μ*", "–"),
+        "contact.interference" => ("interference *δ*", "m"),
+        "contact.rotation_speed_rpm" => ("rotation speed *Ω*", "rpm"),
+        "contact.normal_stiffness" => ("contact stiffness *k*_{n}", "Pa/m"),
+        "contact.normal_damping" => ("normal contact damping", "Pa s/m"),
+        "contact.tangential_damping" => ("tangential contact damping", "Pa s/m"),
+        other => return Axis::new(&literal(other), ""),
     };
-    known.to_owned()
+    Axis::new(quantity, unit)
+}
+
+/// Title of the same axis.
+pub fn parameter_title(key: &str) -> String {
+    parameter_axis(key).title()
 }

@@ -1,6 +1,6 @@
 //! Table, figure and report of a computed frequency response.
 
-use super::drawing::{DrawingError, write_report};
+use super::drawing::{DrawingError, DrawingOptions, write_report};
 use super::figures::{ResponsePlot, draw_response};
 use super::folder::{FolderError, OutputFolder};
 use super::identification::unit_of;
@@ -47,7 +47,7 @@ pub fn draw_response_report(
     folder: &OutputFolder,
     response: &FrequencyResponse,
     summary: &Value,
-    dots_per_inch: f64,
+    options: &DrawingOptions,
 ) -> Result<(), DrawingError> {
     let figure = NamedFigure {
         name: "response".into(),
@@ -69,5 +69,5 @@ pub fn draw_response_report(
         }],
         manifest: folder.manifest().clone(),
     };
-    write_report(folder, &report, dots_per_inch)
+    write_report(folder, &report, options)
 }

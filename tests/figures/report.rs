@@ -3,7 +3,7 @@
 use crate::synthetic;
 use frictionsim::fem::{NodalStress, RayleighDamping};
 use frictionsim::results::cea::{BaseField, BaseState, CeaReport, draw};
-use frictionsim::results::{DOTS_PER_INCH, Manifest, OutputFolder, Replace};
+use frictionsim::results::{DrawingOptions, Manifest, OutputFolder, Replace};
 use std::time::Instant;
 
 #[test]
@@ -74,7 +74,7 @@ fn report_of_an_eigenvalue_analysis_holds_every_figure_table_and_the_case() {
     let path = std::path::PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("report");
     let folder = OutputFolder::open(&path, &manifest, Replace::Anything).unwrap();
     let start = Instant::now();
-    draw(&folder, &report, damping, DOTS_PER_INCH).unwrap();
+    draw(&folder, &report, damping, &DrawingOptions::default()).unwrap();
     println!("figures and report in {:?}", start.elapsed());
     folder.finish().unwrap();
     let text = std::fs::read_to_string(path.join("report.html")).unwrap();

@@ -10,7 +10,7 @@ use crate::case::{Case, Cea, ModeSelection};
 use crate::cea::FrictionSweep;
 use crate::cea::cyclic;
 use crate::results::cea::{BaseField, CeaReport, SensitivityReport, draw, print, summary, write};
-use crate::results::{DOTS_PER_INCH, Manifest, OutputFolder};
+use crate::results::{DrawingOptions, Manifest, OutputFolder};
 use clap::Args;
 use indicatif::ProgressBar;
 use serde_json::Value;
@@ -82,7 +82,12 @@ fn run_with(
     };
     let summary = write(&folder, &report)?;
     if !session.options.no_figures {
-        draw(&folder, &report, case.damping.rayleigh, DOTS_PER_INCH)?;
+        draw(
+            &folder,
+            &report,
+            case.damping.rayleigh,
+            &session.options.figures.drawing(),
+        )?;
     }
     let path = folder.path().to_owned();
     folder.finish()?;
@@ -98,7 +103,7 @@ pub fn redraw(
     folder: &OutputFolder,
     case: &Case,
     summary: &Value,
-    dots_per_inch: f64,
+    options: &DrawingOptions,
 ) -> Result<(), Failure> {
     let cea = case.require_cea()?;
     let model = SlidingModel::new(case, cea)?;
@@ -111,7 +116,7 @@ pub fn redraw(
         map: map.as_ref(),
         ..report(case, cea, &model, &solution, &field, wall_s)
     };
-    draw(folder, &report, case.damping.rayleigh, dots_per_inch)?;
+    draw(folder, &report, case.damping.rayleigh, options)?;
     Ok(())
 }
 
@@ -205,6 +210,7 @@ fn refuse_no_modes(case: &Case, cea: &Cea, sweep: &FrictionSweep) -> Result<(), 
 mod tests {
     use super::*;
     use crate::app::SimdChoice;
+    use crate::app::figure_options::FigureOptions;
     use crate::cea::{ComplexMode, FrictionPoint};
     use faer::c64;
     use std::f64::consts::TAU;
@@ -224,6 +230,7 @@ mod tests {
                 simd: SimdChoice::Auto,
                 quiet: true,
                 no_figures: false,
+                figures: FigureOptions::default(),
                 force: false,
             },
         }

@@ -4,7 +4,7 @@ use crate::app::Failure;
 use crate::case::Case;
 use crate::mesh::AnnulusMesh;
 use crate::results::cycle_figures::{CycleFigures, CycleRecord, draw};
-use crate::results::{OutputFolder, read_record};
+use crate::results::{DrawingOptions, OutputFolder, read_record};
 use serde_json::Value;
 
 /// Draws the figures of a folder from its `record.bin`.
@@ -15,7 +15,7 @@ pub fn redraw(
     folder: &OutputFolder,
     case: &Case,
     summary: &Value,
-    dots_per_inch: f64,
+    options: &DrawingOptions,
 ) -> Result<(), Failure> {
     let record: CycleRecord = read_record(folder.path())?;
     let annulus = AnnulusMesh::generate(&case.annulus).map_err(Failure::usage)?;
@@ -26,6 +26,6 @@ pub fn redraw(
         contact: case.contact.sliding,
         inner_radius: case.annulus.inner_radius,
     };
-    draw(folder, &data, summary, dots_per_inch)?;
+    draw(folder, &data, summary, options)?;
     Ok(())
 }

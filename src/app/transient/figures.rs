@@ -4,10 +4,10 @@ use super::Prepared;
 use crate::app::Failure;
 use crate::app::linear_stage::LinearStage;
 use crate::case::Case;
-use crate::results::OutputFolder;
 use crate::results::read_record;
 use crate::results::run_figures::RunFigures;
 use crate::results::transient::draw;
+use crate::results::{DrawingOptions, OutputFolder};
 use crate::transient::{Recorder, TransientAnalysis};
 use serde_json::Value;
 
@@ -20,7 +20,7 @@ pub(super) fn draw_record(
     prepared: &Prepared<'_>,
     record: &Recorder,
     summary: &Value,
-    dots_per_inch: f64,
+    options: &DrawingOptions,
 ) -> Result<(), Failure> {
     let case = prepared.case;
     let sliding = &case.contact.sliding;
@@ -35,7 +35,7 @@ pub(super) fn draw_record(
         references: stage.references,
         growth_rates: stage.growth_rates,
     };
-    draw(folder, &run, summary, dots_per_inch)?;
+    draw(folder, &run, summary, options)?;
     Ok(())
 }
 
@@ -47,9 +47,9 @@ pub fn redraw(
     folder: &OutputFolder,
     case: &Case,
     summary: &Value,
-    dots_per_inch: f64,
+    options: &DrawingOptions,
 ) -> Result<(), Failure> {
     let prepared = Prepared::new(case, "scalar")?;
     let record: Recorder = read_record(folder.path())?;
-    draw_record(folder, &prepared, &record, summary, dots_per_inch)
+    draw_record(folder, &prepared, &record, summary, options)
 }

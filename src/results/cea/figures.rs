@@ -1,22 +1,26 @@
 //! The figures of an eigenvalue analysis.
 
+use super::shape::{ModeShape, shape_panel};
 use super::{CeaReport, direction_name, html_report};
-use crate::cea::{ComplexMode, FrictionPoint};
-use crate::fem::{NodalStress, RayleighDamping};
-use crate::results::drawing::{DrawingError, FigureJob, draw_figures, write_report};
-use crate::results::figures::{
-    EigenvalueLocus, FigureError, ModeShape, ModeShapes, PairSweep, PrestressedContact,
-    draw_eigenvalue_locus, draw_mode_over_friction, draw_mode_shapes, draw_pair_sweep,
-    draw_prestress,
+use crate::cea::{ComplexMode, FrictionSweep, UnstableInterval};
+use crate::chart::{
+    Axis, Bars, ChartError, ColourMap, Figure, INK, Label, Line, MUTED, Marker, Panel, Points,
+    Rule, SERIES, Side, Stroke, TextStyle, extremes, signed,
 };
+use crate::fem::{NodalStress, RayleighDamping};
+use crate::results::charts::Disc;
+use crate::results::charts::palette::{STABLE, UNSTABLE};
+use crate::results::drawing::{Declaration, DrawingError, DrawingOptions, draw_all, write_report};
 use crate::results::folder::OutputFolder;
+use std::collections::BTreeMap;
+use std::f64::consts::TAU;
 
 /// Branches whose shape is followed over friction, at most.
 const FOLLOWED_BRANCHES: usize = 4;
 
-/// Draws every figure that the report has data for into `figures/`, each as SVG and PNG, and writes
-/// `report.html`: eigenvalue locus with stability bars, pairs that turn unstable, base state, mode
-/// shapes, and the branches that turn unstable at every friction value that has shapes.
+/// Draws every figure that the report has data for into `figures/`, and writes `report.html`: eigenvalue locus with
+/// stability bars, pairs that turn unstable, base state, mode shapes, the branches that turn unstable at every friction
+/// value that has shapes, map.
 ///
 /// # Errors
 /// Those of the folder; a figure that cannot be drawn although there is something to draw.
@@ -24,136 +28,428 @@ pub fn draw(
     folder: &OutputFolder,
     report: &CeaReport<'_>,
     damping: RayleighDamping,
-    dots_per_inch: f64,
+    options: &DrawingOptions,
 ) -> Result<(), DrawingError> {
-    let mut jobs = sweep_jobs(report, damping);
-    jobs.extend(
-        report
-            .sweep
-            .points
-            .iter()
-            .filter_map(|p| shapes_job(report, p)),
-    );
-    jobs.extend(branch_jobs(report));
-    if let Some(map) = report.map {
-        let caption = format!("Critical friction of each branch over {}", map.key);
-        jobs.push(("map".to_owned(), caption, Box::new(|| map.draw())));
+    let mut figures: Vec<Declaration<'_>> = vec![
+        Box::new(move || Ok(locus(report, damping))),
+        Box::new(move || pairs(report.sweep)),
+        Box::new(move || Ok(prestress(report))),
+    ];
+    for point in &report.sweep.points {
+        let friction = point.friction_coefficient;
+        figures.push(Box::new(move || Ok(shapes(report, friction))));
     }
-    let figures = draw_figures(jobs)?;
+    for branch in followed_branches(report) {
+        figures.push(Box::new(move || Ok(branch_shapes(report, branch))));
+    }
+    if let Some(map) = report.map {
+        figures.push(Box::new(|| map.figure()));
+    }
+    let figures = draw_all(figures, options)?;
     let report = html_report(report, figures, folder.manifest());
-    write_report(folder, &report, dots_per_inch)
+    write_report(folder, &report, options)
 }
 
-fn sweep_jobs<'a>(report: &'a CeaReport<'a>, damping: RayleighDamping) -> Vec<FigureJob<'a>> {
+/// Harmonic, branch and direction: what identifies a mode over friction.
+type Branch = (usize, usize, i8);
+
+fn branch_of(interval: &UnstableInterval) -> Branch {
+    (interval.harmonic, interval.branch, interval.direction)
+}
+
+/// Points of each branch over friction: (friction coefficient, mode).
+fn branches(sweep: &FrictionSweep) -> BTreeMap<Branch, Vec<(f64, &ComplexMode)>> {
+    let mut out: BTreeMap<Branch, Vec<(f64, &ComplexMode)>> = BTreeMap::new();
+    for point in &sweep.points {
+        for mode in &point.modes {
+            // Where a pair is degenerate its modes have no direction and stand at the start of both waves.
+            let is_pair = mode.harmonic > 0 && mode.direction == 0;
+            let directions = if is_pair {
+                &[-1, 1][..]
+            } else {
+                &[mode.direction]
+            };
+            for direction in directions {
+                let points = out
+                    .entry((mode.harmonic, mode.branch, *direction))
+                    .or_default();
+                if points
+                    .last()
+                    .is_none_or(|last| last.0 != point.friction_coefficient)
+                {
+                    points.push((point.friction_coefficient, mode));
+                }
+            }
+        }
+    }
+    out
+}
+
+/// Number of each branch's mode in the table at the friction value next to the case's own.
+fn mode_numbers(report: &CeaReport<'_>) -> BTreeMap<Branch, usize> {
+    let distance = |mu: f64| (mu - report.base.friction_coefficient).abs();
+    let nearest = report.sweep.points.iter().min_by(|a, b| {
+        distance(a.friction_coefficient).total_cmp(&distance(b.friction_coefficient))
+    });
+    let modes = nearest
+        .into_iter()
+        .flat_map(|point| &point.modes)
+        .enumerate();
+    let of = |mode: &ComplexMode| (mode.harmonic, mode.branch, mode.direction);
+    modes.map(|(index, mode)| (of(mode), index + 1)).collect()
+}
+
+/// The eigenvalues in the complex plane as friction rises, with the curve of Rayleigh damping on which they start, and beside
+/// it the friction intervals in which each branch grows.
+fn locus(report: &CeaReport<'_>, damping: RayleighDamping) -> Figure {
     let sweep = report.sweep;
-    vec![
-        (
-            "locus".into(),
-            "Eigenvalues in the complex plane as friction rises (a), and the friction interval in \
-             which each branch is unstable, with its critical friction (b)."
-                .into(),
-            Box::new(move || {
-                draw_eigenvalue_locus(&EigenvalueLocus {
-                    sweep,
-                    mass_coefficient: damping.mass_coefficient,
-                    stiffness_coefficient: damping.stiffness_coefficient,
-                })
-            }),
-        ),
-        (
-            "pairs".into(),
-            "Frequency and damping factor over friction of the pairs of waves that turn unstable."
-                .into(),
-            Box::new(move || draw_pair_sweep(&PairSweep { sweep })),
-        ),
-        (
-            "prestress".into(),
-            "Steady sliding: contact pressure (a) and friction traction (b) around the contact edge, \
-             von Mises stress (c)."
-                .into(),
-            Box::new(move || prestress(report)),
-        ),
-    ]
+    let place = |mode: &ComplexMode| (mode.real_hz(), mode.frequency_hz());
+    let all = || sweep.points.iter().flat_map(|point| &point.modes);
+    let highest = extremes(all().map(ComplexMode::frequency_hz)).1;
+    let first = sweep
+        .points
+        .iter()
+        .map(|p| p.friction_coefficient)
+        .fold(f64::INFINITY, f64::min);
+    let start = sweep
+        .points
+        .iter()
+        .filter(|point| point.friction_coefficient == first);
+    let numbers = mode_numbers(report);
+    let unstable: Vec<Branch> = sweep.intervals.iter().map(branch_of).collect();
+    let all_branches = branches(sweep);
+    let curves = all_branches.iter().map(|(branch, points)| {
+        let arrows = 2 * usize::from(unstable.contains(branch) && points.len() > 2);
+        let line = Line::through(points.iter().map(|(_, mode)| place(mode))).arrows(arrows);
+        let line = line.solid("#b5b5b5", 0.5);
+        if arrows > 0 {
+            line.name("branch that turns unstable, *μ* rising along the arrow")
+        } else {
+            line
+        }
+    });
+    let labels = unstable.iter().filter_map(|branch| {
+        let (_, mode) = all_branches.get(branch)?.last()?;
+        let style = TextStyle::new(7.0).bold().with_halo();
+        Some(Label::new(place(mode), numbers.get(branch)?.to_string()).style(style))
+    });
+    let undamped = (1..=400).map(|step| TAU * 1.05 * highest * f64::from(step) / 400.0);
+    let rayleigh = undamped.filter_map(|omega| {
+        // (3) and (4), with the undamped frequency as parameter.
+        let factor = damping.damping_factor(omega);
+        let root = (factor < 1.0).then(|| (1.0 - factor * factor).sqrt())?;
+        Some((-factor * omega / TAU, omega * root / TAU))
+    });
+    let lowest = extremes(all().map(ComplexMode::frequency_hz)).0;
+    let real = Axis::new("Re(*λ*) / 2π", "Hz").room(0.06).including(0.0);
+    let imaginary = Axis::new("Im(*λ*) / 2π", "kHz").times(1e-3);
+    let plane = Panel::new(
+        real,
+        imaginary.between(0.85 * lowest.min(0.9 * highest), 1.04 * highest),
+    )
+    .height(250f64.max(30.0 + 13.0 * interval_rows(sweep).len() as f64))
+    .layer(Rule::vertical(0.0).stroke(Stroke::solid(INK, 0.6)))
+    .layer(
+        Line::through(rayleigh)
+            .stroke(Stroke::dashed(INK, 0.8))
+            .name("damping *ζ* = (*α*_{R}/*ω* + *β*_{R}*ω*)/2"),
+    )
+    .layers(curves)
+    .layer(
+        Points::new(all().filter(|m| !m.is_unstable()).map(place))
+            .marker(Marker::Disc, 0.9, STABLE)
+            .name("stable"),
+    )
+    .layer(
+        Points::new(all().filter(|m| m.is_unstable()).map(place))
+            .marker(Marker::Diamond, 1.15, UNSTABLE)
+            .name("unstable, Re(*λ*) > 0"),
+    )
+    .layer(
+        Points::new(start.flat_map(|p| &p.modes).map(place))
+            .marker(Marker::Circle, 1.7, MUTED)
+            .name(format!("lowest friction, *μ* = {}", signed(first, 2))),
+    )
+    .layers(labels);
+    Figure::new(
+        "locus",
+        "Eigenvalues in the complex plane as friction rises (a), branches that turn unstable with the number of their mode, and \
+         the friction interval in which each of them is unstable, with its critical friction (b).",
+    )
+    .weighted(&[1.35, 1.0])
+    .panel(plane)
+    .panel(stability_bars(sweep, &numbers))
+    .note(format!("mode numbers: order of frequency at *μ* = {}", signed(report.base.friction_coefficient, 2)))
 }
 
-fn prestress(report: &CeaReport<'_>) -> Result<String, FigureError> {
-    let field = report.field;
-    let von_mises: Vec<f64> = field.stress.iter().map(NodalStress::von_mises).collect();
-    draw_prestress(&PrestressedContact {
-        mesh: report.mesh,
-        angles: &field.angles,
-        pressure: &field.pressures,
-        shear: &field.shears,
-        von_mises: &von_mises,
-    })
+/// Unstable intervals by branch, lowest frequency first, as the frequency axis has it.
+fn interval_rows(sweep: &FrictionSweep) -> Vec<(Branch, Vec<&UnstableInterval>)> {
+    let mut rows: BTreeMap<Branch, Vec<&UnstableInterval>> = BTreeMap::new();
+    for interval in &sweep.intervals {
+        rows.entry(branch_of(interval)).or_default().push(interval);
+    }
+    let mut rows: Vec<_> = rows.into_iter().collect();
+    rows.sort_by(|a, b| a.1[0].frequency_hz.total_cmp(&b.1[0].frequency_hz));
+    rows
+}
+
+fn stability_bars(sweep: &FrictionSweep, numbers: &BTreeMap<Branch, usize>) -> Panel {
+    let (low, high) = extremes(sweep.points.iter().map(|p| p.friction_coefficient));
+    let rows = interval_rows(sweep);
+    let names = rows.iter().enumerate().map(|(row, (branch, intervals))| {
+        let number = numbers
+            .get(branch)
+            .map_or(String::new(), |number| format!("{number}: "));
+        let frequency = signed(intervals[0].frequency_hz * 1e-3, 2);
+        (
+            row as f64 + 0.5,
+            format!("{number}{frequency} kHz, *n* = {}", branch.0),
+        )
+    });
+    let y = Axis::new("", "")
+        .between(0.0, rows.len().max(1) as f64)
+        .ticks(names.collect::<Vec<_>>());
+    let bars = rows.iter().enumerate().flat_map(|(row, (_, intervals))| {
+        intervals.iter().map(move |interval| {
+            let end = interval.restabilized.map_or(high, |(friction, _)| friction);
+            let from = signed(interval.critical_friction, 3);
+            let label = if interval.unstable_from_start {
+                format!("≤ {from}")
+            } else {
+                from
+            };
+            (interval.critical_friction, end, row as f64 + 0.5, label)
+        })
+    });
+    let caption = if rows.is_empty() {
+        "no branch turns unstable"
+    } else {
+        "unstable from critical *μ*"
+    };
+    Panel::new(Axis::friction().between(low, high), y)
+        .caption(caption)
+        .layer(Bars::new(bars.collect(), UNSTABLE))
+}
+
+/// Frequency and damping factor over friction of each pair that turns unstable, the wave with the rotor and the wave against
+/// it as two lines.
+fn pairs(sweep: &FrictionSweep) -> Result<Figure, ChartError> {
+    if sweep.points.len() < 2 {
+        return Err(ChartError::empty("pairs over friction"));
+    }
+    let all = branches(sweep);
+    let mut pairs: Vec<(usize, usize)> = Vec::new();
+    for (branch, _) in interval_rows(sweep) {
+        if !pairs.contains(&(branch.0, branch.1)) {
+            pairs.push((branch.0, branch.1));
+        }
+    }
+    let height = (620.0 / pairs.len().max(1) as f64 - 14.0).clamp(40.0, 92.0);
+    type Quantity = fn(&ComplexMode) -> f64;
+    let quantities: [(Axis, Quantity); 2] = [
+        (Axis::kilohertz(), ComplexMode::frequency_hz),
+        (
+            Axis::new("damping *ζ*", "%").times(100.0),
+            ComplexMode::damping_factor,
+        ),
+    ];
+    let panels = pairs.iter().flat_map(|&(harmonic, branch)| {
+        quantities.clone().map(|(axis, quantity)| {
+            let points = |direction: i8| {
+                let points = all
+                    .get(&(harmonic, branch, direction))
+                    .into_iter()
+                    .flatten();
+                points.map(move |&(mu, mode)| (mu, mode))
+            };
+            let line =
+                |direction| Line::through(points(direction).map(|(mu, mode)| (mu, quantity(mode))));
+            let growing = [-1, 0, 1]
+                .into_iter()
+                .flat_map(points)
+                .filter(|(_, mode)| mode.is_unstable());
+            Panel::new(Axis::friction().tight(), axis)
+                .height(height)
+                .caption(format!("*n* = {harmonic}, branch {branch}"))
+                .layer(Rule::horizontal(0.0).stroke(Stroke::solid(INK, 0.6)))
+                .layer(line(0).solid(STABLE, 1.1))
+                .layer(line(-1).solid(STABLE, 1.1).name("against the rotor ↻"))
+                .layer(
+                    line(1)
+                        .stroke(Stroke::dashed(INK, 0.9))
+                        .name("with the rotor ↺"),
+                )
+                .layer(
+                    Points::new(growing.map(|(mu, mode)| (mu, quantity(mode))))
+                        .marker(Marker::Disc, 1.5, UNSTABLE)
+                        .name("unstable, *ζ* < 0"),
+                )
+        })
+    });
+    Ok(Figure::new(
+        "pairs",
+        "Frequency and damping factor over friction of the pairs of waves that turn unstable.",
+    )
+    .columns(2)
+    .shared_x()
+    .panels(panels.collect::<Vec<_>>()))
+}
+
+/// Contact pressure and friction traction around the edge, and the von Mises stress field.
+fn prestress(report: &CeaReport<'_>) -> Figure {
+    let (field, disc) = (report.field, Disc::new(report.mesh));
+    let von_mises = field.stress.iter().map(NodalStress::von_mises).collect();
+    let stress = Axis::new("von Mises stress", "Pa").prefixed();
+    let around = |name: &str, values: &[f64], colour| {
+        let axis = Axis::new(name, "Pa").prefixed().including(0.0).room(0.15);
+        let again = field
+            .angles
+            .first()
+            .zip(values.first())
+            .map(|(&angle, &value)| (angle + TAU, value));
+        let points = field
+            .angles
+            .iter()
+            .copied()
+            .zip(values.iter().copied())
+            .chain(again);
+        Panel::new(Axis::angle(), axis)
+            .height(86.0)
+            .layer(Line::through(points).solid(colour, 1.2))
+    };
+    Figure::new(
+        "prestress",
+        "Steady sliding: von Mises stress (a), contact pressure (b) and friction traction (c) around the contact edge.",
+    )
+    .weighted(&[1.0, 1.15])
+    .shared_x()
+    .panel(disc.panel(0.01).beside(2).height(190.0).layer(disc.field(von_mises, stress, ColourMap::Viridis)).colour_bar(Side::Right))
+    .panel(around("pressure *p*", &field.pressures, SERIES[0]))
+    .panel(around("traction *τ*", &field.shears, SERIES[1]))
 }
 
 /// Modes of one friction value that carry shapes.
-fn shapes_of(point: &FrictionPoint) -> Vec<ModeShape<'_>> {
-    let numbered = point.modes.iter().enumerate();
-    numbered
-        .filter(|(_, mode)| mode.shape.is_some())
+fn shapes_at<'a>(report: &CeaReport<'a>, friction: f64) -> Vec<ModeShape<'a>> {
+    let points = report
+        .sweep
+        .points
+        .iter()
+        .filter(|p| p.friction_coefficient == friction);
+    let numbered = points.flat_map(|point| point.modes.iter().enumerate());
+    let with_shape = numbered.filter(|(_, mode)| mode.shape.is_some());
+    with_shape
         .map(|(index, mode)| ModeShape {
             number: index + 1,
-            friction_coefficient: point.friction_coefficient,
+            friction,
             mode,
         })
         .collect()
 }
 
-/// All modes of one friction value.
-fn shapes_job<'a>(report: &'a CeaReport<'a>, point: &'a FrictionPoint) -> Option<FigureJob<'a>> {
-    let shapes = shapes_of(point);
-    if shapes.is_empty() {
-        return None;
-    }
-    let friction = point.friction_coefficient;
-    let mesh = report.mesh;
-    let data = ModeShapes { mesh, shapes };
-    Some((
-        format!("modes-mu-{friction}"),
-        format!(
-            "Mode shapes at friction coefficient {friction}: the deformed disc, coloured by \
-             displacement amplitude; unstable modes in red."
-        ),
-        Box::new(move || draw_mode_shapes(&data)),
-    ))
+/// All modes of one friction value as small multiples.
+fn shapes(report: &CeaReport<'_>, friction: f64) -> Figure {
+    let shapes = shapes_at(report, friction);
+    let columns = match shapes.len() {
+        0..=4 => shapes.len().max(2),
+        5..=6 => 3,
+        7..=8 | 11..=12 => 4,
+        9..=15 => 5,
+        16..=18 => 6,
+        _ => 7,
+    };
+    let caption = format!(
+        "Mode shapes at friction coefficient {friction}: the deformed body, coloured by displacement amplitude; unstable modes in red."
+    );
+    let disc = Disc::with_lattice(report.mesh, if columns < 6 { 24 } else { 12 });
+    let panels = shapes.iter().map(|shape| {
+        let first = format!(
+            "{}: {} Hz",
+            shape.number,
+            signed(shape.mode.frequency_hz(), 0)
+        );
+        let lines = [
+            first,
+            format!("Re {} Hz", signed(shape.mode.real_hz(), 1)),
+            shape.harmonic(),
+        ];
+        shape_panel(&disc, report.mesh, shape, &lines)
+    });
+    multiples(
+        Figure::new(format!("modes-mu-{friction}"), caption).columns(columns),
+        panels,
+    )
 }
 
-/// The first branches that turn unstable, each at every friction value that has shapes.
-fn branch_jobs<'a>(report: &'a CeaReport<'a>) -> Vec<FigureJob<'a>> {
-    let (sweep, mesh) = (report.sweep, report.mesh);
-    let mut drawn: Vec<(usize, usize, i8)> = Vec::new();
-    let mut jobs: Vec<FigureJob<'a>> = Vec::new();
-    for interval in &sweep.intervals {
-        let branch = (interval.harmonic, interval.branch, interval.direction);
-        let of_branch = |point: &'a FrictionPoint| {
-            let mut shapes = shapes_of(point).into_iter();
-            shapes.find(|shape| is_branch(shape.mode, branch))
-        };
-        let shapes: Vec<ModeShape<'a>> = sweep.points.iter().filter_map(of_branch).collect();
-        if shapes.len() < 2 || drawn.contains(&branch) || drawn.len() == FOLLOWED_BRANCHES {
-            continue;
+/// The first branches that turn unstable and have several shapes.
+fn followed_branches(report: &CeaReport<'_>) -> Vec<Branch> {
+    let mut followed: Vec<Branch> = Vec::new();
+    for branch in report.sweep.intervals.iter().map(branch_of) {
+        if !followed.contains(&branch) && branch_points(report, branch).len() > 1 {
+            followed.push(branch);
         }
-        drawn.push(branch);
-        let data = ModeShapes { mesh, shapes };
-        let way = direction_name(branch.2);
-        jobs.push((
-            format!("branch-n{}-{}-{way}", branch.0, branch.1),
-            format!(
-                "Harmonic {}, branch {}, travelling {way} the rotor, at several friction \
-                 coefficients.",
-                branch.0, branch.1
-            ),
-            Box::new(move || draw_mode_over_friction(&data)),
-        ));
     }
-    jobs
+    followed.truncate(FOLLOWED_BRANCHES);
+    followed
 }
 
-/// Whether a mode belongs to a branch; a degenerate pair stands at the start of both its waves.
-fn is_branch(mode: &ComplexMode, (harmonic, branch, direction): (usize, usize, i8)) -> bool {
-    mode.harmonic == harmonic
-        && mode.branch == branch
-        && (mode.direction == direction || mode.direction == 0)
+/// The shapes of a branch at every friction value; a degenerate pair stands at the start of both its waves.
+fn branch_points<'a>(
+    report: &CeaReport<'a>,
+    (harmonic, branch, direction): Branch,
+) -> Vec<ModeShape<'a>> {
+    let is_own = |shape: &ModeShape<'_>| {
+        let mode = shape.mode;
+        (mode.harmonic, mode.branch) == (harmonic, branch)
+            && [direction, 0].contains(&mode.direction)
+    };
+    let frictions = report
+        .sweep
+        .points
+        .iter()
+        .map(|point| point.friction_coefficient);
+    frictions
+        .filter_map(|mu| shapes_at(report, mu).into_iter().find(is_own))
+        .collect()
+}
+
+/// One branch at every friction value that has shapes.
+fn branch_shapes(report: &CeaReport<'_>, branch: Branch) -> Figure {
+    let way = direction_name(branch.2);
+    let caption = format!(
+        "Harmonic {}, branch {}, travelling {way} the rotor, at several friction coefficients.",
+        branch.0, branch.1
+    );
+    let shapes = branch_points(report, branch);
+    let disc = Disc::with_lattice(report.mesh, 24);
+    let panels = shapes.iter().map(|shape| {
+        let mode = shape.mode;
+        let values = format!(
+            "{} Hz, Re {} Hz",
+            signed(mode.frequency_hz(), 0),
+            signed(mode.real_hz(), 1)
+        );
+        let lines = [
+            format!("*μ* = {}", signed(shape.friction, 3)),
+            values,
+            shape.harmonic(),
+        ];
+        shape_panel(&disc, report.mesh, shape, &lines)
+    });
+    let columns = shapes.len().clamp(2, 5);
+    let columns = if shapes.len() == 6 { 3 } else { columns };
+    multiples(
+        Figure::new(format!("branch-n{}-{}-{way}", branch.0, branch.1), caption).columns(columns),
+        panels,
+    )
+}
+
+/// Small multiples of mode shapes with what their colours and arrows mean.
+fn multiples(figure: Figure, panels: impl Iterator<Item = Panel>) -> Figure {
+    let amplitude = Axis::new("displacement amplitude |*u*| / max |*u*|", "–").between(0.0, 1.0);
+    figure
+        .unlettered()
+        .panels(panels)
+        .colour_foot(amplitude, ColourMap::Viridis)
+        .note("↺ travels with the rotor, ↻ against it")
+        .note("Re: real part of the eigenvalue / 2π; *n*: harmonic (nodal diameters)")
 }

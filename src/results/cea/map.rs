@@ -2,10 +2,10 @@
 
 use crate::cea::UnstableInterval;
 use crate::cea::cyclic::StabilityMapPoint;
-use crate::results::figures::axis::Scale;
-use crate::results::figures::{CriticalFriction, FigureError, draw_critical_friction};
-use crate::results::parameter::parameter_title;
+use crate::chart::{ChartError, Figure};
+use crate::results::charts::{CriticalBranch, critical_friction};
 use crate::results::table::{Table, format_number};
+use std::collections::BTreeSet;
 use std::io::{self, Write};
 
 /// A stability map in the friction coefficient and a second parameter.
@@ -69,39 +69,38 @@ impl MapReport {
         table.finish()
     }
 
-    /// Draws the critical friction of every branch over the second parameter.
+    /// The critical friction of every branch over the second parameter.
     ///
     /// # Errors
-    /// [`FigureError`] for a map of a single value.
-    pub fn draw(&self) -> Result<String, FigureError> {
-        let mut branches: Vec<(usize, usize, i8)> = self
+    /// [`ChartError::Empty`] for a map of a single value.
+    pub(super) fn figure(&self) -> Result<Figure, ChartError> {
+        if self.points.len() < 2 {
+            return Err(ChartError::empty("map"));
+        }
+        let found = self
             .points
             .iter()
-            .filter_map(|point| point.outcome.as_ref().ok())
-            .flatten()
+            .filter_map(|point| point.outcome.as_ref().ok());
+        let intervals = found.flatten();
+        let branches: BTreeSet<_> = intervals
             .map(|i| (i.harmonic, i.branch, i.direction))
             .collect();
-        branches.sort_unstable();
-        branches.dedup();
         let values: Vec<f64> = self.points.iter().map(|point| point.value).collect();
-        draw_critical_friction(&CriticalFriction {
-            parameter_title: parameter_title(&self.key),
-            scale: scale_of(&values),
-            highest_friction: self.largest_friction,
-            branches: branches
-                .into_iter()
-                .map(|(n, branch, direction)| {
-                    let critical = |point: &StabilityMapPoint| {
-                        point
-                            .critical_friction(n, branch, direction)
-                            .unwrap_or(f64::NAN)
-                    };
-                    let name = format!("*n* = {n}, branch {branch}");
-                    (name, self.points.iter().map(critical).collect())
-                })
-                .collect(),
-            values,
-        })
+        let curve = |(n, branch, direction)| {
+            let critical =
+                |point: &StabilityMapPoint| point.critical_friction(n, branch, direction);
+            let critical = self
+                .points
+                .iter()
+                .map(|point| critical(point).unwrap_or(f64::NAN));
+            CriticalBranch {
+                branch: (n, branch, direction),
+                critical: critical.collect(),
+            }
+        };
+        let branches: Vec<CriticalBranch> = branches.into_iter().map(curve).collect();
+        let figure = critical_friction(&self.key, &values, &branches, self.largest_friction);
+        Ok(figure.named("map"))
     }
 
     /// The lowest critical friction over the map, in words.
@@ -125,13 +124,5 @@ impl MapReport {
                 self.key, self.largest_friction
             ),
         }
-    }
-}
-
-/// Logarithmic for positive values over more than a decade.
-fn scale_of(values: &[f64]) -> Scale {
-    match (values.first(), values.last()) {
-        (Some(&first), Some(&last)) if first > 0.0 && last > 10.0 * first => Scale::Logarithmic,
-        _ => Scale::Linear,
     }
 }

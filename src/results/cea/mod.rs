@@ -7,6 +7,7 @@ mod map;
 mod print;
 mod report;
 mod sensitivity;
+mod shape;
 
 pub use base::{BaseField, BaseState, write_base};
 pub use figures::draw;

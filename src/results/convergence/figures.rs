@@ -2,7 +2,7 @@
 
 use super::print::significant;
 use super::{ConvergenceReport, Quantity, Refinement, Series};
-use crate::results::drawing::{DrawingError, write_report};
+use crate::results::drawing::{DrawingError, DrawingOptions, write_report};
 use crate::results::figures::{ConvergenceSeries, ConvergenceStudy, FigureError, draw_convergence};
 use crate::results::folder::OutputFolder;
 use crate::results::report::{NamedFigure, Report, ReportSection, ReportTable};
@@ -23,7 +23,7 @@ type CurveOf = fn(&Series, &Quantity) -> Option<ConvergenceSeries>;
 pub fn draw(
     folder: &OutputFolder,
     report: &ConvergenceReport,
-    dots_per_inch: f64,
+    options: &DrawingOptions,
 ) -> Result<(), DrawingError> {
     let sections: Result<Vec<_>, FigureError> = report.series.iter().map(section).collect();
     let html = Report {
@@ -31,7 +31,7 @@ pub fn draw(
         sections: sections?,
         manifest: folder.manifest().clone(),
     };
-    write_report(folder, &html, dots_per_inch)
+    write_report(folder, &html, options)
 }
 
 fn section(series: &Series) -> Result<ReportSection, FigureError> {

@@ -1,7 +1,7 @@
 //! `report.html` of limit cycles: figures, cycles, branches.
 
 use super::{CycleFigures, branch_curves, draw_branches, draw_cycles};
-use crate::results::drawing::{DrawingError, write_report};
+use crate::results::drawing::{DrawingError, DrawingOptions, write_report};
 use crate::results::figures::axis::extremes;
 use crate::results::folder::OutputFolder;
 use crate::results::manifest::Manifest;
@@ -16,7 +16,7 @@ pub fn draw(
     folder: &OutputFolder,
     data: &CycleFigures<'_>,
     summary: &Value,
-    dots_per_inch: f64,
+    options: &DrawingOptions,
 ) -> Result<(), DrawingError> {
     let mut report = html_report(summary, folder.manifest());
     report.sections[0].figures = draw_cycles(data)?;
@@ -25,7 +25,7 @@ pub fn draw(
         let families: Vec<_> = families.map(|family| (String::new(), family)).collect();
         branches.figures = draw_branches(&branch_curves(&families))?;
     }
-    write_report(folder, &report, dots_per_inch)
+    write_report(folder, &report, options)
 }
 
 /// The report without figures: the cycles, and the branches where the summary has any.

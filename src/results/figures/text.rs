@@ -10,9 +10,9 @@ pub const FONT_FAMILY: &str = "DejaVu Sans,Verdana,sans-serif";
 
 /// The embedded faces: regular, bold, oblique.
 pub const FACES: [&[u8]; 3] = [
-    include_bytes!("font/DejaVuSans.ttf"),
-    include_bytes!("font/DejaVuSans-Bold.ttf"),
-    include_bytes!("font/DejaVuSans-Oblique.ttf"),
+    include_bytes!("../../chart/font/DejaVuSans.ttf"),
+    include_bytes!("../../chart/font/DejaVuSans-Bold.ttf"),
+    include_bytes!("../../chart/font/DejaVuSans-Oblique.ttf"),
 ];
 
 /// Size of sub- and superscripts relative to the text.

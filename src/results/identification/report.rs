@@ -2,7 +2,7 @@
 
 use super::DAMPING_BLOCK;
 use super::figures::{IdentificationRecord, draw};
-use crate::results::drawing::{DrawingError, write_report};
+use crate::results::drawing::{DrawingError, DrawingOptions, write_report};
 use crate::results::figures::FigureError;
 use crate::results::folder::OutputFolder;
 use crate::results::manifest::Manifest;
@@ -18,7 +18,7 @@ pub fn draw_report(
     folder: &OutputFolder,
     record: &IdentificationRecord,
     summary: &Value,
-    dots_per_inch: f64,
+    options: &DrawingOptions,
 ) -> Result<Option<FigureError>, DrawingError> {
     // The block is there after every run; without it there is nothing to paste.
     let block = std::fs::read_to_string(folder.path().join(DAMPING_BLOCK)).unwrap_or_default();
@@ -30,7 +30,7 @@ pub fn draw_report(
         }
         Err(error) => Some(error),
     };
-    write_report(folder, &report, dots_per_inch)?;
+    write_report(folder, &report, options)?;
     Ok(left_out)
 }
 

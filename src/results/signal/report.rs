@@ -2,7 +2,7 @@
 
 use super::figures::{SignalRecord, draw};
 use super::summary::{ChannelSummary, SignalSummary};
-use crate::results::drawing::{DrawingError, write_report};
+use crate::results::drawing::{DrawingError, DrawingOptions, write_report};
 use crate::results::folder::OutputFolder;
 use crate::results::report::{Report, ReportSection, ReportTable};
 
@@ -15,12 +15,12 @@ pub fn draw_report(
     folder: &OutputFolder,
     record: &SignalRecord,
     summary: &SignalSummary,
-    dots_per_inch: f64,
+    options: &DrawingOptions,
 ) -> Result<Vec<String>, DrawingError> {
     let drawn = draw(record);
     let mut report = html_report(summary);
     report.sections[0].figures = drawn.figures;
-    write_report(folder, &report, dots_per_inch)?;
+    write_report(folder, &report, options)?;
     Ok(drawn.left_out)
 }
 

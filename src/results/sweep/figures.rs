@@ -3,7 +3,7 @@
 use super::super::figures::ReferenceFrequency;
 use super::super::report::{Report, ReportSection, ReportTable};
 use super::super::sweep_figures::draw_sweep;
-use super::super::{DrawingError, Manifest, figure_files};
+use super::super::{DrawingError, DrawingOptions, Manifest, figure_files};
 use super::report::rows;
 use super::{SweepFolder, SweepReport};
 use crate::results::drawing::REPORT;
@@ -15,8 +15,8 @@ pub struct SweepDrawing {
     pub references: Vec<ReferenceFrequency>,
     /// Largest friction coefficient of its eigenvalue analyses.
     pub highest_friction: f64,
-    /// Resolution of the PNG files.
-    pub dots_per_inch: f64,
+    /// How they are drawn.
+    pub options: DrawingOptions,
 }
 
 /// Draws what the study has points for into `figures/`, each as SVG and PNG, and writes `report.html`.
@@ -35,7 +35,7 @@ pub fn draw(
         drawing.highest_friction,
         &drawing.references,
     )?;
-    for file in figure_files(&figures, drawing.dots_per_inch)? {
+    for file in figure_files(&figures, &drawing.options)? {
         folder.write(&file.name, |out| out.write_all(&file.bytes))?;
     }
     let html = Report {

@@ -1,6 +1,6 @@
 //! `report.html` of a transient: figures, limit cycle, growth.
 
-use crate::results::drawing::{DrawingError, write_report};
+use crate::results::drawing::{DrawingError, DrawingOptions, write_report};
 use crate::results::folder::OutputFolder;
 use crate::results::manifest::Manifest;
 use crate::results::report::{Report, ReportSection, ReportTable, entries, number};
@@ -16,11 +16,11 @@ pub fn draw(
     folder: &OutputFolder,
     run: &RunFigures<'_>,
     summary: &Value,
-    dots_per_inch: f64,
+    options: &DrawingOptions,
 ) -> Result<(), DrawingError> {
     let mut report = html_report(summary, run.growth_rates.as_slice(), folder.manifest());
     report.sections[0].figures = draw_run(run)?;
-    write_report(folder, &report, dots_per_inch)
+    write_report(folder, &report, options)
 }
 
 /// The report without figures, from the summary of the run; `predicted` are harmonics and growth rates

@@ -1,0 +1,78 @@
+//! How figures are drawn: options of every command that draws.
+
+use crate::results::{DOTS_PER_INCH, DrawingOptions, Format};
+use clap::{Args, ValueEnum};
+
+/// Resolution, width and formats of the figures.
+#[derive(Args, Clone, Debug)]
+pub struct FigureOptions {
+    /// Resolution of the PNG figures, dots per inch
+    #[arg(long, value_name = "DPI", default_value_t = DOTS_PER_INCH, value_parser = resolution)]
+    dpi: f64,
+    /// Width of the figures: "column" (85 mm), "page" (178 mm) or mm [default: each figure's own]
+    #[arg(long, value_name = "WIDTH", value_parser = width)]
+    width: Option<f64>,
+    /// Formats of the figures
+    #[arg(
+        long,
+        value_enum,
+        value_name = "FORMAT",
+        value_delimiter = ',',
+        default_value = "svg,png,pdf"
+    )]
+    format: Vec<FormatChoice>,
+}
+
+/// A format of figures.
+#[derive(ValueEnum, Clone, Copy, Debug)]
+#[value(rename_all = "lower")]
+enum FormatChoice {
+    /// Lines, text as text
+    Svg,
+    /// Pixels
+    Png,
+    /// Lines, text as outlines
+    Pdf,
+}
+
+impl Default for FigureOptions {
+    fn default() -> Self {
+        Self {
+            dpi: DOTS_PER_INCH,
+            width: None,
+            format: vec![FormatChoice::Svg, FormatChoice::Png, FormatChoice::Pdf],
+        }
+    }
+}
+
+impl FigureOptions {
+    /// What the drawing needs to know.
+    pub fn drawing(&self) -> DrawingOptions {
+        let chosen = |choice: &FormatChoice| match choice {
+            FormatChoice::Svg => Format::Svg,
+            FormatChoice::Png => Format::Png,
+            FormatChoice::Pdf => Format::Pdf,
+        };
+        DrawingOptions {
+            dots_per_inch: self.dpi,
+            width_mm: self.width,
+            formats: self.format.iter().map(chosen).collect(),
+        }
+    }
+}
+
+fn resolution(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(dpi) if (20.0..=1200.0).contains(&dpi) => Ok(dpi),
+        _ => Err("20 to 1200 dots per inch".to_owned()),
+    }
+}
+
+fn width(text: &str) -> Result<f64, String> {
+    match (text, text.trim_end_matches("mm").trim().parse::<f64>()) {
+        ("column", _) => Ok(85.0),
+        ("page", _) => Ok(178.0),
+        (_, Ok(width)) if (60.0..=420.0).contains(&width) => Ok(width),
+        _ => Err("\"column\", \"page\" or 60 to 420 mm".to_owned()),
+    }
+}

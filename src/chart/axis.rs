@@ -1,0 +1,232 @@
+//! What an axis shows, before the data are known.
+
+use super::ruler::{Ruler, Tick, prefixed};
+
+/// Linear or logarithmic.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scale {
+    /// Equal steps.
+    Linear,
+    /// Equal ratios; values that are not positive have no place.
+    Logarithmic,
+}
+
+impl Scale {
+    /// Logarithmic for positive values over more than a factor.
+    pub fn for_values(values: impl IntoIterator<Item = f64>, factor: f64) -> Self {
+        match extremes(values) {
+            (low, high) if low > 0.0 && high > factor * low => Self::Logarithmic,
+            _ => Self::Linear,
+        }
+    }
+}
+
+/// How the ends of an axis follow from the data.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Ends {
+    /// Room at either end, as a fraction of the range.
+    Room(f64),
+    /// These.
+    At(f64, f64),
+    /// Equally far from zero.
+    Symmetric,
+}
+
+/// One axis of a panel: quantity, unit, scale, ends.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    quantity: String,
+    unit: String,
+    scale: Scale,
+    factor: Option<f64>,
+    ends: Ends,
+    includes: Vec<f64>,
+    decades: f64,
+    ticks: Option<Vec<Tick>>,
+}
+
+impl Axis {
+    /// A linear axis for values in this unit, with a little room around the data; names are mark-up, an empty unit shows none.
+    pub fn new(quantity: &str, unit: &str) -> Self {
+        Self {
+            quantity: quantity.into(),
+            unit: unit.into(),
+            scale: Scale::Linear,
+            factor: Some(1.0),
+            ends: Ends::Room(0.04),
+            includes: Vec::new(),
+            decades: 300.0,
+            ticks: None,
+        }
+    }
+
+    /// The time of a run, s, with the prefix that suits it.
+    pub fn time() -> Self {
+        Self::new("time *t*", "s").prefixed().tight()
+    }
+
+    /// Frequencies, Hz, shown in kHz.
+    pub fn kilohertz() -> Self {
+        Self::new("frequency *f*", "kHz").times(1e-3)
+    }
+
+    /// Angles, rad, shown over a full turn in degrees.
+    pub fn angle() -> Self {
+        let quarters =
+            [0, 90, 180, 270, 360].map(|degrees| (f64::from(degrees), degrees.to_string()));
+        let axis = Self::new("angle *θ*", "°").times(180.0 / std::f64::consts::PI);
+        axis.between(0.0, std::f64::consts::TAU).ticks(quarters)
+    }
+
+    /// The friction coefficient.
+    pub fn friction() -> Self {
+        Self::new("friction coefficient *μ*", "–")
+    }
+
+    /// The same for values that the unit shown is a multiple of: 1e-3 for kHz from Hz.
+    pub fn times(self, factor: f64) -> Self {
+        Self {
+            factor: Some(factor),
+            ..self
+        }
+    }
+
+    /// The same with the unit's prefix chosen by the data.
+    pub fn prefixed(self) -> Self {
+        Self {
+            factor: None,
+            ..self
+        }
+    }
+
+    /// The same with a scale.
+    pub fn scaled(self, scale: Scale) -> Self {
+        Self { scale, ..self }
+    }
+
+    /// The same, logarithmic.
+    pub fn logarithmic(self) -> Self {
+        self.scaled(Scale::Logarithmic)
+    }
+
+    /// The same, logarithmic over at most so many decades below the largest value.
+    pub fn decades(self, decades: f64) -> Self {
+        Self {
+            decades,
+            ..self.logarithmic()
+        }
+    }
+
+    /// The same without room at the ends.
+    pub fn tight(self) -> Self {
+        self.room(0.0)
+    }
+
+    /// The same with room at the ends, as a fraction of the range.
+    pub fn room(self, fraction: f64) -> Self {
+        Self {
+            ends: Ends::Room(fraction),
+            ..self
+        }
+    }
+
+    /// The same between two values, in the unit of the data.
+    pub fn between(self, low: f64, high: f64) -> Self {
+        Self {
+            ends: Ends::At(low, high),
+            ..self
+        }
+    }
+
+    /// The same with zero in the middle.
+    pub fn symmetric(self) -> Self {
+        Self {
+            ends: Ends::Symmetric,
+            ..self
+        }
+    }
+
+    /// The same, long enough for one more value.
+    pub fn including(mut self, value: f64) -> Self {
+        self.includes.push(value);
+        self
+    }
+
+    /// The same with these ticks: value in the unit shown, label.
+    pub fn ticks(mut self, ticks: impl IntoIterator<Item = (f64, String)>) -> Self {
+        let ticks = ticks
+            .into_iter()
+            .map(|(value, label)| Tick { value, label });
+        self.ticks = Some(ticks.collect());
+        self
+    }
+
+    /// Quantity and unit, as they are shown without a prefix.
+    pub fn title(&self) -> String {
+        titled(&self.quantity, &self.unit)
+    }
+
+    /// The ends, where they are given.
+    pub(super) fn given(&self) -> Option<(f64, f64)> {
+        match self.ends {
+            Ends::At(low, high) => Some((low, high)),
+            _ => None,
+        }
+    }
+
+    /// The axis once the range of the data is known (in their unit; of the positive ones on a logarithmic axis).
+    pub(super) fn resolve(&self, data: Option<(f64, f64)>) -> Ruler {
+        let all = data.into_iter().flat_map(|(low, high)| [low, high]);
+        let positive = |v: &f64| self.scale == Scale::Linear || *v > 0.0;
+        let (low, high) = extremes(all.chain(self.includes.iter().copied()).filter(positive));
+        let (low, high) = match (self.ends, self.scale) {
+            (Ends::At(low, high), _) => (low, high),
+            (Ends::Room(part), Scale::Linear) => {
+                let room = part * (high - low);
+                // Zero, where it is an end by itself, stays one.
+                let keeps = |end: f64| end == 0.0 && self.includes.contains(&0.0);
+                let room_at = |end: f64| if keeps(end) { 0.0 } else { room };
+                (low - room_at(low), high + room_at(high))
+            }
+            (Ends::Symmetric, _) => {
+                let reach = 1.05 * low.abs().max(high.abs());
+                (-reach, reach)
+            }
+            (Ends::Room(part), Scale::Logarithmic) => {
+                let low = low.max(high * 10f64.powf(-self.decades));
+                let room = (high / low)
+                    .powf(part)
+                    .max(if part > 0.0 { 1.25 } else { 1.0 });
+                (low / room, high * room)
+            }
+        };
+        let reach = low.abs().max(high.abs());
+        let (factor, unit) = match self.factor {
+            Some(factor) => (factor, self.unit.clone()),
+            // A hair below a power of ten is that power.
+            None => prefixed(reach * 0.9995, &self.unit),
+        };
+        let title = titled(&self.quantity, &unit);
+        Ruler::new(title, self.scale, factor, (low, high), self.ticks.clone())
+    }
+
+    pub(super) fn is_logarithmic(&self) -> bool {
+        self.scale == Scale::Logarithmic
+    }
+}
+
+fn titled(quantity: &str, unit: &str) -> String {
+    match unit {
+        "" => quantity.to_owned(),
+        unit => format!("{quantity} ({unit})"),
+    }
+}
+
+/// Smallest and largest finite value; `(0, 1)` if there is none.
+pub fn extremes(values: impl IntoIterator<Item = f64>) -> (f64, f64) {
+    let finite = values.into_iter().filter(|value| value.is_finite());
+    let ends = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
+        (low.min(v), high.max(v))
+    });
+    if ends.0 > ends.1 { (0.0, 1.0) } else { ends }
+}

@@ -1,0 +1,49 @@
+//! Colours and colour maps.
+
+/// Text, axes and outlines.
+pub const INK: &str = "#222222";
+/// Grid lines.
+pub const GRID: &str = "#dddddd";
+/// Second-rank lines and text.
+pub const MUTED: &str = "#666666";
+
+/// Okabe and Ito's colour-blind-safe set, without its yellow, which is too light for lines.
+pub const SERIES: [&str; 7] = [
+    "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000",
+];
+
+/// Red, green and blue of `#rrggbb`.
+pub fn channels(hex: &str) -> [u8; 3] {
+    [1, 3, 5].map(|at| {
+        let digits = hex.get(at..at + 2);
+        digits.map_or(0, |digits| u8::from_str_radix(digits, 16).unwrap_or(0))
+    })
+}
+
+/// A perceptually uniform colour map.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ColourMap {
+    /// Dark blue to yellow, for amplitudes.
+    Viridis,
+    /// Black to pale yellow, for spectra.
+    Inferno,
+    /// Blue through white to red, for signed values.
+    Diverging,
+}
+
+impl ColourMap {
+    /// Colour at `position` from 0 to 1.
+    pub fn at(self, position: f64) -> [u8; 3] {
+        let position = if position.is_finite() {
+            position.clamp(0.0, 1.0)
+        } else {
+            0.0
+        };
+        let colour = match self {
+            Self::Viridis => colorous::VIRIDIS.eval_continuous(position),
+            Self::Inferno => colorous::INFERNO.eval_continuous(position),
+            Self::Diverging => colorous::RED_BLUE.eval_continuous(1.0 - position),
+        };
+        [colour.r, colour.g, colour.b]
+    }
+}

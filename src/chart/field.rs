@@ -1,0 +1,284 @@
+//! A nodal field over a (deformed) mesh as a small image with sharp outlines.
+
+use super::axis::{Axis, extremes};
+use super::colour::{ColourMap, INK};
+use super::decimation::simplify;
+use super::image::{Colours, IndexedImage, Palette};
+use super::layer::Layer;
+use super::panel::Frame;
+use super::svg::{Path, Stroke, Svg};
+use std::sync::Arc;
+
+/// The nodes around an element, with its mid-side nodes between its corners where it has any.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Cell {
+    /// Nodes in order around the element.
+    pub ring: Vec<u32>,
+    /// Whether every second node is one of a side.
+    pub is_quadratic: bool,
+}
+
+/// What a field is drawn over: elements and boundary curves, by the nodes they have.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Mesh {
+    /// The elements.
+    pub cells: Vec<Cell>,
+    /// Curves drawn as outlines.
+    pub outlines: Vec<Vec<u32>>,
+    /// Curves drawn as thin white lines that show the deformation.
+    pub lines: Vec<Vec<u32>>,
+}
+
+/// Values at the nodes of a mesh, as colours.
+#[derive(Clone, Debug)]
+pub struct Field {
+    mesh: Arc<Mesh>,
+    positions: Vec<[f64; 2]>,
+    values: Vec<f64>,
+    colours: Colours,
+    levels: usize,
+}
+
+impl Field {
+    /// Values at nodes; the axis names them and gives the range where it has ends.
+    pub fn new(
+        mesh: Arc<Mesh>,
+        positions: Vec<[f64; 2]>,
+        values: Vec<f64>,
+        axis: Axis,
+        map: ColourMap,
+    ) -> Self {
+        let colours = Colours::over(axis, map, &values);
+        Self {
+            mesh,
+            positions,
+            values,
+            colours,
+            levels: Palette::FINE,
+        }
+    }
+
+    /// The same with few colours, one of many.
+    pub fn coarse(self) -> Self {
+        Self {
+            levels: Palette::COARSE,
+            ..self
+        }
+    }
+
+    /// The corners of the square around nodes, with `room` as a fraction of its size.
+    pub fn window(positions: &[[f64; 2]], room: f64) -> [[f64; 2]; 2] {
+        let ends = [0, 1].map(|axis| extremes(positions.iter().map(|p| p[axis])));
+        let half = 0.5
+            * (1.0 + room)
+            * ends
+                .iter()
+                .map(|e| e.1 - e.0)
+                .fold(f64::MIN_POSITIVE, f64::max);
+        let centre = ends.map(|e| 0.5 * (e.0 + e.1));
+        [centre.map(|c| c - half), centre.map(|c| c + half)]
+    }
+
+    /// Colours the field: values are interpolated linearly on triangles around the centre of each element.
+    fn rasterize(&self, frame: &Frame, palette: &Palette) -> IndexedImage {
+        let size = |points: f64| (points * PIXELS_PER_POINT).round().clamp(1.0, 4000.0) as usize;
+        let (width, height) = (size(frame.area.width), size(frame.area.height));
+        let pixels = vec![palette.transparent(); width * height];
+        let mut image = IndexedImage {
+            width,
+            height,
+            pixels,
+        };
+        let (low, high) = self.colours.range;
+        let steepness = self.levels as f64 / (high - low).max(f64::MIN_POSITIVE);
+        let vertex = |node: u32| -> Option<[f64; 3]> {
+            let [x, y] = *self.positions.get(node as usize)?;
+            let value = *self.values.get(node as usize)?;
+            let place = [
+                frame.x.fraction(x) * width as f64,
+                (1.0 - frame.y.fraction(y)) * height as f64,
+            ];
+            Some([place[0], place[1], (value - low) * steepness])
+        };
+        for cell in &self.mesh.cells {
+            let ring: Option<Vec<[f64; 3]>> = cell.ring.iter().map(|&node| vertex(node)).collect();
+            let Some(ring) = ring else { continue };
+            let centre = centre(&ring, cell.is_quadratic);
+            for (index, &corner) in ring.iter().enumerate() {
+                let next = ring[(index + 1) % ring.len()];
+                triangle(&mut image, [centre, corner, next], self.levels);
+            }
+        }
+        image
+    }
+
+    fn curve(&self, nodes: &[u32], frame: &Frame) -> Vec<(f64, f64)> {
+        let places = nodes
+            .iter()
+            .filter_map(|&node| self.positions.get(node as usize));
+        places.map(|&[x, y]| frame.at(x, y)).collect()
+    }
+}
+
+/// Image pixels for each point of the drawing.
+const PIXELS_PER_POINT: f64 = 3.0;
+
+/// Value of the shape functions at the centre times the nodes: of quadratic elements on four sides -1/4 at corners and 1/2 at
+/// sides, on three -1/9 and 4/9.
+fn centre(ring: &[[f64; 3]], is_quadratic: bool) -> [f64; 3] {
+    let count = ring.len() as f64;
+    let (corner, side) = match (is_quadratic, ring.len()) {
+        (true, 6) => (-1.0 / 9.0, 4.0 / 9.0),
+        (true, _) => (-0.25, 0.5),
+        (false, _) => (1.0 / count, 1.0 / count),
+    };
+    let mut sum = [0.0; 3];
+    for (index, vertex) in ring.iter().enumerate() {
+        let weight = if index % 2 == 0 { corner } else { side };
+        (0..3).for_each(|axis| sum[axis] += weight * vertex[axis]);
+    }
+    sum
+}
+
+/// Fills a triangle of vertices (x, y in pixels, level), pixel centres inside or on its edge.
+fn triangle(image: &mut IndexedImage, [a, b, c]: [[f64; 3]; 3], levels: usize) {
+    let area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
+    if !area.is_finite() || area.abs() < 1e-12 {
+        return;
+    }
+    let bounds = |axis: usize, limit: usize| {
+        let low = a[axis].min(b[axis]).min(c[axis]) - 0.5;
+        let high = a[axis].max(b[axis]).max(c[axis]) - 0.5;
+        (
+            low.ceil().max(0.0) as usize,
+            high.floor().min(limit as f64 - 1.0),
+        )
+    };
+    let (columns, rows) = (bounds(0, image.width), bounds(1, image.height));
+    if columns.1 < 0.0 || rows.1 < 0.0 {
+        return;
+    }
+    for row in rows.0..=rows.1 as usize {
+        for column in columns.0..=columns.1 as usize {
+            let (x, y) = (column as f64 + 0.5, row as f64 + 0.5);
+            let v = ((x - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (y - a[1])) / area;
+            let w = ((b[0] - a[0]) * (y - a[1]) - (x - a[0]) * (b[1] - a[1])) / area;
+            // Neighbours share pixels on their common edge, so no seam shows.
+            if v >= -1e-9 && w >= -1e-9 && v + w <= 1.0 + 1e-9 {
+                let level = a[2] + v * (b[2] - a[2]) + w * (c[2] - a[2]);
+                let level = level.clamp(0.0, (levels - 1) as f64) as u8;
+                image.pixels[row * image.width + column] = level;
+            }
+        }
+    }
+}
+
+impl Layer for Field {
+    fn extent(&self, see: &mut dyn FnMut(f64, f64)) {
+        let known = self
+            .positions
+            .iter()
+            .zip(&self.values)
+            .filter(|(_, value)| value.is_finite());
+        known.for_each(|(&[x, y], _)| see(x, y));
+    }
+
+    fn draw(&self, svg: &mut Svg, frame: &Frame) {
+        let palette = Palette::of_map(self.colours.map, self.levels);
+        if let Some(png) = self.rasterize(frame, &palette).encode(&palette) {
+            svg.image(&frame.area, &png, false);
+        }
+        let mut lines = Path::new();
+        for line in &self.mesh.lines {
+            lines.extend(simplify(&self.curve(line, frame), 0.12));
+        }
+        svg.path(&lines, &Stroke::solid("#ffffff", 0.3).with_opacity(0.45));
+    }
+
+    fn draw_over(&self, svg: &mut Svg, frame: &Frame) {
+        for outline in &self.mesh.outlines {
+            let path = Path::polyline(self.curve(outline, frame), true);
+            svg.path(&path, &Stroke::solid(INK, 0.6));
+        }
+    }
+
+    fn colours(&self) -> Option<&Colours> {
+        Some(&self.colours)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::chart::svg::Rect;
+
+    /// A disc of radius 1 around a hole of radius 0.5, in quadratic cells.
+    fn annulus(around: u32) -> (Mesh, Vec<[f64; 2]>) {
+        let count = 2 * around;
+        let node = |ring: u32, step: u32| ring * count + step % count;
+        let cells = (0..around).map(|i| {
+            let (a, b, c) = (2 * i, 2 * i + 1, 2 * i + 2);
+            let ring = [
+                (0, a),
+                (0, b),
+                (0, c),
+                (1, c),
+                (2, c),
+                (2, b),
+                (2, a),
+                (1, a),
+            ];
+            Cell {
+                ring: ring.map(|(r, s)| node(r, s)).to_vec(),
+                is_quadratic: true,
+            }
+        });
+        let places = (0..3).flat_map(|ring| (0..count).map(move |step| (ring, step)));
+        let places = places.map(|(ring, step)| {
+            let (sin, cos) = (f64::from(step) / f64::from(count) * std::f64::consts::TAU).sin_cos();
+            let radius = 0.5 + 0.25 * f64::from(ring);
+            [radius * cos, radius * sin]
+        });
+        (
+            Mesh {
+                cells: cells.collect(),
+                ..Mesh::default()
+            },
+            places.collect(),
+        )
+    }
+
+    #[test]
+    fn raster_covers_the_annulus_area_and_follows_the_field() {
+        let (mesh, positions) = annulus(90);
+        let values = positions.iter().map(|p| p[0]).collect();
+        let axis = Axis::new("", "").between(-1.0, 1.0);
+        let field = Field::new(
+            Arc::new(mesh),
+            positions,
+            values,
+            axis.clone(),
+            ColourMap::Viridis,
+        )
+        .coarse();
+        let frame = Frame {
+            area: Rect::new(0.0, 0.0, 133.33, 133.33),
+            x: axis.resolve(None),
+            y: axis.resolve(None),
+        };
+        let palette = Palette::of_map(ColourMap::Viridis, Palette::COARSE);
+        let image = field.rasterize(&frame, &palette);
+        let filled = image.pixels.iter().filter(|&&p| p < 48).count() as f64;
+        let exact = std::f64::consts::PI * 0.75 / 4.0 * 160_000.0;
+        // A pixel on the rim counts whole or not at all: about one in a hundred.
+        assert!(
+            image.width == 400 && (filled / exact - 1.0).abs() < 0.01,
+            "{filled} {exact}"
+        );
+        for column in [20, 60, 320, 380] {
+            let level = f64::from(image.pixels[200 * 400 + column]);
+            let expected = (column as f64 + 0.5) / 400.0 * 48.0;
+            assert!((level + 0.5 - expected).abs() < 1.0);
+        }
+    }
+}

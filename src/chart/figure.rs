@@ -1,0 +1,169 @@
+//! A figure: panels in a grid, in reading order.
+
+use super::ChartError;
+use super::axis::Axis;
+use super::colour::ColourMap;
+use super::image::Colours;
+use super::layout::Layout;
+use super::panel::Panel;
+use super::svg::{POINTS_PER_MM, Svg};
+use super::text::plain;
+
+/// Width across two columns of a journal page, mm.
+const TWO_COLUMNS: f64 = 178.0;
+/// Width of one column, mm.
+const ONE_COLUMN: f64 = 85.0;
+
+/// A drawing of one or more panels, with its name and caption.
+pub struct Figure {
+    /// File name without extension, ASCII.
+    pub name: String,
+    /// What is shown, in a sentence or two of plain text.
+    pub caption: String,
+    pub(super) width_mm: f64,
+    pub(super) columns: usize,
+    pub(super) weights: Vec<f64>,
+    pub(super) cells: Vec<Option<Panel>>,
+    pub(super) shares: [bool; 2],
+    pub(super) has_letters: bool,
+    pub(super) notes: Vec<String>,
+    pub(super) foot: Option<Colours>,
+}
+
+impl Figure {
+    /// An empty figure across two columns of a page.
+    pub fn new(name: impl Into<String>, caption: impl Into<String>) -> Self {
+        Self {
+            name: name.into(),
+            caption: caption.into(),
+            width_mm: TWO_COLUMNS,
+            columns: 1,
+            weights: Vec::new(),
+            cells: Vec::new(),
+            shares: [false, false],
+            has_letters: true,
+            notes: Vec::new(),
+            foot: None,
+        }
+    }
+
+    /// The same under another name.
+    pub fn named(self, name: impl Into<String>) -> Self {
+        Self {
+            name: name.into(),
+            ..self
+        }
+    }
+
+    /// The same for one column of a page.
+    pub fn narrow(self) -> Self {
+        Self {
+            width_mm: ONE_COLUMN,
+            ..self
+        }
+    }
+
+    /// The same with so many panels in a row.
+    pub fn columns(self, columns: usize) -> Self {
+        Self {
+            columns: columns.max(1),
+            ..self
+        }
+    }
+
+    /// The same with columns of these relative widths.
+    pub fn weighted(self, weights: &[f64]) -> Self {
+        Self {
+            weights: weights.to_vec(),
+            ..self.columns(weights.len())
+        }
+    }
+
+    /// The same with one horizontal axis for all panels of a column.
+    pub fn shared_x(mut self) -> Self {
+        self.shares[0] = true;
+        self
+    }
+
+    /// The same with one vertical axis for all panels of a row.
+    pub fn shared_y(mut self) -> Self {
+        self.shares[1] = true;
+        self
+    }
+
+    /// The same with one more panel.
+    pub fn panel(mut self, panel: Panel) -> Self {
+        self.cells.push(Some(panel));
+        self
+    }
+
+    /// The same with more panels.
+    pub fn panels(mut self, panels: impl IntoIterator<Item = Panel>) -> Self {
+        self.cells.extend(panels.into_iter().map(Some));
+        self
+    }
+
+    /// The same with the panel, or with its place left free where there is none.
+    pub fn panel_or_gap(mut self, panel: Option<Panel>) -> Self {
+        self.cells.push(panel);
+        self
+    }
+
+    /// The same without letters on its panels.
+    pub fn unlettered(self) -> Self {
+        Self {
+            has_letters: false,
+            ..self
+        }
+    }
+
+    /// The same with a line of remarks below, in mark-up.
+    pub fn note(mut self, note: impl Into<String>) -> Self {
+        self.notes.push(note.into());
+        self
+    }
+
+    /// The same with one scale of colours for all panels below them, over the given ends of an axis.
+    pub fn colour_foot(self, axis: Axis, map: ColourMap) -> Self {
+        Self {
+            foot: Some(Colours::over(axis, map, &[])),
+            ..self
+        }
+    }
+
+    /// The finished drawing, `width_mm` wide or as wide as it is meant to be; in a narrower one panels stand one below the other.
+    ///
+    /// # Errors
+    /// [`ChartError::Empty`] if no panel has data.
+    pub fn to_svg(&self, width_mm: Option<f64>) -> Result<String, ChartError> {
+        let panels = || self.cells.iter().flatten();
+        if !panels().any(Panel::has_data) {
+            return Err(ChartError::empty(&self.name));
+        }
+        let width_mm = width_mm.unwrap_or(self.width_mm);
+        let mut svg = Svg::new(&self.name, width_mm * POINTS_PER_MM, 100.0);
+        let layout = Layout::of(self, width_mm);
+        layout.draw(&mut svg);
+        let title = self
+            .caption
+            .split(['.', ';', ':'])
+            .next()
+            .unwrap_or_default();
+        let describe = |(index, panel): (usize, &Panel)| {
+            let letter = (b'a' + (index % 26) as u8) as char;
+            let parts = [
+                &panel.caption,
+                panel.headings.first().map_or(&panel.caption, |h| &h.0),
+            ];
+            format!(
+                " ({letter}) {}",
+                plain(parts[if panel.caption.is_empty() { 1 } else { 0 }])
+            )
+        };
+        let named = panels()
+            .enumerate()
+            .filter(|(_, p)| !p.caption.is_empty() || !p.headings.is_empty());
+        let parts: String = named.map(describe).collect();
+        Ok(svg.finish(title, &format!("{}{parts}", self.caption)))
+    }
+}

@@ -1,0 +1,429 @@
+//! What is drawn between two axes: lines, points, areas.
+
+use super::colour::{INK, SERIES};
+use super::decimation::{keep_extremes, simplify};
+use super::image::Colours;
+use super::legend::Key;
+use super::panel::{Frame, Side};
+use super::svg::{Path, Stroke, Svg};
+
+/// Columns for each point of width to which series are thinned (300 dots per inch).
+const COLUMNS_PER_POINT: f64 = 300.0 / 72.0;
+/// Deviation that no reader sees, points.
+const INVISIBLE: f64 = 0.03;
+
+/// One thing drawn in a panel, with its data in the units of the program.
+pub trait Layer: Send + Sync {
+    /// Shows every point to `see`, so that the axes hold it; a coordinate without meaning is `NaN`.
+    fn extent(&self, _see: &mut dyn FnMut(f64, f64)) {}
+
+    /// Draws what is cut at the frame.
+    fn draw(&self, svg: &mut Svg, frame: &Frame);
+
+    /// Draws what stands over the frame, such as points and labels.
+    fn draw_over(&self, _svg: &mut Svg, _frame: &Frame) {}
+
+    /// Legend entries; they are shown if something of the layer is.
+    fn keys(&self) -> Vec<(Key, String)> {
+        Vec::new()
+    }
+
+    /// Whether it is data, and no line or label to compare data with: a panel without data is empty.
+    fn is_data(&self) -> bool {
+        true
+    }
+
+    /// A place on an axis that is named beyond the frame.
+    fn rim_label(&self) -> Option<(Side, f64, &str)> {
+        None
+    }
+
+    /// The values that its colours mean.
+    fn colours(&self) -> Option<&Colours> {
+        None
+    }
+}
+
+/// Shape of a data point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Marker {
+    /// Filled disc.
+    Disc,
+    /// Filled square.
+    Square,
+    /// Filled triangle.
+    Triangle,
+    /// Filled diamond.
+    Diamond,
+    /// Circle with a white inside.
+    Circle,
+}
+
+impl Marker {
+    /// The order in which series take markers.
+    pub const ALL: [Self; 5] = [
+        Self::Disc,
+        Self::Square,
+        Self::Triangle,
+        Self::Diamond,
+        Self::Circle,
+    ];
+
+    /// Adds the outline to a path.
+    fn outline(self, path: &mut Path, (x, y): (f64, f64), radius: f64) {
+        let round = |count: u8| -> Vec<(f64, f64)> {
+            let angle = |i: u8| f64::from(i) * std::f64::consts::TAU / f64::from(count);
+            (0..count).map(|i| angle(i).sin_cos()).collect()
+        };
+        let corners = match self {
+            Self::Disc if radius < 1.2 => round(8),
+            Self::Disc | Self::Circle => round(16),
+            Self::Square => vec![(0.88, 0.88), (-0.88, 0.88), (-0.88, -0.88), (0.88, -0.88)],
+            Self::Triangle => vec![(0.0, -1.2), (1.05, 0.75), (-1.05, 0.75)],
+            Self::Diamond => vec![(0.0, -1.25), (1.25, 0.0), (0.0, 1.25), (-1.25, 0.0)],
+        };
+        path.extend(
+            corners
+                .iter()
+                .map(|(dx, dy)| (x + radius * dx, y + radius * dy)),
+        );
+        path.close();
+    }
+
+    /// Draws markers at points of the drawing; one path for all of them.
+    pub(super) fn draw(
+        self,
+        svg: &mut Svg,
+        places: impl IntoIterator<Item = (f64, f64)>,
+        radius: f64,
+        colour: &'static str,
+    ) {
+        let mut path = Path::new();
+        for place in places {
+            self.outline(&mut path, place, radius);
+        }
+        if self == Self::Circle {
+            svg.fill_path(&path, "#ffffff", 1.0);
+            svg.path(&path, &Stroke::solid(colour, 0.7));
+        } else {
+            svg.fill_path(&path, colour, 1.0);
+        }
+    }
+}
+
+/// A curve; one with rising abscissae is thinned with its extremes kept, values that are not finite break it.
+#[derive(Clone, Debug)]
+pub struct Line {
+    xs: Vec<f64>,
+    ys: Vec<f64>,
+    stroke: Stroke,
+    marker: Option<(Marker, f64)>,
+    arrows: usize,
+    name: Option<String>,
+}
+
+impl Line {
+    /// A curve through `(xs[i], ys[i])`.
+    pub fn new(xs: &[f64], ys: &[f64]) -> Self {
+        Self::through(xs.iter().copied().zip(ys.iter().copied()))
+    }
+
+    /// A curve through points.
+    pub fn through(points: impl IntoIterator<Item = (f64, f64)>) -> Self {
+        let (xs, ys) = points.into_iter().unzip();
+        let stroke = Stroke::solid(SERIES[0], 1.1);
+        Self {
+            xs,
+            ys,
+            stroke,
+            marker: None,
+            arrows: 0,
+            name: None,
+        }
+    }
+
+    /// The same with a stroke.
+    pub fn stroke(self, stroke: Stroke) -> Self {
+        Self { stroke, ..self }
+    }
+
+    /// The same, full, in a colour and with a width in points.
+    pub fn solid(self, colour: &'static str, width: f64) -> Self {
+        self.stroke(Stroke::solid(colour, width))
+    }
+
+    /// The same with a marker of this radius (points) at every point.
+    pub fn marked(self, marker: Marker, radius: f64) -> Self {
+        Self {
+            marker: Some((marker, radius)),
+            ..self
+        }
+    }
+
+    /// The same as the `index`-th of several series, with its colour and dashes.
+    pub fn nth(mut self, index: usize) -> Self {
+        let (colour, _, dash) = super::look(index);
+        self.stroke = Stroke {
+            colour,
+            dash,
+            ..self.stroke
+        };
+        self
+    }
+
+    /// The same with so many arrow heads along it.
+    pub fn arrows(self, arrows: usize) -> Self {
+        Self { arrows, ..self }
+    }
+
+    /// The same with an entry in the legend.
+    pub fn name(self, name: impl Into<String>) -> Self {
+        Self {
+            name: Some(name.into()),
+            ..self
+        }
+    }
+
+    /// The unbroken pieces as they are drawn.
+    fn pieces(&self, frame: &Frame) -> Vec<Vec<(f64, f64)>> {
+        let thinned = match self.xs.is_sorted() {
+            true => keep_extremes(&self.xs, &self.ys, |x| frame.at_x(x) * COLUMNS_PER_POINT),
+            false => self.points().collect(),
+        };
+        let pieces = thinned.split(|&(x, y)| !frame.has_place(x, y));
+        let places = pieces.map(|piece| -> Vec<(f64, f64)> {
+            let places = piece.iter().map(|&(x, y)| frame.at(x, y));
+            simplify(&places.collect::<Vec<_>>(), INVISIBLE)
+        });
+        places.filter(|piece| !piece.is_empty()).collect()
+    }
+
+    fn points(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
+        self.xs.iter().copied().zip(self.ys.iter().copied())
+    }
+}
+
+impl Layer for Line {
+    fn extent(&self, see: &mut dyn FnMut(f64, f64)) {
+        self.points().for_each(|(x, y)| see(x, y));
+    }
+
+    fn draw(&self, svg: &mut Svg, frame: &Frame) {
+        let mut path = Path::new();
+        for piece in self.pieces(frame) {
+            path.extend(piece);
+        }
+        svg.path(&path, &self.stroke);
+    }
+
+    fn draw_over(&self, svg: &mut Svg, frame: &Frame) {
+        if let Some((marker, radius)) = self.marker {
+            marker.draw(svg, frame.inside(self.points()), radius, self.stroke.colour);
+        }
+        if self.arrows > 0 {
+            let mut heads = Path::new();
+            for piece in self.pieces(frame) {
+                arrow_heads(&mut heads, &piece, self.arrows);
+            }
+            svg.fill_path(&heads, INK, 1.0);
+        }
+    }
+
+    fn keys(&self) -> Vec<(Key, String)> {
+        let key = Key {
+            stroke: Some(self.stroke),
+            marker: self.marker.map(|m| (m.0, self.stroke.colour)),
+            patch: None,
+        };
+        self.name.iter().map(|name| (key, name.clone())).collect()
+    }
+}
+
+/// An arrow head on the longest step of each part of a curve: which way it is run through.
+fn arrow_heads(path: &mut Path, points: &[(f64, f64)], count: usize) {
+    let steps: Vec<_> = points.windows(2).map(|pair| (pair[0], pair[1])).collect();
+    let length = |((ax, ay), (bx, by)): ((f64, f64), (f64, f64))| (bx - ax).hypot(by - ay);
+    for part in steps.chunks(steps.len().div_ceil(count).max(1)) {
+        let longest = part
+            .iter()
+            .copied()
+            .max_by(|&a, &b| length(a).total_cmp(&length(b)));
+        let Some(step) = longest.filter(|&step| length(step) > 0.0) else {
+            continue;
+        };
+        let ((ax, ay), (bx, by)) = step;
+        let (dx, dy) = ((bx - ax) / length(step), (by - ay) / length(step));
+        let (x, y) = (0.5 * (ax + bx), 0.5 * (ay + by));
+        let corner =
+            |along: f64, across: f64| (x + along * dx - across * dy, y + along * dy + across * dx);
+        path.extend([corner(3.2, 0.0), corner(-2.4, 2.1), corner(-2.4, -2.1)]);
+        path.close();
+    }
+}
+
+/// Data points, whole even at the ends of an axis.
+#[derive(Clone, Debug)]
+pub struct Points {
+    points: Vec<(f64, f64)>,
+    marker: Marker,
+    radius: f64,
+    colour: &'static str,
+    name: Option<String>,
+}
+
+impl Points {
+    /// Discs at points.
+    pub fn new(points: impl IntoIterator<Item = (f64, f64)>) -> Self {
+        let points = points.into_iter().collect();
+        Self {
+            points,
+            marker: Marker::Disc,
+            radius: 2.0,
+            colour: SERIES[0],
+            name: None,
+        }
+    }
+
+    /// The same with a marker of this radius, points, and colour.
+    pub fn marker(self, marker: Marker, radius: f64, colour: &'static str) -> Self {
+        Self {
+            marker,
+            radius,
+            colour,
+            ..self
+        }
+    }
+
+    /// The same with an entry in the legend.
+    pub fn name(self, name: impl Into<String>) -> Self {
+        Self {
+            name: Some(name.into()),
+            ..self
+        }
+    }
+}
+
+impl Layer for Points {
+    fn extent(&self, see: &mut dyn FnMut(f64, f64)) {
+        self.points.iter().for_each(|&(x, y)| see(x, y));
+    }
+
+    fn draw(&self, _svg: &mut Svg, _frame: &Frame) {}
+
+    fn draw_over(&self, svg: &mut Svg, frame: &Frame) {
+        let places = frame.inside(self.points.iter().copied());
+        self.marker.draw(svg, places, self.radius, self.colour);
+    }
+
+    fn keys(&self) -> Vec<(Key, String)> {
+        let key = Key {
+            stroke: None,
+            marker: Some((self.marker, self.colour)),
+            patch: None,
+        };
+        self.name.iter().map(|name| (key, name.clone())).collect()
+    }
+}
+
+/// A filled area between two curves over the same rising abscissae.
+#[derive(Clone, Debug)]
+pub struct Fill {
+    /// Abscissa, one bound, the other.
+    points: Vec<[f64; 3]>,
+    is_range: bool,
+    colour: &'static str,
+    opacity: f64,
+    name: Option<String>,
+}
+
+impl Fill {
+    /// The area between two curves.
+    pub fn between(xs: &[f64], one: &[f64], other: &[f64], colour: &'static str) -> Self {
+        let points = xs.iter().zip(one.iter().zip(other));
+        let points = points.map(|(&x, (&a, &b))| [x, a, b]).collect();
+        Self {
+            points,
+            is_range: false,
+            colour,
+            opacity: 1.0,
+            name: None,
+        }
+    }
+
+    /// The area between a level and a curve.
+    pub fn from(level: f64, xs: &[f64], ys: &[f64], colour: &'static str) -> Self {
+        Self::between(xs, &vec![level; xs.len()], ys, colour)
+    }
+
+    /// The range that a quickly varying series covers.
+    pub fn range_of(xs: &[f64], ys: &[f64], colour: &'static str) -> Self {
+        Self {
+            is_range: true,
+            ..Self::between(xs, ys, ys, colour)
+        }
+    }
+
+    /// The same, transparent: 0 is invisible.
+    pub fn opacity(self, opacity: f64) -> Self {
+        Self { opacity, ..self }
+    }
+
+    /// The same with an entry in the legend.
+    pub fn name(self, name: impl Into<String>) -> Self {
+        Self {
+            name: Some(name.into()),
+            ..self
+        }
+    }
+}
+
+impl Layer for Fill {
+    fn extent(&self, see: &mut dyn FnMut(f64, f64)) {
+        // A range is drawn behind the line that the axis is made for.
+        for &[x, a, b] in self.points.iter().filter(|_| !self.is_range) {
+            see(x, a);
+            see(x, b);
+        }
+    }
+
+    fn draw(&self, svg: &mut Svg, frame: &Frame) {
+        let per_point = if self.is_range {
+            1.5
+        } else {
+            COLUMNS_PER_POINT
+        };
+        let mut columns: Vec<[f64; 3]> = Vec::new();
+        let shown = self
+            .points
+            .iter()
+            .filter(|[x, a, b]| (x + a + b).is_finite());
+        let last = self.points.last().map(|p| p[0]);
+        for &[x, a, b] in shown {
+            let place = [frame.at_x(x), frame.at_y(a), frame.at_y(b)];
+            match columns.last_mut() {
+                Some(column)
+                    if (column[0] * per_point).floor() == (place[0] * per_point).floor() =>
+                {
+                    if self.is_range {
+                        *column = [column[0], column[1].max(place[1]), column[2].min(place[2])];
+                    } else if Some(x) == last {
+                        columns.push(place);
+                    }
+                }
+                _ => columns.push(place),
+            }
+        }
+        let there = columns.iter().map(|c| (c[0], c[1]));
+        let back = columns.iter().rev().map(|c| (c[0], c[2]));
+        svg.fill_path(
+            &Path::polyline(there.chain(back), true),
+            self.colour,
+            self.opacity,
+        );
+    }
+
+    fn keys(&self) -> Vec<(Key, String)> {
+        let key = Key::patch(self.colour, self.opacity);
+        self.name.iter().map(|name| (key, name.clone())).collect()
+    }
+}

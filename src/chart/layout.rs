@@ -1,0 +1,340 @@
+//! Where the panels of a figure stand: a grid whose data areas line up.
+
+use super::figure::Figure;
+use super::image::Colours;
+use super::legend::{LINE_HEIGHT, Legend};
+use super::panel::{Frame, LABEL_SIZE, Panel, TITLE_SIZE};
+use super::ruler::Ruler;
+use super::svg::{Rect, Svg};
+use super::text::{self, Anchor, TextStyle};
+
+/// Distance of everything from the rim, points.
+const RIM: f64 = 4.0;
+/// Distance between columns and between rows, points.
+const GAP: f64 = 6.0;
+/// Size of headings, points.
+const HEADING_SIZE: f64 = 7.5;
+
+/// A panel with its cell, its axes and its place.
+struct Placed<'a> {
+    panel: &'a Panel,
+    row: usize,
+    column: usize,
+    span: usize,
+    labels: [bool; 2],
+    frame: Frame,
+    legend: Legend,
+}
+
+/// A figure laid out on a page of some width.
+pub(super) struct Layout<'a> {
+    figure: &'a Figure,
+    placed: Vec<Placed<'a>>,
+    left: Vec<f64>,
+    legend: Legend,
+    legend_place: (f64, f64),
+    bottom: f64,
+    width: f64,
+}
+
+impl<'a> Layout<'a> {
+    /// Places all panels.
+    pub fn of(figure: &'a Figure, width_mm: f64) -> Self {
+        let width = width_mm * super::svg::POINTS_PER_MM;
+        // On a page much narrower than meant, fewer panels stand side by side.
+        let is_narrow = width_mm < 0.75 * figure.width_mm;
+        let columns = match is_narrow {
+            true => ((figure.columns as f64 * width_mm / figure.width_mm) as usize).max(1),
+            false => figure.columns,
+        };
+        let mut placed = place_cells(figure, columns, is_narrow);
+        resolve_axes(figure, &mut placed);
+        let mut layout = Self {
+            figure,
+            placed,
+            left: Vec::new(),
+            legend: Legend::default(),
+            legend_place: (RIM, RIM),
+            bottom: 0.0,
+            width,
+        };
+        layout.place_columns(columns);
+        layout.collect_legends();
+        layout.place_rows();
+        layout
+    }
+
+    /// Widths: margins of each column are those of its neediest panel, the rest is shared.
+    fn place_columns(&mut self, columns: usize) {
+        let (mut left, mut right) = (vec![0.0f64; columns], vec![0.0f64; columns]);
+        for cell in &self.placed {
+            let need = cell.panel.left_need(&cell.frame.y, cell.labels[1]);
+            left[cell.column] = left[cell.column].max(need);
+            // What stands at the right may reach into a free cell.
+            let is_free = |column: usize| {
+                column < columns
+                    && !self.placed.iter().any(|other| {
+                        other.column == column
+                            && (other.row..other.row + other.span).contains(&cell.row)
+                    })
+            };
+            if !is_free(cell.column + 1) {
+                right[cell.column] = right[cell.column].max(cell.panel.right_need());
+            }
+        }
+        let margins: f64 = left.iter().chain(&right).sum();
+        let free = self.width - 2.0 * RIM - GAP * (columns - 1) as f64 - margins;
+        let weights = match self.figure.weights.len() == columns {
+            true => self.figure.weights.clone(),
+            false => vec![1.0; columns],
+        };
+        let total: f64 = weights.iter().sum();
+        let mut x = RIM;
+        for column in 0..columns {
+            let width = (free * weights[column] / total).max(20.0);
+            x += left[column];
+            for cell in self.placed.iter_mut().filter(|cell| cell.column == column) {
+                (cell.frame.area.x, cell.frame.area.width) = (x, width);
+            }
+            x += width + right[column] + GAP;
+        }
+        self.left = left;
+    }
+
+    fn collect_legends(&mut self) {
+        for cell in &mut self.placed {
+            let legend = if cell.panel.has_legend {
+                &mut cell.legend
+            } else {
+                &mut self.legend
+            };
+            cell.panel.add_keys(&cell.frame, legend);
+        }
+        self.legend_place.0 = RIM + self.left.first().copied().unwrap_or(0.0);
+    }
+
+    /// Heights: as the columns, with captions and legends above each panel.
+    fn place_rows(&mut self) {
+        let room = self.width - self.legend_place.0 - RIM;
+        let mut y = RIM + self.legend.height(room) + if self.legend.is_empty() { 0.0 } else { 3.0 };
+        let rows = self
+            .placed
+            .iter()
+            .map(|cell| cell.row + cell.span)
+            .max()
+            .unwrap_or(0);
+        let letters = self.has_letters();
+        let (mut tops, mut bottoms) = (vec![0.0; rows], vec![0.0; rows]);
+        for row in 0..rows {
+            let own = || self.placed.iter().filter(|cell| cell.row == row);
+            let top = own().map(|cell| cell.top_need(letters)).fold(0.0, f64::max);
+            let single = own().filter(|cell| cell.span == 1);
+            let height = single.map(|cell| cell.height()).fold(0.0, f64::max);
+            let ends = self
+                .placed
+                .iter()
+                .filter(|cell| cell.row + cell.span == row + 1);
+            let bottom = ends
+                .map(|cell| cell.panel.bottom_need(cell.labels[0]))
+                .fold(0.0, f64::max);
+            (tops[row], bottoms[row]) = (y + top, y + top + height);
+            y += top + height + bottom + GAP;
+        }
+        for cell in &mut self.placed {
+            let (top, bottom) = (tops[cell.row], bottoms[cell.row + cell.span - 1]);
+            cell.frame.area.y = top;
+            cell.frame.area.height = bottom - top;
+            cell.make_equal();
+        }
+        self.bottom = y - GAP;
+    }
+
+    fn has_letters(&self) -> bool {
+        self.figure.has_letters && self.placed.len() > 1
+    }
+
+    /// Draws the figure and sets its height.
+    pub fn draw(&self, svg: &mut Svg) {
+        let room = self.width - self.legend_place.0 - RIM;
+        self.legend.draw(svg, self.legend_place, room);
+        for (index, cell) in self.placed.iter().enumerate() {
+            let distance = self.left[cell.column] - TITLE_SIZE;
+            cell.panel.draw(svg, &cell.frame, cell.labels, distance);
+            cell.draw_head(svg, self.has_letters().then_some(index));
+        }
+        let mut y = self.bottom;
+        if let Some(colours) = &self.figure.foot {
+            let width = 160f64.min(0.5 * self.width);
+            colours.draw_flat_bar(svg, (self.width - width - 16.0, y + 3.0), width);
+        }
+        let style = TextStyle::new(6.25).coloured(super::colour::MUTED);
+        for note in &self.figure.notes {
+            y += 9.0;
+            svg.text(RIM + 2.0, y, note, &style);
+        }
+        if self.figure.foot.is_some() {
+            y = y.max(self.bottom + Colours::flat_bar_height());
+        }
+        svg.set_height(y + RIM);
+    }
+}
+
+/// Fills the grid row by row; a panel beside several rows keeps its column in all of them.
+fn place_cells(figure: &Figure, columns: usize, is_narrow: bool) -> Vec<Placed<'_>> {
+    let mut taken: Vec<(usize, usize)> = Vec::new();
+    let mut placed = Vec::new();
+    let mut next = 0;
+    for cell in &figure.cells {
+        while taken.contains(&(next / columns, next % columns)) {
+            next += 1;
+        }
+        let (row, column) = (next / columns, next % columns);
+        match cell {
+            Some(panel) => {
+                let span = if is_narrow { 1 } else { panel.span };
+                taken.extend((row..row + span).map(|row| (row, column)));
+                let empty = || panel.x.resolve(None);
+                let frame = Frame {
+                    area: Rect::new(0.0, 0.0, 0.0, 0.0),
+                    x: empty(),
+                    y: empty(),
+                };
+                let legend = Legend::default();
+                placed.push(Placed {
+                    panel,
+                    row,
+                    column,
+                    span,
+                    labels: [true; 2],
+                    frame,
+                    legend,
+                });
+            }
+            None if is_narrow => continue,
+            None => taken.push((row, column)),
+        }
+        next += 1;
+    }
+    placed
+}
+
+/// Ends of all axes, and which of them are labelled: of shared ones the lowest and the leftmost.
+fn resolve_axes(figure: &Figure, placed: &mut [Placed<'_>]) {
+    let ranges: Vec<_> = placed.iter().map(|cell| cell.panel.ranges()).collect();
+    let cells: Vec<(usize, usize)> = placed.iter().map(|cell| (cell.row, cell.column)).collect();
+    let union = |all: &mut dyn Iterator<Item = Option<(f64, f64)>>| {
+        all.flatten().reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
+    };
+    for (index, cell) in placed.iter_mut().enumerate() {
+        let together = |other: usize, axis: usize| match axis {
+            0 => figure.shares[0] && cells[other].1 == cell.column,
+            _ => figure.shares[1] && cells[other].0 == cell.row,
+        };
+        let range = |axis: usize| {
+            let own = (0..ranges.len()).filter(|&other| other == index || together(other, axis));
+            union(&mut own.map(|other| ranges[other][axis]))
+        };
+        let rulers: [Ruler; 2] = [
+            cell.panel.x.resolve(range(0)),
+            cell.panel.y.resolve(range(1)),
+        ];
+        let below = cells
+            .iter()
+            .any(|other| *other == (cell.row + cell.span, cell.column));
+        let before = cells
+            .iter()
+            .any(|other| other.0 == cell.row && other.1 < cell.column);
+        cell.labels = [!(figure.shares[0] && below), !(figure.shares[1] && before)];
+        [cell.frame.x, cell.frame.y] = rulers;
+    }
+}
+
+impl Placed<'_> {
+    /// Height of the data area by itself, points.
+    fn height(&self) -> f64 {
+        let panel = self.panel;
+        match panel.is_plane {
+            true => panel.height.min(self.frame.area.width * self.aspect()),
+            false => panel.height,
+        }
+    }
+
+    fn aspect(&self) -> f64 {
+        let length = |ruler: &Ruler| ruler.ends().1 - ruler.ends().0;
+        length(&self.frame.y) / length(&self.frame.x)
+    }
+
+    /// Shrinks the area of a plane about its middle until its units are equal.
+    fn make_equal(&mut self) {
+        if self.panel.is_plane {
+            let (aspect, area) = (self.aspect(), &mut self.frame.area);
+            let width = area.width.min(area.height / aspect);
+            area.x += 0.5 * (area.width - width);
+            area.width = width;
+            area.height = width * aspect;
+        }
+    }
+
+    /// Room right of the caption for a legend in the same line, points.
+    fn legend_room(&self) -> f64 {
+        let caption = text::width(&self.panel.caption, LABEL_SIZE, false);
+        self.frame.area.width - caption - 24.0
+    }
+
+    /// Room needed above the data area, points.
+    fn top_need(&self, letters: bool) -> f64 {
+        let headings = self.panel.headings.len() as f64 * 1.25 * HEADING_SIZE;
+        let line = if letters || !self.panel.caption.is_empty() {
+            9.5
+        } else {
+            0.0
+        };
+        let legend = match self.legend.is_empty() || self.legend.width() <= self.legend_room() {
+            true => {
+                if self.legend.is_empty() {
+                    0.0
+                } else {
+                    LINE_HEIGHT
+                }
+            }
+            false => line + self.legend.height(self.frame.area.width),
+        };
+        let head = headings.max(line).max(legend);
+        head + self.panel.rim_height() + if head > 0.0 { 3.0 } else { 0.0 }
+    }
+
+    /// Draws letter, caption, headings and the panel's own legend.
+    fn draw_head(&self, svg: &mut Svg, letter: Option<usize>) {
+        let (area, panel) = (&self.frame.area, self.panel);
+        let mut baseline = area.y - 3.5 - panel.rim_height();
+        if !self.legend.is_empty() {
+            if self.legend.width() <= self.legend_room() {
+                let x = area.right() - self.legend.width() + 9.0;
+                self.legend
+                    .draw(svg, (x, baseline - 7.5), self.legend.width());
+            } else {
+                let height = self.legend.height(area.width);
+                self.legend
+                    .draw(svg, (area.x, baseline + 1.5 - height), area.width);
+                baseline -= height;
+            }
+        }
+        let lines = panel.headings.len();
+        for (row, (line, colour)) in panel.headings.iter().enumerate() {
+            let y = baseline - (lines - 1 - row) as f64 * 1.25 * HEADING_SIZE;
+            let style = TextStyle::new(HEADING_SIZE)
+                .anchored(Anchor::Middle)
+                .coloured(colour);
+            svg.text(area.x + 0.5 * area.width, y, line, &style);
+        }
+        if let Some(index) = letter {
+            let letter = (b'a' + (index % 26) as u8) as char;
+            let style = TextStyle::new(8.0).bold();
+            svg.text(area.x, baseline, &format!("({letter})"), &style);
+        }
+        let x = area.x + if letter.is_some() { 18.0 } else { 0.0 };
+        if !panel.caption.is_empty() {
+            svg.text(x, baseline, &panel.caption, &TextStyle::new(LABEL_SIZE));
+        }
+    }
+}

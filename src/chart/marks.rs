@@ -1,0 +1,413 @@
+//! What data are compared with or named by: rules, labels, bars, shapes.
+
+use super::colour::{INK, MUTED};
+use super::layer::Layer;
+use super::legend::Key;
+use super::panel::{Frame, LABEL_SIZE, Side};
+use super::svg::{Path, Rect, Stroke, Svg};
+use super::text::{self, Anchor, TextStyle};
+
+/// A line across the panel at one value.
+#[derive(Clone, Debug)]
+pub struct Rule {
+    value: f64,
+    is_horizontal: bool,
+    stroke: Stroke,
+    stretches: bool,
+    name: Option<String>,
+    beside: Option<String>,
+    rim: Option<String>,
+}
+
+impl Rule {
+    fn new(value: f64, is_horizontal: bool) -> Self {
+        let stroke = Stroke::dashed(INK, 0.8);
+        Self {
+            value,
+            is_horizontal,
+            stroke,
+            stretches: false,
+            name: None,
+            beside: None,
+            rim: None,
+        }
+    }
+
+    /// A dashed line at an ordinate; it is left out where the axis does not reach it.
+    pub fn horizontal(value: f64) -> Self {
+        Self::new(value, true)
+    }
+
+    /// A dashed line at an abscissa.
+    pub fn vertical(value: f64) -> Self {
+        Self::new(value, false)
+    }
+
+    /// The same with a stroke.
+    pub fn stroke(self, stroke: Stroke) -> Self {
+        Self { stroke, ..self }
+    }
+
+    /// The same, and the axis reaches it.
+    pub fn stretching(self) -> Self {
+        Self {
+            stretches: true,
+            ..self
+        }
+    }
+
+    /// The same with an entry in the legend.
+    pub fn name(self, name: impl Into<String>) -> Self {
+        Self {
+            name: Some(name.into()),
+            ..self
+        }
+    }
+
+    /// The same with a text along it inside the frame.
+    pub fn beside(self, text: impl Into<String>) -> Self {
+        Self {
+            beside: Some(text.into()),
+            ..self
+        }
+    }
+
+    /// The same with a text beyond the frame, at the right or above.
+    pub fn at_rim(self, text: impl Into<String>) -> Self {
+        Self {
+            rim: Some(text.into()),
+            ..self
+        }
+    }
+}
+
+impl Layer for Rule {
+    fn extent(&self, see: &mut dyn FnMut(f64, f64)) {
+        match self.is_horizontal {
+            true => see(f64::NAN, self.value),
+            false => see(self.value, f64::NAN),
+        }
+    }
+
+    fn draw(&self, svg: &mut Svg, frame: &Frame) {
+        let area = &frame.area;
+        let (from, to) = match self.is_horizontal {
+            true if frame.y.contains(self.value) => {
+                let y = frame.at_y(self.value);
+                ((area.x, y), (area.right(), y))
+            }
+            false if frame.x.contains(self.value) => {
+                let x = frame.at_x(self.value);
+                ((x, area.y), (x, area.bottom()))
+            }
+            _ => return,
+        };
+        svg.line(from, to, &self.stroke);
+    }
+
+    fn draw_over(&self, svg: &mut Svg, frame: &Frame) {
+        let Some(text) = &self.beside else { return };
+        let style = TextStyle::new(LABEL_SIZE).with_halo();
+        if self.is_horizontal && frame.y.contains(self.value) {
+            svg.text(
+                frame.area.x + 4.0,
+                frame.at_y(self.value) - 2.5,
+                text,
+                &style,
+            );
+        } else if !self.is_horizontal && frame.x.contains(self.value) {
+            let (x, y) = (frame.at_x(self.value) - 2.5, frame.area.bottom() - 5.0);
+            svg.text(x, y, text, &style.rotated(-90.0));
+        }
+    }
+
+    fn keys(&self) -> Vec<(Key, String)> {
+        let key = Key::line(self.stroke);
+        self.name.iter().map(|name| (key, name.clone())).collect()
+    }
+
+    fn is_data(&self) -> bool {
+        self.stretches
+    }
+
+    fn rim_label(&self) -> Option<(Side, f64, &str)> {
+        let side = if self.is_horizontal {
+            Side::Right
+        } else {
+            Side::Above
+        };
+        Some((side, self.value, self.rim.as_deref()?))
+    }
+}
+
+/// Text at a point of the data.
+#[derive(Clone, Debug)]
+pub struct Label {
+    place: (f64, f64),
+    offset: (f64, f64),
+    text: String,
+    style: TextStyle,
+}
+
+impl Label {
+    /// Text to the right of a point, in mark-up, with a white outline.
+    pub fn new(place: (f64, f64), text: impl Into<String>) -> Self {
+        let style = TextStyle::new(LABEL_SIZE).with_halo();
+        Self {
+            place,
+            offset: (3.0, 2.4),
+            text: text.into(),
+            style,
+        }
+    }
+
+    /// The same, centred above the point.
+    pub fn above(mut self) -> Self {
+        self.style = self.style.anchored(Anchor::Middle);
+        self.moved(0.0, -4.0)
+    }
+
+    /// The same, moved from the point, points right and down.
+    pub fn moved(self, right: f64, down: f64) -> Self {
+        Self {
+            offset: (right, down),
+            ..self
+        }
+    }
+
+    /// The same in a style.
+    pub fn style(self, style: TextStyle) -> Self {
+        Self { style, ..self }
+    }
+}
+
+impl Layer for Label {
+    fn draw(&self, _svg: &mut Svg, _frame: &Frame) {}
+
+    fn draw_over(&self, svg: &mut Svg, frame: &Frame) {
+        for (x, y) in frame.inside([self.place]) {
+            svg.text(
+                x + self.offset.0,
+                y + self.offset.1,
+                &self.text,
+                &self.style,
+            );
+        }
+    }
+
+    fn is_data(&self) -> bool {
+        false
+    }
+}
+
+/// Lying bars of equal thickness, each with a label inside where it fits.
+#[derive(Clone, Debug)]
+pub struct Bars {
+    /// From, to, ordinate of the middle, label.
+    bars: Vec<(f64, f64, f64, String)>,
+    colour: &'static str,
+}
+
+impl Bars {
+    /// Bars from one abscissa to another at an ordinate, each with a label in mark-up.
+    pub fn new(bars: Vec<(f64, f64, f64, String)>, colour: &'static str) -> Self {
+        Self { bars, colour }
+    }
+}
+
+impl Layer for Bars {
+    fn extent(&self, see: &mut dyn FnMut(f64, f64)) {
+        for (from, to, at, _) in &self.bars {
+            see(*from, *at);
+            see(*to, *at);
+        }
+    }
+
+    fn draw(&self, svg: &mut Svg, frame: &Frame) {
+        for (from, to, at, _) in &self.bars {
+            let (left, right, y) = (frame.at_x(*from), frame.at_x(*to), frame.at_y(*at));
+            let bar = Rect::new(left, y - 5.5, (right - left).max(1.0), 11.0);
+            svg.rectangle(&bar, self.colour, None);
+        }
+    }
+
+    fn draw_over(&self, svg: &mut Svg, frame: &Frame) {
+        for (from, to, at, label) in &self.bars {
+            let (left, right) = (frame.at_x(*from), frame.at_x(*to));
+            let width = text::width(label, LABEL_SIZE, false) + 6.0;
+            // Inside the bar where it fits, else at the side that has room.
+            let (x, anchor, colour) = if right - left > width {
+                (left + 3.0, Anchor::Start, "#ffffff")
+            } else if left - width > frame.area.x {
+                (left - 3.0, Anchor::End, INK)
+            } else {
+                (right + 3.0, Anchor::Start, INK)
+            };
+            let style = TextStyle::new(LABEL_SIZE).anchored(anchor).coloured(colour);
+            svg.text(x, frame.at_y(*at) + 0.36 * LABEL_SIZE, label, &style);
+        }
+    }
+}
+
+/// Filled areas with outlines, one path for each style.
+#[derive(Clone, Debug, Default)]
+pub struct Shapes {
+    polygons: Vec<(Vec<(f64, f64)>, &'static str)>,
+    bands: Vec<(f64, f64, &'static str)>,
+    outlines: Vec<(Vec<(f64, f64)>, Stroke)>,
+    names: Vec<(Key, String)>,
+}
+
+impl Shapes {
+    /// Polygons, each in a colour.
+    pub fn polygons(polygons: Vec<(Vec<(f64, f64)>, &'static str)>) -> Self {
+        Self {
+            polygons,
+            ..Self::default()
+        }
+    }
+
+    /// Bands over the whole height, each from one abscissa to another in a colour.
+    pub fn bands(bands: Vec<(f64, f64, &'static str)>) -> Self {
+        Self {
+            bands,
+            ..Self::default()
+        }
+    }
+
+    /// The same with a curve drawn over it.
+    pub fn outline(mut self, points: impl IntoIterator<Item = (f64, f64)>, stroke: Stroke) -> Self {
+        self.outlines.push((points.into_iter().collect(), stroke));
+        self
+    }
+
+    /// The same with an entry in the legend.
+    pub fn name(mut self, key: Key, name: impl Into<String>) -> Self {
+        self.names.push((key, name.into()));
+        self
+    }
+}
+
+impl Layer for Shapes {
+    fn extent(&self, see: &mut dyn FnMut(f64, f64)) {
+        let shapes = self.polygons.iter().map(|(points, _)| points);
+        for (x, y) in shapes
+            .chain(self.outlines.iter().map(|(points, _)| points))
+            .flatten()
+        {
+            see(*x, *y);
+        }
+        self.bands.iter().for_each(|band| see(band.0, f64::NAN));
+    }
+
+    fn draw(&self, svg: &mut Svg, frame: &Frame) {
+        let ends = frame.y.ends();
+        for (from, to, colour) in &self.bands {
+            svg.rectangle(&frame.rect((*from, *to), ends), colour, None);
+        }
+        let place = |points: &[(f64, f64)]| -> Vec<(f64, f64)> {
+            points.iter().map(|&(x, y)| frame.at(x, y)).collect()
+        };
+        let mut colours: Vec<&'static str> = self.polygons.iter().map(|p| p.1).collect();
+        colours.dedup();
+        for colour in colours {
+            let mut path = Path::new();
+            for (points, _) in self.polygons.iter().filter(|polygon| polygon.1 == colour) {
+                path.extend(place(points));
+                path.close();
+            }
+            svg.fill_path(&path, colour, 1.0);
+        }
+        for (points, stroke) in &self.outlines {
+            svg.path(&Path::polyline(place(points), false), stroke);
+        }
+    }
+
+    fn keys(&self) -> Vec<(Key, String)> {
+        self.names.clone()
+    }
+
+    fn is_data(&self) -> bool {
+        !self.polygons.is_empty() || !self.outlines.is_empty()
+    }
+}
+
+/// Moves rising positions apart to at least `gap`, as little as clusters centred on their members allow.
+pub(super) fn spread(wanted: &[f64], gap: f64, low: f64, high: f64) -> Vec<f64> {
+    let mut clusters: Vec<(f64, usize)> = Vec::new();
+    for &position in wanted {
+        clusters.push((position, 1));
+        while let [.., (a, count_a), (b, count_b)] = clusters[..] {
+            if b - a >= 0.5 * gap * (count_a + count_b) as f64 {
+                break;
+            }
+            let count = count_a + count_b;
+            let centre = (a * count_a as f64 + b * count_b as f64) / count as f64;
+            clusters.truncate(clusters.len() - 2);
+            clusters.push((centre, count));
+        }
+    }
+    let places = clusters.into_iter().flat_map(|(centre, count)| {
+        let half = 0.5 * gap * (count - 1) as f64;
+        let first = (centre - half).max(low).min((high - 2.0 * half).max(low));
+        (0..count).map(move |member| first + gap * member as f64)
+    });
+    places.collect()
+}
+
+/// Names the places of rules beyond the frame, without overlap.
+pub(super) fn draw_rim_labels(svg: &mut Svg, frame: &Frame, labels: &[(Side, f64, &str)]) {
+    let leader = Stroke::solid(MUTED, 0.4);
+    let area = &frame.area;
+    for side in [Side::Right, Side::Above] {
+        let at = |value: f64| {
+            if side == Side::Right {
+                frame.at_y(value)
+            } else {
+                frame.at_x(value)
+            }
+        };
+        let own = labels.iter().filter(|label| label.0 == side);
+        let mut own: Vec<(f64, &str)> = own.map(|label| (at(label.1), label.2)).collect();
+        own.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let wanted: Vec<f64> = own.iter().map(|label| label.0).collect();
+        let style = TextStyle::new(RIM_SIZE);
+        if side == Side::Right {
+            let places = spread(&wanted, RIM_SIZE + 1.5, area.y + 3.0, area.bottom() - 2.0);
+            for ((y, text), place) in own.into_iter().zip(places) {
+                svg.line((area.right(), y), (area.right() + 6.0, place), &leader);
+                svg.text(area.right() + 7.5, place + 0.36 * RIM_SIZE, text, &style);
+            }
+        } else {
+            let widest = own
+                .iter()
+                .map(|label| text::width(label.1, RIM_SIZE, false));
+            let gap = widest.fold(4.0, f64::max) + 2.0;
+            let places = spread(&wanted, gap, area.x, area.right());
+            for ((x, text), place) in own.into_iter().zip(places) {
+                svg.line((x, area.y), (place, area.y - 4.5), &leader);
+                svg.text(place, area.y - 6.0, text, &style.anchored(Anchor::Middle));
+            }
+        }
+    }
+}
+
+/// Size of names beyond the frame, points.
+pub(super) const RIM_SIZE: f64 = 6.25;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels_are_spread_without_overlap() {
+        let places = spread(&[10.0, 10.5, 11.0, 40.0, 80.0], 8.0, 0.0, 100.0);
+        assert!(
+            places
+                .windows(2)
+                .all(|pair| pair[1] - pair[0] >= 8.0 - 1e-9),
+            "{places:?}"
+        );
+        assert!(places[3] == 40.0 && (places[1] - 10.5).abs() < 1e-9);
+    }
+}

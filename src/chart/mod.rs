@@ -1,0 +1,87 @@
+//! Charts: a figure is a grid of panels, a panel two axes and the layers drawn between them.
+//!
+//! ```
+//! use frictionsim::chart::{Axis, Figure, Line, Panel, Rule};
+//! let (time, power) = ([0.0, 0.01, 0.02], [0.0, 900.0, 1300.0]);
+//! let panel = Panel::new(Axis::new("time *t*", "s").prefixed(), Axis::new("power", "W").prefixed())
+//!     .layer(Line::new(&time, &power).name("external"))
+//!     .layer(Rule::horizontal(1000.0).name("limit"));
+//! let svg = Figure::new("power", "Power of the drive.").panel(panel).to_svg(None)?;
+//! assert!(svg.contains("power (kW)"));
+//! # Ok::<(), frictionsim::chart::ChartError>(())
+//! ```
+//!
+//! Layers hold data in the units of the program; axes bring them to the unit shown. Frames, clips, letters, legends of what is
+//! there to be seen, empty and non-finite data are dealt with here, once. Sizes are journal column widths, equal data give
+//! equal bytes, text stays text. Nothing here computes physics or touches a file.
+
+mod axis;
+mod colour;
+mod decimation;
+mod field;
+mod figure;
+mod image;
+mod layer;
+mod layout;
+mod legend;
+mod marks;
+mod panel;
+mod pdf;
+mod raster;
+mod ruler;
+mod svg;
+mod text;
+
+pub use axis::{Axis, Scale, extremes};
+pub use colour::{ColourMap, GRID, INK, MUTED, SERIES, channels};
+pub use field::{Cell, Field, Mesh};
+pub use figure::Figure;
+pub use image::{Heat, Palette};
+pub use layer::{Fill, Layer, Line, Marker, Points};
+pub use legend::Key;
+pub use marks::{Bars, Label, Rule, Shapes};
+pub use panel::{Frame, Panel, Side};
+pub use raster::Drawing;
+pub use ruler::{Ruler, prefixed, signed, significant};
+pub use svg::{ID_PREFIX, Path, Rect, Stroke, Svg, escape};
+pub use text::{Anchor, TextStyle, literal, plain};
+
+/// Look of the `index`-th of several series: its colour, marker and dashes, which together do not repeat before the 35th.
+pub fn look(index: usize) -> (&'static str, Marker, &'static [f64]) {
+    const DASHES: [&[f64]; 3] = [&[], &[4.0, 1.6], &[1.2, 1.2]];
+    let colour = SERIES[index % SERIES.len()];
+    let dashes = DASHES[index / SERIES.len() % DASHES.len()];
+    (colour, Marker::ALL[index % Marker::ALL.len()], dashes)
+}
+
+/// A figure that cannot be drawn.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ChartError {
+    /// Nothing to draw.
+    #[error("{what}: there is nothing to draw")]
+    Empty {
+        /// Which figure or data.
+        what: String,
+    },
+    /// The image cannot be encoded.
+    #[error("the image cannot be encoded as PNG: {0}")]
+    Encoding(String),
+    /// The drawing is not well-formed.
+    #[error("the drawing is not well-formed SVG: {0}")]
+    Parse(String),
+    /// The image is empty or too large.
+    #[error("an image of {width:.0} x {height:.0} pixels cannot be drawn: 1 to 1e8 pixels fit")]
+    Size {
+        /// Pixels in a row.
+        width: f64,
+        /// Rows.
+        height: f64,
+    },
+}
+
+impl ChartError {
+    /// That `what` has nothing to draw.
+    pub fn empty(what: &str) -> Self {
+        Self::Empty { what: what.into() }
+    }
+}

@@ -1,0 +1,414 @@
+//! An axis whose range is known: places, round ticks, labels.
+
+use super::axis::Scale;
+use super::text;
+
+/// One labelled tick.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tick {
+    /// Where, in the unit shown.
+    pub value: f64,
+    /// Its mark-up.
+    pub label: String,
+}
+
+/// An axis with its title, which states the unit, and its range in that unit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ruler {
+    pub(super) title: String,
+    pub(super) scale: Scale,
+    factor: f64,
+    pub(super) low: f64,
+    pub(super) high: f64,
+    fixed_ticks: Option<Vec<Tick>>,
+}
+
+impl Ruler {
+    /// An axis over a range in the unit of the data, which `factor` brings to the unit shown; ends that make no range are mended.
+    pub(super) fn new(
+        title: String,
+        scale: Scale,
+        factor: f64,
+        range: (f64, f64),
+        fixed_ticks: Option<Vec<Tick>>,
+    ) -> Self {
+        let (low, high) = (range.0 * factor, range.1 * factor);
+        let (low, high) = match scale {
+            Scale::Linear => non_empty(low, high),
+            Scale::Logarithmic => positive(low, high),
+        };
+        Self {
+            title,
+            scale,
+            factor,
+            low,
+            high,
+            fixed_ticks,
+        }
+    }
+
+    /// Position of a value in the unit of the data, 0 at the lower end and 1 at the upper.
+    pub fn fraction(&self, value: f64) -> f64 {
+        self.place(value * self.factor)
+    }
+
+    /// Whether a value lies between the ends, but for round-off.
+    pub fn contains(&self, value: f64) -> bool {
+        (-1e-9..=1.0 + 1e-9).contains(&self.fraction(value))
+    }
+
+    /// The ends in the unit of the data.
+    pub fn ends(&self) -> (f64, f64) {
+        (self.low / self.factor, self.high / self.factor)
+    }
+
+    /// Position of a value in the unit shown.
+    pub(super) fn place(&self, value: f64) -> f64 {
+        match self.scale {
+            Scale::Linear => (value - self.low) / (self.high - self.low),
+            Scale::Logarithmic if value <= 0.0 => f64::NEG_INFINITY,
+            Scale::Logarithmic => (value / self.low).ln() / (self.high / self.low).ln(),
+        }
+    }
+
+    /// Title with the power of ten taken out of the labels: "torque (N m)" becomes "torque (10^6 N m)".
+    pub(super) fn full_title(&self) -> String {
+        let power = self.exponent();
+        let factor = format!("10^{{{}}}", signed(f64::from(power), 0));
+        match (power, self.title.rsplit_once('(')) {
+            (0, _) => self.title.clone(),
+            (_, Some((quantity, unit))) => format!("{quantity}({factor} {unit}"),
+            (_, None) => format!("{} ({factor})", self.title),
+        }
+    }
+
+    /// Power of ten taken out of the tick labels (a multiple of three, zero for ordinary numbers).
+    fn exponent(&self) -> i32 {
+        let reach = self.low.abs().max(self.high.abs());
+        if self.scale == Scale::Logarithmic
+            || self.fixed_ticks.is_some()
+            || (1e-2..1e5).contains(&reach)
+            || reach == 0.0
+        {
+            return 0;
+        }
+        (reach.log10() / 3.0).floor() as i32 * 3
+    }
+
+    /// Labelled ticks, about `count` of them.
+    pub(super) fn ticks(&self, count: usize) -> Vec<Tick> {
+        if let Some(ticks) = &self.fixed_ticks {
+            return ticks
+                .iter()
+                .filter(|tick| self.shows(tick.value))
+                .cloned()
+                .collect();
+        }
+        match self.scale {
+            Scale::Linear => self.linear_ticks(count),
+            Scale::Logarithmic => self.logarithmic_ticks(count),
+        }
+    }
+
+    fn shows(&self, value: f64) -> bool {
+        (-1e-9..=1.0 + 1e-9).contains(&self.place(value))
+    }
+
+    fn linear_ticks(&self, count: usize) -> Vec<Tick> {
+        let span = self.high - self.low;
+        let inside = |step: f64| {
+            ((self.high / step + 1e-9).floor() - (self.low / step - 1e-9).ceil()) as i64 + 1
+        };
+        let mut step = round_step(span / count.max(1) as f64);
+        if inside(step) < 3 && count > 1 {
+            // One or two labels do not make a scale.
+            step = round_step(span / (2 * count) as f64);
+        }
+        let unit = 10f64.powi(self.exponent());
+        let decimals = decimals_for(step / unit);
+        let first = (self.low / step - 1e-9).ceil() as i64;
+        let last = (self.high / step + 1e-9).floor() as i64;
+        (first..=last)
+            .map(|index| {
+                let value = index as f64 * step;
+                Tick {
+                    value,
+                    label: signed(value / unit, decimals),
+                }
+            })
+            .collect()
+    }
+}
+
+fn non_empty(low: f64, high: f64) -> (f64, f64) {
+    if !(low.is_finite() && high.is_finite()) {
+        return (0.0, 1.0);
+    }
+    let reach = low.abs().max(high.abs());
+    if high - low > 1e-12 * reach && high > low {
+        return (low, high);
+    }
+    let room = if reach == 0.0 { 1.0 } else { 0.5 * reach };
+    (low - room, high + room)
+}
+
+/// Ends that are not positive are replaced.
+fn positive(low: f64, high: f64) -> (f64, f64) {
+    let high = if high > 0.0 && high.is_finite() {
+        high
+    } else {
+        1.0
+    };
+    match low > 0.0 && low < high * (1.0 - 1e-9) {
+        true => (low, high),
+        false if low > 0.0 && low.is_finite() => (0.5 * high, 2.0 * high),
+        false => (high * 1e-3, high),
+    }
+}
+
+/// The next step of 1, 2, 2.5 or 5 times a power of ten.
+fn round_step(raw: f64) -> f64 {
+    let power = 10f64.powf(raw.log10().floor());
+    let digit = [1.0, 2.0, 2.5, 5.0]
+        .into_iter()
+        .find(|digit| digit * power >= raw * (1.0 - 1e-9))
+        .unwrap_or(10.0);
+    digit * power
+}
+
+fn decimals_for(step: f64) -> usize {
+    (0..9)
+        .find(|&decimals| {
+            let scaled = step * 10f64.powi(decimals as i32);
+            (scaled - scaled.round()).abs() < 1e-6 * scaled
+        })
+        .unwrap_or(9)
+}
+
+/// A number with `decimals` decimals and a true minus sign.
+pub fn signed(value: f64, decimals: usize) -> String {
+    let text = format!("{:.*}", decimals, value.abs());
+    let is_zero = text.chars().all(|c| c == '0' || c == '.');
+    if value < 0.0 && !is_zero {
+        format!("−{text}")
+    } else {
+        text
+    }
+}
+
+/// A number with `digits` significant digits, in plain or scientific notation (mark-up).
+pub fn significant(value: f64, digits: usize) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return if value == 0.0 {
+            "0".into()
+        } else {
+            "–".into()
+        };
+    }
+    let power = value.abs().log10().floor() as i32;
+    if (-3..5).contains(&power) {
+        return signed(value, (digits as i32 - 1 - power).max(0) as usize);
+    }
+    let mantissa = signed(value / 10f64.powi(power), digits.saturating_sub(1));
+    format!("{mantissa}·10^{{{}}}", signed(f64::from(power), 0))
+}
+
+/// Factor and prefixed unit that bring values up to `reach` near 1 to 1000: `(1e-3, "kW")`.
+pub fn prefixed(reach: f64, unit: &str) -> (f64, String) {
+    const PREFIXES: [(f64, &str); 9] = [
+        (1e9, "G"),
+        (1e6, "M"),
+        (1e3, "k"),
+        (1.0, ""),
+        (1e-3, "m"),
+        (1e-6, "µ"),
+        (1e-9, "n"),
+        (1e-12, "p"),
+        (1e-15, "f"),
+    ];
+    let reach = reach.abs();
+    if reach == 0.0 || !reach.is_finite() {
+        return (1.0, unit.into());
+    }
+    PREFIXES
+        .into_iter()
+        .find(|(size, _)| reach >= *size)
+        .map_or((1.0, unit.into()), |(size, prefix)| {
+            (1.0 / size, format!("{prefix}{unit}"))
+        })
+}
+
+/// Width of the widest of some labels, points.
+pub(super) fn widest(labels: &[Tick], size: f64) -> f64 {
+    labels
+        .iter()
+        .map(|tick| text::width(&tick.label, size, false))
+        .fold(0.0, f64::max)
+}
+
+impl Ruler {
+    /// Small unlabelled ticks.
+    pub(super) fn minor_ticks(&self) -> Vec<f64> {
+        let decades = (self.high / self.low).log10();
+        if self.scale == Scale::Linear || self.fixed_ticks.is_some() {
+            return Vec::new();
+        }
+        // Over many decades the decades themselves are the small ticks.
+        let digits = if decades > 4.5 { 1..=1 } else { 1..=9 };
+        (self.low.log10().floor() as i32..=self.high.log10().ceil() as i32)
+            .flat_map(|power| {
+                let decade = 10f64.powi(power);
+                digits.clone().map(move |digit| f64::from(digit) * decade)
+            })
+            .filter(|&value| self.shows(value))
+            .collect()
+    }
+
+    fn logarithmic_ticks(&self, count: usize) -> Vec<Tick> {
+        let first = (self.low.log10() - 1e-9).ceil() as i32;
+        let last = (self.high.log10() + 1e-9).floor() as i32;
+        let plain = first >= -2 && last <= 4;
+        let tick = |digit: f64, power: i32| Tick {
+            value: digit * 10f64.powi(power),
+            label: logarithmic_label(digit, power, plain),
+        };
+        if last - first < 1 {
+            // Less than two decades in view: the digits themselves are needed, more of them the fewer fit.
+            let digits: [&[f64]; 3] = [
+                &[1.0, 2.0, 5.0],
+                &[1.0, 2.0, 3.0, 5.0],
+                &[1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0],
+            ];
+            let ticks = digits.map(|digits| -> Vec<Tick> {
+                let all = (first - 1..=last + 1)
+                    .flat_map(|power| digits.iter().map(move |&digit| (digit, power)));
+                let ticks = all.map(|(digit, power)| tick(digit, power));
+                ticks.filter(|tick| self.shows(tick.value)).collect()
+            });
+            let enough = ticks.into_iter().find(|ticks| ticks.len() > 2);
+            return enough.unwrap_or_else(|| self.narrow_logarithmic_ticks(count, plain));
+        }
+        let decades = (last - first + 1) as usize;
+        let stride = decades.div_ceil(count.max(1)).max(1);
+        (first..=last)
+            .step_by(stride)
+            .map(|power| tick(1.0, power))
+            .collect()
+    }
+
+    /// Within a factor of about two a logarithmic axis is nearly a linear one, and takes its steps.
+    fn narrow_logarithmic_ticks(&self, count: usize, plain: bool) -> Vec<Tick> {
+        let ticks = self.linear_ticks(count).into_iter();
+        ticks
+            .map(|tick| {
+                let power = (tick.value.log10() + 1e-9).floor() as i32;
+                let digit = tick.value / 10f64.powi(power);
+                Tick {
+                    label: logarithmic_label(digit, power, plain),
+                    ..tick
+                }
+            })
+            .collect()
+    }
+}
+
+/// `digit * 10^power` as a plain number or with its power, in as many digits as it has.
+fn logarithmic_label(digit: f64, power: i32, plain: bool) -> String {
+    let decimals = decimals_for(digit);
+    if plain {
+        let decimals = (decimals as i32 - power).max(0) as usize;
+        return signed(digit * 10f64.powi(power), decimals);
+    }
+    let power = signed(f64::from(power), 0);
+    match digit == 1.0 {
+        true => format!("10^{{{power}}}"),
+        false => format!("{}·10^{{{power}}}", signed(digit, decimals)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ruler(scale: Scale, low: f64, high: f64) -> Ruler {
+        Ruler::new(String::new(), scale, 1.0, (low, high), None)
+    }
+
+    fn labels(scale: Scale, low: f64, high: f64, count: usize) -> Vec<String> {
+        let ticks = ruler(scale, low, high).ticks(count).into_iter();
+        ticks.map(|tick| tick.label).collect()
+    }
+
+    #[test]
+    fn linear_ticks_are_round_and_inside() {
+        let linear = |low, high, count| labels(Scale::Linear, low, high, count);
+        assert_eq!(
+            linear(0.0, 0.05, 5),
+            ["0.00", "0.01", "0.02", "0.03", "0.04", "0.05"]
+        );
+        assert_eq!(linear(-3.1, 2.2, 4), ["−2", "0", "2"]);
+    }
+
+    #[test]
+    fn huge_and_tiny_ranges_take_out_a_power_of_ten() {
+        assert_eq!(ruler(Scale::Linear, 0.0, 2.5e6).exponent(), 6);
+        assert_eq!(
+            labels(Scale::Linear, 0.0, 2.5e6, 5),
+            ["0.0", "0.5", "1.0", "1.5", "2.0", "2.5"]
+        );
+        assert_eq!(ruler(Scale::Linear, 0.0, 3e-6).exponent(), -6);
+    }
+
+    #[test]
+    fn degenerate_ranges_still_make_an_axis() {
+        for (scale, low, high) in [
+            (Scale::Linear, 2.0, 2.0),
+            (Scale::Linear, f64::NAN, 1.0),
+            (Scale::Logarithmic, 0.0, 0.0),
+            (Scale::Logarithmic, 3.0, 3.0),
+        ] {
+            let ruler = ruler(scale, low, high);
+            assert!(
+                ruler.high > ruler.low && !ruler.ticks(4).is_empty(),
+                "{ruler:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn logarithmic_ticks_are_decades_thinned_to_fit() {
+        let logarithmic = |low, high, count| labels(Scale::Logarithmic, low, high, count);
+        assert_eq!(logarithmic(10.0, 6000.0, 6), ["10", "100", "1000"]);
+        assert!(logarithmic(1e-16, 1e-4, 5).len() <= 5);
+        assert_eq!(logarithmic(1e-16, 1e-4, 13)[0], "10^{−16}");
+    }
+
+    #[test]
+    fn short_logarithmic_ranges_have_at_least_two_labels() {
+        let logarithmic = |low, high| labels(Scale::Logarithmic, low, high, 4);
+        assert_eq!(
+            logarithmic(1.5e-3, 4.4e-3),
+            ["0.0015", "0.002", "0.003", "0.004"]
+        );
+        assert_eq!(
+            logarithmic(2.6e-8, 1.7e-7),
+            ["3·10^{−8}", "5·10^{−8}", "10^{−7}"]
+        );
+        assert_eq!(logarithmic(21.0, 49.0), ["25", "30", "35", "40", "45"]);
+        for (low, high) in [
+            (2.1e-3, 4.9e-3),
+            (0.11, 0.13),
+            (6.1e-8, 8.9e-8),
+            (95.0, 102.0),
+        ] {
+            assert!(logarithmic(low, high).len() > 1, "{low} {high}");
+        }
+    }
+
+    #[test]
+    fn prefixes_follow_the_size() {
+        assert_eq!(prefixed(1370.0, "W"), (1e-3, "kW".into()));
+        assert_eq!(prefixed(3e-5, "m").1, "µm");
+        assert_eq!(prefixed(0.0, "J"), (1.0, "J".into()));
+    }
+}

@@ -1,0 +1,396 @@
+//! A small SVG writer: shapes, text, embedded images, clips and gradients, nothing else.
+//!
+//! One user unit is one typographic point (1/72 inch). Coordinates are written with two decimals,
+//! so equal input gives equal bytes.
+
+use super::text::{self, TextStyle};
+use base64::prelude::{BASE64_STANDARD, Engine};
+use std::fmt::Write;
+
+/// Points for each millimetre.
+pub const POINTS_PER_MM: f64 = 72.0 / 25.4;
+
+/// Start of every id in a drawing, so that a page can tell those of several drawings apart.
+pub const ID_PREFIX: &str = "figure-id-";
+
+/// An axis-parallel rectangle, `y` downwards, points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rect {
+    /// Left edge.
+    pub x: f64,
+    /// Upper edge.
+    pub y: f64,
+    /// Width.
+    pub width: f64,
+    /// Height.
+    pub height: f64,
+}
+
+impl Rect {
+    /// Rectangle from its upper left corner and size.
+    pub fn new(x: f64, y: f64, width: f64, height: f64) -> Self {
+        Self {
+            x,
+            y,
+            width,
+            height,
+        }
+    }
+
+    /// Right edge.
+    pub fn right(&self) -> f64 {
+        self.x + self.width
+    }
+
+    /// Lower edge.
+    pub fn bottom(&self) -> f64 {
+        self.y + self.height
+    }
+}
+
+/// How a line is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stroke {
+    /// CSS colour.
+    pub colour: &'static str,
+    /// Width, points.
+    pub width: f64,
+    /// Dash pattern, points; empty for a full line.
+    pub dash: &'static [f64],
+    /// 0 transparent to 1 opaque.
+    pub opacity: f64,
+}
+
+impl Stroke {
+    /// A full opaque line.
+    pub fn solid(colour: &'static str, width: f64) -> Self {
+        Self {
+            colour,
+            width,
+            dash: &[],
+            opacity: 1.0,
+        }
+    }
+
+    /// A dashed opaque line.
+    pub fn dashed(colour: &'static str, width: f64) -> Self {
+        Self {
+            dash: &[3.0, 2.0],
+            ..Self::solid(colour, width)
+        }
+    }
+
+    /// A dotted opaque line.
+    pub fn dotted(colour: &'static str, width: f64) -> Self {
+        Self {
+            dash: &[1.0, 1.6],
+            ..Self::solid(colour, width)
+        }
+    }
+
+    /// The same line with another opacity.
+    pub fn with_opacity(self, opacity: f64) -> Self {
+        Self { opacity, ..self }
+    }
+
+    fn write(&self, out: &mut String) {
+        let _ = write!(
+            out,
+            r#" fill="none" stroke="{}" stroke-width="{}""#,
+            self.colour,
+            number(self.width)
+        );
+        if !self.dash.is_empty() {
+            let parts: Vec<String> = self.dash.iter().map(|&d| number(d)).collect();
+            let _ = write!(out, r#" stroke-dasharray="{}""#, parts.join(" "));
+        }
+        if self.opacity < 1.0 {
+            let _ = write!(out, r#" stroke-opacity="{}""#, number(self.opacity));
+        }
+    }
+}
+
+/// A coordinate with at most two decimals and no trailing zeros.
+pub fn number(value: f64) -> String {
+    let hundredths = (value * 100.0).round();
+    if !hundredths.is_finite() || hundredths == 0.0 {
+        return "0".into();
+    }
+    let mut out = format!("{:.2}", hundredths / 100.0);
+    while out.ends_with('0') {
+        out.pop();
+    }
+    if out.ends_with('.') {
+        out.pop();
+    }
+    out
+}
+
+/// Text with the five XML specials escaped.
+pub fn escape(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            '\'' => out.push_str("&#39;"),
+            // XML 1.0 forbids the other control characters even as references.
+            c if c.is_control() && c != '\n' && c != '\t' => out.push(' '),
+            c => out.push(c),
+        }
+    }
+    out
+}
+
+/// An SVG document under construction.
+#[derive(Clone, Debug)]
+pub struct Svg {
+    width: f64,
+    height: f64,
+    prefix: String,
+    definitions: String,
+    body: String,
+    ids: usize,
+}
+
+impl Svg {
+    /// An empty white drawing, `width` by `height` points; `name` prefixes its ids, so that several
+    /// drawings can share one HTML page.
+    pub fn new(name: &str, width: f64, height: f64) -> Self {
+        let prefix = name
+            .chars()
+            .map(|c| if c.is_ascii_alphanumeric() { c } else { '-' })
+            .collect();
+        Self {
+            width,
+            height,
+            prefix,
+            definitions: String::new(),
+            body: String::new(),
+            ids: 0,
+        }
+    }
+
+    /// Sets the height once the contents are known.
+    pub fn set_height(&mut self, height: f64) {
+        self.height = height;
+    }
+
+    fn id(&mut self) -> String {
+        self.ids += 1;
+        format!("{ID_PREFIX}{}-{}", self.prefix, self.ids)
+    }
+
+    /// A straight line.
+    pub fn line(&mut self, from: (f64, f64), to: (f64, f64), stroke: &Stroke) {
+        let mut path = Path::new();
+        path.move_to(from.0, from.1);
+        path.line_to(to.0, to.1);
+        self.path(&path, stroke);
+    }
+
+    /// A stroked path.
+    pub fn path(&mut self, path: &Path, stroke: &Stroke) {
+        if path.is_empty() {
+            return;
+        }
+        let _ = write!(self.body, r#"<path d="{}""#, path.data);
+        stroke.write(&mut self.body);
+        self.body.push_str("/>\n");
+    }
+
+    /// A filled path without outline; `opacity` from 0 to 1.
+    pub fn fill_path(&mut self, path: &Path, colour: &str, opacity: f64) {
+        if path.is_empty() {
+            return;
+        }
+        let _ = write!(self.body, r#"<path d="{}" fill="{colour}""#, path.data);
+        if opacity < 1.0 {
+            let _ = write!(self.body, r#" fill-opacity="{}""#, number(opacity));
+        }
+        self.body.push_str("/>\n");
+    }
+
+    /// A filled rectangle with an optional outline.
+    pub fn rectangle(&mut self, rect: &Rect, fill: &str, stroke: Option<&Stroke>) {
+        let _ = write!(
+            self.body,
+            r#"<rect x="{}" y="{}" width="{}" height="{}""#,
+            number(rect.x),
+            number(rect.y),
+            number(rect.width),
+            number(rect.height)
+        );
+        match stroke {
+            // `Stroke` writes fill="none"; a filled outline needs its own attributes.
+            Some(stroke) => {
+                let _ = write!(
+                    self.body,
+                    r#" fill="{fill}" stroke="{}" stroke-width="{}""#,
+                    stroke.colour,
+                    number(stroke.width)
+                );
+            }
+            None => {
+                let _ = write!(self.body, r#" fill="{fill}""#);
+            }
+        }
+        self.body.push_str("/>\n");
+    }
+
+    /// Text at a baseline point; see [`text::parse`] for its mark-up.
+    pub fn text(&mut self, x: f64, y: f64, markup: &str, style: &TextStyle) {
+        text::write(&mut self.body, x, y, markup, style);
+    }
+
+    /// A PNG image stretched over a rectangle; `pixelated` keeps its pixels sharp.
+    pub fn image(&mut self, rect: &Rect, png: &[u8], pixelated: bool) {
+        let rendering = if pixelated {
+            r#" style="image-rendering:pixelated""#
+        } else {
+            ""
+        };
+        let _ = writeln!(
+            self.body,
+            r#"<image x="{}" y="{}" width="{}" height="{}" preserveAspectRatio="none"{rendering} xlink:href="data:image/png;base64,{}"/>"#,
+            number(rect.x),
+            number(rect.y),
+            number(rect.width),
+            number(rect.height),
+            BASE64_STANDARD.encode(png)
+        );
+    }
+
+    /// Clips everything up to [`Svg::end_group`] to a rectangle.
+    pub fn begin_clip(&mut self, rect: &Rect) {
+        let id = self.id();
+        let _ = writeln!(
+            self.definitions,
+            r#"<clipPath id="{id}"><rect x="{}" y="{}" width="{}" height="{}"/></clipPath>"#,
+            number(rect.x),
+            number(rect.y),
+            number(rect.width),
+            number(rect.height)
+        );
+        let _ = writeln!(self.body, r##"<g clip-path="url(#{id})">"##);
+    }
+
+    /// Ends a group.
+    pub fn end_group(&mut self) {
+        self.body.push_str("</g>\n");
+    }
+
+    /// The finished document, with a title and a description for readers who cannot see it.
+    pub fn finish(&self, title: &str, description: &str) -> String {
+        let (width, height) = (number(self.width), number(self.height));
+        let (prefix, family) = (&self.prefix, text::FONT_FAMILY);
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" \
+             width=\"{width}pt\" height=\"{height}pt\" viewBox=\"0 0 {width} {height}\" role=\"img\" \
+             aria-labelledby=\"{ID_PREFIX}{prefix}-title {ID_PREFIX}{prefix}-desc\" font-family=\"{family}\" \
+             stroke-linejoin=\"round\">\n\
+             <title id=\"{ID_PREFIX}{prefix}-title\">{}</title>\n<desc id=\"{ID_PREFIX}{prefix}-desc\">{}</desc>\n\
+             <defs>\n{}</defs>\n<rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n{}</svg>\n",
+            escape(&text::plain(title)),
+            escape(&text::plain(description)),
+            self.definitions,
+            self.body
+        )
+    }
+}
+
+/// A path under construction, written relative to its last point to stay short.
+#[derive(Clone, Debug, Default)]
+pub struct Path {
+    data: String,
+    last: (i64, i64),
+}
+
+impl Path {
+    /// An empty path.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Starts a new piece at a point.
+    pub fn move_to(&mut self, x: f64, y: f64) {
+        let point = hundredths(x, y);
+        self.data.push('M');
+        push_pair(&mut self.data, point);
+        self.last = point;
+    }
+
+    /// Draws a straight line to a point.
+    pub fn line_to(&mut self, x: f64, y: f64) {
+        let point = hundredths(x, y);
+        self.data.push('l');
+        push_pair(
+            &mut self.data,
+            (point.0 - self.last.0, point.1 - self.last.1),
+        );
+        self.last = point;
+    }
+
+    /// Starts a new piece through all points.
+    pub fn extend(&mut self, points: impl IntoIterator<Item = (f64, f64)>) {
+        for (index, (x, y)) in points.into_iter().enumerate() {
+            if index == 0 {
+                self.move_to(x, y);
+            } else {
+                self.line_to(x, y);
+            }
+        }
+    }
+
+    /// Closes the current piece.
+    pub fn close(&mut self) {
+        self.data.push('z');
+    }
+
+    /// Whether nothing was drawn.
+    pub fn is_empty(&self) -> bool {
+        self.data.is_empty()
+    }
+
+    /// A path through all points, closed or not.
+    pub fn polyline(points: impl IntoIterator<Item = (f64, f64)>, closed: bool) -> Self {
+        let mut path = Self::new();
+        path.extend(points);
+        if closed && !path.is_empty() {
+            path.close();
+        }
+        path
+    }
+}
+
+fn hundredths(x: f64, y: f64) -> (i64, i64) {
+    ((x * 100.0).round() as i64, (y * 100.0).round() as i64)
+}
+
+fn push_pair(out: &mut String, (x, y): (i64, i64)) {
+    push_hundredths(out, x);
+    if y >= 0 {
+        out.push(' ');
+    }
+    push_hundredths(out, y);
+}
+
+fn push_hundredths(out: &mut String, value: i64) {
+    let magnitude = value.unsigned_abs();
+    if value < 0 {
+        out.push('-');
+    }
+    let (whole, rest) = (magnitude / 100, magnitude % 100);
+    if whole > 0 || rest == 0 {
+        let _ = write!(out, "{whole}");
+    }
+    if rest > 0 {
+        if rest % 10 == 0 {
+            let _ = write!(out, ".{}", rest / 10);
+        } else {
+            let _ = write!(out, ".{rest:02}");
+        }
+    }
+}

@@ -1,0 +1,282 @@
+//! Text: the embedded font, its widths, and a small mark-up for symbols and indices.
+
+use super::svg::{escape, number};
+use skrifa::instance::{LocationRef, Size};
+use skrifa::{FontRef, MetadataProvider};
+use std::fmt::Write;
+use std::sync::LazyLock;
+
+/// Font families named in every drawing; the first is embedded in this program for PNG output,
+/// the next has nearly the same widths.
+pub const FONT_FAMILY: &str = "DejaVu Sans,Verdana,sans-serif";
+
+/// The embedded faces: regular, bold, oblique.
+pub const FACES: [&[u8]; 3] = [
+    include_bytes!("font/DejaVuSans.ttf"),
+    include_bytes!("font/DejaVuSans-Bold.ttf"),
+    include_bytes!("font/DejaVuSans-Oblique.ttf"),
+];
+
+/// Size of sub- and superscripts relative to the text.
+const SCRIPT_SIZE: f64 = 0.72;
+
+/// Which point of the text its position names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Anchor {
+    /// The left end.
+    Start,
+    /// The middle.
+    Middle,
+    /// The right end.
+    End,
+}
+
+/// How text is set.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TextStyle {
+    /// Size, points.
+    pub size: f64,
+    /// Anchor.
+    pub anchor: Anchor,
+    /// Rotation about its position, degrees clockwise.
+    pub rotation: f64,
+    /// Colour.
+    pub colour: &'static str,
+    /// Bold face.
+    pub bold: bool,
+    /// A white outline that keeps text readable over data.
+    pub halo: bool,
+}
+
+impl TextStyle {
+    /// Regular dark text, left-aligned.
+    pub fn new(size: f64) -> Self {
+        Self {
+            size,
+            anchor: Anchor::Start,
+            rotation: 0.0,
+            colour: super::colour::INK,
+            bold: false,
+            halo: false,
+        }
+    }
+
+    /// The same with another anchor.
+    pub fn anchored(mut self, anchor: Anchor) -> Self {
+        self.anchor = anchor;
+        self
+    }
+
+    /// The same, rotated (degrees clockwise).
+    pub fn rotated(mut self, degrees: f64) -> Self {
+        self.rotation = degrees;
+        self
+    }
+
+    /// The same in another colour.
+    pub fn coloured(mut self, colour: &'static str) -> Self {
+        self.colour = colour;
+        self
+    }
+
+    /// The same in bold.
+    pub fn bold(mut self) -> Self {
+        self.bold = true;
+        self
+    }
+
+    /// The same with a white outline.
+    pub fn with_halo(mut self) -> Self {
+        self.halo = true;
+        self
+    }
+}
+
+/// A stretch of text in one style.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Run {
+    /// Its characters.
+    pub text: String,
+    /// Oblique face, for quantities.
+    pub italic: bool,
+    /// -1 subscript, +1 superscript, 0 on the line.
+    pub shift: i8,
+}
+
+/// Splits mark-up into runs: `*x*` is oblique, `_{..}` a subscript, `^{..}` a superscript, and a
+/// backslash takes the next character literally.
+pub fn parse(markup: &str) -> Vec<Run> {
+    let mut runs = Vec::new();
+    let (mut italic, mut shift, mut current) = (false, 0i8, String::new());
+    let mut chars = markup.chars().peekable();
+    let flush = |current: &mut String, italic: bool, shift: i8, runs: &mut Vec<Run>| {
+        if !current.is_empty() {
+            runs.push(Run {
+                text: std::mem::take(current),
+                italic,
+                shift,
+            });
+        }
+    };
+    while let Some(c) = chars.next() {
+        match c {
+            '\\' => current.extend(chars.next()),
+            '*' => {
+                flush(&mut current, italic, shift, &mut runs);
+                italic = !italic;
+            }
+            '_' | '^' if chars.peek() == Some(&'{') => {
+                chars.next();
+                flush(&mut current, italic, shift, &mut runs);
+                shift = if c == '^' { 1 } else { -1 };
+            }
+            '}' if shift != 0 => {
+                flush(&mut current, italic, shift, &mut runs);
+                shift = 0;
+            }
+            c => current.push(c),
+        }
+    }
+    flush(&mut current, italic, shift, &mut runs);
+    runs
+}
+
+/// Mark-up that shows `text` literally.
+pub fn literal(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        if matches!(c, '\\' | '*' | '_' | '^' | '}') {
+            out.push('\\');
+        }
+        out.push(c);
+    }
+    out
+}
+
+/// Mark-up without its marks.
+pub fn plain(markup: &str) -> String {
+    parse(markup).into_iter().map(|run| run.text).collect()
+}
+
+/// Width of a line of mark-up, points.
+pub fn width(markup: &str, size: f64, bold: bool) -> f64 {
+    parse(markup)
+        .iter()
+        .map(|run| {
+            let face = match (bold, run.italic) {
+                (true, _) => 1,
+                (false, true) => 2,
+                (false, false) => 0,
+            };
+            let scale = if run.shift == 0 { 1.0 } else { SCRIPT_SIZE };
+            run.text.chars().map(|c| advance(face, c)).sum::<f64>() * scale * size
+        })
+        .sum()
+}
+
+/// Writes a `<text>` element.
+pub(super) fn write(out: &mut String, x: f64, y: f64, markup: &str, style: &TextStyle) {
+    let (x, y) = (number(x), number(y));
+    let _ = write!(
+        out,
+        r#"<text x="{x}" y="{y}" font-size="{}""#,
+        number(style.size)
+    );
+    match style.anchor {
+        Anchor::Start => {}
+        Anchor::Middle => out.push_str(r#" text-anchor="middle""#),
+        Anchor::End => out.push_str(r#" text-anchor="end""#),
+    }
+    if style.rotation != 0.0 {
+        let _ = write!(
+            out,
+            r#" transform="rotate({} {x} {y})""#,
+            number(style.rotation)
+        );
+    }
+    if style.bold {
+        out.push_str(r#" font-weight="bold""#);
+    }
+    if style.halo {
+        out.push_str(r##" stroke="#ffffff" stroke-width="1.6" paint-order="stroke""##);
+    }
+    let _ = write!(out, r#" fill="{}">"#, style.colour);
+    let mut raised = 0.0;
+    for run in parse(markup) {
+        let target = -f64::from(run.shift) * style.size * if run.shift > 0 { 0.36 } else { 0.2 };
+        let step: f64 = target - raised;
+        raised = target;
+        if step == 0.0 && run.shift == 0 && !run.italic {
+            out.push_str(&escape(&run.text));
+            continue;
+        }
+        out.push_str("<tspan");
+        if step != 0.0 {
+            let _ = write!(out, r#" dy="{}""#, number(step));
+        }
+        if run.shift != 0 {
+            let _ = write!(out, r#" font-size="{}""#, number(style.size * SCRIPT_SIZE));
+        }
+        if run.italic && !style.bold {
+            out.push_str(r#" font-style="italic""#);
+        }
+        let _ = write!(out, ">{}</tspan>", escape(&run.text));
+    }
+    out.push_str("</text>\n");
+}
+
+/// Advance width of a character in one face, em; 0.6 where the face does not tell.
+fn advance(face: usize, character: char) -> f64 {
+    static FONTS: LazyLock<[Option<FontRef<'static>>; 3]> =
+        LazyLock::new(|| FACES.map(|face| FontRef::new(face).ok()));
+    let width = |font: &FontRef<'static>| {
+        let glyph = font.charmap().map(character).unwrap_or_default();
+        let metrics = font.glyph_metrics(Size::new(1.0), LocationRef::default());
+        metrics.advance_width(glyph)
+    };
+    let found = FONTS[face].as_ref().and_then(width);
+    found.map_or(0.6, f64::from)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_embedded_face_gives_character_widths() {
+        for (face, font) in FACES.iter().enumerate() {
+            assert!(FontRef::new(font).is_ok());
+            // DejaVu's own figure width is 1303/2048 em upright, 1425/2048 em bold.
+            let digit = if face == 1 { 1425.0 } else { 1303.0 } / 2048.0;
+            assert!((advance(face, '0') - digit).abs() < 1e-6);
+            assert!(advance(face, 'i') < advance(face, 'm'));
+        }
+        for symbol in "μζλαβθωΩδπ²³⁻−×→±°≤".chars() {
+            assert_ne!(advance(0, symbol), advance(0, '\u{e000}'), "{symbol}");
+        }
+    }
+
+    #[test]
+    fn markup_splits_into_symbols_and_indices() {
+        let runs = parse("*μ*_{c} = 10^{-3}");
+        let view: Vec<_> = runs
+            .iter()
+            .map(|r| (r.text.as_str(), r.italic, r.shift))
+            .collect();
+        assert_eq!(
+            view,
+            [
+                ("μ", true, 0),
+                ("c", false, -1),
+                (" = 10", false, 0),
+                ("-3", false, 1)
+            ]
+        );
+    }
+
+    #[test]
+    fn literal_text_survives_the_markup() {
+        let nasty = r"a*b_{c}^{d}\e";
+        assert_eq!(plain(&literal(nasty)), nasty);
+    }
+}

@@ -1,0 +1,106 @@
+//! A mode shape as a picture of the deformed body.
+
+use crate::cea::ComplexMode;
+use crate::chart::{Axis, Field, INK, Line, MUTED, Panel, Stroke};
+use crate::mesh::Mesh2d;
+use crate::results::charts::Disc;
+use crate::results::charts::palette::UNSTABLE;
+use faer::c64;
+
+/// Largest displacement drawn, as a fraction of the half width of the mesh.
+const DEFLECTION: f64 = 0.07;
+
+/// One mode to draw.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ModeShape<'a> {
+    /// Number in the list of modes, 1-based, in order of frequency.
+    pub number: usize,
+    /// Friction coefficient.
+    pub friction: f64,
+    /// The mode.
+    pub mode: &'a ComplexMode,
+}
+
+impl ModeShape<'_> {
+    /// Harmonic, direction and stability in mark-up.
+    pub fn harmonic(&self) -> String {
+        let arrow = match self.mode.direction {
+            1 => " ↺",
+            -1 => " ↻",
+            _ => "",
+        };
+        let unstable = if self.mode.is_unstable() {
+            " unstable"
+        } else {
+            ""
+        };
+        format!("*n* = {}{arrow}{unstable}", self.mode.harmonic)
+    }
+}
+
+/// The deformed body under some lines of heading, coloured by the displacement amplitude of the real part.
+///
+/// A travelling wave is shown at the instant that puts its crest at angle zero; every shape is scaled to its own maximum,
+/// which an eigenvector leaves open.
+pub(super) fn shape_panel(
+    disc: &Disc<'_>,
+    mesh: &Mesh2d,
+    shape: &ModeShape<'_>,
+    lines: &[String; 3],
+) -> Panel {
+    let values = shape.mode.shape.as_deref().unwrap_or(&[]);
+    let turn = crest_phase(mesh, values, shape.mode.harmonic);
+    let real: Vec<f64> = values.iter().map(|u| (u * turn).re).collect();
+    let amplitude: Vec<f64> = real.chunks_exact(2).map(|u| u[0].hypot(u[1])).collect();
+    let largest = amplitude.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+    let [low, high] = Field::window(&mesh.nodes, 0.0);
+    let magnification = DEFLECTION * 0.5 * (high[0] - low[0]) / largest;
+    let axis = Axis::new("", "").between(0.0, largest);
+    let colour = if shape.mode.is_unstable() {
+        UNSTABLE
+    } else {
+        INK
+    };
+    let stroke = Stroke {
+        dash: &[1.5, 1.2],
+        ..Stroke::solid(MUTED, 0.45)
+    };
+    let panel = lines.iter().fold(disc.panel(0.02), |panel, line| {
+        panel.heading_in(colour, line)
+    });
+    panel
+        .height(150.0)
+        .layer(disc.deformed(amplitude, &real, magnification, axis))
+        .layer(Line::through(disc.contact_edge()).stroke(stroke))
+}
+
+/// Unit factor that turns a shape to the instant drawn.
+///
+/// A standing wave (`|sum u^2|` near `sum |u|^2`) is turned to its largest real part; a travelling one so that the wave that
+/// carries most of it has its tangential crest at angle zero. Both depend on the shape alone, not on the arbitrary phase a
+/// solver gave it.
+fn crest_phase(mesh: &Mesh2d, shape: &[c64], harmonic: usize) -> c64 {
+    let zero = c64::new(0.0, 0.0);
+    let square = shape.iter().fold(zero, |sum, u| sum + u * u);
+    let total: f64 = shape.iter().map(|u| u.norm_sqr()).sum();
+    let unit = |z: c64| match z.norm() > 0.0 {
+        true => z.conj() / z.norm(),
+        false => c64::new(1.0, 0.0),
+    };
+    if square.norm() > 0.5 * total {
+        return unit(square.sqrt());
+    }
+    let wave = |sign: f64| {
+        let nodes = shape.chunks_exact(2).zip(&mesh.frame_angles);
+        nodes.fold(zero, |sum, (u, &angle)| {
+            let phase = sign * harmonic as f64 * angle;
+            sum + u[1] * c64::new(phase.cos(), phase.sin())
+        })
+    };
+    let (forward, backward) = (wave(-1.0), wave(1.0));
+    unit(if forward.norm() >= backward.norm() {
+        forward
+    } else {
+        backward
+    })
+}

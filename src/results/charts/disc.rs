@@ -1,0 +1,149 @@
+//! Fields over a body as layers.
+
+use crate::chart::{Axis, Cell, ColourMap, Field, Mesh, Panel};
+use crate::mesh::{ElementKind, Mesh2d};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// A body as figures show it.
+#[derive(Clone)]
+pub struct Disc<'a> {
+    mesh: &'a Mesh2d,
+    shown: Arc<Mesh>,
+}
+
+impl<'a> Disc<'a> {
+    /// The elements and edges of a mesh.
+    pub fn new(mesh: &'a Mesh2d) -> Self {
+        Self::with_lattice(mesh, 0)
+    }
+
+    /// The same with about so many rays of nodes, and circles to match, as thin lines that show a deformation; a mesh without
+    /// rays shows none.
+    pub fn with_lattice(mesh: &'a Mesh2d, rays: usize) -> Self {
+        let order: &[usize] = match mesh.element_kind {
+            ElementKind::Quad4 => &[0, 1, 2, 3],
+            ElementKind::Quad8 => &[0, 4, 1, 5, 2, 6, 3, 7],
+        };
+        let cells = (0..mesh.element_count()).map(|element| {
+            let nodes = mesh.element_nodes(element);
+            let ring = order.iter().map(|&i| nodes[i]).collect();
+            Cell {
+                ring,
+                is_quadratic: order.len() > 4,
+            }
+        });
+        let shown = Mesh {
+            cells: cells.collect(),
+            outlines: [&mesh.inner_edge, &mesh.outer_edge]
+                .map(|edge| edge.nodes.clone())
+                .to_vec(),
+            lines: if rays > 0 {
+                lattice(mesh, rays)
+            } else {
+                Vec::new()
+            },
+        };
+        Self {
+            mesh,
+            shown: Arc::new(shown),
+        }
+    }
+
+    /// A panel without axes for fields on the undeformed body, with a little room.
+    pub fn panel(&self, room: f64) -> Panel {
+        Panel::plane(Field::window(&self.mesh.nodes, room))
+    }
+
+    /// Values at the nodes, on the undeformed body.
+    pub fn field(&self, values: Vec<f64>, axis: Axis, map: ColourMap) -> Field {
+        Field::new(
+            self.shown.clone(),
+            self.mesh.nodes.clone(),
+            values,
+            axis,
+            map,
+        )
+    }
+
+    /// Values on the body deformed by a displacement (in nodal frames, two values a node, m) times `magnification`.
+    pub fn deformed(
+        &self,
+        values: Vec<f64>,
+        displacement: &[f64],
+        magnification: f64,
+        axis: Axis,
+    ) -> Field {
+        let frames = self.mesh.nodes.iter().zip(&self.mesh.frame_angles);
+        let places = frames
+            .zip(displacement.chunks_exact(2))
+            .map(|((&[x, y], &angle), u)| {
+                let (sin, cos) = angle.sin_cos();
+                [
+                    x + magnification * (cos * u[0] - sin * u[1]),
+                    y + magnification * (sin * u[0] + cos * u[1]),
+                ]
+            });
+        Field::new(
+            self.shown.clone(),
+            places.collect(),
+            values,
+            axis,
+            ColourMap::Viridis,
+        )
+        .coarse()
+    }
+
+    /// The contact edge, undeformed.
+    pub fn contact_edge(&self) -> Vec<(f64, f64)> {
+        let edge = &self.mesh.inner_edge.nodes;
+        let places = edge
+            .iter()
+            .chain(edge.first())
+            .map(|&node| self.mesh.nodes[node as usize]);
+        places.map(|[x, y]| (x, y)).collect()
+    }
+
+    /// Smallest distance of the contact edge from the origin, m, and the angle of its first node.
+    pub fn contact_place(&self) -> (f64, f64) {
+        let edge = &self.mesh.inner_edge.nodes;
+        let radius = self
+            .contact_edge()
+            .iter()
+            .map(|p| p.0.hypot(p.1))
+            .fold(f64::INFINITY, f64::min);
+        let first = edge
+            .first()
+            .and_then(|&node| self.mesh.frame_angles.get(node as usize));
+        (radius, first.copied().unwrap_or(0.0))
+    }
+}
+
+/// Every few rays and circles of nodes, found by their equal angle and radius.
+fn lattice(mesh: &Mesh2d, wanted: usize) -> Vec<Vec<u32>> {
+    let size = mesh
+        .nodes
+        .iter()
+        .map(|[x, y]| x.hypot(*y))
+        .fold(f64::MIN_POSITIVE, f64::max);
+    let mut rays: BTreeMap<i64, Vec<u32>> = BTreeMap::new();
+    let mut circles: BTreeMap<i64, Vec<u32>> = BTreeMap::new();
+    for (node, &[x, y]) in mesh.nodes.iter().enumerate() {
+        let ray = (mesh.frame_angles[node] * 1e6).round() as i64;
+        let circle = (x.hypot(y) / size * 1e6).round() as i64;
+        rays.entry(ray).or_default().push(node as u32);
+        circles.entry(circle).or_default().push(node as u32);
+    }
+    let mut lattice = Vec::new();
+    for (lines, count, is_closed) in [(rays, wanted, false), (circles, wanted.div_ceil(3), true)] {
+        let lines: Vec<Vec<u32>> = lines.into_values().collect();
+        // Spread evenly, also where the count does not divide the lines there are.
+        let count = count.min(lines.len());
+        let chosen = (0..count).map(|index| &lines[index * lines.len() / count]);
+        for nodes in chosen.filter(|nodes| nodes.len() > 2) {
+            let again = nodes.first().filter(|_| is_closed);
+            lattice.push(nodes.iter().chain(again).copied().collect());
+        }
+    }
+    lattice
+}

@@ -1,0 +1,106 @@
+//! What each colour means, in every figure.
+
+use crate::chart::{Anchor, Key, Shapes, TextStyle};
+use crate::contact::ContactStatus;
+
+/// Nodes that stick.
+pub const STICK: &str = "#0072b2";
+/// Nodes that slip.
+pub const SLIP: &str = "#e69f00";
+/// Nodes without contact.
+pub const OPEN: &str = "#d9d9d9";
+/// Stable modes.
+pub const STABLE: &str = "#0072b2";
+/// Unstable modes; frequencies and rates of the eigenvalue analysis drawn over a transient.
+pub const UNSTABLE: &str = "#d55e00";
+
+/// Power from the drive.
+pub const EXTERNAL_POWER: &str = "#000000";
+/// Power given to the body by sticking nodes.
+pub const STICK_POWER: &str = STICK;
+/// Power given to the body by sliding nodes.
+pub const SLIDE_POWER: &str = SLIP;
+/// Power dissipated at the contact.
+pub const CONTACT_DISSIPATION: &str = "#d55e00";
+/// Power dissipated by the material damping.
+pub const MATERIAL_DISSIPATION: &str = "#009e73";
+/// Power of the normal contact forces.
+pub const NORMAL_POWER: &str = "#cc79a7";
+
+/// The states in the order of every legend, each with name, colour of areas, tint of grounds under curves, colour of lines.
+pub const STATUSES: [(ContactStatus, &str, &str, &str, &str); 3] = [
+    (ContactStatus::Stick, "stick", STICK, "#cce3f0", STICK),
+    (ContactStatus::Slip, "slip", SLIP, "#faeccc", SLIP),
+    (ContactStatus::Open, "open", OPEN, "#f2f2f2", "#8c8c8c"),
+];
+
+fn entry(status: ContactStatus) -> (&'static str, &'static str, &'static str) {
+    let of = |s: &&(ContactStatus, _, _, _, _)| s.0 == status;
+    let found = STATUSES.iter().find(of);
+    found.map_or((OPEN, OPEN, OPEN), |s| (s.2, s.3, s.4))
+}
+
+/// Colour of areas in a status.
+pub fn area_colour(status: ContactStatus) -> &'static str {
+    entry(status).0
+}
+
+/// Colour of lines in a status: open contact is darker than its areas.
+pub fn line_colour(status: ContactStatus) -> &'static str {
+    entry(status).2
+}
+
+/// The ground of a panel coloured by status: sample `i` from abscissa `edge(i)` to `edge(i + 1)`; named in the legend.
+pub fn status_ground(status: &[ContactStatus], edge: impl Fn(usize) -> f64) -> Shapes {
+    let (mut bands, mut start) = (Vec::new(), 0);
+    for run in status.chunk_by(|a, b| a == b) {
+        let end = start + run.len();
+        bands.push((edge(start), edge(end), entry(run[0]).1));
+        start = end;
+    }
+    named(Shapes::bands(bands), status, |s| s.3)
+}
+
+/// The ring of statuses around a hole of this radius (m), inside it; nodes evenly spaced from the angle of the first.
+pub fn status_ring(radius: f64, first_angle: f64, status: &[ContactStatus]) -> Shapes {
+    let step = std::f64::consts::TAU / status.len().max(1) as f64;
+    let (mut pieces, mut start) = (Vec::new(), 0);
+    for run in status.chunk_by(|a, b| a == b) {
+        let from = first_angle + (start as f64 - 0.5) * step;
+        let to = from + run.len() as f64 * step;
+        let count = ((to - from) / 0.05).ceil().max(1.0);
+        let arc = |radius: f64| {
+            let steps = 0..=count as usize;
+            let angles = steps.map(move |i| from + (to - from) * i as f64 / count);
+            angles.map(move |angle| (radius * angle.cos(), radius * angle.sin()))
+        };
+        let outline: Vec<_> = arc(0.6 * radius)
+            .chain(arc(0.94 * radius).collect::<Vec<_>>().into_iter().rev())
+            .collect();
+        pieces.push((outline, area_colour(run[0])));
+        start += run.len();
+    }
+    // One path for each colour.
+    pieces.sort_by_key(|piece| piece.1);
+    named(Shapes::polygons(pieces), status, |s| s.2)
+}
+
+type Entry = (
+    ContactStatus,
+    &'static str,
+    &'static str,
+    &'static str,
+    &'static str,
+);
+
+fn named(shapes: Shapes, status: &[ContactStatus], colour: fn(&Entry) -> &'static str) -> Shapes {
+    let present = STATUSES.iter().filter(|entry| status.contains(&entry.0));
+    present.fold(shapes, |shapes, entry| {
+        shapes.name(Key::patch(colour(entry), 1.0), entry.1)
+    })
+}
+
+/// Small centred text over data.
+pub fn centred(size: f64) -> TextStyle {
+    TextStyle::new(size).anchored(Anchor::Middle).with_halo()
+}
