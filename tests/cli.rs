@@ -59,7 +59,7 @@ fn help_lists_the_exit_codes_and_version_prints_the_package_version() {
     let folder = folder();
     let help = frictionsim(&folder).arg("--help").assert().code(0);
     help.stdout(contains(
-        "Exit codes: 0 done, 1 the run failed, 2 bad usage or case",
+        "Exit codes: 0 done, 1 the run failed, 2 bad usage or case, 130 interrupted",
     ));
     let version = frictionsim(&folder).arg("--version").assert().code(0);
     version.stdout(contains(env!("CARGO_PKG_VERSION")));
@@ -180,7 +180,7 @@ fn cea_prints_the_table_and_draws_its_figures() {
     let folder = folder();
     let mut command = frictionsim(&folder);
     let run = command
-        .args(["cea", &disc(), "--out", "here"])
+        .args(["--verbose", "cea", &disc(), "-o", "here"])
         .args(COARSE)
         .assert()
         .code(0);
@@ -423,25 +423,51 @@ fn a_named_folder_of_another_case_is_refused_unless_forced() {
 }
 
 #[test]
-fn the_default_folder_follows_the_case_file_through_a_loop_of_overrides() {
+fn no_run_replaces_the_results_of_another_one_in_silence() {
     let folder = folder();
-    for elements in ["3", "4", "5"] {
+    let around = ["--set", "mesh.circumferential_elements=16"];
+    for elements in ["3", "4", "5", "3"] {
         let set = format!("mesh.radial_elements={elements}");
         let mut command = frictionsim(&folder);
         command
-            .args(["mesh", &disc()])
-            .args(COARSE)
-            .args(["--set", &set, "--json"]);
+            .args(["mesh", &disc(), "--set", &set, "--json"])
+            .args(around);
         command.assert().code(0);
     }
+    let nodes = |name: &str| {
+        let path = folder.path().join("results/polycarbonate-disc").join(name);
+        let text = fs::read(path.join("summary.json")).unwrap();
+        let summary: serde_json::Value = serde_json::from_slice(&text).unwrap();
+        summary["mesh"]["elements"].as_u64().unwrap()
+    };
+    // The first has the plain name, the others one that says what they differ in.
+    assert_eq!(nodes("mesh"), 48);
+    let beside = |n: usize| format!("mesh-radial_elements={n},circumferential_elements=16");
+    assert_eq!(nodes(&beside(4)), 64);
+    assert_eq!(nodes(&beside(5)), 80);
+    assert!(
+        !folder
+            .path()
+            .join("results/polycarbonate-disc")
+            .join(beside(3))
+            .exists()
+    );
+    // Nothing tells the case as it is written from what is there: that is for the user to decide.
+    let plain = || {
+        let mut command = frictionsim(&folder);
+        command.args(["mesh", &disc(), "--no-figures"]);
+        command
+    };
+    let refused = contains("--set mesh.radial_elements=3").and(contains("--force"));
+    plain().assert().code(2).stderr(refused);
+    plain().arg("--force").assert().code(0);
     let name = folder.path().join("polycarbonate-disc.toml");
     let text = fs::read_to_string(disc()).unwrap();
     fs::write(&name, text.replace("density = 1228.0", "density = 1200.0")).unwrap();
+    // Another case of the same name, and then that case edited.
     let mut command = frictionsim(&folder);
-    command
-        .args(["mesh", "polycarbonate-disc.toml"])
-        .args(COARSE);
-    command.assert().code(2).stderr(contains("another case"));
+    let other = command.args(["mesh", "polycarbonate-disc.toml"]).assert();
+    other.code(2).stderr(contains("another case"));
 }
 
 #[test]
@@ -480,7 +506,7 @@ fn a_folder_that_another_process_writes_is_refused() {
 }
 
 #[test]
-fn warnings_go_to_stderr_and_quiet_silences_them() {
+fn warnings_go_to_stderr_and_stay_unless_quiet_is_said_twice() {
     let folder = folder();
     let run = cases()
         .join("polycarbonate-610rpm.toml")
@@ -494,7 +520,8 @@ fn warnings_go_to_stderr_and_quiet_silences_them() {
         command.assert().code(0)
     };
     mesh(&[]).stderr(contains("output.snapshots: 0.03 s lies after the end"));
-    mesh(&["--quiet"]).stderr("");
+    mesh(&["--quiet"]).stderr(contains("output.snapshots: 0.03 s lies after the end"));
+    mesh(&["-qq"]).stderr("").stdout("");
 }
 
 #[test]

@@ -201,7 +201,7 @@ fn an_interrupted_search_says_what_is_kept_and_can_be_started_again() {
     assert!(killed.success());
     let output = child.wait_with_output().unwrap();
     let text = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(1), "{text}");
+    assert_eq!(output.status.code(), Some(130), "{text}");
     assert!(
         text.contains("interrupted; nothing of this run is kept"),
         "{text}"

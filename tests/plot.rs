@@ -360,9 +360,6 @@ fn folders_that_cannot_be_drawn_are_bad_usage_with_a_reason() {
     };
     refuse(&[], "it has no manifest.json");
     refuse(&["--dpi", "5"], "20 to 1200");
-    run(&folder, "mesh", "polycarbonate-disc.toml", &COARSE, &[]);
-    refuse(&[], "belongs to frictionsim mesh");
-    fs::remove_dir_all(folder.path().join("out")).unwrap();
     run(
         &folder,
         "transient",
@@ -378,6 +375,27 @@ fn folders_that_cannot_be_drawn_are_bad_usage_with_a_reason() {
     refuse(&[], "its record.bin is damaged (its checksum");
     fs::remove_file(&record).unwrap();
     refuse(&[], "it has no record.bin");
-    fs::remove_file(folder.path().join("out/summary.json")).unwrap();
+    let summary = folder.path().join("out/summary.json");
+    let text = fs::read_to_string(&summary).unwrap();
+    fs::write(&summary, text.replacen("\"steps\": ", "\"steps\": 1", 1)).unwrap();
+    refuse(&[], "its summary.json is damaged (its checksum");
+    fs::remove_file(&summary).unwrap();
     refuse(&[], "the run did not end");
+    let manifest = folder.path().join("out/manifest.json");
+    let text = fs::read_to_string(&manifest).unwrap();
+    fs::write(
+        &manifest,
+        text.replacen("transient.duration", "transient.durations", 1),
+    )
+    .unwrap();
+    refuse(&[], "its manifest.json is damaged (its checksum");
+}
+
+#[test]
+fn plot_draws_the_picture_of_a_mesh_again_to_the_same_bytes() {
+    let folder = tempfile::tempdir().unwrap();
+    run(&folder, "mesh", "polycarbonate-disc.toml", &COARSE, &[]);
+    let before = files(&folder.path().join("out"));
+    plot(&folder, &[]).assert().code(0);
+    assert_eq!(files(&folder.path().join("out")), before);
 }

@@ -7,9 +7,9 @@ use frictionsim::contact::ContactInterface;
 use frictionsim::fem::NodalStress;
 use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind};
 use frictionsim::results::cea::{BaseField, BaseState, CeaReport, print, write};
+use frictionsim::results::mesh::MeshStatistics;
 use frictionsim::results::{
-    EncodedMesh, Field, FolderError, Manifest, MeshStatistics, OutputFolder, Replace,
-    cartesian_vectors, write_vtu,
+    EncodedMesh, Field, FolderError, Manifest, OutputFolder, Replace, cartesian_vectors, write_vtu,
 };
 use std::f64::consts::TAU;
 use std::fs;
@@ -175,7 +175,7 @@ fn tables_hold_one_row_for_each_mode_of_a_tabulated_friction_value() {
 #[test]
 fn the_printed_table_tells_stable_ranges_from_unstable_modes() {
     let mesh = annulus(ElementKind::Quad4);
-    let text = print(&report(&mesh, &sweep(&mesh), &field(&mesh)));
+    let text = print(&report(&mesh, &sweep(&mesh), &field(&mesh)), true);
     for part in [
         "0  stable up to 0.1",
         "against       9900.00",
@@ -188,6 +188,13 @@ fn the_printed_table_tells_stable_ranges_from_unstable_modes() {
     ] {
         assert!(text.contains(part), "{part:?} is not in\n{text}");
     }
+    let short = print(&report(&mesh, &sweep(&mesh), &field(&mesh)), false);
+    assert!(
+        short.contains("friction 0.3: 2 modes, 1 unstable") && !short.contains("stable up to"),
+        "{short}"
+    );
+    let last = short.lines().last().unwrap();
+    assert!(last.contains("0.138200"), "the answer stands last\n{short}");
     assert!(
         !text.contains("0.25 "),
         "a value solved for its shapes alone\n{text}"

@@ -77,6 +77,7 @@ fn write_table(case: &Case, folder: &SweepFolder) {
         count: plan.count(),
         records: &records,
         ran: None,
+        core_s: 0.0,
         wall_s: 0.0,
     };
     gather(folder, &report, &manifest(case), None).unwrap();

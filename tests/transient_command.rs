@@ -208,7 +208,7 @@ fn an_interrupted_run_keeps_what_it_has_and_says_how_to_go_on() {
         // The run ended before the signal came.
         return;
     }
-    assert_eq!(output.status.code(), Some(1));
+    assert_eq!(output.status.code(), Some(130));
     let message = String::from_utf8_lossy(&output.stderr).into_owned();
     assert!(message.contains("--resume"), "{message}");
     assert_eq!(summary(&out)["finished"], false);

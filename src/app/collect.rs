@@ -3,11 +3,11 @@
 use super::figure_options::FigureOptions;
 use super::plot::recorded_case;
 use super::session::start_threads;
-use super::sweep::{SweepPlan, drawing, finished_points, gather};
+use super::sweep::{SweepPlan, core_seconds, drawing, finished_points, gather};
 use super::{Failure, terminal};
 use crate::results::DrawingOptions;
 use crate::results::sweep::{SweepFolder, SweepReport, draw, print};
-use clap::{Args, ValueHint};
+use clap::{ArgAction, Args, ValueHint};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -27,6 +27,9 @@ pub struct Arguments {
     no_figures: bool,
     #[command(flatten)]
     figures: FigureOptions,
+    /// No information; twice: errors only, and no table
+    #[arg(long, short, action = ArgAction::Count)]
+    quiet: u8,
 }
 
 /// Runs the subcommand.
@@ -35,6 +38,7 @@ pub struct Arguments {
 /// A folder that is no sweep's, missing points, a folder that cannot be written.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let start = Instant::now();
+    terminal::start_log(arguments.quiet, 0);
     start_threads(None);
     let (folder, manifest) = SweepFolder::find(&arguments.folder)?;
     let case = recorded_case(&manifest)?;
@@ -47,6 +51,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         analyses: &plan.analysis_names(),
         count: plan.count(),
         records: &records,
+        core_s: core_seconds(&folder, &records),
         ran: None,
         wall_s: start.elapsed().as_secs_f64(),
     };
@@ -55,7 +60,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let summary = gather(&folder, &report, &manifest, drawing.as_ref())?;
     if arguments.json {
         terminal::print_json(&summary)?;
-    } else {
+    } else if arguments.quiet < 2 {
         let path = folder.path().display();
         terminal::print(&format!("{}results in {path}\n", print(&report)))?;
     }
@@ -84,6 +89,7 @@ pub fn redraw(path: &Path, options: &DrawingOptions) -> Result<(), Failure> {
         analyses: &plan.analysis_names(),
         count: plan.count(),
         records: &records,
+        core_s: core_seconds(&folder, &records),
         ran: None,
         wall_s: 0.0,
     };

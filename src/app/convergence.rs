@@ -10,6 +10,7 @@ use crate::results::convergence::{
 };
 use crate::results::{DrawingOptions, Manifest, OutputFolder, read_record};
 use clap::Args;
+use indicatif::ProgressBar;
 use rayon::prelude::*;
 use serde_json::Value;
 use std::f64::consts::TAU;
@@ -57,10 +58,11 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     terminal::catch_signals(terminal::NOTHING_KEPT);
 
     let mut all = Vec::new();
-    for (outcomes, study) in solve(&studies, &session.manifest)?
-        .into_iter()
-        .zip(&studies)
-    {
+    let levels = studies.iter().map(|study| study.cases.len() as u64).sum();
+    let bar = terminal::progress(session.options.output.is_quiet(), levels, "levels");
+    let solved = solve(&studies, &session.manifest, &bar);
+    bar.finish_and_clear();
+    for (outcomes, study) in solved?.into_iter().zip(&studies) {
         all.extend(series(case, study, outcomes)?);
     }
     let report = ConvergenceReport {
@@ -69,8 +71,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         wall_s: session.wall_seconds(),
     };
     let summary = write(&folder, &report)?;
-    if !session.options.no_figures {
-        draw(&folder, &report, &session.options.figures.drawing())?;
+    if !session.options.output.no_figures {
+        draw(&folder, &report, &session.options.output.figures.drawing())?;
     }
     let path = folder.path().to_owned();
     folder.finish()?;
@@ -140,7 +142,11 @@ fn memory_bytes(study: &Study) -> f64 {
 }
 
 /// Solves every level of every study, side by side, the costliest first.
-fn solve(studies: &[Study], manifest: &Manifest) -> Result<Vec<Vec<Timed>>, Failure> {
+fn solve(
+    studies: &[Study],
+    manifest: &Manifest,
+    bar: &ProgressBar,
+) -> Result<Vec<Vec<Timed>>, Failure> {
     let jobs = studies.iter().flat_map(|study| {
         let cases = study.cases.iter();
         cases.map(|case| (study.analysis, case))
@@ -158,6 +164,7 @@ fn solve(studies: &[Study], manifest: &Manifest) -> Result<Vec<Vec<Timed>>, Fail
                 Analysis::Transient => Outcome::Summary(transient::summarize(case, manifest)?),
                 Analysis::Cycle => Outcome::Summary(cycle::attempt(&own_cycles(case), manifest)?),
             };
+            bar.inc(1);
             Ok((outcome, start.elapsed().as_secs_f64()))
         })
         .collect();

@@ -47,8 +47,13 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         }
     }
     let summary = write(&folder, &report)?;
-    if !session.options.no_figures {
-        figures::redraw(&folder, case, &summary, &session.options.figures.drawing())?;
+    if !session.options.output.no_figures {
+        figures::redraw(
+            &folder,
+            case,
+            &summary,
+            &session.options.output.figures.drawing(),
+        )?;
     }
     let path = folder.path().to_owned();
     folder.finish()?;

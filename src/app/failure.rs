@@ -1,5 +1,6 @@
 //! How a command fails, and the exit code that says so.
 
+use super::terminal;
 use crate::case::CaseErrors;
 use crate::cea::cyclic::CyclicError;
 use crate::cea::sparse::CeaError;
@@ -17,6 +18,10 @@ pub enum Failure {
     Usage(anyhow::Error),
     /// The input was good but the run failed: exit code 1.
     Run(anyhow::Error),
+    /// A signal stopped the run: exit code 130.
+    Interrupted(String),
+    /// Nothing was to be done: exit code 0.
+    DryRun,
     /// The reader of our output has gone, as `head` does: exit code 0.
     BrokenPipe,
 }
@@ -40,28 +45,25 @@ impl Failure {
                 all.map(|error| error.message.clone()).collect()
             }
             Self::Usage(error) | Self::Run(error) => vec![error.to_string()],
-            Self::BrokenPipe => Vec::new(),
+            Self::Interrupted(message) => vec![message.clone()],
+            Self::BrokenPipe | Self::DryRun => Vec::new(),
         }
     }
 
     /// Says on stderr what went wrong (every error names its cause itself), and gives the exit code.
     pub fn report(&self) -> ExitCode {
-        use std::io::{IsTerminal, Write};
-        let stderr = io::stderr();
-        let text = match self {
-            Self::Case(errors) => {
-                let color = stderr.is_terminal() && std::env::var_os("NO_COLOR").is_none();
-                errors.render(color)
-            }
-            Self::Usage(error) | Self::Run(error) => format!("error: {error}"),
-            Self::BrokenPipe => return ExitCode::SUCCESS,
+        use std::io::Write;
+        let word = terminal::error_word();
+        let (text, code) = match self {
+            Self::Case(errors) => (errors.render(terminal::is_coloured()), 2),
+            Self::Usage(error) => (format!("{word} {error}"), 2),
+            Self::Run(error) => (format!("{word} {error}"), 1),
+            Self::Interrupted(message) => (format!("{word} {message}"), terminal::INTERRUPTED),
+            Self::BrokenPipe | Self::DryRun => return ExitCode::SUCCESS,
         };
         // Nobody is left to tell if stderr is closed.
-        let _ = writeln!(stderr.lock(), "{text}");
-        match self {
-            Self::Case(_) | Self::Usage(_) => ExitCode::from(2),
-            Self::Run(_) | Self::BrokenPipe => ExitCode::from(1),
-        }
+        let _ = writeln!(io::stderr().lock(), "{text}");
+        ExitCode::from(code)
     }
 }
 

@@ -5,7 +5,7 @@ use crate::case::{Case, Frf, FrfMethod};
 use crate::fem::assemble_stiffness;
 use crate::frf::{
     CyclicSystem, FrfBoundary, FrfSystem, ReductionSettings, Terminal, cyclic_response,
-    direct_response, reduced_response,
+    direct_response_with, reduced_response,
 };
 use crate::linalg::GaussianNoise;
 use crate::mesh::{AnnulusMesh, SectorMesh};
@@ -13,12 +13,14 @@ use crate::prestress::{
     DampingModel, SectorTangent, SlidingTangent, SteadySliding, TangentOptions,
 };
 use crate::results::{
-    DrawingOptions, OutputFolder, RESPONSE_TABLE, draw_response_report, write_response,
+    DrawingOptions, OutputFolder, RESPONSE_TABLE, ResponseSummary, draw_response_report,
+    read_response_table, read_summary, write_response, write_summary,
 };
+use crate::signal::FrequencyResponse;
 use crate::signal::reader::read_response;
 use clap::Args;
 use faer::c64;
-use serde_json::{Value, json};
+use indicatif::ProgressBar;
 use std::f64::consts::TAU;
 
 /// Frequency response of the model between two nodes
@@ -54,60 +56,59 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     session.check_memory(case.cost().mesh_memory_bytes)?;
     let folder = session.open_folder()?;
     terminal::catch_signals(terminal::NOTHING_KEPT);
-    let computed = compute(case, frf)?;
+    let bar = terminal::progress(session.options.output.is_quiet(), 0, "frequencies");
+    let computed = compute(case, frf, &bar)?;
+    bar.finish_and_clear();
     let values = observed(case, frf, &computed.receptance);
     write_response(&folder, frf.quantity, &frf.frequencies_hz, &values)?;
-    let description = described(frf, &computed);
-    let summary = json!({
-        "command": "frf",
-        "title": case.title,
-        "description": description,
-        "dofs": computed.dofs,
-        "lines": frf.frequencies_hz.len(),
-        "method": computed.method,
-        "largest_error": computed.error,
-        "basis_vectors": computed.vectors,
-        "backward_error": computed.backward_error,
-        "quantity": frf.quantity.name(),
-        "noise": frf.noise,
-        "wall_s": session.wall_seconds(),
-        "manifest": session.manifest,
-    });
-    folder.write("summary.json", |out| {
-        serde_json::to_writer_pretty(&mut *out, &summary)?;
-        out.write_all(b"\n")
-    })?;
-    if !session.options.no_figures {
-        redraw(&folder, &summary, &session.options.figures.drawing())?;
+    let summary = ResponseSummary {
+        command: "frf".to_owned(),
+        title: case.title.clone(),
+        description: described(frf, &computed),
+        dofs: computed.dofs,
+        lines: frf.frequencies_hz.len(),
+        method: computed.method.to_owned(),
+        largest_error: computed.error,
+        basis_vectors: computed.vectors,
+        backward_error: computed.backward_error,
+        quantity: frf.quantity.name().to_owned(),
+        noise: frf.noise,
+        wall_s: session.wall_seconds(),
+        manifest: session.manifest.clone(),
+    };
+    let object = write_summary(&folder, &summary)?;
+    if !session.options.output.no_figures {
+        let response = FrequencyResponse::new(frf.frequencies_hz.clone(), values, frf.quantity);
+        let response = response.map_err(Failure::run)?;
+        draw_response_report(
+            &folder,
+            &response,
+            &summary,
+            &session.options.output.figures.drawing(),
+        )?;
     }
     let path = folder.path().to_owned();
     folder.finish()?;
-    session.print(&format!("{description}\n"), &summary, &path)
+    session.print(&format!("{}\n", summary.description), &object, &path)
 }
 
 /// Draws the figure and the report of a folder from its `frf.csv` and its summary.
 ///
 /// # Errors
-/// A folder without a table that can be read; those of the drawing and of the folder.
-pub fn redraw(
-    folder: &OutputFolder,
-    summary: &Value,
-    options: &DrawingOptions,
-) -> Result<(), Failure> {
-    let path = folder.path().join(RESPONSE_TABLE);
-    let name = path.display().to_string();
-    let bytes = std::fs::read(&path)
-        .map_err(|error| Failure::usage(format!("cannot read {name}: {error}")))?;
-    let file = read_response(&bytes, &name, None)?;
-    draw_response_report(folder, &file.response, summary, options)?;
+/// A folder without a whole table and summary; those of the drawing and of the folder.
+pub fn redraw(folder: &OutputFolder, options: &DrawingOptions) -> Result<(), Failure> {
+    let summary: ResponseSummary = read_summary(folder.path())?;
+    let name = folder.path().join(RESPONSE_TABLE).display().to_string();
+    let file = read_response(&read_response_table(folder)?, &name, None)?;
+    draw_response_report(folder, &file.response, &summary, options)?;
     Ok(())
 }
 
 /// Receptance by the method of the case.
-fn compute(case: &Case, frf: &Frf) -> Result<Computed, Failure> {
+fn compute(case: &Case, frf: &Frf, bar: &ProgressBar) -> Result<Computed, Failure> {
     match frf.method {
         FrfMethod::Auto | FrfMethod::Cyclic => cyclic(case, frf),
-        FrfMethod::Direct => direct(case, frf),
+        FrfMethod::Direct => direct(case, frf, bar),
         FrfMethod::Reduced => reduced(case, frf),
     }
 }
@@ -139,10 +140,13 @@ fn cyclic(case: &Case, frf: &Frf) -> Result<Computed, Failure> {
     })
 }
 
-fn direct(case: &Case, frf: &Frf) -> Result<Computed, Failure> {
+fn direct(case: &Case, frf: &Frf, bar: &ProgressBar) -> Result<Computed, Failure> {
     let (system, force, response) = whole_mesh(case, frf)?;
+    bar.set_length(frf.frequencies_hz.len() as u64);
+    let done = |lines: usize| bar.inc(lines as u64);
+    let lines = &frf.frequencies_hz;
     let solved =
-        direct_response(&system, force, response, &frf.frequencies_hz).map_err(Failure::run)?;
+        direct_response_with(&system, force, response, lines, &done).map_err(Failure::run)?;
     Ok(Computed {
         receptance: solved.receptance,
         dofs: system.dimension(),

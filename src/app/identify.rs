@@ -1,7 +1,8 @@
 //! `frictionsim identify`: Rayleigh coefficients from a measured frequency response.
 
 use super::Failure;
-use super::measurement::{Measurement, OutputOptions};
+use super::measurement::Measurement;
+use super::options::OutputOptions;
 use crate::results::identification::{
     IdentificationRecord, IdentificationReport, draw_report, print, write,
 };
@@ -89,8 +90,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     if !arguments.output.no_figures {
         redraw(&folder, &summary, &arguments.output.figures.drawing())?;
     }
+    let path = folder.path().to_owned();
     folder.finish()?;
-    measurement.print(&print(&report), &summary)
+    measurement.print(&print(&report), &summary, &path)
 }
 
 /// Draws the figure and the report of a folder from its `record.bin` and its summary.

@@ -1,29 +1,353 @@
 //! `frictionsim man`: manual pages.
 
-use super::{CommandLine, Failure, terminal};
-use clap::{Args, CommandFactory, ValueHint};
+use super::{Failure, command_line, terminal};
+use clap::{Args, ValueHint};
+use clap_mangen::Man;
+use std::fmt::Write as _;
+use std::fs;
+use std::io;
 use std::path::PathBuf;
 
 /// Print the manual page, or write those of all subcommands
 #[derive(Args)]
 pub struct Arguments {
+    /// Print the page of this command
+    #[arg(value_name = "COMMAND", conflicts_with = "out")]
+    command: Option<String>,
     /// Write frictionsim.1 and one page for each subcommand there
-    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
+    #[arg(long, short, value_name = "DIR", value_hint = ValueHint::DirPath)]
     out: Option<PathBuf>,
 }
+
+/// What the declarations of a subcommand do not say.
+struct Page {
+    command: &'static str,
+    /// Name and contents of what it writes, relative to its output folder.
+    files: &'static [(&'static str, &'static str)],
+    /// Command lines and what they are for.
+    examples: &'static [(&'static str, &'static str)],
+}
+
+const PAGES: &[Page] = &[
+    Page {
+        command: "cea",
+        files: &[
+            (
+                "eigenvalues.csv",
+                "one row for each mode and friction value",
+            ),
+            (
+                "stability.csv",
+                "one row for each crossing into instability",
+            ),
+            (
+                "sensitivities.csv",
+                "derivatives of eigenvalues and onsets by parameters",
+            ),
+            (
+                "prestress.csv, prestress.vtu",
+                "steady sliding, node by node",
+            ),
+            (
+                "modes.pvd, modes/*.vtu",
+                "mode shapes, real and imaginary part",
+            ),
+            (
+                "map.csv",
+                "critical friction over a second parameter (cea.map)",
+            ),
+        ],
+        examples: &[
+            (
+                "frictionsim cea disc.toml",
+                "critical friction of every branch",
+            ),
+            (
+                "frictionsim cea disc.toml --set contact.interference=30e-6 --json | jq .critical_frictions",
+                "for scripts",
+            ),
+        ],
+    },
+    Page {
+        command: "transient",
+        files: &[
+            ("probe-ID.csv", "motion of each probe over time"),
+            ("energy.csv", "energies and powers, equations (8) to (12)"),
+            (
+                "contact.csv, contact.npz",
+                "contact status: fractions, and node by node",
+            ),
+            (
+                "harmonics.csv",
+                "amplitudes of the nodal diameters over time",
+            ),
+            (
+                "snapshots.pvd, snapshots/*.vtu",
+                "fields at the times asked for",
+            ),
+            (
+                "checkpoint.bin",
+                "state of an interrupted run, for --resume",
+            ),
+            ("record.bin", "what the figures are drawn from"),
+        ],
+        examples: &[
+            (
+                "frictionsim transient run.toml",
+                "from first expansion to limit cycle",
+            ),
+            (
+                "frictionsim transient run.toml --resume",
+                "go on after Ctrl-C",
+            ),
+        ],
+    },
+    Page {
+        command: "sweep",
+        files: &[
+            ("points.csv", "one row for each point"),
+            (
+                "points/point-NNNNNN.json",
+                "what came out of a point; the same bytes whoever ran it",
+            ),
+            ("points/clock-NNNNNN.json", "how long that took"),
+        ],
+        examples: &[
+            ("frictionsim sweep study.toml", "all points on all cores"),
+            (
+                "frictionsim sweep study.toml --out study --shard 2/8",
+                "one of eight processes",
+            ),
+            (
+                "frictionsim sweep study.toml --resume",
+                "go on after Ctrl-C",
+            ),
+        ],
+    },
+    Page {
+        command: "collect",
+        files: &[("points.csv", "one row for each finished point")],
+        examples: &[(
+            "frictionsim collect study",
+            "gather what the shards have finished",
+        )],
+    },
+    Page {
+        command: "plot",
+        files: &[("figures/*.svg, figures/*.png", "the figures, drawn again")],
+        examples: &[("frictionsim plot results/disc/cea --dpi 300", "for print")],
+    },
+    Page {
+        command: "cycle",
+        files: &[
+            (
+                "cycle-nN.csv",
+                "contact and motion of the edge along the phase",
+            ),
+            ("branch-nN.csv", "one row for each cycle of a branch"),
+            ("stability-nN.csv", "exponents of perturbations"),
+            ("cycles.pvd, cycle-nN.vtu", "fields over one period"),
+            ("record.bin", "what the figures are drawn from"),
+        ],
+        examples: &[(
+            "frictionsim cycle disc.toml",
+            "the limit cycles of a case, without time stepping",
+        )],
+    },
+    Page {
+        command: "convergence",
+        files: &[
+            ("convergence.csv", "one row for each quantity on each level"),
+            ("record.bin", "what the figures are drawn from"),
+        ],
+        examples: &[(
+            "frictionsim convergence disc.toml",
+            "observed orders and extrapolated values",
+        )],
+    },
+    Page {
+        command: "mesh",
+        files: &[("mesh.vtu", "nodes, elements, node numbers, edges")],
+        examples: &[("frictionsim mesh disc.toml", "look at a mesh before a run")],
+    },
+    Page {
+        command: "check",
+        files: &[],
+        examples: &[(
+            "frictionsim check *.toml",
+            "are these cases valid, and what do they cost?",
+        )],
+    },
+    Page {
+        command: "init",
+        files: &[("TEMPLATE.toml", "the commented case")],
+        examples: &[("frictionsim init transient", "write transient.toml")],
+    },
+    Page {
+        command: "frf",
+        files: &[("frf.csv", "frequency, real and imaginary part")],
+        examples: &[(
+            "frictionsim frf hammer-test.toml",
+            "response of the model between two nodes",
+        )],
+    },
+    Page {
+        command: "identify",
+        files: &[
+            (
+                "modes.csv, fit.csv",
+                "frequencies and damping factors, and the fit through them",
+            ),
+            ("damping.toml", "a [damping] block to paste into a case"),
+            ("record.bin", "what the figures are drawn from"),
+        ],
+        examples: &[(
+            "frictionsim identify FRF.csv --json",
+            "Rayleigh coefficients with intervals",
+        )],
+    },
+    Page {
+        command: "signal",
+        files: &[
+            ("peaks.csv", "main peaks of each channel"),
+            ("spectrum-N.csv", "spectrum of each channel"),
+            ("record.bin", "what the figures are drawn from"),
+        ],
+        examples: &[(
+            "frictionsim signal microphone.csv --case disc.toml",
+            "which mode squeals",
+        )],
+    },
+];
+
+/// Files that every command with an output folder writes.
+const EVERYWHERE: [(&str, &str); 3] = [
+    (
+        "summary.json",
+        "the results in short, and what they were made from",
+    ),
+    (
+        "manifest.json",
+        "case, overrides, version; names and checksums of all files",
+    ),
+    ("report.html, figures/", "tables and figures"),
+];
+
+const EXIT_STATUS: [(&str, &str); 4] = [
+    ("0", "done"),
+    ("1", "the run failed"),
+    ("2", "bad usage or case"),
+    ("130", "interrupted by Ctrl-C or SIGTERM"),
+];
 
 /// Runs the subcommand.
 ///
 /// # Errors
-/// Those of stdout, or of the folder.
+/// An unknown command; those of stdout, or of the folder.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let command = CommandLine::command();
-    let Some(folder) = &arguments.out else {
-        let mut page = Vec::new();
-        clap_mangen::Man::new(command).render(&mut page)?;
-        return terminal::print(&String::from_utf8_lossy(&page));
+    let mut command = command_line();
+    // Builds the names of the subcommands: `frictionsim-cea`.
+    command.build();
+    if let Some(folder) = &arguments.out {
+        let failed = |error| Failure::run(format!("cannot write {}: {error}", folder.display()));
+        return write_pages(&command, folder).map_err(failed);
+    }
+    let shown = match &arguments.command {
+        None => &command,
+        Some(name) => command.find_subcommand(name).ok_or_else(|| {
+            Failure::usage(format!(
+                "there is no command {name}: see frictionsim --help"
+            ))
+        })?,
     };
-    std::fs::create_dir_all(folder)
-        .and_then(|()| clap_mangen::generate_to(command, folder))
-        .map_err(|error| Failure::run(format!("cannot write {}: {error}", folder.display())))
+    terminal::print(&String::from_utf8_lossy(&page(shown)?))
+}
+
+fn write_pages(command: &clap::Command, folder: &std::path::Path) -> io::Result<()> {
+    fs::create_dir_all(folder)?;
+    let subcommands = command
+        .get_subcommands()
+        .filter(|sub| sub.get_name() != "help");
+    for command in std::iter::once(command).chain(subcommands) {
+        let name = Man::new(command.clone()).get_filename();
+        fs::write(folder.join(name), page(command)?)?;
+    }
+    Ok(())
+}
+
+/// One page in roff.
+fn page(command: &clap::Command) -> io::Result<Vec<u8>> {
+    let man = Man::new(command.clone());
+    let mut out = Vec::new();
+    man.render_title(&mut out)?;
+    man.render_name_section(&mut out)?;
+    man.render_synopsis_section(&mut out)?;
+    man.render_description_section(&mut out)?;
+    man.render_options_section(&mut out)?;
+    if command.get_subcommands().next().is_some() {
+        man.render_subcommands_section(&mut out)?;
+    }
+    let mut text = String::new();
+    if let Some(page) = PAGES.iter().find(|page| page.command == command.get_name()) {
+        let writes_folder = command
+            .get_arguments()
+            .any(|arg| arg.get_id() == "no_figures");
+        let everywhere: &[_] = if writes_folder { &EVERYWHERE } else { &[] };
+        let files: Vec<_> = page.files.iter().chain(everywhere).copied().collect();
+        section(&mut text, "FILES", &files);
+        section(&mut text, "EXAMPLES", page.examples);
+    }
+    section(&mut text, "EXIT STATUS", &EXIT_STATUS);
+    out.extend_from_slice(text.as_bytes());
+    if command.get_version().is_some() {
+        man.render_version_section(&mut out)?;
+    }
+    Ok(out)
+}
+
+/// A section of tagged paragraphs.
+fn section(out: &mut String, title: &str, entries: &[(&str, &str)]) {
+    if entries.is_empty() {
+        return;
+    }
+    let _ = writeln!(out, ".SH \"{title}\"");
+    for (term, meaning) in entries {
+        let _ = writeln!(out, ".TP\n\\fB{}\\fR\n{}", escaped(term), escaped(meaning));
+    }
+}
+
+/// Text that roff takes as it is.
+fn escaped(text: &str) -> String {
+    let text = text.replace('\\', "\\e").replace('-', "\\-");
+    // A dot or an apostrophe would begin a request.
+    match text.starts_with(['.', '\'']) {
+        true => format!("\\&{text}"),
+        false => text,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_command_that_runs_has_files_and_examples_in_its_page() {
+        let mut command = command_line();
+        command.build();
+        for sub in command.get_subcommands() {
+            let is_told = PAGES.iter().any(|page| page.command == sub.get_name());
+            let needs = sub.get_arguments().any(|arg| arg.get_id() == "no_figures");
+            assert!(is_told || !needs, "{}", sub.get_name());
+        }
+        for page in PAGES {
+            let found = command.find_subcommand(page.command);
+            assert!(found.is_some(), "{} is no command", page.command);
+            for (line, _) in page.examples {
+                let line = line.split(" | ").next().unwrap_or(line);
+                let words = line.split(' ').collect::<Vec<&str>>();
+                let parsed = command.clone().try_get_matches_from(words);
+                assert!(parsed.is_ok(), "{line}: {}", parsed.unwrap_err());
+            }
+        }
+    }
 }

@@ -1,10 +1,11 @@
 //! `frictionsim mesh`: the mesh alone.
 
 use super::{Failure, RunOptions, Session};
+use crate::case::Case;
 use crate::mesh::AnnulusMesh;
-use crate::results::{MeshStatistics, write_mesh, write_mesh_picture};
+use crate::results::mesh::{MeshStatistics, MeshSummary, print, write_mesh, write_mesh_picture};
+use crate::results::{DrawingOptions, OutputFolder, write_summary};
 use clap::Args;
-use serde_json::json;
 
 /// Mesh only: statistics, VTU, picture
 #[derive(Args)]
@@ -19,50 +20,33 @@ pub struct Arguments {
 /// A bad case, or an output folder that cannot be written.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let session = Session::start("mesh", &arguments.options)?;
-    session.check_memory(session.case.cost().mesh_memory_bytes)?;
+    let case = &session.case;
+    session.check_memory(case.cost().mesh_memory_bytes)?;
     let folder = session.open_folder()?;
-    let annulus = AnnulusMesh::generate(&session.case.annulus).map_err(Failure::usage)?;
-    let statistics = MeshStatistics::new(&annulus);
+    let annulus = AnnulusMesh::generate(&case.annulus).map_err(Failure::usage)?;
     write_mesh(&folder, &annulus.mesh)?;
-    if !session.options.no_figures {
-        write_mesh_picture(
-            &folder,
-            &annulus,
-            &session.case.title,
-            &session.options.figures.drawing(),
-        )?;
+    if !session.options.output.no_figures {
+        redraw(&folder, case, &session.options.output.figures.drawing())?;
     }
-    let summary = json!({
-        "command": "mesh",
-        "title": session.case.title,
-        "wall_s": session.wall_seconds(),
-        "mesh": statistics,
-        "manifest": session.manifest,
-    });
-    folder.write("summary.json", |out| {
-        serde_json::to_writer_pretty(&mut *out, &summary)?;
-        out.write_all(b"\n")
-    })?;
+    let summary = MeshSummary {
+        command: "mesh".to_owned(),
+        title: case.title.clone(),
+        wall_s: session.wall_seconds(),
+        mesh: MeshStatistics::new(&annulus),
+        manifest: session.manifest.clone(),
+    };
+    let object = write_summary(&folder, &summary)?;
     let path = folder.path().to_owned();
     folder.finish()?;
-    session.print(&table(&statistics), &summary, &path)
+    session.print(&print(&summary), &object, &path)
 }
 
-fn table(mesh: &MeshStatistics) -> String {
-    format!(
-        "{} nodes, {} elements, {} unknowns, {} contact nodes\n\
-         edges {:.4e} to {:.4e} m, aspect ratio up to {:.2}\n\
-         area {:.6e} m2, {:.1e} off the annulus\n\
-         node ids: 1 + j {} + i, i outwards along a ray, j around from +x\n",
-        mesh.nodes,
-        mesh.elements,
-        mesh.dofs,
-        mesh.contact_nodes,
-        mesh.smallest_edge_m,
-        mesh.largest_edge_m,
-        mesh.largest_aspect_ratio,
-        mesh.area_m2,
-        mesh.area_error,
-        mesh.nodes_per_sector,
-    )
+/// Draws the picture of a folder again.
+///
+/// # Errors
+/// Those of the drawing and of the folder.
+pub fn redraw(folder: &OutputFolder, case: &Case, options: &DrawingOptions) -> Result<(), Failure> {
+    let annulus = AnnulusMesh::generate(&case.annulus).map_err(Failure::usage)?;
+    write_mesh_picture(folder, &annulus, &case.title, options)?;
+    Ok(())
 }

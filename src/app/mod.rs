@@ -17,7 +17,7 @@ mod man;
 mod measurement;
 mod mesh;
 mod options;
-mod plot;
+pub mod plot;
 mod session;
 mod signal;
 pub mod sweep;
@@ -25,10 +25,11 @@ pub mod terminal;
 pub mod transient;
 
 pub use failure::Failure;
-pub use options::{RunOptions, SimdChoice};
+pub use options::{OutputOptions, RunOptions, SimdChoice};
 pub use session::Session;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use std::ffi::OsString;
 use std::process::ExitCode;
 
 /// Stability and transient analysis of frictional contact by finite elements.
@@ -42,7 +43,8 @@ use std::process::ExitCode;
     max_term_width = 100,
     arg_required_else_help = true
 )]
-#[command(after_help = "Exit codes: 0 done, 1 the run failed, 2 bad usage or case.")]
+#[command(after_help = "Options may stand before or after the command.\n\
+                  Exit codes: 0 done, 1 the run failed, 2 bad usage or case, 130 interrupted.")]
 pub struct CommandLine {
     #[command(subcommand)]
     command: Command,
@@ -68,10 +70,69 @@ enum Command {
     Man(man::Arguments),
 }
 
+/// The command line with what its declarations cannot say: each command's own default folder.
+pub fn command_line() -> clap::Command {
+    let mut command = CommandLine::command();
+    let names = command
+        .get_subcommands()
+        .map(|sub| sub.get_name().to_owned());
+    for name in names.collect::<Vec<String>>() {
+        command = command.mut_subcommand(&name, |sub| {
+            let positional = sub.get_positionals().next();
+            let input = positional.and_then(|arg| arg.get_value_names()?.first().cloned());
+            let has_folder = sub.get_arguments().any(|arg| arg.get_id() == "dry_run");
+            match input {
+                Some(input) if has_folder => sub.mut_arg("out", |arg| {
+                    let stem = input.split('.').next().unwrap_or_default().to_owned();
+                    arg.help(format!("Output folder [default: results/{stem}/{name}]"))
+                }),
+                _ => sub,
+            }
+        });
+    }
+    command
+}
+
+/// Moves options that stand before the subcommand behind it, where they are declared.
+fn options_behind_subcommand(command: &clap::Command, mut given: Vec<OsString>) -> Vec<OsString> {
+    let takes_value = |option: &str| {
+        let all = command
+            .get_subcommands()
+            .flat_map(clap::Command::get_arguments);
+        all.filter(|arg| arg.get_action().takes_values())
+            .any(|arg| {
+                let long = arg
+                    .get_long()
+                    .is_some_and(|long| option == format!("--{long}"));
+                long || arg
+                    .get_short()
+                    .is_some_and(|short| option == format!("-{short}"))
+            })
+    };
+    let mut at = 1;
+    while let Some(option) = given.get(at).and_then(|text| text.to_str()) {
+        if !option.starts_with('-') || option == "-" {
+            break;
+        }
+        if ["-h", "--help", "-V", "--version", "--"].contains(&option) {
+            return given;
+        }
+        at += 1 + usize::from(takes_value(option));
+    }
+    if at < given.len() {
+        let subcommand = given.remove(at);
+        given.insert(1, subcommand);
+    }
+    given
+}
+
 /// Parses the command line, runs the subcommand and turns its outcome into an exit code: 0 done,
-/// 1 the run failed, 2 bad usage or case.
+/// 1 the run failed, 2 bad usage or case, 130 interrupted.
 pub fn main() -> ExitCode {
-    let outcome = match CommandLine::parse().command {
+    let command = command_line();
+    let given = options_behind_subcommand(&command, std::env::args_os().collect());
+    let parsed = CommandLine::from_arg_matches(&command.get_matches_from(given));
+    let outcome = match parsed.unwrap_or_else(|error| error.exit()).command {
         Command::Cea(arguments) => cea::run(&arguments),
         Command::Transient(arguments) => transient::run(&arguments),
         Command::Sweep(arguments) => sweep::run(&arguments),
@@ -92,5 +153,30 @@ pub fn main() -> ExitCode {
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => failure.report(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn options_may_stand_before_the_subcommand() {
+        let command = command_line();
+        command.clone().debug_assert();
+        let moved = |line: &str| {
+            let given = line.split(' ').map(OsString::from).collect();
+            let moved = options_behind_subcommand(&command, given);
+            let texts: Vec<_> = moved.iter().map(|text| text.to_string_lossy()).collect();
+            texts.join(" ")
+        };
+        for (given, behind) in [
+            ("f -q --set a.b=1 cea x.toml", "f cea -q --set a.b=1 x.toml"),
+            ("f -o out --json mesh -", "f mesh -o out --json -"),
+            ("f --help", "f --help"),
+            ("f cea -q", "f cea -q"),
+        ] {
+            assert_eq!(moved(given), behind);
+        }
     }
 }

@@ -1,48 +1,226 @@
-//! Options that every running subcommand shares.
+//! Options that subcommands share, and the folder that results go to by default.
 
 use super::figure_options::FigureOptions;
-use clap::{Args, ValueEnum, ValueHint};
-use std::path::PathBuf;
+use super::{Failure, terminal};
+use crate::results::{Manifest, OutputFolder, Replace, read_manifest};
+use clap::{ArgAction, Args, ValueEnum, ValueHint};
+use serde_json::{Value, json};
+use std::path::{Component, Path, PathBuf};
 
 /// The case to run and how.
 #[derive(Args, Clone, Debug)]
 pub struct RunOptions {
-    /// Case file
+    /// Case file, `-` for standard input
     #[arg(value_name = "CASE.toml", value_hint = ValueHint::FilePath)]
     pub case: PathBuf,
-    /// Output folder; `None` is `results/STEM/COMMAND` with the stem of the case file's name.
-    #[arg(
-        long,
-        help = "Output folder [default: results/<case file stem>/<command>]",
-        value_name = "DIR",
-        value_hint = ValueHint::DirPath
-    )]
-    pub out: Option<PathBuf>,
     /// Override a case key, for example contact.friction_coefficient=0.4 (repeatable)
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub set: Vec<String>,
-    /// Print the summary object, alone, on stdout
+    /// Treat warnings about the case as errors
     #[arg(long)]
-    pub json: bool,
+    pub deny_warnings: bool,
     /// Worker threads [default: all cores]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub threads: Option<u16>,
     /// SIMD level of the kernels
     #[arg(long, value_enum, value_name = "LEVEL", default_value = "auto")]
     pub simd: SimdChoice,
-    /// No progress, no log but errors
-    #[arg(long, short)]
-    pub quiet: bool,
+    /// Where results go and what is said of them.
+    #[command(flatten)]
+    pub output: OutputOptions,
+}
+
+/// Where results go and what is said of them.
+#[derive(Args, Clone, Debug, Default)]
+pub struct OutputOptions {
+    /// Output folder; the command line says each command's default.
+    #[arg(long, short, help = "Output folder", value_name = "DIR", value_hint = ValueHint::DirPath)]
+    pub out: Option<PathBuf>,
+    /// Replace the results of another case or table in the output folder
+    #[arg(long)]
+    pub force: bool,
+    /// Check everything and say where results would go, but compute and write nothing
+    #[arg(long)]
+    pub dry_run: bool,
     /// Draw no figures
     #[arg(long)]
     pub no_figures: bool,
     /// How figures are drawn
     #[command(flatten)]
     pub figures: FigureOptions,
-    /// Replace an output folder of a different case
+    /// Print the summary object, alone, on stdout
     #[arg(long)]
-    pub force: bool,
+    pub json: bool,
+    /// No progress and no information; twice: errors only, and no table
+    #[arg(long, short, action = ArgAction::Count)]
+    pub quiet: u8,
+    /// Whole tables, and what goes on
+    #[arg(long, short, action = ArgAction::Count, conflicts_with = "quiet")]
+    pub verbose: u8,
 }
+
+impl OutputOptions {
+    /// Whether progress is left out.
+    pub fn is_quiet(&self) -> bool {
+        self.quiet > 0
+    }
+
+    /// The folder for a run, and what it may replace there.
+    ///
+    /// Without `--out` it is `results/STEM/COMMAND`. Where that holds other results, the folder beside it that is named
+    /// after what this run differs in: its overrides, or the folder that its input lies in. `is_continued`: a run that goes
+    /// on takes the folder that is there.
+    pub fn destination(&self, manifest: &Manifest, is_continued: bool) -> (PathBuf, Replace) {
+        let replace = match self.force {
+            true => Replace::Anything,
+            false => Replace::SameCase,
+        };
+        if let Some(path) = &self.out {
+            return (path.clone(), replace);
+        }
+        let input = Path::new(&manifest.case_file);
+        let stem = match manifest.case_file.as_str() {
+            STANDARD_INPUT => std::ffi::OsStr::new("stdin"),
+            _ => input.file_stem().unwrap_or(input.as_os_str()),
+        };
+        let plain = Path::new("results").join(stem).join(&manifest.command);
+        let Ok(found) = read_manifest(&plain) else {
+            return (plain, replace);
+        };
+        let is_same = found.case_hash == manifest.case_hash && found.command == manifest.command;
+        if is_same || self.force {
+            return (plain, replace);
+        }
+        let Some(difference) = difference(manifest, &found) else {
+            return (plain, replace);
+        };
+        let own = plain.with_file_name(format!("{}-{difference}", manifest.command));
+        if is_continued && !own.exists() {
+            return (plain, replace);
+        }
+        tracing::info!("{} holds other results, which stay", plain.display());
+        (own, replace)
+    }
+
+    /// Takes the folder of a run. With `--dry-run` says instead which one it would be.
+    ///
+    /// # Errors
+    /// Those of [`OutputFolder::open`]; [`Failure::DryRun`].
+    pub fn open_folder(
+        &self,
+        manifest: &Manifest,
+        is_continued: bool,
+    ) -> Result<OutputFolder, Failure> {
+        let (path, replace) = self.destination(manifest, is_continued);
+        if self.dry_run {
+            OutputFolder::may_open(&path, manifest, replace)?;
+            return Err(self.dry_run_at(&path, manifest));
+        }
+        Ok(OutputFolder::open(&path, manifest, replace)?)
+    }
+
+    /// Prints the summary as JSON, or the table for people and where the files are.
+    ///
+    /// # Errors
+    /// Those of stdout.
+    pub fn print(&self, table: &str, summary: &Value, folder: &Path) -> Result<(), Failure> {
+        if self.json {
+            terminal::print_json(summary)
+        } else if self.quiet < 2 {
+            terminal::print(&format!("{table}results in {}\n", folder.display()))
+        } else {
+            Ok(())
+        }
+    }
+
+    /// Says what a run would do; the end of a dry run.
+    pub fn dry_run_at(&self, path: &Path, manifest: &Manifest) -> Failure {
+        let said = if self.json {
+            terminal::print_json(&json!({
+                "command": manifest.command,
+                "dry_run": true,
+                "folder": path.display().to_string(),
+                "replaces": path.join("manifest.json").exists(),
+            }))
+        } else {
+            let verb = match path.join("manifest.json").exists() {
+                true => "would replace the results in",
+                false => "would write to",
+            };
+            terminal::print(&format!(
+                "{}: valid; {} {verb} {}\n",
+                manifest.case_file,
+                manifest.command,
+                path.display()
+            ))
+        };
+        said.err().unwrap_or(Failure::DryRun)
+    }
+}
+
+/// The name that stands for standard input.
+pub const STANDARD_INPUT: &str = "-";
+
+/// Reads a case or a table.
+///
+/// # Errors
+/// [`Failure::Usage`] with the file's name.
+pub fn read_input(path: &Path) -> Result<Vec<u8>, Failure> {
+    let bytes = if path == Path::new(STANDARD_INPUT) {
+        let mut bytes = Vec::new();
+        std::io::Read::read_to_end(&mut std::io::stdin().lock(), &mut bytes).map(|_| bytes)
+    } else {
+        std::fs::read(path)
+    };
+    bytes.map_err(|error| Failure::usage(format!("cannot read {}: {error}", input_name(path))))
+}
+
+/// What an input is called in messages.
+pub fn input_name(path: &Path) -> String {
+    if path == Path::new(STANDARD_INPUT) {
+        "standard input".to_owned()
+    } else {
+        path.display().to_string()
+    }
+}
+
+/// What tells a run from the one whose results are there, fit for a folder's name.
+fn difference(ours: &Manifest, found: &Manifest) -> Option<String> {
+    let mut parts = Vec::new();
+    if ours.case_file != found.case_file {
+        let folders = Path::new(&ours.case_file).parent()?.components();
+        let names = folders.filter_map(|part| match part {
+            Component::Normal(name) => name.to_str(),
+            _ => None,
+        });
+        let names: Vec<&str> = names.filter(|name| *name != "results").collect();
+        let last = &names[names.len().saturating_sub(2)..];
+        parts.extend((!last.is_empty()).then(|| last.join("-")));
+    }
+    parts.extend(ours.overrides.iter().map(|text| {
+        let (key, value) = text.split_once('=').unwrap_or((text, ""));
+        let key = key.trim().rsplit('.').next().unwrap_or(key);
+        format!("{key}={}", value.trim())
+    }));
+    let fit = |c: char| match c {
+        c if c.is_alphanumeric() || "=.,+-_".contains(c) => c,
+        _ => '_',
+    };
+    let name: String = parts.join(",").chars().map(fit).collect();
+    match name.chars().count() {
+        0 => None,
+        1..=LONGEST_NAME => Some(name),
+        // Cut, and made one of its kind again by the hash of the case.
+        _ => {
+            let head: String = name.chars().take(LONGEST_NAME).collect();
+            let hash: String = ours.case_hash.chars().take(8).collect();
+            Some(format!("{head}-{hash}"))
+        }
+    }
+}
+
+/// Longest end of a folder's name that is made from overrides.
+const LONGEST_NAME: usize = 100;
 
 /// SIMD level asked for.
 #[derive(ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
@@ -92,4 +270,33 @@ fn has_avx2() -> bool {
 #[cfg(not(target_arch = "x86_64"))]
 fn has_avx512() -> bool {
     false
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn manifest(file: &str, overrides: &[&str]) -> Manifest {
+        Manifest {
+            case_file: file.to_owned(),
+            overrides: overrides.iter().map(|&text| text.to_owned()).collect(),
+            ..Manifest::new("transient")
+        }
+    }
+
+    #[test]
+    fn a_folder_beside_the_default_is_named_after_what_the_run_differs_in() {
+        let plain = manifest("disc.toml", &[]);
+        let other_speed = manifest("disc.toml", &["contact.rotation_speed_rpm = 2000"]);
+        let name = difference(&other_speed, &plain);
+        assert_eq!(name.as_deref(), Some("rotation_speed_rpm=2000"));
+        let table = manifest("results/70rpm/transient/probe-1641.csv", &["from=0.01"]);
+        let other_table = manifest("results/610rpm/transient/probe-1641.csv", &[]);
+        let name = difference(&table, &other_table);
+        assert_eq!(name.as_deref(), Some("70rpm-transient,from=0.01"));
+        assert_eq!(difference(&plain, &other_speed), None);
+        let path = manifest("disc.toml", &["mesh.file=\"../rig.msh\""]);
+        let name = difference(&path, &plain).unwrap();
+        assert!(!name.contains('/') && !name.contains('"'), "{name}");
+    }
 }

@@ -3,13 +3,14 @@
 use super::figure_options::FigureOptions;
 use super::session::start_threads;
 use super::{
-    Failure, cea, collect, convergence, cycle, frf, identify, signal, terminal, transient,
+    Failure, cea, collect, convergence, cycle, frf, identify, mesh, signal, terminal, transient,
 };
 use crate::case::{Case, RawCase};
 use crate::results::{
     DrawingOptions, FolderError, Manifest, OutputFolder, read_manifest, read_summary,
 };
-use clap::{Args, ValueHint};
+use clap::{ArgAction, Args, ValueHint};
+use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 /// Draw the figures of a results folder again
@@ -27,9 +28,9 @@ pub struct Arguments {
     /// Worker threads [default: all cores]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
-    /// No progress, no log but errors
-    #[arg(long, short)]
-    quiet: bool,
+    /// No information; twice: errors only
+    #[arg(long, short, action = ArgAction::Count)]
+    quiet: u8,
 }
 
 /// Runs the subcommand.
@@ -37,7 +38,7 @@ pub struct Arguments {
 /// # Errors
 /// A folder that holds no finished run of these commands, or that cannot be written.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    terminal::start_log(arguments.quiet);
+    terminal::start_log(arguments.quiet, 0);
     start_threads(arguments.threads);
     let path = &arguments.folder;
     let manifest = read_manifest(path)?;
@@ -50,16 +51,22 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     redraw(path, &manifest, &arguments.figures.drawing())?;
     let figures = path.join("figures");
-    terminal::print(&format!("figures in {}\n", figures.display()))
+    match arguments.quiet {
+        0 | 1 => terminal::print(&format!("figures in {}\n", figures.display())),
+        _ => Ok(()),
+    }
 }
 
 /// Draws the figures of a folder as its command does.
-fn redraw(path: &Path, manifest: &Manifest, options: &DrawingOptions) -> Result<(), Failure> {
+///
+/// # Errors
+/// As [`run`].
+pub fn redraw(path: &Path, manifest: &Manifest, options: &DrawingOptions) -> Result<(), Failure> {
     let command = manifest.command.as_str();
     match command {
         // A sweep's folder has its own lock and list of files.
         "sweep" => return collect::redraw(path, options),
-        "cea" | "transient" | "cycle" | "convergence" | "frf" | "identify" | "signal" => {}
+        "cea" | "transient" | "cycle" | "convergence" | "frf" | "identify" | "signal" | "mesh" => {}
         other => {
             let reason =
                 format!("it belongs to frictionsim {other}, which draws no figures to repeat");
@@ -67,7 +74,7 @@ fn redraw(path: &Path, manifest: &Manifest, options: &DrawingOptions) -> Result<
             return Err(FolderError::NotResults { path, reason }.into());
         }
     }
-    let summary = read_summary(path)?;
+    let summary: Value = read_summary(path)?;
     // Of the commands that start from a table there is no case.
     let case = || recorded_case(manifest);
     let folder = OutputFolder::reopen(path)?;
@@ -76,7 +83,8 @@ fn redraw(path: &Path, manifest: &Manifest, options: &DrawingOptions) -> Result<
         "transient" => transient::redraw(&folder, &case()?, &summary, options)?,
         "cycle" => cycle::redraw(&folder, &case()?, &summary, options)?,
         "convergence" => convergence::redraw(&folder, options)?,
-        "frf" => frf::redraw(&folder, &summary, options)?,
+        "mesh" => mesh::redraw(&folder, &case()?, options)?,
+        "frf" => frf::redraw(&folder, options)?,
         "identify" => identify::redraw(&folder, &summary, options)?,
         _ => signal::redraw(&folder, &summary, options)?,
     }

@@ -1,11 +1,12 @@
 //! What every run does before and after its analysis: read the case, take the output folder, say
 //! what came out.
 
+use super::options::{input_name, read_input};
 use super::terminal;
 use super::{Failure, RunOptions};
 use crate::case::{Case, RawCase};
-use crate::results::{Manifest, OutputFolder, Replace};
-use std::path::{Path, PathBuf};
+use crate::results::{Manifest, OutputFolder};
+use std::path::Path;
 use std::time::Instant;
 
 /// A validated case on its way through one subcommand.
@@ -27,10 +28,13 @@ impl Session {
     /// Everything that can be known to be wrong before the run.
     pub fn start(command: &str, options: &RunOptions) -> Result<Self, Failure> {
         let start = Instant::now();
-        terminal::start_log(options.quiet);
+        terminal::start_log(options.output.quiet, options.output.verbose);
         let case = read_case(&options.case, &options.set)?;
         for warning in &case.warnings {
             tracing::warn!("{warning}");
+        }
+        if options.deny_warnings {
+            case.deny_warnings(&[])?;
         }
         let simd = options.simd.resolve().ok_or_else(|| {
             Failure::usage(format!(
@@ -55,45 +59,20 @@ impl Session {
         })
     }
 
-    /// Takes the output folder.
-    ///
-    /// The default folder belongs to the case file: a run of the same file with other overrides may
-    /// replace it. A folder named by `--out` belongs to one effective case.
+    /// Takes the output folder; it belongs to one effective case.
     ///
     /// # Errors
-    /// Those of [`OutputFolder::open`].
+    /// Those of [`OutputOptions::open_folder`](super::options::OutputOptions::open_folder).
     pub fn open_folder(&self) -> Result<OutputFolder, Failure> {
-        let replace = match (&self.options.out, self.options.force) {
-            (_, true) => Replace::Anything,
-            (Some(_), false) => Replace::SameCase,
-            (None, false) => Replace::SameText,
-        };
-        Ok(OutputFolder::open(
-            &self.folder_path(),
-            &self.manifest,
-            replace,
-        )?)
+        self.options.output.open_folder(&self.manifest, false)
     }
 
     /// Takes the output folder of a run that goes on: it must hold this very case.
     ///
     /// # Errors
-    /// Those of [`OutputFolder::open`].
+    /// As [`Session::open_folder`].
     pub fn reopen_folder(&self) -> Result<OutputFolder, Failure> {
-        let path = self.folder_path();
-        Ok(OutputFolder::open(
-            &path,
-            &self.manifest,
-            Replace::SameCase,
-        )?)
-    }
-
-    /// Where the output folder is.
-    pub fn folder_path(&self) -> PathBuf {
-        match &self.options.out {
-            Some(path) => path.clone(),
-            None => default_folder(&self.options.case, &self.manifest.command),
-        }
+        self.options.output.open_folder(&self.manifest, true)
     }
 
     /// Wall time since the start, s.
@@ -131,11 +110,7 @@ impl Session {
         summary: &serde_json::Value,
         folder: &Path,
     ) -> Result<(), Failure> {
-        if self.options.json {
-            terminal::print_json(summary)
-        } else {
-            terminal::print(&format!("{table}results in {}\n", folder.display()))
-        }
+        self.options.output.print(table, summary, folder)
     }
 }
 
@@ -144,16 +119,9 @@ impl Session {
 /// # Errors
 /// [`Failure::Usage`] if it cannot be read, [`Failure::Case`] if it is not valid.
 pub fn read_case(path: &Path, overrides: &[String]) -> Result<Case, Failure> {
-    let bytes = std::fs::read(path)
-        .map_err(|error| Failure::usage(format!("cannot read {}: {error}", path.display())))?;
-    let raw = RawCase::parse(&path.display().to_string(), &bytes, overrides)?;
+    let bytes = read_input(path)?;
+    let raw = RawCase::parse(&input_name(path), &bytes, overrides)?;
     Ok(Case::from_raw(raw)?)
-}
-
-/// `results/<case file stem>/<command>`.
-fn default_folder(case: &Path, command: &str) -> PathBuf {
-    let stem = case.file_stem().unwrap_or(case.as_os_str());
-    Path::new("results").join(stem).join(command)
 }
 
 /// Fixes the number of worker threads of the whole process and returns it.

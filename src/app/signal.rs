@@ -1,6 +1,7 @@
 //! `frictionsim signal`: what vibrates in a measured or computed time signal.
 
-use super::measurement::{Measurement, OutputOptions};
+use super::measurement::Measurement;
+use super::options::OutputOptions;
 use super::session::read_case;
 use super::{Failure, terminal};
 use crate::case::Case;
@@ -90,7 +91,11 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     let selected = selected(arguments, &file)?;
     check_drawing(arguments, &file)?;
-    let bar = terminal::progress(arguments.output.quiet, selected.len() as u64, "channels");
+    let bar = terminal::progress(
+        arguments.output.is_quiet(),
+        selected.len() as u64,
+        "channels",
+    );
     let analysed = selected
         .par_iter()
         .map(|channel| {
@@ -136,9 +141,10 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             &arguments.output.figures.drawing(),
         )?;
     }
+    let path = folder.path().to_owned();
     folder.finish()?;
     let object = serde_json::to_value(&summary).map_err(Failure::run)?;
-    measurement.print(&summary.print(), &object)
+    measurement.print(&summary.print(), &object, &path)
 }
 
 /// Length of the spectrogram's window, s.

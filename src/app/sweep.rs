@@ -12,9 +12,9 @@ pub use workers::{PointRunner, SweepRun};
 use super::linear_stage::LinearStage;
 use super::{Failure, RunOptions, Session, terminal};
 use crate::case::{Analysis, Case};
+use crate::results::sweep::{Found, PointRecord, Start, SweepDrawing, SweepFolder, SweepReport};
 use crate::results::sweep::{LONG_TABLES, draw, print, summary, write_points};
-use crate::results::sweep::{PointRecord, Start, SweepDrawing, SweepFolder, SweepReport};
-use crate::results::{DrawingOptions, Manifest};
+use crate::results::{DrawingOptions, Manifest, OutputFolder};
 use clap::Args;
 use serde_json::Value;
 
@@ -44,16 +44,21 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let threads = session.manifest.threads;
     session.check_memory(threads.min(plan.count()) as f64 * point_memory(&session, &plan))?;
     let points = plan.points(arguments.shard);
-    let start = match (arguments.resume, arguments.options.force) {
+    let output = &arguments.options.output;
+    let start = match (arguments.resume, output.force) {
         (_, true) => Start::Over,
         (true, false) => Start::Resume,
         (false, false) => Start::Fresh,
     };
-    let path = session.folder_path();
+    let (path, replace) = output.destination(&session.manifest, arguments.resume);
+    if output.dry_run {
+        OutputFolder::may_open(&path, &session.manifest, replace)?;
+        return Err(output.dry_run_at(&path, &session.manifest));
+    }
     let folder = SweepFolder::open(&path, &session.manifest, plan.count(), &points, start)?;
 
     terminal::catch_signals("finished points are kept: go on with --resume");
-    let progress = SweepProgress::new(arguments.options.quiet, points.len());
+    let progress = SweepProgress::new(output.is_quiet(), points.len());
     let run = SweepRun {
         plan: &plan,
         folder: &folder,
@@ -73,13 +78,13 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         analyses: &plan.analysis_names(),
         count: plan.count(),
         records: &records,
+        core_s: core_seconds(&folder, &records),
         ran: Some(ran),
         wall_s: session.wall_seconds(),
     };
     let summary = if report.missing().is_empty() {
-        let is_drawn = !arguments.options.no_figures;
-        let drawing =
-            is_drawn.then(|| drawing(&session.case, &plan, &arguments.options.figures.drawing()));
+        let is_drawn = !output.no_figures;
+        let drawing = is_drawn.then(|| drawing(&session.case, &plan, &output.figures.drawing()));
         gather(&folder, &report, &session.manifest, drawing.as_ref())?
     } else {
         summary(&report, &session.manifest)
@@ -113,9 +118,25 @@ fn point_memory(session: &Session, plan: &SweepPlan<'_>) -> f64 {
 pub fn finished_points(folder: &SweepFolder, count: usize) -> Result<Vec<PointRecord>, Failure> {
     let mut records = Vec::new();
     for point in 1..=count {
-        records.extend(folder.read(point)?);
+        match folder.read(point)? {
+            Found::Point(record) => records.push(*record),
+            Found::Damaged(reason) => {
+                let path = folder.point_path(point);
+                tracing::warn!(
+                    "{} is damaged ({reason}): the point counts as missing; --resume runs it again",
+                    path.display()
+                );
+            }
+            Found::Nothing => {}
+        }
     }
     Ok(records)
+}
+
+/// Time that finished points kept cores busy, s.
+pub fn core_seconds(folder: &SweepFolder, records: &[PointRecord]) -> f64 {
+    let clocks = records.iter().map(|record| folder.read_clock(record.point));
+    clocks.map(|clock| clock.core_s).sum()
 }
 
 /// What the figures of a study need besides its points: the modes of the case at its own friction, if

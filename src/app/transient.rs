@@ -17,7 +17,7 @@ use crate::results::transient::{
     CHECKPOINT, Checkpoint, CheckpointError, TransientReport, print, read_checkpoint, summary,
     write, write_checkpoint,
 };
-use crate::results::{Manifest, OutputFolder};
+use crate::results::{Manifest, OutputFolder, refuse_misfit};
 use crate::transient::{
     CentralDifference, InitialState, Recorder, RunEnd, StepPlan, TransientAnalysis, TransientModel,
     TransientSettings, build_operator,
@@ -145,9 +145,16 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let recorder = Recorder::new(&fresh, &conversion::recorder_settings(&session.case))
         .map_err(|error| prepared.failure(&error))?;
     let folder = open(&session, arguments.resume)?;
-    let (mut loop_, record) = match find_checkpoint(&session, arguments.resume)? {
+    let (mut loop_, record) = match find_checkpoint(&session, &folder, arguments.resume)? {
         None => (fresh, recorder),
-        Some(saved) => (prepared.resume(operator.as_ref(), &saved)?, saved.record),
+        Some(saved) => {
+            let mesh = &prepared.annulus.mesh;
+            let fits = saved
+                .record
+                .fits(mesh.node_count(), mesh.inner_edge.nodes.len());
+            refuse_misfit(folder.path(), fits)?;
+            (prepared.resume(operator.as_ref(), &saved)?, saved.record)
+        }
     };
 
     let first_step = loop_.steps_done();
@@ -158,7 +165,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let mut watch = Watch::new(
         record,
         loop_.plan(),
-        arguments.options.quiet,
+        arguments.options.output.is_quiet(),
         Some(checkpoints),
     );
     watch::catch_signals();
@@ -181,13 +188,13 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         write_checkpoint(&folder, &loop_.state(), &record)?;
         return Err(stopped(folder, &loop_));
     }
-    if !arguments.options.no_figures {
+    if !arguments.options.output.no_figures {
         figures::draw_record(
             &folder,
             &prepared,
             &record,
             &summary,
-            &arguments.options.figures.drawing(),
+            &arguments.options.output.figures.drawing(),
         )?;
     }
     folder.discard(CHECKPOINT);
@@ -246,11 +253,15 @@ fn open(session: &Session, resume: bool) -> Result<OutputFolder, Failure> {
     Ok(folder)
 }
 
-fn find_checkpoint(session: &Session, resume: bool) -> Result<Option<Checkpoint>, Failure> {
+fn find_checkpoint(
+    session: &Session,
+    folder: &OutputFolder,
+    resume: bool,
+) -> Result<Option<Checkpoint>, Failure> {
     if !resume {
         return Ok(None);
     }
-    match read_checkpoint(&session.folder_path(), &session.manifest) {
+    match read_checkpoint(folder.path(), &session.manifest) {
         Ok(checkpoint) => Ok(Some(checkpoint)),
         Err(CheckpointError::Missing { path }) => {
             tracing::warn!(
@@ -272,7 +283,7 @@ fn stopped(folder: OutputFolder, run: &CentralDifference<'_>) -> Failure {
     let time = run
         .plan()
         .sample_time((run.steps_done() - 1) / run.plan().steps_per_sample);
-    Failure::run(format!(
+    Failure::Interrupted(format!(
         "stopped at t = {time:.6} s of {:.6} s; results so far are in {}; the same command with --resume goes on \
          from there",
         run.plan().end_time(),

@@ -41,6 +41,20 @@ pub fn direct_response(
     response: usize,
     frequencies_hz: &[f64],
 ) -> Result<DirectResponse, FrfError> {
+    direct_response_with(system, force, response, frequencies_hz, &|_| {})
+}
+
+/// As [`direct_response`]; `done` hears how many lines are solved, a few at a time, from any thread.
+///
+/// # Errors
+/// As [`direct_response`].
+pub fn direct_response_with(
+    system: &FrfSystem,
+    force: usize,
+    response: usize,
+    frequencies_hz: &[f64],
+    done: &(dyn Fn(usize) + Sync),
+) -> Result<DirectResponse, FrfError> {
     check_frequencies(frequencies_hz)?;
     let first = frequencies_hz.first().copied().unwrap_or(0.0);
     let fail = |source| FrfError::Factorization {
@@ -59,14 +73,16 @@ pub fn direct_response(
         .par_chunks(at_once)
         .map(|lines| {
             let shared = solve_together(system, &analyses, force, response, lines);
-            lines
+            let solved = lines
                 .iter()
                 .zip(shared)
                 .map(|(f, known)| match known {
                     Some(value) => Ok(value),
                     None => factorized(system, &analyses.lu, force, response, *f),
                 })
-                .collect::<Result<Vec<c64>, FrfError>>()
+                .collect::<Result<Vec<c64>, FrfError>>();
+            done(lines.len());
+            solved
         })
         .collect::<Result<Vec<_>, _>>()?
         .concat();

@@ -19,7 +19,7 @@ mod system;
 
 pub use cyclic::{CyclicResponse, cyclic_response};
 pub use cyclic_system::CyclicSystem;
-pub use direct::{DirectResponse, direct_response};
+pub use direct::{DirectResponse, direct_response, direct_response_with};
 pub use error::FrfError;
 pub use reduction::{ReducedResponse, ReductionSettings, reduced_response};
 pub use system::{FrfBoundary, FrfSystem, Terminal};

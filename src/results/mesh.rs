@@ -2,14 +2,65 @@
 
 use super::drawing::{DrawingError, DrawingOptions, write_figures};
 use super::folder::{FolderError, OutputFolder};
+use super::manifest::Manifest;
+use super::quantity::quantity;
 use super::report::NamedFigure;
+use super::summary::{Entry, Summary};
 use super::vtu::{EncodedMesh, Field, write_vtu};
 use crate::mesh::{AnnulusMesh, ElementKind, Mesh2d};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::fmt::Write as _;
 
+/// `summary.json` of `frictionsim mesh`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MeshSummary {
+    /// `mesh`.
+    pub command: String,
+    /// Title of the case.
+    pub title: String,
+    /// Wall time, s.
+    pub wall_s: f64,
+    /// Size and quality.
+    pub mesh: MeshStatistics,
+    /// What it was made from.
+    pub manifest: Manifest,
+}
+
+impl Summary for MeshSummary {
+    fn headline(&self) -> Vec<Entry> {
+        vec![
+            Entry::new("mesh.nodes", self.mesh.nodes),
+            Entry::new("mesh.elements", self.mesh.elements),
+            Entry::new("mesh.dofs", self.mesh.dofs),
+            Entry::new("mesh.contact_nodes", self.mesh.contact_nodes),
+        ]
+    }
+}
+
+/// The summary as text.
+pub fn print(summary: &MeshSummary) -> String {
+    let mesh = &summary.mesh;
+    let text = |key: &str, value: f64| quantity(key).text(value);
+    let counts = summary.headline();
+    let counts = counts.iter().map(|entry| {
+        let quantity = quantity(&entry.path);
+        format!("{} {}", quantity.cell(&entry.value), quantity.caption)
+    });
+    format!(
+        "{}\nedges {} to {}, aspect ratio up to {}\narea {}, {} off the annulus\n\
+         node ids: 1 + j {} + i, i outwards along a ray, j around from +x\n",
+        counts.collect::<Vec<_>>().join(", "),
+        quantity("smallest_edge_m").number(mesh.smallest_edge_m),
+        text("largest_edge_m", mesh.largest_edge_m),
+        text("largest_aspect_ratio", mesh.largest_aspect_ratio),
+        text("area_m2", mesh.area_m2),
+        text("area_error", mesh.area_error),
+        mesh.nodes_per_sector,
+    )
+}
+
 /// Size and quality of an annulus mesh.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MeshStatistics {
     /// Nodes.
     pub nodes: usize,

@@ -1,14 +1,66 @@
 //! Table, figure and report of a computed frequency response.
 
+use super::Manifest;
 use super::drawing::{DrawingError, DrawingOptions, write_report};
 use super::figures::{ResponsePlot, draw_response};
 use super::folder::{FolderError, OutputFolder};
 use super::identification::unit_of;
+use super::reopening::read_own;
 use super::report::{NamedFigure, Report, ReportSection};
+use super::summary::{Entry, Summary, present};
 use super::table::Table;
 use crate::signal::{FrequencyResponse, ResponseQuantity};
 use faer::c64;
-use serde_json::Value;
+use serde::{Deserialize, Serialize};
+
+/// `summary.json` of `frictionsim frf`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ResponseSummary {
+    /// `frf`.
+    pub command: String,
+    /// Title of the case.
+    pub title: String,
+    /// What was computed, in a sentence.
+    pub description: String,
+    /// Unknowns.
+    pub dofs: usize,
+    /// Frequencies.
+    pub lines: usize,
+    /// Method: `cyclic`, `direct` or `reduced`.
+    pub method: String,
+    /// Largest relative error at the check lines of a reduction.
+    pub largest_error: Option<f64>,
+    /// Vectors of a reduction.
+    pub basis_vectors: Option<usize>,
+    /// Largest backward error of a cyclic solution.
+    pub backward_error: Option<f64>,
+    /// Accelerance, mobility or receptance.
+    pub quantity: String,
+    /// Relative standard deviation of the noise added.
+    pub noise: f64,
+    /// Wall time, s.
+    pub wall_s: f64,
+    /// What it was made from.
+    pub manifest: Manifest,
+}
+
+impl Summary for ResponseSummary {
+    fn headline(&self) -> Vec<Entry> {
+        let error = self.largest_error.or(self.backward_error).and_then(present);
+        vec![
+            Entry::new("lines", self.lines),
+            Entry::new("largest_error", error),
+        ]
+    }
+}
+
+/// The table of a results folder, as it was written.
+///
+/// # Errors
+/// [`FolderError::NotResults`] if it is missing or damaged; those of the file system.
+pub fn read_response_table(folder: &OutputFolder) -> Result<Vec<u8>, FolderError> {
+    read_own(folder.path(), RESPONSE_TABLE)
+}
 
 /// Name of the table of a response in its folder; `frictionsim identify` reads it.
 pub const RESPONSE_TABLE: &str = "frf.csv";
@@ -46,7 +98,7 @@ pub fn write_response(
 pub fn draw_response_report(
     folder: &OutputFolder,
     response: &FrequencyResponse,
-    summary: &Value,
+    summary: &ResponseSummary,
     options: &DrawingOptions,
 ) -> Result<(), DrawingError> {
     let figure = NamedFigure {
@@ -58,12 +110,11 @@ pub fn draw_response_report(
             unit: unit_of(response.quantity()).to_owned(),
         })?,
     };
-    let text = summary["description"].as_str().unwrap_or_default();
     let report = Report {
-        title: summary["title"].as_str().unwrap_or_default().to_owned(),
+        title: summary.title.clone(),
         sections: vec![ReportSection {
             heading: "Frequency response".into(),
-            paragraphs: vec![text.to_owned()],
+            paragraphs: vec![summary.description.clone()],
             tables: Vec::new(),
             figures: vec![figure],
         }],

@@ -1,5 +1,7 @@
 //! The observer that keeps what results need.
 
+mod consistency;
+
 use super::{
     CentralDifference, ContactPowers, Observer, Sample, StatusCounts, TransientError,
     settings::StepPlan,

@@ -210,8 +210,6 @@ fn point(number: usize, swept: Value, summaries: Value) -> PointRecord {
         swept: object(swept),
         error: None,
         summaries: object(summaries),
-        wall_s: 1.0,
-        core_s: 1.0,
         case_hash: String::new(),
         sweep_hash: String::new(),
         version: String::new(),

@@ -30,7 +30,7 @@ pub struct Arguments {
 /// A bad case, contact that opens, a solver that fails, an output folder that cannot be written.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     run_with(arguments, |session, cea, model| {
-        let bar = terminal::progress(session.options.quiet, 0, "friction values");
+        let bar = terminal::progress(session.options.output.is_quiet(), 0, "friction values");
         solve::solve(&session.case, cea, model, &bar)
     })
 }
@@ -81,17 +81,18 @@ fn run_with(
         ..report(case, cea, &model, &solution, &field, session.wall_seconds())
     };
     let summary = write(&folder, &report)?;
-    if !session.options.no_figures {
+    if !session.options.output.no_figures {
         draw(
             &folder,
             &report,
             case.damping.rayleigh,
-            &session.options.figures.drawing(),
+            &session.options.output.figures.drawing(),
         )?;
     }
     let path = folder.path().to_owned();
     folder.finish()?;
-    session.print(&print(&report), &summary, &path)
+    let table = print(&report, session.options.output.verbose > 0);
+    session.print(&table, &summary, &path)
 }
 
 /// Draws the figures of a folder again: solves the case anew, which the same case answers with the same
@@ -209,8 +210,7 @@ fn refuse_no_modes(case: &Case, cea: &Cea, sweep: &FrictionSweep) -> Result<(), 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::SimdChoice;
-    use crate::app::figure_options::FigureOptions;
+    use crate::app::{OutputOptions, SimdChoice};
     use crate::cea::{ComplexMode, FrictionPoint};
     use faer::c64;
     use std::f64::consts::TAU;
@@ -223,15 +223,15 @@ mod tests {
         Arguments {
             options: RunOptions {
                 case: cases.join("polycarbonate-disc.toml"),
-                out: Some(out.to_owned()),
                 set: all.map(|text| text.to_string()).collect(),
-                json: false,
+                deny_warnings: false,
                 threads: None,
                 simd: SimdChoice::Auto,
-                quiet: true,
-                no_figures: false,
-                figures: FigureOptions::default(),
-                force: false,
+                output: OutputOptions {
+                    out: Some(out.to_owned()),
+                    quiet: 2,
+                    ..OutputOptions::default()
+                },
             },
         }
     }

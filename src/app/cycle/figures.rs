@@ -4,7 +4,7 @@ use crate::app::Failure;
 use crate::case::Case;
 use crate::mesh::AnnulusMesh;
 use crate::results::cycle_figures::{CycleFigures, CycleRecord, draw};
-use crate::results::{DrawingOptions, OutputFolder, read_record};
+use crate::results::{DrawingOptions, OutputFolder, read_record, refuse_misfit};
 use serde_json::Value;
 
 /// Draws the figures of a folder from its `record.bin`.
@@ -19,6 +19,13 @@ pub fn redraw(
 ) -> Result<(), Failure> {
     let record: CycleRecord = read_record(folder.path())?;
     let annulus = AnnulusMesh::generate(&case.annulus).map_err(Failure::usage)?;
+    let waves = record
+        .families
+        .iter()
+        .filter_map(|family| family.cycle.as_ref());
+    let mut fields = waves.flat_map(|wave| [&wave.displacement_field, &wave.velocity_field]);
+    let dofs = 2 * annulus.mesh.node_count();
+    refuse_misfit(folder.path(), fields.all(|field| field.len() == dofs))?;
     let data = CycleFigures {
         record: &record,
         mesh: &annulus.mesh,

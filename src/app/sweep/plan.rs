@@ -141,7 +141,9 @@ pub fn one_line(failure: &Failure) -> String {
             messages.join("; ")
         }
         Failure::Usage(error) | Failure::Run(error) => error.to_string(),
+        Failure::Interrupted(message) => message.clone(),
         Failure::BrokenPipe => "broken pipe".to_owned(),
+        Failure::DryRun => String::new(),
     };
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }

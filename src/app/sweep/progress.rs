@@ -1,10 +1,10 @@
 //! One progress bar over a sweep, with the points in flight.
 
+use crate::app::terminal::progress_in;
 use crate::results::sweep::{PointRecord, swept_text};
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::ProgressBar;
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
-use std::io::{self, IsTerminal};
 use std::sync::Mutex;
 
 /// What is told of a sweep while it runs: a bar on a terminal, else a log line for each point.
@@ -16,19 +16,9 @@ pub struct SweepProgress {
 impl SweepProgress {
     /// Progress over `points` points; with `quiet` only failures are told.
     pub fn new(quiet: bool, points: usize) -> Self {
-        let bar = if quiet || !io::stderr().is_terminal() {
-            ProgressBar::hidden()
-        } else {
-            let target = ProgressDrawTarget::stderr_with_hz(10);
-            let bar = ProgressBar::with_draw_target(Some(points as u64), target);
-            let template = "sweep [{bar:40}] {pos}/{len} points  {elapsed_precise}, {eta_precise} left\n{wide_msg}";
-            if let Ok(style) = ProgressStyle::with_template(template) {
-                bar.set_style(style.progress_chars("=> "));
-            }
-            bar
-        };
+        let template = "sweep [{bar:40}] {count} points  {elapsed_precise}{left}\n{wide_msg}";
         Self {
-            bar,
+            bar: progress_in(quiet, points as u64, template),
             in_flight: Mutex::default(),
         }
     }
@@ -46,7 +36,7 @@ impl SweepProgress {
     }
 
     /// A point is done.
-    pub fn end(&self, record: &PointRecord) {
+    pub fn end(&self, record: &PointRecord, wall_s: f64) {
         self.change(|in_flight| {
             in_flight.remove(&record.point);
         });
@@ -56,7 +46,7 @@ impl SweepProgress {
             self.bar
                 .suspend(|| tracing::warn!("point {point} failed ({swept}): {error}"));
         } else if self.bar.is_hidden() {
-            tracing::info!("point {point} ({swept}): {:.1} s", record.wall_s);
+            tracing::info!("point {point} ({swept}): {wall_s:.1} s");
         }
     }
 

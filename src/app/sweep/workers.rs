@@ -5,7 +5,7 @@ use super::progress::SweepProgress;
 use crate::app::Failure;
 use crate::case::Case;
 use crate::results::Manifest;
-use crate::results::sweep::{PointRecord, SweepFolder};
+use crate::results::sweep::{Found, PointClock, PointRecord, SweepFolder};
 use serde_json::{Map, Value};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Mutex;
@@ -83,7 +83,9 @@ impl SweepRun<'_> {
 
     /// Runs one point and keeps it, unless it is finished or another process has it.
     fn run_point(&self, point: usize) -> Result<bool, Failure> {
-        if self.folder.read(point)?.is_some() {
+        let is_finished =
+            || -> Result<bool, Failure> { Ok(matches!(self.folder.read(point)?, Found::Point(_))) };
+        if is_finished()? {
             self.progress.skip();
             return Ok(false);
         }
@@ -92,7 +94,7 @@ impl SweepRun<'_> {
             return Ok(false);
         };
         // Another process may have finished it between the look and the claim.
-        if self.folder.read(point)?.is_some() {
+        if is_finished()? {
             self.progress.skip();
             return Ok(false);
         }
@@ -105,24 +107,23 @@ impl SweepRun<'_> {
             (Some(before), Some(after), 1) => after - before,
             (_, _, threads) => wall_s * threads as f64,
         };
-        let (summaries, error) = match outcome {
+        let (mut summaries, error) = match outcome {
             Ok(summaries) => (summaries, None),
             Err(error) => (Map::new(), Some(error)),
         };
+        let clock = PointClock::taken_from(wall_s, core_s, &mut summaries);
         let record = PointRecord {
             point,
             swept,
             error,
             summaries,
-            wall_s,
-            core_s,
             case_hash,
             sweep_hash: self.manifest.case_hash.clone(),
             version: self.manifest.version.clone(),
             simd: self.manifest.simd.clone(),
         };
-        self.folder.write_point(&record)?;
-        self.progress.end(&record);
+        self.folder.write_point(&record, &clock)?;
+        self.progress.end(&record, clock.wall_s);
         Ok(true)
     }
 

@@ -4,10 +4,9 @@ use super::Prepared;
 use crate::app::Failure;
 use crate::app::linear_stage::LinearStage;
 use crate::case::Case;
-use crate::results::read_record;
 use crate::results::run_figures::RunFigures;
 use crate::results::transient::draw;
-use crate::results::{DrawingOptions, OutputFolder};
+use crate::results::{DrawingOptions, OutputFolder, read_record, refuse_misfit};
 use crate::transient::{Recorder, TransientAnalysis};
 use serde_json::Value;
 
@@ -51,5 +50,8 @@ pub fn redraw(
 ) -> Result<(), Failure> {
     let prepared = Prepared::new(case, "scalar")?;
     let record: Recorder = read_record(folder.path())?;
+    let mesh = &prepared.annulus.mesh;
+    let fits = record.fits(mesh.node_count(), mesh.inner_edge.nodes.len());
+    refuse_misfit(folder.path(), fits)?;
     draw_record(folder, &prepared, &record, summary, options)
 }

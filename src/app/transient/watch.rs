@@ -12,15 +12,12 @@ use std::time::{Duration, Instant};
 /// Set by Ctrl-C and SIGTERM.
 static IS_INTERRUPTED: AtomicBool = AtomicBool::new(false);
 
-/// Exit code of a process that a second Ctrl-C ends.
-const INTERRUPTED: i32 = 130;
-
 /// Makes Ctrl-C and SIGTERM stop the run at its next sample; a second one ends the process at once.
 pub fn catch_signals() {
     // A second run of the same process finds the handler in place.
     let _ = ctrlc::set_handler(|| {
         if IS_INTERRUPTED.swap(true, Ordering::SeqCst) {
-            std::process::exit(INTERRUPTED);
+            std::process::exit(i32::from(terminal::INTERRUPTED));
         }
     });
 }

@@ -1,11 +1,15 @@
 //! The table that a person reads.
 
 use super::{CeaReport, direction_name};
-use crate::cea::FrictionPoint;
+use crate::cea::{ComplexMode, FrictionPoint};
 use std::fmt::Write as _;
 
-/// The report as text: unstable modes of each friction value, critical frictions, totals.
-pub fn print(report: &CeaReport<'_>) -> String {
+/// Longest table of the modes at one friction value.
+const MOST_MODES: usize = 40;
+
+/// The report as text: one line for each mode at the case's own friction, totals, and last the critical frictions.
+/// With `is_whole` also the unstable modes of every friction value.
+pub fn print(report: &CeaReport<'_>, is_whole: bool) -> String {
     let mut out = String::new();
     if !report.title.is_empty() {
         let _ = writeln!(out, "{}", report.title);
@@ -15,24 +19,78 @@ pub fn print(report: &CeaReport<'_>) -> String {
         "complex eigenvalues, {}, {} unknowns, {} method\n",
         report.selection, report.dofs, report.method
     );
-    unstable_modes(&mut out, report);
-    critical_frictions(&mut out, report);
+    if is_whole {
+        unstable_modes(&mut out, report);
+    } else {
+        own_modes(&mut out, report);
+    }
     totals(&mut out, report);
+    critical_frictions(&mut out, report);
     out
 }
 
-/// One block for each friction value; neighbouring values without instability share a line.
-fn unstable_modes(out: &mut String, report: &CeaReport<'_>) {
+/// The modes at the case's own friction, or at the solved value nearest to it; of many only the unstable ones.
+fn own_modes(out: &mut String, report: &CeaReport<'_>) {
+    let own = report.base.friction_coefficient;
+    let distance = |point: &&FrictionPoint| (point.friction_coefficient - own).abs();
+    let mut points: Vec<&FrictionPoint> = report.sweep.points.iter().collect();
+    points.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
+    let Some(point) = points.first() else {
+        return;
+    };
+    let unstable = point.modes.iter().filter(|mode| mode.is_unstable()).count();
+    let is_short = point.modes.len() <= MOST_MODES;
     let _ = writeln!(
         out,
-        "{:>9}  {:>4}  {:>3} {:>6}  {:<8} {:>12} {:>12} {:>11}",
-        "friction", "mode", "n", "branch", "travels", "frequency", "growth rate", "damping"
+        "friction {}: {} modes, {unstable} unstable{}",
+        point.friction_coefficient,
+        point.modes.len(),
+        if is_short {
+            ""
+        } else {
+            " (listed; --verbose lists those of every friction value)"
+        },
+    );
+    head(out, "");
+    for (index, mode) in point.modes.iter().enumerate() {
+        if is_short || mode.is_unstable() {
+            let mark = if mode.is_unstable() { "unstable" } else { "" };
+            mode_line(out, mark, index, mode);
+        }
+    }
+}
+
+/// The head of a table of modes.
+fn head(out: &mut String, first: &str) {
+    let _ = writeln!(
+        out,
+        "{first:>9}  {:>4}  {:>3} {:>6}  {:<8} {:>12} {:>12} {:>11}",
+        "mode", "n", "branch", "travels", "frequency", "growth rate", "damping"
     );
     let _ = writeln!(
         out,
         "{:>9}  {:>4}  {:>3} {:>6}  {:<8} {:>12} {:>12} {:>11}",
         "", "", "", "", "", "Hz", "1/s", "factor"
     );
+}
+
+fn mode_line(out: &mut String, first: &str, index: usize, mode: &ComplexMode) {
+    let _ = writeln!(
+        out,
+        "{first:>9}  {:>4}  {:>3} {:>6}  {:<8} {:>12.2} {:>12.2} {:>11.3e}",
+        index + 1,
+        mode.harmonic,
+        mode.branch,
+        direction_name(mode.direction),
+        mode.frequency_hz(),
+        mode.growth_rate(),
+        mode.damping_factor(),
+    );
+}
+
+/// One block for each friction value; neighbouring values without instability share a line.
+fn unstable_modes(out: &mut String, report: &CeaReport<'_>) {
+    head(out, "friction");
     let mut stable: Option<(f64, f64)> = None;
     for point in report.tabulated() {
         if point.modes.iter().any(|mode| mode.is_unstable()) {
@@ -60,17 +118,7 @@ fn unstable_lines(out: &mut String, point: &FrictionPoint) {
         if !mode.is_unstable() {
             continue;
         }
-        let _ = writeln!(
-            out,
-            "{friction:>9}  {:>4}  {:>3} {:>6}  {:<8} {:>12.2} {:>12.2} {:>11.3e}",
-            index + 1,
-            mode.harmonic,
-            mode.branch,
-            direction_name(mode.direction),
-            mode.frequency_hz(),
-            mode.growth_rate(),
-            mode.damping_factor(),
-        );
+        mode_line(out, &friction, index, mode);
         friction.clear();
     }
 }

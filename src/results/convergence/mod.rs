@@ -123,6 +123,24 @@ pub struct ConvergenceReport {
 impl Record for ConvergenceReport {
     const MAGIC: [u8; 8] = *b"FRICSIMV";
     const VERSION: u32 = 1;
+
+    fn inconsistency(&self) -> Option<&'static str> {
+        let is_whole = |series: &Series| {
+            let count = series.levels.len();
+            let falls = series.sizes.windows(2).all(|pair| pair[0] > pair[1]);
+            let is_positive = series
+                .sizes
+                .iter()
+                .all(|&size| size > 0.0 && size.is_finite());
+            let mut quantities = series.quantities.iter();
+            let lengths = [series.sizes.len(), series.wall_s.len()];
+            falls
+                && is_positive
+                && lengths == [count; 2]
+                && quantities.all(|quantity| quantity.values.len() == count)
+        };
+        (!self.series.iter().all(is_whole)).then_some("its levels and values do not fit together")
+    }
 }
 
 /// Writes `convergence.csv` and `summary.json`; returns the summary.

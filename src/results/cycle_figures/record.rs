@@ -18,7 +18,28 @@ pub struct CycleRecord {
 impl Record for CycleRecord {
     const MAGIC: [u8; 8] = *b"FRICSIMY";
     const VERSION: u32 = 2;
+
+    fn inconsistency(&self) -> Option<&'static str> {
+        let is_whole = |family: &FamilyRecord| {
+            let branch = family.branch.as_ref();
+            let wave = family.cycle.as_ref();
+            (1..=HIGHEST_HARMONIC).contains(&family.harmonic)
+                && (1..=HIGHEST_HARMONIC).contains(&family.onset)
+                && wave.is_none_or(|wave| {
+                    wave.is_whole() && family.harmonic * wave.status.len() <= MOST_PHASES
+                })
+                && branch.is_none_or(BranchRecord::is_whole)
+        };
+        let is_whole = self.families.iter().all(is_whole);
+        (!is_whole).then_some("its harmonics, phases and branches do not fit together")
+    }
 }
+
+/// More harmonics and onsets than any mesh has.
+const HIGHEST_HARMONIC: usize = 100_000;
+
+/// More phases around the whole circle than any cycle has.
+const MOST_PHASES: usize = 1_000_000;
 
 /// The limit cycles of one harmonic.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -121,6 +142,15 @@ impl FamilyRecord {
 }
 
 impl WaveRecord {
+    fn is_whole(&self) -> bool {
+        let count = self.status.len();
+        let columns = [&self.pressure, &self.shear]
+            .into_iter()
+            .chain(&self.displacement)
+            .chain(&self.velocity);
+        (1..=MOST_PHASES).contains(&count) && columns.into_iter().all(|c| c.len() == count)
+    }
+
     fn of(cycle: &LimitCycle, [displacement, velocity]: &[Vec<f64>; 2]) -> Self {
         let points = &cycle.points;
         let component = |i: usize| points.iter().map(|p| p.displacement[i]).collect();
@@ -150,6 +180,16 @@ impl WaveRecord {
 }
 
 impl BranchRecord {
+    fn is_whole(&self) -> bool {
+        let count = self.values.len();
+        let mut columns = [&self.frequency_hz, &self.amplitude]
+            .into_iter()
+            .chain(&self.status)
+            .chain(&self.shares);
+        let known = [self.stable.len(), self.growth_rate.len()];
+        columns.all(|column| column.len() == count) && known == [count; 2]
+    }
+
     fn of(branch: &CycleBranch, own: &LimitCycle, result: &CycleResult) -> Self {
         let value = |cycle: &LimitCycle| {
             let value = branch.parameter.of(&cycle.state.point);

@@ -28,6 +28,12 @@ pub struct IdentificationRecord {
 impl Record for IdentificationRecord {
     const MAGIC: [u8; 8] = *b"FRICSIMI";
     const VERSION: u32 = 1;
+
+    fn inconsistency(&self) -> Option<&'static str> {
+        let rises = self.frequencies_hz.windows(2).all(|pair| pair[0] < pair[1]);
+        let is_whole = rises && self.frequencies_hz.len() == self.magnitude.len();
+        (!is_whole).then_some("its frequencies and magnitudes do not fit together")
+    }
 }
 
 impl IdentificationRecord {

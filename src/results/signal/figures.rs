@@ -30,6 +30,23 @@ pub struct SignalRecord {
 impl Record for SignalRecord {
     const MAGIC: [u8; 8] = *b"FRICSIMS";
     const VERSION: u32 = 1;
+
+    fn inconsistency(&self) -> Option<&'static str> {
+        let is_whole = |channel: &ChannelRecord| {
+            let rises = channel
+                .frequencies_hz
+                .windows(2)
+                .all(|pair| pair[0] < pair[1]);
+            let (from, to) = channel.interval_s;
+            rises && from <= to && channel.frequencies_hz.len() == channel.amplitudes.len()
+        };
+        let is_positive = |value: f64| value > 0.0 && value.is_finite();
+        let positive = [self.sampling_rate, self.window, self.max_frequency_hz];
+        let is_whole = positive.into_iter().all(is_positive)
+            && self.start.is_finite()
+            && self.channels.iter().all(is_whole);
+        (!is_whole).then_some("its rates, samples and spectra do not fit together")
+    }
 }
 
 /// One channel.

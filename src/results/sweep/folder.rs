@@ -2,11 +2,13 @@
 
 use super::super::Manifest;
 use super::super::folder::{
-    Contents, FolderError, LOCK, MANIFEST, Replace, TEMPORARY, check_owner, read_contents,
-    refuse_foreign, remove_files, write_contents, write_whole,
+    FolderError, LOCK, MANIFEST, Replace, TEMPORARY, check_owner, refuse_foreign, remove_files,
+    write_contents, write_whole,
 };
-use super::PointRecord;
-use std::collections::BTreeSet;
+use super::super::framed::write_sealed;
+use super::super::reopening::{Contents, own_value, read_contents};
+use super::{PointClock, PointRecord};
+use std::collections::BTreeMap;
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -45,7 +47,8 @@ pub enum Start {
 ///
 /// ```text
 /// manifest.json              case text, overrides, hash: whose folder it is
-/// points/point-000001.json   one whole file for each finished point
+/// points/point-000001.json   one whole file for each finished point, the same bytes whoever computed it
+/// points/clock-000001.json   how long that took
 /// points.csv, summary.json   over all points, as are stability.csv, modes.csv, branches.csv and the figures
 /// ```
 ///
@@ -57,7 +60,20 @@ pub enum Start {
 pub struct SweepFolder {
     path: PathBuf,
     sweep_hash: String,
+    /// Whether the points carry checksums; those of versions before them do not.
+    is_sealed: bool,
     _lock: File,
+}
+
+/// What there is of a point.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Found {
+    /// Nothing, or the point of another sweep.
+    Nothing,
+    /// A file that is no longer as it was written, and what does not fit.
+    Damaged(String),
+    /// The finished point.
+    Point(Box<PointRecord>),
 }
 
 /// The right to run one point, until dropped.
@@ -104,9 +120,11 @@ impl SweepFolder {
             }
             Ok(())
         })?;
+        let is_sealed = read_contents(path)?.is_none_or(|contents| contents.is_sealed);
         let folder = Self {
             path: path.to_owned(),
             sweep_hash: manifest.case_hash.clone(),
+            is_sealed,
             _lock: lock,
         };
         if start == Start::Fresh {
@@ -127,8 +145,10 @@ impl SweepFolder {
         if !path.join(MANIFEST).is_file() {
             return Err(not_a_sweep(format!("it has no {MANIFEST}")));
         }
-        let manifest = match read_contents(path)? {
-            Some(contents) if contents.manifest.command == "sweep" => contents.manifest,
+        let (manifest, is_sealed) = match read_contents(path)? {
+            Some(contents) if contents.manifest.command == "sweep" => {
+                (contents.manifest, contents.is_sealed)
+            }
             Some(contents) => {
                 let command = contents.manifest.command;
                 return Err(not_a_sweep(format!("it belongs to frictionsim {command}")));
@@ -139,6 +159,7 @@ impl SweepFolder {
         let folder = Self {
             path: path.to_owned(),
             sweep_hash: manifest.case_hash.clone(),
+            is_sealed,
             _lock: lock,
         };
         Ok((folder, manifest))
@@ -154,20 +175,35 @@ impl SweepFolder {
         self.path.join(point_name(point))
     }
 
-    /// Reads a finished point; `None` if it is not finished, its file is damaged, or it is of
-    /// another sweep.
+    /// Reads a finished point.
     ///
     /// # Errors
     /// Those of the file system.
-    pub fn read(&self, point: usize) -> Result<Option<PointRecord>, FolderError> {
+    pub fn read(&self, point: usize) -> Result<Found, FolderError> {
         let path = self.point_path(point);
         let bytes = match fs::read(&path) {
             Ok(bytes) => bytes,
-            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Found::Nothing),
             Err(error) => return Err(FolderError::io("read", &path, error)),
         };
-        let record = serde_json::from_slice::<PointRecord>(&bytes).ok();
-        Ok(record.filter(|record| record.point == point && record.sweep_hash == self.sweep_hash))
+        let record = own_value(&bytes, !self.is_sealed).and_then(|value| {
+            serde_json::from_value::<PointRecord>(value).map_err(|error| error.to_string())
+        });
+        Ok(match record {
+            Err(reason) => Found::Damaged(reason),
+            Ok(record) if record.point == point && record.sweep_hash == self.sweep_hash => {
+                Found::Point(Box::new(record))
+            }
+            Ok(_) => Found::Nothing,
+        })
+    }
+
+    /// What the clock said of a finished point; nothing where its file is missing or damaged, which no result depends on.
+    pub fn read_clock(&self, point: usize) -> PointClock {
+        let bytes = fs::read(self.path.join(clock_name(point))).unwrap_or_default();
+        let value = own_value(&bytes, false).ok();
+        let clock = value.and_then(|value| serde_json::from_value(value).ok());
+        clock.unwrap_or_default()
     }
 
     /// Claims a point for this process; `None` if another one has it.
@@ -188,15 +224,13 @@ impl SweepFolder {
         Ok(Some(Claim { path, _lock: file }))
     }
 
-    /// Writes a finished point, whole or not at all.
+    /// Writes a finished point, whole or not at all, and before it what the clock says of it.
     ///
     /// # Errors
     /// As [`SweepFolder::write`].
-    pub fn write_point(&self, record: &PointRecord) -> Result<(), FolderError> {
-        self.write(&point_name(record.point), |out| {
-            serde_json::to_writer_pretty(&mut *out, record)?;
-            out.write_all(b"\n")
-        })
+    pub fn write_point(&self, record: &PointRecord, clock: &PointClock) -> Result<(), FolderError> {
+        self.write(&clock_name(record.point), |out| write_sealed(out, clock))?;
+        self.write(&point_name(record.point), |out| write_sealed(out, record))
     }
 
     /// Writes one file whole or not at all.
@@ -209,13 +243,14 @@ impl SweepFolder {
         fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), FolderError> {
         let path = self.path.join(name);
-        write_whole(&path, true, fill).map_err(|e| FolderError::io("write", &path, e))
+        write_whole(&path, true, fill).map_err(|e| FolderError::io("write", &path, e))?;
+        Ok(())
     }
 
     fn refuse_started(&self, points: &[usize]) -> Result<(), FolderError> {
         let mut found = 0;
         for &point in points {
-            found += usize::from(self.read(point)?.is_some());
+            found += usize::from(matches!(self.read(point)?, Found::Point(_)));
         }
         match found {
             0 => Ok(()),
@@ -230,6 +265,10 @@ impl SweepFolder {
 
 fn point_name(point: usize) -> String {
     format!("{POINTS}/point-{point:06}.json")
+}
+
+fn clock_name(point: usize) -> String {
+    format!("{POINTS}/clock-{point:06}.json")
 }
 
 fn open_lock(path: &Path) -> Result<File, FolderError> {
@@ -322,12 +361,12 @@ fn take_over(
     if let Some(contents) = &contents {
         remove_files(path, contents.files.iter());
     }
-    let files: BTreeSet<String> = (1..=count)
-        .map(point_name)
+    let files: BTreeMap<String, Option<u32>> = (1..=count)
+        .flat_map(|point| [point_name(point), clock_name(point)])
         .chain(OVER_ALL.map(str::to_owned))
+        .map(|name| (name, None))
         .collect();
-    let manifest = manifest.clone();
-    write_contents(path, &Contents { manifest, files })
+    write_contents(path, &Contents::new(manifest, &files))
 }
 
 /// Removes the points that are to be run over again, and the table that has them.
@@ -338,7 +377,7 @@ fn remove_points(path: &Path, points: &[usize], company: Company) -> Result<(), 
     }
     let names: Vec<String> = points
         .iter()
-        .map(|&point| point_name(point))
+        .flat_map(|&point| [point_name(point), clock_name(point)])
         .chain(OVER_ALL.map(str::to_owned))
         .collect();
     remove_files(path, names.iter());

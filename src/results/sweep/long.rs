@@ -158,8 +158,6 @@ mod tests {
             swept: Map::from_iter([("geometry.inner_radius".to_owned(), json!(radius))]),
             error: None,
             summaries: Map::from_iter([(analysis.to_owned(), summary)]),
-            wall_s: 1.0,
-            core_s: 1.0,
             case_hash: String::new(),
             sweep_hash: String::new(),
             version: String::new(),

@@ -8,8 +8,8 @@ mod report;
 mod table;
 
 pub use figures::{SweepDrawing, draw};
-pub use folder::{Claim, Start, SweepFolder};
+pub use folder::{Claim, Found, Start, SweepFolder};
 pub use long::{LONG_TABLES, LongTable};
-pub use record::PointRecord;
+pub use record::{PointClock, PointRecord};
 pub use report::{SweepReport, print, summary, swept_text};
 pub use table::write_points;

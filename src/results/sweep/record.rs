@@ -5,7 +5,8 @@ use serde_json::{Map, Value};
 
 /// A finished point: what was swept to which values, and what came out of it.
 ///
-/// Holds no case text: the folder's manifest has it once, and `swept` is all that a point changes.
+/// Holds no case text: the folder's manifest has it once, and `swept` is all that a point changes. Holds nothing that the
+/// clock says either: the same point has the same bytes whoever computed it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PointRecord {
     /// Number of the point, from 1.
@@ -16,10 +17,6 @@ pub struct PointRecord {
     pub error: Option<String>,
     /// Summary of each analysis by its name; empty if the point failed.
     pub summaries: Map<String, Value>,
-    /// Wall time on its worker, s.
-    pub wall_s: f64,
-    /// Time that it kept cores busy, s; less than the wall time where other programs had them too.
-    pub core_s: f64,
     /// SHA-256 of the point's effective case, without its `[sweep]`.
     pub case_hash: String,
     /// SHA-256 of the effective case of the whole sweep.
@@ -28,4 +25,54 @@ pub struct PointRecord {
     pub version: String,
     /// SIMD level that the kernels ran with.
     pub simd: String,
+}
+
+/// What the clock said of a finished point.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct PointClock {
+    /// Wall time on its worker, s.
+    pub wall_s: f64,
+    /// Time that it kept cores busy, s; less than the wall time where other programs had them too.
+    pub core_s: f64,
+    /// What the summary of each analysis says of time and speed, by its dotted path.
+    pub summaries: Map<String, Value>,
+}
+
+/// Keys of summaries that hold what the clock says.
+const CLOCK: [&str; 2] = ["wall_s", "element_steps_per_s"];
+
+impl PointClock {
+    /// Takes what the clock says out of the summaries of a point.
+    pub fn taken_from(wall_s: f64, core_s: f64, summaries: &mut Map<String, Value>) -> Self {
+        let mut taken = Map::new();
+        for (analysis, summary) in summaries {
+            take(summary, analysis, &mut taken);
+        }
+        Self {
+            wall_s,
+            core_s,
+            summaries: taken,
+        }
+    }
+}
+
+fn take(value: &mut Value, path: &str, taken: &mut Map<String, Value>) {
+    match value {
+        Value::Object(entries) => {
+            for key in CLOCK {
+                if let Some(said) = entries.shift_remove(key) {
+                    taken.insert(format!("{path}.{key}"), said);
+                }
+            }
+            for (key, value) in entries {
+                take(value, &format!("{path}.{key}"), taken);
+            }
+        }
+        Value::Array(items) => {
+            for (index, item) in items.iter_mut().enumerate() {
+                take(item, &format!("{path}.{index}"), taken);
+            }
+        }
+        _ => {}
+    }
 }

@@ -45,6 +45,8 @@ pub struct SweepReport<'a> {
     pub count: usize,
     /// Finished points in their order.
     pub records: &'a [PointRecord],
+    /// Time that they kept cores busy, s.
+    pub core_s: f64,
     /// Points that this process ran, or none if it only collects.
     pub ran: Option<usize>,
     /// Wall time of this process, s.
@@ -65,15 +67,10 @@ impl SweepReport<'_> {
         self.records.iter().filter(|record| record.error.is_some())
     }
 
-    /// Time that the points kept cores busy, s.
-    fn core_seconds(&self) -> f64 {
-        self.records.iter().map(|record| record.core_s).sum()
-    }
-
     /// Points done in an hour of one core; failed ones cost time but do not count.
     fn points_per_core_hour(&self) -> Option<f64> {
         let done = self.records.len() - self.failed().count();
-        (done > 0).then(|| done as f64 * 3600.0 / self.core_seconds())
+        (done > 0 && self.core_s > 0.0).then(|| done as f64 * 3600.0 / self.core_s)
     }
 
     /// Errors in the order of their first points, each with the numbers of all points that have it.
@@ -127,7 +124,7 @@ pub fn summary(report: &SweepReport<'_>, manifest: &Manifest) -> Value {
         "failed": failed,
         "missing": report.missing(),
         "wall_s": report.wall_s,
-        "core_s": report.core_seconds(),
+        "core_s": report.core_s,
         "points_per_core_hour": report.points_per_core_hour(),
         "notes": report.notes(),
         "manifest": manifest,
@@ -280,8 +277,6 @@ mod tests {
             swept: Map::new(),
             error: None,
             summaries: Map::new(),
-            wall_s: 3.0,
-            core_s: 2.0,
             case_hash: String::new(),
             sweep_hash: String::new(),
             version: "1".into(),
@@ -294,6 +289,7 @@ mod tests {
             analyses: &[],
             count: 5,
             records: &[record(2), record(3), record(5)],
+            core_s: 6.0,
             ran: None,
             wall_s: 0.0,
         };

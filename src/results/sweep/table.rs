@@ -204,8 +204,6 @@ mod tests {
             swept: object(json!({ "contact.friction_coefficient": 0.3 })),
             error: None,
             summaries: object(json!({ "transient": summary })),
-            wall_s: 1.0,
-            core_s: 1.0,
             case_hash: String::new(),
             sweep_hash: String::new(),
             version: String::new(),

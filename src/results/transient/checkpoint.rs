@@ -162,5 +162,13 @@ pub fn read_checkpoint(folder: &Path, manifest: &Manifest) -> Result<Checkpoint,
 
 fn decode(bytes: &[u8]) -> Result<Checkpoint, Defect> {
     let payload = framed::read(bytes, MAGIC, VERSION)?;
-    postcard::from_bytes(payload).map_err(|error| Defect::Damage(error.to_string()))
+    let checkpoint: Checkpoint =
+        postcard::from_bytes(payload).map_err(|error| Defect::Damage(error.to_string()))?;
+    if checkpoint.record.is_consistent() {
+        Ok(checkpoint)
+    } else {
+        Err(Defect::Damage(
+            "its samples, probes and frames do not fit together".to_owned(),
+        ))
+    }
 }

@@ -1,155 +1,30 @@
 //! The output folder of a run: whose it is, who writes it, and whole files only.
 
-use super::Manifest;
-use super::drawing::{FIGURES, REPORT};
-use super::reopening::read_manifest;
-use serde::{Deserialize, Serialize};
+pub(crate) use super::error::FolderError;
+use super::framed::write_sealed;
+use super::manifest::Manifest;
+use super::reopening::{Contents, read_contents, read_manifest};
+use crate::results::drawing::{FIGURES, REPORT};
 use std::cell::RefCell;
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-pub(super) const MANIFEST: &str = "manifest.json";
-pub(super) const LOCK: &str = ".lock";
+pub(crate) const MANIFEST: &str = "manifest.json";
+pub(crate) const LOCK: &str = ".lock";
 /// Names of the files that a run has written so far; gone when it is complete.
-const JOURNAL: &str = ".written";
+pub(crate) const JOURNAL: &str = ".written";
 /// How the name of a file that is still being written begins.
-pub(super) const TEMPORARY: &str = ".writing-";
-
-/// A folder that cannot be used or written.
-#[derive(Debug, thiserror::Error)]
-pub enum FolderError {
-    /// It holds the results of another case.
-    #[error(
-        "{} holds the results of another case ({found}): \
-         choose another folder with --out, or replace it with --force",
-        path.display()
-    )]
-    OtherCase {
-        /// The folder.
-        path: PathBuf,
-        /// What it holds.
-        found: String,
-    },
-    /// It holds files of unknown origin.
-    #[error(
-        "{} holds files that this program did not write (for example {found}): \
-         choose another folder with --out, or write there all the same with --force",
-        path.display()
-    )]
-    Foreign {
-        /// The folder.
-        path: PathBuf,
-        /// One of the files.
-        found: String,
-    },
-    /// Another process writes it.
-    #[error(
-        "{} is being written by another process: wait for it, or choose another folder with --out",
-        path.display()
-    )]
-    Busy {
-        /// The folder.
-        path: PathBuf,
-    },
-    /// It holds finished points of the same sweep.
-    #[error(
-        "{} already holds {found} of the {asked} points asked for: go on with --resume, \
-         start over with --force, or choose another folder with --out",
-        path.display()
-    )]
-    Started {
-        /// The folder.
-        path: PathBuf,
-        /// Finished points.
-        found: usize,
-        /// Points of this run.
-        asked: usize,
-    },
-    /// It is not the results folder of a sweep.
-    #[error("{} is not the results folder of a sweep: {reason}", path.display())]
-    NotASweep {
-        /// The folder.
-        path: PathBuf,
-        /// What it lacks.
-        reason: String,
-    },
-    /// It does not hold results that can be gone back to.
-    #[error("{} does not hold the results of a run: {reason}", path.display())]
-    NotResults {
-        /// The folder.
-        path: PathBuf,
-        /// What it lacks.
-        reason: String,
-    },
-    /// No space left.
-    #[error(
-        "no room left: {} was not written, because the disk is full or a quota or file size limit \
-         is reached (files finished before are whole): make room, or choose another folder with --out",
-        path.display()
-    )]
-    DiskFull {
-        /// The file.
-        path: PathBuf,
-    },
-    /// Any other failure of the file system.
-    #[error("cannot {action} {}: {source}", path.display())]
-    Io {
-        /// What was tried.
-        action: &'static str,
-        /// On which file.
-        path: PathBuf,
-        /// Why it failed.
-        source: io::Error,
-    },
-}
-
-impl FolderError {
-    pub(super) fn io(action: &'static str, path: &Path, source: io::Error) -> Self {
-        let path = path.to_owned();
-        match source.kind() {
-            io::ErrorKind::StorageFull
-            | io::ErrorKind::QuotaExceeded
-            | io::ErrorKind::FileTooLarge => Self::DiskFull { path },
-            _ => Self::Io {
-                action,
-                path,
-                source,
-            },
-        }
-    }
-
-    /// Whether the user asked for the wrong folder, rather than a run failing.
-    pub fn is_usage(&self) -> bool {
-        matches!(
-            self,
-            Self::OtherCase { .. }
-                | Self::Foreign { .. }
-                | Self::Started { .. }
-                | Self::NotASweep { .. }
-                | Self::NotResults { .. }
-        )
-    }
-}
+pub(crate) const TEMPORARY: &str = ".writing-";
 
 /// Whose results a run may replace.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Replace {
     /// Those of the same effective case.
     SameCase,
-    /// Those of the same case file text, whatever the overrides.
-    SameText,
     /// Any.
     Anything,
-}
-
-/// `manifest.json`: the manifest and the files that go with it.
-#[derive(Serialize, Deserialize)]
-pub(super) struct Contents {
-    #[serde(flatten)]
-    pub(super) manifest: Manifest,
-    pub(super) files: BTreeSet<String>,
 }
 
 /// An output folder that this process alone writes.
@@ -160,8 +35,10 @@ pub(super) struct Contents {
 pub struct OutputFolder {
     path: PathBuf,
     manifest: Manifest,
-    earlier: BTreeSet<String>,
-    written: RefCell<BTreeSet<String>>,
+    /// Files of earlier runs, and their checksums where they are known.
+    earlier: BTreeMap<String, Option<u32>>,
+    /// Files of this run and theirs.
+    written: RefCell<BTreeMap<String, Option<u32>>>,
     journal: File,
     _lock: File,
 }
@@ -176,11 +53,11 @@ impl OutputFolder {
         fs::create_dir_all(path).map_err(|e| FolderError::io("create folder", path, e))?;
         let lock = lock(path)?;
         let contents = read_contents(path)?;
-        let (mut earlier, mut is_same) = (BTreeSet::new(), true);
+        let (mut earlier, mut is_same) = (BTreeMap::new(), true);
         match contents {
             Some(contents) => {
                 is_same = check_owner(path, &contents.manifest, manifest, replace)?;
-                earlier = contents.files;
+                earlier = contents.into_files();
             }
             None if replace != Replace::Anything => refuse_foreign(path)?,
             None => {}
@@ -188,7 +65,7 @@ impl OutputFolder {
         // What a killed run left is known from its journal.
         let journal_path = path.join(JOURNAL);
         let unfinished = fs::read_to_string(&journal_path).unwrap_or_default();
-        earlier.extend(unfinished.lines().map(str::to_owned));
+        earlier.extend(unfinished.lines().map(|name| (name.to_owned(), None)));
         remove_temporaries(path);
         let journal = OpenOptions::new()
             .create(true)
@@ -205,10 +82,22 @@ impl OutputFolder {
         };
         if !is_same {
             // Files of another case must not lie beside those of this one.
-            folder.remove(folder.earlier.iter());
+            folder.remove(folder.earlier.keys());
         }
         folder.write_manifest(&folder.earlier)?;
         Ok(folder)
+    }
+
+    /// Whether [`OutputFolder::open`] would take a folder, which is left as it is.
+    ///
+    /// # Errors
+    /// Those of [`OutputFolder::open`] that the folder's contents decide.
+    pub fn may_open(path: &Path, manifest: &Manifest, replace: Replace) -> Result<(), FolderError> {
+        match read_contents(path)? {
+            Some(found) => check_owner(path, &found.manifest, manifest, replace).map(|_| ()),
+            None if replace != Replace::Anything && path.exists() => refuse_foreign(path),
+            None => Ok(()),
+        }
     }
 
     /// Takes the folder of an earlier run to draw its figures anew: figures and report that are not
@@ -219,9 +108,15 @@ impl OutputFolder {
     pub fn reopen(path: &Path) -> Result<Self, FolderError> {
         let manifest = read_manifest(path)?;
         let folder = Self::open(path, &manifest, Replace::SameCase)?;
-        let is_drawing = |name: &&String| name.starts_with(FIGURES) || *name == REPORT;
-        let kept = folder.earlier.iter().filter(|name| !is_drawing(name));
-        folder.written.borrow_mut().extend(kept.cloned());
+        let is_drawing = |name: &str| name.starts_with(FIGURES) || name == REPORT;
+        let kept = folder.earlier.iter().filter(|(name, _)| !is_drawing(name));
+        let kept = kept.map(|(name, checksum)| {
+            // Folders of versions without checksums get them now.
+            let read = || fs::read(path.join(name)).ok();
+            let found = checksum.or_else(|| read().map(|bytes| crc32fast::hash(&bytes)));
+            (name.clone(), found)
+        });
+        folder.written.borrow_mut().extend(kept);
         Ok(folder)
     }
 
@@ -269,10 +164,18 @@ impl OutputFolder {
     ) -> Result<PathBuf, FolderError> {
         let path = self.path.join(name);
         let failed = |error| FolderError::io("write", &path, error);
-        if self.written.borrow_mut().insert(name.to_owned()) {
+        if self
+            .written
+            .borrow_mut()
+            .insert(name.to_owned(), None)
+            .is_none()
+        {
             writeln!(&self.journal, "{name}").map_err(failed)?;
         }
-        write_whole(&path, is_durable, fill).map_err(failed)?;
+        let checksum = write_whole(&path, is_durable, fill).map_err(failed)?;
+        self.written
+            .borrow_mut()
+            .insert(name.to_owned(), Some(checksum));
         Ok(path)
     }
 
@@ -289,18 +192,18 @@ impl OutputFolder {
     /// As [`OutputFolder::write`].
     pub fn finish(self) -> Result<(), FolderError> {
         let written = self.written.borrow();
-        self.remove(self.earlier.difference(&written));
+        let stale = self
+            .earlier
+            .keys()
+            .filter(|name| !written.contains_key(*name));
+        self.remove(stale);
         self.write_manifest(&written)?;
         let journal = self.path.join(JOURNAL);
         fs::remove_file(&journal).map_err(|e| FolderError::io("remove", &journal, e))
     }
 
-    fn write_manifest(&self, files: &BTreeSet<String>) -> Result<(), FolderError> {
-        let contents = Contents {
-            manifest: self.manifest.clone(),
-            files: files.clone(),
-        };
-        write_contents(&self.path, &contents)
+    fn write_manifest(&self, files: &BTreeMap<String, Option<u32>>) -> Result<(), FolderError> {
+        write_contents(&self.path, &Contents::new(&self.manifest, files))
     }
 
     fn remove<'a>(&self, names: impl Iterator<Item = &'a String>) {
@@ -308,17 +211,15 @@ impl OutputFolder {
     }
 }
 
-pub(super) fn write_contents(folder: &Path, contents: &Contents) -> Result<(), FolderError> {
+pub(crate) fn write_contents(folder: &Path, contents: &Contents) -> Result<(), FolderError> {
     let path = folder.join(MANIFEST);
-    write_whole(&path, true, |out| {
-        serde_json::to_writer_pretty(&mut *out, contents)?;
-        out.write_all(b"\n")
-    })
-    .map_err(|e| FolderError::io("write", &path, e))
+    let written = write_whole(&path, true, |out| write_sealed(out, contents));
+    written.map_err(|e| FolderError::io("write", &path, e))?;
+    Ok(())
 }
 
 /// Removes files that a manifest lists.
-pub(super) fn remove_files<'a>(folder: &Path, names: impl Iterator<Item = &'a String>) {
+pub(crate) fn remove_files<'a>(folder: &Path, names: impl Iterator<Item = &'a String>) {
     for name in names.filter(|name| is_inside(name)) {
         // A file that is gone already is what we want.
         let _ = fs::remove_file(folder.join(name));
@@ -365,17 +266,8 @@ fn remove_temporaries(path: &Path) {
     }
 }
 
-pub(super) fn read_contents(path: &Path) -> Result<Option<Contents>, FolderError> {
-    let path = path.join(MANIFEST);
-    match fs::read(&path) {
-        Ok(bytes) => Ok(serde_json::from_slice(&bytes).ok()),
-        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
-        Err(error) => Err(FolderError::io("read", &path, error)),
-    }
-}
-
 /// Whether the results there are of the same effective case; refuses those that must stay.
-pub(super) fn check_owner(
+pub(crate) fn check_owner(
     path: &Path,
     found: &Manifest,
     ours: &Manifest,
@@ -384,9 +276,6 @@ pub(super) fn check_owner(
     let is_same = found.case_hash == ours.case_hash && found.command == ours.command;
     let is_allowed = match replace {
         Replace::SameCase => is_same,
-        Replace::SameText => {
-            is_same || (found.command == ours.command && found.case_text == ours.case_text)
-        }
         Replace::Anything => true,
     };
     if is_allowed {
@@ -403,7 +292,7 @@ pub(super) fn check_owner(
     })
 }
 
-pub(super) fn refuse_foreign(path: &Path) -> Result<(), FolderError> {
+pub(crate) fn refuse_foreign(path: &Path) -> Result<(), FolderError> {
     let entries = fs::read_dir(path).map_err(|e| FolderError::io("read folder", path, e))?;
     let mut names: Vec<String> = entries
         .filter_map(|entry| Some(entry.ok()?.file_name().to_string_lossy().into_owned()))
@@ -420,13 +309,31 @@ pub(super) fn refuse_foreign(path: &Path) -> Result<(), FolderError> {
     }
 }
 
+/// Passes bytes on and keeps their checksum.
+struct Summing<W> {
+    out: W,
+    checksum: crc32fast::Hasher,
+}
+
+impl<W: Write> Write for Summing<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let count = self.out.write(bytes)?;
+        self.checksum.update(&bytes[..count]);
+        Ok(count)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.out.flush()
+    }
+}
+
 /// Writes a file under a temporary name in the same folder and renames it, flushed to the disk before
-/// that if it is to be durable.
-pub(super) fn write_whole(
+/// that if it is to be durable; gives the checksum of its bytes.
+pub(crate) fn write_whole(
     path: &Path,
     is_durable: bool,
     fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-) -> io::Result<()> {
+) -> io::Result<u32> {
     let parent = path.parent().unwrap_or(Path::new("."));
     fs::create_dir_all(parent)?;
     let mut builder = tempfile::Builder::new();
@@ -438,13 +345,17 @@ pub(super) fn write_whole(
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
     let mut temporary = builder.tempfile_in(parent)?;
-    let mut out = BufWriter::with_capacity(1 << 16, temporary.as_file_mut());
+    let summing = Summing {
+        out: temporary.as_file_mut(),
+        checksum: crc32fast::Hasher::new(),
+    };
+    let mut out = BufWriter::with_capacity(1 << 16, summing);
     fill(&mut out)?;
-    out.flush()?;
-    drop(out);
+    let summing = out.into_inner().map_err(io::IntoInnerError::into_error)?;
+    let checksum = summing.checksum.finalize();
     if is_durable {
         temporary.as_file().sync_all()?;
     }
     temporary.persist(path).map_err(|error| error.error)?;
-    Ok(())
+    Ok(checksum)
 }

@@ -1,6 +1,7 @@
 //! `record.bin`: what a command keeps, bit by bit, to draw its figures again; the tables have the same numbers for people.
 
-use super::folder::{FolderError, OutputFolder};
+use super::error::FolderError;
+use super::folder::OutputFolder;
 use super::framed::{self, Defect};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -17,6 +18,10 @@ pub trait Record: Serialize + DeserializeOwned {
     const MAGIC: [u8; 8];
     /// Format of the data.
     const VERSION: u32;
+
+    /// What does not fit together: lists that must be of one length, codes and sizes out of range. Whoever draws the
+    /// record relies on `None`.
+    fn inconsistency(&self) -> Option<&'static str>;
 }
 
 /// Writes the record of a run.
@@ -29,6 +34,20 @@ pub fn write_record<T: Record>(folder: &OutputFolder, record: &T) -> Result<(), 
         framed::write(out, T::MAGIC, T::VERSION, &payload)
     })?;
     Ok(())
+}
+
+/// Refuses a record that is not one of its case's mesh.
+///
+/// # Errors
+/// [`FolderError::NotResults`].
+pub fn refuse_misfit(folder: &Path, fits: bool) -> Result<(), FolderError> {
+    if fits {
+        return Ok(());
+    }
+    Err(FolderError::NotResults {
+        path: folder.to_owned(),
+        reason: format!("its {RECORD} is damaged (it is not of the case's mesh): run it again"),
+    })
 }
 
 /// Reads the record of a folder.
@@ -50,7 +69,11 @@ pub fn read_record<T: Record>(folder: &Path) -> Result<T, FolderError> {
         Err(error) => return Err(FolderError::io("read", &path, error)),
     };
     let record = framed::read(&bytes, T::MAGIC, T::VERSION).and_then(|payload| {
-        postcard::from_bytes(payload).map_err(|e| Defect::Damage(e.to_string()))
+        let record: T = postcard::from_bytes(payload).map_err(|e| Defect::Damage(e.to_string()))?;
+        match record.inconsistency() {
+            None => Ok(record),
+            Some(what) => Err(Defect::Damage(what.to_owned())),
+        }
     });
     record.map_err(|defect| {
         let wanted = T::VERSION;

@@ -1,0 +1,14 @@
+//! What is kept on disk and knows whether it is whole: folder, manifest, records.
+
+mod error;
+pub(crate) mod folder;
+pub(crate) mod framed;
+pub(crate) mod manifest;
+pub(crate) mod record;
+pub(crate) mod reopening;
+
+pub use error::FolderError;
+pub use folder::{OutputFolder, Replace};
+pub use manifest::Manifest;
+pub use record::{Record, read_record, refuse_misfit, write_record};
+pub use reopening::read_manifest;

@@ -1,0 +1,169 @@
+//! What a results folder says of the run that it holds, if it is whole.
+
+use super::error::FolderError;
+use super::folder::{JOURNAL, MANIFEST};
+use super::framed::{Defect, Sealed, read_sealed};
+use super::manifest::Manifest;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::io;
+use std::path::Path;
+
+/// Name of the summary in its folder.
+pub(crate) const SUMMARY: &str = "summary.json";
+
+/// Keys of a manifest of the versions before checksums.
+const KEYS_WITHOUT_CHECKSUMS: [&str; 10] = [
+    "program",
+    "version",
+    "command",
+    "case_file",
+    "case_text",
+    "case_hash",
+    "overrides",
+    "threads",
+    "simd",
+    "files",
+];
+
+/// `manifest.json`: the manifest and the files that go with it.
+#[derive(Serialize, Deserialize)]
+pub(crate) struct Contents {
+    #[serde(flatten)]
+    pub(crate) manifest: Manifest,
+    pub(crate) files: BTreeSet<String>,
+    /// CRC-32 of the files of a finished run, hexadecimal.
+    #[serde(default)]
+    checksums: BTreeMap<String, String>,
+    /// Whether a version wrote it that knows checksums.
+    #[serde(skip)]
+    pub(crate) is_sealed: bool,
+}
+
+impl Contents {
+    /// Contents of these files.
+    pub(crate) fn new(manifest: &Manifest, files: &BTreeMap<String, Option<u32>>) -> Self {
+        let known = files.iter().filter_map(|(name, sum)| Some((name, (*sum)?)));
+        Self {
+            manifest: manifest.clone(),
+            files: files.keys().cloned().collect(),
+            checksums: known
+                .map(|(name, sum)| (name.clone(), format!("{sum:08x}")))
+                .collect(),
+            is_sealed: true,
+        }
+    }
+
+    /// The files and their checksums where they are known.
+    pub(crate) fn into_files(self) -> BTreeMap<String, Option<u32>> {
+        let checksum = |name: &String| {
+            let text = self.checksums.get(name)?;
+            u32::from_str_radix(text, 16).ok()
+        };
+        let files = self.files.iter();
+        files.map(|name| (name.clone(), checksum(name))).collect()
+    }
+}
+
+/// The contents of a folder: `None` if it has no manifest, or none that is whole.
+pub(crate) fn read_contents(path: &Path) -> Result<Option<Contents>, FolderError> {
+    let path = path.join(MANIFEST);
+    match fs::read(&path) {
+        Ok(bytes) => Ok(contents_of(&bytes).ok()),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(FolderError::io("read", &path, error)),
+    }
+}
+
+fn contents_of(bytes: &[u8]) -> Result<Contents, Defect> {
+    let (object, is_sealed) = match read_sealed(bytes)? {
+        Sealed::Whole(object) => (object, true),
+        Sealed::Unsealed(object) => (object, false),
+    };
+    let is_known = |key: &String| KEYS_WITHOUT_CHECKSUMS.contains(&key.as_str());
+    let mut keys = object.as_object().into_iter().flatten().map(|(key, _)| key);
+    if !is_sealed && !keys.all(is_known) {
+        return Err(Defect::Damage("its checksum is gone".to_owned()));
+    }
+    let contents: Result<Contents, _> = serde_json::from_value(object);
+    let contents = contents.map_err(|error| Defect::Damage(error.to_string()))?;
+    Ok(Contents {
+        is_sealed,
+        ..contents
+    })
+}
+
+fn lacks(path: &Path, reason: String) -> FolderError {
+    let path = path.to_owned();
+    FolderError::NotResults { path, reason }
+}
+
+/// The manifest of a results folder.
+///
+/// # Errors
+/// [`FolderError::NotResults`] if there is none or it is damaged; those of the file system.
+pub fn read_manifest(path: &Path) -> Result<Manifest, FolderError> {
+    Ok(whole_contents(path)?.manifest)
+}
+
+fn whole_contents(path: &Path) -> Result<Contents, FolderError> {
+    let file = path.join(MANIFEST);
+    let bytes = match fs::read(&file) {
+        Ok(bytes) => bytes,
+        Err(error) if error.kind() == io::ErrorKind::NotFound => {
+            return Err(lacks(path, format!("it has no {MANIFEST}")));
+        }
+        Err(error) => return Err(FolderError::io("read", &file, error)),
+    };
+    contents_of(&bytes).map_err(|defect| {
+        let reason = match defect {
+            Defect::Damage(reason) => reason,
+            Defect::Version(found) => format!("format {found}"),
+        };
+        lacks(path, format!("its {MANIFEST} is damaged ({reason})"))
+    })
+}
+
+/// The bytes of a file of a finished run, as they were written.
+///
+/// # Errors
+/// [`FolderError::NotResults`] if the run did not end, or the file is missing or damaged; those of the file system.
+pub(crate) fn read_own(path: &Path, name: &str) -> Result<Vec<u8>, FolderError> {
+    let contents = whole_contents(path)?;
+    let did_not_end = || lacks(path, format!("it has no {name}: the run did not end"));
+    // A run that was killed may have replaced the file already.
+    let journal = fs::read_to_string(path.join(JOURNAL)).unwrap_or_default();
+    if contents.is_sealed && journal.lines().any(|written| written == name) {
+        return Err(did_not_end());
+    }
+    let file = path.join(name);
+    let bytes = match fs::read(&file) {
+        Ok(bytes) => bytes,
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Err(did_not_end()),
+        Err(error) => return Err(FolderError::io("read", &file, error)),
+    };
+    let is_sealed = contents.is_sealed;
+    match contents.into_files().remove(name).flatten() {
+        Some(wanted) if wanted == crc32fast::hash(&bytes) => Ok(bytes),
+        Some(_) => Err(lacks(
+            path,
+            format!("its {name} is damaged (its checksum does not fit its contents): run it again"),
+        )),
+        None if is_sealed => Err(did_not_end()),
+        None => Ok(bytes),
+    }
+}
+
+/// A value that a JSON file of the program's own holds, if it is whole; files without a checksum count where
+/// `is_unsealed_allowed`.
+pub(crate) fn own_value(bytes: &[u8], is_unsealed_allowed: bool) -> Result<Value, String> {
+    match read_sealed(bytes) {
+        Ok(Sealed::Whole(value)) => Ok(value),
+        Ok(Sealed::Unsealed(value)) if is_unsealed_allowed => Ok(value),
+        Ok(Sealed::Unsealed(_)) => Err("its checksum is gone".to_owned()),
+        Err(Defect::Damage(reason)) => Err(reason),
+        Err(Defect::Version(found)) => Err(format!("format {found}")),
+    }
+}

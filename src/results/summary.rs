@@ -1,0 +1,123 @@
+//! Typed summaries: the struct that `summary.json` is, from which printed lines, rows and columns of studies come.
+
+use super::folder::{FolderError, OutputFolder};
+use super::quantity::quantity;
+use super::reopening::{SUMMARY, read_own};
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use std::fmt::Write as _;
+use std::path::Path;
+
+/// The summary of a command, a plain struct whose fields are the keys of `summary.json` in their order.
+///
+/// A value that may be absent is an `Option` and null in JSON: JSON has neither NaN nor infinity.
+pub trait Summary: Serialize + DeserializeOwned {
+    /// What a person wants first of it: the columns that a study prints for each point.
+    fn headline(&self) -> Vec<Entry>;
+}
+
+/// One scalar of a summary: its path and its value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Entry {
+    /// Dotted path from the root of the summary.
+    pub path: String,
+    /// Number, text, boolean or null.
+    pub value: Value,
+}
+
+impl Entry {
+    /// An entry.
+    pub fn new(path: impl Into<String>, value: impl Into<Value>) -> Self {
+        Self {
+            path: path.into(),
+            value: value.into(),
+        }
+    }
+}
+
+/// Fractions of the contact nodes, averaged over the interval that a summary is of.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct StatusFractions {
+    /// Sticking.
+    pub stick: Option<f64>,
+    /// Slipping.
+    pub slip: Option<f64>,
+    /// Open.
+    pub open: Option<f64>,
+}
+
+/// Mean powers of a whole disc, W; equations (9) to (12).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct MeanPowers {
+    /// Of the motor.
+    pub external: Option<f64>,
+    /// Of sticking nodes.
+    pub stick: Option<f64>,
+    /// Of sliding nodes.
+    pub slide: Option<f64>,
+    /// Lost to friction.
+    pub contact_dissipated: Option<f64>,
+    /// Lost in the body.
+    pub material_damping: Option<f64>,
+    /// Of the normal contact forces.
+    pub normal_contact: Option<f64>,
+}
+
+/// A number where there is one: JSON has neither NaN nor infinity, and nobody wants -0.0.
+pub fn present(value: f64) -> Option<f64> {
+    value.is_finite().then_some(value + 0.0)
+}
+
+/// Writes `summary.json` and gives the object that it holds.
+///
+/// # Errors
+/// Those of the folder.
+pub fn write_summary(
+    folder: &OutputFolder,
+    summary: &impl Serialize,
+) -> Result<Value, FolderError> {
+    let failed = |error: serde_json::Error| {
+        FolderError::io("write", &folder.path().join(SUMMARY), error.into())
+    };
+    let object = serde_json::to_value(summary).map_err(failed)?;
+    folder.write(SUMMARY, |out| {
+        serde_json::to_writer_pretty(&mut *out, &object)?;
+        out.write_all(b"\n")
+    })?;
+    Ok(object)
+}
+
+/// The summary of a results folder.
+///
+/// # Errors
+/// [`FolderError::NotResults`] if there is none, as after a run that was killed, if it is damaged, or if it is of another
+/// command; those of the file system.
+pub fn read_summary<T: DeserializeOwned>(path: &Path) -> Result<T, FolderError> {
+    let bytes = read_own(path, SUMMARY)?;
+    serde_json::from_slice(&bytes).map_err(|error| FolderError::NotResults {
+        path: path.to_owned(),
+        reason: format!("its {SUMMARY} is damaged ({error})"),
+    })
+}
+
+/// One line for each entry that has a value: caption, number, unit.
+pub fn lines(entries: &[Entry]) -> String {
+    let mut out = String::new();
+    for entry in entries {
+        if let Some(number) = entry.value.as_f64() {
+            let quantity = quantity(&entry.path);
+            let _ = writeln!(out, "{}: {}", quantity.caption, quantity.text(number));
+        }
+    }
+    out
+}
+
+/// One row for each entry: caption with unit, number.
+pub fn rows(entries: &[Entry]) -> Vec<Vec<String>> {
+    let row = |entry: &Entry| {
+        let quantity = quantity(&entry.path);
+        vec![quantity.label(), quantity.cell(&entry.value)]
+    };
+    entries.iter().map(row).collect()
+}

@@ -1,0 +1,45 @@
+//! Whether a record that was read from a file holds together.
+
+use super::{HARMONIC_COUNT, Recorder};
+
+/// Largest node number and more harmonics than any mesh has: products of them must not overflow.
+const LARGEST: usize = 1 << 31;
+
+impl Recorder {
+    /// Whether every list has the length that the others ask for, so that observing and drawing find what they expect.
+    pub fn is_consistent(&self) -> bool {
+        let (samples, contact) = (self.rows.len(), self.contact_angles.len());
+        let harmonics = HARMONIC_COUNT + self.higher_harmonics.len();
+        let rises = |times: &[f64]| times.windows(2).all(|pair| pair[0] < pair[1]);
+        let times: Vec<f64> = self.rows.iter().map(|row| row.time).collect();
+        let nodes_are_known = |&node: &usize| (1..LARGEST).contains(&node);
+        let probes_fit = self.probes.len() == self.probe_rows.len()
+            && self.probes.iter().all(nodes_are_known)
+            && self.probe_rows.iter().all(|rows| rows.len() == samples);
+        let frames_fit = self.frames.iter().all(|frame| {
+            let lengths = [frame.status.len(), frame.pressure.len(), frame.shear.len()];
+            lengths == [contact; 3] && frame.status.iter().all(|&code| code <= 2)
+        });
+        let snapshots_fit = self.snapshots.iter().all(|snapshot| {
+            snapshot.time.is_finite() && snapshot.displacement.len() == snapshot.velocity.len()
+        });
+        rises(&times)
+            && times.iter().all(|time| time.is_finite())
+            && probes_fit
+            && frames_fit
+            && snapshots_fit
+            && self.frame_stride > 0
+            && self.higher_harmonics.iter().all(|&n| n < LARGEST)
+            && self.tributary_lengths.len() == contact
+            && self.waves.len() == contact.saturating_mul(harmonics)
+            && self.higher_amplitudes.len() == samples.saturating_mul(self.higher_harmonics.len())
+    }
+
+    /// Whether probes, fields and contact nodes can be those of a mesh.
+    pub fn fits(&self, nodes: usize, contact_nodes: usize) -> bool {
+        let mut snapshots = self.snapshots.iter();
+        self.contact_angles.len() == contact_nodes
+            && self.probes.iter().all(|&probe| probe <= nodes)
+            && snapshots.all(|snapshot| snapshot.displacement.len() == 2 * nodes)
+    }
+}

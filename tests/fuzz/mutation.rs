@@ -1,0 +1,183 @@
+//! Seeded changes of real inputs that keep most of their structure.
+
+/// A small generator of random numbers: xorshift64*, whose every seed but zero is good.
+pub struct Random(u64);
+
+impl Random {
+    pub fn new(seed: u64) -> Self {
+        // Neighbouring seeds must not give neighbouring streams.
+        let mixed = seed.wrapping_add(1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+        Self(mixed | 1)
+    }
+
+    pub fn next(&mut self) -> u64 {
+        self.0 ^= self.0 >> 12;
+        self.0 ^= self.0 << 25;
+        self.0 ^= self.0 >> 27;
+        self.0.wrapping_mul(0x2545_F491_4F6C_DD1D)
+    }
+
+    /// A number below `count`, 0 for none.
+    pub fn below(&mut self, count: usize) -> usize {
+        (self.next() % count.max(1) as u64) as usize
+    }
+
+    pub fn pick<'a, T>(&mut self, items: &'a [T]) -> &'a T {
+        &items[self.below(items.len())]
+    }
+}
+
+/// Values that break what was not thought of.
+const NUMBERS: [&str; 22] = [
+    "0",
+    "-1",
+    "1",
+    "2",
+    "0.5",
+    "-0.0",
+    "1e308",
+    "-1e308",
+    "1e-320",
+    "nan",
+    "inf",
+    "-inf",
+    "true",
+    "\"\"",
+    "[]",
+    "{}",
+    "[1, 2]",
+    "99999999999",
+    "9223372036854775807",
+    "1e9",
+    "1e-9",
+    "0x10",
+];
+
+/// Pieces of grammar of the texts that the program reads.
+const PIECES: [&str; 18] = [
+    "\n",
+    "\r\n",
+    ",",
+    ";",
+    "\t",
+    "=",
+    "[",
+    "]",
+    "\"",
+    "#",
+    ".",
+    "e",
+    "-",
+    "i",
+    " ",
+    "\u{feff}",
+    "\0",
+    "{ from = 0, to = 1, count = 3 }",
+];
+
+/// A text with one to four changes: numbers and words exchanged, lines deleted, doubled, moved or taken from another text,
+/// pieces of grammar put in, bytes changed.
+pub fn text(random: &mut Random, corpus: &[Vec<u8>]) -> Vec<u8> {
+    let mut bytes = random.pick(corpus).clone();
+    for _ in 0..=random.below(4) {
+        match random.below(8) {
+            0..=2 => replace_token(random, &mut bytes),
+            3 => {
+                let lines = lines(&bytes);
+                let at = random.below(lines.len());
+                let change = random.below(3);
+                let mut lines: Vec<Vec<u8>> = lines.into_iter().map(<[u8]>::to_vec).collect();
+                if lines.is_empty() {
+                    continue;
+                }
+                match change {
+                    0 => drop(lines.remove(at)),
+                    1 => lines.insert(at, lines[at].clone()),
+                    _ => {
+                        let other = random.below(lines.len());
+                        lines.swap(at, other);
+                    }
+                }
+                bytes = lines.join(&b'\n');
+            }
+            4 => {
+                let other = random.pick(corpus).clone();
+                let other = lines(&other);
+                let line = other[random.below(other.len())].to_vec();
+                let mut own: Vec<Vec<u8>> = lines(&bytes).iter().map(|l| l.to_vec()).collect();
+                own.insert(random.below(own.len()), line);
+                bytes = own.join(&b'\n');
+            }
+            5 => {
+                let at = random.below(bytes.len() + 1);
+                let piece = random.pick(&PIECES).as_bytes();
+                bytes.splice(at..at, piece.iter().copied());
+            }
+            6 => binary_change(random, &mut bytes),
+            _ => bytes.truncate(random.below(bytes.len() + 1)),
+        }
+    }
+    bytes
+}
+
+fn lines(bytes: &[u8]) -> Vec<&[u8]> {
+    bytes.split(|&byte| byte == b'\n').collect()
+}
+
+/// Exchanges a number or a word for another.
+fn replace_token(random: &mut Random, bytes: &mut Vec<u8>) {
+    let is_part = |byte: u8| byte.is_ascii_alphanumeric() || b"+-._".contains(&byte);
+    let starts: Vec<usize> = (0..bytes.len())
+        .filter(|&i| is_part(bytes[i]) && (i == 0 || !is_part(bytes[i - 1])))
+        .collect();
+    if starts.is_empty() {
+        return;
+    }
+    let start = *random.pick(&starts);
+    let length = bytes[start..].iter().take_while(|&&b| is_part(b)).count();
+    let new: Vec<u8> = match random.below(4) {
+        0 => {
+            let other = *random.pick(&starts);
+            let end = bytes[other..].iter().take_while(|&&b| is_part(b)).count();
+            bytes[other..other + end].to_vec()
+        }
+        1 => format!("{:e}", f64::from_bits(random.next())).into_bytes(),
+        _ => random.pick(&NUMBERS).as_bytes().to_vec(),
+    };
+    bytes.splice(start..start + length, new);
+}
+
+/// Bytes with one to six changes: set, flipped, put in, taken out, ranges copied.
+pub fn binary(random: &mut Random, original: &[u8]) -> Vec<u8> {
+    let mut bytes = original.to_vec();
+    for _ in 0..=random.below(6) {
+        binary_change(random, &mut bytes);
+    }
+    bytes
+}
+
+fn binary_change(random: &mut Random, bytes: &mut Vec<u8>) {
+    if bytes.is_empty() {
+        bytes.push(random.next() as u8);
+        return;
+    }
+    // Lengths and counts stand near the beginning: half of the changes go there.
+    let reach = match random.below(2) {
+        0 => bytes.len().min(64),
+        _ => bytes.len(),
+    };
+    let at = random.below(reach);
+    match random.below(6) {
+        0 => bytes[at] = random.next() as u8,
+        1 => bytes[at] ^= 1 << random.below(8),
+        2 => bytes[at] = *random.pick(&[0, 1, 2, 0x7f, 0x80, 0xff]),
+        3 => bytes.insert(at, random.next() as u8),
+        4 => drop(bytes.remove(at)),
+        _ => {
+            let length = random.below(16).min(bytes.len() - at);
+            let piece = bytes[at..at + length].to_vec();
+            let to = random.below(bytes.len());
+            bytes.splice(to..to, piece);
+        }
+    }
+}
