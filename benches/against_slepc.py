@@ -4,7 +4,7 @@
     /usr/bin/python3 benches/against_slepc.py [circumferential radial modes values]
 
 Both solve K(mu) x = kappa M(mu) x for the lowest modes at every friction value, on one thread, factorizations
-included; SLEPc with whichever LU of PETSc, MUMPS and SuperLU is fastest. Default: 180 35 30 21.
+included; SLEPc with whichever LU of PETSc, MUMPS, SuperLU and UMFPACK is fastest. Default: 180 35 30 21.
 """
 
 import glob
@@ -105,7 +105,7 @@ def main():
             mu, re, im = map(float, line.split())
             own.setdefault(mu, []).append(complex(re, im))
         trial = {}
-        for package in ("petsc", "mumps", "superlu"):
+        for package in ("petsc", "mumps", "superlu", "umfpack"):
             try:
                 trial[package] = solve(folder, values[len(values) // 2], modes, package, 1e-10)[0]
             except PETSc.Error:

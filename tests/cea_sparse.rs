@@ -9,7 +9,7 @@ mod table_1;
 use disc::{DAMPING, POLYCARBONATE, annulus, contact};
 use faer::{Mat, c64};
 use frictionsim::cea::sparse::{
-    CeaError, EigenLimit, EigenRequest, FrictionlessModes, Linearization, ShiftInverted, Side,
+    CeaError, EigenLimit, EigenRequest, FrictionlessModes, Linearization, ShiftInverted,
     StiffnessFactors, StructureMatrices, sweep,
 };
 use frictionsim::cea::{ComplexMode, FrictionSweep};
@@ -251,7 +251,6 @@ fn sweep_agrees_with_krylov_schur_at_the_same_friction() {
     let operator = ShiftInverted {
         matrices: &StructureMatrices::at(&tangent, linearization, mu),
         factors: &StiffnessFactors::general(&tangent, &OnceLock::new(), mu).unwrap(),
-        side: Side::Right,
     };
     let settings = KrylovSchurSettings {
         wanted: Wanted::Largest(30),

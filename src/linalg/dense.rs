@@ -30,6 +30,51 @@ pub fn join_columns(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
     joined
 }
 
+/// Columns that grow in place, moved only when their room is used up.
+#[derive(Clone, Debug)]
+pub struct GrowingColumns {
+    storage: Mat<f64>,
+    count: usize,
+}
+
+impl GrowingColumns {
+    /// No columns of length `rows`.
+    pub fn new(rows: usize) -> Self {
+        Self {
+            storage: Mat::zeros(rows, 0),
+            count: 0,
+        }
+    }
+
+    /// Number of columns.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// The columns.
+    pub fn columns(&self) -> MatRef<'_, f64> {
+        self.storage.get(.., ..self.count)
+    }
+
+    /// Appends columns.
+    pub fn append(&mut self, new: MatRef<'_, f64>) {
+        let (known, total) = (self.count, self.count + new.ncols());
+        if self.storage.ncols() < total {
+            let mut roomy = Mat::zeros(self.storage.nrows(), total + total / 2);
+            roomy.get_mut(.., ..known).copy_from(self.columns());
+            self.storage = roomy;
+        }
+        self.storage.get_mut(.., known..total).copy_from(new);
+        self.count = total;
+    }
+
+    /// Takes the columns' place by their combinations `columns * coefficients`.
+    pub fn combine(&mut self, coefficients: MatRef<'_, f64>) {
+        self.storage = product(self.columns(), coefficients);
+        self.count = coefficients.ncols();
+    }
+}
+
 /// Rows `a` above rows `b`.
 pub fn join_rows(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
     let mut joined = Mat::zeros(a.nrows() + b.nrows(), a.ncols());

@@ -14,7 +14,6 @@ macro_rules! dense_lu {
         pub struct $name {
             factors: Mat<$scalar>,
             rows: Perm<usize>,
-            swaps: usize,
         }
 
         impl $name {
@@ -28,7 +27,7 @@ macro_rules! dense_lu {
                     Par::Seq,
                     Default::default(),
                 );
-                let (info, _) = factor::lu_in_place(
+                factor::lu_in_place(
                     matrix.as_mut(),
                     &mut forward,
                     &mut inverse,
@@ -39,13 +38,7 @@ macro_rules! dense_lu {
                 Self {
                     factors: matrix,
                     rows: Perm::new_checked(forward.into(), inverse.into(), n),
-                    swaps: info.transposition_count,
                 }
-            }
-
-            /// Determinant of the row permutation, +1 or -1.
-            pub fn permutation_sign(&self) -> f64 {
-                if self.swaps.is_multiple_of(2) { 1.0 } else { -1.0 }
             }
 
             /// Solves `A x = b` for each column, in place.
@@ -94,21 +87,6 @@ dense_lu!(
     c64
 );
 
-impl ComplexDenseLu {
-    /// `det A / |det A|`; zero for a singular matrix.
-    pub fn determinant_phase(&self) -> c64 {
-        let diagonal = (0..self.factors.nrows()).map(|i| self.factors[(i, i)]);
-        diagonal.fold(c64::new(self.permutation_sign(), 0.0), |phase, pivot| {
-            let size = pivot.norm();
-            if size > 0.0 {
-                phase * (pivot / size)
-            } else {
-                c64::new(0.0, 0.0)
-            }
-        })
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -126,17 +104,5 @@ mod tests {
         let mut b = a.transpose() * &x;
         lu.solve_transpose_in_place(b.as_mut());
         assert!((b - &x).norm_max() < 1e-11);
-    }
-
-    #[test]
-    fn phase_of_a_determinant_follows_row_swaps_and_scaling() {
-        let i = c64::new(0.0, 1.0);
-        let mut a = Mat::<c64>::zeros(2, 2);
-        a[(0, 1)] = i * 3.0;
-        a[(1, 0)] = c64::new(2.0, 0.0);
-        let phase = ComplexDenseLu::factorize(a).determinant_phase();
-        assert!((phase + i).norm() < 1e-15);
-        let singular = ComplexDenseLu::factorize(Mat::zeros(2, 2));
-        assert_eq!(singular.determinant_phase().norm(), 0.0);
     }
 }

@@ -1,7 +1,7 @@
 //! Block Krylov-Schur iteration for the eigenvalues of largest modulus of a real operator.
 
 use super::LinalgError;
-use super::dense::{join_columns, orthonormalize, product, random_columns};
+use super::dense::{GrowingColumns, orthonormalize, product, random_columns};
 use super::dense_eigen::{RealEigen, real_eigen};
 use faer::{Mat, MatRef, c64};
 
@@ -76,13 +76,17 @@ pub fn krylov_schur(
         None => random_columns(n, settings.block.min(n), 0x5eed),
     };
     let mut process = BlockArnoldi::new(operator, seed);
+    let mut looked_at = 0;
     loop {
         process.expand();
         let too_small =
             matches!(settings.wanted, Wanted::Largest(count) if process.dimension() < count.min(n));
-        if too_small && !process.is_exhausted() {
+        // A dense decomposition costs as much as many applications: look when the basis has grown by a tenth.
+        let too_early = 10 * process.dimension() < 11 * looked_at;
+        if (too_small || too_early) && !process.is_exhausted() {
             continue;
         }
+        looked_at = process.dimension();
         let leading = match settings.wanted {
             Wanted::Largest(count) => count,
             Wanted::ModulusAtLeast(_) => usize::MAX,
@@ -113,6 +117,7 @@ pub fn krylov_schur(
         if process.dimension() + process.width() > limit.min(n) && wanted.is_some() {
             let keep = target + (process.dimension() - target) / 3;
             process.restart(&eigen, &order[..keep.min(order.len())]);
+            looked_at = process.dimension();
         }
     }
 }
@@ -155,7 +160,7 @@ fn wanted_count(
 struct BlockArnoldi<'a> {
     operator: &'a dyn BlockOperator,
     /// `Q`.
-    basis: Mat<f64>,
+    basis: GrowingColumns,
     /// `Q'`, the next block.
     next: Mat<f64>,
     /// `H`.
@@ -174,14 +179,14 @@ impl<'a> BlockArnoldi<'a> {
             operator,
             coupling: Mat::zeros(next.ncols(), 0),
             next,
-            basis: empty,
+            basis: GrowingColumns::new(n),
             projection: Mat::zeros(0, 0),
             applications: 0,
         }
     }
 
     fn dimension(&self) -> usize {
-        self.basis.ncols()
+        self.basis.count()
     }
 
     fn width(&self) -> usize {
@@ -198,8 +203,8 @@ impl<'a> BlockArnoldi<'a> {
         let image = self.operator.apply(self.next.as_ref());
         self.applications += self.width();
         let (old, width) = (self.dimension(), self.width());
-        let basis = join_columns(self.basis.as_ref(), self.next.as_ref());
-        let result = orthonormalize(basis.as_ref(), image, 1e-14);
+        self.basis.append(self.next.as_ref());
+        let result = orthonormalize(self.basis.columns(), image, 1e-14);
         let mut projection = Mat::zeros(old + width, old + width);
         for j in 0..old + width {
             for i in 0..old + width {
@@ -216,7 +221,6 @@ impl<'a> BlockArnoldi<'a> {
                 coupling[(i, old + j)] = result.within[(i, j)];
             }
         }
-        self.basis = basis;
         self.next = result.columns;
         self.projection = projection;
         self.coupling = coupling;
@@ -252,7 +256,7 @@ impl<'a> BlockArnoldi<'a> {
         });
         let empty = Mat::<f64>::zeros(self.dimension(), 0);
         let vectors = orthonormalize(empty.as_ref(), ritz, 1e-12).columns;
-        self.basis = product(self.basis.as_ref(), vectors.as_ref());
+        self.basis.combine(vectors.as_ref());
         let image = product(self.projection.as_ref(), vectors.as_ref());
         self.projection = product(vectors.transpose(), image.as_ref());
         self.coupling = product(self.coupling.as_ref(), vectors.as_ref());
@@ -269,7 +273,7 @@ impl<'a> BlockArnoldi<'a> {
         let coefficients = Mat::from_fn(self.dimension(), chosen.len(), |i, j| {
             eigen.right[(i, chosen[j])]
         });
-        let ritz = product(self.basis.as_ref(), coefficients.as_ref());
+        let ritz = product(self.basis.columns(), coefficients.as_ref());
         let mut vectors = self.operator.apply(ritz.as_ref());
         self.applications += chosen.len();
         let residuals = pair_residuals(&values, &ritz, &vectors);

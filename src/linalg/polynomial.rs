@@ -10,10 +10,11 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub struct SparsityPattern {
     symbolic: SymbolicSparseColMat<usize>,
-    /// The same nonzeros row by row: start of each row in `row_entries`.
+    /// The same nonzeros row by row, columns ascending within a row: start of each row in the two below.
     row_pointers: Vec<usize>,
-    /// `(index among the nonzeros, column)`, columns ascending within a row.
-    row_entries: Vec<(usize, usize)>,
+    /// Index among the nonzeros.
+    row_positions: Vec<u32>,
+    row_columns: Vec<u32>,
 }
 
 impl SparsityPattern {
@@ -21,7 +22,7 @@ impl SparsityPattern {
     /// repeated or not.
     ///
     /// # Panics
-    /// If a position lies outside the matrix.
+    /// If a position lies outside the matrix, or there are more than `u32::MAX` nonzeros.
     pub fn from_positions(
         dimension: usize,
         positions: impl IntoIterator<Item = (usize, usize)>,
@@ -47,11 +48,12 @@ impl SparsityPattern {
             None,
             row_indices,
         );
-        let (row_pointers, row_entries) = by_rows(&symbolic);
+        let (row_pointers, row_positions, row_columns) = by_rows(&symbolic);
         Self {
             symbolic,
             row_pointers,
-            row_entries,
+            row_positions,
+            row_columns,
         }
     }
 
@@ -82,8 +84,29 @@ impl SparsityPattern {
     }
 
     /// The nonzeros of one row: `(index among the nonzeros, column)`.
-    pub fn row(&self, row: usize) -> &[(usize, usize)] {
-        &self.row_entries[self.row_pointers[row]..self.row_pointers[row + 1]]
+    pub fn row(&self, row: usize) -> impl Iterator<Item = (usize, usize)> {
+        let range = self.row_range(row);
+        let (positions, columns) = (&self.row_positions[range.clone()], &self.row_columns[range]);
+        let pairs = positions.iter().zip(columns);
+        pairs.map(|(&position, &column)| (position as usize, column as usize))
+    }
+
+    /// Where a row is among nonzeros sorted by rows.
+    pub(super) fn row_range(&self, row: usize) -> std::ops::Range<usize> {
+        self.row_pointers[row]..self.row_pointers[row + 1]
+    }
+
+    /// Column of each nonzero, sorted by rows.
+    pub(super) fn row_columns(&self) -> &[u32] {
+        &self.row_columns
+    }
+
+    /// Values sorted by rows.
+    pub(super) fn by_rows(&self, values: &[f64]) -> Vec<f64> {
+        let positions = self.row_positions.iter();
+        positions
+            .map(|&position| values[position as usize])
+            .collect()
     }
 
     /// Index of `(row, column)` among the nonzeros, if it is one.
@@ -109,9 +132,13 @@ impl SparsityPattern {
     }
 }
 
-/// Sorts the nonzeros of a column-wise pattern by rows.
-fn by_rows(symbolic: &SymbolicSparseColMat<usize>) -> (Vec<usize>, Vec<(usize, usize)>) {
-    let dimension = symbolic.ncols();
+/// Sorts the nonzeros of a column-wise pattern by rows: start of each row, index of each nonzero, its column.
+fn by_rows(symbolic: &SymbolicSparseColMat<usize>) -> (Vec<usize>, Vec<u32>, Vec<u32>) {
+    let (dimension, count) = (symbolic.ncols(), symbolic.row_idx().len());
+    assert!(
+        u32::try_from(count).is_ok(),
+        "{count} nonzeros are too many"
+    );
     let mut pointers = vec![0; dimension + 1];
     for &row in symbolic.row_idx() {
         pointers[row + 1] += 1;
@@ -120,16 +147,16 @@ fn by_rows(symbolic: &SymbolicSparseColMat<usize>) -> (Vec<usize>, Vec<(usize, u
         pointers[row + 1] += pointers[row];
     }
     let mut next = pointers.clone();
-    let mut entries = vec![(0, 0); symbolic.row_idx().len()];
+    let (mut positions, mut columns) = (vec![0; count], vec![0; count]);
     for column in 0..dimension {
         let range = symbolic.col_ptr()[column]..symbolic.col_ptr()[column + 1];
         for position in range {
             let slot = &mut next[symbolic.row_idx()[position]];
-            entries[*slot] = (position, column);
+            (positions[*slot], columns[*slot]) = (position as u32, column as u32);
             *slot += 1;
         }
     }
-    (pointers, entries)
+    (pointers, positions, columns)
 }
 
 /// A square sparse matrix `P(mu) = P_0 + mu P_1 + mu^2 P_2 + ...` of a real parameter `mu`.

@@ -20,41 +20,53 @@ fn add_multiple(mut sum: [f64; LANES], value: f64, source: [f64; LANES]) -> [f64
 impl SparsityPattern {
     /// `A x` for each column of `x`, with `A` given by its nonzero `values`.
     pub fn multiply(&self, values: &[f64], x: MatRef<'_, f64>) -> Mat<f64> {
-        self.by_lanes(x, |input, output| {
-            // By rows, so that sums stay in registers: scattering by columns waits for its own stores.
-            for (index, target) in output.iter_mut().enumerate() {
-                let mut sum = [0.0; LANES];
-                for &(position, column) in self.row(index) {
-                    sum = add_multiple(sum, values[position], input[column]);
+        let [y] = self.multiply_each([values], x);
+        y
+    }
+
+    /// `A x` for each column of `x` and each of several matrices of this pattern, whose indices are read once.
+    pub fn multiply_each<const N: usize>(
+        &self,
+        values: [&[f64]; N],
+        x: MatRef<'_, f64>,
+    ) -> [Mat<f64>; N] {
+        // By rows, so that sums stay in registers: scattering by columns waits for its own stores.
+        let values = values.map(|values| self.by_rows(values));
+        self.by_lanes(x, |input, index| {
+            let mut sums = [[0.0; LANES]; N];
+            for place in self.row_range(index) {
+                let source = input[self.row_columns()[place] as usize];
+                for (sum, values) in sums.iter_mut().zip(&values) {
+                    *sum = add_multiple(*sum, values[place], source);
                 }
-                *target = sum;
             }
+            sums
         })
     }
 
     /// `A^T x` for each column of `x`, with `A` given by its nonzero `values`.
     pub fn multiply_transpose(&self, values: &[f64], x: MatRef<'_, f64>) -> Mat<f64> {
-        self.by_lanes(x, |input, output| {
-            for (index, target) in output.iter_mut().enumerate() {
-                let mut sum = [0.0; LANES];
-                for (position, row) in self.column(index) {
-                    sum = add_multiple(sum, values[position], input[row]);
-                }
-                *target = sum;
+        let [y] = self.by_lanes(x, |input, index| {
+            let mut sum = [0.0; LANES];
+            for (position, row) in self.column(index) {
+                sum = add_multiple(sum, values[position], input[row]);
             }
-        })
+            [sum]
+        });
+        y
     }
 
-    /// Applies `kernel(input, output)` to interleaved groups of columns.
-    fn by_lanes(
+    /// Applies `kernel(input, index)`, the entries `index` of the results, to interleaved groups of columns.
+    fn by_lanes<const N: usize>(
         &self,
         x: MatRef<'_, f64>,
-        kernel: impl Fn(&[[f64; LANES]], &mut [[f64; LANES]]),
-    ) -> Mat<f64> {
+        kernel: impl Fn(&[[f64; LANES]], usize) -> [[f64; LANES]; N],
+    ) -> [Mat<f64>; N] {
         let n = self.dimension();
         assert_eq!(x.nrows(), n, "vectors and matrix differ in length");
-        let mut y = Mat::zeros(n, x.ncols());
-        let (mut input, mut output) = (vec![[0.0; LANES]; n], vec![[0.0; LANES]; n]);
+        let mut results = [(); N].map(|()| Mat::zeros(n, x.ncols()));
+        let mut input = vec![[0.0; LANES]; n];
+        let mut outputs = [(); N].map(|()| vec![[0.0; LANES]; n]);
         for first in (0..x.ncols()).step_by(LANES) {
             let width = LANES.min(x.ncols() - first);
             for lane in 0..width {
@@ -62,14 +74,21 @@ impl SparsityPattern {
                     entry[lane] = *value;
                 }
             }
-            kernel(&input, &mut output);
-            for lane in 0..width {
-                for (value, entry) in column_mut(&mut y, first + lane).iter_mut().zip(&output) {
-                    *value = entry[lane];
+            for index in 0..n {
+                let sums = kernel(&input, index);
+                for (output, sum) in outputs.iter_mut().zip(sums) {
+                    output[index] = sum;
+                }
+            }
+            for (result, output) in results.iter_mut().zip(&outputs) {
+                for lane in 0..width {
+                    for (value, entry) in column_mut(result, first + lane).iter_mut().zip(output) {
+                        *value = entry[lane];
+                    }
                 }
             }
         }
-        y
+        results
     }
 }
 

@@ -1,19 +1,23 @@
 //! Growth of the common basis until it holds the modes of every friction coefficient.
 
 use super::error::CeaError;
-use super::packed::PackedModes;
+use super::packed::{PackedEntry, PackedModes};
 use super::reduced::{ReducedMode, ReducedModel};
-use super::structure::{Linearization, ShiftInverted, Side, StiffnessFactors, StructureMatrices};
-use crate::linalg::dense::{join_columns, orthonormal_complement};
+use super::structure::{Linearization, ShiftInverted, StiffnessFactors, StructureMatrices};
+use crate::linalg::dense::{column_norms, join_columns, orthonormal_complement, pick_columns};
 use crate::linalg::{KrylovSchurSettings, LinalgError, LuAnalysis, Wanted, krylov_schur};
 use crate::prestress::SlidingTangent;
 use faer::Mat;
 use std::sync::OnceLock;
 
-/// Corrections of right vectors of unit length shorter than this are not added.
-const RIGHT_TOLERANCE: f64 = 5e-13;
-/// The same for left vectors, which only serve overlaps and derivatives.
-const LEFT_TOLERANCE: f64 = 1e-3;
+/// Corrections of vectors of unit length shorter than this are not added.
+const VECTOR_TOLERANCE: f64 = 5e-12;
+/// Residual force, relative to the inertia force, below which a mode is left as it is.
+const CONVERGED: f64 = 1e-11;
+/// Lengths of corrections above which one Krylov step more follows a refinement.
+const KRYLOV_STEPS: [f64; 2] = [1e-4, 1e-8];
+/// Part of the vectors of such a step, relative to the mode of highest frequency, that is worth keeping.
+const KRYLOV_TOLERANCE: f64 = 1e-3;
 /// Friction values whose modes make up the compressed basis, besides the ends.
 const CHEBYSHEV_POINTS: usize = 5;
 /// Refinements of one basis before the preconditioner is considered unfit.
@@ -64,13 +68,8 @@ impl<'a> BasisBuilder<'a> {
     /// # Errors
     /// If a dense decomposition fails.
     pub fn cover(&mut self, values: &[f64]) -> Result<(), LinalgError> {
-        let order = spread(values);
-        let mut needs_left = true;
-        for &mu in order.iter().cycle().take(MAX_ROUNDS) {
-            let before = self.model.dimension();
-            let left = self.refine(mu, needs_left)?;
-            needs_left = left > LEFT_TOLERANCE;
-            if self.model.dimension() == before {
+        for &mu in spread(values).iter().cycle().take(MAX_ROUNDS) {
+            if !self.refine_at(mu)? {
                 break;
             }
         }
@@ -96,70 +95,82 @@ impl<'a> BasisBuilder<'a> {
         picked.sort_unstable();
         picked.dedup();
         let m = self.model.dimension();
-        let (mut right, mut left) = (Mat::zeros(m, 0), Mat::zeros(m, 0));
-        for (i, mu) in picked
-            .into_iter()
-            .map(|i| values[i])
-            .chain([0.0])
-            .enumerate()
-        {
-            // Left vectors need fewer points, as they need fewer digits.
-            let with_left = i % 2 == 0;
-            let modes = self.modes(mu, with_left)?;
-            let coordinates = |side| PackedModes::of(&modes, side, m).coordinates;
-            right = join_columns(right.as_ref(), coordinates(Side::Right).as_ref());
-            if with_left {
-                left = join_columns(left.as_ref(), coordinates(Side::Left).as_ref());
-            }
+        let mut vectors = Mat::zeros(m, 0);
+        for mu in picked.into_iter().map(|i| values[i]).chain([0.0]) {
+            let modes = self.model.solve_right(mu, self.count)?;
+            let coordinates = PackedModes::of(&modes, m).coordinates;
+            vectors = join_columns(vectors.as_ref(), coordinates.as_ref());
         }
         let none = Mat::<f64>::zeros(m, 0);
-        let right = orthonormal_complement(none.as_ref(), right, RIGHT_TOLERANCE);
-        let left = orthonormal_complement(right.as_ref(), left, LEFT_TOLERANCE);
-        self.model
-            .compress(&join_columns(right.as_ref(), left.as_ref()));
+        let kept = orthonormal_complement(none.as_ref(), vectors, VECTOR_TOLERANCE);
+        self.model.compress(&kept);
         Ok(())
     }
 
-    /// One refinement of the right vectors at one friction coefficient; whether it added anything.
+    /// One refinement at one friction coefficient; whether it added anything.
+    ///
+    /// Corrections follow one another like the vectors of a Krylov iteration with `K(0)^-1 M(0)`, so while they are
+    /// long a few steps of it are taken at once: only the last ones need new residuals.
     ///
     /// # Errors
     /// If a dense decomposition fails.
     pub fn refine_at(&mut self, mu: f64) -> Result<bool, LinalgError> {
-        let before = self.model.dimension();
-        self.refine(mu, false)?;
-        Ok(self.model.dimension() > before)
-    }
-
-    /// Adds corrections at `mu`; returns the longest left one.
-    fn refine(&mut self, mu: f64, with_left: bool) -> Result<f64, LinalgError> {
-        let modes = self.modes(mu, with_left)?;
-        let right = self.corrections(&modes, mu, Side::Right);
-        self.model.extend(right, RIGHT_TOLERANCE);
-        if !with_left {
-            return Ok(0.0);
+        let modes = self.model.solve_right(mu, self.count)?;
+        let corrections = self.corrections(&modes, mu);
+        let longest = column_norms(corrections.as_ref())
+            .into_iter()
+            .fold(0.0, f64::max);
+        let mut new = self.model.extend(corrections, VECTOR_TOLERANCE);
+        let has_added = new.ncols() > 0;
+        let steps = KRYLOV_STEPS
+            .iter()
+            .filter(|&&length| longest > length)
+            .count();
+        let (mass, inertia) = (&self.tangent.mass, self.highest_kappa(&modes));
+        for _ in 0..steps {
+            if new.ncols() == 0 {
+                break;
+            }
+            let mut image = mass
+                .pattern()
+                .multiply(&mass.coefficients()[0], new.as_ref());
+            self.preconditioner.solve_in_place(&mut image);
+            image *= faer::Scale(inertia);
+            new = self.model.extend(image, KRYLOV_TOLERANCE);
         }
-        let left = self.corrections(&modes, mu, Side::Left);
-        let longest = longest_column(&left);
-        self.model.extend(left, LEFT_TOLERANCE);
-        Ok(longest)
+        Ok(has_added)
     }
 
-    fn modes(&self, mu: f64, with_left: bool) -> Result<Vec<ReducedMode>, LinalgError> {
-        if with_left {
-            self.model.solve(mu, self.count)
-        } else {
-            self.model.solve_right(mu, self.count)
-        }
+    /// `|kappa|`, or `|lambda|^2`, of the highest of the modes to be held.
+    fn highest_kappa(&self, modes: &[ReducedMode]) -> f64 {
+        let moduli = modes.iter().map(|mode| mode.eigenvalue.norm_sqr());
+        moduli.fold(0.0, f64::max)
     }
 
-    /// `K(0)^-1 r` of the modes' vectors on one side.
-    fn corrections(&self, modes: &[ReducedMode], mu: f64, side: Side) -> Mat<f64> {
-        let packed = PackedModes::of(modes, side, self.model.dimension());
+    /// `K(0)^-1 r` of those of the modes' packed vectors that have not converged.
+    fn corrections(&self, modes: &[ReducedMode], mu: f64) -> Mat<f64> {
+        let packed = PackedModes::of(modes, self.model.dimension());
         let vectors = self.model.expand(packed.coordinates.as_ref());
         let matrices = StructureMatrices::at(self.tangent, self.linearization, mu);
-        let mut residuals = matrices.residuals(side, &packed.entries, vectors.as_ref());
-        self.preconditioner.solve_in_place(side, &mut residuals);
-        residuals
+        let (residuals, momenta) =
+            matrices.residuals_and_momenta(&packed.entries, vectors.as_ref());
+        let (forces, inertia) = (
+            column_norms(residuals.as_ref()),
+            column_norms(momenta.as_ref()),
+        );
+        let is_open = |entry: &&PackedEntry| {
+            let along = |norms: &[f64]| {
+                norms[entry.column..entry.end()]
+                    .iter()
+                    .fold(0.0, |m: f64, v| m.max(*v))
+            };
+            along(&forces) > CONVERGED * matrices.inertia_factor(entry) * along(&inertia)
+        };
+        let open = packed.entries.iter().filter(is_open);
+        let columns: Vec<usize> = open.flat_map(|entry| entry.column..entry.end()).collect();
+        let mut corrections = pick_columns(&residuals, &columns);
+        self.preconditioner.solve_in_place(&mut corrections);
+        corrections
     }
 
     /// Adds the dominant vectors at `mu` from a Krylov-Schur iteration of its own, independent of the
@@ -177,34 +188,21 @@ impl<'a> BasisBuilder<'a> {
             // Each mode is a conjugate pair.
             Linearization::Companion { .. } => 2 * modes,
         };
-        for (side, tolerance, drop_below) in [
-            (Side::Right, 1e-11, RIGHT_TOLERANCE),
-            (Side::Left, 1e-6, LEFT_TOLERANCE),
-        ] {
-            let operator = ShiftInverted {
-                matrices: &matrices,
-                factors: &factors,
-                side,
-            };
-            let settings = KrylovSchurSettings {
-                wanted: Wanted::Largest(wanted),
-                tolerance,
-                block: 4,
-                max_applications: 100 * (wanted + 20),
-            };
-            let pairs = krylov_schur(&operator, None, &settings)?;
-            let mut vectors = pairs.vectors;
-            vectors.truncate(unknowns, wanted);
-            self.model.extend(vectors, drop_below);
-        }
+        let operator = ShiftInverted {
+            matrices: &matrices,
+            factors: &factors,
+        };
+        let settings = KrylovSchurSettings {
+            wanted: Wanted::Largest(wanted),
+            tolerance: 1e-11,
+            block: 4,
+            max_applications: 100 * (wanted + 20),
+        };
+        let mut vectors = krylov_schur(&operator, None, &settings)?.vectors;
+        vectors.truncate(unknowns, wanted);
+        self.model.extend(vectors, VECTOR_TOLERANCE);
         Ok(())
     }
-}
-
-fn longest_column(columns: &Mat<f64>) -> f64 {
-    (0..columns.ncols())
-        .map(|j| columns.col(j).norm_l2())
-        .fold(0.0, f64::max)
 }
 
 /// The values in an order that samples their range evenly at any time: the largest first, then the

@@ -4,7 +4,6 @@ use super::edge::ContactEdge;
 use super::packed::ComplexColumns;
 use super::point::SolvedPoint;
 use super::reduced::{ReducedMode, ReducedModel};
-use super::structure::Side;
 use crate::linalg::{ComplexDenseLu, LinalgError};
 use faer::{Mat, c64};
 
@@ -96,7 +95,7 @@ fn split_degenerate(
             .count();
         if size > 1 {
             let cluster = &mut modes[first..first + size];
-            let columns = ComplexColumns::of(cluster, Side::Right, model.dimension());
+            let columns = ComplexColumns::of(cluster, model.dimension());
             let gram = cluster_matrix(
                 cluster,
                 &columns,
@@ -299,7 +298,7 @@ fn match_modes(
 fn overlaps(from: ModesAt<'_>, to: ModesAt<'_>, model: &ReducedModel) -> Mat<f64> {
     let at = model.at(0.5 * (from.0 + to.0));
     let forms = |modes: &[ReducedMode]| {
-        let columns = ComplexColumns::of(modes, Side::Right, model.dimension());
+        let columns = ComplexColumns::of(modes, model.dimension());
         (columns.mapped(&at.mass), columns.mapped(&at.damping))
     };
     let (old, new) = (forms(from.1), forms(to.1));

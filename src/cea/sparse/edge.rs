@@ -60,23 +60,28 @@ impl ContactEdge {
         if largest <= SILENT * peak {
             return 0;
         }
-        let energy = |n: usize| {
-            let waves = self.waves(edge, n);
+        // Powers of e^{i theta}, one after the other: a sine and a cosine for each harmonic would cost more.
+        let turns = self
+            .angles
+            .iter()
+            .map(|angle| c64::new(angle.cos(), angle.sin()));
+        let turns: Vec<c64> = turns.collect();
+        let mut phases = vec![c64::new(1.0, 0.0); turns.len()];
+        let mut best = (0, -1.0);
+        for n in 0..=self.angles.len() / 2 {
+            let waves = self.waves(edge, &phases);
             // e^{-i n theta} and e^{+i n theta} are one wave for n = 0 and at the Nyquist harmonic.
-            let share = if n == 0 || 2 * n == self.angles.len() {
-                0.5
-            } else {
-                1.0
-            };
-            share * (waves.forward.powi(2) + waves.backward.powi(2))
-        };
-        (0..=self.angles.len() / 2)
-            .map(|n| (n, energy(n)))
-            .fold(
-                (0, -1.0),
-                |best, next| if next.1 > best.1 { next } else { best },
-            )
-            .0
+            let share = if self.is_paired(n) { 1.0 } else { 0.5 };
+            let energy = share * (waves.forward.powi(2) + waves.backward.powi(2));
+            if energy > best.1 {
+                best = (n, energy);
+            }
+            phases
+                .iter_mut()
+                .zip(&turns)
+                .for_each(|(phase, turn)| *phase *= turn);
+        }
+        best.0
     }
 
     /// +1 if the wave of harmonic `n` travels with the rotor, -1 against it, 0 if it stands.
@@ -84,7 +89,11 @@ impl ContactEdge {
         if harmonic == 0 {
             return 0;
         }
-        let waves = self.waves(edge, harmonic);
+        let angles = self.angles.iter().map(|angle| harmonic as f64 * angle);
+        let phases: Vec<c64> = angles
+            .map(|angle| c64::new(angle.cos(), angle.sin()))
+            .collect();
+        let waves = self.waves(edge, &phases);
         let sense = if waves.forward > STANDING * waves.backward {
             1.0
         } else if waves.backward > STANDING * waves.forward {
@@ -100,15 +109,14 @@ impl ContactEdge {
         harmonic > 0 && 2 * harmonic != self.angles.len()
     }
 
-    fn waves(&self, edge: &[c64], harmonic: usize) -> Waves {
-        let count = self.angles.len();
+    /// Amplitudes of the waves whose `e^{i n theta}` at the nodes are `phases`.
+    fn waves(&self, edge: &[c64], phases: &[c64]) -> Waves {
         let (mut forward, mut backward) = (0.0, 0.0);
-        for component in edge.chunks(count.max(1)) {
+        for component in edge.chunks(phases.len().max(1)) {
             let (mut f, mut b) = (c64::new(0.0, 0.0), c64::new(0.0, 0.0));
-            for (value, angle) in component.iter().zip(&self.angles) {
-                let (sine, cosine) = (harmonic as f64 * angle).sin_cos();
-                f += value * c64::new(cosine, sine);
-                b += value * c64::new(cosine, -sine);
+            for (value, phase) in component.iter().zip(phases) {
+                f += value * phase;
+                b += value * phase.conj();
             }
             forward += f.norm_sqr();
             backward += b.norm_sqr();

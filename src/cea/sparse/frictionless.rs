@@ -1,7 +1,7 @@
 //! The undamped modes without friction, and the proof that none is missing.
 
 use super::error::CeaError;
-use super::structure::{Linearization, ShiftInverted, Side, StiffnessFactors, StructureMatrices};
+use super::structure::{Linearization, ShiftInverted, StiffnessFactors, StructureMatrices};
 use super::{EigenLimit, GUARD_MODES};
 use crate::fem::RayleighDamping;
 use crate::linalg::{
@@ -15,7 +15,7 @@ use std::f64::consts::TAU;
 /// Bound on the residual of the iteration.
 const TOLERANCE: f64 = 1e-11;
 /// Width of its random start block: a compromise of cheap blocked solves and few vectors.
-const BLOCK: usize = 6;
+const BLOCK: usize = 8;
 
 /// The lowest modes of `K x = kappa M x` at `mu = 0`.
 pub struct FrictionlessModes {
@@ -54,7 +54,6 @@ impl FrictionlessModes {
         let operator = ShiftInverted {
             matrices: &StructureMatrices::at(tangent, undamped, 0.0),
             factors: &factors,
-            side: Side::Right,
         };
         let settings = KrylovSchurSettings {
             wanted: Wanted::Largest(request),

@@ -35,7 +35,7 @@ pub use onset::OnsetFinder;
 pub use point::{ModeCheck, PointSolver, SolvedPoint};
 pub use reduced::{ProjectedMatrices, ReducedMode, ReducedModel};
 pub use request::{EigenLimit, EigenRequest, SweepProgress, sweep};
-pub use structure::{Linearization, ShiftInverted, Side, StiffnessFactors, StructureMatrices};
+pub use structure::{Linearization, ShiftInverted, StiffnessFactors, StructureMatrices};
 pub use sweep::SparseSweep;
 
 /// Modes beyond the wanted ones that are computed along, so that crossings at the upper end of the range

@@ -4,7 +4,6 @@ use super::branches::ModeBranch;
 use super::packed::ComplexColumns;
 use super::point::{PointSolver, SolvedPoint};
 use super::reduced::{ReducedMode, ReducedModel};
-use super::structure::Side;
 use super::{CeaError, RESIDUAL_BOUND};
 use crate::cea::UnstableInterval;
 use crate::linalg::LinalgError;
@@ -219,7 +218,7 @@ impl OnsetFinder<'_> {
         let mu = from.mu + t * (to.mu - from.mu);
         let mut modes = self.model.solve(mu, self.points[0].modes.len())?;
         let at = self.model.at(mu);
-        let columns = ComplexColumns::of(&modes, Side::Right, self.model.dimension());
+        let columns = ComplexColumns::of(&modes, self.model.dimension());
         let (mass, damping) = (columns.mapped(&at.mass), columns.mapped(&at.damping));
         let overlap = |end: &ReducedMode, j: usize| {
             let sum = end.eigenvalue + modes[j].eigenvalue;

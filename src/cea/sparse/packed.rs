@@ -1,7 +1,6 @@
 //! Complex vectors of modes in real matrices, for real arithmetic.
 
 use super::reduced::ReducedMode;
-use super::structure::Side;
 use crate::linalg::dense::{column, dot, product};
 use faer::{Mat, c64};
 
@@ -12,15 +11,11 @@ pub struct ComplexColumns {
 }
 
 impl ComplexColumns {
-    /// The vectors of `modes` on one side, continued by zeros to `dimension` entries.
-    pub fn of(modes: &[ReducedMode], side: Side, dimension: usize) -> Self {
+    /// The right vectors of `modes`, continued by zeros to `dimension` entries.
+    pub fn of(modes: &[ReducedMode], dimension: usize) -> Self {
         let part = |of: fn(&c64) -> f64| {
             Mat::from_fn(dimension, modes.len(), |i, j| {
-                let vector = match side {
-                    Side::Right => &modes[j].right,
-                    Side::Left => &modes[j].left,
-                };
-                vector.get(i).map_or(0.0, of)
+                modes[j].right.get(i).map_or(0.0, of)
             })
         };
         Self {
@@ -61,7 +56,14 @@ pub struct PackedEntry {
     pub is_complex: bool,
 }
 
-/// Real and imaginary parts of right (or left) vectors, packed for real arithmetic.
+impl PackedEntry {
+    /// The column behind its last one.
+    pub fn end(&self) -> usize {
+        self.column + 1 + usize::from(self.is_complex)
+    }
+}
+
+/// Real and imaginary parts of right vectors, packed for real arithmetic.
 ///
 /// Of two modes with conjugate `s` only the first is stored: the other's vector is its conjugate.
 pub struct PackedModes {
@@ -74,8 +76,8 @@ pub struct PackedModes {
 }
 
 impl PackedModes {
-    /// Packs the vectors of `modes` on one side.
-    pub fn of(modes: &[ReducedMode], side: Side, dimension: usize) -> Self {
+    /// Packs the right vectors of `modes`.
+    pub fn of(modes: &[ReducedMode], dimension: usize) -> Self {
         let mut entries: Vec<PackedEntry> = Vec::new();
         let mut columns: Vec<Vec<f64>> = Vec::new();
         let mut places = Vec::new();
@@ -88,10 +90,7 @@ impl PackedModes {
                 places.push((entry, true));
                 continue;
             }
-            let vector = match side {
-                Side::Right => &mode.right,
-                Side::Left => &mode.left,
-            };
+            let vector = &mode.right;
             let length = vector.iter().map(|v| v.norm_sqr()).sum::<f64>().sqrt();
             places.push((entries.len(), false));
             let is_complex = vector.iter().any(|v| v.im != 0.0);

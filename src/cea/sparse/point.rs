@@ -3,7 +3,7 @@
 use super::edge::ContactEdge;
 use super::packed::{PackedModes, PackedVector};
 use super::reduced::{ReducedMode, ReducedModel};
-use super::structure::{Linearization, Side, StructureMatrices};
+use super::structure::{Linearization, StructureMatrices};
 use super::{EigenLimit, TRACKING_MARGIN};
 use crate::cea::keeping_ties;
 use crate::linalg::LinalgError;
@@ -92,10 +92,9 @@ impl PointSolver<'_> {
     /// Residuals and edge displacements of `modes` in the full matrices at `mu`.
     pub fn check(&self, model: &ReducedModel, mu: f64, modes: &[ReducedMode]) -> Vec<ModeCheck> {
         let matrices = StructureMatrices::at(self.tangent, self.linearization, mu);
-        let packed = PackedModes::of(modes, Side::Right, model.dimension());
+        let packed = PackedModes::of(modes, model.dimension());
         let x = model.expand(packed.coordinates.as_ref());
-        let (residuals, momenta) =
-            matrices.residuals_and_momenta(Side::Right, &packed.entries, x.as_ref());
+        let (residuals, momenta) = matrices.residuals_and_momenta(&packed.entries, x.as_ref());
         let norms = matrices.norms();
         (0..modes.len())
             .map(|j| {
@@ -129,8 +128,8 @@ impl PointSolver<'_> {
             &self.tangent.contact_normal,
         ];
         for &i in contact.into_iter().flatten() {
-            let row = pattern.row(i).iter();
-            let own: c64 = row.map(|&(position, j)| x.at(j) * values[position]).sum();
+            let row = pattern.row(i);
+            let own: c64 = row.map(|(position, j)| x.at(j) * values[position]).sum();
             edge += along(i, own);
             friction += along(i, momentum.at(i) - own);
         }
@@ -142,7 +141,7 @@ impl PointSolver<'_> {
 
     /// Shapes of `modes` over all nodal dofs, the largest displacement vector of length 1 and real there.
     pub fn shapes(&self, model: &ReducedModel, modes: &[ReducedMode]) -> Vec<Vec<c64>> {
-        let packed = PackedModes::of(modes, Side::Right, model.dimension());
+        let packed = PackedModes::of(modes, model.dimension());
         let x = model.expand(packed.coordinates.as_ref());
         let full = self.tangent.unknowns.unknown_of.len();
         (0..modes.len())

@@ -1,9 +1,9 @@
 //! The matrices of small motions projected on one basis that serves every friction coefficient.
 
 use super::packed::ComplexColumns;
-use super::structure::{Linearization, Side};
+use super::structure::Linearization;
 use super::term::Term;
-use crate::linalg::dense::{orthonormal_complement, product, transpose_product};
+use crate::linalg::dense::{GrowingColumns, orthonormal_complement, product, transpose_product};
 use crate::linalg::dense_eigen::real_eigen;
 use crate::linalg::{DenseLu, LinalgError, MatrixPolynomial};
 use crate::prestress::SlidingTangent;
@@ -34,8 +34,8 @@ pub struct ProjectedMatrices {
     pub mass: Mat<f64>,
 }
 
-/// `V^T (lambda^2 M(mu) + lambda C(mu) + K(mu)) V` with an orthonormal `V` that holds the wanted right and
-/// left vectors of all friction coefficients.
+/// `V^T (lambda^2 M(mu) + lambda C(mu) + K(mu)) V` with an orthonormal `V` that holds the wanted right vectors
+/// of all friction coefficients. Left vectors are those of the projected problem: they serve overlaps and derivatives.
 ///
 /// Coordinates stay valid when the basis grows, with zeros for the columns added since; not so when it
 /// is compressed.
@@ -43,10 +43,8 @@ pub struct ReducedModel {
     linearization: Linearization,
     /// Coefficients of `P = K, C, M` by power of `mu`.
     terms: [Vec<Term>; 3],
-    /// `V`, `unknowns x m`, in the first `m` columns.
-    storage: Mat<f64>,
-    /// `m`.
-    columns: usize,
+    /// `V`, `unknowns x m`.
+    basis: GrowingColumns,
     /// `V^T P_p V` of `P = K, C, M` for each power of `mu`; `C` only where it is not proportional.
     projected: [Vec<Mat<f64>>; 3],
 }
@@ -65,8 +63,7 @@ impl ReducedModel {
         let terms = [terms(&tangent.stiffness), damping, terms(&tangent.mass)];
         Self {
             linearization,
-            storage: Mat::zeros(tangent.stiffness.dimension(), 0),
-            columns: 0,
+            basis: GrowingColumns::new(tangent.stiffness.dimension()),
             projected: terms.each_ref().map(|t| vec![Mat::zeros(0, 0); t.len()]),
             terms,
         }
@@ -74,39 +71,24 @@ impl ReducedModel {
 
     /// Number of columns of the basis.
     pub fn dimension(&self) -> usize {
-        self.columns
+        self.basis.count()
     }
 
-    /// Adds what `columns` hold beyond the basis, down to the length `drop_below`.
-    pub fn extend(&mut self, columns: Mat<f64>, drop_below: f64) {
-        let new = orthonormal_complement(self.basis(), columns, drop_below);
+    /// Adds what `columns` hold beyond the basis, down to the length `drop_below`; returns the new columns of the
+    /// basis.
+    pub fn extend(&mut self, columns: Mat<f64>, drop_below: f64) -> Mat<f64> {
+        let new = orthonormal_complement(self.basis.columns(), columns, drop_below);
         if new.ncols() == 0 {
-            return;
+            return new;
         }
-        let basis = self.storage.get(.., ..self.columns);
+        let basis = self.basis.columns();
         for (projected, terms) in self.projected.iter_mut().zip(&mut self.terms) {
             for (power, (small, term)) in projected.iter_mut().zip(terms).enumerate() {
                 *small = term.grow(small, basis, &new, power == 0);
             }
         }
-        self.append(&new);
-    }
-
-    /// Appends columns to the basis, moving the old ones only when the room is used up.
-    fn append(&mut self, new: &Mat<f64>) {
-        let (known, total) = (self.columns, self.columns + new.ncols());
-        if self.storage.ncols() < total {
-            let mut roomy = Mat::zeros(self.storage.nrows(), 2 * total);
-            roomy.get_mut(.., ..known).copy_from(self.basis());
-            self.storage = roomy;
-        }
-        self.storage.get_mut(.., known..total).copy_from(new);
-        self.columns = total;
-    }
-
-    /// `V`.
-    fn basis(&self) -> MatRef<'_, f64> {
-        self.storage.get(.., ..self.columns)
+        self.basis.append(new.as_ref());
+        new
     }
 
     /// Restricts the basis to the span of the orthonormal `columns` of coordinates.
@@ -118,8 +100,7 @@ impl ReducedModel {
             let image = product(small.as_ref(), columns.as_ref());
             *small = transpose_product(columns.as_ref(), image.as_ref());
         }
-        self.storage = product(self.basis(), columns.as_ref());
-        self.columns = columns.ncols();
+        self.basis.combine(columns.as_ref());
     }
 
     /// The projected matrices at `mu`.
@@ -235,7 +216,7 @@ impl ReducedModel {
     /// `w^T (2 lambda M + C) x = 1`.
     fn complete(&self, modes: &mut [ReducedMode], at: &ProjectedMatrices, mu: f64) {
         let rate = self.derivative_at(mu);
-        let right = ComplexColumns::of(modes, Side::Right, self.dimension());
+        let right = ComplexColumns::of(modes, self.dimension());
         let [m, c] = [&at.mass, &at.damping].map(|p| right.mapped(p));
         let [dk, dc, dm] = [&rate.stiffness, &rate.damping, &rate.mass].map(|p| right.mapped(p));
         for (j, mode) in modes.iter_mut().enumerate() {
@@ -252,7 +233,8 @@ impl ReducedModel {
 
     /// `V` times coordinates (of this or an earlier basis).
     pub fn expand(&self, coordinates: MatRef<'_, f64>) -> Mat<f64> {
-        product(self.storage.get(.., ..coordinates.nrows()), coordinates)
+        let known = self.basis.columns().get(.., ..coordinates.nrows());
+        product(known, coordinates)
     }
 }
 

@@ -12,15 +12,6 @@ use faer::{Mat, MatRef, c64};
 use std::borrow::Cow;
 use std::sync::{Arc, OnceLock};
 
-/// Right vectors, `T(lambda) x = 0`, or left ones, `w^T T(lambda) = 0` (no conjugation).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Side {
-    /// Columns: the matrices themselves.
-    Right,
-    /// Rows: their transposes.
-    Left,
-}
-
 /// How `T(lambda) x = (lambda^2 M + lambda C + K) x = 0` becomes a linear eigenproblem.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Linearization {
@@ -83,42 +74,34 @@ impl<'a> StructureMatrices<'a> {
         }
     }
 
-    /// `K x - kappa M x` or, of the general problem, `T(lambda) x`, for the packed vectors `x` of
-    /// `entries`, in the same packing.
-    pub fn residuals(&self, side: Side, entries: &[PackedEntry], x: MatRef<'_, f64>) -> Mat<f64> {
-        self.residuals_and_momenta(side, entries, x).0
-    }
-
-    /// [`Self::residuals`] and `M x`.
+    /// `K x - kappa M x` or, of the general problem, `T(lambda) x`, for the packed vectors `x` of `entries`, in
+    /// the same packing; and `M x`.
     pub fn residuals_and_momenta(
         &self,
-        side: Side,
         entries: &[PackedEntry],
         x: MatRef<'_, f64>,
     ) -> (Mat<f64>, Mat<f64>) {
-        let product = |values: &[f64]| match side {
-            Side::Right => self.pattern.multiply(values, x),
-            Side::Left => self.pattern.multiply_transpose(values, x),
-        };
-        let mut residual = product(&self.values[0]);
-        let inert = product(&self.values[2]);
+        let [stiffness, damping, mass] = &self.values;
         match self.linearization {
             Linearization::Reduced(_) => {
+                let [mut residual, inert] = self.pattern.multiply_each([stiffness, mass], x);
                 for entry in entries {
                     let kappa = entry.inverse_value.inv();
                     add_complex_multiple(&mut residual, -kappa, &inert, entry);
                 }
+                (residual, inert)
             }
             Linearization::Companion { frequency_scale } => {
-                let damped = product(&self.values[1]);
+                let all = [&stiffness[..], damping, mass];
+                let [mut residual, damped, inert] = self.pattern.multiply_each(all, x);
                 for entry in entries {
                     let lambda = entry.inverse_value.inv() * frequency_scale;
                     add_complex_multiple(&mut residual, lambda * lambda, &inert, entry);
                     add_complex_multiple(&mut residual, lambda, &damped, entry);
                 }
+                (residual, inert)
             }
         }
-        (residual, inert)
     }
 
     /// `T(lambda) x` over what [`Self::residuals`] returns: `T(lambda) = (1 + beta lambda) (K - kappa M)`.
@@ -128,6 +111,16 @@ impl<'a> StructureMatrices<'a> {
                 (lambda * damping.stiffness_coefficient + 1.0).norm()
             }
             Linearization::Companion { .. } => 1.0,
+        }
+    }
+
+    /// What turns `|M x|` into the size of the inertia force in the units of a residual: `|kappa|` or
+    /// `|lambda|^2`.
+    pub fn inertia_factor(&self, entry: &PackedEntry) -> f64 {
+        let value = entry.inverse_value.inv().norm();
+        match self.linearization {
+            Linearization::Reduced(_) => value,
+            Linearization::Companion { frequency_scale } => (value * frequency_scale).powi(2),
         }
     }
 
@@ -208,12 +201,11 @@ impl StiffnessFactors {
         Ok(Self::General(Box::new(factors)))
     }
 
-    /// `K^-1 x` or `K^-T x` for each column, in place.
-    pub fn solve_in_place(&self, side: Side, x: &mut Mat<f64>) {
-        match (self, side) {
-            (Self::Symmetric(ldl), _) => ldl.solve_in_place(x.as_mut()),
-            (Self::General(lu), Side::Right) => lu.solve_in_place(x.as_mut()),
-            (Self::General(lu), Side::Left) => lu.solve_transpose_in_place(x.as_mut()),
+    /// `K^-1 x` for each column, in place.
+    pub fn solve_in_place(&self, x: &mut Mat<f64>) {
+        match self {
+            Self::Symmetric(ldl) => ldl.solve_in_place(x.as_mut()),
+            Self::General(lu) => lu.solve_in_place(x.as_mut()),
         }
     }
 }
@@ -228,16 +220,11 @@ impl StiffnessFactors {
 /// [  I               0              ] [ nu x ]  =  -- [ nu x ],    lambda = omega nu.
 ///                                                  nu
 /// ```
-///
-/// On the left side the transposes take the place of `K`, `C`, `M`, so that the upper half of a vector is
-/// the left vector of `T(lambda)`.
 pub struct ShiftInverted<'a> {
     /// Matrices at the friction coefficient of the factors.
     pub matrices: &'a StructureMatrices<'a>,
     /// Factors of `K`.
     pub factors: &'a StiffnessFactors,
-    /// Right or left vectors.
-    pub side: Side,
 }
 
 impl BlockOperator for ShiftInverted<'_> {
@@ -251,14 +238,11 @@ impl BlockOperator for ShiftInverted<'_> {
 
     fn apply(&self, z: MatRef<'_, f64>) -> Mat<f64> {
         let [_, damping, mass] = &self.matrices.values;
-        let product = |values: &[f64], x: MatRef<'_, f64>| match self.side {
-            Side::Right => self.matrices.pattern.multiply(values, x),
-            Side::Left => self.matrices.pattern.multiply_transpose(values, x),
-        };
+        let product = |values: &[f64], x| self.matrices.pattern.multiply(values, x);
         match self.matrices.linearization {
             Linearization::Reduced(_) => {
                 let mut image = product(mass, z);
-                self.factors.solve_in_place(self.side, &mut image);
+                self.factors.solve_in_place(&mut image);
                 image
             }
             Linearization::Companion {
@@ -267,7 +251,7 @@ impl BlockOperator for ShiftInverted<'_> {
                 let (x, y) = z.split_at_row(self.matrices.pattern.dimension());
                 let mut top = faer::Scale(-omega) * product(damping, x)
                     - faer::Scale(omega * omega) * product(mass, y);
-                self.factors.solve_in_place(self.side, &mut top);
+                self.factors.solve_in_place(&mut top);
                 join_rows(top.as_ref(), x)
             }
         }
