@@ -40,7 +40,7 @@
 //! # Floors
 //!
 //! Each module names only those below it: [`linalg`], [`mesh`], [`signal`], [`chart`]; [`fem`]; [`contact`]; [`prestress`];
-//! [`cea`], [`transient`], [`frf`], [`cycle`]; [`case`], [`results`]; [`app`].
+//! [`cea`], [`transient`], [`frf`], [`cycle`]; [`case`], [`results`]; [`study`]; [`app`].
 
 pub mod case;
 pub mod cea;
@@ -54,6 +54,7 @@ pub mod mesh;
 pub mod prestress;
 pub mod results;
 pub mod signal;
+pub mod study;
 pub mod transient;
 
 pub mod app;

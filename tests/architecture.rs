@@ -5,13 +5,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Modules by floor, lowest first.
-const FLOORS: [&[&str]; 7] = [
+const FLOORS: [&[&str]; 8] = [
     &["linalg", "mesh", "signal", "chart"],
     &["fem"],
     &["contact"],
     &["prestress"],
     &["cea", "transient", "frf", "cycle"],
     &["case", "results"],
+    &["study"],
     &["app"],
 ];
 

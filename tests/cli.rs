@@ -638,3 +638,143 @@ fn a_reader_that_leaves_early_is_no_failure() {
     );
     assert_eq!(output.status.code(), Some(0));
 }
+
+#[test]
+fn options_may_stand_before_the_command() {
+    let folder = folder();
+    let before = [
+        "-q",
+        "--no-figures",
+        "-o",
+        "here",
+        "--set",
+        COARSE[1],
+        "mesh",
+    ];
+    let mut command = frictionsim(&folder);
+    command.args(before).arg(disc()).args(&COARSE[2..]);
+    command.assert().code(0).stdout(contains("48 elements"));
+    assert!(folder.path().join("here/summary.json").exists());
+}
+
+#[test]
+fn a_case_from_standard_input_has_a_folder_of_its_own() {
+    let folder = folder();
+    let mut command = frictionsim(&folder);
+    command
+        .args(["mesh", "-", "--no-figures"])
+        .args(COARSE)
+        .write_stdin(fs::read(disc()).unwrap());
+    command.assert().code(0);
+    let results = folder.path().join("results/stdin/mesh");
+    assert!(results.join("summary.json").exists());
+    // It is drawn again from what the manifest holds.
+    let plot = frictionsim(&folder).arg("plot").arg(&results).assert();
+    plot.code(0);
+    let bad = frictionsim(&folder)
+        .args(["mesh", "-"])
+        .write_stdin("title = 3")
+        .assert();
+    bad.code(2).stderr(contains("standard input:1:"));
+}
+
+#[test]
+fn a_dry_run_checks_everything_and_touches_nothing() {
+    let folder = folder();
+    let run = |command: &str, more: &[&str]| {
+        let mut program = frictionsim(&folder);
+        program.args([command, &disc(), "--dry-run"]).args(COARSE);
+        program.args(more).assert()
+    };
+    let said = contains("valid").and(contains("results/polycarbonate-disc/cea"));
+    run("cea", &[]).code(0).stdout(said).stderr("");
+    run("cea", &["--set", "material.density=-1"]).code(2);
+    run("transient", &[])
+        .code(2)
+        .stderr(contains("[transient]"));
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+    fs::create_dir(folder.path().join("here")).unwrap();
+    fs::write(folder.path().join("here/thesis.tex"), "x").unwrap();
+    run("cea", &["--out", "here"])
+        .code(2)
+        .stderr(contains("thesis.tex"));
+    let json = run("cea", &["--json"]).code(0);
+    let value: serde_json::Value = serde_json::from_slice(&json.get_output().stdout).unwrap();
+    assert_eq!(value["folder"], "results/polycarbonate-disc/cea");
+    assert_eq!(value["replaces"], false);
+}
+
+#[test]
+fn denied_warnings_are_errors_of_the_case() {
+    let folder = folder();
+    let run = |more: &[&str]| {
+        let mut command = frictionsim(&folder);
+        command
+            .args(["mesh", &disc(), "--no-figures", "--set"])
+            .arg("contact.friction_coefficient=30")
+            .args(COARSE)
+            .args(more);
+        command.assert()
+    };
+    run(&["--deny-warnings"])
+        .code(2)
+        .stderr(contains("friction_coefficient"));
+    assert!(!folder.path().join("results").exists());
+    run(&[]).code(0).stderr(contains("WARN"));
+}
+
+#[test]
+fn help_names_the_default_folder_of_the_command() {
+    let folder = folder();
+    for (command, path) in [
+        ("cea", "results/CASE/cea"),
+        ("signal", "results/SIGNAL/signal"),
+    ] {
+        let help = frictionsim(&folder).args([command, "--help"]).assert();
+        help.code(0).stdout(contains(format!("[default: {path}]")));
+    }
+}
+
+#[test]
+fn a_manual_page_tells_files_examples_and_exit_status() {
+    let folder = folder();
+    let page = frictionsim(&folder).args(["man", "cea"]).assert().code(0);
+    let text = String::from_utf8(page.get_output().stdout.clone()).unwrap();
+    for part in [
+        ".SH \"FILES\"",
+        "eigenvalues.csv",
+        ".SH \"EXAMPLES\"",
+        "frictionsim cea disc.toml",
+    ] {
+        assert!(text.contains(part), "{part} is not in\n{text}");
+    }
+    assert!(text.contains(".SH \"EXIT STATUS\"") && text.contains("\\fB130\\fR"));
+    let unknown = frictionsim(&folder).args(["man", "squeal"]).assert();
+    unknown.code(2).stderr(contains("no command squeal"));
+}
+
+/// A table in a folder of results is known by that folder.
+#[test]
+fn tables_of_one_name_from_two_runs_have_a_folder_each() {
+    let folder = folder();
+    for (run, frequency) in [("70rpm", 900.0), ("610rpm", 1100.0)] {
+        let path = folder.path().join("results").join(run).join("transient");
+        fs::create_dir_all(&path).unwrap();
+        let mut table = "time_s,v\n".to_owned();
+        for i in 0..400 {
+            let t = 1e-4 * f64::from(i);
+            table += &format!("{t},{}\n", (std::f64::consts::TAU * frequency * t).sin());
+        }
+        fs::write(path.join("probe-1.csv"), table).unwrap();
+        let signal = format!("results/{run}/transient/probe-1.csv");
+        let mut command = frictionsim(&folder);
+        command
+            .args(["signal", &signal, "--no-figures"])
+            .assert()
+            .code(0);
+    }
+    for name in ["signal", "signal-610rpm-transient"] {
+        let path = folder.path().join("results/probe-1").join(name);
+        assert!(path.join("summary.json").exists(), "{name}");
+    }
+}

@@ -6,6 +6,8 @@ mod annulus_modes;
 mod friction_sweep;
 #[path = "../examples/limit_cycle.rs"]
 mod limit_cycle;
+#[path = "../examples/parameter_study.rs"]
+mod parameter_study;
 
 #[test]
 fn modes_of_an_annulus_are_those_of_the_continuum() {
@@ -15,6 +17,11 @@ fn modes_of_an_annulus_are_those_of_the_continuum() {
 #[test]
 fn friction_sweep_finds_the_wave_that_turns_unstable_first() {
     friction_sweep::main().unwrap();
+}
+
+#[test]
+fn a_parameter_study_finds_friction_to_decide() {
+    parameter_study::main().unwrap();
 }
 
 #[test]

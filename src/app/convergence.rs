@@ -1,14 +1,14 @@
 //! `frictionsim convergence`: a case on several meshes and with several time steps.
 
-mod quantities;
-
 use super::{Failure, RunOptions, Session, cea, cycle, terminal, transient};
 use crate::case::{Analysis, Case, Convergence, StabilityChoice, TimeStep};
 use crate::cea::FrictionSweep;
 use crate::results::convergence::{
     ConvergenceReport, Quantity, Refinement, Series, draw, print, write,
 };
+use crate::results::summary::PointSummary;
 use crate::results::{DrawingOptions, Manifest, OutputFolder, read_record};
+use crate::study::convergence as quantities;
 use clap::Args;
 use indicatif::ProgressBar;
 use rayon::prelude::*;
@@ -38,7 +38,7 @@ struct Study {
 /// What one level gave.
 enum Outcome {
     Cea(FrictionSweep),
-    Summary(Value),
+    Summary(Box<PointSummary>),
 }
 
 /// A level done, and its wall time, s.
@@ -161,8 +161,8 @@ fn solve(
             let start = Instant::now();
             let outcome = match analysis {
                 Analysis::Cea => Outcome::Cea(cea::modes_and_onsets(case)?),
-                Analysis::Transient => Outcome::Summary(transient::summarize(case, manifest)?),
-                Analysis::Cycle => Outcome::Summary(cycle::attempt(&own_cycles(case), manifest)?),
+                Analysis::Transient => summarized(&transient::summarize(case, manifest)?),
+                Analysis::Cycle => summarized(&cycle::attempt(&own_cycles(case), manifest)?),
             };
             bar.inc(1);
             Ok((outcome, start.elapsed().as_secs_f64()))
@@ -174,6 +174,10 @@ fn solve(
         .iter()
         .map(|study| solved.by_ref().take(study.cases.len()).collect())
         .collect()
+}
+
+fn summarized(summary: &Value) -> Outcome {
+    Outcome::Summary(Box::new(PointSummary::of(summary)))
 }
 
 /// The case with the limit cycles at its own operating point alone.
@@ -193,10 +197,12 @@ fn series(case: &Case, study: &Study, outcomes: Vec<Timed>) -> Result<Vec<Series
     for outcome in outcomes {
         match outcome {
             Outcome::Cea(sweep) => sweeps.push(sweep),
-            Outcome::Summary(summary) => summaries.push(summary),
+            Outcome::Summary(summary) => summaries.push(*summary),
         }
     }
-    let steps = summaries.iter().filter_map(|s| s["time_step_s"].as_f64());
+    let steps = summaries
+        .iter()
+        .filter_map(|s: &PointSummary| s.time_step_s);
     let steps: Vec<f64> = steps.collect();
     let (sizes, levels): (Vec<f64>, Vec<String>) = match study.refinement {
         Refinement::Mesh => study.cases.iter().map(mesh_level).unzip(),
@@ -240,12 +246,15 @@ fn series(case: &Case, study: &Study, outcomes: Vec<Timed>) -> Result<Vec<Series
         Analysis::Cycle => quantities::by_family(&summaries)
             .into_iter()
             .map(|(family, cycles)| {
-                let phases = cycles.iter().map(|cycle| cycle["phases"].to_string());
+                let phases = cycles.iter().map(|cycle| match cycle.phases {
+                    Some(phases) => phases.to_string(),
+                    None => "no".to_owned(),
+                });
                 let mut notes = vec![format!("{} phases", phases.collect::<Vec<_>>().join(", "))];
                 for (level, cycle) in levels.iter().zip(&cycles) {
-                    let error = cycle["error"].as_str();
+                    let error = cycle.error.as_ref();
                     notes.extend(error.map(|error| format!("{level}: {error}")));
-                    if cycle.pointer("/confirmation/agrees") == Some(&Value::Bool(false)) {
+                    if cycle.confirmation.and_then(|said| said.agrees) == Some(false) {
                         notes.push(format!(
                             "{level}: NOT CONFIRMED: a transient does not stay on the cycle found: take a finer mesh"
                         ));

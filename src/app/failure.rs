@@ -40,10 +40,7 @@ impl Failure {
     /// What went wrong, one line for each error.
     pub fn messages(&self) -> Vec<String> {
         match self {
-            Self::Case(errors) => {
-                let all = errors.diagnostics.iter();
-                all.map(|error| error.message.clone()).collect()
-            }
+            Self::Case(errors) => errors.messages(),
             Self::Usage(error) | Self::Run(error) => vec![error.to_string()],
             Self::Interrupted(message) => vec![message.clone()],
             Self::BrokenPipe | Self::DryRun => Vec::new(),

@@ -9,15 +9,14 @@ use crate::frf::{
 };
 use crate::linalg::GaussianNoise;
 use crate::mesh::{AnnulusMesh, SectorMesh};
-use crate::prestress::{
-    DampingModel, SectorTangent, SlidingTangent, SteadySliding, TangentOptions,
-};
+use crate::prestress::{SectorTangent, SlidingTangent, SteadySliding};
 use crate::results::{
     DrawingOptions, OutputFolder, RESPONSE_TABLE, ResponseSummary, draw_response_report,
     read_response_table, read_summary, write_response, write_summary,
 };
 use crate::signal::FrequencyResponse;
 use crate::signal::reader::read_response;
+use crate::study::tangent_options;
 use clap::Args;
 use faer::c64;
 use indicatif::ProgressBar;
@@ -117,7 +116,7 @@ fn cyclic(case: &Case, frf: &Frf) -> Result<Computed, Failure> {
     let sector = SectorMesh::generate(&case.annulus).map_err(Failure::usage)?;
     let contact = &case.contact.sliding;
     let system = if frf.boundary == FrfBoundary::Sliding {
-        let options = tangent_options(case, frf);
+        let options = tangent_options(case, frf.mass);
         let tangent = SectorTangent::linearize(&sector, &case.material, &options, contact)?;
         CyclicSystem::sliding(&tangent, contact.friction_coefficient)
     } else {
@@ -179,7 +178,7 @@ fn whole_mesh(case: &Case, frf: &Frf) -> Result<(FrfSystem, usize, usize), Failu
     let system = if frf.boundary == FrfBoundary::Sliding {
         let stiffness = assemble_stiffness(mesh, &case.material);
         let base = SteadySliding::solve(mesh, &stiffness, &case.contact.sliding)?;
-        let options = tangent_options(case, frf);
+        let options = tangent_options(case, frf.mass);
         let tangent = SlidingTangent::linearize(mesh, &case.material, &stiffness, &base, &options);
         FrfSystem::sliding(&tangent, case.contact.sliding.friction_coefficient)
     } else {
@@ -191,20 +190,6 @@ fn whole_mesh(case: &Case, frf: &Frf) -> Result<(FrfSystem, usize, usize), Failu
     let force = unknown(frf.force, "force_node")?;
     let response = unknown(frf.response, "response_node")?;
     Ok((system, force, response))
-}
-
-fn tangent_options(case: &Case, frf: &Frf) -> TangentOptions {
-    TangentOptions {
-        mass: frf.mass,
-        geometric_stiffness: case.cea.as_ref().is_none_or(|cea| cea.geometric_stiffness),
-        damping: case.damping.rayleigh,
-        damping_model: if case.damping.include_contact {
-            DampingModel::WholeTangent
-        } else {
-            DampingModel::BodyOnly
-        },
-        contact: case.contact.stiffness,
-    }
 }
 
 /// The quantity asked for, for the disc's thickness, with noise.

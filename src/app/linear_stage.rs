@@ -2,11 +2,12 @@
 
 use crate::case::{Case, ModeSelection};
 use crate::cea::ComplexMode;
-use crate::cea::cyclic::{self, CyclicError, ModeLimit, SweepRequest};
+use crate::cea::cyclic::{CyclicError, ModeLimit};
 use crate::contact::ContactStiffness;
 use crate::fem::MassKind;
 use crate::prestress::{DampingModel, TangentOptions};
 use crate::results::figures::ReferenceFrequency;
+use crate::study::modes_at_own_friction;
 
 /// Modes looked at where the case has no `[cea]`.
 const MODES: usize = 30;
@@ -58,17 +59,10 @@ fn modes(case: &Case) -> Result<Vec<ComplexMode>, CyclicError> {
         damping_model: DampingModel::WholeTangent,
         contact: ContactStiffness::default(),
     };
-    let request = SweepRequest {
-        friction_coefficients: &[case.contact.sliding.friction_coefficient],
-        limit: match case.cea.as_ref().map(|cea| cea.modes) {
-            Some(ModeSelection::BelowHz(limit)) => ModeLimit::MaxFrequency(limit),
-            Some(ModeSelection::Lowest(count)) => ModeLimit::Lowest(count),
-            None => ModeLimit::Lowest(MODES),
-        },
-        shapes_at: &[],
+    let limit = match case.cea.as_ref().map(|cea| cea.modes) {
+        Some(ModeSelection::BelowHz(limit)) => ModeLimit::MaxFrequency(limit),
+        Some(ModeSelection::Lowest(count)) => ModeLimit::Lowest(count),
+        None => ModeLimit::Lowest(MODES),
     };
-    let sliding = &case.contact.sliding;
-    let found = cyclic::sweep(&case.annulus, &case.material, &options, sliding, &request)?;
-    let point = found.sweep.points.into_iter().next();
-    Ok(point.map_or_else(Vec::new, |point| point.modes))
+    modes_at_own_friction(case, &options, limit)
 }

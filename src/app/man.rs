@@ -1,6 +1,7 @@
 //! `frictionsim man`: manual pages.
 
 use super::{Failure, command_line, terminal};
+use crate::case::{CaseKey, KEYS};
 use clap::{Args, ValueHint};
 use clap_mangen::Man;
 use std::fmt::Write as _;
@@ -11,10 +12,10 @@ use std::path::PathBuf;
 /// Print the manual page, or write those of all subcommands
 #[derive(Args)]
 pub struct Arguments {
-    /// Print the page of this command
+    /// Print the page of this command, or that of the case file (case)
     #[arg(value_name = "COMMAND", conflicts_with = "out")]
     command: Option<String>,
-    /// Write frictionsim.1 and one page for each subcommand there
+    /// Write frictionsim.1, one page for each subcommand, and frictionsim-case.5 there
     #[arg(long, short, value_name = "DIR", value_hint = ValueHint::DirPath)]
     out: Option<PathBuf>,
 }
@@ -254,6 +255,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     let shown = match &arguments.command {
         None => &command,
+        Some(name) if name == "case" => return terminal::print(&case_page()),
         Some(name) => command.find_subcommand(name).ok_or_else(|| {
             Failure::usage(format!(
                 "there is no command {name}: see frictionsim --help"
@@ -272,7 +274,7 @@ fn write_pages(command: &clap::Command, folder: &std::path::Path) -> io::Result<
         let name = Man::new(command.clone()).get_filename();
         fs::write(folder.join(name), page(command)?)?;
     }
-    Ok(())
+    fs::write(folder.join("frictionsim-case.5"), case_page())
 }
 
 /// One page in roff.
@@ -298,11 +300,49 @@ fn page(command: &clap::Command) -> io::Result<Vec<u8>> {
         section(&mut text, "EXAMPLES", page.examples);
     }
     section(&mut text, "EXIT STATUS", &EXIT_STATUS);
+    if command.get_subcommands().next().is_some() || runs_a_case(command) {
+        text.push_str(".SH \"SEE ALSO\"\n");
+        text.push_str("frictionsim\\-case(5): the keys of a case file\n");
+    }
     out.extend_from_slice(text.as_bytes());
     if command.get_version().is_some() {
         man.render_version_section(&mut out)?;
     }
     Ok(out)
+}
+
+fn runs_a_case(command: &clap::Command) -> bool {
+    command.get_arguments().any(|arg| arg.get_id() == "set")
+}
+
+/// The page of the case file: every key with values, unit, default and meaning.
+fn case_page() -> String {
+    let version = env!("CARGO_PKG_VERSION");
+    let mut out = format!(".TH frictionsim-case 5 \"\" \"frictionsim {version}\"\n.SH NAME\n");
+    out.push_str("frictionsim\\-case \\- keys of a case file, in TOML and SI units\n");
+    let mut sections: Vec<&str> = KEYS.iter().map(CaseKey::section).collect();
+    sections.dedup();
+    for name in sections {
+        let keys = KEYS.iter().filter(|key| key.section() == name);
+        let entries: Vec<(String, String)> = keys
+            .map(|key| {
+                let term = format!("{} ({} {})", key.short(), key.values(), key.unit);
+                let default = key.default_text();
+                let default = match default {
+                    "required" => "Required.".to_owned(),
+                    other => format!("Default {other}."),
+                };
+                (
+                    term.replace(" )", ")"),
+                    format!("{}. {default}", key.meaning),
+                )
+            })
+            .collect();
+        let entries: Vec<(&str, &str)> = entries.iter().map(|(t, m)| (&t[..], &m[..])).collect();
+        let title = if name.is_empty() { "CASE" } else { name };
+        section(&mut out, title, &entries);
+    }
+    out
 }
 
 /// A section of tagged paragraphs.

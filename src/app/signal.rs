@@ -4,11 +4,10 @@ use super::measurement::Measurement;
 use super::options::OutputOptions;
 use super::session::read_case;
 use super::{Failure, terminal};
-use crate::case::Case;
+use crate::case::{Case, Cea};
 use crate::cea::ComplexMode;
-use crate::cea::cyclic::{ModeLimit, SweepRequest, sweep};
+use crate::cea::cyclic::ModeLimit;
 use crate::fem::MassKind;
-use crate::prestress::{DampingModel, TangentOptions};
 use crate::results::signal::{
     ChannelRecord, ChannelSummary, ModeSummary, SignalRecord, SignalSummary, draw_report, write,
 };
@@ -18,6 +17,7 @@ use crate::signal::{
     AmplitudeSpectrum, SignalError, SpectralResolution, Window, averaged_spectrum,
     exponential_stage, spectral_lines,
 };
+use crate::study::{modes_at_own_friction, tangent_options};
 use clap::{Args, ValueHint};
 use rayon::prelude::*;
 use serde::Deserialize;
@@ -252,35 +252,10 @@ fn analyse(
 
 /// Modes of the case at its friction coefficient.
 fn modes_below(case: &Case, frequency_hz: f64) -> Result<Vec<ComplexMode>, Failure> {
-    let options = TangentOptions {
-        mass: case
-            .cea
-            .as_ref()
-            .map_or(MassKind::Consistent, |cea| cea.mass),
-        geometric_stiffness: case.cea.as_ref().is_none_or(|cea| cea.geometric_stiffness),
-        damping: case.damping.rayleigh,
-        damping_model: if case.damping.include_contact {
-            DampingModel::WholeTangent
-        } else {
-            DampingModel::BodyOnly
-        },
-        contact: case.contact.stiffness,
-    };
-    let request = SweepRequest {
-        friction_coefficients: &[case.contact.sliding.friction_coefficient],
-        limit: ModeLimit::MaxFrequency(frequency_hz),
-        shapes_at: &[],
-    };
-    let found = sweep(
-        &case.annulus,
-        &case.material,
-        &options,
-        &case.contact.sliding,
-        &request,
-    )
-    .map_err(|error| Failure::run(format!("modes of the case: {error}")))?;
-    let mut points = found.sweep.points.into_iter();
-    Ok(points.next().map_or_else(Vec::new, |point| point.modes))
+    let mass = |cea: &Cea| cea.mass;
+    let options = tangent_options(case, case.cea.as_ref().map_or(MassKind::Consistent, mass));
+    modes_at_own_friction(case, &options, ModeLimit::MaxFrequency(frequency_hz))
+        .map_err(|error| Failure::run(format!("modes of the case: {error}")))
 }
 
 /// What the figures show.

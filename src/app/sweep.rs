@@ -1,11 +1,10 @@
 //! `frictionsim sweep`: an analysis at every point of a parameter study.
 
 mod analyses;
-mod plan;
 mod progress;
 mod workers;
 
-pub use plan::{Shard, SweepPlan, analysis_name};
+pub use crate::study::{Shard, SweepPlan};
 pub use progress::SweepProgress;
 pub use workers::{PointRunner, SweepRun};
 

@@ -75,6 +75,12 @@ pub struct CaseErrors {
 }
 
 impl CaseErrors {
+    /// The message of each error.
+    pub fn messages(&self) -> Vec<String> {
+        let all = self.diagnostics.iter();
+        all.map(|error| error.message.clone()).collect()
+    }
+
     /// A report for people: each error with file, line, column, caret and remedy.
     pub fn render(&self, color: bool) -> String {
         let renderer = if color {

@@ -64,6 +64,82 @@ pub struct MeanPowers {
     pub normal_contact: Option<f64>,
 }
 
+/// What a study reads of the summary of an analysis at a point: what vibrates, and where stability ends. Keys that an
+/// analysis does not have are absent.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(default)]
+pub struct PointSummary {
+    /// The vibration of a transient's end.
+    #[serde(flatten)]
+    pub own: Vibration,
+    /// The limit cycles of a search.
+    pub cycles: Vec<Vibration>,
+    /// The crossings into instability of an eigenvalue analysis, lowest first.
+    pub critical_frictions: Vec<Crossing>,
+    /// Growth of the harmonics in the linear stage.
+    pub growth: Vec<HarmonicGrowth>,
+    /// Time step, s.
+    pub time_step_s: Option<f64>,
+}
+
+/// A limit cycle, or the vibration at the end of a transient.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(default)]
+pub struct Vibration {
+    /// Nodal diameters.
+    #[serde(alias = "main_harmonic")]
+    pub harmonic: Option<usize>,
+    /// Onset of the harmonic at which it is born.
+    pub onset: Option<usize>,
+    /// Frequency, Hz.
+    pub main_frequency_hz: Option<f64>,
+    /// Contact status.
+    pub status: StatusFractions,
+    /// Powers, W.
+    pub power_w: MeanPowers,
+    /// Points along the phase.
+    pub phases: Option<usize>,
+    /// Why there is none.
+    pub error: Option<String>,
+    /// What a transient says of it.
+    pub confirmation: Option<Confirmed>,
+}
+
+/// Whether a transient stays on a cycle.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(default)]
+pub struct Confirmed {
+    /// It does, or does not.
+    pub agrees: Option<bool>,
+}
+
+/// Where a branch turns unstable.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
+#[serde(default)]
+pub struct Crossing {
+    /// Nodal diameters.
+    pub harmonic: Option<usize>,
+    /// Friction coefficient.
+    pub critical_friction: Option<f64>,
+}
+
+/// Growth of one harmonic.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
+#[serde(default)]
+pub struct HarmonicGrowth {
+    /// Nodal diameters.
+    pub harmonic: Option<usize>,
+    /// Rate, 1/s.
+    pub rate_per_s: Option<f64>,
+}
+
+impl PointSummary {
+    /// Reads a summary; one that is none of these has nothing.
+    pub fn of(summary: &Value) -> Self {
+        Self::deserialize(summary).unwrap_or_default()
+    }
+}
+
 /// A number where there is one: JSON has neither NaN nor infinity, and nobody wants -0.0.
 pub fn present(value: f64) -> Option<f64> {
     value.is_finite().then_some(value + 0.0)

@@ -11,6 +11,7 @@ use crate::cea::FrictionSweep;
 use crate::cea::cyclic;
 use crate::results::cea::{BaseField, CeaReport, SensitivityReport, draw, print, summary, write};
 use crate::results::{DrawingOptions, Manifest, OutputFolder};
+use crate::study::tangent_options;
 use clap::Args;
 use indicatif::ProgressBar;
 use serde_json::Value;
@@ -156,7 +157,7 @@ pub fn modes_and_onsets(case: &Case) -> Result<FrictionSweep, Failure> {
         limit: solve::mode_limit(&cea),
         shapes_at: &[],
     };
-    let options = model::tangent_options(case, &cea);
+    let options = tangent_options(case, cea.mass);
     let sliding = &case.contact.sliding;
     let found = cyclic::sweep(&case.annulus, &case.material, &options, sliding, &request)?;
     refuse_no_modes(case, &cea, &found.sweep)?;

@@ -4,31 +4,15 @@ use super::Failure;
 use crate::case::{Case, Cea, CeaMethod};
 use crate::fem::{Triplets, assemble_stiffness, nodal_stress};
 use crate::mesh::{AnnulusMesh, SectorMesh};
-use crate::prestress::{
-    DampingModel, SectorTangent, SlidingTangent, SteadySliding, TangentOptions,
-};
+use crate::prestress::{SectorTangent, SlidingTangent, SteadySliding, TangentOptions};
 use crate::results::cea::{BaseField, BaseState};
+use crate::study::tangent_options;
 
 /// The eigenvalue solver that a case gets: every mesh here has rotational symmetry, so `auto` uses it.
 pub fn method_of(cea: &Cea) -> CeaMethod {
     match cea.method {
         CeaMethod::Auto | CeaMethod::Cyclic => CeaMethod::Cyclic,
         CeaMethod::Sparse => CeaMethod::Sparse,
-    }
-}
-
-/// How a case takes the tangent of steady sliding.
-pub fn tangent_options(case: &Case, cea: &Cea) -> TangentOptions {
-    TangentOptions {
-        mass: cea.mass,
-        geometric_stiffness: cea.geometric_stiffness,
-        damping: case.damping.rayleigh,
-        damping_model: if case.damping.include_contact {
-            DampingModel::WholeTangent
-        } else {
-            DampingModel::BodyOnly
-        },
-        contact: case.contact.stiffness,
     }
 }
 
@@ -51,7 +35,7 @@ impl SlidingModel {
     /// A mesh that cannot be built; contact that would open.
     pub fn new(case: &Case, cea: &Cea) -> Result<Self, Failure> {
         let annulus = AnnulusMesh::generate(&case.annulus).map_err(Failure::usage)?;
-        let options = tangent_options(case, cea);
+        let options = tangent_options(case, cea.mass);
         let sliding = &case.contact.sliding;
         let (base, stiffness) = match method_of(cea) {
             CeaMethod::Sparse => {

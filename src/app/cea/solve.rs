@@ -1,12 +1,13 @@
 //! Which eigenvalue solver runs, and what it has to say.
 
-use super::model::{method_of, tangent_options};
+use super::model::method_of;
 use super::{Failure, SlidingModel, Solution};
 use crate::case::{Case, Cea, CeaMap, CeaMethod, ModeSelection};
 use crate::cea::FrictionSweep;
 use crate::cea::cyclic::{self, Coverage, CyclicModel, ModeLimit, SweepRequest};
 use crate::cea::sparse::{self, EigenLimit, EigenRequest};
 use crate::results::cea::{MapReport, SensitivityReport};
+use crate::study::tangent_options;
 use indicatif::ProgressBar;
 
 /// Solves the case's eigenproblems with its method; `bar` counts the friction values solved.
@@ -172,7 +173,7 @@ pub fn map(case: &Case, cea: &Cea, map: &CeaMap) -> Result<MapReport, Failure> {
             let model = CyclicModel {
                 specification: point.annulus,
                 material: point.material,
-                options: tangent_options(&point, point.require_cea()?),
+                options: tangent_options(&point, point.require_cea()?.mass),
                 contact: point.contact.sliding,
             };
             Ok((value, model))

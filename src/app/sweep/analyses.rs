@@ -1,9 +1,9 @@
 //! What runs at a point of a sweep.
 
-use super::plan::analysis_name;
 use crate::app::{Failure, cea, cycle, transient};
 use crate::case::{Analysis, Case};
 use crate::results::Manifest;
+use crate::study::analysis_name;
 use serde_json::{Map, Value};
 
 /// Runs the analyses of one point and gives the summary of each by its name, without the manifest:

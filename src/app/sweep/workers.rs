@@ -1,11 +1,11 @@
 //! Runs the points of a sweep on worker threads.
 
-use super::plan::{SweepPlan, one_line};
 use super::progress::SweepProgress;
 use crate::app::Failure;
 use crate::case::Case;
 use crate::results::Manifest;
 use crate::results::sweep::{Found, PointClock, PointRecord, SweepFolder};
+use crate::study::{SweepPlan, one_line};
 use serde_json::{Map, Value};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Mutex;
@@ -135,7 +135,7 @@ impl SweepRun<'_> {
         // A point that panics must not take the others with it.
         let outcome = catch_unwind(AssertUnwindSafe(|| (self.runner)(&case)));
         let outcome = match outcome {
-            Ok(result) => result.map_err(|failure| one_line(&failure)),
+            Ok(result) => result.map_err(|failure| one_line(&failure.messages().join("; "))),
             Err(panic) => {
                 let text = panic.downcast_ref::<String>().map(String::as_str);
                 let text = text.or_else(|| panic.downcast_ref::<&str>().copied());

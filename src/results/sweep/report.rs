@@ -1,30 +1,37 @@
 //! What a sweep says of itself: its summary and the table that a person reads.
 
 use super::super::Manifest;
+use super::super::quantity::quantity;
+use super::super::summary::PointSummary;
 use super::PointRecord;
 use super::table::cell;
 use serde_json::{Map, Value, json};
 use std::fmt::Write as _;
 
-/// Columns of an analysis' summary that a person wants first.
-const FIRST_COLUMNS: [(&str, &str); 14] = [
-    ("/main_frequency_hz", "frequency Hz"),
-    ("/main_harmonic", "n"),
-    ("/status/stick", "stick"),
-    ("/status/slip", "slip"),
-    ("/status/open", "open"),
-    (
-        "/critical_frictions/0/critical_friction",
-        "critical friction",
-    ),
-    ("/cycles/0/harmonic", "n"),
-    ("/cycles/0/main_frequency_hz", "frequency Hz"),
-    ("/cycles/0/status/stick", "stick"),
-    ("/cycles/0/status/open", "open"),
-    ("/cycles/1/harmonic", "n"),
-    ("/cycles/1/main_frequency_hz", "frequency Hz"),
-    ("/cycles/1/status/stick", "stick"),
-    ("/cycles/1/status/open", "open"),
+/// A number of a point's summary.
+type NumberOf = fn(&PointSummary) -> Option<f64>;
+
+/// What a person wants first of a point: the key whose caption the column has, and the number.
+const FIRST_COLUMNS: [(&str, NumberOf); 15] = [
+    ("main_frequency_hz", |s| s.own.main_frequency_hz),
+    ("harmonic", |s| s.own.harmonic.map(|n| n as f64)),
+    ("status.stick", |s| s.own.status.stick),
+    ("status.slip", |s| s.own.status.slip),
+    ("status.open", |s| s.own.status.open),
+    ("critical_friction", |s| {
+        s.critical_frictions.first()?.critical_friction
+    }),
+    ("harmonic", |s| {
+        s.critical_frictions.first()?.harmonic.map(|n| n as f64)
+    }),
+    ("harmonic", |s| s.cycles.first()?.harmonic.map(|n| n as f64)),
+    ("main_frequency_hz", |s| s.cycles.first()?.main_frequency_hz),
+    ("status.stick", |s| s.cycles.first()?.status.stick),
+    ("status.open", |s| s.cycles.first()?.status.open),
+    ("harmonic", |s| s.cycles.get(1)?.harmonic.map(|n| n as f64)),
+    ("main_frequency_hz", |s| s.cycles.get(1)?.main_frequency_hz),
+    ("status.stick", |s| s.cycles.get(1)?.status.stick),
+    ("status.open", |s| s.cycles.get(1)?.status.open),
 ];
 
 /// Longest table that is printed.
@@ -170,32 +177,26 @@ pub fn print(report: &SweepReport<'_>) -> String {
 
 /// Column names, then a row for each finished point, with what a person wants first.
 pub(super) fn rows(report: &SweepReport<'_>) -> Vec<Vec<String>> {
-    let value_at = |record: &PointRecord, pointer: &str| {
-        let mut summaries = record.summaries.values();
-        summaries.find_map(|summary| summary.pointer(pointer).cloned())
-    };
-    let columns: Vec<&(&str, &str)> = FIRST_COLUMNS
+    let summaries: Vec<Vec<PointSummary>> = report
+        .records
         .iter()
-        .filter(|(pointer, _)| {
-            let mut records = report.records.iter();
-            records.any(|record| value_at(record, pointer).is_some())
-        })
+        .map(|record| record.summaries.values().map(PointSummary::of).collect())
         .collect();
-    let mut table = vec![Vec::new()];
-    table[0].push("point".to_owned());
+    let number = |point: &[PointSummary], of: NumberOf| point.iter().find_map(of);
+    // A column that no point has a number for is left out.
+    let columns: Vec<&(&str, NumberOf)> = FIRST_COLUMNS
+        .iter()
+        .filter(|(_, of)| summaries.iter().any(|point| number(point, *of).is_some()))
+        .collect();
+    let mut table = vec![vec!["point".to_owned()]];
     table[0].extend(report.keys.iter().map(|key| short(key).to_owned()));
-    table[0].extend(columns.iter().map(|(_, name)| (*name).to_owned()));
-    for record in report.records {
+    table[0].extend(columns.iter().map(|(key, _)| quantity(key).label()));
+    for (record, point) in report.records.iter().zip(&summaries) {
         let mut row = vec![record.point.to_string()];
         row.extend(record.swept.values().map(printed));
-        row.extend(columns.iter().map(|(pointer, _)| {
-            match record.error {
-                Some(_) => "failed".to_owned(),
-                None => value_at(record, pointer)
-                    .as_ref()
-                    .map(printed)
-                    .unwrap_or_default(),
-            }
+        row.extend(columns.iter().map(|(key, of)| match &record.error {
+            Some(_) => "failed".to_owned(),
+            None => number(point, *of).map_or_else(String::new, |n| quantity(key).number(n)),
         }));
         table.push(row);
     }

@@ -4,7 +4,7 @@ use crate::case::Case;
 use crate::cea::{ComplexMode, FrictionSweep, UnstableInterval};
 use crate::cycle::Family;
 use crate::results::convergence::Quantity;
-use serde_json::Value;
+use crate::results::summary::{MeanPowers, PointSummary, Vibration};
 
 /// Harmonic, branch and direction: what a mode is known by on every mesh.
 type ModeKey = (usize, usize, i8);
@@ -113,90 +113,78 @@ fn onsets(sizes: &[f64], sweeps: &[FrictionSweep]) -> Vec<Quantity> {
     quantities
 }
 
-/// Frequency, harmonic, status, powers and growth rates of transients, from their summaries.
-pub fn of_transients(sizes: &[f64], summaries: &[Value]) -> Vec<Quantity> {
-    let harmonics = summaries.iter().map(|s| s["main_harmonic"].as_f64());
-    let harmonics = harmonics.map(|harmonic| harmonic.unwrap_or(f64::NAN));
+/// Frequency, harmonic, status, powers and growth rates of transients.
+pub fn of_transients(sizes: &[f64], summaries: &[PointSummary]) -> Vec<Quantity> {
+    let harmonics = summaries.iter().map(|s| s.own.harmonic);
+    let harmonics = harmonics.map(|harmonic| harmonic.map_or(f64::NAN, |n| n as f64));
     let harmonic = Quantity::count("main harmonic".to_owned(), harmonics.collect());
-    let mut quantities = of_limit_cycles(sizes, summaries);
+    let vibrations: Vec<Vibration> = summaries.iter().map(|s| s.own.clone()).collect();
+    let mut quantities = of_limit_cycles(sizes, &vibrations);
     quantities.insert(1, harmonic);
     quantities.extend(growth_rates(sizes, summaries));
     quantities
 }
 
-/// Frequency, status and powers of limit cycles, from the summaries of transients or of a direct search.
-pub fn of_limit_cycles(sizes: &[f64], summaries: &[Value]) -> Vec<Quantity> {
-    let each = |name: &str, unit: &'static str, value: &dyn Fn(&Value) -> Option<f64>| {
-        let values = summaries.iter().map(|s| value(s).unwrap_or(f64::NAN));
+/// Frequency, status and powers of limit cycles.
+pub fn of_limit_cycles(sizes: &[f64], cycles: &[Vibration]) -> Vec<Quantity> {
+    let each = |name: &str, unit: &'static str, value: &dyn Fn(&Vibration) -> Option<f64>| {
+        let values = cycles.iter().map(|cycle| value(cycle).unwrap_or(f64::NAN));
         Quantity::new(name.to_owned(), unit, sizes, values.collect())
     };
-    let frequency = each("main frequency", "Hz", &|s| s["main_frequency_hz"].as_f64());
-    let mut quantities = vec![frequency];
-    for status in ["stick", "slip", "open"] {
-        quantities.push(each(&format!("{status} fraction"), "", &|s| {
-            s["status"][status].as_f64()
-        }));
-    }
-    let power = |s: &Value, name: &str| s["power_w"][name].as_f64();
-    quantities.push(each("external power", "W", &|s| power(s, "external")));
-    for (name, key) in [
-        ("stick", "stick"),
-        ("slide", "slide"),
-        ("contact dissipation", "contact_dissipated"),
-        ("material damping", "material_damping"),
-    ] {
-        quantities.push(each(&format!("{name} / external power"), "", &|s| {
-            Some(power(s, key)? / power(s, "external")?)
-        }));
-    }
-    quantities
-}
-
-/// The limit cycles of each family that some search looked for, level by level; null where one did not.
-pub fn by_family(summaries: &[Value]) -> Vec<(Family, Vec<Value>)> {
-    let cycles = |summary: &Value| summary["cycles"].as_array().cloned().unwrap_or_default();
-    let family = |cycle: &Value| {
-        Some(Family {
-            harmonic: cycle["harmonic"].as_u64()? as usize,
-            onset: cycle["onset"].as_u64()? as usize,
+    // A power as a share of the external one.
+    let share = |name: &str, power: fn(&MeanPowers) -> Option<f64>| {
+        each(&format!("{name} / external power"), "", &|cycle| {
+            Some(power(&cycle.power_w)? / cycle.power_w.external?)
         })
     };
-    let all = summaries.iter().flat_map(cycles);
-    let mut families: Vec<Family> = all.filter_map(|cycle| family(&cycle)).collect();
+    vec![
+        each("main frequency", "Hz", &|cycle| cycle.main_frequency_hz),
+        each("stick fraction", "", &|cycle| cycle.status.stick),
+        each("slip fraction", "", &|cycle| cycle.status.slip),
+        each("open fraction", "", &|cycle| cycle.status.open),
+        each("external power", "W", &|cycle| cycle.power_w.external),
+        share("stick", |powers| powers.stick),
+        share("slide", |powers| powers.slide),
+        share("contact dissipation", |powers| powers.contact_dissipated),
+        share("material damping", |powers| powers.material_damping),
+    ]
+}
+
+/// The limit cycles of each family that some search looked for, level by level; an empty one where one did not.
+pub fn by_family(summaries: &[PointSummary]) -> Vec<(Family, Vec<Vibration>)> {
+    let family = |cycle: &Vibration| {
+        Some(Family {
+            harmonic: cycle.harmonic?,
+            onset: cycle.onset?,
+        })
+    };
+    let all = summaries.iter().flat_map(|summary| &summary.cycles);
+    let mut families: Vec<Family> = all.filter_map(family).collect();
     families.sort_unstable();
     families.dedup();
     let of = |wanted: Family| {
-        let own = |cycle: &Value| family(cycle) == Some(wanted);
-        let levels = summaries.iter().map(cycles);
-        levels
-            .map(|level| level.into_iter().find(own).unwrap_or_default())
-            .collect()
+        let levels = summaries.iter().map(|summary| &summary.cycles);
+        let own = |level: &Vec<Vibration>| {
+            let found = level.iter().find(|cycle| family(cycle) == Some(wanted));
+            found.cloned().unwrap_or_default()
+        };
+        levels.map(own).collect()
     };
     families.into_iter().map(|f| (f, of(f))).collect()
 }
 
 /// Growth rate of each harmonic that some run has one of.
-fn growth_rates(sizes: &[f64], summaries: &[Value]) -> Vec<Quantity> {
-    let all = |summary: &Value| summary["growth"].as_array().cloned().unwrap_or_default();
-    let mut harmonics: Vec<u64> = summaries
-        .iter()
-        .flat_map(|summary| {
-            all(summary)
-                .into_iter()
-                .filter_map(|g| g["harmonic"].as_u64())
-        })
-        .collect();
+fn growth_rates(sizes: &[f64], summaries: &[PointSummary]) -> Vec<Quantity> {
+    let all = summaries.iter().flat_map(|summary| &summary.growth);
+    let mut harmonics: Vec<usize> = all.filter_map(|growth| growth.harmonic).collect();
     harmonics.sort_unstable();
     harmonics.dedup();
-    let of = |harmonic: u64| {
-        let values = summaries.iter().map(|summary| {
-            let growth = all(summary);
-            let mut growth = growth.iter();
-            let found = growth.find(|g| g["harmonic"].as_u64() == Some(harmonic));
-            found
-                .and_then(|g| g["rate_per_s"].as_f64())
-                .unwrap_or(f64::NAN)
-        });
+    let of = |harmonic: usize| {
+        let rate = |summary: &PointSummary| {
+            let mut growth = summary.growth.iter();
+            growth.find(|g| g.harmonic == Some(harmonic))?.rate_per_s
+        };
+        let values = summaries.iter().map(|s| rate(s).unwrap_or(f64::NAN));
         let name = format!("growth rate, n = {harmonic}");
         Quantity::new(name, "1/s", sizes, values.collect())
     };

@@ -1,7 +1,6 @@
 //! The points of a sweep, each a case of its own, and the shards they are dealt out to.
 
-use crate::app::Failure;
-use crate::case::{Analysis, Case, Sweep};
+use crate::case::{Analysis, Case, CaseErrors, Sweep};
 use serde_json::{Map, Value};
 use std::str::FromStr;
 
@@ -42,7 +41,7 @@ impl<'a> SweepPlan<'a> {
     ///
     /// # Errors
     /// A case without `[sweep]`, and one without the section of an analysis that it asks for.
-    pub fn new(case: &'a Case) -> Result<Self, Failure> {
+    pub fn new(case: &'a Case) -> Result<Self, CaseErrors> {
         let mut plan = Self {
             case,
             sweep: case.require_sweep()?,
@@ -116,7 +115,7 @@ impl<'a> SweepPlan<'a> {
     /// Values that do not go together, in one line.
     pub fn point_case(&self, point: usize) -> Result<Case, String> {
         let overrides = self.sweep.overrides(point - 1);
-        let one_line = |errors: crate::case::CaseErrors| one_line(&Failure::Case(errors));
+        let one_line = |errors: CaseErrors| one_line(&errors.messages().join("; "));
         let mut raw = self.case.raw.with_overrides(&overrides).map_err(one_line)?;
         raw.root.remove("sweep");
         Case::from_raw(raw).map_err(one_line)
@@ -132,20 +131,9 @@ pub fn analysis_name(analysis: Analysis) -> &'static str {
     }
 }
 
-/// A failure as the text of a table cell.
-pub fn one_line(failure: &Failure) -> String {
-    let text = match failure {
-        Failure::Case(errors) => {
-            let messages = errors.diagnostics.iter();
-            let messages: Vec<&str> = messages.map(|error| error.message.as_str()).collect();
-            messages.join("; ")
-        }
-        Failure::Usage(error) | Failure::Run(error) => error.to_string(),
-        Failure::Interrupted(message) => message.clone(),
-        Failure::BrokenPipe => "broken pipe".to_owned(),
-        Failure::DryRun => String::new(),
-    };
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
+/// A message as the text of a table cell.
+pub fn one_line(message: &str) -> String {
+    message.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 /// A TOML value as JSON; numbers, strings, booleans and lists of them are written alike in both.
@@ -158,7 +146,7 @@ mod tests {
     use super::*;
 
     fn case(sweep: &str) -> Case {
-        let file = include_str!("../../../cases/polycarbonate-disc.toml");
+        let file = include_str!("../../cases/polycarbonate-disc.toml");
         Case::parse("case.toml", format!("{file}\n{sweep}").as_bytes(), &[]).unwrap()
     }
 
@@ -192,7 +180,7 @@ mod tests {
         let plan = SweepPlan::new(&swept).unwrap();
         let point = plan.point_case(3).unwrap();
         let set = ["contact.friction_coefficient=0.3".to_owned()];
-        let file = include_bytes!("../../../cases/polycarbonate-disc.toml");
+        let file = include_bytes!("../../cases/polycarbonate-disc.toml");
         let plain = Case::parse("case.toml", file, &set).unwrap();
         assert_eq!(point.raw.hash(), plain.raw.hash());
         assert_eq!(point.contact.sliding.friction_coefficient, 0.3);
