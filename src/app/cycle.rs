@@ -35,8 +35,9 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let session = Session::start("cycle", &arguments.options)?;
     let case = &session.case;
-    let search = Search::of(case, &session.manifest)?;
+    let mut search = Search::of(case, &session.manifest)?;
     let folder = session.open_folder()?;
+    search.show_progress(session.options.output.is_quiet());
     terminal::catch_signals(terminal::NOTHING_KEPT);
     let results = search.run(search.choices.frames);
     refuse_nothing(&results)?;

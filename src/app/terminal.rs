@@ -87,7 +87,8 @@ pub fn progress_in(quiet: bool, length: u64, template: &str) -> ProgressBar {
     if quiet || !io::stderr().is_terminal() {
         return ProgressBar::hidden();
     }
-    let bar = ProgressBar::with_draw_target(Some(length), ProgressDrawTarget::stderr_with_hz(10));
+    let target = ProgressDrawTarget::stderr_with_hz(10);
+    let bar = ProgressBar::with_draw_target((length > 0).then_some(length), target);
     if let Ok(style) = ProgressStyle::with_template(template) {
         let count = |state: &ProgressState, out: &mut dyn std::fmt::Write| {
             let _ = match state.len() {

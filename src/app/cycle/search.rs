@@ -1,7 +1,7 @@
 //! The search for the limit cycles of a case.
 
 use super::confirmation::confirm;
-use crate::app::Failure;
+use crate::app::{Failure, terminal};
 use crate::case::{Case, Cycle, OnsetChoice, StabilityChoice};
 use crate::cycle::{
     CycleBranch, CycleError, CycleSolver, Family, LimitCycle, OperatingPoint, Parameter,
@@ -15,6 +15,7 @@ use crate::results::cycle_confirmation::Confirmation;
 use crate::results::cycle_fields::CycleFrame;
 use crate::results::cycle_figures::FamilyRecord;
 use crate::results::cycle_stability::{Verdict, known};
+use indicatif::ProgressBar;
 use rayon::prelude::*;
 use serde_json::{Value, json};
 use std::time::Instant;
@@ -32,6 +33,8 @@ pub struct Search<'a> {
     point: OperatingPoint,
     continuation: Option<(Parameter, Vec<f64>)>,
     solvers: Vec<CycleSolver>,
+    /// Counts the families done.
+    bar: ProgressBar,
 }
 
 impl<'a> Search<'a> {
@@ -53,13 +56,26 @@ impl<'a> Search<'a> {
             point,
             continuation: continuation(case, choices)?,
             solvers: solvers(case, choices, &point)?,
+            bar: ProgressBar::hidden(),
         })
+    }
+
+    /// Shows a bar over the families while they are sought.
+    pub fn show_progress(&mut self, quiet: bool) {
+        self.bar = terminal::progress(quiet, self.solvers.len() as u64, "families");
     }
 
     /// The cycles, with the whole field at so many times over one period.
     pub fn run(&self, frames: usize) -> Vec<CycleResult> {
         let solvers = self.solvers.par_iter();
-        solvers.map(|solver| self.solve(solver, frames)).collect()
+        let solve = |solver| {
+            let result = self.solve(solver, frames);
+            self.bar.inc(1);
+            result
+        };
+        let results = solvers.map(solve).collect();
+        self.bar.finish_and_clear();
+        results
     }
 
     /// Everything that there is to report of the results.

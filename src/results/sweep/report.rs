@@ -163,11 +163,12 @@ pub fn print(report: &SweepReport<'_>) -> String {
         }
     );
     if let Some(rate) = report.points_per_core_hour() {
-        let _ = writeln!(
-            out,
-            "{rate:.0} points per core-hour, {:.1} s",
-            report.wall_s
-        );
+        let _ = write!(out, "{rate:.0} points per core-hour");
+        // The wall time of gathering says nothing of the points.
+        let _ = match report.ran {
+            Some(_) => writeln!(out, ", {:.1} s", report.wall_s),
+            None => writeln!(out),
+        };
     }
     for note in report.notes() {
         let _ = writeln!(out, "{note}");
