@@ -258,7 +258,14 @@ fn a_vtu_file_gives_back_mesh_and_fields_bit_for_bit() {
         let field: Vec<f64> = (0..mesh.node_count()).map(|i| (i as f64).sin()).collect();
         let mut bytes = Vec::new();
         let fields = [Field::scalars("a < b", field.clone())];
-        write_vtu(&mut bytes, &EncodedMesh::new(&mesh).unwrap(), &fields, &[]).unwrap();
+        let whole = [Field::number("time_s", 6250.0 * 2e-6)];
+        let encoded = EncodedMesh::new(&mesh).unwrap();
+        write_vtu(&mut bytes, &encoded, &whole, &fields, &[]).unwrap();
+        let head = String::from_utf8_lossy(&bytes[..400]).into_owned();
+        assert!(
+            head.contains("Name=\"time_s\" NumberOfTuples=\"1\" format=\"ascii\">0.0125 </"),
+            "{head}"
+        );
         assert_eq!(floats(&decode(&bytes, "a &lt; b")), field);
         let points = floats(&decode(&bytes, "Points"));
         let flat: Vec<f64> = mesh.nodes.iter().flat_map(|p| [p[0], p[1], 0.0]).collect();
@@ -277,7 +284,7 @@ fn a_field_of_the_wrong_length_is_not_written() {
     let mesh = annulus(ElementKind::Quad4).mesh;
     let fields = [Field::scalars("short", vec![0.0; 3])];
     let encoded = EncodedMesh::new(&mesh).unwrap();
-    assert!(write_vtu(&mut Vec::new(), &encoded, &fields, &[]).is_err());
+    assert!(write_vtu(&mut Vec::new(), &encoded, &[], &fields, &[]).is_err());
 }
 
 #[test]

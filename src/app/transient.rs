@@ -1,5 +1,6 @@
 //! `frictionsim transient`: the disc from first expansion to limit cycle.
 
+mod continuation;
 mod conversion;
 mod figures;
 mod initial;
@@ -14,13 +15,13 @@ use crate::cycle::Family;
 use crate::fem::operator::{SimdLevel, StiffnessOperator};
 use crate::mesh::AnnulusMesh;
 use crate::results::transient::{
-    CHECKPOINT, Checkpoint, CheckpointError, TransientReport, print, read_checkpoint, summary,
-    write, write_checkpoint,
+    CHECKPOINT, Checkpoint, TransientReport, TransientSummary, print, summary, write,
+    write_checkpoint,
 };
-use crate::results::{Manifest, OutputFolder, refuse_misfit};
+use crate::results::{Manifest, OutputFolder, read_record};
 use crate::transient::{
-    CentralDifference, InitialState, Recorder, RunEnd, StepPlan, TransientAnalysis, TransientModel,
-    TransientSettings, build_operator,
+    CentralDifference, InitialState, Recorder, RecorderSettings, RunEnd, StepPlan,
+    TransientAnalysis, TransientModel, TransientSettings, build_operator,
 };
 use clap::Args;
 use serde_json::Value;
@@ -89,13 +90,46 @@ impl<'a> Prepared<'a> {
         started.map_err(|error| self.failure(&error))
     }
 
+    /// The run and its record where a checkpoint left them.
     fn resume<'b>(
         &'b self,
         operator: &'b dyn StiffnessOperator,
-        saved: &Checkpoint,
-    ) -> Result<CentralDifference<'b>, Failure> {
-        CentralDifference::resume(self.model(), operator, &self.settings, &saved.state)
-            .map_err(|error| self.failure(&error))
+        saved: Checkpoint,
+        folder: &OutputFolder,
+    ) -> Result<(CentralDifference<'b>, Recorder), Failure> {
+        let run = CentralDifference::resume(self.model(), operator, &self.settings, &saved.state)
+            .map_err(|error| self.failure(&error))?;
+        let plan = run.plan();
+        if run.steps_done() > plan.total_steps() {
+            let reached = (run.steps_done() - 1) as f64 * plan.time_step;
+            return Err(Failure::usage(format!(
+                "the run in {} has come to {reached:.6} s, beyond transient.duration = {:?} s: raise that, or start \
+                 over without --resume",
+                folder.path().display(),
+                self.settings.duration,
+            )));
+        }
+        let record = match saved.record {
+            Some(record) => record,
+            None => read_record(folder.path())?,
+        };
+        let record = record.resume(&run, &self.recorder_settings());
+        Ok((run, record.map_err(|error| self.failure(&error))?))
+    }
+
+    fn recorder_settings(&self) -> RecorderSettings {
+        conversion::recorder_settings(self.case, self.transient)
+    }
+
+    /// Reads a record.
+    fn analyse(&self, record: &Recorder) -> TransientAnalysis {
+        let perturbation = &self.settings.perturbation;
+        // Noise seeds every harmonic.
+        let seeded = match perturbation.noise {
+            0.0 => perturbation.harmonics(),
+            _ => record.significant_harmonics(),
+        };
+        TransientAnalysis::of(record, &seeded)
     }
 
     fn failure(&self, error: &crate::transient::TransientError) -> Failure {
@@ -114,6 +148,7 @@ impl<'a> Prepared<'a> {
             mesh: &self.annulus.mesh,
             material: &self.case.material,
             thickness: self.case.thickness,
+            friction_coefficient: self.case.contact.sliding.friction_coefficient,
             initial: conversion::initial_name(self.transient),
             perturbation: &self.settings.perturbation,
             operator,
@@ -142,26 +177,28 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let operator = prepared.operator()?;
     // Whatever is wrong with the case is said before the folder is touched.
     let fresh = prepared.start(operator.as_ref())?;
-    let recorder = Recorder::new(&fresh, &conversion::recorder_settings(&session.case))
+    let recorder = Recorder::new(&fresh, &prepared.recorder_settings())
         .map_err(|error| prepared.failure(&error))?;
     let folder = open(&session, arguments.resume)?;
-    let (mut loop_, record) = match find_checkpoint(&session, &folder, arguments.resume)? {
+    let saved = match arguments.resume {
+        true => continuation::find(&session, &folder)?,
+        false => None,
+    };
+    let goes_on = saved.is_some();
+    let (mut loop_, record) = match saved {
         None => (fresh, recorder),
-        Some(saved) => {
-            let mesh = &prepared.annulus.mesh;
-            let fits = saved
-                .record
-                .fits(mesh.node_count(), mesh.inner_edge.nodes.len());
-            refuse_misfit(folder.path(), fits)?;
-            (prepared.resume(operator.as_ref(), &saved)?, saved.record)
-        }
+        Some(saved) => prepared.resume(operator.as_ref(), saved, &folder)?,
     };
 
+    // Step, with checkpoints on the way.
     let first_step = loop_.steps_done();
+    let case_hash = continuation::run_hash(&session);
     let checkpoints = Checkpoints {
         folder: &folder,
+        case_hash: &case_hash,
         interval_s: session.case.output.checkpoint_interval,
     };
+    let is_over = record.has_stopped;
     let mut watch = Watch::new(
         record,
         loop_.plan(),
@@ -170,22 +207,32 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     );
     watch::catch_signals();
     let clock = Instant::now();
-    let end = loop_.run(&mut watch);
+    let end = match is_over {
+        true => Ok(RunEnd::Finished),
+        false => loop_.run(&mut watch),
+    };
     let stepping_s = clock.elapsed().as_secs_f64();
     let record = watch.finish()?;
     let end = end.map_err(|error| prepared.failure(&error))?;
+    let is_finished = end == RunEnd::Finished || record.has_stopped;
 
-    let analysis = TransientAnalysis::of(&record, &prepared.settings.perturbation.harmonics());
+    // Say what came out. The last checkpoint goes with the record of the folder; while that is replaced, one with a
+    // record of its own holds the place of the last.
+    let analysis = prepared.analyse(&record);
     let report = TransientReport {
         steps_timed: loop_.steps_done() - first_step,
         stepping_s,
         wall_s: session.wall_seconds(),
-        is_finished: end == RunEnd::Finished,
+        is_finished,
         ..prepared.report(&loop_, &record, &analysis, operator.name())
     };
+    let state = loop_.state();
+    if goes_on {
+        write_checkpoint(&folder, &case_hash, &state, Some(&record))?;
+    }
     let summary = write(&folder, &report)?;
-    if end == RunEnd::Stopped {
-        write_checkpoint(&folder, &loop_.state(), &record)?;
+    write_checkpoint(&folder, &case_hash, &state, None)?;
+    if !is_finished {
         return Err(stopped(folder, &loop_));
     }
     if !arguments.options.output.no_figures {
@@ -197,10 +244,14 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             &arguments.options.output.figures.drawing(),
         )?;
     }
-    folder.discard(CHECKPOINT);
     let path = folder.path().to_owned();
     folder.finish()?;
-    session.print(&print(&report), &summary, &path)
+    let table = print(&summary, analysis.settling.state);
+    session.print(&table, &object(&summary)?, &path)
+}
+
+fn object(summary: &TransientSummary) -> Result<Value, Failure> {
+    serde_json::to_value(summary).map_err(Failure::run)
 }
 
 /// Runs a case without writing a file, and gives its summary.
@@ -212,20 +263,24 @@ pub fn summarize(case: &Case, manifest: &Manifest) -> Result<Value, Failure> {
     let prepared = Prepared::new(case, &manifest.simd)?;
     let operator = prepared.operator()?;
     let mut loop_ = prepared.start(operator.as_ref())?;
-    let mut record = Recorder::new(&loop_, &crate::transient::RecorderSettings::default())
-        .map_err(|error| prepared.failure(&error))?;
+    // What would only go to files is not kept.
+    let settings = RecorderSettings {
+        stop_when_settled: prepared.transient.stop_when_settled,
+        ..RecorderSettings::default()
+    };
+    let mut record = Recorder::new(&loop_, &settings).map_err(|error| prepared.failure(&error))?;
     let clock = Instant::now();
     loop_
         .run(&mut record)
         .map_err(|error| prepared.failure(&error))?;
     let stepping_s = clock.elapsed().as_secs_f64();
-    let analysis = TransientAnalysis::of(&record, &prepared.settings.perturbation.harmonics());
+    let analysis = prepared.analyse(&record);
     let report = TransientReport {
         stepping_s,
         wall_s: start.elapsed().as_secs_f64(),
         ..prepared.report(&loop_, &record, &analysis, operator.name())
     };
-    Ok(summary(&report, manifest))
+    object(&summary(&report, manifest))
 }
 
 /// The time step that a case's run takes, s.
@@ -245,33 +300,12 @@ pub fn time_step(case: &Case, manifest: &Manifest) -> Result<f64, Failure> {
 
 fn open(session: &Session, resume: bool) -> Result<OutputFolder, Failure> {
     if resume {
-        return session.reopen_folder();
+        return continuation::reopen(session);
     }
     let folder = session.open_folder()?;
     // A checkpoint of an earlier run must not outlive the results it belongs to.
     folder.discard(CHECKPOINT);
     Ok(folder)
-}
-
-fn find_checkpoint(
-    session: &Session,
-    folder: &OutputFolder,
-    resume: bool,
-) -> Result<Option<Checkpoint>, Failure> {
-    if !resume {
-        return Ok(None);
-    }
-    match read_checkpoint(folder.path(), &session.manifest) {
-        Ok(checkpoint) => Ok(Some(checkpoint)),
-        Err(CheckpointError::Missing { path }) => {
-            tracing::warn!(
-                "{} does not exist: starting from the beginning",
-                path.display()
-            );
-            Ok(None)
-        }
-        Err(error) => Err(Failure::usage(error)),
-    }
 }
 
 /// Ends a run that a signal stopped: what there is stays, and the message says how to go on.

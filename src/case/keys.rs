@@ -100,6 +100,7 @@ pub const KEYS: &[CaseKey] = &[
     key("transient.limit_cycle_onset", Count(1), "", Otherwise("1"), "1", "the onset of that harmonic, by rising friction, at which the limit cycle is born"),
     key("transient.limit_cycle_harmonic", Count(1), "", Otherwise("needed by initial = \"limit-cycle\""), "2", "the harmonic of the limit cycle that `initial` names"),
     key("transient.operator", Choice(words::<OperatorChoice>), "", Value("\"auto\""), "\"auto\"", "how the stiffness is applied"),
+    key("transient.stop_when_settled", Flag, "", Value("false"), "true", "whether the run ends where amplitude, frequency and status have settled"),
     key("transient.perturbation.harmonics", Counts(0), "", Otherwise("[]"), "[2]", "the circumferential harmonics of the initial velocity"),
     key("transient.perturbation.velocity", Numbers(NotNegative), "m/s", Value("[1e-3]"), "1e-3", "the velocity amplitude of the harmonics, one for all or one for each"),
     key("transient.perturbation.phase_deg", Numbers(Finite), "degrees", Value("[0.0]"), "[0.0, 90.0]", "the phase of the harmonics, one for all or one for each: a crest stands at phase / n"),
@@ -110,6 +111,8 @@ pub const KEYS: &[CaseKey] = &[
 
     key("output.probes", Counts(1), "", Otherwise("[]"), "[1621, 1641]", "the ids (from 1) of the nodes whose motion is written"),
     key("output.sample_interval", Number(Positive), "s", Value("2e-6"), "2e-6", "the time between two samples"),
+    key("output.contact_interval", Number(Positive), "s", Otherwise("every sample of a short run, every second, fourth ... of a longer one"), "2e-6", "the time between two frames of contact.npz"),
+    key("output.raw_acceleration", Flag, "", Value("false"), "true", "whether probes have the acceleration of the sampled step beside its mean over the sample interval"),
     key("output.snapshots", Numbers(NotNegative), "s", Otherwise("[]"), "[0.005, 0.03]", "the times of the field snapshots"),
     key("output.checkpoint_interval", Number(Positive), "s", Value("600.0"), "600", "the wall time between two checkpoints"),
 

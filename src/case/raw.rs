@@ -250,6 +250,37 @@ impl RawCase {
         hex
     }
 
+    /// This case without some keys of its sections, `section.key`.
+    pub fn without(&self, keys: &[&str]) -> Self {
+        let mut case = self.clone();
+        for (section, key) in keys.iter().filter_map(|key| key.split_once('.')) {
+            let entry = case.root.get_mut(section);
+            if let Some(RawValue::Table(table)) = entry.map(|entry| &mut entry.item.value) {
+                table.remove(key);
+            }
+        }
+        case
+    }
+
+    /// The first key that has another value in `other`, in words: `section.key is 1 here, 2`.
+    pub fn difference(&self, other: &Self) -> Option<String> {
+        let (ours, theirs) = (self.canonical(), other.canonical());
+        let differing = |line: &&str, text: &str| !text.lines().any(|other| other == *line);
+        let of_ours = ours.lines().find(|line| differing(line, &theirs));
+        let of_theirs = theirs.lines().find(|line| differing(line, &ours));
+        let (key, _) = of_ours.or(of_theirs)?.split_once(" = ")?;
+        let value = |text: &str| {
+            let mut assignments = text.lines().filter_map(|line| line.split_once(" = "));
+            let found = assignments.find(|(name, _)| *name == key);
+            found.map_or("not given".to_owned(), |(_, value)| value.to_owned())
+        };
+        Some(format!(
+            "{key} is {} here, {}",
+            value(&ours),
+            value(&theirs)
+        ))
+    }
+
     /// Bundles diagnostics with the texts they point into.
     pub fn errors(&self, diagnostics: Vec<Diagnostic>) -> CaseErrors {
         let mut sources = vec![Source {

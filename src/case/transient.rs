@@ -22,6 +22,8 @@ pub struct Transient {
     pub initial: InitialState,
     /// Operator.
     pub operator: OperatorChoice,
+    /// Whether the run ends where it has settled.
+    pub stop_when_settled: bool,
     /// Initial perturbation.
     pub perturbation: Perturbation,
 }
@@ -33,6 +35,10 @@ pub struct Output {
     pub probes: Vec<usize>,
     /// Time between samples, s.
     pub sample_interval: f64,
+    /// Time between contact frames, s; `None` where the length of the run decides.
+    pub contact_interval: Option<f64>,
+    /// Whether probes have the acceleration of the sampled step too.
+    pub raw_acceleration: bool,
     /// Times of the field snapshots, s, rising.
     pub snapshots: Vec<f64>,
     /// Wall time between checkpoints, s.
@@ -89,6 +95,7 @@ pub(super) fn transient(
         expansion_time,
         initial,
         operator: section.choice("operator"),
+        stop_when_settled: section.flag("stop_when_settled"),
         perturbation: perturbation(&section, annulus, sliding, duration),
     };
     section.close();
@@ -298,9 +305,20 @@ pub(super) fn output(
         });
         contradictions(&section, transient, sample_interval);
     }
+    let contact_interval = section.optional_number("contact_interval");
+    if let Some(interval) = contact_interval.filter(|interval| *interval < sample_interval) {
+        reject(
+            &section,
+            "contact_interval",
+            format!("= {interval:?} s is below output.sample_interval = {sample_interval:?} s"),
+            "at least the sample interval",
+        );
+    }
     let output = Output {
         probes: probes.into_iter().map(|(probe, _)| probe).collect(),
         sample_interval,
+        contact_interval,
+        raw_acceleration: section.flag("raw_acceleration"),
         snapshots,
         checkpoint_interval: section.number("checkpoint_interval"),
     };

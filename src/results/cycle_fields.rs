@@ -54,10 +54,11 @@ fn write_frames(
         let [displacement, velocity] = &frame.fields;
         folder.write(&name, |out| {
             let fields = [
-                Field::vectors("displacement", report.mesh, displacement),
-                Field::vectors("velocity", report.mesh, velocity),
+                Field::vectors("displacement_m", report.mesh, displacement),
+                Field::vectors("velocity_m_per_s", report.mesh, velocity),
             ];
-            write_vtu(out, &EncodedMesh::new(report.mesh)?, &fields, &[])
+            let whole = [Field::number("time_s", frame.time)];
+            write_vtu(out, &EncodedMesh::new(report.mesh)?, &whole, &fields, &[])
         })?;
         entries.push(PvdEntry {
             time: frame.time,

@@ -163,20 +163,21 @@ fn polygon_area(points: &[[f64; 2]], kind: ElementKind) -> f64 {
 /// # Errors
 /// Those of the folder.
 pub fn write_mesh(folder: &OutputFolder, mesh: &Mesh2d) -> Result<(), FolderError> {
-    let ids = (1..=mesh.node_count()).map(|id| id as f64).collect();
-    let mut edge = vec![0.0; mesh.node_count()];
+    let ids = (1..=mesh.node_count() as i64).collect();
+    let mut edge = vec![0; mesh.node_count()];
     for node in &mesh.inner_edge.nodes {
-        edge[*node as usize] = 1.0;
+        edge[*node as usize] = 1;
     }
     for node in &mesh.outer_edge.nodes {
-        edge[*node as usize] = 2.0;
+        edge[*node as usize] = 2;
     }
     let fields = [
-        Field::scalars("node_id", ids),
-        Field::scalars("edge (1 contact, 2 clamped)", edge),
+        Field::integers("node_id", ids),
+        // 1 contact, 2 clamped, 0 elsewhere.
+        Field::integers("edge", edge),
     ];
     folder.write("mesh.vtu", |out| {
-        write_vtu(out, &EncodedMesh::new(mesh)?, &fields, &[])
+        write_vtu(out, &EncodedMesh::new(mesh)?, &[], &fields, &[])
     })?;
     Ok(())
 }

@@ -2,12 +2,24 @@
 
 use std::io::{self, Write};
 
-/// A number in the shortest form that reads back as the same bits; empty if it is not finite.
+/// A number in the shortest form that reads back as the same bits; empty if it is not finite, 0.0 for -0.0.
 pub fn format_number(value: f64) -> String {
     if value.is_finite() {
-        format!("{value:?}")
+        format!("{:?}", value + 0.0)
     } else {
         String::new()
+    }
+}
+
+/// A number with so many decimals for people, without the sign of a zero; `-` if it is not finite.
+pub fn fixed(value: f64, decimals: usize) -> String {
+    if !value.is_finite() {
+        return "-".to_owned();
+    }
+    let text = format!("{value:.decimals$}");
+    match text.strip_prefix('-') {
+        Some(rest) if rest.bytes().all(|b| b == b'0' || b == b'.') => rest.to_owned(),
+        _ => text,
     }
 }
 
@@ -67,11 +79,20 @@ mod tests {
 
     #[test]
     fn written_numbers_read_back_bit_for_bit() {
-        for value in [0.1 + 0.2, 1.0, -0.0, 5e-324, f64::MAX, 1.0 / 3.0, 1e-7] {
+        for value in [0.1 + 0.2, 1.0, 5e-324, f64::MAX, 1.0 / 3.0, 1e-7] {
             let read: f64 = format_number(value).parse().unwrap();
             assert_eq!(read.to_bits(), value.to_bits());
         }
         assert_eq!(format_number(f64::NAN), "");
+        assert_eq!(format_number(-0.0), "0.0");
+    }
+
+    #[test]
+    fn no_number_for_people_is_nan_infinite_or_negative_zero() {
+        assert_eq!(fixed(-0.04, 1), "0.0");
+        assert_eq!(fixed(-0.06, 1), "-0.1");
+        assert_eq!(fixed(f64::NAN, 1), "-");
+        assert_eq!(fixed(f64::NEG_INFINITY, 1), "-");
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! Fields on the mesh for ParaView: VTK XML unstructured grids, appended raw, zlib-compressed.
 
+use crate::fem::NodalStress;
 use crate::mesh::{ElementKind, Mesh2d};
 use flate2::{Compression, write::ZlibEncoder};
 use std::io::{self, Write};
@@ -7,7 +8,45 @@ use std::io::{self, Write};
 /// Bytes of one compressed block.
 const BLOCK: usize = 1 << 18;
 
-/// Values at nodes or in elements.
+/// Numbers of a field.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Values {
+    /// Quantities.
+    Real(Vec<f64>),
+    /// Ids and codes.
+    Integer(Vec<i64>),
+}
+
+impl Values {
+    fn len(&self) -> usize {
+        match self {
+            Self::Real(values) => values.len(),
+            Self::Integer(values) => values.len(),
+        }
+    }
+
+    fn kind(&self) -> &'static str {
+        match self {
+            Self::Real(_) => "Float64",
+            Self::Integer(_) => "Int64",
+        }
+    }
+
+    fn bytes(&self) -> Vec<u8> {
+        match self {
+            // Adding zero turns -0.0 into 0.0.
+            Self::Real(values) => values
+                .iter()
+                .flat_map(|v| (v + 0.0).to_le_bytes())
+                .collect(),
+            Self::Integer(values) => values.iter().flat_map(|v| v.to_le_bytes()).collect(),
+        }
+    }
+}
+
+/// Values at nodes or in elements, or of the whole file.
+///
+/// A name ends in the unit, as the columns of tables do: `displacement_m`, `von_mises_pa`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Field {
     /// Name that ParaView shows.
@@ -15,7 +54,7 @@ pub struct Field {
     /// Values of each node or element: 1 scalar, 3 vector.
     pub components: usize,
     /// All values, those of one node or element together.
-    pub values: Vec<f64>,
+    pub values: Values,
 }
 
 impl Field {
@@ -24,8 +63,36 @@ impl Field {
         Self {
             name: name.to_owned(),
             components: 1,
-            values,
+            values: Values::Real(values),
         }
+    }
+
+    /// One whole number for each node or element: an id or a code.
+    pub fn integers(name: &str, values: Vec<i64>) -> Self {
+        Self {
+            name: name.to_owned(),
+            components: 1,
+            values: Values::Integer(values),
+        }
+    }
+
+    /// One number of the whole file.
+    pub fn number(name: &str, value: f64) -> Self {
+        Self::scalars(name, vec![rounded(value)])
+    }
+
+    /// The stresses at the nodes: `von_mises_pa`, `hydrostatic_pressure_pa`, and the components in nodal frames.
+    pub fn stresses(stresses: &[NodalStress]) -> Vec<Self> {
+        let field = |name: &str, of: fn(&NodalStress) -> f64| {
+            Self::scalars(name, stresses.iter().map(of).collect())
+        };
+        vec![
+            field("von_mises_pa", NodalStress::von_mises),
+            field("hydrostatic_pressure_pa", NodalStress::pressure),
+            field("stress_rr_pa", |stress| stress.radial),
+            field("stress_tt_pa", |stress| stress.hoop),
+            field("stress_rt_pa", |stress| stress.shear),
+        ]
     }
 
     /// A plane vector of each node from its nodal frame, as Cartesian `(x, y, 0)`.
@@ -33,7 +100,7 @@ impl Field {
         Self {
             name: name.to_owned(),
             components: 3,
-            values: cartesian_vectors(mesh, nodal),
+            values: Values::Real(cartesian_vectors(mesh, nodal)),
         }
     }
 }
@@ -111,13 +178,19 @@ fn compress(bytes: &[u8]) -> io::Result<Vec<u8>> {
     Ok(out)
 }
 
-/// Writes a VTU file: Float64 fields, lossless.
+/// A number to twelve digits: 0.0125, not 0.012499999999999999.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.11e}").parse().unwrap_or(value)
+}
+
+/// Writes a VTU file, lossless: `whole` are numbers of the whole file (FieldData: time, frequency, friction).
 ///
 /// # Errors
 /// Those of the writer; [`io::ErrorKind::InvalidInput`] for a field whose length does not fit.
 pub fn write_vtu(
     out: &mut dyn Write,
     mesh: &EncodedMesh,
+    whole: &[Field],
     point_fields: &[Field],
     cell_fields: &[Field],
 ) -> io::Result<()> {
@@ -130,6 +203,7 @@ pub fn write_vtu(
          header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">"
     )?;
     writeln!(out, "<UnstructuredGrid>")?;
+    write_whole(out, whole)?;
     writeln!(
         out,
         "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">",
@@ -147,9 +221,14 @@ pub fn write_vtu(
                     format!("field {} has {} values", field.name, field.values.len()),
                 ));
             }
-            let bytes: Vec<u8> = field.values.iter().flat_map(|v| v.to_le_bytes()).collect();
-            let blob = compress(&bytes)?;
-            array(out, "Float64", &field.name, field.components, offset)?;
+            let blob = compress(&field.values.bytes())?;
+            array(
+                out,
+                field.values.kind(),
+                &field.name,
+                field.components,
+                offset,
+            )?;
             offset += blob.len();
             blobs.push(blob);
         }
@@ -180,6 +259,27 @@ pub fn write_vtu(
         out.write_all(blob)?;
     }
     write!(out, "\n</AppendedData>\n</VTKFile>\n")
+}
+
+fn write_whole(out: &mut dyn Write, fields: &[Field]) -> io::Result<()> {
+    if fields.is_empty() {
+        return Ok(());
+    }
+    writeln!(out, "<FieldData>")?;
+    for field in fields {
+        let (count, name) = (field.values.len(), escape(&field.name));
+        write!(
+            out,
+            "<DataArray type=\"{}\" Name=\"{name}\" NumberOfTuples=\"{count}\" format=\"ascii\">",
+            field.values.kind()
+        )?;
+        match &field.values {
+            Values::Real(values) => values.iter().try_for_each(|v| write!(out, "{v:?} "))?,
+            Values::Integer(values) => values.iter().try_for_each(|v| write!(out, "{v} "))?,
+        }
+        writeln!(out, "</DataArray>")?;
+    }
+    writeln!(out, "</FieldData>")
 }
 
 fn array(
@@ -229,7 +329,7 @@ pub fn write_pvd(out: &mut dyn Write, entries: &[PvdEntry]) -> io::Result<()> {
         writeln!(
             out,
             "<DataSet timestep=\"{:?}\" group=\"{}\" part=\"0\" file=\"{}\"/>",
-            entry.time,
+            rounded(entry.time),
             escape(&entry.group),
             escape(&entry.file)
         )?;

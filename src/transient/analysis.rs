@@ -1,39 +1,51 @@
 //! Frequencies, growth rates and mean powers of a recorded run.
 
 use super::recorder::HARMONIC_COUNT;
+use super::settling::Settling;
 use super::{ContactPowers, Recorder, SampleRow, StatusCounts};
-use rustfft::FftPlanner;
+use crate::signal::{ExponentialStage, NoGrowth, harmonic_growth, strongest_vibration};
 use rustfft::num_complex::Complex64;
-use std::f64::consts::TAU;
 use std::ops::Range;
 
-/// Fewest samples that a frequency is read from.
+/// Fewest samples that a vibration is read from.
 const FEWEST: usize = 64;
 
-/// Lines next to zero that hold the mean and slow drifts, not a vibration (a Hann window is four wide).
-const LOWEST_LINE: usize = 4;
+/// Share of the deformation below which a vibration is a remnant.
+const REMNANT: f64 = 1e-6;
 
-/// Exponential growth of one harmonic of the contact edge in the linear stage.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Growth (or decay) of one harmonic of the contact edge in the linear stage.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Growth {
     /// Circumferential harmonic.
     pub harmonic: usize,
-    /// Growth rate, 1/s.
-    pub rate: f64,
-    /// Frequency, Hz, positive.
-    pub frequency_hz: f64,
-    /// +1 travels with the rotor, -1 against it.
-    pub direction: i8,
+    /// Rate (1/s) and signed frequency (Hz) with their 95 % intervals, or why there are none.
+    pub stage: Result<ExponentialStage, NoGrowth>,
+    /// Sense of rotation of the cylinder, +1 counter-clockwise.
+    rotation_direction: f64,
+}
+
+impl Growth {
+    /// +1 travels with the rotor, -1 against it; 0 without a stage.
+    pub fn direction(&self) -> i8 {
+        // exp(i (n theta + omega t)) travels towards negative angles.
+        match &self.stage {
+            Ok(stage) if stage.frequency_hz.value * self.rotation_direction > 0.0 => -1,
+            Ok(_) => 1,
+            Err(_) => 0,
+        }
+    }
 }
 
 /// Means over the last fifth of a run, for each metre of thickness.
 #[derive(Clone, Debug, PartialEq)]
-pub struct LimitCycle {
+pub struct LastFifth {
     /// Frequency of the strongest harmonic of the contact edge's tangential displacement, Hz; `None` if it does
     /// not vibrate.
     pub main_frequency_hz: Option<f64>,
     /// Circumferential harmonic of that vibration.
     pub main_harmonic: Option<usize>,
+    /// Its root mean square amplitude, m.
+    pub main_amplitude: Option<f64>,
     /// Fractions of contact nodes `[stick, slip, open]`.
     pub status: [f64; 3],
     /// Mean contact powers, W/m.
@@ -43,14 +55,31 @@ pub struct LimitCycle {
     /// Mean amplitude of harmonic `n` of the tangential displacement of the contact edge, m; for `n = 0` the mean
     /// twist.
     pub harmonics: [f64; HARMONIC_COUNT],
+    /// The same of every harmonic `n >= 1` that is above a thousandth of the largest of them.
+    pub significant: Vec<(usize, f64)>,
+    /// Motion of each probe.
+    pub probes: Vec<ProbeMotion>,
+}
+
+/// How a probe moves, radially and tangentially.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ProbeMotion {
+    /// Half the range of the displacement, m.
+    pub displacement_amplitude: [f64; 2],
+    /// Root mean square of the acceleration, m/s2.
+    pub acceleration_rms: [f64; 2],
+    /// Largest magnitude of the acceleration, m/s2.
+    pub acceleration_peak: [f64; 2],
 }
 
 /// What a run did.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TransientAnalysis {
     /// Its last fifth.
-    pub limit_cycle: LimitCycle,
-    /// Growth of each perturbed harmonic in the linear stage, where that is long enough to tell.
+    pub last_fifth: LastFifth,
+    /// Whether it has settled, and on what.
+    pub settling: Settling,
+    /// Growth of each perturbed harmonic in the linear stage.
     pub growth: Vec<Growth>,
     /// End of the linear stage, the longest time with every contact node slipping: when the first node sticks or
     /// opens, s. `None` if there is no linear stage or it lasts to the end of the run.
@@ -66,11 +95,15 @@ impl TransientAnalysis {
         let stage = linear_stage(rows);
         let ended = stage.end < rows.len() && !stage.is_empty();
         let residuals = rows.iter().map(|row| row.balance_residual);
+        // What is seeded later grows from there.
+        let seeded = rows.partition_point(|row| row.time < record.seed_time);
+        let grown = stage.start.max(seeded).min(stage.end)..stage.end;
         Self {
-            limit_cycle: limit_cycle(record, rows.len() - rows.len().div_ceil(5)..rows.len()),
+            last_fifth: LastFifth::of(record),
+            settling: Settling::of(record),
             growth: harmonics
                 .iter()
-                .filter_map(|&n| growth(record, stage.clone(), n))
+                .filter_map(|&n| growth(record, grown.clone(), n))
                 .collect(),
             first_nonlinearity: ended.then(|| rows[stage.end].time),
             largest_residual: residuals.fold(0.0, f64::max),
@@ -91,158 +124,126 @@ fn linear_stage(rows: &[SampleRow]) -> Range<usize> {
     best
 }
 
-fn limit_cycle(record: &Recorder, range: Range<usize>) -> LimitCycle {
-    let rows = &record.rows[range.clone()];
-    let mut counts = StatusCounts::default();
-    let mut powers = ContactPowers::default();
-    let (mut material_damping, mut harmonics) = (0.0, [0.0; HARMONIC_COUNT]);
-    let share = 1.0 / rows.len() as f64;
-    for row in rows {
-        counts += row.counts;
-        powers += row.powers.scaled(share);
-        material_damping += share * row.material_damping;
-        for (sum, [re, im]) in harmonics.iter_mut().zip(row.harmonics) {
-            *sum += share * re.hypot(im);
+impl LastFifth {
+    /// Samples of the last fifth of a record.
+    pub fn range(record: &Recorder) -> Range<usize> {
+        let count = record.rows.len();
+        count - count.div_ceil(5)..count
+    }
+
+    fn of(record: &Recorder) -> Self {
+        let range = Self::range(record);
+        let rows = &record.rows[range.clone()];
+        let mut counts = StatusCounts::default();
+        let mut powers = ContactPowers::default();
+        let (mut material_damping, mut harmonics) = (0.0, [0.0; HARMONIC_COUNT]);
+        let share = 1.0 / rows.len() as f64;
+        for row in rows {
+            counts += row.counts;
+            powers += row.powers.scaled(share);
+            material_damping += share * row.material_damping;
+            for (sum, [re, im]) in harmonics.iter_mut().zip(row.harmonics) {
+                *sum += share * re.hypot(im);
+            }
+        }
+        let main = main_vibration(record, range.clone());
+        let main_amplitude = main.and_then(|(n, _)| Some(rms(&series(record, range.clone(), n)?)));
+        Self {
+            main_frequency_hz: main.map(|(_, frequency)| frequency.abs()),
+            main_harmonic: main.map(|(harmonic, _)| harmonic),
+            main_amplitude,
+            status: counts.fractions(),
+            powers,
+            material_damping,
+            harmonics,
+            significant: significant(record, range.clone()),
+            probes: record
+                .probe_rows
+                .iter()
+                .map(|rows| ProbeMotion::of(&rows[range.clone()]))
+                .collect(),
         }
     }
-    let main = main_vibration(record, range);
-    LimitCycle {
-        main_frequency_hz: main.map(|(_, frequency)| frequency),
-        main_harmonic: main.map(|(harmonic, _)| harmonic),
-        status: counts.fractions(),
-        powers,
-        material_damping,
-        harmonics,
+}
+
+/// Mean amplitudes of the harmonics that matter, without the mean twist.
+fn significant(record: &Recorder, range: Range<usize>) -> Vec<(usize, f64)> {
+    let share = 1.0 / range.len() as f64;
+    let mean = |n: usize| {
+        let amplitudes = range.clone().filter_map(|k| record.amplitude(k, n));
+        amplitudes.map(|[re, im]| share * re.hypot(im)).sum::<f64>()
+    };
+    let followed = record.followed_harmonics().skip(1);
+    let means: Vec<(usize, f64)> = followed.map(|n| (n, mean(n))).collect();
+    let largest = means.iter().fold(0.0, |m: f64, (_, a)| m.max(*a));
+    let limit = super::recorder::SIGNIFICANT_SHARE * largest;
+    let above = |&(_, amplitude): &(usize, f64)| amplitude > 0.0 && amplitude >= limit;
+    means.into_iter().filter(above).collect()
+}
+
+impl ProbeMotion {
+    fn of(rows: &[[f64; 6]]) -> Self {
+        let both = |of: &dyn Fn(usize) -> f64| [of(0), of(1)];
+        let column = |c: usize| rows.iter().map(move |row| row[c]);
+        let largest = |c: usize| column(c).fold(f64::NEG_INFINITY, f64::max);
+        let smallest = |c: usize| column(c).fold(f64::INFINITY, f64::min);
+        let mean_square = |c: usize| column(c).map(|v| v * v).sum::<f64>() / rows.len() as f64;
+        Self {
+            displacement_amplitude: both(&|c| 0.5 * (largest(c) - smallest(c))),
+            acceleration_rms: both(&|c| mean_square(4 + c).sqrt()),
+            acceleration_peak: both(&|c| column(4 + c).fold(0.0, |m, v| m.max(v.abs()))),
+        }
     }
 }
 
-/// Harmonic and frequency of the strongest vibration.
-fn main_vibration(record: &Recorder, range: Range<usize>) -> Option<(usize, f64)> {
-    let rows = &record.rows[range.clone()];
-    if rows.len() < FEWEST {
-        return None;
-    }
-    let series: Vec<(usize, Vec<Complex64>)> = record
-        .followed_harmonics()
-        .filter_map(|n| Some((n, series(record, range.clone(), n)?)))
-        .collect();
-    let peaks = series.iter().map(|(n, series)| (n, strongest_line(series)));
-    let (harmonic, (line, amplitude)) = peaks.max_by(|a, b| a.1.1.total_cmp(&b.1.1))?;
-    let scale = rows
-        .iter()
-        .flat_map(|row| row.harmonics)
-        .fold(0.0_f64, |m, [re, im]| m.max(re.hypot(im)));
-    // What is a millionth of the deformation is a remnant, not a vibration.
-    if !(amplitude > 1e-6 * scale) {
-        return None;
-    }
-    let (_, main) = series.iter().find(|(n, _)| n == harmonic)?;
-    let fit = fit_exponential(main, line, interval(rows));
-    Some((*harmonic, (fit.im / TAU).abs()))
-}
-
-fn growth(record: &Recorder, stage: Range<usize>, harmonic: usize) -> Option<Growth> {
-    // The first third still holds what decays; the last two thirds belong to what grows.
-    let range = stage.start + stage.len() / 3..stage.end;
+/// Harmonic and signed frequency (Hz) of the strongest vibration; `None` where all are remnants.
+pub(super) fn main_vibration(record: &Recorder, range: Range<usize>) -> Option<(usize, f64)> {
     if range.len() < FEWEST {
         return None;
     }
-    let series = series(record, range.clone(), harmonic)?;
-    let (line, amplitude) = strongest_line(&series);
-    if amplitude == 0.0 {
-        return None;
-    }
-    let fit = fit_exponential(&series, line, interval(&record.rows[range]));
+    let rate = 1.0 / record.sample_interval;
+    let followed = record.followed_harmonics();
+    let vibrations = followed.filter_map(|n| {
+        let (frequency, amplitude) = strongest_vibration(&series(record, range.clone(), n)?, rate)?;
+        Some((n, frequency, amplitude))
+    });
+    let (harmonic, frequency, amplitude) = vibrations.max_by(|a, b| a.2.total_cmp(&b.2))?;
+    (amplitude > REMNANT * record.largest_motion(range)).then_some((harmonic, frequency))
+}
+
+fn growth(record: &Recorder, stage: Range<usize>, harmonic: usize) -> Option<Growth> {
+    let series = amplitudes(record, stage.clone(), harmonic)?;
+    let motion = record.largest_motion(stage);
     Some(Growth {
         harmonic,
-        rate: fit.re,
-        frequency_hz: fit.im.abs() / TAU,
-        // exp(i (n theta + omega t)) travels towards negative angles.
-        direction: if fit.im * record.rotation_direction > 0.0 {
-            -1
-        } else {
-            1
-        },
+        stage: harmonic_growth(&series, 1.0 / record.sample_interval, motion),
+        rotation_direction: record.rotation_direction,
     })
 }
 
-fn interval(rows: &[SampleRow]) -> f64 {
-    (rows[rows.len() - 1].time - rows[0].time) / (rows.len() - 1) as f64
+/// A followed harmonic, m.
+fn amplitudes(record: &Recorder, range: Range<usize>, harmonic: usize) -> Option<Vec<Complex64>> {
+    let parts = range.map(|sample| record.amplitude(sample, harmonic));
+    parts
+        .map(|parts| parts.map(|[re, im]| Complex64::new(re, im)))
+        .collect()
 }
 
-/// A followed harmonic about its mean.
-fn series(record: &Recorder, range: Range<usize>, harmonic: usize) -> Option<Vec<Complex64>> {
+/// A followed harmonic about its mean, m.
+pub(super) fn series(
+    record: &Recorder,
+    range: Range<usize>,
+    harmonic: usize,
+) -> Option<Vec<Complex64>> {
     let count = range.len() as f64;
-    let mut series = range
-        .map(|sample| record.amplitude(sample, harmonic))
-        .map(|parts| parts.map(|[re, im]| Complex64::new(re, im)))
-        .collect::<Option<Vec<Complex64>>>()?;
+    let mut series = amplitudes(record, range, harmonic)?;
     let mean = series.iter().sum::<Complex64>() / count;
     series.iter_mut().for_each(|value| *value -= mean);
     Some(series)
 }
 
-fn hann(index: usize, count: usize) -> f64 {
-    let sin = (0.5 * TAU * (index as f64 + 0.5) / count as f64).sin();
-    sin * sin
-}
-
-/// Signed frequency in cycles per sample, and amplitude, of the strongest line of a windowed complex series.
-fn strongest_line(series: &[Complex64]) -> (f64, f64) {
-    let count = series.len();
-    let windowed = series.iter().enumerate();
-    let mut spectrum: Vec<Complex64> = windowed.map(|(k, v)| v * hann(k, count)).collect();
-    FftPlanner::new()
-        .plan_fft_forward(count)
-        .process(&mut spectrum);
-    let lines = LOWEST_LINE..count + 1 - LOWEST_LINE;
-    let best = lines.max_by(|&a, &b| spectrum[a].norm_sqr().total_cmp(&spectrum[b].norm_sqr()));
-    let best = best.unwrap_or(0);
-    let signed = if best > count / 2 {
-        best as f64 - count as f64
-    } else {
-        best as f64
-    };
-    (
-        signed / count as f64,
-        2.0 * spectrum[best].norm() / count as f64,
-    )
-}
-
-/// `sigma + i omega` of the part of `series` near `line` (cycles per sample) that goes like
-/// `exp((sigma + i omega) t)`.
-///
-/// The series is demodulated by `line` in overlapping Hann windows a quarter of it long; the logarithm of their
-/// sums goes linearly in time. Other frequencies are rejected by the window, whatever their growth.
-fn fit_exponential(series: &[Complex64], line: f64, interval: f64) -> Complex64 {
-    let length = (series.len() / 4).max(FEWEST / 2);
-    let hop = (length / 8).max(1);
-    let mut points = Vec::new();
-    let mut phase = 0.0;
-    let mut previous: Option<Complex64> = None;
-    let mut start = 0;
-    while start + length <= series.len() {
-        let window = series[start..start + length].iter().enumerate();
-        let sum: Complex64 = window
-            .map(|(k, value)| {
-                let turn = Complex64::from_polar(hann(k, length), -TAU * line * (start + k) as f64);
-                value * turn
-            })
-            .sum();
-        if let Some(previous) = previous {
-            phase += (sum / previous).arg();
-        }
-        previous = Some(sum);
-        points.push((start as f64 * interval, sum.norm().ln(), phase));
-        start += hop;
-    }
-    let slope = |value: fn(&(f64, f64, f64)) -> f64| {
-        let count = points.len() as f64;
-        let mean_t = points.iter().map(|p| p.0).sum::<f64>() / count;
-        let mean_y = points.iter().map(value).sum::<f64>() / count;
-        let products = points.iter().map(|p| (p.0 - mean_t) * (value(p) - mean_y));
-        let squares = points.iter().map(|p| (p.0 - mean_t) * (p.0 - mean_t));
-        products.sum::<f64>() / squares.sum::<f64>()
-    };
-    Complex64::new(slope(|p| p.1), slope(|p| p.2) + TAU * line / interval)
+/// Root mean square of a series.
+pub(super) fn rms(series: &[Complex64]) -> f64 {
+    let sum: f64 = series.iter().map(Complex64::norm_sqr).sum();
+    (sum / series.len().max(1) as f64).sqrt()
 }

@@ -83,6 +83,7 @@ pub struct CentralDifference<'a> {
     expansion_time: f64,
     kick: Option<Kick>,
     seeded_harmonics: Vec<usize>,
+    seed_time: f64,
     coefficients: StepCoefficients,
     fields: MotionFields,
     contact: LagrangeContact,
@@ -250,6 +251,7 @@ impl<'a> CentralDifference<'a> {
             expansion_time,
             kick: Some(kick),
             seeded_harmonics: settings.perturbation.harmonics(),
+            seed_time: settings.perturbation.time,
         })
     }
 
@@ -304,8 +306,8 @@ impl<'a> CentralDifference<'a> {
         }
     }
 
-    /// Radial expansion of the cylinder at `time`, m.
-    fn expansion(&self, time: f64) -> f64 {
+    /// Radial expansion of the cylinder at `time`, m: a linear ramp.
+    pub(super) fn expansion(&self, time: f64) -> f64 {
         let interference = self.model.contact.interference;
         if time < self.expansion_time {
             interference * (time / self.expansion_time)
@@ -401,6 +403,16 @@ impl<'a> CentralDifference<'a> {
     /// Harmonics that the perturbation names.
     pub fn seeded_harmonics(&self) -> &[usize] {
         &self.seeded_harmonics
+    }
+
+    /// When the perturbation is added, s.
+    pub fn seed_time(&self) -> f64 {
+        self.seed_time
+    }
+
+    /// When the cylinder is fully expanded, s.
+    pub fn expansion_time(&self) -> f64 {
+        self.expansion_time
     }
 
     /// Steps done.

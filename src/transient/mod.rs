@@ -12,8 +12,9 @@ mod perturbation;
 mod recorder;
 mod sample;
 mod settings;
+mod settling;
 
-pub use analysis::{Growth, LimitCycle, TransientAnalysis};
+pub use analysis::{Growth, LastFifth, ProbeMotion, TransientAnalysis};
 pub use central_difference::{CentralDifference, RunEnd, TransientState};
 pub use contact::{ContactPowers, LagrangeContact, StatusCounts};
 pub use perturbation::{Perturbation, StandingWave};
@@ -23,3 +24,4 @@ pub use settings::{
     Breakdown, InitialState, OperatorChoice, StepPlan, TimeStep, TransientError, TransientModel,
     TransientSettings, build_operator, stable_step_limit, whole_intervals,
 };
+pub use settling::{Drift, EndState, Settling, Unsettled};

@@ -1,14 +1,12 @@
 //! The observer that keeps what results need.
 
 mod consistency;
+mod observation;
 
-use super::{
-    CentralDifference, ContactPowers, Observer, Sample, StatusCounts, TransientError,
-    settings::StepPlan,
-};
+use super::{CentralDifference, ContactPowers, StatusCounts, TransientError, settings::StepPlan};
 use crate::contact::ContactInterface;
 use serde::{Deserialize, Serialize};
-use std::ops::ControlFlow;
+use std::ops::Range;
 
 /// Harmonics of the contact edge that every sample holds, `n = 0..=8`.
 pub const HARMONIC_COUNT: usize = 9;
@@ -19,9 +17,6 @@ const HIGHEST_FOLLOWED: usize = 24;
 /// Share of the largest harmonic above which one matters.
 pub const SIGNIFICANT_SHARE: f64 = 1e-3;
 
-/// Contact frames kept at most; longer runs keep every second, third ... sample.
-const FRAME_LIMIT: u64 = 5000;
-
 /// What to keep.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RecorderSettings {
@@ -29,6 +24,13 @@ pub struct RecorderSettings {
     pub probes: Vec<usize>,
     /// Times of whole fields, s; each is moved to the nearest sample.
     pub snapshots: Vec<f64>,
+    /// Time between contact frames, s, moved to a multiple of the sample interval; `None` for every sample of a short
+    /// run, every second, fourth ... of a longer one.
+    pub contact_interval: Option<f64>,
+    /// Whether to keep the acceleration of the sampled step as well as its mean.
+    pub raw_acceleration: bool,
+    /// Whether to stop where the run has settled.
+    pub stop_when_settled: bool,
 }
 
 /// Energies, powers and statuses of one sample, for each metre of thickness.
@@ -62,6 +64,10 @@ pub struct Snapshot {
     pub displacement: Vec<f64>,
     /// `v_n` over all dofs in nodal frames, m/s.
     pub velocity: Vec<f64>,
+    /// The contact edge at the same step.
+    pub contact: ContactFrame,
+    /// Distance of each contact node from the cylinder, m; negative by round-off.
+    pub gap: Vec<f64>,
 }
 
 /// The contact edge at one time.
@@ -84,12 +90,19 @@ pub struct Recorder {
     pub probes: Vec<usize>,
     /// One row for each sample.
     pub rows: Vec<SampleRow>,
-    /// For each probe and sample `u_r, u_t` (m), `v_r, v_t` (m/s), `a_r, a_t` (m/s2).
+    /// For each probe and sample `u_r, u_t` (m), `v_r, v_t` (m/s), and the mean of `a_r, a_t` (m/s2) since the last
+    /// sample, `(v_n - v_{n-1}) / interval`. An impact of one step, as a contact node has it, is in that mean whenever it
+    /// comes; the acceleration of the sampled step alone shows it or not by chance.
     pub probe_rows: Vec<Vec<[f64; 6]>>,
+    /// Acceleration `a_r, a_t` of the sampled step of each probe, m/s2, where it is asked for.
+    pub raw_accelerations: Option<Vec<Vec<[f64; 2]>>>,
     /// Contact edge over time.
     pub frames: Vec<ContactFrame>,
     /// Samples from one frame to the next.
     pub frame_stride: u64,
+    is_stride_given: bool,
+    /// Time between samples, s.
+    pub sample_interval: f64,
     /// Fields at the snapshot times reached so far.
     pub snapshots: Vec<Snapshot>,
     snapshot_indices: Vec<u64>,
@@ -104,6 +117,17 @@ pub struct Recorder {
     waves: Vec<[f64; 2]>,
     /// Sense of rotation of the cylinder, +1 counter-clockwise.
     pub rotation_direction: f64,
+    /// Speed of its surface, m/s.
+    pub surface_speed: f64,
+    /// Its expansion, m.
+    pub interference: f64,
+    /// When the perturbation is added, s.
+    pub seed_time: f64,
+    /// When the cylinder is fully expanded and the perturbation added, s.
+    pub start_up_time: f64,
+    stop_when_settled: bool,
+    /// Whether it stopped the run because that had settled.
+    pub has_stopped: bool,
 }
 
 impl Recorder {
@@ -116,18 +140,23 @@ impl Recorder {
         settings: &RecorderSettings,
     ) -> Result<Self, TransientError> {
         let (plan, interface) = (run.plan(), run.interface());
-        let higher_harmonics = higher_harmonics(interface.len() / 2, run.seeded_harmonics());
         let count = run.operator().dof_count() / 2;
         let mut nodes = settings.probes.iter();
         if let Some(&probe) = nodes.find(|&&node| node == 0 || node > count) {
             return Err(TransientError::UnknownProbe { probe, count });
         }
+        let stride = settings.contact_interval.unwrap_or(0.0) / plan.sample_interval;
+        let higher_harmonics = higher_harmonics(interface.len() / 2, run.seeded_harmonics());
+        let (contact, probes) = (&run.model().contact, settings.probes.len());
         Ok(Self {
             probes: settings.probes.clone(),
             rows: Vec::with_capacity(plan.samples as usize),
-            probe_rows: vec![Vec::with_capacity(plan.samples as usize); settings.probes.len()],
+            probe_rows: vec![Vec::with_capacity(plan.samples as usize); probes],
+            raw_accelerations: settings.raw_acceleration.then(|| vec![Vec::new(); probes]),
             frames: Vec::new(),
-            frame_stride: plan.samples.div_ceil(FRAME_LIMIT).max(1),
+            frame_stride: (stride.round() as u64).max(1),
+            is_stride_given: settings.contact_interval.is_some(),
+            sample_interval: plan.sample_interval,
             snapshots: Vec::new(),
             snapshot_indices: snapshot_indices(plan, &settings.snapshots)?,
             tributary_lengths: interface.tributary_lengths.clone(),
@@ -135,8 +164,52 @@ impl Recorder {
             waves: waves(interface, &higher_harmonics),
             higher_harmonics,
             higher_amplitudes: Vec::new(),
-            rotation_direction: run.model().contact.sliding_direction(),
+            rotation_direction: contact.sliding_direction(),
+            surface_speed: contact.rotation_speed * interface.radius,
+            interference: contact.interference,
+            seed_time: run.seed_time(),
+            start_up_time: run.seed_time().max(run.expansion_time()),
+            stop_when_settled: settings.stop_when_settled,
+            has_stopped: false,
         })
+    }
+
+    /// Takes a saved record up again for a run that goes on, which may last longer than the one it was saved by.
+    ///
+    /// # Errors
+    /// As [`Self::new`]; [`TransientError::ForeignRecord`] for a record that does not belong to `run` or is not whole.
+    pub fn resume(
+        mut self,
+        run: &CentralDifference<'_>,
+        settings: &RecorderSettings,
+    ) -> Result<Self, TransientError> {
+        let fresh = Self::new(run, settings)?;
+        let nodes = run.operator().dof_count() / 2;
+        let done = run.steps_done().div_ceil(run.plan().steps_per_sample) as usize;
+        let is_whole = self.rows.len() == done
+            && self.is_consistent()
+            && self.fits(nodes, fresh.contact_angles.len())
+            && self.probes == fresh.probes
+            && self.raw_accelerations.is_some() == fresh.raw_accelerations.is_some()
+            && self.higher_harmonics == fresh.higher_harmonics
+            && self.is_stride_given == fresh.is_stride_given
+            && (!self.is_stride_given || self.frame_stride == fresh.frame_stride);
+        if !is_whole {
+            return Err(TransientError::ForeignRecord);
+        }
+        // What the run was made with stays; what is asked of it from here on is new.
+        let rest = fresh.rows.capacity().saturating_sub(done);
+        self.rows.reserve(rest);
+        self.probe_rows
+            .iter_mut()
+            .for_each(|rows| rows.reserve(rest));
+        self.snapshot_indices = fresh.snapshot_indices;
+        self.tributary_lengths = fresh.tributary_lengths;
+        self.contact_angles = fresh.contact_angles;
+        self.waves = fresh.waves;
+        self.stop_when_settled = fresh.stop_when_settled;
+        self.has_stopped &= self.stop_when_settled;
+        Ok(self)
     }
 
     /// Harmonics that are followed.
@@ -167,74 +240,11 @@ impl Recorder {
         all.iter().filter(matters).map(|&(n, _)| n).collect()
     }
 
-    /// Amplitudes of all followed harmonics, real and imaginary part, m.
-    fn harmonics(&self, sample: &Sample<'_>) -> Vec<[f64; 2]> {
-        let mut amplitudes = vec![[0.0; 2]; HARMONIC_COUNT + self.higher_harmonics.len()];
-        // Node by node, so that the harmonics of one node are summed side by side.
-        for (i, waves) in self.waves.chunks_exact(amplitudes.len()).enumerate() {
-            let u = sample.contact_tangential_displacement(i);
-            for (amplitude, wave) in amplitudes.iter_mut().zip(waves) {
-                amplitude[0] += u * wave[0];
-                amplitude[1] -= u * wave[1];
-            }
-        }
-        amplitudes
-    }
-
-    fn frame(&self, sample: &Sample<'_>) -> ContactFrame {
-        let traction = |forces: &[f64]| {
-            let pairs = forces.iter().zip(&self.tributary_lengths);
-            pairs
-                .map(|(force, length)| (force / length) as f32)
-                .collect()
-        };
-        ContactFrame {
-            time: sample.time,
-            status: sample.status().iter().map(|&status| status as u8).collect(),
-            pressure: traction(sample.normal_force()),
-            shear: traction(sample.tangential_force()),
-        }
-    }
-}
-
-impl Observer for Recorder {
-    fn observe(&mut self, sample: &Sample<'_>) -> ControlFlow<()> {
-        let amplitudes = self.harmonics(sample);
-        let higher = amplitudes[HARMONIC_COUNT..].iter();
-        self.higher_amplitudes
-            .extend(higher.map(|parts| parts.map(|part| part as f32)));
-        self.rows.push(SampleRow {
-            time: sample.time,
-            kinetic_energy: sample.kinetic_energy,
-            strain_energy: sample.strain_energy,
-            powers: sample.powers,
-            material_damping: sample.material_damping,
-            counts: sample.counts,
-            balance_residual: sample.balance_residual,
-            harmonics: std::array::from_fn(|n| amplitudes[n]),
-        });
-        for (&node, rows) in self.probes.iter().zip(&mut self.probe_rows) {
-            let (r, t) = (2 * (node - 1), 2 * (node - 1) + 1);
-            rows.push([
-                sample.displacement_at(r),
-                sample.displacement_at(t),
-                sample.velocity_at(r),
-                sample.velocity_at(t),
-                sample.acceleration_at(r),
-                sample.acceleration_at(t),
-            ]);
-        }
-        if sample.index.is_multiple_of(self.frame_stride) {
-            self.frames.push(self.frame(sample));
-        }
-        if self.snapshot_indices.contains(&sample.index) {
-            self.snapshots.push(Snapshot {
-                time: sample.time,
-                displacement: sample.displacement(),
-                velocity: sample.velocity(),
-            });
-        }
-        ControlFlow::Continue(())
+    /// Largest amplitude of the harmonics `0..=8` over some samples, or the expansion of the cylinder where that is
+    /// larger, m.
+    pub fn largest_motion(&self, samples: Range<usize>) -> f64 {
+        let amplitudes = self.rows[samples].iter().flat_map(|row| row.harmonics);
+        amplitudes.fold(self.interference.abs(), |m, [re, im]| m.max(re.hypot(im)))
     }
 }
 

@@ -69,6 +69,12 @@ impl Sample<'_> {
         self.displacement_before[self.run.contact().tangential_places()[i]]
     }
 
+    /// Distance of contact node `i` from the cylinder at `n`, m.
+    pub fn gap(&self, i: usize) -> f64 {
+        let place = self.run.contact().normal_places()[i];
+        self.displacement_before[place] - self.run.expansion(self.time)
+    }
+
     /// Status of each contact node at `n`.
     pub fn status(&self) -> &[ContactStatus] {
         &self.run.contact().status

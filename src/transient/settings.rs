@@ -196,6 +196,9 @@ pub enum TransientError {
         /// Dofs of the model.
         expected: usize,
     },
+    /// A saved record that does not belong to this run.
+    #[error("the saved record does not belong to this run, or it is not whole")]
+    ForeignRecord,
     /// A start that the time loop cannot work out by itself.
     #[error("a start on a limit cycle needs the fields of the cycle of {harmonic} nodal diameters")]
     FieldsMissing {

@@ -247,6 +247,7 @@ fn trajectories_show_phase_plot_and_contact_trace() {
             status: Some(&status),
         },
         cycle_start: 20_000,
+        end_name: "limit cycle",
     })
     .unwrap();
     check(

@@ -53,7 +53,7 @@ pub fn confirm(
         CentralDifference::start_from(model, operator, &settings, &displacement, velocity)?;
     let mut record = Recorder::new(&run, &RecorderSettings::default())?;
     run.run(&mut record)?;
-    let found = TransientAnalysis::of(&record, &[]).limit_cycle;
+    let found = TransientAnalysis::of(&record, &[]).last_fifth;
     Ok(Confirmation {
         periods,
         main_frequency_hz: found.main_frequency_hz,

@@ -35,10 +35,13 @@ pub fn initial_name(transient: &Transient) -> &'static str {
     }
 }
 
-pub fn recorder_settings(case: &Case) -> RecorderSettings {
+pub fn recorder_settings(case: &Case, transient: &Transient) -> RecorderSettings {
     RecorderSettings {
         probes: case.output.probes.clone(),
         snapshots: case.output.snapshots.clone(),
+        contact_interval: case.output.contact_interval,
+        raw_acceleration: case.output.raw_acceleration,
+        stop_when_settled: transient.stop_when_settled,
     }
 }
 

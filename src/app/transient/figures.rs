@@ -5,9 +5,10 @@ use crate::app::Failure;
 use crate::app::linear_stage::LinearStage;
 use crate::case::Case;
 use crate::results::run_figures::RunFigures;
-use crate::results::transient::draw;
+use crate::results::transient::{TransientSummary, draw};
 use crate::results::{DrawingOptions, OutputFolder, read_record, refuse_misfit};
-use crate::transient::{Recorder, TransientAnalysis};
+use crate::transient::Recorder;
+use serde::Deserialize;
 use serde_json::Value;
 
 /// Draws the figures and the report of a record.
@@ -18,7 +19,7 @@ pub(super) fn draw_record(
     folder: &OutputFolder,
     prepared: &Prepared<'_>,
     record: &Recorder,
-    summary: &Value,
+    summary: &TransientSummary,
     options: &DrawingOptions,
 ) -> Result<(), Failure> {
     let case = prepared.case;
@@ -26,7 +27,7 @@ pub(super) fn draw_record(
     let stage = LinearStage::of(case);
     let run = RunFigures {
         record,
-        analysis: &TransientAnalysis::of(record, &prepared.settings.perturbation.harmonics()),
+        analysis: &prepared.analyse(record),
         mesh: &prepared.annulus.mesh,
         material: &case.material,
         thickness: case.thickness,
@@ -53,5 +54,11 @@ pub fn redraw(
     let mesh = &prepared.annulus.mesh;
     let fits = record.fits(mesh.node_count(), mesh.inner_edge.nodes.len());
     refuse_misfit(folder.path(), fits)?;
-    draw_record(folder, &prepared, &record, summary, options)
+    let summary = TransientSummary::deserialize(summary).map_err(|error| {
+        let path = folder.path().display();
+        Failure::usage(format!(
+            "the summary.json of {path} is of another version ({error}): run it again"
+        ))
+    })?;
+    draw_record(folder, &prepared, &record, &summary, options)
 }

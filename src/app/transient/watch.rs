@@ -25,6 +25,8 @@ pub fn catch_signals() {
 /// Where and how often checkpoints are written.
 pub struct Checkpoints<'a> {
     pub folder: &'a OutputFolder,
+    /// Hash that the run is known by.
+    pub case_hash: &'a str,
     /// Wall time between two, s.
     pub interval_s: f64,
 }
@@ -94,7 +96,8 @@ impl<'a> Watch<'a> {
         if self.last_checkpoint.elapsed().as_secs_f64() < checkpoints.interval_s {
             return Ok(());
         }
-        write_checkpoint(checkpoints.folder, &sample.state(), &self.record)?;
+        let (folder, record) = (checkpoints.folder, Some(&self.record));
+        write_checkpoint(folder, checkpoints.case_hash, &sample.state(), record)?;
         self.last_checkpoint = Instant::now();
         Ok(())
     }
@@ -102,12 +105,12 @@ impl<'a> Watch<'a> {
 
 impl Observer for Watch<'_> {
     fn observe(&mut self, sample: &Sample<'_>) -> ControlFlow<()> {
-        let _ = self.record.observe(sample);
+        let settled = self.record.observe(sample);
         if self.last_message.elapsed() > Duration::from_millis(100) {
             self.last_message = Instant::now();
             self.tell(sample);
         }
-        if IS_INTERRUPTED.load(Ordering::Relaxed) {
+        if settled.is_break() || IS_INTERRUPTED.load(Ordering::Relaxed) {
             return ControlFlow::Break(());
         }
         if let Err(error) = self.save(sample) {

@@ -67,19 +67,10 @@ pub fn write_base(
         }
         table.finish()
     })?;
-    let stress = |name: &str, of: fn(&NodalStress) -> f64| {
-        Field::scalars(name, base.stress.iter().map(of).collect())
-    };
-    let fields = [
-        Field::vectors("displacement", mesh, &base.displacement),
-        stress("von_mises", NodalStress::von_mises),
-        stress("radial_stress", |stress| stress.radial),
-        stress("hoop_stress", |stress| stress.hoop),
-        stress("shear_stress", |stress| stress.shear),
-        stress("pressure", NodalStress::pressure),
-    ];
+    let mut fields = vec![Field::vectors("displacement_m", mesh, &base.displacement)];
+    fields.extend(Field::stresses(&base.stress));
     folder.write_bulk("prestress.vtu", |out| {
-        write_vtu(out, &EncodedMesh::new(mesh)?, &fields, &[])
+        write_vtu(out, &EncodedMesh::new(mesh)?, &[], &fields, &[])
     })?;
     Ok(())
 }

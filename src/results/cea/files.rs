@@ -194,7 +194,7 @@ fn write_shapes(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<(), Fol
     for batch in shaped.chunks(rayon::current_num_threads().max(1)) {
         let encoded: Vec<io::Result<Vec<u8>>> = batch
             .par_iter()
-            .map(|(_, _, mode)| encode_shape(report, &mesh, mode))
+            .map(|(friction, _, mode)| encode_shape(report, &mesh, *friction, mode))
             .collect();
         for ((friction, number, mode), bytes) in batch.iter().zip(encoded) {
             let name = format!("modes/mu-{friction}-mode-{number:03}.vtu");
@@ -216,14 +216,20 @@ fn write_shapes(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<(), Fol
 fn encode_shape(
     report: &CeaReport<'_>,
     mesh: &io::Result<EncodedMesh>,
+    friction_coefficient: f64,
     mode: &ComplexMode,
 ) -> io::Result<Vec<u8>> {
     let mesh = mesh
         .as_ref()
         .map_err(|error| io::Error::from(error.kind()))?;
     let fields = shape_fields(report, mode);
+    let whole = [
+        Field::number("frequency_hz", mode.frequency_hz()),
+        Field::number("real_hz", mode.real_hz()),
+        Field::number("friction_coefficient", friction_coefficient),
+    ];
     let mut bytes = Vec::new();
-    write_vtu(&mut bytes, mesh, &fields, &[])?;
+    write_vtu(&mut bytes, mesh, &whole, &fields, &[])?;
     Ok(bytes)
 }
 

@@ -46,6 +46,8 @@ pub struct Trajectories<'a> {
     pub trace: ContactTrace<'a>,
     /// First sample of the limit cycle, drawn strongly; what comes before is drawn lightly.
     pub cycle_start: usize,
+    /// What that part is: a limit cycle, or only the end of the run.
+    pub end_name: &'a str,
 }
 
 /// Draws the phase plot and the trace side by side.
@@ -69,23 +71,23 @@ pub fn draw_trajectories(data: &Trajectories) -> Result<String, FigureError> {
     let mut svg = Svg::new("limit-cycles", DOUBLE_COLUMN, 100.0);
     draw_phase(&mut svg, height, data);
     draw_trace(&mut svg, height, data);
-    let mut entries = vec![(Key::line(APPROACH), "growth".to_string())];
+    let mut entries = vec![(Key::line(APPROACH), "before".to_string())];
     match trace.status {
         Some(_) => {
-            entries.push((Key::line(colour::SERIES[1]), "limit cycle".into()));
+            entries.push((Key::line(colour::SERIES[1]), data.end_name.into()));
             for status in STATUSES {
                 let name = colour::name_of_status(status).to_string();
                 entries.push((Key::line(trace_colour(status)), name));
             }
         }
-        None => entries.push((Key::line(colour::SERIES[1]), "limit cycle".into())),
+        None => entries.push((Key::line(colour::SERIES[1]), data.end_name.into())),
     }
     let y = 16.0 + height + Panel::bottom_margin() + 2.0;
     legend::draw_legend(&mut svg, 42.0, y, DOUBLE_COLUMN - 50.0, &entries);
     svg.set_height(y + legend::legend_height(&entries, DOUBLE_COLUMN - 50.0) + 2.0);
     Ok(svg.finish(
         "Limit cycles",
-        "Phase plot of a probe, and the path of a contact node, growing to the limit cycle.",
+        "Phase plot of a probe, and the path of a contact node.",
     ))
 }
 

@@ -13,7 +13,7 @@ use super::report::NamedFigure;
 use crate::contact::ContactStatus;
 use crate::fem::{ElasticMaterial, nodal_stress};
 use crate::mesh::Mesh2d;
-use crate::transient::{ContactFrame, Recorder, SampleRow, TransientAnalysis};
+use crate::transient::{ContactFrame, EndState, Recorder, SampleRow, TransientAnalysis};
 use signals::{acceleration, component, growth, overview, spectrum, stages};
 
 /// Whole-field pictures of one kind, at most.
@@ -139,15 +139,6 @@ fn statuses(frame: &ContactFrame) -> Vec<ContactStatus> {
     frame.status.iter().map(named).collect()
 }
 
-/// The contact frame nearest to a time.
-fn frame_at(record: &Recorder, time: f64) -> Option<&ContactFrame> {
-    let distance = |frame: &&ContactFrame| (frame.time - time).abs();
-    record
-        .frames
-        .iter()
-        .min_by(|a, b| distance(a).total_cmp(&distance(b)))
-}
-
 fn velocity_fields(data: &RunFigures<'_>) -> Result<String, FigureError> {
     let snapshots = || data.record.snapshots.iter().take(FIELD_LIMIT);
     // What is that much slower than the cylinder is round-off of a body at rest.
@@ -159,8 +150,8 @@ fn velocity_fields(data: &RunFigures<'_>) -> Result<String, FigureError> {
             pairs.map(|v| modulus(v).unwrap_or(0.0)).collect()
         })
         .collect();
-    let status: Vec<Option<Vec<ContactStatus>>> = snapshots()
-        .map(|snapshot| frame_at(data.record, snapshot.time).map(statuses))
+    let status: Vec<Vec<ContactStatus>> = snapshots()
+        .map(|snapshot| statuses(&snapshot.contact))
         .collect();
     let frames = snapshots().zip(fields.iter().zip(&status));
     draw_snapshots(&Snapshots {
@@ -170,7 +161,7 @@ fn velocity_fields(data: &RunFigures<'_>) -> Result<String, FigureError> {
         mesh: data.mesh,
         frames: frames
             .map(|(snapshot, (field, status))| {
-                Snapshot::at_time(snapshot.time, field, status.as_deref())
+                Snapshot::at_time(snapshot.time, field, Some(status))
             })
             .collect(),
     })
@@ -237,6 +228,10 @@ fn trajectories(data: &RunFigures<'_>) -> Result<String, FigureError> {
             status: Some(&status),
         },
         cycle_start,
+        end_name: match data.analysis.settling.state {
+            EndState::LimitCycle => "limit cycle",
+            _ => "last fifth of the run",
+        },
     })
 }
 
@@ -266,15 +261,12 @@ fn traced_status(
 
 fn contact_state(data: &RunFigures<'_>) -> Result<String, FigureError> {
     let record = data.record;
-    let pair = record
-        .snapshots
-        .last()
-        .and_then(|snapshot| Some((snapshot, frame_at(record, snapshot.time)?)));
-    let Some((snapshot, frame)) = pair else {
+    let Some(snapshot) = record.snapshots.last() else {
         return Err(FigureError::Empty {
             what: "snapshots".into(),
         });
     };
+    let frame = &snapshot.contact;
     let wide = |values: &[f32]| values.iter().map(|&v| f64::from(v)).collect::<Vec<f64>>();
     let edge = data.mesh.inner_edge.nodes.iter();
     let velocity: Vec<f64> = edge

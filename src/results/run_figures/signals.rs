@@ -7,7 +7,7 @@ use crate::results::figures::{
     StatusHistory, TransientOverview, draw_harmonic_growth, draw_spectrum, draw_transient_overview,
 };
 use crate::signal::{SpectrogramOptions, Window, amplitude_spectrum, spectrogram};
-use crate::transient::{Recorder, SampleRow, TransientAnalysis};
+use crate::transient::{EndState, Recorder, SampleRow, TransientAnalysis};
 
 /// The stages of a run as figure 8 of the paper letters them: A vibrations of the start die out, B
 /// exponential growth, C stick and separation set in, D limit cycle.
@@ -62,7 +62,9 @@ pub(super) fn stages(record: &Recorder, analysis: &TransientAnalysis) -> Vec<Sta
     add("A", rows[0].time, growth);
     add("B", growth.max(rows[0].time), end);
     add("C", end, cycle.max(end));
-    add("D", cycle.max(end), last.time);
+    if analysis.settling.state == EndState::LimitCycle {
+        add("D", cycle.max(end), last.time);
+    }
     stages
 }
 
@@ -91,7 +93,7 @@ pub(super) fn acceleration(record: &Recorder, probe: usize) -> (String, Vec<f64>
 
 /// Highest frequency shown: three superharmonics, or all modes drawn.
 fn highest_frequency(data: &RunFigures<'_>, interval: f64) -> f64 {
-    let main = data.analysis.limit_cycle.main_frequency_hz.unwrap_or(0.0);
+    let main = data.analysis.last_fifth.main_frequency_hz.unwrap_or(0.0);
     let modes = data.references.iter().map(|mode| mode.frequency_hz);
     let wanted = modes.fold(3.4 * main, |top, f| top.max(1.1 * f));
     let nyquist = 0.5 / interval;
@@ -118,7 +120,7 @@ pub(super) fn overview(
     let map = spectrogram(&signal, 1.0 / interval, &options)
         .ok()
         .filter(|map| map.times.len() > 1 && map.frequencies_hz.len() > 1);
-    let main = data.analysis.limit_cycle.main_frequency_hz;
+    let main = data.analysis.last_fifth.main_frequency_hz;
     draw_transient_overview(&TransientOverview {
         signal_name,
         signal_unit: "m/s²".into(),

@@ -23,6 +23,8 @@ pub(crate) const TEMPORARY: &str = ".writing-";
 pub enum Replace {
     /// Those of the same effective case.
     SameCase,
+    /// Those of the same command, which the caller knows to be of the same run: every file stays until it is replaced.
+    Continued,
     /// Any.
     Anything,
 }
@@ -276,10 +278,11 @@ pub(crate) fn check_owner(
     let is_same = found.case_hash == ours.case_hash && found.command == ours.command;
     let is_allowed = match replace {
         Replace::SameCase => is_same,
+        Replace::Continued => found.command == ours.command,
         Replace::Anything => true,
     };
     if is_allowed {
-        return Ok(is_same);
+        return Ok(is_same || replace == Replace::Continued);
     }
     let mut described = format!("frictionsim {} {}", found.command, found.case_file);
     for text in &found.overrides {

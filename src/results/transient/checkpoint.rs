@@ -2,7 +2,6 @@
 
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::framed::{self, Defect};
-use crate::results::manifest::Manifest;
 use crate::transient::{Recorder, TransientState};
 use serde::{Deserialize, Serialize};
 use std::fs;
@@ -13,7 +12,7 @@ use std::path::{Path, PathBuf};
 pub const CHECKPOINT: &str = "checkpoint.bin";
 
 const MAGIC: [u8; 8] = *b"FRICSIMC";
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// A checkpoint that cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -79,14 +78,14 @@ pub enum CheckpointError {
 /// Everything that a run needs to go on to the same bytes as one that was never stopped.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Checkpoint {
-    /// Hash of the effective case.
+    /// Hash of the case without its end, which may be moved.
     pub case_hash: String,
     /// SIMD level: another one rounds differently.
     pub simd: String,
     /// State of the time loop.
     pub state: TransientState,
-    /// What was recorded so far.
-    pub record: Recorder,
+    /// What was recorded so far; `None` where the folder's record has it.
+    pub record: Option<Recorder>,
 }
 
 /// What a checkpoint is written from, without a copy.
@@ -95,22 +94,22 @@ struct Borrowed<'a> {
     case_hash: &'a str,
     simd: &'a str,
     state: &'a TransientState,
-    record: &'a Recorder,
+    record: Option<&'a Recorder>,
 }
 
-/// Writes a checkpoint; the one before stays until this one is complete.
+/// Writes a checkpoint; the one before stays until this one is complete. Without a record it goes with that of the folder.
 ///
 /// # Errors
 /// Those of the folder.
 pub fn write_checkpoint(
     folder: &OutputFolder,
+    case_hash: &str,
     state: &TransientState,
-    record: &Recorder,
+    record: Option<&Recorder>,
 ) -> Result<(), FolderError> {
-    let manifest = folder.manifest();
     let contents = Borrowed {
-        case_hash: &manifest.case_hash,
-        simd: &manifest.simd,
+        case_hash,
+        simd: &folder.manifest().simd,
         state,
         record,
     };
@@ -125,7 +124,11 @@ pub fn write_checkpoint(
 ///
 /// # Errors
 /// [`CheckpointError`] says why it cannot be used; the file is left as it is.
-pub fn read_checkpoint(folder: &Path, manifest: &Manifest) -> Result<Checkpoint, CheckpointError> {
+pub fn read_checkpoint(
+    folder: &Path,
+    case_hash: &str,
+    simd: &str,
+) -> Result<Checkpoint, CheckpointError> {
     let path = folder.join(CHECKPOINT);
     let bytes = match fs::read(&path) {
         Ok(bytes) => bytes,
@@ -145,15 +148,15 @@ pub fn read_checkpoint(folder: &Path, manifest: &Manifest) -> Result<Checkpoint,
         },
     })?;
     for (what, found, expected) in [
-        ("case hash", &checkpoint.case_hash, &manifest.case_hash),
-        ("SIMD level", &checkpoint.simd, &manifest.simd),
+        ("case hash", &checkpoint.case_hash, case_hash),
+        ("SIMD level", &checkpoint.simd, simd),
     ] {
         if found != expected {
             return Err(CheckpointError::Foreign {
                 path,
                 what,
                 found: found.clone(),
-                expected: expected.clone(),
+                expected: expected.to_owned(),
             });
         }
     }
@@ -164,11 +167,10 @@ fn decode(bytes: &[u8]) -> Result<Checkpoint, Defect> {
     let payload = framed::read(bytes, MAGIC, VERSION)?;
     let checkpoint: Checkpoint =
         postcard::from_bytes(payload).map_err(|error| Defect::Damage(error.to_string()))?;
-    if checkpoint.record.is_consistent() {
-        Ok(checkpoint)
-    } else {
-        Err(Defect::Damage(
+    match &checkpoint.record {
+        Some(record) if !record.is_consistent() => Err(Defect::Damage(
             "its samples, probes and frames do not fit together".to_owned(),
-        ))
+        )),
+        _ => Ok(checkpoint),
     }
 }

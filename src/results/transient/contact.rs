@@ -1,11 +1,15 @@
 //! `contact.npz`: the contact edge over time, node by node.
 
+use crate::contact::ContactStatus;
 use crate::results::npz::NpzArchive;
 use crate::transient::Recorder;
 use std::io;
 
-/// Writes the arrays `time_s (F)`, `angle_rad (N)`, `status (F, N)` with 0 open, 1 stick, 2 slip, `pressure_pa (F, N)`
-/// and `shear_pa (F, N)` for `F` frames and `N` contact nodes, as NumPy reads them.
+/// Writes the arrays `time_s (F)`, `angle_rad (N)`, `status (F, N)`, `pressure_pa (F, N)` and `shear_pa (F, N)` for `F`
+/// frames and `N` contact nodes, as NumPy reads them; the numbers `interval_s` between frames, and `status_open` (0),
+/// `status_stick` (1), `status_slip` (2), which say what the codes of `status` mean.
+///
+/// A frame is the state of one step; frames may lie several samples apart.
 ///
 /// # Errors
 /// Those of the archive.
@@ -25,5 +29,14 @@ pub fn encode_contact(record: &Recorder) -> io::Result<Vec<u8>> {
     archive.array("pressure_pa", &shape, pressure)?;
     let shear = frames.iter().flat_map(|f| f.shear.iter().copied());
     archive.array("shear_pa", &shape, shear)?;
+    let interval = record.frame_stride as f64 * record.sample_interval;
+    archive.array("interval_s", &[], std::iter::once(interval))?;
+    for (name, code) in [
+        ("status_open", ContactStatus::Open),
+        ("status_stick", ContactStatus::Stick),
+        ("status_slip", ContactStatus::Slip),
+    ] {
+        archive.array(name, &[], std::iter::once(code as u8))?;
+    }
     archive.finish()
 }

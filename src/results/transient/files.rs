@@ -1,24 +1,29 @@
 //! Probes, energies, contact, snapshots, summary.
 
 use super::contact::encode_contact;
-use super::{TransientReport, summary};
+use super::{TransientReport, TransientSummary, summary};
 use crate::fem::nodal_stress;
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::record::write_record;
+use crate::results::summary::write_summary;
 use crate::results::table::{Table, format_number};
 use crate::results::vtu::{EncodedMesh, Field, PvdEntry, write_pvd, write_vtu};
 use crate::transient::{Recorder, SampleRow, Snapshot};
-use serde_json::Value;
 use std::io::{self, Write};
 
 /// Writes all files of the transient and returns the summary.
 ///
 /// # Errors
 /// Those of the folder.
-pub fn write(folder: &OutputFolder, report: &TransientReport<'_>) -> Result<Value, FolderError> {
-    for (probe, rows) in report.record.probes.iter().zip(&report.record.probe_rows) {
+pub fn write(
+    folder: &OutputFolder,
+    report: &TransientReport<'_>,
+) -> Result<TransientSummary, FolderError> {
+    let raw = |index: usize| Some(report.record.raw_accelerations.as_ref()?[index].as_slice());
+    let probes = report.record.probes.iter().zip(&report.record.probe_rows);
+    for (index, (probe, rows)) in probes.enumerate() {
         folder.write(&format!("probe-{probe}.csv"), |out| {
-            write_probe(out, &report.record.rows, rows)
+            write_probe(out, &report.record.rows, rows, raw(index))
         })?;
     }
     folder.write("energy.csv", |out| write_energy(out, report))?;
@@ -30,15 +35,19 @@ pub fn write(folder: &OutputFolder, report: &TransientReport<'_>) -> Result<Valu
     write_snapshots(folder, report)?;
     write_record(folder, report.record)?;
     let summary = summary(report, folder.manifest());
-    folder.write("summary.json", |out| {
-        serde_json::to_writer_pretty(&mut *out, &summary)?;
-        out.write_all(b"\n")
-    })?;
+    write_summary(folder, &summary)?;
     Ok(summary)
 }
 
-fn write_probe(out: &mut dyn Write, samples: &[SampleRow], rows: &[[f64; 6]]) -> io::Result<()> {
-    let columns = [
+/// Motion of a probe; the accelerations are means since the last sample, those of the sampled step alone come last
+/// where they are kept.
+fn write_probe(
+    out: &mut dyn Write,
+    samples: &[SampleRow],
+    rows: &[[f64; 6]],
+    raw: Option<&[[f64; 2]]>,
+) -> io::Result<()> {
+    let mut columns = vec![
         "time_s",
         "u_r_m",
         "u_theta_m",
@@ -47,10 +56,14 @@ fn write_probe(out: &mut dyn Write, samples: &[SampleRow], rows: &[[f64; 6]]) ->
         "a_r_m_per_s2",
         "a_theta_m_per_s2",
     ];
+    if raw.is_some() {
+        columns.extend(["a_r_step_m_per_s2", "a_theta_step_m_per_s2"]);
+    }
     let mut table = Table::new(out, &columns)?;
-    for (sample, row) in samples.iter().zip(rows) {
-        let [u_r, u_t, v_r, v_t, a_r, a_t] = *row;
-        table.numbers(&[sample.time, u_r, u_t, v_r, v_t, a_r, a_t])?;
+    for (index, (sample, row)) in samples.iter().zip(rows).enumerate() {
+        let step = raw.map(|raw| raw[index]);
+        let mean = std::iter::once(sample.time).chain(*row);
+        table.row(mean.chain(step.into_iter().flatten()).map(format_number))?;
     }
     table.finish()
 }
@@ -127,12 +140,16 @@ fn write_snapshots(folder: &OutputFolder, report: &TransientReport<'_>) -> Resul
     for (index, snapshot) in snapshots.iter().enumerate() {
         let name = format!("snapshots/snapshot-{:03}.vtu", index + 1);
         let fields = snapshot_fields(report, snapshot);
+        let whole = [
+            Field::number("time_s", snapshot.time),
+            Field::number("friction_coefficient", report.friction_coefficient),
+        ];
         folder.write(&name, |out| {
             if encoded.is_none() {
                 encoded = Some(EncodedMesh::new(report.mesh)?);
             }
             match &encoded {
-                Some(mesh) => write_vtu(out, mesh, &fields, &[]),
+                Some(mesh) => write_vtu(out, mesh, &whole, &fields, &[]),
                 None => Ok(()),
             }
         })?;
@@ -146,18 +163,32 @@ fn write_snapshots(folder: &OutputFolder, report: &TransientReport<'_>) -> Resul
     Ok(())
 }
 
-fn snapshot_fields(report: &TransientReport<'_>, snapshot: &Snapshot) -> [Field; 7] {
+/// Motion and stress of all nodes, and the contact at the same step: status (0 open, 1 stick, 2 slip; -1 off the contact
+/// edge), pressure, shear and gap (zero off the contact edge).
+fn snapshot_fields(report: &TransientReport<'_>, snapshot: &Snapshot) -> Vec<Field> {
+    let mut fields = vec![
+        Field::vectors("displacement_m", report.mesh, &snapshot.displacement),
+        Field::vectors("velocity_m_per_s", report.mesh, &snapshot.velocity),
+    ];
     let stresses = nodal_stress(report.mesh, report.material, &snapshot.displacement);
-    let stress = |name: &str, of: fn(&crate::fem::NodalStress) -> f64| {
-        Field::scalars(name, stresses.iter().map(of).collect())
+    fields.extend(Field::stresses(&stresses));
+    let edge = &report.mesh.inner_edge.nodes;
+    let mut status = vec![-1; report.mesh.node_count()];
+    for (&node, &code) in edge.iter().zip(&snapshot.contact.status) {
+        status[node as usize] = i64::from(code);
+    }
+    fields.push(Field::integers("status", status));
+    let mut on_edge = |name: &str, values: &mut dyn Iterator<Item = f64>| {
+        let mut field = vec![0.0; report.mesh.node_count()];
+        for (&node, value) in edge.iter().zip(values) {
+            field[node as usize] = value;
+        }
+        fields.push(Field::scalars(name, field));
     };
-    [
-        Field::vectors("displacement", report.mesh, &snapshot.displacement),
-        Field::vectors("velocity", report.mesh, &snapshot.velocity),
-        stress("von_mises_pa", |s| s.von_mises()),
-        stress("pressure_pa", |s| s.pressure()),
-        stress("stress_rr_pa", |s| s.radial),
-        stress("stress_tt_pa", |s| s.hoop),
-        stress("stress_rt_pa", |s| s.shear),
-    ]
+    let contact = &snapshot.contact;
+    let wide = |values: &[f32]| values.iter().copied().map(f64::from).collect::<Vec<f64>>();
+    on_edge("pressure_pa", &mut wide(&contact.pressure).into_iter());
+    on_edge("shear_pa", &mut wide(&contact.shear).into_iter());
+    on_edge("gap_m", &mut snapshot.gap.iter().copied());
+    fields
 }

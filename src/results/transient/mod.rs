@@ -12,7 +12,7 @@ pub use checkpoint::{CHECKPOINT, Checkpoint, CheckpointError, read_checkpoint, w
 pub use files::write;
 pub use print::print;
 pub use report::{draw, html_report};
-pub use summary::summary;
+pub use summary::{TransientSummary, summary};
 
 use crate::fem::ElasticMaterial;
 use crate::mesh::Mesh2d;
@@ -30,6 +30,8 @@ pub struct TransientReport<'a> {
     pub material: &'a ElasticMaterial,
     /// Thickness, m.
     pub thickness: f64,
+    /// Friction coefficient, for the snapshots.
+    pub friction_coefficient: f64,
     /// State at the start: `"rest"` or `"steady-sliding"`.
     pub initial: &'a str,
     /// Initial velocity.

@@ -1,80 +1,125 @@
 //! The table for people.
 
-use super::TransientReport;
+use super::summary::{GrowthSummary, MeanPowers, TransientSummary};
+use crate::results::table::fixed;
+use crate::transient::EndState;
 use std::fmt::Write as _;
 
 /// What the run did, in a few lines.
-pub fn print(report: &TransientReport<'_>) -> String {
+pub fn print(summary: &TransientSummary, state: EndState) -> String {
     let mut out = String::new();
-    let cycle = &report.analysis.limit_cycle;
-    if !report.title.is_empty() {
-        let _ = writeln!(out, "{}", report.title);
+    if !summary.title.is_empty() {
+        let _ = writeln!(out, "{}", summary.title);
     }
     let _ = writeln!(
         out,
-        "{} steps of {:.4e} s ({} operator), {:.1} million element-steps a second",
-        report.steps,
-        report.plan.time_step,
-        report.operator,
-        1e-6 * report.element_steps_per_second(),
+        "{} steps of {:.4e} s ({} operator), {} million element-steps a second",
+        summary.steps,
+        summary.time_step_s,
+        summary.operator,
+        fixed(1e-6 * summary.element_steps_per_s, 1),
     );
     let _ = writeln!(
         out,
         "largest energy balance residual {:.1e}",
-        report.analysis.largest_residual
+        summary.max_balance_residual
     );
-    for growth in &report.analysis.growth {
+    summary
+        .growth
+        .iter()
+        .for_each(|stage| growth(&mut out, stage));
+    for (harmonic, reason) in &summary.no_growth {
         let _ = writeln!(
             out,
-            "linear stage: harmonic {} {} at {:.1} 1/s, {:.1} Hz, travelling {} the rotor",
-            growth.harmonic,
-            if growth.rate > 0.0 { "grows" } else { "decays" },
-            growth.rate.abs(),
-            growth.frequency_hz,
-            if growth.direction > 0 {
-                "with"
-            } else {
-                "against"
-            },
+            "linear stage: no growth rate of harmonic {}: {reason}",
+            &harmonic[1..]
         );
     }
-    if let Some(time) = report.analysis.first_nonlinearity {
+    if let Some(time) = summary.first_nonlinearity_s {
         let _ = writeln!(out, "first node that sticks or opens at {time:.6} s");
     }
+    let _ = writeln!(out, "{}", ending(summary, state));
     let _ = writeln!(out, "over the last fifth of the run:");
-    match (cycle.main_frequency_hz, cycle.main_harmonic) {
+    match (summary.main_frequency_hz, summary.main_harmonic) {
         (Some(frequency), Some(harmonic)) => {
             let _ = writeln!(
                 out,
-                "  main frequency {frequency:.1} Hz, {harmonic} nodal diameters"
+                "  main frequency {} Hz, {harmonic} nodal diameter{}",
+                fixed(frequency, 1),
+                if harmonic == 1 { "" } else { "s" }
             );
         }
         _ => out.push_str("  no vibration\n"),
     }
-    let [stick, slip, open] = cycle.status;
+    let status = &summary.status;
     let _ = writeln!(
         out,
-        "  contact nodes: stick {stick:.3}, slip {slip:.3}, open {open:.3}"
+        "  contact nodes: stick {}, slip {}, open {}",
+        optional(status.stick, 3),
+        optional(status.slip, 3),
+        optional(status.open, 3)
     );
-    powers(&mut out, report);
+    powers(&mut out, &summary.power_w);
     out
 }
 
-fn powers(out: &mut String, report: &TransientReport<'_>) {
-    let cycle = &report.analysis.limit_cycle;
-    let powers = &cycle.powers;
+/// Where the run has come to, as a sentence.
+pub fn ending(summary: &TransientSummary, state: EndState) -> String {
+    let end = format!("the run ends {}", state.phrase());
+    match (summary.settled_from_s, &summary.unsettled_because) {
+        (Some(from), _) => format!("{end}, settled from {from:.6} s on"),
+        (None, Some(reason)) => format!("{end}: {reason}"),
+        (None, None) => end,
+    }
+}
+
+fn growth(out: &mut String, stage: &GrowthSummary) {
+    let (low, high) = (stage.rate_low_per_s, stage.rate_high_per_s);
+    let verb = match stage.rate_per_s {
+        _ if low <= 0.0 && high >= 0.0 => "neither grows nor decays:",
+        rate if rate > 0.0 => "grows at",
+        _ => "decays at",
+    };
     let _ = writeln!(
         out,
-        "  external power {:.2} W: stick {:.1} %, slide {:.1} %, dissipated in the contact {:.1} %",
-        report.thickness * powers.external,
-        100.0 * powers.stick / powers.external,
-        100.0 * powers.slide / powers.external,
-        100.0 * powers.contact_dissipated / powers.external,
+        "linear stage: harmonic {} {verb} {} 1/s ({} to {}), {} Hz, travelling {} the rotor",
+        stage.harmonic,
+        fixed(stage.rate_per_s, 1),
+        fixed(low, 1),
+        fixed(high, 1),
+        fixed(stage.frequency_hz, 1),
+        if stage.direction > 0 {
+            "with"
+        } else {
+            "against"
+        },
     );
+}
+
+/// A number, or a dash where there is none.
+fn optional(value: Option<f64>, decimals: usize) -> String {
+    fixed(value.unwrap_or(f64::NAN), decimals)
+}
+
+fn powers(out: &mut String, powers: &MeanPowers) {
+    match powers.external.filter(|power| *power != 0.0) {
+        None => out.push_str("  no external power: the cylinder drags nothing\n"),
+        Some(external) => {
+            let share = |power: Option<f64>| optional(power.map(|p| 100.0 * p / external), 1);
+            let _ = writeln!(
+                out,
+                "  external power {} W: stick {} %, slide {} %, dissipated in the contact {} %",
+                fixed(external, 2),
+                share(powers.stick),
+                share(powers.slide),
+                share(powers.contact_dissipated),
+            );
+        }
+    }
     let _ = writeln!(
         out,
-        "  dissipated in the body {:.2} W, normal contact {:.2} W",
-        report.thickness * cycle.material_damping,
-        report.thickness * powers.normal,
+        "  dissipated in the body {} W, normal contact {} W",
+        optional(powers.material_damping, 2),
+        optional(powers.normal_contact, 2),
     );
 }

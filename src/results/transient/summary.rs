@@ -2,75 +2,293 @@
 
 use super::TransientReport;
 use crate::results::manifest::Manifest;
-use crate::transient::Perturbation;
-use serde_json::{Value, json};
+use crate::results::summary::{Entry, MeanPowers, StatusFractions, Summary, present};
+use crate::transient::{Drift, Growth, Perturbation, ProbeMotion, TransientAnalysis};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
-/// The summary object.
-pub fn summary(report: &TransientReport<'_>, manifest: &Manifest) -> Value {
+/// `summary.json` of `frictionsim transient`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TransientSummary {
+    /// `transient`.
+    pub command: String,
+    /// Title of the case.
+    pub title: String,
+    /// Whether the run reached its end, or stopped because it had settled.
+    pub finished: bool,
+    /// Steps done.
+    pub steps: u64,
+    /// Time step, s.
+    pub time_step_s: f64,
+    /// Time of the last sample, s.
+    pub end_time_s: f64,
+    /// Largest stable step, s.
+    pub stability_limit_s: f64,
+    /// `omega_max`, rad/s.
+    pub largest_frequency_rad_per_s: f64,
+    /// `cyclic` or `sparse`.
+    pub operator: String,
+    /// State at the start.
+    pub initial: String,
+    /// Velocity that was added.
+    pub perturbation: PerturbationSummary,
+    /// Wall time, s.
+    pub wall_s: f64,
+    /// Elements times steps for each second of stepping.
+    pub element_steps_per_s: f64,
+    /// Largest energy balance residual.
+    pub max_balance_residual: f64,
+    /// Whether amplitude, frequency and status drift by less than 1 % over the last fifth of the run.
+    pub settled: bool,
+    /// Since when, s.
+    pub settled_from_s: Option<f64>,
+    /// `limit-cycle`, `steady-sliding`, `at-rest`, `separated` or `unsettled`.
+    pub end_state: String,
+    /// Why it is unsettled.
+    pub unsettled_because: Option<String>,
+    /// Drift over the last fifth.
+    pub drift: Option<DriftSummary>,
+    /// Main frequency over the last fifth, Hz; absent where nothing vibrates.
+    pub main_frequency_hz: Option<f64>,
+    /// Harmonic of that vibration.
+    pub main_harmonic: Option<usize>,
+    /// Its root mean square, tangential displacement of the contact edge, m.
+    pub main_amplitude_m: Option<f64>,
+    /// Fractions of contact nodes over the last fifth.
+    pub status: StatusFractions,
+    /// Mean powers over the last fifth.
+    pub power_w: MeanPowers,
+    /// Mean amplitudes of the harmonics 0 to 8 of the contact edge's tangential displacement, m.
+    pub harmonics: Vec<f64>,
+    /// The same of all harmonics `n >= 1` above a thousandth of the largest, by `nN`.
+    pub significant_harmonics_m: BTreeMap<String, f64>,
+    /// Rates in the linear stage of the perturbed harmonics that have one.
+    pub growth: Vec<GrowthSummary>,
+    /// Why the others have none, by `nN`.
+    pub no_growth: BTreeMap<String, String>,
+    /// When the first node sticks or opens after the linear stage, s.
+    pub first_nonlinearity_s: Option<f64>,
+    /// Motion of the probes over the last fifth, by node.
+    pub probes: BTreeMap<String, ProbeSummary>,
+    /// Time between the frames of `contact.npz`, s.
+    pub contact_interval_s: f64,
+    /// What it was made from.
+    pub manifest: Manifest,
+}
+
+/// The velocity that was added.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PerturbationSummary {
+    /// Circumferential harmonics.
+    pub harmonics: Vec<usize>,
+    /// Amplitude, m/s.
+    pub velocity: OneOrEach,
+    /// Phase, degrees.
+    pub phase_deg: OneOrEach,
+    /// Standard deviation of the random part, m/s.
+    pub noise: f64,
+    /// Its seed.
+    pub noise_seed: u64,
+    /// When it was added, s.
+    pub at_s: f64,
+}
+
+/// One number for all harmonics, or one for each.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum OneOrEach {
+    /// For all.
+    One(f64),
+    /// For each.
+    Each(Vec<f64>),
+}
+
+impl OneOrEach {
+    fn of(values: impl Iterator<Item = f64>) -> Self {
+        let values: Vec<f64> = values.collect();
+        match values.as_slice() {
+            [first, others @ ..] if others.iter().all(|v| v == first) => Self::One(*first),
+            _ => Self::Each(values),
+        }
+    }
+}
+
+/// Differences between the largest and the smallest block mean over the last fifth.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct DriftSummary {
+    /// Of the amplitude of any harmonic, relative to the largest.
+    pub amplitude: f64,
+    /// Of the main frequency, relative.
+    pub frequency: f64,
+    /// Of the fraction of nodes in any status.
+    pub status: f64,
+}
+
+/// Growth of one harmonic, with 95 % intervals.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct GrowthSummary {
+    /// Circumferential harmonic.
+    pub harmonic: usize,
+    /// Rate, 1/s.
+    pub rate_per_s: f64,
+    /// Low end of its interval, 1/s.
+    pub rate_low_per_s: f64,
+    /// High end, 1/s.
+    pub rate_high_per_s: f64,
+    /// Frequency, Hz.
+    pub frequency_hz: f64,
+    /// +1 with the rotor, -1 against it.
+    pub direction: i8,
+}
+
+/// Motion of a probe over the last fifth; accelerations are means over the sample interval.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ProbeSummary {
+    /// Radially.
+    pub radial: MotionSummary,
+    /// Tangentially.
+    pub tangential: MotionSummary,
+}
+
+/// Motion in one direction.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MotionSummary {
+    /// Half the range of the displacement, m.
+    pub displacement_amplitude_m: f64,
+    /// Root mean square acceleration, m/s2.
+    pub acceleration_rms_m_per_s2: f64,
+    /// Largest acceleration, m/s2.
+    pub acceleration_peak_m_per_s2: f64,
+}
+
+impl Summary for TransientSummary {
+    fn headline(&self) -> Vec<Entry> {
+        vec![
+            Entry::new("main_frequency_hz", self.main_frequency_hz),
+            Entry::new("main_harmonic", self.main_harmonic),
+            Entry::new("end_state", self.end_state.as_str()),
+            Entry::new("status.stick", self.status.stick),
+            Entry::new("status.slip", self.status.slip),
+            Entry::new("status.open", self.status.open),
+        ]
+    }
+}
+
+/// The summary of a run.
+pub fn summary(report: &TransientReport<'_>, manifest: &Manifest) -> TransientSummary {
     let (plan, analysis) = (&report.plan, report.analysis);
-    let cycle = &analysis.limit_cycle;
-    let watts = |power: f64| power * report.thickness;
-    let [stick, slip, open] = cycle.status;
-    let powers = &cycle.powers;
-    let growth: Vec<Value> = analysis
-        .growth
-        .iter()
-        .map(|growth| {
-            json!({
-                "harmonic": growth.harmonic,
-                "rate_per_s": growth.rate,
-                "frequency_hz": growth.frequency_hz,
-                "direction": growth.direction,
-            })
-        })
-        .collect();
-    json!({
-        "command": "transient",
-        "title": report.title,
-        "finished": report.is_finished,
-        "steps": report.steps,
-        "time_step_s": plan.time_step,
-        "end_time_s": (report.steps.saturating_sub(1)) as f64 * plan.time_step,
-        "stability_limit_s": plan.limit,
-        "largest_frequency_rad_per_s": plan.largest_frequency,
-        "operator": report.operator,
-        "initial": report.initial,
-        "perturbation": perturbation(report.perturbation),
-        "wall_s": report.wall_s,
-        "element_steps_per_s": report.element_steps_per_second(),
-        "max_balance_residual": analysis.largest_residual,
-        "main_frequency_hz": cycle.main_frequency_hz,
-        "main_harmonic": cycle.main_harmonic,
-        "status": { "stick": stick, "slip": slip, "open": open },
-        "power_w": {
-            "external": watts(powers.external),
-            "stick": watts(powers.stick),
-            "slide": watts(powers.slide),
-            "contact_dissipated": watts(powers.contact_dissipated),
-            "material_damping": watts(cycle.material_damping),
-            "normal_contact": watts(powers.normal),
+    let (end, settling) = (&analysis.last_fifth, &analysis.settling);
+    let watts = |power: f64| present(power * report.thickness);
+    let [stick, slip, open] = end.status.map(present);
+    TransientSummary {
+        command: "transient".to_owned(),
+        title: report.title.to_owned(),
+        finished: report.is_finished,
+        steps: report.steps,
+        time_step_s: plan.time_step,
+        end_time_s: report.steps.saturating_sub(1) as f64 * plan.time_step,
+        stability_limit_s: plan.limit,
+        largest_frequency_rad_per_s: plan.largest_frequency,
+        operator: report.operator.to_owned(),
+        initial: report.initial.to_owned(),
+        perturbation: PerturbationSummary::of(report.perturbation),
+        wall_s: report.wall_s,
+        element_steps_per_s: report.element_steps_per_second(),
+        max_balance_residual: analysis.largest_residual,
+        settled: settling.is_settled(),
+        settled_from_s: settling.from,
+        end_state: settling.state.name().to_owned(),
+        unsettled_because: settling.reason.map(|reason| reason.to_string()),
+        drift: settling.drift.map(DriftSummary::from),
+        main_frequency_hz: end.main_frequency_hz,
+        main_harmonic: end.main_harmonic,
+        main_amplitude_m: end.main_amplitude,
+        status: StatusFractions { stick, slip, open },
+        power_w: MeanPowers {
+            external: watts(end.powers.external),
+            stick: watts(end.powers.stick),
+            slide: watts(end.powers.slide),
+            contact_dissipated: watts(end.powers.contact_dissipated),
+            material_damping: watts(end.material_damping),
+            normal_contact: watts(end.powers.normal),
         },
-        "harmonics": cycle.harmonics,
-        "growth": growth,
-        "first_nonlinearity_s": analysis.first_nonlinearity,
-        "manifest": manifest,
+        harmonics: end.harmonics.map(|amplitude| amplitude + 0.0).to_vec(),
+        significant_harmonics_m: by_harmonic(end.significant.iter().copied()),
+        growth: analysis.growth.iter().filter_map(growth).collect(),
+        no_growth: no_growth(analysis),
+        first_nonlinearity_s: analysis.first_nonlinearity,
+        probes: probes(report),
+        contact_interval_s: report.record.frame_stride as f64 * plan.sample_interval,
+        manifest: manifest.clone(),
+    }
+}
+
+fn by_harmonic<T>(entries: impl Iterator<Item = (usize, T)>) -> BTreeMap<String, T> {
+    entries.map(|(n, entry)| (format!("n{n}"), entry)).collect()
+}
+
+fn growth(growth: &Growth) -> Option<GrowthSummary> {
+    let stage = growth.stage.as_ref().ok()?;
+    Some(GrowthSummary {
+        harmonic: growth.harmonic,
+        rate_per_s: stage.rate_per_s.value,
+        rate_low_per_s: stage.rate_per_s.low,
+        rate_high_per_s: stage.rate_per_s.high,
+        frequency_hz: stage.frequency_hz.value.abs(),
+        direction: growth.direction(),
     })
 }
 
-/// The velocity that was added: one amplitude (m/s) and phase (degrees) for all harmonics, or one for each.
-fn perturbation(perturbation: &Perturbation) -> Value {
-    let of_all = |values: Vec<f64>| match values.as_slice() {
-        [first, others @ ..] if others.iter().all(|v| v == first) => json!(first),
-        _ => json!(values),
-    };
-    let waves = perturbation.waves.iter();
-    let phases = waves.clone().map(|wave| wave.phase.to_degrees()).collect();
-    json!({
-        "harmonics": perturbation.harmonics(),
-        "velocity": of_all(waves.map(|wave| wave.velocity).collect()),
-        "phase_deg": of_all(phases),
-        "noise": perturbation.noise,
-        "noise_seed": perturbation.noise_seed,
-        "at_s": perturbation.time,
-    })
+fn no_growth(analysis: &TransientAnalysis) -> BTreeMap<String, String> {
+    let reasons = analysis.growth.iter().filter_map(|growth| {
+        let reason = growth.stage.as_ref().err()?;
+        Some((growth.harmonic, reason.to_string()))
+    });
+    by_harmonic(reasons)
+}
+
+fn probes(report: &TransientReport<'_>) -> BTreeMap<String, ProbeSummary> {
+    let probes = report.record.probes.iter();
+    let motions = &report.analysis.last_fifth.probes;
+    probes
+        .zip(motions)
+        .map(|(node, motion)| {
+            let [radial, tangential] = [0, 1].map(|c| MotionSummary::of(motion, c));
+            (node.to_string(), ProbeSummary { radial, tangential })
+        })
+        .collect()
+}
+
+impl MotionSummary {
+    fn of(motion: &ProbeMotion, component: usize) -> Self {
+        Self {
+            displacement_amplitude_m: motion.displacement_amplitude[component],
+            acceleration_rms_m_per_s2: motion.acceleration_rms[component],
+            acceleration_peak_m_per_s2: motion.acceleration_peak[component],
+        }
+    }
+}
+
+impl From<Drift> for DriftSummary {
+    fn from(drift: Drift) -> Self {
+        Self {
+            amplitude: drift.amplitude,
+            frequency: drift.frequency,
+            status: drift.status,
+        }
+    }
+}
+
+impl PerturbationSummary {
+    fn of(perturbation: &Perturbation) -> Self {
+        let waves = perturbation.waves.iter();
+        Self {
+            harmonics: perturbation.harmonics(),
+            velocity: OneOrEach::of(waves.clone().map(|wave| wave.velocity)),
+            phase_deg: OneOrEach::of(waves.map(|wave| wave.phase.to_degrees())),
+            noise: perturbation.noise,
+            noise_seed: perturbation.noise_seed,
+            at_s: perturbation.time,
+        }
+    }
 }

@@ -1,6 +1,6 @@
 //! Whether a record that was read from a file holds together.
 
-use super::{HARMONIC_COUNT, Recorder};
+use super::{ContactFrame, HARMONIC_COUNT, Recorder};
 
 /// Largest node number and more harmonics than any mesh has: products of them must not overflow.
 const LARGEST: usize = 1 << 31;
@@ -16,17 +16,26 @@ impl Recorder {
         let probes_fit = self.probes.len() == self.probe_rows.len()
             && self.probes.iter().all(nodes_are_known)
             && self.probe_rows.iter().all(|rows| rows.len() == samples);
-        let frames_fit = self.frames.iter().all(|frame| {
+        let raw_fits = self.raw_accelerations.as_ref().is_none_or(|raw| {
+            raw.len() == self.probes.len() && raw.iter().all(|rows| rows.len() == samples)
+        });
+        let of_edge = |frame: &ContactFrame| {
             let lengths = [frame.status.len(), frame.pressure.len(), frame.shear.len()];
             lengths == [contact; 3] && frame.status.iter().all(|&code| code <= 2)
-        });
+        };
         let snapshots_fit = self.snapshots.iter().all(|snapshot| {
-            snapshot.time.is_finite() && snapshot.displacement.len() == snapshot.velocity.len()
+            snapshot.time.is_finite()
+                && snapshot.displacement.len() == snapshot.velocity.len()
+                && of_edge(&snapshot.contact)
+                && snapshot.gap.len() == contact
         });
-        rises(&times)
+        samples > 0
+            && rises(&times)
             && times.iter().all(|time| time.is_finite())
             && probes_fit
-            && frames_fit
+            && raw_fits
+            && self.frames.iter().all(of_edge)
+            && self.sample_interval > 0.0
             && snapshots_fit
             && self.frame_stride > 0
             && self.higher_harmonics.iter().all(|&n| n < LARGEST)

@@ -1,0 +1,128 @@
+//! What is kept of a sample.
+
+use super::{ContactFrame, HARMONIC_COUNT, Recorder, SampleRow, Snapshot};
+use crate::transient::{Observer, Sample, Settling};
+use std::ops::ControlFlow;
+
+/// Contact frames kept at most where no interval is asked for; longer runs keep every second, fourth ... sample.
+const FRAME_LIMIT: usize = 10_000;
+
+/// Samples before a run is first asked whether it has settled, and by what factor the later questions lie apart.
+const FIRST_QUESTION: u64 = 256;
+const NEXT_QUESTION: f64 = 1.05;
+
+impl Observer for Recorder {
+    fn observe(&mut self, sample: &Sample<'_>) -> ControlFlow<()> {
+        let amplitudes = self.harmonics(sample);
+        let higher = amplitudes[HARMONIC_COUNT..].iter();
+        self.higher_amplitudes
+            .extend(higher.map(|parts| parts.map(|part| part as f32)));
+        self.rows.push(SampleRow {
+            time: sample.time,
+            kinetic_energy: sample.kinetic_energy,
+            strain_energy: sample.strain_energy,
+            powers: sample.powers,
+            material_damping: sample.material_damping,
+            counts: sample.counts,
+            balance_residual: sample.balance_residual,
+            harmonics: std::array::from_fn(|n| amplitudes[n]),
+        });
+        self.observe_probes(sample);
+        self.observe_contact(sample);
+        if self.snapshot_indices.contains(&sample.index) {
+            let nodes = 0..self.contact_angles.len();
+            self.snapshots.push(Snapshot {
+                time: sample.time,
+                displacement: sample.displacement(),
+                velocity: sample.velocity(),
+                contact: self.frame(sample),
+                gap: nodes.map(|i| sample.gap(i)).collect(),
+            });
+        }
+        let is_asked = self.stop_when_settled && is_question(sample.index);
+        if is_asked && Settling::of(self).is_settled() {
+            self.has_stopped = true;
+            return ControlFlow::Break(());
+        }
+        ControlFlow::Continue(())
+    }
+}
+
+impl Recorder {
+    /// Amplitudes of all followed harmonics, real and imaginary part, m.
+    fn harmonics(&self, sample: &Sample<'_>) -> Vec<[f64; 2]> {
+        let mut amplitudes = vec![[0.0; 2]; HARMONIC_COUNT + self.higher_harmonics.len()];
+        // Node by node, so that the harmonics of one node are summed side by side.
+        for (i, waves) in self.waves.chunks_exact(amplitudes.len()).enumerate() {
+            let u = sample.contact_tangential_displacement(i);
+            for (amplitude, wave) in amplitudes.iter_mut().zip(waves) {
+                amplitude[0] += u * wave[0];
+                amplitude[1] -= u * wave[1];
+            }
+        }
+        amplitudes
+    }
+
+    fn frame(&self, sample: &Sample<'_>) -> ContactFrame {
+        let traction = |forces: &[f64]| {
+            let pairs = forces.iter().zip(&self.tributary_lengths);
+            pairs
+                .map(|(force, length)| (force / length) as f32)
+                .collect()
+        };
+        ContactFrame {
+            time: sample.time,
+            status: sample.status().iter().map(|&status| status as u8).collect(),
+            pressure: traction(sample.normal_force()),
+            shear: traction(sample.tangential_force()),
+        }
+    }
+
+    fn observe_probes(&mut self, sample: &Sample<'_>) {
+        for (&node, rows) in self.probes.iter().zip(&mut self.probe_rows) {
+            let dofs = [2 * (node - 1), 2 * (node - 1) + 1];
+            let velocity = dofs.map(|dof| sample.velocity_at(dof));
+            // The first sample has only its own step to be a mean of.
+            let acceleration = match rows.last() {
+                Some(last) => [0, 1].map(|c| (velocity[c] - last[2 + c]) / self.sample_interval),
+                None => dofs.map(|dof| sample.acceleration_at(dof)),
+            };
+            let [u_r, u_t] = dofs.map(|dof| sample.displacement_at(dof));
+            let ([v_r, v_t], [a_r, a_t]) = (velocity, acceleration);
+            rows.push([u_r, u_t, v_r, v_t, a_r, a_t]);
+        }
+        for (node, rows) in self
+            .probes
+            .iter()
+            .zip(self.raw_accelerations.iter_mut().flatten())
+        {
+            rows.push([2 * (node - 1), 2 * node - 1].map(|dof| sample.acceleration_at(dof)));
+        }
+    }
+
+    /// Keeps every frame, and from a limit on every second, fourth ...: which ones depends on the number of samples so
+    /// far alone, so that a run that is extended keeps what a longer one would have kept.
+    fn observe_contact(&mut self, sample: &Sample<'_>) {
+        if !sample.index.is_multiple_of(self.frame_stride) {
+            return;
+        }
+        self.frames.push(self.frame(sample));
+        if self.frames.len() > FRAME_LIMIT && !self.is_stride_given {
+            let mut place = 0;
+            self.frames.retain(|_| {
+                place += 1;
+                place % 2 == 1
+            });
+            self.frame_stride *= 2;
+        }
+    }
+}
+
+/// Whether a run is asked at a sample whether it has settled: a sequence that depends on nothing but the index.
+fn is_question(index: u64) -> bool {
+    let mut next = FIRST_QUESTION;
+    while next < index {
+        next = (next as f64 * NEXT_QUESTION).ceil() as u64;
+    }
+    next == index
+}

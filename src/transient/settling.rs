@@ -1,0 +1,360 @@
+//! Whether a run has settled, and on what.
+
+use super::analysis::{main_vibration, rms, series};
+use super::recorder::{Recorder, SampleRow};
+use super::{LastFifth, StatusCounts};
+use crate::signal::round_off_floor;
+use rustfft::num_complex::Complex64;
+use std::f64::consts::TAU;
+use std::ops::Range;
+
+/// Drift below which a run has settled.
+const LARGEST_DRIFT: f64 = 0.01;
+
+/// Periods of the main vibration in a block, over which amplitudes and statuses are averaged.
+const PERIODS: f64 = 8.0;
+
+/// Fewest blocks in the last fifth of a run that can be told to have settled.
+const FEWEST_BLOCKS: usize = 4;
+
+/// Blocks in the last fifth of a run that does not vibrate.
+const QUIET_BLOCKS: usize = 8;
+
+/// Growth of a harmonic from the first to the last quarter of the last fifth that is no accident.
+const GROWTH: f64 = 1.2;
+
+/// What a run ends in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EndState {
+    /// A periodic vibration of constant amplitude, frequency and status.
+    LimitCycle,
+    /// The cylinder slides, and nothing vibrates.
+    SteadySliding,
+    /// The cylinder does not turn, and nothing vibrates.
+    AtRest,
+    /// Nothing touches the cylinder, and nothing vibrates.
+    Separated,
+    /// Something changes still, or the run is too short to tell.
+    Unsettled,
+}
+
+impl EndState {
+    /// Name in summaries.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::LimitCycle => "limit-cycle",
+            Self::SteadySliding => "steady-sliding",
+            Self::AtRest => "at-rest",
+            Self::Separated => "separated",
+            Self::Unsettled => "unsettled",
+        }
+    }
+
+    /// In words, as the end of "the run ends ...".
+    pub fn phrase(self) -> &'static str {
+        match self {
+            Self::LimitCycle => "on a limit cycle",
+            Self::SteadySliding => "in steady sliding",
+            Self::AtRest => "at rest",
+            Self::Separated => "out of contact, at rest",
+            Self::Unsettled => "before it has settled",
+        }
+    }
+}
+
+/// Differences between the largest and the smallest value over the blocks of a stretch of a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Drift {
+    /// Of any harmonic's vibration, relative to the largest vibration (without one: of the mean twist, to itself).
+    pub amplitude: f64,
+    /// Of the frequency of the main vibration, relative.
+    pub frequency: f64,
+    /// Of the fraction of contact nodes in any status.
+    pub status: f64,
+}
+
+impl Drift {
+    fn largest(&self) -> f64 {
+        self.amplitude.max(self.frequency).max(self.status)
+    }
+}
+
+/// Why a run has not settled.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum Unsettled {
+    /// Too few periods to compare.
+    #[error("the last fifth of the run is too short to tell: it needs {needed:.3e} s")]
+    TooShort {
+        /// Length that it needs, s.
+        needed: f64,
+    },
+    /// The cylinder still expands, or the perturbation is still to come, within the last fifth.
+    #[error("the run is still being set up in its last fifth, until {until:.3e} s")]
+    Starting {
+        /// When that ends, s.
+        until: f64,
+    },
+    /// The last fifth is not stationary.
+    #[error(
+        "over the last fifth of the run the amplitude drifts by {:.1} %, the frequency by {:.1} %, the status by \
+         {:.1} % of the nodes", 100.0 * .0.amplitude, 100.0 * .0.frequency, 100.0 * .0.status
+    )]
+    Drifting(Drift),
+    /// A small vibration that will be large.
+    #[error(
+        "harmonic {harmonic} still grows, from {from:.1e} to {to:.1e} m over the last fifth of the run"
+    )]
+    Growing {
+        /// Circumferential harmonic.
+        harmonic: usize,
+        /// Its amplitude in the first quarter of that, m.
+        from: f64,
+        /// In the last quarter, m.
+        to: f64,
+    },
+}
+
+/// Whether a run has settled: over its last fifth amplitude, frequency and status drift by less than 1 %, and no
+/// small vibration grows.
+///
+/// Compared are the means of blocks of eight periods. A modulation that is longer than a fifth of the run is not
+/// seen, and neither is growth from below round-off.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settling {
+    /// What the run ends in.
+    pub state: EndState,
+    /// Start of the longest stretch up to the end over which nothing drifts by more, s.
+    pub from: Option<f64>,
+    /// Drift over the last fifth, where there is enough of it.
+    pub drift: Option<Drift>,
+    /// Why it has not settled.
+    pub reason: Option<Unsettled>,
+}
+
+/// Means over one block.
+struct Block {
+    /// Index of its first sample.
+    start: usize,
+    /// Root mean square of each followed harmonic about its mean, m.
+    amplitudes: Vec<f64>,
+    /// The main vibration, demodulated by its frequency.
+    demodulated: Complex64,
+    /// Mean twist, m.
+    twist: f64,
+    /// Fractions of contact nodes.
+    status: [f64; 3],
+}
+
+impl Settling {
+    /// Whether amplitude, frequency and status stay what they are.
+    pub fn is_settled(&self) -> bool {
+        self.state != EndState::Unsettled
+    }
+
+    /// Reads a record.
+    pub fn of(record: &Recorder) -> Self {
+        let fifth = LastFifth::range(record);
+        let main = main_vibration(record, fifth.clone());
+        match Self::judge(record, &fifth, main) {
+            Ok(settled) => settled,
+            Err(reason) => Self {
+                state: EndState::Unsettled,
+                from: None,
+                drift: match reason {
+                    Unsettled::Drifting(drift) => Some(drift),
+                    _ => None,
+                },
+                reason: Some(reason),
+            },
+        }
+    }
+
+    fn judge(
+        record: &Recorder,
+        fifth: &Range<usize>,
+        main: Option<(usize, f64)>,
+    ) -> Result<Self, Unsettled> {
+        // Length of a block, samples.
+        let interval = record.sample_interval;
+        let (length, wanted) = match main {
+            Some((_, frequency)) => (
+                (PERIODS / (frequency.abs() * interval)).ceil() as usize,
+                FEWEST_BLOCKS,
+            ),
+            None => (fifth.len() / QUIET_BLOCKS, QUIET_BLOCKS),
+        };
+        let length = length.max(QUIET_BLOCKS);
+        if fifth.len() < wanted * length {
+            let needed = (wanted * length) as f64 * interval;
+            return Err(Unsettled::TooShort { needed });
+        }
+        let until = record.start_up_time;
+        if record.rows[fifth.start].time < until {
+            return Err(Unsettled::Starting { until });
+        }
+
+        // Backwards from the end, until something has drifted too far.
+        let mut extremes = Extremes::new(main, interval * length as f64);
+        let mut from = fifth.end;
+        let mut drift = Drift::default();
+        let mut end = fifth.end;
+        while end >= length {
+            let block = Block::of(record, end - length..end, main);
+            if record.rows[block.start].time < until {
+                break;
+            }
+            let reached = extremes.add(&block, record);
+            let is_inside = block.start >= fifth.start;
+            if is_inside {
+                drift = reached;
+            }
+            if reached.largest() < LARGEST_DRIFT {
+                from = block.start;
+            } else if !is_inside {
+                break;
+            }
+            end = block.start;
+        }
+        if drift.largest() >= LARGEST_DRIFT {
+            return Err(Unsettled::Drifting(drift));
+        }
+        match growing(record, fifth) {
+            Some(reason) => Err(reason),
+            None => Ok(Self {
+                state: state(record, &record.rows[fifth.clone()], main),
+                from: Some(record.rows[from].time),
+                drift: Some(drift),
+                reason: None,
+            }),
+        }
+    }
+}
+
+/// What a run that has settled ends in.
+fn state(record: &Recorder, rows: &[SampleRow], main: Option<(usize, f64)>) -> EndState {
+    let mut counts = StatusCounts::default();
+    rows.iter().for_each(|row| counts += row.counts);
+    match main {
+        Some(_) => EndState::LimitCycle,
+        None if counts.stick + counts.slip == 0 => EndState::Separated,
+        None if record.surface_speed == 0.0 => EndState::AtRest,
+        None => EndState::SteadySliding,
+    }
+}
+
+/// A harmonic above round-off that grows from quarter to quarter.
+fn growing(record: &Recorder, fifth: &Range<usize>) -> Option<Unsettled> {
+    let floor = round_off_floor(record.largest_motion(fifth.clone()));
+    let quarter = fifth.len() / 4;
+    record.followed_harmonics().find_map(|harmonic| {
+        let sizes: [f64; 4] = std::array::from_fn(|k| {
+            let start = fifth.start + k * quarter;
+            rms(&series(record, start..start + quarter, harmonic).unwrap_or_default())
+        });
+        let is_rising = sizes.windows(2).all(|pair| pair[1] > pair[0]);
+        (is_rising && sizes[3] > GROWTH * sizes[0] && sizes[3] > floor).then_some(
+            Unsettled::Growing {
+                harmonic,
+                from: sizes[0],
+                to: sizes[3],
+            },
+        )
+    })
+}
+
+impl Block {
+    fn of(record: &Recorder, range: Range<usize>, main: Option<(usize, f64)>) -> Self {
+        let rows = &record.rows[range.clone()];
+        let mut counts = StatusCounts::default();
+        rows.iter().for_each(|row| counts += row.counts);
+        let of = |n: usize| series(record, range.clone(), n).unwrap_or_default();
+        let demodulated = main.map_or(Complex64::default(), |(harmonic, frequency)| {
+            let turn = TAU * frequency * record.sample_interval;
+            let values = of(harmonic).into_iter().zip(range.clone());
+            values
+                .map(|(value, k)| {
+                    let x = (k - range.start) as f64 + 0.5;
+                    let hann = (0.5 * TAU * x / range.len() as f64).sin().powi(2);
+                    value * Complex64::from_polar(hann, -turn * k as f64)
+                })
+                .sum()
+        });
+        Self {
+            start: range.start,
+            amplitudes: record.followed_harmonics().map(|n| rms(&of(n))).collect(),
+            demodulated,
+            twist: rows.iter().map(|row| row.harmonics[0][0]).sum::<f64>() / rows.len() as f64,
+            status: counts.fractions(),
+        }
+    }
+}
+
+/// Largest and smallest values over the blocks so far.
+struct Extremes {
+    main: Option<(usize, f64)>,
+    /// Time from one block to the next, s.
+    interval: f64,
+    amplitudes: Vec<[f64; 2]>,
+    twist: [f64; 2],
+    frequency: [f64; 2],
+    status: [[f64; 2]; 3],
+    later: Option<Complex64>,
+}
+
+impl Extremes {
+    fn new(main: Option<(usize, f64)>, interval: f64) -> Self {
+        Self {
+            main,
+            interval,
+            amplitudes: Vec::new(),
+            twist: NOTHING,
+            frequency: NOTHING,
+            status: [NOTHING; 3],
+            later: None,
+        }
+    }
+
+    /// Adds the block before those so far, and gives the drift over all of them.
+    fn add(&mut self, block: &Block, record: &Recorder) -> Drift {
+        self.amplitudes.resize(block.amplitudes.len(), NOTHING);
+        for (range, value) in self.amplitudes.iter_mut().zip(&block.amplitudes) {
+            widen(range, *value);
+        }
+        for (range, value) in self.status.iter_mut().zip(block.status) {
+            widen(range, value);
+        }
+        widen(&mut self.twist, block.twist);
+        if let (Some(later), Some(_)) = (self.later, self.main) {
+            let turn = (later / block.demodulated).arg();
+            widen(&mut self.frequency, turn / (TAU * self.interval));
+        }
+        self.later = Some(block.demodulated);
+        let status = self.status.iter().map(width).fold(0.0, f64::max);
+        let Some((_, frequency)) = self.main else {
+            let scale = self.twist[1].abs().max(1e-3 * record.interference.abs());
+            return Drift {
+                amplitude: width(&self.twist) / scale.max(f64::MIN_POSITIVE),
+                frequency: 0.0,
+                status,
+            };
+        };
+        let largest = self.amplitudes.iter().map(|range| range[1]);
+        let widest = self.amplitudes.iter().map(width).fold(0.0, f64::max);
+        Drift {
+            amplitude: widest / largest.fold(f64::MIN_POSITIVE, f64::max),
+            frequency: width(&self.frequency) / frequency.abs(),
+            status,
+        }
+    }
+}
+
+/// The range of no values.
+const NOTHING: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
+
+fn widen(range: &mut [f64; 2], value: f64) {
+    *range = [range[0].min(value), range[1].max(value)];
+}
+
+fn width(range: &[f64; 2]) -> f64 {
+    (range[1] - range[0]).max(0.0)
+}
