@@ -193,7 +193,12 @@ impl Case {
             }
         };
         let steps = (transient.duration / time_step).ceil();
-        let samples = transient.duration / self.output.sample_interval;
+        let output = &self.output;
+        let samples = transient.duration / output.sample_interval;
+        let frames = match output.contact_interval {
+            Some(interval) => transient.duration / interval,
+            None => samples.min(10_000.0),
+        };
         let contact_nodes = match self.annulus.element {
             ElementKind::Quad4 => self.annulus.circumferential_elements,
             ElementKind::Quad8 => 2 * self.annulus.circumferential_elements,
@@ -201,8 +206,11 @@ impl Case {
         TransientCost {
             time_step,
             steps,
-            // Ten nodal vectors, and the status and two stresses of each contact node over time.
-            memory_bytes: 160.0 * nodes as f64 + 17.0 * samples * contact_nodes,
+            // Ten nodal vectors, two for each snapshot; 400 bytes of energies and harmonics and 48 of each probe for a sample; the
+            // status and two stresses of each contact node for a frame. A checkpoint holds the record once more.
+            memory_bytes: (160.0 + 32.0 * output.snapshots.len() as f64) * nodes as f64
+                + 2.0 * samples * (400.0 + 48.0 * output.probes.len() as f64)
+                + 2.0 * frames * (100.0 + 9.0 * contact_nodes),
             seconds: 2e-9 * elements as f64 * steps,
         }
     }
