@@ -55,15 +55,16 @@ pub fn main() -> Result<(), Box<dyn Error>> {
     let mut record = Recorder::new(&run, &RecorderSettings::default())?;
     run.run(&mut record)?;
     let analysis = TransientAnalysis::of(&record, &harmonics);
-    let cycle = &analysis.limit_cycle;
-    let [stick, slip, open] = cycle.status;
+    let end = &analysis.last_fifth;
+    let [stick, slip, open] = end.status;
     println!(
-        "{} steps, limit cycle at {:?} Hz",
+        "{} steps, {:?} at {:?} Hz",
         run.steps_done(),
-        cycle.main_frequency_hz
+        analysis.settling.state,
+        end.main_frequency_hz
     );
     println!("stick {stick:.3}, slip {slip:.3}, open {open:.3}");
-    println!("external power {:.1} kW/m", cycle.powers.external / 1e3);
+    println!("external power {:.1} kW/m", end.powers.external / 1e3);
     println!("energy balance residual {:.0e}", analysis.largest_residual);
     assert!(analysis.largest_residual < 1e-10);
     Ok(())

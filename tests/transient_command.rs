@@ -111,7 +111,20 @@ fn every_promised_file_column_and_summary_key_is_there() {
         assert!(summary.pointer(key).is_some(), "{key}");
     }
     assert!(summary["max_balance_residual"].as_f64().unwrap() < 1e-10);
-    assert!(!out.join("checkpoint.bin").exists());
+    for key in [
+        "/settled",
+        "/settled_from_s",
+        "/end_state",
+        "/drift",
+        "/main_amplitude_m",
+        "/significant_harmonics_m",
+        "/no_growth",
+        "/probes/200/radial/acceleration_rms_m_per_s2",
+        "/perturbation/velocity",
+        "/contact_interval_s",
+    ] {
+        assert!(summary.pointer(key).is_some(), "{key}");
+    }
 }
 
 #[test]
@@ -216,6 +229,93 @@ fn an_interrupted_run_keeps_what_it_has_and_says_how_to_go_on() {
     arguments.push("--resume".to_owned());
     frictionsim(&arguments).assert().code(0);
     assert_eq!(summary(&out)["finished"], true);
+}
+
+/// Longer runs of a finished one: the bytes of a run that was asked to last that long at once.
+#[test]
+fn a_finished_run_is_extended_bit_for_bit() {
+    let folder = folder();
+    let (whole, part) = (folder.path().join("whole"), folder.path().join("part"));
+    let asked = |duration: &'static str| {
+        let mut all = vec![
+            "output.snapshots=[0.002, 0.005]",
+            "transient.perturbation.velocity=0.5",
+        ];
+        all.push(duration);
+        all
+    };
+    frictionsim(&arguments(&whole, &asked("transient.duration=0.006")))
+        .assert()
+        .code(0);
+    frictionsim(&arguments(&part, &asked("transient.duration=0.003")))
+        .assert()
+        .code(0)
+        .stderr(contains("0.005 s lies after the end of the run"));
+    let mut longer = arguments(&part, &asked("transient.duration=0.006"));
+    longer.push("--resume".to_owned());
+    frictionsim(&longer).assert().code(0);
+    for (found, expected) in results(&part).into_iter().zip(results(&whole)) {
+        assert!(found == expected, "{}", expected.0.display());
+    }
+    let bytes = |folder: &Path, name: &str| fs::read(folder.join(name)).unwrap();
+    for name in ["record.bin", "checkpoint.bin", "snapshots/snapshot-002.vtu"] {
+        assert!(bytes(&part, name) == bytes(&whole, name), "{name}");
+    }
+    // Asked for again, it has nothing left to do; shorter than it is it cannot become.
+    frictionsim(&longer).assert().code(0);
+    let mut shorter = arguments(&part, &asked("transient.duration=0.004"));
+    shorter.push("--resume".to_owned());
+    frictionsim(&shorter).assert().code(2).stderr(contains(
+        "has come to 0.006000 s, beyond transient.duration = 0.004 s",
+    ));
+    // Nor can it go on from other seeds.
+    let mut other = arguments(
+        &part,
+        &[
+            "output.snapshots=[0.002, 0.005]",
+            "transient.duration=0.006",
+            "transient.perturbation={ harmonics = [2], velocity = 0.5, noise = 1e-3, noise_seed = 2 }",
+        ],
+    );
+    other.push("--resume".to_owned());
+    frictionsim(&other).assert().code(2).stderr(contains(
+        "transient.perturbation.noise is 0.001 here, not given there",
+    ));
+}
+
+#[test]
+fn no_number_that_is_none_is_printed_or_written() {
+    let folder = folder();
+    for (name, set) in [
+        ("still", "contact.rotation_speed_rpm=0"),
+        ("short", "transient.duration=0.0006"),
+    ] {
+        let out = folder.path().join(name);
+        let output = frictionsim(&arguments(&out, &[set])).output().unwrap();
+        assert!(output.status.success(), "{output:?}");
+        let mut texts = vec![String::from_utf8_lossy(&output.stdout).into_owned()];
+        for file in [
+            "summary.json",
+            "energy.csv",
+            "contact.csv",
+            "harmonics.csv",
+            "probe-1.csv",
+        ] {
+            texts.push(fs::read_to_string(out.join(file)).unwrap());
+        }
+        for text in &texts {
+            let words = text.split(|c: char| c.is_whitespace() || ",:(".contains(c));
+            for word in words {
+                let word = word.trim_end_matches(['%', '.', ')']);
+                let is_zero = word.parse::<f64>().is_ok_and(|value| value == 0.0);
+                assert!(
+                    !["NaN", "nan", "inf", "-inf"].contains(&word),
+                    "{name}: {word}"
+                );
+                assert!(!(is_zero && word.starts_with('-')), "{name}: {word}");
+            }
+        }
+    }
 }
 
 #[test]

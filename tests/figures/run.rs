@@ -42,12 +42,16 @@ fn a_run_gets_every_figure_of_its_record() {
         &RecorderSettings {
             probes: vec![196, 203],
             snapshots: vec![0.001, 0.006, 0.0195],
+            ..RecorderSettings::default()
         },
     )
     .unwrap();
     run.run(&mut record).unwrap();
     let analysis = TransientAnalysis::of(&record, &[2]);
-    let growth = analysis.growth.iter().map(|g| (g.harmonic, g.rate));
+    let growth = analysis.growth.iter().filter_map(|g| {
+        let stage = g.stage.as_ref().ok()?;
+        Some((g.harmonic, stage.rate_per_s.value))
+    });
     let data = RunFigures {
         record: &record,
         analysis: &analysis,

@@ -108,19 +108,21 @@ fn compare(annulus: &AnnulusMesh, duration: f64) {
         run.run(&mut record).unwrap();
         let analysis = TransientAnalysis::of(&record, &[n]);
         assert_eq!(analysis.first_nonlinearity, None);
-        let growth = analysis.growth[0];
+        let growth = &analysis.growth[0];
+        let stage = growth.stage.as_ref().unwrap();
+        let (rate, frequency_hz) = (stage.rate_per_s, stage.frequency_hz.value.abs());
         let exact = least_stable(&model, n);
         println!(
             "n = {n}: rate {:.3} 1/s, predicted {:.3}; frequency {:.3} Hz, predicted {:.3}; direction {}",
-            growth.rate,
+            rate.value,
             exact.re,
-            growth.frequency_hz,
+            frequency_hz,
             exact.im.abs() / TAU,
-            growth.direction,
+            growth.direction(),
         );
-        assert!((growth.rate / exact.re - 1.0).abs() < 0.01);
-        assert!((growth.frequency_hz * TAU / exact.im.abs() - 1.0).abs() < 1e-3);
+        assert!((rate.value / exact.re - 1.0).abs() < 0.01);
+        assert!((frequency_hz * TAU / exact.im.abs() - 1.0).abs() < 1e-3);
         // The unstable member of a pair travels against the rotor.
-        assert_eq!(growth.direction, -1);
+        assert_eq!(growth.direction(), -1);
     }
 }

@@ -11,4 +11,5 @@ mod operators;
 mod restart;
 mod seeds;
 mod settings;
+mod settling;
 mod time_order;

@@ -38,6 +38,7 @@ fn restarted_run_equals_uninterrupted_run_bitwise() {
         let wanted = RecorderSettings {
             probes: vec![1, 17],
             snapshots: vec![1e-3, 3e-3],
+            ..RecorderSettings::default()
         };
         let start = || CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
 

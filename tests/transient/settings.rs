@@ -48,6 +48,7 @@ fn a_probe_or_snapshot_that_does_not_exist_is_named_with_its_bound() {
         let wanted = RecorderSettings {
             probes: probes.to_vec(),
             snapshots: snapshots.to_vec(),
+            ..RecorderSettings::default()
         };
         Recorder::new(&run, &wanted).unwrap_err().to_string()
     };
