@@ -184,8 +184,8 @@ impl Settling {
             None => (fifth.len() / QUIET_BLOCKS, QUIET_BLOCKS),
         };
         let length = length.max(QUIET_BLOCKS);
-        if fifth.len() < wanted * length {
-            let needed = (wanted * length) as f64 * interval;
+        if fifth.len() < length.saturating_mul(wanted) {
+            let needed = wanted as f64 * length as f64 * interval;
             return Err(Unsettled::TooShort { needed });
         }
         let until = record.start_up_time;

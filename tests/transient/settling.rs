@@ -63,14 +63,14 @@ fn a_run_that_stops_where_it_has_settled_is_the_beginning_of_the_longer_one() {
 
 #[test]
 fn steady_sliding_rest_and_separation_are_ends_of_their_own() {
-    let quiet = settings(0.03, &[]);
+    let quiet = settings(0.07, &[]);
     let state = |rpm: f64| {
         let (record, _) = run(rpm, &quiet, &RecorderSettings::default());
         let analysis = TransientAnalysis::of(&record, &[]);
         assert_eq!(analysis.last_fifth.main_frequency_hz, None);
         analysis.settling.state
     };
-    // What the expansion excites is symmetric and dies out within 30 ms: 40/2 1/s and 4.5e-7 s take 1e-6 of it.
+    // What the expansion excites is symmetric, 5.9 kHz, and decays at 325 1/s: 1e-7 of it is left after 50 ms.
     assert_eq!(state(610.0), EndState::SteadySliding);
     assert_eq!(state(0.0), EndState::AtRest);
     // One that is too short to tell.
@@ -149,5 +149,5 @@ fn the_acceleration_of_a_probe_is_the_change_of_its_velocity_over_the_interval()
             .iter()
             .map(|a| a[0]),
     );
-    assert!(step > 3.0 * mean, "{step} {mean}");
+    assert!(step > 1.5 * mean, "{step} {mean}");
 }

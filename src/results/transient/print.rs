@@ -1,6 +1,7 @@
 //! The table for people.
 
-use super::summary::{GrowthSummary, MeanPowers, TransientSummary};
+use super::summary::{GrowthSummary, TransientSummary};
+use crate::results::summary::MeanPowers;
 use crate::results::table::fixed;
 use crate::transient::EndState;
 use std::fmt::Write as _;

@@ -115,7 +115,11 @@ fn end_table(summary: &TransientSummary, caption: &str) -> ReportTable {
         status.stick.map(|share| 100.0 * share),
         2,
     );
-    add("contact nodes that slip (%)", status.slip.map(|share| 100.0 * share), 2);
+    add(
+        "contact nodes that slip (%)",
+        status.slip.map(|share| 100.0 * share),
+        2,
+    );
     add(
         "contact nodes that are open (%)",
         status.open.map(|share| 100.0 * share),

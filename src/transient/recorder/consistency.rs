@@ -36,6 +36,7 @@ impl Recorder {
             && raw_fits
             && self.frames.iter().all(of_edge)
             && self.sample_interval > 0.0
+            && self.sample_interval.is_finite()
             && snapshots_fit
             && self.frame_stride > 0
             && self.higher_harmonics.iter().all(|&n| n < LARGEST)
