@@ -15,10 +15,9 @@ use crate::cycle::Family;
 use crate::fem::operator::{SimdLevel, StiffnessOperator};
 use crate::mesh::AnnulusMesh;
 use crate::results::transient::{
-    CHECKPOINT, Checkpoint, TransientReport, TransientSummary, print, summary, write,
-    write_checkpoint,
+    CHECKPOINT, Checkpoint, TransientReport, print, summary, write, write_checkpoint,
 };
-use crate::results::{Manifest, OutputFolder, read_record};
+use crate::results::{Manifest, OutputFolder, object, read_record};
 use crate::transient::{
     CentralDifference, InitialState, Recorder, RecorderSettings, RunEnd, StepPlan,
     TransientAnalysis, TransientModel, TransientSettings, build_operator,
@@ -189,69 +188,83 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         None => (fresh, recorder),
         Some(saved) => prepared.resume(operator.as_ref(), saved, &folder)?,
     };
+    let stepped = step(&session, &prepared, &folder, &mut loop_, record)?;
 
-    // Step, with checkpoints on the way.
-    let first_step = loop_.steps_done();
-    let case_hash = continuation::run_hash(&session);
-    let checkpoints = Checkpoints {
-        folder: &folder,
-        case_hash: &case_hash,
-        interval_s: session.case.output.checkpoint_interval,
-    };
-    let is_over = record.has_stopped;
-    let mut watch = Watch::new(
-        record,
-        loop_.plan(),
-        arguments.options.output.is_quiet(),
-        Some(checkpoints),
-    );
-    watch::catch_signals();
-    let clock = Instant::now();
-    let end = match is_over {
-        true => Ok(RunEnd::Finished),
-        false => loop_.run(&mut watch),
-    };
-    let stepping_s = clock.elapsed().as_secs_f64();
-    let record = watch.finish()?;
-    let end = end.map_err(|error| prepared.failure(&error))?;
-    let is_finished = end == RunEnd::Finished || record.has_stopped;
-
-    // Say what came out. The last checkpoint goes with the record of the folder; while that is replaced, one with a
-    // record of its own holds the place of the last.
-    let analysis = prepared.analyse(&record);
+    let analysis = prepared.analyse(&stepped.record);
     let report = TransientReport {
-        steps_timed: loop_.steps_done() - first_step,
-        stepping_s,
+        steps_timed: stepped.steps,
+        stepping_s: stepped.stepping_s,
         wall_s: session.wall_seconds(),
-        is_finished,
-        ..prepared.report(&loop_, &record, &analysis, operator.name())
+        is_finished: stepped.is_finished,
+        ..prepared.report(&loop_, &stepped.record, &analysis, operator.name())
     };
-    let state = loop_.state();
+    // The last checkpoint goes with the record of the folder; while that is replaced, one with a record of its own
+    // holds the place of the last.
+    let (case_hash, state) = (continuation::run_hash(&session), loop_.state());
     if goes_on {
-        write_checkpoint(&folder, &case_hash, &state, Some(&record))?;
+        write_checkpoint(&folder, &case_hash, &state, Some(&stepped.record))?;
     }
     let summary = write(&folder, &report)?;
     write_checkpoint(&folder, &case_hash, &state, None)?;
-    if !is_finished {
+    if !stepped.is_finished {
         return Err(stopped(folder, &loop_));
     }
-    if !arguments.options.output.no_figures {
-        figures::draw_record(
-            &folder,
-            &prepared,
-            &record,
-            &summary,
-            &arguments.options.output.figures.drawing(),
-        )?;
+    let output = &arguments.options.output;
+    if !output.no_figures {
+        let drawing = output.figures.drawing();
+        figures::draw_record(&folder, &prepared, &stepped.record, &summary, &drawing)?;
     }
     let path = folder.path().to_owned();
     folder.finish()?;
     let table = print(&summary, analysis.settling.state);
-    session.print(&table, &object(&summary)?, &path)
+    let object = object(&summary).map_err(Failure::run)?;
+    session.print(&table, &object, &path)
 }
 
-fn object(summary: &TransientSummary) -> Result<Value, Failure> {
-    serde_json::to_value(summary).map_err(Failure::run)
+/// What came of the time loop.
+struct Stepped {
+    record: Recorder,
+    /// Whether the run reached its end, or where it settles.
+    is_finished: bool,
+    /// Steps done by this process.
+    steps: u64,
+    /// Their wall time, s.
+    stepping_s: f64,
+}
+
+/// Steps to the end, with checkpoints on the way.
+fn step(
+    session: &Session,
+    prepared: &Prepared<'_>,
+    folder: &OutputFolder,
+    run: &mut CentralDifference<'_>,
+    record: Recorder,
+) -> Result<Stepped, Failure> {
+    let first_step = run.steps_done();
+    let case_hash = continuation::run_hash(session);
+    let checkpoints = Checkpoints {
+        folder,
+        case_hash: &case_hash,
+        interval_s: session.case.output.checkpoint_interval,
+    };
+    let is_over = record.has_stopped;
+    let is_quiet = session.options.output.is_quiet();
+    let mut watch = Watch::new(record, run.plan(), is_quiet, Some(checkpoints));
+    watch::catch_signals();
+    let clock = Instant::now();
+    let end = match is_over {
+        true => Ok(RunEnd::Finished),
+        false => run.run(&mut watch),
+    };
+    let stepping_s = clock.elapsed().as_secs_f64();
+    let record = watch.finish()?;
+    let end = end.map_err(|error| prepared.failure(&error))?;
+    Ok(Stepped {
+        is_finished: end == RunEnd::Finished || record.has_stopped,
+        record,
+        steps: run.steps_done() - first_step,
+        stepping_s,
+    })
 }
 
 /// Runs a case without writing a file, and gives its summary.
@@ -280,7 +293,7 @@ pub fn summarize(case: &Case, manifest: &Manifest) -> Result<Value, Failure> {
         wall_s: start.elapsed().as_secs_f64(),
         ..prepared.report(&loop_, &record, &analysis, operator.name())
     };
-    object(&summary(&report, manifest))
+    object(&summary(&report, manifest)).map_err(Failure::run)
 }
 
 /// The time step that a case's run takes, s.

@@ -40,6 +40,6 @@ pub use store::{
     FolderError, Manifest, OutputFolder, Record, Replace, read_manifest, read_record,
     refuse_misfit, write_record,
 };
-pub use summary::{Summary, read_summary, write_summary};
+pub use summary::{Summary, object, read_summary, write_summary};
 pub use table::{Table, format_number};
 pub use vtu::{EncodedMesh, Field, PvdEntry, cartesian_vectors, write_pvd, write_vtu};

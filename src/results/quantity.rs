@@ -253,6 +253,17 @@ impl Quantity<'_> {
     }
 }
 
+/// A number with so many decimals, without the sign of a zero; `-` where there is none.
+pub fn fixed(value: f64, decimals: usize) -> String {
+    let quantity = Quantity {
+        key: "",
+        caption: "",
+        unit: "",
+        format: Fixed(decimals),
+    };
+    quantity.number(value)
+}
+
 /// So many significant digits, without trailing zeros; an exponent below 1e-4 and from 1e10 on.
 pub fn significant(value: f64, digits: usize) -> String {
     if value == 0.0 {
@@ -320,6 +331,13 @@ mod tests {
                 assert!(!(is_zero && text.starts_with('-')), "{}: {text}", known.key);
             }
         }
+    }
+
+    #[test]
+    fn a_small_negative_number_loses_its_sign_with_its_digits() {
+        assert_eq!(fixed(-0.04, 1), "0.0");
+        assert_eq!(fixed(-0.06, 1), "-0.1");
+        assert_eq!(fixed(f64::NAN, 1), "-");
     }
 
     #[test]

@@ -145,6 +145,27 @@ pub fn present(value: f64) -> Option<f64> {
     value.is_finite().then_some(value + 0.0)
 }
 
+/// The JSON object of a summary, in which no zero has a sign.
+///
+/// # Errors
+/// Those of the serializer.
+pub fn object(summary: &impl Serialize) -> serde_json::Result<Value> {
+    let mut object = serde_json::to_value(summary)?;
+    drop_signs_of_zeros(&mut object);
+    Ok(object)
+}
+
+fn drop_signs_of_zeros(value: &mut Value) {
+    match value {
+        Value::Number(number) if number.is_f64() && number.as_f64() == Some(0.0) => {
+            *value = Value::from(0.0);
+        }
+        Value::Array(items) => items.iter_mut().for_each(drop_signs_of_zeros),
+        Value::Object(entries) => entries.values_mut().for_each(drop_signs_of_zeros),
+        _ => {}
+    }
+}
+
 /// Writes `summary.json` and gives the object that it holds.
 ///
 /// # Errors
@@ -156,7 +177,7 @@ pub fn write_summary(
     let failed = |error: serde_json::Error| {
         FolderError::io("write", &folder.path().join(SUMMARY), error.into())
     };
-    let object = serde_json::to_value(summary).map_err(failed)?;
+    let object = object(summary).map_err(failed)?;
     folder.write(SUMMARY, |out| {
         serde_json::to_writer_pretty(&mut *out, &object)?;
         out.write_all(b"\n")

@@ -11,18 +11,6 @@ pub fn format_number(value: f64) -> String {
     }
 }
 
-/// A number with so many decimals for people, without the sign of a zero; `-` if it is not finite.
-pub fn fixed(value: f64, decimals: usize) -> String {
-    if !value.is_finite() {
-        return "-".to_owned();
-    }
-    let text = format!("{value:.decimals$}");
-    match text.strip_prefix('-') {
-        Some(rest) if rest.bytes().all(|b| b == b'0' || b == b'.') => rest.to_owned(),
-        _ => text,
-    }
-}
-
 /// Writes a table row by row: a header of column names, then records.
 pub struct Table<W: Write> {
     writer: csv::Writer<W>,
@@ -85,14 +73,6 @@ mod tests {
         }
         assert_eq!(format_number(f64::NAN), "");
         assert_eq!(format_number(-0.0), "0.0");
-    }
-
-    #[test]
-    fn no_number_for_people_is_nan_infinite_or_negative_zero() {
-        assert_eq!(fixed(-0.04, 1), "0.0");
-        assert_eq!(fixed(-0.06, 1), "-0.1");
-        assert_eq!(fixed(f64::NAN, 1), "-");
-        assert_eq!(fixed(f64::NEG_INFINITY, 1), "-");
     }
 
     #[test]

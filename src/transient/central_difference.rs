@@ -2,17 +2,16 @@
 
 mod breakdown;
 mod energy;
+mod start;
 
 use super::{
-    ContactPowers, InitialState, LagrangeContact, Observer, Sample, StatusCounts, StepPlan,
-    TransientError, TransientModel, TransientSettings,
+    ContactPowers, LagrangeContact, Observer, Sample, StatusCounts, StepPlan, TransientError,
+    TransientModel,
 };
 use crate::contact::ContactInterface;
-use crate::fem::assemble_stiffness;
 use crate::fem::operator::{
-    AlignedVector, MotionFields, StepCoefficients, StiffnessOperator, gather, scatter,
+    AlignedVector, MotionFields, StepCoefficients, StiffnessOperator, gather,
 };
-use crate::prestress::SteadySliding;
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 
@@ -101,160 +100,6 @@ pub struct CentralDifference<'a> {
 }
 
 impl<'a> CentralDifference<'a> {
-    /// A run from its initial state.
-    ///
-    /// # Errors
-    /// [`TransientError`] names the setting that does not fit, with its bound;
-    /// [`TransientError::FieldsMissing`] for a limit cycle, which [`Self::start_from`] takes.
-    pub fn start(
-        model: TransientModel<'a>,
-        operator: &'a dyn StiffnessOperator,
-        settings: &TransientSettings,
-    ) -> Result<Self, TransientError> {
-        let mesh = &model.annulus.mesh;
-        let still = vec![0.0; operator.dof_count()];
-        let displacement = match settings.initial {
-            InitialState::Rest => still.clone(),
-            InitialState::SteadySliding => {
-                let stiffness = assemble_stiffness(mesh, &model.material);
-                let base = SteadySliding::solve(mesh, &stiffness, &model.contact)?;
-                base.displacement(model.contact.friction_coefficient)
-            }
-            InitialState::LimitCycle { harmonic, .. } => {
-                return Err(TransientError::FieldsMissing { harmonic });
-            }
-        };
-        Self::start_from(model, operator, settings, &displacement, still)
-    }
-
-    /// A run from given fields, `u_0` (m) and `v_{-1/2}` (m/s) over all dofs in nodal frames; a perturbation at the
-    /// start is added to the velocity.
-    ///
-    /// # Errors
-    /// [`TransientError`] names the setting that does not fit, with its bound;
-    /// [`TransientError::ForeignState`] for fields of another size.
-    pub fn start_from(
-        model: TransientModel<'a>,
-        operator: &'a dyn StiffnessOperator,
-        settings: &TransientSettings,
-        displacement: &[f64],
-        mut velocity: Vec<f64>,
-    ) -> Result<Self, TransientError> {
-        let plan = StepPlan::new(operator, &model.damping, settings)?;
-        let expected = operator.dof_count();
-        for found in [displacement.len(), velocity.len()] {
-            if found != expected {
-                return Err(TransientError::ForeignState { found, expected });
-            }
-        }
-        let mut run = Self::new(model, operator, plan, settings)?;
-        if let Some(kick) = run.kick.take_if(|kick| kick.step == 0) {
-            velocity
-                .iter_mut()
-                .zip(kick.velocity)
-                .for_each(|(v, p)| *v += p);
-        }
-        run.fields.displacement = scatter(operator, displacement);
-        run.fields.velocity = scatter(operator, &velocity);
-        let fields = &mut run.fields;
-        operator.multiply(&mut fields.displacement, &mut fields.elastic);
-        operator.multiply(&mut fields.velocity, &mut fields.elastic_rate);
-        run.initial_energy = run.energy_before_step();
-        run.largest_energy = run.initial_energy;
-        Ok(run)
-    }
-
-    /// A run that goes on from a saved state, bit by bit as if it had never stopped.
-    ///
-    /// # Errors
-    /// As [`Self::start`], and [`TransientError::ForeignState`] for a state of another size.
-    pub fn resume(
-        model: TransientModel<'a>,
-        operator: &'a dyn StiffnessOperator,
-        settings: &TransientSettings,
-        state: &TransientState,
-    ) -> Result<Self, TransientError> {
-        let plan = StepPlan::new(operator, &model.damping, settings)?;
-        let expected = operator.dof_count();
-        for vector in [
-            &state.displacement,
-            &state.velocity,
-            &state.elastic,
-            &state.elastic_rate,
-        ] {
-            let found = vector.len();
-            if found != expected {
-                return Err(TransientError::ForeignState { found, expected });
-            }
-        }
-        let mut run = Self::new(model, operator, plan, settings)?;
-        // What was added at the start is in the state.
-        run.kick.take_if(|kick| kick.step == 0);
-        run.fields = MotionFields {
-            displacement: scatter(operator, &state.displacement),
-            velocity: scatter(operator, &state.velocity),
-            elastic: scatter(operator, &state.elastic),
-            elastic_rate: scatter(operator, &state.elastic_rate),
-        };
-        run.next_step = state.step;
-        run.initial_energy = state.initial_energy;
-        run.net_work = state.net_work;
-        run.largest_energy = state.largest_energy;
-        run.largest_residual = state.largest_residual;
-        Ok(run)
-    }
-
-    fn new(
-        model: TransientModel<'a>,
-        operator: &'a dyn StiffnessOperator,
-        plan: StepPlan,
-        settings: &TransientSettings,
-    ) -> Result<Self, TransientError> {
-        let interface = ContactInterface::of(&model.annulus.mesh);
-        let zeros = || AlignedVector::zeros(operator.field_length());
-        // All others start fully expanded: a ramp of no length.
-        let expansion_time = match settings.initial {
-            InitialState::Rest => settings.expansion_time,
-            InitialState::SteadySliding | InitialState::LimitCycle { .. } => 0.0,
-        };
-        let kick = Kick {
-            step: (settings.perturbation.time / plan.time_step).round() as u64,
-            velocity: settings.perturbation.field(model.annulus)?,
-        };
-        Ok(Self {
-            coefficients: StepCoefficients {
-                time_step: plan.time_step,
-                mass_coefficient: model.damping.mass_coefficient,
-                stiffness_coefficient: model.damping.stiffness_coefficient,
-            },
-            fields: MotionFields {
-                displacement: zeros(),
-                velocity: zeros(),
-                elastic: zeros(),
-                elastic_rate: zeros(),
-            },
-            contact: LagrangeContact::new(operator, &interface, &model.contact),
-            interface,
-            next_step: 0,
-            initial_energy: 0.0,
-            net_work: 0.0,
-            largest_energy: 0.0,
-            largest_residual: 0.0,
-            powers: ContactPowers::default(),
-            damping_power: 0.0,
-            counts: StatusCounts::default(),
-            displacement_before: zeros(),
-            velocity_before: zeros(),
-            model,
-            operator,
-            plan,
-            expansion_time,
-            kick: Some(kick),
-            seeded_harmonics: settings.perturbation.harmonics(),
-            seed_time: settings.perturbation.time,
-        })
-    }
-
     /// Steps to the last sample, or until the observer stops it.
     ///
     /// # Errors

@@ -8,6 +8,7 @@
 mod analysis;
 mod central_difference;
 mod contact;
+mod error;
 mod perturbation;
 mod recorder;
 mod sample;
@@ -17,11 +18,12 @@ mod settling;
 pub use analysis::{Growth, LastFifth, ProbeMotion, TransientAnalysis};
 pub use central_difference::{CentralDifference, RunEnd, TransientState};
 pub use contact::{ContactPowers, LagrangeContact, StatusCounts};
+pub use error::{Breakdown, TransientError};
 pub use perturbation::{Perturbation, StandingWave};
 pub use recorder::{ContactFrame, Recorder, RecorderSettings, SampleRow, Snapshot};
 pub use sample::{Observer, Sample};
 pub use settings::{
-    Breakdown, InitialState, OperatorChoice, StepPlan, TimeStep, TransientError, TransientModel,
-    TransientSettings, build_operator, stable_step_limit, whole_intervals,
+    InitialState, OperatorChoice, StepPlan, TimeStep, TransientModel, TransientSettings,
+    build_operator, stable_step_limit, whole_intervals,
 };
 pub use settling::{Drift, EndState, Settling, Unsettled};

@@ -1,8 +1,8 @@
 //! The table for people.
 
 use super::summary::{GrowthSummary, TransientSummary};
+use crate::results::quantity::fixed;
 use crate::results::summary::MeanPowers;
-use crate::results::table::fixed;
 use crate::transient::EndState;
 use std::fmt::Write as _;
 

@@ -4,9 +4,9 @@ use super::print::ending;
 use super::summary::TransientSummary;
 use crate::results::drawing::{DrawingError, DrawingOptions, write_report};
 use crate::results::folder::OutputFolder;
+use crate::results::quantity::fixed;
 use crate::results::report::{Report, ReportSection, ReportTable};
 use crate::results::run_figures::{RunFigures, draw_run};
-use crate::results::table::fixed;
 use crate::transient::EndState;
 
 /// Draws every figure that the run has data for into `figures/`, each as SVG and PNG, and writes

@@ -212,7 +212,7 @@ pub fn summary(report: &TransientReport<'_>, manifest: &Manifest) -> TransientSu
             material_damping: watts(end.material_damping),
             normal_contact: watts(end.powers.normal),
         },
-        harmonics: end.harmonics.map(|amplitude| amplitude + 0.0).to_vec(),
+        harmonics: end.harmonics.to_vec(),
         significant_harmonics_m: by_harmonic(end.significant.iter().copied()),
         growth: analysis.growth.iter().filter_map(growth).collect(),
         no_growth: no_growth(analysis),
