@@ -14,10 +14,23 @@ const CHANGES: &[(&str, &str, &str, &str)] = &[
         "summaries.transient.element_steps_per_s",
         CLOCK,
     ),
+    ("transient*", "probe-*", "a_*", MEAN_ACCELERATION),
+    ("signal", "spectrum-5.csv", "*", MEAN_ACCELERATION),
+    ("signal", "spectrum-6.csv", "*", MEAN_ACCELERATION),
+    ("signal", "peaks.csv", "*", MEAN_ACCELERATION),
+    ("signal", "summary.json", "channels[]*", MEAN_ACCELERATION),
+    ("transient*", "summary.json", "growth[]*", GROWTH),
+    ("*", "points/*", "summaries.transient.growth[]*", GROWTH),
+    ("*", "points.csv", "growth.*", GROWTH),
 ];
 
 const CLOCK: &str =
     "what the clock says of a point is in a file of its own, so that points keep their bytes";
+
+const MEAN_ACCELERATION: &str =
+    "the acceleration of a probe is its mean over the sample interval, which does not alias";
+
+const GROWTH: &str = "a rate needs 20 periods above round-off and an exponential envelope";
 
 /// Whether a listed change explains a difference.
 pub fn explains(case: &str, file: &str, key: &str) -> bool {

@@ -120,11 +120,15 @@ fn write_harmonics(out: &mut dyn Write, record: &Recorder) -> io::Result<()> {
     let names: Vec<&str> = columns.iter().map(String::as_str).collect();
     let mut table = Table::new(out, &names)?;
     for (sample, row) in record.rows.iter().enumerate() {
-        let amplitudes = harmonics
-            .iter()
-            .filter_map(|&n| record.amplitude(sample, n));
-        let parts = amplitudes.flatten();
-        table.row(std::iter::once(row.time).chain(parts).map(format_number))?;
+        let parts = harmonics.iter().flat_map(|&n| {
+            let parts = record.amplitude(sample, n).into_iter().flatten();
+            parts.map(move |part| match n < row.harmonics.len() {
+                true => format_number(part),
+                // The higher ones are kept in single precision.
+                false => format!("{:?}", part as f32 + 0.0),
+            })
+        });
+        table.row(std::iter::once(format_number(row.time)).chain(parts))?;
     }
     table.finish()
 }
