@@ -1,12 +1,10 @@
 //! Typed summaries: the struct that `summary.json` is, from which printed lines, rows and columns of studies come.
 
 use super::folder::{FolderError, OutputFolder};
-use super::quantity::quantity;
 use super::reopening::{SUMMARY, read_own};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
-use std::fmt::Write as _;
 use std::path::Path;
 
 /// The summary of a command, a plain struct whose fields are the keys of `summary.json` in their order.
@@ -196,25 +194,4 @@ pub fn read_summary<T: DeserializeOwned>(path: &Path) -> Result<T, FolderError> 
         path: path.to_owned(),
         reason: format!("its {SUMMARY} is damaged ({error})"),
     })
-}
-
-/// One line for each entry that has a value: caption, number, unit.
-pub fn lines(entries: &[Entry]) -> String {
-    let mut out = String::new();
-    for entry in entries {
-        if let Some(number) = entry.value.as_f64() {
-            let quantity = quantity(&entry.path);
-            let _ = writeln!(out, "{}: {}", quantity.caption, quantity.text(number));
-        }
-    }
-    out
-}
-
-/// One row for each entry: caption with unit, number.
-pub fn rows(entries: &[Entry]) -> Vec<Vec<String>> {
-    let row = |entry: &Entry| {
-        let quantity = quantity(&entry.path);
-        vec![quantity.label(), quantity.cell(&entry.value)]
-    };
-    entries.iter().map(row).collect()
 }

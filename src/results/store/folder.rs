@@ -59,7 +59,15 @@ impl OutputFolder {
         match contents {
             Some(contents) => {
                 is_same = check_owner(path, &contents.manifest, manifest, replace)?;
+                let is_sealed = contents.is_sealed;
                 earlier = contents.into_files();
+                if !is_sealed {
+                    // Folders of versions without checksums get them now.
+                    for (name, checksum) in &mut earlier {
+                        let bytes = fs::read(path.join(name));
+                        *checksum = bytes.ok().map(|bytes| crc32fast::hash(&bytes));
+                    }
+                }
             }
             None if replace != Replace::Anything => refuse_foreign(path)?,
             None => {}
@@ -112,12 +120,7 @@ impl OutputFolder {
         let folder = Self::open(path, &manifest, Replace::SameCase)?;
         let is_drawing = |name: &str| name.starts_with(FIGURES) || name == REPORT;
         let kept = folder.earlier.iter().filter(|(name, _)| !is_drawing(name));
-        let kept = kept.map(|(name, checksum)| {
-            // Folders of versions without checksums get them now.
-            let read = || fs::read(path.join(name)).ok();
-            let found = checksum.or_else(|| read().map(|bytes| crc32fast::hash(&bytes)));
-            (name.clone(), found)
-        });
+        let kept = kept.map(|(name, checksum)| (name.clone(), *checksum));
         folder.written.borrow_mut().extend(kept);
         Ok(folder)
     }
@@ -296,6 +299,13 @@ pub(crate) fn check_owner(
 }
 
 pub(crate) fn refuse_foreign(path: &Path) -> Result<(), FolderError> {
+    if path.join(MANIFEST).exists() {
+        let reason = format!(
+            "its {MANIFEST} is damaged: choose another folder with --out, or start over with --force"
+        );
+        let path = path.to_owned();
+        return Err(FolderError::NotResults { path, reason });
+    }
     let entries = fs::read_dir(path).map_err(|e| FolderError::io("read folder", path, e))?;
     let mut names: Vec<String> = entries
         .filter_map(|entry| Some(entry.ok()?.file_name().to_string_lossy().into_owned()))

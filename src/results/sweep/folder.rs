@@ -14,19 +14,21 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// Files over all points.
-const OVER_ALL: [&str; 12] = [
+const OVER_ALL: [&str; 6] = [
     "points.csv",
     "stability.csv",
     "modes.csv",
     "branches.csv",
     "summary.json",
     "report.html",
-    "figures/critical-friction.svg",
-    "figures/critical-friction.png",
-    "figures/frequencies.svg",
-    "figures/frequencies.png",
-    "figures/status.svg",
-    "figures/status.png",
+];
+/// Figures over all points.
+const FIGURES: [&str; 5] = [
+    "critical-friction",
+    "frequencies",
+    "status",
+    "branch-frequencies",
+    "branch-shares",
 ];
 const POINTS: &str = "points";
 const CLAIM: &str = ".claim-";
@@ -267,6 +269,17 @@ fn point_name(point: usize) -> String {
     format!("{POINTS}/point-{point:06}.json")
 }
 
+/// Names of the files over all points.
+fn over_all() -> impl Iterator<Item = String> {
+    let figures = FIGURES.iter().flat_map(|name| {
+        ["svg", "png", "pdf"].map(|extension| format!("figures/{name}.{extension}"))
+    });
+    OVER_ALL
+        .iter()
+        .map(|name| (*name).to_owned())
+        .chain(figures)
+}
+
 fn clock_name(point: usize) -> String {
     format!("{POINTS}/clock-{point:06}.json")
 }
@@ -363,7 +376,7 @@ fn take_over(
     }
     let files: BTreeMap<String, Option<u32>> = (1..=count)
         .flat_map(|point| [point_name(point), clock_name(point)])
-        .chain(OVER_ALL.map(str::to_owned))
+        .chain(over_all())
         .map(|name| (name, None))
         .collect();
     write_contents(path, &Contents::new(manifest, &files))
@@ -378,7 +391,7 @@ fn remove_points(path: &Path, points: &[usize], company: Company) -> Result<(), 
     let names: Vec<String> = points
         .iter()
         .flat_map(|&point| [point_name(point), clock_name(point)])
-        .chain(OVER_ALL.map(str::to_owned))
+        .chain(over_all())
         .collect();
     remove_files(path, names.iter());
     Ok(())
