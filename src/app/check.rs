@@ -1,8 +1,9 @@
 //! `frictionsim check`: is the case valid, and what would it cost?
 
-use super::session::{available_memory, gibibytes, read_case};
+use super::preflight::{Preflight, preflight};
+use super::session::{gibibytes, read_case};
 use super::{Failure, terminal};
-use crate::case::{Case, Cost};
+use crate::case::{Case, Convergence, Cost, StudyCost};
 use clap::{Args, ValueHint};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
@@ -14,9 +15,8 @@ pub struct Arguments {
     /// Case files
     #[arg(value_name = "CASE.toml", required = true, value_hint = ValueHint::FilePath)]
     cases: Vec<PathBuf>,
-    /// Override a case key (repeatable)
-    #[arg(long = "set", value_name = "KEY=VALUE")]
-    set: Vec<String>,
+    #[command(flatten)]
+    overrides: super::options::CaseOverrides,
     /// Print one object on stdout: `cases`, one entry for each file
     #[arg(long)]
     json: bool,
@@ -32,11 +32,10 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let mut bad = 0;
     for path in &arguments.cases {
         let name = path.display().to_string();
-        match read_case(path, &arguments.set).and_then(fits_memory) {
-            Ok(case) => {
-                let cost = case.cost();
-                text.push_str(&describe(&name, &case, &cost));
-                reports.push(object(&name, &case, &cost));
+        match check(path, arguments) {
+            Ok((case, found)) => {
+                text.push_str(&describe(&name, &case, &found));
+                reports.push(object(&name, &case, &found));
             }
             Err(failure) => {
                 bad += 1;
@@ -54,91 +53,109 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     match bad {
         0 => Ok(()),
         _ => Err(Failure::usage(format!(
-            "{bad} of {} cases cannot run",
-            arguments.cases.len()
+            "{bad} of {} cannot run",
+            plural(arguments.cases.len(), "case")
         ))),
     }
 }
 
-fn memory(cost: &Cost) -> f64 {
-    let cea = cost.cea.map_or(0.0, |cea| cea.memory_bytes);
-    let transient = cost
-        .transient
-        .map_or(0.0, |transient| transient.memory_bytes);
-    let cycle = cost.cycle.map_or(0.0, |cycle| cycle.memory_bytes);
-    cost.mesh_memory_bytes + cea.max(transient).max(cycle)
-}
-
-fn fits_memory(case: Case) -> Result<Case, Failure> {
-    let needed = memory(&case.cost());
-    match available_memory() {
-        Some(available) if needed > available => Err(Failure::Case(case.error_at(
-            "mesh.circumferential_elements",
-            format!(
-                "the case needs about {:.1} GiB of memory, {:.1} GiB are available",
-                gibibytes(needed),
-                gibibytes(available)
-            ),
-            "too many elements for this machine".to_owned(),
-            Some("lower mesh.circumferential_elements or mesh.radial_elements".to_owned()),
-        ))),
-        _ => Ok(case),
+fn check(path: &std::path::Path, arguments: &Arguments) -> Result<(Case, Preflight), Failure> {
+    let case = read_case(path, &arguments.overrides.all())?;
+    let found = preflight(&case)?;
+    if arguments.overrides.deny_warnings {
+        case.deny_warnings(&found.warnings)?;
     }
+    Ok((case, found))
 }
 
-fn describe(name: &str, case: &Case, cost: &Cost) -> String {
+fn describe(name: &str, case: &Case, found: &Preflight) -> String {
     let mut out = format!("{name}: valid");
     if !case.title.is_empty() {
         let _ = write!(out, " ({})", case.title);
     }
+    let Cost {
+        nodes,
+        elements,
+        dofs,
+        ..
+    } = found.cost;
     let _ = writeln!(
         out,
-        "\n  mesh: {} nodes, {} elements, {} unknowns, about {}",
-        cost.nodes,
-        cost.elements,
-        cost.dofs,
-        size(cost.mesh_memory_bytes)
+        "\n  mesh: {nodes} nodes, {elements} elements, {dofs} unknowns, about {}",
+        size(found.cost.mesh_memory_bytes)
     );
+    let mut line = |what: &str, text: String, bytes: f64, seconds: f64| {
+        let (size, time) = (size(bytes), duration(seconds));
+        let _ = writeln!(out, "  {what}: {text}, {size}, {time} on one thread");
+    };
+    let cost = &found.cost;
     if let Some(cea) = &cost.cea {
-        let _ = writeln!(
-            out,
-            "  cea: {} friction values, about {} modes each, {}, {} on one thread",
-            cea.friction_values,
-            cea.modes,
-            size(cea.memory_bytes),
-            duration(cea.seconds)
+        let text = format!(
+            "{}, about {} each",
+            plural(cea.friction_values, "friction value"),
+            plural(cea.modes, "mode")
         );
+        line("cea", text, cea.memory_bytes, cea.seconds);
     }
-    if let Some(transient) = &cost.transient {
-        let _ = writeln!(
-            out,
-            "  transient: time step about {:.3e} s, {:.0} steps, {}, {} on one thread",
-            transient.time_step,
-            transient.steps,
-            size(transient.memory_bytes),
-            duration(transient.seconds)
+    if let Some(run) = &cost.transient {
+        let about = if found.is_step_exact { "" } else { "about " };
+        let text = format!(
+            "time step {about}{:.4e} s, {:.0} steps",
+            run.time_step, run.steps
         );
+        line("transient", text, run.memory_bytes, run.seconds);
     }
     if let Some(cycle) = &cost.cycle {
-        let _ = writeln!(
-            out,
-            "  cycle: {} families of {} cycles, {}, {} on one thread",
-            cycle.families,
-            cycle.cycles,
-            size(cycle.memory_bytes),
-            duration(cycle.seconds)
-        );
+        let families = match cycle.families {
+            1 => "1 family".to_owned(),
+            count => format!("{count} families"),
+        };
+        let text = format!("{families} of {}", plural(cycle.cycles, "cycle"));
+        line("cycle", text, cycle.memory_bytes, cycle.seconds);
     }
-    if let Some(points) = cost.sweep_points {
-        let _ = writeln!(out, "  sweep: {points} points");
+    if let Some(frf) = &cost.frf {
+        let text = match frf.lines {
+            1 => "1 frequency".to_owned(),
+            count => format!("{count} frequencies"),
+        };
+        line("frf", text, frf.memory_bytes, frf.seconds);
     }
-    for warning in &case.warnings {
+    if let Some(study) = &found.convergence {
+        let text = format!("{} ({})", plural(study.runs, "run"), meshes(case));
+        line("convergence", text, study.memory_bytes, study.seconds);
+    }
+    if let Some(study) = &found.sweep {
+        let text = plural(study.runs, "point");
+        line("sweep", text, study.memory_bytes, study.seconds);
+    }
+    for warning in case.warnings.iter().chain(&found.warnings) {
         let _ = writeln!(out, "  warning: {warning}");
     }
     out
 }
 
-fn object(name: &str, case: &Case, cost: &Cost) -> Value {
+/// The meshes and time steps of a convergence study.
+fn meshes(case: &Case) -> String {
+    let Some(study) = &case.convergence else {
+        return String::new();
+    };
+    let meshes = study.factors.iter().map(|factor| {
+        let mesh = Convergence::refined(&case.annulus, *factor);
+        format!("{} x {}", mesh.circumferential_elements, mesh.radial_elements)
+    });
+    let mut text = meshes.collect::<Vec<_>>().join(", ");
+    if !study.time_step_factors.is_empty() {
+        let _ = write!(text, "; {} time steps", study.time_step_factors.len());
+    }
+    text
+}
+
+fn object(name: &str, case: &Case, found: &Preflight) -> Value {
+    let cost = &found.cost;
+    let study = |study: &StudyCost, runs: &str| {
+        json!({ runs: study.runs, "memory_bytes": study.memory_bytes, "estimated_s": study.seconds })
+    };
+    let warnings = case.warnings.iter().chain(&found.warnings);
     json!({
         "case": name,
         "valid": true,
@@ -147,7 +164,7 @@ fn object(name: &str, case: &Case, cost: &Cost) -> Value {
         "nodes": cost.nodes as u64,
         "elements": cost.elements as u64,
         "dofs": cost.dofs as u64,
-        "memory_bytes": memory(cost),
+        "memory_bytes": found.memory_bytes,
         "cea": cost.cea.map(|cea| json!({
             "friction_values": cea.friction_values,
             "estimated_modes": cea.modes,
@@ -166,9 +183,24 @@ fn object(name: &str, case: &Case, cost: &Cost) -> Value {
             "memory_bytes": cycle.memory_bytes,
             "estimated_s": cycle.seconds,
         })),
-        "sweep_points": cost.sweep_points,
-        "warnings": case.warnings.iter().map(ToString::to_string).collect::<Vec<_>>(),
+        "frf": cost.frf.map(|frf| json!({
+            "lines": frf.lines,
+            "memory_bytes": frf.memory_bytes,
+            "estimated_s": frf.seconds,
+        })),
+        "convergence": found.convergence.as_ref().map(|cost| study(cost, "runs")),
+        "sweep": found.sweep.as_ref().map(|cost| study(cost, "points")),
+        "sweep_points": found.sweep.map(|sweep| sweep.runs),
+        "warnings": warnings.map(ToString::to_string).collect::<Vec<_>>(),
     })
+}
+
+/// A count with its noun.
+fn plural(count: usize, noun: &str) -> String {
+    match count {
+        1 => format!("1 {noun}"),
+        _ => format!("{count} {noun}s"),
+    }
 }
 
 fn size(bytes: f64) -> String {

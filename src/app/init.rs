@@ -1,6 +1,7 @@
 //! `frictionsim init`: a commented case to start from.
 
 use super::{Failure, terminal};
+use crate::case::reference;
 use clap::{Args, ValueHint};
 use std::fmt::Write as _;
 use std::io::Write;
@@ -46,6 +47,9 @@ const TEMPLATES: &[Template] = &[
     },
 ];
 
+/// The template that is made from the declarations of the keys.
+const REFERENCE: &str = "reference";
+
 /// Write a commented case to start from
 #[derive(Args)]
 pub struct Arguments {
@@ -73,17 +77,26 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         for template in TEMPLATES {
             let _ = writeln!(text, "{:<12}{}", template.name, template.meaning);
         }
+        let _ = writeln!(text, "{REFERENCE:<12}every key of a case with its default and meaning");
         return terminal::print(&text);
     }
+    if arguments.template == REFERENCE {
+        return place(arguments, REFERENCE, &reference::template());
+    }
     let template = find(&arguments.template)?;
+    place(arguments, template.name, template.text)
+}
+
+/// Writes a case to where the arguments want it.
+fn place(arguments: &Arguments, name: &str, text: &str) -> Result<(), Failure> {
     let path = match &arguments.out {
         Some(path) => path.clone(),
-        None => PathBuf::from(format!("{}.toml", template.name)),
+        None => PathBuf::from(format!("{name}.toml")),
     };
     if path == Path::new("-") {
-        return terminal::print(template.text);
+        return terminal::print(text);
     }
-    write(&path, template.text, arguments.force)?;
+    write(&path, text, arguments.force)?;
     terminal::print(&format!("{}\n", path.display()))
 }
 
@@ -92,7 +105,8 @@ fn find(name: &str) -> Result<&'static Template, Failure> {
     let name = if name == "disc" { "cea" } else { name };
     let found = TEMPLATES.iter().find(|template| template.name == name);
     found.ok_or_else(|| {
-        let names: Vec<&str> = TEMPLATES.iter().map(|template| template.name).collect();
+        let names = TEMPLATES.iter().map(|template| template.name);
+        let names: Vec<&str> = names.chain([REFERENCE]).collect();
         Failure::usage(format!(
             "no template \"{name}\": choose one of {}",
             names.join(", ")
@@ -131,5 +145,7 @@ mod tests {
             let case = Case::parse(template.name, template.text.as_bytes(), &[]);
             assert!(case.is_ok(), "{}", case.unwrap_err());
         }
+        let case = Case::parse(REFERENCE, reference::template().as_bytes(), &[]);
+        assert!(case.is_ok(), "{}", case.unwrap_err());
     }
 }

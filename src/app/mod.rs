@@ -18,6 +18,7 @@ mod measurement;
 mod mesh;
 mod options;
 pub mod plot;
+pub mod preflight;
 mod session;
 mod signal;
 pub mod sweep;

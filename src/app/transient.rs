@@ -311,6 +311,27 @@ pub fn time_step(case: &Case, manifest: &Manifest) -> Result<f64, Failure> {
     Ok(plan.map_err(|error| prepared.failure(&error))?.time_step)
 }
 
+/// Sets a run up to its first step: finds out whether it can start, and gives its time step.
+///
+/// # Errors
+/// A bad case; a base state that does not exist.
+pub fn preflight(case: &Case, simd: &str) -> Result<StepPlan, Failure> {
+    let prepared = Prepared::new(case, simd)?;
+    let operator = prepared.operator()?;
+    let refuse = |error| prepared.failure(&error);
+    if matches!(
+        prepared.settings.initial,
+        InitialState::LimitCycle { .. }
+    ) {
+        // The cycle itself would have to be found.
+        let damping = &case.damping.rayleigh;
+        return StepPlan::new(operator.as_ref(), damping, &prepared.settings).map_err(refuse);
+    }
+    let fresh = prepared.start(operator.as_ref())?;
+    Recorder::new(&fresh, &conversion::recorder_settings(case)).map_err(refuse)?;
+    Ok(*fresh.plan())
+}
+
 fn open(session: &Session, resume: bool) -> Result<OutputFolder, Failure> {
     if resume {
         return continuation::reopen(session);

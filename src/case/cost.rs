@@ -1,12 +1,22 @@
 //! What a case costs, estimated without running it.
+//!
+//! Memory and time come from operation counts and typical rates of one modern core, to within a
+//! factor of about two; the run itself measures the real ones.
 
 use super::model::node_count;
-use super::{Case, Cea, CeaMethod, Cycle, ModeSelection, StabilityChoice, TimeStep, Transient};
+use super::{
+    Analysis, Case, CaseErrors, Cea, CeaMethod, Convergence, Cycle, Frf, FrfMethod, ModeSelection,
+    StabilityChoice, TimeStep, Transient,
+};
 use crate::mesh::ElementKind;
+use crate::transient::stable_step_limit;
 use std::f64::consts::TAU;
 
 /// Phases of a limit cycle where the mesh decides.
 const LIKELY_PHASES: usize = 169;
+
+/// Points of a study whose cost is looked at.
+const TRIED_POINTS: usize = 24;
 
 /// Cost of a complex eigenvalue analysis.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,6 +36,8 @@ pub struct CeaCost {
 pub struct TransientCost {
     /// Time step, s: given, or a bound from wave speed and element size.
     pub time_step: f64,
+    /// Largest stable time step by that bound, s.
+    pub stable_step: f64,
     /// Steps.
     pub steps: f64,
     /// Memory, bytes.
@@ -47,10 +59,29 @@ pub struct CycleCost {
     pub seconds: f64,
 }
 
-/// Size of a case and the cost of each of its analyses, to within a factor of about two.
-///
-/// Memory and time come from operation counts and typical rates of one modern core; the run itself
-/// measures the real ones.
+/// Cost of a frequency response.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FrfCost {
+    /// Frequencies.
+    pub lines: usize,
+    /// Memory of the solver, bytes.
+    pub memory_bytes: f64,
+    /// Time on one thread, s.
+    pub seconds: f64,
+}
+
+/// Cost of many runs of a case.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StudyCost {
+    /// Runs.
+    pub runs: usize,
+    /// Memory of the largest run, bytes.
+    pub memory_bytes: f64,
+    /// Time of all on one thread, s.
+    pub seconds: f64,
+}
+
+/// Size of a case and the cost of each of its analyses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cost {
     /// Nodes.
@@ -67,31 +98,212 @@ pub struct Cost {
     pub transient: Option<TransientCost>,
     /// Search for limit cycles.
     pub cycle: Option<CycleCost>,
-    /// Points of the parameter study.
-    pub sweep_points: Option<usize>,
+    /// Frequency response.
+    pub frf: Option<FrfCost>,
+}
+
+impl Cost {
+    /// Memory of one analysis and its mesh, bytes.
+    fn memory_of(&self, analysis: Analysis) -> f64 {
+        self.mesh_memory_bytes
+            + match analysis {
+                Analysis::Cea => self.cea.map_or(0.0, |cost| cost.memory_bytes),
+                Analysis::Transient => self.transient.map_or(0.0, |cost| cost.memory_bytes),
+                Analysis::Cycle => self.cycle.map_or(0.0, |cost| cost.memory_bytes),
+            }
+    }
+
+    /// Time of one analysis on one thread, s.
+    fn seconds_of(&self, analysis: Analysis) -> f64 {
+        match analysis {
+            Analysis::Cea => self.cea.map_or(0.0, |cost| cost.seconds),
+            Analysis::Transient => self.transient.map_or(0.0, |cost| cost.seconds),
+            Analysis::Cycle => self.cycle.map_or(0.0, |cost| cost.seconds),
+        }
+    }
 }
 
 impl Case {
-    /// Estimates what the case costs.
+    /// Estimates what the analyses of the case cost, each once.
     pub fn cost(&self) -> Cost {
         let annulus = &self.annulus;
         let nodes = node_count(annulus);
         let elements = annulus.circumferential_elements as u128 * annulus.radial_elements as u128;
-        // Coordinates, frame, connectivity and result vectors of a node and its element.
-        let mesh_memory_bytes = 160.0 * nodes as f64;
         Cost {
             nodes,
             elements,
             dofs: 2 * nodes,
-            mesh_memory_bytes,
+            // Coordinates, frame, connectivity and result vectors of a node and its element.
+            mesh_memory_bytes: 160.0 * nodes as f64,
             cea: self.cea.as_ref().map(|cea| self.cea_cost(cea, nodes)),
             transient: self
                 .transient
                 .as_ref()
                 .map(|transient| self.transient_cost(transient, nodes, elements)),
             cycle: self.cycle.as_ref().map(|cycle| self.cycle_cost(cycle)),
-            sweep_points: self.sweep.as_ref().map(super::Sweep::point_count),
+            frf: self.frf.as_ref().map(|frf| self.frf_cost(frf, nodes)),
         }
+    }
+
+    /// Estimates what the parameter study costs, from evenly spaced points of it.
+    pub fn sweep_cost(&self) -> Option<StudyCost> {
+        let sweep = self.sweep.as_ref()?;
+        let runs = sweep.point_count();
+        let last = runs.saturating_sub(1);
+        let tried = runs.min(TRIED_POINTS);
+        let points = (0..tried).map(|i| i * last / tried.max(2).saturating_sub(1));
+        // A point that is no valid case fails at once and costs nothing.
+        let costs = points.map(|point| {
+            let raw = self.raw.sweep_point(&sweep.overrides(point)).ok()?;
+            let case = Case::read(raw).ok()?;
+            let cost = case.cost();
+            let analyses = case.studied(&sweep.analyses);
+            let seconds: f64 = analyses.iter().map(|of| cost.seconds_of(*of)).sum();
+            let bytes = analyses.iter().map(|of| cost.memory_of(*of));
+            Some((bytes.fold(0.0, f64::max), seconds))
+        });
+        let costs: Vec<(f64, f64)> = costs.map(Option::unwrap_or_default).collect();
+        Some(StudyCost {
+            runs,
+            memory_bytes: costs.iter().fold(0.0, |a: f64, cost| a.max(cost.0)),
+            seconds: costs.iter().map(|cost| cost.1).sum::<f64>() * runs as f64
+                / tried.max(1) as f64,
+        })
+    }
+
+    /// Estimates what the convergence study costs: every mesh and every time step.
+    pub fn convergence_cost(&self) -> Option<StudyCost> {
+        let study = self.convergence.as_ref()?;
+        let meshes = study.factors.iter().map(|factor| {
+            let annulus = Convergence::refined(&self.annulus, *factor);
+            let cost = Case { annulus, ..self.clone() }.cost();
+            (cost, study.analyses.clone(), 1.0)
+        });
+        let steps = study.time_step_factors.iter();
+        let steps = steps.map(|factor| (self.cost(), vec![Analysis::Transient], 1.0 / factor));
+        let mut total = StudyCost {
+            runs: 0,
+            memory_bytes: 0.0,
+            seconds: 0.0,
+        };
+        for (cost, analyses, times) in meshes.chain(steps) {
+            for analysis in analyses {
+                total.runs += 1;
+                // The levels run side by side.
+                total.memory_bytes += cost.memory_of(analysis);
+                total.seconds += times * cost.seconds_of(analysis);
+            }
+        }
+        Some(total)
+    }
+
+    /// The analyses that a study of these runs: those named, else all that the case has.
+    fn studied(&self, named: &[Analysis]) -> Vec<Analysis> {
+        let has = [
+            (Analysis::Transient, self.transient.is_some()),
+            (Analysis::Cea, self.cea.is_some()),
+            (Analysis::Cycle, self.cycle.is_some()),
+        ];
+        let here = has.into_iter().filter(|pair| pair.1).map(|pair| pair.0);
+        here.filter(|analysis| named.is_empty() || named.contains(analysis))
+            .collect()
+    }
+
+    /// Memory that a command needs, bytes, and the key that asks for most of it.
+    pub fn memory(&self, command: &str) -> (f64, &'static str) {
+        let cost = self.cost();
+        let mesh = self.larger_count();
+        let own = match command {
+            "cea" => cost.cea.map(|cea| (cea.memory_bytes, mesh)),
+            "transient" => cost
+                .transient
+                .map(|run| (run.memory_bytes, self.record_key())),
+            "cycle" => cost.cycle.map(|cycle| {
+                let phases = self.cycle.as_ref().and_then(|cycle| cycle.phases);
+                let key = phases.map_or("mesh.circumferential_elements", |_| "cycle.phases");
+                (cycle.memory_bytes, key)
+            }),
+            "frf" => cost.frf.map(|frf| (frf.memory_bytes, mesh)),
+            "sweep" => self
+                .sweep_cost()
+                .map(|sweep| (sweep.memory_bytes - cost.mesh_memory_bytes, mesh)),
+            "convergence" => self
+                .convergence_cost()
+                .map(|study| (study.memory_bytes, "convergence.factors")),
+            _ => None,
+        };
+        let (bytes, key) = own.unwrap_or((0.0, mesh));
+        let blamed = if bytes > cost.mesh_memory_bytes { key } else { mesh };
+        (cost.mesh_memory_bytes + bytes.max(0.0), blamed)
+    }
+
+    /// The error of a command that needs more memory than there is.
+    pub fn memory_error(&self, command: &str, needed: f64, available: f64) -> CaseErrors {
+        let key = self.memory(command).1;
+        let gibibytes = |bytes: f64| bytes / f64::from(1 << 30);
+        let value = self.raw.find(key).map(|item| item.value.shortened());
+        let given = value.map_or_else(String::new, |value| format!(" = {value}"));
+        let remedy = match key {
+            "output.sample_interval" => "raise it, or lower transient.duration",
+            "transient.duration" => "lower it, or raise output.sample_interval",
+            "output.snapshots" | "cycle.phases" => "lower it",
+            "convergence.factors" => "lower the factors, or start from a coarser mesh",
+            _ => "lower mesh.circumferential_elements or mesh.radial_elements",
+        };
+        self.error_at(
+            key,
+            format!(
+                "{command} needs about {:.1} GiB of memory, {:.1} GiB are available: most of it for \
+                 {key}{given}",
+                gibibytes(needed),
+                gibibytes(available)
+            ),
+            "too much for this machine".to_owned(),
+            Some(remedy.to_owned()),
+        )
+    }
+
+    /// The element count that is further from a usual one.
+    fn larger_count(&self) -> &'static str {
+        let annulus = &self.annulus;
+        if annulus.radial_elements > annulus.circumferential_elements {
+            "mesh.radial_elements"
+        } else {
+            "mesh.circumferential_elements"
+        }
+    }
+
+    /// What makes the record of a transient large: its length, its samples, or its snapshots.
+    fn record_key(&self) -> &'static str {
+        // Usual ones: 0.05 s and 2 us.
+        let length = self.transient.as_ref().map_or(0.0, |run| run.duration) / 0.05;
+        let density = 2e-6 / self.output.sample_interval;
+        let samples = 17.0 * self.samples() * self.contact_nodes();
+        let snapshots = self.snapshot_bytes();
+        if snapshots > samples {
+            "output.snapshots"
+        } else if length.max(density) < 10.0 {
+            self.larger_count()
+        } else if density > length {
+            "output.sample_interval"
+        } else {
+            "transient.duration"
+        }
+    }
+
+    fn samples(&self) -> f64 {
+        let duration = self.transient.as_ref().map_or(0.0, |run| run.duration);
+        duration / self.output.sample_interval
+    }
+
+    fn contact_nodes(&self) -> f64 {
+        let per_element = if self.annulus.element == ElementKind::Quad4 { 1 } else { 2 };
+        (per_element * self.annulus.circumferential_elements) as f64
+    }
+
+    /// Displacements and velocities of all nodes at each snapshot.
+    fn snapshot_bytes(&self) -> f64 {
+        32.0 * node_count(&self.annulus) as f64 * self.output.snapshots.len() as f64
     }
 
     fn cea_cost(&self, cea: &Cea, nodes: u128) -> CeaCost {
@@ -101,10 +313,9 @@ impl Case {
             ModeSelection::Lowest(modes) => modes,
             ModeSelection::BelowHz(limit) => self.modes_below(limit),
         };
+        let maps = 1.0 + cea.map.as_ref().map_or(0.0, |map| map.values.len() as f64);
         let (memory_bytes, seconds) = if cea.method == CeaMethod::Sparse {
-            // Fill of a plane mesh under a minimum-degree ordering, measured: about 9 n log2 n
-            // entries of 12 bytes, next to the matrices and the basis vectors.
-            let fill = 9.0 * dofs * dofs.max(2.0).log2();
+            let fill = sparse_fill(dofs);
             let basis = 8.0 * dofs * (2.0 * modes as f64 + 40.0);
             let solve = 2e-9 * fill * (3.0 * modes as f64 + 20.0);
             (
@@ -122,7 +333,7 @@ impl Case {
             friction_values,
             modes,
             memory_bytes,
-            seconds,
+            seconds: seconds * maps,
         }
     }
 
@@ -139,7 +350,7 @@ impl Case {
         let factorization = (phases / 169.0).powi(3);
         let steps = cycle.confirmation_periods as f64 * 800.0;
         let elements =
-            (self.annulus.circumferential_elements * self.annulus.radial_elements) as f64;
+            self.annulus.circumferential_elements as f64 * self.annulus.radial_elements as f64;
         let each = factorization * (0.25 + 0.006 * followed as f64 + 0.4 * stable as f64);
         CycleCost {
             families,
@@ -147,6 +358,26 @@ impl Case {
             // A few dense matrices of two unknowns for each phase, and of four for the perturbations.
             memory_bytes: families as f64 * 8.0 * 40.0 * phases * phases,
             seconds: families as f64 * (each + 2e-9 * elements * steps),
+        }
+    }
+
+    fn frf_cost(&self, frf: &Frf, nodes: u128) -> FrfCost {
+        let dofs = 2.0 * nodes as f64;
+        let lines = frf.frequencies_hz.len();
+        let (bytes, each) = match frf.method {
+            // One block band of a sector for each harmonic.
+            FrfMethod::Auto | FrfMethod::Cyclic => (
+                100.0 * dofs / self.annulus.circumferential_elements.max(1) as f64,
+                2e-8 * dofs,
+            ),
+            // Measured: a complex factorization takes 4 ns for each entry and its rows.
+            FrfMethod::Direct => (24.0 * sparse_fill(dofs), 3.5e-8 * sparse_fill(dofs)),
+            FrfMethod::Reduced => (24.0 * sparse_fill(dofs), 1e-5),
+        };
+        FrfCost {
+            lines,
+            memory_bytes: bytes + 64.0 * lines as f64,
+            seconds: each * lines as f64,
         }
     }
 
@@ -184,34 +415,28 @@ impl Case {
     }
 
     fn transient_cost(&self, transient: &Transient, nodes: u128, elements: u128) -> TransientCost {
+        let stable_step = stable_step_limit(self.highest_frequency(), &self.damping.rayleigh);
         let time_step = match transient.time_step {
             TimeStep::Seconds(step) => step,
-            TimeStep::Auto => {
-                let omega = self.highest_frequency();
-                let zeta = self.damping.rayleigh.damping_factor(omega);
-                2.0 / omega * ((1.0 + zeta * zeta).sqrt() - zeta)
-            }
+            TimeStep::Auto => stable_step,
         };
         let steps = (transient.duration / time_step).ceil();
-        let output = &self.output;
-        let samples = transient.duration / output.sample_interval;
-        let frames = match output.contact_interval {
-            Some(interval) => transient.duration / interval,
-            None => samples.min(10_000.0),
-        };
-        let contact_nodes = match self.annulus.element {
-            ElementKind::Quad4 => self.annulus.circumferential_elements,
-            ElementKind::Quad8 => 2 * self.annulus.circumferential_elements,
-        } as f64;
         TransientCost {
             time_step,
+            stable_step,
             steps,
-            // Ten nodal vectors, two for each snapshot; 400 bytes of energies and harmonics and 48 of each probe for a sample; the
-            // status and two stresses of each contact node for a frame. A checkpoint holds the record once more.
-            memory_bytes: (160.0 + 32.0 * output.snapshots.len() as f64) * nodes as f64
-                + 2.0 * samples * (400.0 + 48.0 * output.probes.len() as f64)
-                + 2.0 * frames * (100.0 + 9.0 * contact_nodes),
+            // Ten nodal vectors, and the status and two stresses of each contact node over time.
+            memory_bytes: 160.0 * nodes as f64
+                + 17.0 * self.samples() * self.contact_nodes()
+                + 56.0 * self.samples() * self.output.probes.len() as f64
+                + self.snapshot_bytes(),
             seconds: 2e-9 * elements as f64 * steps,
         }
     }
+}
+
+/// Entries of the factor of a plane mesh under a minimum-degree ordering, measured: about
+/// `9 n log2 n` of 12 bytes.
+fn sparse_fill(dofs: f64) -> f64 {
+    9.0 * dofs * dofs.max(2.0).log2()
 }

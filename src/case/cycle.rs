@@ -2,7 +2,9 @@
 
 use super::range::{Spacing, range_values};
 use super::reader::Section;
+use super::keys;
 use super::rules::{harmonics, parameter};
+use crate::cycle::Parameter;
 use crate::mesh::AnnulusSpecification;
 
 /// Shortest transient that puts a cycle to the test: its last fifth has the four periods that a frequency is read from,
@@ -94,30 +96,8 @@ pub(super) fn cycle(root: &Section<'_>, annulus: &AnnulusSpecification) -> Optio
         count: inner.count("count"),
         spacing: inner.choice("spacing"),
     });
-    if let Some(Continuation { from, to, .. }) = &continuation
-        && continuation
-            .as_ref()
-            .is_some_and(|c| c.spacing == Spacing::Logarithmic)
-        && (*from <= 0.0 || *to <= 0.0)
-    {
-        inner.reject(
-            "spacing",
-            format!(
-                "cycle.continuation.spacing = \"log\" needs two positive ends, not {from} and {to}"
-            ),
-            "logarithms of positive numbers only".to_owned(),
-            Some("use \"linear\"".to_owned()),
-        );
-    }
-    if let Some(Continuation { from, to, .. }) = &continuation
-        && from == to
-    {
-        inner.reject(
-            "to",
-            format!("cycle.continuation.to = {to} equals from"),
-            "must differ from `from`".to_owned(),
-            None,
-        );
+    if let Some(continuation) = &continuation {
+        check_continuation(&inner, continuation);
     }
     if stability == StabilityChoice::Branch && continuation.is_none() {
         section.reject(
@@ -139,4 +119,49 @@ pub(super) fn cycle(root: &Section<'_>, annulus: &AnnulusSpecification) -> Optio
         stability,
         continuation,
     })
+}
+
+fn check_continuation(section: &Section<'_>, continuation: &Continuation) {
+    let Continuation {
+        key,
+        from,
+        to,
+        spacing,
+        ..
+    } = continuation;
+    let is_numeric = keys::find(key).is_some_and(|known| known.is_numeric());
+    if is_numeric && Parameter::from_key(key).is_none() {
+        let known = Parameter::ALL.map(Parameter::key);
+        section.reject(
+            "key",
+            format!("limit cycles cannot be followed over {key}"),
+            "not one of the parameters of a cycle".to_owned(),
+            Some(format!("one of {}", known.join(", "))),
+        );
+    }
+    if from.min(*to) < 0.0 {
+        section.reject(
+            if *from < 0.0 { "from" } else { "to" },
+            format!("{key} cannot be negative along a branch"),
+            "must not be negative".to_owned(),
+            None,
+        );
+    } else if *spacing == Spacing::Logarithmic && (*from == 0.0 || *to == 0.0) {
+        section.reject(
+            "spacing",
+            format!(
+                "cycle.continuation.spacing = \"log\" needs two positive ends, not {from} and {to}"
+            ),
+            "logarithms of positive numbers only".to_owned(),
+            Some("use \"linear\"".to_owned()),
+        );
+    }
+    if from == to {
+        section.reject(
+            "to",
+            format!("cycle.continuation.to = {to} equals from"),
+            "must differ from `from`".to_owned(),
+            None,
+        );
+    }
 }

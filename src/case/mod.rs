@@ -28,7 +28,7 @@ mod words;
 pub use crate::transient::{InitialState, OperatorChoice, Perturbation, TimeStep};
 pub use cea::{Cea, CeaMap, CeaMethod, ModeSelection};
 pub use convergence::Convergence;
-pub use cost::{CeaCost, Cost, CycleCost, TransientCost};
+pub use cost::{CeaCost, Cost, CycleCost, FrfCost, StudyCost, TransientCost};
 pub use cycle::{Continuation, Cycle, OnsetChoice, StabilityChoice};
 pub use diagnostic::{CaseErrors, Diagnostic, Location, Source};
 pub use frf::{Frf, FrfMethod};
@@ -148,6 +148,10 @@ impl Case {
             warnings,
             raw,
         };
+        let errors = rules::infeasible(&case);
+        if !errors.is_empty() {
+            return Err(case.raw.errors(errors));
+        }
         case.warnings.extend(plausibility::implausible(&case));
         Ok(case)
     }
@@ -170,9 +174,8 @@ impl Case {
     /// A case without `[cea]`, with what to add.
     pub fn require_cea(&self) -> Result<&Cea, CaseErrors> {
         let remedy = "[cea]\nmax_frequency_hz = 17500.0";
-        self.cea
-            .as_ref()
-            .ok_or_else(|| self.lacks("cea", "complex eigenvalue analysis", remedy))
+        let cea = self.cea.as_ref();
+        cea.ok_or_else(|| self.lacks("cea", "complex eigenvalue analysis", remedy))
     }
 
     /// The explicit transient.
@@ -181,40 +184,48 @@ impl Case {
     /// A case without `[transient]`, and one of Quad8 elements, which the transient cannot run.
     pub fn require_transient(&self) -> Result<&Transient, CaseErrors> {
         let remedy = "[transient]\nduration = 0.05";
-        let transient = self
-            .transient
-            .as_ref()
-            .ok_or_else(|| self.lacks("transient", "transient", remedy))?;
-        if self.annulus.element == ElementKind::Quad8 {
-            return Err(self.error_at(
-                "mesh.element",
-                "mesh.element = \"quad8\" is for the complex eigenvalue analysis only".to_owned(),
-                "the transient needs \"quad4\"".to_owned(),
-                Some("add --set mesh.element=quad4, and refine the mesh if need be".to_owned()),
-            ));
-        }
+        let transient = self.transient.as_ref();
+        let transient = transient.ok_or_else(|| self.lacks("transient", "transient", remedy))?;
+        self.require_quad4("the transient needs \"quad4\"")?;
         Ok(transient)
     }
 
     /// The search for limit cycles.
     ///
     /// # Errors
-    /// A case without `[cycle]`, and one of Quad8 elements, whose contact nodes are not all alike.
+    /// A case without `[cycle]`, one of Quad8 elements, whose contact nodes are not all alike, and one
+    /// whose cylinder does not turn, or turns backwards.
     pub fn require_cycle(&self) -> Result<&Cycle, CaseErrors> {
         let remedy = "[cycle]\nharmonics = [1, 2]";
-        let cycle = self
-            .cycle
-            .as_ref()
-            .ok_or_else(|| self.lacks("cycle", "limit cycle", remedy))?;
-        if self.annulus.element == ElementKind::Quad8 {
+        let cycle = self.cycle.as_ref();
+        let cycle = cycle.ok_or_else(|| self.lacks("cycle", "limit cycle", remedy))?;
+        self.require_quad4("limit cycles need \"quad4\"")?;
+        let key = "contact.rotation_speed_rpm";
+        if self.contact.sliding.rotation_speed <= 0.0 {
+            let value = self.raw.find(key).map(|item| item.value.to_string());
             return Err(self.error_at(
-                "mesh.element",
-                "mesh.element = \"quad8\" is for the complex eigenvalue analysis only".to_owned(),
-                "limit cycles need \"quad4\"".to_owned(),
-                Some("add --set mesh.element=quad4, and refine the mesh if need be".to_owned()),
+                key,
+                format!(
+                    "{key} = {}: limit cycles need a cylinder that turns",
+                    value.unwrap_or_default()
+                ),
+                "must be positive here".to_owned(),
+                Some("a cylinder that turns backwards makes the mirror image".to_owned()),
             ));
         }
         Ok(cycle)
+    }
+
+    fn require_quad4(&self, label: &str) -> Result<(), CaseErrors> {
+        if self.annulus.element == ElementKind::Quad4 {
+            return Ok(());
+        }
+        Err(self.error_at(
+            "mesh.element",
+            "mesh.element = \"quad8\" is for the complex eigenvalue analysis only".to_owned(),
+            label.to_owned(),
+            Some("add --set mesh.element=quad4, and refine the mesh if need be".to_owned()),
+        ))
     }
 
     /// The parameter study.
@@ -223,9 +234,8 @@ impl Case {
     /// A case without `[sweep]`, with what to add.
     pub fn require_sweep(&self) -> Result<&Sweep, CaseErrors> {
         let remedy = "[sweep]\n\"contact.friction_coefficient\" = [0.2, 0.3, 0.4]";
-        self.sweep
-            .as_ref()
-            .ok_or_else(|| self.lacks("sweep", "parameter study", remedy))
+        let sweep = self.sweep.as_ref();
+        sweep.ok_or_else(|| self.lacks("sweep", "parameter study", remedy))
     }
 
     /// The frequency response.
@@ -235,9 +245,8 @@ impl Case {
     pub fn require_frf(&self) -> Result<&Frf, CaseErrors> {
         let remedy =
             "[frf]\nforce_node = 36\nfrequencies_hz = { from = 1.0, to = 10000.0, count = 10000 }";
-        self.frf
-            .as_ref()
-            .ok_or_else(|| self.lacks("frf", "frequency response", remedy))
+        let frf = self.frf.as_ref();
+        frf.ok_or_else(|| self.lacks("frf", "frequency response", remedy))
     }
 
     /// The convergence study.
@@ -246,9 +255,8 @@ impl Case {
     /// A case without `[convergence]`, with what to add.
     pub fn require_convergence(&self) -> Result<&Convergence, CaseErrors> {
         let remedy = "[convergence]\nfactors = [1, 1.5, 2.25]";
-        self.convergence
-            .as_ref()
-            .ok_or_else(|| self.lacks("convergence", "convergence study", remedy))
+        let study = self.convergence.as_ref();
+        study.ok_or_else(|| self.lacks("convergence", "convergence study", remedy))
     }
 
     fn lacks(&self, section: &str, analysis: &str, remedy: &str) -> CaseErrors {
@@ -269,16 +277,7 @@ impl Case {
         label: String,
         help: Option<String>,
     ) -> CaseErrors {
-        let mut name = key;
-        let at = loop {
-            if let Some(item) = self.raw.find(name) {
-                break item.at.clone();
-            }
-            match name.rsplit_once('.') {
-                Some((section, _)) => name = section,
-                None => break Location::default(),
-            }
-        };
+        let at = self.raw.place(key);
         let help = help.or_else(|| suggestion::usage(key));
         self.raw
             .errors(vec![Diagnostic::error(message, label, at, help)])

@@ -1,7 +1,7 @@
 //! Values that are possible but that hardly anybody means: warnings, each with its reason.
 
 use super::Case;
-use super::diagnostic::{Diagnostic, Location};
+use super::diagnostic::Diagnostic;
 use super::key::CaseKey;
 use super::keys::KEYS;
 use crate::fem::PlaneFormulation;
@@ -38,10 +38,7 @@ pub(super) fn implausible(case: &Case) -> Vec<Diagnostic> {
 }
 
 fn warning(case: &Case, key: &str, message: String, label: &str, help: &str) -> Diagnostic {
-    let at = case
-        .raw
-        .find(key)
-        .map_or_else(Location::default, |item| item.at.clone());
+    let at = case.raw.place(key);
     Diagnostic::error(message, label.to_owned(), at, Some(help.to_owned()))
 }
 

@@ -294,6 +294,20 @@ impl RawCase {
         }
     }
 
+    /// Where a dotted key is written, else the nearest section around it.
+    pub fn place(&self, key: &str) -> Location {
+        let mut name = key;
+        loop {
+            if let Some(item) = self.find(name) {
+                return item.at.clone();
+            }
+            match name.rsplit_once('.') {
+                Some((section, _)) => name = section,
+                None => return Location::default(),
+            }
+        }
+    }
+
     /// The value of a dotted key, if the case gives it.
     pub fn find(&self, key: &str) -> Option<&RawItem> {
         let mut table = &self.root;

@@ -274,19 +274,6 @@ pub(super) fn output(
     let sample_interval = section.number("sample_interval");
     let mut snapshots = rising(&section, "snapshots").unwrap_or_default();
     if let Some(transient) = transient {
-        if let TimeStep::Seconds(step) = transient.time_step
-            && sample_interval < step
-        {
-            section.reject(
-                "sample_interval",
-                format!(
-                    "output.sample_interval = {sample_interval:?} s is below \
-                     transient.time_step = {step:?} s"
-                ),
-                format!("at least {step:?}"),
-                None,
-            );
-        }
         let last = whole_intervals(transient.duration, sample_interval) as f64;
         snapshots.retain(|time| {
             let is_inside = (time / sample_interval).round() <= last;

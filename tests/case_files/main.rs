@@ -1,5 +1,10 @@
 //! Consistency checks of the case parser: shipped cases, overrides, ranges, messages, robustness.
 
+mod agreement;
+mod keys;
+mod plausibility;
+mod sizes;
+
 use frictionsim::case::{
     Case, CaseErrors, CeaMethod, KEYS, ModeSelection, RawCase, Spacing, TimeStep, range_values,
 };
@@ -7,9 +12,9 @@ use frictionsim::mesh::ElementKind;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
-const DISC: &str = include_str!("../cases/polycarbonate-disc.toml");
-const RUN: &str = include_str!("../cases/polycarbonate-610rpm.toml");
-const STUDY: &str = include_str!("../cases/speed-friction-study.toml");
+const DISC: &str = include_str!("../../cases/polycarbonate-disc.toml");
+const RUN: &str = include_str!("../../cases/polycarbonate-610rpm.toml");
+const STUDY: &str = include_str!("../../cases/speed-friction-study.toml");
 
 fn parse(text: &str, overrides: &[&str]) -> Result<Case, CaseErrors> {
     let overrides: Vec<String> = overrides.iter().map(|text| text.to_string()).collect();
@@ -550,7 +555,7 @@ proptest! {
     }
 
     #[test]
-    fn an_override_reads_back_the_number_it_was_given(value in 1e-300..1e300f64) {
+    fn an_override_reads_back_the_number_it_was_given(value in 1e-300..1e25f64) {
         let overrides = [format!("contact.normal_stiffness={value:?}")];
         let raw = RawCase::parse("x", DISC.as_bytes(), &overrides).unwrap();
         let case = Case::from_raw(raw).unwrap();
@@ -595,7 +600,7 @@ fn a_start_on_a_limit_cycle_names_a_harmonic_that_the_mesh_carries() {
 #[test]
 fn stability_along_a_branch_needs_a_branch() {
     use frictionsim::case::StabilityChoice;
-    const CYCLES: &str = include_str!("../cases/limit-cycle.toml");
+    const CYCLES: &str = include_str!("../../cases/limit-cycle.toml");
     let case = valid(CYCLES, &["cycle.stability=\"branch\"", "cycle.phases=151"]);
     let cycle = case.require_cycle().unwrap();
     assert_eq!(

@@ -1,0 +1,125 @@
+//! Everything about a case that can be known to be wrong before it runs, asked of the same code that
+//! the runs ask.
+
+use super::session::available_memory;
+use super::{Failure, cea, transient};
+use crate::case::{Case, Cea, Cost, Diagnostic, StudyCost};
+use crate::mesh::ElementKind;
+use crate::results::Manifest;
+
+/// Nodes up to which matrices are set up to find out.
+const MOST_NODES: u128 = 200_000;
+
+/// Unknowns of a sector, times modes, up to which one eigenvalue problem is solved to find out.
+const MOST_EIGENVALUE_WORK: usize = 100_000;
+
+/// What is known of a case before it runs.
+#[derive(Debug)]
+pub struct Preflight {
+    /// Cost of each analysis, with the time step of the run where it is cheaply had.
+    pub cost: Cost,
+    /// Whether time step and number of steps are the run's own.
+    pub is_step_exact: bool,
+    /// Cost of the parameter study.
+    pub sweep: Option<StudyCost>,
+    /// Cost of the convergence study.
+    pub convergence: Option<StudyCost>,
+    /// Memory of the hungriest command, bytes.
+    pub memory_bytes: f64,
+    /// Keys that an analysis of the case ignores.
+    pub warnings: Vec<Diagnostic>,
+}
+
+/// Finds out whether the commands that a case is for can run.
+///
+/// # Errors
+/// What those commands would refuse with exit code 2.
+pub fn preflight(case: &Case) -> Result<Preflight, Failure> {
+    let mut found = Preflight {
+        cost: case.cost(),
+        is_step_exact: false,
+        sweep: case.sweep_cost(),
+        convergence: case.convergence_cost(),
+        memory_bytes: 0.0,
+        warnings: Vec::new(),
+    };
+    let commands = commands(case);
+    for command in &commands {
+        let (bytes, _) = case.memory(command);
+        refuse_memory(case, command, bytes)?;
+        found.memory_bytes = found.memory_bytes.max(bytes);
+        found.warnings.extend(case.ignored_by(command));
+    }
+    if case.cycle.is_some() && case.annulus.element == ElementKind::Quad4 {
+        case.require_cycle()?;
+    }
+    let is_small = found.cost.nodes <= MOST_NODES;
+    if is_small && commands.contains(&"transient") {
+        let plan = transient::preflight(case, "auto")?;
+        if let Some(run) = &mut found.cost.transient {
+            let steps = plan.total_steps() as f64;
+            run.seconds *= steps / run.steps;
+            run.time_step = plan.time_step;
+            run.steps = steps;
+            found.is_step_exact = true;
+        }
+    }
+    if let Some(eigenvalues) = &case.cea
+        && is_small
+    {
+        try_eigenvalues(case, eigenvalues, &found.cost)?;
+    }
+    Ok(found)
+}
+
+/// Commands that a case has sections for, and whose elements can run.
+fn commands(case: &Case) -> Vec<&'static str> {
+    let is_linear = case.annulus.element == ElementKind::Quad4;
+    let has = [
+        ("mesh", true),
+        ("cea", case.cea.is_some()),
+        ("transient", case.transient.is_some() && is_linear),
+        ("cycle", case.cycle.is_some() && is_linear),
+        ("frf", case.frf.is_some()),
+        ("convergence", case.convergence.is_some()),
+        ("sweep", case.sweep.is_some()),
+    ];
+    let here = has.into_iter().filter(|pair| pair.1);
+    here.map(|pair| pair.0).collect()
+}
+
+/// Refuses a command that does not fit the machine's memory.
+///
+/// # Errors
+/// [`Failure::Case`] at the key that asks for most of it.
+pub fn refuse_memory(case: &Case, command: &str, bytes: f64) -> Result<(), Failure> {
+    // Where the system does not say what there is: more than any workstation has.
+    let available = available_memory().unwrap_or(1e12);
+    if bytes > available {
+        return Err(Failure::Case(case.memory_error(command, bytes, available)));
+    }
+    Ok(())
+}
+
+/// Solves at one friction coefficient: bounds that have no mode below them show there.
+fn try_eigenvalues(case: &Case, cea: &Cea, cost: &Cost) -> Result<(), Failure> {
+    let modes = cost.cea.map_or(0, |cost| cost.modes);
+    let sector = cost.dofs as usize / case.annulus.circumferential_elements.max(1);
+    if sector.saturating_mul(modes) > MOST_EIGENVALUE_WORK {
+        return Ok(());
+    }
+    let one = Case {
+        cea: Some(Cea {
+            friction_coefficients: vec![cea.friction_coefficients[0]],
+            shapes_at: Vec::new(),
+            map: None,
+            ..cea.clone()
+        }),
+        ..case.clone()
+    };
+    match cea::summarize(&one, &Manifest::new("cea")) {
+        // A run that fails is no bad case.
+        Ok(_) | Err(Failure::Run(_)) => Ok(()),
+        Err(failure) => Err(failure),
+    }
+}

@@ -1,0 +1,211 @@
+//! Consistency checks of the declarations of keys: what readers, messages, schema and template make
+//! of them is one and the same.
+
+use super::{DISC, RUN, assert_reports, parse, report, valid};
+use frictionsim::case::{Case, Default, KEYS, reference, unset};
+use serde_json::Value;
+
+/// A case with every section.
+fn whole() -> String {
+    let further = "
+        [cea.map]
+        key = \"contact.interference\"
+        values = [1e-5, 2e-5]
+        [cycle]
+        [cycle.continuation]
+        key = \"contact.rotation_speed_rpm\"
+        from = 10
+        to = 6000
+        [frf]
+        force_node = 36
+        frequencies_hz = [100]
+        [convergence]";
+    format!("{RUN}\n{further}")
+}
+
+#[test]
+fn a_default_written_out_changes_nothing() {
+    let plain = valid(&whole(), &[]);
+    for key in KEYS {
+        let Default::Value(value) = key.default else {
+            continue;
+        };
+        // What the case gives itself is no default.
+        if plain.raw.find(key.name).is_some() {
+            continue;
+        }
+        let written = valid(&whole(), &[&format!("{}={value}", key.name)]);
+        let same = Case {
+            raw: plain.raw.clone(),
+            title: plain.title.clone(),
+            ..written
+        };
+        assert_eq!(same, plain, "{}", key.name);
+    }
+}
+
+#[test]
+fn every_key_stands_in_the_schema_once_with_its_meaning() {
+    let schema = reference::schema();
+    for key in KEYS {
+        let path = format!("/{}", key.name.replace('.', "/"));
+        let pointer = path
+            .split('/')
+            .skip(1)
+            .map(|part| match part {
+                "*" => "/additionalProperties".to_owned(),
+                part => format!("/properties/{part}"),
+            })
+            .collect::<String>();
+        let found = schema.pointer(&pointer).unwrap_or(&Value::Null);
+        let description = found["description"].as_str().unwrap_or("");
+        assert!(description.contains(key.meaning), "{}: {found}", key.name);
+    }
+}
+
+#[test]
+fn a_template_with_every_key_holds_no_key_that_is_unknown() {
+    let template = reference::template();
+    assert!(parse(&template, &[]).is_ok(), "{}", report(&template, &[]));
+    let is_comment = |line: &str| line.starts_with("# ") && !line.ends_with('.');
+    let lines = template.lines();
+    let all: Vec<&str> = lines
+        .map(|line| if is_comment(line) { &line[2..] } else { line })
+        .collect();
+    let all = all.join("\n");
+    if let Err(errors) = parse(&all, &[]) {
+        for error in &errors.diagnostics {
+            let message = &error.message;
+            assert!(!message.contains("unknown"), "{message}");
+            assert!(!message.contains("missing"), "{message}");
+            assert!(!message.contains(" must be "), "{message}");
+        }
+    }
+    for key in KEYS {
+        assert!(all.contains(&format!("{} = ", key.short())), "{}", key.name);
+    }
+}
+
+#[test]
+fn names_of_other_programs_lead_to_the_key() {
+    for (given, section, expected) in [
+        ("E", "material", "`young_modulus`"),
+        ("nu", "material", "`poisson_ratio`"),
+        ("rho", "material", "`density`"),
+        ("mu", "contact", "`friction_coefficient`"),
+        ("rpm", "contact", "`rotation_speed_rpm`"),
+        ("omega", "material", "`rotation_speed_rpm` of [contact]"),
+        ("dt", "transient", "`time_step`"),
+    ] {
+        let text = format!("{section}.{given}=1");
+        assert_reports(
+            &report(RUN, &[&text]),
+            &[&format!("did you mean {expected}?")],
+        );
+    }
+    for (given, expected) in [
+        ("inertance", "\"accelerance\""),
+        ("compliance", "\"receptance\""),
+        ("Mobility", "\"mobility\""),
+    ] {
+        let text = format!("frf.quantity={given}");
+        assert_reports(
+            &report(&whole(), &[&text]),
+            &[&format!("did you mean {expected}?")],
+        );
+    }
+}
+
+#[test]
+fn numbers_with_a_comma_and_files_that_are_no_text_are_named() {
+    assert_reports(
+        &report(RUN, &["contact.friction_coefficient=0,3"]),
+        &["must be a number", "decimal point: 0.3"],
+    );
+    let utf16: Vec<u8> = RUN.encode_utf16().flat_map(u16::to_le_bytes).collect();
+    let marked = [[0xff, 0xfe].as_slice(), &utf16].concat();
+    for (bytes, part) in [(marked, "UTF-16"), (utf16, "zero bytes")] {
+        let errors = Case::parse("case.toml", &bytes, &[]).unwrap_err();
+        assert_eq!(errors.diagnostics.len(), 1, "{errors}");
+        assert_reports(&errors.to_string(), &[part, "UTF-8", "case.toml"]);
+        assert!(!errors.to_string().contains("inner"), "{errors}");
+    }
+}
+
+#[test]
+fn a_key_taken_away_makes_room_for_another() {
+    let gone = unset("cea.max_frequency_hz");
+    let case = valid(DISC, &[&gone, "cea.modes=10"]);
+    assert_eq!(
+        case.require_cea().unwrap().modes,
+        frictionsim::case::ModeSelection::Lowest(10)
+    );
+    assert!(valid(RUN, &[&unset("transient")]).transient.is_none());
+    // A known key that is not there may go; an unknown one may not.
+    valid(DISC, &[&unset("transient.duration")]);
+    assert_reports(
+        &report(DISC, &[&unset("cea.max_frequency")]),
+        &["--unset", "did you mean `cea.max_frequency_hz`?"],
+    );
+    assert_reports(
+        &report(DISC, &[&unset("material.density")]),
+        &["missing key `material.density`"],
+    );
+}
+
+#[test]
+fn a_title_says_what_overrides_its_case() {
+    let case = valid(RUN, &["contact.rotation_speed_rpm=2000"]);
+    assert!(
+        case.title
+            .ends_with("nodal diameters  [with contact.rotation_speed_rpm = 2000]"),
+        "{}",
+        case.title
+    );
+    assert!(!valid(RUN, &[]).title.contains("[with"));
+}
+
+#[test]
+fn a_single_value_stands_for_a_list_of_one() {
+    let given = [
+        "output.probes=7",
+        "output.snapshots=0.01",
+        "transient.perturbation.harmonics=3",
+        "cea.shapes_at=0.2",
+        "cea.friction_coefficients=0.2",
+        "sweep.analyses=cea",
+        "sweep.\"contact.friction_coefficient\"=0.2",
+        "cycle.harmonics=2",
+    ];
+    let case = valid(RUN, &given);
+    assert_eq!(case.output.probes, [7]);
+    assert_eq!(case.output.snapshots, [0.01]);
+    assert_eq!(case.cycle.unwrap().harmonics, Some(vec![2]));
+    assert_eq!(case.sweep.unwrap().point_count(), 1);
+}
+
+#[test]
+fn a_branch_follows_what_a_limit_cycle_depends_on() {
+    for (text, part) in [
+        (
+            "cycle.continuation.key=\"mesh.radial_elements\"",
+            "cannot be followed over",
+        ),
+        ("cycle.continuation.from=-10", "cannot be negative"),
+        ("cycle.continuation.to=10", "equals from"),
+    ] {
+        assert_reports(&report(&whole(), &[text]), &[part, "--set:1:"]);
+    }
+}
+
+#[test]
+fn a_cylinder_at_rest_has_no_limit_cycle() {
+    for speed in ["0", "-610"] {
+        let text = format!("contact.rotation_speed_rpm={speed}");
+        let errors = valid(&whole(), &[&text]).require_cycle().unwrap_err();
+        assert_reports(
+            &errors.to_string(),
+            &["contact.rotation_speed_rpm", speed, "--set:1:"],
+        );
+    }
+}
