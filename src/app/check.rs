@@ -3,7 +3,7 @@
 use super::preflight::{Preflight, preflight};
 use super::session::{gibibytes, read_case};
 use super::{Failure, terminal};
-use crate::case::{Case, Convergence, Cost, StudyCost};
+use crate::case::{Case, Convergence, Cost, StudyCost, overrides};
 use clap::{Args, ValueHint};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
@@ -15,8 +15,15 @@ pub struct Arguments {
     /// Case files
     #[arg(value_name = "CASE.toml", required = true, value_hint = ValueHint::FilePath)]
     cases: Vec<PathBuf>,
-    #[command(flatten)]
-    overrides: super::options::CaseOverrides,
+    /// Override a case key (repeatable)
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    set: Vec<String>,
+    /// Take a case key or section away, before --set (repeatable)
+    #[arg(long = "unset", value_name = "KEY")]
+    unset: Vec<String>,
+    /// Treat warnings about the case as errors
+    #[arg(long)]
+    deny_warnings: bool,
     /// Print one object on stdout: `cases`, one entry for each file
     #[arg(long)]
     json: bool,
@@ -60,9 +67,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 fn check(path: &std::path::Path, arguments: &Arguments) -> Result<(Case, Preflight), Failure> {
-    let case = read_case(path, &arguments.overrides.all())?;
+    let case = read_case(path, &overrides(&arguments.unset, &arguments.set))?;
     let found = preflight(&case)?;
-    if arguments.overrides.deny_warnings {
+    if arguments.deny_warnings {
         case.deny_warnings(&found.warnings)?;
     }
     Ok((case, found))
@@ -141,7 +148,10 @@ fn meshes(case: &Case) -> String {
     };
     let meshes = study.factors.iter().map(|factor| {
         let mesh = Convergence::refined(&case.annulus, *factor);
-        format!("{} x {}", mesh.circumferential_elements, mesh.radial_elements)
+        format!(
+            "{} x {}",
+            mesh.circumferential_elements, mesh.radial_elements
+        )
     });
     let mut text = meshes.collect::<Vec<_>>().join(", ");
     if !study.time_step_factors.is_empty() {
@@ -152,9 +162,7 @@ fn meshes(case: &Case) -> String {
 
 fn object(name: &str, case: &Case, found: &Preflight) -> Value {
     let cost = &found.cost;
-    let study = |study: &StudyCost, runs: &str| {
-        json!({ runs: study.runs, "memory_bytes": study.memory_bytes, "estimated_s": study.seconds })
-    };
+    let study = |study: &StudyCost, runs: &str| json!({ runs: study.runs, "memory_bytes": study.memory_bytes, "estimated_s": study.seconds });
     let warnings = case.warnings.iter().chain(&found.warnings);
     json!({
         "case": name,

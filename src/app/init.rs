@@ -77,7 +77,10 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         for template in TEMPLATES {
             let _ = writeln!(text, "{:<12}{}", template.name, template.meaning);
         }
-        let _ = writeln!(text, "{REFERENCE:<12}every key of a case with its default and meaning");
+        let _ = writeln!(
+            text,
+            "{REFERENCE:<12}every key of a case with its default and meaning"
+        );
         return terminal::print(&text);
     }
     if arguments.template == REFERENCE {

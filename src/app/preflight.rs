@@ -2,8 +2,8 @@
 //! the runs ask.
 
 use super::session::available_memory;
-use super::{Failure, cea, transient};
-use crate::case::{Case, Cea, Cost, Diagnostic, StudyCost};
+use super::{Failure, SimdChoice, cea, transient};
+use crate::case::{Case, Cea, Cost, Diagnostic, Location, StudyCost};
 use crate::mesh::ElementKind;
 use crate::results::Manifest;
 
@@ -54,9 +54,10 @@ pub fn preflight(case: &Case) -> Result<Preflight, Failure> {
         case.require_cycle()?;
     }
     let is_small = found.cost.nodes <= MOST_NODES;
+    let simd = SimdChoice::Auto.resolve().unwrap_or("scalar");
     if is_small && commands.contains(&"transient") {
-        let plan = transient::preflight(case, "auto")?;
-        if let Some(run) = &mut found.cost.transient {
+        let plan = found.tolerate("transient", transient::preflight(case, simd))?;
+        if let (Some(run), Some(plan)) = (&mut found.cost.transient, plan) {
             let steps = plan.total_steps() as f64;
             run.seconds *= steps / run.steps;
             run.time_step = plan.time_step;
@@ -67,9 +68,31 @@ pub fn preflight(case: &Case) -> Result<Preflight, Failure> {
     if let Some(eigenvalues) = &case.cea
         && is_small
     {
-        try_eigenvalues(case, eigenvalues, &found.cost)?;
+        let tried = try_eigenvalues(case, eigenvalues, &found.cost);
+        found.tolerate("cea", tried)?;
     }
     Ok(found)
+}
+
+impl Preflight {
+    /// A run that would fail although its case is good is no error of the case: it is said.
+    fn tolerate<T>(
+        &mut self,
+        command: &str,
+        outcome: Result<T, Failure>,
+    ) -> Result<Option<T>, Failure> {
+        match outcome {
+            Ok(value) => Ok(Some(value)),
+            Err(Failure::Run(error)) => {
+                let message = format!("{command} would fail: {error}");
+                let at = Location::default();
+                let warning = Diagnostic::error(message, String::new(), at, None);
+                self.warnings.push(warning);
+                Ok(None)
+            }
+            Err(failure) => Err(failure),
+        }
+    }
 }
 
 /// Commands that a case has sections for, and whose elements can run.
@@ -117,9 +140,5 @@ fn try_eigenvalues(case: &Case, cea: &Cea, cost: &Cost) -> Result<(), Failure> {
         }),
         ..case.clone()
     };
-    match cea::summarize(&one, &Manifest::new("cea")) {
-        // A run that fails is no bad case.
-        Ok(_) | Err(Failure::Run(_)) => Ok(()),
-        Err(failure) => Err(failure),
-    }
+    cea::summarize(&one, &Manifest::new("cea")).map(|_| ())
 }

@@ -319,10 +319,7 @@ pub fn preflight(case: &Case, simd: &str) -> Result<StepPlan, Failure> {
     let prepared = Prepared::new(case, simd)?;
     let operator = prepared.operator()?;
     let refuse = |error| prepared.failure(&error);
-    if matches!(
-        prepared.settings.initial,
-        InitialState::LimitCycle { .. }
-    ) {
+    if matches!(prepared.settings.initial, InitialState::LimitCycle { .. }) {
         // The cycle itself would have to be found.
         let damping = &case.damping.rayleigh;
         return StepPlan::new(operator.as_ref(), damping, &prepared.settings).map_err(refuse);

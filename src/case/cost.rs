@@ -176,7 +176,11 @@ impl Case {
         let study = self.convergence.as_ref()?;
         let meshes = study.factors.iter().map(|factor| {
             let annulus = Convergence::refined(&self.annulus, *factor);
-            let cost = Case { annulus, ..self.clone() }.cost();
+            let cost = Case {
+                annulus,
+                ..self.clone()
+            }
+            .cost();
             (cost, study.analyses.clone(), 1.0)
         });
         let steps = study.time_step_factors.iter();
@@ -233,7 +237,11 @@ impl Case {
             _ => None,
         };
         let (bytes, key) = own.unwrap_or((0.0, mesh));
-        let blamed = if bytes > cost.mesh_memory_bytes { key } else { mesh };
+        let blamed = if bytes > cost.mesh_memory_bytes {
+            key
+        } else {
+            mesh
+        };
         (cost.mesh_memory_bytes + bytes.max(0.0), blamed)
     }
 
@@ -297,7 +305,11 @@ impl Case {
     }
 
     fn contact_nodes(&self) -> f64 {
-        let per_element = if self.annulus.element == ElementKind::Quad4 { 1 } else { 2 };
+        let per_element = if self.annulus.element == ElementKind::Quad4 {
+            1
+        } else {
+            2
+        };
         (per_element * self.annulus.circumferential_elements) as f64
     }
 

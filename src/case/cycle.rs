@@ -1,8 +1,8 @@
 //! `[cycle]`: limit cycles found directly.
 
+use super::keys;
 use super::range::{Spacing, range_values};
 use super::reader::Section;
-use super::keys;
 use super::rules::{harmonics, parameter};
 use crate::cycle::Parameter;
 use crate::mesh::AnnulusSpecification;

@@ -34,7 +34,14 @@ fn a_default_written_out_changes_nothing() {
         if plain.raw.find(key.name).is_some() {
             continue;
         }
-        let written = valid(&whole(), &[&format!("{}={value}", key.name)]);
+        let written = match parse(&whole(), &[&format!("{}={value}", key.name)]) {
+            Ok(written) => written,
+            // A seed needs the noise that it is the seed of.
+            Err(errors) => {
+                assert_reports(&errors.to_string(), &["is given without"]);
+                continue;
+            }
+        };
         let same = Case {
             raw: plain.raw.clone(),
             title: plain.title.clone(),
