@@ -1,9 +1,10 @@
 //! `frictionsim check`: is the case valid, and what would it cost?
 
+use super::options::CaseChanges;
 use super::preflight::{Preflight, preflight};
 use super::session::{gibibytes, read_case};
 use super::{Failure, terminal};
-use crate::case::{Case, Convergence, Cost, StudyCost, overrides};
+use crate::case::{Case, Convergence, Cost, StudyCost};
 use clap::{Args, ValueHint};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
@@ -15,15 +16,8 @@ pub struct Arguments {
     /// Case files
     #[arg(value_name = "CASE.toml", required = true, value_hint = ValueHint::FilePath)]
     cases: Vec<PathBuf>,
-    /// Override a case key (repeatable)
-    #[arg(long = "set", value_name = "KEY=VALUE")]
-    set: Vec<String>,
-    /// Take a case key or section away, before --set (repeatable)
-    #[arg(long = "unset", value_name = "KEY")]
-    unset: Vec<String>,
-    /// Treat warnings about the case as errors
-    #[arg(long)]
-    deny_warnings: bool,
+    #[command(flatten)]
+    changes: CaseChanges,
     /// Print one object on stdout: `cases`, one entry for each file
     #[arg(long)]
     json: bool,
@@ -67,9 +61,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 fn check(path: &std::path::Path, arguments: &Arguments) -> Result<(Case, Preflight), Failure> {
-    let case = read_case(path, &overrides(&arguments.unset, &arguments.set))?;
+    let case = read_case(path, &arguments.changes.overrides())?;
     let found = preflight(&case)?;
-    if arguments.deny_warnings {
+    if arguments.changes.deny_warnings {
         case.deny_warnings(&found.warnings)?;
     }
     Ok((case, found))

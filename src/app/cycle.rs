@@ -35,6 +35,8 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let session = Session::start("cycle", &arguments.options)?;
     let case = &session.case;
+    case.require_cycle()?;
+    session.check_memory(case.memory("cycle").0)?;
     let mut search = Search::of(case, &session.manifest)?;
     let folder = session.open_folder()?;
     search.show_progress(session.options.output.is_quiet());

@@ -52,7 +52,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let session = Session::start("frf", &arguments.options)?;
     let case = &session.case;
     let frf = case.require_frf()?;
-    session.check_memory(case.cost().mesh_memory_bytes)?;
+    session.check_memory(case.memory("frf").0)?;
     let folder = session.open_folder()?;
     terminal::catch_signals(terminal::NOTHING_KEPT);
     let bar = terminal::progress(session.options.output.is_quiet(), 0, "frequencies");

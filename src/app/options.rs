@@ -2,6 +2,7 @@
 
 use super::figure_options::FigureOptions;
 use super::{Failure, terminal};
+use crate::case::unset;
 use crate::results::{Manifest, OutputFolder, Replace, read_manifest};
 use clap::{ArgAction, Args, ValueEnum, ValueHint};
 use serde_json::{Value, json};
@@ -13,12 +14,9 @@ pub struct RunOptions {
     /// Case file, `-` for standard input
     #[arg(value_name = "CASE.toml", value_hint = ValueHint::FilePath)]
     pub case: PathBuf,
-    /// Override a case key, for example contact.friction_coefficient=0.4 (repeatable)
-    #[arg(long = "set", value_name = "KEY=VALUE")]
-    pub set: Vec<String>,
-    /// Treat warnings about the case as errors
-    #[arg(long)]
-    pub deny_warnings: bool,
+    /// What the command line changes of it.
+    #[command(flatten)]
+    pub changes: CaseChanges,
     /// Worker threads [default: all cores]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub threads: Option<u16>,
@@ -28,6 +26,28 @@ pub struct RunOptions {
     /// Where results go and what is said of them.
     #[command(flatten)]
     pub output: OutputOptions,
+}
+
+/// What the command line changes of a case.
+#[derive(Args, Clone, Debug, Default)]
+pub struct CaseChanges {
+    /// Override a case key, for example contact.friction_coefficient=0.4 (repeatable)
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+    /// Take a case key or section away, before --set (repeatable)
+    #[arg(long = "unset", value_name = "KEY")]
+    pub unset: Vec<String>,
+    /// Treat warnings about the case as errors
+    #[arg(long)]
+    pub deny_warnings: bool,
+}
+
+impl CaseChanges {
+    /// The overrides: what is taken away, then what is set.
+    pub fn overrides(&self) -> Vec<String> {
+        let unsets = self.unset.iter().map(|key| unset(key));
+        unsets.chain(self.set.iter().cloned()).collect()
+    }
 }
 
 /// Where results go and what is said of them.

@@ -48,7 +48,11 @@ pub fn preflight(case: &Case) -> Result<Preflight, Failure> {
         let (bytes, _) = case.memory(command);
         refuse_memory(case, command, bytes)?;
         found.memory_bytes = found.memory_bytes.max(bytes);
-        found.warnings.extend(case.ignored_by(command));
+        for warning in case.ignored_by(command) {
+            if !found.warnings.contains(&warning) {
+                found.warnings.push(warning);
+            }
+        }
     }
     if case.cycle.is_some() && case.annulus.element == ElementKind::Quad4 {
         case.require_cycle()?;

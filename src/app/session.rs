@@ -2,6 +2,7 @@
 //! what came out.
 
 use super::options::{input_name, read_input};
+use super::preflight::refuse_memory;
 use super::terminal;
 use super::{Failure, RunOptions};
 use crate::case::{Case, RawCase};
@@ -29,12 +30,13 @@ impl Session {
     pub fn start(command: &str, options: &RunOptions) -> Result<Self, Failure> {
         let start = Instant::now();
         terminal::start_log(options.output.quiet, options.output.verbose);
-        let case = read_case(&options.case, &options.set)?;
-        for warning in &case.warnings {
-            tracing::warn!("{warning}");
+        let case = read_case(&options.case, &options.changes.overrides())?;
+        let ignored = case.ignored_by(command);
+        if options.changes.deny_warnings {
+            case.deny_warnings(&ignored)?;
         }
-        if options.deny_warnings {
-            case.deny_warnings(&[])?;
+        for warning in case.warnings.iter().chain(&ignored) {
+            tracing::warn!("{warning}");
         }
         let simd = options.simd.resolve().ok_or_else(|| {
             Failure::usage(format!(
@@ -80,24 +82,12 @@ impl Session {
         self.start.elapsed().as_secs_f64()
     }
 
-    /// Refuses a run that does not fit the machine's memory; `keys` say what to lower.
+    /// Refuses a run that does not fit the machine's memory.
     ///
     /// # Errors
-    /// [`Failure::Case`] at the mesh.
+    /// [`Failure::Case`] at the key that asks for most of it.
     pub fn check_memory(&self, bytes: f64) -> Result<(), Failure> {
-        match available_memory() {
-            Some(available) if bytes > available => Err(Failure::Case(self.case.error_at(
-                "mesh.circumferential_elements",
-                format!(
-                    "the case needs about {:.1} GiB of memory, {:.1} GiB are available",
-                    gibibytes(bytes),
-                    gibibytes(available)
-                ),
-                "too many elements for this machine".to_owned(),
-                Some("lower mesh.circumferential_elements or mesh.radial_elements".to_owned()),
-            ))),
-            _ => Ok(()),
-        }
+        refuse_memory(&self.case, &self.manifest.command, bytes)
     }
 
     /// Prints the summary as JSON, or the table for people and where the files are.

@@ -35,7 +35,7 @@ pub use frf::{Frf, FrfMethod};
 pub use key::{Bound, CaseKey, Default, Kind};
 pub use keys::{KEYS, find as find_key};
 pub use model::{Contact, Damping};
-pub use overrides::{overrides, unset};
+pub use overrides::unset;
 pub use range::{Spacing, range_values};
 pub use raw::{RawCase, RawEntry, RawItem, RawTable, RawValue};
 pub use sweep::{Analysis, Combination, Sweep, SweptKey};

@@ -16,12 +16,6 @@ pub fn unset(key: &str) -> String {
     format!("{UNSET}{key}")
 }
 
-/// The overrides of a command line: what `--unset` takes away, then what `--set` lays over.
-pub fn overrides(unsets: &[String], sets: &[String]) -> Vec<String> {
-    let unsets = unsets.iter().map(|key| unset(key));
-    unsets.chain(sets.iter().cloned()).collect()
-}
-
 /// The text that errors of an override point into.
 pub(super) fn source(text: &str) -> Source {
     let (name, text) = match text.strip_prefix(UNSET) {

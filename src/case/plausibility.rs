@@ -195,28 +195,42 @@ fn overdamping(case: &Case) -> Option<Diagnostic> {
 }
 
 impl Case {
-    /// Keys that the case gives and that a command does not use, each with the reason.
+    /// Keys that the case gives and that an analysis of a command does not use, each with the reason.
     pub fn ignored_by(&self, command: &str) -> Vec<Diagnostic> {
-        let given = |key: &&CaseKey| {
-            let item = self.raw.find(key.name);
-            item.is_some_and(|item| {
-                let value = item.value.to_string();
-                let default = key.default_text();
-                value.trim_matches('"') != default.trim_matches('"')
-                    && Some(&value) != key.default_value().map(|value| value.to_string()).as_ref()
-            })
+        let has = [
+            ("transient", self.transient.is_some()),
+            ("cycle", self.cycle.is_some()),
+        ];
+        let analyses = has.into_iter().filter(|(analysis, is_here)| {
+            *analysis == command || (*is_here && ["sweep", "convergence"].contains(&command))
+        });
+        let ignored = analyses.flat_map(|(analysis, _)| {
+            KEYS.iter()
+                .filter(move |key| !key.used_by.is_empty() && !key.used_by.contains(&analysis))
+                .filter(|key| self.departs_from_default(key))
+                .map(move |key| (analysis, key))
+        });
+        let say = |(analysis, key): (&str, &CaseKey)| {
+            let message = format!("{} is not used by {analysis}: {}", key.name, key.otherwise);
+            Diagnostic::error(
+                message,
+                "not used".to_owned(),
+                self.raw.place(key.name),
+                None,
+            )
         };
-        KEYS.iter()
-            .filter(|key| !key.used_by.is_empty() && !key.used_by.contains(&command))
-            .filter(given)
-            .map(|key| {
-                let message = format!("{} is not used by {command}: {}", key.name, key.otherwise);
-                warning(self, key.name, message, "not used", "leave it out")
-            })
-            .map(|warning| Diagnostic {
-                help: None,
-                ..warning
-            })
-            .collect()
+        ignored.map(say).collect()
+    }
+
+    /// Whether the case gives a key another value than its default.
+    fn departs_from_default(&self, key: &CaseKey) -> bool {
+        let Some(item) = self.raw.find(key.name) else {
+            return false;
+        };
+        let default = match key.default_value() {
+            Some(value) => value.to_string(),
+            None => key.default_text().to_owned(),
+        };
+        item.value.to_string().trim_matches('"') != default.trim_matches('"')
     }
 }

@@ -211,6 +211,7 @@ fn refuse_no_modes(case: &Case, cea: &Cea, sweep: &FrictionSweep) -> Result<(), 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::app::options::CaseChanges;
     use crate::app::{OutputOptions, SimdChoice};
     use crate::cea::{ComplexMode, FrictionPoint};
     use faer::c64;
@@ -224,8 +225,10 @@ mod tests {
         Arguments {
             options: RunOptions {
                 case: cases.join("polycarbonate-disc.toml"),
-                set: all.map(|text| text.to_string()).collect(),
-                deny_warnings: false,
+                changes: CaseChanges {
+                    set: all.map(|text| text.to_string()).collect(),
+                    ..CaseChanges::default()
+                },
                 threads: None,
                 simd: SimdChoice::Auto,
                 output: OutputOptions {
