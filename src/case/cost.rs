@@ -288,7 +288,8 @@ impl Case {
         let density = 2e-6 / self.output.sample_interval;
         let samples = 17.0 * self.samples() * self.contact_nodes();
         let snapshots = self.snapshot_bytes();
-        if snapshots > samples {
+        let body = 320.0 * node_count(&self.annulus) as f64;
+        if snapshots > samples.max(body) {
             "output.snapshots"
         } else if length.max(density) < 10.0 {
             self.larger_count()

@@ -19,7 +19,9 @@ fn whole() -> String {
         [frf]
         force_node = 36
         frequencies_hz = [100]
-        [convergence]";
+        [convergence]
+        [sweep]
+        \"contact.interference\" = 1e-5";
     format!("{RUN}\n{further}")
 }
 
