@@ -112,7 +112,15 @@ fn compute(case: &Case, frf: &Frf, bar: &ProgressBar) -> Result<Computed, Failur
     }
 }
 
-fn cyclic(case: &Case, frf: &Frf) -> Result<Computed, Failure> {
+/// Finds out whether force and response act where the boundary leaves the body free.
+///
+/// # Errors
+/// A node that does not exist or is held; a base state that does not exist.
+pub fn preflight(case: &Case, frf: &Frf) -> Result<(), Failure> {
+    cyclic_system(case, frf).map(|_| ())
+}
+
+fn cyclic_system(case: &Case, frf: &Frf) -> Result<CyclicSystem, Failure> {
     let sector = SectorMesh::generate(&case.annulus).map_err(Failure::usage)?;
     let contact = &case.contact.sliding;
     let system = if frf.boundary == FrfBoundary::Sliding {
@@ -127,6 +135,11 @@ fn cyclic(case: &Case, frf: &Frf) -> Result<Computed, Failure> {
     for (terminal, key) in [(frf.force, "force_node"), (frf.response, "response_node")] {
         system.check(terminal, key).map_err(Failure::usage)?;
     }
+    Ok(system)
+}
+
+fn cyclic(case: &Case, frf: &Frf) -> Result<Computed, Failure> {
+    let system = cyclic_system(case, frf)?;
     let solved = cyclic_response(&system, frf.force, frf.response, &frf.frequencies_hz)
         .map_err(Failure::run)?;
     Ok(Computed {

@@ -2,7 +2,7 @@
 //! the runs ask.
 
 use super::session::available_memory;
-use super::{Failure, SimdChoice, cea, transient};
+use super::{Failure, SimdChoice, cea, frf, transient};
 use crate::case::{Case, Cea, Cost, Diagnostic, Location, StudyCost};
 use crate::mesh::ElementKind;
 use crate::results::Manifest;
@@ -74,6 +74,12 @@ pub fn preflight(case: &Case) -> Result<Preflight, Failure> {
     {
         let tried = try_eigenvalues(case, eigenvalues, &found.cost);
         found.tolerate("cea", tried)?;
+    }
+    if let Some(response) = &case.frf
+        && is_small
+    {
+        let tried = frf::preflight(case, response);
+        found.tolerate("frf", tried)?;
     }
     Ok(found)
 }

@@ -97,6 +97,13 @@ pub(super) fn read(root: &Section<'_>, annulus: &AnnulusSpecification) -> Option
         noise: section.number("noise"),
         noise_seed: section.count("noise_seed"),
     };
+    if section.has("noise_seed") && frf.noise == 0.0 {
+        section.warn(
+            "noise_seed",
+            "frf.noise_seed is not used: frf.noise is 0".to_owned(),
+            "no noise",
+        );
+    }
     section.close();
     Some(frf)
 }

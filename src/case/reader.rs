@@ -1,10 +1,11 @@
 //! Typed access to the raw tree, held to the declaration of each key, that collects every error
 //! instead of stopping at one.
 
+mod choices;
 mod lists;
 
 use super::diagnostic::{Diagnostic, Location};
-use super::key::{Bound, CaseKey, Choice, Default, Kind};
+use super::key::{Bound, CaseKey, Default, Kind};
 use super::raw::{RawEntry, RawItem, RawTable, RawValue};
 use super::{keys, suggestion};
 use std::cell::RefCell;
@@ -366,43 +367,6 @@ impl<'a> Section<'a> {
             self.missing(key);
         }
         self.optional_text(key).unwrap_or_default()
-    }
-
-    /// One of a few words; the default where the key is left out or wrong.
-    pub fn choice<T: Choice>(&self, key: &str) -> T {
-        let given = self.item(key);
-        given
-            .and_then(|item| self.read_choice(key, item))
-            .unwrap_or_else(|| {
-                let default = self.declared(key).default_text().trim_matches('"');
-                let found = T::WORDS.iter().find(|pair| pair.0 == default);
-                found.map_or(T::WORDS[0].1, |pair| pair.1)
-            })
-    }
-
-    fn read_choice<T: Choice>(&self, key: &str, item: &RawItem) -> Option<T> {
-        let words = super::key::words::<T>();
-        let bound = format!("must be one of \"{}\"", words.join("\", \""));
-        if let RawValue::String(text) = &item.value {
-            if let Some(choice) = T::WORDS.iter().find(|choice| choice.0 == text) {
-                return Some(choice.1);
-            }
-            if let Some(near) = suggestion::nearest_word(text, &words) {
-                self.findings.push(
-                    format!(
-                        "{} = {} is not one of its values",
-                        self.name(key),
-                        item.value.shortened()
-                    ),
-                    bound,
-                    item.at.clone(),
-                    Some(format!("did you mean \"{near}\"?")),
-                );
-                return None;
-            }
-        }
-        self.reject_at(item, key, &bound);
-        None
     }
 }
 

@@ -89,6 +89,14 @@ pub(super) fn transient(
             "at most the duration",
         );
     }
+    if initial != InitialState::Rest && section.has("expansion_time") {
+        section.warn(
+            "expansion_time",
+            "transient.expansion_time is not used: the run starts with the cylinder fully expanded"
+                .to_owned(),
+            "only with initial = \"rest\"",
+        );
+    }
     let transient = Transient {
         duration,
         time_step,

@@ -83,6 +83,11 @@ fn keys_that_an_analysis_ignores_are_said() {
         "contact.normal_stiffness is not used by transient: its contact is rigid"
     );
     assert!(case.ignored_by("cea").is_empty());
+    let sliding = valid(RUN, &["transient.initial=\"steady-sliding\""]);
+    assert_reports(
+        &sliding.warnings[0].to_string(),
+        &["transient.expansion_time is not used"],
+    );
     let rigid = valid(
         RUN,
         &[

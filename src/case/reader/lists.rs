@@ -2,7 +2,7 @@
 
 use super::Section;
 use crate::case::diagnostic::Location;
-use crate::case::key::{Bound, Choice, Kind};
+use crate::case::key::{Bound, Kind};
 use crate::case::range::{Spacing, range_values};
 use crate::case::raw::{RawItem, RawTable, RawValue};
 
@@ -10,7 +10,7 @@ use crate::case::raw::{RawItem, RawTable, RawValue};
 const LONGEST_RANGE: usize = 100_000;
 
 /// The items of a list; anything else is a list of itself alone.
-fn listed(item: &RawItem) -> &[RawItem] {
+pub(super) fn listed(item: &RawItem) -> &[RawItem] {
     match &item.value {
         RawValue::Array(items) => items,
         _ => std::slice::from_ref(item),
@@ -18,23 +18,6 @@ fn listed(item: &RawItem) -> &[RawItem] {
 }
 
 impl<'a> Section<'a> {
-    /// A list of words out of a few; empty where it is not given.
-    pub fn choices<T: Choice>(&self, key: &str) -> Vec<T> {
-        let items = self.item(key).map_or(&[][..], listed);
-        if self.is_empty_list(key) {
-            self.reject(
-                key,
-                format!("{} is an empty list", self.name(key)),
-                "at least one word".to_owned(),
-                None,
-            );
-        }
-        let words = items.iter();
-        words
-            .filter_map(|item| self.read_choice(key, item))
-            .collect()
-    }
-
     /// A list of whole numbers without repetition, each with its place.
     pub fn counts(&self, key: &str) -> Option<Vec<(usize, Location)>> {
         let (item, least) = (self.item(key)?, self.least(key));

@@ -1,0 +1,63 @@
+//! Words that stand for choices.
+
+use super::Section;
+use super::lists::listed;
+use crate::case::key::{self, Choice};
+use crate::case::raw::{RawItem, RawValue};
+use crate::case::suggestion;
+
+impl Section<'_> {
+    /// A list of words out of a few; empty where it is not given.
+    pub fn choices<T: Choice>(&self, key: &str) -> Vec<T> {
+        let items = self.item(key).map_or(&[][..], listed);
+        if self.is_empty_list(key) {
+            self.reject(
+                key,
+                format!("{} is an empty list", self.name(key)),
+                "at least one word".to_owned(),
+                None,
+            );
+        }
+        let words = items.iter();
+        words
+            .filter_map(|item| self.read_choice(key, item))
+            .collect()
+    }
+
+    /// One of a few words; the default where the key is left out or wrong.
+    pub fn choice<T: Choice>(&self, key: &str) -> T {
+        let given = self.item(key);
+        given
+            .and_then(|item| self.read_choice(key, item))
+            .unwrap_or_else(|| {
+                let default = self.declared(key).default_text().trim_matches('"');
+                let found = T::WORDS.iter().find(|pair| pair.0 == default);
+                found.map_or(T::WORDS[0].1, |pair| pair.1)
+            })
+    }
+
+    fn read_choice<T: Choice>(&self, key: &str, item: &RawItem) -> Option<T> {
+        let words = key::words::<T>();
+        let bound = format!("must be one of \"{}\"", words.join("\", \""));
+        if let RawValue::String(text) = &item.value {
+            if let Some(choice) = T::WORDS.iter().find(|choice| choice.0 == text) {
+                return Some(choice.1);
+            }
+            if let Some(near) = suggestion::nearest_word(text, &words) {
+                self.findings.push(
+                    format!(
+                        "{} = {} is not one of its values",
+                        self.name(key),
+                        item.value.shortened()
+                    ),
+                    bound,
+                    item.at.clone(),
+                    Some(format!("did you mean \"{near}\"?")),
+                );
+                return None;
+            }
+        }
+        self.reject_at(item, key, &bound);
+        None
+    }
+}
