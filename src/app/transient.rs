@@ -325,7 +325,7 @@ pub fn preflight(case: &Case, simd: &str) -> Result<StepPlan, Failure> {
         return StepPlan::new(operator.as_ref(), damping, &prepared.settings).map_err(refuse);
     }
     let fresh = prepared.start(operator.as_ref())?;
-    Recorder::new(&fresh, &conversion::recorder_settings(case)).map_err(refuse)?;
+    Recorder::new(&fresh, &prepared.recorder_settings()).map_err(refuse)?;
     Ok(*fresh.plan())
 }
 

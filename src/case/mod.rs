@@ -23,6 +23,7 @@ mod rules;
 mod suggestion;
 mod sweep;
 mod transient;
+mod value;
 mod words;
 
 pub use crate::transient::{InitialState, OperatorChoice, Perturbation, TimeStep};

@@ -19,13 +19,25 @@ impl Case {
         duration / self.output.sample_interval
     }
 
-    pub(super) fn contact_nodes(&self) -> f64 {
+    /// Energies and harmonics, and the motion of each probe, of all samples.
+    pub(super) fn sample_bytes(&self) -> f64 {
+        self.samples() * (400.0 + 48.0 * self.output.probes.len() as f64)
+    }
+
+    /// Status and two stresses of each contact node in all frames.
+    pub(super) fn frame_bytes(&self) -> f64 {
+        let duration = self.transient.as_ref().map_or(0.0, |run| run.duration);
+        let frames = match self.output.contact_interval {
+            Some(interval) => duration / interval,
+            None => self.samples().min(10_000.0),
+        };
         let per_element = if self.annulus.element == ElementKind::Quad4 {
             1
         } else {
             2
         };
-        (per_element * self.annulus.circumferential_elements) as f64
+        let contact_nodes = per_element * self.annulus.circumferential_elements;
+        frames * (100.0 + 9.0 * contact_nodes as f64)
     }
 
     /// Displacements and velocities of all nodes at each snapshot.
@@ -157,11 +169,10 @@ impl Case {
             time_step,
             stable_step,
             steps,
-            // Ten nodal vectors, and the status and two stresses of each contact node over time.
+            // Ten nodal vectors and the record, which a checkpoint holds once more.
             memory_bytes: 160.0 * nodes as f64
-                + 17.0 * self.samples() * self.contact_nodes()
-                + 56.0 * self.samples() * self.output.probes.len() as f64
-                + self.snapshot_bytes(),
+                + self.snapshot_bytes()
+                + 2.0 * (self.sample_bytes() + self.frame_bytes()),
             seconds: 2e-9 * elements as f64 * steps,
         }
     }

@@ -44,6 +44,7 @@ impl Case {
         let given = value.map_or_else(String::new, |value| format!(" = {value}"));
         let remedy = match key {
             "output.sample_interval" => "raise it, or lower transient.duration",
+            "output.contact_interval" => "raise it, or lower transient.duration",
             "transient.duration" => "lower it, or raise output.sample_interval",
             "output.snapshots" | "cycle.phases" => "lower it",
             "convergence.factors" => "lower the factors, or start from a coarser mesh",
@@ -77,11 +78,14 @@ impl Case {
         // Usual ones: 0.05 s and 2 us.
         let length = self.transient.as_ref().map_or(0.0, |run| run.duration) / 0.05;
         let density = 2e-6 / self.output.sample_interval;
-        let samples = 17.0 * self.samples() * self.contact_nodes();
+        let samples = self.sample_bytes() + self.frame_bytes();
         let snapshots = self.snapshot_bytes();
         let body = 320.0 * node_count(&self.annulus) as f64;
         if snapshots > samples.max(body) {
             "output.snapshots"
+        } else if self.output.contact_interval.is_some() && self.frame_bytes() > self.sample_bytes()
+        {
+            "output.contact_interval"
         } else if length.max(density) < 10.0 {
             self.larger_count()
         } else if density > length {
