@@ -71,7 +71,11 @@ fn free_disc(step_hz: f64) -> (Vec<f64>, Vec<c64>) {
 
 fn identified(f: &[f64], h: Vec<c64>) -> Identification {
     let response = FrequencyResponse::new(f.to_vec(), h, ResponseQuantity::Accelerance).unwrap();
-    identify(&response, &IdentificationOptions::default()).unwrap()
+    identify(
+        std::slice::from_ref(&response),
+        &IdentificationOptions::default(),
+    )
+    .unwrap()
 }
 
 #[test]
@@ -92,7 +96,7 @@ fn free_disc_with_one_percent_noise_gives_back_its_coefficients_at_1_hz() {
         // Five standard errors, which one mode in two million exceeds by chance.
         assert!(miss < 5.0 * mode.fitted.standard_error, "{mode:?} {exact}");
     }
-    assert!((found.fit.noise.relative / 0.01 - 1.0).abs() < 0.05);
+    assert!((found.fit.noise[0].relative / 0.01 - 1.0).abs() < 0.05);
     assert!(found.modes.len() >= 6);
 }
 
@@ -216,7 +220,11 @@ fn a_response_without_phase_gives_the_same_damping() {
     let moduli: Vec<f64> = noisy(&h, 0.005, 5).iter().map(|z| z.norm()).collect();
     let response =
         FrequencyResponse::from_magnitudes(f, &moduli, ResponseQuantity::Accelerance).unwrap();
-    let found = identify(&response, &IdentificationOptions::default()).unwrap();
+    let found = identify(
+        std::slice::from_ref(&response),
+        &IdentificationOptions::default(),
+    )
+    .unwrap();
     assert_eq!(found.modes.len(), 4);
     for (mode, (frequency, zeta, _)) in found.modes.iter().zip(SEPARATE) {
         assert!((mode.fitted.frequency_hz.value / frequency - 1.0).abs() < 1e-3);
@@ -233,10 +241,18 @@ fn identification_does_not_depend_on_the_quantity_measured() {
     let (f, h) = modal_sum(&SEPARATE, 1.0, 5000.0);
     let response =
         FrequencyResponse::new(f, noisy(&h, 0.01, 9), ResponseQuantity::Accelerance).unwrap();
-    let want = identify(&response, &IdentificationOptions::default()).unwrap();
+    let want = identify(
+        std::slice::from_ref(&response),
+        &IdentificationOptions::default(),
+    )
+    .unwrap();
     for quantity in [ResponseQuantity::Mobility, ResponseQuantity::Receptance] {
         let converted = response.converted(quantity).unwrap();
-        let got = identify(&converted, &IdentificationOptions::default()).unwrap();
+        let got = identify(
+            std::slice::from_ref(&converted),
+            &IdentificationOptions::default(),
+        )
+        .unwrap();
         for (a, b) in got.modes.iter().zip(&want.modes) {
             let miss = a.fitted.damping_factor.value - b.fitted.damping_factor.value;
             // Same data, same relative noise; the additive part of the noise model may differ.
@@ -249,12 +265,20 @@ fn identification_does_not_depend_on_the_quantity_measured() {
 fn coarse_lines_and_flat_noise_are_refused_with_the_reason() {
     let (f, h) = modal_sum(&SEPARATE, 24.0, 5000.0);
     let response = FrequencyResponse::new(f, h, ResponseQuantity::Accelerance).unwrap();
-    let error = identify(&response, &IdentificationOptions::default()).unwrap_err();
+    let error = identify(
+        std::slice::from_ref(&response),
+        &IdentificationOptions::default(),
+    )
+    .unwrap_err();
     assert!(matches!(error, SignalError::Unresolved { .. }), "{error}");
     let f: Vec<f64> = (1..2000).map(f64::from).collect();
     let flat = noisy(&vec![c64::new(1.0, 0.0); f.len()], 0.02, 1);
     let response = FrequencyResponse::new(f, flat, ResponseQuantity::Accelerance).unwrap();
-    let error = identify(&response, &IdentificationOptions::default()).unwrap_err();
+    let error = identify(
+        std::slice::from_ref(&response),
+        &IdentificationOptions::default(),
+    )
+    .unwrap_err();
     assert!(matches!(error, SignalError::NoResonance { .. }), "{error}");
 }
 

@@ -15,7 +15,7 @@ use crate::results::{
     read_response_table, read_summary, write_response, write_summary,
 };
 use crate::signal::FrequencyResponse;
-use crate::signal::reader::read_response;
+use crate::signal::reader::{ResponseOptions, read_response};
 use crate::study::tangent_options;
 use clap::Args;
 use faer::c64;
@@ -98,8 +98,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 pub fn redraw(folder: &OutputFolder, options: &DrawingOptions) -> Result<(), Failure> {
     let summary: ResponseSummary = read_summary(folder.path())?;
     let name = folder.path().join(RESPONSE_TABLE).display().to_string();
-    let file = read_response(&read_response_table(folder)?, &name, None)?;
-    draw_response_report(folder, &file.response, &summary, options)?;
+    let reading = ResponseOptions::default();
+    let file = read_response(&read_response_table(folder)?, &name, &reading)?;
+    draw_response_report(folder, &file.responses[0].response, &summary, options)?;
     Ok(())
 }
 

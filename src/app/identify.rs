@@ -1,31 +1,45 @@
 //! `frictionsim identify`: Rayleigh coefficients from a measured frequency response.
 
 use super::Failure;
-use super::measurement::Measurement;
+use super::measurement::{Measurement, write_aside};
 use super::options::OutputOptions;
 use crate::results::identification::{
-    IdentificationRecord, IdentificationReport, draw_report, print, write,
+    IdentificationRecord, IdentificationSummary, draw_report, write,
 };
-use crate::results::{DrawingOptions, OutputFolder, read_record, write_record};
-use crate::signal::reader::read_response;
-use crate::signal::{IdentificationOptions, ResponseQuantity, identify};
+use crate::results::{DrawingOptions, OutputFolder, read_record, read_summary, write_record};
+use crate::signal::reader::{ResponseOptions, read_response, write_response};
+use crate::signal::{FrequencyResponse, IdentificationOptions, ResponseQuantity, identify};
 use clap::{Args, ValueEnum, ValueHint};
-use serde_json::Value;
 use std::path::PathBuf;
 
 /// Rayleigh coefficients from a measured frequency response
 ///
-/// Reads a table of frequency with real and imaginary part, magnitude and phase (linear or dB), or
-/// magnitude alone; finds the resonances; estimates each damping factor by the half-power method and
+/// Reads frequency with real and imaginary part, magnitude and phase (linear or dB), or magnitude alone,
+/// once or several times, from a text table, a universal file (UFF 58) or a MATLAB file; finds the resonances; estimates each damping factor by the half-power method and
 /// by a fit of the whole response; fits alpha_R and beta_R of C = alpha_R M + beta_R K.
 #[derive(Args)]
 pub struct Arguments {
-    /// Table of the frequency response
+    /// Table of one or more frequency responses, UFF or MATLAB file
     #[arg(value_name = "FRF.csv", value_hint = ValueHint::FilePath)]
     response: PathBuf,
     /// What the table holds, if its header does not say it (else accelerance)
     #[arg(long, value_enum, value_name = "QUANTITY")]
     quantity: Option<Quantity>,
+    /// Names of the columns where the header lacks or fails: f, f_khz, omega, re, im, mag, db, phase, phase_rad,
+    /// coherence, - to skip
+    #[arg(
+        long,
+        value_name = "NAMES",
+        value_delimiter = ',',
+        allow_hyphen_values = true
+    )]
+    columns: Vec<String>,
+    /// Responses by name or number [default: all, fitted with common modes]
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    channel: Vec<String>,
+    /// Write the responses as a universal file (dataset 58) too
+    #[arg(long, value_name = "FILE.uff", value_hint = ValueHint::FilePath)]
+    uff: Option<PathBuf>,
     /// Lowest frequency to use
     #[arg(long, value_name = "HZ")]
     from: Option<f64>,
@@ -70,42 +84,64 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         &arguments.output,
         choices(arguments),
     )?;
-    let quantity = arguments.quantity.map(ResponseQuantity::from);
-    let file = read_response(&measurement.bytes, &measurement.source, quantity)?;
+    let reading = ResponseOptions {
+        quantity: arguments.quantity.map(ResponseQuantity::from),
+        columns: arguments.columns.clone(),
+        channels: arguments.channel.clone(),
+    };
+    let file = read_response(&measurement.bytes, &measurement.source, &reading)?;
     for note in &file.notes {
         tracing::warn!("{}: {note}", measurement.source);
     }
-    let found = identify(&file.response, &options)
+    let responses: Vec<FrequencyResponse> = file
+        .responses
+        .iter()
+        .map(|named| named.response.clone())
+        .collect();
+    let found = identify(&responses, &options)
         .map_err(|error| Failure::run(format!("{}: {error}", measurement.source)))?;
     let folder = measurement.open_folder()?;
-    let report = IdentificationReport {
-        source: measurement.source.clone(),
-        response: &file.response,
-        identification: &found,
-        notes: file.notes.clone(),
-        wall_s: measurement.wall_seconds(),
-    };
-    let summary = write(&folder, &report)?;
-    write_record(&folder, &IdentificationRecord::of(&file.response, &found))?;
+    let summary = IdentificationSummary::new(
+        &measurement.source,
+        &file.responses,
+        &found,
+        file.notes.clone(),
+        measurement.wall_seconds(),
+        folder.manifest().clone(),
+    );
+    let object = write(&folder, &summary, &file.responses, &found.fit)?;
+    let record = IdentificationRecord::of(&responses[0], &found);
+    write_record(&folder, &record)?;
+    if let Some(path) = &arguments.uff {
+        let text: String = file.responses.iter().map(write_response).collect();
+        write_aside(path, text.as_bytes())?;
+    }
     if !arguments.output.no_figures {
-        redraw(&folder, &summary, &arguments.output.figures.drawing())?;
+        let drawing = arguments.output.figures.drawing();
+        draw_all(&folder, &record, &summary, &drawing)?;
     }
     let path = folder.path().to_owned();
     folder.finish()?;
-    measurement.print(&print(&report), &summary, &path)
+    measurement.print(&summary.print(), &object, &path)
 }
 
 /// Draws the figure and the report of a folder from its `record.bin` and its summary.
 ///
 /// # Errors
-/// A folder without a whole record; those of the folder.
-pub fn redraw(
+/// A folder without a whole record or summary; those of the folder.
+pub fn redraw(folder: &OutputFolder, options: &DrawingOptions) -> Result<(), Failure> {
+    let record: IdentificationRecord = read_record(folder.path())?;
+    let summary: IdentificationSummary = read_summary(folder.path())?;
+    draw_all(folder, &record, &summary, options)
+}
+
+fn draw_all(
     folder: &OutputFolder,
-    summary: &Value,
+    record: &IdentificationRecord,
+    summary: &IdentificationSummary,
     options: &DrawingOptions,
 ) -> Result<(), Failure> {
-    let record: IdentificationRecord = read_record(folder.path())?;
-    if let Some(error) = draw_report(folder, &record, summary, options)? {
+    if let Some(error) = draw_report(folder, record, summary, options)? {
         tracing::warn!("figure left out: {error}");
     }
     Ok(())
@@ -132,12 +168,15 @@ fn choices(arguments: &Arguments) -> Vec<String> {
     let quantity = arguments
         .quantity
         .map(|q| format!("quantity={}", ResponseQuantity::from(q).name()));
-    [
+    let mut out: Vec<String> = [
         quantity,
         number("from", arguments.from),
         number("to", arguments.to),
     ]
     .into_iter()
     .flatten()
-    .collect()
+    .collect();
+    out.extend(arguments.columns.iter().map(|c| format!("columns={c}")));
+    out.extend(arguments.channel.iter().map(|c| format!("channel={c}")));
+    out
 }

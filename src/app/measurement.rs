@@ -7,6 +7,7 @@ use crate::signal::reader::ReadError;
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
+use std::io::Write as _;
 use std::path::Path;
 use std::time::Instant;
 
@@ -83,6 +84,20 @@ impl Measurement {
     pub fn print(&self, table: &str, summary: &Value, folder: &Path) -> Result<(), Failure> {
         self.options.print(table, summary, folder)
     }
+}
+
+/// Writes a file outside the output folder, whole or not at all.
+///
+/// # Errors
+/// A place that cannot be written.
+pub fn write_aside(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    let fail = |error| Failure::run(format!("cannot write {}: {error}", path.display()));
+    let parent = path.parent().filter(|p| !p.as_os_str().is_empty());
+    let folder = parent.unwrap_or(Path::new("."));
+    let mut file = tempfile::NamedTempFile::new_in(folder).map_err(fail)?;
+    file.write_all(bytes).map_err(fail)?;
+    file.persist(path).map_err(|error| fail(error.error))?;
+    Ok(())
 }
 
 impl From<ReadError> for Failure {

@@ -85,8 +85,8 @@ pub fn redraw(path: &Path, manifest: &Manifest, options: &DrawingOptions) -> Res
         "convergence" => convergence::redraw(&folder, options)?,
         "mesh" => mesh::redraw(&folder, &case()?, options)?,
         "frf" => frf::redraw(&folder, options)?,
-        "identify" => identify::redraw(&folder, &summary, options)?,
-        _ => signal::redraw(&folder, &summary, options)?,
+        "identify" => identify::redraw(&folder, options)?,
+        _ => signal::redraw(&folder, options)?,
     }
     Ok(folder.finish()?)
 }

@@ -1,6 +1,6 @@
 //! `frictionsim signal`: what vibrates in a measured or computed time signal.
 
-use super::measurement::Measurement;
+use super::measurement::{Measurement, write_aside};
 use super::options::OutputOptions;
 use super::session::read_case;
 use super::{Failure, terminal};
@@ -11,8 +11,10 @@ use crate::fem::MassKind;
 use crate::results::signal::{
     ChannelRecord, ChannelSummary, ModeSummary, SignalRecord, SignalSummary, draw_report, write,
 };
-use crate::results::{DrawingOptions, FolderError, OutputFolder, read_record, write_record};
-use crate::signal::reader::{Channel, SignalFile, read_signal};
+use crate::results::{DrawingOptions, OutputFolder, read_record, read_summary, write_record};
+use crate::signal::reader::{
+    Channel, SignalFile, SignalOptions, read_signal, slowdown, write_signal, write_wav,
+};
 use crate::signal::{
     AmplitudeSpectrum, SignalError, SpectralResolution, Window, averaged_spectrum,
     exponential_stage, spectral_lines,
@@ -20,8 +22,6 @@ use crate::signal::{
 use crate::study::{modes_at_own_friction, tangent_options};
 use clap::{Args, ValueHint};
 use rayon::prelude::*;
-use serde::Deserialize;
-use serde_json::Value;
 use std::path::PathBuf;
 
 /// Lines reported for each channel.
@@ -31,11 +31,12 @@ const LAST_SHARE: f64 = 0.2;
 
 /// Spectrum and spectrogram of a measured or computed signal, beside CEA frequencies
 ///
-/// Reads a time column with one or more channels, or channels with a sampling rate; lists the main
-/// peaks with their superharmonics, the rate of the exponential stage, and the nearest modes of a case.
+/// Reads a time column with one or more channels, or channels with a sampling rate, from a text table, a
+/// universal file (UFF 58), a WAV or a MATLAB file; lists the peaks that stand out of the noise with their
+/// superharmonics, the rate of the exponential stage, and the modes of a case beside them.
 #[derive(Args)]
 pub struct Arguments {
-    /// Table of the signal
+    /// Table of the signal, UFF, WAV or MATLAB file
     #[arg(value_name = "SIGNAL.csv", value_hint = ValueHint::FilePath)]
     signal: PathBuf,
     /// Case whose modes are named beside the peaks
@@ -44,12 +45,20 @@ pub struct Arguments {
     /// Override a key of that case (repeatable)
     #[arg(long = "set", value_name = "KEY=VALUE", requires = "case")]
     set: Vec<String>,
-    /// Sampling rate, where the table has no time column
+    /// Sampling rate, where the table has no time column or one that is rounded
     #[arg(long, value_name = "HZ")]
     rate: Option<f64>,
     /// Channels by name or number [default: all]
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     channel: Vec<String>,
+    /// Names of the columns where the header lacks or fails: t, t_ms, t_us, a channel's name, - to skip
+    #[arg(
+        long,
+        value_name = "NAMES",
+        value_delimiter = ',',
+        allow_hyphen_values = true
+    )]
+    columns: Vec<String>,
     /// Begin of the interval for the peaks, s after the first sample
     #[arg(long, value_name = "S")]
     from: Option<f64>,
@@ -66,6 +75,15 @@ pub struct Arguments {
     /// Highest frequency drawn
     #[arg(long, value_name = "HZ", default_value_t = 40_000.0)]
     max_frequency: f64,
+    /// Write the channels as sound, played slower where the rate is above 96 kHz: 500 kHz by 10
+    #[arg(long, value_name = "OUT.wav", value_hint = ValueHint::FilePath)]
+    wav: Option<PathBuf>,
+    /// How many times slower the sound is played [default: the least of 1, 2, 5, 10, 20, ... that gives 96 kHz]
+    #[arg(long, value_name = "FACTOR", requires = "wav", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    slower: Option<u32>,
+    /// Write the channels as a universal file (dataset 58)
+    #[arg(long, value_name = "OUT.uff", value_hint = ValueHint::FilePath)]
+    uff: Option<PathBuf>,
     #[command(flatten)]
     output: OutputOptions,
 }
@@ -85,18 +103,23 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         &arguments.output,
         choices(arguments, case.as_ref()),
     )?;
-    let file = read_signal(&measurement.bytes, &measurement.source, arguments.rate)?;
+    let reading = SignalOptions {
+        rate: arguments.rate,
+        columns: arguments.columns.clone(),
+        channels: arguments.channel.clone(),
+    };
+    let file = read_signal(&measurement.bytes, &measurement.source, &reading)?;
     for note in &file.notes {
         tracing::warn!("{}: {note}", measurement.source);
     }
-    let selected = selected(arguments, &file)?;
     check_drawing(arguments, &file)?;
     let bar = terminal::progress(
         arguments.output.is_quiet(),
-        selected.len() as u64,
+        file.channels.len() as u64,
         "channels",
     );
-    let analysed = selected
+    let analysed = file
+        .channels
         .par_iter()
         .map(|channel| {
             let found = analyse(arguments, &file, channel);
@@ -122,7 +145,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         command: "signal".into(),
         source: measurement.source.clone(),
         sampling_rate_hz: file.sampling_rate,
-        samples: selected.first().map_or(0, |c| c.samples.len()),
+        samples: file.channels[0].samples.len(),
         friction_coefficient: case.as_ref().map(friction),
         mode_tolerance: SignalSummary::MODE_TOLERANCE,
         channels,
@@ -130,8 +153,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         wall_s: measurement.wall_seconds(),
         manifest: folder.manifest().clone(),
     };
-    write(&folder, &summary, &spectra)?;
-    let record = record(arguments, &file, &selected, &summary, &modes, spectra);
+    let object = write(&folder, &summary, &spectra)?;
+    let record = record(arguments, &file, &summary, &modes, spectra);
     write_record(&folder, &record)?;
     if !arguments.output.no_figures {
         draw_all(
@@ -141,10 +164,10 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             &arguments.output.figures.drawing(),
         )?;
     }
+    let aside = write_copies(arguments, &file)?;
     let path = folder.path().to_owned();
     folder.finish()?;
-    let object = serde_json::to_value(&summary).map_err(Failure::run)?;
-    measurement.print(&summary.print(), &object, &path)
+    measurement.print(&(summary.print() + &aside), &object, &path)
 }
 
 /// Length of the spectrogram's window, s.
@@ -178,28 +201,26 @@ fn check_drawing(arguments: &Arguments, file: &SignalFile) -> Result<(), Failure
     Ok(())
 }
 
-/// The channels asked for.
-fn selected<'a>(arguments: &Arguments, file: &'a SignalFile) -> Result<Vec<&'a Channel>, Failure> {
-    if arguments.channel.is_empty() {
-        return Ok(file.channels.iter().collect());
+/// Writes the channels as sound and as universal file, where asked for; what was written, in words.
+fn write_copies(arguments: &Arguments, file: &SignalFile) -> Result<String, Failure> {
+    let mut text = String::new();
+    if let Some(path) = &arguments.wav {
+        let slower = arguments.slower.unwrap_or(slowdown(file.sampling_rate));
+        let bytes = write_wav(file, slower).map_err(Failure::usage)?;
+        write_aside(path, &bytes)?;
+        let factor = f64::from(slower);
+        text = format!(
+            "sound in {}: played {slower} times slower, 10 kHz is heard as {} kHz; {:.2} s\n",
+            path.display(),
+            10.0 / factor,
+            file.channels[0].samples.len() as f64 / file.sampling_rate * factor,
+        );
     }
-    arguments
-        .channel
-        .iter()
-        .map(|wanted| {
-            let number = wanted.parse::<usize>().ok();
-            let by_name = file.channels.iter().find(|c| c.name == *wanted);
-            by_name
-                .or_else(|| file.channels.get(number?.checked_sub(1)?))
-                .ok_or_else(|| {
-                    let names: Vec<&str> = file.channels.iter().map(|c| c.name.as_str()).collect();
-                    Failure::usage(format!(
-                        "--channel {wanted}: the table has {}",
-                        names.join(", ")
-                    ))
-                })
-        })
-        .collect()
+    if let Some(path) = &arguments.uff {
+        write_aside(path, write_signal(file).as_bytes())?;
+        text += &format!("universal file in {}\n", path.display());
+    }
+    Ok(text)
 }
 
 /// Lines, stage and spectrum of one channel.
@@ -262,13 +283,12 @@ fn modes_below(case: &Case, frequency_hz: f64) -> Result<Vec<ComplexMode>, Failu
 fn record(
     arguments: &Arguments,
     file: &SignalFile,
-    selected: &[&Channel],
     summary: &SignalSummary,
     modes: &[ModeSummary],
     spectra: Vec<AmplitudeSpectrum>,
 ) -> SignalRecord {
     let unstable = modes.iter().filter(|mode| mode.unstable);
-    let channels = selected.iter().zip(&summary.channels).zip(spectra);
+    let channels = file.channels.iter().zip(&summary.channels).zip(spectra);
     SignalRecord {
         sampling_rate: file.sampling_rate,
         start: file.start,
@@ -298,16 +318,9 @@ fn record(
 ///
 /// # Errors
 /// A folder without a whole record or summary; those of the drawing and of the folder.
-pub fn redraw(
-    folder: &OutputFolder,
-    summary: &Value,
-    options: &DrawingOptions,
-) -> Result<(), Failure> {
+pub fn redraw(folder: &OutputFolder, options: &DrawingOptions) -> Result<(), Failure> {
     let record: SignalRecord = read_record(folder.path())?;
-    let summary = SignalSummary::deserialize(summary).map_err(|error| FolderError::NotResults {
-        path: folder.path().to_owned(),
-        reason: format!("its summary.json is not whole ({error}): run it again"),
-    })?;
+    let summary: SignalSummary = read_summary(folder.path())?;
     draw_all(folder, &record, &summary, options)
 }
 
@@ -337,5 +350,6 @@ fn choices(arguments: &Arguments, case: Option<&Case>) -> Vec<String> {
     .flatten()
     .collect();
     out.extend(arguments.channel.iter().map(|c| format!("channel={c}")));
+    out.extend(arguments.columns.iter().map(|c| format!("columns={c}")));
     out
 }

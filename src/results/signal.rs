@@ -11,11 +11,13 @@ pub use summary::{
     Superharmonic,
 };
 
-use super::folder::{FolderError, OutputFolder};
+use super::summary::write_summary;
 use super::table::{Table, format_number};
+use super::{FolderError, OutputFolder};
 use crate::signal::AmplitudeSpectrum;
+use serde_json::Value;
 
-/// Writes `peaks.csv`, a spectrum for each channel and `summary.json`.
+/// Writes `peaks.csv`, a spectrum for each channel and `summary.json`; returns the object of the summary.
 ///
 /// # Errors
 /// Those of the folder.
@@ -23,7 +25,7 @@ pub fn write(
     folder: &OutputFolder,
     summary: &SignalSummary,
     spectra: &[AmplitudeSpectrum],
-) -> Result<(), FolderError> {
+) -> Result<Value, FolderError> {
     folder.write("peaks.csv", |out| write_peaks(out, summary))?;
     for (k, spectrum) in spectra.iter().enumerate() {
         folder.write(&format!("spectrum-{}.csv", k + 1), |out| {
@@ -34,11 +36,7 @@ pub fn write(
             table.finish()
         })?;
     }
-    folder.write("summary.json", |out| {
-        serde_json::to_writer_pretty(&mut *out, summary)?;
-        out.write_all(b"\n")
-    })?;
-    Ok(())
+    write_summary(folder, summary)
 }
 
 fn write_peaks(out: &mut dyn std::io::Write, summary: &SignalSummary) -> std::io::Result<()> {

@@ -6,7 +6,7 @@ mod harmonic;
 pub use harmonic::{harmonic_growth, strongest_vibration};
 
 use super::error::SignalError;
-use super::rayleigh::Estimate;
+use super::modal::Estimate;
 use super::spectrum::{centred, check_signal};
 use super::{Window, main_frequency};
 use demodulation::{Demodulated, demodulate, line, prefix_sums};

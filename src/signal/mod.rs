@@ -7,18 +7,12 @@
 //! ([`half_power`], [`fit_modes`]) and from them the two Rayleigh coefficients of
 //! `zeta = (alpha_R / omega + beta_R omega) / 2` ([`fit_rayleigh`]); [`identify`] does all of it.
 //!
-//! [`reader`] turns text tables into either kind. Nothing here touches a file.
+//! [`reader`] turns files into either kind. Nothing here touches a file.
 
 mod error;
 mod growth;
-mod half_power;
-mod identification;
-mod least_squares;
 mod lines;
-mod modal_basis;
-mod modal_fit;
-mod noise;
-mod rayleigh;
+mod modal;
 pub mod reader;
 mod response;
 mod spectrogram;
@@ -31,13 +25,12 @@ pub use growth::{
     ExponentialStage, NoGrowth, exponential_stage, harmonic_growth, round_off_floor,
     strongest_vibration,
 };
-pub use half_power::{HalfPowerBand, ResonanceNote, half_power};
-pub use identification::{Identification, IdentificationOptions, IdentifiedMode, identify};
 pub use lines::{SpectralLine, SpectralResolution, main_frequency, spectral_lines};
-pub use modal_basis::{ModalModel, Pole};
-pub use modal_fit::{FittedMode, ModalFit, fit_modes};
-pub use noise::NoiseModel;
-pub use rayleigh::{DampingSample, Estimate, RayleighFit, fit_rayleigh};
+pub use modal::{
+    DampingSample, Estimate, FittedMode, HalfPowerBand, Identification, IdentificationOptions,
+    IdentifiedMode, ModalFit, ModalModel, ModalShare, NoiseModel, Pole, RayleighFit, ResonanceNote,
+    fit_modes, fit_rayleigh, half_power, identify,
+};
 pub use response::{FrequencyResponse, ResponseQuantity};
 pub use spectrogram::{Spectrogram, SpectrogramOptions, spectrogram};
 pub use spectrum::{AmplitudeSpectrum, amplitude_spectrum, averaged_spectrum};

@@ -42,6 +42,8 @@ pub struct FrequencyResponse {
     values: Vec<c64>,
     quantity: ResponseQuantity,
     has_phase: bool,
+    /// Variance of each line in units of the typical one, at least 1.
+    variance_factors: Vec<f64>,
 }
 
 impl FrequencyResponse {
@@ -103,11 +105,59 @@ impl FrequencyResponse {
             }
         }
         Ok(Self {
+            variance_factors: vec![1.0; values.len()],
             frequencies_hz,
             values,
             quantity,
             has_phase,
         })
+    }
+
+    /// The same with lines of low coherence counting less in a fit.
+    ///
+    /// The relative variance of an H1 estimate goes as `(1 - c) / c` with the coherence `c`; lines above its
+    /// median keep their weight, lines below lose it in that ratio, at most 1e4 times. Does not take noise for
+    /// known: its size is found from the response. One coherence for each line.
+    ///
+    /// Source: J. S. Bendat and A. G. Piersol, "Random Data", 4th ed. (2010), section 9.2.
+    pub fn with_coherence(mut self, coherence: &[f64]) -> Self {
+        let variance = |c: &f64| {
+            let c = c.clamp(1e-4, 1.0 - 1e-6);
+            (1.0 - c) / c
+        };
+        let variances: Vec<f64> = coherence.iter().map(variance).collect();
+        let typical = super::statistics::median(&variances).max(f64::MIN_POSITIVE);
+        for (factor, variance) in self.variance_factors.iter_mut().zip(&variances) {
+            *factor = (variance / typical).clamp(1.0, 1e4);
+        }
+        self
+    }
+
+    /// Takes the complex conjugate: the response under the other sign of `exp(i omega t)`.
+    pub fn conjugate(&mut self) {
+        self.values.iter_mut().for_each(|z| *z = z.conj());
+    }
+
+    /// Whether the phase rises through the resonances, as it does under `exp(-i omega t)`.
+    ///
+    /// Every resonance draws a circle in the complex plane, clockwise under `exp(i omega t)`: twice the area
+    /// swept, `sum Im(conj(H_k) H_{k+1})`, is `-pi/2` times the square of its diameter. A third of that for
+    /// the largest modulus, of the other sign, is no chance of noise.
+    pub fn turns_backwards(&self) -> bool {
+        let pairs = self.values.windows(2);
+        let area: f64 = pairs.map(|pair| (pair[0].conj() * pair[1]).im).sum();
+        let largest = self.values.iter().map(|z| z.norm_sqr()).fold(0.0, f64::max);
+        self.has_phase && area > 0.5 * largest
+    }
+
+    /// Variance of each line in units of the typical one, at least 1.
+    pub fn variance_factors(&self) -> &[f64] {
+        &self.variance_factors
+    }
+
+    fn with_variance_factors(mut self, factors: &[f64]) -> Self {
+        self.variance_factors.copy_from_slice(factors);
+        self
     }
 
     /// Frequencies, Hz, rising.
@@ -163,7 +213,8 @@ impl FrequencyResponse {
                 }
             })
             .collect();
-        Self::checked(frequencies_hz, values, quantity, self.has_phase)
+        let converted = Self::checked(frequencies_hz, values, quantity, self.has_phase)?;
+        Ok(converted.with_variance_factors(&self.variance_factors[skip..]))
     }
 
     /// The lines between two frequencies, both included, Hz.
@@ -176,11 +227,12 @@ impl FrequencyResponse {
             .frequencies_hz
             .partition_point(|f| *f <= high_hz)
             .max(first);
-        Self::checked(
+        let part = Self::checked(
             self.frequencies_hz[first..last].to_vec(),
             self.values[first..last].to_vec(),
             self.quantity,
             self.has_phase,
-        )
+        )?;
+        Ok(part.with_variance_factors(&self.variance_factors[first..last]))
     }
 }

@@ -3,7 +3,7 @@
 use crate::hold;
 use crate::mutation::text;
 use frictionsim::case::Case;
-use frictionsim::signal::reader::{read_response, read_signal};
+use frictionsim::signal::reader::{ResponseOptions, SignalOptions, read_response, read_signal};
 use frictionsim::signal::{IdentificationOptions, identify};
 use std::path::Path;
 
@@ -87,8 +87,9 @@ fn no_table_of_a_response_makes_reader_or_identification_panic() {
         "response",
         |random| text(random, &corpus),
         |bytes| {
-            if let Ok(file) = read_response(bytes, "frf.csv", None) {
-                let _ = identify(&file.response, &IdentificationOptions { range_hz: None });
+            if let Ok(file) = read_response(bytes, "frf.csv", &ResponseOptions::default()) {
+                let responses: Vec<_> = file.responses.into_iter().map(|r| r.response).collect();
+                let _ = identify(&responses, &IdentificationOptions { range_hz: None });
             }
         },
     );
@@ -109,8 +110,10 @@ fn no_table_of_a_signal_makes_its_reader_panic() {
         "signal",
         |random| text(random, &corpus),
         |bytes| {
-            let _ = read_signal(bytes, "signal.csv", None);
-            let _ = read_signal(bytes, "signal.csv", Some(51_200.0));
+            let mut options = SignalOptions::default();
+            let _ = read_signal(bytes, "signal.csv", &options);
+            options.rate = Some(51_200.0);
+            let _ = read_signal(bytes, "signal.csv", &options);
         },
     );
 }

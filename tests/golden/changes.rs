@@ -15,14 +15,14 @@ const CHANGES: &[(&str, &str, &str, &str)] = &[
         CLOCK,
     ),
     ("transient*", "probe-*", "a_*", MEAN_ACCELERATION),
-    ("signal", "spectrum-5.csv", "*", MEAN_ACCELERATION),
-    ("signal", "spectrum-6.csv", "*", MEAN_ACCELERATION),
-    ("signal", "peaks.csv", "*", MEAN_ACCELERATION),
-    ("signal", "summary.json", "channels[]*", MEAN_ACCELERATION),
+    ("signal", "*", "*", SIGNAL),
     ("transient*", "summary.json", "growth[]*", GROWTH),
     ("*", "points/*", "summaries.transient.growth[]*", GROWTH),
     ("*", "points.csv", "growth.*", GROWTH),
 ];
+
+const SIGNAL: &str = "probes hold mean accelerations; peaks stand out of the noise at a stated resolution, modes are named within 3 %, stages \
+     need an interval";
 
 const CLOCK: &str =
     "what the clock says of a point is in a file of its own, so that points keep their bytes";

@@ -1,9 +1,9 @@
 //! The figure of an identified damping, and what is kept to draw it again.
 
+use crate::results::Record;
 use crate::results::figures::{
     DampingIdentification, FigureError, Resonance, draw_damping_identification,
 };
-use crate::results::record::Record;
 use crate::results::report::NamedFigure;
 use crate::signal::{FrequencyResponse, Identification, ResponseQuantity};
 use serde::{Deserialize, Serialize};
@@ -15,6 +15,8 @@ pub struct IdentificationRecord {
     pub frequencies_hz: Vec<f64>,
     /// Magnitude of the response.
     pub magnitude: Vec<f64>,
+    /// Magnitude of the fitted response; `None` outside the range of the fit.
+    pub fitted: Vec<Option<f64>>,
     /// Its unit.
     pub magnitude_unit: String,
     /// Peak frequency, half-power frequencies (Hz) and damping factor of each resonance.
@@ -27,17 +29,18 @@ pub struct IdentificationRecord {
 
 impl Record for IdentificationRecord {
     const MAGIC: [u8; 8] = *b"FRICSIMI";
-    const VERSION: u32 = 1;
+    const VERSION: u32 = 2;
 
     fn inconsistency(&self) -> Option<&'static str> {
+        let count = self.frequencies_hz.len();
         let rises = self.frequencies_hz.windows(2).all(|pair| pair[0] < pair[1]);
-        let is_whole = rises && self.frequencies_hz.len() == self.magnitude.len();
+        let is_whole = rises && count == self.magnitude.len() && count == self.fitted.len();
         (!is_whole).then_some("its frequencies and magnitudes do not fit together")
     }
 }
 
 impl IdentificationRecord {
-    /// What the figure shows of a response and what was found in it.
+    /// What the figure shows of the first response and what was found in it.
     pub fn of(response: &FrequencyResponse, found: &Identification) -> Self {
         let modes = found.modes.iter();
         let resonances = modes.filter_map(|mode| {
@@ -53,6 +56,9 @@ impl IdentificationRecord {
         Self {
             frequencies_hz: response.frequencies_hz().to_vec(),
             magnitude: response.magnitudes(),
+            fitted: (response.frequencies_hz().iter())
+                .map(|f| found.fit.evaluate(0, *f).map(|h| h.norm()))
+                .collect(),
             magnitude_unit: unit_of(response.quantity()).to_owned(),
             resonances: resonances.collect(),
             mass_coefficient: [alpha.value, alpha.low, alpha.high],

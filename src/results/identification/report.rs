@@ -1,13 +1,11 @@
 //! `report.html` of an identified damping.
 
-use super::DAMPING_BLOCK;
 use super::figures::{IdentificationRecord, draw};
+use super::summary::{IdentificationSummary, ModeSummary};
+use crate::results::OutputFolder;
 use crate::results::drawing::{DrawingError, DrawingOptions, write_report};
 use crate::results::figures::FigureError;
-use crate::results::folder::OutputFolder;
-use crate::results::manifest::Manifest;
-use crate::results::report::{Report, ReportSection, ReportTable, cell, entries, number, texts};
-use serde_json::Value;
+use crate::results::report::{Report, ReportSection, ReportTable};
 
 /// Draws the figure into `figures/`, as SVG and PNG, and writes `report.html`; returns why the figure was
 /// left out, where nothing can be drawn.
@@ -17,12 +15,10 @@ use serde_json::Value;
 pub fn draw_report(
     folder: &OutputFolder,
     record: &IdentificationRecord,
-    summary: &Value,
+    summary: &IdentificationSummary,
     options: &DrawingOptions,
 ) -> Result<Option<FigureError>, DrawingError> {
-    // The block is there after every run; without it there is nothing to paste.
-    let block = std::fs::read_to_string(folder.path().join(DAMPING_BLOCK)).unwrap_or_default();
-    let mut report = html_report(summary, block, folder.manifest());
+    let mut report = html_report(summary);
     let left_out = match draw(record) {
         Ok(figure) => {
             report.sections[0].figures.push(figure);
@@ -34,21 +30,22 @@ pub fn draw_report(
     Ok(left_out)
 }
 
-fn html_report(summary: &Value, block: String, manifest: &Manifest) -> Report {
-    let scatter = number(summary, "/reduced_chi_square").unwrap_or(f64::NAN);
+fn html_report(summary: &IdentificationSummary) -> Report {
+    let [low, high] = summary.fit.range_hz;
     let mut paragraphs = vec![format!(
-        "{}, {} lines; the response is fitted from {} to {} Hz. The damping factors scatter {:.2} times as \
-         much about (alpha_R / omega + beta_R omega) / 2 as their errors say.",
-        summary["quantity"].as_str().unwrap_or("response"),
-        summary["lines"],
-        cell(summary, "/fit/range_hz/0", 1.0, 1),
-        cell(summary, "/fit/range_hz/1", 1.0, 1),
-        scatter.sqrt(),
+        "{}, {} lines; the response is fitted from {low:.1} to {high:.1} Hz. The damping factors scatter {:.2} \
+         times as much about (alpha_R / omega + beta_R omega) / 2 as their errors say.",
+        summary.quantity,
+        summary.lines,
+        summary.reduced_chi_square.sqrt(),
     )];
-    paragraphs.extend(texts(summary, "notes"));
-    if !block.is_empty() {
-        paragraphs.push(block);
+    if summary.responses.len() > 1 {
+        let names: Vec<&str> = summary.responses.iter().map(|r| r.name.as_str()).collect();
+        let names = names.join(", ");
+        paragraphs.push(format!("Responses fitted with common modes: {names}."));
     }
+    paragraphs.extend(summary.notes.iter().cloned());
+    paragraphs.push(summary.damping_block());
     Report {
         title: "Identified damping".into(),
         sections: vec![
@@ -60,29 +57,36 @@ fn html_report(summary: &Value, block: String, manifest: &Manifest) -> Report {
             },
             ReportSection {
                 heading: "Modes".into(),
-                tables: vec![mode_table(summary)],
+                tables: vec![mode_table(&summary.modes)],
                 ..ReportSection::default()
             },
         ],
-        manifest: manifest.clone(),
+        manifest: summary.manifest.clone(),
     }
 }
 
 /// Both estimators side by side.
-fn coefficient_table(summary: &Value) -> ReportTable {
-    let scientific = |pointer: String| {
-        number(summary, &pointer).map_or_else(String::new, |value| format!("{value:.4e}"))
-    };
+fn coefficient_table(summary: &IdentificationSummary) -> ReportTable {
+    let half = summary.half_power;
     let estimators = [
-        ("fit of the response", ""),
-        ("half-power alone", "/half_power"),
+        (
+            "fit of the response",
+            Some([summary.mass_coefficient, summary.stiffness_coefficient]),
+        ),
+        (
+            "half-power alone",
+            half.map(|h| [h.mass_coefficient, h.stiffness_coefficient]),
+        ),
     ];
-    let rows = estimators.iter().map(|(name, at)| {
-        let coefficients = ["mass_coefficient", "stiffness_coefficient"];
-        let cells = coefficients.iter().flat_map(|coefficient| {
-            ["value", "low", "high"].map(|part| scientific(format!("{at}/{coefficient}/{part}")))
-        });
-        [(*name).to_owned()].into_iter().chain(cells).collect()
+    let rows = estimators.iter().map(|(name, coefficients)| {
+        let numbers = coefficients
+            .iter()
+            .flatten()
+            .flat_map(|e| [e.value, e.low, e.high]);
+        let mut row = vec![(*name).to_owned()];
+        row.extend(numbers.map(|value| format!("{value:.4e}")));
+        row.resize(7, String::new());
+        row
     });
     ReportTable {
         caption: "Rayleigh coefficients with their 95 % intervals".into(),
@@ -101,22 +105,21 @@ fn coefficient_table(summary: &Value) -> ReportTable {
     }
 }
 
-fn mode_table(summary: &Value) -> ReportTable {
-    let rows = entries(summary, "modes")
-        .iter()
-        .enumerate()
-        .map(|(k, mode)| {
-            vec![
-                (k + 1).to_string(),
-                cell(mode, "/frequency_hz", 1.0, 2),
-                cell(mode, "/damping_factor", 100.0, 4),
-                cell(mode, "/damping_factor_interval/0", 100.0, 4),
-                cell(mode, "/damping_factor_interval/1", 100.0, 4),
-                cell(mode, "/half_power/damping_factor", 100.0, 4),
-                if mode["used"] == true { "yes" } else { "no" }.to_owned(),
-                mode["flag"].as_str().unwrap_or_default().to_owned(),
-            ]
-        });
+fn mode_table(modes: &[ModeSummary]) -> ReportTable {
+    let rows = modes.iter().enumerate().map(|(k, mode)| {
+        let percent = |value: f64| format!("{:.4}", 100.0 * value);
+        let half = mode.half_power.as_ref().and_then(|b| b.damping_factor);
+        vec![
+            (k + 1).to_string(),
+            format!("{:.2}", mode.frequency_hz),
+            percent(mode.damping_factor),
+            percent(mode.damping_factor_interval[0]),
+            percent(mode.damping_factor_interval[1]),
+            half.map_or_else(String::new, percent),
+            if mode.used { "yes" } else { "no" }.to_owned(),
+            mode.flag.clone().unwrap_or_default(),
+        ]
+    });
     ReportTable {
         caption: "Modes of the response".into(),
         columns: [

@@ -1,11 +1,11 @@
 //! The figures of an analysed time signal, and what is kept to draw them again.
 
+use crate::results::Record;
 use crate::results::figures::text::literal;
 use crate::results::figures::{
     FigureError, ReferenceFrequency, SpectrogramMap, SpectrumPlot, TransientOverview,
     draw_spectrum, draw_transient_overview,
 };
-use crate::results::record::Record;
 use crate::results::report::NamedFigure;
 use crate::signal::{SpectrogramOptions, spectrogram};
 use serde::{Deserialize, Serialize};

@@ -2,8 +2,8 @@
 
 use super::figures::{SignalRecord, draw};
 use super::summary::{ChannelSummary, SignalSummary};
+use crate::results::OutputFolder;
 use crate::results::drawing::{DrawingError, DrawingOptions, write_report};
-use crate::results::folder::OutputFolder;
 use crate::results::report::{Report, ReportSection, ReportTable};
 
 /// Draws the figures into `figures/`, each as SVG and PNG, and writes `report.html`; returns what could

@@ -1,7 +1,7 @@
 //! What `signal` found, as it is written, printed and reported.
 
 use crate::cea::ComplexMode;
-use crate::results::manifest::Manifest;
+use crate::results::Manifest;
 use crate::signal::{Estimate, ExponentialStage, NoGrowth, SpectralLine, SpectralResolution};
 use serde::{Deserialize, Serialize};
 use std::fmt::Write as _;

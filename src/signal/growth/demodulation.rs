@@ -1,7 +1,7 @@
 //! Envelope and phase of a vibration around one frequency, and the exponential through them.
 
 use super::{ExponentialStage, NoGrowth};
-use crate::signal::rayleigh::Estimate;
+use crate::signal::Estimate;
 use crate::signal::statistics::student_95;
 use faer::c64;
 use std::f64::consts::TAU;

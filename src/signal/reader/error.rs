@@ -50,6 +50,10 @@ impl ReadError {
     }
 }
 
+/// Formats that are read, for messages.
+pub(super) const FORMATS: &str = "text tables (csv, tsv, txt; ANSYS POST26 listings), universal files \
+     (UFF/UNV, dataset 58 and 58b), WAV, and MATLAB files up to version 7 (save with -v7)";
+
 /// What is wrong with a table.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ReadProblem {
@@ -59,7 +63,8 @@ pub enum ReadProblem {
     /// No line consists of numbers.
     #[error(
         "no row of numbers found; rows of numbers separated by comma, semicolon, tab or blanks \
-         are needed"
+         are needed, or another format: read are {formats}",
+        formats = FORMATS
     )]
     NoNumbers,
     /// A field is not a number.
@@ -121,13 +126,54 @@ pub enum ReadProblem {
     /// Columns without names that could mean several things.
     #[error(
         "{count} columns without names could mean several things; add a first line such as \
-         `{example}`"
+         `{example}`, or give the names: --columns {example}"
     )]
     Unnamed {
         /// Number of columns.
         count: usize,
         /// A header that would do.
         example: &'static str,
+    },
+    /// Names given for another number of columns.
+    #[error("--columns names {given} columns, the table has {found}; write `-` for one to skip")]
+    ColumnCount {
+        /// Names given.
+        given: usize,
+        /// Columns found.
+        found: usize,
+    },
+    /// A channel that is not there.
+    #[error("--channel {wanted}: the file has {found}")]
+    NoChannel {
+        /// As asked for.
+        wanted: String,
+        /// Names of those there are.
+        found: String,
+    },
+    /// A file of a format that is recognised but not read.
+    #[error("this is {found}; read are {formats}", formats = FORMATS)]
+    Format {
+        /// What the file seems to be.
+        found: &'static str,
+    },
+    /// A file of a known format that is damaged or uses what is not read.
+    #[error("{format}: {reason}")]
+    Damaged {
+        /// The format.
+        format: &'static str,
+        /// What is wrong, and the remedy.
+        reason: String,
+    },
+    /// A time column that is rounded too coarsely to tell the rate.
+    #[error(
+        "the time column is rounded to {step} s, which hides the sampling rate (about {rate:.1} Hz); \
+         give it with --rate HZ"
+    )]
+    RoundedTime {
+        /// Smallest step in the column, s.
+        step: f64,
+        /// Rate from first to last sample, Hz.
+        rate: f64,
     },
     /// A negative frequency.
     #[error("frequency {value} is negative; export the one-sided response")]
@@ -196,4 +242,16 @@ pub enum ReadProblem {
     /// The numbers are readable, but no signal.
     #[error("{0}")]
     Signal(#[from] SignalError),
+}
+
+impl ReadProblem {
+    /// Why a field is no number.
+    pub(super) fn unreadable(field: &str, name: String) -> Self {
+        let field = super::text::shortened(field);
+        if field.contains(',') && field.contains('.') {
+            ReadProblem::MixedDecimals { field }
+        } else {
+            ReadProblem::NotANumber { field, name }
+        }
+    }
 }

@@ -1,19 +1,88 @@
-//! Text tables of measured data, read where their meaning is clear.
+//! Files of measured data, read where their meaning is clear.
 //!
-//! Understood without being told: separators `,` `;` tab and blanks; decimal commas (where the
+//! Text tables, understood without being told: separators `,` `;` tab and blanks; decimal commas (where the
 //! separator is another one); Windows and old Macintosh line ends; byte-order marks, UTF-8, UTF-16
 //! and Latin-1; lines of comment (`#`, `%`, `//`, `!`, `*`); titles above the header; a row of units
-//! beneath it; quoted names; frequencies out of order. Everything else is a [`ReadError`] with the
-//! name of the source, line, column and what to do. The reader never touches a file: it is given
-//! bytes and the name to use in messages.
+//! beneath it; quoted names; complex numbers (`0.1+0.2j`); time stamps; frequencies out of order; listings
+//! of ANSYS POST26. Universal files (datasets 58 and 58b), WAV and MATLAB files up to version 7 are told by
+//! their first bytes. Everything else is a [`ReadError`] with the name of the source, line, column and what
+//! to do. The reader never touches a file: it is given bytes and the name to use in messages.
 
+mod columns;
 mod error;
+mod field;
+mod mat;
 mod response;
+mod separator;
 mod table;
 mod text;
 mod time_signal;
+mod uff;
+mod uff_writing;
 mod units;
+mod wav;
 
 pub use error::{ReadError, ReadProblem};
-pub use response::{ResponseFile, read_response};
-pub use time_signal::{Channel, SignalFile, read_signal};
+pub use response::{NamedResponse, ResponseFile, ResponseOptions, read_response};
+pub use time_signal::{Channel, SignalFile, SignalOptions, read_signal};
+pub use uff_writing::{write_response, write_signal};
+pub use wav::{slowdown, write_wav};
+
+/// Kind of a file, from its first bytes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Format {
+    Text,
+    Universal,
+    Wave,
+    Matlab,
+    /// One that is not read.
+    Foreign(&'static str),
+}
+
+impl Format {
+    fn of(bytes: &[u8]) -> Self {
+        let begins = |mark: &[u8]| bytes.starts_with(mark);
+        let begin = bytes.iter().position(|b| !b.is_ascii_whitespace());
+        let dash = begin.map_or(&[][..], |at| &bytes[at..]);
+        if begins(b"RIFF") && bytes.get(8..12) == Some(b"WAVE") {
+            Format::Wave
+        } else if bytes
+            .get(126..128)
+            .is_some_and(|mark| mark == b"IM" || mark == b"MI")
+        {
+            Format::Matlab
+        } else if begins(b"\x89HDF") || (begins(b"MATLAB 7.3") && bytes.len() > 512) {
+            Format::Foreign("an HDF5 file (MATLAB writes it as version 7.3)")
+        } else if begins(b"PK\x03\x04") {
+            Format::Foreign("a ZIP archive, such as xlsx, ods or npz (export it as CSV)")
+        } else if begins(b"\xd0\xcf\x11\xe0") {
+            Format::Foreign("an old Excel workbook (export it as CSV)")
+        } else if begins(b"%PDF") {
+            Format::Foreign("a PDF document")
+        } else if begins(b"\x93NUMPY") {
+            Format::Foreign("a NumPy array (numpy.savetxt writes text)")
+        } else if begins(b"TDSm") {
+            Format::Foreign("a LabVIEW TDMS file")
+        } else if dash.starts_with(b"-1") && uff::is_universal(dash) {
+            Format::Universal
+        } else {
+            Format::Text
+        }
+    }
+}
+
+/// Positions of names or 1-based numbers among names.
+fn positions(wanted: &[String], names: &[&str]) -> Result<Vec<usize>, ReadProblem> {
+    let position = |wanted: &String| {
+        let number = wanted.parse::<usize>().ok().and_then(|n| n.checked_sub(1));
+        names
+            .iter()
+            .position(|name| *name == wanted.as_str())
+            .or_else(|| number.filter(|n| *n < names.len()))
+            .ok_or_else(|| ReadProblem::NoChannel {
+                wanted: wanted.clone(),
+                found: names.join(", "),
+            })
+    };
+    wanted.iter().map(position).collect()
+}

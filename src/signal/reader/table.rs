@@ -1,15 +1,19 @@
 //! Lines of text to named columns of numbers.
 
 use super::error::{ReadError, ReadProblem};
+use super::field::{Value, number, parse, time_stamp};
+use super::separator::{Line, Separator, character, fields, numeric_fields, separator_of};
 use super::text::{comment, decode, lines, shortened};
 
-/// How fields are separated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Separator {
-    Semicolon,
-    Tab,
-    Comma,
-    Blanks,
+/// Numbers of one column.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Column {
+    /// Values, or their real parts; seconds of time stamps since the first.
+    pub real: Vec<f64>,
+    /// Imaginary parts of a column of complex numbers.
+    pub imaginary: Option<Vec<f64>>,
+    /// Whether it holds time stamps.
+    pub is_time: bool,
 }
 
 /// Numbers in named columns.
@@ -20,19 +24,51 @@ pub(super) struct Table {
     /// Column names as written.
     pub titles: Vec<String>,
     /// Columns of equal length.
-    pub columns: Vec<Vec<f64>>,
-    /// Line of each row, 1-based.
-    pub lines: Vec<usize>,
-    /// Character at which each field of each row begins, 1-based, row by row.
-    starts: Vec<usize>,
+    pub columns: Vec<Column>,
     /// Everything written above the numbers and in comments, lower case.
     pub remarks: String,
+    /// Line of each row, 1-based; empty for what was no text.
+    lines: Vec<usize>,
+    text: String,
+    separator: Separator,
 }
 
 impl Table {
-    /// Character at which a field begins.
-    pub fn start(&self, row: usize, column: usize) -> usize {
-        self.starts[row * self.columns.len() + column]
+    /// A table that was no text.
+    pub fn of_columns(titles: Vec<String>, columns: Vec<Column>, remarks: String) -> Self {
+        Self {
+            names: titles.iter().map(|t| t.to_lowercase()).collect(),
+            titles,
+            columns,
+            remarks,
+            ..Self::default()
+        }
+    }
+
+    /// Number of rows.
+    pub fn rows(&self) -> usize {
+        self.columns.first().map_or(0, |column| column.real.len())
+    }
+
+    /// Line of a row, or its number where there are no lines.
+    pub fn line(&self, row: usize) -> usize {
+        self.lines.get(row).copied().unwrap_or(row + 1)
+    }
+
+    /// An error at a field.
+    pub fn error(
+        &self,
+        source: &str,
+        row: usize,
+        column: usize,
+        problem: ReadProblem,
+    ) -> ReadError {
+        let Some(line) = self.lines.get(row) else {
+            return ReadError::whole(source, problem);
+        };
+        let text = lines(&self.text).nth(line - 1).map_or("", |(_, text)| text);
+        let at = fields(text, self.separator).nth(column);
+        ReadError::at(source, *line, at.map_or(1, |f| character(text, f)), problem)
     }
 
     /// The column names for a message.
@@ -40,27 +76,23 @@ impl Table {
         if self.titles.is_empty() {
             return format!("{} without names", self.columns.len());
         }
-        self.titles
-            .iter()
-            .map(|t| shortened(t))
-            .collect::<Vec<_>>()
-            .join(", ")
+        let titles: Vec<String> = self.titles.iter().map(|t| shortened(t)).collect();
+        titles.join(", ")
     }
 }
 
-/// A line of data: its number, its text.
-type Line<'a> = (usize, &'a str);
-
-/// Reads bytes into a table.
-pub(super) fn read_table(bytes: &[u8], source: &str) -> Result<Table, ReadError> {
+/// Reads bytes into a table; `columns` are names that take the place of the file's own.
+pub(super) fn read_table(
+    bytes: &[u8],
+    source: &str,
+    columns: &[String],
+) -> Result<Table, ReadError> {
     let text = decode(bytes);
+    // Comments and titles are remarks; what is left is a head of words and rows of numbers.
     let mut remarks = String::new();
     let mut content: Vec<Line> = Vec::new();
     let mut commented_header = None;
-    for (number, line) in lines(&text) {
-        if line.trim().is_empty() {
-            continue;
-        }
+    for (number, line) in lines(&text).filter(|(_, line)| !line.trim().is_empty()) {
         match comment(line) {
             Some(words) => {
                 remarks.push_str(&words.to_lowercase());
@@ -75,16 +107,16 @@ pub(super) fn read_table(bytes: &[u8], source: &str) -> Result<Table, ReadError>
     if content.is_empty() {
         return Err(ReadError::whole(source, ReadProblem::Empty));
     }
-    let first = first_data_line(&content).ok_or_else(|| {
-        // One line of words is a header without data; more is no table at all.
-        blame_first_number(&content, source)
-    })?;
+    if remarks.contains("post26") {
+        return post26_listing(&content, remarks, columns, source);
+    }
+    let first = first_data_line(&content).ok_or_else(|| blame_first_number(&content, source))?;
     let (head, data) = content.split_at(first);
     if let Some(line) = head.last() {
         // A row of numbers with one that cannot be read is no header.
-        let fields = split(line.1, separator_of(data));
-        let numeric = fields.iter().filter(|(_, f)| parse(f).is_some()).count();
-        if numeric * 2 >= fields.len() && numeric > 0 {
+        let separator = separator_of(data);
+        let (numeric, all) = numeric_fields(line.1, separator);
+        if numeric * 2 >= all && numeric > 0 {
             return Err(blame_first_number(&[*line], source));
         }
     }
@@ -92,18 +124,78 @@ pub(super) fn read_table(bytes: &[u8], source: &str) -> Result<Table, ReadError>
         remarks.push_str(&line.to_lowercase());
         remarks.push('\n');
     }
+    // Names are those given, those above the numbers, or those of a comment.
     let separator = separator_of(data);
-    let mut table = numbers(data, separator, head, source)?;
     let mut above: Vec<Line> = head.to_vec();
     if above.is_empty() {
         above.extend(commented_header);
     }
-    name_columns(&mut table, &above, separator);
-    table.remarks = remarks;
-    Ok(table)
+    let count = fields(data[0].1, separator).count();
+    if columns.is_empty() {
+        refuse_decimal_comma_separators(data[0], separator, head, count, source)?;
+    }
+    let titles = titles(columns, &above, separator, count, source)?;
+    let columns = numbers(data, separator, &titles, source)?;
+    Ok(Table {
+        names: titles.iter().map(|t| t.to_lowercase()).collect(),
+        titles,
+        columns,
+        remarks,
+        lines: data.iter().map(|(line, _)| *line).collect(),
+        separator,
+        text,
+    })
 }
 
-/// Index of the first line all of whose fields are numbers, under some separator.
+/// A listing of the time-history post-processor of ANSYS: pages that repeat a header of several lines,
+/// of which the words real, imaginary, amplitude and phase name the columns.
+fn post26_listing(
+    content: &[Line],
+    remarks: String,
+    columns: &[String],
+    source: &str,
+) -> Result<Table, ReadError> {
+    let is_data = |line: &Line| {
+        let (numeric, all) = numeric_fields(line.1, Separator::Blanks);
+        numeric == all && all > 1
+    };
+    let data: Vec<Line> = content
+        .iter()
+        .filter(|line| is_data(line))
+        .copied()
+        .collect();
+    let Some(first) = data.first() else {
+        return Err(ReadError::whole(source, ReadProblem::NoNumbers));
+    };
+    let count = first.1.split_whitespace().count();
+    let head = content.iter().take_while(|line| line.0 < first.0);
+    let words: Vec<String> = head
+        .flat_map(|(_, line)| line.split_whitespace())
+        .map(str::to_lowercase)
+        .collect();
+    let is_time = words.iter().any(|w| w == "time");
+    let named = words
+        .iter()
+        .filter(|w| matches!(w.as_str(), "real" | "imaginary" | "amplitude" | "phase"));
+    let mut titles = vec![if is_time { "time" } else { "freq" }.to_string()];
+    titles.extend(named.cloned());
+    let variables = words.iter().filter(|w| w.contains('_'));
+    if titles.len() != count {
+        titles.truncate(1);
+        titles.extend(variables.cloned());
+    }
+    if titles.len() != count {
+        titles.truncate(1);
+        titles.extend((1..count).map(|k| format!("variable {}", k + 1)));
+    }
+    if !columns.is_empty() {
+        titles = self::titles(columns, &[], Separator::Blanks, count, source)?;
+    }
+    let values = numbers(&data, Separator::Blanks, &titles, source)?;
+    Ok(Table::of_columns(titles, values, remarks))
+}
+
+/// Index of the first line all of whose fields are numbers under some separator, time stamps not alone.
 fn first_data_line(content: &[Line]) -> Option<usize> {
     const ALL: [Separator; 4] = [
         Separator::Semicolon,
@@ -113,169 +205,129 @@ fn first_data_line(content: &[Line]) -> Option<usize> {
     ];
     content.iter().position(|(_, line)| {
         ALL.iter().any(|separator| {
-            let fields = split(line, *separator);
-            !fields.is_empty() && fields.iter().all(|(_, f)| parse(f).is_some())
+            let mut values = fields(line, *separator).map(parse);
+            let mut has_number = false;
+            let is_data = values.all(|value| {
+                has_number |= !matches!(value, Some(Value::Time(..)));
+                value.is_some()
+            });
+            is_data && has_number
         })
     })
 }
 
 /// No line is all numbers: name the first field that spoils a line which has one.
 fn blame_first_number(content: &[Line], source: &str) -> ReadError {
-    for (number, line) in content {
-        let fields = split(line, separator_of(&[(*number, *line)]));
-        let numeric = fields.iter().filter(|(_, f)| parse(f).is_some()).count();
-        if numeric * 2 >= fields.len()
-            && fields.len() > 1
-            && let Some((at, field)) = fields.iter().find(|(_, f)| parse(f).is_none())
-        {
-            let problem = unreadable(field, "of numbers".to_string());
-            return ReadError::at(source, *number, *at, problem);
+    for (line, text) in content {
+        let separator = separator_of(&[(*line, *text)]);
+        let (numeric, all) = numeric_fields(text, separator);
+        let mut spoils = fields(text, separator).enumerate();
+        let spoils = spoils.find(|(_, f)| parse(f).is_none());
+        if let Some((k, field)) = spoils.filter(|_| numeric * 2 >= all && all > 1) {
+            let problem = ReadProblem::unreadable(field, (k + 1).to_string());
+            return ReadError::at(source, *line, character(text, field), problem);
         }
     }
     ReadError::whole(source, ReadProblem::NoNumbers)
-}
-
-/// Why a field is no number.
-fn unreadable(field: &str, name: String) -> ReadProblem {
-    let field = shortened(field);
-    if field.contains(',') && field.contains('.') {
-        ReadProblem::MixedDecimals { field }
-    } else {
-        ReadProblem::NotANumber { field, name }
-    }
-}
-
-/// The separator of the rows of numbers.
-fn separator_of(data: &[Line]) -> Separator {
-    let sample = || data.iter().take(50).map(|(_, line)| *line);
-    if sample().any(|l| l.contains(';')) {
-        Separator::Semicolon
-    } else if sample().any(|l| l.trim().contains('\t')) {
-        Separator::Tab
-    } else if sample().all(|l| l.split_whitespace().all(|f| parse(f).is_some()))
-        && sample().any(|l| l.split_whitespace().count() > 1)
-    {
-        // `1,5 2,5`: every word is a number by itself, which `1.5, 2.5` is not.
-        Separator::Blanks
-    } else if sample().any(|l| l.contains(',')) {
-        Separator::Comma
-    } else {
-        Separator::Blanks
-    }
-}
-
-/// Fields with the 1-based character at which each begins; a separator at the end adds none.
-fn split(line: &str, separator: Separator) -> Vec<(usize, String)> {
-    let is_separator = |c: char| match separator {
-        Separator::Semicolon => c == ';',
-        Separator::Tab => c == '\t',
-        Separator::Comma => c == ',',
-        Separator::Blanks => c.is_whitespace(),
-    };
-    let mut fields: Vec<(usize, String)> = Vec::new();
-    let (mut field, mut start, mut quoted) = (String::new(), 1, false);
-    for (i, c) in line.chars().enumerate() {
-        if c == '"' {
-            quoted = !quoted;
-        } else if !quoted && is_separator(c) {
-            fields.push((start, std::mem::take(&mut field)));
-            start = i + 2;
-        } else {
-            field.push(c);
-        }
-    }
-    fields.push((start, field));
-    for (start, field) in &mut fields {
-        *start += field.chars().take_while(|c| c.is_whitespace()).count();
-        *field = field.trim().to_string();
-    }
-    if separator == Separator::Blanks {
-        fields.retain(|(_, f)| !f.is_empty());
-    }
-    while fields.len() > 1 && fields.last().is_some_and(|(_, f)| f.is_empty()) {
-        fields.pop();
-    }
-    fields
-}
-
-/// A number, with a decimal point or a decimal comma; NaN and infinity included.
-fn parse(field: &str) -> Option<f64> {
-    let plain = field.replace(['\u{2212}', '\u{2013}'], "-");
-    let lower = plain.to_ascii_lowercase();
-    if matches!(
-        lower.as_str(),
-        "1.#ind" | "-1.#ind" | "1.#qnan" | "#n/a" | "na" | "n/a"
-    ) {
-        return Some(f64::NAN);
-    }
-    // Fortran writes exponents with d.
-    let is_number = lower.chars().any(|c| c.is_ascii_digit());
-    let mut text = if is_number {
-        lower.replace('d', "e")
-    } else {
-        lower
-    };
-    if text.matches(',').count() == 1 && !text.contains('.') {
-        text = text.replace(',', ".");
-    }
-    text.parse().ok()
 }
 
 /// Parses every row.
 fn numbers(
     data: &[Line],
     separator: Separator,
-    head: &[Line],
+    titles: &[String],
     source: &str,
-) -> Result<Table, ReadError> {
-    let expected = split(data[0].1, separator).len();
-    refuse_decimal_comma_separators(data[0], separator, head, expected, source)?;
-    let names = head
-        .last()
-        .map(|(_, line)| split(line, separator))
-        .filter(|names| names.len() == expected);
-    let name = |k: usize| match &names {
-        Some(names) => format!("`{}`", shortened(&names[k].1)),
+) -> Result<Vec<Column>, ReadError> {
+    let expected = fields(data[0].1, separator).count();
+    let name = |k: usize| match titles.get(k) {
+        Some(title) => format!("`{}`", shortened(title)),
         None => (k + 1).to_string(),
     };
-    let mut table = Table {
-        columns: vec![Vec::with_capacity(data.len()); expected],
-        ..Table::default()
+    let column = |_| Column {
+        real: Vec::with_capacity(data.len()),
+        ..Column::default()
     };
-    for (line, text) in data {
-        let fields = split(text, separator);
-        let spoiled = fields
-            .iter()
-            .enumerate()
-            .find(|(_, (_, f))| parse(f).is_none());
-        if let Some((k, (at, field))) = spoiled.filter(|(k, _)| *k < expected) {
-            let problem = unreadable(field, name(k));
-            return Err(ReadError::at(source, *line, *at, problem));
-        }
-        if fields.len() != expected {
-            let surplus = fields.get(expected).or(fields.last());
-            let at = surplus.map_or(1, |(at, _)| *at);
-            let problem = ReadProblem::FieldCount {
-                found: fields.len(),
-                expected,
+    let mut columns: Vec<Column> = (0..expected).map(column).collect();
+    let mut first_day = None;
+    for (row, (line, text)) in data.iter().enumerate() {
+        let fail = |field: &str, problem| {
+            Err(ReadError::at(
+                source,
+                *line,
+                character(text, field),
+                problem,
+            ))
+        };
+        let mut found = 0;
+        for (k, field) in fields(text, separator).enumerate() {
+            found = k + 1;
+            let Some(column) = columns.get_mut(k) else {
+                // The surplus is to blame where it begins, however much there is.
+                let found = fields(text, separator).count();
+                return fail(field, ReadProblem::FieldCount { found, expected });
             };
-            return Err(ReadError::at(source, *line, at, problem));
-        }
-        for (k, (at, field)) in fields.iter().enumerate() {
-            let value = parse(field).unwrap_or(f64::NAN);
-            if !value.is_finite() {
+            // Plain numbers come first: they are nearly all.
+            let value = match number(field) {
+                Some(value) => Value::Real(value),
+                None => match parse(field) {
+                    Some(value) => value,
+                    None => return fail(field, ReadProblem::unreadable(field, name(k))),
+                },
+            };
+            let (real, imaginary) = match value {
+                Value::Real(value) => (value, 0.0),
+                Value::Complex(re, im) => (re, im),
+                Value::Time(day, seconds) => {
+                    column.is_time = true;
+                    // A time of day alone has day 0.
+                    let days = if day == 0 {
+                        0
+                    } else {
+                        day - *first_day.get_or_insert(day)
+                    };
+                    (86_400.0 * days as f64 + seconds, 0.0)
+                }
+            };
+            if !(real.is_finite() && imaginary.is_finite()) {
+                let (field_text, name) = (shortened(field), name(k));
                 let problem = ReadProblem::NotFinite {
-                    field: shortened(field),
-                    name: name(k),
+                    field: field_text,
+                    name,
                 };
-                return Err(ReadError::at(source, *line, *at, problem));
+                return fail(field, problem);
             }
-            table.columns[k].push(value);
-            table.starts.push(*at);
+            column.real.push(real);
+            if matches!(value, Value::Complex(..)) && column.imaginary.is_none() {
+                column.imaginary = Some(vec![0.0; row]);
+            }
+            if let Some(parts) = &mut column.imaginary {
+                parts.push(imaginary);
+            }
         }
-        table.lines.push(*line);
+        if found != expected {
+            let last = fields(text, separator).last().unwrap_or("");
+            return fail(last, ReadProblem::FieldCount { found, expected });
+        }
     }
-    Ok(table)
+    Ok(joined_time_stamps(columns, data, separator))
+}
+
+/// A date in one column and the time of day in the next are one time.
+fn joined_time_stamps(
+    mut columns: Vec<Column>,
+    data: &[Line],
+    separator: Separator,
+) -> Vec<Column> {
+    let mut first = fields(data[0].1, separator).map(time_stamp);
+    let is_date = matches!(first.next(), Some(Some((day, seconds))) if day != 0 && seconds == 0.0);
+    let is_time_of_day = matches!(first.next(), Some(Some((0, _))));
+    if is_date && is_time_of_day {
+        let (dates, times) = columns.split_at_mut(1);
+        for (date, time) in dates[0].real.iter_mut().zip(&times[0].real) {
+            *date += time;
+        }
+    }
+    columns
 }
 
 /// `f,re,im` above `10,0,1,5,2,5`: twice as many fields as names.
@@ -286,10 +338,9 @@ fn refuse_decimal_comma_separators(
     found: usize,
     source: &str,
 ) -> Result<(), ReadError> {
-    let Some((_, header)) = head.last() else {
-        return Ok(());
-    };
-    let named = split(header, separator).len();
+    let named = head
+        .last()
+        .map_or(0, |(_, header)| fields(header, separator).count());
     if separator == Separator::Comma && named > 1 && found > named {
         let problem = ReadProblem::AmbiguousComma {
             found,
@@ -300,35 +351,45 @@ fn refuse_decimal_comma_separators(
     Ok(())
 }
 
-/// Names from the line above the numbers, or the one above that if it holds only units.
-fn name_columns(table: &mut Table, above: &[Line], separator: Separator) {
-    let count = table.columns.len();
-    let fields = |line: &str| -> Option<Vec<String>> {
+/// Names given, or those of the line above the numbers, joined with a row of units between.
+fn titles(
+    given: &[String],
+    above: &[Line],
+    separator: Separator,
+    count: usize,
+    source: &str,
+) -> Result<Vec<String>, ReadError> {
+    if !given.is_empty() {
+        if given.len() != count {
+            let problem = ReadProblem::ColumnCount {
+                given: given.len(),
+                found: count,
+            };
+            return Err(ReadError::whole(source, problem));
+        }
+        return Ok(given.to_vec());
+    }
+    let split = |line: &str| -> Option<Vec<String>> {
         // A header may be separated otherwise than its numbers; commas never stand in a name.
         [separator, Separator::Comma, Separator::Blanks]
             .iter()
-            .map(|s| split(line, *s))
+            .map(|s| fields(line, *s).map(str::to_string).collect::<Vec<_>>())
             .find(|fields| fields.len() == count)
-            .map(|fields| fields.into_iter().map(|(_, f)| f).collect())
     };
     let rows: Vec<Vec<String>> = above
         .iter()
         .rev()
         .take(2)
-        .map_while(|(_, line)| fields(line))
+        .map_while(|(_, line)| split(line))
         .collect();
-    let Some(last) = rows.first() else {
-        return;
-    };
-    let mut titles = last.clone();
-    let are_units = last.iter().all(|f| super::units::is_unit(f));
-    if let (true, Some(names)) = (are_units, rows.get(1)) {
-        titles = names
+    let are_units = |row: &Vec<String>| row.iter().all(|f| super::units::is_unit(f));
+    Ok(match (rows.first(), rows.get(1)) {
+        (Some(units), Some(names)) if are_units(units) => names
             .iter()
-            .zip(last)
+            .zip(units)
             .map(|(name, unit)| format!("{name} {unit}").trim().to_string())
-            .collect();
-    }
-    table.names = titles.iter().map(|t| t.to_lowercase()).collect();
-    table.titles = titles;
+            .collect(),
+        (Some(names), _) => names.clone(),
+        (None, _) => Vec::new(),
+    })
 }

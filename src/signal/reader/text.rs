@@ -22,11 +22,13 @@ fn utf8_or_latin1(bytes: &[u8]) -> String {
 }
 
 /// Lines with their 1-based numbers; ends are `\n`, `\r\n` or `\r`.
-pub(super) fn lines(text: &str) -> Vec<(usize, &str)> {
-    let mut out = Vec::new();
+pub(super) fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
     let mut rest = text;
-    let mut number = 1;
-    while !rest.is_empty() {
+    let mut number = 0;
+    std::iter::from_fn(move || {
+        if rest.is_empty() {
+            return None;
+        }
         let (line, after) = match rest.find(['\n', '\r']) {
             Some(end) => {
                 let skip = if rest[end..].starts_with("\r\n") {
@@ -38,11 +40,10 @@ pub(super) fn lines(text: &str) -> Vec<(usize, &str)> {
             }
             None => (rest, ""),
         };
-        out.push((number, line));
-        number += 1;
         rest = after;
-    }
-    out
+        number += 1;
+        Some((number, line))
+    })
 }
 
 /// The text of a comment line without its mark; `None` for other lines.

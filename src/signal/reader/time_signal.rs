@@ -1,12 +1,27 @@
-//! Tables of time signals.
+//! Time signals.
 
 use super::super::SignalError;
 use super::error::{ReadError, ReadProblem};
 use super::table::{Table, read_table};
 use super::units::{sampling_rate, seconds};
+use super::{Format, mat, uff, wav};
 
 /// Largest deviation of a time from the regular grid, in steps: rounding in the export.
 const JITTER: f64 = 0.3;
+/// Fewest samples of a signal.
+const FEWEST: usize = 16;
+
+/// What the header of a signal does not say, or says wrongly.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SignalOptions {
+    /// Sampling rate, Hz; overrules a time column that is only rounded.
+    pub rate: Option<f64>,
+    /// Names that take the place of the table's own, one for each column: `t` (`t_ms`, `t_us`), a channel's
+    /// name, `-` to skip.
+    pub columns: Vec<String>,
+    /// The channels to use, by name or number; empty: all.
+    pub channels: Vec<String>,
+}
 
 /// One column of a signal table.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,89 +39,135 @@ pub struct SignalFile {
     pub sampling_rate: f64,
     /// Time of the first sample, s.
     pub start: f64,
-    /// Channels in the order of their columns.
+    /// Channels in the order of their columns, of one length, at least one.
     pub channels: Vec<Channel>,
     /// Decisions a user should know of.
     pub notes: Vec<String>,
 }
 
 /// Reads time signals: a time column with any number of channels, or channels with a sampling rate
-/// from the option or a comment (`sampling rate: 51200 Hz`).
+/// from the option or a comment (`sampling rate: 51200 Hz`); a universal file of datasets 58; a WAV file
+/// (full scale 1); a MATLAB file of such columns.
 ///
-/// The time column is the one named time or t (`time_ms`, `t [us]` are scaled to seconds); without
-/// names, the first of several columns if it advances in equal steps. Times may deviate from the
-/// regular grid by 0.3 steps, which is the rounding of an export; the rate is that of the first to
-/// last sample.
+/// The time column is the one named time or t (`time_ms`, `t [us]` are scaled to seconds) or one of time
+/// stamps; without names, the first of several columns if it advances in equal steps. Times may deviate from
+/// the regular grid by 0.3 steps, which is the rounding of an export; the rate is that of the first to
+/// last sample. A column rounded more coarsely needs the rate, and must agree with it within its rounding.
 ///
 /// # Errors
 /// [`ReadError`] with source name, line and column: gaps, times out of order, no rate.
-pub fn read_signal(bytes: &[u8], source: &str, rate: Option<f64>) -> Result<SignalFile, ReadError> {
-    if let Some(value) = rate
-        && !(value > 0.0 && value.is_finite())
+pub fn read_signal(
+    bytes: &[u8],
+    source: &str,
+    options: &SignalOptions,
+) -> Result<SignalFile, ReadError> {
+    let whole = |problem| ReadError::whole(source, problem);
+    if let Some(value) = options
+        .rate
+        .filter(|rate| !(*rate > 0.0 && rate.is_finite()))
     {
-        return Err(ReadError::whole(source, ReadProblem::Rate { value }));
+        return Err(whole(ReadProblem::Rate { value }));
     }
-    let table = read_table(bytes, source)?;
-    let time = time_column(&table);
-    let rows = table.lines.len();
-    if rows < 16 {
-        let problem = SignalError::TooShort {
+    let mut file = match Format::of(bytes) {
+        Format::Universal => uff::read_signals(bytes, source)?,
+        Format::Wave => wav::read_wav(bytes, source)?,
+        Format::Matlab => from_table(
+            &mat::read_table(bytes, source, &options.columns)?,
+            source,
+            options,
+        )?,
+        Format::Foreign(found) => return Err(whole(ReadProblem::Format { found })),
+        Format::Text => from_table(
+            &read_table(bytes, source, &options.columns)?,
+            source,
+            options,
+        )?,
+    };
+    // A file that states its rate is overruled aloud.
+    if let Some(rate) = options.rate.filter(|rate| *rate != file.sampling_rate) {
+        let stated = file.sampling_rate;
+        file.notes.push(format!(
+            "the file states {stated} Hz, the option {rate} Hz holds"
+        ));
+        file.sampling_rate = rate;
+    }
+    if !options.channels.is_empty() {
+        let names: Vec<&str> = file.channels.iter().map(|c| c.name.as_str()).collect();
+        let kept = super::positions(&options.channels, &names).map_err(whole)?;
+        file.channels = kept.into_iter().map(|k| file.channels[k].clone()).collect();
+    }
+    let count = file.channels.first().map_or(0, |c| c.samples.len());
+    if count < FEWEST {
+        return Err(whole(ReadProblem::Signal(SignalError::TooShort {
             what: "the signal",
-            count: rows,
-            needed: 16,
+            count,
+            needed: FEWEST,
             remedy: "give a longer record",
-        };
-        return Err(ReadError::whole(source, ReadProblem::Signal(problem)));
+        })));
+    }
+    Ok(file)
+}
+
+fn from_table(
+    table: &Table,
+    source: &str,
+    options: &SignalOptions,
+) -> Result<SignalFile, ReadError> {
+    let whole = |problem| ReadError::whole(source, problem);
+    let time = time_column(table);
+    if table.rows() < FEWEST {
+        return Err(whole(ReadProblem::Signal(SignalError::TooShort {
+            what: "the signal",
+            count: table.rows(),
+            needed: FEWEST,
+            remedy: "give a longer record",
+        })));
     }
     let mut notes = Vec::new();
-    let (sampling_rate, start) = match time {
+    let (rate, start) = match time {
         Some((column, factor)) => {
-            let step = regular_step(&table, column, factor, source)?;
-            let found = 1.0 / step;
-            if let Some(option) = rate.filter(|r| (r / found - 1.0).abs() > 1e-2) {
-                let problem = ReadProblem::RateContradiction {
-                    column: found,
-                    option,
-                };
-                return Err(ReadError::whole(source, problem));
-            }
-            (found, table.columns[column][0] * factor)
+            let start = table.columns[column].real[0] * factor;
+            let rate = match options.rate {
+                Some(rate) => agreed_rate(table, column, factor, rate, source, &mut notes)?,
+                None => 1.0 / regular_step(table, column, factor, source)?,
+            };
+            (rate, start)
         }
         None => {
-            let stated = sampling_rate(&table.remarks);
-            if let (Some(option), Some(stated)) = (rate, stated)
-                && option != stated
-            {
-                notes.push(format!(
-                    "the file states {stated} Hz, the option {option} Hz holds"
-                ));
-            }
-            let found = rate
-                .or(stated)
-                .ok_or_else(|| ReadError::whole(source, ReadProblem::NoRate))?;
-            (found, 0.0)
+            let stated = sampling_rate(&table.remarks).or(options.rate);
+            (stated.ok_or_else(|| whole(ReadProblem::NoRate))?, 0.0)
         }
     };
-    let channels: Vec<Channel> = (0..table.columns.len())
-        .filter(|&k| time.is_none_or(|(column, _)| column != k))
+    let is_skipped = |k: usize| {
+        let name = table.names.get(k).map_or("", |n| n.trim());
+        name == "-" || table.columns[k].is_time || time.is_some_and(|(t, _)| t == k)
+    };
+    let kept = (0..table.columns.len()).filter(|k| !is_skipped(*k));
+    let channels: Vec<Channel> = kept
         .map(|k| Channel {
-            name: match table.titles.get(k) {
-                Some(title) if !title.is_empty() => title.clone(),
-                _ => format!("channel {}", k + 1),
+            name: match table.titles.get(k).map(|t| t.trim()) {
+                Some(title) if !title.is_empty() => title.to_string(),
+                _ => format!("channel {}", k + usize::from(time.is_none())),
             },
-            samples: table.columns[k].clone(),
+            samples: table.columns[k].real.clone(),
         })
         .collect();
     if channels.is_empty() {
-        let problem = ReadProblem::MissingColumn {
+        return Err(whole(ReadProblem::MissingColumn {
             wanted: "signal",
             columns: table.described(),
             remedy: "only times were found; export the samples beside them",
-        };
-        return Err(ReadError::whole(source, problem));
+        }));
+    }
+    if table
+        .columns
+        .iter()
+        .any(|column| column.imaginary.is_some())
+    {
+        notes.push("of complex numbers the real part is taken".to_string());
     }
     Ok(SignalFile {
-        sampling_rate,
+        sampling_rate: rate,
         start,
         channels,
         notes,
@@ -115,36 +176,49 @@ pub fn read_signal(bytes: &[u8], source: &str, rate: Option<f64>) -> Result<Sign
 
 /// The time column and its factor to seconds.
 fn time_column(table: &Table) -> Option<(usize, f64)> {
+    if let Some(stamps) = table.columns.iter().position(|column| column.is_time) {
+        return Some((stamps, 1.0));
+    }
     if !table.names.is_empty() {
         return (0..table.names.len()).find_map(|k| Some((k, seconds(&table.names[k])?)));
     }
-    if table.columns.len() < 2 || table.lines.len() < 3 {
+    if table.columns.len() < 2 || table.rows() < 3 {
         return None;
     }
-    let t = &table.columns[0];
+    let t = &table.columns[0].real;
     let step = (t[t.len() - 1] - t[0]) / (t.len() - 1) as f64;
-    let regular = t
-        .iter()
-        .enumerate()
-        .all(|(i, t_i)| (t_i - t[0] - i as f64 * step).abs() <= JITTER * step);
+    let mut times = t.iter().enumerate();
+    let regular = times.all(|(i, t_i)| (t_i - t[0] - i as f64 * step).abs() <= JITTER * step);
     (step > 0.0 && regular).then_some((0, 1.0))
 }
 
 /// The step of a regular time column, s.
 fn regular_step(table: &Table, column: usize, factor: f64, source: &str) -> Result<f64, ReadError> {
-    let t: Vec<f64> = table.columns[column].iter().map(|t| t * factor).collect();
-    let place = |i: usize| (table.lines[i], table.start(i, column));
+    let t: Vec<f64> = table.columns[column]
+        .real
+        .iter()
+        .map(|t| t * factor)
+        .collect();
+    let step = (t[t.len() - 1] - t[0]) / (t.len() - 1) as f64;
+    // Times that stand still now and then, and never go back, are rounded.
+    let falls = t.windows(2).any(|w| w[1] < w[0]);
+    let stands = t.windows(2).any(|w| w[1] == w[0]);
+    if stands && !falls && step > 0.0 {
+        let problem = ReadProblem::RoundedTime {
+            step: rounding(&t),
+            rate: 1.0 / step,
+        };
+        return Err(ReadError::whole(source, problem));
+    }
     if let Some(i) = (1..t.len()).find(|&i| t[i] <= t[i - 1]) {
-        let (line, at) = place(i);
         let problem = ReadProblem::TimeOrder {
             value: t[i],
             previous: t[i - 1],
         };
-        return Err(ReadError::at(source, line, at, problem));
+        return Err(table.error(source, i, column, problem));
     }
-    let step = (t[t.len() - 1] - t[0]) / (t.len() - 1) as f64;
     let off = |i: usize| (t[i] - t[0] - i as f64 * step).abs() > JITTER * step;
-    if (0..t.len()).any(off) || !step.is_finite() {
+    if (0..t.len()).any(off) || !(step.is_finite() && (1.0 / step).is_finite()) {
         // The mean step is spoiled by a gap; the usual one finds the row at which it is.
         let steps: Vec<f64> = t.windows(2).map(|w| w[1] - w[0]).collect();
         let usual = super::super::statistics::median(&steps);
@@ -152,12 +226,57 @@ fn regular_step(table: &Table, column: usize, factor: f64, source: &str) -> Resu
             .find(|&i| (t[i] - t[i - 1] - usual).abs() > 0.5 * usual)
             .or_else(|| (1..t.len()).find(|&i| off(i)))
             .unwrap_or(1);
-        let (line, at) = place(i);
         let problem = ReadProblem::TimeGap {
             value: t[i],
             step: usual,
         };
-        return Err(ReadError::at(source, line, at, problem));
+        return Err(table.error(source, i, column, problem));
     }
     Ok(step)
+}
+
+/// Smallest step above zero: the unit to which times are rounded.
+fn rounding(t: &[f64]) -> f64 {
+    let steps = t.windows(2).map(|w| w[1] - w[0]);
+    let least = steps.filter(|s| *s > 0.0).fold(f64::INFINITY, f64::min);
+    // Differences of decimal numbers have digits of their own.
+    let rounded = (least * 1e9).round() / 1e9;
+    if rounded > 0.0 { rounded } else { least }
+}
+
+/// The rate of the option, if the time column agrees with it to 1 % or within its rounding.
+fn agreed_rate(
+    table: &Table,
+    column: usize,
+    factor: f64,
+    option: f64,
+    source: &str,
+    notes: &mut Vec<String>,
+) -> Result<f64, ReadError> {
+    let t: Vec<f64> = table.columns[column]
+        .real
+        .iter()
+        .map(|t| t * factor)
+        .collect();
+    let found = (t.len() - 1) as f64 / (t[t.len() - 1] - t[0]);
+    let rounded = rounding(&t);
+    let fits = t
+        .iter()
+        .enumerate()
+        .all(|(i, t_i)| (t_i - t[0] - i as f64 / option).abs() <= 1.01 * rounded + JITTER / option);
+    if fits {
+        notes.push(format!(
+            "the rate of {option} Hz takes the place of the time column"
+        ));
+        return Ok(option);
+    }
+    if (option / found - 1.0).abs() > 1e-2 || !found.is_finite() {
+        let problem = ReadProblem::RateContradiction {
+            column: found,
+            option,
+        };
+        return Err(ReadError::whole(source, problem));
+    }
+    // Within 1 % the column knows better, if it is regular.
+    Ok(1.0 / regular_step(table, column, factor, source)?)
 }

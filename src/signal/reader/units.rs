@@ -7,18 +7,20 @@ pub(super) fn words(name: &str) -> Vec<&str> {
         .collect()
 }
 
-/// Whether a field of a header is a unit alone, in brackets or not.
+/// Whether a field of a header is a unit alone, in brackets or not: `[Hz]`, `m/s2/N`, `(m/s^2)/N`.
 pub(super) fn is_unit(field: &str) -> bool {
-    const UNITS: [&str; 29] = [
-        "", "-", "hz", "khz", "s", "sec", "ms", "us", "µs", "μs", "deg", "°", "rad", "db", "g",
-        "v", "mv", "n", "m", "mm", "m/s", "m/s2", "m/s^2", "m/s²", "rad/s", "m/n", "m/s/n", "g/n",
-        "pa",
+    const ATOMS: [&str; 34] = [
+        "", "-", "1", "hz", "khz", "s", "sec", "ms", "us", "µs", "μs", "ns", "deg", "°", "rad",
+        "db", "g", "v", "mv", "n", "kn", "m", "mm", "um", "µm", "pa", "kpa", "mpa", "kg", "grad",
+        "degree", "degrees", "%", "rpm",
     ];
-    let bare = field
-        .trim()
-        .trim_matches(['[', ']', '(', ')', '<', '>'])
-        .to_lowercase();
-    UNITS.contains(&bare.as_str()) || (field.trim().starts_with(['[', '(']) && bare.len() < 16)
+    let bare = field.trim().to_lowercase();
+    let is_atom = |atom: &str| {
+        let digits = |c: char| c.is_ascii_digit() || matches!(c, '^' | '²' | '³');
+        ATOMS.contains(&atom) || ATOMS.contains(&atom.trim_end_matches(digits))
+    };
+    let separators = ['/', '*', '·', ' ', '(', ')', '[', ']', '<', '>'];
+    bare.split(separators).all(is_atom) || (bare.starts_with(['[', '(']) && bare.len() < 16)
 }
 
 /// Factor to seconds of a time column's name; `None` if the name is not that of a time.
@@ -27,7 +29,7 @@ pub(super) fn seconds(name: &str) -> Option<f64> {
     let is_time = words.iter().any(|w| {
         matches!(
             *w,
-            "time" | "t" | "zeit" | "temps" | "tempo" | "seconds" | "times"
+            "time" | "t" | "zeit" | "temps" | "tempo" | "seconds" | "times" | "timestamp"
         )
     });
     if !is_time {
@@ -43,23 +45,56 @@ pub(super) fn seconds(name: &str) -> Option<f64> {
     Some(unit.unwrap_or(1.0))
 }
 
-/// Factor to hertz of a frequency column's name; `None` if the name is not that of a frequency.
-pub(super) fn hertz(name: &str) -> Option<f64> {
+/// Factor to hertz of a frequency column's name, and whether the name states the unit; `None` if the name
+/// is not that of a frequency.
+pub(super) fn hertz(name: &str) -> Option<(f64, bool)> {
     let words = words(name);
     let has = |list: &[&str]| words.iter().any(|w| list.contains(w));
     let angular = has(&["omega", "rad/s", "ω"]) || name.contains("rad_per_s");
     let is_frequency = angular
-        || has(&["f", "hz", "khz", "fréquence", "frequenz", "frequenza"])
-        || words.iter().any(|w| w.starts_with("freq"));
-    is_frequency.then(|| {
-        if angular {
-            1.0 / std::f64::consts::TAU
-        } else if has(&["khz"]) {
-            1e3
-        } else {
-            1.0
-        }
-    })
+        || has(&["f", "hz", "khz"])
+        || words.iter().any(|w| {
+            ["freq", "fréq", "fräq", "frec"]
+                .iter()
+                .any(|begin| w.starts_with(begin))
+        });
+    let factor = if angular {
+        1.0 / std::f64::consts::TAU
+    } else if has(&["khz"]) {
+        1e3
+    } else {
+        1.0
+    };
+    is_frequency.then_some((factor, angular || has(&["hz", "khz"])))
+}
+
+/// The reference of a level, as in `dB re 1 m/s2/N` or `dB re 20 uPa` (SI); 1 where none is written.
+pub(super) fn level_reference(name: &str) -> f64 {
+    let Some((_, after)) = name.split_once("re ").or_else(|| name.split_once("ref ")) else {
+        return 1.0;
+    };
+    let after = after.trim_start_matches(['.', ':', '=', ' ']);
+    let end = after
+        .char_indices()
+        .find(|(k, c)| {
+            let sign = matches!(c, '+' | '-') && after[..*k].ends_with('e');
+            let exponent = *c == 'e'
+                && after[k + 1..].starts_with(|d: char| d.is_ascii_digit() || d == '-' || d == '+');
+            !(c.is_ascii_digit() || *c == '.' || sign || exponent)
+        })
+        .map_or(after.len(), |(k, _)| k);
+    let value: f64 = after[..end].parse().unwrap_or(1.0);
+    let unit = after[end..].trim_start();
+    let prefix = match unit.chars().next() {
+        Some('u' | 'µ' | 'μ') => 1e-6,
+        Some('m') if unit.starts_with("mm") => 1e-3,
+        _ => 1.0,
+    };
+    if value > 0.0 && value.is_finite() {
+        value * prefix
+    } else {
+        1.0
+    }
 }
 
 /// A sampling rate stated in remarks, as `sampling rate: 51200 Hz` or `fs = 1e5`, Hz.

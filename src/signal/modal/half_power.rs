@@ -1,8 +1,7 @@
 //! Resonances of a frequency response and their half-power bandwidths.
 
-use super::error::SignalError;
-use super::noise::NoiseModel;
-use super::{FrequencyResponse, ResponseQuantity};
+use super::NoiseModel;
+use crate::signal::{FrequencyResponse, ResponseQuantity, SignalError};
 
 /// Frequency lines a half-power band must hold: a parabola through the top and two crossings.
 pub(super) const LINES_NEEDED: usize = 5;
@@ -168,7 +167,11 @@ fn measure(f: &[f64], y: &[f64], top: usize) -> HalfPowerBand {
         damping_factor: None,
         note: Some(ResonanceNote::OneSided),
     };
-    if let (Some(low), Some(high)) = (low, high) {
+    // A parabola through a flank of noise may end on the wrong side of the top.
+    if let (Some(low), Some(high)) = (low, high)
+        && low < f0
+        && f0 < high
+    {
         band.band_hz = Some((low, high));
         let lines = f.partition_point(|f| *f <= high) - f.partition_point(|f| *f < low);
         if lines < LINES_NEEDED {

@@ -1,6 +1,6 @@
 //! A frequency response as a sum of modes and a smooth remainder.
 
-use super::ResponseQuantity;
+use crate::signal::ResponseQuantity;
 use faer::{Mat, c64};
 use std::f64::consts::TAU;
 
@@ -28,37 +28,46 @@ impl Pole {
     }
 }
 
+/// A modal model of one or more responses that share their poles:
 /// `H(s) = s^p [ sum_k (a_k + b_k s) / (s^2 + 2 zeta_k u_k s + u_k^2) + sum_m c_m s^m ]` with
 /// `s = i f / f_ref`, `u_k = f_k / f_ref` and real `a, b, c`: every response of a real linear system,
 /// its out-of-band modes expanded; `p = 0, 1, 2` for receptance, mobility, accelerance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ModalModel {
-    /// Quantity of the response.
-    pub quantity: ResponseQuantity,
     /// Poles.
     pub poles: Vec<Pole>,
-    /// `[a_k, b_k]` of each pole.
-    pub numerators: Vec<[f64; 2]>,
-    /// `c_m`, `m = -3, -2, ...`.
-    pub remainder: Vec<f64>,
+    /// What each response has of its own.
+    pub shares: Vec<ModalShare>,
     /// `f_ref`, Hz.
     pub reference_hz: f64,
 }
 
+/// What one response has of its own in a [`ModalModel`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct ModalShare {
+    /// Quantity of the response.
+    pub quantity: ResponseQuantity,
+    /// `[a_k, b_k]` of each pole.
+    pub numerators: Vec<[f64; 2]>,
+    /// `c_m`, `m = -3, -2, ...`.
+    pub remainder: Vec<f64>,
+}
+
 impl ModalModel {
-    /// Response at a frequency above zero, Hz.
-    pub fn evaluate(&self, frequency_hz: f64) -> c64 {
+    /// Response number `share` at a frequency above zero, Hz.
+    pub fn evaluate(&self, share: usize, frequency_hz: f64) -> c64 {
+        let share = &self.shares[share];
         let s = c64::new(0.0, frequency_hz / self.reference_hz);
         let mut sum = c64::new(0.0, 0.0);
-        for c in self.remainder.iter().rev() {
+        for c in share.remainder.iter().rev() {
             sum = sum * s + *c;
         }
         sum *= s.powi(LOWEST_POWER);
-        for (pole, [a, b]) in self.poles.iter().zip(&self.numerators) {
+        for (pole, [a, b]) in self.poles.iter().zip(&share.numerators) {
             let u = pole.frequency_hz / self.reference_hz;
             sum += (s * *b + *a) / (s * s + s * (2.0 * pole.damping_factor * u) + u * u);
         }
-        s.powi(self.quantity.derivatives()) * sum
+        s.powi(share.quantity.derivatives()) * sum
     }
 }
 
@@ -110,10 +119,6 @@ impl Lines {
         }
     }
 
-    pub(super) fn reference_hz(&self) -> f64 {
-        self.reference_hz
-    }
-
     /// Scaled frequency and scaled damping `(u, 2 zeta u)`.
     fn parts(&self, pole: Pole) -> (f64, f64) {
         let u = pole.frequency_hz / self.reference_hz;
@@ -161,8 +166,13 @@ impl Lines {
 
     /// Weighted derivatives of the model with respect to `ln f_k` and `ln zeta_k`: two columns for
     /// each pole from column 0 on.
-    pub(super) fn fill_pole_derivatives(&self, model: &ModalModel, matrix: &mut Mat<f64>) {
-        for (k, (pole, [a, b])) in model.poles.iter().zip(&model.numerators).enumerate() {
+    pub(super) fn fill_pole_derivatives(
+        &self,
+        poles: &[Pole],
+        share: &ModalShare,
+        matrix: &mut Mat<f64>,
+    ) {
+        for (k, (pole, [a, b])) in poles.iter().zip(&share.numerators).enumerate() {
             let (u, d) = self.parts(*pole);
             let slope = |i: usize| {
                 let x = self.x[i];
@@ -186,18 +196,18 @@ impl Lines {
     }
 
     /// Model times weight on every line.
-    pub(super) fn weighted_values(&self, model: &ModalModel) -> Vec<c64> {
+    pub(super) fn weighted_values(&self, poles: &[Pole], share: &ModalShare) -> Vec<c64> {
         let mut sums = vec![c64::new(0.0, 0.0); self.x.len()];
         for (k, x) in self.x.iter().enumerate() {
             // Horner over i x, then (i x)^-3 = i / x^3.
             let mut sum = c64::new(0.0, 0.0);
-            for c in model.remainder.iter().rev() {
+            for c in share.remainder.iter().rev() {
                 sum = c64::new(c - x * sum.im, x * sum.re);
             }
             let cube = 1.0 / (x * x * x);
             sums[k] = c64::new(-sum.im * cube, sum.re * cube);
         }
-        for (pole, [a, b]) in model.poles.iter().zip(&model.numerators) {
+        for (pole, [a, b]) in poles.iter().zip(&share.numerators) {
             let (u, d) = self.parts(*pole);
             for (sum, x) in sums.iter_mut().zip(&self.x) {
                 *sum += c64::new(*a, b * x) * inverse(*x, u, d);

@@ -1,10 +1,46 @@
-//! The table reader: what it understands, what it refuses and with which words, and that no bytes
-//! make it panic.
+//! The readers: what they understand, what they refuse and with which words, and that no bytes make
+//! them or the analyses behind them panic.
 
-use frictionsim::signal::ResponseQuantity;
-use frictionsim::signal::reader::{ReadProblem, read_response, read_signal};
-use proptest::prelude::*;
+mod formats;
+mod measured;
+mod mutation;
+
+use frictionsim::signal::reader::{
+    ReadError, ReadProblem, ResponseOptions, SignalFile, SignalOptions,
+};
+use frictionsim::signal::{FrequencyResponse, ResponseQuantity};
 use std::f64::consts::TAU;
+
+/// The first response of a table, and the notes.
+#[derive(Debug)]
+struct Read {
+    response: FrequencyResponse,
+    notes: Vec<String>,
+}
+
+fn read_response(
+    bytes: &[u8],
+    source: &str,
+    quantity: Option<ResponseQuantity>,
+) -> Result<Read, ReadError> {
+    let options = ResponseOptions {
+        quantity,
+        ..ResponseOptions::default()
+    };
+    let file = frictionsim::signal::reader::read_response(bytes, source, &options)?;
+    Ok(Read {
+        response: file.responses[0].response.clone(),
+        notes: file.notes,
+    })
+}
+
+fn read_signal(bytes: &[u8], source: &str, rate: Option<f64>) -> Result<SignalFile, ReadError> {
+    let options = SignalOptions {
+        rate,
+        ..SignalOptions::default()
+    };
+    frictionsim::signal::reader::read_signal(bytes, source, &options)
+}
 
 /// Ten rows `f, re, im` with a given field separator, decimal sign and line end.
 fn rows(separator: &str, decimal: &str, end: &str) -> String {
@@ -267,62 +303,4 @@ fn gaps_and_disorder_in_time_are_refused_at_their_line() {
         error.problem,
         ReadProblem::RateContradiction { .. }
     ));
-}
-
-/// Text made of the pieces that tables are made of, so that the fuzzing gets past the first line.
-fn table_like() -> impl Strategy<Value = String> {
-    let piece = prop_oneof![
-        Just(",".to_string()),
-        Just(";".to_string()),
-        Just("\t".to_string()),
-        Just(" ".to_string()),
-        Just("\n".to_string()),
-        Just("\r\n".to_string()),
-        Just("\"".to_string()),
-        Just("# ".to_string()),
-        Just("frequency_hz".to_string()),
-        Just("real".to_string()),
-        Just("imag".to_string()),
-        Just("magnitude_db".to_string()),
-        Just("phase".to_string()),
-        Just("time_ms".to_string()),
-        Just("fs: 1e3 kHz".to_string()),
-        Just("nan".to_string()),
-        Just("1e999".to_string()),
-        Just("1,5".to_string()),
-        Just("-".to_string()),
-        "[0-9]{1,4}",
-        "[0-9]\\.[0-9]{1,3}",
-        "\\PC{0,3}",
-    ];
-    prop::collection::vec(piece, 0..200).prop_map(|v| v.concat())
-}
-
-proptest! {
-    #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
-
-    #[test]
-    fn no_bytes_make_the_reader_panic(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
-        let _ = read_response(&bytes, "x", None);
-        let _ = read_signal(&bytes, "x", Some(1.0));
-        let _ = read_signal(&bytes, "x", None);
-    }
-
-    #[test]
-    fn no_table_like_text_makes_the_reader_panic(text in table_like()) {
-        let _ = read_response(text.as_bytes(), "x", None);
-        let _ = read_signal(text.as_bytes(), "x", None);
-    }
-
-    #[test]
-    fn written_numbers_come_back_bit_for_bit(
-        values in prop::collection::vec((-1e6f64..1e6, -1e-6f64..1e-6), 8..40),
-    ) {
-        let rows: String = values.iter().enumerate().map(|(i, (a, b))| format!("{i},{a},{b:e}\n")).collect();
-        let text = format!("frequency_hz,real,imaginary\n{rows}");
-        let read = read_response(text.as_bytes(), "x", None).unwrap().response;
-        for (z, (a, b)) in read.values().iter().zip(&values) {
-            prop_assert_eq!((z.re, z.im), (*a, *b));
-        }
-    }
 }

@@ -1,10 +1,10 @@
-//! From a frequency response to Rayleigh coefficients, by two estimators side by side.
+//! From frequency responses to Rayleigh coefficients, by two estimators side by side.
 
+use super::basis::Pole;
+use super::fit::{FittedMode, ModalFit, fit_modes};
 use super::half_power::{HalfPowerBand, LINES_NEEDED, ResonanceNote, half_power};
-use super::modal_basis::Pole;
-use super::modal_fit::{FittedMode, ModalFit, fit_modes};
 use super::rayleigh::{DampingSample, RayleighFit, fit_rayleigh};
-use super::{FrequencyResponse, SignalError};
+use crate::signal::{FrequencyResponse, SignalError};
 use faer::Mat;
 
 /// Largest relative standard error of a damping factor that still enters the Rayleigh fit.
@@ -45,30 +45,29 @@ pub struct Identification {
     pub fit: ModalFit,
 }
 
-/// Finds the resonances of a response, their damping factors and the Rayleigh coefficients.
+/// Finds the resonances of responses, their damping factors and the Rayleigh coefficients.
 ///
 /// [`half_power`] finds the peaks; [`fit_modes`] starts from them; [`fit_rayleigh`] takes the fitted
-/// factors with their covariance, and beside it the half-power factors without. Close modes are
+/// factors with their covariance, and beside it the half-power factors without. Several responses of one
+/// body are fitted with common poles; a peak that several of them show counts once. Close modes are
 /// marked in both lists: the half-power Rayleigh fit leaves them out, the other takes them with the
 /// covariance that their overlap gives them.
 ///
 /// # Errors
-/// [`SignalError`]: no resonance, resolution too coarse for every one of them, too few modes.
+/// [`SignalError`]: no resonance in any response, resolution too coarse for every one of them, too few modes.
 pub fn identify(
-    response: &FrequencyResponse,
+    responses: &[FrequencyResponse],
     options: &IdentificationOptions,
 ) -> Result<Identification, SignalError> {
-    let cut;
-    let response = match options.range_hz {
-        Some((low, high)) => {
-            cut = response.within(low, high)?;
-            &cut
-        }
-        None => response,
-    };
-    let bands = half_power(response)?;
-    refuse_coarse(response, &bands)?;
-    let fit = fit_modes(response, &starts(&bands))?;
+    let (low, high) = options.range_hz.unwrap_or((0.0, f64::INFINITY));
+    let cut: Vec<FrequencyResponse> = responses
+        .iter()
+        .map(|response| response.within(low, high))
+        .collect::<Result<_, _>>()?;
+    let bands = peaks(&cut)?;
+    let resolution_hz = cut.iter().map(|r| r.resolution_hz()).fold(0.0, f64::max);
+    refuse_coarse(resolution_hz, &bands)?;
+    let fit = fit_modes(&cut, &starts(&bands))?;
     let mut modes: Vec<IdentifiedMode> = fit
         .modes
         .iter()
@@ -105,6 +104,40 @@ pub fn identify(
     })
 }
 
+/// The peaks of all responses by frequency. Of those closer than half a bandwidth one is kept: the first
+/// that is not in doubt, or else the first.
+fn peaks(responses: &[FrequencyResponse]) -> Result<Vec<HalfPowerBand>, SignalError> {
+    let found: Vec<Result<Vec<HalfPowerBand>, SignalError>> =
+        responses.iter().map(half_power).collect();
+    if found.iter().all(Result::is_err) {
+        let first = found.into_iter().find_map(Result::err);
+        return Err(first.unwrap_or(SignalError::NoResonance {
+            low_hz: 0.0,
+            high_hz: 0.0,
+        }));
+    }
+    let mut kept: Vec<HalfPowerBand> = Vec::new();
+    for bands in found.into_iter().flatten() {
+        // Peaks of one response are different ones, however close.
+        let earlier = kept.len();
+        for band in bands {
+            let half_width = |b: &HalfPowerBand| match b.band_hz {
+                Some((low, high)) => 0.5 * (high - low),
+                None => 5e-3 * b.frequency_hz,
+            };
+            let apart = |b: &HalfPowerBand| (b.frequency_hz - band.frequency_hz).abs();
+            let is_same = |b: &HalfPowerBand| apart(b) < half_width(b).max(half_width(&band));
+            match kept[..earlier].iter_mut().find(|b| is_same(b)) {
+                Some(known) if known.note.is_some() && band.note.is_none() => *known = band,
+                Some(_) => {}
+                None => kept.push(band),
+            }
+        }
+    }
+    kept.sort_by(|a, b| a.frequency_hz.total_cmp(&b.frequency_hz));
+    Ok(kept)
+}
+
 /// Coefficients from half-power factors that carry no doubt.
 fn half_power_rayleigh(modes: &[IdentifiedMode]) -> Option<RayleighFit> {
     let samples: Vec<DampingSample> = modes
@@ -122,11 +155,11 @@ fn half_power_rayleigh(modes: &[IdentifiedMode]) -> Option<RayleighFit> {
 }
 
 /// A response whose every half-power band is too coarse cannot give a damping factor.
-fn refuse_coarse(response: &FrequencyResponse, bands: &[HalfPowerBand]) -> Result<(), SignalError> {
+fn refuse_coarse(resolution_hz: f64, bands: &[HalfPowerBand]) -> Result<(), SignalError> {
     let coarse = |b: &HalfPowerBand| matches!(b.note, Some(ResonanceNote::TooCoarse(_)));
     match bands.first() {
         Some(first) if bands.iter().all(coarse) => Err(SignalError::Unresolved {
-            resolution_hz: response.resolution_hz(),
+            resolution_hz,
             frequency_hz: first.frequency_hz,
             needed: LINES_NEEDED,
         }),
@@ -144,7 +177,7 @@ fn starts(bands: &[HalfPowerBand]) -> Vec<Pole> {
     let typical = if known.is_empty() {
         0.01
     } else {
-        super::statistics::median(&known)
+        crate::signal::statistics::median(&known)
     };
     bands
         .iter()

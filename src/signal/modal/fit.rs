@@ -1,10 +1,10 @@
-//! Modal frequencies and damping factors from a fit of the whole frequency response.
+//! Modal frequencies and damping factors from a fit of whole frequency responses.
 
+use super::basis::{ModalModel, Pole};
 use super::least_squares::{Fitted, Problem};
-use super::modal_basis::{ModalModel, Pole};
-use super::rayleigh::Estimate;
-use super::statistics::{NORMAL_95, median};
-use super::{FrequencyResponse, NoiseModel, SignalError};
+use super::{Estimate, NoiseModel};
+use crate::signal::statistics::{NORMAL_95, median};
+use crate::signal::{FrequencyResponse, SignalError};
 use faer::{Mat, c64};
 
 /// Remainder terms to begin with: `s^-3 .. s^0`.
@@ -34,7 +34,7 @@ pub struct FittedMode {
     pub overlaps_hz: Option<f64>,
 }
 
-/// A modal model fitted to a frequency response.
+/// A modal model fitted to one or more frequency responses.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ModalFit {
     /// The model, out-of-range poles included.
@@ -43,8 +43,8 @@ pub struct ModalFit {
     pub modes: Vec<FittedMode>,
     /// Covariance of the modes' damping factors.
     pub damping_covariance: Mat<f64>,
-    /// Noise found from the residuals.
-    pub noise: NoiseModel,
+    /// Noise of each response, found from the residuals.
+    pub noise: Vec<NoiseModel>,
     /// Poles added to those given, because the residual asked for them, in and out of range.
     pub added_poles: usize,
     /// Factor by which correlation of the residuals along frequency widens the variances; 1 for a
@@ -54,55 +54,90 @@ pub struct ModalFit {
     pub range_hz: (f64, f64),
 }
 
-/// Fits poles and numerators of a [`ModalModel`] to a response, starting from `starts`.
+impl ModalFit {
+    /// The fitted response number `response` at a frequency, Hz; `None` outside the range of the fit.
+    pub fn evaluate(&self, response: usize, frequency_hz: f64) -> Option<c64> {
+        let (low, high) = self.range_hz;
+        let inside = (low..=high).contains(&frequency_hz) && frequency_hz > 0.0;
+        inside.then(|| self.model.evaluate(response, frequency_hz))
+    }
+}
+
+/// Fits poles and numerators of a [`ModalModel`] to responses, starting from `starts`.
 ///
 /// Maximum likelihood under Gaussian noise with the variance of [`NoiseModel`], which is estimated
-/// along with the model. While the residual shows it, the smooth remainder gets more terms (Akaike's
-/// criterion) and poles are added, within the range or beyond its ends (Bayes' criterion): a
-/// close pair that shows one peak is found as two. Standard errors come from the normal matrix, the
-/// residual variance and the correlation of successive residuals; they do not cover a wrong
-/// calibration nor leakage. Without phase no poles are added and signs of the numerators may be
-/// wrong, which the residual then tells.
+/// along with the model. Several responses share the poles; numerators, remainder and noise are their own.
+/// While the residual shows it, the smooth remainder gets more terms (Akaike's criterion) and poles are
+/// added, within the range or beyond its ends (Bayes' criterion): a close pair that shows one peak is found
+/// as two. Standard errors come from the normal matrix, the residual variance and the correlation of
+/// successive residuals; they do not cover a wrong calibration nor leakage, nor poles that differ from one
+/// response to the next. Without phase no poles are added and signs of the numerators may be wrong, which
+/// the residual then tells.
 ///
 /// # Errors
 /// [`SignalError::NoResonance`] without starts; [`SignalError::TooShort`] for fewer lines than
 /// unknowns; [`SignalError::Fit`] if the normal equations are singular.
-pub fn fit_modes(response: &FrequencyResponse, starts: &[Pole]) -> Result<ModalFit, SignalError> {
-    let f = response.frequencies_hz();
-    let (begin, end) = (f[0], f[f.len() - 1]);
+pub fn fit_modes(
+    responses: &[FrequencyResponse],
+    starts: &[Pole],
+) -> Result<ModalFit, SignalError> {
+    let (begin, end) = range(responses);
     let Some(lowest) = starts.iter().map(|p| p.frequency_hz).reduce(f64::min) else {
         return Err(SignalError::NoResonance {
             low_hz: begin,
             high_hz: end,
         });
     };
-    let part = response.within((BELOW_FIRST * lowest).max(begin), end)?;
-    let needed = 4 * starts.len() + REMAINDER + 1;
-    let mut noise = NoiseModel::from_differences(part.values(), part.has_phase());
-    let mut problem = Problem::new(&part, noise, &part.magnitudes());
+    let parts: Vec<FrequencyResponse> = responses
+        .iter()
+        .map(|r| r.within((BELOW_FIRST * lowest).max(r.frequencies_hz()[0]), end))
+        .collect::<Result<_, _>>()?;
+    // The noise of the data weighs the first fit, that of the residuals the last.
+    let needed = (2 + 2 * parts.len()) * starts.len() + parts.len() * REMAINDER + 1;
+    let noise = |r: &FrequencyResponse| NoiseModel::from_differences(r.values(), r.has_phase());
+    let mut noise: Vec<NoiseModel> = parts.iter().map(noise).collect();
+    let moduli: Vec<Vec<f64>> = parts.iter().map(|r| r.magnitudes()).collect();
+    let mut problem = Problem::new(&parts, &noise, &moduli);
     if problem.data_count() <= needed {
         return Err(SignalError::TooShort {
             what: "the frequency response",
-            count: part.values().len(),
+            count: parts.iter().map(|r| r.values().len()).sum(),
             needed,
             remedy: "more lines than unknowns are needed; measure finer or restrict the range",
         });
     }
     let mut fitted = problem.fit(starts, REMAINDER)?;
-    fitted = extended(&problem, fitted, starts.len(), &part)?;
+    fitted = extended(&problem, fitted, starts.len(), &parts)?;
     for _ in 0..2 {
         let values = problem.values(&fitted.model);
-        let squares: Vec<f64> = problem
-            .residuals(&values)
+        let residuals = problem.residuals(&values);
+        let moduli: Vec<Vec<f64>> = values
             .iter()
-            .map(|r| r.norm_sqr())
+            .map(|values| values.iter().map(|v| v.norm()).collect())
             .collect();
-        let moduli: Vec<f64> = values.iter().map(|v| v.norm()).collect();
-        noise = NoiseModel::from_squares(&squares, &moduli, part.has_phase());
-        problem = Problem::new(&part, noise, &moduli);
-        fitted = problem.fit(&fitted.model.poles, fitted.model.remainder.len())?;
+        noise = (parts.iter().zip(&residuals).zip(&moduli))
+            .map(|((part, residuals), moduli)| {
+                let pairs = residuals.iter().zip(part.variance_factors());
+                let squares: Vec<f64> = pairs.map(|(r, factor)| r.norm_sqr() / factor).collect();
+                NoiseModel::from_squares(&squares, moduli, part.has_phase())
+            })
+            .collect();
+        problem = Problem::new(&parts, &noise, &moduli);
+        let terms = fitted.model.shares[0].remainder.len();
+        fitted = problem.fit(&fitted.model.poles, terms)?;
     }
-    Ok(summarised(&problem, fitted, noise, starts.len(), &part))
+    Ok(summarised(&problem, fitted, noise, starts.len(), &parts))
+}
+
+/// Lowest and highest frequency of all responses, Hz.
+fn range(responses: &[FrequencyResponse]) -> (f64, f64) {
+    let ends = responses.iter().map(|r| {
+        let f = r.frequencies_hz();
+        (f[0], f[f.len() - 1])
+    });
+    ends.fold((f64::INFINITY, 0.0), |(low, high), (first, last)| {
+        (first.min(low), last.max(high))
+    })
 }
 
 /// Adds remainder terms and poles while the residual asks for them.
@@ -110,37 +145,40 @@ fn extended(
     problem: &Problem,
     mut best: Fitted,
     starts: usize,
-    part: &FrequencyResponse,
+    parts: &[FrequencyResponse],
 ) -> Result<Fitted, SignalError> {
-    let most_poles = if part.has_phase() {
+    let most_poles = if parts.iter().all(|part| part.has_phase()) {
         2 * starts + 4
     } else {
         starts
     };
-    let count = problem.data_count();
+    let (count, responses) = (problem.data_count(), problem.response_count());
     for _ in 0..(starts + 8) {
         let poles = best.model.poles.clone();
-        let terms = best.model.remainder.len();
-        let room = |more: usize| 4 * poles.len() + terms + more < count / 2;
+        let terms = best.model.shares[0].remainder.len();
+        let unknowns = (2 + 2 * responses) * poles.len() + responses * terms;
+        let room = |more: usize| unknowns + more < count / 2;
         let mut gain = 0.0;
         let mut next = None;
         if terms + 2 <= MOST_REMAINDER
-            && room(2)
+            && room(2 * responses)
             && let Ok(trial) = problem.fit(&poles, terms + 2)
         {
-            let gained = best.chi_square - trial.chi_square - 4.0;
+            let gained = best.chi_square - trial.chi_square - 4.0 * responses as f64;
             // The variance unit is only an estimate, hence the share of the misfit.
             if gained > 1e-6 * best.chi_square {
                 gain = gained;
                 next = Some(trial);
             }
         }
+        let more_unknowns = 2 + 2 * responses;
         if poles.len() < most_poles
-            && room(4)
-            && let Some(candidate) = candidate(problem, &best, part)
+            && room(more_unknowns)
+            && let Some(candidate) = candidate(problem, &best, range(parts))
         {
             let more: Vec<Pole> = poles.iter().copied().chain([candidate]).collect();
-            let penalty = (4.0 * (count as f64).ln()).max(LEAST_SHARE * best.chi_square);
+            let bayes = more_unknowns as f64 * (count as f64).ln();
+            let penalty = bayes.max(LEAST_SHARE * best.chi_square);
             if let Ok(trial) = problem.fit(&more, terms) {
                 let gained = best.chi_square - trial.chi_square - penalty;
                 if gained > gain && are_modes(&trial.model.poles) {
@@ -173,10 +211,9 @@ fn are_modes(poles: &[Pole]) -> bool {
 
 /// The pole whose functions take most out of the residual, on a grid reaching a tenth beyond the
 /// range.
-fn candidate(problem: &Problem, fitted: &Fitted, part: &FrequencyResponse) -> Option<Pole> {
+fn candidate(problem: &Problem, fitted: &Fitted, (begin, end): (f64, f64)) -> Option<Pole> {
     let model = &fitted.model;
-    let residual = problem.weighted_residuals(&problem.values(model));
-    let f = part.frequencies_hz();
+    let residuals = problem.weighted_residuals(model);
     let dampings: Vec<f64> = model.poles.iter().map(|p| p.damping_factor).collect();
     let typical = median(&dampings).clamp(1e-4, 0.1);
     let mut best = None;
@@ -184,13 +221,13 @@ fn candidate(problem: &Problem, fitted: &Fitted, part: &FrequencyResponse) -> Op
     for share in [0.5, 1.0, 2.0] {
         let damping_factor = share * typical;
         let step = 1.0 + (2.0 * damping_factor).max(0.002);
-        let mut frequency_hz = 0.97 * f[0];
-        while frequency_hz < 1.1 * f[f.len() - 1] {
+        let mut frequency_hz = 0.97 * begin;
+        while frequency_hz < 1.1 * end {
             let pole = Pole {
                 frequency_hz,
                 damping_factor,
             };
-            let gain = problem.lines().projection(&residual, pole, REACH);
+            let gain = problem.projection(&residuals, pole, REACH);
             if gain > best_gain {
                 best_gain = gain;
                 best = Some(pole);
@@ -202,15 +239,15 @@ fn candidate(problem: &Problem, fitted: &Fitted, part: &FrequencyResponse) -> Op
 }
 
 /// `1 + 2 sum rho_k` over the first lags at which the residuals are correlated beyond chance.
-fn correlation(residual: &[c64]) -> f64 {
-    let n = residual.len();
-    let power: f64 = residual.iter().map(|r| r.norm_sqr()).sum();
+fn correlation(residuals: &[Vec<c64>]) -> f64 {
+    let n: usize = residuals.iter().map(Vec::len).sum();
+    let power: f64 = residuals.iter().flatten().map(|r| r.norm_sqr()).sum();
     let chance = 2.0 / (n as f64).sqrt();
     let mut factor = 1.0;
     for lag in 1..(n / 8).max(2) {
-        let sum: f64 = residual[lag..]
+        let sum: f64 = residuals
             .iter()
-            .zip(residual)
+            .flat_map(|residual| residual.iter().skip(lag).zip(residual))
             .map(|(a, b)| a.re * b.re + a.im * b.im)
             .sum();
         let rho = sum / power;
@@ -226,21 +263,20 @@ fn correlation(residual: &[c64]) -> f64 {
 fn summarised(
     problem: &Problem,
     fitted: Fitted,
-    noise: NoiseModel,
+    noise: Vec<NoiseModel>,
     starts: usize,
-    part: &FrequencyResponse,
+    parts: &[FrequencyResponse],
 ) -> ModalFit {
     let Fitted {
         model,
         chi_square,
         inverse_normal,
     } = fitted;
-    let residual = problem.weighted_residuals(&problem.values(&model));
-    let unknowns = (4 * model.poles.len() + model.remainder.len()) as f64;
-    let correlation = correlation(&residual);
+    let residuals = problem.weighted_residuals(&model);
+    let unknowns = inverse_normal.nrows() as f64;
+    let correlation = correlation(&residuals);
     let variance = correlation * chi_square / (problem.data_count() as f64 - unknowns).max(1.0);
-    let f = part.frequencies_hz();
-    let (begin, end) = (f[0], f[f.len() - 1]);
+    let (begin, end) = range(parts);
     let mut inside: Vec<usize> = (0..model.poles.len())
         .filter(|&k| {
             let p = model.poles[k];

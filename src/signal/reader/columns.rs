@@ -1,0 +1,265 @@
+//! Which columns of a table make a frequency response.
+
+use super::error::{ReadError, ReadProblem};
+use super::table::Table;
+use super::units::{level_reference, words};
+
+/// What a column of a response table holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Part {
+    Real,
+    Imaginary,
+    Magnitude,
+    Decibel,
+    Degrees,
+    Radians,
+    Coherence,
+    Other,
+}
+
+/// The columns that make a response.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Layout {
+    /// A column of complex numbers.
+    Whole(usize),
+    /// Columns of real and imaginary parts.
+    Complex(usize, usize),
+    Polar {
+        magnitude: usize,
+        /// The reference of a level in decibel.
+        level_reference: Option<f64>,
+        /// Column and factor to radians.
+        phase: Option<(usize, f64)>,
+    },
+}
+
+impl Layout {
+    pub(super) fn has_phase(self) -> bool {
+        !matches!(self, Layout::Polar { phase: None, .. })
+    }
+}
+
+/// What a lower-case column name says.
+pub(super) fn part(name: &str) -> Part {
+    let words = words(name);
+    let has = |list: &[&str]| words.iter().any(|w| list.contains(w));
+    let begins = |list: &[&str]| words.iter().any(|w| list.iter().any(|l| w.starts_with(l)));
+    // A level is told before a real part: `dB re 1 m/s2/N` holds the word `re`.
+    if begins(&["coh", "kohärenz", "cohérence", "gamma2", "γ²"]) {
+        Part::Coherence
+    } else if has(&["db", "decibel", "dezibel", "décibel"]) {
+        Part::Decibel
+    } else if has(&["im"]) || begins(&["imag"]) {
+        Part::Imaginary
+    } else if has(&["re"]) || begins(&["real", "réel", "reel"]) {
+        Part::Real
+    } else if has(&["arg", "deg", "°"]) || begins(&["phase", "angle", "phi", "winkel"]) {
+        if has(&["rad", "radian", "radians"]) {
+            Part::Radians
+        } else {
+            Part::Degrees
+        }
+    } else if has(&[
+        "abs",
+        "h",
+        "h1",
+        "h2",
+        "hv",
+        "frf",
+        "|h|",
+        "gain",
+        "admittance",
+        "flexibility",
+    ]) || begins(&[
+        "mag",
+        "ampl",
+        "modul",
+        "accelerance",
+        "inertance",
+        "mobil",
+        "recept",
+        "récept",
+        "compliance",
+        "betrag",
+        "accélérance",
+    ]) {
+        Part::Magnitude
+    } else {
+        Part::Other
+    }
+}
+
+/// Every response of a table with its name.
+pub(super) fn layouts(
+    table: &Table,
+    frequency: usize,
+    source: &str,
+    notes: &mut Vec<String>,
+) -> Result<Vec<(String, Layout)>, ReadError> {
+    let whole: Vec<usize> = (0..table.columns.len())
+        .filter(|k| table.columns[*k].imaginary.is_some())
+        .collect();
+    if table.names.is_empty() && whole.is_empty() {
+        return Ok(vec![(
+            "response".to_string(),
+            unnamed_layout(table, source)?,
+        )]);
+    }
+    let columns = |wanted: Part| -> Vec<usize> {
+        let named = (0..table.names.len()).filter(|k| *k != frequency);
+        named.filter(|k| part(&table.names[*k]) == wanted).collect()
+    };
+    let missing = |wanted, remedy| {
+        let problem = ReadProblem::MissingColumn {
+            wanted,
+            columns: table.described(),
+            remedy,
+        };
+        Err(ReadError::whole(source, problem))
+    };
+    let (real, imaginary) = (columns(Part::Real), columns(Part::Imaginary));
+    if whole.is_empty() && real.len() > imaginary.len() {
+        return missing(
+            "imaginary part",
+            "name it `imaginary`, or give magnitude and phase",
+        );
+    }
+    if whole.is_empty() && real.len() < imaginary.len() {
+        return missing("real part", "name it `real`, or give magnitude and phase");
+    }
+    // Complex numbers come first, then pairs of parts, then levels, then magnitudes.
+    let found: Vec<(usize, Layout)> = if !whole.is_empty() {
+        whole.iter().map(|k| (*k, Layout::Whole(*k))).collect()
+    } else if !real.is_empty() {
+        let pairs = real.iter().zip(&imaginary);
+        pairs
+            .map(|(re, im)| (*re, Layout::Complex(*re, *im)))
+            .collect()
+    } else {
+        polar(table, &columns)
+    };
+    if found.is_empty() {
+        return missing(
+            "response",
+            "name the columns `real` and `imaginary`, or `magnitude` or `magnitude_db` and `phase_deg`",
+        );
+    }
+    Ok(one_estimator(named(table, found), notes))
+}
+
+/// Magnitudes with their phases: as many as magnitudes in degrees or radians, or none.
+fn polar(table: &Table, columns: &dyn Fn(Part) -> Vec<usize>) -> Vec<(usize, Layout)> {
+    let decibel = columns(Part::Decibel);
+    let is_level = !decibel.is_empty();
+    let magnitudes = if is_level {
+        decibel
+    } else {
+        columns(Part::Magnitude)
+    };
+    let degrees = columns(Part::Degrees).into_iter();
+    let degrees = degrees.map(|k| (k, std::f64::consts::PI / 180.0));
+    let radians = columns(Part::Radians).into_iter().map(|k| (k, 1.0));
+    let phases: Vec<(usize, f64)> = degrees.chain(radians).collect();
+    let numbered = magnitudes.iter().enumerate();
+    numbered
+        .map(|(i, &magnitude)| {
+            let reference = is_level.then(|| level_reference(&table.names[magnitude]));
+            let layout = Layout::Polar {
+                magnitude,
+                level_reference: reference,
+                phase: phases.get(i).copied(),
+            };
+            (magnitude, layout)
+        })
+        .collect()
+}
+
+/// Each response by the title of its first column without the words for its parts.
+fn named(table: &Table, found: Vec<(usize, Layout)>) -> Vec<(String, Layout)> {
+    let count = found.len();
+    let numbered = found.into_iter().enumerate();
+    numbered
+        .map(|(i, (column, layout))| {
+            let title = table.titles.get(column).map_or("", |t| t.as_str());
+            // What follows `dB` is its reference.
+            let level = title.to_ascii_lowercase().find("db");
+            let title = &title[..level.unwrap_or(title.len())];
+            let kept: Vec<&str> = title
+                .split(|c: char| {
+                    c.is_whitespace() || matches!(c, '_' | '(' | ')' | '[' | ']' | ',')
+                })
+                .filter(|word| {
+                    let lower = word.to_lowercase();
+                    !word.is_empty()
+                        && !matches!(
+                            part(&lower),
+                            Part::Real | Part::Imaginary | Part::Decibel | Part::Degrees
+                        )
+                        && (!super::units::is_unit(&lower) || lower.parse::<u32>().is_ok())
+                        && !lower.starts_with("mag")
+                })
+                .collect();
+            let name = match (kept.is_empty(), count) {
+                (true, 1) => "response".to_string(),
+                (true, _) => format!("response {}", i + 1),
+                (false, _) => kept.join(" "),
+            };
+            (name, layout)
+        })
+        .collect()
+}
+
+/// H1 and H2 are two estimates of one response: the first is kept.
+fn one_estimator(
+    mut found: Vec<(String, Layout)>,
+    notes: &mut Vec<String>,
+) -> Vec<(String, Layout)> {
+    let has = |name: &str, word: &str| words(&name.to_lowercase()).contains(&word);
+    if found.iter().any(|(name, _)| has(name, "h1"))
+        && found.iter().any(|(name, _)| has(name, "h2"))
+    {
+        found.retain(|(name, _)| !has(name, "h2"));
+        notes.push("H1 and H2 are two estimates of one response: H1 is used".to_string());
+    }
+    found
+}
+
+/// Columns without names, where the numbers leave no doubt.
+fn unnamed_layout(table: &Table, source: &str) -> Result<Layout, ReadError> {
+    let column = |k: usize| table.columns[k].real.iter().copied();
+    let least = |k: usize| column(k).fold(f64::INFINITY, f64::min);
+    let most = |k: usize| column(k).fold(f64::NEG_INFINITY, f64::max);
+    let size = |k: usize| most(k).max(-least(k));
+    let changes_sign = |k: usize| least(k) < 0.0 && most(k) > 0.0;
+    match table.columns.len() {
+        2 if least(1) >= 0.0 => Ok(Layout::Polar {
+            magnitude: 1,
+            level_reference: None,
+            phase: None,
+        }),
+        // Decibels beside degrees are of another size than two parts of one number.
+        3 if changes_sign(1)
+            && changes_sign(2)
+            && size(1) < 20.0 * size(2)
+            && size(2) < 20.0 * size(1)
+            && size(2) < 90.0 =>
+        {
+            Ok(Layout::Complex(1, 2))
+        }
+        1 => {
+            let problem = ReadProblem::MissingColumn {
+                wanted: "response",
+                columns: table.described(),
+                remedy: "frequency and response must stand side by side",
+            };
+            Err(ReadError::whole(source, problem))
+        }
+        count => {
+            let problem = ReadProblem::Unnamed {
+                count,
+                example: "f,re,im",
+            };
+            Err(table.error(source, 0, 0, problem))
+        }
+    }
+}

@@ -1,0 +1,311 @@
+//! MATLAB files of versions 5 to 7: numeric arrays, also within structures and cells.
+//!
+//! Source: The MathWorks, "MAT-file format", version 5.
+
+use super::error::{ReadError, ReadProblem};
+use super::table::{Column, Table};
+use flate2::read::ZlibDecoder;
+use std::io::Read;
+
+/// Most bytes of one compressed variable.
+const MOST_BYTES: u64 = 1 << 30;
+/// Most structures within structures.
+const DEEPEST: usize = 8;
+/// Fewest values of what is called a column.
+const FEWEST: usize = 8;
+
+/// Data types of elements.
+const COMPRESSED: u32 = 15;
+const MATRIX: u32 = 14;
+
+/// A numeric array, column by column.
+struct Array {
+    name: String,
+    rows: usize,
+    real: Vec<f64>,
+    imaginary: Option<Vec<f64>>,
+}
+
+/// What a file holds: arrays, and texts and single numbers as remarks.
+#[derive(Default)]
+struct Content {
+    arrays: Vec<Array>,
+    remarks: String,
+}
+
+/// Reads the arrays of one length, the longest, as the columns of a table; `columns` are names that take the
+/// place of the file's own. Single numbers named `fs`, `dt` or alike state the sampling rate.
+pub(super) fn read_table(
+    bytes: &[u8],
+    source: &str,
+    columns: &[String],
+) -> Result<Table, ReadError> {
+    let damaged = |reason: &str| {
+        let format = "MATLAB file";
+        let reason = reason.to_string();
+        ReadError::whole(source, ReadProblem::Damaged { format, reason })
+    };
+    let is_big = bytes.get(126..128) == Some(b"MI");
+    let mut content = Content::default();
+    let mut elements = Elements {
+        rest: bytes.get(128..).unwrap_or_default(),
+        is_big,
+    };
+    while let Some((kind, data)) = elements.next() {
+        if kind == COMPRESSED {
+            let mut plain = Vec::new();
+            let limited = ZlibDecoder::new(data)
+                .take(MOST_BYTES)
+                .read_to_end(&mut plain);
+            limited.map_err(|_| damaged("a compressed variable is damaged; save it again"))?;
+            let mut inner = Elements {
+                rest: &plain,
+                is_big,
+            };
+            if let Some((MATRIX, data)) = inner.next() {
+                content.matrix(data, is_big, "", 0);
+            }
+        } else if kind == MATRIX {
+            content.matrix(data, is_big, "", 0);
+        }
+    }
+    let table = content.into_table().map_err(damaged)?;
+    if columns.is_empty() {
+        return Ok(table);
+    }
+    if columns.len() != table.columns.len() {
+        let (given, found) = (columns.len(), table.columns.len());
+        return Err(ReadError::whole(
+            source,
+            ReadProblem::ColumnCount { given, found },
+        ));
+    }
+    Ok(Table::of_columns(
+        columns.to_vec(),
+        table.columns,
+        table.remarks,
+    ))
+}
+
+/// Elements one after the other: type and data.
+struct Elements<'a> {
+    rest: &'a [u8],
+    is_big: bool,
+}
+
+impl<'a> Elements<'a> {
+    fn next(&mut self) -> Option<(u32, &'a [u8])> {
+        let word = |at: usize| -> Option<u32> {
+            let bytes: [u8; 4] = self.rest.get(at..at + 4)?.try_into().ok()?;
+            Some(if self.is_big {
+                u32::from_be_bytes(bytes)
+            } else {
+                u32::from_le_bytes(bytes)
+            })
+        };
+        let first = word(0)?;
+        // Up to four bytes stand within the tag.
+        let (kind, from, length): (u32, usize, usize) = if first >> 16 != 0 {
+            (first & 0xffff, 4, (first >> 16) as usize)
+        } else {
+            (first, 8, word(4)? as usize)
+        };
+        let end = from.checked_add(length)?;
+        let data = self.rest.get(from..end)?;
+        // Elements begin at multiples of eight bytes, but for compressed ones.
+        let next = match (from, kind) {
+            (4, _) => 8,
+            (_, COMPRESSED) => end,
+            _ => end.next_multiple_of(8),
+        };
+        self.rest = self.rest.get(next..).unwrap_or_default();
+        Some((kind, data))
+    }
+
+    /// The numbers of the next element.
+    fn numbers(&mut self) -> Option<Vec<f64>> {
+        let (kind, data) = self.next()?;
+        numbers(kind, data, self.is_big)
+    }
+
+    /// The characters of the next element.
+    fn text(&mut self) -> Option<String> {
+        let characters = self.numbers()?;
+        Some(
+            characters
+                .iter()
+                .filter_map(|c| char::from_u32(*c as u32))
+                .filter(|c| *c != '\0')
+                .collect(),
+        )
+    }
+}
+
+/// Numbers of an element of any numeric type.
+fn numbers(kind: u32, data: &[u8], is_big: bool) -> Option<Vec<f64>> {
+    /// Numbers of `N` bytes.
+    fn of<const N: usize>(data: &[u8], is_big: bool, number: fn([u8; N]) -> f64) -> Vec<f64> {
+        let arrays = data
+            .chunks_exact(N)
+            .filter_map(|c| <[u8; N]>::try_from(c).ok());
+        let little = arrays.map(|mut bytes| {
+            if is_big {
+                bytes.reverse();
+            }
+            number(bytes)
+        });
+        little.collect()
+    }
+    Some(match kind {
+        1 => of(data, is_big, |b| f64::from(i8::from_le_bytes(b))),
+        2 | 16 => of(data, is_big, |b| f64::from(u8::from_le_bytes(b))),
+        3 => of(data, is_big, |b| f64::from(i16::from_le_bytes(b))),
+        4 | 17 => of(data, is_big, |b| f64::from(u16::from_le_bytes(b))),
+        5 => of(data, is_big, |b| f64::from(i32::from_le_bytes(b))),
+        6 | 18 => of(data, is_big, |b| f64::from(u32::from_le_bytes(b))),
+        7 => of(data, is_big, |b| f64::from(f32::from_le_bytes(b))),
+        9 => of(data, is_big, f64::from_le_bytes),
+        12 => of(data, is_big, |b| i64::from_le_bytes(b) as f64),
+        13 => of(data, is_big, |b| u64::from_le_bytes(b) as f64),
+        _ => return None,
+    })
+}
+
+impl Content {
+    /// One variable, or a member of one named `parent`; what is not understood is passed over.
+    fn matrix(&mut self, data: &[u8], is_big: bool, parent: &str, depth: usize) -> Option<()> {
+        let mut parts = Elements { rest: data, is_big };
+        let flags = *parts.numbers()?.first()? as u32;
+        let (class, is_complex) = (flags & 0xff, flags & 0x800 != 0);
+        let sizes = parts.numbers()?;
+        let own = parts.text()?;
+        let name = match (parent.is_empty(), own.is_empty()) {
+            (true, _) => own,
+            (false, true) => parent.to_string(),
+            (false, false) => format!("{parent}.{own}"),
+        };
+        if depth > DEEPEST {
+            return None;
+        }
+        match class {
+            // Cells: one matrix after the other.
+            1 => {
+                while let Some((MATRIX, inner)) = parts.next() {
+                    self.matrix(inner, is_big, &name, depth + 1);
+                }
+            }
+            // Structures: the length of a name, the names, a matrix for each.
+            2 => {
+                let length = *parts.numbers()?.first()? as usize;
+                let (_, names) = parts.next()?;
+                let field = |bytes: &[u8]| -> String {
+                    bytes
+                        .iter()
+                        .take_while(|b| **b != 0)
+                        .map(|b| char::from(*b))
+                        .collect()
+                };
+                let names: Vec<String> = names.chunks(length.max(1)).map(field).collect();
+                for field in names.iter().cycle() {
+                    let Some((MATRIX, inner)) = parts.next() else {
+                        break;
+                    };
+                    self.matrix(inner, is_big, &format!("{name}.{field}"), depth + 1);
+                }
+            }
+            4 => {
+                let text = parts.text()?;
+                self.remarks
+                    .push_str(&format!("{name}: {text}\n").to_lowercase());
+            }
+            6..=15 => {
+                let real = parts.numbers()?;
+                let imaginary = if is_complex {
+                    Some(parts.numbers()?)
+                } else {
+                    None
+                };
+                self.array(name, &sizes, real, imaginary);
+            }
+            _ => {}
+        }
+        Some(())
+    }
+
+    fn array(&mut self, name: String, sizes: &[f64], real: Vec<f64>, imaginary: Option<Vec<f64>>) {
+        let rows = sizes.first().map_or(0, |rows| *rows as usize);
+        if let [value] = real[..] {
+            let last = name.rsplit('.').next().unwrap_or_default().to_lowercase();
+            let is_step = matches!(
+                last.as_str(),
+                "dt" | "ts" | "delta_t" | "increment" | "tinterval"
+            );
+            let line = if is_step && value > 0.0 {
+                format!("fs: {}\n", 1.0 / value)
+            } else {
+                format!("{last}: {value}\n")
+            };
+            self.remarks.push_str(&line);
+        } else if real.len() >= FEWEST
+            && rows > 0
+            && real.len().is_multiple_of(rows)
+            && imaginary
+                .as_ref()
+                .is_none_or(|parts| parts.len() == real.len())
+        {
+            self.arrays.push(Array {
+                name,
+                rows,
+                real,
+                imaginary,
+            });
+        }
+    }
+
+    /// The arrays that have the longest side in common, as columns.
+    fn into_table(self) -> Result<Table, &'static str> {
+        let longest = |a: &Array| a.rows.max(a.real.len() / a.rows);
+        let count = self.arrays.iter().map(longest).max();
+        let count =
+            count.ok_or("no numeric array of 8 values or more in it; save vectors, with -v7")?;
+        let fitting: Vec<&Array> = self.arrays.iter().filter(|a| longest(a) == count).collect();
+        let (mut titles, mut columns) = (Vec::new(), Vec::new());
+        for array in &fitting {
+            let width = array.real.len() / count;
+            for k in 0..width {
+                // A matrix stands column by column; a lying one is turned.
+                let at = |i: usize| {
+                    if array.rows == count {
+                        k * count + i
+                    } else {
+                        i * width + k
+                    }
+                };
+                let part = |values: &[f64]| (0..count).map(|i| values[at(i)]).collect::<Vec<f64>>();
+                columns.push(Column {
+                    real: part(&array.real),
+                    imaginary: array.imaginary.as_ref().map(|values| part(values)),
+                    is_time: false,
+                });
+                titles.push(match width {
+                    1 => array.name.clone(),
+                    _ => format!("{} {}", array.name, k + 1),
+                });
+            }
+        }
+        let finite = |c: &Column| {
+            c.real
+                .iter()
+                .chain(c.imaginary.iter().flatten())
+                .all(|v| v.is_finite())
+        };
+        if !columns.iter().all(finite) {
+            return Err("it holds NaN or infinite values; remove them before saving");
+        }
+        // One matrix alone is a table without names.
+        if fitting.len() == 1 && columns.len() > 1 {
+            titles.clear();
+        }
+        Ok(Table::of_columns(titles, columns, self.remarks))
+    }
+}

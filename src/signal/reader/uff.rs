@@ -1,0 +1,369 @@
+//! Universal files: functions at nodes, dataset 58 in text and 58b in binary.
+//!
+//! Source: SDRC, "Universal file datasets", number 58, and the University of Cincinnati's description of the
+//! binary form.
+
+use super::super::{FrequencyResponse, ResponseQuantity};
+use super::error::{ReadError, ReadProblem};
+use super::response::{NamedResponse, ResponseFile};
+use super::time_signal::{Channel, SignalFile};
+use faer::c64;
+
+/// Function types: time response, frequency response, coherence.
+pub(super) const TIME: u32 = 1;
+pub(super) const FREQUENCY_RESPONSE: u32 = 4;
+const COHERENCE: u32 = 6;
+/// Type of an abscissa in time.
+pub(super) const TIME_AXIS: u32 = 17;
+
+/// One function.
+struct Function {
+    name: String,
+    kind: u32,
+    /// Types of abscissa, ordinate and what it is divided by.
+    axis: u32,
+    ordinate: u32,
+    ordinate_unit: String,
+    abscissae: Vec<f64>,
+    values: Vec<c64>,
+    is_complex: bool,
+    step: f64,
+}
+
+/// Whether bytes that begin with `-1` are a universal file: the second line is the number of a dataset.
+pub(super) fn is_universal(bytes: &[u8]) -> bool {
+    let mut lines = Lines { bytes, at: 0 };
+    let first = lines.next();
+    let second = lines.next().unwrap_or_default();
+    let number = second.split_whitespace().next().unwrap_or_default();
+    let number = number.trim_end_matches(['b', 'B']);
+    let has_58 = || {
+        let mut before = String::new();
+        let mut lines = Lines { bytes, at: 0 };
+        std::iter::from_fn(|| lines.next()).any(|line| {
+            let begins = before.trim() == "-1" && line.trim_start().starts_with("58");
+            before = line;
+            begins
+        })
+    };
+    first.is_some_and(|line| line.trim() == "-1") && number.parse::<u32>().is_ok() && has_58()
+}
+
+/// Lines of bytes that may turn binary.
+struct Lines<'a> {
+    bytes: &'a [u8],
+    at: usize,
+}
+
+impl Lines<'_> {
+    fn next(&mut self) -> Option<String> {
+        let rest = self.bytes.get(self.at..).filter(|rest| !rest.is_empty())?;
+        let end = rest.iter().position(|b| *b == b'\n');
+        self.at += end.map_or(rest.len(), |end| end + 1);
+        let line = &rest[..end.unwrap_or(rest.len())];
+        Some(
+            line.iter()
+                .map(|b| char::from(*b))
+                .filter(|c| *c != '\r')
+                .collect(),
+        )
+    }
+}
+
+/// All functions of a file.
+fn functions(bytes: &[u8], source: &str) -> Result<Vec<Function>, ReadError> {
+    let mut lines = Lines { bytes, at: 0 };
+    let mut found = Vec::new();
+    while let Some(line) = lines.next() {
+        if line.trim() != "-1" {
+            continue;
+        }
+        let Some(header) = lines.next() else { break };
+        let words: Vec<String> = header.split_whitespace().map(str::to_lowercase).collect();
+        let number = found.len() + 1;
+        let damaged = |reason: &str| {
+            let problem = ReadProblem::Damaged {
+                format: "universal file",
+                reason: format!("dataset 58 number {number}: {reason}"),
+            };
+            ReadError::whole(source, problem)
+        };
+        match words.first().map(String::as_str) {
+            Some("58") => found.push(function(&mut lines, None).map_err(damaged)?),
+            Some("58b") => {
+                let word = |k: usize| words.get(k).and_then(|w| w.parse::<usize>().ok());
+                let is_big = word(1) == Some(2);
+                if word(2).is_some_and(|form| form != 2) {
+                    return Err(damaged(
+                        "numbers that are not IEEE 754; export them as such",
+                    ));
+                }
+                let length = word(4).ok_or_else(|| damaged("its length is not stated"))?;
+                found.push(function(&mut lines, Some((length, is_big))).map_err(damaged)?);
+            }
+            // Another dataset goes on to its closing line.
+            Some(_) => while lines.next().is_some_and(|line| line.trim() != "-1") {},
+            None => {}
+        }
+    }
+    Ok(found)
+}
+
+/// One dataset: eleven records of text, then numbers; the length and byte order of binary ones is given.
+fn function(lines: &mut Lines, binary: Option<(usize, bool)>) -> Result<Function, &'static str> {
+    let mut records = Vec::new();
+    for _ in 0..11 {
+        records.push(lines.next().ok_or("it ends within its header")?);
+    }
+    let word = |record: usize, k: usize| -> f64 {
+        let words = numbers(&records[record - 1]);
+        words.get(k).copied().unwrap_or(0.0)
+    };
+    let part = |record: usize, from: usize, to: usize| -> String {
+        let line = &records[record - 1];
+        line.chars()
+            .skip(from)
+            .take(to - from)
+            .collect::<String>()
+            .trim()
+            .to_string()
+    };
+    // Records 7 to 9: form and count of the numbers, abscissa, ordinate.
+    let (form, count) = (word(7, 0) as u32, word(7, 1));
+    if !matches!(form, 2 | 4 | 5 | 6) || !(count >= 0.0) {
+        return Err("its seventh record has no known form of numbers");
+    }
+    let (is_complex, is_double) = (form >= 5, form == 4 || form == 6);
+    let (is_even, first, step) = (word(7, 2) == 1.0, word(7, 3), word(7, 4));
+    let raw = match binary {
+        Some((length, is_big)) => {
+            binary_numbers(lines, length, is_big, is_double, is_complex, is_even)?
+        }
+        None => text_numbers(lines),
+    };
+    let width = usize::from(!is_even) + 1 + usize::from(is_complex);
+    let rows: Vec<&[f64]> = raw.chunks_exact(width).take(count as usize).collect();
+    if (rows.len() as f64) < count {
+        return Err("it has fewer numbers than its seventh record says; export it again");
+    }
+    let value = |row: &[f64]| {
+        let at = usize::from(!is_even);
+        c64::new(row[at], if is_complex { row[at + 1] } else { 0.0 })
+    };
+    let abscissa = |(i, row): (usize, &&[f64])| {
+        if is_even {
+            first + i as f64 * step
+        } else {
+            row[0]
+        }
+    };
+    // Record 6: where it was measured and driven, by name, node and direction.
+    let place = |from: usize| {
+        let (name, node) = (part(6, from, from + 10), part(6, from + 10, from + 20));
+        let direction = part(6, from + 20, from + 24);
+        let name = if name == "NONE" { String::new() } else { name };
+        let is_none = name.is_empty() && matches!(node.as_str(), "" | "0");
+        (!is_none).then(|| format!("{name}{node}:{direction}"))
+    };
+    let name = match (place(31), place(56)) {
+        (None, _) => part(1, 0, 80),
+        (Some(response), None) => response,
+        (Some(response), Some(reference)) => format!("{response}/{reference}"),
+    };
+    Ok(Function {
+        name,
+        kind: word(6, 0) as u32,
+        axis: word(8, 0) as u32,
+        ordinate: word(9, 0) as u32,
+        ordinate_unit: part(9, 47, 67).to_lowercase(),
+        abscissae: rows.iter().enumerate().map(abscissa).collect(),
+        values: rows.iter().map(|row| value(row)).collect(),
+        is_complex,
+        step,
+    })
+}
+
+/// Numbers of a record, also where a sign is all that separates them.
+fn numbers(line: &str) -> Vec<f64> {
+    let mut spread = String::with_capacity(line.len() + 8);
+    let mut before = ' ';
+    for c in line.chars() {
+        if matches!(c, '-' | '+') && before.is_ascii_digit() {
+            spread.push(' ');
+        }
+        spread.push(if matches!(c, 'd' | 'D') { 'E' } else { c });
+        before = c;
+    }
+    let words = spread.split_whitespace();
+    words.map_while(|word| word.parse().ok()).collect()
+}
+
+/// The numbers up to the closing line.
+fn text_numbers(lines: &mut Lines) -> Vec<f64> {
+    let mut out = Vec::new();
+    while let Some(line) = lines.next() {
+        if line.trim() == "-1" {
+            break;
+        }
+        out.extend(numbers(&line));
+    }
+    out
+}
+
+/// The numbers of a binary dataset: abscissae in single precision, ordinates in single or double.
+fn binary_numbers(
+    lines: &mut Lines,
+    length: usize,
+    is_big: bool,
+    is_double: bool,
+    is_complex: bool,
+    is_even: bool,
+) -> Result<Vec<f64>, &'static str> {
+    let end = lines
+        .at
+        .checked_add(length)
+        .filter(|end| *end <= lines.bytes.len());
+    let end = end.ok_or("the file ends within its numbers")?;
+    let mut rest = &lines.bytes[lines.at..end];
+    lines.at = end;
+    let ordinate = if is_double { 8 } else { 4 };
+    let mut widths = if is_even { vec![] } else { vec![4] };
+    widths.extend(vec![ordinate; 1 + usize::from(is_complex)]);
+    let mut out = Vec::with_capacity(length / 4);
+    for width in widths.iter().cycle() {
+        let Some((head, tail)) = rest.split_at_checked(*width) else {
+            break;
+        };
+        let mut bytes = head.to_vec();
+        if is_big {
+            bytes.reverse();
+        }
+        out.push(match <[u8; 8]>::try_from(bytes.as_slice()) {
+            Ok(eight) => f64::from_le_bytes(eight),
+            Err(_) => f64::from(f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]])),
+        });
+        rest = tail;
+    }
+    Ok(out)
+}
+
+/// Frequency responses of a universal file, each with its coherence where the file has one of its name.
+pub(super) fn read_responses(
+    bytes: &[u8],
+    source: &str,
+    quantity: Option<ResponseQuantity>,
+) -> Result<ResponseFile, ReadError> {
+    let all = functions(bytes, source)?;
+    let mut notes = Vec::new();
+    let mut responses = Vec::new();
+    for f in all
+        .iter()
+        .filter(|f| f.kind == FREQUENCY_RESPONSE || (f.kind == 0 && f.is_complex))
+    {
+        let stated = match f.ordinate {
+            8 => Some(ResponseQuantity::Receptance),
+            11 => Some(ResponseQuantity::Mobility),
+            12 => Some(ResponseQuantity::Accelerance),
+            _ => None,
+        };
+        let taken = quantity.or(stated).unwrap_or(ResponseQuantity::Accelerance);
+        if quantity.or(stated).is_none() {
+            notes.push(format!(
+                "{}: the file does not say what it holds: accelerance assumed",
+                f.name
+            ));
+        }
+        let scale = match f.ordinate_unit.as_str() {
+            "g" | "g/n" | "gn" => 9.806_65,
+            unit if unit.starts_with("mm") => 1e-3,
+            _ => 1.0,
+        };
+        let values: Vec<c64> = f.values.iter().map(|z| z * scale).collect();
+        let signal = |e| ReadError::whole(source, ReadProblem::Signal(e));
+        let mut response = if f.is_complex {
+            FrequencyResponse::new(f.abscissae.clone(), values, taken)
+        } else {
+            let moduli: Vec<f64> = values.iter().map(|z| z.re).collect();
+            FrequencyResponse::from_magnitudes(f.abscissae.clone(), &moduli, taken)
+        }
+        .map_err(signal)?;
+        let same = |c: &&Function| {
+            c.kind == COHERENCE && c.name == f.name && c.values.len() == f.values.len()
+        };
+        if let Some(coherence) = all.iter().find(same) {
+            let values: Vec<f64> = coherence.values.iter().map(|z| z.re).collect();
+            response = response.with_coherence(&values);
+        }
+        responses.push(NamedResponse {
+            name: f.name.clone(),
+            response,
+        });
+    }
+    if responses.is_empty() {
+        return Err(without(
+            source,
+            "frequency response (function type 4)",
+            &all,
+        ));
+    }
+    Ok(ResponseFile { responses, notes })
+}
+
+/// Time signals of a universal file.
+pub(super) fn read_signals(bytes: &[u8], source: &str) -> Result<SignalFile, ReadError> {
+    let all = functions(bytes, source)?;
+    let is_signal = |f: &&Function| f.kind == TIME || (f.kind == 0 && f.axis == TIME_AXIS);
+    let signals: Vec<&Function> = all.iter().filter(is_signal).collect();
+    let Some(first) = signals.first() else {
+        return Err(without(source, "time response (function type 1)", &all));
+    };
+    let count = first.abscissae.len();
+    let step = match first.step {
+        step if step > 0.0 => step,
+        _ if count > 1 => (first.abscissae[count - 1] - first.abscissae[0]) / (count - 1) as f64,
+        _ => 0.0,
+    };
+    if !(step > 0.0 && step.is_finite() && (1.0 / step).is_finite()) {
+        return Err(ReadError::whole(source, ReadProblem::NoRate));
+    }
+    let (fit, others): (Vec<&Function>, Vec<&Function>) = signals
+        .iter()
+        .partition(|f| f.values.len() == count && (f.step - first.step).abs() <= 1e-6 * step);
+    let mut notes = Vec::new();
+    if !others.is_empty() {
+        let names: Vec<&str> = others.iter().map(|f| f.name.as_str()).collect();
+        let names = names.join(", ");
+        notes.push(format!(
+            "left out, for another length or rate than the first: {names}"
+        ));
+    }
+    for f in &fit {
+        if let Some(i) = f.values.iter().position(|z| !z.re.is_finite()) {
+            let error = super::super::SignalError::NotFinite {
+                what: "sample",
+                index: i + 1,
+                value: f.values[i].re,
+            };
+            return Err(ReadError::whole(source, ReadProblem::Signal(error)));
+        }
+    }
+    let channel = |f: &&Function| Channel {
+        name: f.name.clone(),
+        samples: f.values.iter().map(|z| z.re).collect(),
+    };
+    Ok(SignalFile {
+        sampling_rate: 1.0 / step,
+        start: first.abscissae.first().copied().unwrap_or(0.0),
+        channels: fit.iter().map(channel).collect(),
+        notes,
+    })
+}
+
+fn without(source: &str, wanted: &str, all: &[Function]) -> ReadError {
+    let kinds: Vec<String> = all.iter().map(|f| f.kind.to_string()).collect();
+    let problem = ReadProblem::Damaged {
+        format: "universal file",
+        reason: format!("no {wanted} in it (function types: {})", kinds.join(", ")),
+    };
+    ReadError::whole(source, problem)
+}

@@ -1,0 +1,244 @@
+//! Universal, WAV and MATLAB files, and those that are not read.
+
+use super::{read_response, read_signal};
+use faer::c64;
+use frictionsim::signal::reader::{
+    Channel, NamedResponse, ResponseOptions, SignalFile, write_response, write_signal, write_wav,
+};
+use frictionsim::signal::{FrequencyResponse, ResponseQuantity};
+use std::io::Write;
+
+/// A WAV file of one channel at 50 kHz.
+pub fn wave(samples: &[f64]) -> Vec<u8> {
+    let file = SignalFile {
+        sampling_rate: 5e4,
+        start: 0.0,
+        channels: vec![Channel {
+            name: String::new(),
+            samples: samples.to_vec(),
+        }],
+        notes: Vec::new(),
+    };
+    write_wav(&file, 1).unwrap()
+}
+
+/// An element of a MATLAB file, filled up to eight bytes.
+fn element(kind: u32, data: &[u8]) -> Vec<u8> {
+    let mut out = kind.to_le_bytes().to_vec();
+    out.extend((data.len() as u32).to_le_bytes());
+    out.extend(data);
+    out.resize(out.len().next_multiple_of(8), 0);
+    out
+}
+
+/// A double array, `columns` of one length.
+fn array(name: &str, columns: &[&[f64]], imaginary: Option<&[f64]>) -> Vec<u8> {
+    let flags = 6 | if imaginary.is_some() { 0x800 } else { 0 };
+    let numbers = |values: &mut dyn Iterator<Item = f64>| -> Vec<u8> {
+        element(9, &values.flat_map(f64::to_le_bytes).collect::<Vec<u8>>())
+    };
+    let sizes = [columns[0].len() as u32, columns.len() as u32];
+    let mut data = element(6, &[u32::to_le_bytes(flags), [0; 4]].concat());
+    data.extend(element(5, &sizes.map(u32::to_le_bytes).concat()));
+    data.extend(element(1, name.as_bytes()));
+    data.extend(numbers(&mut columns.iter().flat_map(|c| c.iter().copied())));
+    if let Some(parts) = imaginary {
+        data.extend(numbers(&mut parts.iter().copied()));
+    }
+    element(14, &data)
+}
+
+fn matlab_file(variables: &[Vec<u8>], compressed: bool) -> Vec<u8> {
+    let mut out = vec![b' '; 124];
+    out[..10].copy_from_slice(b"MATLAB 5.0");
+    out.extend([0, 1, b'I', b'M']);
+    for variable in variables {
+        if compressed {
+            let mut zlib = flate2::write::ZlibEncoder::new(Vec::new(), flate2::Compression::fast());
+            zlib.write_all(variable).unwrap();
+            let data = zlib.finish().unwrap();
+            out.extend(15u32.to_le_bytes());
+            out.extend((data.len() as u32).to_le_bytes());
+            out.extend(data);
+        } else {
+            out.extend(variable);
+        }
+    }
+    out
+}
+
+/// A MATLAB file of a signal and its sampling rate.
+pub fn matlab(samples: &[f64], compressed: bool) -> Vec<u8> {
+    let variables = [
+        array("fs", &[&[5e4]], None),
+        array("acceleration", &[samples], None),
+    ];
+    matlab_file(&variables, compressed)
+}
+
+fn named() -> NamedResponse {
+    let f: Vec<f64> = (1..40).map(|k| 12.5 * f64::from(k)).collect();
+    let h = f
+        .iter()
+        .map(|f| 1.0 / c64::new(250.0 * 250.0 - f * f, 5.0 * f))
+        .collect();
+    NamedResponse {
+        name: "disc 12:+Z".into(),
+        response: FrequencyResponse::new(f, h, ResponseQuantity::Mobility).unwrap(),
+    }
+}
+
+/// The binary form of a dataset in text.
+fn binary(text: &str, values: &[c64], is_big: bool) -> Vec<u8> {
+    let lines: Vec<&str> = text.lines().collect();
+    let order = if is_big { 2 } else { 1 };
+    let head = lines[2..13].join("\r\n");
+    let number = |v: f64| {
+        if is_big {
+            v.to_be_bytes()
+        } else {
+            v.to_le_bytes()
+        }
+    };
+    let mut out = format!(
+        "    -1\r\n    58b{order:>6}{:>6}{:>12}{:>12}\r\n{head}\r\n",
+        2,
+        11,
+        16 * values.len()
+    )
+    .into_bytes();
+    for z in values {
+        out.extend(number(z.re));
+        out.extend(number(z.im));
+    }
+    out.extend(b"    -1\r\n");
+    out
+}
+
+#[test]
+fn universal_files_in_text_and_binary_give_back_the_response() {
+    let want = named();
+    let text = write_response(&want);
+    let check = |bytes: &[u8], tolerance: f64| {
+        let file =
+            frictionsim::signal::reader::read_response(bytes, "x", &ResponseOptions::default());
+        let file = file.unwrap();
+        assert_eq!(file.responses[0].name, want.name);
+        let got = &file.responses[0].response;
+        assert_eq!(got.quantity(), ResponseQuantity::Mobility);
+        for (a, b) in got.values().iter().zip(want.response.values()) {
+            assert!((a - b).norm() <= tolerance * b.norm());
+        }
+        let pairs = got
+            .frequencies_hz()
+            .iter()
+            .zip(want.response.frequencies_hz());
+        assert!(pairs.into_iter().all(|(a, b)| (a - b).abs() < 1e-9 * b));
+    };
+    // Twelve decimals in text; eight bytes in binary.
+    check(text.as_bytes(), 1e-12);
+    check(&binary(&text, want.response.values(), false), 0.0);
+    check(&binary(&text, want.response.values(), true), 0.0);
+    // Other datasets around it, and a sign as the only separator.
+    let crowded = format!(
+        "    -1\n   151\nheader\n    -1\n{}",
+        text.replace("E-05 -", "E-05-")
+    );
+    check(crowded.as_bytes(), 1e-12);
+    let cut = &text[..text.len() - 200];
+    let error = read_response(cut.as_bytes(), "cut.uff", None)
+        .err()
+        .unwrap()
+        .to_string();
+    assert!(
+        error.starts_with("cut.uff: universal file: dataset 58 number 1"),
+        "{error}"
+    );
+    let error = read_signal(text.as_bytes(), "x", None)
+        .unwrap_err()
+        .to_string();
+    assert!(error.contains("no time response"), "{error}");
+}
+
+#[test]
+fn signals_come_back_from_universal_wav_and_matlab_files() {
+    let samples: Vec<f64> = (0..300).map(|k| (0.37 * f64::from(k)).sin()).collect();
+    let file = SignalFile {
+        sampling_rate: 5e4,
+        start: 0.0,
+        channels: ["a", "b"]
+            .map(|name| Channel {
+                name: name.into(),
+                samples: samples.clone(),
+            })
+            .to_vec(),
+        notes: Vec::new(),
+    };
+    let universal = read_signal(write_signal(&file).as_bytes(), "x", None).unwrap();
+    assert_eq!(universal.channels.len(), 2);
+    assert_eq!(universal.channels[1].name, "b");
+    for bytes in [matlab(&samples, false), matlab(&samples, true)] {
+        let matlab = read_signal(&bytes, "x", None).unwrap();
+        assert_eq!(matlab.channels[0].name, "acceleration");
+        assert_eq!(matlab.channels[0].samples, samples);
+        assert_eq!(matlab.sampling_rate, 5e4);
+    }
+    let sound = read_signal(&wave(&samples), "x", None).unwrap();
+    for read in [&universal, &sound] {
+        assert!((read.sampling_rate / 5e4 - 1.0).abs() < 1e-5);
+        assert_eq!(read.channels[0].samples.len(), samples.len());
+    }
+    let overruled = read_signal(&wave(&samples), "x", Some(1e5)).unwrap();
+    assert_eq!((overruled.sampling_rate, overruled.notes.len()), (1e5, 1));
+}
+
+#[test]
+fn matlab_responses_are_complex_columns_beside_a_frequency() {
+    let want = named().response;
+    let parts = |part: fn(&c64) -> f64| want.values().iter().map(part).collect::<Vec<f64>>();
+    let (re, im) = (parts(|z| z.re), parts(|z| z.im));
+    let variables = [
+        array("freq", &[want.frequencies_hz()], None),
+        array("H", &[&re], Some(&im)),
+    ];
+    let bytes = matlab_file(&variables, true);
+    let read = read_response(&bytes, "x", Some(ResponseQuantity::Mobility)).unwrap();
+    assert_eq!(read.response, want);
+    // A matrix alone is a table without names.
+    let matrix = matlab_file(
+        &[array("data", &[want.frequencies_hz(), &re, &im], None)],
+        false,
+    );
+    let options = ResponseOptions {
+        quantity: Some(ResponseQuantity::Mobility),
+        columns: ["f", "re", "im"].map(String::from).to_vec(),
+        ..ResponseOptions::default()
+    };
+    let read = frictionsim::signal::reader::read_response(&matrix, "x", &options).unwrap();
+    assert_eq!(read.responses[0].response, want);
+}
+
+#[test]
+fn a_file_of_another_format_is_named_with_the_formats_that_are_read() {
+    for (bytes, name) in [
+        (&b"\x89HDF\r\n\x1a\n"[..], "HDF5"),
+        (b"PK\x03\x04....", "ZIP"),
+        (b"\x93NUMPY", "NumPy"),
+    ] {
+        for error in [
+            read_response(bytes, "x", None).err(),
+            read_signal(bytes, "x", None).err(),
+        ] {
+            let error = error.unwrap().to_string();
+            assert!(
+                error.contains(name) && error.contains("UFF/UNV, dataset 58"),
+                "{error}"
+            );
+        }
+    }
+    let error = read_response(&wave(&[0.0; 20]), "x", None)
+        .err()
+        .unwrap()
+        .to_string();
+    assert!(error.contains("frictionsim signal"), "{error}");
+}

@@ -1,0 +1,236 @@
+//! No bytes make a reader or an analysis panic: random bytes, tables of random pieces, and mutations of
+//! whole files of each format.
+
+use super::formats::{matlab, wave};
+use super::{read_response, read_signal};
+use frictionsim::signal::reader::{
+    Channel, NamedResponse, ResponseOptions, SignalFile, SignalOptions, write_response,
+    write_signal,
+};
+use frictionsim::signal::{
+    FrequencyResponse, IdentificationOptions, ResponseQuantity, SpectralResolution,
+    SpectrogramOptions, exponential_stage, identify, spectral_lines, spectrogram,
+};
+use proptest::prelude::*;
+use std::time::{Duration, Instant};
+
+/// What is done with a file of responses and with one of signals, to the end.
+fn analyse(bytes: &[u8]) {
+    let read = frictionsim::signal::reader::read_response(bytes, "x", &ResponseOptions::default());
+    if let Ok(file) = read {
+        let responses: Vec<FrequencyResponse> = file
+            .responses
+            .into_iter()
+            .map(|named| named.response)
+            .collect();
+        if let Ok(found) = identify(&responses, &IdentificationOptions::default()) {
+            assert!(found.rayleigh.mass_coefficient.value.is_finite());
+            assert!(found.rayleigh.stiffness_coefficient.value.is_finite());
+        }
+    }
+    for rate in [None, Some(5e4)] {
+        let options = SignalOptions {
+            rate,
+            ..SignalOptions::default()
+        };
+        let Ok(file) = frictionsim::signal::reader::read_signal(bytes, "x", &options) else {
+            continue;
+        };
+        for channel in file.channels.iter().take(3) {
+            let (x, rate) = (&channel.samples, file.sampling_rate);
+            let _ = exponential_stage(x, rate, None);
+            let _ = spectrogram(x, rate, &SpectrogramOptions::default());
+            if let Ok(resolution) = SpectralResolution::of(x.len(), rate, None) {
+                for line in spectral_lines(x, rate, resolution, 12).unwrap_or_default() {
+                    assert!(line.frequency_hz.is_finite() && line.amplitude.is_finite());
+                }
+            }
+        }
+    }
+}
+
+/// Response of two modes, of receptance.
+fn response(count: usize) -> FrequencyResponse {
+    let f: Vec<f64> = (1..=count).map(|k| 10.0 * k as f64).collect();
+    let mode = |f: f64, f0: f64| 1.0 / faer::c64::new(f0 * f0 - f * f, 0.02 * f0 * f);
+    let h = f
+        .iter()
+        .map(|f| mode(*f, 200.0) + mode(*f, 410.0))
+        .collect();
+    FrequencyResponse::new(f, h, ResponseQuantity::Receptance).unwrap()
+}
+
+/// A whole file of each format.
+fn corpus() -> Vec<Vec<u8>> {
+    let response = response(60);
+    let lines = response.frequencies_hz().iter().zip(response.values());
+    let table: String = lines
+        .clone()
+        .map(|(f, h)| format!("{f},{:e},{:e}\n", h.re, h.im))
+        .collect();
+    let text = format!("frequency_hz,real,imaginary\n{table}");
+    let mobility: String = lines
+        .map(|(f, h)| {
+            format!(
+                "{f};{:.4};{:.2}\n",
+                20.0 * h.norm().log10(),
+                h.arg().to_degrees()
+            )
+        })
+        .collect();
+    let level = format!("Frequency;Level;Phase\nHz;dB re 1 m/N;deg\n{mobility}");
+    let samples: Vec<f64> = (0..400)
+        .map(|k| (1e-2 * f64::from(k)).exp() * f64::from(k).sin() + (f64::from(k * k) % 7.0))
+        .collect();
+    let signal = SignalFile {
+        sampling_rate: 5e4,
+        start: 0.0,
+        channels: vec![Channel {
+            name: "a".into(),
+            samples: samples.clone(),
+        }],
+        notes: Vec::new(),
+    };
+    let rows = samples.iter().enumerate();
+    let timed: String = rows
+        .map(|(k, x)| format!("{:.6}\t{x}\n", 2e-5 * k as f64))
+        .collect();
+    let named = NamedResponse {
+        name: "1:3".into(),
+        response,
+    };
+    vec![
+        text.into_bytes(),
+        level.into_bytes(),
+        format!("t\tx\n{timed}").into_bytes(),
+        write_response(&named).into_bytes(),
+        write_signal(&signal).into_bytes(),
+        wave(&samples),
+        matlab(&samples, false),
+        matlab(&samples, true),
+    ]
+}
+
+/// Changes bytes, repeats, removes or exchanges stretches, and puts in what numbers are made of.
+fn mutate(bytes: &mut Vec<u8>, draw: &mut dyn FnMut(usize) -> usize) {
+    const PIECES: [&[u8]; 12] = [
+        b"nan",
+        b"1e999",
+        b"-",
+        b"\n",
+        b"0",
+        b"1e-300",
+        b",",
+        b"9999999999",
+        b"    -1\n",
+        b"\xff\xff\xff\xff",
+        b"\0\0\0\0",
+        b"e",
+    ];
+    for _ in 0..=draw(4) {
+        if bytes.is_empty() {
+            return;
+        }
+        let at = draw(bytes.len());
+        let end = (at + 1 + draw(40)).min(bytes.len());
+        match draw(5) {
+            0 => bytes[at] = draw(256) as u8,
+            1 => drop(bytes.drain(at..end)),
+            2 => {
+                let piece = bytes[at..end].to_vec();
+                let to = draw(bytes.len());
+                bytes.splice(to..to, piece);
+            }
+            3 => bytes.truncate(at),
+            _ => {
+                let piece = PIECES[draw(PIECES.len())];
+                bytes.splice(at..at, piece.iter().copied());
+            }
+        }
+    }
+}
+
+#[test]
+fn no_mutation_of_a_file_makes_a_reader_or_an_analysis_panic() {
+    // Seeded: the same mutations on every machine, as many as the time allows.
+    let seconds = std::env::var("FRICTIONSIM_FUZZ_SECONDS").ok();
+    let seconds = seconds.and_then(|s| s.parse().ok()).unwrap_or(5);
+    let end = Instant::now() + Duration::from_secs(seconds);
+    let corpus = corpus();
+    for file in &corpus {
+        analyse(file);
+    }
+    let mut state = 1u64;
+    let mut draw = |bound: usize| {
+        state = state
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
+        ((state >> 33) as usize) % bound.max(1)
+    };
+    let mut count = 0;
+    while Instant::now() < end {
+        let mut bytes = corpus[count % corpus.len()].clone();
+        mutate(&mut bytes, &mut draw);
+        analyse(&bytes);
+        count += 1;
+    }
+    println!("{count} files");
+}
+
+/// Text made of the pieces that tables are made of, so that the fuzzing gets past the first line.
+fn table_like() -> impl Strategy<Value = String> {
+    let piece = prop_oneof![
+        Just(",".to_string()),
+        Just(";".to_string()),
+        Just("\t".to_string()),
+        Just(" ".to_string()),
+        Just("\n".to_string()),
+        Just("\r\n".to_string()),
+        Just("\"".to_string()),
+        Just("# ".to_string()),
+        Just("frequency_hz".to_string()),
+        Just("real".to_string()),
+        Just("imag".to_string()),
+        Just("magnitude_db".to_string()),
+        Just("phase".to_string()),
+        Just("time_ms".to_string()),
+        Just("fs: 1e3 kHz".to_string()),
+        Just("nan".to_string()),
+        Just("1e999".to_string()),
+        Just("1,5".to_string()),
+        Just("-".to_string()),
+        "[0-9]{1,4}",
+        "[0-9]\\.[0-9]{1,3}",
+        "\\PC{0,3}",
+    ];
+    prop::collection::vec(piece, 0..200).prop_map(|v| v.concat())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 1000, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn no_bytes_make_the_reader_panic(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
+        let _ = read_response(&bytes, "x", None);
+        let _ = read_signal(&bytes, "x", Some(1.0));
+        let _ = read_signal(&bytes, "x", None);
+    }
+
+    #[test]
+    fn no_table_like_text_makes_the_reader_panic(text in table_like()) {
+        let _ = read_response(text.as_bytes(), "x", None);
+        let _ = read_signal(text.as_bytes(), "x", None);
+    }
+
+    #[test]
+    fn written_numbers_come_back_bit_for_bit(
+        values in prop::collection::vec((-1e6f64..1e6, -1e-6f64..1e-6), 8..40),
+    ) {
+        let rows: String = values.iter().enumerate().map(|(i, (a, b))| format!("{i},{a},{b:e}\n")).collect();
+        let text = format!("frequency_hz,real,imaginary\n{rows}");
+        let read = read_response(text.as_bytes(), "x", None).unwrap().response;
+        for (z, (a, b)) in read.values().iter().zip(&values) {
+            prop_assert_eq!((z.re, z.im), (*a, *b));
+        }
+    }
+}
