@@ -89,6 +89,9 @@ pub enum NoGrowth {
         /// Frequency at which the signal was demodulated, Hz.
         frequency_hz: f64,
     },
+    /// No vibration stands out of the noise.
+    #[error("no line stands out of the noise")]
+    NoLine,
     /// A signal that cannot be analysed.
     #[error(transparent)]
     Signal(#[from] SignalError),
@@ -117,7 +120,10 @@ pub fn exponential_stage(
     check_signal(samples, sampling_rate, 16)?;
     let mut frequency = match frequency_hz {
         Some(f) => f,
-        None => main_frequency(samples, sampling_rate)?.frequency_hz,
+        None => match main_frequency(samples, sampling_rate) {
+            Err(SignalError::NoResonance { .. }) => return Err(NoGrowth::NoLine),
+            line => line?.frequency_hz,
+        },
     };
     let mut stage = search(samples, sampling_rate, frequency)?;
     for _ in 0..2 {
