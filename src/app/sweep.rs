@@ -12,7 +12,7 @@ use super::linear_stage::LinearStage;
 use super::{Failure, RunOptions, Session, terminal};
 use crate::case::{Analysis, Case};
 use crate::results::sweep::{Found, PointRecord, Start, SweepDrawing, SweepFolder, SweepReport};
-use crate::results::sweep::{LONG_TABLES, draw, print, summary, write_points};
+use crate::results::sweep::{LONG_TABLES, SweepSummary, draw, print, write_points};
 use crate::results::{DrawingOptions, Manifest, OutputFolder};
 use clap::Args;
 use serde_json::Value;
@@ -86,7 +86,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         let drawing = is_drawn.then(|| drawing(&session.case, &plan, &output.figures.drawing()));
         gather(&folder, &report, &session.manifest, drawing.as_ref())?
     } else {
-        summary(&report, &session.manifest)
+        summary_object(&report, &session.manifest)?
     };
     session.print(&print(&report), &summary, folder.path())?;
     let of_these = |record: &&PointRecord| points.binary_search(&record.point).is_ok();
@@ -157,6 +157,11 @@ pub fn drawing(case: &Case, plan: &SweepPlan<'_>, options: &DrawingOptions) -> S
     }
 }
 
+/// The summary of a sweep as the object that is printed and written.
+fn summary_object(report: &SweepReport<'_>, manifest: &Manifest) -> Result<Value, Failure> {
+    serde_json::to_value(SweepSummary::of(report, manifest)).map_err(Failure::run)
+}
+
 /// Writes the table, the summary and, if asked, the figures of the finished points, and returns the
 /// summary.
 ///
@@ -182,7 +187,7 @@ pub fn gather(
             table.write(out, report.keys, report.records)
         })?;
     }
-    let summary = summary(report, manifest);
+    let summary = summary_object(report, manifest)?;
     folder.write("summary.json", |out| {
         serde_json::to_writer_pretty(&mut *out, &summary)?;
         out.write_all(b"\n")

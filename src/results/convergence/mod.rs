@@ -9,10 +9,12 @@ pub use figures::draw;
 pub use print::print;
 
 use crate::results::folder::{FolderError, OutputFolder};
+use crate::results::manifest::Manifest;
 use crate::results::record::{Record, write_record};
+use crate::results::summary::{present, write_summary};
 use crate::results::table::{Table, format_number};
 use serde::{Deserialize, Serialize};
-use serde_json::{Value, json};
+use serde_json::Value;
 use std::io::{self, Write};
 
 /// What is refined.
@@ -150,46 +152,100 @@ impl Record for ConvergenceReport {
 pub fn write(folder: &OutputFolder, report: &ConvergenceReport) -> Result<Value, FolderError> {
     folder.write("convergence.csv", |out| write_table(out, report))?;
     write_record(folder, report)?;
-    let summary = json!({
-        "command": "convergence",
-        "title": report.title,
-        "series": report.series.iter().map(series_object).collect::<Vec<_>>(),
-        "wall_s": report.wall_s,
-        "manifest": folder.manifest(),
-    });
-    folder.write("summary.json", |out| {
-        serde_json::to_writer_pretty(&mut *out, &summary)?;
-        out.write_all(b"\n")
-    })?;
-    Ok(summary)
+    let summary = ConvergenceSummary {
+        command: "convergence".to_owned(),
+        title: report.title.clone(),
+        series: report.series.iter().map(SeriesSummary::of).collect(),
+        wall_s: report.wall_s,
+        manifest: folder.manifest().clone(),
+    };
+    write_summary(folder, &summary)
 }
 
-fn series_object(series: &Series) -> Value {
-    let quantities: Vec<Value> = series
-        .quantities
-        .iter()
-        .map(|quantity| {
-            json!({
-                "name": quantity.name,
-                "unit": quantity.unit,
-                "values": quantity.values,
-                "verdict": quantity.verdict.name(),
-                "order": quantity.verdict.order(),
-                "extrapolated": quantity.verdict.limit(),
-                "errors": quantity.verdict.limit().map(|_| quantity.errors()),
-                "spread": quantity.spread(),
-            })
-        })
-        .collect();
-    json!({
-        "analysis": series.analysis,
-        "refinement": series.refinement.name(),
-        "levels": series.levels,
-        "sizes": series.sizes,
-        "wall_s": series.wall_s,
-        "notes": series.notes,
-        "quantities": quantities,
-    })
+/// `summary.json` of `frictionsim convergence`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ConvergenceSummary {
+    /// `convergence`.
+    pub command: String,
+    /// Title of the case.
+    pub title: String,
+    /// What was studied.
+    pub series: Vec<SeriesSummary>,
+    /// Wall time, s.
+    pub wall_s: f64,
+    /// What it was made from.
+    pub manifest: Manifest,
+}
+
+/// One analysis over refinements of one kind.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SeriesSummary {
+    /// Analysis, with the family of its limit cycles.
+    pub analysis: String,
+    /// `mesh` or `time-step`.
+    pub refinement: String,
+    /// Name of each level.
+    pub levels: Vec<String>,
+    /// Element size, m, or time step, s.
+    pub sizes: Vec<f64>,
+    /// Wall time of each level, s.
+    pub wall_s: Vec<f64>,
+    /// What else there is to say.
+    pub notes: Vec<String>,
+    /// The quantities.
+    pub quantities: Vec<QuantitySummary>,
+}
+
+/// One quantity over the levels.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct QuantitySummary {
+    /// Name, with the mode it belongs to.
+    pub name: String,
+    /// Unit; empty for a pure number.
+    pub unit: String,
+    /// One value for each level, where there is one.
+    pub values: Vec<Option<f64>>,
+    /// What the values say.
+    pub verdict: String,
+    /// Observed order.
+    pub order: Option<f64>,
+    /// Richardson-extrapolated value.
+    pub extrapolated: Option<f64>,
+    /// Values less that one.
+    pub errors: Option<Vec<Option<f64>>>,
+    /// Spread of the three finest levels.
+    pub spread: Option<f64>,
+}
+
+impl SeriesSummary {
+    fn of(series: &Series) -> Self {
+        Self {
+            analysis: series.analysis.clone(),
+            refinement: series.refinement.name().to_owned(),
+            levels: series.levels.clone(),
+            sizes: series.sizes.clone(),
+            wall_s: series.wall_s.clone(),
+            notes: series.notes.clone(),
+            quantities: series.quantities.iter().map(QuantitySummary::of).collect(),
+        }
+    }
+}
+
+impl QuantitySummary {
+    fn of(quantity: &Quantity) -> Self {
+        let all = |values: &[f64]| values.iter().map(|&value| present(value)).collect();
+        let limit = quantity.verdict.limit();
+        Self {
+            name: quantity.name.clone(),
+            unit: quantity.unit.clone(),
+            values: all(&quantity.values),
+            verdict: quantity.verdict.name().to_owned(),
+            order: quantity.verdict.order(),
+            extrapolated: limit,
+            errors: limit.map(|_| all(&quantity.errors())),
+            spread: present(quantity.spread()),
+        }
+    }
 }
 
 /// Writes one row for each quantity on each level.

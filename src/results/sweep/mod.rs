@@ -11,5 +11,5 @@ pub use figures::{SweepDrawing, draw};
 pub use folder::{Claim, Found, Start, SweepFolder};
 pub use long::{LONG_TABLES, LongTable};
 pub use record::{PointClock, PointRecord};
-pub use report::{SweepReport, print, summary, swept_text};
+pub use report::{FailedPoint, SweepReport, SweepSummary, print, swept_text};
 pub use table::write_points;

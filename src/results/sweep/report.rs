@@ -5,7 +5,8 @@ use super::super::quantity::quantity;
 use super::super::summary::PointSummary;
 use super::PointRecord;
 use super::table::cell;
-use serde_json::{Map, Value, json};
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
 use std::fmt::Write as _;
 
 /// A number of a point's summary.
@@ -112,30 +113,79 @@ impl SweepReport<'_> {
     }
 }
 
-/// The summary object.
-pub fn summary(report: &SweepReport<'_>, manifest: &Manifest) -> Value {
-    let failed: Vec<Value> = report
-        .failed()
-        .map(
-            |record| json!({ "point": record.point, "swept": record.swept, "error": record.error }),
-        )
-        .collect();
-    json!({
-        "command": manifest.command,
-        "title": report.title,
-        "swept": report.keys,
-        "analyses": report.analyses,
-        "points": report.count,
-        "finished": report.records.len(),
-        "ran": report.ran,
-        "failed": failed,
-        "missing": report.missing(),
-        "wall_s": report.wall_s,
-        "core_s": report.core_s,
-        "points_per_core_hour": report.points_per_core_hour(),
-        "notes": report.notes(),
-        "manifest": manifest,
-    })
+/// `summary.json` of `frictionsim sweep`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SweepSummary {
+    /// `sweep`.
+    pub command: String,
+    /// Title of the case.
+    pub title: String,
+    /// Swept keys.
+    pub swept: Vec<String>,
+    /// Analyses at each point.
+    pub analyses: Vec<String>,
+    /// Points of the whole sweep.
+    pub points: usize,
+    /// Finished points.
+    pub finished: usize,
+    /// Points that this process ran; absent if it only gathered.
+    pub ran: Option<usize>,
+    /// Points that failed.
+    pub failed: Vec<FailedPoint>,
+    /// Numbers of those that are not finished.
+    pub missing: Vec<usize>,
+    /// Wall time of this process, s.
+    pub wall_s: f64,
+    /// Time that the points kept cores busy, s.
+    pub core_s: f64,
+    /// Points done in an hour of one core.
+    pub points_per_core_hour: Option<f64>,
+    /// What to know before points are compared.
+    pub notes: Vec<String>,
+    /// What it was made from.
+    pub manifest: Manifest,
+}
+
+/// A point that failed, and why.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FailedPoint {
+    /// Its number, from 1.
+    pub point: usize,
+    /// Swept keys and their values.
+    pub swept: Map<String, Value>,
+    /// Why.
+    pub error: Option<String>,
+}
+
+impl SweepSummary {
+    /// The summary of a report.
+    pub fn of(report: &SweepReport<'_>, manifest: &Manifest) -> Self {
+        let failed = report.failed().map(|record| FailedPoint {
+            point: record.point,
+            swept: record.swept.clone(),
+            error: record.error.clone(),
+        });
+        Self {
+            command: manifest.command.clone(),
+            title: report.title.to_owned(),
+            swept: report.keys.to_vec(),
+            analyses: report
+                .analyses
+                .iter()
+                .map(|&name| name.to_owned())
+                .collect(),
+            points: report.count,
+            finished: report.records.len(),
+            ran: report.ran,
+            failed: failed.collect(),
+            missing: report.missing(),
+            wall_s: report.wall_s,
+            core_s: report.core_s,
+            points_per_core_hour: report.points_per_core_hour(),
+            notes: report.notes(),
+            manifest: manifest.clone(),
+        }
+    }
 }
 
 /// The report as text: a row for each point of a small sweep, what failed, what is missing.
