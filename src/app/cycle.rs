@@ -5,11 +5,12 @@ mod figures;
 mod search;
 
 pub use figures::redraw;
+pub use search::{disc_model, mode_limit};
 
 use super::{Failure, RunOptions, Session, terminal};
 use crate::case::Case;
 use crate::results::Manifest;
-use crate::results::cycle::{CycleResult, print, write};
+use crate::results::cycle::{CycleReport, print, write};
 use crate::results::cycle_confirmation::doubt;
 use clap::Args;
 use search::Search;
@@ -42,8 +43,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     search.show_progress(session.options.output.is_quiet());
     terminal::catch_signals(terminal::NOTHING_KEPT);
     let results = search.run(search.choices.frames);
-    refuse_nothing(&results)?;
     let report = search.report(results, session.wall_seconds());
+    refuse_nothing(&report)?;
     for result in &report.results {
         if let Some(doubt) = doubt(&report, result) {
             tracing::warn!("{doubt}");
@@ -72,8 +73,9 @@ pub fn summarize(case: &Case, manifest: &Manifest) -> Result<Value, Failure> {
     let start = Instant::now();
     let search = Search::of(case, manifest)?;
     let results = search.run(0);
-    refuse_nothing(&results)?;
-    Ok(search.summary(results, manifest, start))
+    let report = search.report(results, 0.0);
+    refuse_nothing(&report)?;
+    Ok(search.summary(report.results, manifest, start))
 }
 
 /// As [`summarize`], but a search that finds nothing has a summary too, which says why: a level of a convergence study.
@@ -86,14 +88,14 @@ pub fn attempt(case: &Case, manifest: &Manifest) -> Result<Value, Failure> {
     Ok(search.summary(search.run(0), manifest, start))
 }
 
-fn refuse_nothing(results: &[CycleResult]) -> Result<(), Failure> {
-    if results.iter().any(|result| result.cycle.is_ok()) {
+/// That there is no cycle is an answer where steady sliding is stable, else a failure.
+fn refuse_nothing(report: &CycleReport<'_>) -> Result<(), Failure> {
+    let is_found = report.results.iter().any(|result| result.cycle.is_ok());
+    if is_found || report.stable_sliding().is_some() {
         return Ok(());
     }
-    let errors: Vec<String> = results
-        .iter()
-        .filter_map(|result| result.cycle.as_ref().err().cloned())
-        .collect();
+    let absences = report.results.iter().filter_map(|r| r.cycle.as_ref().err());
+    let errors: Vec<&str> = absences.map(|absence| absence.reason.as_str()).collect();
     Err(Failure::run(format!(
         "no limit cycle found: {}",
         errors.join("; ")

@@ -63,7 +63,7 @@ impl DynamicCoefficients {
 pub struct WaveBody {
     harmonics: Vec<HarmonicStiffness>,
     masses: Vec<f64>,
-    harmonic: usize,
+    harmonic: isize,
     /// Number of sectors, each with one contact node.
     pub sector_count: usize,
     /// Radius of the contact edge `a`, m.
@@ -84,7 +84,7 @@ impl WaveBody {
         specification: &AnnulusSpecification,
         material: &ElasticMaterial,
         circumferential_harmonics: impl IntoIterator<Item = isize>,
-        harmonic: usize,
+        harmonic: isize,
     ) -> Result<Self, CycleError> {
         if specification.element != ElementKind::Quad4 {
             return Err(CycleError::Element);
@@ -113,8 +113,8 @@ impl WaveBody {
         })
     }
 
-    /// Circumferential harmonic `n` of the wave.
-    pub fn harmonic(&self) -> usize {
+    /// Circumferential harmonic `n` of the wave in the phase `n theta + omega t`: negative for a wave with the rotor.
+    pub fn harmonic(&self) -> isize {
         self.harmonic
     }
 

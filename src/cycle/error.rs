@@ -43,17 +43,28 @@ pub enum CycleError {
     },
     /// Steady sliding never loses stability to this wave.
     #[error(
-        "{family}: steady sliding has no such loss of stability up to a friction coefficient of {limit} below \
-         {frequency_hz} Hz, so no limit cycle is born; name another harmonic or onset"
+        "{family}: steady sliding has no such loss of stability up to a friction coefficient of {limit} among the \
+         modes looked at (cea.modes or cea.max_frequency_hz, else the lowest ones), so no limit cycle is born; name \
+         another harmonic or onset"
     )]
     NoOnset {
         /// Which limit cycle.
         family: Family,
         /// Largest friction coefficient searched.
         limit: f64,
-        /// Largest frequency searched, Hz.
-        frequency_hz: f64,
     },
+    /// The wave grows at any friction.
+    #[error(
+        "{family}: this wave grows without friction already, so it has no critical friction at which a cycle could be \
+         born; give the body some damping (damping.stiffness_coefficient)"
+    )]
+    Undamped {
+        /// Which limit cycle.
+        family: Family,
+    },
+    /// The eigenvalue analysis that finds the onsets failed.
+    #[error("onsets of limit cycles: {0}")]
+    Spectrum(String),
     /// The branch ends before the point asked for.
     #[error(
         "{family}: the branch of limit cycles does not reach {key} = {value:.6}: it ends at {reached:.6} \

@@ -95,13 +95,13 @@ impl LimitCycle {
         let count = wave.points() as f64;
         let mut harmonics = [0.0; HARMONIC_COUNT];
         for (k, spectrum) in edge.displacement.iter().enumerate() {
-            if let Some(place) = harmonics.get_mut(k * wave.body.harmonic()) {
+            if let Some(place) = harmonics.get_mut(k * wave.body.harmonic().unsigned_abs()) {
                 let share = if k == 0 { 1.0 } else { 2.0 };
                 *place = share * spectrum[1].norm() / count;
             }
         }
         Self {
-            harmonic: wave.body.harmonic(),
+            harmonic: wave.body.harmonic().unsigned_abs(),
             powers: powers(wave, &state, &edge, &points),
             fractions: state.fractions(),
             harmonics,

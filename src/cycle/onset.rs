@@ -5,32 +5,119 @@ use super::branch::Event;
 use super::parameter::OperatingPoint;
 use super::state::{PointState, WaveState};
 use super::wave::Wave;
-use crate::fem::RayleighDamping;
+use super::{CycleError, Family};
+use crate::cea::cyclic::{self, ModeLimit, SweepRequest};
+use crate::contact::{ContactStiffness, SlidingContact};
+use crate::fem::{ElasticMaterial, MassKind, RayleighDamping};
+use crate::mesh::AnnulusSpecification;
+use crate::prestress::{DampingModel, TangentOptions};
 use faer::c64;
 use std::f64::consts::TAU;
 
-/// Largest friction coefficient at which an onset is looked for.
+/// Largest friction coefficient at which the onset of a wave that is asked for by name is looked for.
 pub const LARGEST_FRICTION: f64 = 2.0;
 
-/// Highest frequency at which an onset is looked for, Hz.
-pub const HIGHEST_FREQUENCY_HZ: f64 = 30e3;
-
-const SCAN_POINTS: usize = 3000;
+/// Modes of lowest frequency whose onsets are looked for where no limit is given, `+n` and `-n` counted singly.
+pub const MODES: usize = 60;
 
 /// Loss of stability of steady sliding to one wave, a Hopf bifurcation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Onset {
+    /// Circumferential harmonic `n`.
+    pub harmonic: usize,
+    /// +1 travels with the rotor, -1 against it.
+    pub direction: i8,
     /// Critical friction coefficient.
     pub friction_coefficient: f64,
     /// `omega`, rad/s.
     pub frequency: f64,
 }
 
-/// Every onset of the wave against the rotor, by rising critical friction.
+/// A rotationally symmetric disc as its limit cycles see it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DiscModel {
+    /// The annulus and its mesh.
+    pub specification: AnnulusSpecification,
+    /// Its material.
+    pub material: ElasticMaterial,
+    /// Rayleigh coefficients.
+    pub damping: RayleighDamping,
+}
+
+impl DiscModel {
+    /// Every loss of stability of steady sliding to a travelling wave up to a friction coefficient, by rising critical
+    /// friction, among the modes of `limit`.
+    ///
+    /// The eigenvalue analysis of the model that cycles live in: lumped mass, rigid contact, damping of the whole tangent, no
+    /// geometric stiffness. Nothing is sought on a grid of frequencies.
+    ///
+    /// # Errors
+    /// [`CycleError::Spectrum`] where the eigenvalue analysis fails.
+    pub fn onsets(
+        &self,
+        highest_friction: f64,
+        limit: ModeLimit,
+    ) -> Result<Vec<Onset>, CycleError> {
+        let options = TangentOptions {
+            mass: MassKind::Lumped,
+            geometric_stiffness: false,
+            damping: self.damping,
+            damping_model: DampingModel::WholeTangent,
+            contact: ContactStiffness::default(),
+        };
+        // Without geometric stiffness neither interference nor speed enter the tangent.
+        let contact = SlidingContact {
+            friction_coefficient: highest_friction,
+            interference: 1e-6 * self.specification.inner_radius,
+            rotation_speed: 1.0,
+        };
+        let request = SweepRequest {
+            friction_coefficients: &[highest_friction],
+            limit,
+            shapes_at: &[],
+        };
+        let (specification, material) = (&self.specification, &self.material);
+        let found = cyclic::sweep(specification, material, &options, &contact, &request)
+            .map_err(|error| CycleError::Spectrum(error.to_string()))?;
+        let travelling = found.sweep.intervals.iter().filter(|i| i.direction != 0);
+        Ok(travelling
+            .map(|interval| Onset {
+                harmonic: interval.harmonic,
+                direction: interval.direction,
+                friction_coefficient: interval.critical_friction,
+                frequency: TAU * interval.frequency_hz,
+            })
+            .collect())
+    }
+
+    /// The onset of a family, sought up to ever larger friction coefficients.
+    ///
+    /// # Errors
+    /// [`CycleError::NoOnset`] if there is none up to a friction coefficient of two.
+    pub fn onset_of(&self, family: Family, limit: ModeLimit) -> Result<Onset, CycleError> {
+        let mut highest = 0.125 * LARGEST_FRICTION;
+        loop {
+            let found = self.onsets(highest, limit)?;
+            let own = found.into_iter().filter(|o| o.harmonic == family.harmonic);
+            if let Some(onset) = own.into_iter().nth(family.onset - 1) {
+                return Ok(onset);
+            }
+            if highest >= LARGEST_FRICTION {
+                return Err(CycleError::NoOnset {
+                    family,
+                    limit: LARGEST_FRICTION,
+                });
+            }
+            highest *= 2.0;
+        }
+    }
+}
+
+/// The onset on a grid of phases, whose differences slow the wave down, and for its own damping.
 ///
 /// While the whole edge slips, the wave lives on `u_r = 0` with `T = mu N`, so `R_rr + mu R_rt = 0` at its harmonic. A
-/// steady wave has real frequency and friction: zeros of `Im(R_rr / R_rt)` over the frequency.
-pub fn onsets(wave: &Wave<'_>, damping: &RayleighDamping) -> Vec<Onset> {
+/// steady wave has real frequency and friction: the zero of `Im(R_rr / R_rt)` next to the one given, by the secant method.
+pub fn refined(wave: &Wave<'_>, damping: &RayleighDamping, onset: &Onset) -> Option<Onset> {
     let friction = |frequency: f64| {
         let rate = c64::new(0.0, frequency * wave.order(1));
         let (r, []) = wave
@@ -38,44 +125,32 @@ pub fn onsets(wave: &Wave<'_>, damping: &RayleighDamping) -> Vec<Onset> {
             .receptance(1, DynamicCoefficients::new(rate, damping), []);
         -r[(0, 0)] / r[(0, 1)]
     };
-    let highest = TAU * HIGHEST_FREQUENCY_HZ;
-    let frequencies = (1..=SCAN_POINTS).map(|i| highest * i as f64 / SCAN_POINTS as f64);
-    let scan: Vec<(f64, f64)> = frequencies
-        .map(|omega| (omega, friction(omega).im))
-        .collect();
-    let mut found: Vec<Onset> = scan
-        .windows(2)
-        .filter(|pair| pair[0].1 * pair[1].1 < 0.0)
-        .map(|pair| {
-            let frequency = bisect(pair[0].0, pair[1].0, |omega| friction(omega).im);
-            Onset {
-                friction_coefficient: friction(frequency).re,
-                frequency,
-            }
-        })
-        // Poles change the sign too, but friction is large there.
-        .filter(|onset| (0.0..LARGEST_FRICTION).contains(&onset.friction_coefficient))
-        .collect();
-    found.sort_by(|a, b| a.friction_coefficient.total_cmp(&b.friction_coefficient));
-    found
-}
-
-fn bisect(mut low: f64, mut high: f64, function: impl Fn(f64) -> f64) -> f64 {
-    let rising = function(high) > 0.0;
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        if (function(middle) > 0.0) == rising {
-            high = middle;
-        } else {
-            low = middle;
+    let start = onset.frequency / wave.order(1);
+    let (mut before, mut now) = (start, start * (1.0 + 1e-6));
+    let mut value_before = friction(before).im;
+    for _ in 0..40 {
+        let value = friction(now).im;
+        let step = value * (now - before) / (value - value_before);
+        (before, value_before) = (now, value);
+        // Round-off of the first step: an onset that is already right.
+        if !step.is_finite() || step.abs() < 1e-13 * now {
+            break;
         }
+        now -= step;
     }
-    0.5 * (low + high)
+    let found = Onset {
+        frequency: now,
+        friction_coefficient: friction(now).re,
+        ..*onset
+    };
+    let is_near = (now / start - 1.0).abs() < 0.2;
+    (is_near && found.friction_coefficient > 0.0).then_some(found)
 }
 
 /// The largest wave of full slip at an onset, and the inequality that ends it.
 ///
-/// `origin` is the phase of the wave's tangential displacement. At the critical friction a wave of any amplitude lives on, up to the one at which the first point opens or sticks.
+/// `origin` is the phase of the wave's tangential displacement. At the critical friction a wave of any
+/// amplitude lives on, up to the one at which the first point opens or sticks.
 pub fn largest_linear_wave(
     wave: &Wave<'_>,
     point: &OperatingPoint,

@@ -4,13 +4,14 @@ use super::branch::{Branch, Step};
 use super::cycle_branch::{BranchEnd, CycleBranch};
 use super::grid::PhaseGrid;
 use super::limit_cycle::LimitCycle;
-use super::onset::{HIGHEST_FREQUENCY_HZ, LARGEST_FRICTION, largest_linear_wave, onsets};
+use super::onset::{DiscModel, MODES, largest_linear_wave, refined};
 use super::parameter::{OperatingPoint, Parameter};
 use super::state::{PointState, WaveState};
 use super::wave::Wave;
 use super::{CycleError, Family, Onset, WaveBody};
+use crate::cea::cyclic::ModeLimit;
 use crate::fem::{ElasticMaterial, RayleighDamping};
-use crate::mesh::AnnulusSpecification;
+use crate::mesh::{AnnulusSpecification, ElementKind};
 use faer::c64;
 use std::f64::consts::TAU;
 
@@ -31,6 +32,7 @@ const ORIGINS: [f64; 4] = [0.0, 0.5, 0.25, 0.75];
 #[derive(Clone, Debug)]
 pub struct CycleSolver {
     family: Family,
+    onset: Onset,
     body: WaveBody,
     grid: PhaseGrid,
     pub(super) specification: AnnulusSpecification,
@@ -53,13 +55,10 @@ impl CycleSolver {
         Self::of_family(specification, material, damping, family, points)
     }
 
-    /// The solver of the waves of `family` on a mesh of Quad4 elements, with `points` phases (odd; the next odd number
-    /// is taken) or as many as the mesh asks for, see [`PhaseGrid`].
-    ///
-    /// `damping` serves to find the frequency at birth, nothing else.
+    /// As [`Self::born_at`], at the onset of `family` among the lowest modes, found for `damping`.
     ///
     /// # Errors
-    /// [`CycleError`] for other elements, a mesh that cannot be built, a harmonic that it cannot carry.
+    /// As [`Self::born_at`]; [`CycleError::NoOnset`] where there is no such onset.
     pub fn of_family(
         specification: &AnnulusSpecification,
         material: &ElasticMaterial,
@@ -67,33 +66,45 @@ impl CycleSolver {
         family: Family,
         points: Option<usize>,
     ) -> Result<Self, CycleError> {
-        let harmonic = family.harmonic;
-        let (sectors, limit) = (
-            specification.circumferential_elements,
-            specification.circumferential_elements / 2,
-        );
-        if harmonic == 0 || harmonic > limit {
-            return Err(CycleError::Harmonic {
-                harmonic,
-                sectors,
-                limit,
-            });
+        check_mesh(specification, family.harmonic)?;
+        let model = DiscModel {
+            specification: *specification,
+            material: *material,
+            damping: *damping,
+        };
+        let onset = model.onset_of(family, ModeLimit::Lowest(MODES))?;
+        Self::born_at(&model, family, &onset, points)
+    }
+
+    /// The solver of the waves of `family`, born at `onset`, on a mesh of Quad4 elements, with `points` phases (odd; the
+    /// next odd number is taken) or as many as the mesh asks for, see [`PhaseGrid`].
+    ///
+    /// # Errors
+    /// [`CycleError`] for other elements, a mesh that cannot be built, a harmonic that it cannot carry, a wave that grows
+    /// at any friction.
+    pub fn born_at(
+        model: &DiscModel,
+        family: Family,
+        onset: &Onset,
+        points: Option<usize>,
+    ) -> Result<Self, CycleError> {
+        let (specification, material) = (&model.specification, &model.material);
+        check_mesh(specification, family.harmonic)?;
+        if onset.friction_coefficient <= 0.0 {
+            return Err(CycleError::Undamped { family });
         }
+        // A wave with the rotor is one of `-n` in the phase that rises with time.
+        let harmonic = family.harmonic as isize * -isize::from(onset.direction);
         let body = |highest: usize| {
-            let harmonics = (0..=highest).map(|k| (k * harmonic) as isize);
+            let harmonics = (0..=highest as isize).map(|k| k * harmonic);
             WaveBody::new(specification, material, harmonics, harmonic)
         };
-        let probe = body(1)?;
-        let wave = Wave::new(&probe, 0.0);
-        let born = onsets(&wave, damping).into_iter().nth(family.onset - 1);
-        // Three phases slow the wave down; what it lives at is `s`.
-        let frequency = born.map_or(TAU * HIGHEST_FREQUENCY_HZ, |onset| {
-            onset.frequency * wave.order(1)
-        });
-        let nodes = sectors as f64 / harmonic as f64;
-        let grid = PhaseGrid::new(frequency, probe.node_frequency, nodes, points);
+        let node_frequency = body(0)?.node_frequency;
+        let nodes = specification.circumferential_elements as f64 / family.harmonic as f64;
+        let grid = PhaseGrid::new(onset.frequency, node_frequency, nodes, points);
         Ok(Self {
             family,
+            onset: *onset,
             body: body(grid.points / 2)?,
             grid,
             specification: *specification,
@@ -120,9 +131,9 @@ impl CycleSolver {
         Wave::new(&self.body, self.grid.landing_share)
     }
 
-    /// Every loss of stability of steady sliding to a wave of this harmonic, by rising friction.
-    pub fn onsets(&self, damping: &RayleighDamping) -> Vec<Onset> {
-        onsets(&self.wave(), damping)
+    /// Where its cycles are born.
+    pub fn onset(&self) -> &Onset {
+        &self.onset
     }
 
     /// The limit cycle at an operating point.
@@ -134,13 +145,13 @@ impl CycleSolver {
     pub fn find(&self, point: &OperatingPoint) -> Result<LimitCycle, CycleError> {
         check(point)?;
         let wave = self.wave();
-        let onset = onsets(&wave, &point.damping)
-            .into_iter()
-            .nth(self.family.onset - 1);
-        let onset = onset.ok_or(CycleError::NoOnset {
+        let onset = refined(&wave, &point.damping, &self.onset);
+        let onset = onset.ok_or(CycleError::NotReached {
             family: self.family,
-            limit: LARGEST_FRICTION,
-            frequency_hz: HIGHEST_FREQUENCY_HZ,
+            key: "contact.friction_coefficient",
+            value: point.contact.friction_coefficient,
+            reached: self.onset.friction_coefficient,
+            reason: "its onset moved away with the damping".to_owned(),
         })?;
         let target = point.contact.friction_coefficient;
         let parameter = Parameter::FrictionCoefficient;
@@ -309,7 +320,7 @@ impl CycleSolver {
         for sector in 0..sectors {
             for (k, (rate, profile)) in profiles.iter().enumerate() {
                 // Whole turns taken out first, so that high harmonics lose no digits.
-                let turns = (k * harmonic * sector) % sectors;
+                let turns = (k as isize * harmonic * sector as isize).rem_euclid(sectors as isize);
                 let later = k as f64 * cycle.state.frequency * time;
                 let turn = c64::from_polar(1.0, TAU * turns as f64 / sectors as f64 + later);
                 for (i, value) in profile.iter().enumerate() {
@@ -352,6 +363,22 @@ fn run<T>(
 fn is_full_slip(state: &WaveState) -> bool {
     let mut points = state.contact.iter();
     points.all(|&point| point == PointState::SlipForward)
+}
+
+fn check_mesh(specification: &AnnulusSpecification, harmonic: usize) -> Result<(), CycleError> {
+    let sectors = specification.circumferential_elements;
+    let limit = sectors / 2;
+    if specification.element != ElementKind::Quad4 {
+        return Err(CycleError::Element);
+    }
+    if harmonic == 0 || harmonic > limit {
+        return Err(CycleError::Harmonic {
+            harmonic,
+            sectors,
+            limit,
+        });
+    }
+    Ok(())
 }
 
 fn check(point: &OperatingPoint) -> Result<(), CycleError> {

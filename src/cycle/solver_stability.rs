@@ -15,11 +15,11 @@ impl CycleSolver {
     /// # Errors
     /// [`CycleError::Stability`] where the linearized contact conditions have no finite response.
     pub fn stability(&self, cycle: &LimitCycle) -> Result<CycleStability, CycleError> {
-        let n = self.body().harmonic();
+        let (n, signed) = (self.family().harmonic, self.body().harmonic());
         let highest = (self.grid().points / 2) as isize;
         let body = |class: usize| {
-            let harmonics = (-highest..=highest).map(|k| class as isize + k * n as isize);
-            WaveBody::new(&self.specification, &self.material, harmonics, n)
+            let harmonics = (-highest..=highest).map(|k| class as isize + k * signed);
+            WaveBody::new(&self.specification, &self.material, harmonics, signed)
         };
         let own = body(0)?;
         let mut perturbed = Perturbed::new(&own, &self.wave(), cycle);

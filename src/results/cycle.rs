@@ -18,6 +18,15 @@ use std::f64::consts::TAU;
 use std::fmt::Write as _;
 use std::io::{self, Write};
 
+/// Why a family has no cycle at the case's own operating point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Absence {
+    /// In words.
+    pub reason: String,
+    /// Whether that is so because steady sliding is stable against its wave.
+    pub is_stable: bool,
+}
+
 /// The limit cycle of one harmonic, and its branch.
 #[derive(Clone, Debug)]
 pub struct CycleResult {
@@ -26,7 +35,7 @@ pub struct CycleResult {
     /// Every onset of the harmonic, by rising friction; the cycle is born at that of its family.
     pub onsets: Vec<Onset>,
     /// The cycle at the case's own operating point, or why there is none.
-    pub cycle: Result<LimitCycle, String>,
+    pub cycle: Result<LimitCycle, Absence>,
     /// The whole field at times over one period, from zero on; empty where there is no cycle.
     pub frames: Vec<CycleFrame>,
     /// Points along the phase.
@@ -43,6 +52,32 @@ pub struct CycleResult {
     pub branch: Option<CycleBranch>,
     /// Wall time of cycle and branch, s.
     pub wall_s: f64,
+}
+
+impl CycleReport<'_> {
+    /// That steady sliding is stable against every wave looked at, in words; nothing where it is not.
+    pub fn stable_sliding(&self) -> Option<String> {
+        let is_stable =
+            |result: &CycleResult| matches!(&result.cycle, Err(absence) if absence.is_stable);
+        let friction = self.friction_coefficient;
+        let onset = self.lowest_onset.as_ref();
+        if !self.results.iter().all(is_stable)
+            || onset.is_some_and(|onset| onset.friction_coefficient < friction)
+        {
+            return None;
+        }
+        Some(match onset {
+            Some(onset) => format!(
+                "{friction} < {:.4}: steady sliding is stable, so no limit cycle is sought; the first wave to grow has {} \
+                 nodal diameters and {:.2} Hz (raise contact.friction_coefficient above {:.4})",
+                onset.friction_coefficient,
+                onset.harmonic,
+                onset.frequency / TAU,
+                onset.friction_coefficient,
+            ),
+            None => format!("steady sliding is stable at contact.friction_coefficient = {friction}"),
+        })
+    }
 }
 
 impl CycleResult {
@@ -63,6 +98,10 @@ pub struct CycleReport<'a> {
     pub inner_radius: f64,
     /// Thickness, m: scales powers.
     pub thickness: f64,
+    /// Friction coefficient of the case.
+    pub friction_coefficient: f64,
+    /// The onset of lowest friction among those looked for, where there is one.
+    pub lowest_onset: Option<Onset>,
     /// One entry for each harmonic.
     pub results: Vec<CycleResult>,
     /// Wall time of the run, s.
@@ -218,26 +257,20 @@ pub fn summary(report: &CycleReport<'_>, manifest: &Manifest) -> Value {
         "command": "cycle",
         "title": report.title,
         "wall_s": report.wall_s,
+        "steady_sliding_stable": report.stable_sliding().is_some(),
+        "lowest_onset": report.lowest_onset.as_ref().map(onset_object),
         "cycles": cycles,
         "manifest": manifest,
     })
 }
 
 fn result_object(report: &CycleReport<'_>, result: &CycleResult) -> Value {
-    let onsets: Vec<Value> = result
-        .onsets
-        .iter()
-        .map(|onset| {
-            json!({
-                "critical_friction": onset.friction_coefficient,
-                "frequency_hz": onset.frequency / TAU,
-            })
-        })
-        .collect();
+    let onsets: Vec<Value> = result.onsets.iter().map(onset_object).collect();
     let mut object = json!({
         "harmonic": result.family.harmonic,
         "onset": result.family.onset,
         "critical_friction": result.birth().map(|onset| onset.friction_coefficient),
+        "direction": result.birth().map(|onset| onset.direction),
         "phases": result.phases,
         "onsets": onsets,
         "wall_s": result.wall_s,
@@ -250,7 +283,8 @@ fn result_object(report: &CycleReport<'_>, result: &CycleResult) -> Value {
                 object[key] = value.clone();
             }
         }
-        Err(error) => object["error"] = json!(error),
+        Err(absence) if absence.is_stable => object["absent"] = json!(absence.reason),
+        Err(absence) => object["error"] = json!(absence.reason),
     }
     object["confirmation"] = confirmation_object(report, result);
     object["stability"] = stability_object(&result.stability);
@@ -267,6 +301,15 @@ fn result_object(report: &CycleReport<'_>, result: &CycleResult) -> Value {
         object["branch"]["stability_changes"] = changes.collect();
     }
     object
+}
+
+fn onset_object(onset: &Onset) -> Value {
+    json!({
+        "harmonic": onset.harmonic,
+        "direction": onset.direction,
+        "critical_friction": onset.friction_coefficient,
+        "frequency_hz": onset.frequency / TAU,
+    })
 }
 
 fn cycle_object(report: &CycleReport<'_>, cycle: &LimitCycle) -> Value {
@@ -313,6 +356,10 @@ pub fn print(report: &CycleReport<'_>) -> String {
     let mut out = String::new();
     if !report.title.is_empty() {
         let _ = writeln!(out, "{}", report.title);
+    }
+    if let Some(text) = report.stable_sliding() {
+        let _ = writeln!(out, "{text}");
+        return out;
     }
     let mut phases: Vec<String> = report
         .results
@@ -376,7 +423,7 @@ fn result_line(out: &mut String, report: &CycleReport<'_>, result: &CycleResult)
                 share(powers.contact_dissipated),
             )
         }
-        Err(error) => writeln!(out, "{error}"),
+        Err(absence) => writeln!(out, "{}", absence.reason),
     };
 }
 

@@ -2,15 +2,16 @@
 
 use super::confirmation::confirm;
 use crate::app::{Failure, terminal};
-use crate::case::{Case, Cycle, OnsetChoice, StabilityChoice};
+use crate::case::{Case, Cycle, ModeSelection, OnsetChoice, StabilityChoice};
+use crate::cea::cyclic::ModeLimit;
 use crate::cycle::{
-    CycleBranch, CycleError, CycleSolver, Family, LimitCycle, OperatingPoint, Parameter,
-    StabilityChange,
+    CycleBranch, CycleError, CycleSolver, DiscModel, Family, LimitCycle, MODES, Onset,
+    OperatingPoint, Parameter, StabilityChange,
 };
 use crate::fem::operator::SimdLevel;
 use crate::mesh::AnnulusMesh;
 use crate::results::Manifest;
-use crate::results::cycle::{CycleReport, CycleResult, summary};
+use crate::results::cycle::{Absence, CycleReport, CycleResult, summary};
 use crate::results::cycle_confirmation::Confirmation;
 use crate::results::cycle_fields::CycleFrame;
 use crate::results::cycle_figures::FamilyRecord;
@@ -20,8 +21,6 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 use std::time::Instant;
 
-/// Highest harmonic that is looked at where the case names none.
-const HIGHEST_HARMONIC: usize = 8;
 
 /// What a case asks for: cycles of which harmonics, where, and followed over what.
 pub struct Search<'a> {
@@ -32,7 +31,9 @@ pub struct Search<'a> {
     simd: SimdLevel,
     point: OperatingPoint,
     continuation: Option<(Parameter, Vec<f64>)>,
-    solvers: Vec<CycleSolver>,
+    /// Every onset below the case's friction coefficient; where there is none, those of the harmonics sought.
+    onsets: Vec<Onset>,
+    solvers: Vec<Result<CycleSolver, (Family, CycleError)>>,
     /// Counts the families done.
     bar: ProgressBar,
 }
@@ -48,6 +49,16 @@ impl<'a> Search<'a> {
             contact: case.contact.sliding,
             damping: case.damping.rayleigh,
         };
+        let friction = point.contact.friction_coefficient;
+        let mut onsets = disc_model(case)
+            .onsets(friction, mode_limit(case))
+            .map_err(Failure::run)?;
+        let solvers = solvers(case, choices, &onsets)?;
+        if onsets.is_empty() {
+            onsets = solvers.iter().flatten().map(|s| *s.onset()).collect();
+            onsets.extend(next_onset(case, friction));
+            onsets.sort_by(|a, b| a.friction_coefficient.total_cmp(&b.friction_coefficient));
+        }
         Ok(Self {
             case,
             choices,
@@ -55,7 +66,8 @@ impl<'a> Search<'a> {
             simd: SimdLevel::choose(&manifest.simd).map_err(Failure::usage)?,
             point,
             continuation: continuation(case, choices)?,
-            solvers: solvers(case, choices, &point)?,
+            solvers,
+            onsets,
             bar: ProgressBar::hidden(),
         })
     }
@@ -68,8 +80,11 @@ impl<'a> Search<'a> {
     /// The cycles, with the whole field at so many times over one period.
     pub fn run(&self, frames: usize) -> Vec<CycleResult> {
         let solvers = self.solvers.par_iter();
-        let solve = |solver| {
-            let result = self.solve(solver, frames);
+        let solve = |solver: &Result<CycleSolver, (Family, CycleError)>| {
+            let result = match solver {
+                Ok(solver) => self.solve(solver, frames),
+                Err((family, error)) => self.absent(*family, error),
+            };
             self.bar.inc(1);
             result
         };
@@ -85,6 +100,8 @@ impl<'a> Search<'a> {
             mesh: &self.annulus.mesh,
             inner_radius: self.case.annulus.inner_radius,
             thickness: self.case.thickness,
+            friction_coefficient: self.point.contact.friction_coefficient,
+            lowest_onset: self.onsets.first().copied(),
             results,
             wall_s,
         }
@@ -108,6 +125,47 @@ impl<'a> Search<'a> {
         let periods = self.choices.confirmation_periods;
         let found = || confirm(self.case, &self.annulus, solver, cycle, periods, self.simd);
         (periods > 0).then(|| found().map_err(|error| error.to_string()))
+    }
+
+    fn onsets_of(&self, harmonic: usize) -> Vec<Onset> {
+        let own = self.onsets.iter().filter(|o| o.harmonic == harmonic);
+        own.copied().collect()
+    }
+
+    /// Why a family whose onset is known has no cycle.
+    fn absence(&self, solver: &CycleSolver, error: &CycleError) -> Absence {
+        let (friction, onset) = (
+            self.point.contact.friction_coefficient,
+            solver.onset().friction_coefficient,
+        );
+        let is_stable = friction < onset;
+        Absence {
+            reason: match is_stable {
+                true => format!("{friction} < {onset:.4}: steady sliding is stable against this wave"),
+                false => error.to_string(),
+            },
+            is_stable,
+        }
+    }
+
+    /// The result of a family that cannot be sought at all.
+    fn absent(&self, family: Family, error: &CycleError) -> CycleResult {
+        CycleResult {
+            family,
+            onsets: self.onsets_of(family.harmonic),
+            cycle: Err(Absence {
+                reason: error.to_string(),
+                is_stable: matches!(error, CycleError::NoOnset { .. }),
+            }),
+            frames: Vec::new(),
+            phases: 0,
+            confirmation: None,
+            stability: None,
+            branch_stability: Vec::new(),
+            stability_changes: Vec::new(),
+            branch: None,
+            wall_s: 0.0,
+        }
     }
 
     fn solve(&self, solver: &CycleSolver, frame_count: usize) -> CycleResult {
@@ -144,11 +202,11 @@ impl<'a> Search<'a> {
                 changes(solver, branch, &branch_stability)
             }),
             branch_stability,
-            onsets: solver.onsets(&point.damping),
+            onsets: self.onsets_of(solver.family().harmonic),
             frames: found
                 .as_ref()
                 .map_or(Vec::new(), |cycle| frames(solver, cycle, frame_count)),
-            cycle: found.map_err(|error: CycleError| error.to_string()),
+            cycle: found.map_err(|error| self.absence(solver, &error)),
             branch,
             wall_s: start.elapsed().as_secs_f64(),
         }
@@ -182,48 +240,78 @@ fn continuation(case: &Case, cycle: &Cycle) -> Result<Option<(Parameter, Vec<f64
     Ok(Some((parameter, values)))
 }
 
-/// One solver for each family asked for; where no harmonic is named, for all that are unstable at the case's friction.
+/// The first onset above a friction coefficient, for the sentence that steady sliding is stable there.
+fn next_onset(case: &Case, friction: f64) -> Option<Onset> {
+    let mut highest = 2.0 * friction;
+    while highest <= 2.0 {
+        let found = disc_model(case).onsets(highest, mode_limit(case)).ok()?;
+        if let Some(first) = found.into_iter().next() {
+            return Some(first);
+        }
+        highest *= 2.0;
+    }
+    None
+}
+
+/// The disc of a case as its limit cycles see it.
+pub fn disc_model(case: &Case) -> DiscModel {
+    DiscModel {
+        specification: case.annulus,
+        material: case.material,
+        damping: case.damping.rayleigh,
+    }
+}
+
+/// The modes whose onsets are looked for: those of the case's own eigenvalue analysis, else the lowest.
+pub fn mode_limit(case: &Case) -> ModeLimit {
+    match case.cea.as_ref().map(|cea| cea.modes) {
+        Some(ModeSelection::BelowHz(limit)) => ModeLimit::MaxFrequency(limit),
+        Some(ModeSelection::Lowest(count)) => ModeLimit::Lowest(count),
+        None => ModeLimit::Lowest(MODES),
+    }
+}
+
+/// One solver for each family asked for; where no harmonic is named, for every wave that is unstable at the case's
+/// friction. A harmonic that is named is sought even where steady sliding is stable: its cycles may outlive their birth.
 fn solvers(
     case: &Case,
     cycle: &Cycle,
-    point: &OperatingPoint,
-) -> Result<Vec<CycleSolver>, Failure> {
-    let friction = point.contact.friction_coefficient;
-    let damping = &point.damping;
-    let of = |family| {
-        CycleSolver::of_family(&case.annulus, &case.material, damping, family, cycle.phases)
-            .map_err(Failure::usage)
-    };
-    let highest = HIGHEST_HARMONIC.min(case.annulus.circumferential_elements / 2);
-    let harmonics = match &cycle.harmonics {
+    onsets: &[Onset],
+) -> Result<Vec<Result<CycleSolver, (Family, CycleError)>>, Failure> {
+    let (model, limit) = (disc_model(case), mode_limit(case));
+    let mut harmonics: Vec<usize> = match &cycle.harmonics {
         Some(harmonics) => harmonics.clone(),
-        None => (1..=highest).collect(),
+        None => onsets.iter().map(|onset| onset.harmonic).collect(),
     };
+    harmonics.sort_unstable();
+    harmonics.dedup();
     let mut solvers = Vec::new();
     for harmonic in harmonics {
-        let lowest = of(Family::lowest(harmonic))?;
-        let onsets = lowest.onsets(damping);
-        let unstable = onsets
-            .iter()
-            .filter(|onset| onset.friction_coefficient < friction);
-        let mut count = unstable.count();
+        let own = onsets.iter().filter(|onset| onset.harmonic == harmonic);
+        let mut own: Vec<Onset> = own.copied().collect();
+        if own.is_empty() {
+            match model.onset_of(Family::lowest(harmonic), limit) {
+                Ok(onset) => own.push(onset),
+                Err(error) => {
+                    solvers.push(Err((Family::lowest(harmonic), error)));
+                    continue;
+                }
+            }
+        }
         if cycle.onsets == OnsetChoice::Lowest {
-            count = count.min(1);
+            own.truncate(1);
         }
-        // A harmonic that is named is sought even where steady sliding is stable.
-        if count > 0 || cycle.harmonics.is_some() {
-            solvers.push(lowest);
+        for (rank, onset) in own.iter().enumerate() {
+            let family = Family {
+                harmonic,
+                onset: rank + 1,
+            };
+            match CycleSolver::born_at(&model, family, onset, cycle.phases) {
+                Ok(solver) => solvers.push(Ok(solver)),
+                Err(error @ CycleError::Undamped { .. }) => solvers.push(Err((family, error))),
+                Err(error) => return Err(Failure::usage(error)),
+            }
         }
-        for onset in 2..=count {
-            solvers.push(of(Family { harmonic, onset })?);
-        }
-    }
-    if solvers.is_empty() {
-        return Err(Failure::run(format!(
-            "steady sliding is stable against waves of 1 to {highest} nodal diameters at \
-             contact.friction_coefficient = {friction}: there is no limit cycle to find; raise it, or name \
-             cycle.harmonics"
-        )));
     }
     Ok(solvers)
 }

@@ -1,6 +1,7 @@
 //! A transient that starts on a limit cycle.
 
 use crate::app::Failure;
+use crate::app::cycle::{disc_model, mode_limit};
 use crate::case::Case;
 use crate::cycle::{CycleSolver, Family, LimitCycle, OperatingPoint};
 
@@ -15,14 +16,11 @@ pub fn limit_cycle(case: &Case, family: Family, time_step: f64) -> Result<[Vec<f
         damping: case.damping.rayleigh,
     };
     let phases = case.cycle.as_ref().and_then(|cycle| cycle.phases);
-    let solver = CycleSolver::of_family(
-        &case.annulus,
-        &case.material,
-        &point.damping,
-        family,
-        phases,
-    )
-    .map_err(Failure::usage)?;
+    let model = disc_model(case);
+    let onset = model
+        .onset_of(family, mode_limit(case))
+        .map_err(Failure::run)?;
+    let solver = CycleSolver::born_at(&model, family, &onset, phases).map_err(Failure::usage)?;
     let cycle = solver.find(&point).map_err(Failure::run)?;
     Ok(cycle_fields(&solver, &cycle, time_step))
 }
