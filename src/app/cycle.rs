@@ -1,6 +1,5 @@
 //! `frictionsim cycle`: limit cycles found directly, and followed over a parameter.
 
-mod confirmation;
 mod figures;
 mod search;
 

@@ -2,6 +2,7 @@
 
 use super::Family;
 use crate::mesh::MeshError;
+use crate::transient::TransientError;
 
 /// A limit cycle that cannot be looked for or was not found.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -94,13 +95,16 @@ pub enum CycleError {
         /// Sectors of the mesh.
         sectors: usize,
     },
-    /// The linearized wave has no finite response.
+    /// The leading exponents do not converge.
     #[error(
-        "the stability of this limit cycle to perturbations of class {class} cannot be told: its linearized \
-         contact conditions are singular"
+        "the stability of this limit cycle cannot be told: no exponent has converged after {dimension} periods; let a \
+         transient tell (transient.initial = \"limit-cycle\")"
     )]
     Stability {
-        /// Class of harmonics.
-        class: usize,
+        /// Periods spent.
+        dimension: usize,
     },
+    /// The mesh's time stepping cannot take the cycle.
+    #[error(transparent)]
+    Stepping(#[from] TransientError),
 }

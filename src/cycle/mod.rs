@@ -5,27 +5,30 @@
 //! *steady* frictional contact problem along the phase `xi`, with one unknown frequency. The body is a 2 x 2
 //! receptance for each temporal harmonic ([`WaveBody`]); Signorini's and Coulomb's laws hold at points along the phase;
 //! a branch of cycles is followed from its birth in steady sliding through every change of contact state
-//! ([`CycleSolver`]).
+//! ([`CycleSolver`]). Cycles are born where the eigenvalue analysis has its onsets ([`DiscModel`]); their stability is that of
+//! the transient's own step, linearized over one period ([`MeshStepping`]).
 
 mod body;
 mod branch;
+mod confirmation;
 mod cycle_branch;
 mod error;
 mod family;
+mod floquet;
 mod grid;
 mod limit_cycle;
 mod onset;
 mod parameter;
-mod perturbed;
 mod solver;
 mod solver_stability;
 mod stability;
-pub mod stepping;
 mod state;
+mod stepping;
 mod system;
 mod wave;
 
 pub use body::{DynamicCoefficients, Receptance, WaveBody};
+pub use confirmation::Confirmation;
 pub use cycle_branch::{BranchEnd, CycleBranch};
 pub use error::CycleError;
 pub use family::Family;
@@ -34,5 +37,7 @@ pub use limit_cycle::{CyclePowers, LimitCycle, PhasePoint};
 pub use onset::{DiscModel, MODES, Onset};
 pub use parameter::{OperatingPoint, Parameter};
 pub use solver::CycleSolver;
-pub use stability::{CycleStability, FloquetExponent, PerturbationGrowth, StabilityChange};
+pub use solver_stability::SteppedCycle;
+pub use stability::{CycleStability, FloquetExponent, StabilityChange, Verdict};
 pub use state::{PointState, WaveState};
+pub use stepping::{MeshStepping, Period};

@@ -65,12 +65,7 @@ impl DiscModel {
             damping_model: DampingModel::WholeTangent,
             contact: ContactStiffness::default(),
         };
-        // Without geometric stiffness neither interference nor speed enter the tangent.
-        let contact = SlidingContact {
-            friction_coefficient: highest_friction,
-            interference: 1e-6 * self.specification.inner_radius,
-            rotation_speed: 1.0,
-        };
+        let contact = unloaded(&self.specification);
         let request = SweepRequest {
             friction_coefficients: &[highest_friction],
             limit,
@@ -110,6 +105,15 @@ impl DiscModel {
             }
             highest *= 2.0;
         }
+    }
+}
+
+/// A cylinder that presses little: without geometric stiffness neither interference nor speed enter the tangent.
+pub fn unloaded(specification: &AnnulusSpecification) -> SlidingContact {
+    SlidingContact {
+        friction_coefficient: 0.0,
+        interference: 1e-6 * specification.inner_radius,
+        rotation_speed: 1.0,
     }
 }
 

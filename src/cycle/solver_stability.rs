@@ -1,39 +1,77 @@
 //! Stability of cycles, and where a branch changes it.
 
+use super::floquet::LeadingExponents;
 use super::limit_cycle::LimitCycle;
 use super::parameter::Parameter;
-use super::perturbed::Perturbed;
-use super::stability::{CycleStability, PerturbationGrowth, StabilityChange};
-use super::{CycleError, CycleSolver, WaveBody};
+use super::stability::{CycleStability, StabilityChange};
+use super::stepping::MeshStepping;
+use super::{CycleError, CycleSolver};
+use crate::fem::operator::SimdLevel;
 
 /// Halvings of the interval in which a branch changes its stability.
 const HALVINGS: usize = 5;
 
+/// A limit cycle as the mesh's own time stepping has it.
+#[derive(Clone, Debug)]
+pub struct SteppedCycle {
+    /// The cycle, its powers and fractions those of the transient.
+    pub cycle: LimitCycle,
+    /// Its stability.
+    pub stability: CycleStability,
+    /// Sum of its leading modes: where to begin with those of a neighbour.
+    modes: Vec<f64>,
+}
+
+impl SteppedCycle {
+    /// The same wave scaled: `from` is the cycle that this one was settled from, `to` one of the same contact states and
+    /// frequency.
+    pub fn scaled_to(&self, from: &LimitCycle, to: &LimitCycle) -> Self {
+        let factor = to.powers.external / from.powers.external;
+        Self {
+            cycle: LimitCycle {
+                powers: self.cycle.powers.scaled(factor),
+                fractions: self.cycle.fractions,
+                ..to.clone()
+            },
+            ..self.clone()
+        }
+    }
+}
+
 impl CycleSolver {
-    /// Growth of small perturbations, of each class `0 <= p <= n / 2` of harmonics `+-p + k n`.
+    /// Growth of small perturbations of a cycle.
     ///
     /// # Errors
-    /// [`CycleError::Stability`] where the linearized contact conditions have no finite response.
+    /// As [`MeshStepping::settle`].
     pub fn stability(&self, cycle: &LimitCycle) -> Result<CycleStability, CycleError> {
-        let (n, signed) = (self.family().harmonic, self.body().harmonic());
-        let highest = (self.grid().points / 2) as isize;
-        let body = |class: usize| {
-            let harmonics = (-highest..=highest).map(|k| class as isize + k * signed);
-            WaveBody::new(&self.specification, &self.material, harmonics, signed)
-        };
-        let own = body(0)?;
-        let mut perturbed = Perturbed::new(&own, &self.wave(), cycle);
-        perturbed.calibrate();
-        let mut classes = vec![PerturbationGrowth::of(&perturbed, 0, n)?];
-        for class in 1..=n / 2 {
-            let other = body(class)?;
-            classes.push(PerturbationGrowth::of(
-                &perturbed.with_body(&other),
-                class,
-                n,
-            )?);
-        }
-        Ok(CycleStability { classes })
+        let stepping = self.stepping(SimdLevel::detect())?;
+        Ok(stepping.settle(cycle, None)?.stability)
+    }
+}
+
+impl MeshStepping<'_> {
+    /// Settles a cycle in the transient of its mesh, and finds its leading Floquet exponents there.
+    ///
+    /// `neighbour` is a cycle nearby, whose modes are a start.
+    ///
+    /// # Errors
+    /// [`CycleError::Stepping`] if the transient cannot start, [`CycleError::Stability`] if the exponents do not converge.
+    pub fn settle(
+        &self,
+        cycle: &LimitCycle,
+        neighbour: Option<&SteppedCycle>,
+    ) -> Result<SteppedCycle, CycleError> {
+        let period = self.period(cycle)?;
+        let found = LeadingExponents::of(&period, neighbour.map(|n| n.modes.as_slice()))?;
+        Ok(SteppedCycle {
+            cycle: LimitCycle {
+                powers: period.powers,
+                fractions: period.fractions,
+                ..cycle.clone()
+            },
+            stability: found.stability,
+            modes: found.modes,
+        })
     }
 
     /// Value of `parameter` (SI) at which the branch from one cycle to another, of different stability, changes it.
@@ -42,28 +80,32 @@ impl CycleSolver {
     /// lead straight from one to the other.
     ///
     /// # Errors
-    /// Those of [`Self::stability`].
+    /// Those of [`Self::settle`].
     pub fn stability_change(
         &self,
         parameter: Parameter,
-        stable: &LimitCycle,
-        unstable: &LimitCycle,
+        stable: &SteppedCycle,
+        unstable: &SteppedCycle,
     ) -> Result<StabilityChange, CycleError> {
         let mut ends = [stable.clone(), unstable.clone()];
-        let mut leading = [self.stability(stable)?, self.stability(unstable)?];
-        let at = |cycle: &LimitCycle| parameter.of(&cycle.state.point);
+        let at = |end: &SteppedCycle| parameter.of(&end.cycle.state.point);
         for _ in 0..HALVINGS {
             let middle = 0.5 * (at(&ends[0]) + at(&ends[1]));
-            let Ok(cycle) = self.continue_to(&ends[0], parameter, middle) else {
+            let Ok(cycle) = self.solver.continue_to(&ends[0].cycle, parameter, middle) else {
                 break;
             };
-            let stability = self.stability(&cycle)?;
-            let side = usize::from(!stability.is_stable());
-            ends[side] = cycle;
-            leading[side] = stability;
+            let settled = self.settle(&cycle, Some(&ends[1]))?;
+            let leading = settled.stability.leading();
+            let side = usize::from(leading.is_some_and(|found| found.exponent.re > 0.0));
+            ends[side] = settled;
         }
-        let growing = leading[1].leading();
-        let rate = |side: usize| leading[side].leading().map(|found| found.exponent.re);
+        let growing = ends[1].stability.leading();
+        let rate = |side: usize| {
+            ends[side]
+                .stability
+                .leading()
+                .map(|found| found.exponent.re)
+        };
         // Stable cycles without a slow exponent say nothing about how far the change is.
         let share = match (rate(0), rate(1)) {
             (Some(before), Some(after)) if after > before => -before / (after - before),

@@ -1,79 +1,110 @@
 //! Limit cycles in the mesh's own time stepping: what one period of the explicit transient does to a cycle, and to small
-//! perturbations of it.
+//! perturbations that ride on it.
 
-use super::{CycleError, CycleSolver, LimitCycle};
+use super::limit_cycle::{CyclePowers, LimitCycle};
+use super::{CycleError, CycleSolver};
 use crate::contact::ContactStatus;
+use crate::fem::RayleighDamping;
 use crate::fem::operator::{
-    MotionFields, AlignedVector, SimdLevel, StepCoefficients, StiffnessOperator, largest_frequency,
+    AlignedVector, MotionFields, SimdLevel, StepCoefficients, StiffnessOperator, largest_frequency,
 };
-use crate::linalg::BlockOperator;
 use crate::mesh::AnnulusMesh;
 use crate::transient::{
     CentralDifference, InitialState, OperatorChoice, Perturbation, TimeStep, TransientModel,
     TransientSettings, build_operator, stable_step_limit,
 };
-use faer::{Mat, MatRef};
 use std::f64::consts::TAU;
 
 /// Share of the stability limit that a step takes.
 const SAFETY: f64 = 0.95;
 
-/// The time stepping of a mesh, shared by all its cycles.
-pub struct MeshStepping {
+/// Periods of the transient between a wave that satisfies the contact laws on a grid of phases and the one that is looked
+/// at: what the grid and its landing time leave of a difference to the mesh's own cycle fades meanwhile.
+const SETTLING: usize = 4;
+
+/// The time stepping of a solver's mesh, shared by all its cycles.
+pub struct MeshStepping<'a> {
+    pub(super) solver: &'a CycleSolver,
     annulus: AnnulusMesh,
     operator: Box<dyn StiffnessOperator>,
     largest_frequency: f64,
 }
 
 /// Contact of one node during one step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 enum NodeContact {
     Open,
     Stick,
-    /// Dragged forward, `T = +mu N`.
-    Forward,
-    /// Held back, `T = -mu N`.
-    Backward,
+    /// Slip with `T / N` of this sign.
+    Slip(f64),
 }
 
-/// One period of the transient, and the linear map that its contact makes of perturbations.
+/// One period of a transient on a limit cycle, and the linear map that its contact makes of perturbations.
+///
+/// The statuses of all nodes at all steps are those of the cycle; a perturbation then moves by the explicit step itself,
+/// with `du_n = 0` in contact, `dv_t = 0` in stick and `dT = +-mu dN` in slip. What a perturbation does to the times of
+/// landing and of coming to rest is in those conditions: a landing node has `du_n = dv_n = 0` afterwards, and the forces of
+/// its first two steps shift its tangential motion by as much as they come earlier.
 pub struct Period<'a> {
-    stepping: &'a MeshStepping,
+    stepping: &'a MeshStepping<'a>,
     coefficients: StepCoefficients,
     steps: usize,
     friction_coefficient: f64,
-    normal: Vec<usize>,
-    tangential: Vec<usize>,
-    /// Contact of each node at each step.
+    /// Places of the normal and tangential dof of each contact node.
+    places: Vec<[usize; 2]>,
+    /// Contact of each node, step after step.
     contact: Vec<NodeContact>,
     /// Places of the moving dofs, with the root of their mass.
     dofs: Vec<(usize, f64)>,
-    /// Length of the period, s.
+    /// Harmonic of the wave in the phase `n theta + omega t`.
+    pub harmonic: isize,
+    /// Its length, s.
     pub duration: f64,
-    /// Mean external power over the period, W/m.
-    pub external_power: f64,
-    /// Displacement and velocity at the start, places of the operator.
-    pub start: [Vec<f64>; 2],
-    pub end: [Vec<f64>; 2],
+    /// Mean powers, W/m.
+    pub powers: CyclePowers,
+    /// Fractions of nodes that `[stick, slip, open]`.
+    pub fractions: [f64; 3],
+    /// Displacement and velocity at its start, as a perturbation.
+    start: Vec<f64>,
 }
 
-impl MeshStepping {
-    /// The stepping of a solver's mesh.
-    pub fn new(solver: &CycleSolver, point: &super::OperatingPoint, simd: SimdLevel) -> Result<Self, CycleError> {
-        let annulus = AnnulusMesh::generate(&solver.specification)?;
+impl CycleSolver {
+    /// The time stepping of its mesh.
+    ///
+    /// # Errors
+    /// [`CycleError::Stepping`] for a mesh that it cannot take.
+    pub fn stepping(&self, simd: SimdLevel) -> Result<MeshStepping<'_>, CycleError> {
+        let annulus = AnnulusMesh::generate(&self.specification)?;
         let model = TransientModel {
             annulus: &annulus,
-            material: solver.material,
-            damping: point.damping,
-            contact: point.contact,
+            material: self.material,
+            damping: RayleighDamping {
+                mass_coefficient: 0.0,
+                stiffness_coefficient: 0.0,
+            },
+            contact: super::onset::unloaded(&self.specification),
         };
-        let operator = build_operator(&model, OperatorChoice::Auto, simd).unwrap();
+        let operator = build_operator(&model, OperatorChoice::Auto, simd)?;
         let largest_frequency = largest_frequency(operator.as_ref());
-        Ok(Self { annulus, operator, largest_frequency })
+        Ok(MeshStepping {
+            solver: self,
+            annulus,
+            operator,
+            largest_frequency,
+        })
     }
+}
 
-    /// A period of the transient that starts on a cycle, after `settling` others.
-    pub fn period(&self, solver: &CycleSolver, cycle: &LimitCycle, settling: usize) -> Period<'_> {
+impl MeshStepping<'_> {
+    /// A transient on `cycle`, seeded with a velocity (m/s) in one harmonic where one is given, and its steps to a period.
+    ///
+    /// # Errors
+    /// [`CycleError::Stepping`] if it cannot start.
+    pub(super) fn start(
+        &self,
+        cycle: &LimitCycle,
+        seed: Option<(usize, f64)>,
+    ) -> Result<(CentralDifference<'_>, usize), CycleError> {
         let point = &cycle.state.point;
         let duration = TAU / cycle.state.frequency;
         let limit = stable_step_limit(self.largest_frequency, &point.damping);
@@ -81,7 +112,7 @@ impl MeshStepping {
         let time_step = duration / steps as f64;
         let model = TransientModel {
             annulus: &self.annulus,
-            material: solver.material,
+            material: self.solver.material,
             damping: point.damping,
             contact: point.contact,
         };
@@ -90,37 +121,45 @@ impl MeshStepping {
             time_step: TimeStep::Seconds(time_step),
             sample_interval: duration,
             expansion_time: 0.0,
-            initial: InitialState::LimitCycle { harmonic: cycle.harmonic, onset: 1 },
-            perturbation: Perturbation::default(),
+            initial: InitialState::LimitCycle {
+                harmonic: cycle.harmonic,
+                onset: self.solver.family().onset,
+            },
+            perturbation: seed.map_or_else(Perturbation::default, |(harmonic, velocity)| {
+                Perturbation::of(&[harmonic], velocity)
+            }),
         };
-        let [displacement, _] = solver.field(cycle, 0.0);
-        let [_, velocity] = solver.field(cycle, -0.5 * time_step);
+        let [displacement, _] = self.solver.field(cycle, 0.0);
+        let [_, velocity] = self.solver.field(cycle, -0.5 * time_step);
         let operator = self.operator.as_ref();
-        let mut run = CentralDifference::start_from(model, operator, &settings, &displacement, velocity).unwrap();
-        for _ in 0..settling * steps {
-            run.advance();
-        }
-        let state = |run: &CentralDifference| [run.fields().displacement.to_vec(), run.fields().velocity.to_vec()];
-        let start = state(&run);
-        let mut contact = Vec::new();
-        let mut external = 0.0;
-        let surface_speed = point.contact.rotation_speed * solver.specification.inner_radius;
-        for _ in 0..steps {
-            run.advance();
-            let law = run.contact();
-            for (i, status) in law.status.iter().enumerate() {
-                contact.push(match status {
-                    ContactStatus::Open => NodeContact::Open,
-                    ContactStatus::Stick => NodeContact::Stick,
-                    ContactStatus::Slip if law.tangential_force[i] > 0.0 => NodeContact::Forward,
-                    ContactStatus::Slip => NodeContact::Backward,
-                });
-                external += law.tangential_force[i] * surface_speed;
-            }
-        }
+        let run =
+            CentralDifference::start_from(model, operator, &settings, &displacement, velocity)?;
+        Ok((run, steps))
+    }
+
+    /// Tangential displacement of the contact nodes, m.
+    pub(super) fn edge(&self, run: &CentralDifference<'_>) -> Vec<f64> {
+        let places = run.contact().tangential_places().iter();
+        places.map(|&k| run.fields().displacement[k]).collect()
+    }
+
+    /// One period of the transient that starts on `cycle`, after a few others.
+    ///
+    /// # Errors
+    /// [`CycleError::Stepping`] if the transient cannot start.
+    pub fn period(&self, cycle: &LimitCycle) -> Result<Period<'_>, CycleError> {
+        let (point, operator) = (&cycle.state.point, self.operator.as_ref());
+        let (mut run, steps) = self.start(cycle, None)?;
+        let time_step = run.plan().time_step;
+        let duration = steps as f64 * time_step;
+        (0..SETTLING * steps).for_each(|_| run.advance());
+        run.take_sums();
         let masses = operator.masses();
         let places = (0..operator.dof_count()).map(|dof| operator.position(dof));
-        Period {
+        let moving = places.filter(|&place| masses[place] > 0.0);
+        let law = run.contact();
+        let normal = law.normal_places().iter();
+        let mut period = Period {
             stepping: self,
             coefficients: StepCoefficients {
                 time_step,
@@ -129,89 +168,170 @@ impl MeshStepping {
             },
             steps,
             friction_coefficient: point.contact.friction_coefficient,
-            normal: run.contact().normal_places().to_vec(),
-            tangential: run.contact().tangential_places().to_vec(),
-            contact,
-            dofs: places.filter(|&k| masses[k] > 0.0).map(|k| (k, masses[k].sqrt())).collect(),
+            places: normal
+                .zip(law.tangential_places())
+                .map(|(&n, &t)| [n, t])
+                .collect(),
+            contact: Vec::with_capacity(steps * law.status.len()),
+            dofs: moving.map(|k| (k, masses[k].sqrt())).collect(),
+            harmonic: self.solver.body().harmonic(),
             duration,
-            external_power: external / steps as f64,
-            end: state(&run),
-            start,
+            powers: CyclePowers::default(),
+            fractions: [0.0; 3],
+            start: Vec::new(),
+        };
+        period.start = period.packed(run.fields());
+        for _ in 0..steps {
+            run.advance();
+            period.record(&run);
         }
+        period.summarize(&mut run);
+        Ok(period)
     }
 }
 
 impl Period<'_> {
-    pub fn pack(&self, u: &[f64], v: &[f64]) -> Vec<f64> {
-        let omega = TAU / self.duration;
-        let a = self.dofs.iter().map(|&(k, root)| omega * root * u[k]);
-        let b = self.dofs.iter().map(|&(k, root)| root * v[k]);
-        a.chain(b).collect()
+    /// Keeps the contact of the last step.
+    fn record(&mut self, run: &CentralDifference<'_>) {
+        let law = run.contact();
+        let nodes = law.status.iter().zip(&law.tangential_force);
+        self.contact
+            .extend(nodes.map(|(status, force)| match status {
+                ContactStatus::Open => NodeContact::Open,
+                ContactStatus::Stick => NodeContact::Stick,
+                ContactStatus::Slip => NodeContact::Slip(force.signum()),
+            }));
     }
-    fn advance(&self, fields: &mut MotionFields, step: usize, before: &mut [[f64; 2]]) {
-        let StepCoefficients { time_step: dt, mass_coefficient: alpha, stiffness_coefficient: beta } = self.coefficients;
-        let count = self.normal.len();
-        let contact = &self.contact[step * count..(step + 1) * count];
-        for i in 0..count {
-            if contact[i] == NodeContact::Open {
+
+    /// Means over the steps since the sums were last taken.
+    fn summarize(&mut self, run: &mut CentralDifference<'_>) {
+        let (sums, damping, counts) = run.take_sums();
+        let mean = sums.scaled(1.0 / self.steps as f64);
+        self.powers = CyclePowers {
+            external: mean.external,
+            stick: mean.stick,
+            slide: mean.slide,
+            contact_dissipated: mean.contact_dissipated,
+            material_damping: damping / self.steps as f64,
+            normal_contact: mean.normal,
+        };
+        self.fractions = counts.fractions();
+    }
+
+    /// `omega` of the wave, rad/s.
+    pub fn frequency(&self) -> f64 {
+        TAU / self.duration
+    }
+
+    /// Length of a perturbation: twice the moving dofs, sector after sector.
+    pub fn dimension(&self) -> usize {
+        2 * self.dofs.len()
+    }
+
+    /// Moving dofs of one sector, those of its contact node first.
+    pub fn sector_dofs(&self) -> usize {
+        self.dofs.len() / self.places.len()
+    }
+
+    /// Contact nodes, one for each sector.
+    pub fn sectors(&self) -> usize {
+        self.places.len()
+    }
+
+    /// Displacement and velocity as a perturbation: `(omega sqrt(m) u, sqrt(m) v)`, whose square is an energy.
+    fn packed(&self, fields: &MotionFields) -> Vec<f64> {
+        let omega = self.frequency();
+        let displacement = self
+            .dofs
+            .iter()
+            .map(|&(k, root)| omega * root * fields.displacement[k]);
+        let velocity = self.dofs.iter().map(|&(k, root)| root * fields.velocity[k]);
+        displacement.chain(velocity).collect()
+    }
+
+    /// The direction in which the wave shifts in phase: differences of neighbouring sectors.
+    pub fn shift(&self) -> Vec<f64> {
+        let (per, count) = (self.sector_dofs(), self.sectors());
+        let half = self.dofs.len();
+        (0..self.dimension())
+            .map(|i| {
+                let (part, at) = (i / half * half, i % half);
+                let (sector, dof) = (at / per, at % per);
+                let value = |s: usize| self.start[part + (s % count) * per + dof];
+                value(sector + 1) - value(sector + count - 1)
+            })
+            .collect()
+    }
+
+    /// A perturbation one period later.
+    pub fn map(&self, perturbation: &[f64]) -> Vec<f64> {
+        let operator = self.stepping.operator.as_ref();
+        let zeros = || AlignedVector::zeros(operator.field_length());
+        let mut fields = MotionFields {
+            displacement: zeros(),
+            velocity: zeros(),
+            elastic: zeros(),
+            elastic_rate: zeros(),
+        };
+        let (displacement, velocity) = perturbation.split_at(self.dofs.len());
+        let omega = self.frequency();
+        for (&(k, root), (u, v)) in self.dofs.iter().zip(displacement.iter().zip(velocity)) {
+            fields.displacement[k] = u / (omega * root);
+            fields.velocity[k] = v / root;
+        }
+        operator.multiply(&mut fields.displacement, &mut fields.elastic);
+        operator.multiply(&mut fields.velocity, &mut fields.elastic_rate);
+        let mut before = vec![[0.0; 2]; self.places.len()];
+        for contact in self.contact.chunks(self.places.len()) {
+            self.push(&mut fields, contact, &mut before);
+            operator.advance(&mut fields, &self.coefficients);
+            self.release(&mut fields, contact, &before);
+        }
+        self.packed(&fields)
+    }
+
+    /// Adds the change of the contact forces to the elastic accelerations of the coming step.
+    fn push(&self, fields: &mut MotionFields, contact: &[NodeContact], before: &mut [[f64; 2]]) {
+        let StepCoefficients {
+            time_step: dt,
+            mass_coefficient: alpha,
+            stiffness_coefficient: beta,
+        } = self.coefficients;
+        for (i, &state) in contact.iter().enumerate() {
+            let [n, t] = self.places[i];
+            let [q_n, q_t] = [fields.elastic[n], fields.elastic[t]];
+            before[i] = [q_n, q_t];
+            if state == NodeContact::Open {
                 continue;
             }
-            let (n, t) = (self.normal[i], self.tangential[i]);
-            let (q_n, q_t) = (fields.elastic[n], fields.elastic[t]);
-            before[i] = [q_n, q_t];
-            let (v_n, v_t) = (fields.velocity[n], fields.velocity[t]);
+            // dN / m so that du_n = 0 after the step.
+            let v_n = fields.velocity[n];
             let trial_n = v_n - dt * (q_n + (alpha * v_n + beta * fields.elastic_rate[n]));
             let normal = -(fields.displacement[n] + dt * trial_n) / (dt * dt);
-            let tangential = match contact[i] {
+            let tangential = match state {
+                // dT / m so that dv_t = 0 after the step.
                 NodeContact::Stick => {
+                    let v_t = fields.velocity[t];
                     let trial_t = v_t - dt * (q_t + (alpha * v_t + beta * fields.elastic_rate[t]));
                     -trial_t / dt
                 }
-                NodeContact::Forward => self.friction_coefficient * normal,
-                _ => -self.friction_coefficient * normal,
+                NodeContact::Slip(sign) => sign * self.friction_coefficient * normal,
+                NodeContact::Open => 0.0,
             };
             fields.elastic[n] = q_n - normal;
             fields.elastic[t] = q_t - tangential;
         }
-        self.stepping.operator.advance(fields, &self.coefficients);
-        for i in 0..count {
-            if contact[i] != NodeContact::Open {
-                let (n, t) = (self.normal[i], self.tangential[i]);
-                fields.elastic[n] = before[i][0] + dt * fields.elastic_rate[n];
-                fields.elastic[t] = before[i][1] + dt * fields.elastic_rate[t];
-            }
-        }
-    }
-}
-
-impl BlockOperator for Period<'_> {
-    fn dimension(&self) -> usize {
-        2 * self.dofs.len()
     }
 
-    fn apply(&self, x: MatRef<'_, f64>) -> Mat<f64> {
-        let operator = self.stepping.operator.as_ref();
-        let omega = TAU / self.duration;
-        let half = self.dofs.len();
-        let zeros = || AlignedVector::zeros(operator.field_length());
-        let mut result = Mat::zeros(x.nrows(), x.ncols());
-        for column in 0..x.ncols() {
-            let mut fields = MotionFields { displacement: zeros(), velocity: zeros(), elastic: zeros(), elastic_rate: zeros() };
-            for (i, &(k, root)) in self.dofs.iter().enumerate() {
-                fields.displacement[k] = x[(i, column)] / (omega * root);
-                fields.velocity[k] = x[(half + i, column)] / root;
-            }
-            operator.multiply(&mut fields.displacement, &mut fields.elastic);
-            operator.multiply(&mut fields.velocity, &mut fields.elastic_rate);
-            let mut before = vec![[0.0; 2]; self.normal.len()];
-            for step in 0..self.steps {
-                self.advance(&mut fields, step, &mut before);
-            }
-            for (i, &(k, root)) in self.dofs.iter().enumerate() {
-                result[(i, column)] = fields.displacement[k] * omega * root;
-                result[(half + i, column)] = fields.velocity[k] * root;
+    /// Takes them out again after the step.
+    fn release(&self, fields: &mut MotionFields, contact: &[NodeContact], before: &[[f64; 2]]) {
+        let dt = self.coefficients.time_step;
+        for (i, &state) in contact.iter().enumerate() {
+            if state != NodeContact::Open {
+                for (&place, elastic) in self.places[i].iter().zip(before[i]) {
+                    fields.elastic[place] = elastic + dt * fields.elastic_rate[place];
+                }
             }
         }
-        result
     }
 }

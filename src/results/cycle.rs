@@ -1,13 +1,15 @@
 //! Results of a search for limit cycles: what is printed and what is written.
 
 use crate::contact::ContactStatus;
-use crate::cycle::{CycleBranch, CycleStability, Family, LimitCycle, Onset, StabilityChange};
+use crate::cycle::{
+    Confirmation, CycleBranch, CycleStability, Family, LimitCycle, Onset, StabilityChange,
+};
 use crate::mesh::Mesh2d;
-use crate::results::cycle_confirmation::{Confirmation, confirmation_object, confirmation_text};
+use crate::results::cycle_confirmation::{confirmation_object, confirmation_text};
 use crate::results::cycle_fields::{CycleFrame, write_fields};
 use crate::results::cycle_figures::CycleRecord;
 use crate::results::cycle_stability::{
-    Verdict, known, print_stability, stability_object, write_stability,
+    Finding, known, print_stability, stability_object, write_stability,
 };
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::manifest::Manifest;
@@ -43,9 +45,9 @@ pub struct CycleResult {
     /// A transient that started on that cycle, where one was asked for.
     pub confirmation: Option<Result<Confirmation, String>>,
     /// Stability of that cycle, where it was asked for.
-    pub stability: Verdict,
+    pub stability: Finding,
     /// Stability of each cycle of the branch, where it was asked for; else empty.
-    pub branch_stability: Vec<Verdict>,
+    pub branch_stability: Vec<Finding>,
     /// Where the branch changes its stability, in its order.
     pub stability_changes: Vec<StabilityChange>,
     /// The branch over the case's parameter, where one was asked for and there is a cycle to start from.
@@ -75,7 +77,9 @@ impl CycleReport<'_> {
                 onset.frequency / TAU,
                 onset.friction_coefficient,
             ),
-            None => format!("steady sliding is stable at contact.friction_coefficient = {friction}"),
+            None => {
+                format!("steady sliding is stable at contact.friction_coefficient = {friction}")
+            }
         })
     }
 }
@@ -184,7 +188,7 @@ pub fn write_phases(out: &mut dyn Write, cycle: &LimitCycle) -> io::Result<()> {
 pub fn write_branch(
     out: &mut dyn Write,
     branch: &CycleBranch,
-    stability: &[Verdict],
+    stability: &[Finding],
     report: &CycleReport<'_>,
 ) -> io::Result<()> {
     let columns = [

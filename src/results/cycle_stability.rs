@@ -2,20 +2,20 @@
 
 use super::cycle::CycleResult;
 use super::table::{Table, format_number};
-use crate::cycle::{CycleBranch, CycleStability, LimitCycle};
+use crate::cycle::{CycleBranch, CycleStability, LimitCycle, Verdict};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::io::{self, Write};
 
 /// What is known of the stability of a cycle.
-pub type Verdict = Option<Result<CycleStability, String>>;
+pub type Finding = Option<Result<CycleStability, String>>;
 
 /// Its analysis, where there is one.
-pub fn known(verdict: &Verdict) -> Option<&CycleStability> {
-    verdict.as_ref().and_then(|verdict| verdict.as_ref().ok())
+pub fn known(finding: &Finding) -> Option<&CycleStability> {
+    finding.as_ref().and_then(|finding| finding.as_ref().ok())
 }
 
-/// Writes the leading exponents of each class, one row each: for the cycle at the case's own operating point, then along the
+/// Writes the leading exponents, one row each: for the cycle at the case's own operating point, then along the
 /// branch.
 ///
 /// # Errors
@@ -29,28 +29,31 @@ pub fn write_stability(out: &mut dyn Write, result: &CycleResult) -> io::Result<
         "wave_frequency_rad_per_s",
         "harmonic",
         "frequency_hz",
+        "uncertainty_per_s",
     ];
     let mut table = Table::new(out, &columns)?;
-    let mut rows = |at: f64, verdict: &Verdict| -> io::Result<()> {
-        for class in known(verdict).into_iter().flat_map(|found| &found.classes) {
-            for found in &class.exponents {
-                table.row([
-                    format_number(at),
-                    class.class.to_string(),
-                    format_number(found.exponent.re),
-                    format_number(found.exponent.im),
-                    found.harmonic.to_string(),
-                    format_number(found.frequency_hz),
-                ])?;
-            }
+    let mut rows = |at: f64, finding: &Finding| -> io::Result<()> {
+        for found in known(finding)
+            .into_iter()
+            .flat_map(|found| &found.exponents)
+        {
+            table.row([
+                format_number(at),
+                found.class.to_string(),
+                format_number(found.exponent.re),
+                format_number(found.exponent.im),
+                found.harmonic.to_string(),
+                format_number(found.frequency_hz),
+                format_number(found.uncertainty),
+            ])?;
         }
         Ok(())
     };
     match (&result.branch, &result.cycle) {
         (Some(branch), Ok(own)) => {
             rows(value(branch, own), &result.stability)?;
-            for (cycle, verdict) in branch.cycles.iter().zip(&result.branch_stability) {
-                rows(value(branch, cycle), verdict)?;
+            for (cycle, finding) in branch.cycles.iter().zip(&result.branch_stability) {
+                rows(value(branch, cycle), finding)?;
             }
         }
         _ => rows(0.0, &result.stability)?,
@@ -64,8 +67,8 @@ fn value(branch: &CycleBranch, cycle: &LimitCycle) -> f64 {
 }
 
 /// The summary's object.
-pub fn stability_object(verdict: &Verdict) -> Value {
-    match verdict {
+pub fn stability_object(finding: &Finding) -> Value {
+    match finding {
         None => Value::Null,
         Some(Err(error)) => json!({ "error": error }),
         Some(Ok(stability)) => {
@@ -75,10 +78,13 @@ pub fn stability_object(verdict: &Verdict) -> Value {
                     "wave_frequency_rad_per_s": leading.exponent.im,
                     "harmonic": leading.harmonic,
                     "frequency_hz": leading.frequency_hz,
+                    "uncertainty_per_s": leading.uncertainty,
                 })
             });
+            let verdict = stability.verdict();
             json!({
-                "is_stable": stability.is_stable(),
+                "verdict": verdict.word(),
+                "is_stable": (verdict != Verdict::Undecided).then_some(verdict == Verdict::Stable),
                 "growing_harmonics": stability.growing_harmonics(),
                 "leading": leading,
             })
@@ -96,19 +102,22 @@ pub fn print_stability(out: &mut String, result: &CycleResult) {
         }
         Some(Ok(stability)) => {
             let _ = match stability.leading() {
-                Some(leading) if stability.is_stable() => writeln!(
-                    out,
-                    "{family}: stable; the slowest perturbation, {} at {:.0} Hz, decays at {:.0} 1/s",
-                    diameters(leading.harmonic),
-                    leading.frequency_hz,
-                    -leading.exponent.re,
-                ),
                 Some(leading) => writeln!(
                     out,
-                    "{family}: UNSTABLE to {} at {:.0} Hz, growing at {:.0} 1/s",
+                    "{family}: {}; the leading perturbation, {} at {:.0} Hz, {} at {:.0} +- {:.0} 1/s",
+                    match stability.verdict() {
+                        Verdict::Unstable => "UNSTABLE",
+                        verdict => verdict.word(),
+                    },
                     diameters(leading.harmonic),
                     leading.frequency_hz,
-                    leading.exponent.re,
+                    if leading.exponent.re > 0.0 {
+                        "grows"
+                    } else {
+                        "decays"
+                    },
+                    leading.exponent.re.abs(),
+                    leading.uncertainty,
                 ),
                 None => writeln!(out, "{family}: stable; every perturbation decays fast"),
             };

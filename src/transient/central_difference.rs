@@ -199,6 +199,16 @@ impl<'a> CentralDifference<'a> {
         Ok(observer.observe(&sample))
     }
 
+    /// Contact powers, power of material damping and node statuses, summed over the steps since the last sample or the last
+    /// call of this.
+    pub fn take_sums(&mut self) -> (ContactPowers, f64, StatusCounts) {
+        (
+            std::mem::take(&mut self.powers),
+            std::mem::take(&mut self.damping_power),
+            std::mem::take(&mut self.counts),
+        )
+    }
+
     /// The complete state; exact for a restart when taken at a sample.
     pub fn state(&self) -> TransientState {
         let dofs = |field: &[f64]| gather(self.operator, field);

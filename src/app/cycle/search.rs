@@ -1,26 +1,23 @@
 //! The search for the limit cycles of a case.
 
-use super::confirmation::confirm;
 use crate::app::{Failure, terminal};
 use crate::case::{Case, Cycle, ModeSelection, OnsetChoice, StabilityChoice};
 use crate::cea::cyclic::ModeLimit;
 use crate::cycle::{
-    CycleBranch, CycleError, CycleSolver, DiscModel, Family, LimitCycle, MODES, Onset,
-    OperatingPoint, Parameter, StabilityChange,
+    CycleError, CycleSolver, CycleStability, DiscModel, Family, LimitCycle, MODES, MeshStepping,
+    Onset, OperatingPoint, Parameter, StabilityChange, SteppedCycle, Verdict,
 };
 use crate::fem::operator::SimdLevel;
 use crate::mesh::AnnulusMesh;
 use crate::results::Manifest;
 use crate::results::cycle::{Absence, CycleReport, CycleResult, summary};
-use crate::results::cycle_confirmation::Confirmation;
 use crate::results::cycle_fields::CycleFrame;
 use crate::results::cycle_figures::FamilyRecord;
-use crate::results::cycle_stability::{Verdict, known};
+use crate::results::cycle_stability::known;
 use indicatif::ProgressBar;
 use rayon::prelude::*;
 use serde_json::{Value, json};
 use std::time::Instant;
-
 
 /// What a case asks for: cycles of which harmonics, where, and followed over what.
 pub struct Search<'a> {
@@ -116,17 +113,6 @@ impl<'a> Search<'a> {
         summary
     }
 
-    /// A transient that starts on a cycle, if the case asks for one.
-    fn confirm(
-        &self,
-        solver: &CycleSolver,
-        cycle: &LimitCycle,
-    ) -> Option<Result<Confirmation, String>> {
-        let periods = self.choices.confirmation_periods;
-        let found = || confirm(self.case, &self.annulus, solver, cycle, periods, self.simd);
-        (periods > 0).then(|| found().map_err(|error| error.to_string()))
-    }
-
     fn onsets_of(&self, harmonic: usize) -> Vec<Onset> {
         let own = self.onsets.iter().filter(|o| o.harmonic == harmonic);
         own.copied().collect()
@@ -141,7 +127,9 @@ impl<'a> Search<'a> {
         let is_stable = friction < onset;
         Absence {
             reason: match is_stable {
-                true => format!("{friction} < {onset:.4}: steady sliding is stable against this wave"),
+                true => {
+                    format!("{friction} < {onset:.4}: steady sliding is stable against this wave")
+                }
                 false => error.to_string(),
             },
             is_stable,
@@ -168,49 +156,70 @@ impl<'a> Search<'a> {
         }
     }
 
+    /// The cycle of a family with everything asked for: branch, stability, confirmation, fields.
     fn solve(&self, solver: &CycleSolver, frame_count: usize) -> CycleResult {
-        let (point, stability) = (&self.point, self.choices.stability);
         let start = Instant::now();
-        let found = solver.find(point);
-        let branch = match (&found, &self.continuation) {
+        let stability = self.choices.stability;
+        let found = solver.find(&self.point);
+        let mut branch = match (&found, &self.continuation) {
             (Ok(cycle), Some((parameter, values))) => {
                 Some(solver.follow(cycle, *parameter, values))
             }
             _ => None,
         };
-        let verdict = |cycle: &LimitCycle| {
-            let stability = solver.stability(cycle);
-            Some(stability.map_err(|error| error.to_string()))
-        };
-        let own = match &found {
-            Ok(cycle) if stability != StabilityChoice::None => verdict(cycle),
-            _ => None,
-        };
-        let branch_stability = match &branch {
-            Some(branch) if stability == StabilityChoice::Branch => along(&branch.cycles, verdict),
-            _ => Vec::new(),
-        };
-        CycleResult {
+        let frames = found
+            .as_ref()
+            .map_or(Vec::new(), |cycle| frames(solver, cycle, frame_count));
+        let mut result = CycleResult {
             family: solver.family(),
             phases: solver.grid().points,
-            confirmation: found
-                .as_ref()
-                .ok()
-                .and_then(|cycle| self.confirm(solver, cycle)),
-            stability: own,
-            stability_changes: branch.as_ref().map_or(Vec::new(), |branch| {
-                changes(solver, branch, &branch_stability)
-            }),
-            branch_stability,
             onsets: self.onsets_of(solver.family().harmonic),
-            frames: found
-                .as_ref()
-                .map_or(Vec::new(), |cycle| frames(solver, cycle, frame_count)),
             cycle: found.map_err(|error| self.absence(solver, &error)),
-            branch,
-            wall_s: start.elapsed().as_secs_f64(),
+            frames,
+            confirmation: None,
+            stability: None,
+            branch_stability: Vec::new(),
+            stability_changes: Vec::new(),
+            branch: None,
+            wall_s: 0.0,
+        };
+        // What the mesh's own time stepping makes of it.
+        if let Ok(cycle) = &mut result.cycle {
+            match solver.stepping(self.simd) {
+                Ok(stepping) => {
+                    if stability != StabilityChoice::None {
+                        result.stability = Some(settle(&stepping, cycle));
+                    }
+                    let periods = self.choices.confirmation_periods;
+                    let known = known(&result.stability);
+                    result.confirmation = (periods > 0).then(|| {
+                        stepping
+                            .confirm(cycle, known, periods)
+                            .map_err(|e| e.to_string())
+                    });
+                    if let (Some(branch), StabilityChoice::Branch) = (&mut branch, stability) {
+                        let settled = along(&stepping, &mut branch.cycles);
+                        result.stability_changes = changes(&stepping, branch.parameter, &settled);
+                        result.branch_stability = settled
+                            .into_iter()
+                            .map(|settled| Some(settled.map(|settled| settled.stability)))
+                            .collect();
+                    }
+                }
+                Err(error) => result.confirmation = Some(Err(error.to_string())),
+            }
         }
+        result.branch = branch;
+        result.wall_s = start.elapsed().as_secs_f64();
+        result
     }
+}
+
+/// Stability of a cycle; its powers and fractions become those of the transient.
+fn settle(stepping: &MeshStepping<'_>, cycle: &mut LimitCycle) -> Result<CycleStability, String> {
+    let settled = stepping.settle(cycle, None).map_err(|e| e.to_string())?;
+    *cycle = settled.cycle;
+    Ok(settled.stability)
 }
 
 /// The parameter of `[cycle.continuation]` and its SI values.
@@ -330,46 +339,66 @@ fn frames(solver: &CycleSolver, cycle: &LimitCycle, count: usize) -> Vec<CycleFr
         .collect()
 }
 
-/// A verdict for each cycle of a branch. Where a wave only scales from one cycle to the next, its stability is the same.
-fn along(cycles: &[LimitCycle], verdict: impl Fn(&LimitCycle) -> Verdict + Sync) -> Vec<Verdict> {
+/// Cycles whose exponents are found one after the other, each from its neighbour's; the groups run in parallel.
+const GROUP: usize = 8;
+
+/// Every cycle of a branch settled in the transient, with its stability. Where a wave only scales from one cycle to the
+/// next, so do its powers, and its stability is the same.
+fn along(
+    stepping: &MeshStepping<'_>,
+    cycles: &mut [LimitCycle],
+) -> Vec<Result<SteppedCycle, String>> {
     let is_scaled = |a: &LimitCycle, b: &LimitCycle| {
         let drift = a.state.frequency / b.state.frequency - 1.0;
         a.state.contact == b.state.contact && drift.abs() < 1e-9
     };
-    let groups: Vec<&[LimitCycle]> = cycles.chunk_by(is_scaled).collect();
-    let verdicts: Vec<(Verdict, usize)> = groups
-        .par_iter()
-        .map(|group| (verdict(&group[0]), group.len()))
+    let settled: Vec<Vec<Result<SteppedCycle, String>>> = cycles
+        .par_chunks_mut(GROUP)
+        .map(|group| {
+            let mut done: Vec<Result<SteppedCycle, String>> = Vec::new();
+            let mut before: Option<(LimitCycle, SteppedCycle)> = None;
+            for cycle in group {
+                let found = match &before {
+                    Some((own, settled)) if is_scaled(own, cycle) => {
+                        Ok(settled.scaled_to(own, cycle))
+                    }
+                    _ => {
+                        let neighbour = before.as_ref().map(|(_, settled)| settled);
+                        let settled = stepping.settle(cycle, neighbour);
+                        settled.map_err(|error| error.to_string())
+                    }
+                };
+                if let Ok(settled) = &found {
+                    before = Some((cycle.clone(), settled.clone()));
+                    *cycle = settled.cycle.clone();
+                }
+                done.push(found);
+            }
+            done
+        })
         .collect();
-    verdicts
-        .into_iter()
-        .flat_map(|(verdict, count)| std::iter::repeat_n(verdict, count))
-        .collect()
+    settled.into_iter().flatten().collect()
 }
 
-/// Where neighbours along a branch differ in stability.
+/// Where neighbours along a branch differ in stability for sure.
 fn changes(
-    solver: &CycleSolver,
-    branch: &CycleBranch,
-    verdicts: &[Verdict],
+    stepping: &MeshStepping<'_>,
+    parameter: Parameter,
+    settled: &[Result<SteppedCycle, String>],
 ) -> Vec<StabilityChange> {
-    let known: Vec<(&LimitCycle, bool)> = branch
-        .cycles
-        .iter()
-        .zip(verdicts)
-        .filter_map(|(cycle, verdict)| Some((cycle, known(verdict)?.is_stable())))
-        .collect();
-    let pairs = known.windows(2).filter(|pair| pair[0].1 != pair[1].1);
-    let found = pairs.filter_map(|pair| {
-        let [(first, is_stable), (second, _)] = [pair[0], pair[1]];
-        let (stable, unstable) = if is_stable {
+    let is_sure = |found: &&SteppedCycle| found.stability.verdict() != Verdict::Undecided;
+    let known: Vec<&SteppedCycle> = settled.iter().flatten().filter(is_sure).collect();
+    let differ =
+        |pair: &&[&SteppedCycle]| pair[0].stability.is_stable() != pair[1].stability.is_stable();
+    let pairs: Vec<&[&SteppedCycle]> = known.windows(2).filter(differ).collect();
+    let found = pairs.par_iter().map(|pair| {
+        let [first, second] = [pair[0], pair[1]];
+        let (stable, unstable) = if first.stability.is_stable() {
             (first, second)
         } else {
             (second, first)
         };
-        solver
-            .stability_change(branch.parameter, stable, unstable)
-            .ok()
+        stepping.stability_change(parameter, stable, unstable).ok()
     });
-    found.collect()
+    found.collect::<Vec<_>>().into_iter().flatten().collect()
 }

@@ -1,7 +1,7 @@
 //! What a search for limit cycles keeps to draw its figures again.
 
 use crate::contact::ContactStatus;
-use crate::cycle::{CycleBranch, CycleStability, Family, LimitCycle};
+use crate::cycle::{CycleBranch, CycleStability, Family, LimitCycle, Verdict};
 use crate::results::cycle::{CycleReport, CycleResult, amplitude};
 use crate::results::cycle_stability::known;
 use crate::results::record::Record;
@@ -218,7 +218,10 @@ impl BranchRecord {
                 share(|c| c.powers.normal_contact),
             ],
             stable: verdicts()
-                .map(|found| found.map(CycleStability::is_stable))
+                .map(|found| match found?.verdict() {
+                    Verdict::Undecided => None,
+                    verdict => Some(verdict == Verdict::Stable),
+                })
                 .collect(),
             growth_rate: verdicts()
                 .map(|found| {

@@ -1,0 +1,213 @@
+//! Limit cycles of discs that are not the paper's: rings of steel and aluminium, coarse meshes.
+//!
+//! Onsets are held to the eigenvalue analysis, results to scaling, stability and power to transients that start beside the
+//! cycle. The transients are independent of the grid of phases: they share with it the element matrices alone.
+
+use frictionsim::cea::cyclic::ModeLimit;
+use frictionsim::contact::SlidingContact;
+use frictionsim::cycle::{CycleError, CycleSolver, DiscModel, Family, OperatingPoint, Verdict};
+use frictionsim::fem::operator::SimdLevel;
+use frictionsim::fem::{ElasticMaterial, PlaneFormulation, RayleighDamping};
+use frictionsim::mesh::{AnnulusSpecification, ElementKind};
+use std::f64::consts::TAU;
+
+fn ring(radii: [f64; 2], elements: [usize; 2]) -> AnnulusSpecification {
+    AnnulusSpecification {
+        inner_radius: radii[0],
+        outer_radius: radii[1],
+        circumferential_elements: elements[0],
+        radial_elements: elements[1],
+        radial_grading: 1.0,
+        element: ElementKind::Quad4,
+    }
+}
+
+fn metal(young_modulus: f64, poisson_ratio: f64, density: f64) -> ElasticMaterial {
+    ElasticMaterial {
+        young_modulus,
+        poisson_ratio,
+        density,
+        formulation: PlaneFormulation::PlaneStress,
+    }
+}
+
+/// Aluminium, 30 to 75 mm.
+fn aluminium(elements: [usize; 2]) -> (DiscModel, SlidingContact) {
+    let model = DiscModel {
+        specification: ring([0.03, 0.075], elements),
+        material: metal(70e9, 0.33, 2700.0),
+        damping: RayleighDamping {
+            mass_coefficient: 0.0,
+            stiffness_coefficient: 1.5e-7,
+        },
+    };
+    let contact = SlidingContact {
+        friction_coefficient: 0.35,
+        interference: 10e-6,
+        rotation_speed: 900.0 * TAU / 60.0,
+    };
+    (model, contact)
+}
+
+/// Steel, 100 to 240 mm.
+fn steel(elements: [usize; 2]) -> (DiscModel, SlidingContact) {
+    let model = DiscModel {
+        specification: ring([0.1, 0.24], elements),
+        material: ElasticMaterial {
+            formulation: PlaneFormulation::PlaneStrain,
+            ..metal(210e9, 0.3, 7850.0)
+        },
+        damping: RayleighDamping {
+            mass_coefficient: 100.0,
+            stiffness_coefficient: 4e-7,
+        },
+    };
+    let contact = SlidingContact {
+        friction_coefficient: 0.5,
+        interference: 40e-6,
+        rotation_speed: 750.0 * TAU / 60.0,
+    };
+    (model, contact)
+}
+
+fn point(model: &DiscModel, contact: &SlidingContact) -> OperatingPoint {
+    OperatingPoint {
+        contact: *contact,
+        damping: model.damping,
+    }
+}
+
+#[test]
+fn every_unstable_wave_of_the_eigenvalue_analysis_has_its_family_or_a_sentence_why_not() {
+    let (model, contact) = aluminium([90, 14]);
+    let limit = ModeLimit::Lowest(40);
+    let onsets = model.onsets(contact.friction_coefficient, limit).unwrap();
+    // Up to 66 kHz, far above what a fixed grid of frequencies would cover.
+    assert!(onsets.len() >= 5, "{onsets:?}");
+    assert!(onsets.iter().any(|onset| onset.frequency > TAU * 40e3));
+    let mut found = 0;
+    for onset in &onsets {
+        let family = Family::lowest(onset.harmonic);
+        let solver = CycleSolver::born_at(&model, family, onset, None).unwrap();
+        match solver.find(&point(&model, &contact)) {
+            // Born at the onset, a cycle has about its frequency.
+            Ok(cycle) => {
+                let ratio = cycle.state.frequency / onset.frequency;
+                assert!((0.85..1.15).contains(&ratio), "{onset:?}: {ratio}");
+                found += 1;
+            }
+            Err(CycleError::NotReached { .. } | CycleError::Unphysical { .. }) => {}
+            Err(error) => panic!("{onset:?}: {error}"),
+        }
+    }
+    assert!(2 * found > onsets.len(), "{found} of {}", onsets.len());
+}
+
+#[test]
+fn scaled_lengths_moduli_densities_and_times_scale_the_results() {
+    let (model, contact) = aluminium([60, 10]);
+    let (length, modulus, density) = (3.7_f64, 0.02_f64, 11.0_f64);
+    let time = length * (density / modulus).sqrt();
+    let mut other = model;
+    other.specification.inner_radius *= length;
+    other.specification.outer_radius *= length;
+    other.material.young_modulus *= modulus;
+    other.material.density *= density;
+    other.damping.stiffness_coefficient *= time;
+    let other_contact = SlidingContact {
+        interference: contact.interference * length,
+        rotation_speed: contact.rotation_speed / time,
+        ..contact
+    };
+    let find = |model: &DiscModel, contact: &SlidingContact| {
+        let onset = model.onsets(0.35, ModeLimit::Lowest(20)).unwrap()[0];
+        let family = Family::lowest(onset.harmonic);
+        let solver = CycleSolver::born_at(model, family, &onset, None).unwrap();
+        let cycle = solver.find(&point(model, contact)).unwrap();
+        let stepping = solver.stepping(SimdLevel::detect()).unwrap();
+        (onset, stepping.settle(&cycle, None).unwrap())
+    };
+    let (one, two) = (find(&model, &contact), find(&other, &other_contact));
+    assert_eq!(one.0.harmonic, two.0.harmonic);
+    let ratio = |a: f64, b: f64| (a / b - 1.0).abs();
+    assert!(ratio(one.0.friction_coefficient, two.0.friction_coefficient) < 1e-9);
+    assert!(ratio(one.0.frequency, two.0.frequency * time) < 1e-9);
+    let [first, second] = [&one.1, &two.1];
+    assert!(
+        ratio(
+            first.cycle.state.frequency,
+            second.cycle.state.frequency * time
+        ) < 1e-8
+    );
+    // W/m: stress times length times velocity.
+    let power = modulus * length * length / time;
+    assert!(
+        ratio(
+            first.cycle.powers.external * power,
+            second.cycle.powers.external
+        ) < 1e-4
+    );
+    let leading = |s: &frictionsim::cycle::SteppedCycle| s.stability.leading().unwrap().exponent;
+    let difference = (leading(first) - leading(second) * time).norm();
+    // A hundredth of a per cent of omega: where a node lands between two steps is round-off's choice.
+    assert!(
+        difference < 1e-4 * first.cycle.state.frequency,
+        "{difference}"
+    );
+}
+
+#[test]
+fn leading_exponent_does_not_depend_on_the_number_of_phases_beyond_its_uncertainty() {
+    let (model, contact) = steel([90, 14]);
+    let onset = model
+        .onset_of(Family::lowest(1), ModeLimit::Lowest(20))
+        .unwrap();
+    let found: Vec<(usize, f64, f64)> = [81, 99, 121, 141, 181]
+        .into_iter()
+        .map(|phases| {
+            let solver =
+                CycleSolver::born_at(&model, Family::lowest(1), &onset, Some(phases)).unwrap();
+            let cycle = solver.find(&point(&model, &contact)).unwrap();
+            let stability = solver.stability(&cycle).unwrap();
+            let leading = stability.leading().unwrap();
+            (phases, leading.exponent.re, leading.uncertainty)
+        })
+        .collect();
+    println!("{found:?}");
+    for (_, a, doubt) in &found {
+        for (_, b, other) in &found {
+            assert!((a - b).abs() <= doubt + other, "{found:?}");
+        }
+    }
+}
+
+#[test]
+fn external_power_is_the_transients_and_the_verdict_is_what_transients_do() {
+    let (model, contact) = steel([90, 14]);
+    for harmonic in [1, 2, 3] {
+        let family = Family::lowest(harmonic);
+        let onset = model.onset_of(family, ModeLimit::Lowest(30)).unwrap();
+        let solver = CycleSolver::born_at(&model, family, &onset, None).unwrap();
+        let cycle = solver.find(&point(&model, &contact)).unwrap();
+        let stepping = solver.stepping(SimdLevel::detect()).unwrap();
+        let settled = stepping.settle(&cycle, None).unwrap();
+        // A hundred periods and more, seeded in the leading harmonic.
+        let run = stepping
+            .confirm(&settled.cycle, Some(&settled.stability), 100)
+            .unwrap();
+        println!(
+            "{family}: {:?} {run:?} {}",
+            settled.stability.leading(),
+            settled.cycle.powers.external
+        );
+        match settled.stability.verdict() {
+            Verdict::Stable => {
+                assert!(run.agrees(&settled.cycle), "{family}: {run:?}");
+                let ratio = settled.cycle.powers.external / run.external_power;
+                assert!((ratio - 1.0).abs() < 7e-3, "{family}: {ratio}");
+            }
+            Verdict::Unstable => assert!(!run.agrees(&settled.cycle), "{family}: {run:?}"),
+            Verdict::Undecided => {}
+        }
+    }
+}
