@@ -5,7 +5,7 @@
 
 use frictionsim::cea::cyclic::ModeLimit;
 use frictionsim::contact::SlidingContact;
-use frictionsim::cycle::{CycleError, CycleSolver, DiscModel, Family, OperatingPoint, Verdict};
+use frictionsim::cycle::{CycleSolver, DiscModel, Family, OperatingPoint, Verdict};
 use frictionsim::fem::operator::SimdLevel;
 use frictionsim::fem::{ElasticMaterial, PlaneFormulation, RayleighDamping};
 use frictionsim::mesh::{AnnulusSpecification, ElementKind};
@@ -78,29 +78,21 @@ fn point(model: &DiscModel, contact: &SlidingContact) -> OperatingPoint {
 }
 
 #[test]
-fn every_unstable_wave_of_the_eigenvalue_analysis_has_its_family_or_a_sentence_why_not() {
-    let (model, contact) = aluminium([90, 14]);
+fn every_unstable_wave_of_the_eigenvalue_analysis_has_its_family() {
+    let (model, contact) = aluminium([150, 24]);
     let limit = ModeLimit::Lowest(40);
     let onsets = model.onsets(contact.friction_coefficient, limit).unwrap();
     // Up to 66 kHz, far above what a fixed grid of frequencies would cover.
-    assert!(onsets.len() >= 5, "{onsets:?}");
+    assert_eq!(onsets.len(), 7, "{onsets:?}");
     assert!(onsets.iter().any(|onset| onset.frequency > TAU * 40e3));
-    let mut found = 0;
     for onset in &onsets {
         let family = Family::lowest(onset.harmonic);
         let solver = CycleSolver::born_at(&model, family, onset, None).unwrap();
-        match solver.find(&point(&model, &contact)) {
-            // Born at the onset, a cycle has about its frequency.
-            Ok(cycle) => {
-                let ratio = cycle.state.frequency / onset.frequency;
-                assert!((0.85..1.15).contains(&ratio), "{onset:?}: {ratio}");
-                found += 1;
-            }
-            Err(CycleError::NotReached { .. } | CycleError::Unphysical { .. }) => {}
-            Err(error) => panic!("{onset:?}: {error}"),
-        }
+        let cycle = solver.find(&point(&model, &contact)).unwrap();
+        // Born at the onset, a cycle has about its frequency.
+        let ratio = cycle.state.frequency / onset.frequency;
+        assert!((0.85..1.15).contains(&ratio), "{onset:?}: {ratio}");
     }
-    assert!(2 * found > onsets.len(), "{found} of {}", onsets.len());
 }
 
 #[test]
@@ -158,7 +150,7 @@ fn scaled_lengths_moduli_densities_and_times_scale_the_results() {
 
 #[test]
 fn leading_exponent_does_not_depend_on_the_number_of_phases_beyond_its_uncertainty() {
-    let (model, contact) = steel([90, 14]);
+    let (model, contact) = steel([150, 24]);
     let onset = model
         .onset_of(Family::lowest(1), ModeLimit::Lowest(20))
         .unwrap();
@@ -183,7 +175,7 @@ fn leading_exponent_does_not_depend_on_the_number_of_phases_beyond_its_uncertain
 
 #[test]
 fn external_power_is_the_transients_and_the_verdict_is_what_transients_do() {
-    let (model, contact) = steel([90, 14]);
+    let (model, contact) = steel([150, 24]);
     for harmonic in [1, 2, 3] {
         let family = Family::lowest(harmonic);
         let onset = model.onset_of(family, ModeLimit::Lowest(30)).unwrap();
