@@ -7,7 +7,7 @@
 mod disc;
 
 use disc::{DAMPING, POLYCARBONATE, annulus, contact};
-use frictionsim::cycle::{CycleSolver, LimitCycle, OperatingPoint};
+use frictionsim::cycle::{CycleSolver, LimitCycle, OperatingPoint, Verdict};
 use frictionsim::fem::operator::SimdLevel;
 use frictionsim::mesh::{AnnulusMesh, ElementKind};
 use frictionsim::transient::{
@@ -176,10 +176,15 @@ fn single_wave_loses_stability_to_a_double_one_far_from_its_own_frequency() {
 fn single_wave_loses_stability_to_the_double_one_between_speeds_where_the_transient_does() {
     // Transients that start on the cycle stay at 1300 rpm and leave it at 1400 rpm.
     let solver = solver(1);
-    let is_stable = |rpm: f64| {
+    let verdict = |rpm: f64| {
         let cycle = solver.find(&operating(rpm)).unwrap();
-        solver.stability(&cycle).unwrap().is_stable()
+        let stability = solver.stability(&cycle).unwrap();
+        println!("{rpm}: {:?}", stability.leading());
+        stability.verdict()
     };
-    assert!(is_stable(610.0) && is_stable(1200.0));
-    assert!(!is_stable(1500.0) && !is_stable(3000.0));
+    // Close to the change the verdict may be left open, but not be wrong.
+    assert_eq!(verdict(610.0), Verdict::Stable);
+    assert_ne!(verdict(1200.0), Verdict::Unstable);
+    assert_eq!(verdict(1500.0), Verdict::Unstable);
+    assert_eq!(verdict(3000.0), Verdict::Unstable);
 }

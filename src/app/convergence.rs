@@ -1,6 +1,6 @@
 //! `frictionsim convergence`: a case on several meshes and with several time steps.
 
-use super::{Failure, RunOptions, Session, cea, cycle, terminal, transient};
+use super::{Failure, RunOptions, Session, basin, cea, cycle, terminal, transient};
 use crate::case::{Analysis, Case, Convergence, StabilityChoice, TimeStep};
 use crate::cea::FrictionSweep;
 use crate::results::convergence::{
@@ -135,7 +135,7 @@ fn memory_bytes(study: &Study) -> f64 {
                 Analysis::Cea => cost.cea.map_or(0.0, |cea| cea.memory_bytes),
                 Analysis::Transient => cost.transient.map_or(0.0, |run| run.memory_bytes),
                 // Receptances of one sector at a few hundred phases.
-                Analysis::Cycle => 0.0,
+                Analysis::Cycle | Analysis::Basin => 0.0,
             }
     });
     bytes.sum()
@@ -162,6 +162,7 @@ fn solve(
             let outcome = match analysis {
                 Analysis::Cea => Outcome::Cea(cea::modes_and_onsets(case)?),
                 Analysis::Transient => summarized(&transient::summarize(case, manifest)?),
+                Analysis::Basin => summarized(&basin::summarize(case, manifest)?),
                 Analysis::Cycle => summarized(&cycle::attempt(&own_cycles(case), manifest)?),
             };
             bar.inc(1);
@@ -243,6 +244,7 @@ fn series(case: &Case, study: &Study, outcomes: Vec<Timed>) -> Result<Vec<Series
             let quantities = quantities::of_transients(&sizes, &summaries);
             vec![of("transient", quantities, notes)]
         }
+        Analysis::Basin => vec![of("basin", Vec::new(), Vec::new())],
         Analysis::Cycle => quantities::by_family(&summaries)
             .into_iter()
             .map(|(family, cycles)| {

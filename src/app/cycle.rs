@@ -6,6 +6,7 @@ mod search;
 pub use figures::redraw;
 pub use search::{disc_model, mode_limit};
 
+use super::session::{available_memory, gibibytes};
 use super::{Failure, RunOptions, Session, terminal};
 use crate::case::Case;
 use crate::results::Manifest;
@@ -85,6 +86,25 @@ pub fn attempt(case: &Case, manifest: &Manifest) -> Result<Value, Failure> {
     let start = Instant::now();
     let search = Search::of(case, manifest)?;
     Ok(search.summary(search.run(0), manifest, start))
+}
+
+/// Refuses phases whose dense matrices do not fit the machine's memory.
+fn check_memory(case: &Case) -> Result<(), Failure> {
+    let bytes = case.cost().cycle.map_or(0.0, |cycle| cycle.memory_bytes);
+    let available = available_memory().unwrap_or(f64::INFINITY);
+    if bytes <= available {
+        return Ok(());
+    }
+    Err(Failure::Case(case.error_at(
+        "cycle.phases",
+        format!(
+            "the search for limit cycles needs about {:.1} GiB of memory, {:.1} GiB are available",
+            gibibytes(bytes),
+            gibibytes(available)
+        ),
+        "too many phases for this machine".to_owned(),
+        Some("lower cycle.phases, or leave it out".to_owned()),
+    )))
 }
 
 /// That there is no cycle is an answer where steady sliding is stable, else a failure.

@@ -156,6 +156,14 @@ const PAGES: &[Page] = &[
         )],
     },
     Page {
+        command: "basin",
+        files: &[("basin.csv", "one row for each transient of the search")],
+        examples: &[(
+            "frictionsim basin disc.toml",
+            "which of two waves wins, by the ratio of their amplitudes at saturation",
+        )],
+    },
+    Page {
         command: "convergence",
         files: &[
             ("convergence.csv", "one row for each quantity on each level"),

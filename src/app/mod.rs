@@ -1,5 +1,6 @@
 //! The command line: one file for each subcommand.
 
+mod basin;
 pub mod cea;
 mod check;
 mod collect;
@@ -59,6 +60,7 @@ enum Command {
     Collect(collect::Arguments),
     Plot(plot::Arguments),
     Cycle(cycle::Arguments),
+    Basin(basin::Arguments),
     Convergence(convergence::Arguments),
     Mesh(mesh::Arguments),
     Check(check::Arguments),
@@ -140,6 +142,7 @@ pub fn main() -> ExitCode {
         Command::Collect(arguments) => collect::run(&arguments),
         Command::Plot(arguments) => plot::run(&arguments),
         Command::Cycle(arguments) => cycle::run(&arguments),
+        Command::Basin(arguments) => basin::run(&arguments),
         Command::Convergence(arguments) => convergence::run(&arguments),
         Command::Mesh(arguments) => mesh::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),

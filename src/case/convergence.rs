@@ -189,6 +189,7 @@ fn analyses(
         ("cea", Analysis::Cea),
         ("transient", Analysis::Transient),
         ("cycle", Analysis::Cycle),
+        ("basin", Analysis::Basin),
     ];
     let named = section.choices("analyses");
     let is_linear = annulus.element == ElementKind::Quad4;
@@ -196,6 +197,8 @@ fn analyses(
         Analysis::Cea => has_cea,
         Analysis::Transient => has_transient && is_linear,
         Analysis::Cycle => has_cycle && is_linear,
+        // A boundary is no number that a mesh converges to within one step of its search.
+        Analysis::Basin => false,
     };
     if named.is_empty() {
         let all = words.iter().map(|word| word.1);

@@ -1,7 +1,7 @@
 //! Every key a case can have: the one declaration that readers, messages, `frictionsim keys`, the
 //! JSON schema and the commented template are made from.
 
-use super::key::Bound::{Between, Finite, NotNegative, Positive};
+use super::key::Bound::{AtLeast, Between, Finite, NotNegative, Positive};
 use super::key::Default::{Otherwise, Required, Value};
 use super::key::Kind::{
     Choice, Choices, Count, Counts, Flag, Number, NumberOr, Numbers, Parameter, Text,
@@ -119,6 +119,11 @@ pub const KEYS: &[CaseKey] = &[
     key("sweep.combine", Choice(words::<Combination>), "", Value("\"grid\""), "\"grid\"", "how several swept keys combine"),
     key("sweep.analyses", Choices(words::<Analysis>), "", Otherwise("every one that the case has a section for"), "[\"transient\"]", "what runs at each point"),
 
+    key("basin.harmonics", Counts(1), "", Otherwise("[1, 2]"), "[1, 2]", "the two harmonics that compete, the first and the second"),
+    key("basin.seed_ratio_from", Number(Positive), "", Value("0.02"), "0.02", "the smallest seed of the second wave, in units of that of the first"),
+    key("basin.seed_ratio_to", Number(Positive), "", Value("50.0"), "50.0", "the largest seed of the second wave, in units of that of the first"),
+    key("basin.tolerance", Number(AtLeast(1.01)), "", Value("1.5"), "1.5", "the factor between the two bounds of the boundary at which the search ends"),
+    key("basin.periods", Count(50), "", Value("400"), "400", "the most periods of the slower wave that one transient takes"),
     key("cycle.harmonics", Counts(1), "", Otherwise("those that are unstable"), "[1, 2]", "the harmonics whose limit cycle is sought"),
     key("cycle.onsets", Choice(words::<OnsetChoice>), "", Value("\"all\""), "\"lowest\"", "the losses of stability of each harmonic whose limit cycles are sought (left out = all below the friction)"),
     key("cycle.phases", Count(31), "", Otherwise("as the mesh asks for"), "171", "the number of phases along the wave"),

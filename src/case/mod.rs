@@ -7,6 +7,7 @@
 mod cea;
 mod convergence;
 mod cost;
+mod basin;
 mod cycle;
 mod diagnostic;
 mod frf;
@@ -71,6 +72,8 @@ pub struct Case {
     pub output: Output,
     /// Parameter study, if the case has one.
     pub sweep: Option<Sweep>,
+    /// Two waves that compete, if the case names them.
+    pub basin: Option<crate::cycle::BasinRequest>,
     /// Limit-cycle search, if the case has one.
     pub cycle: Option<Cycle>,
     /// Frequency response, if the case has one.
@@ -123,6 +126,7 @@ impl Case {
             );
         }
         let cycle = cycle::cycle(&root, &annulus);
+        let basin = basin::basin(&root, &annulus);
         let frf = frf::read(&root, &annulus);
         let has = [cea.is_some(), transient.is_some(), cycle.is_some()];
         let convergence = convergence::read(&root, &annulus, has);
@@ -144,6 +148,7 @@ impl Case {
             output,
             sweep,
             cycle,
+            basin,
             frf,
             convergence,
             warnings,
@@ -189,6 +194,15 @@ impl Case {
         let transient = transient.ok_or_else(|| self.lacks("transient", "transient", remedy))?;
         self.require_quad4("the transient needs \"quad4\"")?;
         Ok(transient)
+    }
+
+    /// The two waves that compete.
+    ///
+    /// # Errors
+    /// A case without `[basin]`.
+    pub fn require_basin(&self) -> Result<&crate::cycle::BasinRequest, CaseErrors> {
+        let found = self.basin.as_ref();
+        found.ok_or_else(|| self.lacks("basin", "search for a basin", "[basin]\nharmonics = [1, 2]"))
     }
 
     /// The search for limit cycles.

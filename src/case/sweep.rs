@@ -15,6 +15,8 @@ pub enum Analysis {
     Transient,
     /// The direct search for limit cycles.
     Cycle,
+    /// Boundary between the basins of two limit cycles.
+    Basin,
 }
 
 /// How several swept keys combine.

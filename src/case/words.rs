@@ -40,7 +40,7 @@ words! {
     }
     OperatorChoice { "auto" = Self::Auto, "cyclic" = Self::Cyclic, "sparse" = Self::Sparse }
     Combination { "grid" = Self::Grid, "zip" = Self::Zip }
-    Analysis { "transient" = Self::Transient, "cea" = Self::Cea, "cycle" = Self::Cycle }
+    Analysis { "transient" = Self::Transient, "cea" = Self::Cea, "cycle" = Self::Cycle, "basin" = Self::Basin }
     OnsetChoice { "all" = Self::All, "lowest" = Self::Lowest }
     StabilityChoice { "point" = Self::Point, "branch" = Self::Branch, "none" = Self::None }
     FrfBoundary { "free" = Self::Free, "clamped" = Self::Clamped, "sliding" = Self::Sliding }

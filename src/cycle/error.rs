@@ -104,6 +104,19 @@ pub enum CycleError {
         /// Periods spent.
         dimension: usize,
     },
+    /// Neither of two waves grows.
+    #[error(
+        "steady sliding is stable against waves of {} and {} nodal diameters at contact.friction_coefficient = \
+         {friction}: neither can win; raise it, or name others in basin.harmonics",
+        harmonics[0],
+        harmonics[1]
+    )]
+    StableSliding {
+        /// The two.
+        harmonics: [usize; 2],
+        /// Friction coefficient.
+        friction: f64,
+    },
     /// The mesh's time stepping cannot take the cycle.
     #[error(transparent)]
     Stepping(#[from] TransientError),

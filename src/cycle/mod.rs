@@ -8,6 +8,7 @@
 //! ([`CycleSolver`]). Cycles are born where the eigenvalue analysis has its onsets ([`DiscModel`]); their stability is that of
 //! the transient's own step, linearized over one period ([`MeshStepping`]).
 
+mod basin;
 mod body;
 mod branch;
 mod confirmation;
@@ -27,6 +28,7 @@ mod stepping;
 mod system;
 mod wave;
 
+pub use basin::{BasinBoundary, BasinRequest, BasinRun};
 pub use body::{DynamicCoefficients, Receptance, WaveBody};
 pub use confirmation::Confirmation;
 pub use cycle_branch::{BranchEnd, CycleBranch};

@@ -3,6 +3,7 @@
 pub mod cea;
 pub mod charts;
 pub mod convergence;
+pub mod basin;
 pub mod cycle;
 pub mod cycle_confirmation;
 pub mod cycle_fields;

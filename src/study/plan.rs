@@ -56,6 +56,7 @@ impl<'a> SweepPlan<'a> {
                 first.transient.as_ref().map(|_| Analysis::Transient),
                 first.cea.as_ref().map(|_| Analysis::Cea),
                 first.cycle.as_ref().map(|_| Analysis::Cycle),
+                first.basin.as_ref().map(|_| Analysis::Basin),
             ]
             .into_iter()
             .flatten()
@@ -65,6 +66,9 @@ impl<'a> SweepPlan<'a> {
         let wants = |analysis| plan.analyses.contains(&analysis);
         if first.cea.is_none() && wants(Analysis::Cea) {
             first.require_cea()?;
+        }
+        if first.basin.is_none() && wants(Analysis::Basin) {
+            first.require_basin()?;
         }
         if first.cycle.is_none() && wants(Analysis::Cycle) {
             first.require_cycle()?;
@@ -128,6 +132,7 @@ pub fn analysis_name(analysis: Analysis) -> &'static str {
         Analysis::Cea => "cea",
         Analysis::Transient => "transient",
         Analysis::Cycle => "cycle",
+        Analysis::Basin => "basin",
     }
 }
 

@@ -42,6 +42,7 @@ impl<'a> Search<'a> {
     /// A bad case; steady sliding that is stable against every harmonic, where the case names none.
     pub fn of(case: &'a Case, manifest: &Manifest) -> Result<Self, Failure> {
         let choices = case.require_cycle()?;
+        super::check_memory(case)?;
         let point = OperatingPoint {
             contact: case.contact.sliding,
             damping: case.damping.rayleigh,

@@ -1,6 +1,6 @@
 //! What runs at a point of a sweep.
 
-use crate::app::{Failure, cea, cycle, transient};
+use crate::app::{Failure, basin, cea, cycle, transient};
 use crate::case::{Analysis, Case};
 use crate::results::Manifest;
 use crate::study::analysis_name;
@@ -21,6 +21,7 @@ pub fn run_point(
         let mut summary = match analysis {
             Analysis::Cea => cea::summarize(case, manifest)?,
             Analysis::Transient => transient::summarize(case, manifest)?,
+            Analysis::Basin => basin::summarize(case, manifest)?,
             Analysis::Cycle => cycle::summarize(case, manifest)?,
         };
         if let Value::Object(entries) = &mut summary {

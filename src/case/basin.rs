@@ -1,0 +1,40 @@
+//! `[basin]`: which of two waves wins.
+
+use super::reader::Section;
+use super::rules::harmonics;
+use crate::cycle::BasinRequest;
+use crate::mesh::AnnulusSpecification;
+
+pub(super) fn basin(root: &Section<'_>, annulus: &AnnulusSpecification) -> Option<BasinRequest> {
+    let section = root.section("basin", false);
+    let given = section.is_given();
+    let pair = harmonics(&section, annulus).unwrap_or_else(|| vec![1, 2]);
+    let request = BasinRequest {
+        harmonics: [pair.first(), pair.last()].map(|n| n.copied().unwrap_or(1)),
+        seed_ratios: [
+            section.number("seed_ratio_from"),
+            section.number("seed_ratio_to"),
+        ],
+        tolerance: section.number("tolerance"),
+        periods: section.count("periods"),
+    };
+    if pair.len() != 2 || pair[0] == pair[1] {
+        section.reject(
+            "harmonics",
+            "basin.harmonics must name two different harmonics".to_owned(),
+            format!("{} of them, two are compared", pair.len()),
+            None,
+        );
+    }
+    let [from, to] = request.seed_ratios;
+    if from >= to {
+        section.reject(
+            "seed_ratio_from",
+            format!("basin.seed_ratio_from = {from:?} is not below basin.seed_ratio_to = {to:?}"),
+            format!("below {to:?}"),
+            None,
+        );
+    }
+    section.close();
+    given.then_some(request)
+}

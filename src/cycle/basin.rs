@@ -1,0 +1,259 @@
+//! Which of two waves wins: the amplitude ratio at saturation that separates their basins.
+
+use super::onset::DiscModel;
+use super::{CycleError, OperatingPoint};
+use crate::contact::ContactStatus;
+use crate::fem::operator::{SimdLevel, StiffnessOperator, largest_frequency};
+use crate::mesh::AnnulusMesh;
+use crate::transient::{
+    CentralDifference, InitialState, OperatorChoice, Perturbation, StandingWave, TimeStep,
+    TransientModel, TransientSettings, build_operator, stable_step_limit,
+};
+use faer::c64;
+use std::f64::consts::TAU;
+
+/// Share of the stability limit that a step takes.
+const SAFETY: f64 = 0.95;
+/// Velocity of the larger seed, in units of the slip speed: a few e-folds below saturation, in which waves with the rotor die.
+const SEED: f64 = 0.03;
+/// Looks at the edge in each period of the first wave.
+const LOOKS: usize = 8;
+/// Periods over which amplitudes are averaged before they are compared.
+const WINDOW: usize = 10;
+/// A wave with less than this share of the other's amplitude has lost.
+const LOST: f64 = 0.02;
+/// Change of the amplitude ratio over one window that is none.
+const CONSTANT: f64 = 2e-3;
+/// Windows without change after which the larger wave has won.
+const CONSTANT_WINDOWS: usize = 3;
+
+/// What is asked of two competing waves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BasinRequest {
+    /// Circumferential harmonics of the two.
+    pub harmonics: [usize; 2],
+    /// Smallest and largest ratio of their seeds, second over first.
+    pub seed_ratios: [f64; 2],
+    /// Factor between the two bounds of the boundary at which the search ends.
+    pub tolerance: f64,
+    /// Most periods of one transient.
+    pub periods: usize,
+}
+
+/// One transient from steady sliding, both waves seeded.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BasinRun {
+    /// Velocity of the second seed over that of the first.
+    pub seed_ratio: f64,
+    /// Amplitude of the second wave over that of the first when the first node sticks or opens; `None` if none does.
+    pub saturation_ratio: Option<f64>,
+    /// The harmonic that wins.
+    pub winner: usize,
+    /// Whether the other one has gone, or the two have come to a constant ratio.
+    pub is_settled: bool,
+    /// Length of the run, s.
+    pub duration: f64,
+}
+
+/// The boundary between the basins of two waves.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BasinBoundary {
+    /// Largest ratio at saturation at which the first wave still wins; `None` if the second always does.
+    pub low: Option<f64>,
+    /// Smallest ratio at which the second wins; `None` if the first always does.
+    pub high: Option<f64>,
+    /// All transients, in the order of the search.
+    pub runs: Vec<BasinRun>,
+}
+
+impl DiscModel {
+    /// Bisects the ratio of two seeds until it is known at which amplitude ratio at saturation the second wave wins.
+    ///
+    /// Each step is a transient from steady sliding. One boundary is looked for: where a ratio between the ends of the range
+    /// changes the winner more than once, one of the changes is found.
+    ///
+    /// # Errors
+    /// [`CycleError::Stepping`] where a transient cannot start, [`CycleError::StableSliding`] where neither wave grows.
+    pub fn basin(
+        &self,
+        point: &OperatingPoint,
+        request: &BasinRequest,
+        simd: SimdLevel,
+    ) -> Result<BasinBoundary, CycleError> {
+        let annulus = AnnulusMesh::generate(&self.specification)?;
+        let model = TransientModel {
+            annulus: &annulus,
+            material: self.material,
+            damping: point.damping,
+            contact: point.contact,
+        };
+        let operator = build_operator(&model, OperatorChoice::Auto, simd)?;
+        let contest = Contest {
+            model,
+            operator: operator.as_ref(),
+            step: SAFETY * stable_step_limit(largest_frequency(operator.as_ref()), &point.damping),
+            period: self.slowest_period(point, request)?,
+            request,
+        };
+        let [first, second] = request.harmonics;
+        let mut runs = Vec::new();
+        let mut bounds = [None, None];
+        // The ends of the range first: a wave that wins at both has no rival.
+        let [mut low, mut high] = request.seed_ratios;
+        for ratio in [low, high] {
+            let run = contest.run(ratio)?;
+            bounds[usize::from(run.winner == second)] = run.saturation_ratio;
+            runs.push(run);
+        }
+        let is_contested = runs[0].winner == first && runs[1].winner == second;
+        while is_contested && high / low > request.tolerance {
+            let middle = (low * high).sqrt();
+            let run = contest.run(middle)?;
+            if run.winner == second {
+                high = middle;
+                bounds[1] = run.saturation_ratio;
+            } else {
+                low = middle;
+                bounds[0] = run.saturation_ratio;
+            }
+            runs.push(run);
+        }
+        Ok(BasinBoundary {
+            low: bounds[0],
+            high: bounds[1],
+            runs,
+        })
+    }
+
+    /// Period of the slower of the two waves that grow, s.
+    fn slowest_period(
+        &self,
+        point: &OperatingPoint,
+        request: &BasinRequest,
+    ) -> Result<f64, CycleError> {
+        let friction = point.contact.friction_coefficient;
+        let limit = crate::cea::cyclic::ModeLimit::Lowest(super::MODES);
+        let onsets = self.onsets(friction, limit)?;
+        let own = onsets
+            .iter()
+            .filter(|onset| request.harmonics.contains(&onset.harmonic));
+        let slowest = own.map(|onset| onset.frequency).reduce(f64::min);
+        let slowest = slowest.ok_or(CycleError::StableSliding {
+            harmonics: request.harmonics,
+            friction,
+        })?;
+        Ok(TAU / slowest)
+    }
+}
+
+/// Everything that the transients of one search share.
+struct Contest<'a> {
+    model: TransientModel<'a>,
+    operator: &'a dyn StiffnessOperator,
+    step: f64,
+    period: f64,
+    request: &'a BasinRequest,
+}
+
+/// Amplitudes of the two waves, summed over the looks of a window.
+type Amplitudes = [f64; 2];
+
+impl Contest<'_> {
+    fn run(&self, seed_ratio: f64) -> Result<BasinRun, CycleError> {
+        let mut run = self.start(seed_ratio)?;
+        let steps = (self.period / run.plan().time_step).round().max(1.0) as usize;
+        let look_every = (steps / LOOKS).max(1);
+        let window = WINDOW * steps;
+        let mut sums: Amplitudes = [0.0; 2];
+        let mut saturation_ratio = None;
+        let (mut before, mut constant): (Option<f64>, usize) = (None, 0);
+        let mut share = seed_ratio;
+        for step in 1..=self.request.periods * steps {
+            run.advance();
+            if saturation_ratio.is_none() && is_saturated(&run) {
+                let [first, second] = self.amplitudes(&run);
+                saturation_ratio = Some(second / first);
+            }
+            if step % look_every == 0 {
+                let found = self.amplitudes(&run);
+                sums.iter_mut().zip(found).for_each(|(sum, a)| *sum += a);
+            }
+            if step % window == 0 {
+                share = sums[1] / sums[0];
+                sums = [0.0; 2];
+                let is_constant = before.is_some_and(|before| (share / before - 1.0).abs() < CONSTANT);
+                constant = if is_constant && saturation_ratio.is_some() { constant + 1 } else { 0 };
+                before = Some(share);
+                let is_lost = share < LOST || share > 1.0 / LOST;
+                if saturation_ratio.is_some() && (is_lost || constant >= CONSTANT_WINDOWS) {
+                    return Ok(self.outcome(&run, seed_ratio, saturation_ratio, share, true));
+                }
+            }
+        }
+        Ok(self.outcome(&run, seed_ratio, saturation_ratio, share, false))
+    }
+
+    fn outcome(
+        &self,
+        run: &CentralDifference<'_>,
+        seed_ratio: f64,
+        saturation_ratio: Option<f64>,
+        share: f64,
+        is_settled: bool,
+    ) -> BasinRun {
+        BasinRun {
+            seed_ratio,
+            saturation_ratio,
+            winner: self.request.harmonics[usize::from(share > 1.0)],
+            is_settled,
+            duration: run.steps_done() as f64 * run.plan().time_step,
+        }
+    }
+
+    /// Steady sliding with both waves seeded, the larger with a fixed share of the slip speed.
+    fn start(&self, seed_ratio: f64) -> Result<CentralDifference<'_>, CycleError> {
+        let radius = self.model.annulus.specification.inner_radius;
+        let largest = SEED * self.model.contact.rotation_speed.abs() * radius;
+        let scale = largest / seed_ratio.max(1.0);
+        let seeds = [scale, scale * seed_ratio];
+        let waves = self.request.harmonics.iter().zip(seeds);
+        let settings = TransientSettings {
+            duration: self.request.periods as f64 * self.period,
+            time_step: TimeStep::Seconds(self.step),
+            sample_interval: self.step,
+            expansion_time: 0.0,
+            initial: InitialState::SteadySliding,
+            perturbation: Perturbation {
+                waves: waves
+                    .map(|(&harmonic, velocity)| StandingWave {
+                        harmonic,
+                        velocity,
+                        phase: 0.0,
+                    })
+                    .collect(),
+                ..Perturbation::default()
+            },
+        };
+        Ok(CentralDifference::start(self.model, self.operator, &settings)?)
+    }
+
+    /// Amplitudes of both harmonics of the edge's tangential displacement, m.
+    fn amplitudes(&self, run: &CentralDifference<'_>) -> Amplitudes {
+        let places = run.contact().tangential_places();
+        let edge = &run.fields().displacement;
+        let count = places.len();
+        self.request.harmonics.map(|harmonic| {
+            let terms = places.iter().enumerate().map(|(j, &place)| {
+                let angle = TAU * ((harmonic * j) % count) as f64 / count as f64;
+                edge[place] * c64::from_polar(2.0 / count as f64, -angle)
+            });
+            terms.sum::<c64>().norm()
+        })
+    }
+}
+
+/// Whether a node sticks or is open.
+fn is_saturated(run: &CentralDifference<'_>) -> bool {
+    let mut status = run.contact().status.iter();
+    status.any(|&status| status != ContactStatus::Slip)
+}

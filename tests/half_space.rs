@@ -1,0 +1,107 @@
+//! Independent check far from the disc: waves on a sliding half-space, in closed form.
+//!
+//! Source: J. A. C. Martins, J. Guimaraes, L. O. Faria, Dynamic surface solutions in linear elasticity and viscoelasticity
+//! with frictional boundary conditions, J. Vib. Acoust. 117 (1995) 445. Short waves on the inner edge of an annulus tend to
+//! them as their number grows.
+
+use faer::linalg::solvers::Solve;
+use faer::{Mat, c64};
+use frictionsim::contact::{ContactStiffness, SlidingContact};
+use frictionsim::fem::{ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping};
+use frictionsim::linalg::banded::BandedMatrix;
+use frictionsim::mesh::{AnnulusSpecification, ElementKind, SectorMesh};
+use frictionsim::prestress::{DampingModel, SectorTangent, TangentOptions};
+
+const POISSON_RATIO: f64 = 0.3;
+const FRICTION: f64 = 2.0;
+
+/// Speed over that of shear waves of `e^{ik(x - ct)}` on the half-space with `u_n = 0`, `T = mu N`.
+///
+/// With `p^2 = 1 - c^2 / c_p^2`, `q^2 = 1 - c^2`: `-i p c^2 = mu (2 nu / (1 - 2 nu) (p^2 - 1) + 2 p^2 - 2 p q)`, by
+/// Newton's method.
+fn half_space_speed() -> c64 {
+    let nu = POISSON_RATIO;
+    let residual = |c: c64| {
+        let root = |z: c64| if z.sqrt().re < 0.0 { -z.sqrt() } else { z.sqrt() };
+        let p = root(1.0 - c * c * ((1.0 - 2.0 * nu) / (2.0 * (1.0 - nu))));
+        let q = root(1.0 - c * c);
+        let stress = (p * p - 1.0) * (2.0 * nu / (1.0 - 2.0 * nu)) + p * p * 2.0 - p * q * 2.0;
+        c64::new(0.0, -1.0) * p * c * c - stress * FRICTION
+    };
+    let mut speed = c64::new(START, 0.3);
+    for _ in 0..30 {
+        let slope = (residual(speed + 1e-6) - residual(speed - 1e-6)) / 2e-6;
+        speed -= residual(speed) / slope;
+    }
+    speed
+}
+
+/// Where Newton's method starts, and the sense in which the growing wave travels.
+const START: f64 = -1.4;
+
+/// Speed of the fastest growing wave of `n` lengths on the inner edge of the annulus from 1 to 1.5.
+fn annulus_speed(n: usize) -> c64 {
+    let specification = AnnulusSpecification {
+        inner_radius: 1.0,
+        outer_radius: 1.5,
+        circumferential_elements: 200,
+        radial_elements: 40,
+        radial_grading: 1.0,
+        element: ElementKind::Quad8,
+    };
+    // Shear modulus and density one: speeds come in units of that of shear waves.
+    let material = ElasticMaterial {
+        young_modulus: 2.0 * (1.0 + POISSON_RATIO),
+        poisson_ratio: POISSON_RATIO,
+        density: 1.0,
+        formulation: PlaneFormulation::PlaneStrain,
+    };
+    let undamped = RayleighDamping {
+        mass_coefficient: 0.0,
+        stiffness_coefficient: 0.0,
+    };
+    let options = TangentOptions {
+        mass: MassKind::Consistent,
+        geometric_stiffness: false,
+        damping: undamped,
+        damping_model: DampingModel::WholeTangent,
+        contact: ContactStiffness::default(),
+    };
+    let contact = SlidingContact {
+        friction_coefficient: FRICTION,
+        interference: 1e-6,
+        rotation_speed: 1.0,
+    };
+    let sector = SectorMesh::generate(&specification).unwrap();
+    let tangent = SectorTangent::linearize(&sector, &material, &options, &contact).unwrap();
+    let harmonic = tangent.harmonic(n);
+    let dense = |terms: &[BandedMatrix]| {
+        let size = terms[0].dimension();
+        Mat::from_fn(size, size, |i, j| {
+            let factors = (0..).map(|power| c64::new(0.0, FRICTION).powi(power));
+            let values = terms.iter().zip(factors);
+            values.map(|(term, factor)| factor * term.get(i, j)).sum::<c64>()
+        })
+    };
+    let (mass, stiffness) = (dense(&harmonic.mass), dense(&harmonic.stiffness));
+    let kappas = mass.partial_piv_lu().solve(&stiffness).eigenvalues().unwrap();
+    // lambda^2 = -kappa, e^{i n theta + lambda t}: c = i lambda / n.
+    let speeds = kappas.into_iter().flat_map(|kappa: c64| {
+        let lambda = (-kappa).sqrt();
+        [lambda, -lambda].map(|lambda| c64::new(0.0, 1.0) * lambda / n as f64)
+    });
+    let slow = speeds.filter(|speed| speed.re.abs() < 2.0);
+    slow.max_by(|a, b| a.im.total_cmp(&b.im)).unwrap()
+}
+
+#[test]
+fn short_waves_on_an_annulus_tend_to_those_of_the_sliding_half_space() {
+    let (long, short) = (annulus_speed(24), annulus_speed(36));
+    // Curvature enters with 1 / n.
+    let limit = (short * 36.0 - long * 24.0) / 12.0;
+    let theory = half_space_speed();
+    println!("{long} {short} {limit} {theory}");
+    assert!((theory.norm() / c64::new(1.4207, 0.2984).norm() - 1.0).abs() < 1e-4);
+    assert!((limit.re.abs() / theory.re.abs() - 1.0).abs() < 5e-3, "{limit}");
+    assert!((limit.im / theory.im - 1.0).abs() < 5e-3, "{limit}");
+}
