@@ -60,5 +60,11 @@ fn find(case: &Case, manifest: &Manifest) -> Result<BasinSummary, Failure> {
         .basin(&point, request, simd)
         .map_err(Failure::run)?;
     let wall_s = start.elapsed().as_secs_f64();
-    Ok(BasinSummary::new(&case.title, request, &found, wall_s, manifest))
+    Ok(BasinSummary::new(
+        &case.title,
+        request,
+        &found,
+        wall_s,
+        manifest,
+    ))
 }

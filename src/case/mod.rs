@@ -4,10 +4,10 @@
 //! validated: every section a struct in the terms of the lower floors, every rule between keys
 //! checked, all errors reported at once as [`CaseErrors`].
 
+mod basin;
 mod cea;
 mod convergence;
 mod cost;
-mod basin;
 mod cycle;
 mod diagnostic;
 mod frf;
@@ -202,7 +202,8 @@ impl Case {
     /// A case without `[basin]`.
     pub fn require_basin(&self) -> Result<&crate::cycle::BasinRequest, CaseErrors> {
         let found = self.basin.as_ref();
-        found.ok_or_else(|| self.lacks("basin", "search for a basin", "[basin]\nharmonics = [1, 2]"))
+        found
+            .ok_or_else(|| self.lacks("basin", "search for a basin", "[basin]\nharmonics = [1, 2]"))
     }
 
     /// The search for limit cycles.

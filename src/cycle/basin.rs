@@ -181,8 +181,13 @@ impl Contest<'_> {
             if step % window == 0 {
                 share = sums[1] / sums[0];
                 sums = [0.0; 2];
-                let is_constant = before.is_some_and(|before| (share / before - 1.0).abs() < CONSTANT);
-                constant = if is_constant && saturation_ratio.is_some() { constant + 1 } else { 0 };
+                let is_constant =
+                    before.is_some_and(|before| (share / before - 1.0).abs() < CONSTANT);
+                constant = if is_constant && saturation_ratio.is_some() {
+                    constant + 1
+                } else {
+                    0
+                };
                 before = Some(share);
                 let is_lost = share < LOST || share > 1.0 / LOST;
                 if saturation_ratio.is_some() && (is_lost || constant >= CONSTANT_WINDOWS) {
@@ -234,7 +239,11 @@ impl Contest<'_> {
                 ..Perturbation::default()
             },
         };
-        Ok(CentralDifference::start(self.model, self.operator, &settings)?)
+        Ok(CentralDifference::start(
+            self.model,
+            self.operator,
+            &settings,
+        )?)
     }
 
     /// Amplitudes of both harmonics of the edge's tangential displacement, m.

@@ -1,9 +1,9 @@
 //! Result files: tables, fields, figures, manifest.
 
+pub mod basin;
 pub mod cea;
 pub mod charts;
 pub mod convergence;
-pub mod basin;
 pub mod cycle;
 pub mod cycle_confirmation;
 pub mod cycle_fields;

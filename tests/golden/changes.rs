@@ -19,6 +19,30 @@ const CHANGES: &[(&str, &str, &str, &str)] = &[
     ("transient*", "summary.json", "growth[]*", GROWTH),
     ("*", "points/*", "summaries.transient.growth[]*", GROWTH),
     ("*", "points.csv", "growth.*", GROWTH),
+    (
+        "*",
+        "*",
+        "cycles[].confirmation*",
+        "the transient is seeded, its frequency is that of the wave's own harmonic",
+    ),
+    (
+        "*",
+        "*",
+        "cycles[].onsets*",
+        "onsets are those below the case's friction, from the eigenvalue analysis",
+    ),
+    (
+        "*",
+        "*",
+        "summaries.cycle.cycles[].confirmation*",
+        "the transient is seeded, its frequency is that of the wave's own harmonic",
+    ),
+    (
+        "*",
+        "*",
+        "summaries.cycle.cycles[].onsets*",
+        "onsets are those below the case's friction, from the eigenvalue analysis",
+    ),
 ];
 
 const SIGNAL: &str = "probes hold mean accelerations; peaks stand out of the noise at a stated resolution, modes are named within 3 %, stages \

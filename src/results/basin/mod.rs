@@ -1,7 +1,8 @@
 //! Results of a search for the boundary between two basins.
 
+use super::summary::{Entry, Summary};
 use super::table::{Table, format_number};
-use super::{Entry, FolderError, Manifest, OutputFolder, Summary};
+use super::{FolderError, Manifest, OutputFolder};
 use crate::cycle::{BasinBoundary, BasinRequest, BasinRun};
 use serde::{Deserialize, Serialize};
 use std::fmt::Write as _;
@@ -109,13 +110,19 @@ impl BasinSummary {
             _ => writeln!(out, "some runs never saturate: no boundary can be named"),
         };
         for run in &self.runs {
-            let ratio = run.saturation_ratio.map_or("-".to_owned(), |r| format!("{r:.4}"));
+            let ratio = run
+                .saturation_ratio
+                .map_or("-".to_owned(), |r| format!("{r:.4}"));
             let _ = writeln!(
                 out,
                 "  seeds 1 : {:<10.4} at saturation {ratio:>9}  n = {}{}",
                 run.seed_ratio,
                 run.winner,
-                if run.is_settled { "" } else { "  (not settled)" },
+                if run.is_settled {
+                    ""
+                } else {
+                    "  (not settled)"
+                },
             );
         }
         out
@@ -156,5 +163,6 @@ pub fn write_basin(folder: &OutputFolder, summary: &BasinSummary) -> Result<(), 
             ])?;
         }
         table.finish()
-    })
+    })?;
+    Ok(())
 }
