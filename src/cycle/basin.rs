@@ -189,7 +189,7 @@ impl Contest<'_> {
                     0
                 };
                 before = Some(share);
-                let is_lost = share < LOST || share > 1.0 / LOST;
+                let is_lost = !(LOST..=1.0 / LOST).contains(&share);
                 if saturation_ratio.is_some() && (is_lost || constant >= CONSTANT_WINDOWS) {
                     return Ok(self.outcome(&run, seed_ratio, saturation_ratio, share, true));
                 }

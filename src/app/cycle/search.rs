@@ -19,6 +19,9 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 use std::time::Instant;
 
+/// The solver of a family, or why it has none.
+type Sought = Result<CycleSolver, (Family, CycleError)>;
+
 /// What a case asks for: cycles of which harmonics, where, and followed over what.
 pub struct Search<'a> {
     case: &'a Case,
@@ -30,7 +33,7 @@ pub struct Search<'a> {
     continuation: Option<(Parameter, Vec<f64>)>,
     /// Every onset below the case's friction coefficient; where there is none, those of the harmonics sought.
     onsets: Vec<Onset>,
-    solvers: Vec<Result<CycleSolver, (Family, CycleError)>>,
+    solvers: Vec<Sought>,
     /// Counts the families done.
     bar: ProgressBar,
 }
@@ -78,7 +81,7 @@ impl<'a> Search<'a> {
     /// The cycles, with the whole field at so many times over one period.
     pub fn run(&self, frames: usize) -> Vec<CycleResult> {
         let solvers = self.solvers.par_iter();
-        let solve = |solver: &Result<CycleSolver, (Family, CycleError)>| {
+        let solve = |solver: &Sought| {
             let result = match solver {
                 Ok(solver) => self.solve(solver, frames),
                 Err((family, error)) => self.absent(*family, error),
@@ -283,11 +286,7 @@ pub fn mode_limit(case: &Case) -> ModeLimit {
 
 /// One solver for each family asked for; where no harmonic is named, for every wave that is unstable at the case's
 /// friction. A harmonic that is named is sought even where steady sliding is stable: its cycles may outlive their birth.
-fn solvers(
-    case: &Case,
-    cycle: &Cycle,
-    onsets: &[Onset],
-) -> Result<Vec<Result<CycleSolver, (Family, CycleError)>>, Failure> {
+fn solvers(case: &Case, cycle: &Cycle, onsets: &[Onset]) -> Result<Vec<Sought>, Failure> {
     let (model, limit) = (disc_model(case), mode_limit(case));
     let mut harmonics: Vec<usize> = match &cycle.harmonics {
         Some(harmonics) => harmonics.clone(),
