@@ -94,6 +94,8 @@ pub struct Cost {
     pub cycle: Option<CycleCost>,
     /// Frequency response.
     pub frf: Option<FrfCost>,
+    /// Time of a search for the boundary of two basins on one thread, s; 0 where none is asked for.
+    pub basin_seconds: f64,
 }
 
 impl Cost {
@@ -104,6 +106,8 @@ impl Cost {
                 Analysis::Cea => self.cea.map_or(0.0, |cost| cost.memory_bytes),
                 Analysis::Transient => self.transient.map_or(0.0, |cost| cost.memory_bytes),
                 Analysis::Cycle => self.cycle.map_or(0.0, |cost| cost.memory_bytes),
+                // A few fields, less than the mesh.
+                Analysis::Basin => 0.0,
             }
     }
 
@@ -113,6 +117,7 @@ impl Cost {
             Analysis::Cea => self.cea.map_or(0.0, |cost| cost.seconds),
             Analysis::Transient => self.transient.map_or(0.0, |cost| cost.seconds),
             Analysis::Cycle => self.cycle.map_or(0.0, |cost| cost.seconds),
+            Analysis::Basin => self.basin_seconds,
         }
     }
 }
@@ -136,6 +141,10 @@ impl Case {
                 .map(|transient| self.transient_cost(transient, nodes, elements)),
             cycle: self.cycle.as_ref().map(|cycle| self.cycle_cost(cycle)),
             frf: self.frf.as_ref().map(|frf| self.frf_cost(frf, nodes)),
+            // Some eight transients of 800 steps to a period, each at its longest.
+            basin_seconds: self.basin.as_ref().map_or(0.0, |basin| {
+                8.0 * 2e-9 * elements as f64 * 800.0 * basin.periods as f64
+            }),
         }
     }
 
@@ -201,6 +210,7 @@ impl Case {
             (Analysis::Transient, self.transient.is_some()),
             (Analysis::Cea, self.cea.is_some()),
             (Analysis::Cycle, self.cycle.is_some()),
+            (Analysis::Basin, self.basin.is_some()),
         ];
         let here = has.into_iter().filter(|pair| pair.1).map(|pair| pair.0);
         here.filter(|analysis| named.is_empty() || named.contains(analysis))
