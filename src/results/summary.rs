@@ -74,6 +74,8 @@ pub struct PointSummary {
     pub cycles: Vec<Vibration>,
     /// The crossings into instability of an eigenvalue analysis, lowest first.
     pub critical_frictions: Vec<Crossing>,
+    /// Whether a transient has settled.
+    pub settled: Option<bool>,
     /// Growth of the harmonics in the linear stage.
     pub growth: Vec<HarmonicGrowth>,
     /// Time step, s.

@@ -103,13 +103,34 @@ impl SweepReport<'_> {
             .collect();
         makers.sort();
         makers.dedup();
-        match makers.len() {
-            0 | 1 => Vec::new(),
-            _ => vec![format!(
+        let mut notes = Vec::new();
+        if makers.len() > 1 {
+            notes.push(format!(
                 "the points were not all made alike, so their last digits may differ: {}",
                 makers.join("; ")
-            )],
+            ));
         }
+        let unsettled = self.unsettled();
+        if !unsettled.is_empty() {
+            notes.push(format!(
+                "the transient ends before it has settled at {} of {} points ({}): their numbers are of no limit cycle; \
+                 raise transient.duration",
+                unsettled.len(),
+                self.records.len(),
+                number_ranges(&unsettled)
+            ));
+        }
+        notes
+    }
+
+    /// Points whose transient has not settled.
+    fn unsettled(&self) -> Vec<usize> {
+        let is_unsettled = |record: &&PointRecord| {
+            let mut summaries = record.summaries.values().map(PointSummary::of);
+            summaries.any(|summary| summary.settled == Some(false))
+        };
+        let unsettled = self.records.iter().filter(is_unsettled);
+        unsettled.map(|record| record.point).collect()
     }
 }
 
