@@ -65,7 +65,7 @@ impl EndState {
 /// Differences between the largest and the smallest value over the blocks of a stretch of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Drift {
-    /// Of any harmonic's vibration, relative to the largest vibration (without one: of the mean twist, to itself).
+    /// Of any harmonic's vibration, relative to the largest vibration (without one: to the mean twist, which counts too).
     pub amplitude: f64,
     /// Of the frequency of the main vibration, relative.
     pub frequency: f64,
@@ -330,16 +330,17 @@ impl Extremes {
         }
         self.later = Some(block.demodulated);
         let status = self.status.iter().map(width).fold(0.0, f64::max);
+        let widest = self.amplitudes.iter().map(width).fold(0.0, f64::max);
         let Some((_, frequency)) = self.main else {
+            // Nothing vibrates at the end: what rings down before is held against the deformation.
             let scale = self.twist[1].abs().max(1e-3 * record.interference.abs());
             return Drift {
-                amplitude: width(&self.twist) / scale.max(f64::MIN_POSITIVE),
+                amplitude: width(&self.twist).max(widest) / scale.max(f64::MIN_POSITIVE),
                 frequency: 0.0,
                 status,
             };
         };
         let largest = self.amplitudes.iter().map(|range| range[1]);
-        let widest = self.amplitudes.iter().map(width).fold(0.0, f64::max);
         Drift {
             amplitude: widest / largest.fold(f64::MIN_POSITIVE, f64::max),
             frequency: width(&self.frequency) / frequency.abs(),

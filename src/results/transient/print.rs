@@ -6,6 +6,9 @@ use crate::results::summary::MeanPowers;
 use crate::transient::EndState;
 use std::fmt::Write as _;
 
+/// Periods of the main vibration between two contact frames beyond which they do not show it.
+const COARSE_FRAMES: f64 = 0.25;
+
 /// What the run did, in a few lines.
 pub fn print(summary: &TransientSummary, state: EndState) -> String {
     let mut out = String::new();
@@ -61,6 +64,16 @@ pub fn print(summary: &TransientSummary, state: EndState) -> String {
         optional(status.open, 3)
     );
     powers(&mut out, &summary.power_w);
+    let periods = summary
+        .main_frequency_hz
+        .map(|f| f * summary.contact_interval_s);
+    if periods.is_some_and(|periods| periods > COARSE_FRAMES) {
+        let _ = writeln!(
+            out,
+            "contact.npz has a frame every {:.2e} s, too few for a wave of that frequency: set output.contact_interval",
+            summary.contact_interval_s
+        );
+    }
     out
 }
 
