@@ -61,7 +61,7 @@ fn check_redrawn(folder: &TempDir, expected: &[&str]) {
     let out = folder.path().join("out");
     let first = files(&out);
     for name in expected {
-        for extension in ["svg", "png"] {
+        for extension in ["svg", "png", "pdf"] {
             let file = format!("figures/{name}.{extension}");
             assert!(first.contains_key(&file), "{file}: {:?}", first.keys());
         }
@@ -268,11 +268,7 @@ fn convergence_figures_are_drawn_again_to_the_same_bytes() {
         "cea.max_frequency_hz=9000.0",
     ];
     run(&folder, "convergence", "convergence.toml", &set, &[]);
-    let expected = [
-        "cea-mesh-errors-frequency",
-        "cea-mesh-differences-frequency",
-    ];
-    check_redrawn(&folder, &expected);
+    check_redrawn(&folder, &["convergence"]);
 }
 
 #[test]

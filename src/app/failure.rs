@@ -84,7 +84,7 @@ impl From<DrawingError> for Failure {
     fn from(error: DrawingError) -> Self {
         match error {
             DrawingError::Folder(error) => error.into(),
-            DrawingError::Figure(_) | DrawingError::Chart(_) => Self::Run(error.into()),
+            DrawingError::Chart(_) => Self::Run(error.into()),
         }
     }
 }

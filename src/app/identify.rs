@@ -141,10 +141,7 @@ fn draw_all(
     summary: &IdentificationSummary,
     options: &DrawingOptions,
 ) -> Result<(), Failure> {
-    if let Some(error) = draw_report(folder, record, summary, options)? {
-        tracing::warn!("figure left out: {error}");
-    }
-    Ok(())
+    Ok(draw_report(folder, record, summary, options)?)
 }
 
 /// The frequency range, checked.

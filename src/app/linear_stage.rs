@@ -6,7 +6,7 @@ use crate::cea::cyclic::{CyclicError, ModeLimit};
 use crate::contact::ContactStiffness;
 use crate::fem::MassKind;
 use crate::prestress::{DampingModel, TangentOptions};
-use crate::results::figures::ReferenceFrequency;
+use crate::results::charts::ModeLine;
 use crate::study::modes_at_own_friction;
 
 /// Modes looked at where the case has no `[cea]`.
@@ -16,7 +16,7 @@ const MODES: usize = 30;
 /// small displacements, damping on the whole tangent.
 pub struct LinearStage {
     /// Frequencies, numbered among all modes by frequency.
-    pub references: Vec<ReferenceFrequency>,
+    pub references: Vec<ModeLine>,
     /// Largest growth rate of each unstable harmonic, 1/s, harmonics rising.
     pub growth_rates: Vec<(usize, f64)>,
 }
@@ -41,7 +41,7 @@ impl LinearStage {
         growth_rates.sort_by_key(|&(harmonic, _)| harmonic);
         Self {
             references: unstable()
-                .map(|(index, mode)| ReferenceFrequency {
+                .map(|(index, mode)| ModeLine {
                     frequency_hz: mode.frequency_hz(),
                     label: format!("mode {}, *n* = {}", index + 1, mode.harmonic),
                 })

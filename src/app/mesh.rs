@@ -47,6 +47,11 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 /// Those of the drawing and of the folder.
 pub fn redraw(folder: &OutputFolder, case: &Case, options: &DrawingOptions) -> Result<(), Failure> {
     let annulus = AnnulusMesh::generate(&case.annulus).map_err(Failure::usage)?;
-    write_mesh_picture(folder, &annulus, &case.title, options)?;
+    write_mesh_picture(
+        folder,
+        &annulus,
+        (&case.title, &case.output.probes),
+        options,
+    )?;
     Ok(())
 }

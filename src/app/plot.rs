@@ -23,6 +23,9 @@ pub struct Arguments {
     /// Results folder
     #[arg(value_name = "DIR", value_hint = ValueHint::DirPath)]
     folder: PathBuf,
+    /// Draw the last shear stress of these transients beside that of DIR instead (repeatable)
+    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
+    beside: Vec<PathBuf>,
     #[command(flatten)]
     figures: FigureOptions,
     /// Worker threads [default: all cores]
@@ -49,7 +52,11 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             manifest.version
         );
     }
-    redraw(path, &manifest, &arguments.figures.drawing())?;
+    let options = arguments.figures.drawing();
+    match arguments.beside.is_empty() {
+        true => redraw(path, &manifest, &options)?,
+        false => draw_beside(path, &arguments.beside, &options)?,
+    }
     let figures = path.join("figures");
     match arguments.quiet {
         0 | 1 => terminal::print(&format!("figures in {}\n", figures.display())),
@@ -88,6 +95,26 @@ pub fn redraw(path: &Path, manifest: &Manifest, options: &DrawingOptions) -> Res
         "identify" => identify::redraw(&folder, options)?,
         _ => signal::redraw(&folder, options)?,
     }
+    Ok(folder.finish()?)
+}
+
+/// Draws several transients side by side into the folder of the first.
+fn draw_beside(path: &Path, others: &[PathBuf], options: &DrawingOptions) -> Result<(), Failure> {
+    let mut runs = Vec::new();
+    for path in std::iter::once(path).chain(others.iter().map(PathBuf::as_path)) {
+        let manifest = read_manifest(path)?;
+        if manifest.command != "transient" {
+            let reason = format!(
+                "it belongs to frictionsim {}: --beside is for transients",
+                manifest.command
+            );
+            let path = path.to_owned();
+            return Err(FolderError::NotResults { path, reason }.into());
+        }
+        runs.push((path.to_owned(), recorded_case(&manifest)?));
+    }
+    let folder = OutputFolder::reopen(path)?;
+    transient::draw_beside(&folder, &runs, options)?;
     Ok(folder.finish()?)
 }
 

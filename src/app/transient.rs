@@ -6,7 +6,7 @@ mod figures;
 mod initial;
 mod watch;
 
-pub use figures::redraw;
+pub use figures::{draw_beside, redraw};
 pub use initial::cycle_fields;
 
 use super::{Failure, RunOptions, Session};

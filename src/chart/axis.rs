@@ -1,6 +1,7 @@
 //! What an axis shows, before the data are known.
 
-use super::ruler::{Ruler, Tick, prefixed};
+use super::numbers::prefixed;
+use super::ruler::{Ruler, Tick};
 
 /// Linear or logarithmic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -192,6 +193,8 @@ impl Axis {
                 let reach = 1.05 * low.abs().max(high.abs());
                 (-reach, reach)
             }
+            // Without a positive value there is nothing to go by.
+            (Ends::Room(_), Scale::Logarithmic) if low <= 0.0 => (0.1, 1.0),
             (Ends::Room(part), Scale::Logarithmic) => {
                 let low = low.max(high * 10f64.powf(-self.decades));
                 let room = (high / low)

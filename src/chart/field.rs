@@ -3,9 +3,9 @@
 use super::axis::{Axis, extremes};
 use super::colour::{ColourMap, INK};
 use super::decimation::simplify;
+use super::frame::Frame;
 use super::image::{Colours, IndexedImage, Palette};
 use super::layer::Layer;
-use super::panel::Frame;
 use super::svg::{Path, Stroke, Svg};
 use std::sync::Arc;
 

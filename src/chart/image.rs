@@ -2,8 +2,9 @@
 
 use super::axis::{Axis, extremes};
 use super::colour::{ColourMap, channels};
+use super::frame::Frame;
 use super::layer::Layer;
-use super::panel::Frame;
+use super::legend::Key;
 use super::svg::Svg;
 
 /// Colours of an image by index; one index more is transparent.
@@ -117,6 +118,7 @@ pub struct Heat {
     image: IndexedImage,
     palette: Palette,
     colours: Option<Colours>,
+    names: Vec<(Key, String)>,
 }
 
 impl Heat {
@@ -149,6 +151,7 @@ impl Heat {
             image,
             palette,
             colours: Some(colours),
+            names: Vec::new(),
         }
     }
 
@@ -174,7 +177,15 @@ impl Heat {
             image,
             palette,
             colours: None,
+            names: Vec::new(),
         }
+    }
+}
+
+impl Heat {
+    /// The same with entries in the legend.
+    pub fn names(self, names: Vec<(Key, String)>) -> Self {
+        Self { names, ..self }
     }
 }
 
@@ -183,6 +194,8 @@ impl Layer for Heat {
         if self.image.width * self.image.height > 0 {
             see(self.x.0, self.y.0);
             see(self.x.1, self.y.1);
+            // The corners may lie outside what is shown.
+            see(0.5 * (self.x.0 + self.x.1), 0.5 * (self.y.0 + self.y.1));
         }
     }
 
@@ -191,6 +204,10 @@ impl Layer for Heat {
         if let Some(png) = self.image.encode(&self.palette) {
             svg.image(&place, &png, self.colours.is_none());
         }
+    }
+
+    fn keys(&self) -> Vec<(Key, String)> {
+        self.names.clone()
     }
 
     fn colours(&self) -> Option<&Colours> {

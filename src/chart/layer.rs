@@ -2,19 +2,20 @@
 
 use super::colour::{INK, SERIES};
 use super::decimation::{keep_extremes, simplify};
+use super::frame::Frame;
 use super::image::Colours;
 use super::legend::Key;
-use super::panel::{Frame, Side};
+use super::panel::Side;
 use super::svg::{Path, Stroke, Svg};
 
 /// Columns for each point of width to which series are thinned (300 dots per inch).
-const COLUMNS_PER_POINT: f64 = 300.0 / 72.0;
+pub(super) const COLUMNS_PER_POINT: f64 = 300.0 / 72.0;
 /// Deviation that no reader sees, points.
 const INVISIBLE: f64 = 0.03;
 
 /// One thing drawn in a panel, with its data in the units of the program.
 pub trait Layer: Send + Sync {
-    /// Shows every point to `see`, so that the axes hold it; a coordinate without meaning is `NaN`.
+    /// Shows every point to `see`, so that the axes hold it; a coordinate that stands for the whole axis is infinite.
     fn extent(&self, _see: &mut dyn FnMut(f64, f64)) {}
 
     /// Draws what is cut at the frame.
@@ -321,109 +322,6 @@ impl Layer for Points {
             marker: Some((self.marker, self.colour)),
             patch: None,
         };
-        self.name.iter().map(|name| (key, name.clone())).collect()
-    }
-}
-
-/// A filled area between two curves over the same rising abscissae.
-#[derive(Clone, Debug)]
-pub struct Fill {
-    /// Abscissa, one bound, the other.
-    points: Vec<[f64; 3]>,
-    is_range: bool,
-    colour: &'static str,
-    opacity: f64,
-    name: Option<String>,
-}
-
-impl Fill {
-    /// The area between two curves.
-    pub fn between(xs: &[f64], one: &[f64], other: &[f64], colour: &'static str) -> Self {
-        let points = xs.iter().zip(one.iter().zip(other));
-        let points = points.map(|(&x, (&a, &b))| [x, a, b]).collect();
-        Self {
-            points,
-            is_range: false,
-            colour,
-            opacity: 1.0,
-            name: None,
-        }
-    }
-
-    /// The area between a level and a curve.
-    pub fn from(level: f64, xs: &[f64], ys: &[f64], colour: &'static str) -> Self {
-        Self::between(xs, &vec![level; xs.len()], ys, colour)
-    }
-
-    /// The range that a quickly varying series covers.
-    pub fn range_of(xs: &[f64], ys: &[f64], colour: &'static str) -> Self {
-        Self {
-            is_range: true,
-            ..Self::between(xs, ys, ys, colour)
-        }
-    }
-
-    /// The same, transparent: 0 is invisible.
-    pub fn opacity(self, opacity: f64) -> Self {
-        Self { opacity, ..self }
-    }
-
-    /// The same with an entry in the legend.
-    pub fn name(self, name: impl Into<String>) -> Self {
-        Self {
-            name: Some(name.into()),
-            ..self
-        }
-    }
-}
-
-impl Layer for Fill {
-    fn extent(&self, see: &mut dyn FnMut(f64, f64)) {
-        // A range is drawn behind the line that the axis is made for.
-        for &[x, a, b] in self.points.iter().filter(|_| !self.is_range) {
-            see(x, a);
-            see(x, b);
-        }
-    }
-
-    fn draw(&self, svg: &mut Svg, frame: &Frame) {
-        let per_point = if self.is_range {
-            1.5
-        } else {
-            COLUMNS_PER_POINT
-        };
-        let mut columns: Vec<[f64; 3]> = Vec::new();
-        let shown = self
-            .points
-            .iter()
-            .filter(|[x, a, b]| (x + a + b).is_finite());
-        let last = self.points.last().map(|p| p[0]);
-        for &[x, a, b] in shown {
-            let place = [frame.at_x(x), frame.at_y(a), frame.at_y(b)];
-            match columns.last_mut() {
-                Some(column)
-                    if (column[0] * per_point).floor() == (place[0] * per_point).floor() =>
-                {
-                    if self.is_range {
-                        *column = [column[0], column[1].max(place[1]), column[2].min(place[2])];
-                    } else if Some(x) == last {
-                        columns.push(place);
-                    }
-                }
-                _ => columns.push(place),
-            }
-        }
-        let there = columns.iter().map(|c| (c[0], c[1]));
-        let back = columns.iter().rev().map(|c| (c[0], c[2]));
-        svg.fill_path(
-            &Path::polyline(there.chain(back), true),
-            self.colour,
-            self.opacity,
-        );
-    }
-
-    fn keys(&self) -> Vec<(Key, String)> {
-        let key = Key::patch(self.colour, self.opacity);
         self.name.iter().map(|name| (key, name.clone())).collect()
     }
 }

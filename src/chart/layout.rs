@@ -1,9 +1,10 @@
 //! Where the panels of a figure stand: a grid whose data areas line up.
 
 use super::figure::Figure;
+use super::frame::{Frame, LABEL_SIZE, TITLE_SIZE};
 use super::image::Colours;
 use super::legend::{LINE_HEIGHT, Legend};
-use super::panel::{Frame, LABEL_SIZE, Panel, TITLE_SIZE};
+use super::panel::Panel;
 use super::ruler::Ruler;
 use super::svg::{Rect, Svg};
 use super::text::{self, Anchor, TextStyle};

@@ -1,9 +1,9 @@
 //! Legends and colour bars.
 
 use super::colour::INK;
+use super::frame::{LABEL_SIZE, TITLE_SIZE, vertical_count};
 use super::image::{Colours, IndexedImage, Palette};
 use super::layer::Marker;
-use super::panel::{LABEL_SIZE, TITLE_SIZE, vertical_count};
 use super::ruler::{Ruler, widest};
 use super::svg::{Path, Rect, Stroke, Svg};
 use super::text::{self, Anchor, TextStyle};

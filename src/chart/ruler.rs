@@ -1,6 +1,7 @@
 //! An axis whose range is known: places, round ticks, labels.
 
 use super::axis::Scale;
+use super::numbers::signed;
 use super::text;
 
 /// One labelled tick.
@@ -140,29 +141,36 @@ impl Ruler {
     }
 }
 
+/// Sizes beyond which steps and powers of ten are no numbers any more.
+const SIZES: (f64, f64) = (1e-280, 1e300);
+
 fn non_empty(low: f64, high: f64) -> (f64, f64) {
     if !(low.is_finite() && high.is_finite()) {
         return (0.0, 1.0);
     }
+    let [low, high] = [low, high].map(|end| end.clamp(-SIZES.1, SIZES.1));
     let reach = low.abs().max(high.abs());
-    if high - low > 1e-12 * reach && high > low {
+    if high - low > 1e-12 * reach && high - low > SIZES.0 {
         return (low, high);
     }
-    let room = if reach == 0.0 { 1.0 } else { 0.5 * reach };
+    let room = if reach < SIZES.0 { 1.0 } else { 0.5 * reach };
     (low - room, high + room)
 }
 
 /// Ends that are not positive are replaced.
 fn positive(low: f64, high: f64) -> (f64, f64) {
-    let high = if high > 0.0 && high.is_finite() {
-        high
-    } else {
-        1.0
+    let high = match high > 0.0 && high.is_finite() {
+        true => high.clamp(SIZES.0, SIZES.1),
+        false => 1.0,
     };
-    match low > 0.0 && low < high * (1.0 - 1e-9) {
+    let low = if low > 0.0 {
+        low.max(1e-280 * high)
+    } else {
+        1e-3 * high
+    };
+    match low < high * (1.0 - 1e-9) {
         true => (low, high),
-        false if low > 0.0 && low.is_finite() => (0.5 * high, 2.0 * high),
-        false => (high * 1e-3, high),
+        false => (0.5 * high, 2.0 * high),
     }
 }
 
@@ -183,59 +191,6 @@ fn decimals_for(step: f64) -> usize {
             (scaled - scaled.round()).abs() < 1e-6 * scaled
         })
         .unwrap_or(9)
-}
-
-/// A number with `decimals` decimals and a true minus sign.
-pub fn signed(value: f64, decimals: usize) -> String {
-    let text = format!("{:.*}", decimals, value.abs());
-    let is_zero = text.chars().all(|c| c == '0' || c == '.');
-    if value < 0.0 && !is_zero {
-        format!("−{text}")
-    } else {
-        text
-    }
-}
-
-/// A number with `digits` significant digits, in plain or scientific notation (mark-up).
-pub fn significant(value: f64, digits: usize) -> String {
-    if value == 0.0 || !value.is_finite() {
-        return if value == 0.0 {
-            "0".into()
-        } else {
-            "–".into()
-        };
-    }
-    let power = value.abs().log10().floor() as i32;
-    if (-3..5).contains(&power) {
-        return signed(value, (digits as i32 - 1 - power).max(0) as usize);
-    }
-    let mantissa = signed(value / 10f64.powi(power), digits.saturating_sub(1));
-    format!("{mantissa}·10^{{{}}}", signed(f64::from(power), 0))
-}
-
-/// Factor and prefixed unit that bring values up to `reach` near 1 to 1000: `(1e-3, "kW")`.
-pub fn prefixed(reach: f64, unit: &str) -> (f64, String) {
-    const PREFIXES: [(f64, &str); 9] = [
-        (1e9, "G"),
-        (1e6, "M"),
-        (1e3, "k"),
-        (1.0, ""),
-        (1e-3, "m"),
-        (1e-6, "µ"),
-        (1e-9, "n"),
-        (1e-12, "p"),
-        (1e-15, "f"),
-    ];
-    let reach = reach.abs();
-    if reach == 0.0 || !reach.is_finite() {
-        return (1.0, unit.into());
-    }
-    PREFIXES
-        .into_iter()
-        .find(|(size, _)| reach >= *size)
-        .map_or((1.0, unit.into()), |(size, prefix)| {
-            (1.0 / size, format!("{prefix}{unit}"))
-        })
 }
 
 /// Width of the widest of some labels, points.
@@ -403,12 +358,5 @@ mod tests {
         ] {
             assert!(logarithmic(low, high).len() > 1, "{low} {high}");
         }
-    }
-
-    #[test]
-    fn prefixes_follow_the_size() {
-        assert_eq!(prefixed(1370.0, "W"), (1e-3, "kW".into()));
-        assert_eq!(prefixed(3e-5, "m").1, "µm");
-        assert_eq!(prefixed(0.0, "J"), (1.0, "J".into()));
     }
 }

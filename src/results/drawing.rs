@@ -1,6 +1,5 @@
 //! Figures as files: SVG and PNG side by side in `figures/`, and the report that holds them all.
 
-use super::figures::FigureError;
 use super::folder::{FolderError, OutputFolder};
 use super::report::{NamedFigure, Report};
 use crate::chart::{ChartError, Drawing, Figure};
@@ -75,9 +74,6 @@ pub enum DrawingError {
     /// It could not be drawn.
     #[error("a figure could not be drawn ({0}); --no-figures runs without")]
     Chart(#[from] ChartError),
-    /// It could not be drawn.
-    #[error("a figure could not be drawn ({0}); --no-figures runs without")]
-    Figure(#[from] FigureError),
     /// It could not be written.
     #[error(transparent)]
     Folder(#[from] FolderError),
@@ -90,33 +86,6 @@ pub struct FigureFile {
     pub name: String,
     /// Its bytes.
     pub bytes: Vec<u8>,
-}
-
-/// Name and caption of a figure, and what draws it.
-pub type FigureJob<'a> = (
-    String,
-    String,
-    Box<dyn Fn() -> Result<String, FigureError> + Sync + Send + 'a>,
-);
-
-/// Runs the jobs side by side and keeps what had something to draw, in order.
-///
-/// # Errors
-/// That of a figure that cannot be drawn although there is something to draw.
-pub fn draw_figures(jobs: Vec<FigureJob<'_>>) -> Result<Vec<NamedFigure>, FigureError> {
-    let drawn: Vec<_> = jobs
-        .into_par_iter()
-        .map(|(name, caption, job)| (name, caption, job()))
-        .collect();
-    let mut figures = Vec::new();
-    for (name, caption, drawing) in drawn {
-        match drawing {
-            Ok(svg) => figures.push(NamedFigure { name, caption, svg }),
-            Err(FigureError::Empty { .. }) => {}
-            Err(error) => return Err(error),
-        }
-    }
-    Ok(figures)
 }
 
 /// Every figure in every format asked for, in order.

@@ -4,7 +4,7 @@ mod figures;
 mod report;
 mod summary;
 
-pub use figures::{IdentificationRecord, draw, unit_of};
+pub use figures::{IdentificationRecord, unit_of};
 pub use report::draw_report;
 pub use summary::{
     CoefficientSummary, FitSummary, HalfPowerSummary, IdentificationSummary, ModeSummary,

@@ -1,15 +1,16 @@
 //! What a mesh looks like: statistics, VTU, outline picture.
 
-use super::drawing::{DrawingError, DrawingOptions, write_figures};
+use super::drawing::{DrawingError, DrawingOptions, draw_all, write_figures};
 use super::folder::{FolderError, OutputFolder};
 use super::manifest::Manifest;
 use super::quantity::quantity;
-use super::report::NamedFigure;
 use super::summary::{Entry, Summary};
 use super::vtu::{EncodedMesh, Field, write_vtu};
+use crate::chart::{
+    Axis, Field as Window, Figure, INK, Label, Line, Marker, Panel, Points, SERIES,
+};
 use crate::mesh::{AnnulusMesh, ElementKind, Mesh2d};
 use serde::{Deserialize, Serialize};
-use std::fmt::Write as _;
 
 /// `summary.json` of `frictionsim mesh`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -182,52 +183,63 @@ pub fn write_mesh(folder: &OutputFolder, mesh: &Mesh2d) -> Result<(), FolderErro
     Ok(())
 }
 
-/// Draws `figures/mesh.svg` and `.png`: element outlines, the contact edge red, the clamped edge blue.
+/// Draws `figures/mesh`: elements with their axes, contact edge, clamped edge and probes (node numbers from 1).
 ///
 /// # Errors
 /// Those of the folder.
 pub fn write_mesh_picture(
     folder: &OutputFolder,
     annulus: &AnnulusMesh,
-    title: &str,
+    (title, probes): (&str, &[usize]),
     options: &DrawingOptions,
 ) -> Result<(), DrawingError> {
-    let figure = NamedFigure {
-        name: "mesh".into(),
-        caption: title.into(),
-        svg: picture(annulus, title),
-    };
-    write_figures(folder, &[figure], options)
+    let figures = draw_all(
+        vec![Box::new(|| Ok(mesh_figure(&annulus.mesh, title, probes)))],
+        options,
+    )?;
+    write_figures(folder, &figures, options)
 }
 
-fn picture(annulus: &AnnulusMesh, title: &str) -> String {
-    const HALF: f64 = 400.0;
-    let mesh = &annulus.mesh;
-    let scale = 0.95 * HALF / annulus.specification.outer_radius;
-    let place = |p: [f64; 2]| (HALF + scale * p[0], HALF - scale * p[1]);
-    let mut path = String::new();
-    for element in 0..mesh.element_count() {
-        for (i, point) in outline(mesh, element).into_iter().enumerate() {
-            let (x, y) = place(point);
-            let _ = write!(path, "{}{x:.2} {y:.2}", if i == 0 { "M" } else { "L" });
-        }
-        path.push('Z');
-    }
-    let circle = |radius: f64, color: &str| {
-        format!(
-            "<circle cx=\"{HALF}\" cy=\"{HALF}\" r=\"{:.2}\" fill=\"none\" stroke=\"{color}\" \
-             stroke-width=\"2\"/>\n",
-            scale * radius
-        )
+fn mesh_figure(mesh: &Mesh2d, title: &str, probes: &[usize]) -> Figure {
+    let place = |node: u32| (mesh.nodes[node as usize][0], mesh.nodes[node as usize][1]);
+    let gap = (f64::NAN, f64::NAN);
+    let rings = (0..mesh.element_count()).flat_map(|element| {
+        let ring = outline(mesh, element);
+        let again = ring.first().copied();
+        let points = ring.into_iter().chain(again).map(|[x, y]| (x, y));
+        points.chain([gap]).collect::<Vec<_>>()
+    });
+    let edge = |nodes: &[u32], colour: &'static str, name: &str| {
+        let around = nodes.iter().chain(nodes.first()).map(|&node| place(node));
+        Line::through(around).solid(colour, 1.4).name(name)
     };
-    let title = title.replace('&', "&amp;").replace('<', "&lt;");
-    format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{0}\" \
-         viewBox=\"0 0 {0} {0}\">\n\
-         <title>{title}</title>\n<rect width=\"{0}\" height=\"{0}\" fill=\"white\"/>\n\
-         <path d=\"{path}\" fill=\"#f2f2f2\" stroke=\"#404040\" stroke-width=\"0.4\"/>\n{1}{2}</svg>\n",
-        2.0 * HALF,
-        circle(annulus.specification.inner_radius, "#d62728"),
-        circle(annulus.specification.outer_radius, "#1f77b4"),
-    )
+    let known = probes
+        .iter()
+        .filter(|&&probe| (1..=mesh.node_count()).contains(&probe));
+    let known: Vec<(usize, (f64, f64))> = known
+        .map(|&probe| (probe, place(probe as u32 - 1)))
+        .collect();
+    let labels = known
+        .iter()
+        .map(|(probe, at)| Label::new(*at, probe.to_string()).moved(4.0, -4.0));
+    let [low, high] = Window::window(&mesh.nodes, 0.06);
+    let axis = |name: &str, i: usize| Axis::new(name, "mm").times(1e3).between(low[i], high[i]);
+    let panel = Panel::new(axis("*x*", 0), axis("*y*", 1))
+        .equal()
+        .plain()
+        .height(420.0)
+        .layer(Line::through(rings).solid("#6f6f6f", 0.25).name(format!(
+            "{} elements, {} nodes",
+            mesh.element_count(),
+            mesh.node_count()
+        )))
+        .layer(edge(&mesh.inner_edge.nodes, SERIES[1], "contact edge"))
+        .layer(edge(&mesh.outer_edge.nodes, SERIES[0], "clamped edge"))
+        .layer(
+            Points::new(known.iter().map(|probe| probe.1))
+                .marker(Marker::Disc, 2.0, INK)
+                .name("probes"),
+        )
+        .layers(labels);
+    Figure::new("mesh", if title.is_empty() { "Mesh" } else { title }).panel(panel)
 }

@@ -10,7 +10,6 @@ pub mod cycle_fields;
 pub mod cycle_figures;
 pub mod cycle_stability;
 mod drawing;
-pub mod figures;
 pub mod identification;
 pub mod mesh;
 mod npz;
@@ -18,7 +17,6 @@ mod parameter;
 pub mod quantity;
 pub mod report;
 mod response;
-pub mod run_figures;
 pub mod signal;
 mod store;
 pub mod summary;
@@ -31,8 +29,8 @@ mod vtu;
 use store::{folder, framed, manifest, record, reopening};
 
 pub use drawing::{
-    DOTS_PER_INCH, DrawingError, DrawingOptions, FigureFile, Format, figure_files, write_figures,
-    write_report,
+    DOTS_PER_INCH, DrawingError, DrawingOptions, FigureFile, Format, draw_all, figure_files,
+    write_figures, write_report,
 };
 pub use response::{
     RESPONSE_TABLE, ResponseSummary, draw_response_report, read_response_table, write_response,

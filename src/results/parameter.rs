@@ -24,8 +24,3 @@ pub fn parameter_axis(key: &str) -> Axis {
     };
     Axis::new(quantity, unit)
 }
-
-/// Title of the same axis.
-pub fn parameter_title(key: &str) -> String {
-    parameter_axis(key).title()
-}

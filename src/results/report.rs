@@ -1,7 +1,7 @@
 //! `report.html`: figures, tables, case and manifest of one result in one file.
 
 use super::Manifest;
-use super::figures::svg::{ID_PREFIX, escape};
+use crate::chart::{ID_PREFIX, escape};
 use serde_json::Value;
 use std::fmt::Write;
 

@@ -1,14 +1,14 @@
 //! Table, figure and report of a computed frequency response.
 
 use super::Manifest;
-use super::drawing::{DrawingError, DrawingOptions, write_report};
-use super::figures::{ResponsePlot, draw_response};
+use super::drawing::{DrawingError, DrawingOptions, draw_all, write_report};
 use super::folder::{FolderError, OutputFolder};
 use super::identification::unit_of;
 use super::reopening::read_own;
-use super::report::{NamedFigure, Report, ReportSection};
+use super::report::{Report, ReportSection};
 use super::summary::{Entry, Summary, present};
 use super::table::Table;
+use crate::chart::{Axis, Figure, INK, Line, Marker, Panel, Points, SERIES};
 use crate::signal::{FrequencyResponse, ResponseQuantity};
 use faer::c64;
 use serde::{Deserialize, Serialize};
@@ -101,24 +101,67 @@ pub fn draw_response_report(
     summary: &ResponseSummary,
     options: &DrawingOptions,
 ) -> Result<(), DrawingError> {
-    let figure = NamedFigure {
-        name: "response".into(),
-        caption: "Frequency response of the model: magnitude and phase.".into(),
-        svg: draw_response(&ResponsePlot {
-            frequencies_hz: response.frequencies_hz(),
-            values: response.values(),
-            unit: unit_of(response.quantity()).to_owned(),
-        })?,
-    };
     let report = Report {
         title: summary.title.clone(),
         sections: vec![ReportSection {
             heading: "Frequency response".into(),
             paragraphs: vec![summary.description.clone()],
             tables: Vec::new(),
-            figures: vec![figure],
+            figures: draw_all(vec![Box::new(|| Ok(response_figure(response)))], options)?,
         }],
         manifest: folder.manifest().clone(),
     };
     write_report(folder, &report, options)
+}
+
+/// Magnitude and phase of a response over the frequency.
+fn response_figure(response: &FrequencyResponse) -> Figure {
+    let (frequencies, values) = (response.frequencies_hz(), response.values());
+    let magnitude: Vec<f64> = values.iter().map(|h| h.norm()).collect();
+    let turns: Vec<f64> = values.iter().map(|h| h.arg().to_degrees()).collect();
+    // Where the phase jumps by a turn the line breaks; a sample between two jumps would be a speck.
+    let jumps = |i: usize| {
+        turns
+            .get(i + 1)
+            .is_some_and(|next| (next - turns[i]).abs() > 180.0)
+    };
+    let pieces = (0..turns.len()).collect::<Vec<_>>();
+    let pieces = pieces.chunk_by(|&i, _| !jumps(i));
+    let kept = pieces.filter(|piece| piece.len() > 2).flat_map(|piece| {
+        let points = piece.iter().map(|&i| (frequencies[i], turns[i]));
+        points.chain([(f64::NAN, f64::NAN)]).collect::<Vec<_>>()
+    });
+    let phase = Line::through(kept).solid(SERIES[0], 0.8);
+    let quarters =
+        [-180, -90, 0, 90, 180].map(|d: i32| (f64::from(d), d.to_string().replace('-', "−")));
+    let over = |y: Axis, height: f64, line: Line| {
+        Panel::new(Axis::kilohertz().tight(), y)
+            .height(height)
+            .layer(line)
+    };
+    let size = Line::new(frequencies, &magnitude).solid(SERIES[0], 0.8);
+    let peaks = (1..magnitude.len().saturating_sub(1))
+        .filter(|&i| magnitude[i] > magnitude[i - 1] && magnitude[i] >= magnitude[i + 1]);
+    let peaks =
+        Points::new(peaks.map(|i| (frequencies[i], magnitude[i]))).marker(Marker::Disc, 1.2, INK);
+    Figure::new(
+        "response",
+        "Frequency response of the model: magnitude (a), its maxima marked, and phase (b).",
+    )
+    .shared_x()
+    .panel(
+        over(
+            Axis::new("|*H*|", unit_of(response.quantity())).logarithmic(),
+            150.0,
+            size,
+        )
+        .layer(peaks.name("maximum")),
+    )
+    .panel(over(
+        Axis::new("phase", "°")
+            .between(-190.0, 190.0)
+            .ticks(quarters),
+        72.0,
+        phase,
+    ))
 }

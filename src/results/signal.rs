@@ -4,7 +4,7 @@ mod figures;
 mod report;
 mod summary;
 
-pub use figures::{ChannelRecord, SignalFigures, SignalRecord, draw};
+pub use figures::{ChannelRecord, SignalRecord, draw};
 pub use report::draw_report;
 pub use summary::{
     ChannelSummary, GrowthSummary, ModeSummary, NearestMode, PeakSummary, SignalSummary,

@@ -1,70 +1,283 @@
 //! The figures of a parameter study, from its points.
 
-use super::cycle_figures::{FamilyRecord, branch_curves, draw_branches};
-use super::figures::axis::Scale;
-use super::figures::text::literal;
-use super::figures::{
-    CriticalFriction, FigureError, ReferenceFrequency, SpeedSeries, SpeedSweep,
-    draw_critical_friction, draw_speed_frequencies, draw_speed_status,
-};
-use super::parameter::parameter_title;
+use super::charts::palette::{OPEN, SLIP, STICK};
+use super::charts::{CriticalBranch, ModeLine, critical_friction};
+use super::cycle_figures::{FamilyRecord, NamedFamily, draw_branches};
+use super::drawing::{Declaration, DrawingOptions, draw_all};
+use super::parameter::parameter_axis;
 use super::report::NamedFigure;
 use super::sweep::{PointRecord, swept_text};
+use crate::chart::{
+    Axis, ChartError, Figure, Fill, INK, Line, Marker, Panel, Points, Rule, Scale, Stroke, literal,
+    look, plain,
+};
 use serde::Deserialize;
 use serde_json::{Map, Value};
 
 const SPEED: &str = "contact.rotation_speed_rpm";
 const FRICTION: &str = "contact.friction_coefficient";
 
-/// Draws what a study has points for: main frequency and contact status over the rotation speed if
-/// that was swept, critical friction if one other key was swept through eigenvalue analyses, branches of limit cycles if
-/// they were followed at its points.
+/// Most curves of one figure.
+const MOST_SERIES: usize = 12;
+/// Fraction of sticking nodes below which none is said to stick.
+const NO_STICK: f64 = 0.005;
+
+/// Draws what a study has points for: main frequency and contact status over the rotation speed, or else over another swept
+/// key; critical friction if one key besides friction was swept through eigenvalue analyses; branches of limit cycles if they
+/// were followed at its points.
 ///
-/// `friction_coefficient` is the case's own, for studies that do not sweep it; `highest_friction` the
-/// largest of its eigenvalue analysis. Nothing is drawn over speed where any other key than speed and
-/// friction was swept as well.
+/// `modes` are unstable modes at `friction_coefficient`, the case's own; `highest_friction` is the largest of its eigenvalue
+/// analysis.
 ///
 /// # Errors
 /// That of a figure that cannot be drawn although there is something to draw.
 pub fn draw_sweep(
     records: &[PointRecord],
-    friction_coefficient: f64,
-    highest_friction: f64,
-    references: &[ReferenceFrequency],
-) -> Result<Vec<NamedFigure>, FigureError> {
-    let mut figures = Vec::new();
-    let speeds = speed_sweep(records, friction_coefficient, references);
-    if speeds.series.iter().any(has_values) {
-        figures.push(NamedFigure {
-            name: "frequencies".into(),
-            caption:
-                "Main frequency of the limit cycle over rotation speed; dashed: unstable modes."
-                    .into(),
-            svg: draw_speed_frequencies(&speeds)?,
-        });
-        figures.push(NamedFigure {
-            name: "status".into(),
-            caption: "Shares of sticking, slipping and open contact nodes over rotation speed."
-                .into(),
-            svg: draw_speed_status(&speeds)?,
-        });
-    }
-    if let Some(critical) = critical_friction(records, highest_friction) {
-        figures.push(NamedFigure {
-            name: "critical-friction".into(),
-            caption:
-                "Critical friction of each branch; steady sliding is stable below all of them."
-                    .into(),
-            svg: draw_critical_friction(&critical)?,
-        });
-    }
-    figures.extend(limit_cycles(records)?);
+    (friction_coefficient, highest_friction): (f64, f64),
+    modes: &[ModeLine],
+    options: &DrawingOptions,
+) -> Result<Vec<NamedFigure>, ChartError> {
+    let study = Study::of(records);
+    let study = &study;
+    let declarations: Vec<Declaration<'_>> = vec![
+        Box::new(move || study.frequencies(modes, friction_coefficient)),
+        Box::new(move || study.status()),
+        Box::new(move || critical(records, highest_friction)),
+    ];
+    let mut figures = draw_all(declarations, options)?;
+    let mut families = cycle_families(records);
+    families.sort_by_key(|(_, family)| family.family());
+    let families: Vec<NamedFamily<'_>> = families.iter().map(|(l, f)| (l.clone(), f)).collect();
+    figures.extend(draw_branches(&families, options)?);
     Ok(figures)
 }
 
-/// The branches of limit cycles of all points, harmonic by harmonic.
-fn limit_cycles(records: &[PointRecord]) -> Result<Vec<NamedFigure>, FigureError> {
-    let mut families: Vec<(String, FamilyRecord)> = Vec::new();
+/// The limit cycle found at one point.
+struct Cycle {
+    value: f64,
+    frequency_hz: f64,
+    harmonic: Option<u64>,
+    /// Fractions of contact nodes that stick, slip, are open.
+    status: [f64; 3],
+}
+
+/// Points that differ in one key alone, in order of its values.
+struct Series {
+    name: String,
+    cycles: Vec<Cycle>,
+}
+
+/// Limit cycles over one swept key.
+struct Study {
+    key: String,
+    series: Vec<Series>,
+}
+
+impl Study {
+    /// The points of a study over the rotation speed, where that was swept, or over the first swept key with several values;
+    /// one series for each choice of the other keys.
+    fn of(records: &[PointRecord]) -> Self {
+        let value = |record: &PointRecord, key: &str| number(record.swept.get(key));
+        let several = |key: &&String| {
+            let first = records
+                .first()
+                .map_or(f64::NAN, |record| value(record, key));
+            first.is_finite() && records.iter().any(|record| value(record, key) != first)
+        };
+        let keys = || {
+            records
+                .iter()
+                .flat_map(|record| record.swept.keys())
+                .take(8)
+                .filter(several)
+        };
+        let key = keys().find(|key| *key == SPEED).or_else(|| keys().next());
+        let key = key.cloned().unwrap_or_default();
+        let mut series: Vec<Series> = Vec::new();
+        for record in records {
+            let Some(summary) = record.summaries.get("transient") else {
+                continue;
+            };
+            let mut rest = record.swept.clone();
+            rest.remove(&key);
+            let name = swept_label(&rest);
+            let quantity = |path: &str| number(summary.pointer(path));
+            let cycle = Cycle {
+                value: value(record, &key),
+                frequency_hz: quantity("/main_frequency_hz"),
+                harmonic: summary.pointer("/main_harmonic").and_then(Value::as_u64),
+                status: ["stick", "slip", "open"]
+                    .map(|status| quantity(&format!("/status/{status}"))),
+            };
+            match series.iter_mut().find(|series| series.name == name) {
+                Some(series) => series.cycles.push(cycle),
+                None => series.push(Series {
+                    name,
+                    cycles: vec![cycle],
+                }),
+            }
+        }
+        for series in &mut series {
+            series.cycles.sort_by(|a, b| a.value.total_cmp(&b.value));
+        }
+        series.sort_by(|a, b| a.name.cmp(&b.name));
+        series.retain(|series| series.cycles.len() > 1);
+        series.truncate(MOST_SERIES);
+        Self { key, series }
+    }
+
+    fn axis(&self) -> Axis {
+        let values = self
+            .series
+            .iter()
+            .flat_map(|series| series.cycles.iter().map(|cycle| cycle.value));
+        parameter_axis(&self.key).scaled(Scale::for_values(values, 10.0))
+    }
+
+    fn over(&self) -> String {
+        plain(&parameter_axis(&self.key).title())
+    }
+
+    /// Main frequencies, one line for each choice of the other keys, with markers for the harmonic.
+    fn frequencies(&self, modes: &[ModeLine], friction: f64) -> Result<Figure, ChartError> {
+        if !self
+            .series
+            .iter()
+            .flat_map(|series| &series.cycles)
+            .any(|cycle| cycle.frequency_hz.is_finite())
+        {
+            return Err(ChartError::empty("limit cycles over a swept key"));
+        }
+        let modes = modes.iter().map(|mode| {
+            let text = format!("{:.2} kHz, {}", mode.frequency_hz * 1e-3, mode.label);
+            let name = format!("unstable mode of the eigenvalue analysis at *μ* = {friction}");
+            Rule::horizontal(mode.frequency_hz)
+                .stroke(Stroke::dashed(INK, 0.6))
+                .at_rim(text)
+                .name(name)
+        });
+        let mut panel = Panel::new(
+            self.axis(),
+            Axis::new("main frequency *f*", "kHz").times(1e-3),
+        )
+        .height(180.0)
+        .layers(modes);
+        for (index, series) in self.series.iter().enumerate() {
+            let line = Line::through(
+                series
+                    .cycles
+                    .iter()
+                    .map(|cycle| (cycle.value, cycle.frequency_hz)),
+            );
+            panel = panel.layer(line.nth(index).name(series.name.clone()));
+            let selected = series.selection().filter(|_| self.key == SPEED);
+            panel = panel.layers(selected.map(|speed| {
+                Rule::vertical(speed)
+                    .stroke(Stroke::dotted(look(index).0, 0.9))
+                    .beside("*ω*\\*")
+                    .name(format!("*ω*\\*, {}", series.name))
+            }));
+        }
+        for (harmonic, marker) in (0..).zip(Marker::ALL.iter().cycle()).take(9) {
+            for (index, series) in self.series.iter().enumerate() {
+                let own = series
+                    .cycles
+                    .iter()
+                    .filter(|cycle| cycle.harmonic == Some(harmonic));
+                let points: Vec<(f64, f64)> =
+                    own.map(|cycle| (cycle.value, cycle.frequency_hz)).collect();
+                let named = Points::new(points.iter().copied())
+                    .marker(*marker, 0.01, INK)
+                    .name(format!("*n* = {harmonic}"));
+                panel = panel.layer(named).layer(Points::new(points).marker(
+                    *marker,
+                    2.0,
+                    look(index).0,
+                ));
+            }
+        }
+        let caption = format!(
+            "Main frequency of the limit cycle over {}, with markers for the number of nodal diameters; dashed: unstable modes.",
+            self.over()
+        );
+        Ok(Figure::new("frequencies", caption).panel(panel))
+    }
+
+    /// Shares of stick, slip and open as stacked areas, one panel for each choice of the other keys.
+    fn status(&self) -> Result<Figure, ChartError> {
+        if self.series.is_empty() {
+            return Err(ChartError::empty("contact status over a swept key"));
+        }
+        let panels = self.series.iter().map(|series| {
+            let known = || {
+                series
+                    .cycles
+                    .iter()
+                    .filter(|cycle| cycle.status.iter().all(|part| part.is_finite()))
+            };
+            let column = |of: &dyn Fn(&Cycle) -> f64| known().map(of).collect::<Vec<f64>>();
+            let values = column(&|cycle| cycle.value);
+            let stick = column(&|cycle| cycle.status[0]);
+            let slip = column(&|cycle| cycle.status[0] + cycle.status[1]);
+            let all = column(&|cycle| cycle.status.iter().sum());
+            let bounds = values.iter().zip(&stick).chain(values.iter().zip(&slip));
+            let no_stick = series.end_of_stick().filter(|_| self.key == SPEED);
+            Panel::new(
+                self.axis().tight(),
+                Axis::new("contact nodes", "%")
+                    .times(100.0)
+                    .between(0.0, 1.0),
+            )
+            .plain()
+            .heading(series.name.clone())
+            .layer(Fill::from(0.0, &values, &stick, STICK).name("stick"))
+            .layer(Fill::between(&values, &stick, &slip, SLIP).name("slip"))
+            .layer(Fill::between(&values, &slip, &all, OPEN).name("open"))
+            .layer(
+                Points::new(bounds.map(|(x, y)| (*x, *y)))
+                    .marker(Marker::Disc, 1.1, INK)
+                    .name("computed"),
+            )
+            .layers(no_stick.map(|speed| {
+                Rule::vertical(speed)
+                    .beside("*ω*^{+}")
+                    .name("*ω*^{+}: no stick from here on")
+            }))
+        });
+        let caption = format!(
+            "Shares of sticking, slipping and open contact nodes over {}.",
+            self.over()
+        );
+        let columns = self.series.len().clamp(1, 3);
+        Ok(Figure::new("status", caption)
+            .columns(columns)
+            .shared_y()
+            .panels(panels.collect::<Vec<_>>()))
+    }
+}
+
+impl Series {
+    /// The value from which on one harmonic is selected for good, where another was selected before.
+    fn selection(&self) -> Option<f64> {
+        let last = self.cycles.last()?.harmonic?;
+        let other = self
+            .cycles
+            .iter()
+            .rposition(|cycle| cycle.harmonic != Some(last))?;
+        Some(self.cycles.get(other + 1)?.value)
+    }
+
+    /// The value from which on no node sticks, where some did before.
+    fn end_of_stick(&self) -> Option<f64> {
+        let sticks = |cycle: &Cycle| cycle.status[0] > NO_STICK;
+        let last = self.cycles.iter().rposition(sticks)?;
+        Some(self.cycles.get(last + 1)?.value)
+    }
+}
+
+/// The branches of limit cycles of all points.
+fn cycle_families(records: &[PointRecord]) -> Vec<(String, FamilyRecord)> {
+    let mut families = Vec::new();
     for record in records {
         let summary = record.summaries.get("cycle");
         let curves = summary.and_then(|summary| summary.get("curves")?.as_array());
@@ -75,142 +288,75 @@ fn limit_cycles(records: &[PointRecord]) -> Result<Vec<NamedFigure>, FigureError
             }
         }
     }
-    families.sort_by_key(|(_, family)| family.family());
-    let families: Vec<_> = families.iter().map(|(l, f)| (l.clone(), f)).collect();
-    draw_branches(&branch_curves(&families))
+    families
 }
 
 /// What a point is known by, in mark-up.
 fn swept_label(swept: &Map<String, Value>) -> String {
     match (swept.len(), swept.get(FRICTION)) {
+        (0, _) => "limit cycle".into(),
         (1, Some(friction)) => format!("*μ* = {friction}"),
         _ => literal(&swept_text(swept)),
     }
-}
-
-/// Whether a series has two speeds or more, and a vibration at any.
-fn has_values(series: &SpeedSeries) -> bool {
-    series.speeds_rpm.len() > 1 && series.main_frequency_hz.iter().any(|f| f.is_finite())
 }
 
 fn number(value: Option<&Value>) -> f64 {
     value.and_then(Value::as_f64).unwrap_or(f64::NAN)
 }
 
-/// Points by friction coefficient, each series in order of speed; failed points leave gaps.
-fn speed_sweep(
-    records: &[PointRecord],
-    friction_coefficient: f64,
-    references: &[ReferenceFrequency],
-) -> SpeedSweep {
-    let mut points: Vec<(f64, f64, [f64; 4])> = Vec::new();
-    for record in records {
-        let speed = number(record.swept.get(SPEED));
-        let is_known = |key: &String| key == SPEED || key == FRICTION;
-        if !speed.is_finite() || !record.swept.keys().all(is_known) {
-            continue;
-        }
-        let friction = record.swept.get(FRICTION).and_then(Value::as_f64);
-        let summary = record.summaries.get("transient");
-        let quantity = |path: &str| number(summary.and_then(|summary| summary.pointer(path)));
-        let values = [
-            "/main_frequency_hz",
-            "/status/stick",
-            "/status/slip",
-            "/status/open",
-        ];
-        points.push((
-            friction.unwrap_or(friction_coefficient),
-            speed,
-            values.map(quantity),
-        ));
-    }
-    points.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
-    let mut series: Vec<SpeedSeries> = Vec::new();
-    for (friction, speed, [frequency, stick, slip, open]) in points {
-        if series
-            .last()
-            .is_none_or(|last| last.friction_coefficient != friction)
-        {
-            series.push(SpeedSeries {
-                friction_coefficient: friction,
-                speeds_rpm: Vec::new(),
-                main_frequency_hz: Vec::new(),
-                stick: Vec::new(),
-                slip: Vec::new(),
-                open: Vec::new(),
-            });
-        }
-        if let Some(last) = series.last_mut() {
-            last.speeds_rpm.push(speed);
-            last.main_frequency_hz.push(frequency);
-            last.stick.push(stick);
-            last.slip.push(slip);
-            last.open.push(open);
-        }
-    }
-    SpeedSweep {
-        series,
-        references: references.to_vec(),
-    }
-}
-
 /// Critical friction over the one swept key of a study of eigenvalue analyses.
-fn critical_friction(records: &[PointRecord], highest_friction: f64) -> Option<CriticalFriction> {
-    let first = records.first()?;
+fn critical(records: &[PointRecord], highest_friction: f64) -> Result<Figure, ChartError> {
+    let nothing = || ChartError::empty("critical friction over a swept key");
+    let first = records.first().ok_or_else(nothing)?;
     let mut keys = first.swept.keys().filter(|key| *key != FRICTION);
     let (Some(key), None) = (keys.next(), keys.next()) else {
-        return None;
+        return Err(nothing());
     };
-    let mut points: Vec<(f64, &Value)> = records
+    let mut points: Vec<(f64, &Vec<Value>)> = records
         .iter()
         .filter_map(|record| {
-            let found = record.summaries.get("cea")?.get("critical_frictions")?;
+            let found = record
+                .summaries
+                .get("cea")?
+                .get("critical_frictions")?
+                .as_array()?;
             Some((record.swept.get(key)?.as_f64()?, found))
         })
         .collect();
     points.sort_by(|a, b| a.0.total_cmp(&b.0));
     points.dedup_by(|a, b| a.0 == b.0);
     if points.len() < 2 {
-        return None;
+        return Err(nothing());
     }
     let branch_of = |entry: &Value| {
         let part = |name: &str| entry.get(name).and_then(Value::as_i64).unwrap_or(0);
-        (part("harmonic"), part("branch"), part("direction"))
+        (
+            part("harmonic") as usize,
+            part("branch") as usize,
+            part("direction") as i8,
+        )
     };
-    let mut names: Vec<(i64, i64, i64)> = points
+    let mut names: Vec<(usize, usize, i8)> = points
         .iter()
-        .flat_map(|(_, found)| found.as_array().into_iter().flatten())
+        .flat_map(|point| point.1)
         .map(branch_of)
         .collect();
     names.sort_unstable();
     names.dedup();
-    let critical_of = |found: &Value, wanted: (i64, i64, i64)| {
-        let entries = found.as_array().into_iter().flatten();
-        let own = entries.filter(|entry| branch_of(entry) == wanted);
-        own.map(|entry| number(entry.get("critical_friction")))
-            .fold(f64::NAN, f64::min)
-    };
+    let branches: Vec<CriticalBranch> = names
+        .into_iter()
+        .map(|branch| {
+            let lowest = |found: &Vec<Value>| {
+                let own = found.iter().filter(|entry| branch_of(entry) == branch);
+                own.map(|entry| number(entry.get("critical_friction")))
+                    .fold(f64::NAN, f64::min)
+            };
+            CriticalBranch {
+                branch,
+                critical: points.iter().map(|point| lowest(point.1)).collect(),
+            }
+        })
+        .collect();
     let values: Vec<f64> = points.iter().map(|point| point.0).collect();
-    let (low, high) = (values[0], values[values.len() - 1]);
-    Some(CriticalFriction {
-        parameter_title: parameter_title(key),
-        scale: if low > 0.0 && high / low > 20.0 {
-            Scale::Logarithmic
-        } else {
-            Scale::Linear
-        },
-        branches: names
-            .into_iter()
-            .map(|name| {
-                let critical = points.iter().map(|(_, found)| critical_of(found, name));
-                (
-                    format!("*n* = {}, branch {}", name.0, name.1),
-                    critical.collect(),
-                )
-            })
-            .collect(),
-        values,
-        highest_friction,
-    })
+    Ok(critical_friction(key, &values, &branches, highest_friction))
 }

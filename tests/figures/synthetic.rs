@@ -1,8 +1,7 @@
-//! Analytic stand-ins for solver results: waves on an annulus, a growing signal that saturates.
+//! Analytic stand-ins for solver results: waves on an annulus.
 
 use faer::c64;
 use frictionsim::cea::{ComplexMode, FrictionPoint, FrictionSweep, UnstableInterval};
-use frictionsim::contact::ContactStatus;
 use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind, Mesh2d};
 use std::f64::consts::{PI, TAU};
 
@@ -127,88 +126,4 @@ pub fn shape(
         out.push(wave * c64::new(profile, 0.0));
     }
     out
-}
-
-/// A run of 50 ms: a torsional mode rings down while a wave of harmonic 2 grows and saturates.
-pub struct Run {
-    pub times: Vec<f64>,
-    pub acceleration: Vec<f64>,
-    pub node_count: usize,
-    pub status: Vec<ContactStatus>,
-}
-
-pub const GROWTH_RATE: f64 = 978.0;
-const WAVE: f64 = TAU * 9600.0;
-
-/// Relative size of the limit cycle reached at a time, 0 to 1.
-pub fn saturation(time: f64) -> f64 {
-    1.0 / (1.0 + (-GROWTH_RATE * (time - 0.018)).exp())
-}
-
-pub fn status_at(time: f64, angle: f64) -> ContactStatus {
-    let wave = (2.0 * angle + WAVE * time).cos() * saturation(time);
-    if wave > 0.45 {
-        ContactStatus::Stick
-    } else if wave < -0.3 {
-        ContactStatus::Open
-    } else {
-        ContactStatus::Slip
-    }
-}
-
-pub fn run(samples: usize, node_count: usize) -> Run {
-    let times: Vec<f64> = (0..samples)
-        .map(|i| 0.05 * i as f64 / (samples - 1) as f64)
-        .collect();
-    let acceleration = times
-        .iter()
-        .map(|&t| {
-            let size = saturation(t);
-            let ring_down = 900.0 * (-325.0 * t).exp() * (TAU * 5857.0 * t).sin();
-            let wave = (WAVE * t).sin()
-                + 0.3 * size * (2.0 * WAVE * t).sin()
-                + 0.12 * size * (3.0 * WAVE * t).cos();
-            ring_down + 3.0e4 * size * wave
-        })
-        .collect();
-    let status = times
-        .iter()
-        .flat_map(|&t| {
-            (0..node_count).map(move |j| status_at(t, TAU * j as f64 / node_count as f64))
-        })
-        .collect();
-    Run {
-        times,
-        acceleration,
-        node_count,
-        status,
-    }
-}
-
-/// Window centres, frequencies and amplitudes of windows of 0.5 ms (a plain Fourier sum).
-pub fn spectrogram(run: &Run, max_frequency_hz: f64) -> (Vec<f64>, Vec<f64>, Vec<f64>) {
-    let step = run.times[1] - run.times[0];
-    let window = (5e-4 / step).round() as usize;
-    let frequencies: Vec<f64> = (0..)
-        .map(|i| f64::from(i) * 400.0)
-        .take_while(|&f| f <= max_frequency_hz)
-        .collect();
-    let (mut centres, mut amplitude) = (Vec::new(), Vec::new());
-    let mut start = 0;
-    while start + window <= run.times.len() {
-        centres.push(run.times[start] + 0.5 * window as f64 * step);
-        for &frequency in &frequencies {
-            let mut sum = c64::new(0.0, 0.0);
-            let turn = c64::new(0.0, -TAU * frequency * step).exp();
-            let mut factor = c64::new(1.0, 0.0);
-            for i in 0..window {
-                let taper = 0.5 - 0.5 * (TAU * (i as f64 + 0.5) / window as f64).cos();
-                sum += factor * (run.acceleration[start + i] * taper);
-                factor *= turn;
-            }
-            amplitude.push(4.0 * sum.norm() / window as f64);
-        }
-        start += window / 5;
-    }
-    (centres, frequencies, amplitude)
 }

@@ -4,12 +4,14 @@ use super::Prepared;
 use crate::app::Failure;
 use crate::app::linear_stage::LinearStage;
 use crate::case::Case;
-use crate::results::run_figures::RunFigures;
-use crate::results::transient::{TransientSummary, draw};
-use crate::results::{DrawingOptions, OutputFolder, read_record, refuse_misfit};
+use crate::results::transient::{RunEnd, RunFigures, TransientSummary, draw, shear_stress_beside};
+use crate::results::{
+    DrawingError, DrawingOptions, OutputFolder, draw_all, read_record, refuse_misfit, write_figures,
+};
 use crate::transient::Recorder;
 use serde::Deserialize;
 use serde_json::Value;
+use std::path::PathBuf;
 
 /// Draws the figures and the report of a record.
 ///
@@ -61,4 +63,42 @@ pub fn redraw(
         ))
     })?;
     draw_record(folder, &prepared, &record, &summary, options)
+}
+
+/// Draws the last shear stress field of several finished runs side by side into the folder of the first.
+///
+/// # Errors
+/// A run without a whole record or without snapshots; those of the drawing and of the folder.
+pub fn draw_beside(
+    folder: &OutputFolder,
+    runs: &[(PathBuf, Case)],
+    options: &DrawingOptions,
+) -> Result<(), Failure> {
+    let mut records = Vec::new();
+    for (path, case) in runs {
+        let prepared = Prepared::new(case, "scalar")?;
+        let record: Recorder = read_record(path)?;
+        let mesh = &prepared.annulus.mesh;
+        let fits = record.fits(mesh.node_count(), mesh.inner_edge.nodes.len());
+        refuse_misfit(path, fits)?;
+        records.push((prepared, record));
+    }
+    let mut ends = Vec::new();
+    for ((path, case), (prepared, record)) in runs.iter().zip(&records) {
+        let last = record.snapshots.last();
+        ends.push(RunEnd {
+            mesh: &prepared.annulus.mesh,
+            material: &case.material,
+            damping: case.damping.rayleigh,
+            snapshot: last.ok_or_else(|| {
+                Failure::usage(format!(
+                    "{} holds no snapshot: set output.snapshots",
+                    path.display()
+                ))
+            })?,
+        });
+    }
+    let figures = draw_all(vec![Box::new(|| Ok(shear_stress_beside(&ends)))], options);
+    write_figures(folder, &figures.map_err(DrawingError::from)?, options)?;
+    Ok(())
 }

@@ -3,6 +3,7 @@
 mod base;
 mod figures;
 mod files;
+mod locus;
 mod map;
 mod print;
 mod report;

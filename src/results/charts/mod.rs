@@ -1,8 +1,14 @@
 //! Charts that several commands share, and what their colours mean.
 
+mod contact;
+mod course;
 mod critical_friction;
 mod disc;
 pub mod palette;
 
+pub use contact::{FieldFrame, contact_figure, field_figure, status_curves, status_map};
+pub use course::{
+    ModeLine, Stage, run_axis, signal_panel, spectrogram_panels, spectrum_panel, with_stages,
+};
 pub use critical_friction::{CriticalBranch, critical_friction};
 pub use disc::Disc;

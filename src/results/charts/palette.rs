@@ -40,6 +40,27 @@ fn entry(status: ContactStatus) -> (&'static str, &'static str, &'static str) {
     found.map_or((OPEN, OPEN, OPEN), |s| (s.2, s.3, s.4))
 }
 
+/// The status of a code: 0 open, 1 stick, 2 slip.
+pub fn status_of_code(code: u8) -> ContactStatus {
+    match code {
+        1 => ContactStatus::Stick,
+        2 => ContactStatus::Slip,
+        _ => ContactStatus::Open,
+    }
+}
+
+/// Legend entries of the states as areas.
+pub fn status_keys() -> Vec<(Key, String)> {
+    let key = |entry: &Entry| (Key::patch(entry.2, 1.0), entry.1.to_owned());
+    STATUSES.iter().map(key).collect()
+}
+
+/// Name of a status.
+pub fn status_name(status: ContactStatus) -> &'static str {
+    let found = STATUSES.iter().find(|entry| entry.0 == status);
+    found.map_or("", |entry| entry.1)
+}
+
 /// Colour of areas in a status.
 pub fn area_colour(status: ContactStatus) -> &'static str {
     entry(status).0

@@ -2,21 +2,12 @@
 
 use super::print::significant;
 use super::{ConvergenceReport, Quantity, Refinement, Series};
-use crate::results::drawing::{DrawingError, DrawingOptions, write_report};
-use crate::results::figures::{ConvergenceSeries, ConvergenceStudy, FigureError, draw_convergence};
+use crate::chart::{Axis, Figure, Line, MUTED, Panel, Points, Rule, Stroke, look};
+use crate::results::drawing::{DrawingError, DrawingOptions, draw_all, write_report};
 use crate::results::folder::OutputFolder;
-use crate::results::report::{NamedFigure, Report, ReportSection, ReportTable};
+use crate::results::report::{Report, ReportSection, ReportTable};
 
-/// Curves of one figure: as many as there are colours.
-const MOST_CURVES: usize = 7;
-
-/// Makes the curve of a quantity, where there is one.
-type CurveOf = fn(&Series, &Quantity) -> Option<ConvergenceSeries>;
-
-/// Draws the figures of every series and writes `report.html`.
-///
-/// Of each group the quantities that converge are drawn by their estimated errors, and all by the
-/// differences between successive levels, which need no limit; the first seven of each.
+/// Draws the figure of all series and writes `report.html`.
 ///
 /// # Errors
 /// Those of the drawing and of the folder.
@@ -25,76 +16,129 @@ pub fn draw(
     report: &ConvergenceReport,
     options: &DrawingOptions,
 ) -> Result<(), DrawingError> {
-    let sections: Result<Vec<_>, FigureError> = report.series.iter().map(section).collect();
+    let mut sections: Vec<ReportSection> = report.series.iter().map(section).collect();
+    let figures = draw_all(vec![Box::new(|| Ok(convergence(report)))], options)?;
+    sections.insert(
+        0,
+        ReportSection {
+            heading: "Convergence".into(),
+            figures,
+            ..ReportSection::default()
+        },
+    );
     let html = Report {
         title: report.title.clone(),
-        sections: sections?,
+        sections,
         manifest: folder.manifest().clone(),
     };
     write_report(folder, &html, options)
 }
 
-fn section(series: &Series) -> Result<ReportSection, FigureError> {
-    let (analysis, refinement) = (&series.analysis, series.refinement.name());
-    let mut figures = Vec::new();
-    for group in groups(series) {
-        let members = series.quantities.iter();
-        let members: Vec<&Quantity> = members.filter(|q| group_of(q) == group).collect();
-        let unit = members.first().map_or("", |quantity| &quantity.unit);
-        let file = group.replace(' ', "-").to_lowercase();
-        let kinds: [(&str, String, CurveOf); 2] = [
-            (
-                "errors",
-                format!(
-                    "Estimated errors where there is convergence, against Richardson's limit: {group}."
-                ),
-                errors,
-            ),
-            (
-                "differences",
-                format!(
-                    "Differences between each level and the next, which fall where there is \
-                     convergence: {group}."
-                ),
-                differences,
-            ),
-        ];
-        for (kind, caption, make) in kinds {
-            let curves = members.iter().filter_map(|quantity| make(series, quantity));
-            let study = ConvergenceStudy {
-                size_title: match series.refinement {
-                    Refinement::Mesh => "element size (m)".into(),
-                    Refinement::TimeStep => "time step (s)".into(),
-                },
-                error_title: match unit {
-                    "" => kind.to_owned(),
-                    unit => format!("{kind} ({unit})"),
-                },
-                series: curves.take(MOST_CURVES).collect(),
-            };
-            match draw_convergence(&study) {
-                Ok(svg) => figures.push(NamedFigure {
-                    name: format!("{analysis}-{refinement}-{kind}-{file}"),
-                    caption,
-                    svg,
-                }),
-                Err(FigureError::Empty { .. }) => {}
-                Err(error) => return Err(error),
-            }
-        }
-    }
-    Ok(ReportSection {
-        heading: match series.refinement {
-            Refinement::Mesh => format!("{analysis}: mesh"),
-            Refinement::TimeStep => format!("{analysis}: time step"),
-        },
-        paragraphs: series.notes.clone(),
-        tables: vec![table(series)],
-        figures,
-    })
+fn heading(series: &Series) -> String {
+    let refinement = match series.refinement {
+        Refinement::Mesh => "mesh",
+        Refinement::TimeStep => "time step",
+    };
+    format!("{}: {refinement}", series.analysis)
 }
 
-/// What shares a figure: the same property of several modes, else whatever has the same unit.
+fn section(series: &Series) -> ReportSection {
+    ReportSection {
+        heading: heading(series),
+        paragraphs: series.notes.clone(),
+        tables: vec![table(series)],
+        figures: Vec::new(),
+    }
+}
+
+/// For each series the change of every quantity from level to level, relative to its size, over the resolution; and the orders
+/// that the three finest levels show.
+fn convergence(report: &ConvergenceReport) -> Figure {
+    let panels = report
+        .series
+        .iter()
+        .flat_map(|series| [changes(series), orders(series)]);
+    Figure::new(
+        "convergence",
+        "Relative change of every quantity from each level to the next (left), and observed orders of convergence from the three \
+         finest levels (right), for each study.",
+    )
+    .columns(2)
+    .panels(panels.collect::<Vec<_>>())
+    .note("a quantity whose changes do not fall has no order, and none is shown")
+}
+
+fn changes(series: &Series) -> Panel {
+    let groups = groups(series);
+    let size = match series.refinement {
+        Refinement::Mesh => Axis::new("element size", "m"),
+        Refinement::TimeStep => Axis::new("time step", "s"),
+    };
+    let lines = series.quantities.iter().filter_map(|quantity| {
+        let largest = quantity.values.iter().map(|v| v.abs()).fold(0.0, f64::max);
+        let index = groups
+            .iter()
+            .position(|group| *group == group_of(quantity))?;
+        let pairs = series.sizes.iter().zip(quantity.values.windows(2));
+        let changes = pairs.map(|(&size, pair)| (size, (pair[1] - pair[0]).abs() / largest));
+        let line = Line::through(changes.filter(|(_, change)| *change > 0.0));
+        Some(
+            line.solid(look(index).0, 0.6)
+                .marked(look(index).1, 1.2)
+                .name(groups[index]),
+        )
+    });
+    Panel::new(
+        size.prefixed().logarithmic(),
+        Axis::new("relative change", "–").decades(10.0),
+    )
+    .height(130.0)
+    .caption(heading(series))
+    .legend()
+    .layers(lines.collect::<Vec<_>>())
+}
+
+fn orders(series: &Series) -> Panel {
+    let groups = groups(series);
+    let count = groups.len();
+    let row = |index: usize| (count - index) as f64 - 0.5;
+    let names = groups
+        .iter()
+        .enumerate()
+        .map(|(index, group)| (row(index), (*group).to_owned()));
+    let y = Axis::new("", "")
+        .between(0.0, count.max(1) as f64)
+        .ticks(names.collect::<Vec<_>>());
+    let points = groups.iter().enumerate().map(|(index, group)| {
+        let own: Vec<f64> = series
+            .quantities
+            .iter()
+            .filter(|q| group_of(q) == *group)
+            .filter_map(|q| q.verdict.order())
+            .collect();
+        // Side by side within the row, in the order of the list.
+        let place = |k: usize| row(index) + 0.6 * (0.5 - (k as f64 + 0.5) / own.len() as f64);
+        let points: Vec<(f64, f64)> = own
+            .iter()
+            .enumerate()
+            .map(|(k, &order)| (order, place(k)))
+            .collect();
+        Points::new(points).marker(look(index).1, 1.6, look(index).0)
+    });
+    let rules =
+        [1.0, 2.0, 3.0, 4.0].map(|order| Rule::vertical(order).stroke(Stroke::dotted(MUTED, 0.6)));
+    Panel::new(
+        Axis::new("observed order", "–")
+            .including(0.0)
+            .including(2.5),
+        y,
+    )
+    .height(130.0)
+    .layers(rules)
+    .layers(points.collect::<Vec<_>>())
+}
+
+/// What quantities have in common: the same property of several modes, else the same unit.
 fn group_of(quantity: &Quantity) -> &str {
     match (quantity.name.split_once(", "), quantity.unit.as_str()) {
         (Some((property, _)), _) => property,
@@ -112,31 +156,6 @@ fn groups(series: &Series) -> Vec<&str> {
         }
     }
     groups
-}
-
-fn errors(series: &Series, quantity: &Quantity) -> Option<ConvergenceSeries> {
-    quantity.verdict.limit()?;
-    let errors = quantity.errors();
-    curve(quantity, &series.sizes, &errors)
-}
-
-fn differences(series: &Series, quantity: &Quantity) -> Option<ConvergenceSeries> {
-    let pairs = quantity.values.windows(2);
-    let differences: Vec<f64> = pairs.map(|pair| pair[1] - pair[0]).collect();
-    curve(quantity, &series.sizes[..differences.len()], &differences)
-}
-
-/// The points that have a place on logarithmic axes; none if fewer than two have.
-fn curve(quantity: &Quantity, sizes: &[f64], errors: &[f64]) -> Option<ConvergenceSeries> {
-    let points = sizes.iter().zip(errors).map(|(h, e)| (*h, e.abs()));
-    let points = points.filter(|&(_, e)| e > 0.0 && e.is_finite());
-    let (sizes, errors): (Vec<f64>, Vec<f64>) = points.unzip();
-    let label = quantity.name.split_once(", ").map(|(_, mode)| mode);
-    (sizes.len() > 1).then(|| ConvergenceSeries {
-        name: label.unwrap_or(&quantity.name).to_owned(),
-        sizes,
-        errors,
-    })
 }
 
 fn table(series: &Series) -> ReportTable {

@@ -1,27 +1,30 @@
 //! The figures of limit cycles and of their branches, from their record.
 
+mod branches;
+mod curve;
 mod record;
 mod report;
 
+pub use branches::{NamedFamily, draw_branches};
 pub use record::{BranchRecord, CycleRecord, FamilyRecord, WaveRecord};
 pub use report::draw;
 
-use super::drawing::{FigureJob, draw_figures};
-use super::figures::{
-    BranchCurve, BranchCurves, ContactState, FigureError, NodeCycle, ReferenceFrequency, Snapshot,
-    Snapshots, Stability, draw_branch_frequencies, draw_branch_shares, draw_contact_state,
-    draw_node_cycle, draw_node_orbit, draw_snapshots,
-};
-use super::parameter::parameter_title;
+use super::charts::palette::status_ground;
+use super::charts::{Disc, FieldFrame, contact_figure, field_figure, status_curves};
+use super::drawing::{Declaration, DrawingOptions, draw_all};
 use super::report::NamedFigure;
+use crate::chart::{
+    Axis, ChartError, ColourMap, Figure, INK, Line, MUTED, Panel, Rule, SERIES, Stroke,
+};
 use crate::contact::{ContactStatus, SlidingContact};
 use crate::cycle::Family;
 use crate::fem::{ElasticMaterial, nodal_stress};
 use crate::mesh::Mesh2d;
-use std::f64::consts::TAU;
 
 /// Whole-field pictures of one kind, at most.
 const FIELD_LIMIT: usize = 8;
+/// Periods of a history.
+const PERIODS: usize = 2;
 
 /// Limit cycles and what their figures show besides.
 #[derive(Clone, Copy, Debug)]
@@ -38,6 +41,26 @@ pub struct CycleFigures<'a> {
     pub inner_radius: f64,
 }
 
+/// Draws the cycles at the case's own operating point: contact around the circle, history and closed curves of a contact
+/// node for each family, then the fields of all.
+///
+/// # Errors
+/// That of a figure that cannot be drawn although there is something to draw.
+pub fn draw_cycles(
+    data: &CycleFigures<'_>,
+    options: &DrawingOptions,
+) -> Result<Vec<NamedFigure>, ChartError> {
+    let mut figures: Vec<Declaration<'_>> = Vec::new();
+    for (family, wave) in data.cycles() {
+        figures.push(Box::new(move || Ok(data.contact(family, wave))));
+        figures.push(Box::new(move || Ok(data.history(family, wave))));
+        figures.push(Box::new(move || Ok(data.orbit(family, wave))));
+    }
+    figures.push(Box::new(|| data.velocity()));
+    figures.push(Box::new(|| data.shear_stress()));
+    draw_all(figures, options)
+}
+
 impl CycleFigures<'_> {
     fn peripheral_speed(&self) -> f64 {
         self.contact.rotation_speed * self.inner_radius
@@ -48,236 +71,214 @@ impl CycleFigures<'_> {
         let families = self.record.families.iter();
         families.filter_map(|family| Some((family.family(), family.cycle.as_ref()?)))
     }
-}
 
-/// Draws the cycles at the case's own operating point: contact around the circle, history and closed curves of a contact
-/// node for each harmonic, then the fields of all.
-///
-/// # Errors
-/// That of a figure that cannot be drawn although there is something to draw.
-pub fn draw_cycles(data: &CycleFigures<'_>) -> Result<Vec<NamedFigure>, FigureError> {
-    let mut jobs: Vec<FigureJob<'_>> = Vec::new();
-    for (family, wave) in data.cycles() {
-        let (n, tag) = (family.harmonic, family.tag());
-        jobs.push((
-            format!("contact-{tag}"),
-            format!(
-                "Limit cycle of {n} nodal diameters at one instant: status around the circle (a), tractions \
-                 (b), velocity (c); the pattern turns against the rotor at 1/{n} of the frequency."
-            ),
-            Box::new(move || contact_state(data, n, wave)),
-        ));
-        jobs.push((
-            format!("history-{tag}"),
-            format!(
-                "A contact node through two periods of the limit cycle of {n} nodal diameters."
-            ),
-            Box::new(move || draw_node_cycle(&node_cycle(data, wave, &wave.statuses()))),
-        ));
-        jobs.push((
-            format!("orbit-{tag}"),
-            format!(
-                "Phase plots, tangential (a) and radial (b), and path (c) of a contact node in the limit \
-                 cycle of {n} nodal diameters."
-            ),
-            Box::new(move || draw_node_orbit(&node_cycle(data, wave, &wave.statuses()))),
-        ));
+    /// The wave at time zero around the whole circle: a node at angle `theta` is in phase `n theta`.
+    fn contact(&self, family: Family, wave: &WaveRecord) -> Figure {
+        let n = family.harmonic;
+        let count = n * wave.status.len();
+        let around =
+            |values: &[f64]| -> Vec<f64> { values.iter().copied().cycle().take(count).collect() };
+        let status: Vec<ContactStatus> = wave.statuses().into_iter().cycle().take(count).collect();
+        let caption = format!(
+            "Limit cycle of {n} nodal diameters at one instant: status around the circle (a), tractions (b), velocity (c); the \
+             pattern turns against the rotor at 1/{n} of the frequency."
+        );
+        let names = (
+            format!("contact-{}", family.tag()),
+            caption,
+            format!("{}, wave ↻", heading(n, wave)),
+        );
+        let values = [
+            &around(&wave.pressure)[..],
+            &around(&wave.shear),
+            &around(&wave.velocity[1]),
+        ];
+        contact_figure(names, (0.0, &status), values, self.peripheral_speed())
     }
-    jobs.push((
-        "velocity".into(),
-        "Velocity modulus and contact status of the waves at one instant.".into(),
-        Box::new(move || velocity_fields(data)),
-    ));
-    jobs.push((
-        "shear-stress".into(),
-        "Shear stress of the waves at one instant.".into(),
-        Box::new(move || stress_fields(data)),
-    ));
-    draw_figures(jobs)
-}
 
-/// Draws frequency, amplitude, statuses and powers along the branches.
-///
-/// # Errors
-/// As [`draw_cycles`].
-pub fn draw_branches(curves: &BranchCurves) -> Result<Vec<NamedFigure>, FigureError> {
-    draw_figures(vec![
-        (
-            "branch-frequencies".into(),
-            "Main frequency (a) and amplitude (b) of the limit cycles along their branches; dotted: where \
-             linear theory has them begin; diamonds: folds wider than the spacing of the cycles."
-                .into(),
-            Box::new(move || draw_branch_frequencies(curves)),
-        ),
-        (
-            "branch-shares".into(),
-            "Contact status, and powers relative to the external one, along the branch of each family."
-                .into(),
-            Box::new(move || draw_branch_shares(curves)),
-        ),
-    ])
-}
+    /// What a contact node goes through in two periods, on a ground coloured by its status.
+    fn history(&self, family: Family, wave: &WaveRecord) -> Figure {
+        let count = wave.status.len();
+        let interval = 1.0 / (wave.frequency_hz * count.max(1) as f64);
+        let samples = PERIODS * count + 1;
+        let all = |values: &[f64]| -> Vec<(f64, f64)> {
+            let values = values.iter().copied().cycle().take(samples).enumerate();
+            values
+                .map(|(i, value)| (i as f64 * interval, value))
+                .collect()
+        };
+        let status: Vec<ContactStatus> =
+            wave.statuses().into_iter().cycle().take(samples).collect();
+        // A sample stands for half an interval on either side.
+        let ground = || status_ground(&status, |i| (i as f64 - 0.5) * interval);
+        let end = (samples - 1) as f64 * interval;
+        let over_time = |y: Axis, height: f64, caption: &str| {
+            Panel::new(Axis::time().between(0.0, end), y)
+                .plain()
+                .height(height)
+                .caption(caption)
+                .layer(ground())
+        };
+        let limit = |sign: f64| {
+            let friction = sign * self.contact.friction_coefficient;
+            let limit: Vec<f64> = wave.pressure.iter().map(|p| friction * p).collect();
+            Line::through(all(&limit))
+                .stroke(Stroke::dashed(MUTED, 0.9))
+                .name("Coulomb limit ±*μp*")
+        };
+        let metres = |name: &str| Axis::new(name, "m").prefixed();
+        let caption = format!(
+            "A contact node through two periods of the limit cycle of {} nodal diameters.",
+            family.harmonic
+        );
+        Figure::new(format!("history-{}", family.tag()), caption)
+            .shared_x()
+            .panel(
+                over_time(metres("*u*_{θ}"), 62.0, "tangential displacement")
+                    .legend()
+                    .layer(Line::through(all(&wave.displacement[1])).solid(INK, 1.1)),
+            )
+            .panel(
+                over_time(metres("*u*_{r}"), 62.0, "radial displacement")
+                    .layer(Line::through(all(&wave.displacement[0])).solid(INK, 1.1)),
+            )
+            .panel(
+                over_time(Axis::new("*v*", "m/s"), 78.0, "velocity")
+                    .layer(
+                        Rule::horizontal(self.peripheral_speed())
+                            .stretching()
+                            .name("cylinder *Ωa*"),
+                    )
+                    .layer(
+                        Line::through(all(&wave.velocity[0]))
+                            .solid(SERIES[2], 1.1)
+                            .name("radial *v*_{r}"),
+                    )
+                    .layer(
+                        Line::through(all(&wave.velocity[1]))
+                            .solid(SERIES[0], 1.1)
+                            .name("tangential *v*_{θ}"),
+                    ),
+            )
+            .panel(
+                over_time(Axis::new("traction", "Pa").prefixed(), 90.0, "tractions")
+                    .layer(limit(1.0))
+                    .layer(limit(-1.0))
+                    .layer(
+                        Line::through(all(&wave.pressure))
+                            .solid(INK, 1.1)
+                            .name("pressure *p*"),
+                    )
+                    .layer(
+                        Line::through(all(&wave.shear))
+                            .solid(SERIES[1], 1.1)
+                            .name("friction traction *τ*"),
+                    ),
+            )
+    }
 
-/// The wave at time zero around the whole circle: a node at angle `theta` is in phase `n theta`.
-fn contact_state(
-    data: &CycleFigures<'_>,
-    n: usize,
-    wave: &WaveRecord,
-) -> Result<String, FigureError> {
-    let count = n * wave.status.len();
-    let around =
-        |values: &[f64]| -> Vec<f64> { values.iter().copied().cycle().take(count).collect() };
-    let angles: Vec<f64> = (0..count).map(|i| TAU * i as f64 / count as f64).collect();
-    let status: Vec<ContactStatus> = wave.statuses().into_iter().cycle().take(count).collect();
-    draw_contact_state(&ContactState {
-        name: format!("{}, wave ↻", caption(n, wave)),
-        angles: &angles,
-        status: &status,
-        pressure: &around(&wave.pressure),
-        shear: &around(&wave.shear),
-        tangential_velocity: &around(&wave.velocity[1]),
-        peripheral_speed: data.peripheral_speed(),
-    })
-}
+    /// The closed curves of a contact node: velocity over displacement, tangential and radial, and its path.
+    fn orbit(&self, family: Family, wave: &WaveRecord) -> Figure {
+        let ([u_r, u_t], [v_r, v_t]) = (&wave.displacement, &wave.velocity);
+        let statuses = wave.statuses();
+        let status: Vec<ContactStatus> = statuses.iter().chain(statuses.first()).copied().collect();
+        let loop_of = |caption: &str, x: (&str, &[f64]), y: (&str, &str, &[f64])| {
+            let points = || x.1.iter().copied().zip(y.2.iter().copied());
+            let closed: Vec<(f64, f64)> = points().chain(points().next()).collect();
+            Panel::new(
+                Axis::new(x.0, "m").prefixed(),
+                Axis::new(y.0, y.1).prefixed(),
+            )
+            .height(128.0)
+            .caption(caption)
+            .layers(status_curves(&closed, &status))
+            .layer(Line::through(closed).solid(INK, 0.0).arrows(3))
+        };
+        let caption = format!(
+            "Phase plots, tangential (a) and radial (b), and path (c) of a contact node in the limit cycle of {} nodal diameters.",
+            family.harmonic
+        );
+        let cylinder = Rule::horizontal(self.peripheral_speed())
+            .stretching()
+            .name("cylinder *Ωa*");
+        Figure::new(format!("orbit-{}", family.tag()), caption)
+            .columns(3)
+            .panel(
+                loop_of(
+                    "tangential",
+                    ("displacement *u*_{θ}", u_t),
+                    ("velocity *v*_{θ}", "m/s", v_t),
+                )
+                .layer(cylinder),
+            )
+            .panel(loop_of(
+                "radial",
+                ("displacement *u*_{r}", u_r),
+                ("velocity *v*_{r}", "m/s", v_r),
+            ))
+            .panel(loop_of(
+                "path",
+                ("displacement *u*_{θ}", u_t),
+                ("displacement *u*_{r}", "m", u_r),
+            ))
+    }
 
-/// The contact node at angle zero, which goes through the phases in their order.
-fn node_cycle<'a>(
-    data: &CycleFigures<'_>,
-    wave: &'a WaveRecord,
-    status: &'a [ContactStatus],
-) -> NodeCycle<'a> {
-    let [u_r, u_t] = &wave.displacement;
-    let [v_r, v_t] = &wave.velocity;
-    NodeCycle {
-        period: 1.0 / wave.frequency_hz,
-        status,
-        displacement: [u_r, u_t],
-        velocity: [v_r, v_t],
-        pressure: &wave.pressure,
-        shear: &wave.shear,
-        friction_coefficient: data.contact.friction_coefficient,
-        peripheral_speed: data.peripheral_speed(),
+    fn velocity(&self) -> Result<Figure, ChartError> {
+        let nodes = self.mesh.inner_edge.nodes.len();
+        let frames = self
+            .cycles()
+            .take(FIELD_LIMIT)
+            .map(|(family, wave)| -> FieldFrame {
+                let (n, all, points) = (family.harmonic, wave.statuses(), wave.status.len().max(1));
+                // The phase nearest to that of each node.
+                let nearest = |node: usize| (2 * n * node * points + nodes) / (2 * nodes) % points;
+                let status = (0..nodes)
+                    .filter_map(|node| all.get(nearest(node)).copied())
+                    .collect();
+                let speeds = wave
+                    .velocity_field
+                    .chunks_exact(2)
+                    .map(|v| v[0].hypot(v[1]));
+                (heading(n, wave), speeds.collect(), status)
+            });
+        let caption = (
+            "velocity",
+            "Velocity modulus and contact status of the waves at one instant.",
+        );
+        let axis = Axis::new("velocity |*v*|", "m/s");
+        field_figure(
+            caption,
+            &Disc::new(self.mesh),
+            &axis,
+            ColourMap::Viridis,
+            frames.collect(),
+        )
+    }
+
+    fn shear_stress(&self) -> Result<Figure, ChartError> {
+        let frames = self
+            .cycles()
+            .take(FIELD_LIMIT)
+            .map(|(family, wave)| -> FieldFrame {
+                let stress = nodal_stress(self.mesh, self.material, &wave.displacement_field);
+                (
+                    heading(family.harmonic, wave),
+                    stress.iter().map(|node| node.shear).collect(),
+                    Vec::new(),
+                )
+            });
+        let axis = Axis::new("shear stress *τ*_{rθ}", "MPa").times(1e-6);
+        let caption = ("shear-stress", "Shear stress of the waves at one instant.");
+        field_figure(
+            caption,
+            &Disc::new(self.mesh),
+            &axis,
+            ColourMap::Diverging,
+            frames.collect(),
+        )
     }
 }
 
-fn caption(n: usize, wave: &WaveRecord) -> String {
+fn heading(n: usize, wave: &WaveRecord) -> String {
     format!("*n* = {n}, {:.2} kHz", wave.frequency_hz * 1e-3)
-}
-
-fn velocity_fields(data: &CycleFigures<'_>) -> Result<String, FigureError> {
-    let cycles = || data.cycles().take(FIELD_LIMIT);
-    let fields: Vec<Vec<f64>> = cycles()
-        .map(|(_, wave)| {
-            let pairs = wave.velocity_field.chunks_exact(2);
-            pairs.map(|v| v[0].hypot(v[1])).collect()
-        })
-        .collect();
-    let nodes = data.mesh.inner_edge.nodes.len();
-    let status: Vec<Vec<ContactStatus>> = cycles()
-        .map(|(family, wave)| {
-            let n = family.harmonic;
-            let (all, points) = (wave.statuses(), wave.status.len());
-            // The phase nearest to that of each node.
-            let nearest = |node: usize| (2 * n * node * points + nodes) / (2 * nodes) % points;
-            (0..nodes).map(|node| all[nearest(node)]).collect()
-        })
-        .collect();
-    draw_snapshots(&Snapshots {
-        name: "velocity",
-        quantity: "velocity modulus |*v*| (m/s)".into(),
-        signed: false,
-        mesh: data.mesh,
-        frames: cycles()
-            .zip(fields.iter().zip(&status))
-            .map(|((family, wave), (values, status))| Snapshot {
-                caption: caption(family.harmonic, wave),
-                values,
-                status: Some(status),
-            })
-            .collect(),
-    })
-}
-
-fn stress_fields(data: &CycleFigures<'_>) -> Result<String, FigureError> {
-    let cycles = || data.cycles().take(FIELD_LIMIT);
-    let fields: Vec<Vec<f64>> = cycles()
-        .map(|(_, wave)| {
-            let stress = nodal_stress(data.mesh, data.material, &wave.displacement_field);
-            stress.iter().map(|node| node.shear * 1e-6).collect()
-        })
-        .collect();
-    draw_snapshots(&Snapshots {
-        name: "shear-stress",
-        quantity: "shear stress *τ*_{rθ} (MPa)".into(),
-        signed: true,
-        mesh: data.mesh,
-        frames: cycles()
-            .zip(&fields)
-            .map(|((family, wave), values)| Snapshot {
-                caption: caption(family.harmonic, wave),
-                values,
-                status: None,
-            })
-            .collect(),
-    })
-}
-
-/// The branches of several families as curves, each with what its name says besides the harmonic.
-pub fn branch_curves(families: &[(String, &FamilyRecord)]) -> BranchCurves {
-    // A branch of a single cycle is no curve.
-    let curves: Vec<(&String, &FamilyRecord, &BranchRecord)> = families
-        .iter()
-        .filter_map(|(suffix, family)| Some((suffix, *family, family.branch.as_ref()?)))
-        .filter(|(_, _, branch)| branch.values.len() > 1)
-        .collect();
-    let mut references: Vec<ReferenceFrequency> = curves
-        .iter()
-        .filter_map(|(_, family, _)| reference(family))
-        .collect();
-    references.dedup();
-    BranchCurves {
-        parameter_title: parameter_title(curves.first().map_or("", |(_, _, branch)| &branch.key)),
-        curves: curves
-            .iter()
-            .map(|(suffix, family, branch)| branch_curve(suffix, family, branch))
-            .collect(),
-        references,
-    }
-}
-
-fn branch_curve(suffix: &str, family: &FamilyRecord, branch: &BranchRecord) -> BranchCurve {
-    let stability = |stable: &Option<bool>| match stable {
-        None => Stability::Unknown,
-        Some(true) => Stability::Stable,
-        Some(false) => Stability::Unstable,
-    };
-    let own = family.cycle.as_ref();
-    BranchCurve {
-        name: format!(
-            "*{}{suffix}",
-            family.family().to_string().replacen(' ', "* ", 1)
-        ),
-        values: branch.values.clone(),
-        frequency_hz: branch.frequency_hz.clone(),
-        amplitude: branch.amplitude.clone(),
-        status: branch.status.clone(),
-        shares: branch.shares.clone(),
-        stability: branch.stable.iter().map(stability).collect(),
-        growth_rate: branch
-            .growth_rate
-            .iter()
-            .map(|rate| rate.unwrap_or(f64::NAN))
-            .collect(),
-        folds: branch.folds.clone(),
-        marked: own.map(|wave| [branch.own_value, wave.frequency_hz, wave.amplitude]),
-    }
-}
-
-/// The onset that the family is born at, drawn as a line.
-fn reference(family: &FamilyRecord) -> Option<ReferenceFrequency> {
-    let [critical, frequency_hz] = *family.onsets.get(family.onset - 1)?;
-    Some(ReferenceFrequency {
-        frequency_hz,
-        label: format!("*n* = {} at *μ* = {critical:.3}", family.harmonic),
-    })
 }

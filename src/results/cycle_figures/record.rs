@@ -2,6 +2,7 @@
 
 use crate::contact::ContactStatus;
 use crate::cycle::{CycleBranch, CycleStability, Family, LimitCycle, Verdict};
+use crate::results::charts::palette::status_of_code;
 use crate::results::cycle::{CycleReport, CycleResult, amplitude};
 use crate::results::cycle_stability::known;
 use crate::results::record::Record;
@@ -170,12 +171,8 @@ impl WaveRecord {
 
     /// Status at each phase.
     pub fn statuses(&self) -> Vec<ContactStatus> {
-        let named = |&code: &u8| match code {
-            1 => ContactStatus::Stick,
-            2 => ContactStatus::Slip,
-            _ => ContactStatus::Open,
-        };
-        self.status.iter().map(named).collect()
+        let codes = self.status.iter();
+        codes.map(|&code| status_of_code(code)).collect()
     }
 }
 

@@ -1,8 +1,8 @@
 //! `report.html` of limit cycles: figures, cycles, branches.
 
-use super::{CycleFigures, branch_curves, draw_branches, draw_cycles};
+use super::{CycleFigures, NamedFamily, draw_branches, draw_cycles};
+use crate::chart::extremes;
 use crate::results::drawing::{DrawingError, DrawingOptions, write_report};
-use crate::results::figures::axis::extremes;
 use crate::results::folder::OutputFolder;
 use crate::results::manifest::Manifest;
 use crate::results::report::{Report, ReportSection, ReportTable, cell, entries, number};
@@ -19,11 +19,11 @@ pub fn draw(
     options: &DrawingOptions,
 ) -> Result<(), DrawingError> {
     let mut report = html_report(summary, folder.manifest());
-    report.sections[0].figures = draw_cycles(data)?;
+    report.sections[0].figures = draw_cycles(data, options)?;
     if let Some(branches) = report.sections.get_mut(1) {
         let families = data.record.families.iter();
-        let families: Vec<_> = families.map(|family| (String::new(), family)).collect();
-        branches.figures = draw_branches(&branch_curves(&families))?;
+        let families: Vec<NamedFamily<'_>> = families.map(|f| (String::new(), f)).collect();
+        branches.figures = draw_branches(&families, options)?;
     }
     write_report(folder, &report, options)
 }

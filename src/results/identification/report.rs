@@ -1,33 +1,24 @@
 //! `report.html` of an identified damping.
 
-use super::figures::{IdentificationRecord, draw};
+use super::figures::{IdentificationRecord, identification};
 use super::summary::{IdentificationSummary, ModeSummary};
 use crate::results::OutputFolder;
-use crate::results::drawing::{DrawingError, DrawingOptions, write_report};
-use crate::results::figures::FigureError;
+use crate::results::drawing::{DrawingError, DrawingOptions, draw_all, write_report};
 use crate::results::report::{Report, ReportSection, ReportTable};
 
-/// Draws the figure into `figures/`, as SVG and PNG, and writes `report.html`; returns why the figure was
-/// left out, where nothing can be drawn.
+/// Draws the figure into `figures/` and writes `report.html`.
 ///
 /// # Errors
-/// Those of the folder and of the raster image.
+/// Those of the folder and of the drawing.
 pub fn draw_report(
     folder: &OutputFolder,
     record: &IdentificationRecord,
     summary: &IdentificationSummary,
     options: &DrawingOptions,
-) -> Result<Option<FigureError>, DrawingError> {
+) -> Result<(), DrawingError> {
     let mut report = html_report(summary);
-    let left_out = match draw(record) {
-        Ok(figure) => {
-            report.sections[0].figures.push(figure);
-            None
-        }
-        Err(error) => Some(error),
-    };
-    write_report(folder, &report, options)?;
-    Ok(left_out)
+    report.sections[0].figures = draw_all(vec![Box::new(|| Ok(identification(record)))], options)?;
+    write_report(folder, &report, options)
 }
 
 fn html_report(summary: &IdentificationSummary) -> Report {

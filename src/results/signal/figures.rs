@@ -1,14 +1,15 @@
 //! The figures of an analysed time signal, and what is kept to draw them again.
 
+use crate::chart::{ChartError, Figure, literal};
 use crate::results::Record;
-use crate::results::figures::text::literal;
-use crate::results::figures::{
-    FigureError, ReferenceFrequency, SpectrogramMap, SpectrumPlot, TransientOverview,
-    draw_spectrum, draw_transient_overview,
+use crate::results::charts::{
+    ModeLine, run_axis, signal_panel, spectrogram_panels, spectrum_panel,
 };
+use crate::results::drawing::{Declaration, DrawingOptions, draw_all};
 use crate::results::report::NamedFigure;
 use crate::signal::{SpectrogramOptions, spectrogram};
 use serde::{Deserialize, Serialize};
+use std::sync::Mutex;
 
 /// Everything that the figures show.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -64,101 +65,101 @@ pub struct ChannelRecord {
     pub amplitudes: Vec<f64>,
 }
 
-/// Figures, and why others were left out.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct SignalFigures {
-    /// The figures.
-    pub figures: Vec<NamedFigure>,
-    /// What could not be drawn.
-    pub left_out: Vec<String>,
+/// Draws each channel over its spectrograms, then the spectra; beside the figures, why a spectrogram was left out.
+///
+/// # Errors
+/// That of a figure that cannot be drawn although there is something to draw.
+pub fn draw(
+    record: &SignalRecord,
+    options: &DrawingOptions,
+) -> Result<(Vec<NamedFigure>, Vec<String>), ChartError> {
+    let left_out = Mutex::new(Vec::new());
+    let left_out = &left_out;
+    let mut figures: Vec<Declaration<'_>> = Vec::new();
+    for (index, channel) in record.channels.iter().enumerate() {
+        figures.push(Box::new(move || {
+            let (figure, reason) = course(record, channel, index + 1);
+            if let (Some(reason), Ok(mut left_out)) = (reason, left_out.lock()) {
+                left_out.push(reason);
+            }
+            Ok(figure)
+        }));
+    }
+    for (index, channel) in record.channels.iter().enumerate() {
+        figures.push(Box::new(move || Ok(spectrum(record, channel, index + 1))));
+    }
+    let figures = draw_all(figures, options)?;
+    let mut left_out = left_out
+        .lock()
+        .map_or(Vec::new(), |reasons| reasons.clone());
+    left_out.sort();
+    Ok((figures, left_out))
 }
 
-impl SignalFigures {
-    fn add(&mut self, name: String, caption: String, drawing: Result<String, String>) {
-        match drawing {
-            Ok(svg) => self.figures.push(NamedFigure { name, caption, svg }),
-            Err(reason) => self.left_out.push(reason),
-        }
-    }
-}
-
-/// Draws each channel over its spectrograms, then the spectra.
-pub fn draw(record: &SignalRecord) -> SignalFigures {
-    let mut drawn = SignalFigures::default();
-    for (k, channel) in record.channels.iter().enumerate() {
-        let name = format!("signal-{}", k + 1);
-        let caption = format!("Signal and spectrograms of {}.", channel.name);
-        drawn.add(name, caption, overview(record, channel));
-    }
-    for (k, channel) in record.channels.iter().enumerate() {
-        let (from, to) = channel.interval_s;
-        let name = format!("spectrum-{}", k + 1);
-        let caption = format!("Spectrum of {} from {from:.4} to {to:.4} s.", channel.name);
-        drawn.add(name, caption, spectrum(record, channel));
-    }
-    drawn
-}
-
-/// Signal over its spectrogram, with the frequencies of the modes named.
-fn overview(record: &SignalRecord, channel: &ChannelRecord) -> Result<String, String> {
-    let options = SpectrogramOptions {
+/// Signal over its spectrograms, with the frequencies of the modes named, and why there are no spectrograms.
+fn course(
+    record: &SignalRecord,
+    channel: &ChannelRecord,
+    number: usize,
+) -> (Figure, Option<String>) {
+    let time = |j: usize| record.start + j as f64 / record.sampling_rate;
+    let times: Vec<f64> = (0..channel.samples.len()).map(time).collect();
+    let axis = run_axis(&times);
+    let window = SpectrogramOptions {
         window_length: record.window,
         hop: 0.25 * record.window,
         max_frequency_hz: record.max_frequency_hz,
         ..SpectrogramOptions::default()
     };
-    let map = spectrogram(&channel.samples, record.sampling_rate, &options)
-        .map_err(|error| format!("no spectrogram of {}: {error}; try --window", channel.name))?;
-    let times: Vec<f64> = (0..channel.samples.len())
-        .map(|j| record.start + j as f64 / record.sampling_rate)
-        .collect();
-    let centres: Vec<f64> = map.times.iter().map(|t| record.start + t).collect();
-    let drawing = draw_transient_overview(&TransientOverview {
-        signal_name: literal(&channel.name),
-        signal_unit: String::new(),
-        times: &times,
-        signal: &channel.samples,
-        spectrogram: Some(SpectrogramMap {
-            times: &centres,
-            frequencies_hz: &map.frequencies_hz,
-            amplitude: &map.magnitudes,
-        }),
-        max_frequency_hz: highest(record),
-        references: references(record),
-        status: None,
-        stages: Vec::new(),
-        enlarged: 0.0,
-    });
-    drawing.map_err(|error| left_out(channel, &error))
+    let (spectrograms, reason) = match spectrogram(&channel.samples, record.sampling_rate, &window)
+    {
+        Ok(map) => (
+            spectrogram_panels(&axis, &map, record.start, highest(record), &modes(record)),
+            None,
+        ),
+        Err(error) => (
+            Vec::new(),
+            Some(format!(
+                "no spectrogram of {}: {error}; try --window",
+                channel.name
+            )),
+        ),
+    };
+    let signal = signal_panel(axis, &times, &channel.samples, ("signal", ""), 0.45);
+    let figure = Figure::new(
+        format!("signal-{number}"),
+        format!("Signal and spectrograms of {}.", channel.name),
+    )
+    .shared_x()
+    .panel(signal.caption(literal(&channel.name)))
+    .panels(spectrograms);
+    (figure, reason)
 }
 
 /// The spectrum that the peaks are taken from.
-fn spectrum(record: &SignalRecord, channel: &ChannelRecord) -> Result<String, String> {
-    let drawing = draw_spectrum(&SpectrumPlot {
-        signal_name: literal(&channel.name),
-        unit: String::new(),
-        frequencies_hz: &channel.frequencies_hz,
-        amplitude: &channel.amplitudes,
-        max_frequency_hz: highest(record),
-        references: references(record),
-    });
-    drawing.map_err(|error| left_out(channel, &error))
-}
-
-fn left_out(channel: &ChannelRecord, error: &FigureError) -> String {
-    format!("figure of {} left out: {error}", channel.name)
+fn spectrum(record: &SignalRecord, channel: &ChannelRecord, number: usize) -> Figure {
+    let (from, to) = channel.interval_s;
+    let name = literal(&channel.name);
+    let spectra: [(&str, &[f64], &[f64]); 1] =
+        [(&name, &channel.frequencies_hz, &channel.amplitudes)];
+    let caption = format!("Spectrum of {} from {from:.4} to {to:.4} s.", channel.name);
+    Figure::new(format!("spectrum-{number}"), caption).panel(spectrum_panel(
+        &spectra,
+        "",
+        (highest(record), None),
+        &modes(record),
+    ))
 }
 
 fn highest(record: &SignalRecord) -> f64 {
     record.max_frequency_hz.min(0.5 * record.sampling_rate)
 }
 
-fn references(record: &SignalRecord) -> Vec<ReferenceFrequency> {
+fn modes(record: &SignalRecord) -> Vec<ModeLine> {
     let lines = record.references.iter();
-    lines
-        .map(|(frequency_hz, label)| ReferenceFrequency {
-            frequency_hz: *frequency_hz,
-            label: label.clone(),
-        })
-        .collect()
+    let line = |(frequency_hz, label): &(f64, String)| ModeLine {
+        frequency_hz: *frequency_hz,
+        label: label.clone(),
+    };
+    lines.map(line).collect()
 }

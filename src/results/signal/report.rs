@@ -17,11 +17,11 @@ pub fn draw_report(
     summary: &SignalSummary,
     options: &DrawingOptions,
 ) -> Result<Vec<String>, DrawingError> {
-    let drawn = draw(record);
+    let (figures, left_out) = draw(record, options)?;
     let mut report = html_report(summary);
-    report.sections[0].figures = drawn.figures;
+    report.sections[0].figures = figures;
     write_report(folder, &report, options)?;
-    Ok(drawn.left_out)
+    Ok(left_out)
 }
 
 fn html_report(summary: &SignalSummary) -> Report {

@@ -1,6 +1,6 @@
 //! Figures and `report.html` of a study.
 
-use super::super::figures::ReferenceFrequency;
+use super::super::charts::ModeLine;
 use super::super::report::{Report, ReportSection, ReportTable};
 use super::super::sweep_figures::draw_sweep;
 use super::super::{DrawingError, DrawingOptions, Manifest, figure_files};
@@ -12,7 +12,7 @@ use crate::results::drawing::REPORT;
 #[derive(Clone, Debug)]
 pub struct SweepDrawing {
     /// Unstable modes of the case, drawn across its frequencies.
-    pub references: Vec<ReferenceFrequency>,
+    pub references: Vec<ModeLine>,
     /// Largest friction coefficient of its eigenvalue analyses.
     pub highest_friction: f64,
     /// How they are drawn.
@@ -29,11 +29,12 @@ pub fn draw(
     manifest: &Manifest,
     drawing: &SweepDrawing,
 ) -> Result<(), DrawingError> {
+    let frictions = (report.friction_coefficient, drawing.highest_friction);
     let figures = draw_sweep(
         report.records,
-        report.friction_coefficient,
-        drawing.highest_friction,
+        frictions,
         &drawing.references,
+        &drawing.options,
     )?;
     for file in figure_files(&figures, &drawing.options)? {
         folder.write(&file.name, |out| out.write_all(&file.bytes))?;

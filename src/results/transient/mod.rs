@@ -1,14 +1,21 @@
 //! Results of an explicit transient: what is printed and what is written.
 
+mod beside;
 mod checkpoint;
 mod contact;
+mod energy;
+mod figures;
 mod files;
 mod print;
 mod record;
 mod report;
+mod signals;
+mod stages;
 mod summary;
 
+pub use beside::{RunEnd, shear_stress_beside};
 pub use checkpoint::{CHECKPOINT, Checkpoint, CheckpointError, read_checkpoint, write_checkpoint};
+pub use figures::{RunFigures, draw_run};
 pub use files::write;
 pub use print::print;
 pub use report::{draw, html_report};

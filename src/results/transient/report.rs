@@ -2,11 +2,11 @@
 
 use super::print::ending;
 use super::summary::TransientSummary;
+use super::{RunFigures, draw_run};
 use crate::results::drawing::{DrawingError, DrawingOptions, write_report};
 use crate::results::folder::OutputFolder;
 use crate::results::quantity::fixed;
 use crate::results::report::{Report, ReportSection, ReportTable};
-use crate::results::run_figures::{RunFigures, draw_run};
 use crate::transient::EndState;
 
 /// Draws every figure that the run has data for into `figures/`, each as SVG and PNG, and writes
@@ -22,7 +22,7 @@ pub fn draw(
 ) -> Result<(), DrawingError> {
     let state = run.analysis.settling.state;
     let mut report = html_report(summary, state, run.growth_rates.as_slice());
-    report.sections[0].figures = draw_run(run)?;
+    report.sections[0].figures = draw_run(run, options)?;
     write_report(folder, &report, options)
 }
 

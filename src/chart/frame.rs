@@ -1,0 +1,157 @@
+//! Where the data of a panel lie, and the axes around them.
+
+use super::colour::{GRID, INK};
+use super::ruler::{Ruler, Tick};
+use super::svg::{Path, Rect, Stroke, Svg};
+use super::text::{Anchor, TextStyle};
+
+/// Size of axis titles, points.
+pub const TITLE_SIZE: f64 = 7.5;
+/// Size of tick labels and legends, points.
+pub const LABEL_SIZE: f64 = 6.75;
+/// Length of a tick, points.
+pub(super) const TICK: f64 = 2.6;
+
+/// Where the data of a panel lie in the drawing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Frame {
+    /// Data area.
+    pub area: Rect,
+    /// Horizontal axis.
+    pub x: Ruler,
+    /// Vertical axis.
+    pub y: Ruler,
+}
+
+impl Frame {
+    /// Horizontal position of a value.
+    pub fn at_x(&self, value: f64) -> f64 {
+        self.area.x + self.area.width * bounded(self.x.fraction(value))
+    }
+
+    /// Vertical position of a value.
+    pub fn at_y(&self, value: f64) -> f64 {
+        self.area.bottom() - self.area.height * bounded(self.y.fraction(value))
+    }
+
+    /// Position of a point.
+    pub fn at(&self, x: f64, y: f64) -> (f64, f64) {
+        (self.at_x(x), self.at_y(y))
+    }
+
+    /// Whether a point has a position, inside or outside.
+    pub fn has_place(&self, x: f64, y: f64) -> bool {
+        self.x.fraction(x).is_finite() && self.y.fraction(y).is_finite()
+    }
+
+    /// Positions of the points that lie inside.
+    pub fn inside(&self, points: impl IntoIterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
+        let shown = |&(x, y): &(f64, f64)| self.x.contains(x) && self.y.contains(y);
+        points
+            .into_iter()
+            .filter(shown)
+            .map(|(x, y)| self.at(x, y))
+            .collect()
+    }
+
+    /// The rectangle between two abscissae and two ordinates.
+    pub fn rect(&self, x: (f64, f64), y: (f64, f64)) -> Rect {
+        let (left, right, bottom, top) = (
+            self.at_x(x.0),
+            self.at_x(x.1),
+            self.at_y(y.0),
+            self.at_y(y.1),
+        );
+        Rect::new(left, top, right - left, bottom - top)
+    }
+}
+
+/// A fraction near enough to the area to be drawn; what has no place is far off.
+fn bounded(fraction: f64) -> f64 {
+    if fraction.is_nan() {
+        -20.0
+    } else {
+        fraction.clamp(-20.0, 20.0)
+    }
+}
+
+/// Ticks that fit a vertical axis of this height.
+pub(super) fn vertical_count(height: f64) -> usize {
+    ((height / 17.0) as usize).clamp(1, 8)
+}
+
+pub(super) fn draw_grid(svg: &mut Svg, frame: &Frame, [x, y]: &[Vec<Tick>; 2]) {
+    let (area, stroke) = (&frame.area, Stroke::solid(GRID, 0.4));
+    for tick in x {
+        let x = area.x + area.width * frame.x.place(tick.value);
+        svg.line((x, area.y), (x, area.bottom()), &stroke);
+    }
+    for tick in y {
+        let y = area.bottom() - area.height * frame.y.place(tick.value);
+        svg.line((area.x, y), (area.right(), y), &stroke);
+    }
+}
+
+pub(super) fn draw_x_axis(svg: &mut Svg, frame: &Frame, ticks: &[Tick], labels: bool) {
+    let (area, bottom) = (&frame.area, frame.area.bottom());
+    let at = |value: f64| area.x + area.width * frame.x.place(value);
+    let minor = frame.x.minor_ticks();
+    let mut marks = Path::new();
+    let lengths = minor.iter().map(|&v| (v, 0.6 * TICK));
+    for (value, length) in lengths.chain(ticks.iter().map(|tick| (tick.value, TICK))) {
+        marks.extend([(at(value), bottom), (at(value), bottom + length)]);
+    }
+    svg.path(&marks, &Stroke::solid(INK, 0.6));
+    if !labels {
+        return;
+    }
+    let style = TextStyle::new(LABEL_SIZE).anchored(Anchor::Middle);
+    for tick in ticks {
+        svg.text(
+            at(tick.value),
+            bottom + TICK + LABEL_SIZE + 1.0,
+            &tick.label,
+            &style,
+        );
+    }
+    let baseline = bottom + TICK + LABEL_SIZE + TITLE_SIZE + 4.0;
+    let style = TextStyle::new(TITLE_SIZE).anchored(Anchor::Middle);
+    svg.text(
+        area.x + 0.5 * area.width,
+        baseline,
+        &frame.x.full_title(),
+        &style,
+    );
+}
+
+/// Draws the vertical axis, with labels where its title has a distance.
+pub(super) fn draw_y_axis(svg: &mut Svg, frame: &Frame, ticks: &[Tick], title: Option<f64>) {
+    let (area, left) = (&frame.area, frame.area.x);
+    let at = |value: f64| area.bottom() - area.height * frame.y.place(value);
+    let minor = frame.y.minor_ticks();
+    let mut marks = Path::new();
+    let lengths = minor.iter().map(|&v| (v, 0.6 * TICK));
+    for (value, length) in lengths.chain(ticks.iter().map(|tick| (tick.value, TICK))) {
+        marks.extend([(left, at(value)), (left - length, at(value))]);
+    }
+    svg.path(&marks, &Stroke::solid(INK, 0.6));
+    let Some(distance) = title else { return };
+    let style = TextStyle::new(LABEL_SIZE).anchored(Anchor::End);
+    for tick in ticks {
+        svg.text(
+            left - TICK - 1.8,
+            at(tick.value) + 0.36 * LABEL_SIZE,
+            &tick.label,
+            &style,
+        );
+    }
+    let style = TextStyle::new(TITLE_SIZE)
+        .anchored(Anchor::Middle)
+        .rotated(-90.0);
+    svg.text(
+        left - distance,
+        area.y + 0.5 * area.height,
+        &frame.y.full_title(),
+        &style,
+    );
+}

@@ -1,0 +1,248 @@
+//! The contact over time and around the circle.
+
+use super::Disc;
+use super::palette::{
+    OPEN, SLIP, STICK, centred, line_colour, status_ground, status_keys, status_name, status_ring,
+};
+use crate::chart::{
+    Axis, ChartError, ColourMap, Figure, Heat, INK, Label, Line, Palette, Panel, Rule, SERIES, Side,
+};
+use crate::contact::ContactStatus;
+use std::f64::consts::TAU;
+
+/// Columns of a status map: three for each point of a wide panel.
+const FINEST: usize = 900;
+/// Fewest columns that a strobed map keeps.
+const FEWEST: usize = 150;
+
+/// The status of all contact nodes over time between two instants, and the interval between the instants shown (s) if not
+/// every sample is; `codes` are 0 open, 1 stick, 2 slip, sample by sample, all nodes of one sample together, evenly spaced in
+/// time and around the circle.
+///
+/// Where there are more samples than the drawing has columns, single instants are shown, an interval apart at which the end of
+/// the run repeats itself best: a travelling pattern then stands nearly still, as under a stroboscope, and keeps its shares of
+/// stick, slip and open.
+pub fn status_map(
+    times: &[f64],
+    nodes: usize,
+    codes: &[u8],
+    (from, to): (f64, f64),
+) -> Option<(Heat, Option<f64>)> {
+    let count = times.len().min(codes.len() / nodes.max(1));
+    let first = times[..count]
+        .partition_point(|&t| t < from)
+        .saturating_sub(1);
+    let last = (times[..count].partition_point(|&t| t <= to) + 1).min(count);
+    if nodes == 0 || last < first + 2 {
+        return None;
+    }
+    let stride = strobe_stride(
+        nodes,
+        &codes[..count * nodes],
+        (last - first).div_ceil(FINEST),
+    );
+    let columns = (last - first).div_ceil(stride);
+    let hop = (times[count - 1] - times[0]) / (count - 1) as f64;
+    let start = times[first] - 0.5 * hop;
+    let end = start + hop * (stride * columns) as f64;
+    let half = 0.5 * TAU / nodes as f64;
+    let palette = Palette::of_colours(&[OPEN, STICK, SLIP]);
+    let status =
+        |column: usize, node: usize| codes[(first + column * stride) * nodes + node].min(2);
+    let heat = Heat::of_states(
+        ((start, end), columns),
+        ((-half, TAU - half), nodes),
+        palette,
+        status,
+    );
+    let heat = heat.names(status_keys());
+    Some((heat, (stride > 1).then_some(hop * stride as f64)))
+}
+
+/// Samples between the instants shown: the number from `finest` up, with enough columns left, after which the last fifth of
+/// the run repeats itself best.
+fn strobe_stride(nodes: usize, codes: &[u8], finest: usize) -> usize {
+    let count = codes.len() / nodes;
+    let start = count - count / 5;
+    let coarsest = (3 * finest).max(count / FEWEST);
+    if finest <= 1 || start + coarsest >= count {
+        return finest.max(1);
+    }
+    let probes = (start..count - coarsest).step_by(((count - start) / 64).max(1));
+    let row = |sample: usize| &codes[sample * nodes..(sample + 1) * nodes];
+    let agreement = |lag: usize| -> usize {
+        let pairs = probes
+            .clone()
+            .map(|sample| row(sample).iter().zip(row(sample + lag)));
+        pairs.map(|pair| pair.filter(|(a, b)| a == b).count()).sum()
+    };
+    // The shortest of equals: a uniform state needs no strobe.
+    let lags = finest..=coarsest;
+    lags.max_by_key(|&lag| (agreement(lag), std::cmp::Reverse(lag)))
+        .unwrap_or(finest)
+}
+
+/// The contact at one instant: arcs of stick, slip and separation around the circle, and over the angle the tractions (Pa) and
+/// the tangential velocity (m/s) of nodes evenly spaced from an angle (rad), on a ground coloured by status.
+pub fn contact_figure(
+    (name, caption, instant): (String, String, String),
+    (first_angle, status): (f64, &[ContactStatus]),
+    [pressure, shear, velocity]: [&[f64]; 3],
+    peripheral_speed: f64,
+) -> Figure {
+    let step = TAU / status.len().max(1) as f64;
+    let closed = |values: &[f64]| -> Vec<(f64, f64)> {
+        let around = values.iter().chain(values.first()).enumerate();
+        around
+            .map(|(i, &value)| (first_angle + i as f64 * step, value))
+            .collect()
+    };
+    let all_around: Vec<ContactStatus> = status.iter().chain(status.first()).copied().collect();
+    let ground = || status_ground(&all_around, |i| first_angle + (i as f64 - 0.5) * step);
+    let over_angle = |y: Axis| {
+        Panel::new(Axis::angle(), y)
+            .plain()
+            .height(78.0)
+            .legend()
+            .layer(ground().unnamed())
+    };
+    let angles = [0, 90, 180, 270].map(|degrees: i32| {
+        let (sin, cos) = f64::from(degrees).to_radians().sin_cos();
+        Label::new((0.48 * cos, 0.48 * sin), format!("{degrees}°"))
+            .style(centred(6.75))
+            .moved(0.0, 2.4)
+    });
+    let circle = Panel::plane([[-1.05, -1.05], [1.05, 1.05]])
+        .beside(2)
+        .caption(instant)
+        .layer(status_ring(1.06, first_angle, status))
+        .layers(angles)
+        .layer(Label::new((0.0, 0.0), "↺").style(centred(13.0)))
+        .layer(
+            Label::new((0.0, 0.0), "rotor")
+                .style(centred(6.75))
+                .moved(0.0, 11.0),
+        );
+    Figure::new(name, caption)
+        .weighted(&[1.0, 1.7])
+        .shared_x()
+        .panel(circle)
+        .panel(
+            over_angle(
+                Axis::new("traction", "Pa")
+                    .prefixed()
+                    .including(0.0)
+                    .room(0.08),
+            )
+            .layer(
+                Line::through(closed(pressure))
+                    .solid(INK, 1.1)
+                    .name("pressure *p*"),
+            )
+            .layer(
+                Line::through(closed(shear))
+                    .solid(SERIES[1], 1.1)
+                    .name("friction traction *τ*"),
+            ),
+        )
+        .panel(
+            over_angle(Axis::new("velocity", "m/s").including(0.0))
+                .layer(
+                    Rule::horizontal(peripheral_speed)
+                        .stretching()
+                        .name("cylinder *Ωa*"),
+                )
+                .layer(
+                    Line::through(closed(velocity))
+                        .solid(SERIES[0], 1.1)
+                        .name("tangential *v*_{θ}"),
+                ),
+        )
+}
+
+/// One field of several: heading, values at the nodes, status of each node of the contact edge.
+pub type FieldFrame = (String, Vec<f64>, Vec<ContactStatus>);
+
+/// Fields side by side, each with its own scale of colours, as amplitudes may differ by decades, and with the contact status
+/// around the hole where it is known.
+pub fn field_figure(
+    (name, caption): (&str, &str),
+    disc: &Disc<'_>,
+    axis: &Axis,
+    map: ColourMap,
+    frames: Vec<FieldFrame>,
+) -> Result<Figure, ChartError> {
+    if frames.is_empty() {
+        return Err(ChartError::empty(name));
+    }
+    let columns = match frames.len() {
+        5 | 6 => 3,
+        count => count.clamp(2, 4),
+    };
+    let (radius, first_angle) = disc.contact_place();
+    let has_status = frames.iter().any(|frame| !frame.2.is_empty());
+    let panels = frames.into_iter().map(|(heading, values, status)| {
+        let panel = disc
+            .panel(0.01)
+            .heading(heading)
+            .layer(disc.field(values, axis.clone(), map));
+        let ring = (!status.is_empty()).then(|| status_ring(radius, first_angle, &status));
+        panel.layers(ring).colour_bar(Side::Below)
+    });
+    let figure = Figure::new(name, caption).columns(columns).panels(panels);
+    Ok(if has_status {
+        figure.note("ring inside the hole: contact status")
+    } else {
+        figure
+    })
+}
+
+/// A closed or open curve coloured by the status of the samples it starts from; slip, over which a node runs back and forth,
+/// is wide.
+pub fn status_curves(points: &[(f64, f64)], status: &[ContactStatus]) -> Vec<Line> {
+    let mut lines = Vec::new();
+    for wanted in [
+        ContactStatus::Slip,
+        ContactStatus::Stick,
+        ContactStatus::Open,
+    ] {
+        let mut pieces: Vec<(f64, f64)> = Vec::new();
+        let mut start = 0;
+        for run in status.chunk_by(|a, b| a == b) {
+            let end = (start + run.len() + 1).min(points.len());
+            if run[0] == wanted && start < end {
+                // One sample further, so that pieces join; a gap keeps pieces apart.
+                pieces.extend(&points[start..end]);
+                pieces.push((f64::NAN, f64::NAN));
+            }
+            start += run.len();
+        }
+        let width = if wanted == ContactStatus::Slip {
+            1.8
+        } else {
+            0.8
+        };
+        let name = status_name(wanted);
+        lines.push(
+            Line::through(pieces)
+                .solid(line_colour(wanted), width)
+                .name(name),
+        );
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn strobe_finds_the_period_of_a_rotating_pattern() {
+        let (count, nodes, period) = (20_000, 36, 41);
+        let cells = (0..count).flat_map(|i| (0..nodes).map(move |j| (i, j)));
+        let sticks = |(i, j)| (j * period + i * nodes) % (nodes * period) < nodes * period / 3;
+        let codes: Vec<u8> = cells.map(|cell| if sticks(cell) { 1 } else { 2 }).collect();
+        assert_eq!(strobe_stride(nodes, &codes, 20), period);
+        assert_eq!(strobe_stride(nodes, &codes, 1), 1);
+    }
+}

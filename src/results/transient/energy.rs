@@ -1,0 +1,273 @@
+//! The energy figure of a transient: where the power of the drive goes.
+
+use super::figures::RunFigures;
+use crate::chart::{
+    Axis, Figure, Fill, INK, Label, Line, MUTED, Panel, Rule, SERIES, Stroke, TextStyle, extremes,
+    prefixed, significant,
+};
+use crate::results::charts::palette::{
+    CONTACT_DISSIPATION, EXTERNAL_POWER, MATERIAL_DISSIPATION, NORMAL_POWER, OPEN, SLIDE_POWER,
+    SLIP, STICK, STICK_POWER,
+};
+use crate::results::charts::run_axis;
+use crate::transient::SampleRow;
+
+/// Time over which powers are averaged for the strong lines, s.
+const AVERAGING_TIME: f64 = 5e-4;
+
+/// A power or an energy: samples, their running mean, colour, name.
+struct Course {
+    values: Vec<f64>,
+    mean: Vec<f64>,
+    colour: &'static str,
+    name: &'static str,
+}
+
+/// Mean over a window centred on each sample, cut off at the ends.
+fn moving_average(values: &[f64], window: usize) -> Vec<f64> {
+    let half = window / 2;
+    let mut sums = vec![0.0];
+    for value in values {
+        sums.push(sums[sums.len() - 1] + value);
+    }
+    let mean = |index: usize| {
+        let (from, to) = (
+            index.saturating_sub(half),
+            (index + half + 1).min(values.len()),
+        );
+        (sums[to] - sums[from]) / (to - from) as f64
+    };
+    (0..values.len()).map(mean).collect()
+}
+
+/// Acceleration, status, external power and its parts, power balance of the body, the external power as the sum of what
+/// contact and material dissipate, stored energy, balance residual, as figure 12 of the paper has them.
+pub(super) fn energy(run: &RunFigures<'_>) -> Figure {
+    let (rows, times, thickness) = (&run.record.rows, run.times(), run.thickness);
+    let step = (extremes(times.iter().copied()).1 - times.first().copied().unwrap_or(0.0))
+        / times.len().max(2) as f64;
+    let window = (AVERAGING_TIME / step.max(1e-300))
+        .round()
+        .clamp(1.0, times.len().max(1) as f64) as usize;
+    let course = |name: &'static str, colour: &'static str, of: &dyn Fn(&SampleRow) -> f64| {
+        let values: Vec<f64> = rows.iter().map(|row| thickness * of(row)).collect();
+        Course {
+            mean: moving_average(&values, window),
+            values,
+            colour,
+            name,
+        }
+    };
+    let external = course("external", EXTERNAL_POWER, &|row| row.powers.external);
+    let stick = course("sticking", STICK_POWER, &|row| row.powers.stick);
+    let slide = course("sliding", SLIDE_POWER, &|row| row.powers.slide);
+    let contact = course("dissipated at the contact", CONTACT_DISSIPATION, &|row| {
+        row.powers.contact_dissipated
+    });
+    let material = course("material damping", MATERIAL_DISSIPATION, &|row| {
+        row.material_damping
+    });
+    let normal = course("normal contact forces", NORMAL_POWER, &|row| {
+        row.powers.normal
+    });
+    let received = course("received at the contact", STICK_POWER, &|row| {
+        row.powers.stick + row.powers.slide + row.powers.normal
+    });
+    let total = course("total", INK, &|row| row.kinetic_energy + row.strain_energy);
+    let strain = course("strain", SERIES[2], &|row| row.strain_energy);
+    let kinetic = course("kinetic", SERIES[1], &|row| row.kinetic_energy);
+    let probes = run.record.probes.len();
+    let inside = (0..probes)
+        .find(|&probe| !run.is_on_contact(probe))
+        .or((probes > 0).then_some(0));
+    let acceleration = inside.map(|probe| {
+        let panel =
+            Panel::new(run_axis(&times), Axis::new("*a*_{θ}", "m/s²").symmetric()).height(50.0);
+        let caption = format!("tangential acceleration, node {}", run.record.probes[probe]);
+        panel
+            .caption(caption)
+            .layer(Line::new(&times, &run.acceleration(probe)).solid(SERIES[0], 0.45))
+    });
+    let dissipated: Vec<f64> = contact
+        .mean
+        .iter()
+        .zip(&material.mean)
+        .map(|(a, b)| a + b)
+        .collect();
+    let sum = Panel::new(
+        run_axis(&times),
+        power_axis(&[&external, &contact, &material]).0,
+    )
+    .height(72.0)
+    .caption("external power and what is dissipated")
+    .legend()
+    .layer(
+        Fill::from(0.0, &times, &contact.mean, CONTACT_DISSIPATION)
+            .opacity(0.45)
+            .name(contact.name),
+    )
+    .layer(
+        Fill::between(&times, &contact.mean, &dissipated, MATERIAL_DISSIPATION)
+            .opacity(0.45)
+            .name(material.name),
+    )
+    .layer(
+        Line::new(&times, &external.mean)
+            .solid(EXTERNAL_POWER, 1.1)
+            .name(external.name),
+    );
+    let balance = powers(
+        &times,
+        "power balance of the body",
+        72.0,
+        &[&normal, &material, &received],
+    );
+    let balance = balance.layer(
+        Fill::between(&times, &received.mean, &material.mean, SERIES[5])
+            .opacity(0.5)
+            .name("stored"),
+    );
+    let stored = [&total, &strain, &kinetic].into_iter().fold(
+        Panel::new(
+            run_axis(&times),
+            Axis::new("energy", "J").prefixed().including(0.0),
+        )
+        .height(56.0)
+        .caption("stored energy")
+        .legend(),
+        |panel, course| {
+            panel.layer(
+                Line::new(&times, &course.mean)
+                    .solid(course.colour, 1.0)
+                    .name(course.name),
+            )
+        },
+    );
+    Figure::new(
+        "energy",
+        "Energy flows: acceleration, contact status, external power and its parts, power balance of the body, external power as \
+         the sum of what is dissipated, stored energy, residual of the balance.",
+    )
+    .shared_x()
+    .panels(acceleration)
+    .panel(status(rows, &times))
+    .panel(powers(&times, "external power and its parts", 88.0, &[&contact, &slide, &stick, &external]))
+    .panel(balance)
+    .panel(sum)
+    .panel(stored)
+    .panel(residual(rows, &times))
+    .note(format!("powers and energies: lines are means over {} ms, bands the range of the samples", significant(window as f64 * step * 1e3, 2)))
+}
+
+/// Fractions of contact nodes as stacked areas, stick below, then slip, then open.
+fn status(rows: &[SampleRow], times: &[f64]) -> Panel {
+    let fraction = |which: usize| -> Vec<f64> {
+        rows.iter()
+            .map(|row| row.counts.fractions()[which])
+            .collect()
+    };
+    let (stick, slip, open) = (fraction(0), fraction(1), fraction(2));
+    let slip: Vec<f64> = stick.iter().zip(&slip).map(|(a, b)| a + b).collect();
+    let all: Vec<f64> = slip.iter().zip(&open).map(|(a, b)| a + b).collect();
+    Panel::new(
+        run_axis(times),
+        Axis::new("nodes", "%").times(100.0).between(0.0, 1.0),
+    )
+    .plain()
+    .height(50.0)
+    .caption("contact status")
+    .legend()
+    .layer(Fill::from(0.0, times, &stick, STICK).name("stick"))
+    .layer(Fill::between(times, &stick, &slip, SLIP).name("slip"))
+    .layer(Fill::between(times, &slip, &all, OPEN).name("open"))
+}
+
+/// An axis that holds several powers, but for their shortest peaks, and zero: the impact of the expansion lasts a few
+/// hundredths of a run and would flatten the rest.
+fn power_axis(courses: &[&Course]) -> (Axis, f64) {
+    let (mut low, mut high) = (0.0f64, 0.0f64);
+    for course in courses {
+        let mut mean = course.mean.clone();
+        mean.sort_by(f64::total_cmp);
+        let skipped = mean.len() / 40;
+        if let (Some(least), Some(most)) = (
+            mean.get(skipped),
+            mean.get(mean.len().saturating_sub(1 + skipped)),
+        ) {
+            (low, high) = (low.min(*least), high.max(*most));
+        }
+    }
+    let room = 0.2 * (high - low);
+    let low = if low < -1e-3 * high { low - room } else { 0.0 };
+    (
+        Axis::new("power", "W").prefixed().between(low, high + room),
+        high + room,
+    )
+}
+
+/// Running means over the bands of their samples, with a word on a peak that the axis cuts off.
+fn powers(times: &[f64], caption: &str, height: f64, courses: &[&Course]) -> Panel {
+    let (axis, top) = power_axis(courses);
+    let panel = Panel::new(run_axis(times), axis)
+        .height(height)
+        .caption(caption)
+        .legend();
+    let panel = courses.iter().fold(panel, |panel, course| {
+        panel.layer(Fill::range_of(times, &course.values, course.colour).opacity(0.22))
+    });
+    let panel = courses.iter().fold(
+        panel.layer(Rule::horizontal(0.0).stroke(Stroke::solid(INK, 0.5))),
+        |panel, course| {
+            panel.layer(
+                Line::new(times, &course.mean)
+                    .solid(course.colour, 1.1)
+                    .name(course.name),
+            )
+        },
+    );
+    let values = courses
+        .iter()
+        .flat_map(|course| course.values.iter().copied().zip(times));
+    let peak = values
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .filter(|peak| peak.0 > top);
+    panel.layers(peak.map(|(peak, &time)| {
+        let (factor, unit) = prefixed(peak, "W");
+        let label = format!("▲ peak {} {unit}", significant(peak * factor, 3));
+        Label::new((time, top), label)
+            .moved(3.0, 8.0)
+            .style(TextStyle::new(6.25).coloured(MUTED).with_halo())
+    }))
+}
+
+fn residual(rows: &[SampleRow], times: &[f64]) -> Panel {
+    let size: Vec<f64> = rows
+        .iter()
+        .map(|row| row.balance_residual.abs().max(1e-18))
+        .collect();
+    let largest = extremes(size.iter().copied()).1;
+    let caption = format!(
+        "residual of the energy balance, at most {}",
+        significant(largest, 2)
+    );
+    Panel::new(
+        run_axis(times),
+        Axis::new("residual", "–").decades(6.0).room(0.1),
+    )
+    .height(44.0)
+    .caption(caption)
+    .layer(Line::new(times, &size).solid(INK, 0.5))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn moving_average_of_a_line_is_the_line() {
+        let line: Vec<f64> = (0..50).map(f64::from).collect();
+        let mean = moving_average(&line, 7);
+        assert!((3..47).all(|index| (mean[index] - line[index]).abs() < 1e-12));
+        assert_eq!((mean[0], mean[49]), (1.5, 47.5));
+    }
+}

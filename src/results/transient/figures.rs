@@ -1,0 +1,258 @@
+//! The figures of a transient, from its record.
+
+use crate::chart::{Axis, ChartError, ColourMap, Figure, Line, Panel, SERIES, extremes};
+use crate::contact::ContactStatus;
+use crate::fem::{ElasticMaterial, nodal_stress};
+use crate::mesh::Mesh2d;
+use crate::results::charts::palette::status_of_code;
+use crate::results::charts::{
+    Disc, FieldFrame, ModeLine, contact_figure, field_figure, status_curves,
+};
+use crate::results::drawing::{Declaration, DrawingOptions, draw_all};
+use crate::results::report::NamedFigure;
+use crate::transient::{EndState, Recorder, Snapshot, TransientAnalysis};
+
+/// Whole-field pictures of one kind, at most.
+const FIELD_LIMIT: usize = 8;
+
+/// A run and what its figures show besides.
+#[derive(Clone, Debug)]
+pub struct RunFigures<'a> {
+    /// The record.
+    pub record: &'a Recorder,
+    /// What was read from it.
+    pub analysis: &'a TransientAnalysis,
+    /// The mesh.
+    pub mesh: &'a Mesh2d,
+    /// The material, for the stress fields.
+    pub material: &'a ElasticMaterial,
+    /// Thickness, m: the record is for each metre.
+    pub thickness: f64,
+    /// Peripheral speed of the cylinder, m/s.
+    pub peripheral_speed: f64,
+    /// Modes of the eigenvalue analysis drawn across spectrograms and spectra.
+    pub references: Vec<ModeLine>,
+    /// Harmonic and growth rate (1/s) of its unstable modes.
+    pub growth_rates: Vec<(usize, f64)>,
+}
+
+/// Draws every figure that the record has data for.
+///
+/// # Errors
+/// That of a figure that cannot be drawn although there is something to draw.
+pub fn draw_run(
+    run: &RunFigures<'_>,
+    options: &DrawingOptions,
+) -> Result<Vec<NamedFigure>, ChartError> {
+    let mut figures: Vec<Declaration<'_>> = Vec::new();
+    for probe in 0..run.record.probes.len() {
+        figures.push(Box::new(move || Ok(run.overview(probe))));
+        figures.push(Box::new(move || Ok(run.spectrum(probe))));
+    }
+    figures.push(Box::new(|| Ok(run.growth())));
+    figures.push(Box::new(|| run.velocity()));
+    figures.push(Box::new(|| run.shear_stress()));
+    figures.push(Box::new(|| run.trajectories()));
+    figures.push(Box::new(|| run.contact()));
+    figures.push(Box::new(|| Ok(super::energy::energy(run))));
+    draw_all(figures, options)
+}
+
+impl RunFigures<'_> {
+    /// Times of all samples, s.
+    pub(super) fn times(&self) -> Vec<f64> {
+        self.record.rows.iter().map(|row| row.time).collect()
+    }
+
+    /// Time between samples, s; zero for fewer than two.
+    pub(super) fn interval(&self) -> f64 {
+        let rows = &self.record.rows;
+        match (rows.first(), rows.last(), rows.len()) {
+            (Some(first), Some(last), 2..) => (last.time - first.time) / (rows.len() - 1) as f64,
+            _ => 0.0,
+        }
+    }
+
+    /// One column of a probe: displacements, velocities, accelerations, each radial and tangential.
+    pub(super) fn column(&self, probe: usize, column: usize) -> Vec<f64> {
+        let rows = self.record.probe_rows[probe].iter();
+        rows.map(|row| row[column]).collect()
+    }
+
+    /// The tangential acceleration of a probe: the component that friction drives, and the one over which runs are compared.
+    pub(super) fn acceleration(&self, probe: usize) -> Vec<f64> {
+        self.column(probe, 5)
+    }
+
+    /// Highest frequency shown: three superharmonics, or all modes drawn.
+    pub(super) fn highest_frequency(&self) -> f64 {
+        let main = self.analysis.last_fifth.main_frequency_hz.unwrap_or(0.0);
+        let modes = self.references.iter().map(|mode| mode.frequency_hz);
+        let wanted = modes.fold(3.4 * main, |top, f| top.max(1.1 * f));
+        let nyquist = 0.5 / self.interval().max(1e-12);
+        if wanted > 0.0 {
+            wanted.min(nyquist)
+        } else {
+            nyquist.min(35e3)
+        }
+    }
+
+    fn snapshots(&self) -> impl Iterator<Item = &Snapshot> {
+        self.record.snapshots.iter().take(FIELD_LIMIT)
+    }
+
+    fn velocity(&self) -> Result<Figure, ChartError> {
+        // What is that much slower than the cylinder is round-off of a body at rest.
+        let rest = 1e-9 * self.peripheral_speed.abs();
+        let frames = self.snapshots().map(|snapshot| -> FieldFrame {
+            let speeds = snapshot.velocity.chunks_exact(2).map(|v| v[0].hypot(v[1]));
+            let values = speeds
+                .map(|speed| if speed > rest { speed } else { 0.0 })
+                .collect();
+            let status = statuses(&snapshot.contact.status);
+            (heading(snapshot), values, status)
+        });
+        let caption = (
+            "velocity",
+            "Velocity modulus and contact status at the snapshot times.",
+        );
+        let axis = Axis::new("velocity |*v*|", "m/s");
+        field_figure(
+            caption,
+            &Disc::new(self.mesh),
+            &axis,
+            ColourMap::Viridis,
+            frames.collect(),
+        )
+    }
+
+    fn shear_stress(&self) -> Result<Figure, ChartError> {
+        let frames = self.snapshots().map(|snapshot| -> FieldFrame {
+            let stress = nodal_stress(self.mesh, self.material, &snapshot.displacement);
+            (
+                heading(snapshot),
+                stress.iter().map(|node| node.shear).collect(),
+                Vec::new(),
+            )
+        });
+        let axis = Axis::new("shear stress *τ*_{rθ}", "MPa").times(1e-6);
+        let caption = ("shear-stress", "Shear stress at the snapshot times.");
+        field_figure(
+            caption,
+            &Disc::new(self.mesh),
+            &axis,
+            ColourMap::Diverging,
+            frames.collect(),
+        )
+    }
+
+    /// Whether a probe lies on the contact edge.
+    pub(super) fn is_on_contact(&self, probe: usize) -> bool {
+        let node = self.record.probes[probe] as u32;
+        self.mesh
+            .inner_edge
+            .nodes
+            .iter()
+            .any(|other| other + 1 == node)
+    }
+
+    /// Phase plot of an internal node, and path of a contact node coloured by status over the last fifth.
+    fn trajectories(&self) -> Result<Figure, ChartError> {
+        let probes = 0..self.record.probes.len();
+        let (edge, inside): (Vec<usize>, Vec<usize>) =
+            probes.partition(|&probe| self.is_on_contact(probe));
+        let (Some(&edge), Some(&inside)) = (edge.first(), inside.first()) else {
+            return Err(ChartError::empty("probes inside and on the contact edge"));
+        };
+        let pair = |probe: usize, x: usize, y: usize| -> Vec<(f64, f64)> {
+            self.record.probe_rows[probe]
+                .iter()
+                .map(|row| (row[x], row[y]))
+                .collect()
+        };
+        let (phase, path) = (pair(inside, 1, 3), pair(edge, 1, 0));
+        let start = path.len() - path.len().div_ceil(5);
+        let approach = |points: &[(f64, f64)]| {
+            Line::through(points[..start].iter().copied())
+                .solid("#9a9a9a", 0.3)
+                .name("before")
+        };
+        let status = self.traced_status(edge, start);
+        let metres = |name: &str| Axis::new(name, "m").prefixed();
+        let phase_panel = Panel::new(
+            metres("tangential *u*_{θ}"),
+            Axis::new("velocity *v*_{θ}", "m/s").prefixed(),
+        )
+        .height(172.0)
+        .caption(format!("node {}, tangential", self.record.probes[inside]))
+        .layer(approach(&phase))
+        .layer(
+            Line::through(phase[start..].iter().copied())
+                .solid(SERIES[1], 0.8)
+                .name(match self.analysis.settling.state {
+                    EndState::LimitCycle => "limit cycle",
+                    _ => "last fifth of the run",
+                }),
+        );
+        let path_panel = Panel::new(metres("tangential *u*_{θ}"), metres("radial *u*_{r}"))
+            .height(172.0)
+            .caption(format!("contact node {}", self.record.probes[edge]))
+            .layer(approach(&path))
+            .layers(status_curves(&path[start..], &status));
+        let caption = "Phase plot of an internal node (a) and path of a contact node (b), whose last fifth is coloured by contact status.";
+        Ok(Figure::new("trajectories", caption)
+            .columns(2)
+            .panel(phase_panel)
+            .panel(path_panel))
+    }
+
+    /// Status of a contact node from a sample on, from its motion: off the cylinder it is open, with the cylinder's velocity it
+    /// sticks. Finer in time than the contact frames; the node touches the cylinder at its smallest radial displacement.
+    fn traced_status(&self, probe: usize, start: usize) -> Vec<ContactStatus> {
+        let rows = &self.record.probe_rows[probe][start..];
+        let (low, high) = extremes(rows.iter().map(|row| row[0]));
+        let distance = 1e-6 * low.abs().max(high.abs());
+        let slowness = 1e-6 * self.peripheral_speed.abs().max(f64::MIN_POSITIVE);
+        let status = rows.iter().map(|row| {
+            if row[0] - low > distance {
+                ContactStatus::Open
+            } else if (row[3] - self.peripheral_speed).abs() <= slowness {
+                ContactStatus::Stick
+            } else {
+                ContactStatus::Slip
+            }
+        });
+        status.collect()
+    }
+
+    /// The contact at the last snapshot.
+    fn contact(&self) -> Result<Figure, ChartError> {
+        let snapshot = self.record.snapshots.last();
+        let snapshot = snapshot.ok_or_else(|| ChartError::empty("contact at the snapshots"))?;
+        let frame = &snapshot.contact;
+        let wide = |values: &[f32]| values.iter().map(|&v| f64::from(v)).collect::<Vec<f64>>();
+        let edge = self.mesh.inner_edge.nodes.iter();
+        let velocity: Vec<f64> = edge
+            .map(|&node| snapshot.velocity[2 * node as usize + 1])
+            .collect();
+        let caption = "Contact at the last snapshot: status around the circle (a), tractions (b), velocity (c).";
+        let first = self.record.contact_angles.first().copied().unwrap_or(0.0);
+        let instant = format!("*t* = {:.3} ms", snapshot.time * 1e3);
+        let names = ("contact".into(), caption.into(), instant);
+        let values = [&wide(&frame.pressure)[..], &wide(&frame.shear), &velocity];
+        Ok(contact_figure(
+            names,
+            (first, &statuses(&frame.status)),
+            values,
+            self.peripheral_speed,
+        ))
+    }
+}
+
+fn statuses(codes: &[u8]) -> Vec<ContactStatus> {
+    codes.iter().map(|&code| status_of_code(code)).collect()
+}
+
+fn heading(snapshot: &Snapshot) -> String {
+    format!("*t* = {:.2} ms", snapshot.time * 1e3)
+}

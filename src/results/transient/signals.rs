@@ -1,0 +1,227 @@
+//! Figures of the probes' signals and of the harmonics of the contact edge.
+
+use super::figures::RunFigures;
+use super::stages::stages;
+use crate::chart::{
+    Axis, Figure, INK, Line, MUTED, Panel, Rule, Stroke, extremes, look, significant,
+};
+use crate::results::charts::{
+    run_axis, signal_panel, spectrogram_panels, spectrum_panel, status_map, with_stages,
+};
+use crate::signal::{SpectrogramOptions, Window, amplitude_spectrum, spectrogram};
+use std::collections::BTreeMap;
+
+/// Decades of amplitudes below the largest that show growth.
+const GROWTH_DECADES: f64 = 7.0;
+/// Harmonics that stay this much smaller than the largest are left out.
+const SMALL_HARMONIC: f64 = 1e-3;
+/// Lengths of the linear stage over which growth is shown: behind it nothing grows for long.
+const SHOWN_STAGES: f64 = 3.0;
+
+impl RunFigures<'_> {
+    /// Acceleration, spectrograms and contact status on one time axis, with the end of the run enlarged at the right.
+    pub(super) fn overview(&self, probe: usize) -> Figure {
+        let (node, times, signal) = (
+            self.record.probes[probe],
+            self.times(),
+            self.acceleration(probe),
+        );
+        let (start, end) = extremes([times.first(), times.last()].into_iter().flatten().copied());
+        let periods = self
+            .analysis
+            .last_fifth
+            .main_frequency_hz
+            .map(|frequency| 4.0 / frequency);
+        let enlarged = periods
+            .filter(|length| *length < end - start)
+            .map(|length| (end - length, end));
+        let axis = run_axis(&times);
+        let top = self.highest_frequency();
+        let unit = ("*a*_{θ}", "m/s²");
+        let stages = stages(self.record, self.analysis);
+        let largest = extremes(signal.iter().map(|v| v.abs())).1;
+        let whole = signal_panel(axis.clone(), &times, &signal, unit, 0.45);
+        let whole = with_stages(
+            whole.caption(format!("tangential acceleration, node {node}")),
+            &stages,
+            (start, end),
+            largest,
+        );
+        let detail = enlarged.map(|(from, to)| {
+            let first = times.partition_point(|&t| t < from);
+            let axis = Axis::time().between(from, to);
+            signal_panel(axis, &times[first..], &signal[first..], unit, 0.9)
+                .caption("end of the run")
+        });
+        let options = SpectrogramOptions {
+            max_frequency_hz: 1.05 * top,
+            ..SpectrogramOptions::default()
+        };
+        // A run shorter than a window has no spectrogram, and needs none.
+        let map = spectrogram(&signal, 1.0 / self.interval().max(1e-12), &options).ok();
+        let spectrograms = map.map_or(Vec::new(), |map| {
+            spectrogram_panels(&axis, &map, start, top, &self.references)
+        });
+        let caption = format!(
+            "Course of the run at node {node}: tangential acceleration, spectrograms with the frequencies of the eigenvalue \
+             analysis, contact status; at the right the end of the run."
+        );
+        let mut figure = Figure::new(format!("overview-{node}"), caption)
+            .weighted(&[3.0, 1.0])
+            .shared_x()
+            .shared_y();
+        figure = figure.panel(whole).panel_or_gap(detail);
+        for panel in spectrograms {
+            figure = figure.panel(panel).panel_or_gap(None);
+        }
+        match self.status_panel(axis, (start, end), "contact status".into()) {
+            Some(whole) => {
+                let detail = enlarged.and_then(|(from, to)| {
+                    self.status_panel(
+                        Axis::time().between(from, to),
+                        (from, to),
+                        "end of the run".into(),
+                    )
+                });
+                figure.panel(whole.legend()).panel_or_gap(detail)
+            }
+            None => figure,
+        }
+    }
+
+    /// The status of all contact nodes over time; a strobed map says so.
+    fn status_panel(&self, time: Axis, range: (f64, f64), caption: String) -> Option<Panel> {
+        let frames = &self.record.frames;
+        let times: Vec<f64> = frames.iter().map(|frame| frame.time).collect();
+        let codes: Vec<u8> = frames
+            .iter()
+            .flat_map(|frame| frame.status.iter().copied())
+            .collect();
+        let (map, strobe) = status_map(&times, self.record.contact_angles.len(), &codes, range)?;
+        let caption = match strobe {
+            Some(interval) => format!(
+                "{caption} at instants {} ms apart (stripes drift as under a stroboscope)",
+                significant(interval * 1e3, 3)
+            ),
+            None => caption,
+        };
+        Some(
+            Panel::new(time, Axis::angle())
+                .plain()
+                .height(92.0)
+                .caption(caption)
+                .layer(map),
+        )
+    }
+
+    /// Spectra of both components over the last fifth of the run.
+    pub(super) fn spectrum(&self, probe: usize) -> Figure {
+        let node = self.record.probes[probe];
+        let spectrum_of = |column: usize| {
+            let signal = self.column(probe, column);
+            let end = &signal[signal.len() - signal.len().div_ceil(5)..];
+            let found =
+                amplitude_spectrum(end, 1.0 / self.interval().max(1e-12), Window::Hann, 2).ok();
+            found.map_or((Vec::new(), Vec::new()), |found| {
+                (found.frequencies_hz, found.amplitudes)
+            })
+        };
+        let [tangential, radial] = [5, 4].map(spectrum_of);
+        let spectra: [(&str, &[f64], &[f64]); 2] = [
+            ("tangential acceleration", &tangential.0, &tangential.1),
+            ("radial acceleration", &radial.0, &radial.1),
+        ];
+        let caption =
+            format!("Spectra of the accelerations of node {node} over the last fifth of the run.");
+        let frequencies = (
+            self.highest_frequency(),
+            self.analysis.last_fifth.main_frequency_hz,
+        );
+        let panel = spectrum_panel(&spectra, "m/s²", frequencies, &self.references);
+        Figure::new(format!("spectrum-{node}"), caption)
+            .panel(panel.caption(format!("accelerations of node {node}")))
+    }
+
+    /// Growth of the harmonics of the contact edge, beside the rates of the eigenvalue analysis.
+    pub(super) fn growth(&self) -> Figure {
+        let (rows, times) = (&self.record.rows, self.times());
+        let amplitude = |n: usize| -> Vec<f64> {
+            let parts = (0..rows.len()).map(|sample| self.record.amplitude(sample, n));
+            parts
+                .map(|parts| parts.map_or(f64::NAN, |[a, b]| a.hypot(b)))
+                .collect()
+        };
+        let amplitudes: BTreeMap<usize, Vec<f64>> = self
+            .record
+            .followed_harmonics()
+            .map(|n| (n, amplitude(n)))
+            .collect();
+        let largest = extremes(amplitudes.values().flatten().copied()).1;
+        let (start, last) = extremes([times.first(), times.last()].into_iter().flatten().copied());
+        let linear_end = self.analysis.first_nonlinearity;
+        let end = linear_end.map_or(last, |end| last.min(start + SHOWN_STAGES * (end - start)));
+        let is_shown = |n: usize| {
+            amplitudes
+                .get(&n)
+                .is_some_and(|own| extremes(own.iter().copied()).1 > SMALL_HARMONIC * largest)
+        };
+        let shown = amplitudes.iter().filter(|(n, _)| is_shown(**n));
+        let lines = shown.map(|(&n, own)| {
+            let stroke = Stroke {
+                dash: look(n).2,
+                ..Stroke::solid(look(n).0, 0.8)
+            };
+            Line::new(&times, own)
+                .stroke(stroke)
+                .name(format!("*n* = {n}"))
+        });
+        // What the start leaves behind has died out by a third of the stage.
+        let stage = linear_end.unwrap_or(last);
+        let window = (0.35 * stage, 0.95 * stage);
+        let predicted = self.growth_rates.iter().filter(|(n, _)| is_shown(*n));
+        let rates = predicted.filter_map(|&(n, rate)| {
+            let inside = times
+                .iter()
+                .zip(&amplitudes[&n])
+                .filter(|(t, a)| (window.0..=window.1).contains(*t) && **a > 0.0);
+            let (sum, count) = inside.fold((0.0, 0.0), |(sum, count), (t, a)| {
+                (sum + a.ln() - rate * t, count + 1.0)
+            });
+            let at = |t: f64| (t, (sum / count + rate * t).exp());
+            let name = format!(
+                "rate of the eigenvalue analysis, *n* = {n}: {} s^{{−1}}",
+                significant(rate, 4)
+            );
+            (count > 0.0).then(|| {
+                Line::through([at(window.0), at(window.1)])
+                    .stroke(Stroke::dashed(INK, 1.1))
+                    .name(name)
+            })
+        });
+        let amplitude = Axis::new("amplitude of *u*_{θ}", "m")
+            .decades(GROWTH_DECADES)
+            .room(0.02);
+        let nonlinear = linear_end.map(|time| {
+            Rule::vertical(time)
+                .stroke(Stroke::dotted(MUTED, 0.7))
+                .beside("first stick or separation")
+        });
+        let panel = Panel::new(Axis::time().between(start, end), amplitude)
+            .height(190.0)
+            .layers(lines.collect::<Vec<_>>())
+            .layers(rates.collect::<Vec<_>>())
+            .layers(nonlinear);
+        let figure = Figure::new(
+            "growth",
+            "Growth of the harmonics of the tangential displacement of the contact edge, with the rates of the eigenvalue analysis.",
+        )
+        .panel(panel);
+        match end < last {
+            true => figure.note(format!(
+                "the run goes on to {} ms",
+                significant(last * 1e3, 3)
+            )),
+            false => figure,
+        }
+    }
+}
