@@ -147,8 +147,8 @@ fn a_transient_is_tabled_over_mesh_and_time_step_with_figures_and_report() {
         "convergence.csv",
         "summary.json",
         "report.html",
-        "figures/cea-mesh-errors-frequency.svg",
-        "figures/transient-time-step-differences-power.png",
+        "figures/convergence.svg",
+        "figures/convergence.pdf",
     ] {
         assert!(out.join(name).exists(), "{name}");
     }
