@@ -240,7 +240,7 @@ impl Svg {
         self.body.push_str("/>\n");
     }
 
-    /// Text at a baseline point; see [`text::parse`] for its mark-up.
+    /// Text at a baseline point; see `text::parse` for its mark-up.
     pub fn text(&mut self, x: f64, y: f64, markup: &str, style: &TextStyle) {
         text::write(&mut self.body, x, y, markup, style);
     }

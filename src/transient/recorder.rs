@@ -228,7 +228,7 @@ impl Recorder {
         Some(amplitude.map(f64::from))
     }
 
-    /// Harmonics `0..=8`, and the higher ones that reach [`SIGNIFICANT_SHARE`] of the largest of `n >= 1` at any time.
+    /// Harmonics `0..=8`, and the higher ones that reach a thousandth of the largest of `n >= 1` at any time.
     pub fn significant_harmonics(&self) -> Vec<usize> {
         let largest = |harmonic: usize| {
             let amplitudes = (0..self.rows.len()).filter_map(|k| self.amplitude(k, harmonic));
