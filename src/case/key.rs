@@ -77,8 +77,6 @@ pub enum Kind {
     Choices(fn() -> Vec<&'static str>),
     /// The dotted name of a case key whose value is a number.
     Parameter,
-    /// A table of dotted case keys, each with what its section says of it.
-    Parameters,
 }
 
 /// What holds where a key is left out.
@@ -169,7 +167,6 @@ impl CaseKey {
             Kind::Choice(words) => format!("\"{}\"", words().join("\", \"")),
             Kind::Choices(words) => format!("some of \"{}\"", words().join("\", \"")),
             Kind::Parameter => "numeric case key".to_owned(),
-            Kind::Parameters => "table of case keys".to_owned(),
         }
     }
 

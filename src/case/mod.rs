@@ -35,7 +35,7 @@ pub use cycle::{Continuation, Cycle, OnsetChoice, StabilityChoice};
 pub use diagnostic::{CaseErrors, Diagnostic, Location, Source};
 pub use frf::{Frf, FrfMethod};
 pub use key::{Bound, CaseKey, Default, Kind};
-pub use keys::{KEYS, find as find_key};
+pub use keys::KEYS;
 pub use model::{Contact, Damping};
 pub use overrides::unset;
 pub use range::{Spacing, range_values};

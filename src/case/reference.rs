@@ -75,7 +75,7 @@ pub fn template() -> String {
                 "" => String::new(),
                 unit => format!("{unit}, "),
             };
-            let _ = writeln!(out, "{line:<38}# {unit}{}{note}", key.meaning);
+            let _ = writeln!(out, "{line:<37} # {unit}{}{note}", key.meaning);
         }
     }
     out
@@ -170,7 +170,6 @@ fn key_schema(key: &CaseKey) -> Value {
             let numeric = numeric.filter(|key| !key.name.contains('*'));
             json!({ "enum": numeric.map(|key| key.name).collect::<Vec<_>>() })
         }
-        Kind::Parameters => json!({ "type": "object" }),
     };
     schema["description"] = json!(format!(
         "{} ({}; {})",

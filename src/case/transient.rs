@@ -9,6 +9,9 @@ use crate::transient::{
     InitialState, OperatorChoice, Perturbation, StandingWave, TimeStep, whole_intervals,
 };
 
+/// Snapshots after the end of a run that are named one by one.
+const MOST_NAMED: usize = 4;
+
 /// `[transient]`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Transient {
@@ -283,21 +286,22 @@ pub(super) fn output(
     let mut snapshots = rising(&section, "snapshots").unwrap_or_default();
     if let Some(transient) = transient {
         let last = whole_intervals(transient.duration, sample_interval) as f64;
-        snapshots.retain(|time| {
-            let is_inside = (time / sample_interval).round() <= last;
-            if !is_inside {
-                section.warn(
-                    "snapshots",
-                    format!(
-                        "output.snapshots: {time} s lies after the end of the run \
-                         (transient.duration = {} s) and is left out",
-                        transient.duration
-                    ),
-                    "after the end",
-                );
-            }
-            is_inside
-        });
+        // They rise: those after the end stand last.
+        let is_inside = |time: &f64| (time / sample_interval).round() <= last;
+        let left_out = snapshots.split_off(snapshots.partition_point(is_inside));
+        let duration = transient.duration;
+        let further = left_out.len().saturating_sub(MOST_NAMED);
+        for time in left_out.iter().take(MOST_NAMED) {
+            let message = format!(
+                "output.snapshots: {time} s lies after the end of the run \
+                 (transient.duration = {duration} s) and is left out"
+            );
+            section.warn("snapshots", message, "after the end");
+        }
+        if further > 0 {
+            let message = format!("output.snapshots: {further} later times are left out, too");
+            section.warn("snapshots", message, "after the end");
+        }
         contradictions(&section, transient, sample_interval);
     }
     let contact_interval = section.optional_number("contact_interval");
