@@ -7,7 +7,7 @@
 use frictionsim::contact::SlidingContact;
 use frictionsim::cycle::{CycleSolver, OperatingPoint, Parameter};
 use frictionsim::fem::{ElasticMaterial, PlaneFormulation, RayleighDamping};
-use frictionsim::mesh::{AnnulusSpecification, ElementKind};
+use frictionsim::mesh::{AnnulusSpecification, BoundaryCondition, ElementKind};
 use std::f64::consts::TAU;
 use std::time::{Duration, Instant};
 
@@ -21,6 +21,7 @@ fn main() {
         radial_elements: 35,
         radial_grading: 1.0,
         element: ElementKind::Quad4,
+        outer: BoundaryCondition::Clamped,
     };
     let material = ElasticMaterial {
         young_modulus: 2.5e9,

@@ -11,7 +11,9 @@ use frictionsim::frf::{
     CyclicSystem, FrfSystem, ReductionSettings, Terminal, cyclic_response, direct_response,
     reduced_response,
 };
-use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind, SectorMesh};
+use frictionsim::mesh::{
+    AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind, SectorMesh,
+};
 use frictionsim::prestress::{
     DampingModel, SectorTangent, SlidingTangent, SteadySliding, TangentOptions,
 };
@@ -27,6 +29,7 @@ const SPECIFICATION: AnnulusSpecification = AnnulusSpecification {
     radial_elements: 35,
     radial_grading: 1.0,
     element: ElementKind::Quad4,
+    outer: BoundaryCondition::Clamped,
 };
 const MATERIAL: ElasticMaterial = ElasticMaterial {
     young_modulus: 2.5e9,

@@ -64,12 +64,7 @@ fn mesh(circumferential: usize, radial: usize) -> AnnulusMesh {
 }
 
 fn report(annulus: &AnnulusMesh, choice: OperatorChoice, level: SimdLevel, peak: f64) {
-    let model = TransientModel {
-        annulus,
-        material: POLYCARBONATE,
-        damping: DAMPING,
-        contact: contact(610.0),
-    };
+    let model = TransientModel::of_annulus(annulus, &POLYCARBONATE, DAMPING, contact(610.0));
     let operator = build_operator(&model, choice, level).expect("an operator");
     let sample_interval = 2e-6;
     let mut settings = TransientSettings {

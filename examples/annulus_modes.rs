@@ -5,7 +5,7 @@
 use frictionsim::cea::cyclic::{ModeLimit, SweepRequest, sweep};
 use frictionsim::contact::{ContactStiffness, SlidingContact};
 use frictionsim::fem::{ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping};
-use frictionsim::mesh::{AnnulusSpecification, ElementKind};
+use frictionsim::mesh::{AnnulusSpecification, BoundaryCondition, ElementKind};
 use frictionsim::prestress::{DampingModel, TangentOptions};
 use std::error::Error;
 
@@ -18,6 +18,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
         radial_elements: 24,
         radial_grading: 1.0,
         element: ElementKind::Quad8,
+        outer: BoundaryCondition::Clamped,
     };
     let polycarbonate = ElasticMaterial {
         young_modulus: 2.5e9,

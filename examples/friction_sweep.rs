@@ -8,7 +8,7 @@ use frictionsim::contact::{ContactStiffness, SlidingContact};
 use frictionsim::fem::{
     ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping, assemble_stiffness,
 };
-use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind};
+use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind};
 use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
 use std::error::Error;
 
@@ -21,6 +21,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
         radial_elements: 18,
         radial_grading: 1.0,
         element: ElementKind::Quad4,
+        outer: BoundaryCondition::Clamped,
     })?
     .mesh;
     let polycarbonate = ElasticMaterial {

@@ -5,7 +5,7 @@
 use frictionsim::contact::SlidingContact;
 use frictionsim::fem::operator::SimdLevel;
 use frictionsim::fem::{ElasticMaterial, PlaneFormulation, RayleighDamping};
-use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind};
+use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind};
 use frictionsim::transient::{
     CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
     TimeStep, TransientAnalysis, TransientModel, TransientSettings, build_operator,
@@ -22,25 +22,24 @@ pub fn main() -> Result<(), Box<dyn Error>> {
         radial_elements: 12,
         radial_grading: 1.0,
         element: ElementKind::Quad4,
+        outer: BoundaryCondition::Clamped,
     })?;
-    let model = TransientModel {
-        annulus: &annulus,
-        material: ElasticMaterial {
-            young_modulus: 2.5e9,
-            poisson_ratio: 0.3805,
-            density: 1228.0,
-            formulation: PlaneFormulation::PlaneStrain,
-        },
-        damping: RayleighDamping {
-            mass_coefficient: 40.0,
-            stiffness_coefficient: 4.5e-7,
-        },
-        contact: SlidingContact {
-            friction_coefficient: 0.3,
-            interference: 25e-6,
-            rotation_speed: 610.0 * TAU / 60.0,
-        },
+    let material = ElasticMaterial {
+        young_modulus: 2.5e9,
+        poisson_ratio: 0.3805,
+        density: 1228.0,
+        formulation: PlaneFormulation::PlaneStrain,
     };
+    let damping = RayleighDamping {
+        mass_coefficient: 40.0,
+        stiffness_coefficient: 4.5e-7,
+    };
+    let contact = SlidingContact {
+        friction_coefficient: 0.3,
+        interference: 25e-6,
+        rotation_speed: 610.0 * TAU / 60.0,
+    };
+    let model = TransientModel::of_annulus(&annulus, &material, damping, contact);
     let harmonics = [2];
     let settings = TransientSettings {
         duration: 0.03,

@@ -19,6 +19,7 @@ fn ring(radii: [f64; 2], elements: [usize; 2]) -> AnnulusSpecification {
         radial_elements: elements[1],
         radial_grading: 1.0,
         element: ElementKind::Quad4,
+        outer: frictionsim::mesh::BoundaryCondition::Clamped,
     }
 }
 

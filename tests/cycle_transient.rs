@@ -31,12 +31,8 @@ fn solver(harmonic: usize) -> CycleSolver {
 /// The record of a transient that starts on a cycle, its velocity perturbed in one harmonic.
 fn run(solver: &CycleSolver, cycle: &LimitCycle, perturbed: usize, duration: f64) -> Recorder {
     let annulus = AnnulusMesh::generate(&annulus(ElementKind::Quad4, 180, 35)).unwrap();
-    let model = TransientModel {
-        annulus: &annulus,
-        material: POLYCARBONATE,
-        damping: DAMPING,
-        contact: cycle.state.point.contact,
-    };
+    let model =
+        TransientModel::of_annulus(&annulus, &POLYCARBONATE, DAMPING, cycle.state.point.contact);
     let settings = TransientSettings {
         duration,
         time_step: TimeStep::Auto,

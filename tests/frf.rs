@@ -7,7 +7,7 @@ use frictionsim::fem::{
 use frictionsim::frf::{
     FrfError, FrfSystem, ReductionSettings, Terminal, direct_response, reduced_response,
 };
-use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind};
+use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind};
 use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
 use std::f64::consts::{PI, TAU};
 
@@ -21,6 +21,7 @@ fn annulus() -> AnnulusMesh {
         radial_elements: RADIAL,
         radial_grading: 1.0,
         element: ElementKind::Quad4,
+        outer: BoundaryCondition::Clamped,
     })
     .unwrap()
 }

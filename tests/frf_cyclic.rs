@@ -36,9 +36,10 @@ fn terminals(specification: &AnnulusSpecification, is_sliding: bool) -> Vec<[Ter
         is_tangential,
     };
     // On the contact edge, inside, and (Quad8) on the middle ray of a sector.
-    let middle = match specification.element {
-        ElementKind::Quad4 => 2,
-        ElementKind::Quad8 => per_sector - 4,
+    let middle = if specification.element.is_quadratic() {
+        per_sector - 4
+    } else {
+        2
     };
     vec![
         [at(0, 0, true), at(0, 0, true)],

@@ -8,7 +8,7 @@ use faer::c64;
 use frictionsim::fem::{ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping};
 use frictionsim::frf::{FrfSystem, ReductionSettings, Terminal, reduced_response};
 use frictionsim::linalg::GaussianNoise;
-use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind};
+use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind};
 use frictionsim::signal::{
     Estimate, FrequencyResponse, Identification, IdentificationOptions, ResonanceNote,
     ResponseQuantity, SignalError, identify,
@@ -37,6 +37,7 @@ fn free_disc(step_hz: f64) -> (Vec<f64>, Vec<c64>) {
         radial_elements: 18,
         radial_grading: 1.0,
         element: ElementKind::Quad4,
+        outer: BoundaryCondition::Clamped,
     };
     let material = ElasticMaterial {
         young_modulus: 2.5e9,

@@ -8,7 +8,7 @@ use crate::frf::{
     direct_response_with, reduced_response,
 };
 use crate::linalg::GaussianNoise;
-use crate::mesh::{AnnulusMesh, SectorMesh};
+use crate::mesh::SectorMesh;
 use crate::prestress::{SectorTangent, SlidingTangent, SteadySliding};
 use crate::results::{
     DrawingOptions, OutputFolder, RESPONSE_TABLE, ResponseSummary, draw_response_report,
@@ -107,6 +107,7 @@ pub fn redraw(folder: &OutputFolder, options: &DrawingOptions) -> Result<(), Fai
 /// Receptance by the method of the case.
 fn compute(case: &Case, frf: &Frf, bar: &ProgressBar) -> Result<Computed, Failure> {
     match frf.method {
+        FrfMethod::Auto if !case.is_annulus() => reduced(case, frf),
         FrfMethod::Auto | FrfMethod::Cyclic => cyclic(case, frf),
         FrfMethod::Direct => direct(case, frf, bar),
         FrfMethod::Reduced => reduced(case, frf),
@@ -118,10 +119,22 @@ fn compute(case: &Case, frf: &Frf, bar: &ProgressBar) -> Result<Computed, Failur
 /// # Errors
 /// A node that does not exist or is held; a base state that does not exist.
 pub fn preflight(case: &Case, frf: &Frf) -> Result<(), Failure> {
-    cyclic_system(case, frf).map(|_| ())
+    if case.is_annulus() {
+        cyclic_system(case, frf).map(|_| ())
+    } else {
+        whole_mesh(case, frf).map(|_| ())
+    }
 }
 
 fn cyclic_system(case: &Case, frf: &Frf) -> Result<CyclicSystem, Failure> {
+    if !case.is_annulus() {
+        return Err(Failure::Case(case.error_at(
+            "frf.method",
+            "frf.method = \"cyclic\" needs the symmetry of the built-in annulus".to_owned(),
+            "an imported mesh has no sectors".to_owned(),
+            Some("use \"auto\", \"direct\" or \"reduced\"".to_owned()),
+        )));
+    }
     let sector = SectorMesh::generate(&case.annulus).map_err(Failure::usage)?;
     let contact = &case.contact.sliding;
     let system = if frf.boundary == FrfBoundary::Sliding {
@@ -187,18 +200,18 @@ fn reduced(case: &Case, frf: &Frf) -> Result<Computed, Failure> {
 
 /// Matrices of the body as it is held, and the unknowns of force and response.
 fn whole_mesh(case: &Case, frf: &Frf) -> Result<(FrfSystem, usize, usize), Failure> {
-    let annulus = AnnulusMesh::generate(&case.annulus).map_err(Failure::usage)?;
-    let mesh = &annulus.mesh;
+    let mesh = &*case.mesh().map_err(Failure::usage)?;
     let system = if frf.boundary == FrfBoundary::Sliding {
-        let stiffness = assemble_stiffness(mesh, &case.material);
+        let stiffness = assemble_stiffness(mesh, case.materials());
         let base = SteadySliding::solve(mesh, &stiffness, &case.contact.sliding)?;
         let options = tangent_options(case, frf.mass);
-        let tangent = SlidingTangent::linearize(mesh, &case.material, &stiffness, &base, &options);
+        let tangent =
+            SlidingTangent::linearize(mesh, case.materials(), &stiffness, &base, &options);
         FrfSystem::sliding(&tangent, case.contact.sliding.friction_coefficient)
     } else {
         let is_clamped = frf.boundary == FrfBoundary::Clamped;
         let rayleigh = case.damping.rayleigh;
-        FrfSystem::body(mesh, &case.material, frf.mass, rayleigh, is_clamped)
+        FrfSystem::body(mesh, case.materials(), frf.mass, rayleigh, is_clamped)
     };
     let unknown = |terminal, key| system.unknown(terminal, key).map_err(Failure::usage);
     let force = unknown(frf.force, "force_node")?;

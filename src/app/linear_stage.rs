@@ -25,6 +25,12 @@ impl LinearStage {
     /// Solves at the case's own friction coefficient; where that fails (steady sliding would open, say)
     /// there are no modes, and the log says why.
     pub fn of(case: &Case) -> Self {
+        if !case.is_annulus() {
+            return Self {
+                references: Vec::new(),
+                growth_rates: Vec::new(),
+            };
+        }
         let modes = modes(case).unwrap_or_else(|error| {
             tracing::warn!("figures without modes of the eigenvalue analysis: {error}");
             Vec::new()

@@ -1,7 +1,7 @@
 //! `frictionsim mesh`: the mesh alone.
 
 use super::{Failure, RunOptions, Session};
-use crate::case::Case;
+use crate::case::{Case, ModeSelection};
 use crate::mesh::AnnulusMesh;
 use crate::results::mesh::{MeshStatistics, MeshSummary, print, write_mesh, write_mesh_picture};
 use crate::results::{DrawingOptions, OutputFolder, write_summary};
@@ -23,8 +23,10 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let case = &session.case;
     session.check_memory(case.cost().mesh_memory_bytes)?;
     let folder = session.open_folder()?;
-    let annulus = AnnulusMesh::generate(&case.annulus).map_err(Failure::usage)?;
-    write_mesh(&folder, &annulus.mesh)?;
+    let generate = || AnnulusMesh::generate(&case.annulus).map_err(Failure::usage);
+    let annulus = case.is_annulus().then(generate).transpose()?;
+    let mesh = case.mesh().map_err(Failure::usage)?;
+    write_mesh(&folder, &mesh)?;
     if !session.options.output.no_figures {
         redraw(&folder, case, &session.options.output.figures.drawing())?;
     }
@@ -32,7 +34,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         command: "mesh".to_owned(),
         title: case.title.clone(),
         wall_s: session.wall_seconds(),
-        mesh: MeshStatistics::new(&annulus),
+        mesh: MeshStatistics::new(&mesh, annulus.as_ref(), shortest_wave(case)),
         manifest: session.manifest.clone(),
     };
     let object = write_summary(&folder, &summary)?;
@@ -46,12 +48,21 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 /// # Errors
 /// Those of the drawing and of the folder.
 pub fn redraw(folder: &OutputFolder, case: &Case, options: &DrawingOptions) -> Result<(), Failure> {
-    let annulus = AnnulusMesh::generate(&case.annulus).map_err(Failure::usage)?;
-    write_mesh_picture(
-        folder,
-        &annulus,
-        (&case.title, &case.output.probes),
-        options,
-    )?;
+    let mesh = case.mesh().map_err(Failure::usage)?;
+    write_mesh_picture(folder, &mesh, (&case.title, &case.output.probes), options)?;
     Ok(())
+}
+
+/// Shear wavelength at the highest frequency that the case asks modes for, m.
+fn shortest_wave(case: &Case) -> Option<f64> {
+    let ModeSelection::BelowHz(frequency) = case.cea.as_ref()?.modes else {
+        return None;
+    };
+    let speed = |region: usize| {
+        let material = case.materials().of(region);
+        (material.lame_constants()[1] / material.density).sqrt()
+    };
+    let regions = case.body.as_ref().map_or(1, |body| body.materials.len());
+    let slowest = (0..regions).map(speed).fold(f64::INFINITY, f64::min);
+    Some(slowest / frequency)
 }

@@ -273,6 +273,12 @@ fn analyse(
 
 /// Modes of the case at its friction coefficient.
 fn modes_below(case: &Case, frequency_hz: f64) -> Result<Vec<ComplexMode>, Failure> {
+    if !case.is_annulus() {
+        return Err(Failure::usage(
+            "--case names modes by their nodal diameters, which a body from a mesh file does not have: run \
+             `frictionsim cea` on it and compare the frequencies",
+        ));
+    }
     let mass = |cea: &Cea| cea.mass;
     let options = tangent_options(case, case.cea.as_ref().map_or(MassKind::Consistent, mass));
     modes_at_own_friction(case, &options, ModeLimit::MaxFrequency(frequency_hz))

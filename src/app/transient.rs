@@ -13,7 +13,7 @@ use super::{Failure, RunOptions, Session};
 use crate::case::{Case, Transient};
 use crate::cycle::Family;
 use crate::fem::operator::{SimdLevel, StiffnessOperator};
-use crate::mesh::AnnulusMesh;
+use crate::mesh::{AnnulusMesh, Mesh2d};
 use crate::results::transient::{
     CHECKPOINT, Checkpoint, TransientReport, print, summary, write, write_checkpoint,
 };
@@ -24,6 +24,7 @@ use crate::transient::{
 };
 use clap::Args;
 use serde_json::Value;
+use std::sync::Arc;
 use std::time::Instant;
 use watch::{Checkpoints, Watch};
 
@@ -44,7 +45,8 @@ pub struct Arguments {
 struct Prepared<'a> {
     case: &'a Case,
     transient: &'a Transient,
-    annulus: AnnulusMesh,
+    annulus: Option<AnnulusMesh>,
+    mesh: Arc<Mesh2d>,
     simd: SimdLevel,
     settings: TransientSettings,
 }
@@ -52,17 +54,24 @@ struct Prepared<'a> {
 impl<'a> Prepared<'a> {
     fn new(case: &'a Case, simd: &str) -> Result<Self, Failure> {
         let transient = case.require_transient()?;
+        let generate = || AnnulusMesh::generate(&case.annulus).map_err(Failure::usage);
+        let annulus = case.is_annulus().then(generate).transpose()?;
+        let mesh = match (&annulus, &case.body) {
+            (None, Some(body)) => Arc::clone(&body.mesh),
+            _ => case.mesh().map_err(Failure::usage)?,
+        };
         Ok(Self {
             case,
             transient,
-            annulus: AnnulusMesh::generate(&case.annulus).map_err(Failure::usage)?,
+            annulus,
+            mesh,
             simd: SimdLevel::choose(simd).map_err(Failure::usage)?,
             settings: conversion::settings(case, transient),
         })
     }
 
     fn model(&self) -> TransientModel<'_> {
-        conversion::model(self.case, &self.annulus)
+        conversion::model(self.case, &self.mesh, self.annulus.as_ref())
     }
 
     fn operator(&self) -> Result<Box<dyn StiffnessOperator>, Failure> {
@@ -78,8 +87,8 @@ impl<'a> Prepared<'a> {
         let started = match self.settings.initial {
             InitialState::LimitCycle { harmonic, onset } => {
                 let family = Family { harmonic, onset };
-                let damping = &self.case.damping.rayleigh;
-                let plan = StepPlan::new(operator, damping, &self.settings)
+                let damping = self.model().bounding_damping();
+                let plan = StepPlan::new(operator, &damping, &self.settings)
                     .map_err(|error| self.failure(&error))?;
                 let [u, v] = initial::limit_cycle(self.case, family, plan.time_step)?;
                 CentralDifference::start_from(self.model(), operator, &self.settings, &u, v)
@@ -144,8 +153,8 @@ impl<'a> Prepared<'a> {
     ) -> TransientReport<'b> {
         TransientReport {
             title: &self.case.title,
-            mesh: &self.annulus.mesh,
-            material: &self.case.material,
+            mesh: &self.mesh,
+            material: self.case.materials(),
             thickness: self.case.thickness,
             friction_coefficient: self.case.contact.sliding.friction_coefficient,
             initial: conversion::initial_name(self.transient),
@@ -305,7 +314,7 @@ pub fn time_step(case: &Case, manifest: &Manifest) -> Result<f64, Failure> {
     let operator = prepared.operator()?;
     let plan = StepPlan::new(
         operator.as_ref(),
-        &case.damping.rayleigh,
+        &prepared.model().bounding_damping(),
         &prepared.settings,
     );
     Ok(plan.map_err(|error| prepared.failure(&error))?.time_step)

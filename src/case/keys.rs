@@ -1,6 +1,7 @@
 //! Every key a case can have: the one declaration that readers, messages, `frictionsim keys`, the
 //! JSON schema and the commented template are made from.
 
+use super::body::{ConditionWord, CounterfaceWord};
 use super::key::Bound::{AtLeast, Between, Finite, NotNegative, Positive};
 use super::key::Default::{Otherwise, Required, Value};
 use super::key::Kind::{
@@ -67,18 +68,40 @@ pub const KEYS: &[CaseKey] = &[
     key("mesh.radial_grading", Number(Positive), "", Value("1.0"), "1.0", "the size ratio of successive elements outwards (1 = uniform)"),
     key("mesh.element", Choice(words::<ElementKind>), "", Value("\"quad4\""), "\"quad4\"", "the element shape"),
 
+    key("mesh.file", Text, "", Otherwise("an annulus is generated"), "\"rig.msh\"", "a Gmsh mesh (MSH 2.2 or 4.1) of the body, relative to the case, in place of radii and element counts"),
+    key("mesh.scale", Number(Positive), "", Value("1.0"), "0.001", "the factor on the coordinates of that file"),
+
+    key("boundaries.*.condition", Choice(words::<ConditionWord>), "", Required, "\"support\"", "what holds the boundary (left out, `outer` of the annulus is clamped, every other one free)"),
+    key("boundaries.*.normal_stiffness", Number(NotNegative), "Pa/m", Value("0.0"), "2e11", "the normal stiffness of a support"),
+    key("boundaries.*.tangential_stiffness", Number(NotNegative), "Pa/m", Value("0.0"), "2e11", "the tangential stiffness of a support"),
+    key("boundaries.*.normal_damping", Number(NotNegative), "Pa s/m", Value("0.0"), "0.0", "the normal dashpot of a support"),
+    key("boundaries.*.tangential_damping", Number(NotNegative), "Pa s/m", Value("0.0"), "0.0", "the tangential dashpot of a support"),
+    key("boundaries.*.pressure", Number(Finite), "Pa", Otherwise("needed by condition = \"pressure\""), "1e5", "the pressure that pushes onto the body"),
+
     key("material.young_modulus", Number(Positive), "Pa", Required, "2.5e9", "Young's modulus"),
     key("material.poisson_ratio", Number(Between(-1.0, 0.5)), "", Required, "0.3805", "Poisson's ratio"),
     key("material.density", Number(Positive), "kg/m3", Required, "1228.0", "the density"),
     key("material.formulation", Choice(words::<PlaneFormulation>), "", Value("\"plane-strain\""), "\"plane-strain\"", "the out-of-plane assumption"),
+
+    key("materials.*.young_modulus", Number(Positive), "Pa", Required, "2.1e11", "Young's modulus of a physical surface"),
+    key("materials.*.poisson_ratio", Number(Between(-1.0, 0.5)), "", Required, "0.3", "its Poisson's ratio"),
+    key("materials.*.density", Number(Positive), "kg/m3", Required, "7850.0", "its density"),
+    key("materials.*.mass_coefficient", Number(NotNegative), "1/s", Otherwise("[damping]"), "20.0", "Rayleigh's alpha of its own"),
+    key("materials.*.stiffness_coefficient", Number(NotNegative), "s", Otherwise("[damping]"), "1e-7", "Rayleigh's beta of its own"),
 
     key("damping.mass_coefficient", Number(NotNegative), "1/s", Value("0.0"), "40.0", "Rayleigh's alpha"),
     key("damping.stiffness_coefficient", Number(NotNegative), "s", Value("0.0"), "4.5e-7", "Rayleigh's beta"),
     key("damping.include_contact", Flag, "", Value("true"), "true", "whether beta acts on contact and friction terms as well as on the body").used_by(TANGENT, "beta acts on the body alone"),
 
     key("contact.friction_coefficient", Number(NotNegative), "", Required, "0.3", "Coulomb's friction coefficient"),
-    key("contact.interference", Number(Positive), "m", Required, "25e-6", "the radial expansion of the cylinder"),
+    key("contact.interference", Number(NotNegative), "m", Required, "25e-6", "how far the counterface is pushed into the body: the radial expansion of the cylinder (0 only where a boundary pressure presses)"),
     key("contact.rotation_speed_rpm", Number(Finite), "1/min", Required, "610.0", "the rotation speed of the cylinder"),
+    key("contact.boundary", Text, "", Value("\"inner\""), "\"contact\"", "the physical curve of an imported mesh that touches the counterface"),
+    key("contact.counterface", Choice(words::<CounterfaceWord>), "", Value("\"cylinder\""), "\"cylinder\"", "what an imported body slides on"),
+    key("contact.center", Numbers(Finite), "m", Otherwise("[0, 0]"), "[0.0, 0.0]", "the axis of the cylinder"),
+    key("contact.radius", Number(Positive), "m", Otherwise("that of the contact curve"), "0.0205", "the radius of the cylinder where the contact curve is no circle"),
+    key("contact.direction", Numbers(Finite), "", Otherwise("[1, 0]"), "[1.0, 0.0]", "the way a plane slides, the body on its left-hand side"),
+    key("contact.speed", Number(Finite), "m/s", Otherwise("needed by counterface = \"plane\""), "1.5", "the speed of a plane"),
     key("contact.normal_stiffness", NumberOr(Positive, "rigid"), "Pa/m", Otherwise("rigid"), "7.4e12", "the normal stiffness of the linearised contact (left out or \"rigid\" = rigid)").used_by(TANGENT, "its contact is rigid"),
     key("contact.normal_damping", Number(NotNegative), "Pa s/m", Value("0.0"), "0.0", "a normal dashpot on the contact").used_by(TANGENT, "its contact is rigid"),
     key("contact.tangential_damping", Number(NotNegative), "Pa s/m", Value("0.0"), "0.0", "a tangential dashpot on the contact").used_by(TANGENT, "Coulomb's law alone acts along its contact"),

@@ -5,6 +5,7 @@
 //! checked, all errors reported at once as [`CaseErrors`].
 
 mod basin;
+mod body;
 mod cea;
 mod convergence;
 mod cost;
@@ -28,6 +29,7 @@ mod value;
 mod words;
 
 pub use crate::transient::{InitialState, OperatorChoice, Perturbation, TimeStep};
+pub use body::ImportedBody;
 pub use cea::{Cea, CeaMap, CeaMethod, ModeSelection};
 pub use convergence::Convergence;
 pub use cost::{CeaCost, Cost, CycleCost, FrfCost, StudyCost, TransientCost};
@@ -58,6 +60,8 @@ pub struct Case {
     pub thickness: f64,
     /// The annulus and its mesh.
     pub annulus: AnnulusSpecification,
+    /// The body, where a mesh file describes it; `annulus` then tells its size and fineness roughly.
+    pub body: Option<ImportedBody>,
     /// The disc's material.
     pub material: ElasticMaterial,
     /// The disc's damping.
@@ -109,14 +113,18 @@ impl Case {
         let end = Location::new(0, raw.text.trim_end().len()..raw.text.trim_end().len());
         let root = Section::root(&findings, &raw.root, end);
         let title = title(&raw, root.optional_text("title").unwrap_or_default());
-        let (annulus, thickness) = model::annulus(&root);
         let material = model::material(&root);
+        let model::Model {
+            annulus,
+            thickness,
+            body,
+            contact,
+        } = model::model(&root, &raw.name, &material);
         let damping = model::damping(&root);
-        let contact = model::contact(&root);
         let cea = cea::cea(&root, &annulus, contact.sliding.friction_coefficient);
         let transient = transient::transient(&root, &annulus, &contact.sliding);
         let output = transient::output(&root, &annulus, transient.as_ref());
-        if transient.is_some() && annulus.element == ElementKind::Quad8 {
+        if transient.is_some() && body.is_none() && annulus.element == ElementKind::Quad8 {
             root.section("mesh", false).warn(
                 "element",
                 "mesh.element = \"quad8\" is for the complex eigenvalue analysis only: the \
@@ -140,6 +148,7 @@ impl Case {
             title,
             thickness,
             annulus,
+            body,
             material,
             damping,
             contact,
@@ -192,7 +201,9 @@ impl Case {
         let remedy = "[transient]\nduration = 0.05";
         let transient = self.transient.as_ref();
         let transient = transient.ok_or_else(|| self.lacks("transient", "transient", remedy))?;
-        self.require_quad4("the transient needs \"quad4\"")?;
+        if self.is_annulus() {
+            self.require_quad4("the transient needs \"quad4\"")?;
+        }
         Ok(transient)
     }
 
@@ -215,6 +226,9 @@ impl Case {
         let remedy = "[cycle]\nharmonics = [1, 2]";
         let cycle = self.cycle.as_ref();
         let cycle = cycle.ok_or_else(|| self.lacks("cycle", "limit cycle", remedy))?;
+        if !self.is_annulus() {
+            return Err(self.no_symmetry("limit cycles are rotating waves, which"));
+        }
         self.require_quad4("limit cycles need \"quad4\"")?;
         let key = "contact.rotation_speed_rpm";
         if self.contact.sliding.rotation_speed <= 0.0 {
@@ -271,8 +285,24 @@ impl Case {
     /// A case without `[convergence]`, with what to add.
     pub fn require_convergence(&self) -> Result<&Convergence, CaseErrors> {
         let remedy = "[convergence]\nfactors = [1, 1.5, 2.25]";
+        if !self.is_annulus() {
+            return Err(self.no_symmetry("convergence studies refine radii and sectors: they"));
+        }
         let study = self.convergence.as_ref();
         study.ok_or_else(|| self.lacks("convergence", "convergence study", remedy))
+    }
+
+    /// An analysis of the built-in annulus that an imported body cannot have.
+    fn no_symmetry(&self, what: &str) -> CaseErrors {
+        self.error_at(
+            "mesh.file",
+            format!("{what} need the rotational symmetry of the built-in annulus"),
+            "an imported mesh has no sectors".to_owned(),
+            Some(
+                "describe the disc by [geometry] and element counts instead of mesh.file"
+                    .to_owned(),
+            ),
+        )
     }
 
     fn lacks(&self, section: &str, analysis: &str, remedy: &str) -> CaseErrors {

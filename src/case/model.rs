@@ -1,9 +1,10 @@
 //! The sections that describe the model: geometry, mesh, material, damping, contact.
 
+use super::body::{self, BodyParts, ContactPlace, ImportedBody, NamedCondition};
 use super::reader::Section;
 use crate::contact::{ContactStiffness, SlidingContact};
 use crate::fem::{ElasticMaterial, RayleighDamping};
-use crate::mesh::{AnnulusSpecification, ElementKind};
+use crate::mesh::{AnnulusSpecification, BoundaryCondition, ElementKind};
 use std::f64::consts::TAU;
 
 /// `[damping]`.
@@ -28,18 +29,85 @@ pub struct Contact {
 /// Nodes of a mesh, in a width that no input overflows.
 pub(super) fn node_count(annulus: &AnnulusSpecification) -> u128 {
     let radial = annulus.radial_elements as u128;
-    let per_sector = match annulus.element {
-        ElementKind::Quad4 => radial + 1,
-        ElementKind::Quad8 => 3 * radial + 2,
+    let per_sector = if annulus.element.is_quadratic() {
+        3 * radial + 2
+    } else {
+        radial + 1
     };
     per_sector.saturating_mul(annulus.circumferential_elements as u128)
 }
 
-pub(super) fn annulus(root: &Section<'_>) -> (AnnulusSpecification, f64) {
-    let geometry = root.section("geometry", true);
+/// Geometry, mesh and contact of a case.
+pub(super) struct Model {
+    pub annulus: AnnulusSpecification,
+    pub thickness: f64,
+    pub body: Option<ImportedBody>,
+    pub contact: Contact,
+}
+
+/// The annulus, or the body of a mesh file.
+pub(super) fn model(root: &Section<'_>, case_name: &str, material: &ElasticMaterial) -> Model {
+    let boundaries = body::boundaries(root);
+    let mesh = root.section("mesh", true);
+    let file = mesh.optional_text("file");
+    let scale = mesh.number("scale");
+    let geometry = root.section("geometry", file.is_none());
+    let thickness = geometry.number("thickness");
+    let Some(file) = file else {
+        let annulus = annulus(root, &geometry, &mesh, &boundaries);
+        geometry.close();
+        mesh.close();
+        body::no_materials(root);
+        let (contact, _) = contact(root, true);
+        return Model {
+            annulus,
+            thickness,
+            body: None,
+            contact,
+        };
+    };
+    geometry.close();
+    let (contact, place) = contact(root, false);
+    let parts = BodyParts {
+        scale,
+        place,
+        boundaries,
+        materials: body::materials(root, material),
+        common: *material,
+    };
+    let body = body::import(case_name, &file, &parts);
+    let body = body
+        .map_err(|(message, label)| mesh.reject("file", message, label, None))
+        .ok();
+    mesh.close();
+    // Without a body there is an error already; what follows needs some numbers.
+    let nothing = AnnulusSpecification {
+        inner_radius: 1.0,
+        outer_radius: 2.0,
+        circumferential_elements: 1 << 20,
+        radial_elements: 1,
+        radial_grading: 1.0,
+        element: ElementKind::Quad4,
+        outer: BoundaryCondition::Clamped,
+    };
+    Model {
+        annulus: body
+            .as_ref()
+            .map_or(nothing, ImportedBody::equivalent_annulus),
+        thickness,
+        body,
+        contact,
+    }
+}
+
+fn annulus(
+    root: &Section<'_>,
+    geometry: &Section<'_>,
+    mesh: &Section<'_>,
+    boundaries: &[NamedCondition],
+) -> AnnulusSpecification {
     let inner_radius = geometry.number("inner_radius");
     let outer_radius = geometry.number("outer_radius");
-    let thickness = geometry.number("thickness");
     if outer_radius <= inner_radius {
         geometry.reject(
             "outer_radius",
@@ -51,8 +119,6 @@ pub(super) fn annulus(root: &Section<'_>) -> (AnnulusSpecification, f64) {
             Some("both are radii in metres; are they swapped?".to_owned()),
         );
     }
-    geometry.close();
-    let mesh = root.section("mesh", true);
     let annulus = AnnulusSpecification {
         inner_radius,
         outer_radius,
@@ -60,10 +126,10 @@ pub(super) fn annulus(root: &Section<'_>) -> (AnnulusSpecification, f64) {
         radial_elements: mesh.count("radial_elements"),
         radial_grading: mesh.number("radial_grading"),
         element: mesh.choice("element"),
+        outer: body::outer_edge(root, boundaries),
     };
-    check_mesh(&mesh, &annulus);
-    mesh.close();
-    (annulus, thickness)
+    check_mesh(mesh, &annulus);
+    annulus
 }
 
 fn check_mesh(mesh: &Section<'_>, annulus: &AnnulusSpecification) {
@@ -118,13 +184,50 @@ pub(super) fn damping(root: &Section<'_>) -> Damping {
     damping
 }
 
-pub(super) fn contact(root: &Section<'_>) -> Contact {
+fn contact(root: &Section<'_>, is_annulus: bool) -> (Contact, ContactPlace) {
     let section = root.section("contact", true);
+    let mut place = body::contact_place(&section);
+    if is_annulus {
+        for key in [
+            "boundary",
+            "counterface",
+            "center",
+            "radius",
+            "direction",
+            "speed",
+        ] {
+            if section.has(key) {
+                section.reject(
+                    key,
+                    format!("contact.{key} is for a body from a mesh file (mesh.file)"),
+                    "the annulus turns about its own shaft".to_owned(),
+                    Some("leave it out".to_owned()),
+                );
+            }
+        }
+        place.plane_speed = None;
+    }
+    let interference = section.number("interference");
+    if is_annulus && interference == 0.0 {
+        section.reject(
+            "interference",
+            "contact.interference = 0.0 must be positive and finite".to_owned(),
+            "must be positive and finite".to_owned(),
+            Some("without it nothing presses the disc".to_owned()),
+        );
+    }
+    let rotation_speed = match place.plane_speed {
+        Some(speed) => {
+            let _ = section.optional_number("rotation_speed_rpm");
+            speed
+        }
+        None => section.number("rotation_speed_rpm") * TAU / 60.0,
+    };
     let contact = Contact {
         sliding: SlidingContact {
             friction_coefficient: section.number("friction_coefficient"),
-            interference: section.number("interference"),
-            rotation_speed: section.number("rotation_speed_rpm") * TAU / 60.0,
+            interference,
+            rotation_speed,
         },
         stiffness: ContactStiffness {
             normal_stiffness: section.optional_number("normal_stiffness"),
@@ -146,5 +249,5 @@ pub(super) fn contact(root: &Section<'_>) -> Contact {
         );
     }
     section.close();
-    contact
+    (contact, place)
 }

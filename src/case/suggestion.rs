@@ -118,7 +118,10 @@ pub(super) fn suggest(section: &str, word: &str, known: &[&str]) -> Option<Strin
     if let Some(near) = nearest(word, known.iter().copied()).or(abbreviated.copied()) {
         return Some(format!("did you mean `{near}`?"));
     }
-    if let Some(found) = KEYS.iter().find(|key| key.short() == word) {
+    if let Some(found) = KEYS
+        .iter()
+        .find(|key| key.short() == word && !key.name.contains('*'))
+    {
         return Some(elsewhere(found));
     }
     let full = format!("{section}.{word}");

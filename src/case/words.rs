@@ -1,5 +1,6 @@
 //! The words by which a case names its choices.
 
+use super::body::{ConditionWord, CounterfaceWord};
 use super::key::Choice;
 use super::{
     Analysis, CeaMethod, Combination, FrfMethod, InitialState, OnsetChoice, OperatorChoice,
@@ -27,6 +28,14 @@ macro_rules! words {
 }
 
 words! {
+    ConditionWord {
+        "clamped" = Self::Clamped,
+        "support" = Self::Support,
+        "guide" = Self::Guide,
+        "pressure" = Self::Pressure,
+        "free" = Self::Free,
+    }
+    CounterfaceWord { "cylinder" = Self::Cylinder, "plane" = Self::Plane }
     ElementKind { "quad4" = Self::Quad4, "quad8" = Self::Quad8 }
     PlaneFormulation { "plane-strain" = Self::PlaneStrain, "plane-stress" = Self::PlaneStress }
     MassKind { "consistent" = Self::Consistent, "lumped" = Self::Lumped }

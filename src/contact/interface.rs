@@ -1,32 +1,55 @@
 //! The contact edge of a mesh.
 
-use crate::mesh::Mesh2d;
+use crate::mesh::{BoundaryCondition, Counterface, Mesh2d};
 
-/// Contact nodes with their geometry, in order of rising angle.
+/// Contact nodes with their geometry, in order along the edge (of rising angle on the annulus).
 #[derive(Clone, Debug, PartialEq)]
 pub struct ContactInterface {
     /// 0-based node indices.
     pub nodes: Vec<u32>,
-    /// Angle of each node, rad.
+    /// Angle of each node about the cylinder's axis, rad; along a plane `2 pi` times its share of the edge.
     pub angles: Vec<f64>,
-    /// Edge length that belongs to each node, `w_i = ∫ N_i (n . e_i) ds`, m.
+    /// Edge length that belongs to each node, `w_i = ∫ N_i |n . e_i| ds`, m.
     pub tributary_lengths: Vec<f64>,
-    /// Radius of the edge `a`, m.
-    pub radius: f64,
+    /// Distance of each undeformed node from the counterface before it is pushed in, m.
+    pub gaps: Vec<f64>,
+    /// The counterface.
+    pub counterface: Counterface,
 }
 
 impl ContactInterface {
-    /// The inner edge of `mesh`.
+    /// The contact edge of `mesh`; nodes that a boundary condition clamps have no part in it.
     pub fn of(mesh: &Mesh2d) -> Self {
-        let nodes = mesh.inner_edge.nodes.clone();
-        let [x, y] = mesh.nodes[nodes[0] as usize];
+        let edge = mesh.contact_edge();
+        let mut is_clamped = vec![false; mesh.node_count()];
+        for boundary in &mesh.boundaries {
+            if boundary.condition == BoundaryCondition::Clamped {
+                boundary
+                    .nodes
+                    .iter()
+                    .for_each(|&node| is_clamped[node as usize] = true);
+            }
+        }
+        let kept: Vec<usize> = (0..edge.nodes.len())
+            .filter(|&i| !is_clamped[edge.nodes[i] as usize])
+            .collect();
+        let nodes: Vec<u32> = kept.iter().map(|&i| edge.nodes[i]).collect();
+        let point = |node: &u32| mesh.nodes[*node as usize];
+        let counterface = mesh.counterface;
+        let (angles, gaps) = if mesh.is_cyclic {
+            // Exact as generated: a contact circle without gaps.
+            let frames = nodes.iter().map(|&node| mesh.frame_angles[node as usize]);
+            (frames.collect(), vec![0.0; nodes.len()])
+        } else {
+            let places = nodes.iter().map(|node| counterface.place(point(node)));
+            let gaps = nodes.iter().map(|node| counterface.gap(point(node)));
+            (phases(&counterface, places.collect()), gaps.collect())
+        };
         Self {
-            angles: nodes
-                .iter()
-                .map(|&node| mesh.frame_angles[node as usize])
-                .collect(),
-            tributary_lengths: mesh.inner_edge.tributary_lengths.clone(),
-            radius: x.hypot(y),
+            angles,
+            tributary_lengths: kept.iter().map(|&i| edge.tributary_lengths[i]).collect(),
+            gaps,
+            counterface,
             nodes,
         }
     }
@@ -50,4 +73,28 @@ impl ContactInterface {
     pub fn is_empty(&self) -> bool {
         self.nodes.is_empty()
     }
+
+    /// Velocity of the counterface along the nodes' second axes at its speed `speed` (rad/s of a cylinder, m/s of a
+    /// plane), m/s.
+    pub fn surface_speed(&self, speed: f64) -> f64 {
+        speed * self.counterface.lever()
+    }
+
+    /// Sense in which sliding drags the body along the nodes' second axes; a counterface at rest is taken as on the
+    /// point of moving in its positive sense.
+    pub fn sliding_direction(&self, speed: f64) -> f64 {
+        let speed = if speed < 0.0 { -1.0 } else { 1.0 };
+        speed * self.counterface.lever().signum()
+    }
+}
+
+/// Angles about a cylinder as they are; distances along a plane as shares of the edge's extent.
+fn phases(counterface: &Counterface, places: Vec<f64>) -> Vec<f64> {
+    if let Counterface::Cylinder { .. } = counterface {
+        return places;
+    }
+    let low = places.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = places.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let scale = std::f64::consts::TAU / (high - low).max(f64::MIN_POSITIVE);
+    places.iter().map(|place| scale * (place - low)).collect()
 }

@@ -1,39 +1,36 @@
 //! Interface kinematics, Coulomb's law, node status.
 //!
-//! The counterface is a rigid cylinder of radius `a + delta` turning at `Omega` inside the contact
-//! edge. At each contact node the frame is `(n, t) = (e_r, e_theta)`: the contact pushes the body
-//! along `+n` with the nodal force `N >= 0`, and drags it along `s t` with `s = sign(Omega)` while it
-//! slips: `T = s mu N`.
+//! The counterface is rigid: a cylinder that turns inside the contact edge or around it, or a plane that moves
+//! along itself; `delta` is how far it is pushed into the body. At each contact node the frame is `(n, t)`, its
+//! normal into the body and the direction a quarter turn ahead, `(e_r, e_theta)` around a shaft: the contact
+//! pushes the body along `+n` with the nodal force `N >= 0`, and drags it along `s t` with `s` the sense of
+//! sliding while it slips: `T = s mu N`.
 
 mod interface;
+mod law;
 
 pub use interface::ContactInterface;
+pub use law::{ContactStatus, CoulombFriction};
 
-/// Status of a contact node.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[repr(u8)]
-pub enum ContactStatus {
-    /// No contact.
-    #[default]
-    Open = 0,
-    /// In contact, moving with the counterface.
-    Stick = 1,
-    /// In contact, sliding over the counterface.
-    Slip = 2,
-}
-
-/// The rigid rotating cylinder and its friction law.
+/// The rigid moving counterface and its friction law.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SlidingContact {
     /// Coulomb friction coefficient `mu`.
     pub friction_coefficient: f64,
-    /// Radial expansion of the cylinder `delta`, m.
+    /// How far the counterface is pushed into the body `delta`, m: the radial expansion of a cylinder.
     pub interference: f64,
-    /// Rotation speed `Omega` of the cylinder, rad/s, counter-clockwise positive.
+    /// Rotation speed `Omega` of a cylinder, rad/s, counter-clockwise positive; the speed of a plane, m/s.
     pub rotation_speed: f64,
 }
 
 impl SlidingContact {
+    /// The friction law.
+    pub fn law(&self) -> CoulombFriction {
+        CoulombFriction {
+            friction_coefficient: self.friction_coefficient,
+        }
+    }
+
     /// Sense in which steady sliding drags the body, `s = sign(Omega)`; `+1` for a cylinder at rest,
     /// taken as on the point of turning counter-clockwise.
     pub fn sliding_direction(&self) -> f64 {

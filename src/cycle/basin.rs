@@ -81,12 +81,8 @@ impl DiscModel {
         simd: SimdLevel,
     ) -> Result<BasinBoundary, CycleError> {
         let annulus = AnnulusMesh::generate(&self.specification)?;
-        let model = TransientModel {
-            annulus: &annulus,
-            material: self.material,
-            damping: point.damping,
-            contact: point.contact,
-        };
+        let model =
+            TransientModel::of_annulus(&annulus, &self.material, point.damping, point.contact);
         let operator = build_operator(&model, OperatorChoice::Auto, simd)?;
         let contest = Contest {
             model,
@@ -217,7 +213,7 @@ impl Contest<'_> {
 
     /// Steady sliding with both waves seeded, the larger with a fixed share of the slip speed.
     fn start(&self, seed_ratio: f64) -> Result<CentralDifference<'_>, CycleError> {
-        let radius = self.model.annulus.specification.inner_radius;
+        let radius = self.model.mesh.counterface.lever();
         let largest = SEED * self.model.contact.rotation_speed.abs() * radius;
         let scale = largest / seed_ratio.max(1.0);
         let seeds = [scale, scale * seed_ratio];

@@ -3,7 +3,7 @@
 use super::CycleError;
 use crate::fem::{ElasticMaterial, MassKind, RayleighDamping, sector};
 use crate::linalg::banded::BandedMatrix;
-use crate::mesh::{AnnulusSpecification, ElementKind, SectorMesh};
+use crate::mesh::{AnnulusSpecification, BoundaryCondition, ElementKind, SectorMesh};
 use faer::c64;
 use nalgebra::Matrix2;
 
@@ -24,6 +24,10 @@ struct HarmonicStiffness {
 /// growing motion `i s` is any complex number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DynamicCoefficients {
+    /// Multiplies the dashpots of a support: the rate `lambda`, 1/s.
+    pub damping: c64,
+    /// Multiplies the springs of a support: 1, or 0 in a derivative.
+    pub support: f64,
     /// `c`.
     pub stiffness: c64,
     /// `m`, 1/s2.
@@ -34,6 +38,8 @@ impl DynamicCoefficients {
     /// Coefficients for `v = rate u`, `a = rate^2 u`.
     pub fn new(rate: c64, damping: &RayleighDamping) -> Self {
         Self {
+            damping: rate,
+            support: 1.0,
             stiffness: 1.0 + rate * damping.stiffness_coefficient,
             mass: rate * (rate + damping.mass_coefficient),
         }
@@ -47,6 +53,8 @@ impl DynamicCoefficients {
         damping_change: &RayleighDamping,
     ) -> Self {
         Self {
+            damping: rate_change,
+            support: 0.0,
             stiffness: rate_change * damping.stiffness_coefficient
                 + rate * damping_change.stiffness_coefficient,
             mass: rate_change * (2.0 * rate + damping.mass_coefficient)
@@ -63,6 +71,8 @@ impl DynamicCoefficients {
 pub struct WaveBody {
     harmonics: Vec<HarmonicStiffness>,
     masses: Vec<f64>,
+    /// Springs and dashpots of the outer nodes along `(e_r, e_theta)`; they have no such where they are clamped.
+    support: Option<[Matrix2<f64>; 2]>,
     harmonic: isize,
     /// Number of sectors, each with one contact node.
     pub sector_count: usize,
@@ -92,6 +102,10 @@ impl WaveBody {
         let mesh = SectorMesh::generate(specification)?;
         let stiffness = sector::stiffness(&mesh, material);
         let mass = sector::mass(&mesh, material, MassKind::Lumped).harmonic(0);
+        let support = match specification.outer {
+            BoundaryCondition::Support(_) => mesh.strip.nodal_supports().first().copied(),
+            _ => None,
+        };
         let sectors = mesh.sector_count() as isize;
         // Neighbours turn the node's own stiffness by `cos(2 pi n / N)`: opposite at n = 0 and N / 2.
         let own = [0, mesh.sector_count() / 2].map(|n| stiffness.harmonic(n).get(0, 0));
@@ -105,6 +119,9 @@ impl WaveBody {
             masses: (0..mesh.free_node_count())
                 .map(|i| mass.get(2 * i, 2 * i))
                 .collect(),
+            support: support.map(|s| {
+                [s.stiffness, s.damping].map(|m| Matrix2::from_fn(|row, column| m[row][column]))
+            }),
             harmonic,
             sector_count: mesh.sector_count(),
             radius: specification.inner_radius,
@@ -116,6 +133,14 @@ impl WaveBody {
     /// Circumferential harmonic `n` of the wave in the phase `n theta + omega t`: negative for a wave with the rotor.
     pub fn harmonic(&self) -> isize {
         self.harmonic
+    }
+
+    /// Dynamic stiffness of the support of node `i`, where it has one.
+    fn support_at(&self, i: usize) -> Option<impl Fn(DynamicCoefficients) -> Receptance> {
+        let [springs, dashpots] = self.support.filter(|_| i + 1 == self.masses.len())?;
+        Some(move |at: DynamicCoefficients| {
+            complex(&springs) * c64::new(at.support, 0.0) + complex(&dashpots) * at.damping
+        })
     }
 
     /// Number of temporal harmonics held, zero included.
@@ -140,6 +165,11 @@ impl WaveBody {
             let diagonal = complex(&blocks.diagonal[i]);
             let mut matrix = diagonal * at.stiffness + mass * at.mass;
             let mut slopes = changes.map(|change| diagonal * change.stiffness + mass * change.mass);
+            if let Some(support) = self.support_at(i) {
+                matrix += support(at);
+                let pairs = slopes.iter_mut().zip(changes);
+                pairs.for_each(|(slope, change)| *slope += support(change));
+            }
             if let Some(outward) = blocks.outward.get(i) {
                 let outward = complex(outward);
                 let across = outward * inverse * outward.transpose();
@@ -164,6 +194,9 @@ impl WaveBody {
             let mass = c64::new(self.masses[i], 0.0) * at.mass;
             let mut matrix = complex(&blocks.diagonal[i]) * at.stiffness;
             matrix += Receptance::identity() * mass;
+            if let Some(support) = self.support_at(i) {
+                matrix += support(at);
+            }
             if let Some(outward) = blocks.outward.get(i) {
                 let outward = complex(outward);
                 let across = outward * inverses[i + 1] * outward.transpose();
@@ -198,6 +231,9 @@ impl WaveBody {
             let force = complex(&blocks.diagonal[i]) * u;
             sum += damping.stiffness_coefficient * u.dotc(&force).re;
             sum += damping.mass_coefficient * self.masses[i] * u.norm_squared();
+            if let Some([_, dashpots]) = self.support.filter(|_| i + 1 == real.len()) {
+                sum += u.dotc(&(complex(&dashpots) * u)).re;
+            }
             if let (Some(outward), Some(next)) = (blocks.outward.get(i), real.get(i + 1)) {
                 let force = complex(outward) * next;
                 sum += 2.0 * damping.stiffness_coefficient * u.dotc(&force).re;

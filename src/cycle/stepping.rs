@@ -76,8 +76,9 @@ impl CycleSolver {
     pub fn stepping(&self, simd: SimdLevel) -> Result<MeshStepping<'_>, CycleError> {
         let annulus = AnnulusMesh::generate(&self.specification)?;
         let model = TransientModel {
-            annulus: &annulus,
-            material: self.material,
+            mesh: &annulus.mesh,
+            annulus: Some(&annulus),
+            material: &self.material,
             damping: RayleighDamping {
                 mass_coefficient: 0.0,
                 stiffness_coefficient: 0.0,
@@ -110,12 +111,12 @@ impl MeshStepping<'_> {
         let limit = stable_step_limit(self.largest_frequency, &point.damping);
         let steps = (duration / (SAFETY * limit)).ceil() as usize;
         let time_step = duration / steps as f64;
-        let model = TransientModel {
-            annulus: &self.annulus,
-            material: self.solver.material,
-            damping: point.damping,
-            contact: point.contact,
-        };
+        let model = TransientModel::of_annulus(
+            &self.annulus,
+            &self.solver.material,
+            point.damping,
+            point.contact,
+        );
         let settings = TransientSettings {
             duration,
             time_step: TimeStep::Seconds(time_step),

@@ -1,6 +1,6 @@
-//! Assembly of element matrices, and the constrained dofs of the clamped edge.
+//! Assembly of element matrices and supports, and the dofs that boundary conditions hold.
 
-use super::{ElasticMaterial, element};
+use super::{MaterialField, RayleighDamping, element};
 use crate::mesh::Mesh2d;
 use nalgebra::DMatrix;
 
@@ -49,16 +49,18 @@ pub enum MassKind {
 ///
 /// Elements that are rotated copies of one another share one matrix to the last bit, so that a
 /// rotationally symmetric mesh gives an exactly rotationally symmetric operator.
-pub fn assemble_stiffness(mesh: &Mesh2d, material: &ElasticMaterial) -> Triplets {
-    assemble_congruent(mesh, |e| element::stiffness(mesh, e, material))
+pub fn assemble_stiffness(mesh: &Mesh2d, material: &dyn MaterialField) -> Triplets {
+    assemble_congruent(mesh, |e| {
+        element::stiffness(mesh, e, material.of(mesh.region(e)))
+    })
 }
 
 /// Global mass `M` over all dofs, kg for each metre of thickness.
-pub fn assemble_mass(mesh: &Mesh2d, material: &ElasticMaterial, kind: MassKind) -> Triplets {
+pub fn assemble_mass(mesh: &Mesh2d, material: &dyn MaterialField, kind: MassKind) -> Triplets {
     match kind {
-        MassKind::Consistent => {
-            assemble_congruent(mesh, |e| element::consistent_mass(mesh, e, material))
-        }
+        MassKind::Consistent => assemble_congruent(mesh, |e| {
+            element::consistent_mass(mesh, e, material.of(mesh.region(e)))
+        }),
         MassKind::Lumped => {
             let mut triplets = Triplets::default();
             for (node, mass) in lumped_masses(mesh, material).into_iter().enumerate() {
@@ -71,12 +73,12 @@ pub fn assemble_mass(mesh: &Mesh2d, material: &ElasticMaterial, kind: MassKind) 
 }
 
 /// Lumped mass of each node, kg for each metre of thickness.
-pub fn lumped_masses(mesh: &Mesh2d, material: &ElasticMaterial) -> Vec<f64> {
+pub fn lumped_masses(mesh: &Mesh2d, material: &dyn MaterialField) -> Vec<f64> {
     let mut masses = vec![0.0; mesh.node_count()];
     let mut cache: Vec<Option<Vec<f64>>> = vec![None; mesh.element_count()];
     for e in 0..mesh.element_count() {
         let shared = cache[mesh.congruent_to[e] as usize]
-            .get_or_insert_with(|| element::lumped_mass(mesh, e, material));
+            .get_or_insert_with(|| element::lumped_mass(mesh, e, material.of(mesh.region(e))));
         for (&node, mass) in mesh.element_nodes(e).iter().zip(shared.iter()) {
             masses[node as usize] += mass;
         }
@@ -88,22 +90,82 @@ pub fn lumped_masses(mesh: &Mesh2d, material: &ElasticMaterial) -> Vec<f64> {
 /// each metre of thickness.
 pub fn assemble_geometric_stiffness(
     mesh: &Mesh2d,
-    material: &ElasticMaterial,
+    material: &dyn MaterialField,
     base: &[f64],
 ) -> Triplets {
     let mut triplets = Triplets::default();
     for e in 0..mesh.element_count() {
-        let matrix = element::geometric_stiffness(mesh, e, material, base);
+        let matrix = element::geometric_stiffness(mesh, e, material.of(mesh.region(e)), base);
         scatter(&mut triplets, mesh.element_nodes(e), &matrix);
     }
     triplets
 }
 
+/// Springs and dashpots of the supports over all dofs, N/m and N s/m for each metre of thickness; empty where
+/// nothing is supported.
+pub fn assemble_supports(mesh: &Mesh2d) -> [Triplets; 2] {
+    let mut both = [Triplets::default(), Triplets::default()];
+    for support in mesh.nodal_supports() {
+        let matrices = [support.stiffness, support.damping];
+        for (triplets, matrix) in both.iter_mut().zip(matrices) {
+            for (row, column) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                let value = matrix[row][column];
+                if value != 0.0 {
+                    triplets.push(2 * support.node + row, 2 * support.node + column, value);
+                }
+            }
+        }
+    }
+    both
+}
+
+/// What damping coefficients of their own add to `alpha_R M + beta_R K_e` of the whole body, Pa s, over all dofs;
+/// `None` where no region has its own.
+///
+/// ```text
+/// sum_e (alpha_e - alpha_R) M_e + (beta_e - beta_R) K_e
+/// ```
+pub fn assemble_extra_damping(
+    mesh: &Mesh2d,
+    material: &dyn MaterialField,
+    kind: MassKind,
+    common: RayleighDamping,
+) -> Option<Triplets> {
+    let own: Vec<_> = (0..mesh.regions.len())
+        .map(|region| material.own_damping(region))
+        .collect();
+    own.iter().flatten().next()?;
+    let mut triplets = Triplets::default();
+    for e in 0..mesh.element_count() {
+        let region = mesh.region(e);
+        let Some(damping) = own[region] else {
+            continue;
+        };
+        let elastic = material.of(region);
+        let mass = match kind {
+            MassKind::Consistent => element::consistent_mass(mesh, e, elastic),
+            MassKind::Lumped => {
+                let masses = element::lumped_mass(mesh, e, elastic);
+                let size = 2 * masses.len();
+                DMatrix::from_fn(size, size, |i, j| if i == j { masses[i / 2] } else { 0.0 })
+            }
+        };
+        let matrix = mass * (damping.mass_coefficient - common.mass_coefficient)
+            + element::stiffness(mesh, e, elastic)
+                * (damping.stiffness_coefficient - common.stiffness_coefficient);
+        scatter(&mut triplets, mesh.element_nodes(e), &matrix);
+    }
+    Some(triplets)
+}
+
 fn assemble_congruent(mesh: &Mesh2d, compute: impl Fn(usize) -> DMatrix<f64>) -> Triplets {
     let mut triplets = Triplets::default();
     let mut cache: Vec<Option<DMatrix<f64>>> = vec![None; mesh.element_count()];
-    let size = 4 * mesh.element_kind.node_count() * mesh.element_kind.node_count();
-    triplets.entries.reserve_exact(size * mesh.element_count());
+    let sizes = mesh
+        .element_kinds
+        .iter()
+        .map(|kind| 4 * kind.node_count().pow(2));
+    triplets.entries.reserve_exact(sizes.sum());
     for e in 0..mesh.element_count() {
         let matrix = cache[mesh.congruent_to[e] as usize].get_or_insert_with(|| compute(e));
         scatter(&mut triplets, mesh.element_nodes(e), matrix);
@@ -142,9 +204,9 @@ impl DofMap {
         Self { unknown_of, dofs }
     }
 
-    /// All dofs of the mesh but those of the clamped outer edge.
+    /// All dofs of the mesh but those that its boundary conditions hold.
     pub fn clamped(mesh: &Mesh2d) -> Self {
-        Self::excluding(2 * mesh.node_count(), clamped_dofs(mesh))
+        Self::excluding(2 * mesh.node_count(), mesh.held_dofs())
     }
 
     /// Number of unknowns.
@@ -170,10 +232,4 @@ impl DofMap {
     pub fn restrict<T: Copy>(&self, full: &[T]) -> Vec<T> {
         self.dofs.iter().map(|&dof| full[dof]).collect()
     }
-}
-
-/// Both dofs of every node of the clamped outer edge.
-pub fn clamped_dofs(mesh: &Mesh2d) -> impl Iterator<Item = usize> + '_ {
-    let nodes = mesh.outer_edge.nodes.iter();
-    nodes.flat_map(|&node| [2 * node as usize, 2 * node as usize + 1])
 }

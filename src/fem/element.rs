@@ -1,69 +1,8 @@
-//! Isoparametric quadrilaterals: shape functions, quadrature, element matrices in nodal frames.
+//! Element matrices of isoparametric elements in nodal frames.
 
 use super::ElasticMaterial;
 use crate::mesh::{ElementKind, Mesh2d};
 use nalgebra::{DMatrix, Matrix2, Matrix3, Vector2, Vector3};
-
-/// Values and parent-space gradients of the shape functions at one point, `N_I` and
-/// `dN_I / d(xi, eta)`.
-///
-/// Quad4: `N_I = (1 + xi_I xi)(1 + eta_I eta) / 4`. Quad8: the serendipity functions. Node order as
-/// in [`Mesh2d::elements`].
-pub fn shape_functions(kind: ElementKind, xi: f64, eta: f64) -> Vec<(f64, Vector2<f64>)> {
-    const CORNERS: [(f64, f64); 4] = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
-    match kind {
-        ElementKind::Quad4 => CORNERS
-            .iter()
-            .map(|&(a, b)| {
-                let (p, q) = (1.0 + a * xi, 1.0 + b * eta);
-                (0.25 * p * q, Vector2::new(0.25 * a * q, 0.25 * b * p))
-            })
-            .collect(),
-        ElementKind::Quad8 => {
-            let corner = CORNERS.iter().map(|&(a, b)| {
-                let (p, q) = (1.0 + a * xi, 1.0 + b * eta);
-                let s = a * xi + b * eta - 1.0;
-                (
-                    0.25 * p * q * s,
-                    Vector2::new(0.25 * a * q * (s + p), 0.25 * b * p * (s + q)),
-                )
-            });
-            let along_xi = |b: f64| {
-                let (p, q) = (1.0 - xi * xi, 1.0 + b * eta);
-                (0.5 * p * q, Vector2::new(-xi * q, 0.5 * b * p))
-            };
-            let along_eta = |a: f64| {
-                let (p, q) = (1.0 + a * xi, 1.0 - eta * eta);
-                (0.5 * p * q, Vector2::new(0.5 * a * q, -eta * p))
-            };
-            let middle = [
-                along_xi(-1.0),
-                along_eta(1.0),
-                along_xi(1.0),
-                along_eta(-1.0),
-            ];
-            corner.chain(middle).collect()
-        }
-    }
-}
-
-/// Points and weights of the full tensor Gauss rule: 2 x 2 for Quad4, 3 x 3 for Quad8.
-pub fn full_quadrature(kind: ElementKind) -> Vec<(f64, f64, f64)> {
-    let line: &[(f64, f64)] = match kind {
-        ElementKind::Quad4 => &[
-            (-0.577_350_269_189_625_8, 1.0),
-            (0.577_350_269_189_625_8, 1.0),
-        ],
-        ElementKind::Quad8 => &[
-            (-0.774_596_669_241_483_4, 5.0 / 9.0),
-            (0.0, 8.0 / 9.0),
-            (0.774_596_669_241_483_4, 5.0 / 9.0),
-        ],
-    };
-    line.iter()
-        .flat_map(|&(eta, v)| line.iter().map(move |&(xi, w)| (xi, eta, w * v)))
-        .collect()
-}
 
 /// One integration point of one element: shape values, Cartesian gradients, and `w det J`.
 pub struct IntegrationPoint {
@@ -78,6 +17,7 @@ pub struct IntegrationPoint {
 /// One element of a mesh, ready to be integrated over.
 pub struct ElementGeometry<'a> {
     mesh: &'a Mesh2d,
+    kind: ElementKind,
     nodes: &'a [u32],
 }
 
@@ -86,13 +26,18 @@ impl<'a> ElementGeometry<'a> {
     pub fn new(mesh: &'a Mesh2d, element: usize) -> Self {
         Self {
             mesh,
+            kind: mesh.element_kind(element),
             nodes: mesh.element_nodes(element),
         }
     }
 
     /// Shape values, gradients and measure at parent point `(xi, eta)` of weight `weight`.
     pub fn at(&self, xi: f64, eta: f64, weight: f64) -> IntegrationPoint {
-        let shapes = shape_functions(self.mesh.element_kind, xi, eta);
+        let shapes = self.kind.shape_functions(xi, eta);
+        let shapes: Vec<_> = shapes
+            .into_iter()
+            .map(|(value, [a, b])| (value, Vector2::new(a, b)))
+            .collect();
         let mut jacobian = Matrix2::zeros();
         for (&(_, gradient), &node) in shapes.iter().zip(self.nodes) {
             let [x, y] = self.mesh.nodes[node as usize];
@@ -114,7 +59,8 @@ impl<'a> ElementGeometry<'a> {
 
     /// Every point of the full quadrature rule.
     pub fn integration_points(&self) -> Vec<IntegrationPoint> {
-        full_quadrature(self.mesh.element_kind)
+        self.kind
+            .quadrature()
             .into_iter()
             .map(|(xi, eta, weight)| self.at(xi, eta, weight))
             .collect()
@@ -156,7 +102,7 @@ pub fn stiffness(mesh: &Mesh2d, element: usize, material: &ElasticMaterial) -> D
     let geometry = ElementGeometry::new(mesh, element);
     let elasticity = material.elasticity();
     let elasticity = Matrix3::from_fn(|i, j| elasticity[i][j]);
-    let count = mesh.element_kind.node_count();
+    let count = geometry.nodes.len();
     let mut matrix = DMatrix::zeros(2 * count, 2 * count);
     for point in geometry.integration_points() {
         let strains: Vec<[Vector3<f64>; 2]> = (0..count)
@@ -196,7 +142,7 @@ pub fn geometric_stiffness(
     base: &[f64],
 ) -> DMatrix<f64> {
     let geometry = ElementGeometry::new(mesh, element);
-    let count = mesh.element_kind.node_count();
+    let count = geometry.nodes.len();
     let mut scalar = DMatrix::<f64>::zeros(count, count);
     for point in geometry.integration_points() {
         let gradient = geometry.displacement_gradient(&point, base);
@@ -218,22 +164,20 @@ pub fn consistent_mass(mesh: &Mesh2d, element: usize, material: &ElasticMaterial
     rotate_scalar(&geometry, scalar_mass(&geometry, material))
 }
 
-/// Element lumped mass of each node, kg for each metre of thickness: row sums for Quad4; for Quad8,
-/// whose row sums are negative at the corners, the diagonal scaled to the element's mass
-/// (Hinton, Rock and Zienkiewicz 1976).
+/// Element lumped mass of each node, kg for each metre of thickness: row sums for linear
+/// shapes; for quadratic ones, whose row sums are not positive at the corners, the diagonal scaled to the
+/// element's mass (Hinton, Rock and Zienkiewicz 1976).
 pub fn lumped_mass(mesh: &Mesh2d, element: usize, material: &ElasticMaterial) -> Vec<f64> {
     let geometry = ElementGeometry::new(mesh, element);
     let scalar = scalar_mass(&geometry, material);
     let full = DMatrix::from_fn(scalar.nrows(), scalar.ncols(), |row, column| {
         scalar[(row.min(column), row.max(column))]
     });
-    match mesh.element_kind {
-        ElementKind::Quad4 => full.row_iter().map(|row| row.sum()).collect(),
-        ElementKind::Quad8 => {
-            let scale = full.sum() / full.diagonal().sum();
-            full.diagonal().iter().map(|value| value * scale).collect()
-        }
+    if !geometry.kind.is_quadratic() {
+        return full.row_iter().map(|row| row.sum()).collect();
     }
+    let scale = full.sum() / full.diagonal().sum();
+    full.diagonal().iter().map(|value| value * scale).collect()
 }
 
 /// Upper triangle of `∫ rho N_I N_J dA`.

@@ -24,6 +24,44 @@ pub struct ElasticMaterial {
     pub formulation: PlaneFormulation,
 }
 
+/// Which material fills each region of a mesh.
+pub trait MaterialField: Sync + std::fmt::Debug {
+    /// The material of region `region`.
+    fn of(&self, region: usize) -> &ElasticMaterial;
+
+    /// Damping of its own that region `region` has.
+    fn own_damping(&self, _region: usize) -> Option<RayleighDamping> {
+        None
+    }
+}
+
+/// The same everywhere.
+impl MaterialField for ElasticMaterial {
+    fn of(&self, _region: usize) -> &ElasticMaterial {
+        self
+    }
+}
+
+/// Material of one region.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RegionMaterial {
+    /// Elasticity and density.
+    pub elastic: ElasticMaterial,
+    /// Rayleigh coefficients of its own, else those of the whole body.
+    pub damping: Option<RayleighDamping>,
+}
+
+/// One for each region.
+impl MaterialField for Vec<RegionMaterial> {
+    fn of(&self, region: usize) -> &ElasticMaterial {
+        &self[region].elastic
+    }
+
+    fn own_damping(&self, region: usize) -> Option<RayleighDamping> {
+        self[region].damping
+    }
+}
+
 /// A material value outside its physical range.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MaterialError {

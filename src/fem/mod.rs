@@ -12,8 +12,11 @@ pub mod sector;
 mod stress;
 
 pub use assembly::{
-    DofMap, MassKind, Triplets, assemble_geometric_stiffness, assemble_mass, assemble_stiffness,
-    clamped_dofs, lumped_masses,
+    DofMap, MassKind, Triplets, assemble_extra_damping, assemble_geometric_stiffness,
+    assemble_mass, assemble_stiffness, assemble_supports, lumped_masses,
 };
-pub use material::{ElasticMaterial, MaterialError, PlaneFormulation, RayleighDamping};
+pub use material::{
+    ElasticMaterial, MaterialError, MaterialField, PlaneFormulation, RayleighDamping,
+    RegionMaterial,
+};
 pub use stress::{NodalStress, nodal_stress};

@@ -8,7 +8,7 @@
 use super::element;
 use super::{ElasticMaterial, MassKind};
 use crate::linalg::banded::BandedMatrix;
-use crate::mesh::{ElementKind, SectorMesh};
+use crate::mesh::{NodalSupport, SectorMesh};
 use nalgebra::DMatrix;
 use std::f64::consts::PI;
 
@@ -42,9 +42,11 @@ impl SectorMatrix {
     ) -> Self {
         let dimension = 2 * sector.free_node_count();
         let mesh = &sector.strip;
-        let (half_bandwidth, differences): (usize, &[isize]) = match mesh.element_kind {
-            ElementKind::Quad4 => (3, &[-2, 0, 2]),
-            ElementKind::Quad8 => (9, &[-2, -1, 0, 1, 2]),
+        let half_bandwidth = half_bandwidth(sector);
+        let differences: &[isize] = if sector.specification.element.is_quadratic() {
+            &[-2, -1, 0, 1, 2]
+        } else {
+            &[-2, 0, 2]
         };
         let zero = BandedMatrix::zeros(dimension, half_bandwidth);
         let mut couplings: Vec<_> = differences.iter().map(|&d| (d, zero.clone())).collect();
@@ -72,6 +74,20 @@ impl SectorMatrix {
         }
     }
 
+    /// A matrix that couples no two nodes, `2 x 2` blocks `(node, block)` of free sector nodes.
+    fn of_blocks(sector: &SectorMesh, blocks: &[(usize, [[f64; 2]; 2])]) -> Self {
+        let mut matrix = Self::diagonal(sector, &[]);
+        for &(node, block) in blocks {
+            for (row, column) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                let place = (2 * node + row, 2 * node + column);
+                matrix.couplings[0]
+                    .1
+                    .add(place.0, place.1, block[row][column]);
+            }
+        }
+        matrix
+    }
+
     /// A diagonal matrix with the same value on both dofs of each free sector node.
     pub fn diagonal(sector: &SectorMesh, values: &[f64]) -> Self {
         let mut matrix = Self::assemble(sector, MirrorParity::Even, |e| {
@@ -96,12 +112,13 @@ impl SectorMatrix {
         result
     }
 
-    /// Sum of two matrices of one sector and one parity.
+    /// Sum of two matrices of one sector and one parity; `other` may have fewer couplings.
     pub fn plus(&self, other: &Self) -> Self {
         assert_eq!(self.parity, other.parity);
         let mut result = self.clone();
-        for ((a, sum), (b, term)) in result.couplings.iter_mut().zip(&other.couplings) {
-            assert_eq!(a, b);
+        for (difference, term) in &other.couplings {
+            let place = result.couplings.iter_mut().find(|(d, _)| d == difference);
+            let (_, sum) = place.expect("the first matrix has all couplings of the second");
             sum.add_scaled(1.0, term);
         }
         result
@@ -156,7 +173,39 @@ impl SectorMatrix {
     }
 }
 
-/// Elastic stiffness `K_e` of one sector, Pa.
+/// Half bandwidth of a sector's matrices.
+pub fn half_bandwidth(sector: &SectorMesh) -> usize {
+    if sector.specification.element.is_quadratic() {
+        9
+    } else {
+        3
+    }
+}
+
+/// Springs and dashpots of the supported outer edge, Pa and Pa s; `None` where it has no support.
+pub fn supports(sector: &SectorMesh) -> Option<[SectorMatrix; 2]> {
+    let supports = sector.strip.nodal_supports();
+    if supports.is_empty() {
+        return None;
+    }
+    let node = |support: &NodalSupport| sector.sector_node_of[support.node];
+    let of = |matrix: fn(&NodalSupport) -> [[f64; 2]; 2]| {
+        let blocks: Vec<_> = supports.iter().map(|s| (node(s), matrix(s))).collect();
+        SectorMatrix::of_blocks(sector, &blocks)
+    };
+    Some([of(|s| s.stiffness), of(|s| s.damping)])
+}
+
+/// Stiffness of one sector with the springs of its supports, Pa.
+pub fn supported_stiffness(sector: &SectorMesh, material: &ElasticMaterial) -> SectorMatrix {
+    let elastic = stiffness(sector, material);
+    match supports(sector) {
+        Some([springs, _]) => elastic.plus(&springs),
+        None => elastic,
+    }
+}
+
+/// Elastic stiffness `K_e` of one sector without its supports, Pa.
 pub fn stiffness(sector: &SectorMesh, material: &ElasticMaterial) -> SectorMatrix {
     SectorMatrix::assemble(sector, MirrorParity::Even, |e| {
         element::stiffness(&sector.strip, e, material)

@@ -1,8 +1,8 @@
 //! Stress recovery at the nodes.
 
-use super::ElasticMaterial;
 use super::element::{ElementGeometry, stress_of};
-use crate::mesh::{ElementKind, Mesh2d};
+use super::{ElasticMaterial, MaterialField};
+use crate::mesh::Mesh2d;
 use nalgebra::{Matrix2, Matrix3, Vector3};
 
 /// Stress at one node in its own frame, Pa.
@@ -37,28 +37,34 @@ impl NodalStress {
 
 /// Stress at each node by superconvergent patch recovery (Zienkiewicz and Zhu 1992).
 ///
-/// At each node the linear polynomial that fits the stress best at the superconvergent points (the
-/// centre of a Quad4, the 2 x 2 Gauss points of a Quad8) of the elements around it is evaluated at the
+/// At each node the linear polynomial that fits the stress best at the superconvergent points (see
+/// [`crate::mesh::ElementKind::superconvergent_points`]) of the elements around it is evaluated at the
 /// node. A node on an edge has elements on one side only; its patch takes in their neighbours too, so that
 /// the recovered stress is of second order there as well.
 ///
 /// `displacement` has `2 * node_count` values in nodal frames, m.
 pub fn nodal_stress(
     mesh: &Mesh2d,
-    material: &ElasticMaterial,
+    material: &dyn MaterialField,
     displacement: &[f64],
 ) -> Vec<NodalStress> {
     let samples: Vec<Vec<Sample>> = (0..mesh.element_count())
-        .map(|e| superconvergent_samples(mesh, e, material, displacement))
+        .map(|e| superconvergent_samples(mesh, e, material.of(mesh.region(e)), displacement))
         .collect();
     let around = elements_around(mesh);
     let mut on_edge = vec![false; mesh.node_count()];
-    let edges = [&mesh.inner_edge, &mesh.outer_edge];
-    for &node in edges.into_iter().flat_map(|edge| &edge.nodes) {
-        on_edge[node as usize] = true;
+    for (start, end, middle) in mesh.outline_edges() {
+        for node in [start, end].into_iter().chain(middle) {
+            on_edge[node as usize] = true;
+        }
     }
     (0..mesh.node_count())
         .map(|node| {
+            let Some(&first) = around[node].first() else {
+                return NodalStress::default();
+            };
+            // Stress jumps from one material to the next: a node between two shows that of the first.
+            let region = mesh.region(first as usize);
             let mut patch = around[node].clone();
             // A mid-side node has two elements at most: their neighbours complete its patch too.
             if on_edge[node] || patch.len() < 3 {
@@ -68,9 +74,10 @@ pub fn nodal_stress(
                 patch.sort_unstable();
                 patch.dedup();
             }
+            patch.retain(|&e| mesh.region(e as usize) == region);
             let points = patch.iter().flat_map(|&e| &samples[e as usize]);
             let stress = fit_at(mesh.nodes[node], points);
-            in_frame(stress, mesh.frame_angles[node], material)
+            in_frame(stress, mesh.frame_angles[node], material.of(region))
         })
         .collect()
 }
@@ -87,20 +94,11 @@ fn superconvergent_samples(
     material: &ElasticMaterial,
     displacement: &[f64],
 ) -> Vec<Sample> {
-    const GAUSS: f64 = 0.577_350_269_189_625_8;
     let geometry = ElementGeometry::new(mesh, e);
-    let points: &[(f64, f64)] = match mesh.element_kind {
-        ElementKind::Quad4 => &[(0.0, 0.0)],
-        ElementKind::Quad8 => &[
-            (-GAUSS, -GAUSS),
-            (GAUSS, -GAUSS),
-            (GAUSS, GAUSS),
-            (-GAUSS, GAUSS),
-        ],
-    };
-    points
-        .iter()
-        .map(|&(xi, eta)| {
+    mesh.element_kind(e)
+        .superconvergent_points()
+        .into_iter()
+        .map(|(xi, eta)| {
             let point = geometry.at(xi, eta, 1.0);
             let gradient = geometry.displacement_gradient(&point, displacement);
             let stress = stress_of(material, &gradient);

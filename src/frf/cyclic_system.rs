@@ -23,6 +23,7 @@ enum State {
     Body {
         mass: SectorMatrix,
         stiffness: SectorMatrix,
+        supports: Option<[SectorMatrix; 2]>,
         damping: RayleighDamping,
     },
     Sliding {
@@ -75,6 +76,7 @@ impl CyclicSystem {
         let state = State::Body {
             mass: sector::mass(&sector, material, mass),
             stiffness: sector::stiffness(&sector, material),
+            supports: sector::supports(&sector),
             damping,
         };
         let unknowns = (0..2 * sector.free_node_count()).collect();
@@ -153,14 +155,25 @@ impl CyclicSystem {
             State::Body {
                 mass,
                 stiffness,
+                supports,
                 damping,
             } => {
                 let mass = mass.harmonic(n);
+                let mut stiffness = stiffness.harmonic(n);
+                let mut damped = Damping::Proportional(*damping);
+                if let Some([springs, dashpots]) = supports {
+                    let mut band = dashpots.harmonic(n);
+                    // A support couples no two nodes, but its matrices have the shape of all.
+                    band.add_scaled(damping.mass_coefficient, &mass);
+                    band.add_scaled(damping.stiffness_coefficient, &stiffness);
+                    stiffness.add_scaled(1.0, &springs.harmonic(n));
+                    damped = Damping::Band(evaluate(&[band], 0.0));
+                }
                 Harmonic {
                     half_bandwidth: mass.half_bandwidth(),
                     mass: evaluate(&[mass], 0.0),
-                    stiffness: evaluate(&[stiffness.harmonic(n)], 0.0),
-                    damping: Damping::Proportional(*damping),
+                    stiffness: evaluate(&[stiffness], 0.0),
+                    damping: damped,
                     is_standing,
                 }
             }

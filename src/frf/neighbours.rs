@@ -153,7 +153,7 @@ mod tests {
     use crate::fem::{ElasticMaterial, MassKind, PlaneFormulation, assemble_stiffness};
     use crate::frf::direct::factorized;
     use crate::linalg::{LdlAnalysis, LuAnalysis};
-    use crate::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind};
+    use crate::mesh::{AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind};
     use crate::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
 
     fn sliding(damping_model: DampingModel) -> FrfSystem {
@@ -164,6 +164,7 @@ mod tests {
             radial_elements: 8,
             radial_grading: 1.0,
             element: ElementKind::Quad4,
+            outer: BoundaryCondition::Clamped,
         };
         let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
         let material = ElasticMaterial {

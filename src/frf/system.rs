@@ -2,7 +2,8 @@
 
 use super::FrfError;
 use crate::fem::{
-    DofMap, ElasticMaterial, MassKind, RayleighDamping, assemble_mass, assemble_stiffness,
+    DofMap, MassKind, MaterialField, RayleighDamping, assemble_extra_damping, assemble_mass,
+    assemble_stiffness, assemble_supports,
 };
 use crate::linalg::{MatrixPolynomial, SparsityPattern};
 use crate::mesh::Mesh2d;
@@ -48,7 +49,7 @@ impl FrfSystem {
     /// beta_R K`.
     pub fn body(
         mesh: &Mesh2d,
-        material: &ElasticMaterial,
+        material: &dyn MaterialField,
         mass: MassKind,
         damping: RayleighDamping,
         is_clamped: bool,
@@ -65,23 +66,39 @@ impl FrfSystem {
                 .filter_map(|(row, column, value)| Some((at(*row)?, at(*column)?, *value)))
                 .collect()
         };
+        let [springs, mut dashpots] = assemble_supports(mesh);
+        let is_held = is_clamped && !springs.entries.is_empty();
+        if !is_held {
+            dashpots.entries.clear();
+        }
+        if let Some(own) = assemble_extra_damping(mesh, material, mass, damping) {
+            dashpots.entries.extend(own.entries);
+        }
+        let is_proportional = !is_held && dashpots.entries.is_empty();
         let mass = restricted(&assemble_mass(mesh, material, mass).entries);
-        let stiffness = restricted(&assemble_stiffness(mesh, material).entries);
+        let body = restricted(&assemble_stiffness(mesh, material).entries);
+        let mut stiffness = body.clone();
+        if is_held {
+            stiffness.extend(restricted(&springs.entries));
+        }
+        let dashpots = restricted(&dashpots.entries);
         let positions = mass
             .iter()
             .chain(&stiffness)
+            .chain(&dashpots)
             .map(|(row, column, _)| (*row, *column));
         let pattern = Arc::new(SparsityPattern::from_positions(unknowns.len(), positions));
         let values = |entries| MatrixPolynomial::on_pattern(&pattern, &[entries]).evaluate(0.0);
-        let (mass, stiffness): (Vec<f64>, Vec<f64>) = (values(mass), values(stiffness));
+        let [mass, body, stiffness, dashpots] = [mass, body, stiffness, dashpots].map(values);
         let proportional =
             |(m, k): (&f64, &f64)| damping.mass_coefficient * m + damping.stiffness_coefficient * k;
+        let pairs = mass.iter().zip(&body).map(proportional);
         Self {
             pattern,
-            damping: mass.iter().zip(&stiffness).map(proportional).collect(),
+            damping: pairs.zip(&dashpots).map(|(c, own)| c + own).collect(),
             mass,
             stiffness,
-            proportional: Some(damping),
+            proportional: is_proportional.then_some(damping),
             is_symmetric: true,
             unknowns,
         }

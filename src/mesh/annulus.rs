@@ -1,7 +1,10 @@
 //! The structured annulus mesh.
 
-use super::{Boundary, ElementKind, Mesh2d};
-use std::f64::consts::TAU;
+use super::{Boundary, BoundaryCondition, Counterface, ElementKind, Mesh2d};
+use std::f64::consts::{PI, TAU};
+
+/// Name of the inner edge, where the contact is.
+const INNER: &str = "inner";
 
 /// What the annulus generator needs to know (lengths in m).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,8 +19,10 @@ pub struct AnnulusSpecification {
     pub radial_elements: usize,
     /// Size ratio of successive elements outwards; 1 for a uniform mesh.
     pub radial_grading: f64,
-    /// Element shape.
+    /// Element shape, a quadrilateral.
     pub element: ElementKind,
+    /// What holds the outer edge, usually [`BoundaryCondition::Clamped`].
+    pub outer: BoundaryCondition,
 }
 
 /// A mesh that cannot be built from its specification.
@@ -54,6 +59,17 @@ pub enum MeshError {
         /// Largest count.
         limit: u32,
     },
+    /// Elements that are no quadrilaterals.
+    #[error(
+        "an annulus is meshed with quadrilaterals: mesh.element must be \"quad4\" or \"quad8\""
+    )]
+    Triangles,
+    /// An outer edge that leaves the disc free to turn with the cylinder.
+    #[error(
+        "nothing holds the disc against the friction that turns it: boundaries.outer needs condition = \"clamped\", \
+         or \"support\" with a tangential_stiffness"
+    )]
+    NotHeld,
     /// The grading is not a positive finite ratio.
     #[error("mesh.radial_grading = {value} must be a positive number (1 = uniform)")]
     Grading {
@@ -107,9 +123,10 @@ impl AnnulusMesh {
 }
 
 pub(super) fn sector_node_count(spec: &AnnulusSpecification) -> usize {
-    match spec.element {
-        ElementKind::Quad4 => spec.radial_elements + 1,
-        ElementKind::Quad8 => 3 * spec.radial_elements + 2,
+    if spec.element.is_quadratic() {
+        3 * spec.radial_elements + 2
+    } else {
+        spec.radial_elements + 1
     }
 }
 
@@ -130,16 +147,29 @@ pub(super) fn validate(spec: &AnnulusSpecification) -> Result<(), MeshError> {
             });
         }
     }
+    if spec.element.corner_count() != 4 {
+        return Err(MeshError::Triangles);
+    }
+    let is_held = match spec.outer {
+        BoundaryCondition::Clamped => true,
+        BoundaryCondition::Support(support) => support.tangential_stiffness > 0.0,
+        _ => false,
+    };
+    if !is_held {
+        return Err(MeshError::NotHeld);
+    }
     if !(spec.radial_grading > 0.0 && spec.radial_grading.is_finite()) {
         return Err(MeshError::Grading {
             value: spec.radial_grading,
         });
     }
-    let per_sector = match spec.element {
-        ElementKind::Quad4 => spec.radial_elements as u128 + 1,
-        ElementKind::Quad8 => 3 * spec.radial_elements as u128 + 2,
+    let radial = spec.radial_elements as u128;
+    let per_sector = if spec.element.is_quadratic() {
+        3 * radial + 2
+    } else {
+        radial + 1
     };
-    let nodes = per_sector * spec.circumferential_elements as u128;
+    let nodes = per_sector.saturating_mul(spec.circumferential_elements as u128);
     if nodes > u128::from(u32::MAX / 2) {
         return Err(MeshError::TooManyNodes {
             nodes,
@@ -184,29 +214,47 @@ pub(super) fn build(spec: &AnnulusSpecification, radii: &[f64], built: usize) ->
     };
     for sector in 0..node_sectors {
         let angle = TAU * sector as f64 / sectors as f64;
-        match spec.element {
-            ElementKind::Quad4 => radii.iter().for_each(|&r| push(r, angle)),
-            ElementKind::Quad8 => {
-                push(radii[0], angle);
-                for pair in radii.windows(2) {
-                    push(0.5 * (pair[0] + pair[1]), angle);
-                    push(pair[1], angle);
-                }
-                let middle = TAU * (sector as f64 + 0.5) / sectors as f64;
-                radii.iter().for_each(|&r| push(r, middle));
+        if spec.element.is_quadratic() {
+            push(radii[0], angle);
+            for pair in radii.windows(2) {
+                push(0.5 * (pair[0] + pair[1]), angle);
+                push(pair[1], angle);
             }
+            let middle = TAU * (sector as f64 + 0.5) / sectors as f64;
+            radii.iter().for_each(|&r| push(r, middle));
+        } else {
+            radii.iter().for_each(|&r| push(r, angle));
         }
     }
     let (elements, congruent_to) = connect(spec, built);
-    let edge = |outer: bool| edge(spec, radii, outer, built);
+    let count = congruent_to.len();
+    let mut boundaries = [false, true].map(|outer| edge(spec, radii, outer, built));
+    for boundary in &mut boundaries {
+        let inward = if boundary.name == INNER { PI } else { 0.0 };
+        let nodes = boundary.nodes.iter();
+        boundary.normal_angles = nodes
+            .map(|&node| frame_angles[node as usize] + inward)
+            .collect();
+    }
+    let per_element = spec.element.node_count();
     Mesh2d {
-        element_kind: spec.element,
         nodes,
         frame_angles,
+        element_kinds: vec![spec.element; count],
+        element_starts: (0..=count).map(|e| (per_element * e) as u32).collect(),
         elements,
         congruent_to,
-        inner_edge: edge(false),
-        outer_edge: edge(true),
+        regions: vec!["disc".to_owned()],
+        element_regions: vec![0; count],
+        labels: Vec::new(),
+        boundaries: boundaries.into(),
+        contact: 0,
+        counterface: Counterface::Cylinder {
+            center: [0.0; 2],
+            radius: radii[0],
+            is_inside: true,
+        },
+        is_cyclic: true,
     }
 }
 
@@ -220,21 +268,20 @@ fn connect(spec: &AnnulusSpecification, built: usize) -> (Vec<u32>, Vec<u32>) {
         let here = sector * per_sector;
         let next = (sector + 1) % sectors * per_sector;
         for i in 0..count {
-            let ids = match spec.element {
-                ElementKind::Quad4 => vec![here + i, here + i + 1, next + i + 1, next + i],
-                ElementKind::Quad8 => {
-                    let middle = here + 2 * count + 1;
-                    vec![
-                        here + 2 * i,
-                        here + 2 * i + 2,
-                        next + 2 * i + 2,
-                        next + 2 * i,
-                        here + 2 * i + 1,
-                        middle + i + 1,
-                        next + 2 * i + 1,
-                        middle + i,
-                    ]
-                }
+            let ids = if spec.element.is_quadratic() {
+                let middle = here + 2 * count + 1;
+                vec![
+                    here + 2 * i,
+                    here + 2 * i + 2,
+                    next + 2 * i + 2,
+                    next + 2 * i,
+                    here + 2 * i + 1,
+                    middle + i + 1,
+                    next + 2 * i + 1,
+                    middle + i,
+                ]
+            } else {
+                vec![here + i, here + i + 1, next + i + 1, next + i]
             };
             elements.extend(ids.into_iter().map(|id| id as u32));
             congruent_to.push(i as u32);
@@ -252,27 +299,32 @@ fn edge(spec: &AnnulusSpecification, radii: &[f64], outer: bool, built: usize) -
     let (sectors, count) = (spec.circumferential_elements, spec.radial_elements);
     let per_sector = sector_node_count(spec);
     let radius = if outer { radii[count] } else { radii[0] };
-    let (sin, cos) = (std::f64::consts::PI / sectors as f64).sin_cos();
-    let mut boundary = Boundary::default();
+    let (sin, cos) = (PI / sectors as f64).sin_cos();
+    let (name, condition) = if outer {
+        ("outer", spec.outer)
+    } else {
+        (INNER, BoundaryCondition::Free)
+    };
+    let mut boundary = Boundary {
+        name: name.to_owned(),
+        is_closed: built == sectors,
+        condition,
+        ..Boundary::default()
+    };
     let mut push = |node: usize, length: f64| {
         boundary.nodes.push(node as u32);
         boundary.tributary_lengths.push(length);
     };
     for sector in 0..built {
         let here = sector * per_sector;
-        match spec.element {
-            ElementKind::Quad4 => {
-                push(
-                    here + if outer { count } else { 0 },
-                    2.0 * radius * sin * cos,
-                );
-            }
-            ElementKind::Quad8 => {
-                let corner = here + if outer { 2 * count } else { 0 };
-                push(corner, 2.0 / 3.0 * radius * sin * (2.0 - cos));
-                let middle = here + 2 * count + 1 + if outer { count } else { 0 };
-                push(middle, 4.0 / 3.0 * radius * sin);
-            }
+        if spec.element.is_quadratic() {
+            let corner = here + if outer { 2 * count } else { 0 };
+            push(corner, 2.0 / 3.0 * radius * sin * (2.0 - cos));
+            let middle = here + 2 * count + 1 + if outer { count } else { 0 };
+            push(middle, 4.0 / 3.0 * radius * sin);
+        } else {
+            let corner = here + if outer { count } else { 0 };
+            push(corner, 2.0 * radius * sin * cos);
         }
     }
     boundary
@@ -290,6 +342,7 @@ mod tests {
             radial_elements: 35,
             radial_grading: 1.0,
             element,
+            outer: BoundaryCondition::Clamped,
         }
     }
 
@@ -307,7 +360,7 @@ mod tests {
     fn tributary_lengths_sum_to_the_circumference_with_the_mesh() {
         for (element, tolerance) in [(ElementKind::Quad4, 1e-3), (ElementKind::Quad8, 1e-8)] {
             let mesh = AnnulusMesh::generate(&paper(element)).unwrap().mesh;
-            let sum: f64 = mesh.inner_edge.tributary_lengths.iter().sum();
+            let sum: f64 = mesh.contact_edge().tributary_lengths.iter().sum();
             let exact = TAU * 0.0205;
             assert!((sum / exact - 1.0).abs() < tolerance, "{sum} {exact}");
         }

@@ -1,65 +1,59 @@
-//! Nodes, elements and boundaries of a two-dimensional mesh, and the annulus generator.
+//! Nodes, elements, regions and boundaries of a plane body, and where bodies come from: the annulus generator
+//! and the reader of Gmsh files.
 
 mod annulus;
+mod body;
+mod boundary;
+mod counterface;
+mod curve;
+mod element;
+mod gmsh;
+mod quality;
 mod sector;
 
 pub use annulus::{AnnulusMesh, AnnulusSpecification, MeshError};
+pub use body::{BodySpecification, CounterfaceSpecification};
+pub use boundary::{Boundary, BoundaryCondition, ElasticSupport, NodalSupport};
+pub use counterface::Counterface;
+pub use element::{ElementKind, QuadraturePoint, Shape};
+pub use gmsh::{GmshFile, MeshFileError};
+pub use quality::MeshQuality;
 pub use sector::SectorMesh;
 
-/// Shape of every element of a mesh.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ElementKind {
-    /// Four-node bilinear quadrilateral.
-    Quad4,
-    /// Eight-node serendipity quadrilateral.
-    Quad8,
-}
-
-impl ElementKind {
-    /// Nodes of one element.
-    pub fn node_count(self) -> usize {
-        match self {
-            Self::Quad4 => 4,
-            Self::Quad8 => 8,
-        }
-    }
-}
-
-/// An ordered chain of boundary nodes.
-///
-/// `nodes` are 0-based node indices in order of increasing angle, corner and mid-side nodes alike.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Boundary {
-    /// 0-based node indices along the boundary.
-    pub nodes: Vec<u32>,
-    /// Tributary length of each node, `∫ N_i (n . e_i) ds` over the boundary with `n` its normal and
-    /// `e_i` the node's own first axis, m: the force that unit pressure exerts along that axis.
-    pub tributary_lengths: Vec<f64>,
-}
-
-/// Nodes, elements and named boundaries of a plane mesh.
+/// Nodes, elements, regions and named boundaries of a plane body.
 ///
 /// Each node carries a local frame `(e_1, e_2)` turned counter-clockwise from the global axes by
 /// `frame_angles[i]`; all nodal displacement vectors and matrices of this crate are written in these
 /// frames. On the annulus the frame is the polar one, `(e_r, e_theta)`.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh2d {
-    /// Shape of every element.
-    pub element_kind: ElementKind,
     /// Cartesian coordinates of each node, m.
     pub nodes: Vec<[f64; 2]>,
     /// Angle of each node's local frame, rad.
     pub frame_angles: Vec<f64>,
-    /// 0-based node indices, `element_kind.node_count()` for each element: corners
-    /// counter-clockwise, then (Quad8) the mid-side node after each corner.
+    /// Shape of each element.
+    pub element_kinds: Vec<ElementKind>,
+    /// Where each element's nodes begin in `elements`, and the end of the last.
+    pub element_starts: Vec<u32>,
+    /// 0-based node indices of all elements, in the order of [`ElementKind`].
     pub elements: Vec<u32>,
     /// For each element the index of the first element that it is a rotated copy of (its own index
     /// where there is none): congruent elements share their matrices in nodal frames.
     pub congruent_to: Vec<u32>,
-    /// The contact edge.
-    pub inner_edge: Boundary,
-    /// The clamped edge.
-    pub outer_edge: Boundary,
+    /// Names of the regions.
+    pub regions: Vec<String>,
+    /// Region of each element.
+    pub element_regions: Vec<u16>,
+    /// Number of each node in the mesh file; empty for a generated mesh, whose numbers count from 1.
+    pub labels: Vec<usize>,
+    /// Named boundaries.
+    pub boundaries: Vec<Boundary>,
+    /// Which boundary is the contact edge.
+    pub contact: usize,
+    /// What slides along it; the frames of its nodes are those of this surface.
+    pub counterface: Counterface,
+    /// Whether the body is a uniform annulus, all of whose sectors are alike.
+    pub is_cyclic: bool,
 }
 
 impl Mesh2d {
@@ -70,12 +64,79 @@ impl Mesh2d {
 
     /// Number of elements.
     pub fn element_count(&self) -> usize {
-        self.elements.len() / self.element_kind.node_count()
+        self.element_kinds.len()
+    }
+
+    /// Shape of element `element`.
+    pub fn element_kind(&self, element: usize) -> ElementKind {
+        self.element_kinds[element]
+    }
+
+    /// Region of element `element`.
+    pub fn region(&self, element: usize) -> usize {
+        usize::from(self.element_regions[element])
     }
 
     /// Node indices of element `element`.
     pub fn element_nodes(&self, element: usize) -> &[u32] {
-        let count = self.element_kind.node_count();
-        &self.elements[element * count..(element + 1) * count]
+        let range = self.element_starts[element]..self.element_starts[element + 1];
+        &self.elements[range.start as usize..range.end as usize]
+    }
+
+    /// Whether all elements are four-node quadrilaterals.
+    pub fn is_quad4(&self) -> bool {
+        self.element_kinds
+            .iter()
+            .all(|&kind| kind == ElementKind::Quad4)
+    }
+
+    /// The boundary called `name`.
+    pub fn boundary(&self, name: &str) -> Option<&Boundary> {
+        self.boundaries
+            .iter()
+            .find(|boundary| boundary.name == name)
+    }
+
+    /// Number of a node as the user knows it: that of the mesh file, or its index from 1.
+    pub fn node_label(&self, node: usize) -> usize {
+        self.labels.get(node).copied().unwrap_or(node + 1)
+    }
+
+    /// The contact edge.
+    pub fn contact_edge(&self) -> &Boundary {
+        &self.boundaries[self.contact]
+    }
+
+    /// Corner points of an element's outline with mid-side nodes between them where it has any.
+    pub fn element_outline(&self, element: usize) -> Vec<u32> {
+        let nodes = self.element_nodes(element);
+        let around = self.element_kind(element).outline().into_iter();
+        around.map(|local| nodes[local]).collect()
+    }
+
+    /// Edges that belong to one element only, as `(start, end, middle)` with the body on their left.
+    pub fn outline_edges(&self) -> Vec<(u32, u32, Option<u32>)> {
+        let mut edges: Vec<_> = (0..self.element_count())
+            .flat_map(|element| {
+                let (kind, nodes) = (self.element_kind(element), self.element_nodes(element));
+                (0..kind.corner_count()).map(move |edge| {
+                    let (p, q, m) = kind.edge(edge);
+                    let (p, q) = (nodes[p], nodes[q]);
+                    let middle = m.map(|m| nodes[m]);
+                    ((p.min(q), p.max(q)), element, edge, (p, q, middle))
+                })
+            })
+            .collect();
+        edges.sort_unstable();
+        let is_alone = |i: usize| {
+            let same = |j: usize| edges.get(j).is_some_and(|other| other.0 == edges[i].0);
+            !(same(i + 1) || i > 0 && same(i - 1))
+        };
+        let mut alone: Vec<_> = (0..edges.len())
+            .filter(|&i| is_alone(i))
+            .map(|i| edges[i])
+            .collect();
+        alone.sort_unstable_by_key(|&(_, element, edge, _)| (element, edge));
+        alone.into_iter().map(|(.., nodes)| nodes).collect()
     }
 }

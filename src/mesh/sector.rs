@@ -1,12 +1,13 @@
 //! One sector of the annulus mesh.
 
 use super::annulus::{build, graded_radii, sector_node_count, validate};
-use super::{AnnulusSpecification, ElementKind, Mesh2d, MeshError};
+use super::{AnnulusSpecification, BoundaryCondition, Mesh2d, MeshError};
 
 /// One sector of an annulus mesh, without the others.
 ///
 /// Its nodes are numbered outwards ("sector nodes"): on a Quad8 mesh the nodes at one radius are the
-/// corner-ray node, then the middle-ray node where there is one. The last ones are clamped.
+/// corner-ray node, then the middle-ray node where there is one. The last ones are clamped where the
+/// outer edge is.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SectorMesh {
     /// The elements of sector 0; nodes of sectors 0 and 1 numbered as in the full mesh.
@@ -42,10 +43,14 @@ impl SectorMesh {
         for (sector_node, &node) in numbering.iter().enumerate() {
             position[node] = sector_node;
         }
-        let corner_ray = match specification.element {
-            ElementKind::Quad4 => per_sector,
-            ElementKind::Quad8 => 2 * specification.radial_elements + 1,
+        let is_quadratic = specification.element.is_quadratic();
+        let corner_ray = if is_quadratic {
+            2 * specification.radial_elements + 1
+        } else {
+            per_sector
         };
+        let edge_nodes = strip.contact_edge().nodes.len();
+        let is_clamped = specification.outer == BoundaryCondition::Clamped;
         let is_middle = |node: usize| usize::from(node % per_sector >= corner_ray);
         Ok(Self {
             sector_node_of: (0..2 * per_sector)
@@ -54,20 +59,22 @@ impl SectorMesh {
             half_steps: (0..2 * per_sector)
                 .map(|node| 2 * (node / per_sector) + is_middle(node))
                 .collect(),
-            contact_count: strip.inner_edge.nodes.len(),
-            clamped_count: strip.inner_edge.nodes.len(),
+            contact_count: edge_nodes,
+            clamped_count: if is_clamped { edge_nodes } else { 0 },
             strip,
             specification: *specification,
             numbering,
         })
     }
 
-    /// The same sector with its outer edge free.
-    pub fn with_free_outer_edge(self) -> Self {
-        Self {
-            clamped_count: 0,
-            ..self
+    /// The same sector with nothing that holds its outer edge.
+    pub fn with_free_outer_edge(mut self) -> Self {
+        self.clamped_count = 0;
+        self.specification.outer = BoundaryCondition::Free;
+        for boundary in &mut self.strip.boundaries {
+            boundary.condition = BoundaryCondition::Free;
         }
+        self
     }
 
     /// Nodes of one sector, clamped ones included.
@@ -87,7 +94,7 @@ impl SectorMesh {
 
     /// Tributary length of each contact node of the sector, m.
     pub fn tributary_lengths(&self) -> &[f64] {
-        &self.strip.inner_edge.tributary_lengths
+        &self.strip.contact_edge().tributary_lengths
     }
 
     /// Angle of a sector node from its sector's corner ray, in halves of a sector: 0 or 1.
@@ -99,21 +106,21 @@ impl SectorMesh {
 /// Nodes of one sector in order of rising radius.
 fn outward_numbering(spec: &AnnulusSpecification) -> Vec<usize> {
     let count = spec.radial_elements;
-    match spec.element {
-        ElementKind::Quad4 => (0..=count).collect(),
-        ElementKind::Quad8 => (0..=2 * count)
-            .flat_map(|i| {
-                let middle = (i % 2 == 0).then_some(2 * count + 1 + i / 2);
-                std::iter::once(i).chain(middle)
-            })
-            .collect(),
+    if !spec.element.is_quadratic() {
+        return (0..=count).collect();
     }
+    (0..=2 * count)
+        .flat_map(|i| {
+            let middle = (i % 2 == 0).then_some(2 * count + 1 + i / 2);
+            std::iter::once(i).chain(middle)
+        })
+        .collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::AnnulusMesh;
+    use crate::mesh::{AnnulusMesh, ElementKind};
 
     #[test]
     fn sector_is_the_beginning_of_the_full_mesh_bit_for_bit() {
@@ -125,6 +132,7 @@ mod tests {
                 radial_elements: 5,
                 radial_grading: 1.1,
                 element,
+                outer: BoundaryCondition::Clamped,
             };
             let full = AnnulusMesh::generate(&specification).unwrap().mesh;
             let sector = SectorMesh::generate(&specification).unwrap();

@@ -1,12 +1,17 @@
-//! Static equilibrium in full sliding.
+//! Static equilibrium in steady sliding.
 
 use super::SectorSliding;
+use super::cholesky::CholeskySolver;
+use super::condensed::CondensedContact;
 use crate::contact::{ContactInterface, SlidingContact};
-use crate::fem::{DofMap, Triplets, clamped_dofs};
+use crate::fem::{DofMap, Triplets, assemble_supports};
 use crate::mesh::{AnnulusMesh, Mesh2d, SectorMesh};
-use faer::Side;
-use faer::linalg::solvers::Solve;
-use faer::sparse::{SparseColMat, Triplet};
+
+/// Degree in the friction coefficient of the polynomial that stands for a state which is not affine in it.
+const DEGREE: usize = 6;
+
+/// Width to which a friction coefficient is located at which contact nodes open or close.
+const CHANGE_WIDTH: f64 = 1e-9;
 
 /// A sliding equilibrium that does not exist or cannot be computed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -29,49 +34,92 @@ pub enum PrestressError {
         /// Its pressure, Pa.
         pressure: f64,
     },
-    /// The stiffness matrix is not positive definite.
-    #[error("the stiffness matrix is not positive definite: check [material] and [mesh]")]
-    Singular,
-    /// Friction changes the contact pressure, so that the state is not affine in `mu`.
+    /// No contact node touches.
     #[error(
-        "friction changes the contact pressure by a fraction of {relative:.1e}: this mesh has no \
-         mirror symmetry, and its sliding state is not affine in the friction coefficient"
+        "there is a gap everywhere: the nearest of {total} contact nodes is {distance:.3e} m away from the counterface \
+         pushed in by contact.interference = {interference:e} m; raise contact.interference by more than that, or \
+         press the body with a boundary pressure"
     )]
-    PressureDependsOnFriction {
-        /// Largest change of a nodal normal force for `mu = 1`, relative to the largest force.
-        relative: f64,
+    GapEverywhere {
+        /// Contact nodes.
+        total: usize,
+        /// Smallest distance left, m.
+        distance: f64,
+        /// Interference, m.
+        interference: f64,
     },
+    /// The complementarity problem has no solution that could be found.
+    #[error(
+        "there is no state of steady sliding at contact.friction_coefficient = {friction_coefficient}: every choice of \
+         pressed and open contact nodes pulls one or lets one penetrate (friction this large has no such state, or \
+         several); lower the friction coefficient"
+    )]
+    NoState {
+        /// Friction coefficient.
+        friction_coefficient: f64,
+    },
+    /// The stiffness matrix is not positive definite.
+    #[error(
+        "the stiffness matrix is not positive definite: nothing holds the body, or part of it; check [boundaries], \
+         [material] and [mesh]"
+    )]
+    Singular,
 }
 
-/// The state of steady sliding: cylinder expanded by `delta`, every contact node slipping.
+/// The state of steady sliding: counterface pushed in by `delta`, every pressed contact node slipping.
 ///
-/// The state obeys `u_n = delta`, `T_i = s mu N_i` on the contact edge, `u = 0` on the clamped edge and
-/// `K u = f` elsewhere. On a mesh with mirror symmetry the normal forces do not depend on `mu`, so the
-/// displacement is affine in it: `u(mu) = u_0 + mu u_1`. The contact is rigid here whatever stiffness the
-/// eigenvalue analysis gives it: `delta` is the displacement of the body's edge.
+/// The state obeys `u_n = delta - g_i`, `T_i = s mu N_i` at pressed contact nodes, `N_i = T_i = 0` at open ones, the
+/// boundary conditions and `K u = f` elsewhere. Under one set of pressed nodes it is a smooth function of `mu`, kept
+/// as a polynomial. On the annulus all nodes are pressed and `u(mu) = u_0 + mu u_1` exactly, since the normal forces
+/// do not depend on `mu`. The contact is rigid here whatever stiffness the eigenvalue analysis gives it.
 ///
 /// Per metre of thickness; vectors over all dofs in nodal frames.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SteadySliding {
-    /// Displacement without friction `u_0`, m.
-    pub pressed_displacement: Vec<f64>,
-    /// Displacement for each unit of friction coefficient `u_1`, m.
-    pub sheared_displacement: Vec<f64>,
-    /// Normal force on each contact node `N_i`, N/m, in the order of the interface.
-    pub normal_forces: Vec<f64>,
+    /// Displacement `u(mu)` by power of `mu`, m.
+    pub displacements: Vec<Vec<f64>>,
+    /// Normal force on each contact node `N_i(mu)` by power of `mu`, N/m, in the order of the interface.
+    pub normal_forces: Vec<Vec<f64>>,
+    /// Whether each contact node is pressed; the others are open.
+    pub is_pressed: Vec<bool>,
     /// Sense of the friction force `s`, +1 or -1.
     pub sliding_direction: f64,
     /// The contact edge.
     pub interface: ContactInterface,
 }
 
+/// States of steady sliding over a range of friction coefficients.
+#[derive(Clone, Debug)]
+pub struct SlidingRange {
+    /// One state for each set of pressed nodes, in order of the friction coefficient.
+    pub states: Vec<SteadySliding>,
+    /// Which state each friction coefficient has.
+    pub state_of: Vec<usize>,
+    /// Friction coefficients at which one state gives way to the next.
+    pub changes: Vec<f64>,
+}
+
 impl SteadySliding {
-    /// Solves the equilibrium of `mesh` with stiffness `K` (all dofs, from
-    /// [`crate::fem::assemble_stiffness`]).
+    /// Solves the equilibrium of `mesh` at the friction coefficient of `contact`; `stiffness` is that of the body (all
+    /// dofs, from [`crate::fem::assemble_stiffness`]), to which supports are added.
     ///
     /// # Errors
-    /// [`PrestressError::Separation`] where a node would open; see there for the rest.
+    /// [`PrestressError::Separation`] where a node of an annulus would open; see there for the rest.
     pub fn solve(
+        mesh: &Mesh2d,
+        stiffness: &Triplets,
+        contact: &SlidingContact,
+    ) -> Result<Self, PrestressError> {
+        let range = SlidingRange::solve(mesh, stiffness, contact, &[contact.friction_coefficient])?;
+        Ok(range
+            .states
+            .into_iter()
+            .next_back()
+            .expect("one state for each set"))
+    }
+
+    /// Full sliding on the annulus, whose normal forces do not depend on friction.
+    fn solve_annulus(
         mesh: &Mesh2d,
         stiffness: &Triplets,
         contact: &SlidingContact,
@@ -84,7 +132,7 @@ impl SteadySliding {
             .map(|i| interface.normal_dof(i))
             .collect();
         let unknowns =
-            DofMap::excluding(total, clamped_dofs(mesh).chain(normal_dofs.iter().copied()));
+            DofMap::excluding(total, mesh.held_dofs().chain(normal_dofs.iter().copied()));
         let solver = CholeskySolver::new(stiffness, &unknowns)?;
 
         let mut pressed = vec![0.0; total];
@@ -100,18 +148,16 @@ impl SteadySliding {
         let normal_forces: Vec<f64> = normal_dofs.iter().map(|&dof| reaction[dof]).collect();
         check_pressed(&interface, &normal_forces)?;
 
-        let sliding_direction = contact.sliding_direction();
+        let sliding_direction = interface.sliding_direction(contact.rotation_speed);
         let mut traction = vec![0.0; total];
         for (i, force) in contact_range.zip(&normal_forces) {
             traction[interface.tangential_dof(i)] = sliding_direction * force;
         }
         let sheared = unknowns.expand(&solver.solve(unknowns.restrict(&traction)));
-        let change = stiffness.multiply(total, &sheared);
-        check_affine(&normal_dofs, &change, &normal_forces)?;
         Ok(Self {
-            pressed_displacement: pressed,
-            sheared_displacement: sheared,
-            normal_forces,
+            displacements: vec![pressed, sheared],
+            is_pressed: vec![true; normal_forces.len()],
+            normal_forces: vec![normal_forces],
             sliding_direction,
             interface,
         })
@@ -131,12 +177,16 @@ impl SteadySliding {
             values
         };
         let interface = ContactInterface::of(&annulus.mesh);
+        let normal_forces: Vec<f64> = (0..interface.len())
+            .map(|i| state.normal_forces[i % sector.contact_count])
+            .collect();
         Self {
-            pressed_displacement: repeat(&state.pressed_displacement),
-            sheared_displacement: repeat(&state.sheared_displacement),
-            normal_forces: (0..interface.len())
-                .map(|i| state.normal_forces[i % sector.contact_count])
-                .collect(),
+            displacements: vec![
+                repeat(&state.pressed_displacement),
+                repeat(&state.sheared_displacement),
+            ],
+            is_pressed: vec![true; normal_forces.len()],
+            normal_forces: vec![normal_forces],
             sliding_direction: state.sliding_direction,
             interface,
         }
@@ -144,29 +194,205 @@ impl SteadySliding {
 
     /// Displacement over all dofs at friction coefficient `friction_coefficient`, m.
     pub fn displacement(&self, friction_coefficient: f64) -> Vec<f64> {
-        let pairs = self
-            .pressed_displacement
-            .iter()
-            .zip(&self.sheared_displacement);
-        pairs
-            .map(|(u0, u1)| u0 + friction_coefficient * u1)
-            .collect()
+        evaluate(&self.displacements, friction_coefficient)
+    }
+
+    /// Normal force on each contact node, N/m.
+    pub fn normal_forces(&self, friction_coefficient: f64) -> Vec<f64> {
+        evaluate(&self.normal_forces, friction_coefficient)
     }
 
     /// Contact pressure at each contact node `p_i = N_i / w_i`, Pa.
-    pub fn pressures(&self) -> Vec<f64> {
-        let pairs = self
-            .normal_forces
-            .iter()
-            .zip(&self.interface.tributary_lengths);
+    pub fn pressures(&self, friction_coefficient: f64) -> Vec<f64> {
+        let forces = self.normal_forces(friction_coefficient);
+        let pairs = forces.iter().zip(&self.interface.tributary_lengths);
         pairs.map(|(force, length)| force / length).collect()
     }
 
-    /// Torque of the cylinder on the body for each metre of thickness, `s mu a sum N_i`, N.
+    /// What friction asks of the counterface's drive for each metre of thickness: the torque `s mu a sum N_i` of a
+    /// cylinder, N; the force of a plane, N/m.
     pub fn torque(&self, friction_coefficient: f64) -> f64 {
-        let normal: f64 = self.normal_forces.iter().sum();
-        self.sliding_direction * friction_coefficient * self.interface.radius * normal
+        let normal: f64 = self.normal_forces(friction_coefficient).iter().sum();
+        let lever = self.interface.counterface.lever();
+        self.sliding_direction * friction_coefficient * lever * normal
     }
+}
+
+impl SlidingRange {
+    /// States at every one of `friction_coefficients`.
+    ///
+    /// # Errors
+    /// As [`SteadySliding::solve`]; the first friction coefficient without a state.
+    pub fn solve(
+        mesh: &Mesh2d,
+        stiffness: &Triplets,
+        contact: &SlidingContact,
+        friction_coefficients: &[f64],
+    ) -> Result<Self, PrestressError> {
+        let mut supported = stiffness.clone();
+        let [springs, _] = assemble_supports(mesh);
+        supported.entries.extend(springs.entries);
+        if mesh.is_cyclic {
+            return Ok(Self {
+                states: vec![SteadySliding::solve_annulus(mesh, &supported, contact)?],
+                state_of: vec![0; friction_coefficients.len()],
+                changes: Vec::new(),
+            });
+        }
+        let interface = ContactInterface::of(mesh);
+        let body = CondensedContact::new(mesh, &supported, &interface, contact)?;
+        Self::of_body(&body, &interface, contact, friction_coefficients)
+    }
+
+    fn of_body(
+        body: &CondensedContact<'_>,
+        interface: &ContactInterface,
+        contact: &SlidingContact,
+        friction_coefficients: &[f64],
+    ) -> Result<Self, PrestressError> {
+        // Rising values, each starting from the set of the last.
+        let mut order: Vec<usize> = (0..friction_coefficients.len()).collect();
+        order.sort_by(|&a, &b| friction_coefficients[a].total_cmp(&friction_coefficients[b]));
+        let mut sets: Vec<(Vec<bool>, f64)> = Vec::new();
+        let mut state_of = vec![0; friction_coefficients.len()];
+        let mut changes = Vec::new();
+        let mut start = vec![true; body.len()];
+        for (rank, &i) in order.iter().enumerate() {
+            let friction = friction_coefficients[i];
+            let set = body.pressed_nodes(friction, &start)?;
+            if !set.contains(&true) {
+                let distances = body.pushed().iter().map(|pushed| -pushed);
+                return Err(PrestressError::GapEverywhere {
+                    total: body.len(),
+                    distance: distances.fold(f64::INFINITY, f64::min).max(0.0),
+                    interference: contact.interference,
+                });
+            }
+            if sets.last().is_none_or(|(last, _)| *last != set) {
+                if rank > 0 {
+                    let before = friction_coefficients[order[rank - 1]];
+                    changes.push(change_between(body, &start, before, friction)?);
+                }
+                sets.push((set.clone(), friction));
+            }
+            if let Some(last) = sets.last_mut() {
+                last.1 = friction;
+            }
+            state_of[i] = sets.len() - 1;
+            start = set;
+        }
+        let states = sets.into_iter().enumerate().map(|(k, (set, last))| {
+            let upper = changes.get(k).copied().unwrap_or(last);
+            polynomial_state(body, interface, contact, set, upper)
+        });
+        Ok(Self {
+            states: states.collect(),
+            state_of,
+            changes,
+        })
+    }
+}
+
+/// The friction coefficient up to which the set at `low` holds, by bisection.
+fn change_between(
+    body: &CondensedContact<'_>,
+    set: &[bool],
+    mut low: f64,
+    mut high: f64,
+) -> Result<f64, PrestressError> {
+    while high - low > CHANGE_WIDTH {
+        let middle = 0.5 * (low + high);
+        if body.pressed_nodes(middle, set)? == set {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    Ok(0.5 * (low + high))
+}
+
+/// The state of one set of pressed nodes as a polynomial through Chebyshev points of `[0, upper]`.
+fn polynomial_state(
+    body: &CondensedContact<'_>,
+    interface: &ContactInterface,
+    contact: &SlidingContact,
+    is_pressed: Vec<bool>,
+    upper: f64,
+) -> SteadySliding {
+    // Without friction the state needs no polynomial, but its tangent is followed from there.
+    let upper = upper.max(0.05);
+    let points: Vec<f64> = (0..=DEGREE)
+        .map(|k| {
+            let turn = std::f64::consts::PI * (k as f64 + 0.5) / (DEGREE + 1) as f64;
+            0.5 * upper * (1.0 - turn.cos())
+        })
+        .collect();
+    let solved = points.iter().map(|&mu| {
+        let state = body.state_of(mu, &is_pressed);
+        (
+            body.whole_displacement(&state.displacement),
+            state.normal_forces,
+        )
+    });
+    let (displacements, normal_forces): (Vec<_>, Vec<_>) = solved.unzip();
+    SteadySliding {
+        displacements: interpolated(&points, displacements, upper),
+        normal_forces: interpolated(&points, normal_forces, upper),
+        is_pressed,
+        sliding_direction: interface.sliding_direction(contact.rotation_speed),
+        interface: interface.clone(),
+    }
+}
+
+/// Coefficients by power of the polynomial through `values` at `points` (Newton's divided differences), without
+/// trailing ones that are round-off over `[0, upper]`.
+fn interpolated(points: &[f64], mut values: Vec<Vec<f64>>, upper: f64) -> Vec<Vec<f64>> {
+    let count = points.len();
+    for order in 1..count {
+        for k in (order..count).rev() {
+            let (before, after) = values.split_at_mut(k);
+            let span = points[k] - points[k - order];
+            for (value, previous) in after[0].iter_mut().zip(&before[k - 1]) {
+                *value = (*value - previous) / span;
+            }
+        }
+    }
+    // Horner's scheme from Newton's form to powers.
+    let mut powers: Vec<Vec<f64>> = vec![values[count - 1].clone()];
+    for k in (0..count - 1).rev() {
+        powers.insert(0, vec![0.0; values[k].len()]);
+        for power in 0..powers.len() {
+            for at in 0..values[k].len() {
+                let above = powers.get(power + 1).map_or(0.0, |p| p[at]);
+                powers[power][at] -= points[k] * above;
+            }
+        }
+        for (sum, value) in powers[0].iter_mut().zip(&values[k]) {
+            *sum += value;
+        }
+    }
+    let size = |coefficient: &Vec<f64>| coefficient.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    let scale = powers.iter().map(size).fold(0.0_f64, f64::max);
+    while powers.len() > 1 {
+        let last = powers.len() - 1;
+        if size(&powers[last]) * upper.powi(last as i32) > 1e-11 * scale {
+            break;
+        }
+        powers.pop();
+    }
+    powers
+}
+
+/// `sum_p c_p mu^p`.
+fn evaluate(coefficients: &[Vec<f64>], friction_coefficient: f64) -> Vec<f64> {
+    let mut powers = coefficients.iter().rev();
+    let mut values = powers.next().cloned().unwrap_or_default();
+    for coefficient in powers {
+        for (value, constant) in values.iter_mut().zip(coefficient) {
+            *value = constant + friction_coefficient * *value;
+        }
+    }
+    values
 }
 
 fn check_pressed(interface: &ContactInterface, forces: &[f64]) -> Result<(), PrestressError> {
@@ -183,53 +409,5 @@ fn check_pressed(interface: &ContactInterface, forces: &[f64]) -> Result<(), Pre
             angle_degrees: interface.angles[i].to_degrees(),
             pressure: forces[i] / interface.tributary_lengths[i],
         }),
-    }
-}
-
-/// Round-off of the solution leaves about 1e-12; a mesh without mirror symmetry far more than 1e-8.
-fn check_affine(
-    normal_dofs: &[usize],
-    change: &[f64],
-    normal_forces: &[f64],
-) -> Result<(), PrestressError> {
-    let largest = normal_forces.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
-    let worst = normal_dofs
-        .iter()
-        .fold(0.0_f64, |m, &dof| m.max(change[dof].abs()));
-    let relative = worst / largest;
-    if relative > 1e-8 {
-        return Err(PrestressError::PressureDependsOnFriction { relative });
-    }
-    Ok(())
-}
-
-/// Sparse Cholesky factorization of the stiffness over some unknowns.
-struct CholeskySolver {
-    factor: faer::sparse::linalg::solvers::Llt<usize, f64>,
-}
-
-impl CholeskySolver {
-    fn new(stiffness: &Triplets, unknowns: &DofMap) -> Result<Self, PrestressError> {
-        let place = |dof: usize| unknowns.unknown_of[dof];
-        let triplets: Vec<_> = stiffness
-            .entries
-            .iter()
-            .filter_map(|&(row, column, value)| {
-                Some(Triplet::new(place(row)?, place(column)?, value))
-            })
-            .collect();
-        let matrix = SparseColMat::try_new_from_triplets(unknowns.len(), unknowns.len(), &triplets)
-            .map_err(|_| PrestressError::Singular)?;
-        let factor = matrix
-            .sp_cholesky(Side::Lower)
-            .map_err(|_| PrestressError::Singular)?;
-        Ok(Self { factor })
-    }
-
-    fn solve(&self, mut right_side: Vec<f64>) -> Vec<f64> {
-        let count = right_side.len();
-        let column = faer::MatMut::from_column_major_slice_mut(&mut right_side, count, 1);
-        self.factor.solve_in_place(column);
-        right_side
     }
 }

@@ -1,17 +1,19 @@
 //! Steady sliding equilibrium and the tangent around it.
 //!
-//! [`SteadySliding`] is the base state: the cylinder expanded by `delta`, every contact node
-//! slipping. [`SlidingTangent`] holds the matrices of small motions around it,
+//! [`SteadySliding`] is the base state: the counterface pushed in by `delta`, every pressed contact node
+//! slipping, the others open. [`SlidingTangent`] holds the matrices of small motions around it,
 //! `M(mu) q'' + C(mu) q' + K_t(mu) q = 0`, as polynomials in the friction coefficient.
 //! [`SectorSliding`] and [`SectorTangent`] are the same for a uniform annulus, from one of its sectors.
 
+mod cholesky;
+mod condensed;
 mod equilibrium;
 mod sector;
 mod sector_rate;
 mod sector_tangent;
 mod tangent;
 
-pub use equilibrium::{PrestressError, SteadySliding};
+pub use equilibrium::{PrestressError, SlidingRange, SteadySliding};
 pub use sector::SectorSliding;
 pub use sector_rate::{Parameter, TangentRate};
 pub use sector_tangent::{FrictionPolynomial, HarmonicTangent, SectorTangent};

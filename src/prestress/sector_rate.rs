@@ -54,6 +54,7 @@ impl SectorTangent {
     pub fn rate(&self, parameter: Parameter) -> Result<Option<TangentRate>, PrestressError> {
         let mut terms = Terms {
             elastic: None,
+            supports: None,
             mass: None,
             stress: None,
             turning: vec![0.0; self.terms.turning.len()],
@@ -79,14 +80,27 @@ impl SectorTangent {
                 terms.mass = mass.map(|m| scaled(m, self.material.density));
             }
             Parameter::YoungModulus => {
-                // The base displacements do not depend on E, so every stress is proportional to it.
                 let e = self.material.young_modulus;
+                if self.terms.supports.is_some() {
+                    let unit = ElasticMaterial {
+                        young_modulus: 1.0,
+                        ..self.material
+                    };
+                    self.stiffness_rate(&mut terms, &unit)?;
+                    return Ok(Some(TangentRate {
+                        terms,
+                        rayleigh: share,
+                    }));
+                }
+                // The base displacements do not depend on E, so every stress is proportional to it.
                 terms.elastic = self.terms.elastic.as_ref().map(|k| scaled(k, e));
                 let stress = self.terms.stress.as_ref();
                 terms.stress = stress.map(|[a, b]| [scaled(a, e), scaled(b, e)]);
                 terms.turning = self.terms.turning.iter().map(|value| value / e).collect();
             }
-            Parameter::PoissonRatio => self.poisson_rate(&mut terms)?,
+            Parameter::PoissonRatio => {
+                self.stiffness_rate(&mut terms, &poisson_rate_material(&self.material))?;
+            }
         }
         Ok(Some(TangentRate {
             terms,
@@ -94,16 +108,23 @@ impl SectorTangent {
         }))
     }
 
-    fn poisson_rate(&self, terms: &mut Terms) -> Result<(), PrestressError> {
+    fn stiffness_rate(
+        &self,
+        terms: &mut Terms,
+        rate: &ElasticMaterial,
+    ) -> Result<(), PrestressError> {
         let Some(elastic) = &self.terms.elastic else {
             return Ok(());
         };
-        let rate = poisson_rate_material(&self.material);
-        let elastic_rate = sector::stiffness(&self.sector, &rate);
+        let elastic_rate = sector::stiffness(&self.sector, rate);
         if self.terms.stress.is_some() {
-            let base_rate = self.base.rate(&self.sector, elastic, &elastic_rate)?;
+            let supported = match &self.terms.supports {
+                Some([springs, _]) => elastic.plus(springs),
+                None => elastic.clone(),
+            };
+            let base_rate = self.base.rate(&self.sector, &supported, &elastic_rate)?;
             let moved = stress_stiffness(&self.sector, &self.material, &base_rate);
-            let stiffened = stress_stiffness(&self.sector, &rate, &self.base);
+            let stiffened = stress_stiffness(&self.sector, rate, &self.base);
             terms.stress = Some([moved[0].plus(&stiffened[0]), moved[1].plus(&stiffened[1])]);
             terms.turning = turning(&self.sector, &self.options, &base_rate);
         }

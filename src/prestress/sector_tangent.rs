@@ -5,7 +5,7 @@ use crate::contact::SlidingContact;
 use crate::fem::sector::{self, MirrorParity, SectorMatrix};
 use crate::fem::{ElasticMaterial, RayleighDamping};
 use crate::linalg::banded::BandedMatrix;
-use crate::mesh::{ElementKind, SectorMesh};
+use crate::mesh::SectorMesh;
 
 /// A matrix that depends on the friction coefficient, `P(mu) = sum_p P_p (i mu)^p` with real `P_p`.
 pub type FrictionPolynomial = Vec<BandedMatrix>;
@@ -48,6 +48,8 @@ pub struct SectorTangent {
 #[derive(Clone, Debug)]
 pub(super) struct Terms {
     pub(super) elastic: Option<SectorMatrix>,
+    /// Springs and dashpots of the outer edge.
+    pub(super) supports: Option<[SectorMatrix; 2]>,
     pub(super) mass: Option<SectorMatrix>,
     /// Stress of the pressed state and, for each unit of friction, of the sheared state.
     pub(super) stress: Option<[SectorMatrix; 2]>,
@@ -69,7 +71,9 @@ impl SectorTangent {
         contact: &SlidingContact,
     ) -> Result<Self, PrestressError> {
         let elastic = sector::stiffness(sector, material);
-        let base = SectorSliding::solve(sector, &elastic, contact)?;
+        let supports = sector::supports(sector);
+        let supported = sector::supported_stiffness(sector, material);
+        let base = SectorSliding::solve(sector, &supported, contact)?;
         let stress = options
             .geometric_stiffness
             .then(|| stress_stiffness(sector, material, &base));
@@ -80,6 +84,7 @@ impl SectorTangent {
             stress,
             mass: Some(sector::mass(sector, material, options.mass)),
             elastic: Some(elastic),
+            supports,
             normal_stiffness: penalty.map(|k| lengths.iter().map(|w| k * w).collect()),
         };
         Ok(Self {
@@ -166,6 +171,9 @@ impl SectorTangent {
     pub fn harmonic_at_rest(&self, n: usize) -> [BandedMatrix; 2] {
         let mass = self.harmonic_of(&self.terms.mass, n);
         let mut stiffness = self.harmonic_of(&self.terms.elastic, n);
+        if let Some([springs, _]) = &self.terms.supports {
+            stiffness.add_scaled(1.0, &springs.harmonic(n));
+        }
         self.add_at_rest(&self.terms, n, &mut stiffness);
         if self.terms.normal_stiffness.is_some() {
             return [mass, stiffness];
@@ -178,14 +186,12 @@ impl SectorTangent {
     pub fn is_proportional(&self) -> bool {
         let contact = self.options.contact;
         let has_dashpots = contact.normal_damping != 0.0 || contact.tangential_damping != 0.0;
-        self.options.damping_model == DampingModel::WholeTangent && !has_dashpots
+        let is_whole = self.options.damping_model == DampingModel::WholeTangent;
+        is_whole && !has_dashpots && self.terms.supports.is_none()
     }
 
     fn zero(&self) -> BandedMatrix {
-        let half_bandwidth = match self.sector.specification.element {
-            ElementKind::Quad4 => 3,
-            ElementKind::Quad8 => 9,
-        };
+        let half_bandwidth = sector::half_bandwidth(&self.sector);
         BandedMatrix::zeros(2 * self.sector.free_node_count(), half_bandwidth)
     }
 
@@ -199,8 +205,17 @@ impl SectorTangent {
         self.project(vec![self.harmonic_of(&terms.mass, n)])
     }
 
-    /// `K_e + K_sigma`, the contact forces that turn with the edge, and the normal law.
+    /// `K_e + K_sigma`, supports, the contact forces that turn with the edge, and the normal law.
     pub(super) fn stiffness(&self, terms: &Terms, n: usize) -> FrictionPolynomial {
+        let mut full = self.damped_stiffness(terms, n);
+        if let Some([springs, _]) = &terms.supports {
+            full[0].add_scaled(1.0, &springs.harmonic(n));
+        }
+        self.project(full)
+    }
+
+    /// The stiffness that `beta_R` multiplies: all but the supports; over all free dofs.
+    fn damped_stiffness(&self, terms: &Terms, n: usize) -> FrictionPolynomial {
         let mut full = vec![self.harmonic_of(&terms.elastic, n), self.zero()];
         self.add_at_rest(terms, n, &mut full[0]);
         if let Some([_, sheared]) = &terms.stress {
@@ -213,7 +228,7 @@ impl SectorTangent {
         if let Some(normal_stiffness) = &terms.normal_stiffness {
             self.add_friction(&mut full[1], normal_stiffness);
         }
-        self.project(full)
+        full
     }
 
     /// What prestress and contact add to the elastic stiffness without friction.
@@ -238,7 +253,7 @@ impl SectorTangent {
         n: usize,
     ) -> FrictionPolynomial {
         let stiffness = match self.options.damping_model {
-            DampingModel::WholeTangent => self.stiffness(terms, n),
+            DampingModel::WholeTangent => self.project(self.damped_stiffness(terms, n)),
             DampingModel::BodyOnly => self.project(vec![self.harmonic_of(&terms.elastic, n)]),
         };
         let mass = multiplied(self.mass(terms, n), rayleigh.mass_coefficient);
@@ -250,6 +265,9 @@ impl SectorTangent {
         let contact = self.options.contact;
         let lengths = self.sector.tributary_lengths();
         let mut dashpots = vec![self.zero(), self.zero()];
+        if let Some([_, supports]) = &terms.supports {
+            dashpots[0].add_scaled(1.0, &supports.harmonic(n));
+        }
         let normal: Vec<f64> = lengths.iter().map(|w| contact.normal_damping * w).collect();
         self.add_friction(&mut dashpots[1], &normal);
         for (node, length) in lengths.iter().enumerate() {

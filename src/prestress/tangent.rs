@@ -3,8 +3,8 @@
 use super::SteadySliding;
 use crate::contact::ContactStiffness;
 use crate::fem::{
-    DofMap, ElasticMaterial, MassKind, RayleighDamping, Triplets, assemble_geometric_stiffness,
-    assemble_mass, clamped_dofs,
+    DofMap, MassKind, MaterialField, RayleighDamping, Triplets, assemble_extra_damping,
+    assemble_geometric_stiffness, assemble_mass, assemble_supports,
 };
 use crate::linalg::{MatrixPolynomial, SparsityPattern};
 use crate::mesh::Mesh2d;
@@ -41,17 +41,18 @@ pub struct TangentOptions {
 ///
 /// ```text
 /// M q'' + C q' + (K_e + K_sigma) q = dF,
-/// dF_n = dN - (T / a) q_t,   dF_t = s mu dN + (N / a) q_t   at each contact node:
+/// dF_n = dN - (T / a) q_t,   dF_t = s mu dN + (N / a) q_t   at each pressed contact node:
 /// ```
 ///
 /// the contact forces `N` and `T = s mu N` of the base state turn with the node on the curved edge (a
-/// rigid rotation of everything leaves the edge in balance), and friction follows the normal force.
+/// rigid rotation of everything leaves the edge in balance), and friction follows the normal force. `1 / a` is the
+/// curvature of the counterface, negative around the body and zero for a plane. Open nodes are free.
 /// Penalty contact has `dN = -w (k_n q_n + c_n q_n')`, `w` the node's tributary length. Rigid contact has
 /// `q_n = 0` and unknown `dN`, eliminated by adding `-s mu` times each normal row to its tangential row,
 /// in `M`, `C` and `K` alike: the contact force balances inertia and damping too.
 ///
-/// `K_sigma` is affine in `mu` like the base state, so every matrix is a polynomial of degree at most 2, all
-/// on one sparsity pattern. Source: Brunetti et al., section 4, which leaves the
+/// `K_sigma` is a polynomial in `mu` like the base state (affine on the annulus), so every matrix is one too, all
+/// on one sparsity pattern. Supports add their springs and dashpots, which `beta_R` does not multiply. Source: Brunetti et al., section 4, which leaves the
 /// linearisation to a commercial code; the follower terms and the projection are written out here.
 #[derive(Clone, Debug)]
 pub struct SlidingTangent {
@@ -70,14 +71,15 @@ pub struct SlidingTangent {
     pub contact_tangential: Vec<usize>,
     /// Unknown of each contact node's normal displacement; empty for rigid contact.
     pub contact_normal: Vec<usize>,
-    /// Angle of each contact node, rad.
+    /// Angle of each contact node, rad; empty for a body without rotational symmetry, whose modes have no
+    /// circumferential harmonic.
     pub contact_angles: Vec<f64>,
     /// Sense of the friction force `s`.
     pub sliding_direction: f64,
 }
 
 /// Coefficients of one matrix over all dofs, by power of `mu`.
-type FullPolynomial = [Triplets; 2];
+type FullPolynomial = Vec<Triplets>;
 
 /// Entries `(row, column, value)` over the unknowns, by power of `mu`.
 type ProjectedPolynomial = Vec<Vec<(usize, usize, f64)>>;
@@ -86,17 +88,16 @@ impl SlidingTangent {
     /// Linearises around `base`, whose stiffness `K_e` over all dofs is `elastic`.
     pub fn linearize(
         mesh: &Mesh2d,
-        material: &ElasticMaterial,
+        material: &dyn MaterialField,
         elastic: &Triplets,
         base: &SteadySliding,
         options: &TangentOptions,
     ) -> Self {
         let projection = Projection::new(mesh, base, options.contact.normal_stiffness.is_some());
-        let mass = [
-            assemble_mass(mesh, material, options.mass),
-            Triplets::default(),
-        ];
-        let mut stiffness = [elastic.clone(), Triplets::default()];
+        let mass = vec![assemble_mass(mesh, material, options.mass)];
+
+        // What beta_R multiplies: body, prestress, contact.
+        let mut stiffness = vec![elastic.clone(), Triplets::default()];
         if options.geometric_stiffness {
             add_prestress(&mut stiffness, mesh, material, base);
         }
@@ -105,35 +106,53 @@ impl SlidingTangent {
             add_normal_law(&mut stiffness, base, normal_stiffness);
         }
         let mass = projection.apply(&mass);
-        let stiffness = projection.apply(&stiffness);
-        let body = (options.damping_model == DampingModel::BodyOnly)
-            .then(|| projection.apply(&[elastic.clone(), Triplets::default()]));
-        let dashpots = dashpots(base, &contact).map(|terms| projection.apply(&terms));
+        let damped = match options.damping_model {
+            DampingModel::WholeTangent => projection.apply(&stiffness),
+            DampingModel::BodyOnly => projection.apply(std::slice::from_ref(elastic)),
+        };
 
-        let pattern = shared_pattern(projection.unknowns.len(), [&mass, &stiffness]);
+        // What it does not: supports, dashpots, regions with damping of their own.
+        let [springs, support_dashpots] = assemble_supports(mesh);
+        let has_supports = !springs.entries.is_empty() || !support_dashpots.entries.is_empty();
+        stiffness[0].entries.extend(springs.entries);
+        let mut dashpots = contact_dashpots(base, &contact);
+        dashpots[0].entries.extend(support_dashpots.entries);
+        let rayleigh = options.damping;
+        if let Some(own) = assemble_extra_damping(mesh, material, options.mass, rayleigh) {
+            dashpots[0].entries.extend(own.entries);
+        }
+        let has_dashpots = dashpots.iter().any(|terms| !terms.entries.is_empty());
+        let stiffness = projection.apply(&stiffness);
+
+        // One pattern for all; C = alpha_R M + beta_R K and the rest.
+        let dashpots = projection.apply(&dashpots);
+        let pattern = shared_pattern(projection.unknowns.len(), [&mass, &stiffness, &dashpots]);
         let on_pattern =
             |terms: &ProjectedPolynomial| MatrixPolynomial::on_pattern(&pattern, terms);
         let (mass, stiffness) = (on_pattern(&mass), on_pattern(&stiffness));
-        let rayleigh = options.damping;
-        let damped = body.as_ref().map(on_pattern);
         let mut damping = MatrixPolynomial::combination(
             rayleigh.mass_coefficient,
             &mass,
             rayleigh.stiffness_coefficient,
-            damped.as_ref().unwrap_or(&stiffness),
+            &on_pattern(&damped),
         );
-        if let Some(terms) = &dashpots {
-            damping = MatrixPolynomial::combination(1.0, &damping, 1.0, &on_pattern(terms));
+        if has_dashpots {
+            damping = MatrixPolynomial::combination(1.0, &damping, 1.0, &on_pattern(&dashpots));
         }
-        let proportional = (body.is_none() && dashpots.is_none()).then_some(rayleigh);
+        let is_whole = options.damping_model == DampingModel::WholeTangent && !has_supports;
+        let contact_angles = if mesh.is_cyclic {
+            base.interface.angles.clone()
+        } else {
+            Vec::new()
+        };
         Self {
             mass,
             damping,
             stiffness,
-            proportional,
+            proportional: (is_whole && !has_dashpots).then_some(rayleigh),
             contact_tangential: projection.tangential_unknowns(),
             contact_normal: projection.normal_unknowns(),
-            contact_angles: base.interface.angles.clone(),
+            contact_angles,
             sliding_direction: base.sliding_direction,
             unknowns: projection.unknowns,
         }
@@ -144,27 +163,32 @@ impl SlidingTangent {
 fn add_prestress(
     stiffness: &mut FullPolynomial,
     mesh: &Mesh2d,
-    material: &ElasticMaterial,
+    material: &dyn MaterialField,
     base: &SteadySliding,
 ) {
-    let displacements = [&base.pressed_displacement, &base.sheared_displacement];
-    for (terms, displacement) in stiffness.iter_mut().zip(displacements) {
+    let degree = base.displacements.len().max(base.normal_forces.len() + 1);
+    stiffness.resize_with(degree.max(stiffness.len()), Triplets::default);
+    for (terms, displacement) in stiffness.iter_mut().zip(&base.displacements) {
         let stress = assemble_geometric_stiffness(mesh, material, displacement);
         terms.entries.extend(stress.entries);
     }
     let interface = &base.interface;
-    for (i, force) in base.normal_forces.iter().enumerate() {
-        let (normal, tangential) = (interface.normal_dof(i), interface.tangential_dof(i));
-        let turning = force / interface.radius;
-        stiffness[0].push(tangential, tangential, -turning);
-        stiffness[1].push(normal, tangential, base.sliding_direction * turning);
+    let curvature = interface.counterface.curvature();
+    for (power, forces) in base.normal_forces.iter().enumerate() {
+        for (i, force) in forces.iter().enumerate() {
+            let (normal, tangential) = (interface.normal_dof(i), interface.tangential_dof(i));
+            let turning = force * curvature;
+            stiffness[power].push(tangential, tangential, -turning);
+            let friction = base.sliding_direction * turning;
+            stiffness[power + 1].push(normal, tangential, friction);
+        }
     }
 }
 
-/// `dN = -w coefficient q_n` and the friction that follows it, moved to the left-hand side.
+/// `dN = -w coefficient q_n` at pressed nodes and the friction that follows it, moved to the left-hand side.
 fn add_normal_law(terms: &mut FullPolynomial, base: &SteadySliding, coefficient: f64) {
-    let interface = &base.interface;
-    for (i, length) in interface.tributary_lengths.iter().enumerate() {
+    for (i, length) in pressed_lengths(base) {
+        let interface = &base.interface;
         let (normal, tangential) = (interface.normal_dof(i), interface.tangential_dof(i));
         let value = coefficient * length;
         terms[0].push(normal, normal, value);
@@ -172,23 +196,29 @@ fn add_normal_law(terms: &mut FullPolynomial, base: &SteadySliding, coefficient:
     }
 }
 
-/// Normal and tangential dashpots of the contact, if it has any.
-fn dashpots(base: &SteadySliding, contact: &ContactStiffness) -> Option<FullPolynomial> {
-    if contact.normal_damping == 0.0 && contact.tangential_damping == 0.0 {
-        return None;
+/// Pressed contact nodes with their tributary lengths, m.
+fn pressed_lengths(base: &SteadySliding) -> impl Iterator<Item = (usize, f64)> + '_ {
+    let lengths = base.interface.tributary_lengths.iter().copied();
+    lengths.enumerate().filter(|&(i, _)| base.is_pressed[i])
+}
+
+/// Normal and tangential dashpots of the contact; empty where it has none.
+fn contact_dashpots(base: &SteadySliding, contact: &ContactStiffness) -> FullPolynomial {
+    let mut terms = vec![Triplets::default(), Triplets::default()];
+    if contact.normal_damping != 0.0 {
+        add_normal_law(&mut terms, base, contact.normal_damping);
     }
-    let mut terms = FullPolynomial::default();
-    add_normal_law(&mut terms, base, contact.normal_damping);
-    let interface = &base.interface;
-    for (i, length) in interface.tributary_lengths.iter().enumerate() {
-        let dof = interface.tangential_dof(i);
-        terms[0].push(dof, dof, contact.tangential_damping * length);
+    if contact.tangential_damping != 0.0 {
+        for (i, length) in pressed_lengths(base) {
+            let dof = base.interface.tangential_dof(i);
+            terms[0].push(dof, dof, contact.tangential_damping * length);
+        }
     }
-    Some(terms)
+    terms
 }
 
 /// One pattern that holds all of the given matrices.
-fn shared_pattern(dimension: usize, matrices: [&ProjectedPolynomial; 2]) -> Arc<SparsityPattern> {
+fn shared_pattern(dimension: usize, matrices: [&ProjectedPolynomial; 3]) -> Arc<SparsityPattern> {
     let entries = matrices.into_iter().flatten().flatten();
     let positions = entries.map(|&(row, column, _)| (row, column));
     Arc::new(SparsityPattern::from_positions(dimension, positions))
@@ -196,7 +226,7 @@ fn shared_pattern(dimension: usize, matrices: [&ProjectedPolynomial; 2]) -> Arc<
 
 /// From all dofs to the unknowns of small motions in sliding contact.
 ///
-/// Columns are the unknowns: every dof that is not clamped and, for rigid contact, not a contact node's
+/// Columns are the unknowns: every dof that is not held and, for rigid contact, not a pressed contact node's
 /// normal displacement. Rows are the same, and for rigid contact each normal row is added to its
 /// tangential row with the factor `-s mu`.
 struct Projection<'a> {
@@ -211,11 +241,12 @@ impl<'a> Projection<'a> {
     fn new(mesh: &Mesh2d, base: &'a SteadySliding, is_penalty: bool) -> Self {
         let interface = &base.interface;
         let total = 2 * mesh.node_count();
-        let rigid = if is_penalty { 0 } else { interface.len() };
-        let normals = (0..rigid).map(|i| interface.normal_dof(i));
-        let unknowns = DofMap::excluding(total, clamped_dofs(mesh).chain(normals));
+        let is_rigid = |i: &usize| !is_penalty && base.is_pressed[*i];
+        let rigid: Vec<usize> = (0..interface.len()).filter(is_rigid).collect();
+        let normals = rigid.iter().map(|&i| interface.normal_dof(i));
+        let unknowns = DofMap::excluding(total, mesh.held_dofs().chain(normals));
         let mut friction_row = vec![None; total];
-        for i in 0..rigid {
+        for i in rigid {
             friction_row[interface.normal_dof(i)] =
                 unknowns.unknown_of[interface.tangential_dof(i)];
         }
@@ -227,7 +258,7 @@ impl<'a> Projection<'a> {
         }
     }
 
-    fn apply(&self, full: &FullPolynomial) -> ProjectedPolynomial {
+    fn apply(&self, full: &[Triplets]) -> ProjectedPolynomial {
         let mut projected = vec![Vec::new(); full.len() + usize::from(!self.is_penalty)];
         for (power, terms) in full.iter().enumerate() {
             for &(row, column, value) in &terms.entries {
@@ -264,8 +295,8 @@ impl<'a> Projection<'a> {
 mod tests {
     use super::*;
     use crate::contact::SlidingContact;
-    use crate::fem::{PlaneFormulation, assemble_stiffness};
-    use crate::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind};
+    use crate::fem::{ElasticMaterial, PlaneFormulation, assemble_stiffness};
+    use crate::mesh::{AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind};
 
     fn disc(element: ElementKind) -> (Mesh2d, ElasticMaterial) {
         let mesh = AnnulusMesh::generate(&AnnulusSpecification {
@@ -275,6 +306,7 @@ mod tests {
             radial_elements: 6,
             radial_grading: 1.2,
             element,
+            outer: BoundaryCondition::Clamped,
         });
         let material = ElasticMaterial {
             young_modulus: 2.5e9,
@@ -298,7 +330,7 @@ mod tests {
                 rotation_speed: -60.0,
             };
             let base = SteadySliding::solve(&mesh, &elastic, &contact).unwrap();
-            let mut prestress = FullPolynomial::default();
+            let mut prestress = vec![Triplets::default(); 2];
             add_prestress(&mut prestress, &mesh, &material, &base);
             let total = 2 * mesh.node_count();
             let rotation: Vec<f64> = (0..mesh.node_count())

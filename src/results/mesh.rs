@@ -9,8 +9,9 @@ use super::vtu::{EncodedMesh, Field, write_vtu};
 use crate::chart::{
     Axis, Field as Window, Figure, INK, Label, Line, Marker, Panel, Points, SERIES,
 };
-use crate::mesh::{AnnulusMesh, ElementKind, Mesh2d};
+use crate::mesh::{AnnulusMesh, Boundary, BoundaryCondition, ElementKind, Mesh2d};
 use serde::{Deserialize, Serialize};
+use std::fmt::Write as _;
 
 /// `summary.json` of `frictionsim mesh`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -47,20 +48,51 @@ pub fn print(summary: &MeshSummary) -> String {
         let quantity = quantity(&entry.path);
         format!("{} {}", quantity.cell(&entry.value), quantity.caption)
     });
-    format!(
-        "{}\nedges {} to {}, aspect ratio up to {}\narea {}, {} off the annulus\n\
-         node ids: 1 + j {} + i, i outwards along a ray, j around from +x\n",
+    let mut out = format!(
+        "{}\nedges {} to {}, aspect ratio up to {}, worst Jacobian {:.3}\n",
         counts.collect::<Vec<_>>().join(", "),
         quantity("smallest_edge_m").number(mesh.smallest_edge_m),
         text("largest_edge_m", mesh.largest_edge_m),
         text("largest_aspect_ratio", mesh.largest_aspect_ratio),
-        text("area_m2", mesh.area_m2),
-        text("area_error", mesh.area_error),
-        mesh.nodes_per_sector,
-    )
+        mesh.worst_jacobian,
+    );
+    if let (Some(elements), Some(nodes)) =
+        (mesh.elements_per_wavelength, mesh.contact_nodes_per_wave)
+    {
+        let _ = writeln!(
+            out,
+            "at the highest frequency {elements:.1} elements for each shear wavelength, {nodes:.1} contact nodes"
+        );
+    }
+    let area = text("area_m2", mesh.area_m2);
+    if let (Some(error), Some(nodes)) = (mesh.area_error, mesh.nodes_per_sector) {
+        let _ = writeln!(
+            out,
+            "area {area}, {} off the annulus\n\
+             node ids: 1 + j {nodes} + i, i outwards along a ray, j around from +x",
+            text("area_error", error),
+        );
+        return out;
+    }
+    let _ = writeln!(out, "area {area}");
+    for region in &mesh.regions {
+        let _ = writeln!(
+            out,
+            "region {}: {} elements, {:.6e} m2",
+            region.name, region.elements, region.area_m2
+        );
+    }
+    for boundary in &mesh.boundaries {
+        let _ = writeln!(
+            out,
+            "boundary {}: {} nodes, {:.6e} m, {}",
+            boundary.name, boundary.nodes, boundary.length_m, boundary.condition
+        );
+    }
+    out
 }
 
-/// Size and quality of an annulus mesh.
+/// Size and quality of a mesh.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MeshStatistics {
     /// Nodes.
@@ -71,92 +103,153 @@ pub struct MeshStatistics {
     pub dofs: usize,
     /// Nodes on the contact edge.
     pub contact_nodes: usize,
-    /// Nodes of one ray of corner nodes: node `1 + j (nodes_per_sector) + i`.
-    pub nodes_per_sector: usize,
+    /// On the annulus, nodes of one ray of corner nodes: node `1 + j (nodes_per_sector) + i`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub nodes_per_sector: Option<usize>,
     /// Smallest edge length of any element, m.
     pub smallest_edge_m: f64,
     /// Largest edge length, m.
     pub largest_edge_m: f64,
     /// Largest ratio of the edges of one element.
     pub largest_aspect_ratio: f64,
+    /// Smallest Jacobian determinant of an element over its largest.
+    pub worst_jacobian: f64,
     /// Area of the mesh, m2.
     pub area_m2: f64,
     /// Its relative difference to the annulus.
-    pub area_error: f64,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub area_error: Option<f64>,
+    /// Elements for each shear wavelength at the highest frequency of the case, where it has one: the largest edge
+    /// counts.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub elements_per_wavelength: Option<f64>,
+    /// Contact nodes for each such wave, where they are farthest apart on average.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub contact_nodes_per_wave: Option<f64>,
+    /// Regions with their elements and areas.
+    pub regions: Vec<RegionStatistics>,
+    /// Boundaries with their nodes and lengths.
+    pub boundaries: Vec<BoundaryStatistics>,
+}
+
+/// One region of a mesh.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RegionStatistics {
+    /// Its name.
+    pub name: String,
+    /// Its elements.
+    pub elements: usize,
+    /// Its area, m2.
+    pub area_m2: f64,
+}
+
+/// One boundary of a mesh.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BoundaryStatistics {
+    /// Its name.
+    pub name: String,
+    /// Its nodes.
+    pub nodes: usize,
+    /// Its length, m.
+    pub length_m: f64,
+    /// What holds it, in a word.
+    pub condition: String,
 }
 
 impl MeshStatistics {
-    /// Measures a mesh between its corner nodes; the area follows the curved edges of Quad8.
-    pub fn new(annulus: &AnnulusMesh) -> Self {
-        let mesh = &annulus.mesh;
-        let (mut smallest, mut largest, mut aspect) = (f64::INFINITY, 0.0f64, 1.0f64);
-        let mut area = 0.0;
+    /// Measures a mesh between its corner nodes; areas follow curved edges. `wavelength` is the shortest that the case
+    /// is about, m.
+    pub fn new(mesh: &Mesh2d, annulus: Option<&AnnulusMesh>, wavelength: Option<f64>) -> Self {
+        let quality = mesh.quality();
+        let mut regions: Vec<RegionStatistics> = mesh
+            .regions
+            .iter()
+            .map(|name| RegionStatistics {
+                name: name.clone(),
+                elements: 0,
+                area_m2: 0.0,
+            })
+            .collect();
         for element in 0..mesh.element_count() {
-            let outline = outline(mesh, element);
-            area += polygon_area(&outline, mesh.element_kind);
-            let corners = corners(mesh, element);
-            let lengths: [f64; 4] = std::array::from_fn(|i| {
-                let (p, q) = (corners[i], corners[(i + 1) % 4]);
-                (p[0] - q[0]).hypot(p[1] - q[1])
-            });
-            let low = lengths.iter().copied().fold(f64::INFINITY, f64::min);
-            let high = lengths.iter().copied().fold(0.0, f64::max);
-            smallest = smallest.min(low);
-            largest = largest.max(high);
-            aspect = aspect.max(high / low);
+            let region = &mut regions[mesh.region(element)];
+            region.elements += 1;
+            region.area_m2 += polygon_area(&outline(mesh, element), mesh.element_kind(element));
         }
-        let spec = &annulus.specification;
-        let exact = std::f64::consts::PI * (spec.outer_radius.powi(2) - spec.inner_radius.powi(2));
+        let area: f64 = regions.iter().map(|region| region.area_m2).sum();
+        let exact = |annulus: &AnnulusMesh| {
+            let spec = &annulus.specification;
+            std::f64::consts::PI * (spec.outer_radius.powi(2) - spec.inner_radius.powi(2))
+        };
+        let contact = mesh.contact_edge();
+        let contact_length: f64 = contact.tributary_lengths.iter().sum();
+        let spacing = contact_length / contact.nodes.len() as f64;
         Self {
             nodes: mesh.node_count(),
             elements: mesh.element_count(),
             dofs: 2 * mesh.node_count(),
-            contact_nodes: mesh.inner_edge.nodes.len(),
-            nodes_per_sector: annulus.sector_node_count(),
-            smallest_edge_m: smallest,
-            largest_edge_m: largest,
-            largest_aspect_ratio: aspect,
+            contact_nodes: contact.nodes.len(),
+            nodes_per_sector: annulus.map(AnnulusMesh::sector_node_count),
+            smallest_edge_m: quality.smallest_edge,
+            largest_edge_m: quality.largest_edge,
+            largest_aspect_ratio: quality.largest_aspect_ratio,
+            worst_jacobian: quality.worst_jacobian,
             area_m2: area,
-            area_error: (area / exact - 1.0).abs(),
+            area_error: annulus.map(|annulus| (area / exact(annulus) - 1.0).abs()),
+            elements_per_wavelength: wavelength.map(|length| length / quality.largest_edge),
+            contact_nodes_per_wave: wavelength.map(|length| length / spacing),
+            regions,
+            boundaries: mesh
+                .boundaries
+                .iter()
+                .enumerate()
+                .map(|(b, boundary)| BoundaryStatistics {
+                    name: boundary.name.clone(),
+                    nodes: boundary.nodes.len(),
+                    length_m: boundary.tributary_lengths.iter().sum(),
+                    condition: if b == mesh.contact {
+                        "contact".to_owned()
+                    } else {
+                        condition_name(boundary.condition).to_owned()
+                    },
+                })
+                .collect(),
         }
     }
 }
 
-fn corners(mesh: &Mesh2d, element: usize) -> [[f64; 2]; 4] {
-    let nodes = mesh.element_nodes(element);
-    std::array::from_fn(|i| mesh.nodes[nodes[i] as usize])
+fn condition_name(condition: BoundaryCondition) -> &'static str {
+    match condition {
+        BoundaryCondition::Clamped => "clamped",
+        BoundaryCondition::Support(_) => "support",
+        BoundaryCondition::Guide => "guide",
+        BoundaryCondition::Pressure(_) => "pressure",
+        BoundaryCondition::Free => "free",
+    }
 }
 
 /// Nodes around an element, mid-side nodes between their corners.
 fn outline(mesh: &Mesh2d, element: usize) -> Vec<[f64; 2]> {
-    let nodes = mesh.element_nodes(element);
-    let at = |i: usize| mesh.nodes[nodes[i] as usize];
-    match mesh.element_kind {
-        ElementKind::Quad4 => (0..4).map(at).collect(),
-        ElementKind::Quad8 => (0..4).flat_map(|i| [at(i), at(i + 4)]).collect(),
-    }
+    let nodes = mesh.element_outline(element).into_iter();
+    nodes.map(|node| mesh.nodes[node as usize]).collect()
 }
 
-/// Area inside straight edges, or inside parabolic ones through every second point.
 fn polygon_area(points: &[[f64; 2]], kind: ElementKind) -> f64 {
     let cross = |p: [f64; 2], q: [f64; 2]| p[0] * q[1] - p[1] * q[0];
     let count = points.len();
-    match kind {
-        ElementKind::Quad4 => {
-            let sum: f64 = (0..count)
-                .map(|i| cross(points[i], points[(i + 1) % count]))
-                .sum();
-            0.5 * sum
-        }
-        // Green's theorem on a parabola through p, m, q: (4 p x m + 4 m x q - p x q) / 6.
-        ElementKind::Quad8 => (0..count)
-            .step_by(2)
-            .map(|i| {
-                let (p, m, q) = (points[i], points[i + 1], points[(i + 2) % count]);
-                (4.0 * cross(p, m) + 4.0 * cross(m, q) - cross(p, q)) / 6.0
-            })
-            .sum(),
+    if !kind.is_quadratic() {
+        let sum: f64 = (0..count)
+            .map(|i| cross(points[i], points[(i + 1) % count]))
+            .sum();
+        return 0.5 * sum;
     }
+    // Green's theorem on a parabola through p, m, q: (4 p x m + 4 m x q - p x q) / 6.
+    (0..count)
+        .step_by(2)
+        .map(|i| {
+            let (p, m, q) = (points[i], points[i + 1], points[(i + 2) % count]);
+            (4.0 * cross(p, m) + 4.0 * cross(m, q) - cross(p, q)) / 6.0
+        })
+        .sum()
 }
 
 /// Writes `mesh.vtu` with node ids (from 1) and the contact edge marked.
@@ -164,13 +257,13 @@ fn polygon_area(points: &[[f64; 2]], kind: ElementKind) -> f64 {
 /// # Errors
 /// Those of the folder.
 pub fn write_mesh(folder: &OutputFolder, mesh: &Mesh2d) -> Result<(), FolderError> {
-    let ids = (1..=mesh.node_count() as i64).collect();
+    let ids = (0..mesh.node_count())
+        .map(|node| mesh.node_label(node) as i64)
+        .collect();
     let mut edge = vec![0; mesh.node_count()];
-    for node in &mesh.inner_edge.nodes {
+    mesh.held_dofs().for_each(|dof| edge[dof / 2] = 2);
+    for node in &mesh.contact_edge().nodes {
         edge[*node as usize] = 1;
-    }
-    for node in &mesh.outer_edge.nodes {
-        edge[*node as usize] = 2;
     }
     let fields = [
         Field::integers("node_id", ids),
@@ -189,12 +282,12 @@ pub fn write_mesh(folder: &OutputFolder, mesh: &Mesh2d) -> Result<(), FolderErro
 /// Those of the folder.
 pub fn write_mesh_picture(
     folder: &OutputFolder,
-    annulus: &AnnulusMesh,
+    mesh: &Mesh2d,
     (title, probes): (&str, &[usize]),
     options: &DrawingOptions,
 ) -> Result<(), DrawingError> {
     let figures = draw_all(
-        vec![Box::new(|| Ok(mesh_figure(&annulus.mesh, title, probes)))],
+        vec![Box::new(|| Ok(mesh_figure(mesh, title, probes)))],
         options,
     )?;
     write_figures(folder, &figures, options)
@@ -203,16 +296,39 @@ pub fn write_mesh_picture(
 fn mesh_figure(mesh: &Mesh2d, title: &str, probes: &[usize]) -> Figure {
     let place = |node: u32| (mesh.nodes[node as usize][0], mesh.nodes[node as usize][1]);
     let gap = (f64::NAN, f64::NAN);
+    let longest = mesh.quality().largest_edge;
     let rings = (0..mesh.element_count()).flat_map(|element| {
         let ring = outline(mesh, element);
         let again = ring.first().copied();
         let points = ring.into_iter().chain(again).map(|[x, y]| (x, y));
         points.chain([gap]).collect::<Vec<_>>()
     });
-    let edge = |nodes: &[u32], colour: &'static str, name: &str| {
-        let around = nodes.iter().chain(nodes.first()).map(|&node| place(node));
-        Line::through(around).solid(colour, 1.4).name(name)
+    let edge = |b: usize, boundary: &Boundary| {
+        let (colour, name) = match boundary.condition {
+            _ if b == mesh.contact => (SERIES[1], "contact edge"),
+            BoundaryCondition::Clamped => (SERIES[0], "clamped edge"),
+            BoundaryCondition::Support(_) => (SERIES[2], "supported edge"),
+            BoundaryCondition::Guide => (SERIES[3], "guided edge"),
+            BoundaryCondition::Pressure(_) => (SERIES[4], "pressed edge"),
+            BoundaryCondition::Free => return None,
+        };
+        // A gap where a curve goes on in another piece.
+        let again = boundary.is_closed.then(|| boundary.nodes[0]);
+        let mut points: Vec<(f64, f64)> = Vec::new();
+        for &node in boundary.nodes.iter().chain(&again) {
+            let (x, y) = place(node);
+            let is_far = points
+                .last()
+                .is_some_and(|last| (x - last.0).hypot(y - last.1) > 2.0 * longest);
+            points.extend(is_far.then_some(gap));
+            points.push((x, y));
+        }
+        Some(Line::through(points).solid(colour, 1.4).name(name))
     };
+    let boundaries = mesh.boundaries.iter().enumerate();
+    let edges: Vec<Line> = boundaries
+        .filter_map(|(b, boundary)| edge(b, boundary))
+        .collect();
     let known = probes
         .iter()
         .filter(|&&probe| (1..=mesh.node_count()).contains(&probe));
@@ -233,8 +349,7 @@ fn mesh_figure(mesh: &Mesh2d, title: &str, probes: &[usize]) -> Figure {
             mesh.element_count(),
             mesh.node_count()
         )))
-        .layer(edge(&mesh.inner_edge.nodes, SERIES[1], "contact edge"))
-        .layer(edge(&mesh.outer_edge.nodes, SERIES[0], "clamped edge"))
+        .layers(edges)
         .layer(
             Points::new(known.iter().map(|probe| probe.1))
                 .marker(Marker::Disc, 2.0, INK)

@@ -1,7 +1,7 @@
 //! Fields on the mesh for ParaView: VTK XML unstructured grids, appended raw, zlib-compressed.
 
 use crate::fem::NodalStress;
-use crate::mesh::{ElementKind, Mesh2d};
+use crate::mesh::Mesh2d;
 use flate2::{Compression, write::ZlibEncoder};
 use std::io::{self, Write};
 
@@ -138,13 +138,12 @@ impl EncodedMesh {
     /// Those of the compressor (out of memory).
     pub fn new(mesh: &Mesh2d) -> io::Result<Self> {
         let points = mesh.nodes.iter().flat_map(|node| [node[0], node[1], 0.0]);
-        let per_element = mesh.element_kind.node_count() as i64;
-        let ends = (1..=mesh.element_count() as i64).map(|end| end * per_element);
-        // VTK_QUAD and VTK_QUADRATIC_QUAD; both number their nodes as our meshes do.
-        let kind = match mesh.element_kind {
-            ElementKind::Quad4 => 9u8,
-            ElementKind::Quad8 => 23,
-        };
+        let ends = mesh.element_starts[1..].iter().map(|&end| i64::from(end));
+        let types: Vec<u8> = mesh
+            .element_kinds
+            .iter()
+            .map(|kind| kind.vtk_type())
+            .collect();
         let connectivity = mesh.elements.iter().map(|node| i64::from(*node));
         Ok(Self {
             node_count: mesh.node_count(),
@@ -152,7 +151,7 @@ impl EncodedMesh {
             points: compress(&points.flat_map(f64::to_le_bytes).collect::<Vec<u8>>())?,
             connectivity: compress(&connectivity.flat_map(i64::to_le_bytes).collect::<Vec<u8>>())?,
             offsets: compress(&ends.flat_map(i64::to_le_bytes).collect::<Vec<u8>>())?,
-            types: compress(&vec![kind; mesh.element_count()])?,
+            types: compress(&types)?,
         })
     }
 }

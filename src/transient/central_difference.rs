@@ -4,6 +4,7 @@ mod breakdown;
 mod energy;
 mod start;
 
+use super::boundary::BoundaryForces;
 use super::{
     ContactPowers, LagrangeContact, Observer, Sample, StatusCounts, StepPlan, TransientError,
     TransientModel,
@@ -86,6 +87,7 @@ pub struct CentralDifference<'a> {
     coefficients: StepCoefficients,
     fields: MotionFields,
     contact: LagrangeContact,
+    boundary: BoundaryForces,
     interface: ContactInterface,
     next_step: u64,
     initial_energy: f64,
@@ -128,7 +130,10 @@ impl<'a> CentralDifference<'a> {
     pub fn advance(&mut self) {
         let step = self.next_step;
         let time_after = (step + 1) as f64 * self.plan.time_step;
-        let expansion = self.expansion(time_after);
+        let share = self.expanded_share(time_after);
+        let expansion = self.model.contact.interference * share;
+        // Supports, pressures, regions with damping of their own.
+        self.boundary.apply(&mut self.fields, share);
         // (6): multipliers of this step, which hold the constraints at its end.
         self.contact
             .apply(&mut self.fields, &self.coefficients, expansion);
@@ -136,8 +141,12 @@ impl<'a> CentralDifference<'a> {
         let damping = self.operator.advance(&mut self.fields, &self.coefficients);
         // (9), (10): powers at the contact.
         let (powers, counts) = self.contact.settle(&mut self.fields, &self.coefficients);
-        // (12), with the work of the normal forces, which the paper leaves out.
-        let net = powers.stick + powers.slide + powers.normal - damping;
+        let [own_damping, pressure] =
+            self.boundary
+                .settle(&mut self.fields, self.plan.time_step, share);
+        let damping = damping + own_damping;
+        // (12), with the work of the normal forces and of boundary pressures, which the paper leaves out.
+        let net = powers.stick + powers.slide + powers.normal + pressure - damping;
         self.net_work += self.plan.time_step * net;
         self.powers += powers;
         self.damping_power += damping;
@@ -151,13 +160,17 @@ impl<'a> CentralDifference<'a> {
         }
     }
 
-    /// Radial expansion of the cylinder at `time`, m: a linear ramp.
+    /// How far the counterface is pushed in at `time`, m: a linear ramp.
     pub(super) fn expansion(&self, time: f64) -> f64 {
-        let interference = self.model.contact.interference;
+        self.model.contact.interference * self.expanded_share(time)
+    }
+
+    /// Share of the interference and of the boundary pressures that acts at `time`.
+    fn expanded_share(&self, time: f64) -> f64 {
         if time < self.expansion_time {
-            interference * (time / self.expansion_time)
+            time / self.expansion_time
         } else {
-            interference
+            1.0
         }
     }
 

@@ -1,6 +1,6 @@
 //! Forward increment Lagrange multipliers of the contact edge.
 
-use crate::contact::{ContactInterface, ContactStatus, SlidingContact};
+use crate::contact::{ContactInterface, ContactStatus, CoulombFriction, SlidingContact};
 use crate::fem::operator::{MotionFields, StepCoefficients, StiffnessOperator};
 use serde::{Deserialize, Serialize};
 use std::ops::AddAssign;
@@ -75,24 +75,25 @@ impl StatusCounts {
     }
 }
 
-/// Contact of each node of the inner edge with the rigid rotating cylinder.
+/// Contact of each node of the contact edge with the rigid moving counterface.
 ///
-/// The forces at `n` enforce the constraints at `n + 1` (equation 6 of Brunetti et al.). With a lumped mass and
+/// The forces at `n` enforce the constraints at `n + 1` (equation (6) of Brunetti et al.). With a lumped mass and
 /// a rigid counterface each node stands alone and the multipliers are in closed form: a trial step without contact
-/// gives `u*`, `v*`; then with penetration `g = delta - u_n* > 0`
+/// gives `u*`, `v*`; then with penetration `g = delta - g_0 - u_n* > 0`, `g_0` the gap of the undeformed node,
 ///
 /// ```text
-/// N = m g / dt^2,   T* = m (Omega a - v_t*) / dt,   T = min(max(T*, -mu N), mu N),
+/// N = m g / dt^2,   T* = m (V - v_t*) / dt,   T = min(max(T*, -mu N), mu N),
 /// ```
 ///
-/// stick where `|T*| <= mu N` (so that `v_t = Omega a` at `n + 1/2`), slip elsewhere; without penetration the
+/// stick where `|T*| <= mu N` (so that `v_t = V`, `Omega a` on a shaft, at `n + 1/2`), slip elsewhere; without penetration the
 /// node is open and both vanish. Linear kinematics: the normal does not turn with the node.
 #[derive(Clone, Debug)]
 pub struct LagrangeContact {
     normal: Vec<usize>,
     tangential: Vec<usize>,
     masses: Vec<f64>,
-    friction_coefficient: f64,
+    gaps: Vec<f64>,
+    law: CoulombFriction,
     surface_speed: f64,
     /// Normal force `N` on each node at `n`, N/m.
     pub normal_force: Vec<f64>,
@@ -120,8 +121,9 @@ impl LagrangeContact {
                 .collect(),
             masses: normal.iter().map(|&k| operator.masses()[k]).collect(),
             normal,
-            friction_coefficient: contact.friction_coefficient,
-            surface_speed: contact.rotation_speed * interface.radius,
+            gaps: interface.gaps.clone(),
+            law: contact.law(),
+            surface_speed: interface.surface_speed(contact.rotation_speed),
             normal_force: vec![0.0; count],
             tangential_force: vec![0.0; count],
             status: vec![ContactStatus::Open; count],
@@ -131,7 +133,7 @@ impl LagrangeContact {
 
     /// Finds the multipliers of the coming step and adds them to the elastic accelerations.
     ///
-    /// `expansion` is the radial expansion `delta(t_{n+1})` of the cylinder, m.
+    /// `expansion` is how far the counterface is pushed in at the next step, `delta(t_{n+1})`, m.
     pub fn apply(
         &mut self,
         fields: &mut MotionFields,
@@ -155,19 +157,14 @@ impl LagrangeContact {
             let [v_n, v_t, q_n, q_t] = before;
             let trial_n = v_n - dt * (q_n + (alpha * v_n + beta * fields.elastic_rate[n]));
             let trial_t = v_t - dt * (q_t + (alpha * v_t + beta * fields.elastic_rate[t]));
-            let penetration = expansion - (fields.displacement[n] + dt * trial_n);
+            let penetration = expansion - self.gaps[i] - (fields.displacement[n] + dt * trial_n);
             let (mut normal, mut tangential) = (0.0, 0.0);
             self.status[i] = ContactStatus::Open;
             if penetration > 0.0 {
+                // (6), node by node.
                 normal = mass * penetration / (dt * dt);
-                let cone = self.friction_coefficient * normal;
                 let trial = mass * (self.surface_speed - trial_t) / dt;
-                tangential = trial.clamp(-cone, cone);
-                self.status[i] = if trial.abs() <= cone {
-                    ContactStatus::Stick
-                } else {
-                    ContactStatus::Slip
-                };
+                (tangential, self.status[i]) = self.law.project(trial, normal);
                 fields.elastic[n] = q_n - normal / mass;
                 fields.elastic[t] = q_t - tangential / mass;
             }
@@ -205,6 +202,7 @@ impl LagrangeContact {
                 counts.slip += 1;
                 powers.slide += power;
             }
+            // (9) and (10).
             powers.external += tangential * self.surface_speed;
             powers.contact_dissipated += tangential * (self.surface_speed - mean_t);
             powers.normal += normal * mean_n;

@@ -6,6 +6,7 @@
 //! that keeps what results need, and [`TransientAnalysis`] reads frequencies, growth and powers from it.
 
 mod analysis;
+mod boundary;
 mod central_difference;
 mod contact;
 mod error;

@@ -1,9 +1,9 @@
 //! The seed that decides which mode grows: a velocity added to that of the body.
 
-use super::TransientError;
+use super::{TransientError, TransientModel};
 use crate::linalg::GaussianNoise;
-use crate::mesh::AnnulusMesh;
-use std::f64::consts::FRAC_PI_2;
+use crate::mesh::{AnnulusMesh, Counterface, Mesh2d};
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// One circumferential harmonic of a [`Perturbation`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -56,12 +56,18 @@ impl Perturbation {
         self.waves.iter().map(|wave| wave.harmonic).collect()
     }
 
-    /// Velocity over all dofs of `annulus`, m/s.
+    /// Velocity over all dofs of `model`, m/s.
+    ///
+    /// On a body that is no annulus the depth is the distance from the counterface over the largest there is, and the
+    /// angle that about the cylinder's axis, or `2 pi` times the share of the contact edge along a plane.
     ///
     /// # Errors
     /// [`TransientError::HarmonicAboveNyquist`] for a harmonic above half the circumferential elements.
-    pub fn field(&self, annulus: &AnnulusMesh) -> Result<Vec<f64>, TransientError> {
-        let elements = annulus.specification.circumferential_elements;
+    pub fn field(&self, model: &TransientModel<'_>) -> Result<Vec<f64>, TransientError> {
+        let elements = match model.annulus {
+            Some(annulus) => annulus.specification.circumferential_elements,
+            None => model.interface().len(),
+        };
         let limit = elements / 2;
         if let Some(wave) = self.waves.iter().find(|wave| wave.harmonic > limit) {
             return Err(TransientError::HarmonicAboveNyquist {
@@ -70,21 +76,18 @@ impl Perturbation {
                 elements,
             });
         }
-        let mesh = &annulus.mesh;
+        let mesh = model.mesh;
         let mut velocity = vec![0.0; 2 * mesh.node_count()];
-        self.add_waves(annulus, &mut velocity);
-        self.add_noise(&mut velocity);
-        for &node in &mesh.outer_edge.nodes {
-            velocity[2 * node as usize..][..2].fill(0.0);
+        match model.annulus {
+            Some(annulus) => self.add_waves(&places_on(annulus), mesh, &mut velocity),
+            None => self.add_waves(&places(model), mesh, &mut velocity),
         }
+        self.add_noise(&mut velocity);
+        mesh.held_dofs().for_each(|dof| velocity[dof] = 0.0);
         Ok(velocity)
     }
 
-    fn add_waves(&self, annulus: &AnnulusMesh, velocity: &mut [f64]) {
-        let (inner, outer) = (
-            annulus.specification.inner_radius,
-            annulus.specification.outer_radius,
-        );
+    fn add_waves(&self, places: &[Place], mesh: &Mesh2d, velocity: &mut [f64]) {
         // Amplitudes relative to the largest: waves of one amplitude have the factor one, exactly.
         let largest = self
             .waves
@@ -93,14 +96,20 @@ impl Perturbation {
         if largest == 0.0 {
             return;
         }
-        let nodes = annulus.mesh.nodes.iter().zip(&annulus.mesh.frame_angles);
-        for (node, ([x, y], angle)) in nodes.enumerate() {
-            let depth = (x.hypot(*y) - inner) / (outer - inner);
+        for (node, place) in places.iter().enumerate() {
             let wave = |wave: &StandingWave| {
-                (wave.velocity / largest) * (wave.harmonic as f64 * angle - wave.phase).cos()
+                (wave.velocity / largest) * (wave.harmonic as f64 * place.angle - wave.phase).cos()
             };
             let sum: f64 = self.waves.iter().map(wave).sum();
-            velocity[2 * node + 1] = largest * (FRAC_PI_2 * depth).cos() * sum;
+            let along = largest * (FRAC_PI_2 * place.depth).cos() * sum;
+            let turn = place.tangent - mesh.frame_angles[node];
+            // A quarter turn, but for round-off: along the node's second axis exactly.
+            if (turn - FRAC_PI_2).abs() < 1e-12 {
+                velocity[2 * node + 1] = along;
+            } else {
+                velocity[2 * node] = along * turn.cos();
+                velocity[2 * node + 1] = along * turn.sin();
+            }
         }
     }
 
@@ -115,4 +124,54 @@ impl Perturbation {
             components[1] += self.noise * draw.im;
         }
     }
+}
+
+/// Where a node stands for the waves.
+struct Place {
+    /// 0 at the contact edge, 1 where the waves vanish.
+    depth: f64,
+    angle: f64,
+    /// Direction along the counterface, rad.
+    tangent: f64,
+}
+
+fn places_on(annulus: &AnnulusMesh) -> Vec<Place> {
+    let specification = &annulus.specification;
+    let (inner, outer) = (specification.inner_radius, specification.outer_radius);
+    let nodes = annulus.mesh.nodes.iter().zip(&annulus.mesh.frame_angles);
+    let place = |([x, y], &angle): (&[f64; 2], &f64)| Place {
+        depth: (x.hypot(*y) - inner) / (outer - inner),
+        angle,
+        tangent: angle + FRAC_PI_2,
+    };
+    nodes.map(place).collect()
+}
+
+fn places(model: &TransientModel<'_>) -> Vec<Place> {
+    let (mesh, counterface) = (model.mesh, model.mesh.counterface);
+    let gaps: Vec<f64> = mesh
+        .nodes
+        .iter()
+        .map(|&p| counterface.gap(p).max(0.0))
+        .collect();
+    let deepest = gaps.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+    let along = mesh
+        .contact_edge()
+        .nodes
+        .iter()
+        .map(|&node| counterface.place(mesh.nodes[node as usize]));
+    let (low, high) = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), s| {
+        (low.min(s), high.max(s))
+    });
+    let angle = |point: [f64; 2]| match counterface {
+        Counterface::Cylinder { .. } => counterface.place(point),
+        Counterface::Plane { .. } => TAU * (counterface.place(point) - low) / (high - low),
+    };
+    let pairs = mesh.nodes.iter().zip(gaps);
+    let place = |(&point, gap): (&[f64; 2], f64)| Place {
+        depth: gap / deepest,
+        angle: angle(point),
+        tangent: counterface.normal_angle(point) + FRAC_PI_2,
+    };
+    pairs.map(place).collect()
 }

@@ -165,7 +165,7 @@ impl Recorder {
             higher_harmonics,
             higher_amplitudes: Vec::new(),
             rotation_direction: contact.sliding_direction(),
-            surface_speed: contact.rotation_speed * interface.radius,
+            surface_speed: interface.surface_speed(contact.rotation_speed),
             interference: contact.interference,
             seed_time: run.seed_time(),
             start_up_time: run.seed_time().max(run.expansion_time()),

@@ -69,10 +69,11 @@ impl Sample<'_> {
         self.displacement_before[self.run.contact().tangential_places()[i]]
     }
 
-    /// Distance of contact node `i` from the cylinder at `n`, m.
+    /// Distance of contact node `i` from the counterface at `n`, m.
     pub fn gap(&self, i: usize) -> f64 {
         let place = self.run.contact().normal_places()[i];
-        self.displacement_before[place] - self.run.expansion(self.time)
+        let pushed = self.run.expansion(self.time) - self.run.interface().gaps[i];
+        self.displacement_before[place] - pushed
     }
 
     /// Status of each contact node at `n`.

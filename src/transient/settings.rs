@@ -3,10 +3,10 @@
 use super::{Perturbation, TransientError};
 use crate::contact::SlidingContact;
 use crate::fem::operator::{
-    CyclicStencil, SimdLevel, SparseOperator, StiffnessOperator, largest_frequency,
+    CyclicStencil, OperatorError, SimdLevel, SparseOperator, StiffnessOperator, largest_frequency,
 };
-use crate::fem::{ElasticMaterial, RayleighDamping};
-use crate::mesh::{AnnulusMesh, ElementKind};
+use crate::fem::{ElasticMaterial, MaterialField, RayleighDamping};
+use crate::mesh::{AnnulusMesh, Mesh2d};
 
 /// Share of the stability limit that an automatic time step uses.
 const SAFETY: f64 = 0.95;
@@ -15,13 +15,33 @@ const SAFETY: f64 = 0.95;
 #[derive(Clone, Copy, Debug)]
 pub struct TransientModel<'a> {
     /// Mesh of the disc.
-    pub annulus: &'a AnnulusMesh,
+    pub mesh: &'a Mesh2d,
+    /// The annulus that the mesh belongs to, if it is one.
+    pub annulus: Option<&'a AnnulusMesh>,
     /// Its material.
-    pub material: ElasticMaterial,
+    pub material: &'a dyn MaterialField,
     /// Rayleigh coefficients.
     pub damping: RayleighDamping,
     /// The rotating cylinder.
     pub contact: SlidingContact,
+}
+
+impl<'a> TransientModel<'a> {
+    /// A generated annulus of one material.
+    pub fn of_annulus(
+        annulus: &'a AnnulusMesh,
+        material: &'a ElasticMaterial,
+        damping: RayleighDamping,
+        contact: SlidingContact,
+    ) -> Self {
+        Self {
+            mesh: &annulus.mesh,
+            annulus: Some(annulus),
+            material,
+            damping,
+            contact,
+        }
+    }
 }
 
 /// How the time step is chosen.
@@ -78,7 +98,7 @@ pub struct TransientSettings {
     pub perturbation: Perturbation,
 }
 
-/// The operator of `model` on `annulus`.
+/// The operator of `model`.
 ///
 /// # Errors
 /// [`TransientError::Operator`] if the chosen operator cannot represent the mesh.
@@ -87,25 +107,18 @@ pub fn build_operator(
     choice: OperatorChoice,
     simd: SimdLevel,
 ) -> Result<Box<dyn StiffnessOperator>, TransientError> {
-    let is_quad4 = model.annulus.mesh.element_kind == ElementKind::Quad4;
     let is_cyclic = match choice {
-        OperatorChoice::Auto => is_quad4,
+        OperatorChoice::Auto => model.annulus.is_some() && model.mesh.is_quad4(),
         OperatorChoice::Cyclic => true,
         OperatorChoice::Sparse => false,
     };
-    Ok(if is_cyclic {
-        Box::new(CyclicStencil::assemble(
-            model.annulus,
-            &model.material,
-            simd,
-        )?)
-    } else {
-        Box::new(SparseOperator::assemble(
-            &model.annulus.mesh,
-            &model.material,
-            simd,
-        )?)
-    })
+    if !is_cyclic {
+        let operator = SparseOperator::assemble(model.mesh, model.material, simd)?;
+        return Ok(Box::new(operator));
+    }
+    let annulus = model.annulus.ok_or(OperatorError::NoSymmetry)?;
+    let material = model.material.of(0);
+    Ok(Box::new(CyclicStencil::assemble(annulus, material, simd)?))
 }
 
 /// Largest stable step of central differences whose damping force lags half a step, s.

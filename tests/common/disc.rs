@@ -2,7 +2,7 @@
 
 use frictionsim::contact::SlidingContact;
 use frictionsim::fem::{ElasticMaterial, PlaneFormulation, RayleighDamping};
-use frictionsim::mesh::{AnnulusSpecification, ElementKind};
+use frictionsim::mesh::{AnnulusSpecification, BoundaryCondition, ElementKind};
 use std::f64::consts::PI;
 
 pub const POLYCARBONATE: ElasticMaterial = ElasticMaterial {
@@ -30,6 +30,7 @@ pub fn annulus(
         radial_elements: radial,
         radial_grading: 1.0,
         element,
+        outer: BoundaryCondition::Clamped,
     }
 }
 

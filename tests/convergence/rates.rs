@@ -1,7 +1,7 @@
 //! Families of meshes and the rate at which errors fall over them.
 
 use crate::continuum::Annulus;
-use frictionsim::mesh::{AnnulusSpecification, ElementKind};
+use frictionsim::mesh::{AnnulusSpecification, BoundaryCondition, ElementKind};
 
 /// The disc of every study.
 pub const DISC: Annulus = Annulus {
@@ -15,9 +15,10 @@ pub const DISC: Annulus = Annulus {
 
 /// Sectors and layers of the coarsest mesh of an element.
 pub fn coarsest(element: ElementKind) -> (usize, usize) {
-    match element {
-        ElementKind::Quad4 => (120, 30),
-        ElementKind::Quad8 => (64, 16),
+    if element.is_quadratic() {
+        (64, 16)
+    } else {
+        (120, 30)
     }
 }
 
@@ -38,16 +39,14 @@ pub fn refinements(element: ElementKind) -> [AnnulusSpecification; 3] {
             radial_elements,
             radial_grading: 4.0_f64.powf(1.0 / radial_elements as f64),
             element,
+            outer: BoundaryCondition::Clamped,
         }
     })
 }
 
 /// Theoretical rate of eigenvalues (twice that of the strains): 2 for Quad4, 4 for Quad8.
 pub fn expected_rate(element: ElementKind) -> f64 {
-    match element {
-        ElementKind::Quad4 => 2.0,
-        ElementKind::Quad8 => 4.0,
-    }
+    if element.is_quadratic() { 4.0 } else { 2.0 }
 }
 
 /// Slope of the least-squares line through `ln |error|` over `ln` of the mesh size.

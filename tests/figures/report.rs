@@ -14,8 +14,9 @@ fn report_of_an_eigenvalue_analysis_holds_every_figure_table_and_the_case() {
         let friction = sweep.points[index].friction_coefficient;
         sweep.points[index].modes = synthetic::modes(friction, Some(&mesh));
     }
-    let contact = &mesh.inner_edge.nodes;
+    let contact = &mesh.contact_edge().nodes;
     let field = BaseField {
+        is_pressed: None,
         nodes: contact.clone(),
         angles: contact
             .iter()
@@ -39,6 +40,7 @@ fn report_of_an_eigenvalue_analysis_holds_every_figure_table_and_the_case() {
         .map(|p| p.friction_coefficient)
         .collect();
     let report = CeaReport {
+        has_harmonics: true,
         title: "Polycarbonate disc",
         mesh: &mesh,
         dofs: 12_420,

@@ -21,12 +21,7 @@ fn a_run_gets_every_figure_of_its_record() {
         ..contact(610.0)
     };
     let rotation_speed = contact.rotation_speed;
-    let model = TransientModel {
-        annulus: &annulus,
-        material: POLYCARBONATE,
-        damping: DAMPING,
-        contact,
-    };
+    let model = TransientModel::of_annulus(&annulus, &POLYCARBONATE, DAMPING, contact);
     let settings = TransientSettings {
         duration: 0.02,
         time_step: TimeStep::Auto,
@@ -57,7 +52,7 @@ fn a_run_gets_every_figure_of_its_record() {
         record: &record,
         analysis: &analysis,
         mesh: &annulus.mesh,
-        material: &model.material,
+        material: model.material,
         thickness: 0.009,
         peripheral_speed: rotation_speed * 0.0205,
         references: vec![ModeLine {

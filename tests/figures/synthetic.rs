@@ -36,6 +36,7 @@ pub fn mesh(circumferential_elements: usize, radial_elements: usize) -> Mesh2d {
         radial_elements,
         radial_grading: 1.0,
         element: ElementKind::Quad4,
+        outer: frictionsim::mesh::BoundaryCondition::Clamped,
     })
     .unwrap()
     .mesh

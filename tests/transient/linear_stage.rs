@@ -58,8 +58,8 @@ fn harmonic(
 
 /// Eigenvalue with the largest real part for harmonic `n`, rigid contact, lumped mass, no geometric stiffness.
 fn least_stable(model: &TransientModel<'_>, n: usize) -> c64 {
-    let mesh = &model.annulus.mesh;
-    let stiffness = assemble_stiffness(mesh, &model.material);
+    let mesh = model.mesh;
+    let stiffness = assemble_stiffness(mesh, model.material);
     let base = SteadySliding::solve(mesh, &stiffness, &model.contact).unwrap();
     let options = TangentOptions {
         mass: MassKind::Lumped,
@@ -68,9 +68,9 @@ fn least_stable(model: &TransientModel<'_>, n: usize) -> c64 {
         damping_model: DampingModel::WholeTangent,
         contact: ContactStiffness::default(),
     };
-    let tangent = SlidingTangent::linearize(mesh, &model.material, &stiffness, &base, &options);
-    let mass = harmonic(&tangent.mass, &tangent, model.annulus, n);
-    let stiffness = harmonic(&tangent.stiffness, &tangent, model.annulus, n);
+    let tangent = SlidingTangent::linearize(mesh, model.material, &stiffness, &base, &options);
+    let mass = harmonic(&tangent.mass, &tangent, model.annulus.unwrap(), n);
+    let stiffness = harmonic(&tangent.stiffness, &tangent, model.annulus.unwrap(), n);
     let reduced = mass.partial_piv_lu().solve(&stiffness);
     let (alpha, beta) = (
         model.damping.mass_coefficient,

@@ -17,12 +17,12 @@ pub fn disc(circumferential_elements: usize, radial_elements: usize) -> AnnulusM
 }
 
 pub fn model(annulus: &AnnulusMesh, rotation_speed_rpm: f64) -> TransientModel<'_> {
-    TransientModel {
+    TransientModel::of_annulus(
         annulus,
-        material: POLYCARBONATE,
-        damping: DAMPING,
-        contact: contact(rotation_speed_rpm),
-    }
+        &POLYCARBONATE,
+        DAMPING,
+        contact(rotation_speed_rpm),
+    )
 }
 
 pub fn settings(duration: f64, harmonics: &[usize]) -> TransientSettings {

@@ -33,8 +33,8 @@ fn each_harmonic_has_its_own_velocity_and_its_crest_at_its_phase() {
             .to_vec(),
         ..Perturbation::default()
     };
-    let field = perturbation.field(&annulus).unwrap();
-    let nodes = &annulus.mesh.inner_edge.nodes;
+    let field = perturbation.field(&model(&annulus, 610.0)).unwrap();
+    let nodes = &annulus.mesh.contact_edge().nodes;
     for (harmonic, velocity, phase) in waves {
         let project = |offset: f64| {
             let nodes = nodes.iter().map(|&node| node as usize);
@@ -59,10 +59,17 @@ fn noise_has_its_standard_deviation_in_both_directions_and_spares_the_clamped_ed
             noise_seed: seed,
             ..Perturbation::default()
         };
-        perturbation.field(&annulus).unwrap()
+        perturbation.field(&model(&annulus, 610.0)).unwrap()
     };
     let field = noise(1);
-    let clamped = |node: usize| annulus.mesh.outer_edge.nodes.contains(&(node as u32));
+    let clamped = |node: usize| {
+        annulus
+            .mesh
+            .boundary("outer")
+            .unwrap()
+            .nodes
+            .contains(&(node as u32))
+    };
     for component in 0..2 {
         let values: Vec<f64> = (0..annulus.mesh.node_count())
             .filter(|&node| !clamped(node))

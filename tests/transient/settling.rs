@@ -97,7 +97,7 @@ fn a_snapshot_has_the_contact_of_its_own_step() {
     assert!((record.frames[1].time - 1e-4).abs() < 1e-12);
     let annulus = disc(45, 9);
     let mut stuck = 0;
-    for (i, &node) in annulus.mesh.inner_edge.nodes.iter().enumerate() {
+    for (i, &node) in annulus.mesh.contact_edge().nodes.iter().enumerate() {
         let node = node as usize;
         match snapshot.contact.status[i] {
             0 => assert_eq!(snapshot.contact.pressure[i], 0.0),

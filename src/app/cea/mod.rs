@@ -2,6 +2,7 @@
 
 mod model;
 mod solve;
+mod states;
 
 pub use model::SlidingModel;
 
@@ -174,7 +175,8 @@ fn report<'a>(
 ) -> CeaReport<'a> {
     CeaReport {
         title: &case.title,
-        mesh: &model.annulus.mesh,
+        mesh: &model.mesh,
+        has_harmonics: case.is_annulus(),
         dofs: solution.dofs,
         method: solution.method,
         selection: match cea.modes {
@@ -242,7 +244,7 @@ mod tests {
 
     /// A spectrum of one made-up standing wave at every friction value.
     fn made_up(cea: &Cea, model: &SlidingModel) -> Solution {
-        let shape = vec![c64::new(1.0, 0.0); 2 * model.annulus.mesh.node_count()];
+        let shape = vec![c64::new(1.0, 0.0); 2 * model.mesh.node_count()];
         let mode = ComplexMode {
             eigenvalue: c64::new(-100.0, TAU * 5000.0),
             harmonic: 0,
@@ -312,7 +314,7 @@ mod tests {
             let (case, base) = (&session.case, model.base_state(&session.case));
             let field = model.base_field(case);
             // Torque = thickness * radius * sum of traction times tributary length.
-            let lengths = &model.base.interface.tributary_lengths;
+            let lengths = &model.base().interface.tributary_lengths;
             let force: f64 = field.shears.iter().zip(lengths).map(|(t, w)| t * w).sum();
             let torque = 0.009 * 0.0205 * force;
             assert!((base.torque_n_m / torque - 1.0).abs() < 1e-12);

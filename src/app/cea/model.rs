@@ -2,96 +2,110 @@
 
 use super::Failure;
 use crate::case::{Case, Cea, CeaMethod};
-use crate::fem::{Triplets, assemble_stiffness, nodal_stress};
-use crate::mesh::{AnnulusMesh, SectorMesh};
-use crate::prestress::{SectorTangent, SlidingTangent, SteadySliding, TangentOptions};
+use crate::fem::{assemble_stiffness, nodal_stress};
+use crate::mesh::{AnnulusMesh, Mesh2d, SectorMesh};
+use crate::prestress::{
+    SectorTangent, SlidingRange, SlidingTangent, SteadySliding, TangentOptions,
+};
 use crate::results::cea::{BaseField, BaseState};
 use crate::study::tangent_options;
+use std::sync::Arc;
 
-/// The eigenvalue solver that a case gets: every mesh here has rotational symmetry, so `auto` uses it.
-pub fn method_of(cea: &Cea) -> CeaMethod {
+/// The eigenvalue solver that a case gets: `auto` uses the rotational symmetry where the body has it.
+pub fn method_of(case: &Case, cea: &Cea) -> CeaMethod {
     match cea.method {
-        CeaMethod::Auto | CeaMethod::Cyclic => CeaMethod::Cyclic,
-        CeaMethod::Sparse => CeaMethod::Sparse,
+        CeaMethod::Auto if case.is_annulus() => CeaMethod::Cyclic,
+        CeaMethod::Auto => CeaMethod::Sparse,
+        chosen => chosen,
     }
 }
 
-/// The model that the solvers take: mesh, base state, and what its tangent is made of.
+/// The model that the solvers take: mesh, base states, and what their tangents are made of.
 pub struct SlidingModel {
-    /// The mesh with its sectors.
-    pub annulus: AnnulusMesh,
-    /// Elastic stiffness over all dofs, where the sparse method needs it.
-    pub stiffness: Option<Triplets>,
-    /// Steady sliding.
-    pub base: SteadySliding,
+    /// The mesh.
+    pub mesh: Arc<Mesh2d>,
+    /// Steady sliding at the friction coefficients that are solved, and last at the case's own.
+    pub range: SlidingRange,
     /// How the tangent is taken.
     pub options: TangentOptions,
 }
 
 impl SlidingModel {
-    /// Builds the model of a case up to its base state.
+    /// Builds the model of a case up to its base states.
     ///
     /// # Errors
-    /// A mesh that cannot be built; contact that would open.
+    /// A mesh that cannot be built; contact that would open on an annulus; no state of sliding; a method that needs a
+    /// symmetry which is not there.
     pub fn new(case: &Case, cea: &Cea) -> Result<Self, Failure> {
-        let annulus = AnnulusMesh::generate(&case.annulus).map_err(Failure::usage)?;
         let options = tangent_options(case, cea.mass);
         let sliding = &case.contact.sliding;
-        let (base, stiffness) = match method_of(cea) {
-            CeaMethod::Sparse => {
-                let stiffness = assemble_stiffness(&annulus.mesh, &case.material);
-                let base = SteadySliding::solve(&annulus.mesh, &stiffness, sliding)?;
-                (base, Some(stiffness))
-            }
-            CeaMethod::Auto | CeaMethod::Cyclic => {
-                let sector = SectorMesh::generate(&case.annulus).map_err(Failure::usage)?;
-                let tangent = SectorTangent::linearize(&sector, &case.material, &options, sliding)?;
-                let base = SteadySliding::from_sector(&annulus, &sector, tangent.base());
-                (base, None)
-            }
-        };
+        if cea.method == CeaMethod::Cyclic && !case.is_annulus() {
+            return Err(Failure::Case(case.error_at(
+                "cea.method",
+                "cea.method = \"cyclic\" needs the symmetry of the built-in annulus".to_owned(),
+                "an imported mesh has no sectors".to_owned(),
+                Some("use \"auto\" or \"sparse\"".to_owned()),
+            )));
+        }
+        if method_of(case, cea) == CeaMethod::Sparse {
+            let mesh = case.mesh().map_err(Failure::usage)?;
+            let stiffness = assemble_stiffness(&mesh, case.materials());
+            let mut frictions = cea.solved_friction_coefficients();
+            frictions.push(sliding.friction_coefficient);
+            let range = SlidingRange::solve(&mesh, &stiffness, sliding, &frictions)?;
+            return Ok(Self {
+                mesh,
+                range,
+                options,
+            });
+        }
+        let annulus = AnnulusMesh::generate(&case.annulus).map_err(Failure::usage)?;
+        let sector = SectorMesh::generate(&case.annulus).map_err(Failure::usage)?;
+        let tangent = SectorTangent::linearize(&sector, &case.material, &options, sliding)?;
+        let base = SteadySliding::from_sector(&annulus, &sector, tangent.base());
         Ok(Self {
-            annulus,
-            stiffness,
-            base,
+            mesh: Arc::new(annulus.mesh),
+            range: SlidingRange {
+                states: vec![base],
+                state_of: Vec::new(),
+                changes: Vec::new(),
+            },
             options,
         })
     }
 
-    /// The tangent over the whole mesh, for the sparse solver.
-    pub fn tangent(&self, case: &Case) -> SlidingTangent {
-        let assembled;
-        let stiffness = match &self.stiffness {
-            Some(stiffness) => stiffness,
-            None => {
-                assembled = assemble_stiffness(&self.annulus.mesh, &case.material);
-                &assembled
-            }
-        };
-        SlidingTangent::linearize(
-            &self.annulus.mesh,
-            &case.material,
-            stiffness,
-            &self.base,
-            &self.options,
-        )
+    /// The state at the case's own friction coefficient.
+    pub fn base(&self) -> &SteadySliding {
+        let own = self.range.state_of.last().copied().unwrap_or(0);
+        &self.range.states[own]
+    }
+
+    /// The tangent of one state over the whole mesh, for the sparse solver.
+    pub fn tangent(&self, case: &Case, state: &SteadySliding) -> SlidingTangent {
+        let stiffness = assemble_stiffness(&self.mesh, case.materials());
+        let options = &self.options;
+        SlidingTangent::linearize(&self.mesh, case.materials(), &stiffness, state, options)
     }
 
     /// What the report says of the base state, scaled to the case's thickness.
     pub fn base_state(&self, case: &Case) -> BaseState {
-        let friction = case.contact.sliding.friction_coefficient;
-        let pressures = self.base.pressures();
+        let (base, friction) = (self.base(), case.contact.sliding.friction_coefficient);
+        let pressures = base.pressures(friction);
         let smallest = pressures.iter().copied().fold(f64::INFINITY, f64::min);
         let largest = pressures.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let traction = self.base.sliding_direction * friction;
-        let torque = case.thickness * self.base.torque(friction);
+        let traction = base.sliding_direction * friction;
+        let torque = case.thickness * base.torque(friction);
         let shear = [traction * smallest, traction * largest];
+        let open = base
+            .is_pressed
+            .iter()
+            .filter(|is_pressed| !**is_pressed)
+            .count();
         BaseState {
             friction_coefficient: friction,
-            // The state is that of full sliding; one where a node would open does not exist.
-            slipping: pressures.len(),
+            slipping: pressures.len() - open,
             sticking: 0,
-            open: 0,
+            open,
             pressure_pa: [smallest, largest],
             shear_pa: [shear[0].min(shear[1]), shear[0].max(shear[1])],
             torque_n_m: torque,
@@ -101,19 +115,20 @@ impl SlidingModel {
 
     /// The base state node by node.
     pub fn base_field(&self, case: &Case) -> BaseField {
-        let friction = case.contact.sliding.friction_coefficient;
-        let displacement = self.base.displacement(friction);
-        let pressures = self.base.pressures();
-        let traction = self.base.sliding_direction * friction;
+        let (base, friction) = (self.base(), case.contact.sliding.friction_coefficient);
+        let displacement = base.displacement(friction);
+        let pressures = base.pressures(friction);
+        let traction = base.sliding_direction * friction;
         BaseField {
-            nodes: self.base.interface.nodes.clone(),
-            angles: self.base.interface.angles.clone(),
+            nodes: base.interface.nodes.clone(),
+            angles: base.interface.angles.clone(),
             shears: pressures
                 .iter()
                 .map(|pressure| traction * pressure)
                 .collect(),
             pressures,
-            stress: nodal_stress(&self.annulus.mesh, &case.material, &displacement),
+            is_pressed: (!case.is_annulus()).then(|| base.is_pressed.clone()),
+            stress: nodal_stress(&self.mesh, case.materials(), &displacement),
             displacement,
         }
     }

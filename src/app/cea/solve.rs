@@ -1,11 +1,11 @@
 //! Which eigenvalue solver runs, and what it has to say.
 
 use super::model::method_of;
+use super::states::solve_sparse;
 use super::{Failure, SlidingModel, Solution};
 use crate::case::{Case, Cea, CeaMap, CeaMethod, ModeSelection};
 use crate::cea::FrictionSweep;
 use crate::cea::cyclic::{self, Coverage, CyclicModel, ModeLimit, SweepRequest};
-use crate::cea::sparse::{self, EigenLimit, EigenRequest};
 use crate::results::cea::{MapReport, SensitivityReport};
 use crate::study::tangent_options;
 use indicatif::ProgressBar;
@@ -20,7 +20,7 @@ pub fn solve(
     model: &SlidingModel,
     bar: &ProgressBar,
 ) -> Result<Solution, Failure> {
-    let mut solution = match method_of(cea) {
+    let mut solution = match method_of(case, cea) {
         CeaMethod::Sparse => solve_sparse(case, cea, model, bar)?,
         CeaMethod::Auto | CeaMethod::Cyclic => solve_cyclic(case, cea, model)?,
     };
@@ -78,35 +78,6 @@ fn damping_note(case: &Case, sweep: &FrictionSweep) -> Option<String> {
              not listed; damping.mass_coefficient and damping.stiffness_coefficient set it",
             largest.max(at_limit)
         )
-    })
-}
-
-fn solve_sparse(
-    case: &Case,
-    cea: &Cea,
-    model: &SlidingModel,
-    bar: &ProgressBar,
-) -> Result<Solution, Failure> {
-    let tangent = model.tangent(case);
-    let friction_coefficients = cea.solved_friction_coefficients();
-    let request = EigenRequest {
-        limit: match cea.modes {
-            ModeSelection::BelowHz(limit) => EigenLimit::BelowFrequency(limit),
-            ModeSelection::Lowest(count) => EigenLimit::Lowest(count),
-        },
-        shapes_at: cea.shapes_at.clone(),
-    };
-    let found = sparse::sweep(&tangent, &friction_coefficients, &request, &|progress| {
-        bar.set_length(progress.total as u64);
-        bar.set_position(progress.solved as u64);
-    });
-    bar.finish_and_clear();
-    Ok(Solution {
-        dofs: tangent.unknowns.len(),
-        method: "sparse",
-        sensitivities: None,
-        notes: Vec::new(),
-        sweep: found?,
     })
 }
 

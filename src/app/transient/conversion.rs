@@ -2,15 +2,20 @@
 
 use crate::app::Failure;
 use crate::case::{Case, Transient};
-use crate::mesh::AnnulusMesh;
+use crate::mesh::{AnnulusMesh, Mesh2d};
 use crate::transient::{
     Breakdown, InitialState, RecorderSettings, TransientError, TransientModel, TransientSettings,
 };
 
-pub fn model<'a>(case: &Case, annulus: &'a AnnulusMesh) -> TransientModel<'a> {
+pub fn model<'a>(
+    case: &'a Case,
+    mesh: &'a Mesh2d,
+    annulus: Option<&'a AnnulusMesh>,
+) -> TransientModel<'a> {
     TransientModel {
+        mesh,
         annulus,
-        material: case.material,
+        material: case.materials(),
         damping: case.damping.rayleigh,
         contact: case.contact.sliding,
     }

@@ -30,10 +30,13 @@ pub(super) fn draw_record(
     let run = RunFigures {
         record,
         analysis: &prepared.analyse(record),
-        mesh: &prepared.annulus.mesh,
-        material: &case.material,
+        mesh: &prepared.mesh,
+        material: case.materials(),
         thickness: case.thickness,
-        peripheral_speed: sliding.rotation_speed * case.annulus.inner_radius,
+        peripheral_speed: prepared
+            .model()
+            .interface()
+            .surface_speed(sliding.rotation_speed),
         references: stage.references,
         growth_rates: stage.growth_rates,
     };
@@ -53,8 +56,8 @@ pub fn redraw(
 ) -> Result<(), Failure> {
     let prepared = Prepared::new(case, "scalar")?;
     let record: Recorder = read_record(folder.path())?;
-    let mesh = &prepared.annulus.mesh;
-    let fits = record.fits(mesh.node_count(), mesh.inner_edge.nodes.len());
+    let mesh = &prepared.mesh;
+    let fits = record.fits(mesh.node_count(), prepared.model().interface().len());
     refuse_misfit(folder.path(), fits)?;
     let summary = TransientSummary::deserialize(summary).map_err(|error| {
         let path = folder.path().display();
@@ -78,8 +81,8 @@ pub fn draw_beside(
     for (path, case) in runs {
         let prepared = Prepared::new(case, "scalar")?;
         let record: Recorder = read_record(path)?;
-        let mesh = &prepared.annulus.mesh;
-        let fits = record.fits(mesh.node_count(), mesh.inner_edge.nodes.len());
+        let mesh = &prepared.mesh;
+        let fits = record.fits(mesh.node_count(), mesh.contact_edge().nodes.len());
         refuse_misfit(path, fits)?;
         records.push((prepared, record));
     }
@@ -87,8 +90,8 @@ pub fn draw_beside(
     for ((path, case), (prepared, record)) in runs.iter().zip(&records) {
         let last = record.snapshots.last();
         ends.push(RunEnd {
-            mesh: &prepared.annulus.mesh,
-            material: &case.material,
+            mesh: &prepared.mesh,
+            material: case.materials(),
             damping: case.damping.rayleigh,
             snapshot: last.ok_or_else(|| {
                 Failure::usage(format!(

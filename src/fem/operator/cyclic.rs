@@ -3,8 +3,8 @@
 use super::kernel::{self, RowLayout, RowStencil};
 use super::sparse::free_masses;
 use super::{MotionFields, OperatorError, SimdLevel, StepCoefficients, StiffnessOperator};
-use crate::fem::{ElasticMaterial, assemble_stiffness};
-use crate::mesh::{AnnulusMesh, ElementKind};
+use crate::fem::{ElasticMaterial, assemble_stiffness, assemble_supports};
+use crate::mesh::{AnnulusMesh, BoundaryCondition};
 
 /// `M^-1 K` of a four-node annulus mesh, without a matrix.
 ///
@@ -15,6 +15,8 @@ use crate::mesh::{AnnulusMesh, ElementKind};
 #[derive(Clone, Debug)]
 pub struct CyclicStencil {
     layout: RowLayout,
+    /// Nodes of a sector, a clamped one included.
+    per_sector: usize,
     stencils: Vec<RowStencil>,
     masses: Vec<f64>,
     simd: SimdLevel,
@@ -33,7 +35,7 @@ impl CyclicStencil {
         material: &ElasticMaterial,
         simd: SimdLevel,
     ) -> Result<Self, OperatorError> {
-        if annulus.mesh.element_kind != ElementKind::Quad4 {
+        if !annulus.mesh.is_quad4() {
             return Err(OperatorError::NotQuad4);
         }
         let node_masses = free_masses(&annulus.mesh, material)?;
@@ -43,7 +45,9 @@ impl CyclicStencil {
         if relative > 1e-11 {
             return Err(OperatorError::NotCyclic { relative });
         }
-        let rows = annulus.sector_node_count() - 1;
+        let per_sector = annulus.sector_node_count();
+        let is_clamped = annulus.specification.outer == BoundaryCondition::Clamped;
+        let rows = per_sector - usize::from(is_clamped);
         let layout = RowLayout::new(annulus.sector_count(), rows);
         let stencils = (0..rows)
             .map(|i| row_stencil(&blocks[i], node_masses[i], i + 1 < rows))
@@ -57,6 +61,7 @@ impl CyclicStencil {
         }
         Ok(Self {
             layout,
+            per_sector,
             stencils,
             masses,
             simd: simd.min(SimdLevel::detect()),
@@ -68,7 +73,9 @@ impl CyclicStencil {
 fn sector_blocks(annulus: &AnnulusMesh, material: &ElasticMaterial) -> Blocks {
     let per_sector = annulus.sector_node_count();
     let mut blocks = vec![[[[[0.0; 2]; 2]; 3]; 3]; per_sector];
-    for (row, column, value) in assemble_stiffness(&annulus.mesh, material).entries {
+    let [springs, _] = assemble_supports(&annulus.mesh);
+    let body = assemble_stiffness(&annulus.mesh, material).entries;
+    for (row, column, value) in body.into_iter().chain(springs.entries) {
         let (node, other) = (row / 2, column / 2);
         if node / per_sector != 1 {
             continue;
@@ -125,7 +132,7 @@ impl StiffnessOperator for CyclicStencil {
     }
 
     fn dof_count(&self) -> usize {
-        2 * (self.layout.rows + 1) * self.layout.count
+        2 * self.per_sector * self.layout.count
     }
 
     fn field_length(&self) -> usize {
@@ -134,8 +141,7 @@ impl StiffnessOperator for CyclicStencil {
 
     fn position(&self, dof: usize) -> usize {
         let (node, component) = (dof / 2, dof % 2);
-        let per_sector = self.layout.rows + 1;
-        self.layout.start(node % per_sector, component) + node / per_sector
+        self.layout.start(node % self.per_sector, component) + node / self.per_sector
     }
 
     fn masses(&self) -> &[f64] {

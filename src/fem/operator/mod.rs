@@ -31,6 +31,12 @@ pub struct StepCoefficients {
 /// A mesh that an operator cannot represent.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum OperatorError {
+    /// The stencil needs the sectors of an annulus.
+    #[error(
+        "transient.operator = \"cyclic\" needs the symmetry of the built-in annulus, which an imported mesh does not have; \
+         use \"auto\" or \"sparse\""
+    )]
+    NoSymmetry,
     /// The stencil needs four-node elements.
     #[error(
         "the cyclic operator needs mesh.element = \"quad4\"; use transient.operator = \"sparse\" for other elements"

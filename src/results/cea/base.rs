@@ -1,5 +1,6 @@
 //! The steady sliding state that the eigenvalues belong to.
 
+use crate::contact::ContactStatus;
 use crate::fem::NodalStress;
 use crate::mesh::Mesh2d;
 use crate::results::folder::{FolderError, OutputFolder};
@@ -39,6 +40,8 @@ pub struct BaseField {
     pub pressures: Vec<f64>,
     /// Friction traction at each contact node, Pa.
     pub shears: Vec<f64>,
+    /// Whether each contact node is pressed, on bodies where some may be open.
+    pub is_pressed: Option<Vec<bool>>,
     /// Displacement of every node in nodal frames, `2 * node_count` values, m.
     pub displacement: Vec<f64>,
     /// Stress at every node.
@@ -55,15 +58,25 @@ pub fn write_base(
     base: &BaseField,
 ) -> Result<(), FolderError> {
     folder.write("prestress.csv", |out| {
-        let columns = ["node", "angle_degrees", "pressure_pa", "shear_pa"];
+        let mut columns = vec!["node", "angle_degrees", "pressure_pa", "shear_pa"];
+        columns.extend(base.is_pressed.is_some().then_some("status"));
         let mut table = Table::new(out, &columns)?;
-        for (i, node) in base.nodes.iter().enumerate() {
-            table.row([
-                (node + 1).to_string(),
+        for (i, &node) in base.nodes.iter().enumerate() {
+            let status = base.is_pressed.as_ref().map(|is_pressed| {
+                let status = if is_pressed[i] {
+                    ContactStatus::Slip
+                } else {
+                    ContactStatus::Open
+                };
+                status.name().to_owned()
+            });
+            let row = [
+                mesh.node_label(node as usize).to_string(),
                 format_number(base.angles[i].to_degrees()),
                 format_number(base.pressures[i]),
                 format_number(base.shears[i]),
-            ])?;
+            ];
+            table.row(row.into_iter().chain(status))?;
         }
         table.finish()
     })?;

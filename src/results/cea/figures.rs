@@ -194,6 +194,7 @@ fn shapes_at<'a>(report: &CeaReport<'a>, friction: f64) -> Vec<ModeShape<'a>> {
     let with_shape = numbered.filter(|(_, mode)| mode.shape.is_some());
     with_shape
         .map(|(index, mode)| ModeShape {
+            has_harmonics: report.has_harmonics,
             number: index + 1,
             friction,
             mode,

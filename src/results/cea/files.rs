@@ -17,7 +17,7 @@ use std::io::{self, Write};
 pub fn write(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<Value, FolderError> {
     folder.write("eigenvalues.csv", |out| write_eigenvalues(out, report))?;
     folder.write("stability.csv", |out| {
-        write_stability(out, &report.sweep.intervals)
+        write_stability(out, &report.sweep.intervals, report.has_harmonics)
     })?;
     if let Some(sensitivities) = report.sensitivities {
         folder.write("sensitivities.csv", |out| sensitivities.write(out))?;
@@ -54,6 +54,14 @@ pub fn write_eigenvalues(out: &mut dyn Write, report: &CeaReport<'_>) -> io::Res
         "residual",
         "contact_share",
     ];
+    // A body without symmetry has modes without a harmonic.
+    let named = |text: String| {
+        if report.has_harmonics {
+            text
+        } else {
+            String::new()
+        }
+    };
     let mut table = Table::new(out, &columns)?;
     for point in report.tabulated() {
         for (index, mode) in point.modes.iter().enumerate() {
@@ -64,9 +72,9 @@ pub fn write_eigenvalues(out: &mut dyn Write, report: &CeaReport<'_>) -> io::Res
                 format_number(mode.frequency_hz()),
                 format_number(mode.damping_factor()),
                 format_number(mode.growth_rate()),
-                mode.harmonic.to_string(),
+                named(mode.harmonic.to_string()),
                 mode.branch.to_string(),
-                mode.direction.to_string(),
+                named(mode.direction.to_string()),
                 mode.is_unstable().to_string(),
                 format_number(mode.residual),
                 format_number(mode.contact_share),
@@ -81,7 +89,12 @@ pub fn write_eigenvalues(out: &mut dyn Write, report: &CeaReport<'_>) -> io::Res
 ///
 /// # Errors
 /// Those of the writer.
-pub fn write_stability(out: &mut dyn Write, intervals: &[UnstableInterval]) -> io::Result<()> {
+pub fn write_stability(
+    out: &mut dyn Write,
+    intervals: &[UnstableInterval],
+    has_harmonics: bool,
+) -> io::Result<()> {
+    let named = |text: String| if has_harmonics { text } else { String::new() };
     let columns = [
         "harmonic",
         "branch",
@@ -96,9 +109,9 @@ pub fn write_stability(out: &mut dyn Write, intervals: &[UnstableInterval]) -> i
     for interval in intervals {
         let end = interval.restabilized.unwrap_or((f64::NAN, f64::NAN));
         table.row([
-            interval.harmonic.to_string(),
+            named(interval.harmonic.to_string()),
             interval.branch.to_string(),
-            interval.direction.to_string(),
+            named(interval.direction.to_string()),
             format_number(interval.critical_friction),
             format_number(interval.frequency_hz),
             format_number(end.0),
@@ -123,8 +136,11 @@ pub fn summary(report: &CeaReport<'_>, manifest: &Manifest) -> Value {
             })
         })
         .collect();
-    let critical: Vec<Value> = report.sweep.intervals.iter().map(interval_object).collect();
-    json!({
+    let intervals = report.sweep.intervals.iter();
+    let critical: Vec<Value> = intervals
+        .map(|interval| interval_object(interval, report.has_harmonics))
+        .collect();
+    let mut summary = json!({
         "command": "cea",
         "title": report.title,
         "dofs": report.dofs,
@@ -140,7 +156,13 @@ pub fn summary(report: &CeaReport<'_>, manifest: &Manifest) -> Value {
         "base_state": report.base,
         "notes": report.notes,
         "manifest": manifest,
-    })
+    });
+    if !report.has_harmonics {
+        let base = &report.base;
+        let nodes = (base.slipping + base.sticking + base.open).max(1);
+        summary["contact_open_fraction"] = json!(base.open as f64 / nodes as f64);
+    }
+    summary
 }
 
 /// The modes at the case's own friction coefficient, where it is one of those solved.
@@ -150,9 +172,9 @@ fn own_modes(report: &CeaReport<'_>) -> Option<Vec<Value>> {
     let point = points.find(|point| point.friction_coefficient == own)?;
     let modes = point.modes.iter().map(|mode| {
         json!({
-            "harmonic": mode.harmonic,
+            "harmonic": report.has_harmonics.then_some(mode.harmonic),
             "branch": mode.branch,
-            "direction": mode.direction,
+            "direction": report.has_harmonics.then_some(mode.direction),
             "real_hz": mode.real_hz(),
             "frequency_hz": mode.frequency_hz(),
             "unstable": mode.is_unstable(),
@@ -162,11 +184,11 @@ fn own_modes(report: &CeaReport<'_>) -> Option<Vec<Value>> {
     Some(modes.collect())
 }
 
-fn interval_object(interval: &UnstableInterval) -> Value {
+fn interval_object(interval: &UnstableInterval, has_harmonics: bool) -> Value {
     json!({
-        "harmonic": interval.harmonic,
+        "harmonic": has_harmonics.then_some(interval.harmonic),
         "branch": interval.branch,
-        "direction": interval.direction,
+        "direction": has_harmonics.then_some(interval.direction),
         "critical_friction": interval.critical_friction,
         "frequency_hz": interval.frequency_hz,
         "restabilized_friction": interval.restabilized.map(|end| end.0),

@@ -28,6 +28,8 @@ pub struct CeaReport<'a> {
     pub title: &'a str,
     /// The mesh, for the shapes.
     pub mesh: &'a Mesh2d,
+    /// Whether modes have a circumferential harmonic and a direction; else they are named by rank.
+    pub has_harmonics: bool,
     /// Unknowns of the eigenproblem.
     pub dofs: usize,
     /// Solver: `"cyclic"` or `"sparse"`.
@@ -53,6 +55,25 @@ pub struct CeaReport<'a> {
 }
 
 impl CeaReport<'_> {
+    /// A harmonic as text; a body without symmetry has none.
+    fn harmonic_name(&self, harmonic: usize) -> String {
+        if self.has_harmonics {
+            harmonic.to_string()
+        } else {
+            "-".to_owned()
+        }
+    }
+
+    /// A direction as a word.
+    fn direction_name(&self, direction: i8) -> String {
+        let name = if self.has_harmonics {
+            direction_name(direction)
+        } else {
+            "-"
+        };
+        name.to_owned()
+    }
+
     /// The friction values of the tables.
     pub fn tabulated(&self) -> impl Iterator<Item = &FrictionPoint> {
         self.sweep.points.iter().filter(|point| {

@@ -55,7 +55,7 @@ fn own_modes(out: &mut String, report: &CeaReport<'_>) {
     for (index, mode) in point.modes.iter().enumerate() {
         if is_short || mode.is_unstable() {
             let mark = if mode.is_unstable() { "unstable" } else { "" };
-            mode_line(out, mark, index, mode);
+            mode_line(out, mark, index, mode, report.has_harmonics);
         }
     }
 }
@@ -74,14 +74,19 @@ fn head(out: &mut String, first: &str) {
     );
 }
 
-fn mode_line(out: &mut String, first: &str, index: usize, mode: &ComplexMode) {
+fn mode_line(out: &mut String, first: &str, index: usize, mode: &ComplexMode, has_harmonics: bool) {
+    let (harmonic, travels) = if has_harmonics {
+        (mode.harmonic.to_string(), direction_name(mode.direction))
+    } else {
+        ("-".to_owned(), "-")
+    };
     let _ = writeln!(
         out,
         "{first:>9}  {:>4}  {:>3} {:>6}  {:<8} {:>12.2} {:>12.2} {:>11.3e}",
         index + 1,
-        mode.harmonic,
+        harmonic,
         mode.branch,
-        direction_name(mode.direction),
+        travels,
         mode.frequency_hz(),
         mode.growth_rate(),
         mode.damping_factor(),
@@ -95,7 +100,7 @@ fn unstable_modes(out: &mut String, report: &CeaReport<'_>) {
     for point in report.tabulated() {
         if point.modes.iter().any(|mode| mode.is_unstable()) {
             stable_line(out, stable.take());
-            unstable_lines(out, point);
+            unstable_lines(out, point, report.has_harmonics);
         } else {
             let friction = point.friction_coefficient;
             stable = Some((stable.map_or(friction, |range| range.0), friction));
@@ -112,13 +117,13 @@ fn stable_line(out: &mut String, range: Option<(f64, f64)>) {
     };
 }
 
-fn unstable_lines(out: &mut String, point: &FrictionPoint) {
+fn unstable_lines(out: &mut String, point: &FrictionPoint, has_harmonics: bool) {
     let mut friction = point.friction_coefficient.to_string();
     for (index, mode) in point.modes.iter().enumerate() {
         if !mode.is_unstable() {
             continue;
         }
-        mode_line(out, &friction, index, mode);
+        mode_line(out, &friction, index, mode, has_harmonics);
         friction.clear();
     }
 }
@@ -153,9 +158,17 @@ fn critical_frictions(out: &mut String, report: &CeaReport<'_>) {
         let _ = writeln!(
             out,
             "{critical:>10}  {:>3} {:>6}  {:<8} {:>12.2}  {again}",
-            interval.harmonic,
+            if report.has_harmonics {
+                interval.harmonic.to_string()
+            } else {
+                "-".to_owned()
+            },
             interval.branch,
-            direction_name(interval.direction),
+            if report.has_harmonics {
+                direction_name(interval.direction)
+            } else {
+                "-"
+            },
             interval.frequency_hz,
         );
     }

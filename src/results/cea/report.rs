@@ -1,7 +1,7 @@
 //! The report of an eigenvalue analysis: figures, critical frictions, eigenvalues.
 
-use super::{CeaReport, direction_name};
-use crate::cea::{FrictionPoint, UnstableInterval};
+use super::CeaReport;
+use crate::cea::FrictionPoint;
 use crate::results::Manifest;
 use crate::results::report::{NamedFigure, Report, ReportSection, ReportTable};
 
@@ -40,7 +40,7 @@ pub fn html_report(
         ),
     ];
     paragraphs.extend(report.notes.iter().cloned());
-    let mut tables = vec![critical_table(&report.sweep.intervals)];
+    let mut tables = vec![critical_table(report)];
     tables.extend(eigenvalue_tables(report));
     Report {
         title: report.title.to_owned(),
@@ -61,12 +61,12 @@ pub fn html_report(
     }
 }
 
-fn critical_table(intervals: &[UnstableInterval]) -> ReportTable {
-    let rows = intervals.iter().map(|interval| {
+fn critical_table(report: &CeaReport<'_>) -> ReportTable {
+    let rows = report.sweep.intervals.iter().map(|interval| {
         vec![
-            interval.harmonic.to_string(),
+            report.harmonic_name(interval.harmonic),
             interval.branch.to_string(),
-            direction_name(interval.direction).to_owned(),
+            report.direction_name(interval.direction),
             if interval.unstable_from_start {
                 format!("below {}", interval.critical_friction)
             } else {
@@ -102,19 +102,22 @@ fn eigenvalue_tables(report: &CeaReport<'_>) -> Vec<ReportTable> {
     if chosen.is_empty() {
         chosen.extend(points.last());
     }
-    chosen.into_iter().map(eigenvalue_table).collect()
+    chosen
+        .into_iter()
+        .map(|point| eigenvalue_table(report, point))
+        .collect()
 }
 
-fn eigenvalue_table(point: &FrictionPoint) -> ReportTable {
+fn eigenvalue_table(report: &CeaReport<'_>, point: &FrictionPoint) -> ReportTable {
     let rows = point.modes.iter().enumerate().map(|(index, mode)| {
         vec![
             (index + 1).to_string(),
             format!("{:.2}", mode.real_hz()),
             format!("{:.2}", mode.frequency_hz()),
             format!("{:.5}", mode.damping_factor()),
-            mode.harmonic.to_string(),
+            report.harmonic_name(mode.harmonic),
             mode.branch.to_string(),
-            direction_name(mode.direction).to_owned(),
+            report.direction_name(mode.direction),
             if mode.is_unstable() { "unstable" } else { "" }.to_owned(),
         ]
     });

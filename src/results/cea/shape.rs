@@ -17,6 +17,8 @@ pub(super) struct ModeShape<'a> {
     pub number: usize,
     /// Friction coefficient.
     pub friction: f64,
+    /// Whether modes have a circumferential harmonic.
+    pub has_harmonics: bool,
     /// The mode.
     pub mode: &'a ComplexMode,
 }
@@ -34,6 +36,9 @@ impl ModeShape<'_> {
         } else {
             ""
         };
+        if !self.has_harmonics {
+            return unstable.trim().to_owned();
+        }
         format!("*n* = {}{arrow}{unstable}", self.mode.harmonic)
     }
 }

@@ -1,7 +1,7 @@
 //! Fields over a body as layers.
 
 use crate::chart::{Axis, Cell, ColourMap, Field, Mesh, Panel};
-use crate::mesh::{ElementKind, Mesh2d};
+use crate::mesh::Mesh2d;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -21,23 +21,13 @@ impl<'a> Disc<'a> {
     /// The same with about so many rays of nodes, and circles to match, as thin lines that show a deformation; a mesh without
     /// rays shows none.
     pub fn with_lattice(mesh: &'a Mesh2d, rays: usize) -> Self {
-        let order: &[usize] = match mesh.element_kind {
-            ElementKind::Quad4 => &[0, 1, 2, 3],
-            ElementKind::Quad8 => &[0, 4, 1, 5, 2, 6, 3, 7],
-        };
-        let cells = (0..mesh.element_count()).map(|element| {
-            let nodes = mesh.element_nodes(element);
-            let ring = order.iter().map(|&i| nodes[i]).collect();
-            Cell {
-                ring,
-                is_quadratic: order.len() > 4,
-            }
+        let cells = (0..mesh.element_count()).map(|element| Cell {
+            ring: mesh.element_outline(element),
+            is_quadratic: mesh.element_kind(element).is_quadratic(),
         });
         let shown = Mesh {
             cells: cells.collect(),
-            outlines: [&mesh.inner_edge, &mesh.outer_edge]
-                .map(|edge| edge.nodes.clone())
-                .to_vec(),
+            outlines: outlines(mesh),
             lines: if rays > 0 {
                 lattice(mesh, rays)
             } else {
@@ -96,7 +86,7 @@ impl<'a> Disc<'a> {
 
     /// The contact edge, undeformed.
     pub fn contact_edge(&self) -> Vec<(f64, f64)> {
-        let edge = &self.mesh.inner_edge.nodes;
+        let edge = &self.mesh.contact_edge().nodes;
         let places = edge
             .iter()
             .chain(edge.first())
@@ -106,7 +96,7 @@ impl<'a> Disc<'a> {
 
     /// Smallest distance of the contact edge from the origin, m, and the angle of its first node.
     pub fn contact_place(&self) -> (f64, f64) {
-        let edge = &self.mesh.inner_edge.nodes;
+        let edge = &self.mesh.contact_edge().nodes;
         let radius = self
             .contact_edge()
             .iter()
@@ -117,6 +107,21 @@ impl<'a> Disc<'a> {
             .and_then(|&node| self.mesh.frame_angles.get(node as usize));
         (radius, first.copied().unwrap_or(0.0))
     }
+}
+
+/// The boundaries of the annulus; on any other body its rim, edge by edge: its curves may be in pieces.
+fn outlines(mesh: &Mesh2d) -> Vec<Vec<u32>> {
+    if mesh.is_cyclic {
+        return mesh
+            .boundaries
+            .iter()
+            .map(|edge| edge.nodes.clone())
+            .collect();
+    }
+    let edges = mesh.outline_edges().into_iter();
+    edges
+        .map(|(start, end, middle)| std::iter::once(start).chain(middle).chain([end]).collect())
+        .collect()
 }
 
 /// Every few rays and circles of nodes, found by their equal angle and radius.

@@ -224,7 +224,7 @@ impl CycleFigures<'_> {
     }
 
     fn velocity(&self) -> Result<Figure, ChartError> {
-        let nodes = self.mesh.inner_edge.nodes.len();
+        let nodes = self.mesh.contact_edge().nodes.len();
         let frames = self
             .cycles()
             .take(FIELD_LIMIT)

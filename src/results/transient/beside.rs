@@ -1,7 +1,7 @@
 //! The last shear stress field of several runs side by side, as figure 2 of the paper has it.
 
 use crate::chart::{Axis, ColourMap, Figure, Side, significant};
-use crate::fem::{ElasticMaterial, RayleighDamping, nodal_stress};
+use crate::fem::{MaterialField, RayleighDamping, nodal_stress};
 use crate::mesh::Mesh2d;
 use crate::results::charts::Disc;
 use crate::transient::Snapshot;
@@ -12,7 +12,7 @@ pub struct RunEnd<'a> {
     /// The mesh.
     pub mesh: &'a Mesh2d,
     /// The material.
-    pub material: &'a ElasticMaterial,
+    pub material: &'a dyn MaterialField,
     /// Its damping, which the figure names.
     pub damping: RayleighDamping,
     /// The last snapshot.

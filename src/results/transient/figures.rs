@@ -2,7 +2,7 @@
 
 use crate::chart::{Axis, ChartError, ColourMap, Figure, Line, Panel, SERIES, extremes};
 use crate::contact::ContactStatus;
-use crate::fem::{ElasticMaterial, nodal_stress};
+use crate::fem::{MaterialField, nodal_stress};
 use crate::mesh::Mesh2d;
 use crate::results::charts::palette::status_of_code;
 use crate::results::charts::{
@@ -25,7 +25,7 @@ pub struct RunFigures<'a> {
     /// The mesh.
     pub mesh: &'a Mesh2d,
     /// The material, for the stress fields.
-    pub material: &'a ElasticMaterial,
+    pub material: &'a dyn MaterialField,
     /// Thickness, m: the record is for each metre.
     pub thickness: f64,
     /// Peripheral speed of the cylinder, m/s.
@@ -150,7 +150,7 @@ impl RunFigures<'_> {
     pub(super) fn is_on_contact(&self, probe: usize) -> bool {
         let node = self.record.probes[probe] as u32;
         self.mesh
-            .inner_edge
+            .contact_edge()
             .nodes
             .iter()
             .any(|other| other + 1 == node)
@@ -231,7 +231,7 @@ impl RunFigures<'_> {
         let snapshot = snapshot.ok_or_else(|| ChartError::empty("contact at the snapshots"))?;
         let frame = &snapshot.contact;
         let wide = |values: &[f32]| values.iter().map(|&v| f64::from(v)).collect::<Vec<f64>>();
-        let edge = self.mesh.inner_edge.nodes.iter();
+        let edge = self.mesh.contact_edge().nodes.iter();
         let velocity: Vec<f64> = edge
             .map(|&node| snapshot.velocity[2 * node as usize + 1])
             .collect();

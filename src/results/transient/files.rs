@@ -2,6 +2,7 @@
 
 use super::contact::encode_contact;
 use super::{TransientReport, TransientSummary, summary};
+use crate::contact::ContactInterface;
 use crate::fem::nodal_stress;
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::record::write_record;
@@ -176,7 +177,7 @@ fn snapshot_fields(report: &TransientReport<'_>, snapshot: &Snapshot) -> Vec<Fie
     ];
     let stresses = nodal_stress(report.mesh, report.material, &snapshot.displacement);
     fields.extend(Field::stresses(&stresses));
-    let edge = &report.mesh.inner_edge.nodes;
+    let edge = &ContactInterface::of(report.mesh).nodes;
     let mut status = vec![-1; report.mesh.node_count()];
     for (&node, &code) in edge.iter().zip(&snapshot.contact.status) {
         status[node as usize] = i64::from(code);

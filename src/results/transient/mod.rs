@@ -21,7 +21,7 @@ pub use print::print;
 pub use report::{draw, html_report};
 pub use summary::{TransientSummary, summary};
 
-use crate::fem::ElasticMaterial;
+use crate::fem::MaterialField;
 use crate::mesh::Mesh2d;
 use crate::transient::{Perturbation, Recorder, StepPlan, TransientAnalysis};
 
@@ -34,7 +34,7 @@ pub struct TransientReport<'a> {
     /// The mesh, for the snapshots.
     pub mesh: &'a Mesh2d,
     /// Its material, for the stresses.
-    pub material: &'a ElasticMaterial,
+    pub material: &'a dyn MaterialField,
     /// Thickness, m.
     pub thickness: f64,
     /// Friction coefficient, for the snapshots.

@@ -32,7 +32,7 @@ impl CentralDifference<'_> {
     }
 
     fn unstable(&self, symptom: String, cause: Breakdown) -> TransientError {
-        let mesh = &self.model.annulus.mesh;
+        let mesh = self.model.mesh;
         let speed = |node: usize| {
             let [r, t] = [0, 1].map(|c| self.fields.velocity[self.operator.position(2 * node + c)]);
             let speed = r.hypot(t);

@@ -1,7 +1,6 @@
 //! How a run begins: at rest, from given fields, or where another one stopped.
 
-use super::{CentralDifference, Kick, TransientState};
-use crate::contact::ContactInterface;
+use super::{BoundaryForces, CentralDifference, Kick, TransientState};
 use crate::fem::assemble_stiffness;
 use crate::fem::operator::{
     AlignedVector, MotionFields, StepCoefficients, StiffnessOperator, scatter,
@@ -23,12 +22,12 @@ impl<'a> CentralDifference<'a> {
         operator: &'a dyn StiffnessOperator,
         settings: &TransientSettings,
     ) -> Result<Self, TransientError> {
-        let mesh = &model.annulus.mesh;
+        let mesh = model.mesh;
         let still = vec![0.0; operator.dof_count()];
         let displacement = match settings.initial {
             InitialState::Rest => still.clone(),
             InitialState::SteadySliding => {
-                let stiffness = assemble_stiffness(mesh, &model.material);
+                let stiffness = assemble_stiffness(mesh, model.material);
                 let base = SteadySliding::solve(mesh, &stiffness, &model.contact)?;
                 base.displacement(model.contact.friction_coefficient)
             }
@@ -52,7 +51,7 @@ impl<'a> CentralDifference<'a> {
         displacement: &[f64],
         mut velocity: Vec<f64>,
     ) -> Result<Self, TransientError> {
-        let plan = StepPlan::new(operator, &model.damping, settings)?;
+        let plan = StepPlan::new(operator, &model.bounding_damping(), settings)?;
         let expected = operator.dof_count();
         for found in [displacement.len(), velocity.len()] {
             if found != expected {
@@ -86,7 +85,7 @@ impl<'a> CentralDifference<'a> {
         settings: &TransientSettings,
         state: &TransientState,
     ) -> Result<Self, TransientError> {
-        let plan = StepPlan::new(operator, &model.damping, settings)?;
+        let plan = StepPlan::new(operator, &model.bounding_damping(), settings)?;
         let expected = operator.dof_count();
         for vector in [
             &state.displacement,
@@ -122,7 +121,7 @@ impl<'a> CentralDifference<'a> {
         plan: StepPlan,
         settings: &TransientSettings,
     ) -> Result<Self, TransientError> {
-        let interface = ContactInterface::of(&model.annulus.mesh);
+        let interface = model.interface();
         let zeros = || AlignedVector::zeros(operator.field_length());
         // All others start fully expanded: a ramp of no length.
         let expansion_time = match settings.initial {
@@ -131,7 +130,7 @@ impl<'a> CentralDifference<'a> {
         };
         let kick = Kick {
             step: (settings.perturbation.time / plan.time_step).round() as u64,
-            velocity: settings.perturbation.field(model.annulus)?,
+            velocity: settings.perturbation.field(&model)?,
         };
         Ok(Self {
             coefficients: StepCoefficients {
@@ -146,6 +145,7 @@ impl<'a> CentralDifference<'a> {
                 elastic_rate: zeros(),
             },
             contact: LagrangeContact::new(operator, &interface, &model.contact),
+            boundary: BoundaryForces::new(&model, operator),
             interface,
             next_step: 0,
             initial_energy: 0.0,

@@ -1,0 +1,142 @@
+//! Named boundaries of a body, and what holds them.
+
+use super::Mesh2d;
+
+/// Distributed springs and dashpots along a boundary, for each unit of its area.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ElasticSupport {
+    /// `k_n`, Pa/m.
+    pub normal_stiffness: f64,
+    /// `k_t`, Pa/m.
+    pub tangential_stiffness: f64,
+    /// `c_n`, Pa s/m.
+    pub normal_damping: f64,
+    /// `c_t`, Pa s/m.
+    pub tangential_damping: f64,
+}
+
+/// What holds a boundary.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum BoundaryCondition {
+    /// No motion.
+    Clamped,
+    /// Springs and dashpots.
+    Support(ElasticSupport),
+    /// No motion along the normal, free tangentially.
+    Guide,
+    /// A dead pressure that pushes onto the body, Pa.
+    Pressure(f64),
+    /// Nothing.
+    #[default]
+    Free,
+}
+
+/// A named curve of edges, its nodes in order along it.
+///
+/// On the annulus `inner` and `outer`, in order of rising angle; corner and mid-side nodes alike.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Boundary {
+    /// Its name.
+    pub name: String,
+    /// 0-based node indices along the boundary.
+    pub nodes: Vec<u32>,
+    /// Tributary length of each node, m. Where the node's frame is that of the contact or of a guide,
+    /// `∫ N_i |n . e_i| ds` with `n` the boundary's normal and `e_i` the node's first axis: the force that unit
+    /// pressure exerts along that axis. `∫ N_i ds` elsewhere.
+    pub tributary_lengths: Vec<f64>,
+    /// Direction of the outward normal at each node, an angle from +x, rad.
+    pub normal_angles: Vec<f64>,
+    /// Whether the curve closes on itself.
+    pub is_closed: bool,
+    /// What holds it.
+    pub condition: BoundaryCondition,
+}
+
+/// A spring and dashpot matrix at one node, in the node's frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NodalSupport {
+    /// 0-based node.
+    pub node: usize,
+    /// Stiffness over `(e_1, e_2)`, N/m for each metre of thickness.
+    pub stiffness: [[f64; 2]; 2],
+    /// Damping over `(e_1, e_2)`, N s/m for each metre of thickness.
+    pub damping: [[f64; 2]; 2],
+}
+
+impl Mesh2d {
+    /// Springs and dashpots of every support, node by node, `w_i (k_n n n^T + k_t t t^T)`: the integral over the
+    /// boundary with its tributary lengths as weights.
+    pub fn nodal_supports(&self) -> Vec<NodalSupport> {
+        let mut supports = Vec::new();
+        for boundary in &self.boundaries {
+            let BoundaryCondition::Support(support) = boundary.condition else {
+                continue;
+            };
+            let nodes = boundary.nodes.iter().zip(&boundary.tributary_lengths);
+            for ((&node, &length), &normal) in nodes.zip(&boundary.normal_angles) {
+                let node = node as usize;
+                // A multiple of a quarter turn leaves the matrix exactly diagonal.
+                let turn = normal - self.frame_angles[node];
+                let is_straight = turn.sin().abs() < 1e-12;
+                let (sin, cos) = if is_straight {
+                    (0.0, 1.0)
+                } else {
+                    turn.sin_cos()
+                };
+                let of = |along: f64, across: f64| {
+                    let coupling = length * (along - across) * sin * cos;
+                    [
+                        [length * (along * cos * cos + across * sin * sin), coupling],
+                        [coupling, length * (along * sin * sin + across * cos * cos)],
+                    ]
+                };
+                supports.push(NodalSupport {
+                    node,
+                    stiffness: of(support.normal_stiffness, support.tangential_stiffness),
+                    damping: of(support.normal_damping, support.tangential_damping),
+                });
+            }
+        }
+        supports
+    }
+
+    /// Forces of every boundary pressure over all dofs in nodal frames, N for each metre of thickness; `None`
+    /// where there is none.
+    pub fn pressure_forces(&self) -> Option<Vec<f64>> {
+        let mut forces: Option<Vec<f64>> = None;
+        for boundary in &self.boundaries {
+            let BoundaryCondition::Pressure(pressure) = boundary.condition else {
+                continue;
+            };
+            let forces = forces.get_or_insert_with(|| vec![0.0; 2 * self.node_count()]);
+            let nodes = boundary.nodes.iter().zip(&boundary.tributary_lengths);
+            for ((&node, &length), &normal) in nodes.zip(&boundary.normal_angles) {
+                let node = node as usize;
+                let (sin, cos) = (normal - self.frame_angles[node]).sin_cos();
+                forces[2 * node] -= pressure * length * cos;
+                forces[2 * node + 1] -= pressure * length * sin;
+            }
+        }
+        forces
+    }
+
+    /// Dofs that boundary conditions hold at zero.
+    ///
+    /// A guide holds the axis of the node's frame along its normal; both where neither axis is.
+    pub fn held_dofs(&self) -> impl Iterator<Item = usize> + '_ {
+        self.boundaries.iter().flat_map(move |boundary| {
+            let nodes = boundary.nodes.iter().zip(&boundary.normal_angles);
+            nodes.flat_map(move |(&node, normal)| {
+                let node = node as usize;
+                let (sin, cos) = (normal - self.frame_angles[node]).sin_cos();
+                let (first, second) = match boundary.condition {
+                    BoundaryCondition::Clamped => (true, true),
+                    BoundaryCondition::Guide => (sin.abs() < 0.99, cos.abs() < 0.99),
+                    _ => (false, false),
+                };
+                let held = [first.then_some(2 * node), second.then_some(2 * node + 1)];
+                held.into_iter().flatten()
+            })
+        })
+    }
+}

@@ -1,0 +1,154 @@
+//! Curves of element edges: their order and the lengths that belong to their nodes.
+
+use super::Mesh2d;
+use super::body::body;
+use super::gmsh::{CurveEdge, MeshFileError};
+use std::collections::BTreeMap;
+
+/// Edges in order along a curve, the body on their left; where it has several pieces, one after the other.
+#[derive(Clone, Debug)]
+pub(super) struct Curve {
+    /// The edges.
+    pub edges: Vec<CurveEdge>,
+    /// The nodes, mid-side nodes between their ends.
+    pub nodes: Vec<u32>,
+    /// Whether it is one piece that closes on itself.
+    pub is_closed: bool,
+    /// Where pieces begin among the edges.
+    pieces: Vec<usize>,
+    /// A node at which more than two edges meet.
+    touching: Option<u32>,
+}
+
+impl Curve {
+    /// Puts edges in order.
+    pub fn chain(edges: Vec<CurveEdge>) -> Self {
+        let mut from: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+        let mut arriving: BTreeMap<u32, usize> = BTreeMap::new();
+        for (i, &(p, q, _)) in edges.iter().enumerate() {
+            from.entry(p).or_default().push(i);
+            *arriving.entry(q).or_default() += 1;
+        }
+        let is_double =
+            |node: &u32| from[node].len() > 1 || arriving.get(node).is_some_and(|&n| n > 1);
+        let touching = from.keys().copied().find(is_double);
+        // Open pieces begin where no edge arrives; what is left then are loops.
+        let open = (0..edges.len()).filter(|&i| !arriving.contains_key(&edges[i].0));
+        let starts: Vec<usize> = open.chain(0..edges.len()).collect();
+        let mut is_taken = vec![false; edges.len()];
+        let (mut ordered, mut pieces) = (Vec::with_capacity(edges.len()), Vec::new());
+        for start in starts {
+            if is_taken[start] {
+                continue;
+            }
+            pieces.push(ordered.len());
+            let mut next = Some(start);
+            while let Some(i) = next {
+                is_taken[i] = true;
+                ordered.push(edges[i]);
+                let following = from.get(&edges[i].1);
+                next = following.and_then(|out| out.iter().copied().find(|&k| !is_taken[k]));
+            }
+        }
+        let mut nodes = Vec::new();
+        for (i, &(p, q, middle)) in ordered.iter().enumerate() {
+            nodes.push(p);
+            nodes.extend(middle);
+            let goes_on = ordered.get(i + 1).is_some_and(|next| next.0 == q);
+            let starts_piece = pieces.contains(&(i + 1));
+            if !goes_on || starts_piece {
+                nodes.push(q);
+            }
+        }
+        let is_closed = pieces.len() == 1 && nodes.first() == nodes.last() && nodes.len() > 2;
+        let mut seen = std::collections::BTreeSet::new();
+        nodes.retain(|&node| seen.insert(node));
+        Self {
+            edges: ordered,
+            nodes,
+            is_closed,
+            pieces,
+            touching,
+        }
+    }
+
+    /// A contact curve must be one piece that does not touch itself.
+    pub fn check_single(&self, name: &str, labels: &[usize]) -> Result<(), MeshFileError> {
+        if let Some(node) = self.touching {
+            return Err(body(format!(
+                "the contact curve \"{name}\" touches itself at node {}: more than two of its edges meet there",
+                labels[node as usize]
+            )));
+        }
+        if let [_, second, ..] = self.pieces[..] {
+            let (end, start) = (self.edges[second - 1].1, self.edges[second].0);
+            return Err(body(format!(
+                "the contact curve \"{name}\" is open: it is in {} pieces, one ends at node {} and another begins at node \
+                 {}; put every edge between them into the physical curve, or name a curve for each contact",
+                self.pieces.len(),
+                labels[end as usize],
+                labels[start as usize]
+            )));
+        }
+        Ok(())
+    }
+}
+
+/// `∫ N_i ds` and `∫ N_i n ds` of each node of a curve, `n` the outward normal.
+pub(super) struct EdgeWeights {
+    /// m.
+    pub lengths: Vec<f64>,
+    /// m.
+    pub normals: Vec<[f64; 2]>,
+}
+
+impl EdgeWeights {
+    /// Exact on straight edges; three Gauss points on parabolas.
+    pub fn of(mesh: &Mesh2d, curve: &Curve) -> Self {
+        let place: BTreeMap<u32, usize> = curve
+            .nodes
+            .iter()
+            .enumerate()
+            .map(|(i, &node)| (node, i))
+            .collect();
+        let mut weights = Self {
+            lengths: vec![0.0; curve.nodes.len()],
+            normals: vec![[0.0; 2]; curve.nodes.len()],
+        };
+        const FAR: f64 = 0.774_596_669_241_483_4;
+        for &(p, q, middle) in &curve.edges {
+            let nodes: Vec<u32> = [p, q].into_iter().chain(middle).collect();
+            for (s, weight) in [(-FAR, 5.0 / 9.0), (0.0, 8.0 / 9.0), (FAR, 5.0 / 9.0)] {
+                // Shape functions along the edge and their slopes at -1 <= s <= 1.
+                let shapes: Vec<(f64, f64)> = if middle.is_some() {
+                    vec![
+                        (0.5 * s * (s - 1.0), s - 0.5),
+                        (0.5 * s * (s + 1.0), s + 0.5),
+                        (1.0 - s * s, -2.0 * s),
+                    ]
+                } else {
+                    vec![(0.5 * (1.0 - s), -0.5), (0.5 * (1.0 + s), 0.5)]
+                };
+                let mut tangent = [0.0; 2];
+                for (&node, shape) in nodes.iter().zip(&shapes) {
+                    let [x, y] = mesh.nodes[node as usize];
+                    tangent[0] += shape.1 * x;
+                    tangent[1] += shape.1 * y;
+                }
+                for (node, shape) in nodes.iter().zip(&shapes) {
+                    let i = place[node];
+                    weights.lengths[i] += weight * shape.0 * tangent[0].hypot(tangent[1]);
+                    // The body lies on the left: the outward normal is a quarter turn behind the tangent.
+                    weights.normals[i][0] += weight * shape.0 * tangent[1];
+                    weights.normals[i][1] -= weight * shape.0 * tangent[0];
+                }
+            }
+        }
+        weights
+    }
+
+    /// Direction of the normal at each node, rad.
+    pub fn normal_angles(&self) -> Vec<f64> {
+        self.normals.iter().map(|[x, y]| y.atan2(*x)).collect()
+    }
+}

@@ -1,0 +1,297 @@
+//! Reader of Gmsh's MSH files, versions 2.2 and 4.1, text and binary.
+//!
+//! Source: Gmsh reference manual, chapter "File formats".
+
+mod cursor;
+mod version2;
+mod version4;
+
+use super::ElementKind;
+use cursor::Cursor;
+use std::collections::BTreeMap;
+
+/// A mesh file that cannot be used.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum MeshFileError {
+    /// Not what the format says.
+    #[error("{place}: {message}")]
+    Syntax {
+        /// Line or byte.
+        place: String,
+        /// What is wrong, and what to do.
+        message: String,
+    },
+    /// A mesh that is read but makes no body.
+    #[error("{0}")]
+    Body(String),
+}
+
+/// Edge of a physical curve, as indices into the nodes: its ends and, where quadratic, its middle.
+pub type CurveEdge = (u32, u32, Option<u32>);
+
+/// What a mesh file holds of a plane body.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct GmshFile {
+    /// Number of each node in the file.
+    pub labels: Vec<usize>,
+    /// Coordinates as in the file.
+    pub points: Vec<[f64; 3]>,
+    /// Shape, physical surface, surface entity and nodes (indices) of each plane element.
+    pub elements: Vec<PlaneElement>,
+    /// Edges of each physical curve.
+    pub curves: BTreeMap<String, Vec<CurveEdge>>,
+    /// Whether each node has some element, a point included.
+    pub is_used: Vec<bool>,
+}
+
+/// One plane element of a file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlaneElement {
+    /// Its number in the file.
+    pub label: usize,
+    /// Its shape.
+    pub kind: ElementKind,
+    /// Name of its physical surface.
+    pub region: String,
+    /// The surface it belongs to.
+    pub entity: i64,
+    /// Its nodes in the order of [`ElementKind`].
+    pub nodes: Vec<u32>,
+}
+
+impl GmshFile {
+    /// Reads a file.
+    ///
+    /// Memory stays below a constant times the size of the file, whatever it says.
+    ///
+    /// # Errors
+    /// [`MeshFileError::Syntax`] with the line, or the byte of a binary file.
+    pub fn read(bytes: &[u8]) -> Result<Self, MeshFileError> {
+        let mut cursor = Cursor::new(bytes);
+        if !bytes.starts_with(b"$MeshFormat") {
+            return Err(cursor.error(foreign(bytes)));
+        }
+        cursor.text_line();
+        let version = cursor.text_line().unwrap_or_default();
+        let words: Vec<&str> = version.split_whitespace().collect();
+        let is_binary = match words[..] {
+            ["2.2" | "2" | "4.1", kind @ ("0" | "1"), "8"] => kind == "1",
+            [number, ..] if !["2.2", "2", "4.1"].contains(&number) => {
+                return Err(cursor.error(format!(
+                    "MSH version {number} is not read: save the mesh as version 4.1 or 2.2 (Mesh.MshFileVersion)"
+                )));
+            }
+            _ => return Err(cursor.error("format line expected, such as \"4.1 0 8\"")),
+        };
+        if is_binary {
+            cursor.is_binary = true;
+            cursor.is_swapped = match cursor.int("byte order")? {
+                1 => false,
+                0x0100_0000 => true,
+                _ => return Err(cursor.error("the number 1 expected that tells the byte order")),
+            };
+        }
+        cursor.end("MeshFormat")?;
+        let mut reader = Reader::default();
+        let is_new = words[0] == "4.1";
+        while let Some(section) = cursor.section() {
+            match section.as_str() {
+                "PhysicalNames" => reader.physical_names(&mut cursor)?,
+                "Entities" if is_new => reader.entities(&mut cursor)?,
+                "Nodes" if is_new => reader.nodes_4(&mut cursor)?,
+                "Nodes" => reader.nodes_2(&mut cursor)?,
+                "Elements" if is_new => reader.elements_4(&mut cursor)?,
+                "Elements" => reader.elements_2(&mut cursor)?,
+                _ => {
+                    cursor.skip_section(&section)?;
+                    continue;
+                }
+            }
+            cursor.end(&section)?;
+        }
+        if reader.file.points.is_empty() {
+            return Err(cursor.error("the file has no $Nodes"));
+        }
+        if reader.file.elements.is_empty() {
+            return Err(cursor.error(
+                "the file has no triangles or quadrilaterals: mesh the surfaces (gmsh -2), and put them in a physical \
+                 group if the file has any",
+            ));
+        }
+        Ok(reader.file)
+    }
+}
+
+/// What a file is that does not begin like one of ours.
+fn foreign(bytes: &[u8]) -> String {
+    let start = String::from_utf8_lossy(&bytes[..bytes.len().min(64)]).into_owned();
+    let what = if bytes.is_empty() {
+        "the file is empty"
+    } else if start.trim_start().starts_with("**")
+        || start.starts_with("*Heading")
+        || start.starts_with("*HEADING")
+    {
+        "this looks like an Abaqus input file"
+    } else if start.contains("VTK") || start.contains("vtk") {
+        "this looks like a VTK file"
+    } else if start.starts_with("solid") || start.starts_with("ISO-10303") {
+        "this is a geometry, not a mesh"
+    } else if start.contains("Point(") || start.contains("//") || start.contains("SetFactory") {
+        "this looks like a Gmsh geometry (.geo), not a mesh: run gmsh -2 on it"
+    } else {
+        "this is no Gmsh mesh, which begins with $MeshFormat"
+    };
+    format!("{what}; save the mesh as MSH 4.1 or 2.2 (gmsh -2 -format msh41)")
+}
+
+/// What is gathered on the way through the file.
+#[derive(Default)]
+struct Reader {
+    file: GmshFile,
+    /// Names by dimension and tag.
+    names: BTreeMap<(i64, i64), String>,
+    /// Physical tags of each entity, by dimension and tag.
+    physical: BTreeMap<(i64, i64), Vec<i64>>,
+    /// Index of each node number.
+    index_of: BTreeMap<usize, u32>,
+}
+
+/// Dimension, node count and, for plane elements, the shape of Gmsh's element types.
+fn element_type(number: i64) -> Option<(i64, usize, Option<ElementKind>)> {
+    let plane = ElementKind::ALL
+        .into_iter()
+        .find(|kind| i64::from(kind.gmsh_type()) == number);
+    if let Some(kind) = plane {
+        return Some((2, kind.node_count(), Some(kind)));
+    }
+    let (dimension, nodes) = match number {
+        1 => (1, 2),
+        8 => (1, 3),
+        15 => (0, 1),
+        4 => (3, 4),
+        5 | 17 => (3, if number == 5 { 8 } else { 20 }),
+        6 => (3, 6),
+        7 => (3, 5),
+        11 => (3, 10),
+        10 => (2, 9),
+        _ => return None,
+    };
+    Some((dimension, nodes, None))
+}
+
+impl Reader {
+    fn physical_names(&mut self, cursor: &mut Cursor<'_>) -> Result<(), MeshFileError> {
+        // Text in binary files too.
+        let is_binary = std::mem::replace(&mut cursor.is_binary, false);
+        let count = cursor.count("physical names", 5)?;
+        cursor.text_line();
+        for _ in 0..count {
+            let line = cursor.text_line().unwrap_or_default();
+            let mut parts = line.splitn(3, char::is_whitespace);
+            let mut number = || parts.next().and_then(|word| word.parse::<i64>().ok());
+            let (dimension, tag) = (number(), number());
+            let name = parts
+                .next()
+                .map(|name| name.trim().trim_matches('"').to_owned());
+            let (Some(dimension), Some(tag), Some(name)) = (dimension, tag, name) else {
+                return Err(
+                    cursor.error("dimension, tag and \"name\" of a physical group expected")
+                );
+            };
+            self.names.insert((dimension, tag), name);
+        }
+        cursor.is_binary = is_binary;
+        Ok(())
+    }
+
+    fn node(
+        &mut self,
+        cursor: &Cursor<'_>,
+        label: usize,
+        point: [f64; 3],
+    ) -> Result<(), MeshFileError> {
+        let index = self.file.points.len() as u32;
+        if self.index_of.insert(label, index).is_some() {
+            return Err(cursor.error(format!("node {label} is given twice")));
+        }
+        self.file.labels.push(label);
+        self.file.points.push(point);
+        self.file.is_used.push(false);
+        Ok(())
+    }
+
+    /// Takes one element in; `groups` are its physical tags.
+    fn element(
+        &mut self,
+        cursor: &Cursor<'_>,
+        number: i64,
+        label: usize,
+        entity: i64,
+        groups: &[i64],
+        labels: &[usize],
+    ) -> Result<(), MeshFileError> {
+        let (dimension, _, kind) = shape_of(cursor, number, label)?;
+        let mut nodes = Vec::with_capacity(labels.len());
+        for node in labels {
+            let Some(&index) = self.index_of.get(node) else {
+                return Err(cursor.error(format!(
+                    "element {label} names node {node}, which the file does not have"
+                )));
+            };
+            self.file.is_used[index as usize] = true;
+            nodes.push(index);
+        }
+        let name = |tag: i64| {
+            let plain = || format!("{} {tag}", if dimension == 1 { "curve" } else { "surface" });
+            self.names
+                .get(&(dimension, tag))
+                .cloned()
+                .unwrap_or_else(plain)
+        };
+        match (dimension, kind) {
+            (2, Some(kind)) => {
+                let region = groups
+                    .first()
+                    .map_or_else(|| "body".to_owned(), |&tag| name(tag));
+                self.file.elements.push(PlaneElement {
+                    label,
+                    kind,
+                    region,
+                    entity,
+                    nodes,
+                });
+            }
+            (1, _) => {
+                let edge = (nodes[0], nodes[1], nodes.get(2).copied());
+                let names: Vec<String> = groups.iter().map(|&tag| name(tag)).collect();
+                for name in names {
+                    self.file.curves.entry(name).or_default().push(edge);
+                }
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+}
+
+/// Dimension, node count and shape of an element type that can be used.
+fn shape_of(
+    cursor: &Cursor<'_>,
+    number: i64,
+    label: usize,
+) -> Result<(i64, usize, Option<ElementKind>), MeshFileError> {
+    match element_type(number) {
+        Some((2, _, None)) => Err(cursor.error(format!(
+            "element {label} is a quadrilateral of nine nodes (type 10), which is not supported: set \
+             Mesh.SecondOrderIncomplete = 1 for eight"
+        ))),
+        Some((3, ..)) => Err(cursor.error(format!(
+            "element {label} is a solid (type {number}); this body must be plane: mesh its surface alone (gmsh -2)"
+        ))),
+        Some(known) => Ok(known),
+        None => Err(cursor.error(format!(
+            "element {label} has type {number}, which is not supported: use triangles or quadrilaterals of first or \
+             second order"
+        ))),
+    }
+}

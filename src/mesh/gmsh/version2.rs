@@ -1,0 +1,78 @@
+//! Nodes and elements of MSH 2.2.
+
+use super::cursor::Cursor;
+use super::{MeshFileError, Reader, shape_of};
+
+impl Reader {
+    pub(super) fn nodes_2(&mut self, cursor: &mut Cursor<'_>) -> Result<(), MeshFileError> {
+        let count = cursor.text_count("nodes", 8)?;
+        for _ in 0..count {
+            let label = node_number(cursor)?;
+            let point = [0; 3].map(|_| cursor.number("coordinate"));
+            let [x, y, z] = point;
+            self.node(cursor, label, [x?, y?, z?])?;
+        }
+        Ok(())
+    }
+
+    pub(super) fn elements_2(&mut self, cursor: &mut Cursor<'_>) -> Result<(), MeshFileError> {
+        let count = cursor.text_count("elements", 6)?;
+        let mut read = 0;
+        while read < count {
+            // A binary file groups elements of one type under a header; text has one header for each.
+            let (kind, group, tags, label) = if cursor.is_binary {
+                let kind = cursor.int("element type")?;
+                let group = cursor.int("number of elements")?;
+                (kind, group, cursor.int("number of tags")?, None)
+            } else {
+                let label = cursor.int("element number")?;
+                let kind = cursor.int("element type")?;
+                (kind, 1, cursor.int("number of tags")?, Some(label))
+            };
+            if group < 1 || group > (count - read) as i64 || !(0..=64).contains(&tags) {
+                return Err(cursor.error(format!(
+                    "a group of {group} elements with {tags} tags makes no sense here"
+                )));
+            }
+            for _ in 0..group {
+                let label = match label {
+                    Some(label) => label,
+                    None => cursor.int("element number")?,
+                };
+                self.element_2(cursor, kind, label.unsigned_abs() as usize, tags)?;
+                read += 1;
+            }
+        }
+        Ok(())
+    }
+
+    fn element_2(
+        &mut self,
+        cursor: &mut Cursor<'_>,
+        kind: i64,
+        label: usize,
+        tags: i64,
+    ) -> Result<(), MeshFileError> {
+        let tags: Result<Vec<i64>, _> = (0..tags).map(|_| cursor.int("tag")).collect();
+        let tags = tags?;
+        let (_, node_count, _) = shape_of(cursor, kind, label)?;
+        let nodes: Result<Vec<usize>, _> = (0..node_count).map(|_| node_number(cursor)).collect();
+        // The first tag is the physical group, 0 for none; the second the entity.
+        let physical: Vec<i64> = tags
+            .first()
+            .copied()
+            .filter(|&tag| tag != 0)
+            .into_iter()
+            .collect();
+        let entity = tags.get(1).copied().unwrap_or(0);
+        self.element(cursor, kind, label, entity, &physical, &nodes?)
+    }
+}
+
+fn node_number(cursor: &mut Cursor<'_>) -> Result<usize, MeshFileError> {
+    let number = cursor.int("node number")?;
+    usize::try_from(number)
+        .ok()
+        .filter(|&number| number > 0)
+        .ok_or_else(|| cursor.error(format!("node number {number} is not positive")))
+}

@@ -1,0 +1,194 @@
+//! Whether the elements of a mesh are sound, and whether its body is held.
+
+use super::body::body;
+use super::gmsh::MeshFileError;
+use super::{BoundaryCondition, Mesh2d};
+use nalgebra::{Matrix3, SymmetricEigen, Vector3};
+
+/// How good the elements of a mesh are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MeshQuality {
+    /// Smallest Jacobian determinant of an element over its largest, at its nodes and quadrature points: 1 for
+    /// parallelograms and straight triangles, not positive for elements that fold.
+    pub worst_jacobian: f64,
+    /// Largest ratio of an element's longest edge to its shortest.
+    pub largest_aspect_ratio: f64,
+    /// Shortest edge, m.
+    pub smallest_edge: f64,
+    /// Longest edge, m.
+    pub largest_edge: f64,
+}
+
+impl Mesh2d {
+    /// Jacobian determinant of an element at a parent point, m2.
+    fn jacobian(&self, element: usize, (xi, eta): (f64, f64)) -> f64 {
+        let shapes = self.element_kind(element).shape_functions(xi, eta);
+        let mut matrix = [[0.0; 2]; 2];
+        for ((_, slope), &node) in shapes.iter().zip(self.element_nodes(element)) {
+            let point = self.nodes[node as usize];
+            for (row, slope) in matrix.iter_mut().zip(slope) {
+                row[0] += slope * point[0];
+                row[1] += slope * point[1];
+            }
+        }
+        matrix[0][0] * matrix[1][1] - matrix[0][1] * matrix[1][0]
+    }
+
+    /// Smallest over largest Jacobian determinant of an element.
+    fn jacobian_ratio(&self, element: usize) -> f64 {
+        let kind = self.element_kind(element);
+        let quadrature = kind.quadrature().into_iter().map(|(xi, eta, _)| (xi, eta));
+        let values = kind.node_places().into_iter().chain(quadrature);
+        let (mut low, mut high) = (f64::INFINITY, 0.0_f64);
+        for value in values.map(|point| self.jacobian(element, point)) {
+            low = low.min(value);
+            high = high.max(value.abs());
+        }
+        if high > 0.0 { low / high } else { 0.0 }
+    }
+
+    /// Quality of all elements.
+    pub fn quality(&self) -> MeshQuality {
+        let mut quality = MeshQuality {
+            worst_jacobian: 1.0,
+            largest_aspect_ratio: 1.0,
+            smallest_edge: f64::INFINITY,
+            largest_edge: 0.0,
+        };
+        for element in 0..self.element_count() {
+            let ratio = self.jacobian_ratio(element);
+            quality.worst_jacobian = quality.worst_jacobian.min(ratio);
+            let (kind, nodes) = (self.element_kind(element), self.element_nodes(element));
+            let lengths = (0..kind.corner_count()).map(|edge| {
+                let (p, q, _) = kind.edge(edge);
+                let [p, q] = [p, q].map(|local| self.nodes[nodes[local] as usize]);
+                (p[0] - q[0]).hypot(p[1] - q[1])
+            });
+            let (low, high) = lengths.fold((f64::INFINITY, 0.0_f64), |(low, high), length| {
+                (low.min(length), high.max(length))
+            });
+            quality.smallest_edge = quality.smallest_edge.min(low);
+            quality.largest_edge = quality.largest_edge.max(high);
+            quality.largest_aspect_ratio = quality.largest_aspect_ratio.max(high / low);
+        }
+        quality
+    }
+
+    /// Refuses elements that fold or have no area; `label` gives the number in the file.
+    pub(super) fn check_elements(
+        &self,
+        label: impl Fn(usize) -> usize,
+    ) -> Result<(), MeshFileError> {
+        // A quadratic element may reach zero at a node that its quadrature does not see, but no further.
+        match (0..self.element_count()).find(|&e| self.jacobian_ratio(e) <= 0.0) {
+            Some(element) => {
+                let nodes = self.element_nodes(element).iter();
+                let nodes: Vec<String> = nodes
+                    .map(|&node| self.labels[node as usize].to_string())
+                    .collect();
+                Err(body(format!(
+                    "element {} (nodes {}) is inverted or has no area: its Jacobian is not positive everywhere; mesh the \
+                     surface again, finer where it curves",
+                    label(element),
+                    nodes.join(", ")
+                )))
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// Refuses a body, or a part of it that is not connected to the rest, that can move as a rigid whole.
+    ///
+    /// Sliding friction holds nothing: contact counts along its normal only.
+    pub(super) fn check_held(&self) -> Result<(), MeshFileError> {
+        let part = self.connected_parts();
+        let parts = part.iter().max().map_or(0, |&last| last + 1);
+        let size = self
+            .nodes
+            .iter()
+            .fold(0.0_f64, |m, p| m.max(p[0].abs()).max(p[1].abs()));
+        for k in 0..parts {
+            let mut held = Matrix3::<f64>::zeros();
+            let mut hold = |node: u32, angle: f64| {
+                if part[node as usize] == k {
+                    let (sin, cos) = angle.sin_cos();
+                    let [x, y] = self.nodes[node as usize];
+                    let row = Vector3::new(cos, sin, (x * sin - y * cos) / size);
+                    held += row * row.transpose();
+                }
+            };
+            for (b, boundary) in self.boundaries.iter().enumerate() {
+                for (&node, &normal) in boundary.nodes.iter().zip(&boundary.normal_angles) {
+                    let (along, across) = match boundary.condition {
+                        _ if b == self.contact => (true, false),
+                        BoundaryCondition::Clamped => (true, true),
+                        BoundaryCondition::Support(support) => (
+                            support.normal_stiffness > 0.0,
+                            support.tangential_stiffness > 0.0,
+                        ),
+                        BoundaryCondition::Guide => (true, false),
+                        BoundaryCondition::Pressure(_) | BoundaryCondition::Free => (false, false),
+                    };
+                    let normal = if b == self.contact {
+                        self.frame_angles[node as usize]
+                    } else {
+                        normal
+                    };
+                    if along {
+                        hold(node, normal);
+                    }
+                    if across {
+                        hold(node, normal + std::f64::consts::FRAC_PI_2);
+                    }
+                }
+            }
+            let eigen = SymmetricEigen::new(held);
+            let (low, high) = (eigen.eigenvalues.min(), eigen.eigenvalues.max());
+            if !(low > 1e-9 * high && high > 0.0) {
+                let node = part.iter().position(|&p| p == k).unwrap_or(0);
+                let [x, y] = self.nodes[node];
+                let names: Vec<&str> = self.boundaries.iter().map(|b| b.name.as_str()).collect();
+                return Err(body(format!(
+                    "nothing holds {} (with node {} at {x:.4e}, {y:.4e} m): it can move as a rigid body, and sliding \
+                     friction holds nothing; give one of its boundaries ({}) condition = \"clamped\", \"support\" or \
+                     \"guide\" under [boundaries.NAME]",
+                    if parts > 1 {
+                        "a part of the body that touches no other"
+                    } else {
+                        "the body"
+                    },
+                    self.labels.get(node).copied().unwrap_or(node + 1),
+                    names.join(", ")
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    /// For each node the number of its connected part.
+    fn connected_parts(&self) -> Vec<usize> {
+        let mut root: Vec<usize> = (0..self.node_count()).collect();
+        fn find(root: &mut [usize], mut node: usize) -> usize {
+            while root[node] != node {
+                root[node] = root[root[node]];
+                node = root[node];
+            }
+            node
+        }
+        for element in 0..self.element_count() {
+            let nodes = self.element_nodes(element);
+            let first = find(&mut root, nodes[0] as usize);
+            for &node in nodes {
+                let other = find(&mut root, node as usize);
+                root[other] = first;
+            }
+        }
+        let mut numbers = std::collections::BTreeMap::new();
+        (0..self.node_count())
+            .map(|node| {
+                let next = numbers.len();
+                *numbers.entry(find(&mut root, node)).or_insert(next)
+            })
+            .collect()
+    }
+}

@@ -1,0 +1,275 @@
+//! The body as its contact nodes feel it, and the contact state by complementarity.
+
+use super::PrestressError;
+use super::cholesky::CholeskySolver;
+use crate::contact::{ContactInterface, SlidingContact};
+use crate::fem::{DofMap, Triplets};
+use crate::linalg::DenseLu;
+use crate::mesh::Mesh2d;
+use faer::Mat;
+
+/// Contact dofs whose columns are condensed together.
+const BLOCK: usize = 32;
+
+/// Sets of pressed nodes that are tried at one friction coefficient before the state is called missing.
+const MAX_SETS: usize = 200;
+
+/// Stiffness condensed onto the contact nodes, `S = K_cc - K_ci K_ii^-1 K_ic`, and what pushes from outside.
+///
+/// With `u_c` the contact displacements and `g_i - delta` the gap that the pushed-in counterface leaves,
+///
+/// ```text
+/// S u_c = f_c + sum_i N_i (n_i + s mu t_i),   u_n,i >= delta - g_i,   N_i >= 0,   N_i (u_n,i - delta + g_i) = 0
+/// ```
+///
+/// is a linear complementarity problem with a matrix that is not symmetric.
+pub(super) struct CondensedContact<'a> {
+    stiffness: &'a Triplets,
+    interior: DofMap,
+    solver: CholeskySolver,
+    /// Condensed stiffness over `contact`.
+    schur: Mat<f64>,
+    /// Full dof of each condensed one.
+    contact: DofMap,
+    /// Load on all dofs, N/m.
+    load: Vec<f64>,
+    /// Condensed load.
+    condensed_load: Vec<f64>,
+    /// Condensed dofs of each node's normal and, unless it is held, tangential displacement.
+    places: Vec<(usize, Option<usize>)>,
+    /// `delta - g_i`, m.
+    pushed: Vec<f64>,
+    sliding_direction: f64,
+}
+
+/// Displacements and normal forces of the contact nodes under one set of pressed nodes.
+#[derive(Clone)]
+pub(super) struct ContactState {
+    /// Displacement of the condensed dofs, m.
+    pub displacement: Vec<f64>,
+    /// Normal force of each node, N/m.
+    pub normal_forces: Vec<f64>,
+}
+
+impl<'a> CondensedContact<'a> {
+    /// Condenses `stiffness` (all dofs, supports included) onto the nodes of `interface`.
+    pub fn new(
+        mesh: &Mesh2d,
+        stiffness: &'a Triplets,
+        interface: &ContactInterface,
+        contact: &SlidingContact,
+    ) -> Result<Self, PrestressError> {
+        let total = 2 * mesh.node_count();
+        let free = DofMap::clamped(mesh);
+        let dofs = (0..interface.len()).flat_map(|i| {
+            let pair = [interface.normal_dof(i), interface.tangential_dof(i)];
+            pair.into_iter()
+                .filter(|&dof| free.unknown_of[dof].is_some())
+        });
+        let mut is_contact = vec![false; total];
+        dofs.for_each(|dof| is_contact[dof] = true);
+        let contact_map = DofMap::excluding(total, (0..total).filter(|&dof| !is_contact[dof]));
+        let is_outside = |dof: &usize| is_contact[*dof] || free.unknown_of[*dof].is_none();
+        let interior = DofMap::excluding(total, (0..total).filter(is_outside));
+        let place = |dof: usize| contact_map.unknown_of[dof];
+        let places = (0..interface.len()).filter_map(|i| {
+            Some((
+                place(interface.normal_dof(i))?,
+                place(interface.tangential_dof(i)),
+            ))
+        });
+        let load = mesh.pressure_forces().unwrap_or_else(|| vec![0.0; total]);
+        let mut condensed = Self {
+            solver: CholeskySolver::new(stiffness, &interior)?,
+            stiffness,
+            places: places.collect(),
+            schur: Mat::zeros(contact_map.len(), contact_map.len()),
+            condensed_load: Vec::new(),
+            pushed: interface
+                .gaps
+                .iter()
+                .map(|gap| contact.interference - gap)
+                .collect(),
+            sliding_direction: interface.sliding_direction(contact.rotation_speed),
+            interior,
+            contact: contact_map,
+            load,
+        };
+        condensed.condense();
+        Ok(condensed)
+    }
+
+    /// Columns of `S`, a block of unit displacements at a time, and the load that the interior passes on.
+    fn condense(&mut self) {
+        let (inside, edge) = (&self.interior, &self.contact);
+        let coupling: Vec<(usize, usize, f64)> = self
+            .stiffness
+            .entries
+            .iter()
+            .filter_map(|&(row, column, value)| {
+                Some((inside.unknown_of[row]?, edge.unknown_of[column]?, value))
+            })
+            .collect();
+        let mut schur = Mat::<f64>::zeros(edge.len(), edge.len());
+        for &(row, column, value) in &self.stiffness.entries {
+            if let (Some(row), Some(column)) = (edge.unknown_of[row], edge.unknown_of[column]) {
+                schur[(row, column)] += value;
+            }
+        }
+        for first in (0..edge.len()).step_by(BLOCK) {
+            let width = BLOCK.min(edge.len() - first);
+            let mut block = Mat::<f64>::zeros(inside.len(), width);
+            for &(row, column, value) in &coupling {
+                if (first..first + width).contains(&column) {
+                    block[(row, column - first)] += value;
+                }
+            }
+            self.solver.solve_block(block.as_mut());
+            // K is symmetric: the rows of K_ci are the columns of K_ic.
+            for &(row, column, value) in &coupling {
+                for j in 0..width {
+                    schur[(column, first + j)] -= value * block[(row, j)];
+                }
+            }
+        }
+        let inner = self.solver.solve(inside.restrict(&self.load));
+        let mut load = edge.restrict(&self.load);
+        for &(row, column, value) in &coupling {
+            load[column] -= value * inner[row];
+        }
+        self.schur = schur;
+        self.condensed_load = load;
+    }
+
+    /// The state in which exactly the nodes of `is_pressed` touch, whatever sign their forces have.
+    pub fn state_of(&self, friction_coefficient: f64, is_pressed: &[bool]) -> ContactState {
+        let follow = self.sliding_direction * friction_coefficient;
+        // Unknown: every tangential displacement, and the normal ones of open nodes.
+        let mut unknowns: Vec<(usize, Option<usize>)> = Vec::new();
+        let mut displacement = vec![0.0; self.contact.len()];
+        for (i, &(normal, tangential)) in self.places.iter().enumerate() {
+            if is_pressed[i] {
+                displacement[normal] = self.pushed[i];
+                unknowns.extend(tangential.map(|t| (t, Some(normal))));
+            } else {
+                unknowns.push((normal, None));
+                unknowns.extend(tangential.map(|t| (t, None)));
+            }
+        }
+        // Friction takes `s mu` times the normal row from the tangential row of a pressed node.
+        let row = |(row, normal): (usize, Option<usize>), column: usize| {
+            self.schur[(row, column)] - normal.map_or(0.0, |n| follow * self.schur[(n, column)])
+        };
+        let count = unknowns.len();
+        let matrix = Mat::from_fn(count, count, |i, j| row(unknowns[i], unknowns[j].0));
+        let prescribed = self.forces(&displacement);
+        let mut solution = Mat::from_fn(count, 1, |i, _| {
+            let (at, normal) = unknowns[i];
+            -(prescribed[at] - normal.map_or(0.0, |n| follow * prescribed[n]))
+        });
+        DenseLu::factorize(matrix).solve_in_place(solution.as_mut());
+        for (i, &(at, _)) in unknowns.iter().enumerate() {
+            displacement[at] = solution[(i, 0)];
+        }
+        let forces = self.forces(&displacement);
+        let pairs = self.places.iter().zip(is_pressed);
+        let normal_forces = pairs.map(|(place, &is)| if is { forces[place.0] } else { 0.0 });
+        ContactState {
+            normal_forces: normal_forces.collect(),
+            displacement,
+        }
+    }
+
+    /// `S u_c - f_c`.
+    fn forces(&self, displacement: &[f64]) -> Vec<f64> {
+        let mut forces: Vec<f64> = self.condensed_load.iter().map(|f| -f).collect();
+        for (column, &u) in displacement.iter().enumerate() {
+            if u != 0.0 {
+                for (row, force) in forces.iter_mut().enumerate() {
+                    *force += self.schur[(row, column)] * u;
+                }
+            }
+        }
+        forces
+    }
+
+    /// The pressed nodes at one friction coefficient, by the primal-dual active set (a semismooth Newton iteration on
+    /// the complementarity) from `start`; where that runs in circles, one node at a time.
+    pub fn pressed_nodes(
+        &self,
+        friction_coefficient: f64,
+        start: &[bool],
+    ) -> Result<Vec<bool>, PrestressError> {
+        let mut set = start.to_vec();
+        let mut seen: Vec<Vec<bool>> = Vec::new();
+        for _ in 0..MAX_SETS {
+            let state = self.state_of(friction_coefficient, &set);
+            let wrong = self.violations(&state, &set);
+            if state.displacement.iter().any(|u| !u.is_finite()) {
+                break;
+            }
+            let Some(worst) = wrong.iter().max_by(|a, b| a.1.total_cmp(&b.1)) else {
+                return Ok(set);
+            };
+            let is_circling = seen.contains(&set);
+            seen.push(set.clone());
+            if is_circling {
+                set[worst.0] = !set[worst.0];
+            } else {
+                wrong.iter().for_each(|&(i, _)| set[i] = !set[i]);
+            }
+        }
+        Err(PrestressError::NoState {
+            friction_coefficient,
+        })
+    }
+
+    /// Pressed nodes that are pulled and open nodes that penetrate, each with how much: a force, or the force of
+    /// the node's own stiffness over the penetration.
+    fn violations(&self, state: &ContactState, is_pressed: &[bool]) -> Vec<(usize, f64)> {
+        let largest = state
+            .normal_forces
+            .iter()
+            .fold(0.0_f64, |m, f| m.max(f.abs()));
+        let excess = |i: usize| {
+            let normal = self.places[i].0;
+            if is_pressed[i] {
+                -state.normal_forces[i]
+            } else {
+                (self.pushed[i] - state.displacement[normal]) * self.schur[(normal, normal)]
+            }
+        };
+        // Round-off must not flip a node that just touches.
+        let bound = 1e-12 * largest;
+        (0..is_pressed.len())
+            .map(|i| (i, excess(i)))
+            .filter(|&(_, excess)| excess > bound)
+            .collect()
+    }
+
+    /// Displacement of every dof from that of the contact nodes.
+    pub fn whole_displacement(&self, contact: &[f64]) -> Vec<f64> {
+        let mut displacement = self.contact.expand(contact);
+        let force = self.stiffness.multiply(displacement.len(), &displacement);
+        let right: Vec<f64> = self
+            .interior
+            .dofs
+            .iter()
+            .map(|&dof| self.load[dof] - force[dof])
+            .collect();
+        for (&dof, value) in self.interior.dofs.iter().zip(self.solver.solve(right)) {
+            displacement[dof] = value;
+        }
+        displacement
+    }
+
+    /// Number of contact nodes.
+    pub fn len(&self) -> usize {
+        self.places.len()
+    }
+
+    /// `delta - g_i` of each node, m.
+    pub fn pushed(&self) -> &[f64] {
+        &self.pushed
+    }
+}

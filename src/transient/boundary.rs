@@ -1,0 +1,145 @@
+//! Forces of supports, boundary pressures and regions with damping of their own.
+
+use super::TransientModel;
+use crate::contact::ContactInterface;
+use crate::fem::operator::{MotionFields, StiffnessOperator};
+use crate::fem::{
+    MassKind, RayleighDamping, Triplets, assemble_extra_damping, assemble_supports, lumped_masses,
+};
+use std::collections::BTreeMap;
+
+/// What acts on a few nodes beside `K u` and `alpha_R M v + beta_R K v`, which the operator knows.
+///
+/// ```text
+/// D v - f,   D = C_support - beta_R K_support + sum_e (alpha_e - alpha_R) M_e + (beta_e - beta_R) K_e
+/// ```
+///
+/// with `f` the boundary pressures: the springs of a support are part of the operator's `K`, but `beta_R` stays on the
+/// body.
+pub(super) struct BoundaryForces {
+    rows: Vec<Row>,
+    /// `(place, value)` of the entries of all rows, N s/m for each metre of thickness.
+    entries: Vec<(usize, f64)>,
+}
+
+struct Row {
+    place: usize,
+    mass: f64,
+    /// Force of the full pressure, N/m.
+    force: f64,
+    /// Where its entries end.
+    end: usize,
+    /// Damping force of this step, N/m.
+    damping: f64,
+    /// Elastic acceleration and velocity before the step.
+    before: [f64; 2],
+}
+
+impl BoundaryForces {
+    /// The forces of `model` in the layout of `operator`.
+    pub fn new(model: &TransientModel<'_>, operator: &dyn StiffnessOperator) -> Self {
+        let mut rows: BTreeMap<usize, BTreeMap<usize, f64>> = BTreeMap::new();
+        for &(row, column, value) in &extra_damping(model).entries {
+            *rows.entry(row).or_default().entry(column).or_default() += value;
+        }
+        let pressure = model.mesh.pressure_forces().unwrap_or_default();
+        for (dof, _) in pressure
+            .iter()
+            .enumerate()
+            .filter(|(_, force)| **force != 0.0)
+        {
+            rows.entry(dof).or_default();
+        }
+        let mut forces = Self {
+            rows: Vec::new(),
+            entries: Vec::new(),
+        };
+        for (dof, columns) in rows {
+            let place = operator.position(dof);
+            let mass = operator.masses()[place];
+            if mass > 0.0 {
+                let entries = columns
+                    .into_iter()
+                    .map(|(dof, value)| (operator.position(dof), value));
+                forces.entries.extend(entries);
+                forces.rows.push(Row {
+                    place,
+                    mass,
+                    force: pressure.get(dof).copied().unwrap_or(0.0),
+                    end: forces.entries.len(),
+                    damping: 0.0,
+                    before: [0.0; 2],
+                });
+            }
+        }
+        forces
+    }
+
+    /// Adds the forces of the coming step to the elastic accelerations; `share` of the pressure acts.
+    pub fn apply(&mut self, fields: &mut MotionFields, share: f64) {
+        let mut start = 0;
+        for row in &mut self.rows {
+            let entries = &self.entries[start..row.end];
+            start = row.end;
+            row.damping = entries
+                .iter()
+                .map(|&(place, value)| value * fields.velocity[place])
+                .sum();
+            row.before = [fields.elastic[row.place], fields.velocity[row.place]];
+        }
+        for row in &self.rows {
+            fields.elastic[row.place] += (row.damping - share * row.force) / row.mass;
+        }
+    }
+
+    /// Takes them out again after the step, and returns the power that they took out of the body, W/m.
+    pub fn settle(&self, fields: &mut MotionFields, time_step: f64, share: f64) -> [f64; 2] {
+        let (mut damping, mut pressure) = (0.0, 0.0);
+        for row in &self.rows {
+            let [elastic, velocity] = row.before;
+            fields.elastic[row.place] = elastic + time_step * fields.elastic_rate[row.place];
+            let mean = 0.5 * (velocity + fields.velocity[row.place]);
+            damping += row.damping * mean;
+            pressure += share * row.force * mean;
+        }
+        [damping, pressure]
+    }
+}
+
+fn extra_damping(model: &TransientModel<'_>) -> Triplets {
+    let [springs, mut damping] = assemble_supports(model.mesh);
+    let beta = model.damping.stiffness_coefficient;
+    if beta != 0.0 {
+        damping.entries.extend(springs.scaled(-beta).entries);
+    }
+    let own = assemble_extra_damping(model.mesh, model.material, MassKind::Lumped, model.damping);
+    damping.entries.extend(own.unwrap_or_default().entries);
+    damping
+}
+
+impl TransientModel<'_> {
+    /// Coefficients of a Rayleigh damping that is nowhere below the body's, dashpots included: what bounds the step.
+    pub fn bounding_damping(&self) -> RayleighDamping {
+        let mut bound = self.damping;
+        let regions = (0..self.mesh.regions.len()).filter_map(|r| self.material.own_damping(r));
+        for own in regions {
+            bound.mass_coefficient = bound.mass_coefficient.max(own.mass_coefficient);
+            bound.stiffness_coefficient =
+                bound.stiffness_coefficient.max(own.stiffness_coefficient);
+        }
+        let supports = self.mesh.nodal_supports();
+        if supports.iter().any(|s| s.damping != [[0.0; 2]; 2]) {
+            let masses = lumped_masses(self.mesh, self.material);
+            let rates = supports
+                .iter()
+                .map(|s| (s.damping[0][0] + s.damping[1][1]) / masses[s.node]);
+            bound.mass_coefficient += rates.fold(0.0, f64::max);
+        }
+        bound
+    }
+
+    /// The contact edge.
+    pub fn interface(&self) -> ContactInterface {
+        ContactInterface::of(self.mesh)
+    }
+}
