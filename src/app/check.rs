@@ -114,6 +114,10 @@ fn describe(name: &str, case: &Case, found: &Preflight) -> String {
         let text = format!("{families} of {}", plural(cycle.cycles, "cycle"));
         line("cycle", text, cycle.memory_bytes, cycle.seconds);
     }
+    if case.basin.is_some() {
+        let text = "one boundary between two limit cycles".to_owned();
+        line("basin", text, cost.mesh_memory_bytes, cost.basin_seconds);
+    }
     if let Some(frf) = &cost.frf {
         let text = match frf.lines {
             1 => "1 frequency".to_owned(),
@@ -185,6 +189,7 @@ fn object(name: &str, case: &Case, found: &Preflight) -> Value {
             "memory_bytes": cycle.memory_bytes,
             "estimated_s": cycle.seconds,
         })),
+        "basin": case.basin.as_ref().map(|_| json!({ "estimated_s": cost.basin_seconds })),
         "frf": cost.frf.map(|frf| json!({
             "lines": frf.lines,
             "memory_bytes": frf.memory_bytes,

@@ -113,6 +113,7 @@ fn commands(case: &Case) -> Vec<&'static str> {
         ("cea", case.cea.is_some()),
         ("transient", case.transient.is_some() && is_linear),
         ("cycle", case.cycle.is_some() && is_linear),
+        ("basin", case.basin.is_some() && is_linear),
         ("frf", case.frf.is_some()),
         ("convergence", case.convergence.is_some()),
         ("sweep", case.sweep.is_some()),

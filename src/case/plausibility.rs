@@ -200,6 +200,7 @@ impl Case {
         let has = [
             ("transient", self.transient.is_some()),
             ("cycle", self.cycle.is_some()),
+            ("basin", self.basin.is_some()),
         ];
         let analyses = has.into_iter().filter(|(analysis, is_here)| {
             *analysis == command || (*is_here && ["sweep", "convergence"].contains(&command))

@@ -32,8 +32,9 @@ fn a_default_written_out_changes_nothing() {
         let Default::Value(value) = key.default else {
             continue;
         };
-        // What the case gives itself is no default.
-        if plain.raw.find(key.name).is_some() {
+        // What the case gives itself is no default, and a section that it lacks has none.
+        let lacks_section = plain.raw.find(key.section()).is_none();
+        if plain.raw.find(key.name).is_some() || lacks_section {
             continue;
         }
         let written = match parse(&whole(), &[&format!("{}={value}", key.name)]) {
