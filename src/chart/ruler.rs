@@ -33,7 +33,8 @@ impl Ruler {
         range: (f64, f64),
         fixed_ticks: Option<Vec<Tick>>,
     ) -> Self {
-        let (low, high) = (range.0 * factor, range.1 * factor);
+        let ends = (range.0 * factor, range.1 * factor);
+        let (low, high) = (ends.0.min(ends.1), ends.0.max(ends.1));
         let (low, high) = match scale {
             Scale::Linear => non_empty(low, high),
             Scale::Logarithmic => positive(low, high),

@@ -77,7 +77,7 @@ fn a_run_gets_every_figure_of_its_record() {
             &["accelerations of node 203", "mode 5", "2f"],
         ),
         ("growth", &["n = 2", "amplitude of uθ (m)"]),
-        ("velocity", &["velocity modulus |v| (m/s)", "t = 19.50 ms"]),
+        ("velocity", &["velocity |v| (m/s)", "t = 19.50 ms"]),
         ("shear-stress", &["shear stress τrθ (MPa)"]),
         ("trajectories", &["contact node 196", "radial ur"]),
         ("contact", &["traction (", "cylinder Ωa"]),
