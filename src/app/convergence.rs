@@ -161,9 +161,9 @@ fn solve(
             let start = Instant::now();
             let outcome = match analysis {
                 Analysis::Cea => Outcome::Cea(cea::modes_and_onsets(case)?),
-                Analysis::Transient => summarized(&transient::summarize(case, manifest)?),
-                Analysis::Basin => summarized(&basin::summarize(case, manifest)?),
-                Analysis::Cycle => summarized(&cycle::attempt(&own_cycles(case), manifest)?),
+                Analysis::Transient => summarized(&transient::summarize(case, manifest)?)?,
+                Analysis::Basin => summarized(&basin::summarize(case, manifest)?)?,
+                Analysis::Cycle => summarized(&cycle::attempt(&own_cycles(case), manifest)?)?,
             };
             bar.inc(1);
             Ok((outcome, start.elapsed().as_secs_f64()))
@@ -177,8 +177,9 @@ fn solve(
         .collect()
 }
 
-fn summarized(summary: &Value) -> Outcome {
-    Outcome::Summary(Box::new(PointSummary::of(summary)))
+fn summarized(summary: &Value) -> Result<Outcome, Failure> {
+    let read = PointSummary::read(summary).map_err(Failure::run)?;
+    Ok(Outcome::Summary(Box::new(read)))
 }
 
 /// The case with the limit cycles at its own operating point alone.

@@ -134,9 +134,17 @@ pub struct HarmonicGrowth {
 }
 
 impl PointSummary {
-    /// Reads a summary; one that is none of these has nothing.
+    /// Reads a summary.
+    ///
+    /// # Errors
+    /// A key that holds something else than it does here.
+    pub fn read(summary: &Value) -> Result<Self, serde_json::Error> {
+        Self::deserialize(summary)
+    }
+
+    /// As [`PointSummary::read`] for what is shown only: nothing of a summary that cannot be read.
     pub fn of(summary: &Value) -> Self {
-        Self::deserialize(summary).unwrap_or_default()
+        Self::read(summary).unwrap_or_default()
     }
 }
 
@@ -196,4 +204,34 @@ pub fn read_summary<T: DeserializeOwned>(path: &Path) -> Result<T, FolderError> 
         path: path.to_owned(),
         reason: format!("its {SUMMARY} is damaged ({error})"),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn a_point_reads_what_its_analysis_has() {
+        let transient = json!({
+            "command": "transient", "main_frequency_hz": 9433.0, "main_harmonic": 2,
+            "status": { "stick": 0.25, "slip": 0.75, "open": null },
+            "growth": [{ "harmonic": 2, "rate_per_s": 952.0, "direction": -1 }]
+        });
+        let read = PointSummary::read(&transient).unwrap();
+        assert_eq!(read.own.harmonic, Some(2));
+        assert_eq!(
+            (read.own.status.stick, read.own.status.open),
+            (Some(0.25), None)
+        );
+        assert_eq!(read.growth[0].rate_per_s, Some(952.0));
+        let cycles = json!({ "cycles": [
+            { "harmonic": 1, "onset": 2, "error": "none", "confirmation": null },
+            { "harmonic": 2, "onset": 1, "main_frequency_hz": 1e4, "confirmation": { "agrees": false } }
+        ] });
+        let read = PointSummary::read(&cycles).unwrap();
+        assert_eq!(read.cycles[0].error.as_deref(), Some("none"));
+        assert_eq!(read.cycles[1].confirmation.unwrap().agrees, Some(false));
+        assert!(PointSummary::read(&json!({ "main_frequency_hz": "fast" })).is_err());
+    }
 }
