@@ -232,7 +232,11 @@ impl Layer for Line {
 
     fn keys(&self) -> Vec<(Key, String)> {
         let key = Key {
-            stroke: Some(self.stroke),
+            // The finest lines still show their colour in a legend.
+            stroke: Some(Stroke {
+                width: self.stroke.width.max(0.8),
+                ..self.stroke
+            }),
             marker: self.marker.map(|m| (m.0, self.stroke.colour)),
             patch: None,
         };

@@ -135,7 +135,6 @@ impl CycleFigures<'_> {
             .shared_x()
             .panel(
                 over_time(metres("*u*_{θ}"), 62.0, "tangential displacement")
-                    .legend()
                     .layer(Line::through(all(&wave.displacement[1])).solid(INK, 1.1)),
             )
             .panel(
