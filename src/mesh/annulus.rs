@@ -381,21 +381,13 @@ mod tests {
 
     #[test]
     fn impossible_specifications_name_their_key() {
+        let message =
+            |spec: &AnnulusSpecification| AnnulusMesh::generate(spec).unwrap_err().to_string();
         let mut spec = paper(ElementKind::Quad4);
         spec.outer_radius = 0.01;
-        assert!(
-            AnnulusMesh::generate(&spec)
-                .unwrap_err()
-                .to_string()
-                .contains("outer_radius")
-        );
+        assert!(message(&spec).contains("outer_radius"));
         let mut spec = paper(ElementKind::Quad4);
         spec.radial_elements = 0;
-        assert!(
-            AnnulusMesh::generate(&spec)
-                .unwrap_err()
-                .to_string()
-                .contains("radial_elements")
-        );
+        assert!(message(&spec).contains("radial_elements"));
     }
 }

@@ -3,6 +3,7 @@
 use super::SectorSliding;
 use super::cholesky::CholeskySolver;
 use super::condensed::CondensedContact;
+use super::friction_polynomial::{evaluate, interpolated};
 use crate::contact::{ContactInterface, SlidingContact};
 use crate::fem::{DofMap, Triplets, assemble_supports};
 use crate::mesh::{AnnulusMesh, Mesh2d, SectorMesh};
@@ -342,57 +343,6 @@ fn polynomial_state(
         sliding_direction: interface.sliding_direction(contact.rotation_speed),
         interface: interface.clone(),
     }
-}
-
-/// Coefficients by power of the polynomial through `values` at `points` (Newton's divided differences), without
-/// trailing ones that are round-off over `[0, upper]`.
-fn interpolated(points: &[f64], mut values: Vec<Vec<f64>>, upper: f64) -> Vec<Vec<f64>> {
-    let count = points.len();
-    for order in 1..count {
-        for k in (order..count).rev() {
-            let (before, after) = values.split_at_mut(k);
-            let span = points[k] - points[k - order];
-            for (value, previous) in after[0].iter_mut().zip(&before[k - 1]) {
-                *value = (*value - previous) / span;
-            }
-        }
-    }
-    // Horner's scheme from Newton's form to powers.
-    let mut powers: Vec<Vec<f64>> = vec![values[count - 1].clone()];
-    for k in (0..count - 1).rev() {
-        powers.insert(0, vec![0.0; values[k].len()]);
-        for power in 0..powers.len() {
-            for at in 0..values[k].len() {
-                let above = powers.get(power + 1).map_or(0.0, |p| p[at]);
-                powers[power][at] -= points[k] * above;
-            }
-        }
-        for (sum, value) in powers[0].iter_mut().zip(&values[k]) {
-            *sum += value;
-        }
-    }
-    let size = |coefficient: &Vec<f64>| coefficient.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-    let scale = powers.iter().map(size).fold(0.0_f64, f64::max);
-    while powers.len() > 1 {
-        let last = powers.len() - 1;
-        if size(&powers[last]) * upper.powi(last as i32) > 1e-11 * scale {
-            break;
-        }
-        powers.pop();
-    }
-    powers
-}
-
-/// `sum_p c_p mu^p`.
-fn evaluate(coefficients: &[Vec<f64>], friction_coefficient: f64) -> Vec<f64> {
-    let mut powers = coefficients.iter().rev();
-    let mut values = powers.next().cloned().unwrap_or_default();
-    for coefficient in powers {
-        for (value, constant) in values.iter_mut().zip(coefficient) {
-            *value = constant + friction_coefficient * *value;
-        }
-    }
-    values
 }
 
 fn check_pressed(interface: &ContactInterface, forces: &[f64]) -> Result<(), PrestressError> {

@@ -8,13 +8,16 @@
 mod cholesky;
 mod condensed;
 mod equilibrium;
+mod friction_polynomial;
+mod options;
 mod sector;
 mod sector_rate;
 mod sector_tangent;
 mod tangent;
 
 pub use equilibrium::{PrestressError, SlidingRange, SteadySliding};
+pub use options::{DampingModel, TangentOptions};
 pub use sector::SectorSliding;
 pub use sector_rate::{Parameter, TangentRate};
 pub use sector_tangent::{FrictionPolynomial, HarmonicTangent, SectorTangent};
-pub use tangent::{DampingModel, SlidingTangent, TangentOptions};
+pub use tangent::SlidingTangent;

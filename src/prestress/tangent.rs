@@ -1,39 +1,14 @@
 //! The matrices of small motions around steady sliding.
 
-use super::SteadySliding;
-use crate::contact::ContactStiffness;
+use super::{DampingModel, SteadySliding, TangentOptions};
+use crate::contact::{ContactInterface, ContactStiffness};
 use crate::fem::{
-    DofMap, MassKind, MaterialField, RayleighDamping, Triplets, assemble_extra_damping,
+    DofMap, MaterialField, RayleighDamping, Triplets, assemble_extra_damping,
     assemble_geometric_stiffness, assemble_mass, assemble_supports,
 };
 use crate::linalg::{MatrixPolynomial, SparsityPattern};
 use crate::mesh::Mesh2d;
 use std::sync::Arc;
-
-/// What `beta_R` multiplies.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum DampingModel {
-    /// `C = alpha_R M + beta_R K_t`: contact and friction terms included.
-    WholeTangent,
-    /// `C = alpha_R M + beta_R K_e`: the body's elastic stiffness alone. Friction still follows all of
-    /// the normal force.
-    BodyOnly,
-}
-
-/// Choices of the linearisation.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TangentOptions {
-    /// Consistent or lumped mass.
-    pub mass: MassKind,
-    /// Whether the stress of the base state acts back (with the follower terms of the contact).
-    pub geometric_stiffness: bool,
-    /// Rayleigh coefficients.
-    pub damping: RayleighDamping,
-    /// What the stiffness coefficient multiplies.
-    pub damping_model: DampingModel,
-    /// Penalty or rigid contact, and dashpots.
-    pub contact: ContactStiffness,
-}
 
 /// Mass, damping and stiffness of small motions around steady sliding, polynomials in `mu`.
 ///
@@ -277,16 +252,17 @@ impl<'a> Projection<'a> {
     }
 
     fn tangential_unknowns(&self) -> Vec<usize> {
-        let interface = &self.base.interface;
-        (0..interface.len())
-            .filter_map(|i| self.unknowns.unknown_of[interface.tangential_dof(i)])
-            .collect()
+        self.unknowns_of(ContactInterface::tangential_dof)
     }
 
     fn normal_unknowns(&self) -> Vec<usize> {
-        let interface = &self.base.interface;
-        (0..interface.len())
-            .filter_map(|i| self.unknowns.unknown_of[interface.normal_dof(i)])
+        self.unknowns_of(ContactInterface::normal_dof)
+    }
+
+    fn unknowns_of(&self, dof: fn(&ContactInterface, usize) -> usize) -> Vec<usize> {
+        let nodes = 0..self.base.interface.len();
+        let dofs = nodes.map(|i| dof(&self.base.interface, i));
+        dofs.filter_map(|dof| self.unknowns.unknown_of[dof])
             .collect()
     }
 }
@@ -295,8 +271,16 @@ impl<'a> Projection<'a> {
 mod tests {
     use super::*;
     use crate::contact::SlidingContact;
-    use crate::fem::{ElasticMaterial, PlaneFormulation, assemble_stiffness};
+    use crate::fem::{ElasticMaterial, MassKind, PlaneFormulation, assemble_stiffness};
     use crate::mesh::{AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind};
+
+    fn turning(rotation_speed: f64) -> SlidingContact {
+        SlidingContact {
+            friction_coefficient: 0.3,
+            interference: 25e-6,
+            rotation_speed,
+        }
+    }
 
     fn disc(element: ElementKind) -> (Mesh2d, ElasticMaterial) {
         let mesh = AnnulusMesh::generate(&AnnulusSpecification {
@@ -324,12 +308,7 @@ mod tests {
         for element in [ElementKind::Quad4, ElementKind::Quad8] {
             let (mesh, material) = disc(element);
             let elastic = assemble_stiffness(&mesh, &material);
-            let contact = SlidingContact {
-                friction_coefficient: 0.3,
-                interference: 25e-6,
-                rotation_speed: -60.0,
-            };
-            let base = SteadySliding::solve(&mesh, &elastic, &contact).unwrap();
+            let base = SteadySliding::solve(&mesh, &elastic, &turning(-60.0)).unwrap();
             let mut prestress = vec![Triplets::default(); 2];
             add_prestress(&mut prestress, &mesh, &material, &base);
             let total = 2 * mesh.node_count();
@@ -360,12 +339,7 @@ mod tests {
     fn every_matrix_is_symmetric_without_friction() {
         let (mesh, material) = disc(ElementKind::Quad4);
         let elastic = assemble_stiffness(&mesh, &material);
-        let contact = SlidingContact {
-            friction_coefficient: 0.3,
-            interference: 25e-6,
-            rotation_speed: 60.0,
-        };
-        let base = SteadySliding::solve(&mesh, &elastic, &contact).unwrap();
+        let base = SteadySliding::solve(&mesh, &elastic, &turning(60.0)).unwrap();
         for normal_stiffness in [None, Some(7.4e12)] {
             let tangent = SlidingTangent::linearize(
                 &mesh,

@@ -1,0 +1,29 @@
+//! Choices of the linearisation.
+
+use crate::contact::ContactStiffness;
+use crate::fem::{MassKind, RayleighDamping};
+
+/// What `beta_R` multiplies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DampingModel {
+    /// `C = alpha_R M + beta_R K_t`: contact and friction terms included.
+    WholeTangent,
+    /// `C = alpha_R M + beta_R K_e`: the body's elastic stiffness alone. Friction still follows all of
+    /// the normal force.
+    BodyOnly,
+}
+
+/// Choices of the linearisation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TangentOptions {
+    /// Consistent or lumped mass.
+    pub mass: MassKind,
+    /// Whether the stress of the base state acts back (with the follower terms of the contact).
+    pub geometric_stiffness: bool,
+    /// Rayleigh coefficients.
+    pub damping: RayleighDamping,
+    /// What the stiffness coefficient multiplies.
+    pub damping_model: DampingModel,
+    /// Penalty or rigid contact, and dashpots.
+    pub contact: ContactStiffness,
+}
