@@ -66,6 +66,10 @@ pub(super) fn model(root: &Section<'_>, case_name: &str, material: &ElasticMater
             contact,
         };
     };
+    // What describes an annulus has no effect here.
+    let _ = ["inner_radius", "outer_radius"].map(|key| geometry.optional_number(key));
+    let _ = ["circumferential_elements", "radial_elements"].map(|key| mesh.optional_count(key));
+    let (_, _): (_, ElementKind) = (mesh.number("radial_grading"), mesh.choice("element"));
     geometry.close();
     let (contact, place) = contact(root, false);
     let parts = BodyParts {
@@ -196,7 +200,9 @@ fn contact(root: &Section<'_>, is_annulus: bool) -> (Contact, ContactPlace) {
             "direction",
             "speed",
         ] {
-            if section.has(key) {
+            // A default written out changes nothing.
+            let is_default = section.is_text(key, "inner") || section.is_text(key, "cylinder");
+            if section.has(key) && !is_default {
                 section.reject(
                     key,
                     format!("contact.{key} is for a body from a mesh file (mesh.file)"),
