@@ -1,5 +1,6 @@
 //! `frictionsim cycle`: limit cycles found directly, and followed over a parameter.
 
+mod along;
 mod figures;
 mod search;
 
@@ -10,8 +11,7 @@ use super::session::{available_memory, gibibytes};
 use super::{Failure, RunOptions, Session, terminal};
 use crate::case::Case;
 use crate::results::Manifest;
-use crate::results::cycle::{CycleReport, print, write};
-use crate::results::cycle_confirmation::doubt;
+use crate::results::cycle::{CycleReport, doubt, print, write};
 use clap::Args;
 use search::Search;
 use serde_json::Value;

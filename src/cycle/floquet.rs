@@ -17,6 +17,8 @@ const TOLERANCE: f64 = 4e-3;
 const DIMENSIONS: [usize; 3] = [12, 90, 4];
 /// An exponent within this share of `omega`, with this overlap with the shift of the wave, is the shift itself.
 const NEUTRAL: [f64; 2] = [0.05, 0.8];
+/// Share of `omega` that every rate may be wrong by: what steps and nodes leave open of where a wave lands.
+const FLOOR: f64 = 2e-4;
 /// Harmonics, from zero on, of a start that knows nothing.
 const START_HARMONICS: usize = 13;
 /// Share of a known start that such a one adds, lest a mode that comes up between two cycles is missed.
@@ -48,8 +50,8 @@ impl LeadingExponents {
     /// Arnoldi's process on the map of one period, until the leading multipliers have converged.
     ///
     /// `known` are modes of a neighbouring cycle. The exponent of the wave's own shift in phase is zero; what the steps of
-    /// time and mesh make of it instead is how far the others may be trusted, by experience twice over: half of it, the
-    /// residual and a hundredth of the rate make the uncertainty of each.
+    /// time and mesh make of it instead is how far the others may be trusted, by experience twice over: half of it, a five
+    /// thousandth of `omega`, the residual and a hundredth of the rate make the uncertainty of each.
     ///
     /// # Errors
     /// [`CycleError::Stability`] where the leading multipliers do not converge.
@@ -239,10 +241,10 @@ impl<'a> Krylov<'a> {
         let signed = if 2 * rest > count { rest - count } else { rest };
         let turns = (harmonic - signed) / n;
         let residual = multiplier.residual / period.duration;
-        let trust = neutral.map_or(NEUTRAL[0] * omega, |neutral| 0.5 * neutral.norm());
+        let shift = neutral.map_or(NEUTRAL[0] * omega, |neutral| 0.5 * neutral.norm());
         FloquetExponent {
             exponent: c64::new(exponent.re, fixed - turns as f64 * omega),
-            uncertainty: trust + residual + 0.01 * exponent.re.abs(),
+            uncertainty: FLOOR * omega + shift + residual + 0.01 * exponent.re.abs(),
             class: signed.unsigned_abs(),
             harmonic: harmonic.unsigned_abs(),
             frequency_hz: fixed.abs() / TAU,

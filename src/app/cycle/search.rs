@@ -1,19 +1,18 @@
 //! The search for the limit cycles of a case.
 
+use super::along::{along, changes};
 use crate::app::{Failure, terminal};
 use crate::case::{Case, Cycle, ModeSelection, OnsetChoice, StabilityChoice};
 use crate::cea::cyclic::ModeLimit;
 use crate::cycle::{
     CycleError, CycleSolver, CycleStability, DiscModel, Family, LimitCycle, MODES, MeshStepping,
-    Onset, OperatingPoint, Parameter, StabilityChange, SteppedCycle, Verdict,
+    Onset, OperatingPoint, Parameter,
 };
 use crate::fem::operator::SimdLevel;
 use crate::mesh::AnnulusMesh;
 use crate::results::Manifest;
-use crate::results::cycle::{Absence, CycleReport, CycleResult, summary};
-use crate::results::cycle_fields::CycleFrame;
+use crate::results::cycle::{Absence, CycleFrame, CycleReport, CycleResult, known, summary};
 use crate::results::cycle_figures::FamilyRecord;
-use crate::results::cycle_stability::known;
 use indicatif::ProgressBar;
 use rayon::prelude::*;
 use serde_json::{Value, json};
@@ -337,68 +336,4 @@ fn frames(solver: &CycleSolver, cycle: &LimitCycle, count: usize) -> Vec<CycleFr
             }
         })
         .collect()
-}
-
-/// Cycles whose exponents are found one after the other, each from its neighbour's; the groups run in parallel.
-const GROUP: usize = 8;
-
-/// Every cycle of a branch settled in the transient, with its stability. Where a wave only scales from one cycle to the
-/// next, so do its powers, and its stability is the same.
-fn along(
-    stepping: &MeshStepping<'_>,
-    cycles: &mut [LimitCycle],
-) -> Vec<Result<SteppedCycle, String>> {
-    let is_scaled = |a: &LimitCycle, b: &LimitCycle| {
-        let drift = a.state.frequency / b.state.frequency - 1.0;
-        a.state.contact == b.state.contact && drift.abs() < 1e-9
-    };
-    let settled: Vec<Vec<Result<SteppedCycle, String>>> = cycles
-        .par_chunks_mut(GROUP)
-        .map(|group| {
-            let mut done: Vec<Result<SteppedCycle, String>> = Vec::new();
-            let mut before: Option<(LimitCycle, SteppedCycle)> = None;
-            for cycle in group {
-                let found = match &before {
-                    Some((own, settled)) if is_scaled(own, cycle) => {
-                        Ok(settled.scaled_to(own, cycle))
-                    }
-                    _ => {
-                        let neighbour = before.as_ref().map(|(_, settled)| settled);
-                        let settled = stepping.settle(cycle, neighbour);
-                        settled.map_err(|error| error.to_string())
-                    }
-                };
-                if let Ok(settled) = &found {
-                    before = Some((cycle.clone(), settled.clone()));
-                    *cycle = settled.cycle.clone();
-                }
-                done.push(found);
-            }
-            done
-        })
-        .collect();
-    settled.into_iter().flatten().collect()
-}
-
-/// Where neighbours along a branch differ in stability for sure.
-fn changes(
-    stepping: &MeshStepping<'_>,
-    parameter: Parameter,
-    settled: &[Result<SteppedCycle, String>],
-) -> Vec<StabilityChange> {
-    let is_sure = |found: &&SteppedCycle| found.stability.verdict() != Verdict::Undecided;
-    let known: Vec<&SteppedCycle> = settled.iter().flatten().filter(is_sure).collect();
-    let differ =
-        |pair: &&[&SteppedCycle]| pair[0].stability.is_stable() != pair[1].stability.is_stable();
-    let pairs: Vec<&[&SteppedCycle]> = known.windows(2).filter(differ).collect();
-    let found = pairs.par_iter().map(|pair| {
-        let [first, second] = [pair[0], pair[1]];
-        let (stable, unstable) = if first.stability.is_stable() {
-            (first, second)
-        } else {
-            (second, first)
-        };
-        stepping.stability_change(parameter, stable, unstable).ok()
-    });
-    found.collect::<Vec<_>>().into_iter().flatten().collect()
 }

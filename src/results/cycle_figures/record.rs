@@ -3,8 +3,7 @@
 use crate::contact::ContactStatus;
 use crate::cycle::{CycleBranch, CycleStability, Family, LimitCycle, Verdict};
 use crate::results::charts::palette::status_of_code;
-use crate::results::cycle::{CycleReport, CycleResult, amplitude};
-use crate::results::cycle_stability::known;
+use crate::results::cycle::{CycleReport, CycleResult, amplitude, known};
 use crate::results::record::Record;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;

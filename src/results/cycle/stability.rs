@@ -1,8 +1,8 @@
 //! Stability of limit cycles: tables, summary and words.
 
-use super::cycle::CycleResult;
-use super::table::{Table, format_number};
+use super::CycleResult;
 use crate::cycle::{CycleBranch, CycleStability, LimitCycle, Verdict};
+use crate::results::table::{Table, format_number};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::io::{self, Write};

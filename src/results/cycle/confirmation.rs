@@ -1,7 +1,7 @@
 //! Whether a transient that starts on a limit cycle stays there: words and summary.
 
-use super::cycle::{CycleReport, CycleResult};
-use super::cycle_stability::known;
+use super::stability::known;
+use super::{CycleReport, CycleResult};
 use crate::cycle::{Confirmation, LimitCycle, Verdict};
 use serde_json::{Value, json};
 

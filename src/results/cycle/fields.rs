@@ -1,8 +1,8 @@
 //! Whole fields of limit cycles, for ParaView.
 
-use super::cycle::{CycleReport, CycleResult};
-use super::folder::{FolderError, OutputFolder};
-use super::vtu::{EncodedMesh, Field, PvdEntry, write_pvd, write_vtu};
+use super::{CycleReport, CycleResult};
+use crate::results::folder::{FolderError, OutputFolder};
+use crate::results::vtu::{EncodedMesh, Field, PvdEntry, write_pvd, write_vtu};
 
 /// The whole field of a limit cycle at one time.
 #[derive(Clone, Debug, PartialEq)]

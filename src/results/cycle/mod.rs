@@ -1,23 +1,29 @@
 //! Results of a search for limit cycles: what is printed and what is written.
 
+mod confirmation;
+mod fields;
+mod print;
+mod stability;
+mod summary;
+
+pub use confirmation::doubt;
+pub use fields::CycleFrame;
+pub use print::print;
+pub use stability::{Finding, known};
+pub use summary::summary;
+
 use crate::contact::ContactStatus;
 use crate::cycle::{
     Confirmation, CycleBranch, CycleStability, Family, LimitCycle, Onset, StabilityChange,
 };
 use crate::mesh::Mesh2d;
-use crate::results::cycle_confirmation::{confirmation_object, confirmation_text};
-use crate::results::cycle_fields::{CycleFrame, write_fields};
 use crate::results::cycle_figures::CycleRecord;
-use crate::results::cycle_stability::{
-    Finding, known, print_stability, stability_object, write_stability,
-};
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::manifest::Manifest;
 use crate::results::record::write_record;
 use crate::results::table::{Table, format_number};
-use serde_json::{Value, json};
+use serde_json::Value;
 use std::f64::consts::TAU;
-use std::fmt::Write as _;
 use std::io::{self, Write};
 
 /// Why a family has no cycle at the case's own operating point.
@@ -130,10 +136,10 @@ pub fn write(folder: &OutputFolder, report: &CycleReport<'_>) -> Result<Value, F
         }
         if result.stability.is_some() {
             let name = format!("stability-{}.csv", result.family.tag());
-            folder.write(&name, |out| write_stability(out, result))?;
+            folder.write(&name, |out| stability::write_stability(out, result))?;
         }
     }
-    write_fields(folder, report)?;
+    fields::write_fields(folder, report)?;
     write_record(folder, &CycleRecord::of(report))?;
     let summary = summary(report, folder.manifest());
     folder.write("summary.json", |out| {
@@ -248,205 +254,4 @@ pub(super) fn amplitude(cycle: &LimitCycle) -> f64 {
             0.5 * (largest - motion.fold(f64::INFINITY, f64::min))
         }
     }
-}
-
-/// The summary object.
-pub fn summary(report: &CycleReport<'_>, manifest: &Manifest) -> Value {
-    let cycles: Vec<Value> = report
-        .results
-        .iter()
-        .map(|result| result_object(report, result))
-        .collect();
-    json!({
-        "command": "cycle",
-        "title": report.title,
-        "wall_s": report.wall_s,
-        "steady_sliding_stable": report.stable_sliding().is_some(),
-        "lowest_onset": report.lowest_onset.as_ref().map(onset_object),
-        "cycles": cycles,
-        "manifest": manifest,
-    })
-}
-
-fn result_object(report: &CycleReport<'_>, result: &CycleResult) -> Value {
-    let onsets: Vec<Value> = result.onsets.iter().map(onset_object).collect();
-    let mut object = json!({
-        "harmonic": result.family.harmonic,
-        "onset": result.family.onset,
-        "critical_friction": result.birth().map(|onset| onset.friction_coefficient),
-        "direction": result.birth().map(|onset| onset.direction),
-        "phases": result.phases,
-        "onsets": onsets,
-        "wall_s": result.wall_s,
-    });
-    match &result.cycle {
-        Ok(cycle) => {
-            let found = cycle_object(report, cycle);
-            let found = found.as_object().into_iter().flatten();
-            for (key, value) in found {
-                object[key] = value.clone();
-            }
-        }
-        Err(absence) if absence.is_stable => object["absent"] = json!(absence.reason),
-        Err(absence) => object["error"] = json!(absence.reason),
-    }
-    object["confirmation"] = confirmation_object(report, result);
-    object["stability"] = stability_object(&result.stability);
-    if let Some(branch) = &result.branch {
-        object["branch"] = branch_object(report, branch);
-        let changes = result.stability_changes.iter();
-        let changes = changes.map(|change| {
-            json!({
-                "at": branch.parameter.in_key_units(change.value),
-                "harmonic": change.harmonic,
-                "frequency_hz": change.frequency_hz,
-            })
-        });
-        object["branch"]["stability_changes"] = changes.collect();
-    }
-    object
-}
-
-fn onset_object(onset: &Onset) -> Value {
-    json!({
-        "harmonic": onset.harmonic,
-        "direction": onset.direction,
-        "critical_friction": onset.friction_coefficient,
-        "frequency_hz": onset.frequency / TAU,
-    })
-}
-
-fn cycle_object(report: &CycleReport<'_>, cycle: &LimitCycle) -> Value {
-    let powers = cycle.powers.scaled(report.thickness);
-    let [stick, slip, open] = cycle.fractions;
-    json!({
-        "main_frequency_hz": cycle.frequency_hz(),
-        "status": { "stick": stick, "slip": slip, "open": open },
-        "power_w": {
-            "external": powers.external,
-            "stick": powers.stick,
-            "slide": powers.slide,
-            "contact_dissipated": powers.contact_dissipated,
-            "material_damping": powers.material_damping,
-            "normal_contact": powers.normal_contact,
-        },
-        "harmonics": cycle.harmonics,
-        "balance_residual": cycle.powers.balance_residual(),
-    })
-}
-
-fn branch_object(report: &CycleReport<'_>, branch: &CycleBranch) -> Value {
-    let folds = branch.folds.iter();
-    let folds: Vec<f64> = folds
-        .map(|&fold| branch.parameter.in_key_units(fold))
-        .collect();
-    let saturation = branch
-        .cycles
-        .iter()
-        .find_map(|cycle| cycle.saturation_speed(report.inner_radius))
-        .map(|speed| speed * 60.0 / TAU);
-    json!({
-        "key": branch.parameter.key(),
-        "cycles": branch.cycles.len(),
-        "folds": folds,
-        "ends": branch.ends.map(|end| end.describe()),
-        "saturation_speed_rpm": saturation,
-        "factorizations": branch.factorizations,
-    })
-}
-
-/// The report as text.
-pub fn print(report: &CycleReport<'_>) -> String {
-    let mut out = String::new();
-    if !report.title.is_empty() {
-        let _ = writeln!(out, "{}", report.title);
-    }
-    if let Some(text) = report.stable_sliding() {
-        let _ = writeln!(out, "{text}");
-        return out;
-    }
-    let mut phases: Vec<String> = report
-        .results
-        .iter()
-        .map(|result| result.phases.to_string())
-        .collect();
-    phases.dedup();
-    let _ = writeln!(
-        out,
-        "limit cycles as rotating waves, {} phases\n",
-        phases.join(", ")
-    );
-    let _ = writeln!(
-        out,
-        "{:>3} {:>10} {:>12} {:>7} {:>7} {:>7} {:>12} {:>7} {:>7} {:>9}",
-        "n",
-        "friction >",
-        "frequency",
-        "stick",
-        "slip",
-        "open",
-        "external",
-        "stick",
-        "slide",
-        "dissipated"
-    );
-    for result in &report.results {
-        result_line(&mut out, report, result);
-    }
-    for result in &report.results {
-        if let Some(text) = confirmation_text(report, result) {
-            let _ = writeln!(out, "{text}");
-        }
-        print_stability(&mut out, result);
-        if let Some(branch) = &result.branch {
-            branch_line(&mut out, result.family, branch);
-        }
-    }
-    let _ = writeln!(out, "{:.3} s", report.wall_s);
-    out
-}
-
-fn result_line(out: &mut String, report: &CycleReport<'_>, result: &CycleResult) {
-    let critical = match result.birth() {
-        Some(onset) => format!("{:.5}", onset.friction_coefficient),
-        None => "-".to_owned(),
-    };
-    let _ = write!(out, "{:>3} {critical:>10} ", result.family.harmonic);
-    let _ = match &result.cycle {
-        Ok(cycle) => {
-            let powers = cycle.powers.scaled(report.thickness);
-            let [stick, slip, open] = cycle.fractions;
-            let share = |power: f64| power / powers.external;
-            writeln!(
-                out,
-                "{:>9.2} Hz {stick:>7.3} {slip:>7.3} {open:>7.3} {:>10.2} W {:>7.3} {:>7.3} {:>9.3}",
-                cycle.frequency_hz(),
-                powers.external,
-                share(powers.stick),
-                share(powers.slide),
-                share(powers.contact_dissipated),
-            )
-        }
-        Err(absence) => writeln!(out, "{}", absence.reason),
-    };
-}
-
-fn branch_line(out: &mut String, family: Family, branch: &CycleBranch) {
-    let value = |cycle: Option<&LimitCycle>| {
-        cycle.map_or(f64::NAN, |cycle| {
-            let value = branch.parameter.of(&cycle.state.point);
-            branch.parameter.in_key_units(value)
-        })
-    };
-    let _ = writeln!(
-        out,
-        "{family}: {} cycles over {} from {} ({}) to {} ({}), {} folds",
-        branch.cycles.len(),
-        branch.parameter.key(),
-        value(branch.cycles.first()),
-        branch.ends[0].describe(),
-        value(branch.cycles.last()),
-        branch.ends[1].describe(),
-        branch.folds.len(),
-    );
 }

@@ -1,0 +1,103 @@
+//! What is printed of a search for limit cycles.
+
+use super::confirmation::confirmation_text;
+use super::stability::print_stability;
+use super::{CycleReport, CycleResult};
+use crate::cycle::{CycleBranch, Family, LimitCycle};
+use std::fmt::Write as _;
+
+/// The report as text.
+pub fn print(report: &CycleReport<'_>) -> String {
+    let mut out = String::new();
+    if !report.title.is_empty() {
+        let _ = writeln!(out, "{}", report.title);
+    }
+    if let Some(text) = report.stable_sliding() {
+        let _ = writeln!(out, "{text}");
+        return out;
+    }
+    let mut phases: Vec<String> = report
+        .results
+        .iter()
+        .map(|result| result.phases.to_string())
+        .collect();
+    phases.dedup();
+    let _ = writeln!(
+        out,
+        "limit cycles as rotating waves, {} phases\n",
+        phases.join(", ")
+    );
+    let _ = writeln!(
+        out,
+        "{:>3} {:>10} {:>12} {:>7} {:>7} {:>7} {:>12} {:>7} {:>7} {:>9}",
+        "n",
+        "friction >",
+        "frequency",
+        "stick",
+        "slip",
+        "open",
+        "external",
+        "stick",
+        "slide",
+        "dissipated"
+    );
+    for result in &report.results {
+        result_line(&mut out, report, result);
+    }
+    for result in &report.results {
+        if let Some(text) = confirmation_text(report, result) {
+            let _ = writeln!(out, "{text}");
+        }
+        print_stability(&mut out, result);
+        if let Some(branch) = &result.branch {
+            branch_line(&mut out, result.family, branch);
+        }
+    }
+    let _ = writeln!(out, "{:.3} s", report.wall_s);
+    out
+}
+
+fn result_line(out: &mut String, report: &CycleReport<'_>, result: &CycleResult) {
+    let critical = match result.birth() {
+        Some(onset) => format!("{:.5}", onset.friction_coefficient),
+        None => "-".to_owned(),
+    };
+    let _ = write!(out, "{:>3} {critical:>10} ", result.family.harmonic);
+    let _ = match &result.cycle {
+        Ok(cycle) => {
+            let powers = cycle.powers.scaled(report.thickness);
+            let [stick, slip, open] = cycle.fractions;
+            let share = |power: f64| power / powers.external;
+            writeln!(
+                out,
+                "{:>9.2} Hz {stick:>7.3} {slip:>7.3} {open:>7.3} {:>10.2} W {:>7.3} {:>7.3} {:>9.3}",
+                cycle.frequency_hz(),
+                powers.external,
+                share(powers.stick),
+                share(powers.slide),
+                share(powers.contact_dissipated),
+            )
+        }
+        Err(absence) => writeln!(out, "{}", absence.reason),
+    };
+}
+
+fn branch_line(out: &mut String, family: Family, branch: &CycleBranch) {
+    let value = |cycle: Option<&LimitCycle>| {
+        cycle.map_or(f64::NAN, |cycle| {
+            let value = branch.parameter.of(&cycle.state.point);
+            branch.parameter.in_key_units(value)
+        })
+    };
+    let _ = writeln!(
+        out,
+        "{family}: {} cycles over {} from {} ({}) to {} ({}), {} folds",
+        branch.cycles.len(),
+        branch.parameter.key(),
+        value(branch.cycles.first()),
+        branch.ends[0].describe(),
+        value(branch.cycles.last()),
+        branch.ends[1].describe(),
+        branch.folds.len(),
+    );
+}
