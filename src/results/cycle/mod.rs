@@ -19,7 +19,6 @@ use crate::cycle::{
 use crate::mesh::Mesh2d;
 use crate::results::cycle_figures::CycleRecord;
 use crate::results::folder::{FolderError, OutputFolder};
-use crate::results::manifest::Manifest;
 use crate::results::record::write_record;
 use crate::results::table::{Table, format_number};
 use serde_json::Value;
