@@ -6,7 +6,8 @@
 mod disc;
 
 use disc::{DAMPING, POLYCARBONATE, annulus, contact};
-use frictionsim::cea::sparse::{EigenLimit, EigenRequest, sweep};
+use frictionsim::cea::sparse::sweep;
+use frictionsim::cea::{ModeLimit, SweepRequest};
 use frictionsim::contact::ContactStiffness;
 use frictionsim::fem::{MassKind, assemble_stiffness};
 use frictionsim::linalg::MatrixPolynomial;
@@ -37,16 +38,17 @@ fn main() {
     };
     write_matrices(Path::new(folder), &tangent);
 
-    let request = EigenRequest {
-        limit: EigenLimit::Lowest(modes),
-        shapes_at: Vec::new(),
+    let request = SweepRequest {
+        friction_coefficients: &values,
+        limit: ModeLimit::Lowest(modes),
+        shapes_at: &[],
     };
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(1)
         .build()
         .expect("a thread");
     let start = Instant::now();
-    let found = pool.install(|| sweep(&tangent, &values, &request, &|_| {}).expect("solved"));
+    let found = pool.install(|| sweep(&tangent, &request, &|_| {}).expect("solved"));
     let seconds = start.elapsed().as_secs_f64();
     let all = || found.points.iter().flat_map(|point| &point.modes);
     let residual = all().map(|mode| mode.residual).fold(0.0, f64::max);

@@ -5,7 +5,8 @@ mod disc;
 
 use disc::{DAMPING, POLYCARBONATE, annulus, contact};
 use divan::Bencher;
-use frictionsim::cea::cyclic::{CyclicSweep, ModeLimit, SweepRequest, sweep};
+use frictionsim::cea::cyclic::{CyclicSweep, sweep};
+use frictionsim::cea::{ModeLimit, SweepRequest};
 use frictionsim::contact::ContactStiffness;
 use frictionsim::fem::MassKind;
 use frictionsim::mesh::ElementKind;

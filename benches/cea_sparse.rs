@@ -6,7 +6,8 @@ mod disc;
 
 use disc::{DAMPING, POLYCARBONATE, annulus, contact};
 use divan::Bencher;
-use frictionsim::cea::sparse::{EigenLimit, EigenRequest, SparseSweep, StiffnessFactors, sweep};
+use frictionsim::cea::sparse::{SparseSweep, StiffnessFactors, sweep};
+use frictionsim::cea::{ModeLimit, SweepRequest};
 use frictionsim::contact::ContactStiffness;
 use frictionsim::fem::{MassKind, assemble_stiffness};
 use frictionsim::mesh::{AnnulusMesh, ElementKind};
@@ -35,10 +36,11 @@ fn tangent(circumferential: usize, radial: usize) -> SlidingTangent {
     SlidingTangent::linearize(&mesh, &POLYCARBONATE, &elastic, &base, &options)
 }
 
-fn request() -> EigenRequest {
-    EigenRequest {
-        limit: EigenLimit::Lowest(30),
-        shapes_at: Vec::new(),
+fn request(friction_coefficients: &[f64]) -> SweepRequest<'_> {
+    SweepRequest {
+        friction_coefficients,
+        limit: ModeLimit::Lowest(30),
+        shapes_at: &[],
     }
 }
 
@@ -74,14 +76,14 @@ fn phase_2_unsymmetric_factorization_one_value(bencher: Bencher<'_, '_>) {
 #[divan::bench(sample_count = 5)]
 fn phase_3_frictionless_modes(bencher: Bencher<'_, '_>) {
     let tangent = tangent(180, 35);
-    bencher.bench_local(|| SparseSweep::prepare(&tangent, &values(), &request()).expect("solved"));
+    bencher.bench_local(|| SparseSweep::prepare(&tangent, &request(&values())).expect("solved"));
 }
 
 #[divan::bench(sample_count = 5)]
 fn phase_4_common_basis(bencher: Bencher<'_, '_>) {
     let tangent = tangent(180, 35);
     bencher
-        .with_inputs(|| SparseSweep::prepare(&tangent, &values(), &request()).expect("solved"))
+        .with_inputs(|| SparseSweep::prepare(&tangent, &request(&values())).expect("solved"))
         .bench_local_values(|mut sweep| sweep.cover().map(|()| sweep));
 }
 
@@ -90,7 +92,7 @@ fn phase_5_points_with_residuals(bencher: Bencher<'_, '_>) {
     let tangent = tangent(180, 35);
     bencher
         .with_inputs(|| {
-            let mut sweep = SparseSweep::prepare(&tangent, &values(), &request()).expect("solved");
+            let mut sweep = SparseSweep::prepare(&tangent, &request(&values())).expect("solved");
             sweep.cover().expect("covered");
             sweep
         })
@@ -102,7 +104,7 @@ fn phase_6_tracking_and_onsets(bencher: Bencher<'_, '_>) {
     let tangent = tangent(180, 35);
     bencher
         .with_inputs(|| {
-            let mut sweep = SparseSweep::prepare(&tangent, &values(), &request()).expect("solved");
+            let mut sweep = SparseSweep::prepare(&tangent, &request(&values())).expect("solved");
             sweep.cover().expect("covered");
             sweep.solve(&|_| {}).expect("solved");
             sweep
@@ -110,7 +112,7 @@ fn phase_6_tracking_and_onsets(bencher: Bencher<'_, '_>) {
         .bench_local_values(|mut sweep| {
             on_one_thread(|| {
                 let branches = sweep.track().expect("tracked");
-                sweep.finish(&values(), &request(), &branches)
+                sweep.finish(&request(&values()), &branches)
             })
         });
 }
@@ -119,7 +121,7 @@ fn phase_6_tracking_and_onsets(bencher: Bencher<'_, '_>) {
 fn whole_sweep_of_21_friction_values(bencher: Bencher<'_, '_>) {
     let tangent = tangent(180, 35);
     bencher.bench_local(|| {
-        on_one_thread(|| sweep(&tangent, &values(), &request(), &|_| {}).expect("solved"))
+        on_one_thread(|| sweep(&tangent, &request(&values()), &|_| {}).expect("solved"))
     });
 }
 
@@ -127,6 +129,6 @@ fn whole_sweep_of_21_friction_values(bencher: Bencher<'_, '_>) {
 fn one_friction_value_on_200_000_unknowns(bencher: Bencher<'_, '_>) {
     let tangent = tangent(720, 139);
     bencher.bench_local(|| {
-        on_one_thread(|| sweep(&tangent, &[0.3], &request(), &|_| {}).expect("solved"))
+        on_one_thread(|| sweep(&tangent, &request(&[0.3]), &|_| {}).expect("solved"))
     });
 }

@@ -2,7 +2,8 @@
 //!
 //! `cargo run --release --example annulus_modes`
 
-use frictionsim::cea::cyclic::{ModeLimit, SweepRequest, sweep};
+use frictionsim::cea::cyclic::sweep;
+use frictionsim::cea::{ModeLimit, SweepRequest};
 use frictionsim::contact::{ContactStiffness, SlidingContact};
 use frictionsim::fem::{ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping};
 use frictionsim::mesh::{AnnulusSpecification, BoundaryCondition, ElementKind};

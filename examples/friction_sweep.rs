@@ -3,7 +3,8 @@
 //!
 //! `cargo run --release --example friction_sweep`
 
-use frictionsim::cea::sparse::{EigenLimit, EigenRequest, sweep};
+use frictionsim::cea::sparse::sweep;
+use frictionsim::cea::{ModeLimit, SweepRequest};
 use frictionsim::contact::{ContactStiffness, SlidingContact};
 use frictionsim::fem::{
     ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping, assemble_stiffness,
@@ -55,11 +56,12 @@ pub fn main() -> Result<(), Box<dyn Error>> {
         },
     };
     let tangent = SlidingTangent::linearize(&mesh, &polycarbonate, &stiffness, &base, &options);
-    let request = EigenRequest {
-        limit: EigenLimit::Lowest(10),
-        shapes_at: Vec::new(),
+    let request = SweepRequest {
+        friction_coefficients: &[0.0, 0.1, 0.2, 0.3],
+        limit: ModeLimit::Lowest(10),
+        shapes_at: &[],
     };
-    let found = sweep(&tangent, &[0.0, 0.1, 0.2, 0.3], &request, &|_| {})?;
+    let found = sweep(&tangent, &request, &|_| {})?;
     for interval in &found.intervals {
         println!(
             "n = {}, branch {}: unstable from friction {:.4} at {:.1} Hz",

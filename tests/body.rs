@@ -7,9 +7,9 @@ mod disc;
 mod msh;
 
 use disc::{DAMPING, POLYCARBONATE, annulus, contact};
-use frictionsim::cea::ComplexMode;
 use frictionsim::cea::cyclic::{self, ModeLimit, SweepRequest};
-use frictionsim::cea::sparse::{EigenLimit, EigenRequest, sweep};
+use frictionsim::cea::sparse::sweep;
+use frictionsim::cea::{ComplexMode, ModeLimit, SweepRequest};
 use frictionsim::contact::{ContactStiffness, SlidingContact};
 use frictionsim::fem::operator::SimdLevel;
 use frictionsim::fem::{
@@ -58,12 +58,12 @@ fn modes(mesh: &Mesh2d, options: &TangentOptions, contact: &SlidingContact) -> V
     let stiffness = assemble_stiffness(mesh, &POLYCARBONATE);
     let base = SteadySliding::solve(mesh, &stiffness, contact).unwrap();
     let tangent = SlidingTangent::linearize(mesh, &POLYCARBONATE, &stiffness, &base, options);
-    let request = EigenRequest {
-        limit: EigenLimit::Lowest(8),
-        shapes_at: Vec::new(),
+    let request = SweepRequest {
+        friction_coefficients: &[contact.friction_coefficient],
+        limit: ModeLimit::Lowest(8),
+        shapes_at: &[],
     };
-    let friction = [contact.friction_coefficient];
-    let found = sweep(&tangent, &friction, &request, &|_| {}).unwrap();
+    let found = sweep(&tangent, &request, &|_| {}).unwrap();
     found.points.into_iter().next().unwrap().modes
 }
 

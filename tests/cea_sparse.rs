@@ -9,10 +9,9 @@ mod table_1;
 use disc::{DAMPING, POLYCARBONATE, annulus, contact};
 use faer::{Mat, c64};
 use frictionsim::cea::sparse::{
-    CeaError, EigenLimit, EigenRequest, FrictionlessModes, Linearization, ShiftInverted,
-    StiffnessFactors, StructureMatrices, sweep,
+    FrictionlessModes, Linearization, ShiftInverted, StiffnessFactors, StructureMatrices, sweep,
 };
-use frictionsim::cea::{ComplexMode, FrictionSweep};
+use frictionsim::cea::{CeaError, ComplexMode, FrictionSweep, ModeLimit, SweepRequest};
 use frictionsim::contact::ContactStiffness;
 use frictionsim::fem::{DofMap, MassKind, RayleighDamping, assemble_stiffness};
 use frictionsim::linalg::dense::random_columns;
@@ -103,12 +102,13 @@ impl Disc {
     }
 }
 
-fn run(tangent: &SlidingTangent, values: &[f64], limit: EigenLimit) -> FrictionSweep {
-    let request = EigenRequest {
+fn run(tangent: &SlidingTangent, values: &[f64], limit: ModeLimit) -> FrictionSweep {
+    let request = SweepRequest {
+        friction_coefficients: values,
         limit,
-        shapes_at: Vec::new(),
+        shapes_at: &[],
     };
-    sweep(tangent, values, &request, &|_| {}).unwrap()
+    sweep(tangent, &request, &|_| {}).unwrap()
 }
 
 /// `mu_c = (c^2 + ((A - B)/2)^2) / (c d)`: where the two eigenvalues of `K` meet.
@@ -128,7 +128,7 @@ fn two_degrees_of_freedom_flutter_at_the_closed_form_friction() {
         let undamped = Some(RayleighDamping::default());
         let tangent = problem(2, [mass, Vec::new(), stiffness], undamped);
         let values: Vec<f64> = (0..12).map(|i| f64::from(i) * critical / 7.3).collect();
-        let result = run(&tangent, &values, EigenLimit::Lowest(2));
+        let result = run(&tangent, &values, ModeLimit::Lowest(2));
         assert_eq!(result.intervals.len(), 1, "{:?}", result.intervals);
         let found = &result.intervals[0];
         // At the double root the growth rate rises like the square root of the distance: 1e-6 in mu.
@@ -174,7 +174,7 @@ fn sweep_of_a_general_quadratic_problem_equals_a_dense_decomposition() {
     ];
     let tangent = problem(size, [mass, damping, stiffness], None);
     let values = [0.0, 0.2, 0.45, 0.8];
-    let result = run(&tangent, &values, EigenLimit::Lowest(8));
+    let result = run(&tangent, &values, ModeLimit::Lowest(8));
     for point in &result.points {
         let dense = dense_eigenvalues(&tangent, point.friction_coefficient);
         assert_eq!(point.modes.len(), 8);
@@ -220,7 +220,7 @@ fn quadratic_and_reduced_problem_have_one_spectrum() {
         let mut quadratic = reduced.clone();
         quadratic.proportional = None;
         let values = [0.0, 0.3, 0.7];
-        let limit = EigenLimit::Lowest(20);
+        let limit = ModeLimit::Lowest(20);
         let (a, b) = (
             run(&reduced, &values, limit),
             run(&quadratic, &values, limit),
@@ -246,7 +246,7 @@ fn quadratic_and_reduced_problem_have_one_spectrum() {
 fn sweep_agrees_with_krylov_schur_at_the_same_friction() {
     let tangent = Disc::coarse().tangent();
     let mu = 0.6;
-    let result = run(&tangent, &[mu], EigenLimit::Lowest(24));
+    let result = run(&tangent, &[mu], ModeLimit::Lowest(24));
     let linearization = Linearization::of(&tangent, 1e5);
     let operator = ShiftInverted {
         matrices: &StructureMatrices::at(&tangent, linearization, mu),
@@ -276,16 +276,17 @@ fn sweep_agrees_with_krylov_schur_at_the_same_friction() {
 fn sweep_is_bitwise_equal_on_one_and_two_threads() {
     let tangent = Disc::coarse().tangent();
     let values: Vec<f64> = (0..9).map(|i| f64::from(i) * 0.1).collect();
-    let request = EigenRequest {
-        limit: EigenLimit::BelowFrequency(15_000.0),
-        shapes_at: vec![values[3]],
+    let request = SweepRequest {
+        friction_coefficients: &values,
+        limit: ModeLimit::MaxFrequency(15_000.0),
+        shapes_at: &[values[3]],
     };
     let on_threads = |count| {
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(count)
             .build()
             .unwrap();
-        pool.install(|| sweep(&tangent, &values, &request, &|_| {}).unwrap())
+        pool.install(|| sweep(&tangent, &request, &|_| {}).unwrap())
     };
     let (one, two) = (on_threads(1), on_threads(2));
     assert!(one == two);
@@ -297,8 +298,8 @@ fn sweep_is_bitwise_equal_on_one_and_two_threads() {
 fn inertia_count_equals_the_number_of_modes_below_the_limit() {
     let tangent = Disc::coarse().tangent();
     for hz in [8_000.0, 12_000.0, 17_000.0] {
-        let result = run(&tangent, &[0.0], EigenLimit::BelowFrequency(hz));
-        let modes = FrictionlessModes::compute(&tangent, EigenLimit::Lowest(60)).unwrap();
+        let result = run(&tangent, &[0.0], ModeLimit::MaxFrequency(hz));
+        let modes = FrictionlessModes::compute(&tangent, ModeLimit::Lowest(60)).unwrap();
         let below = modes.frequencies.iter().filter(|&&w| w < TAU * hz).count();
         // Damping lowers frequencies by parts in 1e4 only.
         assert_eq!(result.points[0].modes.len(), below);
@@ -331,7 +332,7 @@ fn reversed_rotation_mirrors_the_modes() {
         *polynomial = MatrixPolynomial::from_coefficients(polynomial.pattern(), coefficients);
     }
     backward.sliding_direction = -forward.sliding_direction;
-    let limit = EigenLimit::Lowest(16);
+    let limit = ModeLimit::Lowest(16);
     let (a, b) = (
         run(&forward, &[0.0, 0.4], limit),
         run(&backward, &[0.0, 0.4], limit),
@@ -348,24 +349,25 @@ fn reversed_rotation_mirrors_the_modes() {
 fn bad_requests_are_refused_with_the_bound() {
     let tangent = Disc::coarse().tangent();
     let ask = |values: &[f64], limit| {
-        let request = EigenRequest {
+        let request = SweepRequest {
+            friction_coefficients: values,
             limit,
-            shapes_at: Vec::new(),
+            shapes_at: &[],
         };
-        sweep(&tangent, values, &request, &|_| {}).unwrap_err()
+        sweep(&tangent, &request, &|_| {}).unwrap_err()
     };
-    let none = ask(&[0.1], EigenLimit::BelowFrequency(1000.0));
+    let none = ask(&[0.1], ModeLimit::MaxFrequency(1000.0));
     assert!(
         matches!(none, CeaError::NoModes { lowest_hz, .. } if (lowest_hz - 5900.0).abs() < 200.0)
     );
     assert!(none.to_string().contains("cea.max_frequency_hz"));
-    let many = ask(&[0.1], EigenLimit::Lowest(1_000_000));
+    let many = ask(&[0.1], ModeLimit::Lowest(1_000_000));
     assert!(matches!(many, CeaError::TooManyModes { .. }));
-    let negative = ask(&[0.1, -0.2], EigenLimit::Lowest(4));
-    assert_eq!(negative, CeaError::FrictionCoefficients { value: -0.2 });
+    let negative = ask(&[0.1, -0.2], ModeLimit::Lowest(4));
+    assert_eq!(negative, CeaError::Friction { value: -0.2 });
     assert!(matches!(
-        ask(&[], EigenLimit::Lowest(4)),
-        CeaError::FrictionCoefficients { .. }
+        ask(&[], ModeLimit::Lowest(4)),
+        CeaError::NoFriction
     ));
 }
 
@@ -380,7 +382,7 @@ fn paper_disc_reproduces_table_1_and_the_critical_friction_coefficients() {
     };
     let tangent = disc.tangent();
     let values = [0.0, 0.1, 0.2, 0.3, 0.4];
-    let result = run(&tangent, &values, EigenLimit::BelowFrequency(17_500.0));
+    let result = run(&tangent, &values, ModeLimit::MaxFrequency(17_500.0));
     let modes = &result.points[3].modes;
     assert_eq!(modes.len(), TABLE_1.len());
     for (i, (mode, row)) in modes.iter().zip(&TABLE_1).enumerate() {

@@ -6,7 +6,8 @@ mod disc;
 
 use disc::{DAMPING, POLYCARBONATE, annulus, contact};
 use faer::{Mat, c64};
-use frictionsim::cea::sparse::{EigenLimit, EigenRequest, sweep};
+use frictionsim::cea::sparse::sweep;
+use frictionsim::cea::{ModeLimit, SweepRequest};
 use frictionsim::contact::ContactStiffness;
 use frictionsim::fem::{MassKind, assemble_stiffness};
 use frictionsim::frf::{CyclicSystem, FrfSystem, Terminal, cyclic_response, direct_response};
@@ -212,12 +213,13 @@ fn responses_in_sliding_contact_are_the_sums_over_right_and_left_eigenvectors() 
 fn at_a_critical_friction_of_the_eigenvalue_analysis_the_response_grows_as_one_over_the_distance() {
     let options = options(DampingModel::WholeTangent, ContactStiffness::default());
     let tangent = tangent(&options);
-    let request = EigenRequest {
-        limit: EigenLimit::BelowFrequency(17_500.0),
-        shapes_at: Vec::new(),
-    };
     let values: Vec<f64> = (0..=10).map(|k| 0.05 * f64::from(k)).collect();
-    let found = sweep(&tangent, &values, &request, &|_| {}).unwrap();
+    let request = SweepRequest {
+        friction_coefficients: &values,
+        limit: ModeLimit::MaxFrequency(17_500.0),
+        shapes_at: &[],
+    };
+    let found = sweep(&tangent, &request, &|_| {}).unwrap();
     let onsets: Vec<_> = found
         .intervals
         .iter()

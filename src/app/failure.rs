@@ -2,8 +2,7 @@
 
 use super::terminal;
 use crate::case::CaseErrors;
-use crate::cea::cyclic::CyclicError;
-use crate::cea::sparse::CeaError;
+use crate::cea::CeaError;
 use crate::prestress::PrestressError;
 use crate::results::{DrawingError, FolderError};
 use std::io;
@@ -95,26 +94,12 @@ impl From<PrestressError> for Failure {
     }
 }
 
-impl From<CyclicError> for Failure {
-    fn from(error: CyclicError) -> Self {
-        match error {
-            CyclicError::Friction { .. }
-            | CyclicError::NoFriction
-            | CyclicError::Limit { .. }
-            | CyclicError::TooManyModes { .. }
-            | CyclicError::Mesh(_) => Self::Usage(error.into()),
-            _ => Self::Run(error.into()),
-        }
-    }
-}
-
 impl From<CeaError> for Failure {
     fn from(error: CeaError) -> Self {
-        match error {
-            CeaError::FrictionCoefficients { .. }
-            | CeaError::NoModes { .. }
-            | CeaError::TooManyModes { .. } => Self::Usage(error.into()),
-            _ => Self::Run(error.into()),
+        if error.is_usage() {
+            Self::Usage(error.into())
+        } else {
+            Self::Run(error.into())
         }
     }
 }

@@ -1,8 +1,7 @@
 //! The modes that a transient has in its linear stage, for its figures.
 
 use crate::case::{Case, ModeSelection};
-use crate::cea::ComplexMode;
-use crate::cea::cyclic::{CyclicError, ModeLimit};
+use crate::cea::{CeaError, ComplexMode, ModeLimit};
 use crate::contact::ContactStiffness;
 use crate::fem::MassKind;
 use crate::prestress::{DampingModel, TangentOptions};
@@ -57,7 +56,7 @@ impl LinearStage {
     }
 }
 
-fn modes(case: &Case) -> Result<Vec<ComplexMode>, CyclicError> {
+fn modes(case: &Case) -> Result<Vec<ComplexMode>, CeaError> {
     let options = TangentOptions {
         mass: MassKind::Lumped,
         geometric_stiffness: false,

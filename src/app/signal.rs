@@ -5,8 +5,7 @@ use super::options::OutputOptions;
 use super::session::read_case;
 use super::{Failure, terminal};
 use crate::case::{Case, Cea};
-use crate::cea::ComplexMode;
-use crate::cea::cyclic::ModeLimit;
+use crate::cea::{ComplexMode, ModeLimit};
 use crate::fem::MassKind;
 use crate::results::signal::{
     ChannelRecord, ChannelSummary, ModeSummary, SignalRecord, SignalSummary, draw_report, write,

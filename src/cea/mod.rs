@@ -1,7 +1,18 @@
 //! Complex eigenvalue analysis: the stability of steady sliding.
+//!
+//! One theory: what is asked for, what comes out, branches over the friction coefficient, and where they turn
+//! unstable. Two producers of problems: [`sparse`] for any body, [`cyclic`] harmonic by harmonic for a rotationally
+//! symmetric one.
 
+mod branch;
 pub mod cyclic;
+mod error;
+mod onset;
+mod request;
 pub mod sparse;
 mod spectrum;
 
+pub use branch::{BranchPoint, ModeBranch};
+pub use error::CeaError;
+pub use request::{ModeLimit, SweepProgress, SweepRequest};
 pub use spectrum::{ComplexMode, FrictionPoint, FrictionSweep, UnstableInterval, keeping_ties};

@@ -1,8 +1,8 @@
 //! Small motions around the steady sliding of a case.
 
 use crate::case::Case;
-use crate::cea::ComplexMode;
-use crate::cea::cyclic::{CyclicError, ModeLimit, SweepRequest, sweep};
+use crate::cea::cyclic::sweep;
+use crate::cea::{CeaError, ComplexMode, ModeLimit, SweepRequest};
 use crate::fem::MassKind;
 use crate::prestress::{DampingModel, TangentOptions};
 
@@ -29,7 +29,7 @@ pub fn modes_at_own_friction(
     case: &Case,
     options: &TangentOptions,
     limit: ModeLimit,
-) -> Result<Vec<ComplexMode>, CyclicError> {
+) -> Result<Vec<ComplexMode>, CeaError> {
     let sliding = &case.contact.sliding;
     let request = SweepRequest {
         friction_coefficients: &[sliding.friction_coefficient],

@@ -4,7 +4,8 @@ use crate::disc::{POLYCARBONATE, annulus, contact};
 use crate::model::{paper_options, run};
 use faer::linalg::solvers::Solve;
 use faer::{Mat, c64};
-use frictionsim::cea::cyclic::{ModeLimit, SweepRequest, sweep};
+use frictionsim::cea::cyclic::sweep;
+use frictionsim::cea::{ModeLimit, SweepRequest};
 use frictionsim::contact::{ContactStiffness, SlidingContact};
 use frictionsim::fem::{
     ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping, assemble_stiffness,

@@ -1,7 +1,8 @@
 //! Sweeps of the paper's disc.
 
 use crate::disc::{DAMPING, POLYCARBONATE, contact};
-use frictionsim::cea::cyclic::{CyclicSweep, ModeLimit, SweepRequest, sweep};
+use frictionsim::cea::cyclic::{CyclicSweep, sweep};
+use frictionsim::cea::{ModeLimit, SweepRequest};
 use frictionsim::contact::ContactStiffness;
 use frictionsim::fem::MassKind;
 use frictionsim::mesh::AnnulusSpecification;

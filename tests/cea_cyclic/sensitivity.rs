@@ -3,9 +3,8 @@
 use crate::disc::{POLYCARBONATE, annulus, contact};
 use crate::model::paper_options;
 use faer::c64;
-use frictionsim::cea::cyclic::{
-    CyclicModel, ModeBranch, ModeLimit, Sensitivity, SweepRequest, sensitivities, sweep,
-};
+use frictionsim::cea::cyclic::{CyclicModel, Sensitivity, sensitivities, sweep};
+use frictionsim::cea::{ModeBranch, ModeLimit, SweepRequest};
 use frictionsim::fem::{ElasticMaterial, PlaneFormulation};
 use frictionsim::mesh::ElementKind;
 use frictionsim::prestress::DampingModel;

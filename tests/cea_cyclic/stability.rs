@@ -3,10 +3,8 @@
 use crate::disc::{POLYCARBONATE, annulus, contact};
 use crate::model::{paper_options, run};
 use crate::table_1::TABLE_1;
-use frictionsim::cea::UnstableInterval;
-use frictionsim::cea::cyclic::{
-    CyclicModel, ModeBranch, ModeLimit, SweepRequest, stability_map, sweep,
-};
+use frictionsim::cea::cyclic::{CyclicModel, stability_map, sweep};
+use frictionsim::cea::{ModeBranch, ModeLimit, SweepRequest, UnstableInterval};
 use frictionsim::fem::ElasticMaterial;
 use frictionsim::mesh::ElementKind;
 

@@ -3,9 +3,9 @@
 use crate::disc::{POLYCARBONATE, annulus, contact};
 use crate::model::{paper_options, run};
 use faer::c64;
-use frictionsim::cea::ComplexMode;
-use frictionsim::cea::cyclic::{ModeLimit, SweepRequest, sweep};
-use frictionsim::cea::sparse::{self, EigenLimit, EigenRequest};
+use frictionsim::cea::cyclic::sweep;
+use frictionsim::cea::sparse;
+use frictionsim::cea::{ComplexMode, ModeLimit, SweepRequest};
 use frictionsim::fem::{MassKind, assemble_stiffness};
 use frictionsim::linalg::MatrixPolynomial;
 use frictionsim::mesh::{AnnulusMesh, ElementKind};
@@ -31,11 +31,12 @@ fn spectrum_branches_and_onsets_equal_those_of_the_sparse_solver() {
         let elastic = assemble_stiffness(&mesh, &material);
         let base = SteadySliding::solve(&mesh, &elastic, &contact).unwrap();
         let tangent = SlidingTangent::linearize(&mesh, &material, &elastic, &base, &options);
-        let request = EigenRequest {
-            limit: EigenLimit::Lowest(18),
-            shapes_at: Vec::new(),
+        let request = SweepRequest {
+            friction_coefficients: &frictions,
+            limit: ModeLimit::Lowest(18),
+            shapes_at: &[],
         };
-        let sparse = sparse::sweep(&tangent, &frictions, &request, &|_| {}).unwrap();
+        let sparse = sparse::sweep(&tangent, &request, &|_| {}).unwrap();
         for (ours, theirs) in cyclic.points.iter().zip(&sparse.points) {
             assert_eq!(ours.modes.len(), theirs.modes.len());
             for mode in &ours.modes {
@@ -85,11 +86,12 @@ fn a_cut_through_a_pair_keeps_both_members_in_both_solvers() {
             ModeLimit::Lowest(asked),
         )
         .sweep;
-        let request = EigenRequest {
-            limit: EigenLimit::Lowest(asked),
-            shapes_at: Vec::new(),
+        let request = SweepRequest {
+            friction_coefficients: &[0.0, 0.4],
+            limit: ModeLimit::Lowest(asked),
+            shapes_at: &[],
         };
-        let sparse = sparse::sweep(&tangent, &[0.0, 0.4], &request, &|_| {}).unwrap();
+        let sparse = sparse::sweep(&tangent, &request, &|_| {}).unwrap();
         for found in [cyclic, sparse] {
             let [rest, sliding] = [0, 1].map(|i| &found.points[i].modes);
             let singles = rest.iter().filter(|mode| mode.harmonic == 0).count();
@@ -113,11 +115,12 @@ fn solvers_differ_by_no_more_than_the_uncertainty_that_they_state() {
         let elastic = assemble_stiffness(&mesh, &POLYCARBONATE);
         let base = SteadySliding::solve(&mesh, &elastic, &contact(610.0)).unwrap();
         let tangent = SlidingTangent::linearize(&mesh, &POLYCARBONATE, &elastic, &base, &options);
-        let request = EigenRequest {
-            limit: EigenLimit::Lowest(8),
-            shapes_at: Vec::new(),
+        let request = SweepRequest {
+            friction_coefficients: &[0.4],
+            limit: ModeLimit::Lowest(8),
+            shapes_at: &[],
         };
-        let Ok(sparse) = sparse::sweep(&tangent, &[0.4], &request, &|_| {}) else {
+        let Ok(sparse) = sparse::sweep(&tangent, &request, &|_| {}) else {
             assert!(penalty > 1e20, "{penalty:e}");
             continue;
         };

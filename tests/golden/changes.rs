@@ -56,6 +56,10 @@ const CHANGES: &[(&str, &str, &str, &str)] = &[
 const SIGNAL: &str = "probes hold mean accelerations; peaks stand out of the noise at a stated resolution, modes are named within 3 %, stages \
      need an interval";
 
+    ("*", "points.csv", "critical_frictions.*", NAMED),
+    ("*", "points.csv", "cycles.*", NAMED),
+const NAMED: &str =
+    "columns go by the mode, not by its rank: critical_frictions.n1_b1_against.critical_friction";
 const CLOCK: &str =
     "what the clock says of a point is in a file of its own, so that points keep their bytes";
 

@@ -8,8 +8,8 @@ pub use model::SlidingModel;
 
 use super::{Failure, RunOptions, Session, terminal};
 use crate::case::{Case, Cea, ModeSelection};
-use crate::cea::FrictionSweep;
 use crate::cea::cyclic;
+use crate::cea::{FrictionSweep, SweepRequest};
 use crate::results::cea::{BaseField, CeaReport, SensitivityReport, draw, print, summary, write};
 use crate::results::{DrawingOptions, Manifest, OutputFolder};
 use crate::study::tangent_options;
@@ -153,7 +153,7 @@ pub fn modes_and_onsets(case: &Case) -> Result<FrictionSweep, Failure> {
         shapes_at: vec![case.contact.sliding.friction_coefficient],
         ..case.require_cea()?.clone()
     };
-    let request = cyclic::SweepRequest {
+    let request = SweepRequest {
         friction_coefficients: &cea.solved_friction_coefficients(),
         limit: solve::mode_limit(&cea),
         shapes_at: &[],

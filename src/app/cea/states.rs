@@ -1,9 +1,10 @@
 //! A sweep over friction coefficients between which contact nodes open or close.
 
+use super::solve::mode_limit;
 use super::{Failure, SlidingModel, Solution};
-use crate::case::{Case, Cea, ModeSelection};
-use crate::cea::sparse::{self, EigenLimit, EigenRequest};
-use crate::cea::{FrictionPoint, FrictionSweep, UnstableInterval};
+use crate::case::{Case, Cea};
+use crate::cea::sparse;
+use crate::cea::{FrictionPoint, FrictionSweep, SweepRequest, UnstableInterval};
 use indicatif::ProgressBar;
 
 /// Solves the sparse eigenproblems: each base state has a tangent and a sweep of its own, which the friction
@@ -18,13 +19,6 @@ pub fn solve_sparse(
     bar: &ProgressBar,
 ) -> Result<Solution, Failure> {
     let frictions = cea.solved_friction_coefficients();
-    let request = EigenRequest {
-        limit: match cea.modes {
-            ModeSelection::BelowHz(limit) => EigenLimit::BelowFrequency(limit),
-            ModeSelection::Lowest(count) => EigenLimit::Lowest(count),
-        },
-        shapes_at: cea.shapes_at.clone(),
-    };
     let range = &model.range;
     let (mut parts, mut dofs) = (Vec::new(), 0);
     for (k, state) in range.states.iter().enumerate() {
@@ -43,7 +37,12 @@ pub fn solve_sparse(
         values.dedup();
         let tangent = model.tangent(case, state);
         dofs = dofs.max(tangent.unknowns.len());
-        let found = sparse::sweep(&tangent, &values, &request, &|progress| {
+        let request = SweepRequest {
+            friction_coefficients: &values,
+            limit: mode_limit(cea),
+            shapes_at: &cea.shapes_at,
+        };
+        let found = sparse::sweep(&tangent, &request, &|progress| {
             bar.set_length(progress.total as u64);
             bar.set_position(progress.solved as u64);
         })?;

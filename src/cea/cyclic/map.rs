@@ -1,7 +1,7 @@
 //! Critical friction as a function of a second parameter.
 
-use super::{CyclicError, ModeLimit, SweepRequest, sweep};
-use crate::cea::UnstableInterval;
+use super::sweep;
+use crate::cea::{CeaError, ModeLimit, SweepRequest, UnstableInterval};
 use crate::contact::SlidingContact;
 use crate::fem::ElasticMaterial;
 use crate::mesh::AnnulusSpecification;
@@ -28,7 +28,7 @@ pub struct StabilityMapPoint {
     pub value: f64,
     /// Every unstable interval up to the largest friction coefficient, sorted by critical friction, or
     /// why this point could not be computed.
-    pub outcome: Result<Vec<UnstableInterval>, CyclicError>,
+    pub outcome: Result<Vec<UnstableInterval>, CeaError>,
 }
 
 impl StabilityMapPoint {

@@ -9,7 +9,6 @@ mod branch;
 mod collision;
 mod completeness;
 mod definite;
-mod error;
 mod follow;
 mod map;
 mod modes;
@@ -19,8 +18,6 @@ mod rest;
 mod sensitivity;
 mod sweep;
 
-pub use branch::{BranchPoint, ModeBranch};
-pub use error::CyclicError;
 pub use map::{CyclicModel, StabilityMapPoint, stability_map};
 pub use sensitivity::{Sensitivity, sensitivities};
-pub use sweep::{Coverage, CyclicSweep, ModeLimit, SweepRequest, sweep};
+pub use sweep::{Coverage, CyclicSweep, sweep};

@@ -3,8 +3,7 @@
 use super::branch::{direction_of, eigenvalue_of, waves_of};
 use super::paths::{HarmonicPaths, Path, Waves};
 use super::problem::HarmonicProblem;
-use super::{ModeLimit, SweepRequest};
-use crate::cea::{ComplexMode, FrictionPoint, keeping_ties};
+use crate::cea::{ComplexMode, FrictionPoint, ModeLimit, SweepRequest, keeping_ties};
 use crate::prestress::SectorTangent;
 use faer::c64;
 use std::f64::consts::{PI, TAU};

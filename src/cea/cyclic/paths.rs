@@ -1,9 +1,9 @@
 //! All branches of one harmonic, followed together over the friction coefficient.
 
-use super::CyclicError;
 use super::follow::{Eigenpair, Follower, StepControl};
 use super::problem::{HarmonicProblem, Matrices, dot};
 use super::{collision, rest};
+use crate::cea::CeaError;
 use faer::c64;
 use std::rc::Rc;
 
@@ -44,12 +44,12 @@ pub(super) fn follow_harmonic(
     limit: f64,
     grid: &[f64],
     kept: &[f64],
-) -> Result<HarmonicPaths, CyclicError> {
+) -> Result<HarmonicPaths, CeaError> {
     let (mass, stiffness) = problem.at_rest();
     let pairs = rest::eigenpairs_below(mass, stiffness, limit);
     let count = rest::count_below(mass, stiffness, limit);
     if pairs.len() != count {
-        return Err(CyclicError::Incomplete {
+        return Err(CeaError::Incomplete {
             harmonic: problem.harmonic,
             counted: count,
             found: pairs.len(),
@@ -72,9 +72,9 @@ fn follow_all(
     grid: &[f64],
     kept: &[f64],
     control: StepControl,
-) -> Result<Vec<Path>, CyclicError> {
+) -> Result<Vec<Path>, CeaError> {
     let problem = follower.problem;
-    let lost = |friction: f64| CyclicError::LostBranch {
+    let lost = |friction: f64| CeaError::LostHarmonic {
         harmonic: problem.harmonic,
         friction,
     };

@@ -1,9 +1,10 @@
 //! How each eigenvalue responds to the parameters of the model.
 
-use super::branch::{ModeBranch, path_theta};
+use super::CyclicSweep;
+use super::branch::path_theta;
 use super::follow::Follower;
 use super::problem::{HarmonicProblem, ZERO};
-use super::{CyclicError, CyclicSweep};
+use crate::cea::{CeaError, ModeBranch};
 use crate::prestress::{
     FrictionPolynomial, HarmonicTangent, Parameter, SectorTangent, TangentRate,
 };
@@ -49,12 +50,12 @@ pub struct Sensitivity {
 /// Sensitivities of every branch of a sweep at one friction coefficient within its range.
 ///
 /// # Errors
-/// [`CyclicError::Friction`] outside the range; [`CyclicError::LostBranch`] where a branch cannot be
+/// [`CeaError::Friction`] outside the range; [`CeaError::LostHarmonic`] where a branch cannot be
 /// solved for there.
 pub fn sensitivities(
     result: &CyclicSweep,
     friction_coefficient: f64,
-) -> Result<Vec<Sensitivity>, CyclicError> {
+) -> Result<Vec<Sensitivity>, CeaError> {
     let tangent = &result.tangent;
     let mut rates = Vec::new();
     for parameter in PARAMETERS {
@@ -81,17 +82,17 @@ fn of_branch(
     rates: &[Option<TangentRate>],
     branch: &ModeBranch,
     friction: f64,
-) -> Result<Sensitivity, CyclicError> {
+) -> Result<Sensitivity, CeaError> {
     let n = branch.harmonic;
     let guess = branch.interpolate(friction);
-    let guess = guess.ok_or(CyclicError::Friction { value: friction })?;
+    let guess = guess.ok_or(CeaError::Friction { value: friction })?;
     let sliding_direction = tangent.base().sliding_direction;
     let matrices = tangent.harmonic(n);
     let problem = HarmonicProblem::new(matrices.clone(), tangent.is_standing(n));
     let is_backward = f64::from(branch.direction) * sliding_direction > 0.0;
     let theta = path_theta(&problem, is_backward, guess);
     let found = Follower::new(&problem).find(&problem.at(friction), friction, theta);
-    let found = found.ok_or(CyclicError::LostBranch {
+    let found = found.ok_or(CeaError::LostHarmonic {
         harmonic: n,
         friction,
     })?;

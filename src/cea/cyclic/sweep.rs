@@ -1,38 +1,20 @@
 //! A sweep over the friction coefficient.
 
-use super::branch::{ModeBranch, branches_of};
+use super::branch::branches_of;
 use super::completeness::{self, Verdict};
 use super::modes::point;
 use super::paths::{HarmonicPaths, follow_harmonic};
 use super::problem::HarmonicProblem;
-use super::{CyclicError, rest};
-use crate::cea::{ComplexMode, FrictionPoint, FrictionSweep};
+use super::rest;
+use crate::cea::{
+    CeaError, ComplexMode, FrictionPoint, FrictionSweep, ModeBranch, ModeLimit, SweepRequest,
+};
 use crate::contact::SlidingContact;
 use crate::fem::ElasticMaterial;
 use crate::mesh::{AnnulusSpecification, SectorMesh};
 use crate::prestress::{SectorTangent, TangentOptions};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
-
-/// Which modes are wanted.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum ModeLimit {
-    /// So many of lowest frequency, `+n` and `-n` counted singly.
-    Lowest(usize),
-    /// All up to this frequency, Hz.
-    MaxFrequency(f64),
-}
-
-/// What a sweep is to find.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SweepRequest<'a> {
-    /// Friction coefficients, in any order.
-    pub friction_coefficients: &'a [f64],
-    /// Modes wanted at each of them.
-    pub limit: ModeLimit,
-    /// Those of the friction coefficients at which mode shapes are wanted.
-    pub shapes_at: &'a [f64],
-}
 
 /// Which harmonics were solved, and why no other can matter.
 #[derive(Clone, Debug, PartialEq)]
@@ -79,15 +61,16 @@ const MARGIN_ATTEMPTS: usize = 4;
 /// Every branch is followed from `mu = 0` to the largest friction coefficient given.
 ///
 /// # Errors
-/// [`CyclicError`] where there is no sliding equilibrium, or a branch cannot be followed.
+/// [`CeaError`] where there is no sliding equilibrium, or a branch cannot be followed.
 pub fn sweep(
     specification: &AnnulusSpecification,
     material: &ElasticMaterial,
     options: &TangentOptions,
     contact: &SlidingContact,
     request: &SweepRequest<'_>,
-) -> Result<CyclicSweep, CyclicError> {
-    let grid = rising_grid(request.friction_coefficients)?;
+) -> Result<CyclicSweep, CeaError> {
+    let grid = request.rising_grid()?;
+    request.limit.check()?;
     let sector = SectorMesh::generate(specification)?;
     let tangent = SectorTangent::linearize(&sector, material, options, contact)?;
     let mut margin = MARGIN;
@@ -100,15 +83,15 @@ pub fn sweep(
                 let Some(harmonic) = verdict.missed else {
                     return Ok(finish(tangent, found, verdict));
                 };
-                failure = Some(CyclicError::Unproven { harmonic, margin });
+                failure = Some(CeaError::Unproven { harmonic, margin });
             }
             // The branch that it meets may lie above the margin.
-            Err(error @ CyclicError::LostBranch { .. }) => failure = Some(error),
+            Err(error @ CeaError::LostHarmonic { .. }) => failure = Some(error),
             Err(error) => return Err(error),
         }
         margin *= MARGIN;
     }
-    Err(failure.unwrap_or(CyclicError::NoFriction))
+    Err(failure.unwrap_or(CeaError::NoFriction))
 }
 
 /// Friction values, out of a rising grid, at which modes are counted: the quarters of the range.
@@ -134,10 +117,10 @@ fn solve(
     request: &SweepRequest<'_>,
     grid: &[f64],
     margin: f64,
-) -> Result<Found, CyclicError> {
+) -> Result<Found, CeaError> {
     let (kappa, candidates) = select(tangent, request.limit, margin)?;
     let limit = kappa * margin * margin;
-    let followed: Result<Vec<HarmonicPaths>, CyclicError> = candidates
+    let followed: Result<Vec<HarmonicPaths>, CeaError> = candidates
         .into_par_iter()
         .map(|n| {
             let problem = HarmonicProblem::new(tangent.harmonic(n), tangent.is_standing(n));
@@ -202,19 +185,6 @@ fn finish(tangent: SectorTangent, found: Found, verdict: Verdict) -> CyclicSweep
     }
 }
 
-fn rising_grid(values: &[f64]) -> Result<Vec<f64>, CyclicError> {
-    if values.is_empty() {
-        return Err(CyclicError::NoFriction);
-    }
-    if let Some(&value) = values.iter().find(|v| !(v.is_finite() && **v >= 0.0)) {
-        return Err(CyclicError::Friction { value });
-    }
-    let mut grid = values.to_vec();
-    grid.sort_by(f64::total_cmp);
-    grid.dedup();
-    Ok(grid)
-}
-
 /// Harmonics that have a mode with `kappa < limit` without friction: all are looked at.
 fn harmonics_below(tangent: &SectorTangent, limit: f64) -> Vec<usize> {
     (0..=tangent.largest_harmonic())
@@ -232,15 +202,12 @@ fn select(
     tangent: &SectorTangent,
     limit: ModeLimit,
     margin: f64,
-) -> Result<(f64, Vec<usize>), CyclicError> {
-    let not_positive = |key, value| Err(CyclicError::Limit { key, value });
+) -> Result<(f64, Vec<usize>), CeaError> {
     match limit {
-        ModeLimit::MaxFrequency(value) if value > 0.0 && value.is_finite() => {
+        ModeLimit::MaxFrequency(value) => {
             let kappa = (TAU * value).powi(2);
             Ok((kappa, harmonics_below(tangent, kappa * margin * margin)))
         }
-        ModeLimit::MaxFrequency(value) => not_positive("max_frequency_hz", value),
-        ModeLimit::Lowest(0) => not_positive("modes", 0.0),
         ModeLimit::Lowest(asked) => select_lowest(tangent, asked, margin),
     }
 }
@@ -249,12 +216,12 @@ fn select_lowest(
     tangent: &SectorTangent,
     asked: usize,
     margin: f64,
-) -> Result<(f64, Vec<usize>), CyclicError> {
+) -> Result<(f64, Vec<usize>), CeaError> {
     let waves = |n: usize| if tangent.is_standing(n) { 1 } else { 2 };
     let all = 0..=tangent.largest_harmonic();
     let total = all.map(|n| waves(n) * tangent.dimension()).sum();
     if asked > total {
-        return Err(CyclicError::TooManyModes { asked, total });
+        return Err(CeaError::TooManyModes { asked, total });
     }
     // A few low harmonics that have enough modes bound the limit from above.
     let few: Vec<_> = (0..=tangent.largest_harmonic().min(7))

@@ -1,9 +1,9 @@
 //! Growth of the common basis until it holds the modes of every friction coefficient.
 
-use super::error::CeaError;
 use super::packed::{PackedEntry, PackedModes};
 use super::reduced::{ReducedMode, ReducedModel};
 use super::structure::{Linearization, ShiftInverted, StiffnessFactors, StructureMatrices};
+use crate::cea::CeaError;
 use crate::linalg::dense::{column_norms, join_columns, orthonormal_complement, pick_columns};
 use crate::linalg::{KrylovSchurSettings, LinalgError, LuAnalysis, Wanted, krylov_schur};
 use crate::prestress::SlidingTangent;

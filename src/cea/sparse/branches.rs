@@ -25,7 +25,7 @@ pub struct BranchLabel {
 
 /// One branch over all points of a sweep.
 #[derive(Clone, Debug)]
-pub struct ModeBranch {
+pub struct TrackedBranch {
     /// Its name.
     pub label: BranchLabel,
     /// Its index among the modes of each point; `None` before it entered the range.
@@ -192,11 +192,11 @@ pub fn track(
     model: &ReducedModel,
     edge: &ContactEdge,
     labels: &[BranchLabel],
-) -> Result<Result<Vec<ModeBranch>, Lost>, LinalgError> {
-    let mut branches: Vec<ModeBranch> = labels
+) -> Result<Result<Vec<TrackedBranch>, Lost>, LinalgError> {
+    let mut branches: Vec<TrackedBranch> = labels
         .iter()
         .enumerate()
-        .map(|(i, &label)| ModeBranch {
+        .map(|(i, &label)| TrackedBranch {
             label,
             modes: vec![Some(i)],
         })
@@ -231,7 +231,7 @@ pub fn track(
 
 /// Starts a branch for every wanted mode of point `k` that has none.
 fn adopt_newcomers(
-    branches: &mut Vec<ModeBranch>,
+    branches: &mut Vec<TrackedBranch>,
     point: &SolvedPoint,
     edge: &ContactEdge,
     k: usize,
@@ -254,7 +254,7 @@ fn adopt_newcomers(
         let mut modes = vec![None; k];
         modes.push(Some(i));
         let label = BranchLabel { harmonic, branch };
-        branches.push(ModeBranch { label, modes });
+        branches.push(TrackedBranch { label, modes });
     }
 }
 

@@ -1,8 +1,8 @@
 //! The undamped modes without friction, and the proof that none is missing.
 
-use super::error::CeaError;
+use super::GUARD_MODES;
 use super::structure::{Linearization, ShiftInverted, StiffnessFactors, StructureMatrices};
-use super::{EigenLimit, GUARD_MODES};
+use crate::cea::{CeaError, ModeLimit};
 use crate::fem::RayleighDamping;
 use crate::linalg::{
     KrylovSchurSettings, LdlAnalysis, LinalgError, MatrixPolynomial, SparseLdl, Wanted,
@@ -33,19 +33,18 @@ impl FrictionlessModes {
     ///
     /// # Errors
     /// [`CeaError::CountMismatch`] if the inertia of `K - sigma M` in that gap counts another number.
-    pub fn compute(tangent: &SlidingTangent, limit: EigenLimit) -> Result<Self, CeaError> {
+    pub fn compute(tangent: &SlidingTangent, limit: ModeLimit) -> Result<Self, CeaError> {
         let inertia = Inertia::new(tangent)?;
         let wanted = match limit {
-            EigenLimit::Lowest(count) => count,
-            EigenLimit::BelowFrequency(limit_hz) => inertia.count_below(TAU * limit_hz)?,
+            ModeLimit::Lowest(count) => count,
+            ModeLimit::MaxFrequency(limit_hz) => inertia.count_below(TAU * limit_hz)?,
         };
         // An empty range still needs the lowest mode, for the message.
         let unknowns = tangent.stiffness.dimension();
         if wanted > unknowns {
             return Err(CeaError::TooManyModes {
-                wanted,
-                unknowns,
-                bound: unknowns,
+                asked: wanted,
+                total: unknowns,
             });
         }
         let request = (wanted.max(1) + GUARD_MODES).min(unknowns);
@@ -64,7 +63,7 @@ impl FrictionlessModes {
         let pairs = krylov_schur(&operator, None, &settings)?;
         let frequencies: Vec<f64> = pairs.values.iter().map(|s| s.re.recip().sqrt()).collect();
         if wanted == 0
-            && let EigenLimit::BelowFrequency(limit_hz) = limit
+            && let ModeLimit::MaxFrequency(limit_hz) = limit
         {
             return Err(CeaError::NoModes {
                 limit_hz,

@@ -13,7 +13,6 @@
 mod basis;
 mod branches;
 mod edge;
-mod error;
 #[cfg(test)]
 mod fixtures;
 mod frictionless;
@@ -21,22 +20,19 @@ mod onset;
 mod packed;
 mod point;
 mod reduced;
-mod request;
 mod structure;
 mod sweep;
 mod term;
 
 pub use basis::BasisBuilder;
-pub use branches::{BranchLabel, Lost, ModeBranch, label_frictionless, track};
+pub use branches::{BranchLabel, Lost, TrackedBranch, label_frictionless, track};
 pub use edge::ContactEdge;
-pub use error::CeaError;
 pub use frictionless::FrictionlessModes;
 pub use onset::OnsetFinder;
 pub use point::{ModeCheck, PointSolver, SolvedPoint};
 pub use reduced::{ProjectedMatrices, ReducedMode, ReducedModel};
-pub use request::{EigenLimit, EigenRequest, SweepProgress, sweep};
 pub use structure::{Linearization, ShiftInverted, StiffnessFactors, StructureMatrices};
-pub use sweep::SparseSweep;
+pub use sweep::{SparseSweep, sweep};
 
 /// Modes beyond the wanted ones that are computed along, so that crossings at the upper end of the range
 /// are seen.

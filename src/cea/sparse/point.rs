@@ -1,11 +1,11 @@
 //! All modes at one friction coefficient, each held to its residual in the full matrices.
 
+use super::TRACKING_MARGIN;
 use super::edge::ContactEdge;
 use super::packed::{PackedModes, PackedVector};
 use super::reduced::{ReducedMode, ReducedModel};
 use super::structure::{Linearization, StructureMatrices};
-use super::{EigenLimit, TRACKING_MARGIN};
-use crate::cea::keeping_ties;
+use crate::cea::{ModeLimit, keeping_ties};
 use crate::linalg::LinalgError;
 use crate::prestress::SlidingTangent;
 use faer::c64;
@@ -60,7 +60,7 @@ pub struct PointSolver<'a> {
     /// The contact edge.
     pub edge: &'a ContactEdge,
     /// Which modes are wanted.
-    pub limit: EigenLimit,
+    pub limit: ModeLimit,
     /// Modes tracked.
     pub count: usize,
 }
@@ -73,8 +73,8 @@ impl PointSolver<'_> {
     pub fn solve(&self, model: &ReducedModel, mu: f64) -> Result<SolvedPoint, LinalgError> {
         let modes = model.solve(mu, self.count + TRACKING_MARGIN)?;
         let wanted = match self.limit {
-            EigenLimit::Lowest(count) => keeping_ties(modes.iter().map(|m| m.eigenvalue.im), count),
-            EigenLimit::BelowFrequency(hz) => modes
+            ModeLimit::Lowest(count) => keeping_ties(modes.iter().map(|m| m.eigenvalue.im), count),
+            ModeLimit::MaxFrequency(hz) => modes
                 .iter()
                 .take_while(|m| m.eigenvalue.im < TAU * hz)
                 .count(),

@@ -1,16 +1,17 @@
 //! The stages of a sweep.
 
 use super::basis::BasisBuilder;
-use super::branches::{BranchLabel, ModeBranch, label_frictionless, track};
+use super::branches::{BranchLabel, TrackedBranch, label_frictionless, track};
 use super::edge::ContactEdge;
-use super::error::CeaError;
 use super::frictionless::FrictionlessModes;
 use super::onset::OnsetFinder;
 use super::point::{PointSolver, SolvedPoint};
-use super::request::{EigenLimit, EigenRequest, SweepProgress};
 use super::structure::Linearization;
 use super::{RESIDUAL_BOUND, TRACKING_MARGIN};
-use crate::cea::{ComplexMode, FrictionPoint, FrictionSweep, UnstableInterval};
+use crate::cea::{
+    CeaError, ComplexMode, FrictionPoint, FrictionSweep, ModeLimit, SweepProgress, SweepRequest,
+    UnstableInterval,
+};
 use crate::linalg::LinalgError;
 use crate::prestress::SlidingTangent;
 use rayon::prelude::*;
@@ -26,11 +27,35 @@ const MIN_SAMPLES: usize = 6;
 /// Attempts to improve points that miss the goal.
 const MAX_REPAIRS: usize = 8;
 
-/// The stages of [`super::sweep`], in order.
+/// Complex modes of `tangent` at every friction coefficient of `request`, and where their branches turn unstable.
+///
+/// Oscillating modes of lowest natural frequency only: overdamped motions, and modes whose eigenvalue is
+/// far from the origin because of damping alone, are not searched. Friction values are solved in parallel
+/// on the current rayon pool; the result is the same, bit for bit, for any number of threads. `progress`
+/// is called from those threads.
+///
+/// Points come in the order given; repeated values are computed once.
+///
+/// # Errors
+/// [`CeaError`]: a bad request, a mode count that the inertia contradicts, a pair above the residual
+/// bound, a lost branch.
+pub fn sweep(
+    tangent: &SlidingTangent,
+    request: &SweepRequest<'_>,
+    progress: &(dyn Fn(SweepProgress) + Sync),
+) -> Result<FrictionSweep, CeaError> {
+    let mut sweep = SparseSweep::prepare(tangent, request)?;
+    sweep.cover()?;
+    sweep.solve(progress)?;
+    let branches = sweep.track()?;
+    sweep.finish(request, &branches)
+}
+
+/// The stages of [`sweep`], in order.
 pub struct SparseSweep<'a> {
     tangent: &'a SlidingTangent,
     linearization: Linearization,
-    limit: EigenLimit,
+    limit: ModeLimit,
     edge: ContactEdge,
     builder: BasisBuilder<'a>,
     /// Friction coefficients, ascending, 0 first.
@@ -45,13 +70,17 @@ impl<'a> SparseSweep<'a> {
     /// Computes the frictionless modes, where the sweep starts.
     ///
     /// # Errors
-    /// As [`super::sweep`].
+    /// As [`sweep`].
     pub fn prepare(
         tangent: &'a SlidingTangent,
-        friction_coefficients: &[f64],
-        request: &EigenRequest,
+        request: &SweepRequest<'_>,
     ) -> Result<Self, CeaError> {
-        let grid = grid(friction_coefficients)?;
+        let mut grid = request.rising_grid()?;
+        request.limit.check()?;
+        let lowest = grid[0];
+        if lowest > 0.0 {
+            grid.insert(0, 0.0);
+        }
         let modes = FrictionlessModes::compute(tangent, request.limit)?;
         let highest = modes.frequencies.last().copied().unwrap_or(1.0);
         let linearization = Linearization::of(tangent, highest);
@@ -62,10 +91,7 @@ impl<'a> SparseSweep<'a> {
             edge: ContactEdge::of(tangent),
             builder: BasisBuilder::new(tangent, linearization, &modes.vectors, modes.factors),
             grid,
-            lowest: friction_coefficients
-                .iter()
-                .copied()
-                .fold(f64::INFINITY, f64::min),
+            lowest,
             points: Vec::new(),
             labels: Vec::new(),
         })
@@ -97,7 +123,7 @@ impl<'a> SparseSweep<'a> {
     /// Solves all points, and grows the basis where a mode misses its residual.
     ///
     /// # Errors
-    /// As [`super::sweep`].
+    /// As [`sweep`].
     pub fn solve(&mut self, progress: &(dyn Fn(SweepProgress) + Sync)) -> Result<(), CeaError> {
         let all: Vec<usize> = (0..self.grid.len()).collect();
         self.points = self.solve_points(&all, progress)?;
@@ -189,7 +215,7 @@ impl<'a> SparseSweep<'a> {
     ///
     /// # Errors
     /// [`CeaError::LostBranch`] if it stays lost.
-    pub fn track(&mut self) -> Result<Vec<ModeBranch>, CeaError> {
+    pub fn track(&mut self) -> Result<Vec<TrackedBranch>, CeaError> {
         let mut searched = false;
         loop {
             let outcome = track(&self.points, &self.builder.model, &self.edge, &self.labels)?;
@@ -216,15 +242,14 @@ impl<'a> SparseSweep<'a> {
     /// The result, with shapes and critical friction coefficients.
     ///
     /// # Errors
-    /// As [`super::sweep`].
+    /// As [`sweep`].
     pub fn finish(
         &mut self,
-        friction_coefficients: &[f64],
-        request: &EigenRequest,
-        branches: &[ModeBranch],
+        request: &SweepRequest<'_>,
+        branches: &[TrackedBranch],
     ) -> Result<FrictionSweep, CeaError> {
-        let points = friction_coefficients
-            .iter()
+        let frictions = request.friction_coefficients.iter();
+        let points = frictions
             .map(|&mu| {
                 let k = self.grid.partition_point(|&g| g < mu);
                 self.friction_point(k, request.shapes_at.contains(&mu), branches)
@@ -236,18 +261,19 @@ impl<'a> SparseSweep<'a> {
     }
 
     /// Unstable intervals of all branches; where a crossing misses its residual, the basis grows there.
-    fn intervals(&mut self, branches: &[ModeBranch]) -> Result<Vec<UnstableInterval>, CeaError> {
+    fn intervals(&mut self, branches: &[TrackedBranch]) -> Result<Vec<UnstableInterval>, CeaError> {
         let mut repairs = 0;
         loop {
-            let finder = OnsetFinder {
-                solver: &self.point_solver(),
+            let solver = self.point_solver();
+            let finder = || OnsetFinder {
+                solver: &solver,
                 model: &self.builder.model,
                 points: &self.points,
                 lowest: self.lowest,
             };
             let found: Result<Vec<_>, CeaError> = branches
                 .par_iter()
-                .map(|branch| finder.intervals(branch))
+                .map(|branch| finder().intervals(branch))
                 .collect();
             match found {
                 Ok(intervals) => return Ok(intervals.into_iter().flatten().collect()),
@@ -267,7 +293,7 @@ impl<'a> SparseSweep<'a> {
         &self,
         k: usize,
         with_shapes: bool,
-        branches: &[ModeBranch],
+        branches: &[TrackedBranch],
     ) -> FrictionPoint {
         let point = &self.points[k];
         let wanted = &point.modes[..point.wanted];
@@ -320,45 +346,22 @@ fn misses_goal(point: &SolvedPoint) -> bool {
     !is_met
 }
 
-/// The friction coefficients in ascending order, once each, with 0 in front.
-fn grid(friction_coefficients: &[f64]) -> Result<Vec<f64>, CeaError> {
-    if friction_coefficients.is_empty() {
-        return Err(CeaError::FrictionCoefficients { value: f64::NAN });
-    }
-    if let Some(&value) = friction_coefficients
-        .iter()
-        .find(|mu| !(mu.is_finite() && **mu >= 0.0))
-    {
-        return Err(CeaError::FrictionCoefficients { value });
-    }
-    let mut grid = friction_coefficients.to_vec();
-    grid.push(0.0);
-    grid.sort_by(f64::total_cmp);
-    // -0.0 and 0.0 are one value.
-    grid.dedup_by(|a, b| *a == *b);
-    grid[0] = 0.0;
-    Ok(grid)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::cea::sparse::StiffnessFactors;
     use crate::cea::sparse::fixtures::string_on_belt;
 
-    fn request(count: usize) -> EigenRequest {
-        EigenRequest {
-            limit: EigenLimit::Lowest(count),
-            shapes_at: Vec::new(),
-        }
-    }
-
     /// Consistency check: a mode taken away from one point is missed by the tracking and found again.
     #[test]
     fn deliberately_lost_mode_is_found_again() {
         let tangent = string_on_belt(60, 0.4, true);
-        let values = [0.0, 0.1, 0.2, 0.3];
-        let mut sweep = SparseSweep::prepare(&tangent, &values, &request(6)).unwrap();
+        let request = SweepRequest {
+            friction_coefficients: &[0.0, 0.1, 0.2, 0.3],
+            limit: ModeLimit::Lowest(6),
+            shapes_at: &[],
+        };
+        let mut sweep = SparseSweep::prepare(&tangent, &request).unwrap();
         sweep.cover().unwrap();
         sweep.solve(&|_| {}).unwrap();
         let complete = sweep.points[2].modes.len();
@@ -380,7 +383,7 @@ mod tests {
     #[test]
     fn search_finds_modes_that_the_basis_never_held() {
         let tangent = string_on_belt(60, 0.4, true);
-        let modes = FrictionlessModes::compute(&tangent, EigenLimit::Lowest(6)).unwrap();
+        let modes = FrictionlessModes::compute(&tangent, ModeLimit::Lowest(6)).unwrap();
         let linearization = Linearization::of(&tangent, 1.0);
         let without_second = crate::linalg::dense::pick_columns(&modes.vectors, &[0, 2, 3, 4, 5]);
         let mut builder =

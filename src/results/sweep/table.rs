@@ -146,11 +146,14 @@ fn item_name(item: &Value) -> Option<String> {
             name += &format!("_{letter}{rank}");
         }
     }
-    name += match number("direction") {
-        Some(1) => "_with",
-        Some(-1) => "_against",
-        _ => "",
-    };
+    // What else has a direction, has it as a result.
+    if number("branch").is_some() {
+        name += match number("direction") {
+            Some(1) => "_with",
+            Some(-1) => "_against",
+            _ => "",
+        };
+    }
     Some(name)
 }
 

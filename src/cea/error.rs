@@ -1,0 +1,151 @@
+//! What can go wrong in an eigenvalue analysis.
+
+use crate::linalg::LinalgError;
+use crate::mesh::MeshError;
+use crate::prestress::PrestressError;
+use thiserror::Error;
+
+/// An eigenvalue analysis that cannot be done, or whose result cannot be vouched for.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum CeaError {
+    /// No mesh.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+    /// No sliding equilibrium.
+    #[error(transparent)]
+    Prestress(#[from] PrestressError),
+    /// A factorization or a dense decomposition failed.
+    #[error("eigenvalue solver: {0}")]
+    Linalg(#[from] LinalgError),
+    /// A friction coefficient that is not one.
+    #[error("cea.friction_coefficients: {value} is not a finite number of at least 0")]
+    Friction {
+        /// Given value.
+        value: f64,
+    },
+    /// No friction coefficient at all.
+    #[error("cea.friction_coefficients is empty: give at least one value")]
+    NoFriction,
+    /// A limit that selects no modes.
+    #[error("cea.{key} = {value} must be a positive number")]
+    Limit {
+        /// Case key without its section.
+        key: &'static str,
+        /// Given value.
+        value: f64,
+    },
+    /// There is nothing to find.
+    #[error(
+        "no mode lies below {limit_hz} Hz (the lowest is at {lowest_hz:.1} Hz): raise \
+         cea.max_frequency_hz above it"
+    )]
+    NoModes {
+        /// Upper end of the frequency range, Hz.
+        limit_hz: f64,
+        /// Undamped frequency of the lowest mode without friction, Hz.
+        lowest_hz: f64,
+    },
+    /// More modes asked for than there are.
+    #[error("cea.modes = {asked}, but the mesh has only {total} modes: lower it or refine [mesh]")]
+    TooManyModes {
+        /// Modes asked for.
+        asked: usize,
+        /// Modes that the mesh carries.
+        total: usize,
+    },
+    /// The iteration found another number of modes than the inertia of `K - sigma M` proves.
+    #[error(
+        "without friction the solver found {found} modes below {frequency_hz:.1} Hz, the inertia of \
+         the stiffness counts {counted}"
+    )]
+    CountMismatch {
+        /// Modes found.
+        found: usize,
+        /// Modes counted.
+        counted: usize,
+        /// Where, Hz.
+        frequency_hz: f64,
+    },
+    /// The inertia of a harmonic and its eigenpairs disagree.
+    #[error(
+        "harmonic {harmonic} has {counted} modes below the limit by inertia but {found} were found; \
+         use cea.method = \"sparse\""
+    )]
+    Incomplete {
+        /// Circumferential harmonic.
+        harmonic: usize,
+        /// Modes counted.
+        counted: usize,
+        /// Modes found.
+        found: usize,
+    },
+    /// A mode that was not followed lies in the range.
+    #[error(
+        "harmonic {harmonic} has a mode below the limit that was not found although branches were \
+         followed from {margin:.2} times the limit; use cea.method = \"sparse\""
+    )]
+    Unproven {
+        /// Circumferential harmonic.
+        harmonic: usize,
+        /// Largest margin tried.
+        margin: f64,
+    },
+    /// An eigenpair stays above the residual bound.
+    #[error(
+        "at friction coefficient {friction_coefficient} the mode at {frequency_hz:.1} Hz keeps a \
+         relative residual of {residual:.1e}, the bound is {bound:.0e}: not converged"
+    )]
+    NotConverged {
+        /// Friction coefficient.
+        friction_coefficient: f64,
+        /// Frequency of the mode, Hz.
+        frequency_hz: f64,
+        /// Its residual.
+        residual: f64,
+        /// Largest residual accepted.
+        bound: f64,
+    },
+    /// A harmonic of which a branch could not be followed.
+    #[error(
+        "a branch of harmonic {harmonic} could not be followed up to friction {friction}: two \
+         branches meet there or a mode stops oscillating; use cea.method = \"sparse\""
+    )]
+    LostHarmonic {
+        /// Circumferential harmonic.
+        harmonic: usize,
+        /// Friction value of the grid that was not reached.
+        friction: f64,
+    },
+    /// A branch that could not be continued, after a search for it.
+    #[error(
+        "the branch at {frequency_hz:.1} Hz (harmonic {harmonic}, branch {branch}) is lost between \
+         friction coefficients {from} and {to}, and a search there did not find it"
+    )]
+    LostBranch {
+        /// Circumferential harmonic.
+        harmonic: usize,
+        /// Branch within the harmonic.
+        branch: usize,
+        /// Frequency where it was last seen, Hz.
+        frequency_hz: f64,
+        /// Friction coefficient where it was last seen.
+        from: f64,
+        /// Friction coefficient where it is missing.
+        to: f64,
+    },
+}
+
+impl CeaError {
+    /// Whether the case asks for what cannot be, rather than the run having failed.
+    pub fn is_usage(&self) -> bool {
+        matches!(
+            self,
+            Self::Mesh(_)
+                | Self::Friction { .. }
+                | Self::NoFriction
+                | Self::Limit { .. }
+                | Self::NoModes { .. }
+                | Self::TooManyModes { .. }
+        )
+    }
+}

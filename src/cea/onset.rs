@@ -1,0 +1,207 @@
+//! Where a branch turns unstable and stable again: `Re lambda(mu) = 0`, by root finding on the branch.
+
+use super::UnstableInterval;
+use super::branch::{BranchPoint, Cubic};
+use std::f64::consts::TAU;
+
+/// Solves for one branch between friction coefficients at which it is known.
+pub(super) trait BranchSolver {
+    /// The branch at one friction coefficient, with whatever the solver needs to find it nearby.
+    type State: Clone;
+    /// Why it could not be solved for.
+    type Error;
+
+    /// Growth relative to `|lambda|` that is round-off of a neutral mode.
+    const ROUND_OFF: f64;
+    /// Newton steps of the friction coefficient shorter than this end the search.
+    const TOLERANCE: f64;
+
+    /// Eigenvalue and slope.
+    fn point(&self, state: &Self::State) -> BranchPoint;
+
+    /// The branch at `guess.friction_coefficient` between two states, where it is expected near
+    /// `guess.eigenvalue`; `None` where it is not found.
+    fn between(
+        &mut self,
+        from: &Self::State,
+        to: &Self::State,
+        guess: BranchPoint,
+    ) -> Result<Option<Self::State>, Self::Error>;
+}
+
+/// A range of friction coefficients over which a branch grows.
+pub(super) struct Instability<S> {
+    pub onset: S,
+    pub restabilized: Option<S>,
+    /// Whether it grows from the first state on.
+    pub from_start: bool,
+}
+
+impl<S> Instability<S> {
+    /// The interval of the branch with this name.
+    pub fn interval(
+        &self,
+        (harmonic, branch, direction): (usize, usize, i8),
+        point: impl Fn(&S) -> BranchPoint,
+    ) -> UnstableInterval {
+        let place = |state: &S| {
+            let point = point(state);
+            (point.friction_coefficient, point.eigenvalue.im / TAU)
+        };
+        let (critical_friction, frequency_hz) = place(&self.onset);
+        UnstableInterval {
+            harmonic,
+            branch,
+            direction,
+            critical_friction,
+            frequency_hz,
+            restabilized: self.restabilized.as_ref().map(place),
+            unstable_from_start: self.from_start,
+        }
+    }
+}
+
+/// Growing intervals of a branch with these `states` (rising friction coefficient), from sign changes of
+/// `Re(lambda)` between them and the turning points of the cubics through them.
+pub(super) fn instabilities<B: BranchSolver>(
+    solver: &mut B,
+    states: &[B::State],
+) -> Result<Vec<Instability<B::State>>, B::Error> {
+    let mut search = Search { solver };
+    let mut found: Vec<Instability<B::State>> = Vec::new();
+    let Some(first) = states.first() else {
+        return Ok(found);
+    };
+    let point = search.solver.point(first);
+    let mut was_growing = search.is_growing(first) || Search::<B>::grows_from_zero(&point);
+    if was_growing {
+        found.push(Instability {
+            onset: first.clone(),
+            restabilized: None,
+            from_start: true,
+        });
+    }
+    for pair in states.windows(2) {
+        let mut start = pair[0].clone();
+        for end in search.with_turning_points(&pair[0], &pair[1])? {
+            if search.is_growing(&end) != was_growing {
+                let root = search.root(&start, &end)?;
+                match found.last_mut().filter(|_| was_growing) {
+                    Some(open) => open.restabilized = Some(root),
+                    None => found.push(Instability {
+                        onset: root,
+                        restabilized: None,
+                        from_start: false,
+                    }),
+                }
+                was_growing = !was_growing;
+            }
+            start = end;
+        }
+    }
+    Ok(found)
+}
+
+struct Search<'a, B: BranchSolver> {
+    solver: &'a mut B,
+}
+
+impl<B: BranchSolver> Search<'_, B> {
+    /// Growth rate beyond round-off, 1/s.
+    fn growth(point: &BranchPoint) -> f64 {
+        point.eigenvalue.re - B::ROUND_OFF * point.eigenvalue.norm()
+    }
+
+    fn is_growing(&self, state: &B::State) -> bool {
+        Self::growth(&self.solver.point(state)) > 0.0
+    }
+
+    /// Whether a branch without any damping starts to grow with the first friction.
+    fn grows_from_zero(point: &BranchPoint) -> bool {
+        let (size, growth) = (point.eigenvalue.norm(), Self::growth(point));
+        let is_neutral = growth <= 0.0 && growth > -1e2 * B::ROUND_OFF * size;
+        is_neutral && point.rate.re > 1e-9 * size
+    }
+
+    fn solve(
+        &mut self,
+        from: &B::State,
+        to: &B::State,
+        cubic: &Cubic,
+        start: f64,
+        friction: f64,
+    ) -> Result<Option<B::State>, B::Error> {
+        let guess = BranchPoint {
+            friction_coefficient: friction,
+            eigenvalue: cubic.value((friction - start) / cubic.width),
+            ..self.solver.point(from)
+        };
+        self.solver.between(from, to, guess)
+    }
+
+    /// The states of `(start, end]` between which `Re(lambda)` is monotonic: extrema of the cubic that come
+    /// near zero are solved for, then `end`.
+    fn with_turning_points(
+        &mut self,
+        start: &B::State,
+        end: &B::State,
+    ) -> Result<Vec<B::State>, B::Error> {
+        let (first, last) = (self.solver.point(start), self.solver.point(end));
+        let cubic = Cubic::between(&first, &last);
+        // What the cubic may be wrong by, generously.
+        let (a, b) = (first.eigenvalue.re, last.eigenvalue.re);
+        let doubt = 1e-4 * last.eigenvalue.norm() + 0.1 * (b - a).abs();
+        let mut states = Vec::new();
+        for t in cubic.turning_points() {
+            let value = cubic.real_part(t);
+            let changes_sign = value.signum() != a.signum() || value.signum() != b.signum();
+            if value.abs() < doubt || changes_sign {
+                let origin = first.friction_coefficient;
+                let friction = origin + t * cubic.width;
+                states.extend(self.solve(start, end, &cubic, origin, friction)?);
+            }
+        }
+        states.push(end.clone());
+        Ok(states)
+    }
+
+    /// Root of `Re(lambda)` between states of opposite sign: Newton steps on the branch, kept inside the
+    /// bracket, from the root of the cubic.
+    fn root(&mut self, start: &B::State, end: &B::State) -> Result<B::State, B::Error> {
+        let (first, last) = (self.solver.point(start), self.solver.point(end));
+        let cubic = Cubic::between(&first, &last);
+        let (mut low, mut high) = (start.clone(), end.clone());
+        let (mut bottom, mut top) = (first.friction_coefficient, last.friction_coefficient);
+        let mut friction = bottom + cubic.root() * cubic.width;
+        let mut best = match first.eigenvalue.re.abs() < last.eigenvalue.re.abs() {
+            true => start.clone(),
+            false => end.clone(),
+        };
+        for _ in 0..60 {
+            let origin = first.friction_coefficient;
+            let Some(state) = self.solve(&low, &high, &cubic, origin, friction)? else {
+                break;
+            };
+            let point = self.solver.point(&state);
+            // The bracket closes from the side that the new state is on.
+            if self.is_growing(&state) == self.is_growing(&low) {
+                (low, bottom) = (state.clone(), friction);
+            } else {
+                (high, top) = (state.clone(), friction);
+            }
+            best = state;
+            let newton = friction - Self::growth(&point) / point.rate.re;
+            let is_inside = newton > bottom && newton < top;
+            let next = if is_inside {
+                newton
+            } else {
+                0.5 * (bottom + top)
+            };
+            if (next - friction).abs() <= B::TOLERANCE * (1.0 + friction) {
+                break;
+            }
+            friction = next;
+        }
+        Ok(best)
+    }
+}

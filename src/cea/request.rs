@@ -1,0 +1,65 @@
+//! What a sweep is asked for.
+
+use super::CeaError;
+
+/// Which modes are wanted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ModeLimit {
+    /// So many of lowest frequency, the two members of a pair counted singly; one more where two that are equal
+    /// would be parted.
+    Lowest(usize),
+    /// All up to this frequency, Hz.
+    MaxFrequency(f64),
+}
+
+impl ModeLimit {
+    /// Refuses a limit that selects no mode by itself.
+    pub(super) fn check(self) -> Result<(), CeaError> {
+        let not_positive = |key, value| Err(CeaError::Limit { key, value });
+        match self {
+            Self::MaxFrequency(value) if !(value > 0.0 && value.is_finite()) => {
+                not_positive("max_frequency_hz", value)
+            }
+            Self::Lowest(0) => not_positive("modes", 0.0),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// What a sweep is to find.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SweepRequest<'a> {
+    /// Friction coefficients, in any order; repeated values are computed once.
+    pub friction_coefficients: &'a [f64],
+    /// Modes wanted at each of them.
+    pub limit: ModeLimit,
+    /// Those of the friction coefficients at which mode shapes are wanted.
+    pub shapes_at: &'a [f64],
+}
+
+impl SweepRequest<'_> {
+    /// The friction coefficients rising, once each.
+    pub(super) fn rising_grid(&self) -> Result<Vec<f64>, CeaError> {
+        let values = self.friction_coefficients;
+        if values.is_empty() {
+            return Err(CeaError::NoFriction);
+        }
+        if let Some(&value) = values.iter().find(|v| !(v.is_finite() && **v >= 0.0)) {
+            return Err(CeaError::Friction { value });
+        }
+        // -0.0 and 0.0 are one value.
+        let mut grid: Vec<f64> = values.iter().map(|value| value + 0.0).collect();
+        grid.sort_by(f64::total_cmp);
+        grid.dedup();
+        Ok(grid)
+    }
+}
+
+/// How far a sweep has come.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SweepProgress {
+    /// Friction values solved.
+    pub solved: usize,
+    /// Friction values in all.
+    pub total: usize,
+}
