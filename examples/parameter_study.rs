@@ -4,7 +4,7 @@
 //! `cargo run --release --example parameter_study`
 
 use frictionsim::case::Case;
-use frictionsim::cea::cyclic::ModeLimit;
+use frictionsim::cea::ModeLimit;
 use frictionsim::fem::MassKind;
 use frictionsim::study::{SweepPlan, modes_at_own_friction, tangent_options};
 use std::error::Error;

@@ -4,14 +4,22 @@ use super::packed::{PackedEntry, PackedModes};
 use super::reduced::{ReducedMode, ReducedModel};
 use super::structure::{Linearization, ShiftInverted, StiffnessFactors, StructureMatrices};
 use crate::cea::CeaError;
-use crate::linalg::dense::{column_norms, join_columns, orthonormal_complement, pick_columns};
+use crate::linalg::dense::{
+    column, column_norms, dot, join_columns, orthonormal_complement, pick_columns,
+};
 use crate::linalg::{KrylovSchurSettings, LinalgError, LuAnalysis, Wanted, krylov_schur};
 use crate::prestress::SlidingTangent;
 use faer::Mat;
+use std::ops::Range;
 use std::sync::OnceLock;
 
-/// Corrections of vectors of unit length shorter than this are not added.
-const VECTOR_TOLERANCE: f64 = 5e-12;
+/// Part of a block of corrections, relative to its longest, below which directions are round-off.
+const VECTOR_TOLERANCE: f64 = 1e-10;
+/// The same for vectors of unit length whose span is compressed.
+const COMPRESSED: f64 = 5e-12;
+/// Energy of a correction, relative to its mode, below which the mode is left as it is: a stiff contact has large
+/// forces in short displacements, so lengths do not tell.
+const SMALLEST_ENERGY: f64 = 1e-24;
 /// Residual force, relative to the inertia force, below which a mode is left as it is.
 const CONVERGED: f64 = 1e-11;
 /// Lengths of corrections above which one Krylov step more follows a refinement.
@@ -102,7 +110,7 @@ impl<'a> BasisBuilder<'a> {
             vectors = join_columns(vectors.as_ref(), coordinates.as_ref());
         }
         let none = Mat::<f64>::zeros(m, 0);
-        let kept = orthonormal_complement(none.as_ref(), vectors, VECTOR_TOLERANCE);
+        let kept = orthonormal_complement(none.as_ref(), vectors, COMPRESSED);
         self.model.compress(&kept);
         Ok(())
     }
@@ -120,7 +128,7 @@ impl<'a> BasisBuilder<'a> {
         let longest = column_norms(corrections.as_ref())
             .into_iter()
             .fold(0.0, f64::max);
-        let mut new = self.model.extend(corrections, VECTOR_TOLERANCE);
+        let mut new = self.model.extend(corrections, VECTOR_TOLERANCE * longest);
         let has_added = new.ncols() > 0;
         let steps = KRYLOV_STEPS
             .iter()
@@ -154,23 +162,41 @@ impl<'a> BasisBuilder<'a> {
         let matrices = StructureMatrices::at(self.tangent, self.linearization, mu);
         let (residuals, momenta) =
             matrices.residuals_and_momenta(&packed.entries, vectors.as_ref());
+        // Modes whose residual force is not yet small against their inertia force.
         let (forces, inertia) = (
             column_norms(residuals.as_ref()),
             column_norms(momenta.as_ref()),
         );
-        let is_open = |entry: &&PackedEntry| {
-            let along = |norms: &[f64]| {
-                norms[entry.column..entry.end()]
-                    .iter()
-                    .fold(0.0, |m: f64, v| m.max(*v))
-            };
-            along(&forces) > CONVERGED * matrices.inertia_factor(entry) * along(&inertia)
+        let largest = |norms: &[f64], entry: &PackedEntry| {
+            let parts = norms[entry.columns()].iter();
+            parts.fold(0.0, |m: f64, v| m.max(*v))
         };
-        let open = packed.entries.iter().filter(is_open);
-        let columns: Vec<usize> = open.flat_map(|entry| entry.column..entry.end()).collect();
-        let mut corrections = pick_columns(&residuals, &columns);
+        let mut open = packed.entries.clone();
+        open.retain(|entry| {
+            let scale = matrices.inertia_factor(entry) * largest(&inertia, entry);
+            largest(&forces, entry) > CONVERGED * scale
+        });
+        let columns: Vec<usize> = open.iter().flat_map(PackedEntry::columns).collect();
+        let open_residuals = pick_columns(&residuals, &columns);
+        let mut corrections = open_residuals.clone();
         self.preconditioner.solve_in_place(&mut corrections);
-        corrections
+        // Of these, those whose correction t has an energy, t^T K(0) t = t^T r against |kappa| x^T M x.
+        let products = |a: &Mat<f64>, b: &Mat<f64>, columns: Range<usize>| -> f64 {
+            let pair = |j| dot(column(a.as_ref(), j), column(b.as_ref(), j)).abs();
+            columns.map(pair).sum()
+        };
+        let (mut first, mut kept) = (0, Vec::new());
+        for entry in &open {
+            let own = first..first + entry.columns().len();
+            first = own.end;
+            let energy = products(&corrections, &open_residuals, own.clone());
+            let whole =
+                matrices.inertia_factor(entry) * products(&vectors, &momenta, entry.columns());
+            if energy > SMALLEST_ENERGY * whole {
+                kept.extend(own);
+            }
+        }
+        pick_columns(&corrections, &kept)
     }
 
     /// Adds the dominant vectors at `mu` from a Krylov-Schur iteration of its own, independent of the
@@ -200,7 +226,7 @@ impl<'a> BasisBuilder<'a> {
         };
         let mut vectors = krylov_schur(&operator, None, &settings)?.vectors;
         vectors.truncate(unknowns, wanted);
-        self.model.extend(vectors, VECTOR_TOLERANCE);
+        self.model.extend(vectors, COMPRESSED);
         Ok(())
     }
 }

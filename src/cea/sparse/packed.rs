@@ -57,9 +57,9 @@ pub struct PackedEntry {
 }
 
 impl PackedEntry {
-    /// The column behind its last one.
-    pub fn end(&self) -> usize {
-        self.column + 1 + usize::from(self.is_complex)
+    /// Its columns.
+    pub fn columns(&self) -> std::ops::Range<usize> {
+        self.column..self.column + 1 + usize::from(self.is_complex)
     }
 }
 
