@@ -91,7 +91,7 @@ impl BranchSolver for OnsetFinder<'_> {
     type Error = LinalgError;
 
     const ROUND_OFF: f64 = 1e-11;
-    const TOLERANCE: f64 = 1e-10;
+    const TOLERANCE: f64 = 1e-9;
 
     fn point(&self, state: &State) -> BranchPoint {
         BranchPoint {
