@@ -105,6 +105,31 @@ fn every_module_names_only_lower_floors() {
     assert!(broken.is_empty(), "{}", broken.join("\n"));
 }
 
+/// The producers of eigenproblems stand side by side on one theory, which knows neither; faer is the affair of `linalg`.
+#[test]
+fn the_eigenvalue_theory_names_none_of_its_producers_and_they_not_each_other() {
+    let home = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/cea");
+    let mut files = Vec::new();
+    rust_files(&home, &mut files);
+    for path in files {
+        let place = path.strip_prefix(&home).unwrap().to_str().unwrap();
+        let text = fs::read_to_string(&path).unwrap();
+        let lines = text
+            .lines()
+            .map(|line| line.split("//").next().unwrap_or(""));
+        let code = lines.collect::<Vec<_>>().join("\n");
+        let forbidden: &[&str] = match place {
+            "mod.rs" => &["faer::"],
+            _ if place.starts_with("sparse") => &["faer::", "cyclic::"],
+            _ if place.starts_with("cyclic") => &["faer::", "sparse::"],
+            _ => &["faer::", "sparse::", "cyclic::"],
+        };
+        for name in forbidden {
+            assert!(!code.contains(name), "{place} names {name}");
+        }
+    }
+}
+
 #[test]
 fn every_way_to_name_a_module_is_seen() {
     let code = "use crate::cea::{A, B}; // crate::app\nuse crate::{fem::{X, y}, mesh};\ncrate::linalg::z()";

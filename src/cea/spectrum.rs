@@ -1,6 +1,6 @@
 //! What a complex eigenvalue analysis returns, whichever solver made it.
 
-use faer::c64;
+use crate::linalg::c64;
 use std::f64::consts::TAU;
 
 /// One eigenpair of `(lambda^2 M + lambda C + K_t) phi = 0` with `Im(lambda) >= 0`.

@@ -7,7 +7,7 @@
 use super::follow::{Eigenpair, Follower};
 use super::paths::Path;
 use super::problem::{Matrices, dot, normalize};
-use faer::c64;
+use crate::linalg::c64;
 
 /// Two branches closer than this, relative, may be about to meet.
 const NEAR: f64 = 1e-2;

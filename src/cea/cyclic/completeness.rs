@@ -4,8 +4,8 @@ use super::definite::{self, Region};
 use super::paths::{HarmonicPaths, Waves};
 use super::problem::{HarmonicProblem, Matrices};
 use crate::linalg::banded::BandedLu;
+use crate::linalg::c64;
 use crate::prestress::SectorTangent;
-use faer::c64;
 use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_3, PI, TAU};
 

@@ -2,8 +2,8 @@
 
 use super::problem::ZERO;
 use crate::linalg::banded::{BandedHermitian, BandedLdl, BandedMatrix};
+use crate::linalg::c64;
 use crate::prestress::HarmonicTangent;
-use faer::c64;
 
 /// The region `0 <= Re(kappa) <= real`, `|Im(kappa)| <= imaginary`.
 #[derive(Clone, Copy, Debug, PartialEq)]

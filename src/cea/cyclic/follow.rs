@@ -2,7 +2,7 @@
 
 use super::problem::{HarmonicProblem, Matrices, dot, normalize};
 use crate::linalg::banded::BandedLu;
-use faer::c64;
+use crate::linalg::c64;
 use std::rc::Rc;
 
 /// An eigenpair of `T(theta)` at one parameter value.

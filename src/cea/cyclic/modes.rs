@@ -4,8 +4,8 @@ use super::branch::{direction_of, eigenvalue_of, waves_of};
 use super::paths::{HarmonicPaths, Path, Waves};
 use super::problem::HarmonicProblem;
 use crate::cea::{ComplexMode, FrictionPoint, ModeLimit, SweepRequest, keeping_ties};
+use crate::linalg::c64;
 use crate::prestress::SectorTangent;
-use faer::c64;
 use std::f64::consts::{PI, TAU};
 
 /// The modes wanted at one friction value.

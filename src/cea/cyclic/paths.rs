@@ -4,7 +4,7 @@ use super::follow::{Eigenpair, Follower, StepControl};
 use super::problem::{HarmonicProblem, Matrices, dot};
 use super::{collision, rest};
 use crate::cea::CeaError;
-use faer::c64;
+use crate::linalg::c64;
 use std::rc::Rc;
 
 /// Which waves a path stands for.

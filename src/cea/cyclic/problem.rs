@@ -3,8 +3,8 @@
 use super::follow::Eigenpair;
 use crate::fem::RayleighDamping;
 use crate::linalg::banded::{BandedLu, BandedMatrix};
+use crate::linalg::c64;
 use crate::prestress::{FrictionPolynomial, HarmonicTangent};
-use faer::c64;
 
 pub(super) const ZERO: c64 = c64::new(0.0, 0.0);
 pub(super) const I: c64 = c64::new(0.0, 1.0);

@@ -5,10 +5,10 @@ use super::branch::path_theta;
 use super::follow::Follower;
 use super::problem::{HarmonicProblem, ZERO};
 use crate::cea::{CeaError, ModeBranch};
+use crate::linalg::c64;
 use crate::prestress::{
     FrictionPolynomial, HarmonicTangent, Parameter, SectorTangent, TangentRate,
 };
-use faer::c64;
 use rayon::prelude::*;
 
 /// Derivatives of one eigenvalue, `d lambda / d parameter`, rad/s for each unit of the parameter.

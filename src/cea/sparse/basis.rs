@@ -8,8 +8,8 @@ use crate::linalg::dense::{
     column, column_norms, dot, join_columns, orthonormal_complement, pick_columns,
 };
 use crate::linalg::{KrylovSchurSettings, LinalgError, LuAnalysis, Wanted, krylov_schur};
+use crate::linalg::{Mat, Scale};
 use crate::prestress::SlidingTangent;
-use faer::Mat;
 use std::ops::Range;
 use std::sync::OnceLock;
 
@@ -143,7 +143,7 @@ impl<'a> BasisBuilder<'a> {
                 .pattern()
                 .multiply(&mass.coefficients()[0], new.as_ref());
             self.preconditioner.solve_in_place(&mut image);
-            image *= faer::Scale(inertia);
+            image *= Scale(inertia);
             new = self.model.extend(image, KRYLOV_TOLERANCE);
         }
         Ok(has_added)

@@ -5,7 +5,7 @@ use super::packed::ComplexColumns;
 use super::point::SolvedPoint;
 use super::reduced::{ReducedMode, ReducedModel};
 use crate::linalg::{ComplexDenseLu, LinalgError};
-use faer::{Mat, c64};
+use crate::linalg::{Mat, c64};
 
 /// Overlap above which two modes at neighbouring friction coefficients are one.
 const SAME: f64 = 0.5;

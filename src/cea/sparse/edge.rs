@@ -1,7 +1,7 @@
 //! Circumferential harmonic and travelling direction from the displacement of the contact edge.
 
+use crate::linalg::c64;
 use crate::prestress::SlidingTangent;
-use faer::c64;
 
 /// Edge amplitude, relative to the largest displacement of the mode, below which the edge is at rest.
 const SILENT: f64 = 1e-7;

@@ -4,12 +4,12 @@ use super::GUARD_MODES;
 use super::structure::{Linearization, ShiftInverted, StiffnessFactors, StructureMatrices};
 use crate::cea::{CeaError, ModeLimit};
 use crate::fem::RayleighDamping;
+use crate::linalg::Mat;
 use crate::linalg::{
     KrylovSchurSettings, LdlAnalysis, LinalgError, MatrixPolynomial, SparseLdl, Wanted,
     krylov_schur,
 };
 use crate::prestress::SlidingTangent;
-use faer::Mat;
 use std::f64::consts::TAU;
 
 /// Bound on the residual of the iteration.

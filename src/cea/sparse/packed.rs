@@ -2,7 +2,7 @@
 
 use super::reduced::ReducedMode;
 use crate::linalg::dense::{column, dot, product};
-use faer::{Mat, c64};
+use crate::linalg::{Mat, c64};
 
 /// Complex columns as two real matrices, so that products with real matrices are real products.
 pub struct ComplexColumns {

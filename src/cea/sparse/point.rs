@@ -7,8 +7,8 @@ use super::reduced::{ReducedMode, ReducedModel};
 use super::structure::{Linearization, StructureMatrices};
 use crate::cea::{ModeLimit, keeping_ties};
 use crate::linalg::LinalgError;
+use crate::linalg::c64;
 use crate::prestress::SlidingTangent;
-use faer::c64;
 use std::f64::consts::TAU;
 
 /// What the full matrices say about one mode.

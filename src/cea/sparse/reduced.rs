@@ -6,8 +6,8 @@ use super::term::Term;
 use crate::linalg::dense::{GrowingColumns, orthonormal_complement, product, transpose_product};
 use crate::linalg::dense_eigen::real_eigen;
 use crate::linalg::{DenseLu, LinalgError, MatrixPolynomial};
+use crate::linalg::{Mat, MatRef, Scale, c64};
 use crate::prestress::SlidingTangent;
-use faer::{Mat, MatRef, c64};
 
 /// One mode of the projected problem.
 #[derive(Clone, Debug, PartialEq)]
@@ -118,8 +118,8 @@ impl ReducedModel {
         let (stiffness, mass) = (evaluate(stiffness), evaluate(mass));
         let damping = match self.linearization {
             Linearization::Reduced(coefficients) => {
-                faer::Scale(coefficients.mass_coefficient) * &mass
-                    + faer::Scale(coefficients.stiffness_coefficient) * &stiffness
+                Scale(coefficients.mass_coefficient) * &mass
+                    + Scale(coefficients.stiffness_coefficient) * &stiffness
             }
             Linearization::Companion { .. } => evaluate(damping),
         };
@@ -248,7 +248,7 @@ fn horner(
     let size = coefficients[0].nrows();
     let mut sum = Mat::zeros(size, size);
     for (power, c) in coefficients.iter().enumerate().skip(first).rev() {
-        sum = faer::Scale(mu) * sum + faer::Scale(weight(power)) * c;
+        sum = Scale(mu) * sum + Scale(weight(power)) * c;
     }
     sum
 }

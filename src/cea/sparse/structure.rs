@@ -7,8 +7,8 @@ use crate::linalg::{
     BlockOperator, LdlAnalysis, LinalgError, LuAnalysis, MatrixPolynomial, SparseLdl, SparseLu,
     SparsityPattern,
 };
+use crate::linalg::{Mat, MatRef, Scale, c64};
 use crate::prestress::SlidingTangent;
-use faer::{Mat, MatRef, c64};
 use std::borrow::Cow;
 use std::sync::{Arc, OnceLock};
 
@@ -249,8 +249,8 @@ impl BlockOperator for ShiftInverted<'_> {
                 frequency_scale: omega,
             } => {
                 let (x, y) = z.split_at_row(self.matrices.pattern.dimension());
-                let mut top = faer::Scale(-omega) * product(damping, x)
-                    - faer::Scale(omega * omega) * product(mass, y);
+                let mut top =
+                    Scale(-omega) * product(damping, x) - Scale(omega * omega) * product(mass, y);
                 self.factors.solve_in_place(&mut top);
                 join_rows(top.as_ref(), x)
             }

@@ -2,7 +2,7 @@
 
 use crate::linalg::MatrixPolynomial;
 use crate::linalg::dense::{join_columns, product, transpose_product};
-use faer::{Mat, MatRef};
+use crate::linalg::{Mat, MatRef};
 
 /// One coefficient `P` of a matrix polynomial, over the unknowns that it touches.
 pub struct Term {
