@@ -3,7 +3,7 @@
 //! Onsets are held to the eigenvalue analysis, results to scaling, stability and power to transients that start beside the
 //! cycle. The transients are independent of the grid of phases: they share with it the element matrices alone.
 
-use frictionsim::cea::cyclic::ModeLimit;
+use frictionsim::cea::ModeLimit;
 use frictionsim::contact::SlidingContact;
 use frictionsim::cycle::{CycleSolver, DiscModel, Family, OperatingPoint, Verdict};
 use frictionsim::fem::operator::SimdLevel;

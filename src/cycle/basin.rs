@@ -128,7 +128,7 @@ impl DiscModel {
         request: &BasinRequest,
     ) -> Result<f64, CycleError> {
         let friction = point.contact.friction_coefficient;
-        let limit = crate::cea::cyclic::ModeLimit::Lowest(super::MODES);
+        let limit = crate::cea::ModeLimit::Lowest(super::MODES);
         let onsets = self.onsets(friction, limit)?;
         let own = onsets
             .iter()

@@ -9,7 +9,7 @@ use super::parameter::{OperatingPoint, Parameter};
 use super::state::{PointState, WaveState};
 use super::wave::Wave;
 use super::{CycleError, Family, Onset, WaveBody};
-use crate::cea::cyclic::ModeLimit;
+use crate::cea::ModeLimit;
 use crate::fem::{ElasticMaterial, RayleighDamping};
 use crate::mesh::{AnnulusSpecification, ElementKind};
 use faer::c64;

@@ -19,6 +19,8 @@ const CHANGES: &[(&str, &str, &str, &str)] = &[
     ("transient*", "summary.json", "growth[]*", GROWTH),
     ("*", "points/*", "summaries.transient.growth[]*", GROWTH),
     ("*", "points.csv", "growth.*", GROWTH),
+    ("*", "points.csv", "critical_frictions.*", NAMED),
+    ("*", "points.csv", "cycles.*", NAMED),
     // Its transient is two milliseconds long: two quantities fewer, whose rows shift the others.
     ("convergence", "convergence.csv", "*", GROWTH),
     (
@@ -56,8 +58,6 @@ const CHANGES: &[(&str, &str, &str, &str)] = &[
 const SIGNAL: &str = "probes hold mean accelerations; peaks stand out of the noise at a stated resolution, modes are named within 3 %, stages \
      need an interval";
 
-    ("*", "points.csv", "critical_frictions.*", NAMED),
-    ("*", "points.csv", "cycles.*", NAMED),
 const NAMED: &str =
     "columns go by the mode, not by its rank: critical_frictions.n1_b1_against.critical_friction";
 const CLOCK: &str =

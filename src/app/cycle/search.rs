@@ -3,7 +3,7 @@
 use super::along::{along, changes};
 use crate::app::{Failure, terminal};
 use crate::case::{Case, Cycle, ModeSelection, OnsetChoice, StabilityChoice};
-use crate::cea::cyclic::ModeLimit;
+use crate::cea::ModeLimit;
 use crate::cycle::{
     CycleError, CycleSolver, CycleStability, DiscModel, Family, LimitCycle, MODES, MeshStepping,
     Onset, OperatingPoint, Parameter,
