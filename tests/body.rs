@@ -7,7 +7,7 @@ mod disc;
 mod msh;
 
 use disc::{DAMPING, POLYCARBONATE, annulus, contact};
-use frictionsim::cea::cyclic::{self, ModeLimit, SweepRequest};
+use frictionsim::cea::cyclic;
 use frictionsim::cea::sparse::sweep;
 use frictionsim::cea::{ComplexMode, ModeLimit, SweepRequest};
 use frictionsim::contact::{ContactStiffness, SlidingContact};
