@@ -263,6 +263,31 @@ fn identification_does_not_depend_on_the_quantity_measured() {
 }
 
 #[test]
+fn two_responses_of_one_body_have_common_poles_with_smaller_errors() {
+    let (f, first) = modal_sum(&SEPARATE, 1.0, 5000.0);
+    let others =
+        SEPARATE.map(|(f, zeta, residue)| (f, zeta, if f < 2000.0 { -residue } else { residue }));
+    let (_, second) = modal_sum(&others, 1.0, 5000.0);
+    let response = |h: &[c64], seed| {
+        let h = noisy(h, 0.01, seed);
+        FrequencyResponse::new(f.clone(), h, ResponseQuantity::Accelerance).unwrap()
+    };
+    let both = [response(&first, 11), response(&second, 12)];
+    let options = IdentificationOptions::default();
+    let alone = identify(&both[..1], &options).unwrap();
+    let joint = identify(&both, &options).unwrap();
+    assert_eq!(joint.modes.len(), 4);
+    for ((a, b), (frequency, zeta, _)) in joint.modes.iter().zip(&alone.modes).zip(SEPARATE) {
+        let miss = (a.fitted.damping_factor.value - zeta).abs();
+        assert!(miss < 5.0 * a.fitted.standard_error, "{a:?}");
+        assert!((a.fitted.frequency_hz.value / frequency - 1.0).abs() < 1e-4);
+        // Twice the data: 0.707 of the error; the noise of each is known to a few per cent.
+        let ratio = a.fitted.standard_error / b.fitted.standard_error;
+        assert!((0.65..0.77).contains(&ratio), "{ratio}");
+    }
+}
+
+#[test]
 fn coarse_lines_and_flat_noise_are_refused_with_the_reason() {
     let (f, h) = modal_sum(&SEPARATE, 24.0, 5000.0);
     let response = FrequencyResponse::new(f, h, ResponseQuantity::Accelerance).unwrap();

@@ -83,6 +83,51 @@ fn a_squeal_is_named_by_its_mode_with_superharmonics_and_growth_rate() {
 }
 
 #[test]
+fn a_steady_tone_beside_no_unstable_mode_is_given_none_and_can_be_heard() {
+    let folder = tempfile::tempdir().unwrap();
+    let tone = |k: u32| (TAU * 9433.0 * f64::from(k) / 2.5e5).sin();
+    let rows: String = (0..20_000)
+        .map(|k| format!("{:.7},{:.9}\n", f64::from(k) / 2.5e5, tone(k)))
+        .collect();
+    std::fs::write(folder.path().join("tone.csv"), format!("time_s,x\n{rows}")).unwrap();
+    std::fs::write(folder.path().join("disc.toml"), CASE).unwrap();
+    let run = |more: &[&str]| {
+        let mut command = Command::cargo_bin("frictionsim").unwrap();
+        command
+            .current_dir(folder.path())
+            .args(["signal", "tone.csv", "--no-figures", "--case", "disc.toml"])
+            .args(more);
+        command.output().unwrap()
+    };
+    let output = run(&["--json", "--quiet", "--wav", "tone.wav"]);
+    assert!(output.status.success(), "{output:?}");
+    let summary: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let channel = &summary["channels"][0];
+    assert!(channel["mode"].is_null(), "{channel}");
+    // The unstable mode of two nodal diameters lies 5.3 % above: too far to be named.
+    let nearest = &channel["nearest_unstable_mode"];
+    assert_eq!(nearest["harmonic"], 2);
+    assert!(
+        (nearest["distance"].as_f64().unwrap() - 0.053).abs() < 2e-3,
+        "{nearest}"
+    );
+    assert!(channel["growth"].is_null() && channel["no_growth"].is_string());
+    // 250 kHz is played five times slower.
+    let sound = std::fs::read(folder.path().join("tone.wav")).unwrap();
+    assert_eq!(&sound[24..28], 50_000u32.to_le_bytes());
+    for nonsense in [
+        ["--window", "0"],
+        ["--resolution", "1"],
+        ["--max-frequency", "0"],
+    ] {
+        let refused = run(&nonsense);
+        assert_eq!(refused.status.code(), Some(2), "{nonsense:?}");
+        let message = String::from_utf8(refused.stderr).unwrap();
+        assert!(message.contains(nonsense[0]), "{message}");
+    }
+}
+
+#[test]
 fn a_signal_without_time_needs_a_rate_and_says_so() {
     let folder = tempfile::tempdir().unwrap();
     let rows: String = (0..200)

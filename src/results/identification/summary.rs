@@ -182,8 +182,8 @@ impl IdentificationSummary {
         )
     }
 
-    /// Modes and coefficients for a person.
-    pub fn print(&self) -> String {
+    /// One line for each response.
+    fn responses_text(&self) -> String {
         let mut text = String::new();
         for response in &self.responses {
             let name = match self.responses.len() {
@@ -197,6 +197,12 @@ impl IdentificationSummary {
                 "{source}:{name} {quantity}, {lines} lines from {from} to {to} Hz"
             );
         }
+        text
+    }
+
+    /// Modes and coefficients for a person.
+    pub fn print(&self) -> String {
+        let mut text = self.responses_text();
         text.push_str("mode  frequency_hz  damping_factor        95 %          half_power  \n");
         for (k, mode) in self.modes.iter().enumerate() {
             let [low, high] = mode.damping_factor_interval;

@@ -259,6 +259,16 @@ fn correlation(residuals: &[Vec<c64>]) -> f64 {
     factor
 }
 
+/// Frequency of the nearest other pole whose half-power band overlaps that of `pole`, Hz.
+fn overlapping(pole: Pole, others: impl Iterator<Item = Pole>) -> Option<f64> {
+    let miss = |frequency_hz: f64| (frequency_hz - pole.frequency_hz).abs();
+    others
+        .filter(|q| *q != pole)
+        .filter(|q| miss(q.frequency_hz) < 0.5 * (q.bandwidth_hz() + pole.bandwidth_hz()))
+        .map(|q| q.frequency_hz)
+        .reduce(|a, b| if miss(a) <= miss(b) { a } else { b })
+}
+
 /// Modes within the range, with their errors.
 fn summarised(
     problem: &Problem,
@@ -272,10 +282,12 @@ fn summarised(
         chi_square,
         inverse_normal,
     } = fitted;
+    // The variance that the residuals show, in units of the assumed one.
     let residuals = problem.weighted_residuals(&model);
     let unknowns = inverse_normal.nrows() as f64;
     let correlation = correlation(&residuals);
     let variance = correlation * chi_square / (problem.data_count() as f64 - unknowns).max(1.0);
+    // Modes are the poles within the range, by frequency.
     let (begin, end) = range(parts);
     let mut inside: Vec<usize> = (0..model.poles.len())
         .filter(|&k| {
@@ -288,6 +300,7 @@ fn summarised(
             .frequency_hz
             .total_cmp(&model.poles[*j].frequency_hz)
     });
+    // Unknowns are logarithms: their errors are relative.
     let estimate = |value: f64, relative_error: f64| Estimate {
         value,
         low: value * (1.0 - NORMAL_95 * relative_error),
@@ -302,24 +315,12 @@ fn summarised(
         .iter()
         .map(|&k| {
             let pole = model.poles[k];
-            let overlaps_hz = inside
-                .iter()
-                .map(|&j| model.poles[j])
-                .filter(|q| *q != pole)
-                .filter(|q| {
-                    let half_widths = 0.5 * (q.bandwidth_hz() + pole.bandwidth_hz());
-                    (q.frequency_hz - pole.frequency_hz).abs() < half_widths
-                })
-                .map(|q| q.frequency_hz)
-                .reduce(|a, b| {
-                    let nearer = |x: f64| (x - pole.frequency_hz).abs();
-                    if nearer(a) <= nearer(b) { a } else { b }
-                });
+            let others = inside.iter().map(|&j| model.poles[j]);
             FittedMode {
                 frequency_hz: estimate(pole.frequency_hz, error(2 * k)),
                 damping_factor: estimate(pole.damping_factor, error(2 * k + 1)),
                 standard_error: pole.damping_factor * error(2 * k + 1),
-                overlaps_hz,
+                overlaps_hz: overlapping(pole, others),
             }
         })
         .collect();

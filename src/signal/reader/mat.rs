@@ -2,8 +2,9 @@
 //!
 //! Source: The MathWorks, "MAT-file format", version 5.
 
+use super::column::Column;
 use super::error::{ReadError, ReadProblem};
-use super::table::{Column, Table};
+use super::table::Table;
 use flate2::read::ZlibDecoder;
 use std::io::Read;
 

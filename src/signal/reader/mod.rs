@@ -8,6 +8,7 @@
 //! their first bytes. Everything else is a [`ReadError`] with the name of the source, line, column and what
 //! to do. The reader never touches a file: it is given bytes and the name to use in messages.
 
+mod column;
 mod columns;
 mod error;
 mod field;

@@ -1,20 +1,10 @@
 //! Lines of text to named columns of numbers.
 
+use super::column::Column;
 use super::error::{ReadError, ReadProblem};
 use super::field::{Value, number, parse, time_stamp};
 use super::separator::{Line, Separator, character, fields, numeric_fields, separator_of};
 use super::text::{comment, decode, lines, shortened};
-
-/// Numbers of one column.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Column {
-    /// Values, or their real parts; seconds of time stamps since the first.
-    pub real: Vec<f64>,
-    /// Imaginary parts of a column of complex numbers.
-    pub imaginary: Option<Vec<f64>>,
-    /// Whether it holds time stamps.
-    pub is_time: bool,
-}
 
 /// Numbers in named columns.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -249,7 +239,7 @@ fn numbers(
     };
     let mut columns: Vec<Column> = (0..expected).map(column).collect();
     let mut first_day = None;
-    for (row, (line, text)) in data.iter().enumerate() {
+    for (line, text) in data {
         let fail = |field: &str, problem| {
             Err(ReadError::at(
                 source,
@@ -274,34 +264,13 @@ fn numbers(
                     None => return fail(field, ReadProblem::unreadable(field, name(k))),
                 },
             };
-            let (real, imaginary) = match value {
-                Value::Real(value) => (value, 0.0),
-                Value::Complex(re, im) => (re, im),
-                Value::Time(day, seconds) => {
-                    column.is_time = true;
-                    // A time of day alone has day 0.
-                    let days = if day == 0 {
-                        0
-                    } else {
-                        day - *first_day.get_or_insert(day)
-                    };
-                    (86_400.0 * days as f64 + seconds, 0.0)
-                }
-            };
-            if !(real.is_finite() && imaginary.is_finite()) {
+            if !column.push(value, &mut first_day) {
                 let (field_text, name) = (shortened(field), name(k));
                 let problem = ReadProblem::NotFinite {
                     field: field_text,
                     name,
                 };
                 return fail(field, problem);
-            }
-            column.real.push(real);
-            if matches!(value, Value::Complex(..)) && column.imaginary.is_none() {
-                column.imaginary = Some(vec![0.0; row]);
-            }
-            if let Some(parts) = &mut column.imaginary {
-                parts.push(imaginary);
             }
         }
         if found != expected {
