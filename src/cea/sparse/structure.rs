@@ -104,7 +104,7 @@ impl<'a> StructureMatrices<'a> {
         }
     }
 
-    /// `T(lambda) x` over what [`Self::residuals`] returns: `T(lambda) = (1 + beta lambda) (K - kappa M)`.
+    /// `T(lambda) x` over what [`Self::residuals_and_momenta`] returns: `T(lambda) = (1 + beta lambda) (K - kappa M)`.
     pub fn residual_factor(&self, lambda: c64) -> f64 {
         match self.linearization {
             Linearization::Reduced(damping) => {

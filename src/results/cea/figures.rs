@@ -9,6 +9,7 @@ use crate::chart::{
     Stroke, signed,
 };
 use crate::fem::{NodalStress, RayleighDamping};
+use crate::mesh::Counterface;
 use crate::results::charts::Disc;
 use crate::results::charts::palette::{STABLE, UNSTABLE};
 use crate::results::drawing::{Declaration, DrawingError, DrawingOptions, draw_all, write_report};
@@ -155,12 +156,19 @@ fn prestress(report: &CeaReport<'_>) -> Figure {
     let (field, disc) = (report.field, Disc::new(report.mesh));
     let von_mises = field.stress.iter().map(NodalStress::von_mises).collect();
     let stress = Axis::new("von Mises stress", "Pa").prefixed();
+    let is_closed = report.mesh.contact_edge().is_closed;
+    // The angles of an open edge stand for shares of its length where it is straight.
+    let place = match report.mesh.counterface {
+        Counterface::Plane { .. } => Axis::new("place along the contact", "%").times(100.0 / TAU),
+        Counterface::Cylinder { .. } => Axis::angle(),
+    };
     let around = |name: &str, values: &[f64], colour| {
         let axis = Axis::new(name, "Pa").prefixed().including(0.0).room(0.15);
         let again = field
             .angles
             .first()
             .zip(values.first())
+            .filter(|_| is_closed)
             .map(|(&angle, &value)| (angle + TAU, value));
         let points = field
             .angles
@@ -168,7 +176,7 @@ fn prestress(report: &CeaReport<'_>) -> Figure {
             .copied()
             .zip(values.iter().copied())
             .chain(again);
-        Panel::new(Axis::angle(), axis)
+        Panel::new(place.clone(), axis)
             .height(86.0)
             .layer(Line::through(points).solid(colour, 1.2))
     };
@@ -233,6 +241,7 @@ fn shapes(report: &CeaReport<'_>, friction: f64) -> Figure {
     multiples(
         Figure::new(format!("modes-mu-{friction}"), caption).columns(columns),
         panels,
+        report.has_harmonics,
     )
 }
 
@@ -296,16 +305,21 @@ fn branch_shapes(report: &CeaReport<'_>, branch: Branch) -> Figure {
     multiples(
         Figure::new(format!("branch-n{}-{}-{way}", branch.0, branch.1), caption).columns(columns),
         panels,
+        report.has_harmonics,
     )
 }
 
 /// Small multiples of mode shapes with what their colours and arrows mean.
-fn multiples(figure: Figure, panels: impl Iterator<Item = Panel>) -> Figure {
+fn multiples(figure: Figure, panels: impl Iterator<Item = Panel>, has_harmonics: bool) -> Figure {
     let amplitude = Axis::new("displacement amplitude |*u*| / max |*u*|", "–").between(0.0, 1.0);
-    figure
+    let figure = figure
         .unlettered()
         .panels(panels)
-        .colour_foot(amplitude, ColourMap::Viridis)
-        .note("↺ travels with the rotor, ↻ against it")
-        .note("Re: real part of the eigenvalue / 2π; *n*: harmonic (nodal diameters)")
+        .colour_foot(amplitude, ColourMap::Viridis);
+    match has_harmonics {
+        true => figure
+            .note("↺ travels with the rotor, ↻ against it")
+            .note("Re: real part of the eigenvalue / 2π; *n*: harmonic (nodal diameters)"),
+        false => figure.note("Re: real part of the eigenvalue / 2π"),
+    }
 }

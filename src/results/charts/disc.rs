@@ -18,8 +18,8 @@ impl<'a> Disc<'a> {
         Self::with_lattice(mesh, 0)
     }
 
-    /// The same with about so many rays of nodes, and circles to match, as thin lines that show a deformation; a mesh without
-    /// rays shows none.
+    /// The same with about so many rays of nodes, and circles to match, as thin lines that show a deformation; a body that is no
+    /// uniform annulus shows none.
     pub fn with_lattice(mesh: &'a Mesh2d, rays: usize) -> Self {
         let cells = (0..mesh.element_count()).map(|element| Cell {
             ring: mesh.element_outline(element),
@@ -28,7 +28,7 @@ impl<'a> Disc<'a> {
         let shown = Mesh {
             cells: cells.collect(),
             outlines: outlines(mesh),
-            lines: if rays > 0 {
+            lines: if rays > 0 && mesh.is_cyclic {
                 lattice(mesh, rays)
             } else {
                 Vec::new()
@@ -86,10 +86,12 @@ impl<'a> Disc<'a> {
 
     /// The contact edge, undeformed.
     pub fn contact_edge(&self) -> Vec<(f64, f64)> {
-        let edge = &self.mesh.contact_edge().nodes;
+        let edge = self.mesh.contact_edge();
+        let again = edge.nodes.first().filter(|_| edge.is_closed);
         let places = edge
+            .nodes
             .iter()
-            .chain(edge.first())
+            .chain(again)
             .map(|&node| self.mesh.nodes[node as usize]);
         places.map(|[x, y]| (x, y)).collect()
     }
