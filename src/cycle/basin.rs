@@ -14,8 +14,9 @@ use std::f64::consts::TAU;
 
 /// Share of the stability limit that a step takes.
 const SAFETY: f64 = 0.95;
-/// Velocity of the larger seed, in units of the slip speed: a few e-folds below saturation, in which waves with the rotor die.
-const SEED: f64 = 0.03;
+/// Velocity of the larger seed, in units of what saturates a wave, the slip speed or the interference times its frequency: a
+/// few e-folds below saturation, in which waves with the rotor die.
+const SEED: f64 = 0.01;
 /// Looks at the edge in each period of the first wave.
 const LOOKS: usize = 8;
 /// Periods over which amplitudes are averaged before they are compared.
@@ -211,10 +212,12 @@ impl Contest<'_> {
         }
     }
 
-    /// Steady sliding with both waves seeded, the larger with a fixed share of the slip speed.
+    /// Steady sliding with both waves seeded, the larger with a fixed share of what saturates it.
     fn start(&self, seed_ratio: f64) -> Result<CentralDifference<'_>, CycleError> {
         let radius = self.model.mesh.counterface.lever();
-        let largest = SEED * self.model.contact.rotation_speed.abs() * radius;
+        let contact = &self.model.contact;
+        let opening = contact.interference * TAU / self.period;
+        let largest = SEED * (contact.rotation_speed.abs() * radius).min(opening);
         let scale = largest / seed_ratio.max(1.0);
         let seeds = [scale, scale * seed_ratio];
         let waves = self.request.harmonics.iter().zip(seeds);
