@@ -31,6 +31,7 @@ fn main() {
     };
     let point = OperatingPoint {
         contact: SlidingContact {
+            decay: None,
             friction_coefficient: 0.3,
             interference: 25e-6,
             rotation_speed: 610.0 * TAU / 60.0,

@@ -42,6 +42,7 @@ const DAMPING: RayleighDamping = RayleighDamping {
     stiffness_coefficient: 4.5e-7,
 };
 const CONTACT: SlidingContact = SlidingContact {
+    decay: None,
     friction_coefficient: 0.3,
     interference: 25e-6,
     rotation_speed: 63.9,

@@ -35,6 +35,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
         contact: ContactStiffness::default(),
     };
     let contact = SlidingContact {
+        decay: None,
         friction_coefficient: 0.0,
         interference: 25e-6,
         rotation_speed: 1.0,

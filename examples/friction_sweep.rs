@@ -32,6 +32,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
         formulation: PlaneFormulation::PlaneStrain,
     };
     let contact = SlidingContact {
+        decay: None,
         friction_coefficient: 0.3,
         interference: 25e-6,
         rotation_speed: 63.9,

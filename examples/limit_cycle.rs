@@ -35,6 +35,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
         stiffness_coefficient: 4.5e-7,
     };
     let contact = SlidingContact {
+        decay: None,
         friction_coefficient: 0.3,
         interference: 25e-6,
         rotation_speed: 610.0 * TAU / 60.0,

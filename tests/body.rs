@@ -286,6 +286,7 @@ fn block_specification() -> BodySpecification {
 
 fn plane(friction_coefficient: f64) -> SlidingContact {
     SlidingContact {
+        decay: None,
         friction_coefficient,
         interference: 0.0,
         rotation_speed: 1.5,

@@ -43,6 +43,7 @@ fn aluminium(elements: [usize; 2]) -> (DiscModel, SlidingContact) {
         },
     };
     let contact = SlidingContact {
+        decay: None,
         friction_coefficient: 0.35,
         interference: 10e-6,
         rotation_speed: 900.0 * TAU / 60.0,
@@ -64,6 +65,7 @@ fn steel(elements: [usize; 2]) -> (DiscModel, SlidingContact) {
         },
     };
     let contact = SlidingContact {
+        decay: None,
         friction_coefficient: 0.5,
         interference: 40e-6,
         rotation_speed: 750.0 * TAU / 60.0,

@@ -114,6 +114,7 @@ fn both_mass_matrices_carry_the_mass_of_the_ring() {
 
 fn paper_contact() -> SlidingContact {
     SlidingContact {
+        decay: None,
         friction_coefficient: 0.3,
         interference: 25e-6,
         rotation_speed: 610.0 * PI / 30.0,

@@ -49,6 +49,7 @@ fn sliding(damping_model: DampingModel) -> FrfSystem {
     let mesh = annulus().mesh;
     let stiffness = assemble_stiffness(&mesh, &material());
     let contact = SlidingContact {
+        decay: None,
         friction_coefficient: 0.3,
         interference: 25e-6,
         rotation_speed: 610.0 * PI / 30.0,

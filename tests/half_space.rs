@@ -75,6 +75,7 @@ fn annulus_speed(n: usize) -> c64 {
         contact: ContactStiffness::default(),
     };
     let contact = SlidingContact {
+        decay: None,
         friction_coefficient: FRICTION,
         interference: 1e-6,
         rotation_speed: 1.0,

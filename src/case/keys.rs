@@ -94,6 +94,8 @@ pub const KEYS: &[CaseKey] = &[
     key("damping.include_contact", Flag, "", Value("true"), "true", "whether beta acts on contact and friction terms as well as on the body").used_by(TANGENT, "beta acts on the body alone"),
 
     key("contact.friction_coefficient", Number(NotNegative), "", Required, "0.3", "Coulomb's friction coefficient"),
+    key("contact.static_friction_ratio", Number(AtLeast(1.0)), "", Value("1.0"), "1.4", "static friction over kinetic: mu(v) = friction_coefficient (1 + (ratio - 1) exp(-|v| / decay_speed))"),
+    key("contact.decay_speed", Number(Positive), "m/s", Otherwise("friction is constant"), "0.2", "the slip speed over which friction falls from its static to its kinetic value"),
     key("contact.interference", Number(NotNegative), "m", Required, "25e-6", "how far the counterface is pushed into the body: the radial expansion of the cylinder (0 only where a boundary pressure presses)"),
     key("contact.rotation_speed_rpm", Number(Finite), "1/min", Required, "610.0", "the rotation speed of the cylinder"),
     key("contact.boundary", Text, "", Value("\"inner\""), "\"contact\"", "the physical curve of an imported mesh that touches the counterface"),

@@ -210,18 +210,20 @@ impl Case {
     /// The two waves that compete.
     ///
     /// # Errors
-    /// A case without `[basin]`.
+    /// A case without `[basin]`, and one whose friction falls with speed.
     pub fn require_basin(&self) -> Result<&crate::cycle::BasinRequest, CaseErrors> {
+        let remedy = "[basin]\nharmonics = [1, 2]";
         let found = self.basin.as_ref();
-        found
-            .ok_or_else(|| self.lacks("basin", "search for a basin", "[basin]\nharmonics = [1, 2]"))
+        let found = found.ok_or_else(|| self.lacks("basin", "search for a basin", remedy))?;
+        self.require_constant_friction()?;
+        Ok(found)
     }
 
     /// The search for limit cycles.
     ///
     /// # Errors
-    /// A case without `[cycle]`, one of Quad8 elements, whose contact nodes are not all alike, and one
-    /// whose cylinder does not turn, or turns backwards.
+    /// A case without `[cycle]`, one of Quad8 elements, whose contact nodes are not all alike, one whose friction
+    /// falls with speed, and one whose cylinder does not turn, or turns backwards.
     pub fn require_cycle(&self) -> Result<&Cycle, CaseErrors> {
         let remedy = "[cycle]\nharmonics = [1, 2]";
         let cycle = self.cycle.as_ref();
@@ -230,6 +232,7 @@ impl Case {
             return Err(self.no_symmetry("limit cycles are rotating waves, which"));
         }
         self.require_quad4("limit cycles need \"quad4\"")?;
+        self.require_constant_friction()?;
         let key = "contact.rotation_speed_rpm";
         if self.contact.sliding.rotation_speed <= 0.0 {
             let value = self.raw.find(key).map(|item| item.value.to_string());
@@ -244,6 +247,23 @@ impl Case {
             ));
         }
         Ok(cycle)
+    }
+
+    /// Limit cycles are sought under a constant friction coefficient.
+    fn require_constant_friction(&self) -> Result<(), CaseErrors> {
+        if self.contact.sliding.decay.is_none() {
+            return Ok(());
+        }
+        Err(self.error_at(
+            "contact.static_friction_ratio",
+            "limit cycles are sought under a constant friction coefficient only".to_owned(),
+            "friction falls with speed here".to_owned(),
+            Some(
+                "follow the transient to its limit cycle instead ([transient] with \
+                 stop_when_settled = true), or set contact.static_friction_ratio = 1.0"
+                    .to_owned(),
+            ),
+        ))
     }
 
     fn require_quad4(&self, label: &str) -> Result<(), CaseErrors> {

@@ -2,7 +2,7 @@
 
 use super::body::{self, BodyParts, ContactPlace, ImportedBody, NamedCondition};
 use super::reader::Section;
-use crate::contact::{ContactStiffness, SlidingContact};
+use crate::contact::{ContactStiffness, FrictionDecay, SlidingContact};
 use crate::fem::{ElasticMaterial, RayleighDamping};
 use crate::mesh::{AnnulusSpecification, BoundaryCondition, ElementKind};
 use std::f64::consts::TAU;
@@ -231,6 +231,7 @@ fn contact(root: &Section<'_>, is_annulus: bool) -> (Contact, ContactPlace) {
     };
     let contact = Contact {
         sliding: SlidingContact {
+            decay: friction_decay(&section),
             friction_coefficient: section.number("friction_coefficient"),
             interference,
             rotation_speed,
@@ -256,4 +257,38 @@ fn contact(root: &Section<'_>, is_annulus: bool) -> (Contact, ContactPlace) {
     }
     section.close();
     (contact, place)
+}
+
+/// How friction falls with the slip speed; a ratio of one is a constant coefficient.
+fn friction_decay(section: &Section<'_>) -> Option<FrictionDecay> {
+    let static_ratio = section.number("static_friction_ratio");
+    let decay_speed = section.optional_number("decay_speed");
+    let decay = decay_speed.map(|decay_speed| FrictionDecay {
+        static_ratio,
+        decay_speed,
+    });
+    if static_ratio > 1.0 && !section.has("decay_speed") {
+        section.reject(
+            "static_friction_ratio",
+            format!("contact.static_friction_ratio = {static_ratio} needs contact.decay_speed"),
+            "falls over no speed".to_owned(),
+            Some(
+                "give the speed over which friction falls, for example decay_speed = 0.2"
+                    .to_owned(),
+            ),
+        );
+    }
+    if decay.is_some() && !section.has("static_friction_ratio") {
+        section.reject(
+            "decay_speed",
+            "contact.decay_speed has no effect without contact.static_friction_ratio".to_owned(),
+            "friction does not fall".to_owned(),
+            Some(
+                "give static friction over kinetic, for example static_friction_ratio = 1.4, or \
+                 leave decay_speed out"
+                    .to_owned(),
+            ),
+        );
+    }
+    decay.filter(|decay| decay.static_ratio > 1.0)
 }

@@ -56,6 +56,17 @@ pub(super) fn infeasible(case: &Case) -> Vec<Diagnostic> {
             );
         }
     }
+    let starts_on_cycle = case.transient.as_ref().is_some_and(|transient| {
+        matches!(transient.initial, super::InitialState::LimitCycle { .. })
+    });
+    if starts_on_cycle && case.contact.sliding.decay.is_some() {
+        refuse(
+            "transient.initial",
+            "transient.initial = \"limit-cycle\" needs a constant friction coefficient".to_owned(),
+            "friction falls with speed".to_owned(),
+            "use initial = \"steady-sliding\", or set contact.static_friction_ratio = 1.0",
+        );
+    }
     let scale = case.material.young_modulus / case.annulus.inner_radius;
     if let Some(stiffness) = case.contact.stiffness.normal_stiffness
         && stiffness > LARGEST_STIFFNESS * scale

@@ -1,5 +1,6 @@
 //! The contact edge of a mesh.
 
+use super::{SlidingContact, SteadyFriction};
 use crate::mesh::{BoundaryCondition, Counterface, Mesh2d};
 
 /// Contact nodes with their geometry, in order along the edge (of rising angle on the annulus).
@@ -85,6 +86,12 @@ impl ContactInterface {
     pub fn sliding_direction(&self, speed: f64) -> f64 {
         let speed = if speed < 0.0 { -1.0 } else { 1.0 };
         speed * self.counterface.lever().signum()
+    }
+
+    /// Friction of the steady sliding of `contact` over this edge.
+    pub fn steady_friction(&self, contact: &SlidingContact) -> SteadyFriction {
+        let speed = contact.rotation_speed;
+        contact.steady_friction(self.sliding_direction(speed), self.surface_speed(speed))
     }
 }
 

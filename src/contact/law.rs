@@ -27,21 +27,97 @@ impl ContactStatus {
     }
 }
 
-/// Coulomb's law `|T| <= mu N`, with equality while a node slips.
+/// How friction falls with the slip speed `v`: `mu(v) / mu = 1 + (q - 1) exp(-|v| / v_c)`.
+///
+/// `mu` is the kinetic coefficient at high speed, `q mu` the static one. Nothing but the speed of the moment enters:
+/// no memory, no time of rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CoulombFriction {
-    /// Friction coefficient `mu`.
-    pub friction_coefficient: f64,
+pub struct FrictionDecay {
+    /// `q`, 1 or more.
+    pub static_ratio: f64,
+    /// `v_c`, m/s.
+    pub decay_speed: f64,
 }
 
+impl FrictionDecay {
+    /// `mu(v) / mu`.
+    pub fn share(&self, slip_speed: f64) -> f64 {
+        1.0 + self.excess(slip_speed)
+    }
+
+    /// Its derivative with respect to `|v|`, s/m: never positive.
+    pub fn slope(&self, slip_speed: f64) -> f64 {
+        -self.excess(slip_speed) / self.decay_speed
+    }
+
+    /// `(q - 1) exp(-|v| / v_c)`.
+    fn excess(&self, slip_speed: f64) -> f64 {
+        (self.static_ratio - 1.0) * (-slip_speed.abs() / self.decay_speed).exp()
+    }
+
+    /// Derivatives of share and slope at `v` with respect to `q`, and with respect to `v_c`.
+    pub fn rates(&self, slip_speed: f64) -> [[f64; 2]; 2] {
+        let (speed, decay) = (slip_speed.abs(), self.decay_speed);
+        let unit = (-speed / decay).exp();
+        let by_speed = self.excess(speed) * speed / (decay * decay);
+        [
+            [unit, -unit / decay],
+            [by_speed, (self.excess(speed) / decay - by_speed) / decay],
+        ]
+    }
+}
+
+/// Friction of steady sliding for each unit of friction coefficient and of normal force.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SteadyFriction {
+    /// `s mu(V) / mu`: the drag of the counterface, `s` its sense.
+    pub drag: f64,
+    /// `mu'(V) / mu`, s/m: with the normal force a dashpot on the body's velocity, negative where friction falls.
+    pub slope: f64,
+}
+
+/// Coulomb's law `|T| <= mu(0) N` of a node that sticks, `T = mu(v) N` against the slip of one that slips at `v`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CoulombFriction {
+    /// Friction coefficient `mu`, at high speed.
+    pub friction_coefficient: f64,
+    /// How friction falls with the slip speed; `None` is a constant coefficient.
+    pub decay: Option<FrictionDecay>,
+}
+
+/// A contact node whose tangential motion friction is to decide within one time step.
+#[derive(Clone, Copy, Debug)]
+pub struct SlippingNode {
+    /// Tangential force that changes its velocity by one within the step, `m / dt`, N s/m2.
+    pub inertia: f64,
+    /// Slip velocity `V - v_t` that it would reach without friction, m/s.
+    pub free_slip: f64,
+    /// Slip velocity half a step ago, m/s.
+    pub slip_before: f64,
+}
+
+/// What friction does to a contact node within one time step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NodeFriction {
+    /// Tangential force on the body, N/m.
+    pub force: f64,
+    /// Whether it sticks or slips.
+    pub status: ContactStatus,
+    /// Whether both would have obeyed the law: friction falls faster than the node's inertia allows.
+    pub is_ambiguous: bool,
+}
+
+/// Newton steps of one node; from the right of a convex function's root they cannot overshoot.
+const NEWTON_STEPS: usize = 50;
+
 impl CoulombFriction {
-    /// Largest tangential force `mu N` under the normal force `normal`, N/m.
+    /// Largest tangential force `mu N` under the normal force `normal`, N/m, of a constant coefficient.
     pub fn cone(&self, normal: f64) -> f64 {
         self.friction_coefficient * normal
     }
 
-    /// The tangential force of a node that `trial` would make stick, and its status: the projection of `trial`
-    /// onto the cone.
+    /// The tangential force of a node that `trial` would make stick, and its status, under a constant coefficient: the
+    /// projection of `trial` onto the cone.
     pub fn project(&self, trial: f64, normal: f64) -> (f64, ContactStatus) {
         let cone = self.cone(normal);
         let status = if trial.abs() <= cone {
@@ -50,5 +126,59 @@ impl CoulombFriction {
             ContactStatus::Slip
         };
         (trial.clamp(-cone, cone), status)
+    }
+
+    /// The tangential force under the normal force `normal` (N/m), implicit in the slip velocity `w` that it leads to:
+    ///
+    /// ```text
+    /// T = (m / dt) (w* - w),   T = N mu(w) sign(w) where w != 0,   |T| <= N mu(0) where w = 0
+    /// ```
+    ///
+    /// `w* = free_slip`. With `c = N mu dt / m` slip solves `w + c (1 + (q - 1) e^{-w / v_c}) = |w*|`, convex in `w`:
+    /// monotone, with one root at most, where `N |mu'(0)| < m / dt`. Beyond that a node can obey the law in stick and
+    /// in slip at once; it keeps to the side that it is on, and says so.
+    pub fn resolve(&self, node: &SlippingNode, normal: f64) -> NodeFriction {
+        let (inertia, free) = (node.inertia, node.free_slip.abs());
+        let sense = node.free_slip.signum();
+        let Some(decay) = self.decay else {
+            let (force, status) = self.project(inertia * node.free_slip, normal);
+            return NodeFriction {
+                force,
+                status,
+                is_ambiguous: false,
+            };
+        };
+        let pull = self.cone(normal) / inertia;
+        let value = |slip: f64| slip + pull * decay.share(slip) - free;
+        // Where the function of slip is least: left of it no root is stable.
+        let fall = -pull * decay.slope(0.0);
+        let least = decay.decay_speed * fall.max(1.0).ln();
+        let may_stick = value(0.0) >= 0.0;
+        let may_slip = !may_stick || (least > 0.0 && value(least) < 0.0);
+        let is_slipping = node.slip_before * sense > least;
+        if may_stick && !(may_slip && is_slipping) {
+            return NodeFriction {
+                force: inertia * node.free_slip,
+                status: ContactStatus::Stick,
+                is_ambiguous: may_slip,
+            };
+        }
+        let highest = free - pull;
+        let mut slip = (node.slip_before * sense).clamp(least.min(highest), highest);
+        if value(slip) < 0.0 && fall >= 1.0 {
+            slip = highest;
+        }
+        for _ in 0..NEWTON_STEPS {
+            let step = value(slip) / (1.0 + pull * decay.slope(slip));
+            slip = (slip - step).clamp(least.min(highest), highest);
+            if step.abs() <= 2.0 * f64::EPSILON * free {
+                break;
+            }
+        }
+        NodeFriction {
+            force: sense * self.cone(normal) * decay.share(slip),
+            status: ContactStatus::Slip,
+            is_ambiguous: may_stick,
+        }
     }
 }

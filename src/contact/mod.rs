@@ -4,19 +4,23 @@
 //! along itself; `delta` is how far it is pushed into the body. At each contact node the frame is `(n, t)`, its
 //! normal into the body and the direction a quarter turn ahead, `(e_r, e_theta)` around a shaft: the contact
 //! pushes the body along `+n` with the nodal force `N >= 0`, and drags it along `s t` with `s` the sense of
-//! sliding while it slips: `T = s mu N`.
+//! sliding while it slips: `T = s mu(v) N`, with a coefficient that may fall with the slip speed `v`.
 
 mod interface;
 mod law;
 
 pub use interface::ContactInterface;
-pub use law::{ContactStatus, CoulombFriction};
+pub use law::{
+    ContactStatus, CoulombFriction, FrictionDecay, NodeFriction, SlippingNode, SteadyFriction,
+};
 
 /// The rigid moving counterface and its friction law.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SlidingContact {
-    /// Coulomb friction coefficient `mu`.
+    /// Coulomb friction coefficient `mu`, at high speed.
     pub friction_coefficient: f64,
+    /// How friction falls with the slip speed; `None` is a constant coefficient.
+    pub decay: Option<FrictionDecay>,
     /// How far the counterface is pushed into the body `delta`, m: the radial expansion of a cylinder.
     pub interference: f64,
     /// Rotation speed `Omega` of a cylinder, rad/s, counter-clockwise positive; the speed of a plane, m/s.
@@ -28,6 +32,17 @@ impl SlidingContact {
     pub fn law(&self) -> CoulombFriction {
         CoulombFriction {
             friction_coefficient: self.friction_coefficient,
+            decay: self.decay,
+        }
+    }
+
+    /// Friction of steady sliding at the surface speed `surface_speed` (m/s) of the counterface in the sense `direction`.
+    pub fn steady_friction(&self, direction: f64, surface_speed: f64) -> SteadyFriction {
+        let at =
+            |of: fn(&FrictionDecay, f64) -> f64| self.decay.map(|decay| of(&decay, surface_speed));
+        SteadyFriction {
+            drag: direction * at(FrictionDecay::share).unwrap_or(1.0),
+            slope: at(FrictionDecay::slope).unwrap_or(0.0),
         }
     }
 

@@ -112,6 +112,7 @@ impl DiscModel {
 /// A cylinder that presses little: without geometric stiffness neither interference nor speed enter the tangent.
 pub fn unloaded(specification: &AnnulusSpecification) -> SlidingContact {
     SlidingContact {
+        decay: None,
         friction_coefficient: 0.0,
         interference: 1e-6 * specification.inner_radius,
         rotation_speed: 1.0,

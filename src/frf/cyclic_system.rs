@@ -188,7 +188,13 @@ impl CyclicSystem {
                     mass: evaluate(&harmonic.mass, mu),
                     stiffness: evaluate(&harmonic.stiffness, mu),
                     damping: match &harmonic.damping {
-                        Some(damping) => Damping::Band(evaluate(damping, mu)),
+                        Some(damping) => {
+                            let mut band = evaluate(damping, mu);
+                            let dashpots = harmonic.friction_dashpots.iter();
+                            let values = dashpots.flat_map(BandedMatrix::values);
+                            band.iter_mut().zip(values).for_each(|(c, v)| *c += mu * v);
+                            Damping::Band(band)
+                        }
                         None => Damping::Proportional(harmonic.rayleigh),
                     },
                     is_standing,

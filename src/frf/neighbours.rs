@@ -174,6 +174,7 @@ mod tests {
             formulation: PlaneFormulation::PlaneStrain,
         };
         let contact = SlidingContact {
+            decay: None,
             friction_coefficient: 0.3,
             interference: 25e-6,
             rotation_speed: 63.9,

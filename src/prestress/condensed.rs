@@ -19,7 +19,7 @@ const MAX_SETS: usize = 200;
 /// With `u_c` the contact displacements and `g_i - delta` the gap that the pushed-in counterface leaves,
 ///
 /// ```text
-/// S u_c = f_c + sum_i N_i (n_i + s mu t_i),   u_n,i >= delta - g_i,   N_i >= 0,   N_i (u_n,i - delta + g_i) = 0
+/// S u_c = f_c + sum_i N_i (n_i + s mu(V) t_i),   u_n,i >= delta - g_i,   N_i >= 0,   N_i (u_n,i - delta + g_i) = 0
 /// ```
 ///
 /// is a linear complementarity problem with a matrix that is not symmetric.
@@ -39,7 +39,8 @@ pub(super) struct CondensedContact<'a> {
     places: Vec<(usize, Option<usize>)>,
     /// `delta - g_i`, m.
     pushed: Vec<f64>,
-    sliding_direction: f64,
+    /// `s mu(V) / mu`.
+    drag: f64,
 }
 
 /// Displacements and normal forces of the contact nodes under one set of pressed nodes.
@@ -90,7 +91,7 @@ impl<'a> CondensedContact<'a> {
                 .iter()
                 .map(|gap| contact.interference - gap)
                 .collect(),
-            sliding_direction: interface.sliding_direction(contact.rotation_speed),
+            drag: interface.steady_friction(contact).drag,
             interior,
             contact: contact_map,
             load,
@@ -143,7 +144,7 @@ impl<'a> CondensedContact<'a> {
 
     /// The state in which exactly the nodes of `is_pressed` touch, whatever sign their forces have.
     pub fn state_of(&self, friction_coefficient: f64, is_pressed: &[bool]) -> ContactState {
-        let follow = self.sliding_direction * friction_coefficient;
+        let follow = self.drag * friction_coefficient;
         // Unknown: every tangential displacement, and the normal ones of open nodes.
         let mut unknowns: Vec<(usize, Option<usize>)> = Vec::new();
         let mut displacement = vec![0.0; self.contact.len()];
@@ -156,7 +157,7 @@ impl<'a> CondensedContact<'a> {
                 unknowns.extend(tangential.map(|t| (t, None)));
             }
         }
-        // Friction takes `s mu` times the normal row from the tangential row of a pressed node.
+        // Friction takes `s mu(V)` times the normal row from the tangential row of a pressed node.
         let row = |(row, normal): (usize, Option<usize>), column: usize| {
             self.schur[(row, column)] - normal.map_or(0.0, |n| follow * self.schur[(n, column)])
         };

@@ -4,7 +4,7 @@ use super::SectorSliding;
 use super::cholesky::CholeskySolver;
 use super::condensed::CondensedContact;
 use super::friction_polynomial::{evaluate, interpolated};
-use crate::contact::{ContactInterface, SlidingContact};
+use crate::contact::{ContactInterface, SlidingContact, SteadyFriction};
 use crate::fem::{DofMap, Triplets, assemble_supports};
 use crate::mesh::{AnnulusMesh, Mesh2d, SectorMesh};
 
@@ -69,7 +69,7 @@ pub enum PrestressError {
 
 /// The state of steady sliding: counterface pushed in by `delta`, every pressed contact node slipping.
 ///
-/// The state obeys `u_n = delta - g_i`, `T_i = s mu N_i` at pressed contact nodes, `N_i = T_i = 0` at open ones, the
+/// The state obeys `u_n = delta - g_i`, `T_i = s mu(V) N_i` at pressed contact nodes, `N_i = T_i = 0` at open ones, the
 /// boundary conditions and `K u = f` elsewhere. Under one set of pressed nodes it is a smooth function of `mu`, kept
 /// as a polynomial. On the annulus all nodes are pressed and `u(mu) = u_0 + mu u_1` exactly, since the normal forces
 /// do not depend on `mu`. The contact is rigid here whatever stiffness the eigenvalue analysis gives it.
@@ -85,6 +85,8 @@ pub struct SteadySliding {
     pub is_pressed: Vec<bool>,
     /// Sense of the friction force `s`, +1 or -1.
     pub sliding_direction: f64,
+    /// Friction at the sliding speed for each unit of friction coefficient and normal force.
+    pub friction: SteadyFriction,
     /// The contact edge.
     pub interface: ContactInterface,
 }
@@ -149,17 +151,18 @@ impl SteadySliding {
         let normal_forces: Vec<f64> = normal_dofs.iter().map(|&dof| reaction[dof]).collect();
         check_pressed(&interface, &normal_forces)?;
 
-        let sliding_direction = interface.sliding_direction(contact.rotation_speed);
+        let friction = interface.steady_friction(contact);
         let mut traction = vec![0.0; total];
         for (i, force) in contact_range.zip(&normal_forces) {
-            traction[interface.tangential_dof(i)] = sliding_direction * force;
+            traction[interface.tangential_dof(i)] = friction.drag * force;
         }
         let sheared = unknowns.expand(&solver.solve(unknowns.restrict(&traction)));
         Ok(Self {
             displacements: vec![pressed, sheared],
             is_pressed: vec![true; normal_forces.len()],
             normal_forces: vec![normal_forces],
-            sliding_direction,
+            sliding_direction: interface.sliding_direction(contact.rotation_speed),
+            friction,
             interface,
         })
     }
@@ -189,6 +192,7 @@ impl SteadySliding {
             is_pressed: vec![true; normal_forces.len()],
             normal_forces: vec![normal_forces],
             sliding_direction: state.sliding_direction,
+            friction: state.friction,
             interface,
         }
     }
@@ -210,12 +214,12 @@ impl SteadySliding {
         pairs.map(|(force, length)| force / length).collect()
     }
 
-    /// What friction asks of the counterface's drive for each metre of thickness: the torque `s mu a sum N_i` of a
+    /// What friction asks of the counterface's drive for each metre of thickness: the torque `s mu(V) a sum N_i` of a
     /// cylinder, N; the force of a plane, N/m.
     pub fn torque(&self, friction_coefficient: f64) -> f64 {
         let normal: f64 = self.normal_forces(friction_coefficient).iter().sum();
         let lever = self.interface.counterface.lever();
-        self.sliding_direction * friction_coefficient * lever * normal
+        self.friction.drag * friction_coefficient * lever * normal
     }
 }
 
@@ -341,6 +345,7 @@ fn polynomial_state(
         normal_forces: interpolated(&points, normal_forces, upper),
         is_pressed,
         sliding_direction: interface.sliding_direction(contact.rotation_speed),
+        friction: interface.steady_friction(contact),
         interface: interface.clone(),
     }
 }

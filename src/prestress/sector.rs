@@ -1,7 +1,7 @@
 //! Steady sliding of a rotationally symmetric annulus, from one sector.
 
 use super::PrestressError;
-use crate::contact::SlidingContact;
+use crate::contact::{SlidingContact, SteadyFriction};
 use crate::fem::sector::SectorMatrix;
 use crate::linalg::banded::{BandedLdl, BandedMatrix};
 use crate::mesh::SectorMesh;
@@ -20,6 +20,8 @@ pub struct SectorSliding {
     pub normal_forces: Vec<f64>,
     /// Sense of the friction force `s`, +1 or -1.
     pub sliding_direction: f64,
+    /// Friction at the sliding speed for each unit of friction coefficient and normal force.
+    pub friction: SteadyFriction,
 }
 
 impl SectorSliding {
@@ -38,12 +40,15 @@ impl SectorSliding {
         let normal_forces = system.normal_forces(&pressed);
         check_pressed(sector, &normal_forces)?;
         let sliding_direction = contact.sliding_direction();
-        let sheared = system.sheared_by(&normal_forces, sliding_direction);
+        let surface_speed = sector.specification.inner_radius * contact.rotation_speed;
+        let friction = contact.steady_friction(sliding_direction, surface_speed);
+        let sheared = system.sheared_by(&normal_forces, friction.drag);
         Ok(Self {
             pressed_displacement: pressed,
             sheared_displacement: sheared,
             normal_forces,
             sliding_direction,
+            friction,
         })
     }
 
@@ -51,7 +56,7 @@ impl SectorSliding {
     /// (`u_0`, `u_1` and `N_i`, in the units of the state for each unit of the parameter).
     ///
     /// ```text
-    /// K u_0' = -K' u_0 (u_0' = 0 on the contact normal),  N' = K' u_0 + K u_0',  K u_1' = s N' e_t - K' u_1
+    /// K u_0' = -K' u_0 (u_0' = 0 on the contact normal),  N' = K' u_0 + K u_0',  K u_1' = s (mu(V) / mu) N' e_t - K' u_1
     /// ```
     ///
     /// # Errors
@@ -78,13 +83,14 @@ impl SectorSliding {
             .map(|f| -f)
             .collect();
         for (i, normal) in normal_forces.iter().enumerate() {
-            load[2 * i + 1] += self.sliding_direction * normal;
+            load[2 * i + 1] += self.friction.drag * normal;
         }
         Ok(Self {
             pressed_displacement: pressed,
             sheared_displacement: system.solve(load),
             normal_forces,
             sliding_direction: self.sliding_direction,
+            friction: self.friction,
         })
     }
 }
@@ -149,10 +155,10 @@ impl PressedSystem {
             .collect()
     }
 
-    fn sheared_by(&self, normal_forces: &[f64], sliding_direction: f64) -> Vec<f64> {
+    fn sheared_by(&self, normal_forces: &[f64], drag: f64) -> Vec<f64> {
         let mut load = vec![0.0; self.stiffness.dimension()];
         for (node, force) in normal_forces.iter().enumerate() {
-            load[2 * node + 1] = sliding_direction * force;
+            load[2 * node + 1] = drag * force;
         }
         self.solve(load)
     }

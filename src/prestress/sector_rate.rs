@@ -2,7 +2,8 @@
 
 use super::PrestressError;
 use super::sector_tangent::{
-    HarmonicTangent, SectorTangent, Terms, stress_stiffness, sum, turning,
+    FrictionPolynomial, HarmonicTangent, SectorTangent, Terms, friction_dashpots, stress_stiffness,
+    sum, turning,
 };
 use crate::fem::sector::{self, SectorMatrix};
 use crate::fem::{ElasticMaterial, PlaneFormulation, RayleighDamping};
@@ -10,6 +11,10 @@ use crate::fem::{ElasticMaterial, PlaneFormulation, RayleighDamping};
 /// A parameter that eigenvalues respond to, besides the friction coefficient.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Parameter {
+    /// `contact.static_friction_ratio`.
+    StaticFrictionRatio,
+    /// `contact.decay_speed`, m/s.
+    DecaySpeed,
     /// `contact.normal_stiffness`, Pa/m.
     NormalStiffness,
     /// `damping.mass_coefficient`, 1/s.
@@ -29,11 +34,16 @@ pub enum Parameter {
 pub struct TangentRate {
     terms: Terms,
     rayleigh: RayleighDamping,
+    /// Relative change of the drag of steady sliding.
+    drag: f64,
 }
 
 impl SectorTangent {
     /// Derivative of the matrices of harmonic `n`; `damping` is always given.
     pub fn harmonic_rate(&self, rate: &TangentRate, n: usize) -> HarmonicTangent {
+        if rate.drag != 0.0 {
+            return self.drag_rate(rate, n);
+        }
         let follows = self.damping(&rate.terms, self.options.damping, false, n);
         let shared = self.damping(&self.terms, rate.rayleigh, false, n);
         HarmonicTangent {
@@ -42,12 +52,32 @@ impl SectorTangent {
             mass: self.mass(&rate.terms, n),
             stiffness: self.stiffness(&rate.terms, n),
             damping: Some(sum(follows, shared)),
+            friction_dashpots: self.friction_dashpots(&rate.terms),
             rayleigh: rate.rayleigh,
         }
     }
 
-    /// Derivative with respect to `parameter`, the base state following; `None` for a normal stiffness that
-    /// the contact does not have.
+    /// Every factor `mu` is one `mu mu(V) / mu`: a term of power `p` changes `p` times as much as the drag.
+    fn drag_rate(&self, rate: &TangentRate, n: usize) -> HarmonicTangent {
+        let scaled = |mut polynomial: FrictionPolynomial| {
+            for (power, coefficient) in polynomial.iter_mut().enumerate() {
+                coefficient.scale(power as f64 * rate.drag);
+            }
+            polynomial
+        };
+        let own = self.harmonic(n);
+        HarmonicTangent {
+            mass: scaled(own.mass),
+            stiffness: scaled(own.stiffness),
+            damping: own.damping.map(scaled),
+            friction_dashpots: self.friction_dashpots(&rate.terms),
+            rayleigh: RayleighDamping::default(),
+            ..own
+        }
+    }
+
+    /// Derivative with respect to `parameter`, the base state following; `None` for a normal stiffness or
+    /// a friction law that the contact does not have.
     ///
     /// # Errors
     /// [`PrestressError::Singular`] as for the base state itself.
@@ -63,12 +93,27 @@ impl SectorTangent {
                 .normal_stiffness
                 .as_ref()
                 .map(|k| vec![0.0; k.len()]),
+            friction_dashpots: None,
         };
+        let mut drag = 0.0;
         let mut share = RayleighDamping::default();
         let scaled = |matrix: &SectorMatrix, value: f64| matrix.scaled(1.0 / value);
         match parameter {
             Parameter::MassCoefficient => share.mass_coefficient = 1.0,
             Parameter::StiffnessCoefficient => share.stiffness_coefficient = 1.0,
+            Parameter::StaticFrictionRatio | Parameter::DecaySpeed => {
+                let Some(decay) = self.contact.decay else {
+                    return Ok(None);
+                };
+                let speed = self.sector.specification.inner_radius * self.contact.rotation_speed;
+                let [by_ratio, by_decay_speed] = decay.rates(speed);
+                let [share, slope] = match parameter {
+                    Parameter::DecaySpeed => by_decay_speed,
+                    _ => by_ratio,
+                };
+                drag = share / decay.share(speed);
+                terms.friction_dashpots = friction_dashpots(&self.base, slope);
+            }
             Parameter::NormalStiffness => {
                 if terms.normal_stiffness.is_none() {
                     return Ok(None);
@@ -90,6 +135,7 @@ impl SectorTangent {
                     return Ok(Some(TangentRate {
                         terms,
                         rayleigh: share,
+                        drag,
                     }));
                 }
                 // The base displacements do not depend on E, so every stress is proportional to it.
@@ -97,6 +143,8 @@ impl SectorTangent {
                 let stress = self.terms.stress.as_ref();
                 terms.stress = stress.map(|[a, b]| [scaled(a, e), scaled(b, e)]);
                 terms.turning = self.terms.turning.iter().map(|value| value / e).collect();
+                let dashpots = self.terms.friction_dashpots.as_ref();
+                terms.friction_dashpots = dashpots.map(|d| d.iter().map(|v| v / e).collect());
             }
             Parameter::PoissonRatio => {
                 self.stiffness_rate(&mut terms, &poisson_rate_material(&self.material))?;
@@ -105,6 +153,7 @@ impl SectorTangent {
         Ok(Some(TangentRate {
             terms,
             rayleigh: share,
+            drag,
         }))
     }
 
@@ -117,16 +166,19 @@ impl SectorTangent {
             return Ok(());
         };
         let elastic_rate = sector::stiffness(&self.sector, rate);
-        if self.terms.stress.is_some() {
+        if self.terms.stress.is_some() || self.terms.friction_dashpots.is_some() {
             let supported = match &self.terms.supports {
                 Some([springs, _]) => elastic.plus(springs),
                 None => elastic.clone(),
             };
             let base_rate = self.base.rate(&self.sector, &supported, &elastic_rate)?;
-            let moved = stress_stiffness(&self.sector, &self.material, &base_rate);
-            let stiffened = stress_stiffness(&self.sector, rate, &self.base);
-            terms.stress = Some([moved[0].plus(&stiffened[0]), moved[1].plus(&stiffened[1])]);
-            terms.turning = turning(&self.sector, &self.options, &base_rate);
+            terms.friction_dashpots = friction_dashpots(&base_rate, self.base.friction.slope);
+            if self.terms.stress.is_some() {
+                let moved = stress_stiffness(&self.sector, &self.material, &base_rate);
+                let stiffened = stress_stiffness(&self.sector, rate, &self.base);
+                terms.stress = Some([moved[0].plus(&stiffened[0]), moved[1].plus(&stiffened[1])]);
+                terms.turning = turning(&self.sector, &self.options, &base_rate);
+            }
         }
         terms.elastic = Some(elastic_rate);
         Ok(())

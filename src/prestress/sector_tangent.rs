@@ -25,6 +25,8 @@ pub struct HarmonicTangent {
     pub stiffness: FrictionPolynomial,
     /// `C_n(mu)`, Pa s, where damping is not proportional; otherwise `alpha_R M_n + beta_R K_n`.
     pub damping: Option<FrictionPolynomial>,
+    /// Dashpots of friction that depends on the speed: `mu` times this is a further, real part of `C_n`, Pa s.
+    pub friction_dashpots: Option<BandedMatrix>,
     /// Rayleigh coefficients.
     pub rayleigh: RayleighDamping,
     /// Number of leading unknowns that belong to the contact edge.
@@ -40,6 +42,7 @@ pub struct SectorTangent {
     pub(super) sector: SectorMesh,
     pub(super) material: ElasticMaterial,
     pub(super) options: TangentOptions,
+    pub(super) contact: SlidingContact,
     pub(super) base: SectorSliding,
     pub(super) terms: Terms,
 }
@@ -57,6 +60,8 @@ pub(super) struct Terms {
     pub(super) turning: Vec<f64>,
     /// `k_n w` of each contact node; `None` for rigid contact.
     pub(super) normal_stiffness: Option<Vec<f64>>,
+    /// `N mu'(V) / mu` of each contact node; `None` where friction does not depend on the speed.
+    pub(super) friction_dashpots: Option<Vec<f64>>,
 }
 
 impl SectorTangent {
@@ -86,11 +91,13 @@ impl SectorTangent {
             elastic: Some(elastic),
             supports,
             normal_stiffness: penalty.map(|k| lengths.iter().map(|w| k * w).collect()),
+            friction_dashpots: friction_dashpots(&base, base.friction.slope),
         };
         Ok(Self {
             sector: sector.clone(),
             material: *material,
             options: *options,
+            contact: *contact,
             base,
             terms,
         })
@@ -163,6 +170,7 @@ impl SectorTangent {
             stiffness: self.stiffness(&self.terms, n),
             damping: (!self.is_proportional())
                 .then(|| self.damping(&self.terms, rayleigh, true, n)),
+            friction_dashpots: self.friction_dashpots(&self.terms),
             rayleigh,
         }
     }
@@ -187,7 +195,8 @@ impl SectorTangent {
         let contact = self.options.contact;
         let has_dashpots = contact.normal_damping != 0.0 || contact.tangential_damping != 0.0;
         let is_whole = self.options.damping_model == DampingModel::WholeTangent;
-        is_whole && !has_dashpots && self.terms.supports.is_none()
+        let is_steady = self.terms.friction_dashpots.is_none();
+        is_whole && is_steady && !has_dashpots && self.terms.supports.is_none()
     }
 
     fn zero(&self) -> BandedMatrix {
@@ -223,7 +232,7 @@ impl SectorTangent {
             full[1].add_scaled(1.0, &sheared.harmonic(n));
         }
         for (node, force) in terms.turning.iter().enumerate() {
-            full[1].add(2 * node, 2 * node + 1, self.base.sliding_direction * force);
+            full[1].add(2 * node, 2 * node + 1, self.base.friction.drag * force);
         }
         if let Some(normal_stiffness) = &terms.normal_stiffness {
             self.add_friction(&mut full[1], normal_stiffness);
@@ -278,11 +287,23 @@ impl SectorTangent {
         sum(damping, self.project(dashpots))
     }
 
+    /// On the tangential rows alone, whose scaling by `-i` cancels that of the unknown.
+    pub(super) fn friction_dashpots(&self, terms: &Terms) -> Option<BandedMatrix> {
+        let mut dashpots = self.zero();
+        for (node, value) in terms.friction_dashpots.as_ref()?.iter().enumerate() {
+            dashpots.add(2 * node + 1, 2 * node + 1, *value);
+        }
+        if self.terms.normal_stiffness.is_some() {
+            return Some(dashpots);
+        }
+        Some(dashpots.restricted_to(&self.unknowns()))
+    }
+
     /// Friction that follows `dN = -value q_n`, on the left-hand side; a tangential row times `-i` turns
     /// `s mu value` into `-s value (i mu)`.
     fn add_friction(&self, coefficient: &mut BandedMatrix, values: &[f64]) {
         for (node, value) in values.iter().enumerate() {
-            coefficient.add(2 * node + 1, 2 * node, -self.base.sliding_direction * value);
+            coefficient.add(2 * node + 1, 2 * node, -self.base.friction.drag * value);
         }
     }
 
@@ -298,7 +319,7 @@ impl SectorTangent {
                     for column in lower[power - 1].columns(normal) {
                         let value = lower[power - 1].get(normal, column);
                         if value != 0.0 {
-                            let value = self.base.sliding_direction * value;
+                            let value = self.base.friction.drag * value;
                             upper[0].add(tangential, column, value);
                         }
                     }
@@ -313,6 +334,12 @@ impl SectorTangent {
         }
         full
     }
+}
+
+/// `N` of each contact node times `slope`; `None` without one.
+pub(super) fn friction_dashpots(base: &SectorSliding, slope: f64) -> Option<Vec<f64>> {
+    let forces = base.normal_forces.iter().map(|force| slope * force);
+    (slope != 0.0).then(|| forces.collect())
 }
 
 /// Geometric stiffness of the pressed and of the sheared state.

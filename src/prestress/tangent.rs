@@ -16,10 +16,11 @@ use std::sync::Arc;
 ///
 /// ```text
 /// M q'' + C q' + (K_e + K_sigma) q = dF,
-/// dF_n = dN - (T / a) q_t,   dF_t = s mu dN + (N / a) q_t   at each pressed contact node:
+/// dF_n = dN - (T / a) q_t,   dF_t = s mu dN + (N / a) q_t - N mu' q_t'   at each pressed contact node:
 /// ```
 ///
-/// the contact forces `N` and `T = s mu N` of the base state turn with the node on the curved edge (a
+/// with `mu` that at the sliding speed `V` and `mu'` its slope there: where friction falls, the last term feeds the
+/// motion. The contact forces `N` and `T = s mu N` of the base state turn with the node on the curved edge (a
 /// rigid rotation of everything leaves the edge in balance), and friction follows the normal force. `1 / a` is the
 /// curvature of the counterface, negative around the body and zero for a plane. Open nodes are free.
 /// Penalty contact has `dN = -w (k_n q_n + c_n q_n')`, `w` the node's tributary length. Rigid contact has
@@ -154,7 +155,7 @@ fn add_prestress(
             let (normal, tangential) = (interface.normal_dof(i), interface.tangential_dof(i));
             let turning = force * curvature;
             stiffness[power].push(tangential, tangential, -turning);
-            let friction = base.sliding_direction * turning;
+            let friction = base.friction.drag * turning;
             stiffness[power + 1].push(normal, tangential, friction);
         }
     }
@@ -167,7 +168,7 @@ fn add_normal_law(terms: &mut FullPolynomial, base: &SteadySliding, coefficient:
         let (normal, tangential) = (interface.normal_dof(i), interface.tangential_dof(i));
         let value = coefficient * length;
         terms[0].push(normal, normal, value);
-        terms[1].push(tangential, normal, base.sliding_direction * value);
+        terms[1].push(tangential, normal, base.friction.drag * value);
     }
 }
 
@@ -177,7 +178,8 @@ fn pressed_lengths(base: &SteadySliding) -> impl Iterator<Item = (usize, f64)> +
     lengths.enumerate().filter(|&(i, _)| base.is_pressed[i])
 }
 
-/// Normal and tangential dashpots of the contact; empty where it has none.
+/// Normal and tangential dashpots of the contact, and that of friction which depends on the speed; empty where it has
+/// none.
 fn contact_dashpots(base: &SteadySliding, contact: &ContactStiffness) -> FullPolynomial {
     let mut terms = vec![Triplets::default(), Triplets::default()];
     if contact.normal_damping != 0.0 {
@@ -187,6 +189,18 @@ fn contact_dashpots(base: &SteadySliding, contact: &ContactStiffness) -> FullPol
         for (i, length) in pressed_lengths(base) {
             let dof = base.interface.tangential_dof(i);
             terms[0].push(dof, dof, contact.tangential_damping * length);
+        }
+    }
+    if base.friction.slope != 0.0 {
+        terms.resize_with(
+            terms.len().max(base.normal_forces.len() + 1),
+            Triplets::default,
+        );
+        for (power, forces) in base.normal_forces.iter().enumerate() {
+            for (i, _) in pressed_lengths(base) {
+                let dof = base.interface.tangential_dof(i);
+                terms[power + 1].push(dof, dof, base.friction.slope * forces[i]);
+            }
         }
     }
     terms
@@ -243,7 +257,7 @@ impl<'a> Projection<'a> {
                 if let Some(row) = self.unknowns.unknown_of[row] {
                     projected[power].push((row, unknown, value));
                 } else if let Some(row) = self.friction_row[row] {
-                    let value = -self.base.sliding_direction * value;
+                    let value = -self.base.friction.drag * value;
                     projected[power + 1].push((row, unknown, value));
                 }
             }
@@ -276,6 +290,7 @@ mod tests {
 
     fn turning(rotation_speed: f64) -> SlidingContact {
         SlidingContact {
+            decay: None,
             friction_coefficient: 0.3,
             interference: 25e-6,
             rotation_speed,

@@ -15,6 +15,8 @@ pub fn parameter_axis(key: &str) -> Axis {
         "damping.mass_coefficient" => ("mass damping *α*_{R}", "1/s"),
         "damping.stiffness_coefficient" => ("stiffness damping *β*_{R}", "s"),
         "contact.friction_coefficient" => ("friction coefficient *μ*", "–"),
+        "contact.static_friction_ratio" => ("static over kinetic friction *q*", "–"),
+        "contact.decay_speed" => ("decay speed *v*_{c}", "m/s"),
         "contact.interference" => ("interference *δ*", "m"),
         "contact.rotation_speed_rpm" => ("rotation speed *Ω*", "rpm"),
         "contact.normal_stiffness" => ("contact stiffness *k*_{n}", "Pa/m"),

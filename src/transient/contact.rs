@@ -1,6 +1,8 @@
 //! Forward increment Lagrange multipliers of the contact edge.
 
-use crate::contact::{ContactInterface, ContactStatus, CoulombFriction, SlidingContact};
+use crate::contact::{
+    ContactInterface, ContactStatus, CoulombFriction, SlidingContact, SlippingNode,
+};
 use crate::fem::operator::{MotionFields, StepCoefficients, StiffnessOperator};
 use serde::{Deserialize, Serialize};
 use std::ops::AddAssign;
@@ -57,6 +59,9 @@ pub struct StatusCounts {
     pub slip: u64,
     /// Not in contact.
     pub open: u64,
+    /// Of those in contact, how many could have stuck and slipped alike: friction falls faster with speed than the
+    /// inertia of the node allows.
+    pub ambiguous: u64,
 }
 
 impl AddAssign for StatusCounts {
@@ -64,6 +69,7 @@ impl AddAssign for StatusCounts {
         self.stick += other.stick;
         self.slip += other.slip;
         self.open += other.open;
+        self.ambiguous += other.ambiguous;
     }
 }
 
@@ -86,7 +92,8 @@ impl StatusCounts {
 /// ```
 ///
 /// stick where `|T*| <= mu N` (so that `v_t = V`, `Omega a` on a shaft, at `n + 1/2`), slip elsewhere; without penetration the
-/// node is open and both vanish. Linear kinematics: the normal does not turn with the node.
+/// node is open and both vanish. Linear kinematics: the normal does not turn with the node. Friction that falls with
+/// the slip speed is implicit in it, node by node: [`CoulombFriction::resolve`].
 #[derive(Clone, Debug)]
 pub struct LagrangeContact {
     normal: Vec<usize>,
@@ -103,6 +110,7 @@ pub struct LagrangeContact {
     pub status: Vec<ContactStatus>,
     /// Before the step: `v_n, v_t, q_n, q_t`.
     before: Vec<[f64; 4]>,
+    ambiguous: u64,
 }
 
 impl LagrangeContact {
@@ -128,6 +136,7 @@ impl LagrangeContact {
             tangential_force: vec![0.0; count],
             status: vec![ContactStatus::Open; count],
             before: vec![[0.0; 4]; count],
+            ambiguous: 0,
         }
     }
 
@@ -145,6 +154,7 @@ impl LagrangeContact {
             coefficients.mass_coefficient,
             coefficients.stiffness_coefficient,
         );
+        self.ambiguous = 0;
         for i in 0..self.normal.len() {
             let (n, t, mass) = (self.normal[i], self.tangential[i], self.masses[i]);
             let before = [
@@ -163,14 +173,30 @@ impl LagrangeContact {
             if penetration > 0.0 {
                 // (6), node by node.
                 normal = mass * penetration / (dt * dt);
-                let trial = mass * (self.surface_speed - trial_t) / dt;
-                (tangential, self.status[i]) = self.law.project(trial, normal);
+                (tangential, self.status[i]) = if self.law.decay.is_none() {
+                    let trial = mass * (self.surface_speed - trial_t) / dt;
+                    self.law.project(trial, normal)
+                } else {
+                    self.fall(mass / dt, trial_t, v_t, normal)
+                };
                 fields.elastic[n] = q_n - normal / mass;
                 fields.elastic[t] = q_t - tangential / mass;
             }
             self.normal_force[i] = normal;
             self.tangential_force[i] = tangential;
         }
+    }
+
+    /// Friction that falls with the slip speed.
+    fn fall(&mut self, inertia: f64, free: f64, before: f64, normal: f64) -> (f64, ContactStatus) {
+        let node = SlippingNode {
+            inertia,
+            free_slip: self.surface_speed - free,
+            slip_before: self.surface_speed - before,
+        };
+        let friction = self.law.resolve(&node, normal);
+        self.ambiguous += u64::from(friction.is_ambiguous);
+        (friction.force, friction.status)
     }
 
     /// Takes the multipliers out of the elastic accelerations after the step, and returns what they did.
@@ -181,7 +207,10 @@ impl LagrangeContact {
     ) -> (ContactPowers, StatusCounts) {
         let dt = coefficients.time_step;
         let mut powers = ContactPowers::default();
-        let mut counts = StatusCounts::default();
+        let mut counts = StatusCounts {
+            ambiguous: self.ambiguous,
+            ..StatusCounts::default()
+        };
         for i in 0..self.normal.len() {
             let (n, t) = (self.normal[i], self.tangential[i]);
             let [v_n, v_t, q_n, q_t] = self.before[i];

@@ -1,6 +1,7 @@
 //! Consistency checks of the case parser: shipped cases, overrides, ranges, messages, robustness.
 
 mod agreement;
+mod friction_law;
 mod keys;
 mod plausibility;
 mod sizes;

@@ -37,6 +37,7 @@ pub fn annulus(
 /// The cylinder at friction coefficient 0.3.
 pub fn contact(rotation_speed_rpm: f64) -> SlidingContact {
     SlidingContact {
+        decay: None,
         friction_coefficient: 0.3,
         interference: 25e-6,
         rotation_speed: rotation_speed_rpm * PI / 30.0,

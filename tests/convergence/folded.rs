@@ -34,6 +34,7 @@ pub const FORWARD: f64 = 60.0;
 /// Steady sliding of a rotor turning at `rotation_speed`.
 pub fn base_state(mesh: &AnnulusMesh, annulus: &Annulus, rotation_speed: f64) -> SteadySliding {
     let sliding = SlidingContact {
+        decay: None,
         friction_coefficient: 0.3,
         interference: INTERFERENCE,
         rotation_speed,

@@ -17,6 +17,7 @@ use frictionsim::transient::{
 fn a_run_gets_every_figure_of_its_record() {
     let annulus = AnnulusMesh::generate(&annulus(ElementKind::Quad4, 60, 12)).unwrap();
     let contact = SlidingContact {
+        decay: None,
         friction_coefficient: 0.4,
         ..contact(610.0)
     };

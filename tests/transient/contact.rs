@@ -96,6 +96,7 @@ fn bar_rebounds_from_a_rigid_wall_as_one_dimensional_theory_says() {
     let mut model = model(&annulus, 0.0);
     model.damping = RayleighDamping::default();
     model.contact = SlidingContact {
+        decay: None,
         friction_coefficient: 0.0,
         interference: 0.0,
         rotation_speed: 0.0,

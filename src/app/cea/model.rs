@@ -93,7 +93,7 @@ impl SlidingModel {
         let pressures = base.pressures(friction);
         let smallest = pressures.iter().copied().fold(f64::INFINITY, f64::min);
         let largest = pressures.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let traction = base.sliding_direction * friction;
+        let traction = base.friction.drag * friction;
         let torque = case.thickness * base.torque(friction);
         let shear = [traction * smallest, traction * largest];
         let open = base
@@ -118,7 +118,7 @@ impl SlidingModel {
         let (base, friction) = (self.base(), case.contact.sliding.friction_coefficient);
         let displacement = base.displacement(friction);
         let pressures = base.pressures(friction);
-        let traction = base.sliding_direction * friction;
+        let traction = base.friction.drag * friction;
         BaseField {
             nodes: base.interface.nodes.clone(),
             angles: base.interface.angles.clone(),

@@ -101,6 +101,7 @@ fn solve_cyclic(case: &Case, cea: &Cea, model: &SlidingModel) -> Result<Solution
     let sensitivities = is_covered
         .then(|| cyclic::sensitivities(&found, friction))
         .transpose()?;
+    let law = case.contact.sliding.decay;
     Ok(Solution {
         dofs: found.tangent.dimension() * found.tangent.sector().sector_count(),
         method: "cyclic",
@@ -113,6 +114,8 @@ fn solve_cyclic(case: &Case, cea: &Cea, model: &SlidingModel) -> Result<Solution
                 case.material.young_modulus,
                 case.material.poisson_ratio,
                 case.material.density,
+                law.map_or(1.0, |law| law.static_ratio),
+                law.map_or(0.0, |law| law.decay_speed),
             ],
         }),
         notes: vec![coverage_note(&found.coverage)],

@@ -23,6 +23,8 @@ pub(super) struct HarmonicProblem {
     mass: FrictionPolynomial,
     stiffness: FrictionPolynomial,
     damping: Option<FrictionPolynomial>,
+    /// `mu` times this is a further part of `C`.
+    friction_dashpots: Option<BandedMatrix>,
     pub rayleigh: RayleighDamping,
     /// Leading unknowns that belong to the contact edge.
     contact_count: usize,
@@ -51,6 +53,7 @@ impl HarmonicProblem {
             mass: tangent.mass,
             stiffness: tangent.stiffness,
             damping: tangent.damping,
+            friction_dashpots: tangent.friction_dashpots,
             rayleigh: tangent.rayleigh,
         }
     }
@@ -69,7 +72,15 @@ impl HarmonicProblem {
         let z = c64::new(0.0, mu);
         let mass = evaluate(&self.mass, z);
         let stiffness = evaluate(&self.stiffness, z);
-        let damping = self.damping.as_ref().map(|c| evaluate(c, z));
+        let mut damping = self.damping.as_ref().map(|c| evaluate(c, z));
+        let mut damping_rate = self.damping.as_ref().and_then(|c| rate(c, z));
+        if let (Some(dashpots), Some(damping)) = (&self.friction_dashpots, &mut damping) {
+            let rate = damping_rate.get_or_insert_with(|| vec![ZERO; damping.len()]);
+            for ((c, rate), value) in damping.iter_mut().zip(rate).zip(dashpots.values()) {
+                *c += mu * value;
+                *rate += *value;
+            }
+        }
         let norms = self.norms(&mass, damping.as_deref(), &stiffness);
         Matrices {
             mass,
@@ -77,7 +88,7 @@ impl HarmonicProblem {
             damping,
             mass_rate: rate(&self.mass, z),
             stiffness_rate: rate(&self.stiffness, z),
-            damping_rate: self.damping.as_ref().and_then(|c| rate(c, z)),
+            damping_rate,
             norms,
         }
     }

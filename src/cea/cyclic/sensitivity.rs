@@ -5,10 +5,9 @@ use super::branch::path_theta;
 use super::follow::Follower;
 use super::problem::{HarmonicProblem, ZERO};
 use crate::cea::{CeaError, ModeBranch};
+use crate::linalg::banded::BandedMatrix;
 use crate::linalg::c64;
-use crate::prestress::{
-    FrictionPolynomial, HarmonicTangent, Parameter, SectorTangent, TangentRate,
-};
+use crate::prestress::{HarmonicTangent, Parameter, SectorTangent, TangentRate};
 use rayon::prelude::*;
 
 /// Derivatives of one eigenvalue, `d lambda / d parameter`, rad/s for each unit of the parameter.
@@ -45,6 +44,10 @@ pub struct Sensitivity {
     pub poisson_ratio: c64,
     /// With respect to the density, kg/m3.
     pub density: c64,
+    /// With respect to static over kinetic friction `q`; `None` for constant friction.
+    pub static_friction_ratio: Option<c64>,
+    /// With respect to the decay speed `v_c`, m/s; `None` for constant friction.
+    pub decay_speed: Option<c64>,
 }
 
 /// Sensitivities of every branch of a sweep at one friction coefficient within its range.
@@ -68,13 +71,15 @@ pub fn sensitivities(
         .collect()
 }
 
-const PARAMETERS: [Parameter; 6] = [
+const PARAMETERS: [Parameter; 8] = [
     Parameter::NormalStiffness,
     Parameter::MassCoefficient,
     Parameter::StiffnessCoefficient,
     Parameter::YoungModulus,
     Parameter::PoissonRatio,
     Parameter::Density,
+    Parameter::StaticFrictionRatio,
+    Parameter::DecaySpeed,
 ];
 
 fn of_branch(
@@ -110,10 +115,13 @@ fn of_branch(
     };
     let z = c64::new(0.0, friction);
     let forms = |set: &HarmonicTangent| {
-        let of = |matrix: &FrictionPolynomial| form(matrix, z, &found.y, &found.x);
+        let of = |matrix: &[BandedMatrix]| form(matrix, z, &found.y, &found.x);
+        let dashpots = set.friction_dashpots.as_ref();
+        let dashpots = dashpots.map_or(ZERO, |c| of(std::slice::from_ref(c)));
+        let damping = set.damping.as_ref().map_or(ZERO, |c| of(c));
         [
             of(&set.mass),
-            set.damping.as_ref().map_or(ZERO, of),
+            damping + dashpots * friction,
             of(&set.stiffness),
         ]
     };
@@ -153,11 +161,13 @@ fn of_branch(
         young_modulus: given(3),
         poisson_ratio: given(4),
         density: given(5),
+        static_friction_ratio: responses[6],
+        decay_speed: responses[7],
     })
 }
 
 /// `y^H P(z) x`.
-fn form(polynomial: &FrictionPolynomial, z: c64, y: &[c64], x: &[c64]) -> c64 {
+fn form(polynomial: &[BandedMatrix], z: c64, y: &[c64], x: &[c64]) -> c64 {
     let mut power = c64::new(1.0, 0.0);
     let mut total = ZERO;
     for matrix in polynomial {

@@ -12,12 +12,13 @@ use std::io::{self, Write};
 pub struct SensitivityReport {
     /// One entry for each branch.
     pub branches: Vec<Sensitivity>,
-    /// Normal stiffness, `alpha_R`, `beta_R`, `E`, `nu`, `rho` of the case (0 for rigid contact).
-    pub values: [f64; 6],
+    /// Normal stiffness, `alpha_R`, `beta_R`, `E`, `nu`, `rho`, static over kinetic friction and decay speed of the case (0 for
+    /// rigid contact, constant friction).
+    pub values: [f64; 8],
 }
 
 /// Short names of the parameters, the friction coefficient first.
-const NAMES: [&str; 7] = [
+const NAMES: [&str; 9] = [
     "friction_coefficient",
     "normal_stiffness",
     "mass_coefficient",
@@ -25,10 +26,13 @@ const NAMES: [&str; 7] = [
     "young_modulus",
     "poisson_ratio",
     "density",
+    "static_friction_ratio",
+    "decay_speed",
 ];
 
-/// Derivatives in the order of [`NAMES`]; none with respect to a contact stiffness that is rigid.
-fn derivatives(branch: &Sensitivity) -> [Option<c64>; 7] {
+/// Derivatives in the order of [`NAMES`]; none with respect to a contact stiffness that is rigid, or to how constant
+/// friction falls.
+fn derivatives(branch: &Sensitivity) -> [Option<c64>; 9] {
     [
         Some(branch.friction),
         branch.normal_stiffness,
@@ -37,6 +41,8 @@ fn derivatives(branch: &Sensitivity) -> [Option<c64>; 7] {
         Some(branch.young_modulus),
         Some(branch.poisson_ratio),
         Some(branch.density),
+        branch.static_friction_ratio,
+        branch.decay_speed,
     ]
 }
 
@@ -56,7 +62,8 @@ impl SensitivityReport {
     }
 
     /// Writes one row for each branch: the derivative of its growth rate (1/s) and of its frequency (Hz)
-    /// for each unit of each parameter; empty where the contact is rigid.
+    /// for each unit of each parameter; empty where the contact is rigid. Columns of a friction law that falls with
+    /// speed are there where the case has one.
     ///
     /// # Errors
     /// Those of the writer.
@@ -71,7 +78,13 @@ impl SensitivityReport {
         ]
         .map(str::to_owned)
         .to_vec();
-        for name in NAMES {
+        let is_constant = |branch: &Sensitivity| branch.static_friction_ratio.is_none();
+        let count = if self.branches.iter().all(is_constant) {
+            NAMES.len() - 2
+        } else {
+            NAMES.len()
+        };
+        for name in &NAMES[..count] {
             columns.push(format!("growth_rate_per_{name}"));
             columns.push(format!("frequency_hz_per_{name}"));
         }
@@ -86,7 +99,7 @@ impl SensitivityReport {
                 format_number(branch.eigenvalue.re),
                 format_number(branch.eigenvalue.im / TAU),
             ];
-            for derivative in derivatives(branch) {
+            for derivative in derivatives(branch).into_iter().take(count) {
                 let parts = derivative.map_or([f64::NAN; 2], |d| [d.re, d.im / TAU]);
                 row.extend(parts.map(format_number));
             }

@@ -1,0 +1,207 @@
+//! The stick-slip oscillator: a stiff block on a moving plane, held by a spring and a dashpot.
+//!
+//! `M u'' + (c + N mu'(V)) u' + k u = 0` about steady sliding: unstable below `V = v_c ln(N mu (q - 1) / (v_c c))`.
+
+use frictionsim::cea::sparse::sweep;
+use frictionsim::cea::{ModeLimit, SweepRequest};
+use frictionsim::contact::{ContactStiffness, FrictionDecay, SlidingContact};
+use frictionsim::fem::operator::SimdLevel;
+use frictionsim::fem::{
+    ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping, assemble_stiffness,
+};
+use frictionsim::mesh::{
+    BodySpecification, BoundaryCondition, CounterfaceSpecification, ElasticSupport, GmshFile,
+    Mesh2d,
+};
+use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
+use frictionsim::transient::{
+    CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
+    SampleRow, TimeStep, TransientModel, TransientSettings, build_operator,
+};
+
+/// So stiff that the block moves as one: its own modes lie above 30 kHz.
+const STEEL: ElasticMaterial = ElasticMaterial {
+    young_modulus: 2.1e11,
+    poisson_ratio: 0.3,
+    density: 7850.0,
+    formulation: PlaneFormulation::PlaneStrain,
+};
+const WIDTH: f64 = 0.04;
+const HEIGHT: f64 = 0.03;
+const MASS: f64 = 7850.0 * WIDTH * HEIGHT;
+/// Normal force, N/m.
+const NORMAL: f64 = 1e6 * WIDTH;
+const SPRING: f64 = 3e10 * HEIGHT;
+const DASHPOT: f64 = 6e5 * HEIGHT;
+const DECAY: FrictionDecay = FrictionDecay {
+    static_ratio: 1.5,
+    decay_speed: 0.1,
+};
+
+fn critical_speed() -> f64 {
+    let excess = NORMAL * 0.3 * (DECAY.static_ratio - 1.0);
+    DECAY.decay_speed * (excess / (DECAY.decay_speed * DASHPOT)).ln()
+}
+
+fn contact(speed: f64) -> SlidingContact {
+    SlidingContact {
+        decay: Some(DECAY),
+        friction_coefficient: 0.3,
+        interference: 0.0,
+        rotation_speed: speed,
+    }
+}
+
+/// 4 by 3 square elements; the plane below, the spring on the right, the pressure above.
+fn block() -> Mesh2d {
+    let node = |i: usize, j: usize| 1 + i + 5 * j;
+    let mut lines = Vec::new();
+    for i in 0..4 {
+        lines.push(format!("1 2 1 1 {} {}", node(i, 0), node(i + 1, 0)));
+        lines.push(format!("1 2 3 3 {} {}", node(i, 3), node(i + 1, 3)));
+    }
+    for j in 0..3 {
+        lines.push(format!("1 2 2 2 {} {}", node(4, j), node(4, j + 1)));
+        for i in 0..4 {
+            let corners = [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(a, b)| node(i + a, j + b));
+            lines.push(format!(
+                "3 2 4 4 {}",
+                corners.map(|n| n.to_string()).join(" ")
+            ));
+        }
+    }
+    let numbered = |lines: &[String]| {
+        let all = lines
+            .iter()
+            .enumerate()
+            .map(|(k, line)| format!("{} {line}\n", k + 1));
+        format!("{}\n{}", lines.len(), all.collect::<String>())
+    };
+    let nodes: Vec<String> = (0..20)
+        .map(|k| format!("{:?} {:?} 0", 0.01 * (k % 5) as f64, 0.01 * (k / 5) as f64))
+        .collect();
+    let text = format!(
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n4\n1 1 \"bottom\"\n1 2 \"right\"\n1 3 \"top\"\n2 4 \
+         \"block\"\n$EndPhysicalNames\n$Nodes\n{}$EndNodes\n$Elements\n{}$EndElements\n",
+        numbered(&nodes),
+        numbered(&lines)
+    );
+    let mounting = ElasticSupport {
+        normal_stiffness: SPRING / HEIGHT,
+        normal_damping: DASHPOT / HEIGHT,
+        ..ElasticSupport::default()
+    };
+    let specification = BodySpecification {
+        scale: 1.0,
+        contact: "bottom".to_owned(),
+        counterface: CounterfaceSpecification::Plane {
+            direction: [1.0, 0.0],
+        },
+        conditions: vec![
+            ("right".to_owned(), BoundaryCondition::Support(mounting)),
+            ("top".to_owned(), BoundaryCondition::Pressure(1e6)),
+        ],
+    };
+    Mesh2d::from_gmsh(&GmshFile::read(text.as_bytes()).unwrap(), &specification).unwrap()
+}
+
+/// Growth rate of the block on its spring by the eigenvalue analysis, 1/s.
+fn growth_rate(mesh: &Mesh2d, speed: f64) -> f64 {
+    let stiffness = assemble_stiffness(mesh, &STEEL);
+    let base = SteadySliding::solve(mesh, &stiffness, &contact(speed)).unwrap();
+    let options = TangentOptions {
+        mass: MassKind::Consistent,
+        geometric_stiffness: false,
+        damping: RayleighDamping::default(),
+        damping_model: DampingModel::WholeTangent,
+        contact: ContactStiffness::default(),
+    };
+    let tangent = SlidingTangent::linearize(mesh, &STEEL, &stiffness, &base, &options);
+    let request = SweepRequest {
+        friction_coefficients: &[0.3],
+        limit: ModeLimit::Lowest(1),
+        shapes_at: &[],
+    };
+    let found = sweep(&tangent, &request, &|_| {}).unwrap();
+    let mode = &found.points[0].modes[0];
+    // The block on its spring.
+    let expected = (SPRING / MASS).sqrt();
+    assert!((mode.eigenvalue.norm() / expected - 1.0).abs() < 0.02);
+    mode.growth_rate()
+}
+
+/// Closed form of the rigid block; the steel one is softer by the per mille.
+#[test]
+fn a_block_on_a_spring_turns_unstable_at_the_critical_speed_of_the_stick_slip_oscillator() {
+    let mesh = block();
+    let critical = critical_speed();
+    for share in [0.5, 0.8, 1.2, 2.0] {
+        let speed = share * critical;
+        let exact = -(DASHPOT + NORMAL * 0.3 * DECAY.slope(speed)) / (2.0 * MASS);
+        let found = growth_rate(&mesh, speed);
+        let scale = DASHPOT / (2.0 * MASS);
+        assert!(
+            (found - exact).abs() < 0.02 * scale,
+            "{share} {found} {exact}"
+        );
+    }
+    assert!(growth_rate(&mesh, 0.98 * critical) > 0.0);
+    assert!(growth_rate(&mesh, 1.02 * critical) < 0.0);
+}
+
+/// Samples of a transient of forty periods that starts from a push.
+fn samples(mesh: &Mesh2d, speed: f64) -> Vec<SampleRow> {
+    let model = TransientModel {
+        mesh,
+        annulus: None,
+        material: &STEEL,
+        damping: RayleighDamping {
+            mass_coefficient: 0.0,
+            stiffness_coefficient: 3e-7,
+        },
+        contact: contact(speed),
+    };
+    let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
+    let period = std::f64::consts::TAU * (MASS / SPRING).sqrt();
+    let settings = TransientSettings {
+        duration: 40.0 * period,
+        time_step: TimeStep::Auto,
+        sample_interval: 0.02 * period,
+        expansion_time: 0.0,
+        initial: InitialState::SteadySliding,
+        perturbation: Perturbation {
+            noise: 1e-2 * speed,
+            ..Perturbation::default()
+        },
+    };
+    let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
+    let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
+    run.run(&mut record).unwrap();
+    assert!(
+        run.largest_residual() < 1e-10,
+        "{:e}",
+        run.largest_residual()
+    );
+    record.rows
+}
+
+/// Theory: below the critical speed the oscillation grows until the block sticks to the plane once in each period;
+/// above it dies out.
+#[test]
+fn a_block_sticks_and_slips_below_its_critical_speed_and_slides_above() {
+    let mesh = block();
+    let last = |share: f64| {
+        let rows = samples(&mesh, share * critical_speed());
+        let tail = &rows[rows.len() - 200..];
+        let stuck: u64 = tail.iter().map(|row| row.counts.stick).sum();
+        let all: u64 = tail
+            .iter()
+            .map(|row| row.counts.stick + row.counts.slip)
+            .sum();
+        assert!(rows.iter().all(|row| row.counts.ambiguous == 0));
+        stuck as f64 / all as f64
+    };
+    let slow = last(0.5);
+    assert!((0.03..0.9).contains(&slow), "{slow}");
+    assert_eq!(last(1.3), 0.0);
+}

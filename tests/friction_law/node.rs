@@ -1,0 +1,98 @@
+//! The implicit law at one node.
+
+use frictionsim::contact::{
+    ContactStatus, CoulombFriction, FrictionDecay, NodeFriction, SlippingNode,
+};
+
+const DECAY: FrictionDecay = FrictionDecay {
+    static_ratio: 1.4,
+    decay_speed: 0.2,
+};
+
+const LAW: CoulombFriction = CoulombFriction {
+    friction_coefficient: 0.3,
+    decay: Some(DECAY),
+};
+
+fn resolve(inertia: f64, free_slip: f64, slip_before: f64, normal: f64) -> NodeFriction {
+    let node = SlippingNode {
+        inertia,
+        free_slip,
+        slip_before,
+    };
+    LAW.resolve(&node, normal)
+}
+
+/// Theory: the force moves the node to the slip velocity that the law asks the force for, or holds it within the cone.
+#[test]
+fn the_force_on_a_node_is_that_of_the_slip_that_it_leads_to() {
+    let (inertia, normal) = (8800.0, 2000.0);
+    for k in -400..=400 {
+        let free = 0.005 * f64::from(k);
+        for before in [-2.0, -0.1, 0.0, 0.1, 2.0] {
+            let found = resolve(inertia, free, before, normal);
+            let slip = free - found.force / inertia;
+            let largest = 0.3 * normal * DECAY.share(0.0);
+            assert!(!found.is_ambiguous);
+            if found.status == ContactStatus::Stick {
+                // One rounding of the force.
+                assert!(slip.abs() < 1e-15 && found.force.abs() <= largest);
+            } else {
+                assert!(slip * free > 0.0 && free.abs() * inertia > largest);
+                let law = 0.3 * normal * DECAY.share(slip) * slip.signum();
+                assert!((found.force - law).abs() < 1e-12 * largest, "{free} {slip}");
+            }
+        }
+    }
+}
+
+/// Theory: where the law falls faster than the inertia of a node allows, a range of motions has three answers, and
+/// the node keeps to the side that it is on.
+#[test]
+fn a_law_too_steep_for_the_inertia_is_reported_and_keeps_stick_and_slip_apart() {
+    // N |mu'(0)| = 1200, twice the inertia.
+    let (inertia, normal) = (600.0, 2000.0);
+    // Sticks up to 1.4 where it stuck, slips down to 1.338 where it slipped.
+    let held = resolve(inertia, 1.37, 0.0, normal);
+    let moving = resolve(inertia, 1.37, 0.5, normal);
+    assert_eq!(held.status, ContactStatus::Stick);
+    assert_eq!(moving.status, ContactStatus::Slip);
+    assert!(held.is_ambiguous && moving.is_ambiguous);
+    let slip = 1.37 - moving.force / inertia;
+    let law = 0.3 * normal * DECAY.share(slip);
+    assert!(slip > 0.0 && (moving.force / law - 1.0).abs() < 1e-12);
+    for (free, before, status) in [
+        (1.41, 0.0, ContactStatus::Slip),
+        (1.3, 0.5, ContactStatus::Stick),
+    ] {
+        let found = resolve(inertia, free, before, normal);
+        assert_eq!(found.status, status);
+        assert!(!found.is_ambiguous);
+    }
+}
+
+/// Finite differences of the law's share and slope.
+#[test]
+fn derivatives_of_the_law_equal_finite_differences() {
+    let step = 1e-5;
+    for speed in [0.0, 0.05, 0.3, 1.0] {
+        let slope = (DECAY.share(speed + step) - DECAY.share(speed)) / step;
+        assert!((slope - DECAY.slope(speed + 0.5 * step)).abs() < 1e-8);
+        let of = |ratio: f64, decay: f64| {
+            let changed = FrictionDecay {
+                static_ratio: DECAY.static_ratio + ratio,
+                decay_speed: DECAY.decay_speed + decay,
+            };
+            [changed.share(speed), changed.slope(speed)]
+        };
+        for (rate, [up, down]) in DECAY.rates(speed).into_iter().zip([
+            [of(step, 0.0), of(-step, 0.0)],
+            [of(0.0, step), of(0.0, -step)],
+        ]) {
+            for part in 0..2 {
+                let numeric = (up[part] - down[part]) / (2.0 * step);
+                assert!((numeric - rate[part]).abs() < 1e-6, "{speed} {part}");
+            }
+        }
+    }
+}
