@@ -28,7 +28,7 @@ fn a_law_that_rises_stands_still_or_is_half_given_is_refused_with_the_key() {
         ),
         (
             vec![RATIO, "contact.decay_speed=0.0"],
-            ["contact.decay_speed = 0.0", "must be positive"],
+            ["contact.decay_speed = 0 ", "must be positive"],
         ),
         (
             vec![RATIO, "contact.decay_speed=-0.2"],
