@@ -255,6 +255,7 @@ mod tests {
             mass: vec![mass],
             stiffness: vec![stiffness, friction],
             damping: None,
+            friction_dashpots: None,
             rayleigh: RayleighDamping::default(),
         }
     }
