@@ -401,6 +401,7 @@ fn a_body_without_symmetry_grows_in_time_as_its_eigenvalue_says() {
         material: &POLYCARBONATE,
         damping: DAMPING,
         contact,
+        stiffness: ContactStiffness::default(),
     };
     let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
     let settings = TransientSettings {
@@ -452,6 +453,7 @@ fn energy_closes_with_supports_pressure_and_partial_contact() {
             stiffness_coefficient: 1e-7,
         },
         contact: plane(0.5),
+        stiffness: ContactStiffness::default(),
     };
     let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
     let settings = TransientSettings {

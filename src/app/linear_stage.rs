@@ -2,7 +2,6 @@
 
 use crate::case::{Case, ModeSelection};
 use crate::cea::{CeaError, ComplexMode, ModeLimit};
-use crate::contact::ContactStiffness;
 use crate::fem::MassKind;
 use crate::prestress::{DampingModel, TangentOptions};
 use crate::results::charts::ModeLine;
@@ -11,8 +10,8 @@ use crate::study::modes_at_own_friction;
 /// Modes looked at where the case has no `[cea]`.
 const MODES: usize = 30;
 
-/// Unstable modes of steady sliding as the time loop has it: the same mesh, lumped mass, rigid contact,
-/// small displacements, damping on the whole tangent.
+/// Unstable modes of steady sliding as the time loop has it: the same mesh and contact, lumped mass, small
+/// displacements.
 pub struct LinearStage {
     /// Frequencies, numbered among all modes by frequency.
     pub references: Vec<ModeLine>,
@@ -57,12 +56,19 @@ impl LinearStage {
 }
 
 fn modes(case: &Case) -> Result<Vec<ComplexMode>, CeaError> {
+    let contact = case.contact.stiffness;
+    // On a rigid contact they are one and the same.
+    let is_rigid = contact.normal_stiffness.is_none();
+    let damping_model = match is_rigid || case.damping.include_contact {
+        true => DampingModel::WholeTangent,
+        false => DampingModel::BodyOnly,
+    };
     let options = TangentOptions {
         mass: MassKind::Lumped,
         geometric_stiffness: false,
         damping: case.damping.rayleigh,
-        damping_model: DampingModel::WholeTangent,
-        contact: ContactStiffness::default(),
+        damping_model,
+        contact,
     };
     let limit = match case.cea.as_ref().map(|cea| cea.modes) {
         Some(ModeSelection::BelowHz(limit)) => ModeLimit::MaxFrequency(limit),

@@ -51,8 +51,8 @@ impl CaseKey {
     }
 }
 
-/// Commands whose model has the tangent of the sliding contact.
-const TANGENT: &[&str] = &["cea", "frf"];
+/// Commands whose contact may give way.
+const COMPLIANT: &[&str] = &["cea", "frf", "transient"];
 
 /// All keys in the order of the documentation: name, values, unit, default, example, meaning.
 #[rustfmt::skip]
@@ -91,7 +91,7 @@ pub const KEYS: &[CaseKey] = &[
 
     key("damping.mass_coefficient", Number(NotNegative), "1/s", Value("0.0"), "40.0", "Rayleigh's alpha"),
     key("damping.stiffness_coefficient", Number(NotNegative), "s", Value("0.0"), "4.5e-7", "Rayleigh's beta"),
-    key("damping.include_contact", Flag, "", Value("true"), "true", "whether beta acts on contact and friction terms as well as on the body").used_by(TANGENT, "beta acts on the body alone"),
+    key("damping.include_contact", Flag, "", Value("true"), "true", "whether beta acts on contact and friction terms as well as on the body").used_by(COMPLIANT, "beta acts on the body alone"),
 
     key("contact.friction_coefficient", Number(NotNegative), "", Required, "0.3", "Coulomb's friction coefficient"),
     key("contact.static_friction_ratio", Number(AtLeast(1.0)), "", Value("1.0"), "1.4", "static friction over kinetic: mu(v) = friction_coefficient (1 + (ratio - 1) exp(-|v| / decay_speed))"),
@@ -104,9 +104,9 @@ pub const KEYS: &[CaseKey] = &[
     key("contact.radius", Number(Positive), "m", Otherwise("that of the contact curve"), "0.0205", "the radius of the cylinder where the contact curve is no circle"),
     key("contact.direction", Numbers(Finite), "", Otherwise("[1, 0]"), "[1.0, 0.0]", "the way a plane slides, the body on its left-hand side"),
     key("contact.speed", Number(Finite), "m/s", Otherwise("needed by counterface = \"plane\""), "1.5", "the speed of a plane"),
-    key("contact.normal_stiffness", NumberOr(Positive, "rigid"), "Pa/m", Otherwise("rigid"), "7.4e12", "the normal stiffness of the linearised contact (left out or \"rigid\" = rigid)").used_by(TANGENT, "its contact is rigid"),
-    key("contact.normal_damping", Number(NotNegative), "Pa s/m", Value("0.0"), "0.0", "a normal dashpot on the contact").used_by(TANGENT, "its contact is rigid"),
-    key("contact.tangential_damping", Number(NotNegative), "Pa s/m", Value("0.0"), "0.0", "a tangential dashpot on the contact").used_by(TANGENT, "Coulomb's law alone acts along its contact"),
+    key("contact.normal_stiffness", NumberOr(Positive, "rigid"), "Pa/m", Otherwise("rigid"), "7.4e12", "the normal stiffness of the contact (left out or \"rigid\" = rigid)").used_by(COMPLIANT, "its contact is rigid"),
+    key("contact.normal_damping", Number(NotNegative), "Pa s/m", Value("0.0"), "0.0", "a normal dashpot on the contact").used_by(COMPLIANT, "its contact is rigid"),
+    key("contact.tangential_damping", Number(NotNegative), "Pa s/m", Value("0.0"), "0.0", "a tangential dashpot on the contact").used_by(COMPLIANT, "Coulomb's law alone acts along its contact"),
 
     key("cea.friction_coefficients", Numbers(NotNegative), "", Otherwise("contact.friction_coefficient"), "{ from = 0.0, to = 1.0, count = 51 }", "the friction coefficients of the sweep"),
     key("cea.max_frequency_hz", Number(Positive), "Hz", Otherwise("cea.modes decides"), "17500.0", "the frequency below which all modes are found"),

@@ -53,7 +53,9 @@ impl SlidingContact {
     }
 }
 
-/// Linearised contact of the complex eigenvalue analysis, for each unit of contact area.
+/// Springs and dashpots between edge and counterface, for each unit of contact area.
+///
+/// Dashpots act on the motion of the body alone: steady sliding does not feel them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ContactStiffness {
     /// Normal stiffness `k_n`, Pa/m; `None` is rigid contact.
@@ -62,4 +64,15 @@ pub struct ContactStiffness {
     pub normal_damping: f64,
     /// Tangential dashpot, Pa s/m.
     pub tangential_damping: f64,
+}
+
+impl ContactStiffness {
+    /// The same with the dashpot `beta_R k_n` of a stiffness damping that acts on the contact too.
+    pub fn damped_by(self, stiffness_coefficient: f64) -> Self {
+        let added = stiffness_coefficient * self.normal_stiffness.unwrap_or(0.0);
+        Self {
+            normal_damping: self.normal_damping + added,
+            ..self
+        }
+    }
 }

@@ -3,7 +3,7 @@
 
 use super::limit_cycle::{CyclePowers, LimitCycle};
 use super::{CycleError, CycleSolver};
-use crate::contact::ContactStatus;
+use crate::contact::{ContactStatus, ContactStiffness};
 use crate::fem::RayleighDamping;
 use crate::fem::operator::{
     AlignedVector, MotionFields, SimdLevel, StepCoefficients, StiffnessOperator, largest_frequency,
@@ -84,6 +84,7 @@ impl CycleSolver {
                 stiffness_coefficient: 0.0,
             },
             contact: super::onset::unloaded(&self.specification),
+            stiffness: ContactStiffness::default(),
         };
         let operator = build_operator(&model, OperatorChoice::Auto, simd)?;
         let largest_frequency = largest_frequency(operator.as_ref());

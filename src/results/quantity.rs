@@ -144,6 +144,18 @@ const QUANTITIES: &[Quantity<'static>] = &[
         Fixed(2),
     ),
     quantity_of(
+        "power_w.contact_damping",
+        "dissipated in dashpots of the contact",
+        "W",
+        Fixed(2),
+    ),
+    quantity_of(
+        "ambiguous_friction",
+        "contact nodes free to stick or slip",
+        "",
+        Percent(2),
+    ),
+    quantity_of(
         "element_steps_per_s",
         "element-steps",
         "1/s",

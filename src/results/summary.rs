@@ -60,6 +60,9 @@ pub struct MeanPowers {
     pub material_damping: Option<f64>,
     /// Of the normal contact forces.
     pub normal_contact: Option<f64>,
+    /// Lost in the dashpots of a contact that has some.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub contact_damping: Option<f64>,
 }
 
 /// What a study reads of the summary of an analysis at a point: what vibrates, and where stability ends. Keys that an

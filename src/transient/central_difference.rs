@@ -75,7 +75,8 @@ struct Kick {
 /// E_{n+1/2} - E_{n-1/2} = dt v_n^T (G^T lambda_n - C v_{n-1/2})
 /// ```
 ///
-/// exactly; the balance residual is what round-off leaves of it. Linear kinematics, no geometric stiffness.
+/// exactly; the balance residual is what round-off leaves of it. The springs of a compliant contact add their energy to
+/// `E`. Linear kinematics, no geometric stiffness.
 pub struct CentralDifference<'a> {
     model: TransientModel<'a>,
     operator: &'a dyn StiffnessOperator,
@@ -129,24 +130,25 @@ impl<'a> CentralDifference<'a> {
     /// One step, without looking at it.
     pub fn advance(&mut self) {
         let step = self.next_step;
-        let time_after = (step + 1) as f64 * self.plan.time_step;
-        let share = self.expanded_share(time_after);
-        let expansion = self.model.contact.interference * share;
+        let shares = self.shares(step);
+        let share = shares[2];
         // Supports, pressures, regions with damping of their own.
         self.boundary.apply(&mut self.fields, share);
         // (6): multipliers of this step, which hold the constraints at its end.
         self.contact
-            .apply(&mut self.fields, &self.coefficients, expansion);
+            .apply(&mut self.fields, &self.coefficients, shares);
         // (7) with beta_2 = 1/2; the power of material damping is (11), with one of its velocities half a step old.
         let damping = self.operator.advance(&mut self.fields, &self.coefficients);
         // (9), (10): powers at the contact.
-        let (powers, counts) = self.contact.settle(&mut self.fields, &self.coefficients);
+        let (powers, counts) = self
+            .contact
+            .settle(&mut self.fields, &self.coefficients, shares);
         let [own_damping, pressure] =
             self.boundary
                 .settle(&mut self.fields, self.plan.time_step, share);
         let damping = damping + own_damping;
         // (12), with the work of the normal forces and of boundary pressures, which the paper leaves out.
-        let net = powers.stick + powers.slide + powers.normal + pressure - damping;
+        let net = powers.stick + powers.slide + powers.normal + pressure - damping - powers.damping;
         self.net_work += self.plan.time_step * net;
         self.powers += powers;
         self.damping_power += damping;
@@ -160,23 +162,30 @@ impl<'a> CentralDifference<'a> {
         }
     }
 
-    /// How far the counterface is pushed in at `time`, m: a linear ramp.
-    pub(super) fn expansion(&self, time: f64) -> f64 {
-        self.model.contact.interference * self.expanded_share(time)
-    }
-
-    /// Share of the interference and of the boundary pressures that acts at `time`.
-    fn expanded_share(&self, time: f64) -> f64 {
+    /// Share of the interference and of the boundary pressures that acts at `time`: a linear ramp.
+    pub(super) fn expanded_share(&self, time: f64) -> f64 {
         if time < self.expansion_time {
-            time / self.expansion_time
+            time.max(0.0) / self.expansion_time
         } else {
             1.0
         }
     }
 
+    /// These shares one step before `step`, at it and one step after.
+    fn shares(&self, step: u64) -> [f64; 3] {
+        let dt = self.plan.time_step;
+        let at = |step: f64| self.expanded_share(step * dt);
+        [
+            at(step as f64 - 1.0),
+            at(step as f64),
+            at((step + 1) as f64),
+        ]
+    }
+
     fn sample(&mut self, observer: &mut dyn Observer) -> Result<ControlFlow<()>, TransientError> {
         let [kinetic_energy, strain_energy] = self.energies();
-        let energy = kinetic_energy + strain_energy;
+        let contact_energy = self.contact_energy();
+        let energy = kinetic_energy + strain_energy + contact_energy;
         self.largest_energy = self.largest_energy.max(energy);
         let imbalance = (energy - self.initial_energy - self.net_work).abs();
         // A body at rest has no energy to be relative to.
@@ -201,6 +210,7 @@ impl<'a> CentralDifference<'a> {
             time: self.plan.sample_time(step / self.plan.steps_per_sample),
             kinetic_energy,
             strain_energy,
+            contact_energy,
             powers,
             material_damping,
             counts,

@@ -1,8 +1,8 @@
 //! Forward increment Lagrange multipliers of the contact edge.
 
-use crate::contact::{
-    ContactInterface, ContactStatus, CoulombFriction, SlidingContact, SlippingNode,
-};
+use super::compliance::{CompliantContact, CompressedNode};
+use super::{TransientError, TransientModel};
+use crate::contact::{ContactInterface, ContactStatus, CoulombFriction, SlippingNode};
 use crate::fem::operator::{MotionFields, StepCoefficients, StiffnessOperator};
 use serde::{Deserialize, Serialize};
 use std::ops::AddAssign;
@@ -23,8 +23,11 @@ pub struct ContactPowers {
     pub slide: f64,
     /// `sum T (Omega a - v_t)`.
     pub contact_dissipated: f64,
-    /// `sum N v_n`: impacts and the expansion of the cylinder.
+    /// Of the normal forces: `sum N v_n`, impacts and the expansion of the cylinder; for compliant contact, whose springs
+    /// and dashpots keep accounts of their own, `N` times the normal velocity of the counterface.
     pub normal: f64,
+    /// What the dashpots of the contact dissipate.
+    pub damping: f64,
 }
 
 impl AddAssign for ContactPowers {
@@ -34,6 +37,7 @@ impl AddAssign for ContactPowers {
         self.slide += other.slide;
         self.contact_dissipated += other.contact_dissipated;
         self.normal += other.normal;
+        self.damping += other.damping;
     }
 }
 
@@ -46,6 +50,7 @@ impl ContactPowers {
             slide: factor * self.slide,
             contact_dissipated: factor * self.contact_dissipated,
             normal: factor * self.normal,
+            damping: factor * self.damping,
         }
     }
 }
@@ -93,13 +98,18 @@ impl StatusCounts {
 ///
 /// stick where `|T*| <= mu N` (so that `v_t = V`, `Omega a` on a shaft, at `n + 1/2`), slip elsewhere; without penetration the
 /// node is open and both vanish. Linear kinematics: the normal does not turn with the node. Friction that falls with
-/// the slip speed is implicit in it, node by node: [`CoulombFriction::resolve`].
+/// the slip speed is implicit in it, node by node: [`CoulombFriction::resolve`]. A contact with a stiffness has `N` from
+/// its spring instead; a tangential dashpot adds `- c_t w v_t` while the node is in contact.
 #[derive(Clone, Debug)]
 pub struct LagrangeContact {
     normal: Vec<usize>,
     tangential: Vec<usize>,
     masses: Vec<f64>,
     gaps: Vec<f64>,
+    interference: f64,
+    compliance: Option<CompliantContact>,
+    /// `c_t w` of each node, Pa s; empty without a tangential dashpot.
+    dashpots: Vec<f64>,
     law: CoulombFriction,
     surface_speed: f64,
     /// Normal force `N` on each node at `n`, N/m.
@@ -115,21 +125,31 @@ pub struct LagrangeContact {
 
 impl LagrangeContact {
     /// All nodes of `interface` open.
+    ///
+    /// # Errors
+    /// [`TransientError::Prestress`] where the springs of a compliant contact have no base state.
     pub fn new(
         operator: &dyn StiffnessOperator,
         interface: &ContactInterface,
-        contact: &SlidingContact,
-    ) -> Self {
+        model: &TransientModel<'_>,
+    ) -> Result<Self, TransientError> {
+        let contact = &model.contact;
+        let coefficient = model.stiffness.tangential_damping;
+        let lengths = interface.tributary_lengths.iter();
+        let dashpots = lengths.map(|w| coefficient * w).filter(|c| *c != 0.0);
         let count = interface.len();
         let place = |dof: usize| operator.position(dof);
         let normal: Vec<usize> = (0..count).map(|i| place(interface.normal_dof(i))).collect();
-        Self {
+        Ok(Self {
             tangential: (0..count)
                 .map(|i| place(interface.tangential_dof(i)))
                 .collect(),
             masses: normal.iter().map(|&k| operator.masses()[k]).collect(),
             normal,
             gaps: interface.gaps.clone(),
+            interference: contact.interference,
+            compliance: CompliantContact::new(model, interface)?,
+            dashpots: dashpots.collect(),
             law: contact.law(),
             surface_speed: interface.surface_speed(contact.rotation_speed),
             normal_force: vec![0.0; count],
@@ -137,18 +157,19 @@ impl LagrangeContact {
             status: vec![ContactStatus::Open; count],
             before: vec![[0.0; 4]; count],
             ambiguous: 0,
-        }
+        })
     }
 
     /// Finds the multipliers of the coming step and adds them to the elastic accelerations.
     ///
-    /// `expansion` is how far the counterface is pushed in at the next step, `delta(t_{n+1})`, m.
+    /// `shares` of the interference are reached one step ago, now and at the next step.
     pub fn apply(
         &mut self,
         fields: &mut MotionFields,
         coefficients: &StepCoefficients,
-        expansion: f64,
+        shares: [f64; 3],
     ) {
+        let expansion = self.interference * shares[2];
         let dt = coefficients.time_step;
         let (alpha, beta) = (
             coefficients.mass_coefficient,
@@ -170,33 +191,83 @@ impl LagrangeContact {
             let penetration = expansion - self.gaps[i] - (fields.displacement[n] + dt * trial_n);
             let (mut normal, mut tangential) = (0.0, 0.0);
             self.status[i] = ContactStatus::Open;
-            if penetration > 0.0 {
+            if self.compliance.is_some() {
+                let motion = [fields.displacement[n], v_n, trial_n];
+                normal = self.compress(i, motion, shares, dt);
+            } else if penetration > 0.0 {
                 // (6), node by node.
                 normal = mass * penetration / (dt * dt);
-                (tangential, self.status[i]) = if self.law.decay.is_none() {
+            }
+            if normal > 0.0 {
+                let force;
+                if self.law.decay.is_none() && self.dashpots.is_empty() {
                     let trial = mass * (self.surface_speed - trial_t) / dt;
-                    self.law.project(trial, normal)
+                    (tangential, self.status[i]) = self.law.project(trial, normal);
+                    force = tangential;
                 } else {
-                    self.fall(mass / dt, trial_t, v_t, normal)
-                };
+                    (tangential, force) = self.slip(i, mass / dt, [v_t, trial_t], normal);
+                }
                 fields.elastic[n] = q_n - normal / mass;
-                fields.elastic[t] = q_t - tangential / mass;
+                fields.elastic[t] = q_t - force / mass;
             }
             self.normal_force[i] = normal;
             self.tangential_force[i] = tangential;
         }
     }
 
-    /// Friction that falls with the slip speed.
-    fn fall(&mut self, inertia: f64, free: f64, before: f64, normal: f64) -> (f64, ContactStatus) {
+    /// Normal force of a spring, from `u_n`, `v_{n-1/2}` and the `v_{n+1/2}` without contact.
+    fn compress(&mut self, i: usize, motion: [f64; 3], shares: [f64; 3], dt: f64) -> f64 {
+        let [displacement, before, free] = motion;
+        let [earlier, now, later] = shares.map(|share| self.pushed(i, share));
+        let node = CompressedNode {
+            mass: self.masses[i],
+            before: 0.5 * (earlier + now) - displacement + 0.5 * dt * before,
+            free: 0.5 * (now + later) - displacement - 0.5 * dt * free,
+        };
+        let law = self.compliance.as_mut();
+        law.map_or(0.0, |law| law.force(i, &node, dt))
+    }
+
+    /// Friction force, and what it makes with the tangential dashpot, from `v_{n-1/2}` and the `v_{n+1/2}` without
+    /// contact.
+    fn slip(&mut self, i: usize, inertia: f64, velocity: [f64; 2], normal: f64) -> (f64, f64) {
+        let [before, free] = velocity;
+        // The dashpot acts on the mean of both velocities: half of it is inertia.
+        let half = 0.5 * self.dashpots.get(i).copied().unwrap_or(0.0);
+        let damped = inertia + half;
+        let free = (inertia * free - half * before) / damped;
         let node = SlippingNode {
-            inertia,
+            inertia: damped,
             free_slip: self.surface_speed - free,
             slip_before: self.surface_speed - before,
         };
         let friction = self.law.resolve(&node, normal);
         self.ambiguous += u64::from(friction.is_ambiguous);
-        (friction.force, friction.status)
+        self.status[i] = friction.status;
+        let after = free + friction.force / damped;
+        (friction.force, friction.force - half * (before + after))
+    }
+
+    /// How far the counterface is pushed in at node `i`, less the node's gap, m; a compliant contact gives way by its
+    /// compression in the base state.
+    pub fn pushed(&self, i: usize, share: f64) -> f64 {
+        let law = self.compliance.as_ref();
+        let compression = law.map_or(0.0, |law| law.compression(i));
+        (self.interference + compression) * share - self.gaps[i]
+    }
+
+    /// Energy in the springs of a compliant contact at the half step before `u` and after its `shares` of the
+    /// interference, J/m.
+    pub fn energy(&self, fields: &MotionFields, shares: [f64; 2], dt: f64) -> f64 {
+        let Some(law) = &self.compliance else {
+            return 0.0;
+        };
+        let energy = |(i, &n): (usize, &usize)| {
+            let [before, now] = shares.map(|share| self.pushed(i, share));
+            let mean = fields.displacement[n] - 0.5 * dt * fields.velocity[n];
+            law.energy(i, 0.5 * (before + now) - mean)
+        };
+        self.normal.iter().enumerate().map(energy).sum()
     }
 
     /// Takes the multipliers out of the elastic accelerations after the step, and returns what they did.
@@ -204,6 +275,7 @@ impl LagrangeContact {
         &self,
         fields: &mut MotionFields,
         coefficients: &StepCoefficients,
+        shares: [f64; 3],
     ) -> (ContactPowers, StatusCounts) {
         let dt = coefficients.time_step;
         let mut powers = ContactPowers::default();
@@ -214,6 +286,9 @@ impl LagrangeContact {
         for i in 0..self.normal.len() {
             let (n, t) = (self.normal[i], self.tangential[i]);
             let [v_n, v_t, q_n, q_t] = self.before[i];
+            if let Some(law) = &self.compliance {
+                powers.damping += law.dissipation[i];
+            }
             if self.status[i] == ContactStatus::Open {
                 counts.open += 1;
                 continue;
@@ -234,7 +309,14 @@ impl LagrangeContact {
             // (9) and (10).
             powers.external += tangential * self.surface_speed;
             powers.contact_dissipated += tangential * (self.surface_speed - mean_t);
-            powers.normal += normal * mean_n;
+            powers.normal += normal
+                * match &self.compliance {
+                    None => mean_n,
+                    Some(_) => 0.5 * (self.pushed(i, shares[2]) - self.pushed(i, shares[0])) / dt,
+                };
+            if let Some(dashpot) = self.dashpots.get(i) {
+                powers.damping += dashpot * mean_t * mean_t;
+            }
         }
         (powers, counts)
     }

@@ -8,6 +8,7 @@
 mod analysis;
 mod boundary;
 mod central_difference;
+mod compliance;
 mod contact;
 mod error;
 mod perturbation;

@@ -42,6 +42,8 @@ pub struct SampleRow {
     pub kinetic_energy: f64,
     /// Strain energy at `n + 1/2`, J/m.
     pub strain_energy: f64,
+    /// Energy of the springs of a compliant contact at `n + 1/2`, J/m.
+    pub contact_energy: f64,
     /// Contact powers, means since the last sample, W/m.
     pub powers: ContactPowers,
     /// Power of material damping, mean since the last sample, W/m.
@@ -210,6 +212,22 @@ impl Recorder {
         self.stop_when_settled = fresh.stop_when_settled;
         self.has_stopped &= self.stop_when_settled;
         Ok(self)
+    }
+
+    /// Whether the contact has springs or dashpots, whose energy and losses belong to the balance.
+    pub fn has_contact_springs(&self) -> bool {
+        let mut rows = self.rows.iter();
+        rows.any(|row| row.contact_energy != 0.0 || row.powers.damping != 0.0)
+    }
+
+    /// Share of the steps of nodes in contact that could have ended in stick and in slip alike, since friction falls
+    /// faster with speed than their inertia allows; `None` where there is none.
+    pub fn ambiguous_share(&self) -> Option<f64> {
+        let sum =
+            |of: fn(&StatusCounts) -> u64| self.rows.iter().map(|row| of(&row.counts)).sum::<u64>();
+        let ambiguous = sum(|counts| counts.ambiguous);
+        let all = sum(|counts| counts.stick + counts.slip);
+        (ambiguous > 0).then(|| ambiguous as f64 / all as f64)
     }
 
     /// Harmonics that are followed.

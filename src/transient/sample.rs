@@ -14,6 +14,8 @@ pub struct Sample<'a> {
     pub kinetic_energy: f64,
     /// Strain energy `1/2 u_{n+1}^T K u_n`, J/m.
     pub strain_energy: f64,
+    /// Energy of the springs of a compliant contact at `n + 1/2`, J/m.
+    pub contact_energy: f64,
     /// Contact powers, means over the steps since the last sample, W/m.
     pub powers: ContactPowers,
     /// Power of material damping `v_n^T C v_{n-1/2}`, mean over the steps since the last sample, W/m.
@@ -69,11 +71,11 @@ impl Sample<'_> {
         self.displacement_before[self.run.contact().tangential_places()[i]]
     }
 
-    /// Distance of contact node `i` from the counterface at `n`, m.
+    /// Distance of contact node `i` from the counterface at `n`, m; negative where a compliant contact is compressed.
     pub fn gap(&self, i: usize) -> f64 {
         let place = self.run.contact().normal_places()[i];
-        let pushed = self.run.expansion(self.time) - self.run.interface().gaps[i];
-        self.displacement_before[place] - pushed
+        let share = self.run.expanded_share(self.time);
+        self.displacement_before[place] - self.run.contact().pushed(i, share)
     }
 
     /// Status of each contact node at `n`.

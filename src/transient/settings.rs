@@ -1,7 +1,7 @@
 //! What a transient needs to know, checked before it runs.
 
 use super::{Perturbation, TransientError};
-use crate::contact::SlidingContact;
+use crate::contact::{ContactStiffness, SlidingContact};
 use crate::fem::operator::{
     CyclicStencil, OperatorError, SimdLevel, SparseOperator, StiffnessOperator, largest_frequency,
 };
@@ -24,10 +24,12 @@ pub struct TransientModel<'a> {
     pub damping: RayleighDamping,
     /// The rotating cylinder.
     pub contact: SlidingContact,
+    /// Springs and dashpots of the contact; the default is rigid.
+    pub stiffness: ContactStiffness,
 }
 
 impl<'a> TransientModel<'a> {
-    /// A generated annulus of one material.
+    /// A generated annulus of one material in rigid contact.
     pub fn of_annulus(
         annulus: &'a AnnulusMesh,
         material: &'a ElasticMaterial,
@@ -40,6 +42,7 @@ impl<'a> TransientModel<'a> {
             material,
             damping,
             contact,
+            stiffness: ContactStiffness::default(),
         }
     }
 }

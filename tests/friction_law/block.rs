@@ -160,6 +160,7 @@ fn samples(mesh: &Mesh2d, speed: f64) -> Vec<SampleRow> {
             stiffness_coefficient: 3e-7,
         },
         contact: contact(speed),
+        stiffness: ContactStiffness::default(),
     };
     let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
     let period = std::f64::consts::TAU * (MASS / SPRING).sqrt();

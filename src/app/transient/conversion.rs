@@ -12,12 +12,18 @@ pub fn model<'a>(
     mesh: &'a Mesh2d,
     annulus: Option<&'a AnnulusMesh>,
 ) -> TransientModel<'a> {
+    let damped = if case.damping.include_contact {
+        case.damping.rayleigh.stiffness_coefficient
+    } else {
+        0.0
+    };
     TransientModel {
         mesh,
         annulus,
         material: case.materials(),
         damping: case.damping.rayleigh,
         contact: case.contact.sliding,
+        stiffness: case.contact.stiffness.damped_by(damped),
     }
 }
 

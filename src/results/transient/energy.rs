@@ -71,9 +71,11 @@ pub(super) fn energy(run: &RunFigures<'_>) -> Figure {
         row.powers.normal
     });
     let received = course("received at the contact", STICK_POWER, &|row| {
-        row.powers.stick + row.powers.slide + row.powers.normal
+        row.powers.stick + row.powers.slide + row.powers.normal - row.powers.damping
     });
-    let total = course("total", INK, &|row| row.kinetic_energy + row.strain_energy);
+    let total = course("total", INK, &|row| {
+        row.kinetic_energy + row.strain_energy + row.contact_energy
+    });
     let strain = course("strain", SERIES[2], &|row| row.strain_energy);
     let kinetic = course("kinetic", SERIES[1], &|row| row.kinetic_energy);
     let probes = run.record.probes.len();

@@ -70,7 +70,7 @@ fn write_probe(
 }
 
 fn write_energy(out: &mut dyn Write, report: &TransientReport<'_>) -> io::Result<()> {
-    let columns = [
+    let mut columns = vec![
         "time_s",
         "kinetic_j",
         "strain_j",
@@ -82,10 +82,14 @@ fn write_energy(out: &mut dyn Write, report: &TransientReport<'_>) -> io::Result
         "normal_contact_w",
         "balance_residual",
     ];
+    let has_springs = report.record.has_contact_springs();
+    if has_springs {
+        columns.extend(["contact_j", "contact_damping_w"]);
+    }
     let mut table = Table::new(out, &columns)?;
     for row in &report.record.rows {
         let powers = row.powers.scaled(report.thickness);
-        table.numbers(&[
+        let mut numbers = vec![
             row.time,
             report.thickness * row.kinetic_energy,
             report.thickness * row.strain_energy,
@@ -96,7 +100,11 @@ fn write_energy(out: &mut dyn Write, report: &TransientReport<'_>) -> io::Result
             report.thickness * row.material_damping,
             powers.normal,
             row.balance_residual,
-        ])?;
+        ];
+        if has_springs {
+            numbers.extend([report.thickness * row.contact_energy, powers.damping]);
+        }
+        table.numbers(&numbers)?;
     }
     table.finish()
 }

@@ -64,6 +64,14 @@ pub fn print(summary: &TransientSummary, state: EndState) -> String {
         optional(status.open, 3)
     );
     powers(&mut out, &summary.power_w);
+    if let Some(share) = summary.ambiguous_friction {
+        let _ = writeln!(
+            out,
+            "  friction falls faster with speed than the inertia of contact nodes allows in {} % of their steps: stick and \
+             slip jump there; a smaller transient.time_step or a larger contact.decay_speed removes it",
+            fixed(100.0 * share, 3)
+        );
+    }
     let periods = summary
         .main_frequency_hz
         .map(|f| f * summary.contact_interval_s);
@@ -136,4 +144,11 @@ fn powers(out: &mut String, powers: &MeanPowers) {
         optional(powers.material_damping, 2),
         optional(powers.normal_contact, 2),
     );
+    if let Some(power) = powers.contact_damping {
+        let _ = writeln!(
+            out,
+            "  dissipated in dashpots of the contact {} W",
+            fixed(power, 2)
+        );
+    }
 }

@@ -58,6 +58,9 @@ pub struct TransientSummary {
     pub status: StatusFractions,
     /// Mean powers over the last fifth.
     pub power_w: MeanPowers,
+    /// Share of the steps of contact nodes that could have ended in stick and in slip alike; absent where there is none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ambiguous_friction: Option<f64>,
     /// Mean amplitudes of the harmonics 0 to 8 of the contact edge's tangential displacement, m.
     pub harmonics: Vec<f64>,
     /// The same of all harmonics `n >= 1` above a thousandth of the largest, by `nN`.
@@ -211,7 +214,12 @@ pub fn summary(report: &TransientReport<'_>, manifest: &Manifest) -> TransientSu
             contact_dissipated: watts(end.powers.contact_dissipated),
             material_damping: watts(end.material_damping),
             normal_contact: watts(end.powers.normal),
+            contact_damping: report
+                .record
+                .has_contact_springs()
+                .then(|| report.thickness * end.powers.damping),
         },
+        ambiguous_friction: report.record.ambiguous_share(),
         harmonics: end.harmonics.to_vec(),
         significant_harmonics_m: by_harmonic(end.significant.iter().copied()),
         growth: analysis.growth.iter().filter_map(growth).collect(),

@@ -28,7 +28,15 @@ impl CentralDifference<'_> {
             let force = fields.elastic[k] - dt * fields.elastic_rate[k];
             0.5 * self.operator.masses()[k] * (v * v + u * force)
         })
-        .sum()
+        .sum::<f64>()
+            + self.contact_energy()
+    }
+
+    /// Energy of the contact's springs at `n - 1/2`, `n` the next step.
+    pub(super) fn contact_energy(&self) -> f64 {
+        let [before, now, _] = self.shares(self.next_step);
+        let dt = self.plan.time_step;
+        self.contact.energy(&self.fields, [before, now], dt)
     }
 
     /// Adds a velocity (m/s, over all dofs in nodal frames) to `v_{n-1/2}`; the energy that comes with it counts as work.

@@ -144,7 +144,7 @@ impl<'a> CentralDifference<'a> {
                 elastic: zeros(),
                 elastic_rate: zeros(),
             },
-            contact: LagrangeContact::new(operator, &interface, &model.contact),
+            contact: LagrangeContact::new(operator, &interface, &model)?,
             boundary: BoundaryForces::new(&model, operator),
             interface,
             next_step: 0,

@@ -21,6 +21,7 @@ impl Observer for Recorder {
             time: sample.time,
             kinetic_energy: sample.kinetic_energy,
             strain_energy: sample.strain_energy,
+            contact_energy: sample.contact_energy,
             powers: sample.powers,
             material_damping: sample.material_damping,
             counts: sample.counts,

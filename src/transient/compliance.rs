@@ -1,0 +1,186 @@
+//! Springs and dashpots of a contact edge that is not rigid.
+
+use super::{TransientError, TransientModel};
+use crate::contact::ContactInterface;
+use crate::fem::assemble_stiffness;
+use crate::prestress::SteadySliding;
+
+/// The interface between edge and counterface as springs that push but never pull, with dashpots beside them.
+///
+/// ```text
+/// N = max(0, k w p + c w p'),   p = s (delta + N_0 / (k w)) - g_0 - u_n
+/// ```
+///
+/// `p` is the compression of a node's spring, `w` its tributary length, `N_0` its force in steady sliding, `s` the share
+/// of the interference that is reached. The counterface goes as much further as the interface gives way under `N_0`, so
+/// that the base state is that of rigid contact whatever its stiffness, and small motions about it are those of the
+/// eigenvalue analysis.
+///
+/// Force and motion obey the energy of the spring within each step: with `p` the mean compression at the half steps
+/// before and after, `U = k w max(0, p)^2 / 2`,
+///
+/// ```text
+/// N = (U_+ - U_-) / (p_+ - p_-) + c w (max(0, p_+) - max(0, p_-)) / dt
+/// ```
+///
+/// a scalar equation for each node, implicit in `p_+ = p* - dt^2 N / 2m` and in closed form. It is stable for any
+/// stiffness, second order in time, and adds no damping of its own.
+#[derive(Clone, Debug)]
+pub(super) struct CompliantContact {
+    /// `k w` of each node, Pa.
+    stiffness: Vec<f64>,
+    /// `c w`, Pa s.
+    damping: Vec<f64>,
+    /// `N_0 / (k w)`, m.
+    compression: Vec<f64>,
+    /// Power of each node's dashpot in the last step, W/m.
+    pub dissipation: Vec<f64>,
+}
+
+/// One node before a step, as its spring sees it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct CompressedNode {
+    /// Mass, kg/m.
+    pub mass: f64,
+    /// Mean compression half a step ago, m.
+    pub before: f64,
+    /// Mean compression half a step ahead without a normal force, m.
+    pub free: f64,
+}
+
+impl CompliantContact {
+    /// The springs of `model`; `None` for rigid contact.
+    ///
+    /// # Errors
+    /// [`TransientError::Prestress`] where there is no state of steady sliding.
+    pub fn new(
+        model: &TransientModel<'_>,
+        interface: &ContactInterface,
+    ) -> Result<Option<Self>, TransientError> {
+        let Some(stiffness) = model.stiffness.normal_stiffness else {
+            return Ok(None);
+        };
+        let elastic = assemble_stiffness(model.mesh, model.material);
+        let base = SteadySliding::solve(model.mesh, &elastic, &model.contact)?;
+        let forces = base.normal_forces(model.contact.friction_coefficient);
+        let scaled = |factor: f64| {
+            let lengths = interface.tributary_lengths.iter();
+            lengths.map(|w| factor * w).collect::<Vec<f64>>()
+        };
+        let stiffness = scaled(stiffness);
+        let pairs = forces.iter().zip(&stiffness);
+        Ok(Some(Self {
+            compression: pairs.map(|(force, k)| force.max(0.0) / k).collect(),
+            damping: scaled(model.stiffness.normal_damping),
+            dissipation: vec![0.0; stiffness.len()],
+            stiffness,
+        }))
+    }
+
+    /// What the interface gives way under the base state's force at node `i`, m.
+    pub fn compression(&self, i: usize) -> f64 {
+        self.compression[i]
+    }
+
+    /// Energy of node `i` at the mean compression `p`, J/m.
+    pub fn energy(&self, i: usize, compression: f64) -> f64 {
+        0.5 * self.stiffness[i] * compression.max(0.0).powi(2)
+    }
+
+    /// Normal force on node `i`, N/m; keeps what its dashpot dissipates.
+    pub fn force(&mut self, i: usize, node: &CompressedNode, dt: f64) -> f64 {
+        let (k, c) = (self.stiffness[i], self.damping[i] / dt);
+        let yielding = 0.5 * dt * dt / node.mass;
+        let after = compression_after(node, k, c, yielding);
+        let (change, spring) = (after - node.before, mean_force(k, node.before, after));
+        let dashpot = c * (after.max(0.0) - node.before.max(0.0));
+        // The interface does not stick to the body: a dashpot that would pull lets it go.
+        let force = (spring + dashpot).max(0.0);
+        self.dissipation[i] = (force - spring) * change / dt;
+        force
+    }
+}
+
+/// `(U_+ - U_-) / (p_+ - p_-)` of the spring, N/m.
+fn mean_force(k: f64, before: f64, after: f64) -> f64 {
+    let sum = before.max(0.0) + after.max(0.0);
+    if before >= 0.0 && after >= 0.0 {
+        return 0.5 * k * sum;
+    }
+    if sum == 0.0 {
+        return 0.0;
+    }
+    // One of both is open: the difference of the squares is the square of the other.
+    0.5 * k * sum * sum / (after - before).abs()
+}
+
+/// The root `p_+` of `p_+ + a max(0, N(p_+)) = p*`, `a = dt^2 / 2m`: unique, since `N` never falls with `p_+`.
+fn compression_after(node: &CompressedNode, k: f64, c: f64, yielding: f64) -> f64 {
+    let (before, free) = (node.before, node.free);
+    let closed = before.max(0.0);
+    if mean_force(k, before, free) + c * (free.max(0.0) - closed) <= 0.0 {
+        return free;
+    }
+    let (k, c) = (yielding * k, yielding * c);
+    if before < 0.0 {
+        // It closes: a quadratic equation for the way d = p_+ - p_- > -p_-.
+        let a = 1.0 + 0.5 * k + c;
+        let b = free - before - (k + c) * before;
+        let way = (b + (b * b - 2.0 * a * k * before * before).max(0.0).sqrt()) / (2.0 * a);
+        return before + way;
+    }
+    let after = (free - (0.5 * k - c) * before) / (1.0 + 0.5 * k + c);
+    if after >= 0.0 {
+        return after;
+    }
+    // It opens: one for the way d < -p_-.
+    let b = before - free - c * before;
+    before - 0.5 * (b + (b * b + 2.0 * k * before * before).sqrt())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Theory: the force obeys its own equation, and spring, dashpot and work of the force close their balance, through
+    /// closing, opening and dashpots that let go.
+    #[test]
+    fn force_motion_and_energy_of_a_node_agree_whatever_its_status() {
+        let (dt, mass) = (1e-7, 1e-3);
+        let mut seen = [false; 5];
+        for stiffness in [1e8, 5e9, 1e13] {
+            for damping in [0.0, 2e3] {
+                let mut contact = CompliantContact {
+                    stiffness: vec![stiffness],
+                    damping: vec![damping],
+                    compression: vec![0.0],
+                    dissipation: vec![0.0],
+                };
+                for before in [-1e-6, -1e-8, 0.0, 1e-8, 1e-6] {
+                    for free in [-2e-6, -1e-8, 1e-9, 3e-8, 2e-6] {
+                        let node = CompressedNode { mass, before, free };
+                        let force = contact.force(0, &node, dt);
+                        let after = free - 0.5 * dt * dt / mass * force;
+                        let energy = contact.energy(0, after) - contact.energy(0, before);
+                        let work = force * (after - before);
+                        let lost = dt * contact.dissipation[0];
+                        // A few roundings of positions of the size of both.
+                        let size = before.abs().max(free.abs());
+                        let scale = work.abs() + stiffness * size * size * 1e-2;
+                        assert!((work - energy - lost).abs() < 1e-11 * scale, "{node:?}");
+                        assert!(force >= 0.0 && lost >= -1e-12 * scale);
+                        let case = match (before > 0.0, after > 0.0, force > 0.0) {
+                            (_, _, false) if before > 0.0 => 4,
+                            (false, false, _) => 0,
+                            (false, true, _) => 1,
+                            (true, false, _) => 2,
+                            (true, true, _) => 3,
+                        };
+                        seen[case] = true;
+                    }
+                }
+            }
+        }
+        assert_eq!(seen, [true; 5]);
+    }
+}
