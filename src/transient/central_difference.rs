@@ -164,7 +164,7 @@ impl<'a> CentralDifference<'a> {
 
     /// Share of the interference and of the boundary pressures that acts at `time`: a linear ramp.
     pub(super) fn expanded_share(&self, time: f64) -> f64 {
-        if time < self.expansion_time {
+        if time.max(0.0) < self.expansion_time {
             time.max(0.0) / self.expansion_time
         } else {
             1.0
