@@ -217,7 +217,7 @@ pub fn summary(report: &TransientReport<'_>, manifest: &Manifest) -> TransientSu
             contact_damping: report
                 .record
                 .has_contact_springs()
-                .then(|| report.thickness * end.powers.damping),
+                .then_some(report.thickness * end.powers.damping),
         },
         ambiguous_friction: report.record.ambiguous_share(),
         harmonics: end.harmonics.to_vec(),
