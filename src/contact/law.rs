@@ -107,7 +107,7 @@ pub struct NodeFriction {
     pub is_ambiguous: bool,
 }
 
-/// Newton steps of one node; from the right of a convex function's root they cannot overshoot.
+/// Newton steps of one node at most; from the right of a convex function's root they cannot overshoot.
 const NEWTON_STEPS: usize = 50;
 
 impl CoulombFriction {
@@ -149,11 +149,12 @@ impl CoulombFriction {
             };
         };
         let pull = self.cone(normal) / inertia;
+        let v_c = decay.decay_speed;
         let value = |slip: f64| slip + pull * decay.share(slip) - free;
         // Where the function of slip is least: left of it no root is stable.
-        let fall = -pull * decay.slope(0.0);
-        let least = decay.decay_speed * fall.max(1.0).ln();
-        let may_stick = value(0.0) >= 0.0;
+        let fall = pull * (decay.static_ratio - 1.0) / v_c;
+        let least = v_c * fall.max(1.0).ln();
+        let may_stick = free <= pull * decay.static_ratio;
         let may_slip = !may_stick || (least > 0.0 && value(least) < 0.0);
         let is_slipping = node.slip_before * sense > least;
         if may_stick && !(may_slip && is_slipping) {
@@ -164,19 +165,24 @@ impl CoulombFriction {
             };
         }
         let highest = free - pull;
-        let mut slip = (node.slip_before * sense).clamp(least.min(highest), highest);
-        if value(slip) < 0.0 && fall >= 1.0 {
-            slip = highest;
-        }
+        // From the last slip where the function is monotone, else from the right of its largest root.
+        let mut slip = if fall < 1.0 {
+            (node.slip_before * sense).min(highest).max(0.0)
+        } else {
+            highest
+        };
         for _ in 0..NEWTON_STEPS {
-            let step = value(slip) / (1.0 + pull * decay.slope(slip));
-            slip = (slip - step).clamp(least.min(highest), highest);
-            if step.abs() <= 2.0 * f64::EPSILON * free {
+            let excess = pull * decay.excess(slip);
+            let slope = 1.0 - excess / v_c;
+            let step = (slip + pull + excess - free) / slope;
+            slip = (slip - step).min(highest).max(least);
+            // What is left: the second derivative is excess / v_c^2.
+            if excess * step * step <= f64::EPSILON * free * slope * v_c * v_c {
                 break;
             }
         }
         NodeFriction {
-            force: sense * self.cone(normal) * decay.share(slip),
+            force: sense * inertia * (free - slip),
             status: ContactStatus::Slip,
             is_ambiguous: may_stick,
         }

@@ -6,6 +6,7 @@
 mod disc;
 
 mod block;
+mod case;
 mod growth;
 mod node;
 mod spectrum;

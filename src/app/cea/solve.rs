@@ -28,6 +28,7 @@ pub fn solve(
         .notes
         .extend(uncertainty_note(case, &solution.sweep));
     solution.notes.extend(damping_note(case, &solution.sweep));
+    solution.notes.extend(friction_note(case, model));
     Ok(solution)
 }
 
@@ -79,6 +80,21 @@ fn damping_note(case: &Case, sweep: &FrictionSweep) -> Option<String> {
             largest.max(at_limit)
         )
     })
+}
+
+/// What a friction law does at the speed of sliding.
+fn friction_note(case: &Case, model: &SlidingModel) -> Option<String> {
+    case.contact.sliding.decay?;
+    let (base, friction) = (model.base(), case.contact.sliding.friction_coefficient);
+    let pressures = base.pressures(friction);
+    let pressure = pressures.iter().sum::<f64>() / pressures.len().max(1) as f64;
+    Some(format!(
+        "friction falls with speed: friction coefficients are those of high speed; in steady sliding friction is {:.4} \
+         times as large, and at contact.friction_coefficient = {friction} its fall is a dashpot of {:.3e} Pa s/m on the \
+         tangential motion of the edge (mean pressure {pressure:.3e} Pa)",
+        base.friction.drag.abs(),
+        friction * pressure * base.friction.slope,
+    ))
 }
 
 fn solve_cyclic(case: &Case, cea: &Cea, model: &SlidingModel) -> Result<Solution, Failure> {
