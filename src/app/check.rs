@@ -145,6 +145,10 @@ fn meshes(case: &Case) -> String {
         return String::new();
     };
     let meshes = study.factors.iter().map(|factor| {
+        if let Some(body) = &case.body {
+            let elements = body.mesh.element_count() as f64 * factor * factor;
+            return format!("{elements:.0} elements");
+        }
         let mesh = Convergence::refined(&case.annulus, *factor);
         format!(
             "{} x {}",

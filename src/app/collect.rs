@@ -41,7 +41,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     terminal::start_log(arguments.quiet, 0);
     start_threads(None);
     let (folder, manifest) = SweepFolder::find(&arguments.folder)?;
-    let case = recorded_case(&manifest)?;
+    let case = recorded_case(&arguments.folder, &manifest)?;
     let plan = SweepPlan::new(&case)?;
     let records = finished_points(&folder, plan.count())?;
     let report = SweepReport {
@@ -79,7 +79,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 /// A folder that is no sweep's or cannot be written.
 pub fn redraw(path: &Path, options: &DrawingOptions) -> Result<(), Failure> {
     let (folder, manifest) = SweepFolder::find(path)?;
-    let case = recorded_case(&manifest)?;
+    let case = recorded_case(path, &manifest)?;
     let plan = SweepPlan::new(&case)?;
     let records = finished_points(&folder, plan.count())?;
     let report = SweepReport {

@@ -95,11 +95,12 @@ fn studies(
     convergence: &Convergence,
     manifest: &Manifest,
 ) -> Result<Vec<Study>, Failure> {
-    let meshes = convergence.factors.iter().map(|&factor| Case {
-        annulus: Convergence::refined(&case.annulus, factor),
-        ..case.clone()
-    });
-    let meshes: Vec<Case> = meshes.collect();
+    let meshes: Result<Vec<Case>, Failure> = convergence
+        .factors
+        .iter()
+        .map(|&factor| case.refined(factor).map_err(Failure::Case))
+        .collect();
+    let meshes = meshes?;
     let over_meshes = convergence.analyses.iter().map(|&analysis| Study {
         analysis,
         refinement: Refinement::Mesh,
@@ -272,6 +273,13 @@ fn series(case: &Case, study: &Study, outcomes: Vec<Timed>) -> Result<Vec<Series
 
 /// Element size and name of a mesh: the size is the side of a square of the mean element area, m.
 fn mesh_level(case: &Case) -> (f64, String) {
+    if let Some(body) = &case.body {
+        let (mesh, count) = (&body.mesh, body.mesh.element_count());
+        return (
+            (mesh.area() / count as f64).sqrt(),
+            format!("{count} elements"),
+        );
+    }
     let annulus = &case.annulus;
     let area = 0.5 * TAU * (annulus.outer_radius.powi(2) - annulus.inner_radius.powi(2));
     let (around, radial) = (annulus.circumferential_elements, annulus.radial_elements);

@@ -63,7 +63,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let summary = ResponseSummary {
         command: "frf".to_owned(),
         title: case.title.clone(),
-        description: described(frf, &computed),
+        description: described(case, frf, &computed),
         dofs: computed.dofs,
         lines: frf.frequencies_hz.len(),
         method: computed.method.to_owned(),
@@ -233,14 +233,14 @@ fn observed(case: &Case, frf: &Frf, receptance: &[c64]) -> Vec<c64> {
         .collect()
 }
 
-fn described(frf: &Frf, computed: &Computed) -> String {
+fn described(case: &Case, frf: &Frf, computed: &Computed) -> String {
     let place = |t: Terminal| {
         let direction = if t.is_tangential {
             "tangential"
         } else {
             "radial"
         };
-        format!("node {} {direction}", t.node + 1)
+        format!("node {} {direction}", case.node_label(t.node))
     };
     let error = match (computed.error, computed.vectors, computed.backward_error) {
         (Some(error), Some(vectors), _) => {

@@ -10,6 +10,9 @@ use crate::study::modes_at_own_friction;
 /// Modes looked at where the case has no `[cea]`.
 const MODES: usize = 30;
 
+/// Nodes of an imported mesh beyond which its modes would take longer than a figure is worth.
+const MOST_NODES: usize = 30_000;
+
 /// Unstable modes of steady sliding as the time loop has it: the same mesh and contact, lumped mass, small
 /// displacements.
 pub struct LinearStage {
@@ -23,7 +26,14 @@ impl LinearStage {
     /// Solves at the case's own friction coefficient; where that fails (steady sliding would open, say)
     /// there are no modes, and the log says why.
     pub fn of(case: &Case) -> Self {
-        if !case.is_annulus() {
+        if case
+            .body
+            .as_ref()
+            .is_some_and(|body| body.mesh.node_count() > MOST_NODES)
+        {
+            tracing::warn!(
+                "figures without modes of the eigenvalue analysis: more than {MOST_NODES} nodes"
+            );
             return Self {
                 references: Vec::new(),
                 growth_rates: Vec::new(),
@@ -35,7 +45,8 @@ impl LinearStage {
         });
         let unstable = || modes.iter().enumerate().filter(|(_, m)| m.is_unstable());
         let mut growth_rates: Vec<(usize, f64)> = Vec::new();
-        for (_, mode) in unstable() {
+        // A body without symmetry has no harmonics that its waves belong to.
+        for (_, mode) in unstable().filter(|_| case.is_annulus()) {
             let rate = mode.growth_rate();
             match growth_rates.iter_mut().find(|(n, _)| *n == mode.harmonic) {
                 Some((_, known)) => *known = known.max(rate),
@@ -47,7 +58,10 @@ impl LinearStage {
             references: unstable()
                 .map(|(index, mode)| ModeLine {
                     frequency_hz: mode.frequency_hz(),
-                    label: format!("mode {}, *n* = {}", index + 1, mode.harmonic),
+                    label: match case.is_annulus() {
+                        true => format!("mode {}, *n* = {}", index + 1, mode.harmonic),
+                        false => format!("mode {}", index + 1),
+                    },
                 })
                 .collect(),
             growth_rates,

@@ -1,16 +1,17 @@
 //! `frictionsim plot`: the figures of a results folder once more.
 
 use super::figure_options::FigureOptions;
-use super::session::start_threads;
+use super::session::{MESH, start_threads};
 use super::{
     Failure, cea, collect, convergence, cycle, frf, identify, mesh, signal, terminal, transient,
 };
-use crate::case::{Case, RawCase};
+use crate::case::{Case, MeshBytes, RawCase, RawValue};
 use crate::results::{
     DrawingOptions, FolderError, Manifest, OutputFolder, read_manifest, read_summary,
 };
 use clap::{ArgAction, Args, ValueHint};
 use serde_json::Value;
+use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Draw the figures of a results folder again
@@ -83,7 +84,7 @@ pub fn redraw(path: &Path, manifest: &Manifest, options: &DrawingOptions) -> Res
     }
     let summary: Value = read_summary(path)?;
     // Of the commands that start from a table there is no case.
-    let case = || recorded_case(manifest);
+    let case = || recorded_case(path, manifest);
     let folder = OutputFolder::reopen(path)?;
     match command {
         "cea" => cea::redraw(&folder, &case()?, &summary, options)?,
@@ -111,19 +112,26 @@ fn draw_beside(path: &Path, others: &[PathBuf], options: &DrawingOptions) -> Res
             let path = path.to_owned();
             return Err(FolderError::NotResults { path, reason }.into());
         }
-        runs.push((path.to_owned(), recorded_case(&manifest)?));
+        runs.push((path.to_owned(), recorded_case(path, &manifest)?));
     }
     let folder = OutputFolder::reopen(path)?;
     transient::draw_beside(&folder, &runs, options)?;
     Ok(folder.finish()?)
 }
 
-/// The case that a manifest records, overrides included.
+/// The case that the manifest of a folder records, overrides included, with the mesh file that the folder holds.
 ///
 /// # Errors
 /// Those of the case, if the manifest was edited.
-pub fn recorded_case(manifest: &Manifest) -> Result<Case, Failure> {
+pub fn recorded_case(folder: &Path, manifest: &Manifest) -> Result<Case, Failure> {
     let text = manifest.case_text.as_bytes();
-    let raw = RawCase::parse(&manifest.case_file, text, &manifest.overrides)?;
+    let mut raw = RawCase::parse(&manifest.case_file, text, &manifest.overrides)?;
+    let file = raw.find("mesh.file").map(|item| &item.value);
+    if let (Some(RawValue::String(file)), Ok(bytes)) = (file, fs::read(folder.join(MESH))) {
+        raw.mesh = Some(MeshBytes {
+            file: file.clone(),
+            bytes: bytes.into(),
+        });
+    }
     Ok(Case::from_raw(raw)?)
 }

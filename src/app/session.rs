@@ -10,6 +10,9 @@ use crate::results::{Manifest, OutputFolder};
 use std::path::Path;
 use std::time::Instant;
 
+/// The mesh file among the results.
+pub const MESH: &str = "mesh.msh";
+
 /// A validated case on its way through one subcommand.
 #[derive(Debug)]
 pub struct Session {
@@ -66,7 +69,19 @@ impl Session {
     /// # Errors
     /// Those of [`OutputOptions::open_folder`](super::options::OutputOptions::open_folder).
     pub fn open_folder(&self) -> Result<OutputFolder, Failure> {
-        self.options.output.open_folder(&self.manifest, false)
+        let folder = self.options.output.open_folder(&self.manifest, false)?;
+        self.keep_mesh(folder)
+    }
+
+    /// Puts the mesh file beside the results: they can be drawn again without the file in its place.
+    ///
+    /// # Errors
+    /// Those of the folder.
+    pub fn keep_mesh(&self, folder: OutputFolder) -> Result<OutputFolder, Failure> {
+        if let Some(mesh) = &self.case.raw.mesh {
+            folder.write(MESH, |out| out.write_all(&mesh.bytes))?;
+        }
+        Ok(folder)
     }
 
     /// Takes the output folder of a run that goes on: it must hold this very case.
@@ -74,7 +89,8 @@ impl Session {
     /// # Errors
     /// As [`Session::open_folder`].
     pub fn reopen_folder(&self) -> Result<OutputFolder, Failure> {
-        self.options.output.open_folder(&self.manifest, true)
+        let folder = self.options.output.open_folder(&self.manifest, true)?;
+        self.keep_mesh(folder)
     }
 
     /// Wall time since the start, s.

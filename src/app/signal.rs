@@ -132,7 +132,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let main = channels.iter().filter_map(|c| c.main_frequency_hz);
     let highest = main.fold(0.0, f64::max);
     let modes = match &case {
-        Some(case) if highest > 0.0 => ModeSummary::all(&modes_below(case, 1.3 * highest)?),
+        Some(case) if highest > 0.0 => {
+            ModeSummary::all(&modes_below(case, 1.3 * highest)?, case.is_annulus())
+        }
         _ => Vec::new(),
     };
     for channel in &mut channels {
@@ -272,12 +274,6 @@ fn analyse(
 
 /// Modes of the case at its friction coefficient.
 fn modes_below(case: &Case, frequency_hz: f64) -> Result<Vec<ComplexMode>, Failure> {
-    if !case.is_annulus() {
-        return Err(Failure::usage(
-            "--case names modes by their nodal diameters, which a body from a mesh file does not have: run \
-             `frictionsim cea` on it and compare the frequencies",
-        ));
-    }
     let mass = |cea: &Cea| cea.mass;
     let options = tangent_options(case, case.cea.as_ref().map_or(MassKind::Consistent, mass));
     modes_at_own_friction(case, &options, ModeLimit::MaxFrequency(frequency_hz))
@@ -299,14 +295,7 @@ fn record(
         start: file.start,
         window: window_length(arguments, file),
         max_frequency_hz: arguments.max_frequency,
-        references: unstable
-            .map(|m| {
-                (
-                    m.frequency_hz,
-                    format!("mode {}, *n* = {}", m.mode, m.harmonic),
-                )
-            })
-            .collect(),
+        references: unstable.map(|m| (m.frequency_hz, m.label())).collect(),
         channels: channels
             .map(|((channel, found), spectrum)| ChannelRecord {
                 name: channel.name.clone(),

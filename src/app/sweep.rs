@@ -9,6 +9,7 @@ pub use progress::SweepProgress;
 pub use workers::{PointRunner, SweepRun};
 
 use super::linear_stage::LinearStage;
+use super::session::MESH;
 use super::{Failure, RunOptions, Session, terminal};
 use crate::case::{Analysis, Case};
 use crate::results::sweep::{Found, PointRecord, Start, SweepDrawing, SweepFolder, SweepReport};
@@ -55,6 +56,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         return Err(output.dry_run_at(&path, &session.manifest));
     }
     let folder = SweepFolder::open(&path, &session.manifest, plan.count(), &points, start)?;
+    if let Some(mesh) = &session.case.raw.mesh {
+        folder.write(MESH, |out| out.write_all(&mesh.bytes))?;
+    }
 
     terminal::catch_signals("finished points are kept: go on with --resume");
     let progress = SweepProgress::new(output.is_quiet(), points.len());

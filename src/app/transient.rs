@@ -159,6 +159,13 @@ impl<'a> Prepared<'a> {
             friction_coefficient: self.case.contact.sliding.friction_coefficient,
             initial: conversion::initial_name(self.transient),
             perturbation: &self.settings.perturbation,
+            places: self
+                .case
+                .output
+                .placed_probes
+                .iter()
+                .map(|p| (p.node, p.asked))
+                .collect(),
             operator,
             plan: *run.plan(),
             record,

@@ -1,11 +1,13 @@
-//! Bodies from mesh files: `mesh.file`, `[boundaries.*]`, `[materials.*]`, and where the counterface is.
+//! Bodies from mesh files: `mesh.file`, `[materials.*]`, and where the counterface is.
 
+use super::boundaries::NamedCondition;
+use super::raw::{MeshBytes, RawCase};
 use super::reader::Section;
 use super::suggestion;
 use crate::fem::{ElasticMaterial, MaterialField, RayleighDamping, RegionMaterial};
 use crate::mesh::{
     AnnulusSpecification, BodySpecification, BoundaryCondition, Counterface,
-    CounterfaceSpecification, ElasticSupport, ElementKind, GmshFile, Mesh2d,
+    CounterfaceSpecification, ElementKind, GmshFile, Mesh2d, MeshFileError,
 };
 use std::path::Path;
 use std::sync::Arc;
@@ -17,16 +19,8 @@ pub struct ImportedBody {
     pub mesh: Arc<Mesh2d>,
     /// The material of each of its regions.
     pub materials: Vec<RegionMaterial>,
-}
-
-/// What holds a boundary, in words.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum ConditionWord {
-    Clamped,
-    Support,
-    Guide,
-    Pressure,
-    Free,
+    /// What the mesh was made of, for its refinements.
+    source: Arc<(GmshFile, BodySpecification)>,
 }
 
 /// The shape of the counterface, in words.
@@ -34,107 +28,6 @@ pub(super) enum ConditionWord {
 pub(super) enum CounterfaceWord {
     Cylinder,
     Plane,
-}
-
-/// A boundary of the case with its condition.
-pub(super) type NamedCondition = (String, BoundaryCondition);
-
-/// `[boundaries.*]`, in the order given.
-pub(super) fn boundaries(root: &Section<'_>) -> Vec<NamedCondition> {
-    let all = root.section("boundaries", false);
-    let names: Vec<&str> = all.remaining().into_iter().map(|(name, _)| name).collect();
-    let named = names.into_iter().map(|name| {
-        let section = all.section(name, false);
-        let condition = condition(&section);
-        section.close();
-        (name.to_owned(), condition)
-    });
-    let named = named.collect();
-    all.close();
-    named
-}
-
-fn condition(section: &Section<'_>) -> BoundaryCondition {
-    let word: ConditionWord = section.choice("condition");
-    let support = ElasticSupport {
-        normal_stiffness: section.number("normal_stiffness"),
-        tangential_stiffness: section.number("tangential_stiffness"),
-        normal_damping: section.number("normal_damping"),
-        tangential_damping: section.number("tangential_damping"),
-    };
-    let pressure = section.optional_number("pressure");
-    // A value without effect is a mistake.
-    let reject = |key: &str, needs: &str| {
-        section.reject(
-            key,
-            format!("{} has no effect here", section.name(key)),
-            format!("needs condition = \"{needs}\""),
-            Some(format!(
-                "change the condition to \"{needs}\", or leave {key} out"
-            )),
-        );
-    };
-    if word != ConditionWord::Support {
-        for key in [
-            "normal_stiffness",
-            "tangential_stiffness",
-            "normal_damping",
-            "tangential_damping",
-        ] {
-            if section.has(key) {
-                reject(key, "support");
-            }
-        }
-    }
-    if word != ConditionWord::Pressure && section.has("pressure") {
-        reject("pressure", "pressure");
-    }
-    match word {
-        ConditionWord::Clamped => BoundaryCondition::Clamped,
-        ConditionWord::Support => BoundaryCondition::Support(support),
-        ConditionWord::Guide => BoundaryCondition::Guide,
-        ConditionWord::Pressure => {
-            BoundaryCondition::Pressure(pressure.unwrap_or_else(|| section.number("pressure")))
-        }
-        ConditionWord::Free => BoundaryCondition::Free,
-    }
-}
-
-/// The condition of the annulus's outer edge; other names are errors.
-pub(super) fn outer_edge(root: &Section<'_>, boundaries: &[NamedCondition]) -> BoundaryCondition {
-    let section = root.section("boundaries", false);
-    let mut outer = BoundaryCondition::Clamped;
-    for (name, condition) in boundaries {
-        let reject = |message: String, label: &str, help: &str| {
-            section.reject(name, message, label.to_owned(), Some(help.to_owned()));
-        };
-        match (name.as_str(), condition) {
-            ("inner", BoundaryCondition::Free) => {}
-            ("inner", _) => reject(
-                "boundaries.inner is the contact edge: it can have no condition of its own"
-                    .to_owned(),
-                "the contact is here",
-                "leave the section out",
-            ),
-            ("outer", BoundaryCondition::Clamped) => {}
-            ("outer", BoundaryCondition::Support(support))
-                if support.tangential_stiffness > 0.0 =>
-            {
-                outer = *condition;
-            }
-            ("outer", _) => reject(
-                "nothing holds the disc against the friction that turns it".to_owned(),
-                "must hold the edge tangentially",
-                "use condition = \"clamped\", or \"support\" with tangential_stiffness above 0",
-            ),
-            _ => reject(
-                format!("the annulus has no boundary \"{name}\""),
-                "it has \"inner\" and \"outer\"",
-                "other boundaries come from an imported mesh (mesh.file)",
-            ),
-        }
-    }
-    outer
 }
 
 /// Where the counterface is, as `[contact]` says.
@@ -267,26 +160,31 @@ pub(super) struct BodyParts {
     pub common: ElasticMaterial,
 }
 
-/// Reads the mesh file that `mesh.file` names, relative to the case `case_name`. An error is a message and
-/// a label.
+/// The mesh file that `mesh.file` names, relative to the case; read once. An error is a message and a label.
+pub(super) fn mesh_bytes(raw: &RawCase, file: &str) -> Result<MeshBytes, (String, String)> {
+    if let Some(known) = raw.mesh.as_ref().filter(|known| known.file == file) {
+        return Ok(known.clone());
+    }
+    let folder = Path::new(&raw.name).parent().unwrap_or(Path::new(""));
+    let path = folder.join(file);
+    let bytes = std::fs::read(&path).map_err(|error| {
+        let message = format!("cannot read the mesh file {}: {error}", path.display());
+        (message, "not readable".to_owned())
+    })?;
+    Ok(MeshBytes {
+        file: file.to_owned(),
+        bytes: bytes.into(),
+    })
+}
+
+/// The body that a mesh file describes. An error is a message and a label.
 pub(super) fn import(
-    case_name: &str,
-    file: &str,
+    mesh: &MeshBytes,
     parts: &BodyParts,
 ) -> Result<ImportedBody, (String, String)> {
-    let folder = Path::new(case_name).parent().unwrap_or(Path::new(""));
-    let path = folder.join(file);
-    let shown = path.display();
-    let bytes = std::fs::read(&path).map_err(|error| {
-        (
-            format!("cannot read the mesh file {shown}: {error}"),
-            "not readable".to_owned(),
-        )
-    })?;
-    let unusable = |error: crate::mesh::MeshFileError| {
-        (format!("{shown}: {error}"), "makes no body".to_owned())
-    };
-    let read = GmshFile::read(&bytes).map_err(unusable)?;
+    let shown = &mesh.file;
+    let unusable = |error: MeshFileError| (format!("{shown}: {error}"), "makes no body".to_owned());
+    let read = GmshFile::read(&mesh.bytes).map_err(unusable)?;
     let specification = BodySpecification {
         scale: parts.scale,
         contact: parts.place.boundary.clone(),
@@ -326,10 +224,31 @@ pub(super) fn import(
     Ok(ImportedBody {
         materials: mesh.regions.iter().map(material).collect(),
         mesh: Arc::new(mesh),
+        source: Arc::new((read, specification)),
     })
 }
 
 impl ImportedBody {
+    /// The same body with every element split into four, `times` over.
+    ///
+    /// # Errors
+    /// A mesh that would be too large, or that folds where it is refined.
+    pub fn refined(&self, times: u32) -> Result<Self, MeshFileError> {
+        if times == 0 {
+            return Ok(self.clone());
+        }
+        let (file, specification) = &*self.source;
+        let mut fine = file.refined()?;
+        for _ in 1..times {
+            fine = fine.refined()?;
+        }
+        Ok(Self {
+            mesh: Arc::new(Mesh2d::from_gmsh(&fine, specification)?),
+            materials: self.materials.clone(),
+            source: Arc::new((fine, specification.clone())),
+        })
+    }
+
     /// An annulus of about its size and fineness: what estimates of cost and plausibility need to know.
     pub(super) fn equivalent_annulus(&self) -> AnnulusSpecification {
         let mesh = &self.mesh;

@@ -1,6 +1,7 @@
 //! `[convergence]`: the same case on several meshes and with several time steps.
 
 use super::Analysis;
+use super::body::ImportedBody;
 use super::model::node_count;
 use super::reader::Section;
 use crate::mesh::{AnnulusSpecification, ElementKind};
@@ -14,7 +15,8 @@ const UNEVEN: f64 = 0.02;
 /// `[convergence]`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Convergence {
-    /// Refinements of both element counts, rising.
+    /// Refinements of the element size, rising: factors on both element counts of the annulus, powers of two on an
+    /// imported mesh, whose elements are split.
     pub factors: Vec<f64>,
     /// Factors on the transient's time step on the case's own mesh, falling; empty for no such study.
     pub time_step_factors: Vec<f64>,
@@ -39,19 +41,54 @@ impl Convergence {
     }
 }
 
+impl super::Case {
+    /// The case on a mesh whose elements are `factor` times as fine.
+    ///
+    /// # Errors
+    /// An imported mesh that cannot be refined.
+    pub fn refined(&self, factor: f64) -> Result<Self, super::CaseErrors> {
+        let Some(body) = &self.body else {
+            let annulus = Convergence::refined(&self.annulus, factor);
+            return Ok(Self {
+                annulus,
+                ..self.clone()
+            });
+        };
+        let fine = body.refined(factor.log2() as u32).map_err(|error| {
+            let (key, label) = ("convergence.factors", "makes no body".to_owned());
+            self.error_at(key, format!("{key} = {factor}: {error}"), label, None)
+        })?;
+        Ok(Self {
+            annulus: fine.equivalent_annulus(),
+            body: Some(fine),
+            ..self.clone()
+        })
+    }
+}
+
+/// Refinements of an imported mesh where none are given.
+const SPLITS: [f64; 3] = [1.0, 2.0, 4.0];
+
 /// Reads the section of a case that `has` a `[cea]`, a `[transient]` and a `[cycle]`.
 pub(super) fn read(
     root: &Section<'_>,
     annulus: &AnnulusSpecification,
+    body: Option<&ImportedBody>,
     has: [bool; 3],
 ) -> Option<Convergence> {
     let section = root.section("convergence", false);
     if !section.is_given() {
         return None;
     }
-    let factors = section.numbers("factors").unwrap_or_default();
+    let factors = match section.numbers("factors") {
+        _ if body.is_some() && !section.has("factors") => SPLITS.to_vec(),
+        given => given.unwrap_or_default(),
+    };
     if has_enough(&section, "factors", &factors) && is_ordered(&section, "factors", &factors, 1.0) {
-        check_meshes(&section, annulus, &factors);
+        match body {
+            Some(body) => check_splits(&section, body, &factors),
+            None => check_meshes(&section, annulus, &factors),
+        }
     }
     let steps = section.numbers("time_step_factors");
     let time_step_factors = steps.unwrap_or_default();
@@ -60,7 +97,8 @@ pub(super) fn read(
     {
         is_ordered(&section, "time_step_factors", &time_step_factors, -1.0);
     }
-    let analyses = analyses(&section, annulus, has);
+    let is_linear = body.is_some() || annulus.element == ElementKind::Quad4;
+    let analyses = analyses(&section, is_linear, has);
     if !time_step_factors.is_empty() && !analyses.contains(&Analysis::Transient) {
         section.reject(
             "time_step_factors",
@@ -124,6 +162,35 @@ fn is_ordered(section: &Section<'_>, key: &'static str, values: &[f64], sign: f6
     pair.is_none()
 }
 
+/// Refuses factors that no splitting of elements gives, and meshes that are too large.
+fn check_splits(section: &Section<'_>, body: &ImportedBody, factors: &[f64]) {
+    let is_power = |factor: f64| (1.0..1e6).contains(&factor) && factor.log2().fract() == 0.0;
+    if let Some(factor) = factors.iter().find(|factor| !is_power(**factor)) {
+        section.reject(
+            "factors",
+            format!(
+                "convergence.factors holds {factor}: an imported mesh is refined by splitting each element into four"
+            ),
+            "powers of two: 1, 2, 4, ...".to_owned(),
+            Some("leave it out for [1, 2, 4]".to_owned()),
+        );
+        return;
+    }
+    let finest = factors.last().copied().unwrap_or(1.0);
+    let (nodes, limit) = (body.mesh.node_count() as f64, f64::from(u32::MAX / 2));
+    if nodes * finest * finest > limit {
+        section.reject(
+            "factors",
+            format!(
+                "the mesh of convergence.factors = {finest} would have {:.0} nodes, above the limit of {limit}",
+                nodes * finest * finest
+            ),
+            "too many elements".to_owned(),
+            None,
+        );
+    }
+}
+
 /// Refuses factors whose rounded meshes are none, too large, or not refinements of each other.
 fn check_meshes(section: &Section<'_>, annulus: &AnnulusSpecification, factors: &[f64]) {
     if annulus.circumferential_elements == 0 || annulus.radial_elements == 0 {
@@ -182,7 +249,7 @@ fn check_meshes(section: &Section<'_>, annulus: &AnnulusSpecification, factors: 
 /// What is studied: what the section names, else what the case has sections for and its elements can run.
 fn analyses(
     section: &Section<'_>,
-    annulus: &AnnulusSpecification,
+    is_linear: bool,
     [has_cea, has_transient, has_cycle]: [bool; 3],
 ) -> Vec<Analysis> {
     let words = [
@@ -192,7 +259,6 @@ fn analyses(
         ("basin", Analysis::Basin),
     ];
     let named = section.choices("analyses");
-    let is_linear = annulus.element == ElementKind::Quad4;
     let is_there = |analysis: Analysis| match analysis {
         Analysis::Cea => has_cea,
         Analysis::Transient => has_transient && is_linear,

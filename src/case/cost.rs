@@ -8,6 +8,7 @@ mod memory;
 
 use super::model::node_count;
 use super::{Analysis, Case, Convergence};
+use crate::mesh::AnnulusSpecification;
 
 /// Points of a study whose cost is looked at.
 const TRIED_POINTS: usize = 24;
@@ -126,8 +127,16 @@ impl Case {
     /// Estimates what the analyses of the case cost, each once.
     pub fn cost(&self) -> Cost {
         let annulus = &self.annulus;
-        let nodes = node_count(annulus);
-        let elements = annulus.circumferential_elements as u128 * annulus.radial_elements as u128;
+        let count = |mesh: &AnnulusSpecification| {
+            mesh.circumferential_elements as u128 * mesh.radial_elements as u128
+        };
+        let (mut nodes, mut elements) = (node_count(annulus), count(annulus));
+        if let Some(body) = &self.body {
+            // The annulus stands for the body, refined as often as a study asks for.
+            let times = elements / count(&body.equivalent_annulus()).max(1);
+            nodes = times * body.mesh.node_count() as u128;
+            elements = times * body.mesh.element_count() as u128;
+        }
         Cost {
             nodes,
             elements,

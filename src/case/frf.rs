@@ -1,11 +1,10 @@
 //! `[frf]`: a frequency response of the model.
 
-use super::model::node_count;
+use super::node::Nodes;
 use super::reader::Section;
 use super::words::Direction;
 use crate::fem::MassKind;
 use crate::frf::{FrfBoundary, Terminal};
-use crate::mesh::AnnulusSpecification;
 use crate::signal::ResponseQuantity;
 
 /// How a frequency response is computed.
@@ -44,30 +43,20 @@ pub struct Frf {
     pub noise_seed: usize,
 }
 
-pub(super) fn read(root: &Section<'_>, annulus: &AnnulusSpecification) -> Option<Frf> {
+pub(super) fn read(root: &Section<'_>, nodes: &Nodes<'_>) -> Option<Frf> {
     let section = root.section("frf", false);
     if !section.is_given() {
         return None;
     }
-    let force_node = section.count("force_node");
-    let response_node = section.optional_count("response_node");
-    let nodes = node_count(annulus);
-    for (key, node) in [
-        ("force_node", force_node),
-        ("response_node", response_node.unwrap_or(force_node)),
-    ] {
-        if section.has(key) && node as u128 > nodes && nodes > 0 {
-            section.reject(
-                key,
-                format!("frf.{key} = {node} does not exist: the mesh has nodes 1 to {nodes}"),
-                format!("must be at most {nodes}"),
-                Some(
-                    "node ids count radially outwards first: 1 + j (radial_elements + 1) + i"
-                        .to_owned(),
-                ),
-            );
-        }
+    let named = ["force_node", "response_node"].map(|key| {
+        let named = section.node(key)?;
+        nodes.find(&section, key, &named).map(|found| found.0)
+    });
+    if !section.has("force_node") {
+        section.missing("force_node");
     }
+    let force_node = named[0].unwrap_or(0);
+    let response_node = named[1].unwrap_or(force_node);
     let mut frequencies_hz = section.numbers("frequencies_hz").unwrap_or_default();
     if frequencies_hz.is_empty() {
         section.reject(
@@ -83,11 +72,11 @@ pub(super) fn read(root: &Section<'_>, annulus: &AnnulusSpecification) -> Option
     let frf = Frf {
         boundary: section.choice("boundary"),
         force: Terminal {
-            node: force_node.saturating_sub(1),
+            node: force_node,
             is_tangential: is_tangential("force_direction"),
         },
         response: Terminal {
-            node: response_node.unwrap_or(force_node).saturating_sub(1),
+            node: response_node,
             is_tangential: is_tangential("response_direction"),
         },
         frequencies_hz,

@@ -71,6 +71,10 @@ pub enum Kind {
     Count(usize),
     /// Whole numbers of at least this: one or a list without repetition.
     Counts(usize),
+    /// A node: its number, or a place whose nearest node it is.
+    Node,
+    /// Nodes, each by number or place: one or a list without repetition.
+    Nodes,
     /// One of a few words.
     Choice(fn() -> Vec<&'static str>),
     /// Some of a few words: one or a list.
@@ -120,7 +124,7 @@ impl CaseKey {
     pub fn is_numeric(&self) -> bool {
         matches!(
             self.kind,
-            Kind::Number(_) | Kind::NumberOr(..) | Kind::Count(_)
+            Kind::Number(_) | Kind::NumberOr(..) | Kind::Count(_) | Kind::Node
         )
     }
 
@@ -164,6 +168,8 @@ impl CaseKey {
             Kind::Numbers(bound) => format!("number{}, list or range", bound.condition()),
             Kind::Count(least) => format!("integer >= {least}"),
             Kind::Counts(least) => format!("integer >= {least} or list"),
+            Kind::Node => "node number, { x, y } or { radius, angle_deg }".to_owned(),
+            Kind::Nodes => "node number, { x, y }, { radius, angle_deg } or list".to_owned(),
             Kind::Choice(words) => format!("\"{}\"", words().join("\", \"")),
             Kind::Choices(words) => format!("some of \"{}\"", words().join("\", \"")),
             Kind::Parameter => "numeric case key".to_owned(),

@@ -1,11 +1,12 @@
 //! Every key a case can have: the one declaration that readers, messages, `frictionsim keys`, the
 //! JSON schema and the commented template are made from.
 
-use super::body::{ConditionWord, CounterfaceWord};
+use super::body::CounterfaceWord;
+use super::boundaries::ConditionWord;
 use super::key::Bound::{AtLeast, Between, Finite, NotNegative, Positive};
 use super::key::Default::{Otherwise, Required, Value};
 use super::key::Kind::{
-    Choice, Choices, Count, Counts, Flag, Number, NumberOr, Numbers, Parameter, Text,
+    Choice, Choices, Count, Counts, Flag, Node, Nodes, Number, NumberOr, Numbers, Parameter, Text,
 };
 use super::key::{CaseKey, Default, Kind, words};
 use super::words::Direction;
@@ -134,7 +135,7 @@ pub const KEYS: &[CaseKey] = &[
     key("transient.perturbation.noise_seed", Count(0), "", Value("1"), "1", "the seed of that random velocity"),
     key("transient.perturbation.at", Number(NotNegative), "s", Value("0.0"), "0.01", "when the velocity is added"),
 
-    key("output.probes", Counts(1), "", Otherwise("[]"), "[1621, 1641]", "the ids (from 1) of the nodes whose motion is written"),
+    key("output.probes", Nodes, "", Otherwise("[]"), "[1621, { radius = 0.0605, angle_deg = 90 }]", "the nodes whose motion is written, by number (that of the mesh file, or from 1) or by place, m, about the cylinder's axis (the nearest node)"),
     key("output.sample_interval", Number(Positive), "s", Value("2e-6"), "2e-6", "the time between two samples"),
     key("output.contact_interval", Number(Positive), "s", Otherwise("every sample of a short run, every second, fourth ... of a longer one"), "2e-6", "the time between two frames of contact.npz"),
     key("output.raw_acceleration", Flag, "", Value("false"), "true", "whether probes have the acceleration of the sampled step beside its mean over the sample interval"),
@@ -162,9 +163,9 @@ pub const KEYS: &[CaseKey] = &[
     key("cycle.continuation.spacing", Choice(words::<Spacing>), "", Value("\"linear\""), "\"log\"", "how they are spaced"),
 
     key("frf.boundary", Choice(words::<FrfBoundary>), "", Value("\"free\""), "\"free\"", "how the disc is held while it is excited"),
-    key("frf.force_node", Count(1), "", Required, "36", "the id (from 1) of the node that is struck"),
+    key("frf.force_node", Node, "", Required, "36", "the node that is struck, by number or by place"),
     key("frf.force_direction", Choice(words::<Direction>), "", Value("\"radial\""), "\"radial\"", "the direction of the force"),
-    key("frf.response_node", Count(1), "", Otherwise("frf.force_node"), "36", "the id (from 1) of the node observed"),
+    key("frf.response_node", Node, "", Otherwise("frf.force_node"), "36", "the node observed, by number or by place"),
     key("frf.response_direction", Choice(words::<Direction>), "", Value("\"radial\""), "\"radial\"", "the direction observed"),
     key("frf.frequencies_hz", Numbers(Positive), "Hz", Required, "{ from = 1.0, to = 10000.0, count = 10000 }", "the frequencies of the response"),
     key("frf.quantity", Choice(words::<ResponseQuantity>), "", Value("\"accelerance\""), "\"accelerance\"", "what is observed for each unit of force"),
@@ -173,7 +174,7 @@ pub const KEYS: &[CaseKey] = &[
     key("frf.noise", Number(NotNegative), "", Value("0.0"), "0.01", "Gaussian noise added to real and imaginary part, relative to the magnitude"),
     key("frf.noise_seed", Count(0), "", Value("1"), "1", "the seed of that noise"),
 
-    key("convergence.factors", Numbers(Positive), "", Value("[1, 1.5, 2.25]"), "[1, 1.5, 2.25]", "the refinements of the mesh, applied to both element counts"),
+    key("convergence.factors", Numbers(Positive), "", Value("[1, 1.5, 2.25]"), "[1, 1.5, 2.25]", "the refinements of the mesh: factors on both element counts, powers of two on an imported mesh ([1, 2, 4] where left out), whose elements are split into four"),
     key("convergence.time_step_factors", Numbers(Positive), "", Otherwise("no such study"), "[1, 0.5, 0.25]", "the factors on the transient's time step, on the case's own mesh"),
     key("convergence.analyses", Choices(words::<Analysis>), "", Otherwise("every one that the case has a section for"), "[\"cea\", \"transient\"]", "what is studied"),
 ];
@@ -185,6 +186,15 @@ pub(super) const RANGE: &[CaseKey] = &[
     key("to", Number(Finite), "", Required, "1.0", "the last value"),
     key("count", Count(1), "", Required, "11", "how many values, both ends included"),
     key("spacing", Choice(words::<Spacing>), "", Value("\"linear\""), "\"log\"", "how they are spaced"),
+];
+
+/// The keys of a place, which stands for the node nearest to it.
+#[rustfmt::skip]
+pub(super) const PLACE: &[CaseKey] = &[
+    key("x", Number(Finite), "m", Otherwise("radius and angle_deg"), "0.0", "the distance from the origin to the right"),
+    key("y", Number(Finite), "m", Otherwise("radius and angle_deg"), "0.042", "the distance from the origin upwards"),
+    key("radius", Number(NotNegative), "m", Otherwise("x and y"), "0.0425", "the distance from the cylinder's axis (from the origin where there is none)"),
+    key("angle_deg", Number(Finite), "degrees", Otherwise("x and y"), "90.0", "the angle about that axis from +x"),
 ];
 
 /// The entry of a dotted key, or of a key of a range.

@@ -6,6 +6,7 @@
 
 mod basin;
 mod body;
+mod boundaries;
 mod cea;
 mod convergence;
 mod cost;
@@ -15,6 +16,7 @@ mod frf;
 mod key;
 mod keys;
 mod model;
+mod node;
 mod overrides;
 mod plausibility;
 mod range;
@@ -39,9 +41,10 @@ pub use frf::{Frf, FrfMethod};
 pub use key::{Bound, CaseKey, Default, Kind};
 pub use keys::KEYS;
 pub use model::{Contact, Damping};
+pub use node::PlacedNode;
 pub use overrides::unset;
 pub use range::{Spacing, range_values};
-pub use raw::{RawCase, RawEntry, RawItem, RawTable, RawValue};
+pub use raw::{MeshBytes, RawCase, RawEntry, RawItem, RawTable, RawValue};
 pub use sweep::{Analysis, Combination, Sweep, SweptKey};
 pub use transient::{Output, Transient};
 
@@ -108,7 +111,7 @@ impl Case {
     }
 
     /// Validates everything but the values of swept keys.
-    fn read(raw: RawCase) -> Result<Self, CaseErrors> {
+    fn read(mut raw: RawCase) -> Result<Self, CaseErrors> {
         let findings = Findings::default();
         let end = Location::new(0, raw.text.trim_end().len()..raw.text.trim_end().len());
         let root = Section::root(&findings, &raw.root, end);
@@ -118,12 +121,18 @@ impl Case {
             annulus,
             thickness,
             body,
+            mesh,
             contact,
-        } = model::model(&root, &raw.name, &material);
+        } = model::model(&root, &raw, &material);
         let damping = model::damping(&root);
         let cea = cea::cea(&root, &annulus, contact.sliding.friction_coefficient);
         let transient = transient::transient(&root, &annulus, &contact.sliding);
-        let output = transient::output(&root, &annulus, transient.as_ref());
+        let nodes = node::Nodes {
+            annulus: &annulus,
+            body: body.as_ref(),
+            is_unknown: body.is_none() && root.section("mesh", false).has("file"),
+        };
+        let output = transient::output(&root, &nodes, transient.as_ref());
         if transient.is_some() && body.is_none() && annulus.element == ElementKind::Quad8 {
             root.section("mesh", false).warn(
                 "element",
@@ -135,12 +144,13 @@ impl Case {
         }
         let cycle = cycle::cycle(&root, &annulus);
         let basin = basin::basin(&root, &annulus);
-        let frf = frf::read(&root, &annulus);
+        let frf = frf::read(&root, &nodes);
         let has = [cea.is_some(), transient.is_some(), cycle.is_some()];
-        let convergence = convergence::read(&root, &annulus, has);
+        let convergence = convergence::read(&root, &annulus, body.as_ref(), has);
         let sweep = sweep::read(&root);
         root.close();
         let (errors, warnings) = findings.into_parts();
+        raw.mesh = mesh;
         if !errors.is_empty() {
             return Err(raw.errors(errors));
         }
@@ -305,9 +315,6 @@ impl Case {
     /// A case without `[convergence]`, with what to add.
     pub fn require_convergence(&self) -> Result<&Convergence, CaseErrors> {
         let remedy = "[convergence]\nfactors = [1, 1.5, 2.25]";
-        if !self.is_annulus() {
-            return Err(self.no_symmetry("convergence studies refine radii and sectors: they"));
-        }
         let study = self.convergence.as_ref();
         study.ok_or_else(|| self.lacks("convergence", "convergence study", remedy))
     }

@@ -1,6 +1,8 @@
 //! The sections that describe the model: geometry, mesh, material, damping, contact.
 
-use super::body::{self, BodyParts, ContactPlace, ImportedBody, NamedCondition};
+use super::body::{self, BodyParts, ContactPlace, ImportedBody};
+use super::boundaries::{self, NamedCondition};
+use super::raw::{MeshBytes, RawCase};
 use super::reader::Section;
 use crate::contact::{ContactStiffness, FrictionDecay, SlidingContact};
 use crate::fem::{ElasticMaterial, RayleighDamping};
@@ -42,19 +44,20 @@ pub(super) struct Model {
     pub annulus: AnnulusSpecification,
     pub thickness: f64,
     pub body: Option<ImportedBody>,
+    pub mesh: Option<MeshBytes>,
     pub contact: Contact,
 }
 
 /// The annulus, or the body of a mesh file.
-pub(super) fn model(root: &Section<'_>, case_name: &str, material: &ElasticMaterial) -> Model {
-    let boundaries = body::boundaries(root);
+pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &ElasticMaterial) -> Model {
+    let conditions = boundaries::all(root);
     let mesh = root.section("mesh", true);
     let file = mesh.optional_text("file");
     let scale = mesh.number("scale");
     let geometry = root.section("geometry", file.is_none());
     let thickness = geometry.number("thickness");
     let Some(file) = file else {
-        let annulus = annulus(root, &geometry, &mesh, &boundaries);
+        let annulus = annulus(root, &geometry, &mesh, &conditions);
         geometry.close();
         mesh.close();
         body::no_materials(root);
@@ -63,6 +66,7 @@ pub(super) fn model(root: &Section<'_>, case_name: &str, material: &ElasticMater
             annulus,
             thickness,
             body: None,
+            mesh: None,
             contact,
         };
     };
@@ -75,14 +79,16 @@ pub(super) fn model(root: &Section<'_>, case_name: &str, material: &ElasticMater
     let parts = BodyParts {
         scale,
         place,
-        boundaries,
+        boundaries: conditions,
         materials: body::materials(root, material),
         common: *material,
     };
-    let body = body::import(case_name, &file, &parts);
-    let body = body
-        .map_err(|(message, label)| mesh.reject("file", message, label, None))
-        .ok();
+    let reject = |(message, label): (String, String)| mesh.reject("file", message, label, None);
+    let bytes = body::mesh_bytes(raw, &file).map_err(&reject).ok();
+    let body = bytes.as_ref().and_then(|bytes| {
+        let body = body::import(bytes, &parts);
+        body.map_err(&reject).ok()
+    });
     mesh.close();
     // Without a body there is an error already; what follows needs some numbers.
     let nothing = AnnulusSpecification {
@@ -100,6 +106,7 @@ pub(super) fn model(root: &Section<'_>, case_name: &str, material: &ElasticMater
             .map_or(nothing, ImportedBody::equivalent_annulus),
         thickness,
         body,
+        mesh: bytes,
         contact,
     }
 }
@@ -108,7 +115,7 @@ fn annulus(
     root: &Section<'_>,
     geometry: &Section<'_>,
     mesh: &Section<'_>,
-    boundaries: &[NamedCondition],
+    conditions: &[NamedCondition],
 ) -> AnnulusSpecification {
     let inner_radius = geometry.number("inner_radius");
     let outer_radius = geometry.number("outer_radius");
@@ -130,7 +137,7 @@ fn annulus(
         radial_elements: mesh.count("radial_elements"),
         radial_grading: mesh.number("radial_grading"),
         element: mesh.choice("element"),
-        outer: body::outer_edge(root, boundaries),
+        outer: boundaries::outer_edge(root, conditions),
     };
     check_mesh(mesh, &annulus);
     annulus

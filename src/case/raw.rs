@@ -6,6 +6,7 @@ use super::value::quote;
 pub use super::value::{RawEntry, RawItem, RawTable, RawValue};
 use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
+use std::sync::Arc;
 use toml::de::{DeTable, DeValue};
 
 /// A parsed, not yet validated case: the file's TOML with the overrides laid over it.
@@ -19,6 +20,17 @@ pub struct RawCase {
     pub overrides: Vec<String>,
     /// The effective tree.
     pub root: RawTable,
+    /// The mesh file, once it is read.
+    pub mesh: Option<MeshBytes>,
+}
+
+/// A mesh file as it was read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeshBytes {
+    /// Its name in the case.
+    pub file: String,
+    /// What it holds.
+    pub bytes: Arc<[u8]>,
 }
 
 impl RawCase {
@@ -36,6 +48,7 @@ impl RawCase {
             text: String::new(),
             overrides: Vec::new(),
             root: RawTable::new(),
+            mesh: None,
         };
         let mut diagnostics = Vec::new();
         match readable_text(bytes) {
@@ -109,10 +122,14 @@ impl RawCase {
         out
     }
 
-    /// SHA-256 of [`RawCase::canonical`] in hexadecimal.
+    /// SHA-256 of [`RawCase::canonical`], and of the mesh file where there is one, in hexadecimal.
     pub fn hash(&self) -> String {
         let mut hex = String::new();
-        for byte in Sha256::digest(self.canonical()) {
+        let mut digest = Sha256::new_with_prefix(self.canonical());
+        if let Some(mesh) = &self.mesh {
+            digest.update(&mesh.bytes);
+        }
+        for byte in digest.finalize() {
             let _ = write!(hex, "{byte:02x}");
         }
         hex

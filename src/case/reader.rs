@@ -3,11 +3,13 @@
 
 mod choices;
 mod lists;
+mod places;
 
 use super::diagnostic::{Diagnostic, Location};
 use super::key::{Bound, CaseKey, Default, Kind};
 use super::raw::{RawEntry, RawItem, RawTable, RawValue};
 use super::{keys, suggestion};
+pub(super) use places::NodePlace;
 use std::cell::RefCell;
 
 /// Errors and warnings found so far.
@@ -38,7 +40,8 @@ pub(super) struct Section<'a> {
     path: String,
     table: Option<&'a RawTable>,
     at: Location,
-    is_range: bool,
+    /// Declarations of its keys, where they are not those of the case.
+    declarations: Option<&'static [CaseKey]>,
     asked: RefCell<Vec<String>>,
 }
 
@@ -59,7 +62,7 @@ impl<'a> Section<'a> {
             path,
             table,
             at,
-            is_range: false,
+            declarations: None,
             asked: RefCell::default(),
         }
     }
@@ -80,10 +83,9 @@ impl<'a> Section<'a> {
 
     /// The declaration of a key; what is declared nowhere is free text.
     fn declared(&self, key: &str) -> &'static CaseKey {
-        let found = if self.is_range {
-            keys::RANGE.iter().find(|known| known.name == key)
-        } else {
-            keys::find(&self.name(key))
+        let found = match self.declarations {
+            Some(own) => own.iter().find(|known| known.name == key),
+            None => keys::find(&self.name(key)),
         };
         debug_assert!(found.is_some(), "{} is not declared", self.name(key));
         found.unwrap_or(&keys::KEYS[0])
@@ -166,7 +168,8 @@ impl<'a> Section<'a> {
         );
     }
 
-    fn missing(&self, key: &str) {
+    /// Reports a key that must be there.
+    pub fn missing(&self, key: &str) {
         // A missing section is reported once, where it is opened.
         if self.is_given() {
             self.findings.push(

@@ -163,6 +163,8 @@ fn key_schema(key: &CaseKey) -> Value {
         ]}),
         Kind::Count(least) => json!({ "type": "integer", "minimum": least }),
         Kind::Counts(least) => of_one(json!({ "type": "integer", "minimum": least })),
+        Kind::Node => node(),
+        Kind::Nodes => of_one(node()),
         Kind::Choice(words) => json!({ "enum": words() }),
         Kind::Choices(words) => of_one(json!({ "enum": words() })),
         Kind::Parameter => {
@@ -181,6 +183,22 @@ fn key_schema(key: &CaseKey) -> Value {
         }
     ));
     schema
+}
+
+fn node() -> Value {
+    let place = |[a, b]: [&str; 2]| {
+        json!({
+            "type": "object",
+            "properties": { a: { "type": "number" }, b: { "type": "number" } },
+            "required": [a, b],
+            "additionalProperties": false,
+        })
+    };
+    json!({ "anyOf": [
+        { "type": "integer", "minimum": 1 },
+        place(["x", "y"]),
+        place(["radius", "angle_deg"]),
+    ]})
 }
 
 fn number(bound: Bound) -> Value {

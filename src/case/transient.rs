@@ -1,6 +1,6 @@
 //! `[transient]` and `[output]`: the explicit transient and what it writes.
 
-use super::model::node_count;
+use super::node::{Nodes, PlacedNode};
 use super::reader::Section;
 use super::rules::{harmonics, rising};
 use crate::contact::SlidingContact;
@@ -34,8 +34,10 @@ pub struct Transient {
 /// `[output]`: what a transient writes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Output {
-    /// Node ids, counted from 1.
+    /// Nodes, counted from 1.
     pub probes: Vec<usize>,
+    /// Those of them that were asked for by their place.
+    pub placed_probes: Vec<PlacedNode>,
     /// Time between samples, s.
     pub sample_interval: f64,
     /// Time between contact frames, s; `None` where the length of the run decides.
@@ -266,22 +268,11 @@ fn one_for_each(section: &Section<'_>, key: &'static str, harmonics: &[usize]) -
 
 pub(super) fn output(
     root: &Section<'_>,
-    annulus: &AnnulusSpecification,
+    nodes: &Nodes<'_>,
     transient: Option<&Transient>,
 ) -> Output {
     let section = root.section("output", false);
-    let probes = section.counts("probes").unwrap_or_default();
-    let nodes = node_count(annulus);
-    for (probe, at) in &probes {
-        if *probe as u128 > nodes && nodes > 0 {
-            section.reject_there(
-                at,
-                format!("probe {probe} does not exist: the mesh has nodes 1 to {nodes}"),
-                format!("must be at most {nodes}"),
-                "node ids count radially outwards first: 1 + j (radial_elements + 1) + i",
-            );
-        }
-    }
+    let (probes, placed_probes) = probes(&section, nodes);
     let sample_interval = section.number("sample_interval");
     let mut snapshots = rising(&section, "snapshots").unwrap_or_default();
     if let Some(transient) = transient {
@@ -314,7 +305,8 @@ pub(super) fn output(
         );
     }
     let output = Output {
-        probes: probes.into_iter().map(|(probe, _)| probe).collect(),
+        probes,
+        placed_probes,
         sample_interval,
         contact_interval,
         raw_acceleration: section.flag("raw_acceleration"),
@@ -323,6 +315,27 @@ pub(super) fn output(
     };
     section.close();
     output
+}
+
+/// The probes, counted from 1, and those of them that were asked for by their place.
+fn probes(section: &Section<'_>, nodes: &Nodes<'_>) -> (Vec<usize>, Vec<PlacedNode>) {
+    let (mut probes, mut placed) = (Vec::new(), Vec::new());
+    for named in section.nodes("probes") {
+        let Some((node, place)) = nodes.find(section, "probes", &named) else {
+            continue;
+        };
+        if probes.contains(&(node + 1)) {
+            section.reject_there(
+                &named.1,
+                format!("output.probes names node {} twice", nodes.label(node)),
+                "must not be listed twice".to_owned(),
+                "leave one of them out",
+            );
+        }
+        probes.push(node + 1);
+        placed.extend(place);
+    }
+    (probes, placed)
 }
 
 /// Times that do not fit into the run.

@@ -1,6 +1,7 @@
 //! The words by which a case names its choices.
 
-use super::body::{ConditionWord, CounterfaceWord};
+use super::body::CounterfaceWord;
+use super::boundaries::ConditionWord;
 use super::key::Choice;
 use super::{
     Analysis, CeaMethod, Combination, FrfMethod, InitialState, OnsetChoice, OperatorChoice,

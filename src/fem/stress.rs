@@ -5,7 +5,7 @@ use super::{ElasticMaterial, MaterialField};
 use crate::mesh::Mesh2d;
 use nalgebra::{Matrix2, Matrix3, Vector3};
 
-/// Stress at one node in its own frame, Pa.
+/// Stress at one node in the axes of [`Mesh2d::reported_angle`], Pa.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct NodalStress {
     /// Along the first frame axis (radial on the annulus).
@@ -77,7 +77,7 @@ pub fn nodal_stress(
             patch.retain(|&e| mesh.region(e as usize) == region);
             let points = patch.iter().flat_map(|&e| &samples[e as usize]);
             let stress = fit_at(mesh.nodes[node], points);
-            in_frame(stress, mesh.frame_angles[node], material.of(region))
+            in_frame(stress, mesh.reported_angle(node), material.of(region))
         })
         .collect()
 }

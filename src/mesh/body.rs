@@ -41,8 +41,7 @@ pub enum CounterfaceSpecification {
 impl Mesh2d {
     /// The body that `specification` makes of a mesh file.
     ///
-    /// Frames are those of the counterface at contact nodes, of the boundary's normal along guides, and the global
-    /// axes elsewhere.
+    /// Frames are those of the counterface, but along guides, where they are those of the boundary's normal.
     ///
     /// # Errors
     /// [`MeshFileError::Body`] says what is wrong with the mesh or with the names used, and what to do.
@@ -79,10 +78,12 @@ impl Mesh2d {
         let contact = find(&specification.contact, "contact.boundary")?;
         contact.check_single(&specification.contact, &labels)?;
         mesh.counterface = counterface(&mesh, contact, specification)?;
-        for &node in &contact.nodes {
-            mesh.frame_angles[node as usize] =
-                mesh.counterface.normal_angle(mesh.nodes[node as usize]);
-        }
+        let counterface = mesh.counterface;
+        let angles = mesh
+            .nodes
+            .iter()
+            .map(|&point| counterface.normal_angle(point));
+        mesh.frame_angles = angles.collect();
         let mut boundaries = vec![contact_boundary(&mesh, contact, &specification.contact)?];
         for (name, condition) in &specification.conditions {
             if *name == specification.contact {

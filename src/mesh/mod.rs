@@ -9,6 +9,8 @@ mod curve;
 mod element;
 mod gmsh;
 mod quality;
+mod refinement;
+mod rim;
 mod sector;
 
 pub use annulus::{AnnulusMesh, AnnulusSpecification, MeshError};
@@ -95,6 +97,22 @@ impl Mesh2d {
         self.boundaries
             .iter()
             .find(|boundary| boundary.name == name)
+    }
+
+    /// Direction of the first axis in which a node's motion and stress are reported, rad: outwards from the
+    /// counterface, `e_r` about a shaft. It is that of the node's frame but along a guide.
+    pub fn reported_angle(&self, node: usize) -> f64 {
+        match self.is_cyclic {
+            true => self.frame_angles[node],
+            false => self.counterface.normal_angle(self.nodes[node]),
+        }
+    }
+
+    /// Index of the node that lies nearest to a point, and its distance, m; the first of several.
+    pub fn nearest_node(&self, point: [f64; 2]) -> Option<(usize, f64)> {
+        let distance = |p: &[f64; 2]| (p[0] - point[0]).hypot(p[1] - point[1]);
+        let nodes = self.nodes.iter().map(distance).enumerate();
+        nodes.min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
     /// Number of a node as the user knows it: that of the mesh file, or its index from 1.

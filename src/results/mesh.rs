@@ -9,7 +9,7 @@ use super::vtu::{EncodedMesh, Field, write_vtu};
 use crate::chart::{
     Axis, Field as Window, Figure, INK, Label, Line, Marker, Panel, Points, SERIES,
 };
-use crate::mesh::{AnnulusMesh, Boundary, BoundaryCondition, ElementKind, Mesh2d};
+use crate::mesh::{AnnulusMesh, Boundary, BoundaryCondition, Mesh2d};
 use serde::{Deserialize, Serialize};
 use std::fmt::Write as _;
 
@@ -173,7 +173,7 @@ impl MeshStatistics {
         for element in 0..mesh.element_count() {
             let region = &mut regions[mesh.region(element)];
             region.elements += 1;
-            region.area_m2 += polygon_area(&outline(mesh, element), mesh.element_kind(element));
+            region.area_m2 += mesh.element_area(element);
         }
         let area: f64 = regions.iter().map(|region| region.area_m2).sum();
         let exact = |annulus: &AnnulusMesh| {
@@ -231,25 +231,6 @@ fn condition_name(condition: BoundaryCondition) -> &'static str {
 fn outline(mesh: &Mesh2d, element: usize) -> Vec<[f64; 2]> {
     let nodes = mesh.element_outline(element).into_iter();
     nodes.map(|node| mesh.nodes[node as usize]).collect()
-}
-
-fn polygon_area(points: &[[f64; 2]], kind: ElementKind) -> f64 {
-    let cross = |p: [f64; 2], q: [f64; 2]| p[0] * q[1] - p[1] * q[0];
-    let count = points.len();
-    if !kind.is_quadratic() {
-        let sum: f64 = (0..count)
-            .map(|i| cross(points[i], points[(i + 1) % count]))
-            .sum();
-        return 0.5 * sum;
-    }
-    // Green's theorem on a parabola through p, m, q: (4 p x m + 4 m x q - p x q) / 6.
-    (0..count)
-        .step_by(2)
-        .map(|i| {
-            let (p, m, q) = (points[i], points[i + 1], points[(i + 2) % count]);
-            (4.0 * cross(p, m) + 4.0 * cross(m, q) - cross(p, q)) / 6.0
-        })
-        .sum()
 }
 
 /// Writes `mesh.vtu` with node ids (from 1) and the contact edge marked.
@@ -335,9 +316,9 @@ fn mesh_figure(mesh: &Mesh2d, title: &str, probes: &[usize]) -> Figure {
     let known: Vec<(usize, (f64, f64))> = known
         .map(|&probe| (probe, place(probe as u32 - 1)))
         .collect();
-    let labels = known
-        .iter()
-        .map(|(probe, at)| Label::new(*at, probe.to_string()).moved(4.0, -4.0));
+    let labels = known.iter().map(|(probe, at)| {
+        Label::new(*at, mesh.node_label(probe - 1).to_string()).moved(4.0, -4.0)
+    });
     let [low, high] = Window::window(&mesh.nodes, 0.06);
     let axis = |name: &str, i: usize| Axis::new(name, "mm").times(1e3).between(low[i], high[i]);
     let panel = Panel::new(axis("*x*", 0), axis("*y*", 1))

@@ -106,6 +106,7 @@ const QUANTITIES: &[Quantity<'static>] = &[
     quantity_of("mass_coefficient", "alpha_R", "1/s", Significant(4)),
     quantity_of("stiffness_coefficient", "beta_R", "s", Significant(4)),
     quantity_of("torque_n_m", "torque", "N m", Fixed(4)),
+    quantity_of("drag_n", "drag", "N", Fixed(4)),
     // Transients and limit cycles.
     quantity_of("steps", "steps", "", Count),
     quantity_of("time_step_s", "time step", "s", Scientific(4)),

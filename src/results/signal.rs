@@ -70,9 +70,9 @@ fn write_peaks(out: &mut dyn std::io::Write, summary: &SignalSummary) -> std::io
                 Some(mode) => [
                     mode.mode.to_string(),
                     format_number(mode.frequency_hz),
-                    mode.harmonic.to_string(),
+                    mode.harmonic.map_or(String::new(), |n| n.to_string()),
                     mode.branch.to_string(),
-                    mode.direction.to_string(),
+                    mode.direction.map_or(String::new(), |d| d.to_string()),
                 ],
                 None => Default::default(),
             });

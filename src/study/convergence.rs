@@ -3,8 +3,10 @@
 use crate::case::Case;
 use crate::cea::{ComplexMode, FrictionSweep, UnstableInterval};
 use crate::cycle::Family;
+use crate::linalg::c64;
 use crate::results::convergence::Quantity;
 use crate::results::summary::{MeanPowers, PointSummary, Vibration};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Harmonic, branch and direction: what a mode is known by on every mesh.
 type ModeKey = (usize, usize, i8);
@@ -20,7 +22,10 @@ fn interval_key(interval: &UnstableInterval) -> ModeKey {
     (interval.harmonic, interval.branch, interval.direction)
 }
 
-fn name_of((harmonic, branch, direction): ModeKey) -> String {
+fn name_of((harmonic, branch, direction): ModeKey, has_harmonics: bool) -> String {
+    if !has_harmonics {
+        return format!("mode {branch}");
+    }
     let direction = match direction {
         1.. => ", with the rotor",
         0 => "",
@@ -37,6 +42,15 @@ pub fn of_sweeps(
     sweeps: &[FrictionSweep],
 ) -> (Vec<Quantity>, Vec<String>) {
     let friction = case.contact.sliding.friction_coefficient;
+    let mut named = Vec::new();
+    let sweeps = match case.is_annulus() {
+        true => sweeps,
+        false => {
+            named.extend_from_slice(sweeps);
+            name_by_rank(&mut named, friction);
+            &named
+        }
+    };
     let modes: Vec<&[ComplexMode]> = sweeps
         .iter()
         .map(|sweep| {
@@ -63,12 +77,12 @@ pub fn of_sweeps(
     ];
     for (part, value) in parts {
         for levels in &everywhere {
-            let name = format!("{part}, {}", name_of(key_of(levels[0])));
+            let name = format!("{part}, {}", name_of(key_of(levels[0]), case.is_annulus()));
             let values = levels.iter().map(|mode| value(mode)).collect();
             quantities.push(Quantity::new(name, "Hz", sizes, values));
         }
     }
-    quantities.extend(onsets(sizes, sweeps));
+    quantities.extend(onsets(sizes, sweeps, case.is_annulus()));
     let mut notes = vec![format!(
         "{} modes at friction coefficient {friction}",
         everywhere.len()
@@ -83,8 +97,64 @@ pub fn of_sweeps(
     (quantities, notes)
 }
 
+/// Largest relative distance of an eigenvalue from that of the next finer mesh at which both are taken as one mode's.
+const SAME_MODE: f64 = 0.1;
+
+/// First number of the branches that the finest mesh does not have.
+const FOREIGN: usize = 1 << 20;
+
+/// Gives the branches of a body without symmetry the rank that their mode has by frequency on the finest mesh, from 1;
+/// from mesh to mesh the nearest eigenvalues at `friction` belong together.
+fn name_by_rank(sweeps: &mut [FrictionSweep], friction: f64) {
+    let own = |sweep: &FrictionSweep| -> Vec<(c64, usize)> {
+        let mut points = sweep.points.iter();
+        let point = points.find(|point| point.friction_coefficient == friction);
+        let modes = point.map_or(&[][..], |point| &point.modes).iter();
+        modes.map(|mode| (mode.eigenvalue, mode.branch)).collect()
+    };
+    let mut finer: Option<Vec<(c64, usize)>> = None;
+    for sweep in sweeps.iter_mut().rev() {
+        let modes = own(sweep);
+        let mut rank_of = BTreeMap::new();
+        let mut pairs = Vec::new();
+        match &finer {
+            None => rank_of.extend(modes.iter().enumerate().map(|(i, mode)| (mode.1, i + 1))),
+            Some(finer) => {
+                for (here, &(a, _)) in modes.iter().enumerate() {
+                    for (there, &(b, _)) in finer.iter().enumerate() {
+                        pairs.push(((a - b).norm() / b.norm(), here, there));
+                    }
+                }
+            }
+        }
+        // Nearest pairs first, each mode once.
+        pairs.retain(|pair| pair.0 < SAME_MODE);
+        pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut taken = BTreeSet::new();
+        for (_, here, there) in pairs {
+            let rank = finer.as_ref().map_or(0, |finer| finer[there].1);
+            let branch = modes[here].1;
+            if !rank_of.contains_key(&branch) && taken.insert(rank) {
+                rank_of.insert(branch, rank);
+            }
+        }
+        let rename = |branch: &mut usize| {
+            *branch = rank_of.get(branch).map_or(FOREIGN + *branch, |rank| *rank);
+        };
+        for mode in sweep.points.iter_mut().flat_map(|point| &mut point.modes) {
+            rename(&mut mode.branch);
+            (mode.harmonic, mode.direction) = (0, 0);
+        }
+        for interval in &mut sweep.intervals {
+            rename(&mut interval.branch);
+            (interval.harmonic, interval.direction) = (0, 0);
+        }
+        finer = Some(own(sweep));
+    }
+}
+
 /// Critical friction of every branch that turns unstable within the range of every level.
-fn onsets(sizes: &[f64], sweeps: &[FrictionSweep]) -> Vec<Quantity> {
+fn onsets(sizes: &[f64], sweeps: &[FrictionSweep], has_harmonics: bool) -> Vec<Quantity> {
     let mut quantities: Vec<Quantity> = Vec::new();
     let Some(finest) = sweeps.last() else {
         return quantities;
@@ -106,7 +176,7 @@ fn onsets(sizes: &[f64], sweeps: &[FrictionSweep]) -> Vec<Quantity> {
             })
             .collect();
         if let Some(values) = values {
-            let name = format!("critical friction, {}", name_of(key));
+            let name = format!("critical friction, {}", name_of(key, has_harmonics));
             quantities.push(Quantity::new(name, "", sizes, values));
         }
     }

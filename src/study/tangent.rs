@@ -1,10 +1,9 @@
 //! Small motions around the steady sliding of a case.
 
 use crate::case::Case;
-use crate::cea::cyclic::sweep;
-use crate::cea::{CeaError, ComplexMode, ModeLimit, SweepRequest};
-use crate::fem::MassKind;
-use crate::prestress::{DampingModel, TangentOptions};
+use crate::cea::{CeaError, ComplexMode, ModeLimit, SweepRequest, cyclic, sparse};
+use crate::fem::{MassKind, assemble_stiffness};
+use crate::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
 
 /// How a case takes the tangent of steady sliding: geometric stiffness unless its `[cea]` says otherwise, damping of body
 /// or of body and contact, contact stiffness and dashpots.
@@ -21,10 +20,11 @@ pub fn tangent_options(case: &Case, mass: MassKind) -> TangentOptions {
     }
 }
 
-/// The modes of an annulus at the case's own friction coefficient, by frequency; no shapes.
+/// The modes of a case at its own friction coefficient, by frequency; no shapes. On the annulus by its symmetry, on any
+/// other body of the whole mesh.
 ///
 /// # Errors
-/// Those of [`sweep`].
+/// Those of the mesh, of steady sliding, and of [`cyclic::sweep`] or [`sparse::sweep`].
 pub fn modes_at_own_friction(
     case: &Case,
     options: &TangentOptions,
@@ -36,7 +36,15 @@ pub fn modes_at_own_friction(
         limit,
         shapes_at: &[],
     };
-    let found = sweep(&case.annulus, &case.material, options, sliding, &request)?;
-    let point = found.sweep.points.into_iter().next();
+    let found = if case.is_annulus() {
+        cyclic::sweep(&case.annulus, &case.material, options, sliding, &request)?.sweep
+    } else {
+        let (mesh, materials) = (case.mesh()?, case.materials());
+        let stiffness = assemble_stiffness(&mesh, materials);
+        let base = SteadySliding::solve(&mesh, &stiffness, sliding)?;
+        let tangent = SlidingTangent::linearize(&mesh, materials, &stiffness, &base, options);
+        sparse::sweep(&tangent, &request, &|_| {})?
+    };
+    let point = found.points.into_iter().next();
     Ok(point.map_or_else(Vec::new, |point| point.modes))
 }

@@ -5,6 +5,7 @@ mod observation;
 
 use super::{CentralDifference, ContactPowers, StatusCounts, TransientError, settings::StepPlan};
 use crate::contact::ContactInterface;
+use crate::mesh::Mesh2d;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
@@ -90,6 +91,9 @@ pub struct ContactFrame {
 pub struct Recorder {
     /// Probe nodes, 1-based.
     pub probes: Vec<usize>,
+    /// Cosine and sine of the angle from the axes of each probe's report to its frame.
+    #[serde(skip)]
+    probe_turns: Vec<[f64; 2]>,
     /// One row for each sample.
     pub rows: Vec<SampleRow>,
     /// For each probe and sample `u_r, u_t` (m), `v_r, v_t` (m/s), and the mean of `a_r, a_t` (m/s2) since the last
@@ -152,6 +156,7 @@ impl Recorder {
         let (contact, probes) = (&run.model().contact, settings.probes.len());
         Ok(Self {
             probes: settings.probes.clone(),
+            probe_turns: probe_turns(run.model().mesh, &settings.probes),
             rows: Vec::with_capacity(plan.samples as usize),
             probe_rows: vec![Vec::with_capacity(plan.samples as usize); probes],
             raw_accelerations: settings.raw_acceleration.then(|| vec![Vec::new(); probes]),
@@ -209,6 +214,7 @@ impl Recorder {
         self.tributary_lengths = fresh.tributary_lengths;
         self.contact_angles = fresh.contact_angles;
         self.waves = fresh.waves;
+        self.probe_turns = fresh.probe_turns;
         self.stop_when_settled = fresh.stop_when_settled;
         self.has_stopped &= self.stop_when_settled;
         Ok(self)
@@ -264,6 +270,16 @@ impl Recorder {
         let amplitudes = self.rows[samples].iter().flat_map(|row| row.harmonics);
         amplitudes.fold(self.interference.abs(), |m, [re, im]| m.max(re.hypot(im)))
     }
+}
+
+/// How each probe's frame is turned against the axes of its report.
+fn probe_turns(mesh: &Mesh2d, probes: &[usize]) -> Vec<[f64; 2]> {
+    let turn = |&probe: &usize| {
+        let (frame, reported) = (mesh.frame_angles[probe - 1], mesh.reported_angle(probe - 1));
+        let (sin, cos) = (frame - reported).sin_cos();
+        [cos, sin]
+    };
+    probes.iter().map(turn).collect()
 }
 
 /// Sample nearest to each snapshot time, ascending.

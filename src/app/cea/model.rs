@@ -3,7 +3,7 @@
 use super::Failure;
 use crate::case::{Case, Cea, CeaMethod};
 use crate::fem::{assemble_stiffness, nodal_stress};
-use crate::mesh::{AnnulusMesh, Mesh2d, SectorMesh};
+use crate::mesh::{AnnulusMesh, Counterface, Mesh2d, SectorMesh};
 use crate::prestress::{
     SectorTangent, SlidingRange, SlidingTangent, SteadySliding, TangentOptions,
 };
@@ -101,6 +101,7 @@ impl SlidingModel {
             .iter()
             .filter(|is_pressed| !**is_pressed)
             .count();
+        let is_plane = matches!(self.mesh.counterface, Counterface::Plane { .. });
         BaseState {
             friction_coefficient: friction,
             slipping: pressures.len() - open,
@@ -108,7 +109,8 @@ impl SlidingModel {
             open,
             pressure_pa: [smallest, largest],
             shear_pa: [shear[0].min(shear[1]), shear[0].max(shear[1])],
-            torque_n_m: torque,
+            torque_n_m: (!is_plane).then_some(torque),
+            drag_n: is_plane.then_some(torque),
             power_w: torque * case.contact.sliding.rotation_speed,
         }
     }

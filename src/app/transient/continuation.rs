@@ -40,7 +40,7 @@ pub fn reopen(session: &Session) -> Result<OutputFolder, Failure> {
     if session.options.output.dry_run {
         return Err(session.options.output.dry_run_at(&path, ours));
     }
-    Ok(OutputFolder::open(&path, ours, Replace::Continued)?)
+    session.keep_mesh(OutputFolder::open(&path, ours, Replace::Continued)?)
 }
 
 /// The checkpoint of a folder, if there is one.

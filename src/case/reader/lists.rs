@@ -3,6 +3,7 @@
 use super::Section;
 use crate::case::diagnostic::Location;
 use crate::case::key::{Bound, Kind};
+use crate::case::keys;
 use crate::case::range::{Spacing, range_values};
 use crate::case::raw::{RawItem, RawTable, RawValue};
 
@@ -73,7 +74,7 @@ impl<'a> Section<'a> {
     /// The values of `{ from, to, count, spacing }`; none where something is wrong with it.
     pub fn range(&self, key: &str, table: &'a RawTable, item: &RawItem, bound: Bound) -> Vec<f64> {
         let mut range = Section::new(self.findings, self.name(key), Some(table), item.at.clone());
-        range.is_range = true;
+        range.declarations = Some(keys::RANGE);
         let [from, to] = ["from", "to"].map(|end| {
             let value = range.number(end);
             match table.get(end) {

@@ -23,10 +23,25 @@ pub struct BaseState {
     pub pressure_pa: [f64; 2],
     /// Friction traction, smallest and largest, Pa.
     pub shear_pa: [f64; 2],
-    /// Friction torque of the whole thickness, N m.
-    pub torque_n_m: f64,
-    /// Power that the rotor puts in, W.
+    /// Friction torque on a cylinder, of the whole thickness, N m.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub torque_n_m: Option<f64>,
+    /// Friction force on a plane, of the whole thickness, N.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub drag_n: Option<f64>,
+    /// Power that the counterface puts in, W.
     pub power_w: f64,
+}
+
+impl BaseState {
+    /// Torque or drag with its name and unit.
+    pub(super) fn drive(&self) -> String {
+        let torque = self
+            .torque_n_m
+            .map(|torque| format!("torque {torque:.4} N m"));
+        let drag = || format!("drag {:.4} N", self.drag_n.unwrap_or(f64::NAN));
+        torque.unwrap_or_else(drag)
+    }
 }
 
 /// The same state node by node.
@@ -59,16 +74,19 @@ pub fn write_base(
 ) -> Result<(), FolderError> {
     folder.write("prestress.csv", |out| {
         let mut columns = vec!["node", "angle_degrees", "pressure_pa", "shear_pa"];
-        columns.extend(base.is_pressed.is_some().then_some("status"));
+        if base.is_pressed.is_some() {
+            columns.extend(["status", "x_m", "y_m"]);
+        }
         let mut table = Table::new(out, &columns)?;
         for (i, &node) in base.nodes.iter().enumerate() {
-            let status = base.is_pressed.as_ref().map(|is_pressed| {
+            let of_a_body = base.is_pressed.as_ref().map(|is_pressed| {
                 let status = if is_pressed[i] {
                     ContactStatus::Slip
                 } else {
                     ContactStatus::Open
                 };
-                status.name().to_owned()
+                let [x, y] = mesh.nodes[node as usize].map(format_number);
+                [status.name().to_owned(), x, y]
             });
             let row = [
                 mesh.node_label(node as usize).to_string(),
@@ -76,7 +94,7 @@ pub fn write_base(
                 format_number(base.pressures[i]),
                 format_number(base.shears[i]),
             ];
-            table.row(row.into_iter().chain(status))?;
+            table.row(row.into_iter().chain(of_a_body.into_iter().flatten()))?;
         }
         table.finish()
     })?;

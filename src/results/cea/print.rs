@@ -192,14 +192,14 @@ fn totals(out: &mut String, report: &CeaReport<'_>) {
     let _ = writeln!(
         out,
         "steady sliding at friction {}: {} contact nodes slipping, {} sticking, {} open; \
-         pressure {} to {} MPa; torque {:.4} N m, {:.1} W",
+         pressure {} to {} MPa; {}, {:.1} W",
         base.friction_coefficient,
         base.slipping,
         base.sticking,
         base.open,
         megapascal(base.pressure_pa[0]),
         megapascal(base.pressure_pa[1]),
-        base.torque_n_m,
+        base.drive(),
         base.power_w,
     );
     if let Some(sensitivities) = report.sensitivities {

@@ -30,12 +30,12 @@ pub fn html_report(
             report.wall_s
         ),
         format!(
-            "Steady sliding at friction coefficient {}: contact pressure {:.4} to {:.4} MPa, torque \
-             {:.4} N m, power {:.1} W.",
+            "Steady sliding at friction coefficient {}: contact pressure {:.4} to {:.4} MPa, {}, \
+             power {:.1} W.",
             base.friction_coefficient,
             base.pressure_pa[0] * 1e-6,
             base.pressure_pa[1] * 1e-6,
-            base.torque_n_m,
+            base.drive(),
             base.power_w
         ),
     ];

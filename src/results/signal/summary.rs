@@ -105,12 +105,14 @@ pub struct ModeSummary {
     pub frequency_hz: f64,
     /// Growth rate, 1/s.
     pub growth_rate_per_s: f64,
-    /// Circumferential harmonic.
-    pub harmonic: usize,
-    /// Branch of that harmonic.
+    /// Circumferential harmonic; none on a body without symmetry.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub harmonic: Option<usize>,
+    /// Branch of that harmonic, or of the body.
     pub branch: usize,
-    /// +1 with the rotor, -1 against it, 0 standing.
-    pub direction: i8,
+    /// +1 with the rotor, -1 against it, 0 standing; none on a body without symmetry.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub direction: Option<i8>,
     /// Whether it grows.
     pub unstable: bool,
 }
@@ -155,28 +157,37 @@ fn mode_beside(modes: &[ModeSummary], frequency_hz: f64) -> Option<ModeSummary> 
 }
 
 impl ModeSummary {
-    /// All modes of a case, numbered.
-    pub fn all(modes: &[ComplexMode]) -> Vec<Self> {
+    /// All modes of a case, numbered; those of a body without symmetry have no harmonics.
+    pub fn all(modes: &[ComplexMode], has_harmonics: bool) -> Vec<Self> {
         let numbered = modes.iter().enumerate();
         numbered
             .map(|(number, mode)| Self {
                 mode: number + 1,
                 frequency_hz: mode.frequency_hz(),
                 growth_rate_per_s: mode.growth_rate(),
-                harmonic: mode.harmonic,
+                harmonic: has_harmonics.then_some(mode.harmonic),
                 branch: mode.branch,
-                direction: mode.direction,
+                direction: has_harmonics.then_some(mode.direction),
                 unstable: mode.is_unstable(),
             })
             .collect()
     }
 
+    /// Number and harmonic, as figures name it.
+    pub fn label(&self) -> String {
+        let harmonic = self
+            .harmonic
+            .map_or(String::new(), |n| format!(", *n* = {n}"));
+        format!("mode {}{harmonic}", self.mode)
+    }
+
     /// The mode in words.
     pub fn described(&self) -> String {
         format!(
-            "mode {} (n = {}, branch {}, {:.1} Hz{})",
+            "mode {} ({}branch {}, {:.1} Hz{})",
             self.mode,
-            self.harmonic,
+            self.harmonic
+                .map_or(String::new(), |n| format!("n = {n}, ")),
             self.branch,
             self.frequency_hz,
             if self.unstable { ", unstable" } else { "" }

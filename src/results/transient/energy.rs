@@ -85,7 +85,7 @@ pub(super) fn energy(run: &RunFigures<'_>) -> Figure {
     let acceleration = inside.map(|probe| {
         let panel =
             Panel::new(run_axis(&times), Axis::new("*a*_{θ}", "m/s²").symmetric()).height(50.0);
-        let caption = format!("tangential acceleration, node {}", run.record.probes[probe]);
+        let caption = format!("tangential acceleration, node {}", run.probe_label(probe));
         panel
             .caption(caption)
             .layer(Line::new(&times, &run.acceleration(probe)).solid(SERIES[0], 0.45))

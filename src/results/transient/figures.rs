@@ -59,6 +59,11 @@ pub fn draw_run(
 }
 
 impl RunFigures<'_> {
+    /// Number of a probe as the user knows it.
+    pub(super) fn probe_label(&self, probe: usize) -> usize {
+        self.mesh.node_label(self.record.probes[probe] - 1)
+    }
+
     /// Times of all samples, s.
     pub(super) fn times(&self) -> Vec<f64> {
         self.record.rows.iter().map(|row| row.time).collect()
@@ -184,7 +189,7 @@ impl RunFigures<'_> {
             Axis::new("velocity *v*_{θ}", "m/s").prefixed(),
         )
         .height(172.0)
-        .caption(format!("node {}, tangential", self.record.probes[inside]))
+        .caption(format!("node {}, tangential", self.probe_label(inside)))
         .layer(approach(&phase))
         .layer(
             Line::through(phase[start..].iter().copied())
@@ -196,7 +201,7 @@ impl RunFigures<'_> {
         );
         let path_panel = Panel::new(metres("tangential *u*_{θ}"), metres("radial *u*_{r}"))
             .height(172.0)
-            .caption(format!("contact node {}", self.record.probes[edge]))
+            .caption(format!("contact node {}", self.probe_label(edge)))
             .layer(approach(&path))
             .layers(status_curves(&path[start..], &status));
         let caption = "Phase plot of an internal node (a) and path of a contact node (b), whose last fifth is coloured by contact status.";

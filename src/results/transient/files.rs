@@ -21,8 +21,8 @@ pub fn write(
     report: &TransientReport<'_>,
 ) -> Result<TransientSummary, FolderError> {
     let raw = |index: usize| Some(report.record.raw_accelerations.as_ref()?[index].as_slice());
-    let probes = report.record.probes.iter().zip(&report.record.probe_rows);
-    for (index, (probe, rows)) in probes.enumerate() {
+    for (index, rows) in report.record.probe_rows.iter().enumerate() {
+        let probe = report.probe_label(index);
         folder.write(&format!("probe-{probe}.csv"), |out| {
             write_probe(out, &report.record.rows, rows, raw(index))
         })?;

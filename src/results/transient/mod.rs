@@ -43,6 +43,8 @@ pub struct TransientReport<'a> {
     pub initial: &'a str,
     /// Initial velocity.
     pub perturbation: &'a Perturbation,
+    /// Probes that were asked for by their place: node, counted from 0, and place, m.
+    pub places: Vec<(usize, [f64; 2])>,
     /// Name of the operator.
     pub operator: &'a str,
     /// Time step and samples.
@@ -68,5 +70,10 @@ impl TransientReport<'_> {
     pub fn element_steps_per_second(&self) -> f64 {
         let elements = self.mesh.element_count() as f64;
         elements * self.steps_timed as f64 / self.stepping_s.max(f64::MIN_POSITIVE)
+    }
+
+    /// Number of a probe as the user knows it.
+    fn probe_label(&self, probe: usize) -> usize {
+        self.mesh.node_label(self.record.probes[probe] - 1)
     }
 }

@@ -72,6 +72,16 @@ pub fn print(summary: &TransientSummary, state: EndState) -> String {
             fixed(100.0 * share, 3)
         );
     }
+    for (node, probe) in &summary.probes {
+        if let Some(place) = probe.place {
+            let [[x, y], [p, q]] =
+                [place.asked_m, place.at_m].map(|at| at.map(|c| fixed(1e3 * c, 3)));
+            let _ = writeln!(
+                out,
+                "  probe at ({x}, {y}) mm: node {node} at ({p}, {q}) mm"
+            );
+        }
+    }
     let periods = summary
         .main_frequency_hz
         .map(|f| f * summary.contact_interval_s);

@@ -22,7 +22,7 @@ impl RunFigures<'_> {
     /// Acceleration, spectrograms and contact status on one time axis, with the end of the run enlarged at the right.
     pub(super) fn overview(&self, probe: usize) -> Figure {
         let (node, times, signal) = (
-            self.record.probes[probe],
+            self.probe_label(probe),
             self.times(),
             self.acceleration(probe),
         );
@@ -116,7 +116,7 @@ impl RunFigures<'_> {
 
     /// Spectra of both components over the last fifth of the run.
     pub(super) fn spectrum(&self, probe: usize) -> Figure {
-        let node = self.record.probes[probe];
+        let node = self.probe_label(probe);
         let spectrum_of = |column: usize| {
             let signal = self.column(probe, column);
             let end = &signal[signal.len() - signal.len().div_ceil(5)..];

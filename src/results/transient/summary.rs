@@ -147,10 +147,22 @@ pub struct GrowthSummary {
 /// Motion of a probe over the last fifth; accelerations are means over the sample interval.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ProbeSummary {
+    /// Where it is, if it was asked for by its place.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub place: Option<PlaceSummary>,
     /// Radially.
     pub radial: MotionSummary,
     /// Tangentially.
     pub tangential: MotionSummary,
+}
+
+/// A place that was asked for, and its nearest node.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PlaceSummary {
+    /// The place, `x` and `y`, m.
+    pub asked_m: [f64; 2],
+    /// The node, m.
+    pub at_m: [f64; 2],
 }
 
 /// Motion in one direction.
@@ -256,13 +268,22 @@ fn no_growth(analysis: &TransientAnalysis) -> BTreeMap<String, String> {
 }
 
 fn probes(report: &TransientReport<'_>) -> BTreeMap<String, ProbeSummary> {
-    let probes = report.record.probes.iter();
-    let motions = &report.analysis.last_fifth.probes;
-    probes
-        .zip(motions)
-        .map(|(node, motion)| {
+    let motions = report.analysis.last_fifth.probes.iter().enumerate();
+    motions
+        .map(|(probe, motion)| {
             let [radial, tangential] = [0, 1].map(|c| MotionSummary::of(motion, c));
-            (node.to_string(), ProbeSummary { radial, tangential })
+            let node = report.record.probes[probe] - 1;
+            let mut places = report.places.iter();
+            let place = places.find(|place| place.0 == node).map(|&(_, asked_m)| {
+                let at_m = report.mesh.nodes[node];
+                PlaceSummary { asked_m, at_m }
+            });
+            let summary = ProbeSummary {
+                place,
+                radial,
+                tangential,
+            };
+            (report.probe_label(probe).to_string(), summary)
         })
         .collect()
 }

@@ -80,24 +80,26 @@ impl Recorder {
     }
 
     fn observe_probes(&mut self, sample: &Sample<'_>) {
-        for (&node, rows) in self.probes.iter().zip(&mut self.probe_rows) {
-            let dofs = [2 * (node - 1), 2 * (node - 1) + 1];
-            let velocity = dofs.map(|dof| sample.velocity_at(dof));
+        let turned = |place: usize, [a, b]: [f64; 2]| match self.probe_turns[place] {
+            // Equal frames leave every bit as it is.
+            [1.0, 0.0] => [a, b],
+            [cos, sin] => [cos * a - sin * b, sin * a + cos * b],
+        };
+        for (place, &node) in self.probes.iter().enumerate() {
+            let dofs = [2 * node - 2, 2 * node - 1];
+            let rows = &mut self.probe_rows[place];
+            let velocity = turned(place, dofs.map(|dof| sample.velocity_at(dof)));
+            let step = turned(place, dofs.map(|dof| sample.acceleration_at(dof)));
             // The first sample has only its own step to be a mean of.
-            let acceleration = match rows.last() {
-                Some(last) => [0, 1].map(|c| (velocity[c] - last[2 + c]) / self.sample_interval),
-                None => dofs.map(|dof| sample.acceleration_at(dof)),
-            };
-            let [u_r, u_t] = dofs.map(|dof| sample.displacement_at(dof));
+            let acceleration = rows.last().map_or(step, |last| {
+                [0, 1].map(|c| (velocity[c] - last[2 + c]) / self.sample_interval)
+            });
+            let [u_r, u_t] = turned(place, dofs.map(|dof| sample.displacement_at(dof)));
             let ([v_r, v_t], [a_r, a_t]) = (velocity, acceleration);
             rows.push([u_r, u_t, v_r, v_t, a_r, a_t]);
-        }
-        for (node, rows) in self
-            .probes
-            .iter()
-            .zip(self.raw_accelerations.iter_mut().flatten())
-        {
-            rows.push([2 * (node - 1), 2 * node - 1].map(|dof| sample.acceleration_at(dof)));
+            if let Some(raw) = &mut self.raw_accelerations {
+                raw[place].push(step);
+            }
         }
     }
 

@@ -1,0 +1,115 @@
+//! `[boundaries.*]`: what holds each boundary.
+
+use super::reader::Section;
+use crate::mesh::{BoundaryCondition, ElasticSupport};
+
+/// What holds a boundary, in words.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum ConditionWord {
+    Clamped,
+    Support,
+    Guide,
+    Pressure,
+    Free,
+}
+
+/// A boundary of the case with its condition.
+pub(super) type NamedCondition = (String, BoundaryCondition);
+
+/// `[boundaries.*]`, in the order given.
+pub(super) fn all(root: &Section<'_>) -> Vec<NamedCondition> {
+    let all = root.section("boundaries", false);
+    let names: Vec<&str> = all.remaining().into_iter().map(|(name, _)| name).collect();
+    let named = names.into_iter().map(|name| {
+        let section = all.section(name, false);
+        let condition = condition(&section);
+        section.close();
+        (name.to_owned(), condition)
+    });
+    let named = named.collect();
+    all.close();
+    named
+}
+
+fn condition(section: &Section<'_>) -> BoundaryCondition {
+    let word: ConditionWord = section.choice("condition");
+    let support = ElasticSupport {
+        normal_stiffness: section.number("normal_stiffness"),
+        tangential_stiffness: section.number("tangential_stiffness"),
+        normal_damping: section.number("normal_damping"),
+        tangential_damping: section.number("tangential_damping"),
+    };
+    let pressure = section.optional_number("pressure");
+    // A value without effect is a mistake.
+    let reject = |key: &str, needs: &str| {
+        section.reject(
+            key,
+            format!("{} has no effect here", section.name(key)),
+            format!("needs condition = \"{needs}\""),
+            Some(format!(
+                "change the condition to \"{needs}\", or leave {key} out"
+            )),
+        );
+    };
+    if word != ConditionWord::Support {
+        for key in [
+            "normal_stiffness",
+            "tangential_stiffness",
+            "normal_damping",
+            "tangential_damping",
+        ] {
+            if section.has(key) {
+                reject(key, "support");
+            }
+        }
+    }
+    if word != ConditionWord::Pressure && section.has("pressure") {
+        reject("pressure", "pressure");
+    }
+    match word {
+        ConditionWord::Clamped => BoundaryCondition::Clamped,
+        ConditionWord::Support => BoundaryCondition::Support(support),
+        ConditionWord::Guide => BoundaryCondition::Guide,
+        ConditionWord::Pressure => {
+            BoundaryCondition::Pressure(pressure.unwrap_or_else(|| section.number("pressure")))
+        }
+        ConditionWord::Free => BoundaryCondition::Free,
+    }
+}
+
+/// The condition of the annulus's outer edge; other names are errors.
+pub(super) fn outer_edge(root: &Section<'_>, boundaries: &[NamedCondition]) -> BoundaryCondition {
+    let section = root.section("boundaries", false);
+    let mut outer = BoundaryCondition::Clamped;
+    for (name, condition) in boundaries {
+        let reject = |message: String, label: &str, help: &str| {
+            section.reject(name, message, label.to_owned(), Some(help.to_owned()));
+        };
+        match (name.as_str(), condition) {
+            ("inner", BoundaryCondition::Free) => {}
+            ("inner", _) => reject(
+                "boundaries.inner is the contact edge: it can have no condition of its own"
+                    .to_owned(),
+                "the contact is here",
+                "leave the section out",
+            ),
+            ("outer", BoundaryCondition::Clamped) => {}
+            ("outer", BoundaryCondition::Support(support))
+                if support.tangential_stiffness > 0.0 =>
+            {
+                outer = *condition;
+            }
+            ("outer", _) => reject(
+                "nothing holds the disc against the friction that turns it".to_owned(),
+                "must hold the edge tangentially",
+                "use condition = \"clamped\", or \"support\" with tangential_stiffness above 0",
+            ),
+            _ => reject(
+                format!("the annulus has no boundary \"{name}\""),
+                "it has \"inner\" and \"outer\"",
+                "other boundaries come from an imported mesh (mesh.file)",
+            ),
+        }
+    }
+    outer
+}

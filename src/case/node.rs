@@ -1,0 +1,178 @@
+//! Nodes of the mesh as a case names them: by number, or by a place whose nearest node is meant.
+
+use super::body::ImportedBody;
+use super::diagnostic::Location;
+use super::model::node_count;
+use super::reader::{NodePlace, Section};
+use crate::mesh::{AnnulusSpecification, Counterface, SectorMesh};
+use std::f64::consts::TAU;
+
+/// Share of the body's size beyond which the nearest node to a place is hardly what was meant.
+const FAR: f64 = 0.05;
+
+/// A node that was asked for by its place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlacedNode {
+    /// Node, counted from 0.
+    pub node: usize,
+    /// The place, m.
+    pub asked: [f64; 2],
+    /// Where the node is, m.
+    pub at: [f64; 2],
+}
+
+impl PlacedNode {
+    /// Distance of the node from the place, m.
+    pub fn distance(&self) -> f64 {
+        (self.at[0] - self.asked[0]).hypot(self.at[1] - self.asked[1])
+    }
+}
+
+/// The nodes of the case's mesh.
+#[derive(Clone, Copy)]
+pub(super) struct Nodes<'a> {
+    pub annulus: &'a AnnulusSpecification,
+    pub body: Option<&'a ImportedBody>,
+    /// Whether a mesh file is named that makes no body: nothing is known of its nodes.
+    pub is_unknown: bool,
+}
+
+/// A node of the case, counted from 0, with its place where it was asked for by that.
+type Found = (usize, Option<PlacedNode>);
+
+impl Nodes<'_> {
+    /// The node that `named` means; what is wrong with it is reported at `key`.
+    pub fn find(
+        &self,
+        section: &Section<'_>,
+        key: &'static str,
+        (named, at): &(NodePlace, Location),
+    ) -> Option<Found> {
+        if self.is_unknown {
+            return None;
+        }
+        let asked = match *named {
+            NodePlace::Number(number) => {
+                return self.numbered(section, key, number, at).map(|n| (n, None));
+            }
+            NodePlace::Point(point) => point,
+            NodePlace::Polar { radius, angle } => {
+                let [x, y] = self.axis();
+                [x + radius * angle.cos(), y + radius * angle.sin()]
+            }
+        };
+        let (node, point) = self.nearest(asked)?;
+        let placed = PlacedNode {
+            node,
+            asked,
+            at: point,
+        };
+        if placed.distance() > FAR * self.annulus.outer_radius {
+            section.warn(
+                key,
+                format!(
+                    "{}: the node nearest to ({}, {}) m is node {} at ({:.6}, {:.6}) m, {:.1e} m away",
+                    section.name(key),
+                    asked[0],
+                    asked[1],
+                    self.label(node),
+                    point[0],
+                    point[1],
+                    placed.distance()
+                ),
+                "places are in metres",
+            );
+        }
+        Some((node, Some(placed)))
+    }
+
+    fn numbered(
+        &self,
+        section: &Section<'_>,
+        key: &'static str,
+        number: usize,
+        at: &Location,
+    ) -> Option<usize> {
+        let what = match key {
+            "probes" => format!("probe {number}"),
+            _ => format!("{} = {number}", section.name(key)),
+        };
+        let Some(body) = self.body else {
+            let nodes = node_count(self.annulus);
+            if number as u128 > nodes && nodes > 0 {
+                section.reject_there(
+                    at,
+                    format!("{what} does not exist: the mesh has nodes 1 to {nodes}"),
+                    format!("must be at most {nodes}"),
+                    "node ids count radially outwards first: 1 + j (radial_elements + 1) + i",
+                );
+                return None;
+            }
+            return Some(number.saturating_sub(1));
+        };
+        // Labels rise: nodes stand in the order of their numbers.
+        let labels = &body.mesh.labels;
+        let found = labels.binary_search(&number).ok();
+        if found.is_none() {
+            let ends = [labels.first(), labels.last()].map(|label| label.map_or(0, |&n| n));
+            section.reject_there(
+                at,
+                format!(
+                    "{what} does not exist: the elements of the mesh file have {} nodes, numbered {} to {}",
+                    labels.len(),
+                    ends[0],
+                    ends[1]
+                ),
+                "no node of the body".to_owned(),
+                "name it by its place instead, { x = .., y = .. } in metres",
+            );
+        }
+        found
+    }
+
+    /// Number of a node as the user knows it.
+    pub fn label(&self, node: usize) -> usize {
+        self.body
+            .map_or(node + 1, |body| body.mesh.node_label(node))
+    }
+
+    fn axis(&self) -> [f64; 2] {
+        match self.body.map(|body| body.mesh.counterface) {
+            Some(Counterface::Cylinder { center, .. }) => center,
+            _ => [0.0; 2],
+        }
+    }
+
+    /// The node nearest to a point, and where it is; none where the mesh makes none.
+    fn nearest(&self, point: [f64; 2]) -> Option<(usize, [f64; 2])> {
+        if let Some(body) = self.body {
+            let (node, _) = body.mesh.nearest_node(point)?;
+            return Some((node, body.mesh.nodes[node]));
+        }
+        // Only the first sector is built: on each ring of its nodes the nearest is that of the nearest angle.
+        let sector = SectorMesh::generate(self.annulus).ok()?;
+        let (per_sector, sectors) = (sector.node_count(), sector.sector_count());
+        let step = TAU / sectors as f64;
+        let candidates = sector.strip.nodes[..per_sector].iter().enumerate();
+        let around = candidates.map(|(position, &[x, y])| {
+            let (radius, start) = (x.hypot(y), y.atan2(x));
+            let turns = ((point[1].atan2(point[0]) - start) / step).round() as i64;
+            let turned = turns.rem_euclid(sectors as i64) as usize;
+            let angle = start + step * turned as f64;
+            let at = [radius * angle.cos(), radius * angle.sin()];
+            let distance = (at[0] - point[0]).hypot(at[1] - point[1]);
+            (distance, turned * per_sector + position, at)
+        });
+        let (_, node, at) = around.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        Some((node, at))
+    }
+}
+
+impl super::Case {
+    /// Number of a node, counted from 0, as the user knows it: that of the mesh file, or counted from 1.
+    pub fn node_label(&self, node: usize) -> usize {
+        self.body
+            .as_ref()
+            .map_or(node + 1, |body| body.mesh.node_label(node))
+    }
+}

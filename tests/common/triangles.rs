@@ -1,0 +1,98 @@
+//! Unstructured triangle meshes of the disc, and the disc as the body of a file.
+
+use frictionsim::mesh::{
+    AnnulusMesh, AnnulusSpecification, BodySpecification, BoundaryCondition,
+    CounterfaceSpecification, ElementKind, GmshFile, Mesh2d,
+};
+use std::collections::BTreeMap;
+
+/// The annulus of triangles: every quadrilateral of `specification` is cut along one diagonal or the other, and inner
+/// nodes are moved by up to a quarter of an element, both as a fixed sequence of numbers has it.
+pub fn triangles(specification: &AnnulusSpecification, is_quadratic: bool) -> Mesh2d {
+    let quads = AnnulusMesh::generate(specification).unwrap();
+    let (inner, outer) = (specification.inner_radius, specification.outer_radius);
+    let step = (outer - inner) / specification.radial_elements as f64;
+    let mut mesh = quads.mesh;
+    let mut state = 12345_u64;
+    let mut draw = move || {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (state >> 40) as f64 / (1_u64 << 24) as f64
+    };
+    for [x, y] in &mut mesh.nodes {
+        let radius = x.hypot(*y);
+        if radius > inner * 1.000_01 && radius < outer * 0.999_99 {
+            let size = step.min(
+                std::f64::consts::TAU * radius / specification.circumferential_elements as f64,
+            );
+            *x += 0.5 * size * (draw() - 0.5);
+            *y += 0.5 * size * (draw() - 0.5);
+        }
+    }
+    let mut corners: Vec<[u32; 3]> = Vec::new();
+    for element in 0..mesh.element_count() {
+        let &[a, b, c, d] = mesh.element_nodes(element) else {
+            unreachable!("four-node quadrilaterals");
+        };
+        corners.extend(match draw() < 0.5 {
+            true => [[a, b, c], [a, c, d]],
+            false => [[a, b, d], [b, c, d]],
+        });
+    }
+    let mut middles: BTreeMap<(u32, u32), u32> = BTreeMap::new();
+    let mut elements = Vec::new();
+    for triangle in &corners {
+        elements.extend(triangle);
+        for i in (0..3).filter(|_| is_quadratic) {
+            let (p, q) = (triangle[i], triangle[(i + 1) % 3]);
+            let middle = *middles.entry((p.min(q), p.max(q))).or_insert_with(|| {
+                let [a, b] = [p, q].map(|node| mesh.nodes[node as usize]);
+                let (x, y) = (0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]));
+                let radius = |p: [f64; 2]| p[0].hypot(p[1]);
+                // Edges of the body are arcs.
+                let arc = [inner, outer].into_iter().find(|r| {
+                    (radius(a) / r - 1.0).abs() < 1e-9 && (radius(b) / r - 1.0).abs() < 1e-9
+                });
+                let factor = arc.map_or(1.0, |r| r / radius([x, y]));
+                mesh.nodes.push([factor * x, factor * y]);
+                (mesh.nodes.len() - 1) as u32
+            });
+            elements.push(middle);
+        }
+    }
+    for boundary in &mut mesh.boundaries {
+        let own = middles
+            .iter()
+            .filter(|((p, q), _)| boundary.nodes.contains(p) && boundary.nodes.contains(q));
+        let own: Vec<u32> = own.map(|(_, &middle)| middle).collect();
+        boundary.nodes.extend(own);
+    }
+    let (kind, per_element) = match is_quadratic {
+        true => (ElementKind::Tri6, 6),
+        false => (ElementKind::Tri3, 3),
+    };
+    let count = corners.len();
+    Mesh2d {
+        element_kinds: vec![kind; count],
+        element_starts: (0..=count).map(|e| (per_element * e) as u32).collect(),
+        elements,
+        element_regions: vec![0; count],
+        congruent_to: (0..count as u32).collect(),
+        ..mesh
+    }
+}
+
+/// The disc of a file, clamped at its rim.
+pub fn body(file: &GmshFile) -> Mesh2d {
+    let specification = BodySpecification {
+        scale: 1.0,
+        contact: "inner".to_owned(),
+        counterface: CounterfaceSpecification::Cylinder {
+            center: [0.0; 2],
+            radius: None,
+        },
+        conditions: vec![("outer".to_owned(), BoundaryCondition::Clamped)],
+    };
+    Mesh2d::from_gmsh(file, &specification).unwrap()
+}

@@ -1,0 +1,252 @@
+//! The commands on imported bodies.
+
+use crate::disc::annulus;
+use crate::msh::{FORMS, write_msh};
+use assert_cmd::Command;
+use frictionsim::mesh::{AnnulusMesh, ElementKind};
+use predicates::str::contains;
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+use tempfile::TempDir;
+
+const MATERIAL: &str = "[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.3805\ndensity = 1228.0\n\
+    [damping]\nmass_coefficient = 40.0\nstiffness_coefficient = 4.5e-7\n\
+    [contact]\nfriction_coefficient = 0.3\ninterference = 25e-6\nrotation_speed_rpm = 610.0\n";
+
+/// A folder with the same coarse disc twice: `annulus.toml`, and `body.toml` with a mesh file in millimetres whose node
+/// numbers begin at 1001.
+fn folder() -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let mesh = AnnulusMesh::generate(&annulus(ElementKind::Quad4, 24, 4))
+        .unwrap()
+        .mesh;
+    let numbers: Vec<usize> = (1001..=1000 + mesh.node_count()).collect();
+    let bytes = write_msh(&mesh, FORMS[2], &numbers, |[x, y]| [1e3 * x, 1e3 * y]);
+    fs::write(folder.path().join("disc.msh"), bytes).unwrap();
+    let run = "[cea]\nmodes = 6\ngeometric_stiffness = false\n[transient]\nduration = 2e-4\nexpansion_time = 1e-4\n\
+        [transient.perturbation]\nharmonics = [2]\n[output]\nsample_interval = 2e-6\nsnapshots = [1e-4]\n";
+    let generated = "[geometry]\ninner_radius = 0.0205\nouter_radius = 0.0905\n\
+        [mesh]\ncircumferential_elements = 24\nradial_elements = 4\n";
+    let imported =
+        "[mesh]\nfile = \"disc.msh\"\nscale = 0.001\n[boundaries.outer]\ncondition = \"clamped\"\n";
+    for (name, mesh) in [("annulus.toml", generated), ("body.toml", imported)] {
+        fs::write(folder.path().join(name), format!("{mesh}{MATERIAL}{run}")).unwrap();
+    }
+    folder
+}
+
+fn frictionsim(folder: &TempDir, command: &str, case: &str, set: &[&str]) -> Command {
+    let mut program = Command::cargo_bin("frictionsim").unwrap();
+    program
+        .current_dir(folder.path())
+        .args([command, case, "--quiet"]);
+    for text in set {
+        program.args(["--set", text]);
+    }
+    program
+}
+
+fn summary(folder: &Path) -> Value {
+    serde_json::from_slice(&fs::read(folder.join("summary.json")).unwrap()).unwrap()
+}
+
+/// Columns of a probe's table.
+fn table(path: &Path) -> Vec<Vec<f64>> {
+    let text = fs::read_to_string(path).unwrap();
+    let rows = text.lines().skip(1);
+    rows.map(|row| row.split(',').map(|cell| cell.parse().unwrap()).collect())
+        .collect()
+}
+
+/// Node 4 + 5 * 6 = 34 of the annulus stands at 90 degrees, 73 mm from the axis.
+#[test]
+fn a_probe_by_place_is_that_of_the_nearest_node_on_either_kind_of_mesh() {
+    let folder = folder();
+    let path = folder.path();
+    let places = [
+        ("annulus.toml", "output.probes=[34]", "34", "number"),
+        (
+            "annulus.toml",
+            "output.probes=[{ radius = 0.0731, angle_deg = 91 }]",
+            "34",
+            "polar",
+        ),
+        (
+            "annulus.toml",
+            "output.probes=[{ x = 1e-4, y = 0.0731 }]",
+            "34",
+            "point",
+        ),
+        ("body.toml", "output.probes=[1034]", "1034", "label"),
+        (
+            "body.toml",
+            "output.probes=[{ x = 1e-4, y = 0.0731 }]",
+            "1034",
+            "place",
+        ),
+    ];
+    let mut all = Vec::new();
+    for (case, probe, label, out) in places {
+        frictionsim(&folder, "transient", case, &[probe])
+            .args(["--out", out, "--no-figures"])
+            .assert()
+            .success();
+        let probes = &summary(&path.join(out))["probes"][label];
+        let is_placed = probe.contains('{');
+        assert_eq!(probes["place"]["at_m"].is_array(), is_placed, "{probe}");
+        all.push((
+            out,
+            table(&path.join(out).join(format!("probe-{label}.csv"))),
+        ));
+    }
+    let (_, expected) = &all[0];
+    let largest = |column: usize| {
+        expected
+            .iter()
+            .fold(0.0_f64, |m, row| m.max(row[column].abs()))
+    };
+    for (name, found) in &all {
+        assert_eq!(found.len(), expected.len(), "{name}");
+        for (row, other) in found.iter().zip(expected) {
+            for column in 0..7 {
+                // Sparse and cyclic sums differ in their last digits; accelerations are their differences.
+                let bound = 1e-6 * largest(column);
+                assert!(
+                    (row[column] - other[column]).abs() <= bound,
+                    "{name} {column}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn bad_places_are_refused_with_the_remedy_and_far_ones_are_said() {
+    let folder = folder();
+    for (case, probe, words) in [
+        ("body.toml", "[{ x = 0.0 }]", "{ radius, angle_deg }"),
+        ("annulus.toml", "[{ x = 0.0, angle_deg = 3 }]", "{ x, y }"),
+        ("body.toml", "[{ x = 0.0, y = 0.05, z = 0.0 }]", "z"),
+        ("body.toml", "[5]", "numbered 1001 to 1120"),
+        (
+            "body.toml",
+            "[1034, { x = 0.0, y = 0.073 }]",
+            "node 1034 twice",
+        ),
+    ] {
+        let text = format!("output.probes={probe}");
+        frictionsim(&folder, "check", case, &[&text])
+            .assert()
+            .code(2)
+            .stderr(contains(words));
+    }
+    let mut far = Command::cargo_bin("frictionsim").unwrap();
+    far.current_dir(folder.path())
+        .args([
+            "check",
+            "body.toml",
+            "--set",
+            "output.probes=[{ x = 0.0, y = 73.0 }]",
+        ])
+        .assert()
+        .success()
+        .stdout(contains("m away"));
+}
+
+#[test]
+fn figures_of_a_body_are_drawn_again_without_its_mesh_file() {
+    let folder = folder();
+    let path = folder.path();
+    for command in ["transient", "cea", "mesh"] {
+        let probe = "output.probes=[{ x = 0.0, y = 0.0205 }, { x = 0.0, y = 0.073 }]";
+        frictionsim(&folder, command, "body.toml", &[probe])
+            .args(["--out", command])
+            .assert()
+            .success();
+    }
+    fs::remove_file(path.join("disc.msh")).unwrap();
+    for command in ["transient", "cea", "mesh"] {
+        let figures = path.join(command).join("figures");
+        let bytes = |name: &fs::DirEntry| (name.path(), fs::read(name.path()).unwrap());
+        let all = || {
+            fs::read_dir(&figures)
+                .unwrap()
+                .map(|entry| bytes(&entry.unwrap()))
+        };
+        let before: Vec<_> = all().collect();
+        assert!(!before.is_empty());
+        Command::cargo_bin("frictionsim")
+            .unwrap()
+            .current_dir(path)
+            .args(["plot", command])
+            .assert()
+            .success();
+        assert!(all().eq(before), "{command}");
+    }
+}
+
+#[test]
+fn a_signal_is_named_by_the_modes_of_an_imported_body() {
+    let folder = folder();
+    frictionsim(&folder, "cea", "body.toml", &[])
+        .args(["--out", "cea", "--no-figures"])
+        .assert()
+        .success();
+    let text = fs::read_to_string(folder.path().join("cea/eigenvalues.csv")).unwrap();
+    let mut unstable = text.lines().filter(|row| row.contains(",true,"));
+    let cells: Vec<&str> = unstable.next().unwrap().split(',').collect();
+    let (mode, frequency): (usize, f64) = (cells[1].parse().unwrap(), cells[3].parse().unwrap());
+    let samples = (0..20_000).map(|k| f64::from(k) * 5e-6);
+    let rows: String = samples
+        .map(|t| {
+            format!(
+                "{t:e},{:e}\n",
+                (std::f64::consts::TAU * frequency * t).sin()
+            )
+        })
+        .collect();
+    fs::write(folder.path().join("tone.csv"), format!("time_s,a\n{rows}")).unwrap();
+    frictionsim(&folder, "signal", "tone.csv", &[])
+        .args(["--case", "body.toml", "--out", "signal"])
+        .assert()
+        .success();
+    let named = &summary(&folder.path().join("signal"))["channels"][0]["mode"];
+    assert_eq!(named["mode"], mode);
+    assert!(named.get("harmonic").is_none());
+}
+
+/// Independent check of the order of four-node elements, from the command: its meshes are split, its arcs kept.
+#[test]
+fn convergence_of_an_imported_body_splits_its_elements() {
+    let folder = folder();
+    let set = ["convergence.analyses=[\"cea\"]", "cea.modes=8"];
+    frictionsim(&folder, "convergence", "body.toml", &set)
+        .args(["--out", "study", "--no-figures"])
+        .assert()
+        .success();
+    let series = &summary(&folder.path().join("study"))["series"][0];
+    assert_eq!(series["levels"][2], "1536 elements");
+    let quantities = series["quantities"].as_array().unwrap();
+    let orders = quantities.iter().filter_map(|quantity| {
+        let name = quantity["name"].as_str()?;
+        name.starts_with("frequency, mode")
+            .then(|| quantity["order"].as_f64())?
+    });
+    let orders: Vec<f64> = orders.collect();
+    // A start of 24 by 4 elements is coarse: the order comes near 2, the fit is not yet at it.
+    assert!(orders.len() >= 4, "{orders:?}");
+    assert!(
+        orders.iter().all(|order| (order - 2.0).abs() < 0.35),
+        "{orders:?}"
+    );
+    frictionsim(
+        &folder,
+        "convergence",
+        "body.toml",
+        &["convergence.factors=[1, 1.5, 2.25]"],
+    )
+    .assert()
+    .code(2)
+    .stderr(contains("powers of two"));
+}

@@ -1,0 +1,48 @@
+//! Splitting of elements: arcs and nodes (independent checks).
+
+use crate::disc::annulus;
+use crate::msh::{FORMS, write_msh};
+use crate::triangles::{body, triangles};
+use frictionsim::mesh::{AnnulusMesh, ElementKind, GmshFile, Mesh2d};
+
+const KINDS: [ElementKind; 4] = [
+    ElementKind::Quad4,
+    ElementKind::Quad8,
+    ElementKind::Tri3,
+    ElementKind::Tri6,
+];
+
+fn file(kind: ElementKind, around: usize, radial: usize) -> GmshFile {
+    let is_quadratic = kind.is_quadratic();
+    let mesh = match kind.corner_count() {
+        3 => triangles(&annulus(ElementKind::Quad4, around, radial), is_quadratic),
+        _ => {
+            AnnulusMesh::generate(&annulus(kind, around, radial))
+                .unwrap()
+                .mesh
+        }
+    };
+    let numbers: Vec<usize> = (1..=mesh.node_count()).collect();
+    GmshFile::read(&write_msh(&mesh, FORMS[3], &numbers, |p| p)).unwrap()
+}
+
+#[test]
+fn refined_arcs_stay_on_their_circles_and_old_nodes_stay_where_they_are() {
+    for kind in KINDS {
+        let coarse = file(kind, 24, 3);
+        let fine = coarse.refined().unwrap().refined().unwrap();
+        assert_eq!(fine.elements.len(), 16 * coarse.elements.len());
+        assert_eq!(fine.points[..coarse.points.len()], coarse.points);
+        let mesh: Mesh2d = body(&fine);
+        assert!(mesh.quality().worst_jacobian > 0.3, "{kind:?}");
+        for (name, radius) in [("inner", 0.0205), ("outer", 0.0905)] {
+            let boundary = mesh.boundary(name).unwrap();
+            let per_edge = if kind.is_quadratic() { 2 } else { 1 };
+            assert_eq!(boundary.nodes.len(), 4 * 24 * per_edge, "{kind:?} {name}");
+            for &node in &boundary.nodes {
+                let [x, y] = mesh.nodes[node as usize];
+                assert!((x.hypot(y) / radius - 1.0).abs() < 1e-12, "{kind:?} {name}");
+            }
+        }
+    }
+}

@@ -1,0 +1,12 @@
+//! Bodies from mesh files as a user meets them: probes by place, refinement, signals beside modes, figures without the
+//! mesh in its place.
+
+#[path = "../common/disc.rs"]
+mod disc;
+#[path = "../common/msh.rs"]
+mod msh;
+#[path = "../common/triangles.rs"]
+mod triangles;
+
+mod commands;
+mod geometry;
