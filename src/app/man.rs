@@ -193,6 +193,44 @@ const PAGES: &[Page] = &[
         examples: &[("frictionsim init transient", "write transient.toml")],
     },
     Page {
+        command: "fit",
+        files: &[
+            (
+                "fit.csv",
+                "each measured line with its mode and their difference",
+            ),
+            ("modes.csv", "every mode of the fitted model"),
+            (
+                "fitted.toml",
+                "sections with the fitted values to paste into a case",
+            ),
+        ],
+        examples: &[(
+            "frictionsim fit bench.toml squeal.csv",
+            "which support explains the frequencies heard?",
+        )],
+    },
+    Page {
+        command: "uncertainty",
+        files: &[
+            ("samples.csv", "one row for each sample"),
+            (
+                "points/point-NNNNNN.json",
+                "a block of samples, for --resume",
+            ),
+        ],
+        examples: &[
+            (
+                "frictionsim uncertainty disc.toml",
+                "how likely is squeal, and which parameter decides it?",
+            ),
+            (
+                "frictionsim uncertainty disc.toml --robust contact.interference=1e-5:4e-5 --bound 0.05",
+                "which design is silent with 95 % probability?",
+            ),
+        ],
+    },
+    Page {
         command: "frf",
         files: &[("frf.csv", "frequency, real and imaginary part")],
         examples: &[(

@@ -9,6 +9,7 @@ mod convergence;
 pub mod cycle;
 mod failure;
 mod figure_options;
+pub mod fit;
 mod frf;
 mod identify;
 mod init;
@@ -25,6 +26,7 @@ mod signal;
 pub mod sweep;
 pub mod terminal;
 pub mod transient;
+mod uncertainty;
 
 pub use failure::Failure;
 pub use options::{OutputOptions, RunOptions, SimdChoice};
@@ -66,9 +68,11 @@ enum Command {
     Check(check::Arguments),
     Init(init::Arguments),
     Keys(keys::Arguments),
+    Fit(fit::Arguments),
     Frf(frf::Arguments),
     Identify(identify::Arguments),
     Signal(signal::Arguments),
+    Uncertainty(uncertainty::Arguments),
     Completions(completions::Arguments),
     Man(man::Arguments),
 }
@@ -148,9 +152,11 @@ pub fn main() -> ExitCode {
         Command::Check(arguments) => check::run(&arguments),
         Command::Init(arguments) => init::run(&arguments),
         Command::Keys(arguments) => keys::run(&arguments),
+        Command::Fit(arguments) => fit::run(&arguments),
         Command::Frf(arguments) => frf::run(&arguments),
         Command::Identify(arguments) => identify::run(&arguments),
         Command::Signal(arguments) => signal::run(&arguments),
+        Command::Uncertainty(arguments) => uncertainty::run(&arguments),
         Command::Completions(arguments) => completions::run(&arguments),
         Command::Man(arguments) => man::run(&arguments),
     };

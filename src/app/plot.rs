@@ -3,7 +3,8 @@
 use super::figure_options::FigureOptions;
 use super::session::{MESH, start_threads};
 use super::{
-    Failure, cea, collect, convergence, cycle, frf, identify, mesh, signal, terminal, transient,
+    Failure, cea, collect, convergence, cycle, fit, frf, identify, mesh, signal, terminal,
+    transient, uncertainty,
 };
 use crate::case::{Case, MeshBytes, RawCase, RawValue};
 use crate::results::{
@@ -74,7 +75,9 @@ pub fn redraw(path: &Path, manifest: &Manifest, options: &DrawingOptions) -> Res
     match command {
         // A sweep's folder has its own lock and list of files.
         "sweep" => return collect::redraw(path, options),
-        "cea" | "transient" | "cycle" | "convergence" | "frf" | "identify" | "signal" | "mesh" => {}
+        "uncertainty" => return uncertainty::redraw(path, options),
+        "cea" | "transient" | "cycle" | "convergence" | "fit" | "frf" | "identify" | "signal"
+        | "mesh" => {}
         other => {
             let reason =
                 format!("it belongs to frictionsim {other}, which draws no figures to repeat");
@@ -92,6 +95,7 @@ pub fn redraw(path: &Path, manifest: &Manifest, options: &DrawingOptions) -> Res
         "cycle" => cycle::redraw(&folder, &case()?, &summary, options)?,
         "convergence" => convergence::redraw(&folder, options)?,
         "mesh" => mesh::redraw(&folder, &case()?, options)?,
+        "fit" => fit::redraw(&folder, options)?,
         "frf" => frf::redraw(&folder, options)?,
         "identify" => identify::redraw(&folder, options)?,
         _ => signal::redraw(&folder, options)?,

@@ -31,6 +31,16 @@ impl Bound {
             }
     }
 
+    /// The ends of what it admits.
+    pub fn ends(self) -> [f64; 2] {
+        match self {
+            Self::Positive | Self::NotNegative => [0.0, f64::INFINITY],
+            Self::Between(low, high) => [low, high],
+            Self::AtLeast(least) => [least, f64::INFINITY],
+            Self::Finite => [f64::NEG_INFINITY, f64::INFINITY],
+        }
+    }
+
     /// What an error says.
     pub fn text(self) -> String {
         match self {
@@ -81,6 +91,8 @@ pub enum Kind {
     Choices(fn() -> Vec<&'static str>),
     /// The dotted name of a case key whose value is a number.
     Parameter,
+    /// A table whose keys are case keys, in words.
+    Table(&'static str),
 }
 
 /// What holds where a key is left out.
@@ -173,6 +185,7 @@ impl CaseKey {
             Kind::Choice(words) => format!("\"{}\"", words().join("\", \"")),
             Kind::Choices(words) => format!("some of \"{}\"", words().join("\", \"")),
             Kind::Parameter => "numeric case key".to_owned(),
+            Kind::Table(words) => words.to_owned(),
         }
     }
 

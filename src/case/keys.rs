@@ -6,7 +6,8 @@ use super::boundaries::ConditionWord;
 use super::key::Bound::{AtLeast, Between, Finite, NotNegative, Positive};
 use super::key::Default::{Otherwise, Required, Value};
 use super::key::Kind::{
-    Choice, Choices, Count, Counts, Flag, Node, Nodes, Number, NumberOr, Numbers, Parameter, Text,
+    Choice, Choices, Count, Counts, Flag, Node, Nodes, Number, NumberOr, Numbers, Parameter, Table,
+    Text,
 };
 use super::key::{CaseKey, Default, Kind, words};
 use super::words::Direction;
@@ -177,6 +178,14 @@ pub const KEYS: &[CaseKey] = &[
     key("convergence.factors", Numbers(Positive), "", Value("[1, 1.5, 2.25]"), "[1, 1.5, 2.25]", "the refinements of the mesh: factors on both element counts, powers of two on an imported mesh ([1, 2, 4] where left out), whose elements are split into four"),
     key("convergence.time_step_factors", Numbers(Positive), "", Otherwise("no such study"), "[1, 0.5, 0.25]", "the factors on the transient's time step, on the case's own mesh"),
     key("convergence.analyses", Choices(words::<Analysis>), "", Otherwise("every one that the case has a section for"), "[\"cea\", \"transient\"]", "what is studied"),
+
+    key("fit.parameters", Table("table of case keys, each with its bounds [from, to] or { from, to, scale, also }"), "", Required, "{ \"material.poisson_ratio\" = [0.3, 0.45] }", "what is fitted to measured modes, and the bounds between which it is sought (scale \"log\" fits the logarithm; also: keys that take the same value)"),
+    key("fit.starts", Count(1), "", Value("16"), "16", "at how many points within the bounds the search looks first; it goes on from the best few"),
+
+    key("uncertainty.samples", Count(2), "", Value("1024"), "4096", "the number of samples: points of a scrambled Sobol sequence, best a power of two"),
+    key("uncertainty.index_samples", Count(0), "", Otherwise("a quarter of them"), "1024", "the number of samples that Sobol's indices are worked out from, each of which costs one run more than there are parameters (0 = no indices)"),
+    key("uncertainty.seed", Count(0), "", Value("1"), "1", "the seed of the samples"),
+    key("uncertainty.distributions", Table("table of case keys, each { normal = [mean, deviation] }, { log_normal = [median, deviation of the logarithm] } or { uniform = [from, to] }, with also"), "", Required, "{ \"contact.normal_stiffness\" = { log_normal = [7.4e12, 0.3] } }", "what is uncertain, and how (also: keys that take the same value)"),
 ];
 
 /// The keys of a range, which stands for a list of numbers.
@@ -204,9 +213,18 @@ pub fn find(name: &str) -> Option<&'static CaseKey> {
 
 /// Whether a dotted name is that of a key or of a section.
 pub(super) fn is_key_or_section(name: &str) -> bool {
-    find(name).is_some()
-        || KEYS.iter().any(|key| {
-            let section = key.name.strip_prefix(name);
-            section.is_some_and(|rest| rest.starts_with('.'))
-        })
+    find(name).is_some() || is_section(name)
+}
+
+/// Whether a dotted name is that of a section, or the beginning of one's; `*` stands for any one name.
+pub(super) fn is_section(name: &str) -> bool {
+    KEYS.iter().any(|key| {
+        let mut parts = key.name.split('.');
+        let fits = |given: &str| {
+            parts
+                .next()
+                .is_some_and(|part| part == "*" || part == given)
+        };
+        name.split('.').all(fits) && parts.next().is_some()
+    })
 }

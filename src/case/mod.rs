@@ -12,12 +12,14 @@ mod convergence;
 mod cost;
 mod cycle;
 mod diagnostic;
+mod fit;
 mod frf;
 mod key;
 mod keys;
 mod model;
 mod node;
 mod overrides;
+mod parameters;
 mod plausibility;
 mod range;
 mod raw;
@@ -27,6 +29,7 @@ mod rules;
 mod suggestion;
 mod sweep;
 mod transient;
+mod uncertainty;
 mod value;
 mod words;
 
@@ -37,16 +40,19 @@ pub use convergence::Convergence;
 pub use cost::{CeaCost, Cost, CycleCost, FrfCost, StudyCost, TransientCost};
 pub use cycle::{Continuation, Cycle, OnsetChoice, StabilityChoice};
 pub use diagnostic::{CaseErrors, Diagnostic, Location, Source};
+pub use fit::{Fit, FitParameter};
 pub use frf::{Frf, FrfMethod};
 pub use key::{Bound, CaseKey, Default, Kind};
-pub use keys::KEYS;
+pub use keys::{KEYS, find as find_key};
 pub use model::{Contact, Damping};
 pub use node::PlacedNode;
 pub use overrides::unset;
+pub use parameters::ModelParameter;
 pub use range::{Spacing, range_values};
 pub use raw::{MeshBytes, RawCase, RawEntry, RawItem, RawTable, RawValue};
 pub use sweep::{Analysis, Combination, Sweep, SweptKey};
 pub use transient::{Output, Transient};
+pub use uncertainty::{UncertainParameter, Uncertainty};
 
 use crate::fem::ElasticMaterial;
 use crate::mesh::{AnnulusSpecification, ElementKind};
@@ -87,6 +93,10 @@ pub struct Case {
     pub frf: Option<Frf>,
     /// Convergence study, if the case has one.
     pub convergence: Option<Convergence>,
+    /// Parameters to fit, if the case names them.
+    pub fit: Option<Fit>,
+    /// Parameters that are uncertain, if the case names them.
+    pub uncertainty: Option<Uncertainty>,
     /// Things that are no errors but that the user should hear of.
     pub warnings: Vec<Diagnostic>,
 }
@@ -147,6 +157,8 @@ impl Case {
         let frf = frf::read(&root, &nodes);
         let has = [cea.is_some(), transient.is_some(), cycle.is_some()];
         let convergence = convergence::read(&root, &annulus, body.as_ref(), has);
+        let fit = fit::fit(&root);
+        let uncertainty = uncertainty::uncertainty(&root);
         let sweep = sweep::read(&root);
         root.close();
         let (errors, warnings) = findings.into_parts();
@@ -170,6 +182,8 @@ impl Case {
             basin,
             frf,
             convergence,
+            fit,
+            uncertainty,
             warnings,
             raw,
         };

@@ -167,6 +167,7 @@ fn key_schema(key: &CaseKey) -> Value {
         Kind::Nodes => of_one(node()),
         Kind::Choice(words) => json!({ "enum": words() }),
         Kind::Choices(words) => of_one(json!({ "enum": words() })),
+        Kind::Table(_) => json!({ "type": "object" }),
         Kind::Parameter => {
             let numeric = KEYS.iter().filter(|key| key.is_numeric());
             let numeric = numeric.filter(|key| !key.name.contains('*'));

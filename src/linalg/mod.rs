@@ -4,6 +4,7 @@ pub mod banded;
 pub mod dense;
 pub mod dense_eigen;
 mod dense_lu;
+mod distribution;
 mod error;
 mod gaussian_noise;
 mod krylov_schur;
@@ -15,6 +16,7 @@ mod sparse_product;
 pub use faer::{Mat, MatRef, Scale, c64};
 
 pub use dense_lu::{ComplexDenseLu, DenseLu};
+pub use distribution::Distribution;
 pub use error::LinalgError;
 pub use gaussian_noise::GaussianNoise;
 pub use krylov_schur::{BlockOperator, KrylovSchurSettings, RealPairs, Wanted, krylov_schur};

@@ -7,6 +7,7 @@ pub mod convergence;
 pub mod cycle;
 pub mod cycle_figures;
 mod drawing;
+pub mod fit;
 pub mod identification;
 pub mod mesh;
 mod npz;
@@ -21,6 +22,7 @@ pub mod sweep;
 pub mod sweep_figures;
 mod table;
 pub mod transient;
+pub mod uncertainty;
 mod vtu;
 
 use store::{folder, framed, manifest, record, reopening};

@@ -34,4 +34,5 @@ pub use modal::{
 pub use response::{FrequencyResponse, ResponseQuantity};
 pub use spectrogram::{Spectrogram, SpectrogramOptions, spectrogram};
 pub use spectrum::{AmplitudeSpectrum, amplitude_spectrum, averaged_spectrum};
+pub use statistics::student_95;
 pub use window::Window;

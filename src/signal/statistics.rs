@@ -7,7 +7,7 @@ pub(super) const NORMAL_95: f64 = 1.959_963_984_540_054;
 ///
 /// Cornish-Fisher expansion about the normal quantile from 6 degrees on (error below 1e-3),
 /// tabulated below, where the expansion fails (Abramowitz and Stegun 26.7.5).
-pub(super) fn student_95(degrees: f64) -> f64 {
+pub fn student_95(degrees: f64) -> f64 {
     const TABLE: [f64; 5] = [12.706_2, 4.302_65, 3.182_45, 2.776_45, 2.570_58];
     let n = degrees.max(1.0);
     if n < 6.0 {

@@ -11,6 +11,18 @@ pub struct Shard {
     count: usize,
 }
 
+impl Shard {
+    /// Numbers of those of `count` points that belong to a shard, ascending from 1; all without one. Points are dealt
+    /// out in turn, so that neighbours, which cost alike, go to different shards.
+    pub fn points(shard: Option<Self>, count: usize) -> Vec<usize> {
+        let shard = shard.unwrap_or(Self {
+            number: 1,
+            count: 1,
+        });
+        (shard.number..=count).step_by(shard.count).collect()
+    }
+}
+
 impl FromStr for Shard {
     type Err = String;
 
@@ -94,14 +106,9 @@ impl<'a> SweepPlan<'a> {
         self.analyses.iter().copied().map(analysis_name).collect()
     }
 
-    /// Numbers of the points of a shard, ascending from 1. Points are dealt out in turn, so that
-    /// neighbours, which cost alike, go to different shards.
+    /// Numbers of the points of a shard, ascending from 1.
     pub fn points(&self, shard: Option<Shard>) -> Vec<usize> {
-        let shard = shard.unwrap_or(Shard {
-            number: 1,
-            count: 1,
-        });
-        (shard.number..=self.count()).step_by(shard.count).collect()
+        Shard::points(shard, self.count())
     }
 
     /// Swept keys and their values at a point.

@@ -2,9 +2,11 @@
 
 mod model;
 mod solve;
+mod spectrum;
 mod states;
 
 pub use model::SlidingModel;
+pub use spectrum::{modes_below, unstable_intervals};
 
 use super::{Failure, RunOptions, Session, terminal};
 use crate::case::{Case, Cea, ModeSelection};

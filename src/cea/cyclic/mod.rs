@@ -20,4 +20,4 @@ mod sweep;
 
 pub use map::{CyclicModel, StabilityMapPoint, stability_map};
 pub use sensitivity::{Sensitivity, sensitivities};
-pub use sweep::{Coverage, CyclicSweep, sweep};
+pub use sweep::{Coverage, CyclicSweep, onsets, sweep};

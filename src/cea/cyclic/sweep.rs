@@ -8,6 +8,7 @@ use super::problem::HarmonicProblem;
 use super::rest;
 use crate::cea::{
     CeaError, ComplexMode, FrictionPoint, FrictionSweep, ModeBranch, ModeLimit, SweepRequest,
+    UnstableInterval,
 };
 use crate::contact::SlidingContact;
 use crate::fem::ElasticMaterial;
@@ -76,7 +77,7 @@ pub fn sweep(
     let mut margin = MARGIN;
     let mut failure = None;
     for _ in 0..MARGIN_ATTEMPTS {
-        match solve(&tangent, request, &grid, margin) {
+        match solve(&tangent, request, &grid, margin, None) {
             Ok(found) => {
                 let checks = checks(&grid);
                 let verdict = completeness::verify(&tangent, &found.followed, found.limit, &checks);
@@ -92,6 +93,32 @@ pub fn sweep(
         margin *= MARGIN;
     }
     Err(failure.unwrap_or(CeaError::NoFriction))
+}
+
+/// The unstable intervals of [`sweep`] alone, of some harmonics, without a proof that no mode is missed: for the many
+/// samples of a model for some of which [`sweep`] has said which harmonics hold modes.
+///
+/// # Errors
+/// As [`sweep`].
+pub fn onsets(
+    specification: &AnnulusSpecification,
+    material: &ElasticMaterial,
+    options: &TangentOptions,
+    contact: &SlidingContact,
+    request: &SweepRequest<'_>,
+    harmonics: &[usize],
+) -> Result<Vec<UnstableInterval>, CeaError> {
+    let grid = request.rising_grid()?;
+    request.limit.check()?;
+    let sector = SectorMesh::generate(specification)?;
+    let tangent = SectorTangent::linearize(&sector, material, options, contact)?;
+    let found = solve(&tangent, request, &grid, MARGIN, Some(harmonics))?;
+    let unproven = Verdict {
+        proven: Vec::new(),
+        counted: Vec::new(),
+        missed: None,
+    };
+    Ok(finish(tangent, found, unproven).sweep.intervals)
 }
 
 /// Friction values, out of a rising grid, at which modes are counted: the quarters of the range.
@@ -117,8 +144,14 @@ fn solve(
     request: &SweepRequest<'_>,
     grid: &[f64],
     margin: f64,
+    harmonics: Option<&[usize]>,
 ) -> Result<Found, CeaError> {
-    let (kappa, candidates) = select(tangent, request.limit, margin)?;
+    let (kappa, candidates) = match (harmonics, request.limit) {
+        (Some(harmonics), ModeLimit::MaxFrequency(value)) => {
+            ((TAU * value).powi(2), harmonics.to_vec())
+        }
+        _ => select(tangent, request.limit, margin)?,
+    };
     let limit = kappa * margin * margin;
     let followed: Result<Vec<HarmonicPaths>, CeaError> = candidates
         .into_par_iter()

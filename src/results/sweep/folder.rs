@@ -14,8 +14,9 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// Files over all points.
-const OVER_ALL: [&str; 6] = [
+const OVER_ALL: [&str; 7] = [
     "points.csv",
+    "samples.csv",
     "stability.csv",
     "modes.csv",
     "branches.csv",
@@ -23,7 +24,9 @@ const OVER_ALL: [&str; 6] = [
     "report.html",
 ];
 /// Figures over all points.
-const FIGURES: [&str; 5] = [
+const FIGURES: [&str; 7] = [
+    "uncertainty",
+    "robust",
     "critical-friction",
     "frequencies",
     "status",
@@ -140,6 +143,14 @@ impl SweepFolder {
     /// # Errors
     /// [`FolderError::NotASweep`]; [`FolderError::Busy`]; those of the file system.
     pub fn find(path: &Path) -> Result<(Self, Manifest), FolderError> {
+        Self::find_of(path, "sweep")
+    }
+
+    /// As [`Self::find`] for another command that shares its folder with others of its kind.
+    ///
+    /// # Errors
+    /// As [`Self::find`].
+    pub fn find_of(path: &Path, command: &str) -> Result<(Self, Manifest), FolderError> {
         let not_a_sweep = |reason: String| FolderError::NotASweep {
             path: path.to_owned(),
             reason,
@@ -148,7 +159,7 @@ impl SweepFolder {
             return Err(not_a_sweep(format!("it has no {MANIFEST}")));
         }
         let (manifest, is_sealed) = match read_contents(path)? {
-            Some(contents) if contents.manifest.command == "sweep" => {
+            Some(contents) if contents.manifest.command == command => {
                 (contents.manifest, contents.is_sealed)
             }
             Some(contents) => {

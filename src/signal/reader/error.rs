@@ -85,6 +85,14 @@ pub enum ReadProblem {
         /// Column name or number.
         name: String,
     },
+    /// A number that the column cannot hold.
+    #[error("`{field}` is no value of column {name}; repair it, or leave the cell empty")]
+    Impossible {
+        /// The field as written.
+        field: String,
+        /// Column name.
+        name: String,
+    },
     /// A number with both a decimal comma and a decimal point.
     #[error(
         "`{field}` mixes comma and point; write numbers without thousands separators, as 1234.5 \

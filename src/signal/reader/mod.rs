@@ -13,6 +13,7 @@ mod columns;
 mod error;
 mod field;
 mod mat;
+mod modes;
 mod response;
 mod separator;
 mod table;
@@ -24,6 +25,7 @@ mod units;
 mod wav;
 
 pub use error::{ReadError, ReadProblem};
+pub use modes::{MeasuredMode, read_modes};
 pub use response::{NamedResponse, ResponseFile, ResponseOptions, read_response};
 pub use time_signal::{Channel, SignalFile, SignalOptions, read_signal};
 pub use uff_writing::{write_response, write_signal};

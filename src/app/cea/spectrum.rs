@@ -1,0 +1,120 @@
+//! The spectrum of a case for those who study it: no files, no base fields, no shapes.
+
+use super::solve::{mode_limit, solve};
+use super::{Failure, SlidingModel};
+use crate::case::{Case, Cea, CeaMethod, ModeSelection};
+use crate::cea::cyclic::{self, Sensitivity};
+use crate::cea::{ComplexMode, SweepRequest, UnstableInterval};
+use crate::fem::MassKind;
+use crate::study::tangent_options;
+use indicatif::ProgressBar;
+
+/// What `[cea]` says of a case, or its defaults, for these friction coefficients and modes up to a frequency.
+fn analysis(case: &Case, frictions: &[f64], limit_hz: f64) -> Cea {
+    let (modes, shapes_at) = (ModeSelection::BelowHz(limit_hz), Vec::new());
+    let friction_coefficients = frictions.to_vec();
+    match &case.cea {
+        Some(cea) => Cea {
+            friction_coefficients,
+            modes,
+            shapes_at,
+            map: None,
+            ..cea.clone()
+        },
+        None => Cea {
+            friction_coefficients,
+            modes,
+            method: CeaMethod::Auto,
+            mass: MassKind::Consistent,
+            geometric_stiffness: true,
+            shapes_at,
+            map: None,
+        },
+    }
+}
+
+/// The modes of a case below `limit_hz` at its own friction coefficient, and on the cyclic path with `with_rates` their
+/// sensitivities.
+///
+/// # Errors
+/// Those of the solver.
+pub fn modes_below(
+    case: &Case,
+    limit_hz: f64,
+    with_rates: bool,
+) -> Result<(Vec<ComplexMode>, Vec<Sensitivity>), Failure> {
+    let friction = case.contact.sliding.friction_coefficient;
+    let cea = analysis(case, &[friction], limit_hz);
+    let (sweep, sensitivities) = match super::model::method_of(case, &cea) {
+        CeaMethod::Sparse => {
+            let model = SlidingModel::new(case, &cea)?;
+            (
+                solve(case, &cea, &model, &ProgressBar::hidden())?.sweep,
+                Vec::new(),
+            )
+        }
+        CeaMethod::Auto | CeaMethod::Cyclic => {
+            let request = SweepRequest {
+                friction_coefficients: &cea.friction_coefficients,
+                limit: mode_limit(&cea),
+                shapes_at: &[],
+            };
+            let options = tangent_options(case, cea.mass);
+            let sliding = &case.contact.sliding;
+            let found = cyclic::sweep(&case.annulus, &case.material, &options, sliding, &request)?;
+            let sensitivities = match with_rates {
+                true => cyclic::sensitivities(&found, friction)?,
+                false => Vec::new(),
+            };
+            (found.sweep, sensitivities)
+        }
+    };
+    let point = sweep.points.into_iter().next();
+    Ok((
+        point.map_or_else(Vec::new, |point| point.modes),
+        sensitivities,
+    ))
+}
+
+/// The ranges of friction over which branches of a case are unstable, from 0 to the largest of `frictions`, and the
+/// harmonics that hold modes.
+///
+/// With `harmonics` those alone are looked at, without a proof that none is missed.
+///
+/// # Errors
+/// Those of the solver; a frequency limit below the first mode.
+pub fn unstable_intervals(
+    case: &Case,
+    frictions: &[f64],
+    harmonics: Option<&[usize]>,
+) -> Result<(Vec<UnstableInterval>, Vec<usize>), Failure> {
+    let own = case.require_cea()?;
+    let cea = Cea {
+        modes: own.modes,
+        ..analysis(case, frictions, f64::INFINITY)
+    };
+    if super::model::method_of(case, &cea) == CeaMethod::Sparse {
+        let model = SlidingModel::new(case, &cea)?;
+        let sweep = solve(case, &cea, &model, &ProgressBar::hidden())?.sweep;
+        super::refuse_no_modes(case, &cea, &sweep)?;
+        return Ok((sweep.intervals, Vec::new()));
+    }
+    let request = SweepRequest {
+        friction_coefficients: frictions,
+        limit: mode_limit(&cea),
+        shapes_at: &[],
+    };
+    let options = tangent_options(case, cea.mass);
+    let sliding = &case.contact.sliding;
+    if let Some(harmonics) = harmonics {
+        let (annulus, material) = (&case.annulus, &case.material);
+        // A branch that meets another needs the larger margin that the proof has.
+        if let Ok(found) = cyclic::onsets(annulus, material, &options, sliding, &request, harmonics)
+        {
+            return Ok((found, Vec::new()));
+        }
+    }
+    let found = cyclic::sweep(&case.annulus, &case.material, &options, sliding, &request)?;
+    super::refuse_no_modes(case, &cea, &found.sweep)?;
+    Ok((found.sweep.intervals, found.coverage.followed))
+}

@@ -1,0 +1,168 @@
+//! `frictionsim uncertainty`: how likely is squeal, and which parameter decides it.
+
+mod robust;
+mod samples;
+
+use super::{Failure, RunOptions, Session, terminal};
+use crate::case::Case;
+use crate::results::sweep::{Found, Start, SweepFolder};
+use crate::results::uncertainty::{Sample, UncertaintySummary, draw_report, write_samples};
+use crate::results::{DrawingOptions, Manifest, OutputFolder, object};
+use crate::study::Shard;
+use crate::study::uncertainty::summarize;
+use clap::Args;
+use robust::Design;
+use samples::{BLOCK, Sampler, block_samples};
+use std::path::Path;
+
+/// How likely is squeal, and which parameter decides it
+///
+/// Draws the keys of uncertainty.distributions from their distributions, locates the onsets of each sample up to the
+/// largest of cea.friction_coefficients, and says how probable an unstable mode is at the friction coefficient of the
+/// case, how the lowest critical friction is distributed, and which parameter its variance comes from. Finished blocks
+/// of samples are kept: a run that is killed goes on with --resume, and several processes may work on one folder.
+#[derive(Args)]
+pub struct Arguments {
+    #[command(flatten)]
+    options: RunOptions,
+    /// Run part K of N only; all parts share the output folder
+    #[arg(long, value_name = "K/N")]
+    shard: Option<Shard>,
+    /// Keep the finished samples of an earlier run and go on
+    #[arg(long, conflicts_with = "force")]
+    resume: bool,
+    /// Probability of squeal over a design parameter: KEY=FROM:TO or KEY=FROM:TO:COUNT (repeatable)
+    #[arg(long, value_name = "KEY=FROM:TO")]
+    robust: Vec<Design>,
+    /// Probability that --robust asks to get below
+    #[arg(long, value_name = "P", default_value = "0.05", requires = "robust")]
+    bound: f64,
+}
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// A bad case, a folder that cannot be written, a case that has no modes as it is written.
+pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let session = Session::start("uncertainty", &arguments.options)?;
+    for design in &arguments.robust {
+        // What the results depend on belongs to what they are made from.
+        design.check(&session.case)?;
+    }
+    if !(arguments.bound > 0.0 && arguments.bound < 1.0) {
+        let bound = arguments.bound;
+        return Err(Failure::usage(format!(
+            "--bound {bound}: a probability between 0 and 1"
+        )));
+    }
+    let case = session.case.clone();
+    let uncertainty = case.require_uncertainty()?;
+    let sampler = Sampler::new(&case)?;
+    let workers = session.manifest.threads as f64;
+    let cost = case.cost();
+    let solver = cost.cea.map_or(0.0, |cea| cea.memory_bytes);
+    session.check_memory(workers * (cost.mesh_memory_bytes + solver))?;
+    let count = uncertainty.samples.div_ceil(BLOCK);
+    let blocks = Shard::points(arguments.shard, count);
+    let output = &arguments.options.output;
+    let start = match (arguments.resume, output.force) {
+        (_, true) => Start::Over,
+        (true, false) => Start::Resume,
+        (false, false) => Start::Fresh,
+    };
+    let (path, replace) = output.destination(&session.manifest, arguments.resume);
+    if output.dry_run {
+        OutputFolder::may_open(&path, &session.manifest, replace)?;
+        return Err(output.dry_run_at(&path, &session.manifest));
+    }
+    let folder = SweepFolder::open(&path, &session.manifest, count, &blocks, start)?;
+    terminal::catch_signals("finished samples are kept: go on with --resume");
+
+    let asked = blocks.len() * BLOCK;
+    let bar = terminal::progress(output.is_quiet(), asked as u64, "samples");
+    for &block in &blocks {
+        sampler.run_block(&folder, &session.manifest, block)?;
+        bar.inc(BLOCK as u64);
+    }
+    bar.finish_and_clear();
+    let (samples, missing) = finished(&folder, count)?;
+    let samples: Vec<Sample> = samples
+        .into_iter()
+        .filter(|sample| sample.number <= uncertainty.samples)
+        .collect();
+    let mut summary = summary_of(&case, &samples, &session.manifest);
+    if missing > 0 {
+        summary.notes.push(format!(
+            "{missing} of {count} blocks of samples are missing: run it again with --resume once all shards have ended"
+        ));
+    } else if !arguments.robust.is_empty() {
+        summary.robust = Some(robust::curves(
+            &case,
+            &sampler,
+            &arguments.robust,
+            arguments.bound,
+        )?);
+    }
+    summary.wall_s = session.wall_seconds();
+    for note in &summary.notes {
+        tracing::warn!("{note}");
+    }
+    let object = object(&summary).map_err(Failure::run)?;
+    if missing == 0 {
+        let largest = summary.largest_friction;
+        write_samples(&folder, &sampler.keys(), &samples, largest)?;
+        folder.write("summary.json", |out| {
+            serde_json::to_writer_pretty(&mut *out, &object)?;
+            out.write_all(b"\n")
+        })?;
+        if !output.no_figures {
+            draw_report(&folder, &summary, &output.figures.drawing())?;
+        }
+    }
+    session.print(&summary.text(), &object, folder.path())
+}
+
+/// Draws the figures and the report of a folder from its summary.
+///
+/// # Errors
+/// A folder without a whole summary; those of the folder.
+pub fn redraw(path: &Path, options: &DrawingOptions) -> Result<(), Failure> {
+    let folder = SweepFolder::find_of(path, "uncertainty")?.0;
+    let bytes = std::fs::read(path.join("summary.json"))?;
+    let summary: UncertaintySummary = serde_json::from_slice(&bytes).map_err(|error| {
+        Failure::usage(format!(
+            "{}: its summary.json is damaged: {error}",
+            path.display()
+        ))
+    })?;
+    Ok(draw_report(&folder, &summary, options)?)
+}
+
+/// The finished samples in their order, and how many blocks are missing.
+fn finished(folder: &SweepFolder, count: usize) -> Result<(Vec<Sample>, usize), Failure> {
+    let (mut samples, mut missing) = (Vec::new(), 0);
+    for block in 1..=count {
+        match folder.read(block)? {
+            Found::Point(record) => samples.extend(block_samples(&record).map_err(Failure::run)?),
+            Found::Damaged(_) | Found::Nothing => missing += 1,
+        }
+    }
+    Ok((samples, missing))
+}
+
+fn summary_of(case: &Case, samples: &[Sample], manifest: &Manifest) -> UncertaintySummary {
+    let keys: Vec<String> = match &case.uncertainty {
+        Some(uncertainty) => uncertainty
+            .parameters
+            .iter()
+            .map(|p| p.parameter.key.clone())
+            .collect(),
+        None => Vec::new(),
+    };
+    let friction = case.contact.sliding.friction_coefficient;
+    let largest = samples::largest_friction(case);
+    UncertaintySummary {
+        manifest: manifest.clone(),
+        ..summarize(&case.title, &keys, samples, friction, largest)
+    }
+}

@@ -1,0 +1,189 @@
+//! `--robust`: the probability of squeal over design parameters.
+
+use super::samples::Sampler;
+use crate::app::Failure;
+use crate::case::{Case, find_key};
+use crate::results::uncertainty::{DesignCurve, RobustSummary};
+use crate::study::uncertainty::wilson;
+use rayon::prelude::*;
+use std::str::FromStr;
+
+/// Samples at each design, at most.
+const SAMPLES: usize = 256;
+
+/// A design parameter and its values.
+#[derive(Clone, Debug)]
+pub struct Design {
+    key: String,
+    values: Vec<f64>,
+}
+
+impl FromStr for Design {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let hint = "a design is KEY=FROM:TO or KEY=FROM:TO:COUNT, for example contact.normal_stiffness=1e12:1e13:9";
+        let (key, range) = text.split_once('=').ok_or(hint)?;
+        let parts: Vec<&str> = range.split(':').collect();
+        let number = |part: &str| part.trim().parse::<f64>().ok().filter(|v| v.is_finite());
+        let (from, to, count) = match parts.as_slice() {
+            [from, to] => (number(from), number(to), Some(9)),
+            [from, to, count] => (number(from), number(to), count.trim().parse::<usize>().ok()),
+            _ => return Err(hint.to_owned()),
+        };
+        let (from, to) = (from.ok_or(hint)?, to.ok_or(hint)?);
+        let count = count
+            .filter(|count| (2..=1000).contains(count))
+            .ok_or(hint)?;
+        if from == to {
+            return Err(format!("{hint}; its ends must differ"));
+        }
+        Ok(Self {
+            key: key.trim().to_owned(),
+            values: (0..count)
+                .map(|k| from + (to - from) * k as f64 / (count - 1) as f64)
+                .collect(),
+        })
+    }
+}
+
+impl Design {
+    /// Refuses what cannot be designed.
+    ///
+    /// # Errors
+    /// [`Failure::Usage`].
+    pub fn check(&self, case: &Case) -> Result<(), Failure> {
+        let key = &self.key;
+        if !find_key(key).is_some_and(|known| known.is_numeric()) {
+            return Err(Failure::usage(format!(
+                "--robust {key}: not a numeric case key"
+            )));
+        }
+        let is_uncertain = case
+            .uncertainty
+            .iter()
+            .flat_map(|u| &u.parameters)
+            .any(|p| p.parameter.key == *key || p.parameter.also.contains(key));
+        if is_uncertain {
+            return Err(Failure::usage(format!(
+                "--robust {key}: it is uncertain already; take it out of uncertainty.distributions"
+            )));
+        }
+        for value in &self.values {
+            self.case(case, *value)?;
+        }
+        Ok(())
+    }
+
+    fn case(&self, case: &Case, value: f64) -> Result<Case, Failure> {
+        let raw = case
+            .raw
+            .with_overrides(&[format!("{}={value:?}", self.key)])?;
+        Ok(Case::from_raw(raw)?)
+    }
+}
+
+/// The probability of squeal over each design, the same samples at all of them.
+///
+/// # Errors
+/// A design whose first sample cannot be solved.
+pub fn curves(
+    case: &Case,
+    sampler: &Sampler<'_>,
+    designs: &[Design],
+    bound: f64,
+) -> Result<RobustSummary, Failure> {
+    let uncertainty = case.require_uncertainty()?;
+    let samples = uncertainty.samples.min(SAMPLES);
+    let curve = |design: &Design| {
+        let points: Result<Vec<[f64; 4]>, Failure> = design
+            .values
+            .iter()
+            .map(|&value| {
+                let designed = design.case(case, value)?;
+                let (leading, followed) = sampler.sample(&designed, 0, None);
+                if let Some(error) = leading.error {
+                    return Err(Failure::run(format!("{} = {value}: {error}", design.key)));
+                }
+                let harmonics = sampler.harmonics(&followed);
+                let outcomes: Vec<Option<bool>> = (0..samples)
+                    .into_par_iter()
+                    .map(|index| {
+                        let (sample, _) = sampler.sample(&designed, index, harmonics.as_deref());
+                        let is_unstable = sample.is_unstable(sample.friction_coefficient);
+                        sample.error.is_none().then_some(is_unstable)
+                    })
+                    .collect();
+                let solved = outcomes.iter().flatten().count();
+                let hits = outcomes.iter().flatten().filter(|hit| **hit).count();
+                let p = wilson(hits, solved);
+                Ok([value, p.value, p.low, p.high])
+            })
+            .collect();
+        let (points, own) = (points?, case.number(&design.key));
+        let reached = reaches(&points, own, bound);
+        Ok(DesignCurve {
+            key: design.key.clone(),
+            own,
+            reaches_bound_at: reached,
+            change_percent: reached
+                .zip(own)
+                .map(|(value, own)| 100.0 * (value / own - 1.0)),
+            points,
+        })
+    };
+    let curves = designs
+        .iter()
+        .map(curve)
+        .collect::<Result<Vec<DesignCurve>, Failure>>()?;
+    let change = |curve: &DesignCurve| curve.change_percent.map_or(f64::INFINITY, f64::abs);
+    let cheapest = curves.iter().filter(|curve| change(curve).is_finite());
+    let cheapest = cheapest.min_by(|a, b| change(a).total_cmp(&change(b)));
+    Ok(RobustSummary {
+        bound,
+        samples,
+        cheapest: cheapest.map(|curve| curve.key.clone()),
+        curves,
+    })
+}
+
+/// The value nearest to the case's own at which the probability is no higher than the bound, by linear interpolation.
+fn reaches(points: &[[f64; 4]], own: Option<f64>, bound: f64) -> Option<f64> {
+    let mut found: Vec<f64> = points
+        .iter()
+        .filter(|p| p[1] <= bound)
+        .map(|p| p[0])
+        .collect();
+    for pair in points.windows(2) {
+        let ([x, p, ..], [y, q, ..]) = (pair[0], pair[1]);
+        if (p <= bound) != (q <= bound) {
+            found.push(x + (y - x) * (bound - p) / (q - p));
+        }
+    }
+    let distance = |value: f64| own.map_or(0.0, |own| (value - own).abs());
+    found
+        .into_iter()
+        .min_by(|a, b| distance(*a).total_cmp(&distance(*b)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_bound_is_reached_where_the_curve_crosses_it_nearest_to_the_case() {
+        let points = [[1.0, 0.0], [2.0, 0.1], [3.0, 0.9], [4.0, 0.0]].map(|[x, p]| [x, p, p, p]);
+        assert_eq!(reaches(&points, Some(3.0), 0.5), Some(2.5));
+        assert_eq!(reaches(&points, Some(3.9), 0.05), Some(4.0));
+        assert_eq!(reaches(&points[2..3], Some(3.0), 0.05), None);
+    }
+
+    #[test]
+    fn designs_are_read_or_refused_with_a_hint() {
+        let design: Design = "contact.interference=1e-5:3e-5:3".parse().unwrap();
+        assert_eq!(design.values, [1e-5, 2e-5, 3e-5]);
+        for text in ["a", "a=1", "a=1:1", "a=1:2:1", "a=x:2"] {
+            assert!(text.parse::<Design>().is_err(), "{text}");
+        }
+    }
+}

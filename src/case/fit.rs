@@ -1,0 +1,138 @@
+//! `[fit]`: which parameters are fitted to measured modes, and where they are sought.
+
+use super::diagnostic::CaseErrors;
+use super::parameters::{ModelParameter, entries, number, only, refuse_twice};
+use super::range::Spacing;
+use super::raw::{RawEntry, RawValue};
+use super::reader::Section;
+
+/// A parameter with the bounds between which it is sought.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FitParameter {
+    /// The parameter.
+    pub parameter: ModelParameter,
+    /// Its smallest value.
+    pub from: f64,
+    /// Its largest value.
+    pub to: f64,
+    /// Whether it is sought itself or its logarithm.
+    pub scale: Spacing,
+}
+
+/// `[fit]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fit {
+    /// What is fitted, in alphabetical order.
+    pub parameters: Vec<FitParameter>,
+    /// Points within the bounds at which the search looks first.
+    pub starts: usize,
+}
+
+pub(super) fn fit(root: &Section<'_>) -> Option<Fit> {
+    let section = root.section("fit", false);
+    let starts = section.count("starts");
+    let given = section.is_given();
+    let inner = section.section("parameters", given);
+    let found: Vec<FitParameter> = entries(&inner)
+        .into_iter()
+        .map(|(parameter, entry)| bounds(&inner, parameter, entry))
+        .collect();
+    refuse_twice(&inner, found.iter().map(|found| &found.parameter));
+    if given && inner.is_given() && inner.remaining().is_empty() {
+        section.reject(
+            "parameters",
+            "fit.parameters is empty".to_owned(),
+            "at least one parameter".to_owned(),
+            None,
+        );
+    }
+    section.close();
+    given.then_some(Fit {
+        parameters: found,
+        starts,
+    })
+}
+
+/// `[from, to]` or `{ from, to, scale, also }`.
+fn bounds(section: &Section<'_>, parameter: ModelParameter, entry: &RawEntry) -> FitParameter {
+    let key = &parameter.key;
+    let reject = |message: String, label: &str, help: &str| {
+        section.reject_there(&entry.item.at, message, label.to_owned(), help);
+    };
+    let help = "bounds are [0.3, 0.45] or { from = 1e10, to = 1e13, scale = \"log\" }";
+    let mut scale = Spacing::Linear;
+    let [from, to] = match &entry.item.value {
+        RawValue::Array(items) if items.len() == 2 => {
+            [0, 1].map(|end| number(section, entry, items.get(end).map(|item| &item.value)))
+        }
+        RawValue::Table(table) => {
+            only(section, table, &["from", "to", "scale", "also"]);
+            match table.get("scale").map(|scale| &scale.item.value) {
+                None => {}
+                Some(RawValue::String(word)) if word == "linear" => {}
+                Some(RawValue::String(word)) if word == "log" => scale = Spacing::Logarithmic,
+                Some(other) => reject(
+                    format!("scale = {} of {key}", other.shortened()),
+                    "must be \"linear\" or \"log\"",
+                    help,
+                ),
+            }
+            ["from", "to"].map(|end| {
+                number(
+                    section,
+                    entry,
+                    table.get(end).map(|entry| &entry.item.value),
+                )
+            })
+        }
+        other => {
+            reject(
+                format!("the bounds of {key} are {}", other.kind()),
+                "not bounds",
+                help,
+            );
+            [f64::NAN; 2]
+        }
+    };
+    for value in [from, to] {
+        if value.is_finite() && !parameter.bound.admits(value) {
+            let message = format!("{key} = {value} {}", parameter.bound.text());
+            reject(
+                message,
+                "a bound that the key does not take",
+                "choose narrower bounds",
+            );
+        }
+    }
+    if from >= to {
+        reject(
+            format!("the bounds of {key} are {from} and {to}"),
+            "must rise",
+            "the first must be below the second",
+        );
+    } else if scale == Spacing::Logarithmic && from <= 0.0 {
+        reject(
+            format!("scale = \"log\" of {key} needs positive bounds, not {from}"),
+            "no logarithm",
+            "raise the lower bound above 0, or use scale = \"linear\"",
+        );
+    }
+    FitParameter {
+        parameter,
+        from,
+        to,
+        scale,
+    }
+}
+
+impl super::Case {
+    /// The parameters to fit.
+    ///
+    /// # Errors
+    /// A case without `[fit]`, with what to add.
+    pub fn require_fit(&self) -> Result<&Fit, CaseErrors> {
+        let remedy = "[fit]\nparameters = { \"material.poisson_ratio\" = [0.3, 0.45] }";
+        let fit = self.fit.as_ref();
+        fit.ok_or_else(|| self.lacks("fit", "parameter to fit", remedy))
+    }
+}

@@ -1,0 +1,217 @@
+//! Tables whose keys are dotted case keys of the model: what is fitted, what is uncertain.
+
+use super::diagnostic::{CaseErrors, Location};
+use super::key::{Bound, Kind};
+use super::raw::{RawEntry, RawTable, RawValue};
+use super::reader::Section;
+use super::{keys, suggestion};
+
+/// Sections that make the model.
+const MODEL: &[&str] = &[
+    "geometry",
+    "mesh",
+    "boundaries",
+    "material",
+    "materials",
+    "damping",
+    "contact",
+];
+
+/// A continuous parameter of the model, and the keys that take the same value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ModelParameter {
+    /// Dotted case key.
+    pub key: String,
+    /// Further keys that are given the same value.
+    pub also: Vec<String>,
+    /// Where its value may lie.
+    pub bound: Bound,
+    /// Where it is named.
+    pub at: Location,
+}
+
+impl ModelParameter {
+    /// The overrides that give it a value.
+    pub fn overrides(&self, value: f64) -> impl Iterator<Item = String> + '_ {
+        let keys = std::iter::once(&self.key).chain(&self.also);
+        keys.map(move |key| format!("{key}={value:?}"))
+    }
+}
+
+/// Where a key's value may lie, if it is a continuous parameter of the model; else why not.
+fn bound_of(name: &str) -> Result<Bound, String> {
+    let Some(key) = keys::find(name) else {
+        return Err(suggestion::nearest_key(name).map_or_else(
+            || "must be a dotted case key in quotes".to_owned(),
+            |near| format!("did you mean \"{near}\"?"),
+        ));
+    };
+    let section = name.split('.').next().unwrap_or_default();
+    match key.kind {
+        Kind::Number(bound) | Kind::NumberOr(bound, _) if MODEL.contains(&section) => Ok(bound),
+        Kind::Number(_) | Kind::NumberOr(..) => Err(format!(
+            "it is no parameter of the model, which has {}",
+            MODEL.join(", ")
+        )),
+        _ => Err(format!(
+            "its values are {}: it must be a number",
+            key.values()
+        )),
+    }
+}
+
+/// The entries of a table of the case by the keys that they name; tables that are no entry are dotted keys written
+/// without quotes.
+pub(super) fn entries<'a>(section: &Section<'a>) -> Vec<(ModelParameter, &'a RawEntry)> {
+    let mut found = Vec::new();
+    for (name, entry) in section.remaining() {
+        collect(section, name.to_owned(), entry, &mut found);
+    }
+    found
+}
+
+fn collect<'a>(
+    section: &Section<'a>,
+    name: String,
+    entry: &'a RawEntry,
+    found: &mut Vec<(ModelParameter, &'a RawEntry)>,
+) {
+    match (&entry.item.value, bound_of(&name)) {
+        (_, Ok(bound)) => found.push((
+            ModelParameter {
+                also: also(section, &name, entry),
+                at: entry.key_at.clone(),
+                key: name,
+                bound,
+            },
+            entry,
+        )),
+        (RawValue::Table(inner), Err(_)) if keys::is_section(&name) => {
+            for (key, entry) in inner {
+                collect(section, format!("{name}.{key}"), entry, found);
+            }
+        }
+        (_, Err(reason)) => section.reject_there(
+            &entry.key_at,
+            format!("{} = \"{name}\" cannot be varied", section.name("")),
+            "no continuous parameter".to_owned(),
+            &reason,
+        ),
+    }
+}
+
+/// The keys that `also` names.
+fn also(section: &Section<'_>, name: &str, entry: &RawEntry) -> Vec<String> {
+    let RawValue::Table(table) = &entry.item.value else {
+        return Vec::new();
+    };
+    let Some(given) = table.get("also") else {
+        return Vec::new();
+    };
+    let items = match &given.item.value {
+        RawValue::Array(items) => items.as_slice(),
+        _ => std::slice::from_ref(&given.item),
+    };
+    let mut keys = Vec::new();
+    for item in items {
+        let refuse = |message: String, help: &str| {
+            section.reject_there(&item.at, message, "not a key to tie".to_owned(), help);
+        };
+        match &item.value {
+            RawValue::String(key) => match bound_of(key) {
+                Ok(_) => keys.push(key.clone()),
+                Err(reason) => refuse(format!("{name} also sets \"{key}\""), &reason),
+            },
+            other => refuse(
+                format!("`also` of {name} is {}", other.kind()),
+                "name one key or a list of keys that take the same value",
+            ),
+        }
+    }
+    keys
+}
+
+/// A number of an entry; an error where it is missing or none.
+pub(super) fn number(section: &Section<'_>, entry: &RawEntry, value: Option<&RawValue>) -> f64 {
+    match value {
+        Some(RawValue::Float(value)) if value.is_finite() => *value,
+        Some(RawValue::Integer(value)) => *value as f64,
+        other => {
+            let found = other.map_or("missing".to_owned(), |v| {
+                format!("{} is given", v.shortened())
+            });
+            section.reject_there(
+                &entry.item.at,
+                format!("a finite number is needed: {found}"),
+                "not a number".to_owned(),
+                "write numbers in SI units",
+            );
+            f64::NAN
+        }
+    }
+}
+
+/// Reports the keys of an entry that it does not take.
+pub(super) fn only(section: &Section<'_>, table: &RawTable, known: &[&str]) {
+    for (key, entry) in table
+        .iter()
+        .filter(|(key, _)| !known.contains(&key.as_str()))
+    {
+        section.reject_there(
+            &entry.key_at,
+            format!("unknown key `{key}`"),
+            "not known here".to_owned(),
+            &format!("it takes {}", known.join(", ")),
+        );
+    }
+}
+
+/// Reports keys that two entries set.
+pub(super) fn refuse_twice<'a>(
+    section: &Section<'_>,
+    parameters: impl Iterator<Item = &'a ModelParameter>,
+) {
+    let mut seen: Vec<&str> = Vec::new();
+    for parameter in parameters {
+        for key in std::iter::once(&parameter.key).chain(&parameter.also) {
+            if seen.contains(&key.as_str()) {
+                section.reject_there(
+                    &parameter.at,
+                    format!("{key} is set twice"),
+                    "set by another entry already".to_owned(),
+                    "vary each key once",
+                );
+            }
+            seen.push(key);
+        }
+    }
+}
+
+impl super::Case {
+    /// The case with parameters of the model at other values, and without what is studied of it.
+    ///
+    /// # Errors
+    /// Values that do not go together, in one line.
+    pub fn with_parameters<'a>(
+        &self,
+        values: impl IntoIterator<Item = (&'a ModelParameter, f64)>,
+    ) -> Result<Self, String> {
+        let values = values.into_iter();
+        let overrides: Vec<String> = values.flat_map(|(p, v)| p.overrides(v)).collect();
+        let said = |errors: CaseErrors| errors.messages().join("; ");
+        let mut raw = self.raw.with_overrides(&overrides).map_err(said)?;
+        for study in ["sweep", "fit", "uncertainty"] {
+            raw.root.remove(study);
+        }
+        Self::from_raw(raw).map_err(said)
+    }
+
+    /// The number that the case gives a key, if it gives one.
+    pub fn number(&self, key: &str) -> Option<f64> {
+        match self.raw.find(key)?.value {
+            RawValue::Float(value) => Some(value),
+            RawValue::Integer(value) => Some(value as f64),
+            _ => None,
+        }
+    }
+}

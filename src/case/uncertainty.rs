@@ -1,0 +1,227 @@
+//! `[uncertainty]`: parameters that are known but roughly.
+
+use super::diagnostic::CaseErrors;
+use super::parameters::{ModelParameter, entries, number, only, refuse_twice};
+use super::raw::{RawEntry, RawValue};
+use super::reader::Section;
+use crate::linalg::Distribution;
+
+/// Share of a distribution beyond what its key can take from which on it is refused.
+const MOST_BEYOND: f64 = 0.05;
+
+/// A parameter and what is known of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct UncertainParameter {
+    /// The parameter.
+    pub parameter: ModelParameter,
+    /// Its distribution.
+    pub distribution: Distribution,
+    /// Probabilities of the distribution between which samples are drawn: all but what its key cannot take.
+    pub range: [f64; 2],
+}
+
+impl UncertainParameter {
+    /// The value at a probability of the part that samples are drawn from.
+    pub fn value(&self, probability: f64) -> f64 {
+        let [low, high] = self.range;
+        self.distribution.quantile(low + (high - low) * probability)
+    }
+}
+
+/// `[uncertainty]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Uncertainty {
+    /// Samples.
+    pub samples: usize,
+    /// Samples that the indices are worked out from; each costs one run more than there are parameters. 0 for no indices.
+    pub index_samples: usize,
+    /// Seed of their scrambling.
+    pub seed: u64,
+    /// What is uncertain, in alphabetical order.
+    pub parameters: Vec<UncertainParameter>,
+}
+
+pub(super) fn uncertainty(root: &Section<'_>) -> Option<Uncertainty> {
+    let section = root.section("uncertainty", false);
+    let samples = section.count("samples");
+    let index_samples = section.optional_count("index_samples");
+    let seed = section.count("seed") as u64;
+    let given = section.is_given();
+    let inner = section.section("distributions", given);
+    let found: Vec<UncertainParameter> = entries(&inner)
+        .into_iter()
+        .map(|(parameter, entry)| uncertain(&inner, parameter, entry))
+        .collect();
+    refuse_twice(&inner, found.iter().map(|found| &found.parameter));
+    if given && inner.is_given() && inner.remaining().is_empty() {
+        section.reject(
+            "distributions",
+            "uncertainty.distributions is empty".to_owned(),
+            "at least one parameter".to_owned(),
+            None,
+        );
+    }
+    const MOST: usize = 16;
+    if found.len() > MOST {
+        section.reject(
+            "distributions",
+            format!("{} parameters are uncertain", found.len()),
+            format!("at most {MOST}"),
+            Some("leave out those that hardly matter".to_owned()),
+        );
+    }
+    for (key, count) in [("samples", Some(samples)), ("index_samples", index_samples)] {
+        if count.is_some_and(|count| count > 1_000_000) {
+            let message = format!("uncertainty.{key} is above a million");
+            section.reject(key, message, "at most 1000000".to_owned(), None);
+        }
+    }
+    if index_samples.is_some_and(|count| count > samples) {
+        section.reject(
+            "index_samples",
+            "uncertainty.index_samples is above uncertainty.samples".to_owned(),
+            format!("at most {samples}"),
+            None,
+        );
+    }
+    section.close();
+    given.then_some(Uncertainty {
+        samples,
+        index_samples: index_samples.unwrap_or_else(|| samples.div_ceil(4)),
+        seed,
+        parameters: found,
+    })
+}
+
+/// `{ normal = [mean, deviation] }`, `{ log_normal = [median, deviation] }` or `{ uniform = [from, to] }`.
+fn uncertain(
+    section: &Section<'_>,
+    parameter: ModelParameter,
+    entry: &RawEntry,
+) -> UncertainParameter {
+    let key = &parameter.key;
+    let help = "a distribution is { normal = [mean, deviation] }, { log_normal = [median, deviation of the logarithm] } \
+                or { uniform = [from, to] }";
+    let reject = |message: String, label: &str, help: &str| {
+        section.reject_there(&entry.item.at, message, label.to_owned(), help);
+    };
+    let words = ["normal", "log_normal", "uniform"];
+    let mut given = None;
+    match &entry.item.value {
+        RawValue::Table(table) => {
+            only(section, table, &["normal", "log_normal", "uniform", "also"]);
+            let mut found = words
+                .iter()
+                .filter_map(|word| Some((*word, table.get(*word)?)));
+            given = found.next();
+            if found.next().is_some() {
+                reject(format!("{key} has two distributions"), "one of them", help);
+            } else if given.is_none() {
+                reject(
+                    format!("{key} has no distribution"),
+                    "none of the three",
+                    help,
+                );
+            }
+        }
+        other => reject(
+            format!("{key} is {}", other.kind()),
+            "no distribution",
+            help,
+        ),
+    }
+    let none = UncertainParameter {
+        distribution: Distribution::Uniform { from: 0.0, to: 1.0 },
+        range: [0.0, 1.0],
+        parameter: parameter.clone(),
+    };
+    let Some((word, inner)) = given else {
+        return none;
+    };
+    let RawValue::Array(items) = &inner.item.value else {
+        reject(format!("{word} of {key} is no list"), "two numbers", help);
+        return none;
+    };
+    if items.len() != 2 {
+        reject(
+            format!("{word} of {key} has {} numbers", items.len()),
+            "two numbers",
+            help,
+        );
+        return none;
+    }
+    let [a, b] = [0, 1].map(|i| number(section, inner, items.get(i).map(|item| &item.value)));
+    let (distribution, is_valid, needs) = match word {
+        "normal" => {
+            let (mean, deviation) = (a, b);
+            (
+                Distribution::Normal { mean, deviation },
+                b > 0.0,
+                "a positive deviation",
+            )
+        }
+        "log_normal" => {
+            let (median, deviation) = (a, b);
+            let is_valid = a > 0.0 && b > 0.0;
+            (
+                Distribution::LogNormal { median, deviation },
+                is_valid,
+                "two positive numbers",
+            )
+        }
+        _ => {
+            let (from, to) = (a, b);
+            (Distribution::Uniform { from, to }, a < b, "two rising ends")
+        }
+    };
+    if !is_valid {
+        // What is no number has been reported.
+        if a.is_finite() && b.is_finite() {
+            reject(format!("{word} = [{a}, {b}] of {key}"), needs, help);
+        }
+        return none;
+    }
+    let [least, most] = parameter.bound.ends();
+    let range = [distribution.below(least), distribution.below(most)];
+    let beyond = 1.0 - (range[1] - range[0]);
+    let rule = parameter.bound.text();
+    if beyond > MOST_BEYOND || (beyond > 0.0 && word == "uniform") {
+        reject(
+            format!(
+                "{:.3} % of {word} = [{a}, {b}] of {key} lies where the key {rule}",
+                100.0 * beyond
+            ),
+            "reaches forbidden values",
+            "narrow it; a log_normal distribution stays positive",
+        );
+        return none;
+    }
+    // What a sample meets once in a million is not worth a word.
+    if beyond > 1e-6 {
+        section.warn(
+            key,
+            format!(
+                "{:.4} % of {word} = [{a}, {b}] of {key} lies where the key {rule}: samples are drawn from the rest",
+                100.0 * beyond
+            ),
+            "reaches forbidden values",
+        );
+    }
+    UncertainParameter {
+        parameter,
+        distribution,
+        range,
+    }
+}
+
+impl super::Case {
+    /// The parameters that are uncertain.
+    ///
+    /// # Errors
+    /// A case without `[uncertainty]`, with what to add.
+    pub fn require_uncertainty(&self) -> Result<&Uncertainty, CaseErrors> {
+        let remedy = "[uncertainty.distributions]\n\"contact.normal_stiffness\" = { log_normal = [7.4e12, 0.3] }";
+        let uncertainty = self.uncertainty.as_ref();
+        uncertainty.ok_or_else(|| self.lacks("uncertainty", "uncertain parameter", remedy))
+    }
+}

@@ -1,0 +1,223 @@
+//! `summary.json` of a fit.
+
+use crate::results::Manifest;
+use crate::results::summary::{Entry, Summary};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+/// `summary.json` of a fit.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct FitSummary {
+    /// Its command.
+    pub command: String,
+    /// Title of the case.
+    pub title: String,
+    /// Wall time, s.
+    pub wall_s: f64,
+    /// The table of measured modes.
+    pub measurement: String,
+    /// Friction coefficient at which modes are computed.
+    pub friction_coefficient: f64,
+    /// The fitted parameters by their keys.
+    pub parameters: BTreeMap<String, FittedParameter>,
+    /// Correlation of the estimates, by key and key.
+    pub correlations: BTreeMap<String, BTreeMap<String, f64>>,
+    /// Each measured line with its mode.
+    pub residuals: Vec<LineSummary>,
+    /// Root mean square of the differences of frequencies over the frequency.
+    pub frequency_scatter: Option<f64>,
+    /// The same of real parts.
+    pub real_scatter: Option<f64>,
+    /// Largest difference of a frequency, per cent.
+    pub worst_percent: f64,
+    /// Parameter values of other minima that the data cannot tell from this one.
+    pub other_minima: Vec<BTreeMap<String, f64>>,
+    /// How it was found.
+    pub search: SearchSummary,
+    /// Modes of the fitted model, by frequency.
+    pub modes: Vec<ModeSummary>,
+    /// Modes of the case as it is written.
+    pub modes_of_case: Vec<ModeSummary>,
+    /// What is to be said.
+    pub notes: Vec<String>,
+    /// What it was made from.
+    pub manifest: Manifest,
+}
+
+/// One fitted parameter.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct FittedParameter {
+    /// Its value.
+    pub value: f64,
+    /// Lower end of its 95 % interval.
+    pub low: Option<f64>,
+    /// Upper end.
+    pub high: Option<f64>,
+    /// Bounds between which it was sought.
+    pub bounds: [f64; 2],
+    /// The bound that it lies on, if it does.
+    pub at_bound: Option<f64>,
+    /// Keys that have the same value.
+    pub also: Vec<String>,
+    /// Its unit.
+    pub unit: String,
+}
+
+/// One mode of the model.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ModeSummary {
+    /// Nodal diameters, where the body has the symmetry.
+    pub harmonic: Option<usize>,
+    /// Rank within the harmonic.
+    pub branch: usize,
+    /// +1 with the rotor, -1 against it, 0 standing.
+    pub direction: i8,
+    /// Frequency, Hz.
+    pub frequency_hz: f64,
+    /// Real part, Hz.
+    pub real_hz: f64,
+}
+
+impl ModeSummary {
+    /// Whether it grows.
+    pub fn is_unstable(&self) -> bool {
+        self.real_hz > 0.0
+    }
+
+    /// Harmonic and branch in words.
+    pub fn name(&self) -> String {
+        let way = match self.direction {
+            1.. => ", with the rotor",
+            0 => "",
+            ..0 => ", against the rotor",
+        };
+        match self.harmonic {
+            Some(n) => format!("n = {n}, branch {}{way}", self.branch),
+            None => format!("mode {}", self.branch + 1),
+        }
+    }
+}
+
+/// One measured line and its mode.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct LineSummary {
+    /// Line of the table.
+    pub line: usize,
+    /// Measured frequency, Hz.
+    pub frequency_hz: f64,
+    /// Measured real part, Hz.
+    pub real_hz: Option<f64>,
+    /// Harmonic, where it was measured.
+    pub harmonic: Option<usize>,
+    /// Whether it was heard.
+    pub unstable: bool,
+    /// Its mode.
+    pub mode: ModeSummary,
+    /// Computed less measured frequency, Hz.
+    pub difference_hz: f64,
+    /// The same, per cent.
+    pub difference_percent: f64,
+    /// Computed less measured real part, Hz.
+    pub real_difference_hz: Option<f64>,
+}
+
+/// How a minimum was found.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub struct SearchSummary {
+    /// Points looked at.
+    pub starts: usize,
+    /// Searches from the best of them.
+    pub searches: usize,
+    /// Searches that ended at this minimum.
+    pub arrived: usize,
+}
+
+impl FitSummary {
+    /// The fitted values as sections to paste into the case.
+    pub fn block(&self) -> String {
+        let mut sections: BTreeMap<&str, String> = BTreeMap::new();
+        for (key, fitted) in &self.parameters {
+            let interval = match (fitted.low, fitted.high) {
+                (Some(low), Some(high)) => format!("95 %: {low:.5e} to {high:.5e}"),
+                _ if fitted.at_bound.is_some() => "on its bound".to_owned(),
+                _ => "no interval".to_owned(),
+            };
+            for key in std::iter::once(key).chain(&fitted.also) {
+                let (section, name) = key.rsplit_once('.').unwrap_or(("", key));
+                let lines = sections.entry(section).or_default();
+                let _ = writeln!(lines, "{name} = {:?}  # {interval}", fitted.value);
+            }
+        }
+        let head = format!("# fitted to {}\n", self.measurement);
+        let blocks = sections
+            .iter()
+            .map(|(name, lines)| format!("[{name}]\n{lines}"));
+        head + &blocks.collect::<Vec<_>>().join("\n")
+    }
+
+    /// As text.
+    pub fn text(&self) -> String {
+        let mut out = format!("{}\n", self.title);
+        for (key, fitted) in &self.parameters {
+            let unit = if fitted.unit.is_empty() {
+                String::new()
+            } else {
+                format!(" {}", fitted.unit)
+            };
+            let interval = match (fitted.low, fitted.high) {
+                (Some(low), Some(high)) => {
+                    format!("95 % {} to {}", significant(low), significant(high))
+                }
+                _ => "no interval".to_owned(),
+            };
+            let _ = writeln!(
+                out,
+                "  {key} = {}{unit}  ({interval})",
+                significant(fitted.value)
+            );
+        }
+        for (a, row) in &self.correlations {
+            for (b, value) in row.iter().filter(|(b, _)| a < *b) {
+                let _ = writeln!(out, "  correlation of {a} and {b}: {value:+.3}");
+            }
+        }
+        let _ = writeln!(
+            out,
+            "\n  measured             model                differ  mode"
+        );
+        for line in &self.residuals {
+            let real = |value: Option<f64>| value.map_or(String::new(), |v| format!("({v:+.1})"));
+            let measured = format!("{:.1} {}", line.frequency_hz, real(line.real_hz));
+            let model = format!("{:.1} ({:+.1})", line.mode.frequency_hz, line.mode.real_hz);
+            let percent = line.difference_percent;
+            let _ = writeln!(
+                out,
+                "  {measured:<20} {model:<18} {percent:>+7.3} %  {}",
+                line.mode.name()
+            );
+        }
+        let _ = writeln!(
+            out,
+            "  frequency (growth Re/2pi), Hz; the worst differs by {:.3} %",
+            self.worst_percent
+        );
+        for note in &self.notes {
+            let _ = writeln!(out, "  {note}");
+        }
+        out
+    }
+}
+
+fn significant(value: f64) -> String {
+    crate::results::quantity::significant(value, 6)
+}
+
+impl Summary for FitSummary {
+    fn headline(&self) -> Vec<Entry> {
+        let of = |(key, fitted): (&String, &FittedParameter)| {
+            Entry::new(format!("parameters.{key}.value"), fitted.value)
+        };
+        self.parameters.iter().map(of).collect()
+    }
+}

@@ -1,0 +1,155 @@
+//! The figures of an uncertainty analysis.
+
+use super::summary::{DesignCurve, RobustSummary, UncertaintySummary};
+use crate::chart::{
+    Axis, Bars, Figure, Fill, INK, Label, Line, Marker, Panel, Points, Rule, SERIES, Stroke, look,
+};
+use crate::results::parameter::parameter_axis;
+
+/// Distribution of critical friction, probability of squeal over friction, indices.
+pub fn uncertainty(summary: &UncertaintySummary) -> Figure {
+    let largest = summary.largest_friction;
+    let friction = || Axis::friction().between(0.0, largest);
+    let share = |name: &str| Axis::new(name, "–").between(0.0, 1.0);
+    let families = summary
+        .families
+        .iter()
+        .take(6)
+        .enumerate()
+        .map(|(index, family)| {
+            let quantiles = family.critical_friction_percentiles.iter().enumerate();
+            let points =
+                quantiles.filter_map(|(k, value)| Some(((*value)?, 0.01 * (k + 1) as f64)));
+            Line::through(points.collect::<Vec<_>>())
+                .stroke(Stroke::dashed(look(index + 1).0, 0.9))
+                .name(family.name().replace("n =", "*n* ="))
+        });
+    let own = || {
+        Rule::vertical(summary.friction_coefficient)
+            .stroke(Stroke::dashed(INK, 0.8))
+            .name("friction of the case")
+    };
+    let over = &summary.probability_over_friction;
+    let part = |k: usize| -> Vec<f64> { over.iter().map(|row| row[k]).collect() };
+    let (at, value, low, high) = (part(0), part(1), part(2), part(3));
+    let distribution = Panel::new(friction(), share("turned unstable below *μ*"))
+        .height(150.0)
+        .layer(own())
+        .layers(families.collect::<Vec<_>>())
+        .legend();
+    let probability = Panel::new(friction(), share("probability of squeal"))
+        .height(150.0)
+        .layer(
+            Fill::between(&at, &low, &high, SERIES[0])
+                .opacity(0.25)
+                .name("95 % interval"),
+        )
+        .layer(own())
+        .layer(
+            Line::new(&at, &value)
+                .solid(SERIES[0], 1.2)
+                .name("some mode unstable"),
+        )
+        .legend();
+    let figure = Figure::new(
+        "uncertainty",
+        "Distribution of the critical friction of each family of modes (a), probability of squeal over the friction coefficient \
+         (b), Sobol's indices of the lowest critical friction (c): first order alone, total with interactions.",
+    )
+    .columns(2)
+    .panel(distribution)
+    .panel(probability);
+    match indices(summary) {
+        Some(panel) => figure.panel(panel),
+        None => figure,
+    }
+}
+
+fn indices(summary: &UncertaintySummary) -> Option<Panel> {
+    if summary.sobol.is_empty() {
+        return None;
+    }
+    // The largest above.
+    let mut rows: Vec<_> = summary.sobol.iter().collect();
+    rows.sort_by(|a, b| a.1.total.total_cmp(&b.1.total));
+    let place = |k: usize| k as f64;
+    let total = rows.iter().enumerate();
+    let total =
+        total.map(|(k, (_, index))| (0.0, index.total.max(0.0), place(k) + 0.17, String::new()));
+    let first = rows.iter().enumerate();
+    let first =
+        first.map(|(k, (_, index))| (0.0, index.first.max(0.0), place(k) - 0.17, String::new()));
+    let names = rows
+        .iter()
+        .enumerate()
+        .map(|(k, (key, _))| (place(k), key.replace('_', " ")));
+    let largest = rows
+        .iter()
+        .map(|row| row.1.total.max(row.1.first))
+        .fold(1.0, f64::max);
+    let y = Axis::new("", "")
+        .between(-0.6, rows.len() as f64 - 0.4)
+        .ticks(names.collect::<Vec<_>>());
+    let key = |colour: &'static str, name: &str| {
+        Points::new(Vec::new())
+            .marker(Marker::Square, 2.0, colour)
+            .name(name)
+    };
+    Some(
+        Panel::new(Axis::new("Sobol index", "–").between(0.0, largest), y)
+            .height(34.0 * rows.len() as f64 + 12.0)
+            .layer(Bars::new(total.collect(), SERIES[5]))
+            .layer(Bars::new(first.collect(), SERIES[0]))
+            .layer(key(SERIES[0], "first order (lower bar)"))
+            .layer(key(SERIES[5], "total (upper bar)")),
+    )
+}
+
+/// Probability of squeal over each design parameter.
+pub fn robust(summary: &RobustSummary) -> Figure {
+    let panel = |curve: &DesignCurve| {
+        let part = |k: usize| -> Vec<f64> { curve.points.iter().map(|row| row[k]).collect() };
+        let (at, value, low, high) = (part(0), part(1), part(2), part(3));
+        let panel = Panel::new(
+            parameter_axis(&curve.key),
+            Axis::new("probability of squeal", "–").between(0.0, 1.0),
+        )
+        .height(130.0)
+        .layer(
+            Fill::between(&at, &low, &high, SERIES[0])
+                .opacity(0.25)
+                .name("95 % interval"),
+        )
+        .layer(
+            Line::new(&at, &value)
+                .solid(SERIES[0], 1.2)
+                .marked(Marker::Disc, 1.5),
+        )
+        .layer(
+            Rule::horizontal(summary.bound)
+                .stroke(Stroke::dashed(INK, 0.8))
+                .name("bound"),
+        );
+        let panel = match curve.own {
+            Some(own) => panel.layer(
+                Rule::vertical(own)
+                    .stroke(Stroke::dotted(INK, 0.8))
+                    .name("case as written"),
+            ),
+            None => panel,
+        };
+        match curve.reaches_bound_at {
+            Some(value) => {
+                panel.layer(Label::new((value, summary.bound), "reached").moved(3.0, -4.0))
+            }
+            None => panel,
+        }
+    };
+    Figure::new(
+        "robust",
+        "Probability of squeal at the friction coefficient of the case over each design parameter, the uncertain parameters \
+         scattering as stated.",
+    )
+    .columns(2)
+    .panels(summary.curves.iter().map(panel).collect::<Vec<_>>())
+}

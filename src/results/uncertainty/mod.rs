@@ -1,0 +1,72 @@
+//! Results of an uncertainty analysis: samples, table, figures, report.
+
+mod figures;
+mod report;
+mod summary;
+
+pub use report::{draw_report, write_samples};
+pub use summary::{
+    CriticalFriction, DesignCurve, FamilySummary, Index, Interval, RobustSummary,
+    UncertaintySummary,
+};
+
+use serde::{Deserialize, Serialize};
+
+/// A branch that turns unstable in a sample.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Onset {
+    /// Circumferential harmonic.
+    pub harmonic: usize,
+    /// Branch within the harmonic.
+    pub branch: usize,
+    /// +1 with the rotor, -1 against it, 0 standing.
+    pub direction: i8,
+    /// Friction coefficient from which on it is unstable.
+    pub critical_friction: f64,
+    /// Friction coefficient from which on it is stable again.
+    pub restabilized: Option<f64>,
+    /// Frequency at the onset, Hz.
+    pub frequency_hz: f64,
+}
+
+impl Onset {
+    /// Whether the branch is unstable at a friction coefficient.
+    pub fn holds(&self, friction: f64) -> bool {
+        let ends = self.restabilized.unwrap_or(f64::INFINITY);
+        self.critical_friction <= friction && friction < ends
+    }
+}
+
+/// What came out of one sample.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Sample {
+    /// Number from 1.
+    pub number: usize,
+    /// Values of the uncertain parameters, in the order of their keys.
+    pub values: Vec<f64>,
+    /// Its own friction coefficient.
+    pub friction_coefficient: f64,
+    /// Its onsets, by rising friction.
+    pub onsets: Vec<Onset>,
+    /// Why it has none, where it could not be solved.
+    pub error: Option<String>,
+    /// Lowest critical friction with other values: those of a second sample, then its own with the second's value of
+    /// one parameter, parameter by parameter; empty for a sample that no index rests on. `None` is no onset.
+    pub mixed: Vec<Option<f64>>,
+}
+
+impl Sample {
+    /// The lowest onset up to a friction coefficient.
+    pub fn lowest(&self, most: f64) -> Option<&Onset> {
+        let within = self
+            .onsets
+            .iter()
+            .filter(|onset| onset.critical_friction <= most);
+        within.min_by(|a, b| a.critical_friction.total_cmp(&b.critical_friction))
+    }
+
+    /// Whether it squeals at a friction coefficient.
+    pub fn is_unstable(&self, friction: f64) -> bool {
+        self.onsets.iter().any(|onset| onset.holds(friction))
+    }
+}

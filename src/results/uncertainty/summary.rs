@@ -1,0 +1,228 @@
+//! `summary.json` of an uncertainty analysis.
+
+use crate::results::Manifest;
+use crate::results::summary::{Entry, Summary};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+/// `summary.json` of an uncertainty analysis.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct UncertaintySummary {
+    /// Its command.
+    pub command: String,
+    /// Title of the case.
+    pub title: String,
+    /// Wall time of this run, s.
+    pub wall_s: f64,
+    /// Samples.
+    pub samples: usize,
+    /// Samples that could not be solved; nothing below counts them.
+    pub failed: usize,
+    /// Samples that the indices rest on.
+    pub index_samples: usize,
+    /// Friction coefficient of the case.
+    pub friction_coefficient: f64,
+    /// Friction coefficients up to which onsets are sought.
+    pub largest_friction: f64,
+    /// Probability that some mode is unstable at the friction coefficient of the case (or at its own, where that is
+    /// uncertain), with Wilson's 95 % interval.
+    pub probability_unstable: Interval,
+    /// Distribution of the lowest critical friction.
+    pub critical_friction: CriticalFriction,
+    /// The modes that turn unstable in some sample, the most probable first.
+    pub families: Vec<FamilySummary>,
+    /// Sobol's indices of the lowest critical friction by key.
+    pub sobol: BTreeMap<String, Index>,
+    /// The parameter with the largest total index.
+    pub decisive: Option<String>,
+    /// Friction coefficient, probability of squeal there, and its interval.
+    pub probability_over_friction: Vec<[f64; 4]>,
+    /// Designs, where they were asked for.
+    pub robust: Option<RobustSummary>,
+    /// What is to be said.
+    pub notes: Vec<String>,
+    /// What it was made from.
+    pub manifest: Manifest,
+}
+
+/// A value with a 95 % interval.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Interval {
+    /// The value.
+    pub value: f64,
+    /// Lower end.
+    pub low: f64,
+    /// Upper end.
+    pub high: f64,
+}
+
+/// Distribution of the lowest critical friction; absent where that lies beyond the range.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub struct CriticalFriction {
+    /// Mean of the samples that have an onset.
+    pub mean: Option<f64>,
+    /// 95 % interval of that mean, from its scatter between 16 parts of the sequence.
+    pub mean_low: Option<f64>,
+    /// Upper end.
+    pub mean_high: Option<f64>,
+    /// Median of all samples.
+    pub median: Option<f64>,
+    /// Five in a hundred lie below.
+    pub p05: Option<f64>,
+    /// Five in a hundred lie above.
+    pub p95: Option<f64>,
+    /// Share of the samples without an onset in the range.
+    pub without_onset: f64,
+}
+
+/// A mode that turns unstable in some sample.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct FamilySummary {
+    /// Circumferential harmonic.
+    pub harmonic: usize,
+    /// Branch within the harmonic.
+    pub branch: usize,
+    /// +1 with the rotor, -1 against it, 0 standing.
+    pub direction: i8,
+    /// Probability that it is unstable at the friction coefficient of the case.
+    pub probability: f64,
+    /// Probability that it turns unstable in the range.
+    pub probability_in_range: f64,
+    /// Median of its critical friction, of the samples in which it has one.
+    pub critical_friction_median: f64,
+    /// Mean frequency at its onset, Hz.
+    pub frequency_hz: f64,
+    /// Its critical friction at the quantiles 1, 2, ... 99 % of all samples, where it has one.
+    pub critical_friction_percentiles: Vec<Option<f64>>,
+}
+
+/// Sobol's indices of one parameter.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Index {
+    /// Share of the variance that goes if the parameter is known.
+    pub first: f64,
+    /// Share that stays if all others are known.
+    pub total: f64,
+}
+
+/// Probability of squeal over designs.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct RobustSummary {
+    /// Probability that is to be reached.
+    pub bound: f64,
+    /// Samples at each design.
+    pub samples: usize,
+    /// One curve for each design parameter.
+    pub curves: Vec<DesignCurve>,
+    /// The parameter whose smallest relative change reaches the bound.
+    pub cheapest: Option<String>,
+}
+
+/// Probability of squeal over one design parameter.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct DesignCurve {
+    /// Dotted case key.
+    pub key: String,
+    /// Its value in the case.
+    pub own: Option<f64>,
+    /// Value, probability and its interval.
+    pub points: Vec<[f64; 4]>,
+    /// The value nearest to the case's at which the bound is reached, by linear interpolation.
+    pub reaches_bound_at: Option<f64>,
+    /// The change that takes, per cent.
+    pub change_percent: Option<f64>,
+}
+
+impl FamilySummary {
+    /// Harmonic, branch, direction in words.
+    pub fn name(&self) -> String {
+        let way = match self.direction {
+            1.. => " ↺",
+            0 => "",
+            ..0 => " ↻",
+        };
+        format!("n = {}, branch {}{way}", self.harmonic, self.branch)
+    }
+}
+
+impl UncertaintySummary {
+    /// As text.
+    pub fn text(&self) -> String {
+        let mut out = format!("{}\n", self.title);
+        let p = self.probability_unstable;
+        let _ = writeln!(
+            out,
+            "  probability of squeal at friction {}: {:.4}  (95 % {:.4} to {:.4}, {} samples)",
+            self.friction_coefficient,
+            p.value,
+            p.low,
+            p.high,
+            self.samples - self.failed
+        );
+        let c = &self.critical_friction;
+        let text =
+            |value: Option<f64>| value.map_or("beyond the range".to_owned(), |v| format!("{v:.4}"));
+        let _ = writeln!(
+            out,
+            "  lowest critical friction: median {}, mean {}, 5 % below {}, 5 % above {}",
+            text(c.median),
+            text(c.mean),
+            text(c.p05),
+            text(c.p95)
+        );
+        for family in &self.families {
+            let _ = writeln!(
+                out,
+                "  {:<22} unstable with {:.4}, turns unstable below {} with {:.4}; median {:.4}, {:.0} Hz",
+                family.name(),
+                family.probability,
+                self.largest_friction,
+                family.probability_in_range,
+                family.critical_friction_median,
+                family.frequency_hz,
+            );
+        }
+        for (key, index) in &self.sobol {
+            let _ = writeln!(
+                out,
+                "  {key}: first {:.3}, total {:.3}",
+                index.first, index.total
+            );
+        }
+        if let Some(robust) = &self.robust {
+            for curve in &robust.curves {
+                let reached = match (curve.reaches_bound_at, curve.change_percent) {
+                    (Some(value), Some(change)) => {
+                        format!(
+                            "below {} from {} on ({change:+.1} %)",
+                            robust.bound,
+                            crate::results::quantity::significant(value, 4)
+                        )
+                    }
+                    _ => format!("never below {}", robust.bound),
+                };
+                let _ = writeln!(out, "  over {}: {reached}", curve.key);
+            }
+            if let Some(key) = &robust.cheapest {
+                let _ = writeln!(out, "  the cheapest change is that of {key}");
+            }
+        }
+        for note in &self.notes {
+            let _ = writeln!(out, "  {note}");
+        }
+        out
+    }
+}
+
+impl Summary for UncertaintySummary {
+    fn headline(&self) -> Vec<Entry> {
+        vec![
+            Entry::new(
+                "probability_unstable.value",
+                self.probability_unstable.value,
+            ),
+            Entry::new("critical_friction.median", self.critical_friction.median),
+        ]
+    }
+}

@@ -1,0 +1,193 @@
+//! Tables of measured modes: one row for each, cells left empty where something is not known.
+
+use super::error::{ReadError, ReadProblem};
+use super::field::number;
+use super::separator::{Separator, character, fields};
+use super::text::{comment, decode, lines, shortened};
+
+/// A measured mode, or a line of a squeal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MeasuredMode {
+    /// Line of the table, from 1.
+    pub line: usize,
+    /// Frequency, Hz.
+    pub frequency_hz: f64,
+    /// Real part, Hz: as given, or from a damping factor, `-zeta f / sqrt(1 - zeta^2)`.
+    pub real_hz: Option<f64>,
+    /// Nodal diameters.
+    pub harmonic: Option<usize>,
+    /// Standard deviation of frequency and real part, Hz.
+    pub sigma_hz: Option<f64>,
+    /// Whether it was heard: only an unstable mode can be it.
+    pub is_unstable: bool,
+}
+
+/// The columns that are known; others are passed over.
+const COLUMNS: [&[&str]; 7] = [
+    &["frequency_hz", "frequency", "f_hz", "f"],
+    &["frequency_khz", "f_khz"],
+    &["real_hz", "real"],
+    &["damping_factor", "zeta"],
+    &["harmonic", "n", "nodal_diameters"],
+    &["sigma_hz", "sigma"],
+    &["unstable"],
+];
+
+/// Reads a table with a head of names, of which `frequency_hz` must be one and `real_hz`, `damping_factor`, `harmonic`,
+/// `sigma_hz` and `unstable` (1 or 0) may be.
+///
+/// # Errors
+/// [`ReadError`] with the place: no such column, a cell that is no number or no possible value.
+pub fn read_modes(bytes: &[u8], source: &str) -> Result<Vec<MeasuredMode>, ReadError> {
+    let text = decode(bytes);
+    let mut rows = lines(&text).filter(|(_, line)| {
+        let blank = |c: char| c.is_whitespace() || ";,".contains(c);
+        !line.trim_matches(blank).is_empty() && comment(line).is_none()
+    });
+    let Some((_, head)) = rows.next() else {
+        return Err(ReadError::whole(source, ReadProblem::Empty));
+    };
+    let separator = match head {
+        _ if head.contains(';') => Separator::Semicolon,
+        _ if head.trim().contains('\t') => Separator::Tab,
+        _ if head.contains(',') => Separator::Comma,
+        _ => Separator::Blanks,
+    };
+    let names: Vec<String> = fields(head, separator).map(str::to_lowercase).collect();
+    let place = |known: &&[&str]| names.iter().position(|name| known.contains(&name.as_str()));
+    let places = COLUMNS.each_ref().map(place);
+    if places[0].is_none() && places[1].is_none() {
+        let problem = ReadProblem::MissingColumn {
+            wanted: "frequencies",
+            columns: names
+                .iter()
+                .map(|name| shortened(name))
+                .collect::<Vec<_>>()
+                .join(", "),
+            remedy: "the first line names the columns: frequency_hz, and where known real_hz, damping_factor, \
+                     harmonic, sigma_hz, unstable",
+        };
+        return Err(ReadError::whole(source, problem));
+    }
+    let modes: Result<Vec<MeasuredMode>, ReadError> = rows
+        .map(|(line, text)| {
+            let cells: Vec<&str> = fields(text, separator).collect();
+            let row = Row {
+                source,
+                line,
+                text,
+                cells,
+            };
+            row.mode(&places)
+        })
+        .collect();
+    let modes = modes?;
+    if modes.is_empty() {
+        return Err(ReadError::whole(source, ReadProblem::NoNumbers));
+    }
+    Ok(modes)
+}
+
+/// One row of the table.
+struct Row<'a> {
+    source: &'a str,
+    line: usize,
+    text: &'a str,
+    cells: Vec<&'a str>,
+}
+
+impl Row<'_> {
+    /// The number in a column, if the row has one there and `admits` takes it.
+    fn cell(
+        &self,
+        places: &[Option<usize>; 7],
+        column: usize,
+        admits: fn(f64) -> bool,
+    ) -> Result<Option<f64>, ReadError> {
+        let cell = places[column].and_then(|place| self.cells.get(place));
+        let Some(cell) = cell.filter(|cell| !cell.is_empty()) else {
+            return Ok(None);
+        };
+        let name = format!("`{}`", COLUMNS[column][0]);
+        let refuse = |problem| {
+            let at = character(self.text, cell);
+            Err(ReadError::at(self.source, self.line, at, problem))
+        };
+        match number(cell) {
+            None => refuse(ReadProblem::NotANumber {
+                field: shortened(cell),
+                name,
+            }),
+            Some(value) if value.is_nan() => Ok(None),
+            Some(value) if !admits(value) => refuse(ReadProblem::Impossible {
+                field: shortened(cell),
+                name,
+            }),
+            Some(value) => Ok(Some(value)),
+        }
+    }
+
+    fn mode(&self, places: &[Option<usize>; 7]) -> Result<MeasuredMode, ReadError> {
+        let positive = |value: f64| value > 0.0 && value.is_finite();
+        let hertz = self.cell(places, 0, positive)?;
+        let kilohertz = self.cell(places, 1, positive)?;
+        let Some(frequency_hz) = hertz.or(kilohertz.map(|value| 1e3 * value)) else {
+            let (field, name) = (String::new(), "`frequency_hz`".to_owned());
+            let problem = ReadProblem::NotANumber { field, name };
+            return Err(ReadError::at(self.source, self.line, 1, problem));
+        };
+        let damping = self.cell(places, 3, |zeta| zeta.abs() < 1.0)?;
+        let damped = damping.map(|zeta| -zeta * frequency_hz / (1.0 - zeta * zeta).sqrt());
+        let harmonic = self.cell(places, 4, |n| n >= 0.0 && n.fract() == 0.0 && n < 1e6)?;
+        Ok(MeasuredMode {
+            line: self.line,
+            frequency_hz,
+            real_hz: self.cell(places, 2, f64::is_finite)?.or(damped),
+            harmonic: harmonic.map(|n| n as usize),
+            sigma_hz: self.cell(places, 5, positive)?,
+            is_unstable: self.cell(places, 6, |flag| flag == 0.0 || flag == 1.0)? == Some(1.0),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cells_may_be_empty_and_columns_in_any_order() {
+        let text = "# bench\nunstable;frequency_khz;harmonic;note\n1;6,0;;loud\n;7,5;2;\n";
+        let modes = read_modes(text.as_bytes(), "modes.csv").unwrap();
+        assert_eq!(modes.len(), 2);
+        assert_eq!(modes[0].frequency_hz, 6000.0);
+        assert_eq!((modes[0].is_unstable, modes[0].harmonic), (true, None));
+        assert_eq!((modes[1].is_unstable, modes[1].harmonic), (false, Some(2)));
+        assert_eq!(modes[1].line, 4);
+    }
+
+    #[test]
+    fn a_damping_factor_is_a_real_part() {
+        let text = "frequency_hz,damping_factor\n1000,0.6\n";
+        let modes = read_modes(text.as_bytes(), "modes.csv").unwrap();
+        // tan(asin(0.6)) = 0.75.
+        assert!((modes[0].real_hz.unwrap() + 750.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn bad_cells_are_named_with_their_place() {
+        for (text, parts) in [
+            ("f,real_hz\n1000,x\n", ["modes.csv:2:6", "`x`"]),
+            ("f,harmonic\n1000,1.5\n", ["modes.csv:2:6", "`1.5`"]),
+            ("f,sigma_hz\n-5,1\n", ["modes.csv:2:1", "`-5`"]),
+            ("hertz\n5\n", ["modes.csv: ", "frequency_hz"]),
+            ("f\n", ["modes.csv", "no row of numbers"]),
+            ("# nothing\n", ["modes.csv", "empty"]),
+            ("f,n\n,1\n", ["modes.csv:2", "`frequency_hz`"]),
+        ] {
+            let error = read_modes(text.as_bytes(), "modes.csv")
+                .unwrap_err()
+                .to_string();
+            assert!(parts.iter().all(|part| error.contains(part)), "{error}");
+        }
+    }
+}

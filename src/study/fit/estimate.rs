@@ -1,0 +1,419 @@
+//! The search from several points, and what is known of its result.
+
+use super::levenberg_marquardt::{Squares, Trial};
+use super::matching::{Weights, differences};
+use super::{BoundedParameter, FitError, FitProblem, MeasuredMode, ModelMode};
+use crate::signal::student_95;
+use crate::study::sobol::ScrambledSobol;
+use nalgebra::DMatrix;
+use rayon::prelude::*;
+
+/// Starting points from which the search goes on.
+const DESCENTS: usize = 4;
+
+/// Measured numbers of a kind from which its scatter is estimated by itself.
+const OWN_SCATTER: usize = 8;
+
+/// Difference, as a share of its frequency, beyond which a mode is not that line.
+const LARGEST_DIFFERENCE: f64 = 0.25;
+
+/// Least ratio of singular values of what the data see.
+const BLIND: f64 = 1e-6;
+
+/// Distance of two minima, in units of the bounds, from which on they are two.
+const DISTINCT: f64 = 0.02;
+
+/// A bound.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// The lower.
+    From,
+    /// The upper.
+    To,
+}
+
+/// One parameter.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Estimate {
+    /// Its value.
+    pub value: f64,
+    /// 95 % interval; `None` where the value lies on a bound, or no data are left to tell the scatter.
+    pub interval: Option<[f64; 2]>,
+    /// The bound that it lies on.
+    pub at_bound: Option<Side>,
+}
+
+/// One line and its mode.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LineFit {
+    /// The line.
+    pub measured: MeasuredMode,
+    /// Its mode.
+    pub mode: ModelMode,
+}
+
+/// A model fitted to measured modes.
+#[derive(Clone, Debug)]
+pub struct Fitted {
+    /// The parameters, in their order.
+    pub parameters: Vec<Estimate>,
+    /// Correlations of the estimates; 0 with one on its bound.
+    pub correlations: Vec<Vec<f64>>,
+    /// The lines.
+    pub lines: Vec<LineFit>,
+    /// All modes of the fitted model.
+    pub modes: Vec<ModelMode>,
+    /// Root mean square of the differences of frequencies, and of real parts where measured, as shares of the frequency.
+    pub scatter: [Option<f64>; 2],
+    /// Values of the parameters at other minima that the data cannot tell from the best.
+    pub others: Vec<Vec<f64>>,
+    /// Starting points, searches, those that ended at this minimum.
+    pub searches: [usize; 3],
+}
+
+/// Fits the parameters.
+///
+/// Without `sigma_hz` differences weigh as shares of the frequency; frequencies and real parts scatter each by their own
+/// measure where there are eight of each or more, so that the weight between the two is the data's own. Intervals are
+/// those of the linearised model with the scatter of the differences (Student's t).
+///
+/// # Errors
+/// [`FitError`].
+pub fn fit(problem: &FitProblem<'_>) -> Result<Fitted, FitError> {
+    let (data, count) = (problem.data_count(), problem.parameters.len());
+    if data < count {
+        return Err(FitError::TooFewData {
+            parameters: count,
+            data,
+        });
+    }
+    let mut squares = Squares {
+        problem,
+        weights: weights(problem.lines),
+    };
+    let points = starting_points(problem);
+    let failed = |reason| FitError::NoModel {
+        points: points.len(),
+        reason,
+    };
+    let looked: Vec<Result<Trial, String>> = points
+        .par_iter()
+        .map(|places| squares.trial(places, false))
+        .collect();
+    let (mut starts, mut reason) = (Vec::new(), String::new());
+    for trial in looked {
+        match trial {
+            Ok(trial) => starts.push(trial),
+            Err(error) => reason = error,
+        }
+    }
+    starts.sort_by(|a, b| a.chi_square.total_cmp(&b.chi_square));
+    starts.truncate(DESCENTS);
+    let found: Vec<Result<Trial, String>> = starts
+        .into_par_iter()
+        .map(|start| squares.descend(start))
+        .collect();
+    let (mut minima, mut searched) = (Vec::new(), 0);
+    for trial in found {
+        searched += 1;
+        match trial {
+            Ok(trial) => minima.push(trial),
+            Err(error) => reason = error,
+        }
+    }
+    minima.sort_by(|a, b| a.chi_square.total_cmp(&b.chi_square));
+    let Some(first) = minima.first() else {
+        return Err(failed(reason));
+    };
+    let best = reweighted(&mut squares, first.clone()).map_err(failed)?;
+    refuse_unmatched(problem, &best)?;
+    let (parameters, correlations) = estimates(&squares, &best).map_err(failed)??;
+    let is_here = |trial: &&Trial| distance(&trial.places, &first.places) <= DISTINCT;
+    let here = minima.iter().filter(is_here).count();
+    Ok(Fitted {
+        parameters,
+        correlations,
+        others: other_minima(problem, &minima),
+        scatter: scatter(problem, &best),
+        lines: line_fits(problem, &best),
+        modes: best.modes,
+        searches: [points.len(), searched, here],
+    })
+}
+
+/// The case's own values where they lie within the bounds, then points that fill the bounds evenly.
+fn starting_points(problem: &FitProblem<'_>) -> Vec<Vec<f64>> {
+    let count = problem.parameters.len();
+    let own = problem.own.iter().map(|values| {
+        let pairs = problem.parameters.iter().zip(values);
+        pairs
+            .map(|(parameter, value)| parameter.place(*value))
+            .collect::<Vec<f64>>()
+    });
+    let inside = |places: &Vec<f64>| places.iter().all(|p| (0.0..=1.0).contains(p));
+    let mut points: Vec<Vec<f64>> = own.filter(inside).collect();
+    let sequence = ScrambledSobol::new(count.min(ScrambledSobol::LARGEST_DIMENSION), 1);
+    let further = problem.starts.saturating_sub(points.len());
+    points.extend((0..further as u32).map(|i| {
+        let mut point = sequence.point(i);
+        point.resize(count, 0.5);
+        point
+    }));
+    points
+}
+
+/// Equal shares of the frequency, or the standard deviations given; a line without one takes the largest relative one.
+fn weights(lines: &[MeasuredMode]) -> Vec<Weights> {
+    let relative = lines
+        .iter()
+        .filter_map(|line| Some(line.sigma_hz? / line.frequency_hz));
+    let largest = relative.fold(0.0_f64, f64::max);
+    let fallback = if largest > 0.0 { largest } else { 1.0 };
+    let of = |line: &MeasuredMode| {
+        let weight = 1.0 / line.sigma_hz.unwrap_or(fallback * line.frequency_hz);
+        Weights {
+            frequency: weight,
+            real: if line.real_hz.is_some() { weight } else { 0.0 },
+        }
+    };
+    lines.iter().map(of).collect()
+}
+
+/// The minimum under weights by which frequencies and real parts scatter alike.
+fn reweighted(squares: &mut Squares<'_>, mut best: Trial) -> Result<Trial, String> {
+    let reals = squares
+        .problem
+        .lines
+        .iter()
+        .filter(|line| line.real_hz.is_some())
+        .count();
+    if reals < OWN_SCATTER || squares.problem.lines.len() < OWN_SCATTER {
+        return Ok(best);
+    }
+    for _ in 0..4 {
+        let residuals = squares.residuals(&best);
+        let sum = |part: usize| {
+            residuals
+                .iter()
+                .skip(part)
+                .step_by(2)
+                .map(|r| r * r)
+                .sum::<f64>()
+        };
+        let mean = [
+            sum(0) / squares.problem.lines.len() as f64,
+            sum(1) / reals as f64,
+        ];
+        if !(mean[0] > 0.0 && mean[1] > 0.0) {
+            break;
+        }
+        // One kind a thousand times better than the other is not believed to be.
+        let ratio = (mean[0] / mean[1]).sqrt().clamp(1e-3, 1e3);
+        for weights in &mut squares.weights {
+            weights.real *= ratio;
+        }
+        best = squares.trial(&best.places, false)?;
+        best = squares.descend(best)?;
+        if (ratio - 1.0).abs() < 1e-3 {
+            break;
+        }
+    }
+    Ok(best)
+}
+
+fn distance(a: &[f64], b: &[f64]) -> f64 {
+    a.iter()
+        .zip(b)
+        .map(|(a, b)| (a - b).abs())
+        .fold(0.0, f64::max)
+}
+
+/// Minima whose sum of squares lies within the joint 95 % region of the best one, each once.
+fn other_minima(problem: &FitProblem<'_>, minima: &[Trial]) -> Vec<Vec<f64>> {
+    let count = problem.parameters.len() as f64;
+    let degrees = problem.data_count() as f64 - count;
+    if degrees < 1.0 || minima.is_empty() {
+        return Vec::new();
+    }
+    let limit = minima[0].chi_square * (1.0 + count / degrees * student_95(degrees).powi(2));
+    let mut kept = vec![&minima[0]];
+    for trial in minima.iter().filter(|trial| trial.chi_square <= limit) {
+        if kept
+            .iter()
+            .all(|known| distance(&known.places, &trial.places) > DISTINCT)
+        {
+            kept.push(trial);
+        }
+    }
+    let values = |trial: &&Trial| {
+        let pairs = problem.parameters.iter().zip(&trial.places);
+        pairs
+            .map(|(parameter, place)| parameter.value(*place))
+            .collect()
+    };
+    kept[1..].iter().map(values).collect()
+}
+
+fn refuse_unmatched(problem: &FitProblem<'_>, best: &Trial) -> Result<(), FitError> {
+    for (line, mode) in problem.lines.iter().zip(&best.matched) {
+        let mode = mode.map(|m| &best.modes[m]);
+        let fits = |mode: &&ModelMode| {
+            let is_near = (mode.frequency_hz() - line.frequency_hz).abs()
+                <= LARGEST_DIFFERENCE * line.frequency_hz;
+            let is_heard = !line.is_unstable || mode.eigenvalue.re > 0.0;
+            let is_other = |n: usize| mode.harmonic.is_some_and(|own| own != n);
+            is_near && is_heard && !line.harmonic.is_some_and(is_other)
+        };
+        if mode.filter(fits).is_some() {
+            continue;
+        }
+        let mut wanted = line
+            .harmonic
+            .map_or(String::new(), |n| format!(", n = {n}"));
+        wanted += if line.is_unstable { ", unstable" } else { "" };
+        let nearest = mode.map_or("none is left".to_owned(), |mode| {
+            format!("{} comes nearest", described(mode))
+        });
+        return Err(FitError::Unmatched {
+            line: line.line,
+            frequency_hz: line.frequency_hz,
+            wanted,
+            nearest,
+        });
+    }
+    Ok(())
+}
+
+fn described(mode: &ModelMode) -> String {
+    let harmonic = mode
+        .harmonic
+        .map_or(String::new(), |n| format!("n = {n}, "));
+    format!(
+        "{harmonic}{:.0} Hz, growth {:+.1} Hz",
+        mode.frequency_hz(),
+        mode.real_hz()
+    )
+}
+
+fn line_fits(problem: &FitProblem<'_>, best: &Trial) -> Vec<LineFit> {
+    let pairs = problem.lines.iter().zip(&best.matched);
+    let matched = pairs.filter_map(|(line, mode)| Some((line, &best.modes[(*mode)?])));
+    matched
+        .map(|(line, mode)| LineFit {
+            measured: *line,
+            mode: mode.clone(),
+        })
+        .collect()
+}
+
+fn scatter(problem: &FitProblem<'_>, best: &Trial) -> [Option<f64>; 2] {
+    [0, 1].map(|part| {
+        let pairs = problem.lines.iter().zip(&best.matched);
+        let pairs = pairs.filter(|(line, _)| part == 0 || line.real_hz.is_some());
+        let squares: Vec<f64> = pairs
+            .filter_map(|(line, mode)| {
+                let mode = &best.modes[(*mode)?];
+                Some((differences(line, mode)[part] / line.frequency_hz).powi(2))
+            })
+            .collect();
+        let count = squares.len() as f64;
+        (!squares.is_empty()).then(|| (squares.iter().sum::<f64>() / count).sqrt())
+    })
+}
+
+type Estimates = (Vec<Estimate>, Vec<Vec<f64>>);
+
+/// Values, intervals and correlations from the derivatives at the minimum.
+fn estimates(squares: &Squares<'_>, best: &Trial) -> Result<Result<Estimates, FitError>, String> {
+    let (problem, parameters) = (squares.problem, squares.problem.parameters);
+    let side = |place: f64| match place {
+        0.0 => Some(Side::From),
+        1.0 => Some(Side::To),
+        _ => None,
+    };
+    let free: Vec<usize> = (0..parameters.len())
+        .filter(|&k| side(best.places[k]).is_none())
+        .collect();
+    let jacobian = squares.jacobian(best)?.select_columns(&free);
+    if let Some(direction) = blind_direction(&jacobian, parameters, &free, best) {
+        return Ok(Err(FitError::Blind { direction }));
+    }
+    let covariance = (jacobian.transpose() * &jacobian).try_inverse();
+    let degrees = problem.data_count() as f64 - free.len() as f64;
+    let residuals = squares.residuals(best);
+    let variance = residuals.iter().map(|r| r * r).sum::<f64>() / degrees.max(1.0);
+    let half_width = |k: usize| {
+        let covariance = covariance.as_ref().filter(|_| degrees >= 1.0)?;
+        Some(student_95(degrees) * (variance * covariance[(k, k)]).sqrt())
+    };
+    let mut all: Vec<Estimate> = parameters
+        .iter()
+        .zip(&best.places)
+        .map(|(parameter, &place)| Estimate {
+            value: parameter.value(place),
+            interval: None,
+            at_bound: side(place),
+        })
+        .collect();
+    let mut correlations = vec![vec![0.0; parameters.len()]; parameters.len()];
+    for k in 0..parameters.len() {
+        correlations[k][k] = 1.0;
+    }
+    for (i, &k) in free.iter().enumerate() {
+        let (place, parameter) = (best.places[k], &parameters[k]);
+        all[k].interval =
+            half_width(i).map(|half| [place - half, place + half].map(|p| parameter.value(p)));
+        for (j, &l) in free.iter().enumerate() {
+            let of = |c: &DMatrix<f64>| c[(i, j)] / (c[(i, i)] * c[(j, j)]).sqrt();
+            correlations[k][l] = covariance.as_ref().map_or(0.0, of);
+        }
+    }
+    Ok(Ok((all, correlations)))
+}
+
+/// The direction in which no measured number changes, in words.
+fn blind_direction(
+    jacobian: &DMatrix<f64>,
+    parameters: &[BoundedParameter],
+    free: &[usize],
+    best: &Trial,
+) -> Option<String> {
+    if free.is_empty() {
+        return None;
+    }
+    let (values, vectors) = {
+        let eigen = (jacobian.transpose() * jacobian).symmetric_eigen();
+        (eigen.eigenvalues, eigen.eigenvectors)
+    };
+    let least = values.imin();
+    if values[least] > (BLIND * BLIND) * values.max() && values.max() > 0.0 {
+        return None;
+    }
+    // Relative changes, the largest of them one per cent.
+    let direction = vectors.column(least);
+    let relative: Vec<(usize, f64)> = free
+        .iter()
+        .enumerate()
+        .map(|(i, &k)| {
+            let parameter = &parameters[k];
+            let place = best.places[k];
+            (
+                k,
+                direction[i] * parameter.slope(place) / parameter.value(place),
+            )
+        })
+        .collect();
+    let largest = relative
+        .iter()
+        .fold(0.0_f64, |m, (_, change)| m.max(change.abs()));
+    let sign = relative
+        .iter()
+        .find(|(_, c)| c.abs() == largest)
+        .map_or(1.0, |(_, c)| c.signum());
+    let named = relative
+        .iter()
+        .filter(|(_, change)| change.abs() > 0.02 * largest);
+    let named = named
+        .map(|(k, change)| format!("{} {:+.2} %", parameters[*k].name, sign * change / largest));
+    Some(named.collect::<Vec<_>>().join(", "))
+}
