@@ -113,7 +113,13 @@ impl Row<'_> {
             let at = character(self.text, cell);
             Err(ReadError::at(self.source, self.line, at, problem))
         };
-        match number(cell) {
+        let value = match *cell {
+            // As the tables of the program's own say it.
+            "true" => Some(1.0),
+            "false" => Some(0.0),
+            cell => number(cell),
+        };
+        match value {
             None => refuse(ReadProblem::NotANumber {
                 field: shortened(cell),
                 name,
@@ -156,7 +162,7 @@ mod tests {
 
     #[test]
     fn cells_may_be_empty_and_columns_in_any_order() {
-        let text = "# bench\nunstable;frequency_khz;harmonic;note\n1;6,0;;loud\n;7,5;2;\n";
+        let text = "# bench\nunstable;frequency_khz;harmonic;note\ntrue;6,0;;loud\n;7,5;2;\n";
         let modes = read_modes(text.as_bytes(), "modes.csv").unwrap();
         assert_eq!(modes.len(), 2);
         assert_eq!(modes[0].frequency_hz, 6000.0);
