@@ -30,6 +30,8 @@ pub(super) fn implausible(case: &Case) -> Vec<Diagnostic> {
         friction(case),
         interference(case),
         contact_stiffness(case),
+        unresolved_springs(case),
+        steep_friction(case),
         overdamping(case),
     ]
     .into_iter()
@@ -122,13 +124,69 @@ fn friction(case: &Case) -> Option<Diagnostic> {
     ))
 }
 
-/// Interference against the radius, else the contact pressure against the modulus.
-///
+/// Half the mass of a contact element for each unit of edge (kg/m2), and the time step of the transient of an annulus.
+fn edge_inertia(case: &Case) -> Option<[f64; 2]> {
+    let step = case.cost().transient?.time_step;
+    let annulus = &case.annulus;
+    let depth = (annulus.outer_radius - annulus.inner_radius) / annulus.radial_elements as f64;
+    let mass = 0.5 * case.material.density * depth;
+    case.is_annulus().then_some([mass, step])
+}
+
+/// Springs whose own motion of the contact nodes the time step does not resolve, `k dt^2 > 4 m`.
+fn unresolved_springs(case: &Case) -> Option<Diagnostic> {
+    let stiffness = case.contact.stiffness.normal_stiffness?;
+    let [mass, step] = edge_inertia(case)?;
+    let most = 4.0 * mass / (step * step);
+    (stiffness > most).then(|| {
+        warning(
+            case,
+            "contact.normal_stiffness",
+            format!(
+                "contact.normal_stiffness = {stiffness:e} Pa/m is more than the time step of the transient, {step:.2e} s, \
+                 resolves on this mesh, about {most:.1e} Pa/m: the status of contact nodes would flicker"
+            ),
+            "all but rigid",
+            "use \"rigid\" for the transient, or a smaller transient.time_step",
+        )
+    })
+}
+
+/// Friction that falls faster with speed than the inertia of contact nodes allows, `dt p |mu'(0)| > m`.
+fn steep_friction(case: &Case) -> Option<Diagnostic> {
+    let contact = &case.contact.sliding;
+    let decay = contact.decay?;
+    let [mass, step] = edge_inertia(case)?;
+    let fall = -contact.friction_coefficient * decay.slope(0.0);
+    let most = mass / (lame_pressure(case) * fall);
+    (step > most).then(|| {
+        warning(
+            case,
+            "contact.decay_speed",
+            format!(
+                "contact.decay_speed = {} m/s lets friction fall faster than the inertia of a contact node allows within \
+                 the time step of the transient, {step:.2e} s: nodes may stick and slip alike, and jump",
+                decay.decay_speed
+            ),
+            "a steep law",
+            &format!("use a transient.time_step below about {most:.1e}, or a larger contact.decay_speed"),
+        )
+    })
+}
+
 /// Pressure of an annulus clamped at `b` and widened by `delta` at `a`, after Lame:
 /// `p = 2 B ((lambda + mu) / b^2 + mu / a^2)` with `B = delta a b^2 / (b^2 - a^2)`.
+fn lame_pressure(case: &Case) -> f64 {
+    let (a, b) = (case.annulus.inner_radius, case.annulus.outer_radius);
+    let [lambda, shear] = case.material.lame_constants();
+    let widening = case.contact.sliding.interference * a * b * b / (b * b - a * a);
+    2.0 * widening * ((lambda + shear) / (b * b) + shear / (a * a))
+}
+
+/// Interference against the radius, else the contact pressure against the modulus.
 fn interference(case: &Case) -> Option<Diagnostic> {
     let key = "contact.interference";
-    let (a, b) = (case.annulus.inner_radius, case.annulus.outer_radius);
+    let a = case.annulus.inner_radius;
     let delta = case.contact.sliding.interference;
     let help = "is it in metres? 25 micrometres are 25e-6";
     if delta > LARGEST_INTERFERENCE * a {
@@ -139,9 +197,7 @@ fn interference(case: &Case) -> Option<Diagnostic> {
         );
         return Some(warning(case, key, share, "above 5 % of the radius", help));
     }
-    let [lambda, shear] = case.material.lame_constants();
-    let widening = delta * a * b * b / (b * b - a * a);
-    let pressure = 2.0 * widening * ((lambda + shear) / (b * b) + shear / (a * a));
+    let pressure = lame_pressure(case);
     let modulus = case.material.young_modulus;
     (pressure > LARGEST_PRESSURE * modulus).then(|| {
         let message = format!(

@@ -72,3 +72,21 @@ fn what_needs_constant_friction_says_so() {
     ];
     assert_reports(&parse(RUN, &start).unwrap_err().to_string(), &parts);
 }
+
+#[test]
+fn laws_and_springs_that_the_time_step_does_not_resolve_are_said() {
+    let warned = |overrides: &[&str]| {
+        let warnings = valid(RUN, overrides).warnings;
+        warnings.iter().map(|w| w.to_string()).collect::<String>()
+    };
+    assert_eq!(warned(&[RATIO, SPEED]), "");
+    assert_eq!(warned(&["contact.normal_stiffness=7.4e12"]), "");
+    assert_reports(
+        &warned(&[RATIO, "contact.decay_speed=0.01"]),
+        &["contact.decay_speed", "transient.time_step below about"],
+    );
+    assert_reports(
+        &warned(&["contact.normal_stiffness=1e16"]),
+        &["contact.normal_stiffness", "flicker", "\"rigid\""],
+    );
+}
