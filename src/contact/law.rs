@@ -131,10 +131,13 @@ impl CoulombFriction {
     /// The tangential force under the normal force `normal` (N/m), implicit in the slip velocity `w` that it leads to:
     ///
     /// ```text
-    /// T = (m / dt) (w* - w),   T = N mu(w) sign(w) where w != 0,   |T| <= N mu(0) where w = 0
+    /// T = (m / dt) (w* - w),   T = N mu(v) sign(v) where w != 0,   |T| <= N mu(0) where w = 0
     /// ```
     ///
-    /// `w* = free_slip`. With `c = N mu dt / m` slip solves `w + c (1 + (q - 1) e^{-w / v_c}) = |w*|`, convex in `w`:
+    /// with `v` the mean of `w` and of the slip velocity half a step ago (second order in time, and the dissipation
+    /// `T v` is the law's), or `w` itself where the slip turns round.
+    ///
+    /// `w* = free_slip`. With `c = N mu dt / m` slip solves `w + c (1 + (q - 1) e^{-v / v_c}) = |w*|`, convex in `w`:
     /// monotone, with one root at most, where `N |mu'(0)| < m / dt`. Beyond that a node can obey the law in stick and
     /// in slip at once; it keeps to the side that it is on, and says so.
     pub fn resolve(&self, node: &SlippingNode, normal: f64) -> NodeFriction {
@@ -164,10 +167,18 @@ impl CoulombFriction {
                 is_ambiguous: may_slip,
             };
         }
+        // The mean velocity obeys the same equation with twice the inertia.
+        let before = node.slip_before * sense;
+        let (inertia, free) = if fall < 1.0 && before >= 0.0 {
+            (2.0 * inertia, 0.5 * (free + before))
+        } else {
+            (inertia, free)
+        };
+        let pull = self.cone(normal) / inertia;
         let highest = free - pull;
         // From the last slip where the function is monotone, else from the right of its largest root.
         let mut slip = if fall < 1.0 {
-            (node.slip_before * sense).min(highest).max(0.0)
+            before.min(highest).max(0.0)
         } else {
             highest
         };
