@@ -239,6 +239,11 @@ const PAGES: &[Page] = &[
         )],
     },
     Page {
+        command: "compare",
+        files: &[("compare.csv", "every shared number, with differences")],
+        examples: &[("frictionsim compare a/cea b/cea", "two runs side by side")],
+    },
+    Page {
         command: "identify",
         files: &[
             (

@@ -4,6 +4,7 @@ mod basin;
 pub mod cea;
 mod check;
 mod collect;
+mod compare;
 mod completions;
 mod convergence;
 pub mod cycle;
@@ -60,6 +61,7 @@ enum Command {
     Transient(transient::Arguments),
     Sweep(sweep::Arguments),
     Collect(collect::Arguments),
+    Compare(compare::Arguments),
     Plot(plot::Arguments),
     Cycle(cycle::Arguments),
     Basin(basin::Arguments),
@@ -144,6 +146,7 @@ pub fn main() -> ExitCode {
         Command::Transient(arguments) => transient::run(&arguments),
         Command::Sweep(arguments) => sweep::run(&arguments),
         Command::Collect(arguments) => collect::run(&arguments),
+        Command::Compare(arguments) => compare::run(&arguments),
         Command::Plot(arguments) => plot::run(&arguments),
         Command::Cycle(arguments) => cycle::run(&arguments),
         Command::Basin(arguments) => basin::run(&arguments),

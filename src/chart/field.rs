@@ -2,11 +2,13 @@
 
 use super::axis::{Axis, extremes};
 use super::colour::{ColourMap, INK};
+use super::data::{Series, SeriesKind};
 use super::decimation::simplify;
 use super::frame::Frame;
 use super::image::{Colours, IndexedImage, Palette};
 use super::layer::Layer;
 use super::svg::{Path, Stroke, Svg};
+use super::text::plain;
 use std::sync::Arc;
 
 /// The nodes around an element, with its mid-side nodes between its corners where it has any.
@@ -204,6 +206,30 @@ impl Layer for Field {
 
     fn colours(&self) -> Option<&Colours> {
         Some(&self.colours)
+    }
+
+    fn series(&self) -> Vec<Series> {
+        let ruler = self.colours.axis.resolve(Some(self.colours.range));
+        // Small multiples are pictures: their numbers are in the files of the run.
+        if self.levels == Palette::COARSE {
+            return Vec::new();
+        }
+        vec![Series {
+            name: String::new(),
+            kind: SeriesKind::Field,
+            colour: INK,
+            xs: self.positions.iter().map(|place| place[0]).collect(),
+            ys: self.positions.iter().map(|place| place[1]).collect(),
+            values: Some((
+                plain(&ruler.title),
+                self.values
+                    .iter()
+                    .map(|&value| ruler.shown(value))
+                    .collect(),
+            )),
+            rows: Vec::new(),
+            is_whole: true,
+        }]
     }
 }
 

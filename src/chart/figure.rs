@@ -3,8 +3,10 @@
 use super::ChartError;
 use super::axis::Axis;
 use super::colour::ColourMap;
+use super::data::{FigureData, Steps};
 use super::image::Colours;
 use super::layout::Layout;
+use super::motion::Motion;
 use super::panel::Panel;
 use super::svg::{POINTS_PER_MM, Svg};
 use super::text::plain;
@@ -28,6 +30,8 @@ pub struct Figure {
     pub(super) has_letters: bool,
     pub(super) notes: Vec<String>,
     pub(super) foot: Option<Colours>,
+    motion: Option<Motion>,
+    steps: Option<Steps>,
 }
 
 impl Figure {
@@ -44,6 +48,8 @@ impl Figure {
             has_letters: true,
             notes: Vec::new(),
             foot: None,
+            motion: None,
+            steps: None,
         }
     }
 
@@ -128,6 +134,38 @@ impl Figure {
         Self {
             foot: Some(Colours::over(axis, map, &[])),
             ..self
+        }
+    }
+
+    /// The same with a body that moves, where the figure is read with scripts.
+    pub fn motion(self, motion: Motion) -> Self {
+        Self {
+            motion: Some(motion),
+            ..self
+        }
+    }
+
+    /// The same with points of the first panel that move with a parameter, where the figure is read with scripts.
+    pub fn steps(self, steps: Steps) -> Self {
+        Self {
+            steps: Some(steps),
+            ..self
+        }
+    }
+
+    /// The numbers behind the drawing.
+    pub fn data(&self) -> FigureData {
+        let mut steps = self.steps.clone();
+        if let (Some(steps), Some(panel)) = (&mut steps, self.cells.iter().flatten().next()) {
+            let [x, y] = panel.rulers();
+            for mark in steps.marks.iter_mut().flatten() {
+                mark.place = (x.shown(mark.place.0), y.shown(mark.place.1));
+            }
+        }
+        FigureData {
+            panels: self.cells.iter().flatten().map(Panel::data).collect(),
+            motion: self.motion.clone(),
+            steps,
         }
     }
 

@@ -1,9 +1,11 @@
 //! Filled areas.
 
+use super::data::{Series, SeriesKind};
 use super::frame::Frame;
 use super::layer::{COLUMNS_PER_POINT, Layer};
 use super::legend::Key;
 use super::svg::{Path, Svg};
+use super::text::plain;
 
 /// A filled area between two curves over the same rising abscissae.
 #[derive(Clone, Debug)]
@@ -105,5 +107,26 @@ impl Layer for Fill {
     fn keys(&self) -> Vec<(Key, String)> {
         let key = Key::patch(self.colour, self.opacity);
         self.name.iter().map(|name| (key, name.clone())).collect()
+    }
+
+    fn series(&self) -> Vec<Series> {
+        if self.is_range {
+            return Vec::new();
+        }
+        // Of areas stacked on others the height is the quantity.
+        vec![Series {
+            name: self.name.as_deref().map(plain).unwrap_or_default(),
+            kind: SeriesKind::Line,
+            colour: self.colour,
+            xs: self.points.iter().map(|point| point[0]).collect(),
+            ys: self
+                .points
+                .iter()
+                .map(|[_, one, other]| other - one)
+                .collect(),
+            values: None,
+            rows: Vec::new(),
+            is_whole: false,
+        }]
     }
 }

@@ -1,15 +1,17 @@
 //! What is drawn between two axes: lines, points, areas.
 
 use super::colour::{INK, SERIES};
+use super::data::{Series, SeriesKind};
 use super::decimation::{keep_extremes, simplify};
 use super::frame::Frame;
 use super::image::Colours;
 use super::legend::Key;
 use super::panel::Side;
 use super::svg::{Path, Stroke, Svg};
+use super::text::plain;
 
-/// Columns for each point of width to which series are thinned (300 dots per inch).
-pub(super) const COLUMNS_PER_POINT: f64 = 300.0 / 72.0;
+/// Columns for each point of width to which series are thinned (200 dots per inch, as the images have).
+pub(super) const COLUMNS_PER_POINT: f64 = 200.0 / 72.0;
 /// Deviation that no reader sees, points.
 const INVISIBLE: f64 = 0.03;
 
@@ -42,6 +44,11 @@ pub trait Layer: Send + Sync {
     /// The values that its colours mean.
     fn colours(&self) -> Option<&Colours> {
         None
+    }
+
+    /// Its numbers.
+    fn series(&self) -> Vec<Series> {
+        Vec::new()
     }
 }
 
@@ -121,6 +128,7 @@ pub struct Line {
     marker: Option<(Marker, f64)>,
     arrows: usize,
     name: Option<String>,
+    is_whole: bool,
 }
 
 impl Line {
@@ -140,6 +148,7 @@ impl Line {
             marker: None,
             arrows: 0,
             name: None,
+            is_whole: false,
         }
     }
 
@@ -181,6 +190,14 @@ impl Line {
     pub fn name(self, name: impl Into<String>) -> Self {
         Self {
             name: Some(name.into()),
+            ..self
+        }
+    }
+
+    /// The same, with every sample kept for those who take the numbers: a signal to listen to.
+    pub fn whole(self) -> Self {
+        Self {
+            is_whole: true,
             ..self
         }
     }
@@ -242,6 +259,25 @@ impl Layer for Line {
         };
         self.name.iter().map(|name| (key, name.clone())).collect()
     }
+
+    fn series(&self) -> Vec<Series> {
+        // A line without width carries the arrows of others.
+        let is_shown = self.stroke.width > 0.0 && !self.xs.is_empty();
+        let series = Series {
+            name: self.name.as_deref().map(plain).unwrap_or_default(),
+            kind: match self.stroke.dash {
+                [] => SeriesKind::Line,
+                _ => SeriesKind::Dashed,
+            },
+            colour: self.stroke.colour,
+            xs: self.xs.clone(),
+            ys: self.ys.clone(),
+            values: None,
+            rows: Vec::new(),
+            is_whole: self.is_whole,
+        };
+        is_shown.then_some(series).into_iter().collect()
+    }
 }
 
 /// An arrow head on the longest step of each part of a curve: which way it is run through.
@@ -274,6 +310,7 @@ pub struct Points {
     radius: f64,
     colour: &'static str,
     name: Option<String>,
+    rows: Vec<usize>,
 }
 
 impl Points {
@@ -286,6 +323,7 @@ impl Points {
             radius: 2.0,
             colour: SERIES[0],
             name: None,
+            rows: Vec::new(),
         }
     }
 
@@ -297,6 +335,11 @@ impl Points {
             colour,
             ..self
         }
+    }
+
+    /// The same, each point standing for the row of a table with this number.
+    pub fn rows(self, rows: Vec<usize>) -> Self {
+        Self { rows, ..self }
     }
 
     /// The same with an entry in the legend.
@@ -327,5 +370,22 @@ impl Layer for Points {
             patch: None,
         };
         self.name.iter().map(|name| (key, name.clone())).collect()
+    }
+
+    fn series(&self) -> Vec<Series> {
+        let (xs, ys) = self.points.iter().copied().unzip();
+        let series = Series {
+            name: self.name.as_deref().map(plain).unwrap_or_default(),
+            kind: SeriesKind::Points,
+            colour: self.colour,
+            xs,
+            ys,
+            values: None,
+            rows: self.rows.clone(),
+            is_whole: true,
+        };
+        // Points too small to see stand in legends only.
+        let is_shown = self.radius > 0.1 && !self.points.is_empty();
+        is_shown.then_some(series).into_iter().collect()
     }
 }

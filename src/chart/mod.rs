@@ -17,6 +17,7 @@
 
 mod axis;
 mod colour;
+mod data;
 mod decimation;
 mod field;
 mod figure;
@@ -27,6 +28,7 @@ mod layer;
 mod layout;
 mod legend;
 mod marks;
+mod motion;
 mod numbers;
 mod panel;
 mod pdf;
@@ -38,6 +40,8 @@ mod text;
 
 pub use axis::{Axis, Scale, extremes};
 pub use colour::{ColourMap, GRID, INK, MUTED, SERIES, channels};
+pub use data::{AxisData, FigureData, Mark, PanelData, Series, SeriesKind, Steps};
+pub use decimation::keep_extremes;
 pub use field::{Cell, Field, Mesh};
 pub use figure::Figure;
 pub use fill::Fill;
@@ -46,6 +50,7 @@ pub use image::{Heat, Palette};
 pub use layer::{Layer, Line, Marker, Points};
 pub use legend::Key;
 pub use marks::{Label, Rule};
+pub use motion::{Motion, MotionKind, MotionState};
 pub use numbers::{prefixed, signed, significant};
 pub use panel::{Panel, Side};
 pub use raster::Drawing;

@@ -2,6 +2,7 @@
 
 use super::axis::{Axis, extremes};
 use super::colour::{INK, MUTED};
+use super::data::{AxisData, PanelData, Series};
 use super::frame::{
     Frame, LABEL_SIZE, TICK, TITLE_SIZE, draw_grid, draw_x_axis, draw_y_axis, vertical_count,
 };
@@ -10,7 +11,7 @@ use super::layer::Layer;
 use super::legend::{Key, Legend};
 use super::ruler::{Ruler, Tick, widest};
 use super::svg::{Stroke, Svg};
-use super::text::{Anchor, TextStyle};
+use super::text::{Anchor, TextStyle, plain};
 
 /// A side of a panel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -182,6 +183,43 @@ impl Panel {
             });
         }
         seen.map(|seen| (!seen.is_empty()).then(|| extremes(seen)))
+    }
+
+    /// Its axes over its own data.
+    pub(super) fn rulers(&self) -> [Ruler; 2] {
+        let [x, y] = self.ranges();
+        [self.x.resolve(x), self.y.resolve(y)]
+    }
+
+    /// Its numbers in the units that its axes show.
+    pub(super) fn data(&self) -> PanelData {
+        let [x, y] = self.rulers();
+        let shown = |mut series: Series| {
+            series
+                .xs
+                .iter_mut()
+                .for_each(|value| *value = x.shown(*value));
+            series
+                .ys
+                .iter_mut()
+                .for_each(|value| *value = y.shown(*value));
+            series
+        };
+        let headings = self.headings.iter().map(|heading| &heading.0);
+        let title: Vec<String> = match self.caption.as_str() {
+            "" => headings.map(|heading| plain(heading)).collect(),
+            caption => vec![plain(caption)],
+        };
+        PanelData {
+            caption: title.join(", "),
+            axes: [AxisData::of(&x), AxisData::of(&y)],
+            series: self
+                .layers
+                .iter()
+                .flat_map(|layer| layer.series())
+                .map(shown)
+                .collect(),
+        }
     }
 
     /// Legend entries of what is seen in a frame.

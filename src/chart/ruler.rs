@@ -59,6 +59,15 @@ impl Ruler {
         (-1e-9..=1.0 + 1e-9).contains(&self.fraction(value))
     }
 
+    /// A value in the unit shown.
+    pub(super) fn shown(&self, value: f64) -> f64 {
+        value * self.factor
+    }
+
+    pub(super) fn is_logarithmic(&self) -> bool {
+        self.scale == Scale::Logarithmic
+    }
+
     /// The ends in the unit of the data.
     pub fn ends(&self) -> (f64, f64) {
         (self.low / self.factor, self.high / self.factor)

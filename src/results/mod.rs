@@ -3,6 +3,7 @@
 pub mod basin;
 pub mod cea;
 pub mod charts;
+pub mod compare;
 pub mod convergence;
 pub mod cycle;
 pub mod cycle_figures;
@@ -28,8 +29,8 @@ mod vtu;
 use store::{folder, framed, manifest, record, reopening};
 
 pub use drawing::{
-    DOTS_PER_INCH, DrawingError, DrawingOptions, FigureFile, Format, draw_all, figure_files,
-    write_figures, write_report,
+    DOTS_PER_INCH, DrawingError, DrawingOptions, FigureFile, Format, REPORT, draw_all,
+    figure_files, write_figures, write_report,
 };
 pub use response::{
     RESPONSE_TABLE, ResponseSummary, draw_response_report, read_response_table, write_response,

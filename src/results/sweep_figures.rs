@@ -54,6 +54,8 @@ pub fn draw_sweep(
 
 /// The limit cycle found at one point.
 struct Cycle {
+    /// Number of its point.
+    point: usize,
     value: f64,
     frequency_hz: f64,
     harmonic: Option<u64>,
@@ -103,6 +105,7 @@ impl Study {
             let name = swept_label(&rest);
             let quantity = |path: &str| number(summary.pointer(path));
             let cycle = Cycle {
+                point: record.point,
                 value: value(record, &key),
                 frequency_hz: quantity("/main_frequency_hz"),
                 harmonic: summary.pointer("/main_harmonic").and_then(Value::as_u64),
@@ -184,16 +187,14 @@ impl Study {
                     .cycles
                     .iter()
                     .filter(|cycle| cycle.harmonic == Some(harmonic));
-                let points: Vec<(f64, f64)> =
-                    own.map(|cycle| (cycle.value, cycle.frequency_hz)).collect();
+                let (points, rows): (Vec<(f64, f64)>, _) = own
+                    .map(|cycle| ((cycle.value, cycle.frequency_hz), cycle.point))
+                    .unzip();
                 let named = Points::new(points.iter().copied())
                     .marker(*marker, 0.01, INK)
                     .name(format!("*n* = {harmonic}"));
-                panel = panel.layer(named).layer(Points::new(points).marker(
-                    *marker,
-                    2.0,
-                    look(index).0,
-                ));
+                let points = Points::new(points).marker(*marker, 2.0, look(index).0);
+                panel = panel.layer(named).layer(points.rows(rows));
             }
         }
         let caption = format!(
@@ -220,6 +221,7 @@ impl Study {
             let stick = column(&|cycle| cycle.status[0]);
             let slip = column(&|cycle| cycle.status[0] + cycle.status[1]);
             let all = column(&|cycle| cycle.status.iter().sum());
+            let rows = known().chain(known()).map(|cycle| cycle.point).collect();
             let bounds = values.iter().zip(&stick).chain(values.iter().zip(&slip));
             let no_stick = series.end_of_stick().filter(|_| self.key == SPEED);
             Panel::new(
@@ -236,6 +238,7 @@ impl Study {
             .layer(
                 Points::new(bounds.map(|(x, y)| (*x, *y)))
                     .marker(Marker::Disc, 1.1, INK)
+                    .rows(rows)
                     .name("computed"),
             )
             .layers(no_stick.map(|speed| {

@@ -1,7 +1,7 @@
 //! The figures of an eigenvalue analysis.
 
 use super::locus::{interval_rows, locus};
-use super::shape::{ModeShape, shape_panel};
+use super::shape::{ModeShape, moving, shape_panel};
 use super::{CeaReport, direction_name, html_report};
 use crate::cea::{ComplexMode, FrictionSweep, UnstableInterval};
 use crate::chart::{
@@ -238,11 +238,15 @@ fn shapes(report: &CeaReport<'_>, friction: f64) -> Figure {
         ];
         shape_panel(&disc, report.mesh, shape, &lines)
     });
-    multiples(
+    let figure = multiples(
         Figure::new(format!("modes-mu-{friction}"), caption).columns(columns),
         panels,
         report.has_harmonics,
-    )
+    );
+    match shapes.is_empty() {
+        true => figure,
+        false => figure.motion(moving(report.mesh, &shapes)),
+    }
 }
 
 /// The first branches that turn unstable and have several shapes.

@@ -1,11 +1,11 @@
 //! The eigenvalues in the complex plane, and where they are unstable.
 
-use super::CeaReport;
 use super::figures::{Branch, branch_of, branches};
+use super::{CeaReport, direction_name};
 use crate::cea::{ComplexMode, FrictionSweep, UnstableInterval};
 use crate::chart::{
-    Axis, Bars, Figure, INK, Label, Line, MUTED, Marker, Panel, Points, Rule, Stroke, TextStyle,
-    extremes, signed,
+    Axis, Bars, Figure, INK, Label, Line, MUTED, Mark, Marker, Panel, Points, Rule, Steps, Stroke,
+    TextStyle, extremes, signed,
 };
 use crate::fem::RayleighDamping;
 use crate::results::charts::palette::{STABLE, UNSTABLE};
@@ -106,7 +106,41 @@ pub(super) fn locus(report: &CeaReport<'_>, damping: RayleighDamping) -> Figure 
     .weighted(&[1.35, 1.0])
     .panel(plane)
     .panel(stability_bars(sweep, &numbers))
+    .steps(steps(report))
     .note(format!("mode numbers: order of frequency at *μ* = {}", signed(report.base.friction_coefficient, 2)))
+}
+
+/// The eigenvalues at each friction value, for a reader who moves it.
+fn steps(report: &CeaReport<'_>) -> Steps {
+    let mark = |mode: &ComplexMode| {
+        let branch = match report.has_harmonics {
+            true => format!(
+                "n = {}, branch {}, {} the rotor, ",
+                mode.harmonic,
+                mode.branch,
+                direction_name(mode.direction)
+            ),
+            false => String::new(),
+        };
+        let (frequency, rate) = (mode.frequency_hz(), TAU * mode.real_hz());
+        Mark {
+            place: (mode.real_hz(), frequency),
+            name: format!("{branch}{frequency:.1} Hz, grows at {rate:.1} 1/s"),
+            is_listed: mode.is_unstable(),
+        }
+    };
+    let points = &report.sweep.points;
+    let marks = points
+        .iter()
+        .map(|point| point.modes.iter().map(mark).collect());
+    Steps {
+        quantity: "friction coefficient".into(),
+        values: points
+            .iter()
+            .map(|point| point.friction_coefficient)
+            .collect(),
+        marks: marks.collect(),
+    }
 }
 
 /// Unstable intervals by branch, lowest frequency first, as the frequency axis has it.

@@ -3,7 +3,9 @@
 use super::CeaReport;
 use crate::cea::FrictionPoint;
 use crate::results::Manifest;
+use crate::results::quantity::fixed;
 use crate::results::report::{NamedFigure, Report, ReportSection, ReportTable};
+use std::f64::consts::TAU;
 
 /// The report: figures, eigenvalues where shapes were asked for, critical frictions.
 pub fn html_report(
@@ -40,25 +42,72 @@ pub fn html_report(
         ),
     ];
     paragraphs.extend(report.notes.iter().cloned());
-    let mut tables = vec![critical_table(report)];
-    tables.extend(eigenvalue_tables(report));
     Report {
         title: report.title.to_owned(),
         sections: vec![
+            ReportSection::results(paragraphs, results(report))
+                .with_tables([critical_table(report)]),
             ReportSection {
                 heading: "Stability of steady sliding".into(),
-                paragraphs,
-                tables: vec![tables.remove(0)],
                 figures,
+                ..ReportSection::default()
             },
             ReportSection {
                 heading: "Eigenvalues".into(),
-                tables,
+                tables: eigenvalue_tables(report),
                 ..ReportSection::default()
             },
         ],
         manifest: manifest.clone(),
     }
+}
+
+/// What decides: where stability ends, and what grows at the case's own friction.
+fn results(report: &CeaReport<'_>) -> Vec<(String, String)> {
+    let intervals = &report.sweep.intervals;
+    let lowest = intervals
+        .iter()
+        .min_by(|a, b| a.critical_friction.total_cmp(&b.critical_friction));
+    let onset = match lowest {
+        Some(interval) if interval.unstable_from_start => {
+            format!("below {}", interval.critical_friction)
+        }
+        Some(interval) => fixed(interval.critical_friction, 5),
+        None => "none: stable throughout".to_owned(),
+    };
+    let mut rows = vec![("lowest critical friction".to_owned(), onset)];
+    rows.extend(lowest.map(|interval| {
+        let frequency = fixed(interval.frequency_hz, 1);
+        ("its frequency".to_owned(), format!("{frequency} Hz"))
+    }));
+    let own = report.base.friction_coefficient;
+    let at_own = report
+        .sweep
+        .points
+        .iter()
+        .find(|point| point.friction_coefficient == own);
+    if let Some(point) = at_own {
+        let unstable = point.modes.iter().filter(|mode| mode.is_unstable());
+        let name = format!("unstable modes at friction {own}");
+        rows.push((
+            name,
+            format!("{} of {}", unstable.clone().count(), point.modes.len()),
+        ));
+        let fastest = unstable.max_by(|a, b| a.real_hz().total_cmp(&b.real_hz()));
+        rows.extend(fastest.map(|mode| {
+            let text = format!(
+                "{} 1/s at {} Hz",
+                fixed(TAU * mode.real_hz(), 1),
+                fixed(mode.frequency_hz(), 1)
+            );
+            ("fastest growth there".to_owned(), text)
+        }));
+    }
+    rows.extend(report.base.torque_n_m.map(|torque| {
+        let name = "torque of steady sliding".to_owned();
+        (name, format!("{} N m", fixed(torque, 3)))
+    }));
+    rows
 }
 
 fn critical_table(report: &CeaReport<'_>) -> ReportTable {

@@ -1,10 +1,12 @@
 //! A mode shape as a picture of the deformed body.
 
 use crate::cea::ComplexMode;
-use crate::chart::{Axis, Field, INK, Line, MUTED, Panel, Stroke};
+use crate::chart::{
+    Axis, Field, INK, Line, MUTED, Motion, MotionKind, MotionState, Panel, Stroke, plain, signed,
+};
 use crate::mesh::Mesh2d;
-use crate::results::charts::Disc;
 use crate::results::charts::palette::UNSTABLE;
+use crate::results::charts::{Disc, MovingBody};
 use faer::c64;
 
 /// Largest displacement drawn, as a fraction of the half width of the mesh.
@@ -77,6 +79,39 @@ pub(super) fn shape_panel(
         .height(150.0)
         .layer(disc.deformed(amplitude, &real, magnification, axis))
         .layer(Line::through(disc.contact_edge()).stroke(stroke))
+}
+
+/// The modes as motions to choose from: the unstable ones first, as many as a page carries.
+pub(super) fn moving(mesh: &Mesh2d, shapes: &[ModeShape<'_>]) -> Motion {
+    let body = MovingBody::new(mesh);
+    let (unstable, stable): (Vec<&ModeShape<'_>>, Vec<_>) =
+        shapes.iter().partition(|s| s.mode.is_unstable());
+    let chosen = unstable.into_iter().chain(stable).take(body.most_states());
+    let states = chosen.map(|shape| {
+        let values = shape.mode.shape.as_deref().unwrap_or(&[]);
+        let value = |dof: usize| values.get(dof).copied().unwrap_or_default();
+        let part =
+            |of: fn(c64) -> f64| body.cartesian(|node| [0, 1].map(|k| of(value(2 * node + k))));
+        let frequency_hz = shape.mode.frequency_hz();
+        let name = format!(
+            "{}: {} Hz, {}",
+            shape.number,
+            signed(frequency_hz, 0),
+            shape.harmonic()
+        );
+        MotionState {
+            name: plain(name.trim_end_matches(", ")),
+            frequency_hz,
+            kind: MotionKind::Harmonic {
+                real: part(|z| z.re),
+                imaginary: part(|z| z.im),
+            },
+        }
+    });
+    Motion {
+        states: states.collect(),
+        ..body.at_rest()
+    }
 }
 
 /// Unit factor that turns a shape to the instant drawn.

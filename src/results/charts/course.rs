@@ -52,7 +52,7 @@ pub fn signal_panel(
     let y = Axis::new(symbol, unit).symmetric();
     Panel::new(time, y)
         .height(78.0)
-        .layer(Line::new(times, signal).solid(SERIES[0], width))
+        .layer(Line::new(times, signal).solid(SERIES[0], width).whole())
 }
 
 /// Lines at the starts of stages, and their names in the middle of each along the top of a panel.

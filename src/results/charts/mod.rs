@@ -4,6 +4,7 @@ mod contact;
 mod course;
 mod critical_friction;
 mod disc;
+mod motion;
 pub mod palette;
 
 pub use contact::{FieldFrame, contact_figure, field_figure, status_curves, status_map};
@@ -12,3 +13,4 @@ pub use course::{
 };
 pub use critical_friction::{CriticalBranch, critical_friction};
 pub use disc::Disc;
+pub use motion::MovingBody;

@@ -9,17 +9,19 @@ pub use branches::{NamedFamily, draw_branches};
 pub use record::{BranchRecord, CycleRecord, FamilyRecord, WaveRecord};
 pub use report::draw;
 
-use super::charts::palette::status_ground;
-use super::charts::{Disc, FieldFrame, contact_figure, field_figure, status_curves};
+use super::charts::palette::{status_ground, status_of_code};
+use super::charts::{Disc, FieldFrame, MovingBody, contact_figure, field_figure, status_curves};
 use super::drawing::{Declaration, DrawingOptions, draw_all};
 use super::report::NamedFigure;
 use crate::chart::{
-    Axis, ChartError, ColourMap, Figure, INK, Line, MUTED, Panel, Rule, SERIES, Stroke,
+    Axis, ChartError, ColourMap, Figure, INK, Line, MUTED, Motion, MotionKind, MotionState, Panel,
+    Rule, SERIES, Stroke, plain,
 };
 use crate::contact::{ContactStatus, SlidingContact};
 use crate::cycle::Family;
 use crate::fem::{ElasticMaterial, nodal_stress};
 use crate::mesh::Mesh2d;
+use std::f64::consts::TAU;
 
 /// Whole-field pictures of one kind, at most.
 const FIELD_LIMIT: usize = 8;
@@ -222,18 +224,45 @@ impl CycleFigures<'_> {
             ))
     }
 
-    fn velocity(&self) -> Result<Figure, ChartError> {
+    /// Contact status at time zero of every node of the edge: that of the nearest phase.
+    fn around(&self, harmonic: usize, wave: &WaveRecord) -> Vec<u8> {
         let nodes = self.mesh.contact_edge().nodes.len();
+        let points = wave.status.len().max(1);
+        let nearest = |node: usize| (2 * harmonic * node * points + nodes) / (2 * nodes) % points;
+        let codes = (0..nodes).filter_map(|node| wave.status.get(nearest(node)));
+        codes.copied().collect()
+    }
+
+    /// The waves in motion, without the steady state that they ride on.
+    fn motion(&self) -> Motion {
+        let body = MovingBody::new(self.mesh);
+        let sense = -self.contact.rotation_speed.signum();
+        let states = self
+            .cycles()
+            .take(FIELD_LIMIT)
+            .map(|(family, wave)| MotionState {
+                name: plain(&heading(family.harmonic, wave)),
+                frequency_hz: wave.frequency_hz,
+                kind: MotionKind::Turning {
+                    displacement: body.wave(&wave.displacement_field),
+                    turn: sense * TAU / family.harmonic as f64,
+                    status: self.around(family.harmonic, wave),
+                },
+            });
+        Motion {
+            states: states.collect(),
+            ..body.at_rest()
+        }
+    }
+
+    fn velocity(&self) -> Result<Figure, ChartError> {
         let frames = self
             .cycles()
             .take(FIELD_LIMIT)
             .map(|(family, wave)| -> FieldFrame {
-                let (n, all, points) = (family.harmonic, wave.statuses(), wave.status.len().max(1));
-                // The phase nearest to that of each node.
-                let nearest = |node: usize| (2 * n * node * points + nodes) / (2 * nodes) % points;
-                let status = (0..nodes)
-                    .filter_map(|node| all.get(nearest(node)).copied())
-                    .collect();
+                let n = family.harmonic;
+                let codes = self.around(n, wave);
+                let status = codes.into_iter().map(status_of_code).collect();
                 let speeds = wave
                     .velocity_field
                     .chunks_exact(2)
@@ -252,6 +281,7 @@ impl CycleFigures<'_> {
             ColourMap::Viridis,
             frames.collect(),
         )
+        .map(|figure| figure.motion(self.motion()))
     }
 
     fn shear_stress(&self) -> Result<Figure, ChartError> {

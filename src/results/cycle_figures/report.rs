@@ -5,6 +5,7 @@ use crate::chart::extremes;
 use crate::results::drawing::{DrawingError, DrawingOptions, write_report};
 use crate::results::folder::OutputFolder;
 use crate::results::manifest::Manifest;
+use crate::results::quantity::quantity;
 use crate::results::report::{Report, ReportSection, ReportTable, cell, entries, number};
 use serde_json::Value;
 
@@ -19,8 +20,8 @@ pub fn draw(
     options: &DrawingOptions,
 ) -> Result<(), DrawingError> {
     let mut report = html_report(summary, folder.manifest());
-    report.sections[0].figures = draw_cycles(data, options)?;
-    if let Some(branches) = report.sections.get_mut(1) {
+    report.sections[1].figures = draw_cycles(data, options)?;
+    if let Some(branches) = report.sections.get_mut(2) {
         let families = data.record.families.iter();
         let families: Vec<NamedFamily<'_>> = families.map(|f| (String::new(), f)).collect();
         branches.figures = draw_branches(&families, options)?;
@@ -31,15 +32,17 @@ pub fn draw(
 /// The report without figures: the cycles, and the branches where the summary has any.
 fn html_report(summary: &Value, manifest: &Manifest) -> Report {
     let cycles = entries(summary, "cycles");
-    let mut sections = vec![ReportSection {
+    let paragraphs = vec![format!(
+        "Waves that turn against the rotor without changing their shape; {:.1} s.",
+        number(summary, "/wall_s").unwrap_or(f64::NAN)
+    )];
+    let figures = ReportSection {
         heading: "Limit cycles".into(),
-        paragraphs: vec![format!(
-            "Waves that turn against the rotor without changing their shape; {:.1} s.",
-            number(summary, "/wall_s").unwrap_or(f64::NAN)
-        )],
         tables: vec![cycle_table(cycles)],
-        figures: Vec::new(),
-    }];
+        ..ReportSection::default()
+    };
+    let rows = cycles.iter().flat_map(results).collect();
+    let mut sections = vec![ReportSection::results(paragraphs, rows), figures];
     let branches: Vec<String> = cycles.iter().filter_map(branch_text).collect();
     if !branches.is_empty() {
         sections.push(ReportSection {
@@ -53,6 +56,44 @@ fn html_report(summary: &Value, manifest: &Manifest) -> Report {
         sections,
         manifest: manifest.clone(),
     }
+}
+
+/// What decides of one cycle.
+fn results(cycle: &Value) -> Vec<(String, String)> {
+    let name = format!("n = {}, onset {}", cycle["harmonic"], cycle["onset"]);
+    if let Some(error) = cycle["error"].as_str() {
+        return vec![(name, error.to_owned())];
+    }
+    let text =
+        |path: &str, pointer: &str| number(cycle, pointer).map(|value| quantity(path).text(value));
+    let status = ["stick", "slip", "open"].map(|part| {
+        let share = cell(cycle, &format!("/status/{part}"), 100.0, 1);
+        format!("{part} {share} %")
+    });
+    let stable = match cycle
+        .pointer("/stability/is_stable")
+        .and_then(Value::as_bool)
+    {
+        Some(true) => Some("stable".to_owned()),
+        Some(false) => Some("unstable".to_owned()),
+        None => None,
+    };
+    let rows = [
+        (
+            "main frequency",
+            text("main_frequency_hz", "/main_frequency_hz"),
+        ),
+        ("contact", Some(status.join(", "))),
+        (
+            "power of the rotor",
+            text("power_w.external", "/power_w/external"),
+        ),
+        ("stability", stable),
+    ];
+    let rows = rows
+        .into_iter()
+        .filter_map(|(what, value)| Some((format!("{name}: {what}"), value?)));
+    rows.collect()
 }
 
 fn cycle_table(cycles: &[Value]) -> ReportTable {

@@ -95,7 +95,7 @@ impl SweepReport<'_> {
     }
 
     /// What to know before points are compared: they were not all made alike.
-    fn notes(&self) -> Vec<String> {
+    pub(super) fn notes(&self) -> Vec<String> {
         let mut makers: Vec<String> = self
             .records
             .iter()

@@ -86,9 +86,11 @@ pub(super) fn energy(run: &RunFigures<'_>) -> Figure {
         let panel =
             Panel::new(run_axis(&times), Axis::new("*a*_{θ}", "m/s²").symmetric()).height(50.0);
         let caption = format!("tangential acceleration, node {}", run.probe_label(probe));
-        panel
-            .caption(caption)
-            .layer(Line::new(&times, &run.acceleration(probe)).solid(SERIES[0], 0.45))
+        panel.caption(caption).layer(
+            Line::new(&times, &run.acceleration(probe))
+                .solid(SERIES[0], 0.45)
+                .whole(),
+        )
     });
     let dissipated: Vec<f64> = contact
         .mean

@@ -5,7 +5,7 @@ use super::summary::TransientSummary;
 use super::{RunFigures, draw_run};
 use crate::results::drawing::{DrawingError, DrawingOptions, write_report};
 use crate::results::folder::OutputFolder;
-use crate::results::quantity::fixed;
+use crate::results::quantity::{fixed, quantity};
 use crate::results::report::{Report, ReportSection, ReportTable};
 use crate::transient::EndState;
 
@@ -22,7 +22,7 @@ pub fn draw(
 ) -> Result<(), DrawingError> {
     let state = run.analysis.settling.state;
     let mut report = html_report(summary, state, run.growth_rates.as_slice());
-    report.sections[0].figures = draw_run(run, options)?;
+    report.sections[1].figures = draw_run(run, options)?;
     write_report(folder, &report, options)
 }
 
@@ -46,6 +46,7 @@ pub fn html_report(
     Report {
         title: summary.title.clone(),
         sections: vec![
+            ReportSection::results(vec![end], results(summary)),
             ReportSection {
                 heading: "Course of the run".into(),
                 paragraphs: vec![course(summary)],
@@ -54,11 +55,8 @@ pub fn html_report(
             },
             ReportSection {
                 heading: heading.into(),
-                paragraphs: vec![end],
-                tables: vec![
-                    end_table(summary, heading),
-                    growth_table(summary, predicted),
-                ],
+                paragraphs: Vec::new(),
+                tables: vec![motion_table(summary), growth_table(summary, predicted)],
                 figures: Vec::new(),
             },
         ],
@@ -100,58 +98,66 @@ fn course(summary: &TransientSummary) -> String {
     )
 }
 
-fn end_table(summary: &TransientSummary, caption: &str) -> ReportTable {
+/// What decides, over the last fifth of the run.
+fn results(summary: &TransientSummary) -> Vec<(String, String)> {
     let (status, power) = (&summary.status, &summary.power_w);
-    let mut rows = Vec::new();
-    let mut add = |name: &str, value: Option<f64>, decimals: usize| {
-        if let Some(value) = value {
-            rows.push(vec![name.to_owned(), fixed(value, decimals)]);
-        }
+    let entry = |key: &str, value: Option<f64>| {
+        let quantity = quantity(key);
+        Some((quantity.caption.to_owned(), quantity.text(value?)))
     };
-    add("main frequency (Hz)", summary.main_frequency_hz, 1);
-    add("its harmonic n", summary.main_harmonic.map(|n| n as f64), 0);
-    add(
-        "contact nodes that stick (%)",
-        status.stick.map(|share| 100.0 * share),
-        2,
-    );
-    add(
-        "contact nodes that slip (%)",
-        status.slip.map(|share| 100.0 * share),
-        2,
-    );
-    add(
-        "contact nodes that are open (%)",
-        status.open.map(|share| 100.0 * share),
-        2,
-    );
-    add("power of the rotor (W)", power.external, 2);
-    add("  of it while sticking (W)", power.stick, 2);
-    add("  of it while sliding (W)", power.slide, 2);
-    add(
-        "  of it dissipated in the contact (W)",
-        power.contact_dissipated,
-        2,
-    );
-    add("material damping (W)", power.material_damping, 2);
-    for (node, motion) in &summary.probes {
-        for (direction, motion) in [
+    let share = |name: &str, value: Option<f64>| {
+        Some((name.to_owned(), format!("{} %", fixed(100.0 * value?, 2))))
+    };
+    let settled = match (summary.settled, summary.settled_from_s) {
+        (true, Some(time)) => format!("from {} ms on", fixed(1e3 * time, 3)),
+        (true, None) => "yes".to_owned(),
+        (false, _) => "no".to_owned(),
+    };
+    let harmonic = summary.main_harmonic.map(|n| n as f64);
+    let rows = [
+        entry("main_frequency_hz", summary.main_frequency_hz),
+        entry("main_harmonic", harmonic),
+        Some(("settled".to_owned(), settled)),
+        share("contact nodes that stick", status.stick),
+        share("contact nodes that slip", status.slip),
+        share("contact nodes that are open", status.open),
+        entry("power_w.external", power.external),
+        entry("power_w.stick", power.stick),
+        entry("power_w.slide", power.slide),
+        entry("power_w.contact_dissipated", power.contact_dissipated),
+        entry("power_w.material_damping", power.material_damping),
+        entry("power_w.normal_contact", power.normal_contact),
+    ];
+    rows.into_iter().flatten().collect()
+}
+
+/// Accelerations of the probes over the last fifth of the run.
+fn motion_table(summary: &TransientSummary) -> ReportTable {
+    let rows = summary.probes.iter().flat_map(|(node, motion)| {
+        let directions = [
             ("radial", &motion.radial),
             ("tangential", &motion.tangential),
-        ] {
-            let name = |what: &str| format!("node {node}, {direction} {what} (m/s²)");
-            let (rms, peak) = (
-                motion.acceleration_rms_m_per_s2,
-                motion.acceleration_peak_m_per_s2,
-            );
-            add(&name("acceleration, root mean square"), Some(rms), 0);
-            add(&name("acceleration, peak"), Some(peak), 0);
-        }
-    }
+        ];
+        directions.map(|(direction, motion)| {
+            vec![
+                node.clone(),
+                direction.to_owned(),
+                fixed(motion.acceleration_rms_m_per_s2, 0),
+                fixed(motion.acceleration_peak_m_per_s2, 0),
+            ]
+        })
+    });
     ReportTable {
-        caption: caption.into(),
-        columns: ["quantity", "value"].map(String::from).to_vec(),
-        rows,
+        caption: "Accelerations over the last fifth of the run".into(),
+        columns: [
+            "node",
+            "direction",
+            "root mean square (m/s²)",
+            "peak (m/s²)",
+        ]
+        .map(String::from)
+        .to_vec(),
+        rows: rows.collect(),
     }
 }
 

@@ -1,0 +1,134 @@
+//! `frictionsim compare`: runs side by side.
+
+use super::options::OutputOptions;
+use super::{Failure, terminal};
+use crate::results::compare::{
+    ComparedRun, ComparisonSummary, html_report, overlaid, print, shared, write_comparison,
+};
+use crate::results::{
+    DrawingError, Manifest, REPORT, read_manifest, read_summary, write_report, write_summary,
+};
+use clap::{Args, ValueHint};
+use sha2::{Digest, Sha256};
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+/// Finished runs side by side: every number they share, and their figures over each other
+///
+/// Reads summary.json and report.html of each results folder; nothing is computed again. The first folder is what the others
+/// are compared with.
+#[derive(Args)]
+pub struct Arguments {
+    /// Results folders, the first of which the others are compared with
+    #[arg(value_name = "DIR", value_hint = ValueHint::DirPath, required = true, num_args = 2..)]
+    folders: Vec<PathBuf>,
+    #[command(flatten)]
+    output: OutputOptions,
+}
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// Folders without finished results, or that share no number; an output folder that cannot be written.
+pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    terminal::start_log(arguments.output.quiet, arguments.output.verbose);
+    let names = names_of(&arguments.folders);
+    let runs = arguments.folders.iter().zip(names).map(|(path, name)| {
+        let page = std::fs::read_to_string(path.join(REPORT)).ok();
+        Ok(ComparedRun {
+            name,
+            manifest: read_manifest(path)?,
+            summary: read_summary(path)?,
+            page,
+        })
+    });
+    let runs: Vec<ComparedRun> = runs.collect::<Result<_, Failure>>()?;
+    let quantities = shared(&runs);
+    if quantities.is_empty() {
+        let commands: Vec<&str> = runs
+            .iter()
+            .map(|run| run.manifest.command.as_str())
+            .collect();
+        return Err(Failure::usage(format!(
+            "these runs ({}) share no number: compare runs of one command",
+            commands.join(", ")
+        )));
+    }
+    for run in runs.iter().filter(|run| run.page.is_none()) {
+        tracing::warn!(
+            "{} has no {REPORT}, so its figures are left out: frictionsim plot draws it",
+            run.name
+        );
+    }
+    let manifest = manifest_of(&arguments.folders, &runs);
+    let folder = arguments.output.open_folder(&manifest, false)?;
+    write_comparison(&folder, &runs, &quantities)?;
+    if !arguments.output.no_figures {
+        let drawing = arguments.output.figures.drawing();
+        let figures = overlaid(&runs, &drawing).map_err(DrawingError::from)?;
+        write_report(
+            &folder,
+            &html_report(&runs, &quantities, figures, &manifest),
+            &drawing,
+        )?;
+    }
+    let table = print(&runs, &quantities);
+    let summary = ComparisonSummary {
+        command: "compare".into(),
+        runs: runs.into_iter().map(|run| run.name).collect(),
+        quantities,
+        manifest,
+    };
+    let summary = write_summary(&folder, &summary)?;
+    let path = folder.path().to_owned();
+    folder.finish()?;
+    arguments.output.print(&table, &summary, &path)
+}
+
+/// What the comparison is made from: the folders and the cases of their results.
+fn manifest_of(folders: &[PathBuf], runs: &[ComparedRun]) -> Manifest {
+    let mut hash = Sha256::new();
+    for run in runs {
+        hash.update(run.name.as_bytes());
+        hash.update([0]);
+        hash.update(run.manifest.case_hash.as_bytes());
+    }
+    let mut case_hash = String::new();
+    for byte in hash.finalize() {
+        let _ = write!(case_hash, "{byte:02x}");
+    }
+    let mut folders = folders.iter().map(|path| path.display().to_string());
+    Manifest {
+        case_file: folders.next().unwrap_or_default(),
+        case_hash,
+        overrides: folders.collect(),
+        ..Manifest::new("compare")
+    }
+}
+
+/// The ends of the paths that tell them apart; the paths with a number where nothing does.
+fn names_of(paths: &[PathBuf]) -> Vec<String> {
+    let parts = |path: &Path| -> Vec<String> {
+        let path = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+        let parts = path
+            .components()
+            .map(|part| part.as_os_str().to_string_lossy().into_owned());
+        parts.collect()
+    };
+    let all: Vec<Vec<String>> = paths.iter().map(|path| parts(path)).collect();
+    let longest = all.iter().map(Vec::len).max().unwrap_or(1);
+    for length in 1..=longest {
+        let names: Vec<String> = all
+            .iter()
+            .map(|own| own[own.len().saturating_sub(length)..].join("/"))
+            .collect();
+        let is_unique = |name: &String| names.iter().filter(|other| *other == name).count() == 1;
+        if names.iter().all(is_unique) {
+            return names;
+        }
+    }
+    let numbered = paths.iter().enumerate();
+    numbered
+        .map(|(at, path)| format!("{} ({})", path.display(), at + 1))
+        .collect()
+}

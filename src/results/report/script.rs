@@ -1,0 +1,151 @@
+//! What the page's scripts work on: the numbers of every figure as JSON and one packed block.
+
+use super::NamedFigure;
+use super::numbers::Numbers;
+use crate::chart::{
+    AxisData, Mark, Motion, MotionKind, PanelData, Series, SeriesKind, Steps, keep_extremes,
+};
+use serde_json::{Value, json};
+use std::fmt::Write;
+
+/// Charts with axes and zoom, under the MIT licence.
+const LIBRARY: &str = include_str!("vendor/uPlot.iife.min.js");
+const LIBRARY_STYLE: &str = include_str!("vendor/uPlot.min.css");
+const SCRIPTS: [&str; 2] = [include_str!("report.js"), include_str!("motion.js")];
+
+/// Columns that a curve over rising abscissae is thinned to, at most four points in each.
+const COLUMNS: usize = 400;
+/// Most points of any other curve.
+const MOST_POINTS: usize = 4000;
+
+/// Longest signal that is kept whole: a page is to be mailed.
+const LONGEST_SIGNAL: usize = 1 << 16;
+
+/// Writes the numbers of the figures and the scripts.
+pub fn write<'a>(out: &mut String, figures: impl Iterator<Item = &'a NamedFigure>) {
+    let mut numbers = Numbers::default();
+    let figures: Vec<Value> = figures
+        .map(|figure| of_figure(figure, &mut numbers))
+        .collect();
+    let (arrays, block) = numbers.finish();
+    let data = json!({ "arrays": arrays, "figures": figures });
+    // No text of a user ends the element.
+    let data = data.to_string().replace('<', "\\u003c");
+    let _ = write!(
+        out,
+        "<script type=\"application/json\" id=\"data\">{data}</script>\n\
+         <script type=\"text/plain\" id=\"block\">{block}</script>\n\
+         <style>{LIBRARY_STYLE}</style>\n<script>{LIBRARY}</script>\n<script>\n\"use strict\";\n"
+    );
+    SCRIPTS.iter().for_each(|script| out.push_str(script));
+    out.push_str("</script>\n");
+}
+
+fn of_figure(figure: &NamedFigure, numbers: &mut Numbers) -> Value {
+    let data = &figure.data;
+    let panels = data.panels.iter().map(|panel| of_panel(panel, numbers));
+    let panels: Vec<Value> = panels.collect();
+    json!({
+        "name": figure.name,
+        "panels": panels,
+        "motion": data.motion.as_ref().map(|motion| of_motion(motion, numbers)),
+        "steps": data.steps.as_ref().map(of_steps),
+    })
+}
+
+fn of_panel(panel: &PanelData, numbers: &mut Numbers) -> Value {
+    let axis = |axis: &AxisData| json!({ "title": axis.title, "log": axis.is_logarithmic, "ends": axis.ends });
+    let series = panel.series.iter().map(|series| of_series(series, numbers));
+    let series: Vec<Value> = series.collect();
+    let [x, y] = &panel.axes;
+    json!({ "caption": panel.caption, "x": axis(x), "y": axis(y), "series": series })
+}
+
+fn of_series(series: &Series, numbers: &mut Numbers) -> Value {
+    let kind = match series.kind {
+        SeriesKind::Line => "line",
+        SeriesKind::Dashed => "dashed",
+        SeriesKind::Points => "points",
+        SeriesKind::Field => "field",
+    };
+    if let Some((name, values)) = &series.values {
+        let [x, y] = [&series.xs, &series.ys].map(|places| numbers.levels(places));
+        let values = numbers.levels(values);
+        return json!({ "name": name, "kind": kind, "x": x, "y": y, "value": values });
+    }
+    let (xs, ys) = thinned(series);
+    let mut out = json!({
+        "name": series.name,
+        "kind": kind,
+        "colour": series.colour,
+        "x": numbers.floats(&xs),
+        "y": numbers.floats(&ys),
+        "of": series.xs.len(),
+    });
+    if !series.rows.is_empty() {
+        out["rows"] = series.rows.clone().into();
+    }
+    out
+}
+
+/// A curve with no more points than a screen shows; a whole one as it is.
+fn thinned(series: &Series) -> (Vec<f64>, Vec<f64>) {
+    let (xs, ys) = (&series.xs, &series.ys);
+    let count = xs.len().min(ys.len());
+    if count <= 4 * COLUMNS || series.is_whole && count <= LONGEST_SIGNAL {
+        return (xs.clone(), ys.clone());
+    }
+    if xs.is_sorted() {
+        let width = (xs[count - 1] - xs[0]).max(f64::MIN_POSITIVE);
+        let column = |x: f64| (x - xs[0]) / width * COLUMNS as f64;
+        return keep_extremes(xs, ys, column).into_iter().unzip();
+    }
+    let stride = count.div_ceil(MOST_POINTS);
+    let kept = (0..count).step_by(stride).map(|i| (xs[i], ys[i]));
+    kept.unzip()
+}
+
+fn of_steps(steps: &Steps) -> Value {
+    let of = |mark: &Mark| json!([mark.place.0, mark.place.1, mark.name, mark.is_listed]);
+    let marks: Vec<Vec<Value>> = steps
+        .marks
+        .iter()
+        .map(|marks| marks.iter().map(of).collect())
+        .collect();
+    json!({ "quantity": steps.quantity, "values": steps.values, "marks": marks })
+}
+
+fn of_motion(motion: &Motion, numbers: &mut Numbers) -> Value {
+    let flat = |places: &[[f64; 2]]| places.as_flattened().to_vec();
+    let sizes = motion.cells.iter().map(|cell| cell.len() as u32);
+    let sizes = numbers.indices(sizes);
+    let cells = numbers.indices(motion.cells.iter().flatten().copied());
+    let edge = numbers.indices(motion.edge.iter().copied());
+    let positions = numbers.levels(&flat(&motion.positions));
+    let states = motion.states.iter().map(|state| {
+        let mut out = json!({ "name": state.name, "hz": state.frequency_hz });
+        match &state.kind {
+            MotionKind::Harmonic { real, imaginary } => {
+                let (real, imaginary) = (flat(real), flat(imaginary));
+                let all = real.iter().chain(&imaginary);
+                let largest = all.fold(f64::MIN_POSITIVE, |most, v| most.max(v.abs()));
+                out["real"] = numbers.parts(&real, largest).into();
+                out["imaginary"] = numbers.parts(&imaginary, largest).into();
+            }
+            MotionKind::Turning {
+                displacement,
+                turn,
+                status,
+            } => {
+                out["displacement"] = numbers.levels(&flat(displacement)).into();
+                out["turn"] = (*turn).into();
+                out["status"] = numbers
+                    .indices(status.iter().map(|&code| u32::from(code)))
+                    .into();
+            }
+        }
+        out
+    });
+    let states: Vec<Value> = states.collect();
+    json!({ "positions": positions, "sizes": sizes, "cells": cells, "edge": edge, "states": states })
+}

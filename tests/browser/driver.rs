@@ -1,0 +1,227 @@
+//! A browser without a window, led through WebDriver.
+
+use base64::prelude::{BASE64_STANDARD, Engine};
+use serde_json::{Value, json};
+use std::io::{Read, Write};
+use std::net::{TcpListener, TcpStream};
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+/// One page in one browser; closed when dropped.
+pub struct Browser {
+    driver: Child,
+    port: u16,
+    session: String,
+    _profile: tempfile::TempDir,
+}
+
+/// Whether there is a driver; says so where there is none, and refuses that where a browser is asked for.
+pub fn is_there() -> bool {
+    let found = Command::new("chromedriver")
+        .arg("--version")
+        .output()
+        .is_ok();
+    let is_required = std::env::var_os("FRICTIONSIM_BROWSER").is_some();
+    assert!(
+        found || !is_required,
+        "FRICTIONSIM_BROWSER is set, but there is no chromedriver"
+    );
+    if !found {
+        eprintln!(
+            "skipped: no chromedriver on this machine (Debian: apt-get install chromium chromium-driver)"
+        );
+    }
+    found
+}
+
+impl Browser {
+    /// A window of this size in which scripts run or do not.
+    pub fn open([width, height]: [usize; 2], has_scripts: bool) -> Self {
+        let port = TcpListener::bind("127.0.0.1:0")
+            .unwrap()
+            .local_addr()
+            .unwrap()
+            .port();
+        let driver = Command::new("chromedriver")
+            .arg(format!("--port={port}"))
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        let profile = tempfile::tempdir().unwrap();
+        let mut browser = Self {
+            driver,
+            port,
+            session: String::new(),
+            _profile: profile,
+        };
+        let start = Instant::now();
+        while TcpStream::connect(("127.0.0.1", port)).is_err() {
+            assert!(
+                start.elapsed() < Duration::from_secs(30),
+                "chromedriver does not answer"
+            );
+            std::thread::sleep(Duration::from_millis(50));
+        }
+        let folder = browser._profile.path().display();
+        let scripts = if has_scripts { 1 } else { 2 };
+        let options = json!({
+            "args": [
+                "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
+                format!("--window-size={width},{height}"), format!("--user-data-dir={folder}"),
+            ],
+            "mobileEmulation": { "deviceMetrics": { "width": width, "height": height, "pixelRatio": 1.0, "mobile": false } },
+            "prefs": { "profile.managed_default_content_settings.javascript": scripts },
+        });
+        let wanted = json!({ "capabilities": { "alwaysMatch": {
+            "goog:loggingPrefs": { "browser": "ALL" }, "goog:chromeOptions": options,
+        } } });
+        let made = browser.request("POST", "/session", &wanted);
+        browser.session = format!("/session/{}", made["sessionId"].as_str().unwrap());
+        browser
+    }
+
+    /// Opens a file; waits until its scripts have done their part.
+    pub fn visit(&self, file: &Path) {
+        self.post(
+            "/url",
+            json!({ "url": format!("file://{}", file.display()) }),
+        );
+    }
+
+    /// As [`Browser::visit`], and waits until the scripts have done their part.
+    pub fn visit_ready(&self, file: &Path) {
+        self.visit(file);
+        self.wait("return document.documentElement.dataset.ready === 'yes'");
+    }
+
+    /// What a script returns.
+    pub fn run(&self, script: &str) -> Value {
+        self.post("/execute/sync", json!({ "script": script, "args": [] }))
+    }
+
+    /// What a promise of a script comes to.
+    pub fn run_async(&self, script: &str) -> Value {
+        let script = format!(
+            "const done = arguments[0]; (async () => {{ {script} }})().then(done, e => done('failed: ' + e));"
+        );
+        self.post("/execute/async", json!({ "script": script, "args": [] }))
+    }
+
+    /// Waits until a script returns true, ten seconds at most.
+    pub fn wait(&self, script: &str) {
+        let start = Instant::now();
+        while self.run(script) != json!(true) {
+            assert!(
+                start.elapsed() < Duration::from_secs(10),
+                "{script}: {:?}",
+                self.messages()
+            );
+            std::thread::sleep(Duration::from_millis(30));
+        }
+    }
+
+    /// Types into the element that a selector finds.
+    pub fn send(&self, selector: &str, text: &str) {
+        let id = self.find(selector);
+        self.post(&format!("/element/{id}/value"), json!({ "text": text }));
+    }
+
+    /// Drags the mouse over the middle half of the element that a selector finds.
+    pub fn drag_over(&self, selector: &str) {
+        let place = self.run(&format!(
+            "const e = document.querySelector({}); e.scrollIntoView({{ block: 'center' }}); const r = e.getBoundingClientRect(); return [r.left, r.top, r.width, r.height]",
+            json!(selector)
+        ));
+        let number = |i: usize| place[i].as_f64().unwrap();
+        let at = |part: f64| [number(0) + part * number(2), number(1) + 0.5 * number(3)];
+        self.press_along(&[at(0.25), at(0.5), at(0.75)]);
+    }
+
+    /// Moves the mouse to the first place of the window, presses, goes through the others and lets go.
+    pub fn press_along(&self, places: &[[f64; 2]]) {
+        let press = |kind: &str| json!({ "type": kind, "button": 0 });
+        let mut actions: Vec<Value> = Vec::new();
+        for [x, y] in places {
+            actions.push(
+                json!({ "type": "pointerMove", "duration": 100, "x": x.round(), "y": y.round() }),
+            );
+            if actions.len() == 1 {
+                actions.push(press("pointerDown"));
+            }
+        }
+        actions.push(press("pointerUp"));
+        let mouse = json!({
+            "type": "pointer", "id": "mouse", "parameters": { "pointerType": "mouse" }, "actions": actions,
+        });
+        self.post("/actions", json!({ "actions": [mouse] }));
+    }
+
+    fn find(&self, selector: &str) -> String {
+        let found = self.post(
+            "/element",
+            json!({ "using": "css selector", "value": selector }),
+        );
+        let id = found
+            .as_object()
+            .and_then(|ids| ids.values().next()?.as_str());
+        id.unwrap_or_else(|| panic!("{selector}: {found}"))
+            .to_owned()
+    }
+
+    /// What the console has been told.
+    pub fn messages(&self) -> Vec<String> {
+        let log = self.post("/se/log", json!({ "type": "browser" }));
+        let entries = log.as_array().into_iter().flatten();
+        entries.map(|entry| entry["message"].to_string()).collect()
+    }
+
+    /// The visible part of the page as PNG.
+    pub fn screenshot(&self) -> Vec<u8> {
+        let shot = self.request("GET", &format!("{}/screenshot", self.session), &Value::Null);
+        BASE64_STANDARD.decode(shot.as_str().unwrap()).unwrap()
+    }
+
+    fn post(&self, path: &str, body: Value) -> Value {
+        self.request("POST", &format!("{}{path}", self.session), &body)
+    }
+
+    fn request(&self, method: &str, path: &str, body: &Value) -> Value {
+        let answer = self.exchange(method, path, body);
+        let answer = answer.unwrap_or_else(|error| panic!("{method} {path}: {error}"));
+        let value = &answer["value"];
+        assert!(value.get("error").is_none(), "{method} {path}: {value}");
+        value.clone()
+    }
+
+    fn exchange(&self, method: &str, path: &str, body: &Value) -> std::io::Result<Value> {
+        let mut stream = TcpStream::connect(("127.0.0.1", self.port))?;
+        stream.set_read_timeout(Some(Duration::from_secs(60)))?;
+        let body = if method == "POST" {
+            body.to_string()
+        } else {
+            String::new()
+        };
+        write!(
+            stream,
+            "{method} {path} HTTP/1.1\r\nHost: 127.0.0.1:{}\r\nContent-Type: application/json\r\n\
+             Content-Length: {}\r\nConnection: close\r\n\r\n{body}",
+            self.port,
+            body.len()
+        )?;
+        let mut answer = Vec::new();
+        stream.read_to_end(&mut answer)?;
+        let text = String::from_utf8_lossy(&answer);
+        let content = text.split_once("\r\n\r\n").map_or("", |parts| parts.1);
+        Ok(serde_json::from_str(content)?)
+    }
+}
+
+impl Drop for Browser {
+    fn drop(&mut self) {
+        let _ = self.exchange("DELETE", &self.session, &Value::Null);
+        let _ = self.driver.kill();
+        let _ = self.driver.wait();
+    }
+}

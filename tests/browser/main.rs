@@ -1,0 +1,371 @@
+//! Reports in a real browser: every control is used, and what it shows is held to the tables of the run.
+//!
+//! Skipped, with a word, only where there is no browser; `.ci/run` installs one.
+
+mod driver;
+mod page;
+
+use driver::Browser;
+use page::*;
+use serde_json::{Value, json};
+use tempfile::TempDir;
+
+#[test]
+fn eigenvalues_move_with_friction_and_modes_with_time() {
+    if !driver::is_there() {
+        return;
+    }
+    let (folder, report) = eigenvalue_report();
+    let browser = Browser::open(WIDE, true);
+    browser.visit_ready(&report);
+    check_text_stays_text(&browser);
+
+    press(&browser, "locus", "Move friction");
+    let at = |browser: &Browser| {
+        browser.run("return document.querySelector('#locus .more p[aria-live]').textContent")
+    };
+    let count = |browser: &Browser| {
+        browser
+            .run("return document.querySelectorAll('#locus .more li').length")
+            .as_u64()
+            .unwrap()
+    };
+    assert_eq!(
+        (at(&browser), count(&browser)),
+        (json!("friction coefficient = 0: no unstable"), 0)
+    );
+    browser.send("#locus input[type=range]", "\u{E010}");
+    let rows = rows_of(&folder.path().join("out/eigenvalues.csv"));
+    let unstable = rows
+        .iter()
+        .filter(|row| row[0] == "0.6" && row[9] == "1")
+        .count() as u64;
+    assert!(unstable > 0);
+    assert_eq!(
+        (at(&browser), count(&browser)),
+        (
+            json!(format!("friction coefficient = 0.6: {unstable} unstable")),
+            unstable
+        )
+    );
+    assert_ne!(browser.run("return document.querySelector('#locus input[type=range]').getAttribute('aria-valuetext')"), Value::Null);
+
+    press(&browser, "modes-mu-0.3", "Animate");
+    let phase = |browser: &Browser| {
+        browser.run("return document.querySelector('#modes-mu-0\\\\.3 canvas').dataset.phase")
+    };
+    let picture = |browser: &Browser| {
+        browser.run("return document.querySelector('#modes-mu-0\\\\.3 canvas').toDataURL()")
+    };
+    let first = (phase(&browser), picture(&browser));
+    press(&browser, "modes-mu-0.3", "Play");
+    browser.wait(
+        "return Number(document.querySelector('#modes-mu-0\\\\.3 canvas').dataset.phase) > 0.05",
+    );
+    press(&browser, "modes-mu-0.3", "Pause");
+    assert_ne!((phase(&browser), picture(&browser)), first);
+    let still = phase(&browser);
+    std::thread::sleep(std::time::Duration::from_millis(150));
+    assert_eq!(phase(&browser), still);
+    keep_screenshot(&browser, "motion-1280.png");
+
+    check_accessibility(&browser);
+    check_silence(&browser);
+}
+
+#[test]
+fn tables_are_sorted_and_filtered() {
+    if !driver::is_there() {
+        return;
+    }
+    let (_folder, report) = eigenvalue_report();
+    let browser = Browser::open(PHONE, true);
+    browser.visit_ready(&report);
+    keep_screenshot(&browser, "eigenvalues-400.png");
+    let table = "[...document.querySelectorAll('table')].find(t => t.caption?.textContent.startsWith('Eigenvalues'))";
+    let column = |browser: &Browser, column: usize| -> Vec<f64> {
+        let script = format!(
+            "return [...{table}.tBodies[0].rows].filter(r => !r.hidden).map(r => Number(r.cells[{column}].textContent))"
+        );
+        let values = browser.run(&script);
+        values
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|v| v.as_f64().unwrap())
+            .collect()
+    };
+    let sort = |browser: &Browser| {
+        browser.run(&format!(
+            "{table}.tHead.rows[0].cells[1].querySelector('button').click()"
+        ))
+    };
+    let before = column(&browser, 1);
+    sort(&browser);
+    let rising = column(&browser, 1);
+    assert!(rising.is_sorted() && !before.is_sorted() && rising.len() == before.len());
+    sort(&browser);
+    assert!(column(&browser, 1).iter().rev().is_sorted());
+    assert_eq!(
+        browser.run(&format!(
+            "return {table}.tHead.rows[0].cells[1].getAttribute('aria-sort')"
+        )),
+        json!("descending")
+    );
+    browser.run(&format!(
+        "{table}.parentElement.previousElementSibling.querySelector('input').id = 'filter'"
+    ));
+    browser.send("#filter", "unstable");
+    let left = column(&browser, 1);
+    assert!(
+        !left.is_empty() && left.len() < before.len() && left.iter().all(|&real| real > 0.0),
+        "{left:?}"
+    );
+    // Nothing but a table or a picture, each in its own frame, is wider than the phone.
+    let width = browser.run("return document.documentElement.scrollWidth");
+    assert!(width.as_u64().unwrap() <= PHONE[0] as u64, "{width}");
+    check_accessibility(&browser);
+    check_silence(&browser);
+}
+
+#[test]
+fn a_run_is_zoomed_read_heard_and_taken_along() {
+    if !driver::is_there() {
+        return;
+    }
+    let (folder, report) = transient_report("transient.duration=0.012");
+    let browser = Browser::open(WIDE, true);
+    browser.visit_ready(&report);
+    check_text_stays_text(&browser);
+    keep_screenshot(&browser, "run-1280.png");
+
+    press(&browser, "overview-5", "Zoom");
+    let plot = "document.querySelector('#overview-5 .plot').plot";
+    let view = |browser: &Browser| -> [f64; 2] {
+        let view = browser.run(&format!("const x = {plot}.scales.x; return [x.min, x.max]"));
+        [0, 1].map(|i| view[i].as_f64().unwrap())
+    };
+    let all = view(&browser);
+    // The last sample, 12 ms, is an end of the axis.
+    assert!(
+        (all[1] - 12.0).abs() < 1e-9 && all[0].abs() < 1e-9,
+        "{all:?}"
+    );
+    press(&browser, "overview-5", "Zoom in");
+    let half = view(&browser);
+    assert!(
+        (half[1] - half[0] - 0.5 * (all[1] - all[0])).abs() < 1e-9,
+        "{half:?}"
+    );
+    browser.run("document.querySelector('#overview-5 .plot').focus()");
+    browser.send("#overview-5 .plot", "\u{E014}");
+    assert!(view(&browser)[0] > half[0]);
+    browser.send("#overview-5 .plot", "0");
+    assert_eq!(view(&browser), all);
+    browser.drag_over("#overview-5 .u-over");
+    let dragged = view(&browser);
+    assert!(dragged[0] > 1.0 && dragged[1] < 11.0, "{dragged:?}");
+    browser.send("#overview-5 .plot", "0");
+    browser.send("#overview-5 .plot", ".");
+    let read = browser.run("return document.querySelector('#overview-5 .readout').textContent");
+    assert!(read.as_str().unwrap().contains("time t (ms) 0"), "{read}");
+
+    // The samples, against the table of the run.
+    let taken = data_of(&browser, "overview-5");
+    assert_eq!(
+        taken[0][..2],
+        ["time t (ms)", "tangential acceleration, node 5: aθ (m/s²)"]
+    );
+    let rows = rows_of(&folder.path().join("out/probe-5.csv"));
+    assert_eq!(taken.len() - 1, rows.len());
+    let number = |text: &str| text.parse::<f64>().unwrap();
+    let largest = rows
+        .iter()
+        .map(|row| number(&row[6]).abs())
+        .fold(0.0, f64::max);
+    for (own, row) in taken[1..].iter().zip(&rows) {
+        // Single precision, eight digits.
+        assert!((number(&own[0]) - 1e3 * number(&row[0])).abs() < 1e-6);
+        assert!((number(&own[1]) - number(&row[6])).abs() < 1e-6 * largest);
+    }
+
+    // Series off and on.
+    press(&browser, "energy", "Zoom");
+    let pressed = "return document.querySelector('#energy .series').getAttribute('aria-pressed')";
+    assert_eq!(browser.run(pressed), json!("true"));
+    let picture = |browser: &Browser| {
+        browser.run_async(
+            "await new Promise(requestAnimationFrame); await new Promise(requestAnimationFrame);\
+             return document.querySelector('#energy .series').parentElement.previousElementSibling.querySelector('canvas').toDataURL()",
+        )
+    };
+    let whole = picture(&browser);
+    browser.run("document.querySelector('#energy .series').click()");
+    assert_eq!(browser.run(pressed), json!("false"));
+    assert_ne!(picture(&browser), whole);
+    browser.run("document.querySelector('#energy .series').click()");
+    assert_eq!(picture(&browser), whole);
+
+    // The sound holds the main frequency.
+    press(&browser, "overview-5", "Listen");
+    press(&browser, "overview-5", "Play sound");
+    browser.wait("return document.querySelector('#overview-5 audio') !== null");
+    let heard = browser.run_async(
+        "const src = document.querySelector('#overview-5 audio').src;\
+         const audio = document.querySelector('#overview-5 audio');\
+         for (let i = 0; i < 200 && !(audio.readyState >= 2); i++) await new Promise(r => setTimeout(r, 20));\
+         if (audio.error || audio.readyState < 2) return 'no sound: ' + audio.error?.message;\
+         return [audio.duration, document.querySelector('#overview-5 .more output').textContent]",
+    );
+    assert!(
+        (heard[0].as_f64().unwrap_or(0.0) - 2.0).abs() < 1e-3,
+        "{heard}"
+    );
+    let summary: Value = serde_json::from_str(
+        &std::fs::read_to_string(folder.path().join("out/summary.json")).unwrap(),
+    )
+    .unwrap();
+    let main = summary["main_frequency_hz"].as_f64().unwrap();
+    // "loudest at 19.2 kHz, ...": a contact that opens may be loudest at a multiple of its main frequency.
+    let said: f64 = heard[1]
+        .as_str()
+        .unwrap()
+        .split(' ')
+        .nth(2)
+        .unwrap()
+        .parse()
+        .unwrap();
+    let multiple = 1e3 * said / main;
+    let off = (multiple - multiple.round()).abs();
+    assert!(multiple > 0.9 && off < 0.05, "{heard} {main}");
+
+    check_accessibility(&browser);
+    check_silence(&browser);
+}
+
+#[test]
+fn a_click_on_a_point_of_a_study_shows_the_numbers_of_its_run() {
+    if !driver::is_there() {
+        return;
+    }
+    let set = [
+        "mesh.circumferential_elements=36",
+        "mesh.radial_elements=4",
+        "output.probes=[1]",
+        "output.sample_interval=1e-5",
+        "transient.duration=0.008",
+        "transient.perturbation.velocity=0.1",
+        "sweep.\"contact.friction_coefficient\"=[0.3,0.4]",
+        "sweep.\"contact.rotation_speed_rpm\"=[610.0,2000.0]",
+    ];
+    let (_folder, report) = report_of("sweep", "speed-friction-study.toml", &set);
+    let browser = Browser::open(WIDE, true);
+    browser.visit_ready(&report);
+    check_text_stays_text(&browser);
+    press(&browser, "frequencies", "Zoom");
+    let row = "[...document.querySelectorAll('table')].find(t => t.tHead?.rows[0].cells[0].textContent === 'point').tBodies[0].rows[1]";
+    let place = browser.run(&format!(
+        "const plot = document.querySelector('#frequencies .plot').plot, row = {row};\
+         plot.over.scrollIntoView({{ block: 'center' }});\
+         const r = plot.over.getBoundingClientRect(), cell = i => Number(row.cells[i].textContent);\
+         return [r.left + plot.valToPos(cell(2), 'x'), r.top + plot.valToPos(cell(3) / 1000, 'y')]"
+    ));
+    browser.press_along(&[[0, 1].map(|i| place[i].as_f64().unwrap())]);
+    let shown = browser.run(&format!(
+        "return [[...{row}.cells], [...document.querySelectorAll('#frequencies .picked dd')]].map(l => l.map(c => c.textContent))"
+    ));
+    assert_eq!(shown[0], shown[1], "{shown}");
+    check_accessibility(&browser);
+    check_silence(&browser);
+}
+
+#[test]
+fn without_scripts_numbers_and_pictures_are_there() {
+    if !driver::is_there() {
+        return;
+    }
+    let (_folder, report) = eigenvalue_report();
+    let html = std::fs::read_to_string(&report).unwrap();
+    let browser = Browser::open(WIDE, false);
+    browser.visit(&report);
+    // The driver's own scripts run all the same.
+    assert_eq!(
+        browser.run("return document.documentElement.dataset.ready ?? null"),
+        Value::Null
+    );
+    let visible = browser.run("return [...document.querySelectorAll('dd, td, figure svg')].every(e => e.getClientRects().length > 0)");
+    assert_eq!(visible, json!(true));
+    let counted = browser.run("return [document.querySelectorAll('td').length, document.querySelectorAll('figure svg').length]");
+    assert_eq!(
+        counted,
+        json!([html.matches("<td").count(), html.matches("<figure").count()])
+    );
+    check_accessibility(&browser);
+    keep_screenshot(&browser, "without-scripts-1280.png");
+}
+
+#[test]
+fn two_runs_are_compared_number_by_number_and_curve_over_curve() {
+    if !driver::is_there() {
+        return;
+    }
+    let (folder, _) = eigenvalue_report();
+    let (other, _) = eigenvalue_report();
+    let set = [
+        "--set",
+        "material.poisson_ratio=0.36",
+        "--force",
+        "--out",
+        "out",
+    ];
+    let again: Vec<&str> = EIGENVALUE_SET
+        .iter()
+        .flat_map(|set| ["--set", *set])
+        .collect();
+    let arguments: Vec<&str> = ["cea", "case.toml"]
+        .into_iter()
+        .chain(again)
+        .chain(set)
+        .collect();
+    frictionsim(other.path(), &arguments);
+    let paths = [&folder, &other].map(|f| f.path().join("out").display().to_string());
+    frictionsim(
+        folder.path(),
+        &["compare", &paths[0], &paths[1], "--out", "both"],
+    );
+    let rows = rows_of(&folder.path().join("both/compare.csv"));
+    let summary = |folder: &TempDir| -> Value {
+        let text = std::fs::read_to_string(folder.path().join("out/summary.json")).unwrap();
+        serde_json::from_str(&text).unwrap()
+    };
+    let critical = |summary: &Value| {
+        summary["critical_frictions"][0]["critical_friction"]
+            .as_f64()
+            .unwrap()
+    };
+    let (one, two) = (critical(&summary(&folder)), critical(&summary(&other)));
+    let row = rows
+        .iter()
+        .find(|row| row[0].ends_with(".critical_friction"))
+        .unwrap();
+    let number = |at: usize| row[at].parse::<f64>().unwrap();
+    assert_eq!((number(2), number(3)), (one, two), "{row:?}");
+    assert!(
+        (number(4) - (two - one)).abs() < 1e-15 && (number(5) - (two - one) / one).abs() < 1e-12
+    );
+    let browser = Browser::open(WIDE, true);
+    browser.visit_ready(&folder.path().join("both/report.html"));
+    keep_screenshot(&browser, "compare-1280.png");
+    // Curves of both runs in one panel.
+    press(&browser, "pairs", "Zoom");
+    let names = browser.run("return [...document.querySelectorAll('#pairs .series')].map(b => b.textContent.split(': ')[0])");
+    let names: std::collections::BTreeSet<&str> = names
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter_map(Value::as_str)
+        .collect();
+    assert_eq!(names.len(), 2, "{names:?}");
+    check_accessibility(&browser);
+    check_silence(&browser);
+}

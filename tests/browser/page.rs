@@ -1,0 +1,147 @@
+//! Reports to look at, and what is checked on every page.
+
+use super::driver::Browser;
+use serde_json::json;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use tempfile::TempDir;
+
+/// Text that would become an element if it were not escaped.
+pub const MARKUP: &str = "</script><img src=x onerror=document.title='broken'>&amp;";
+
+pub const WIDE: [usize; 2] = [1280, 900];
+pub const PHONE: [usize; 2] = [400, 800];
+
+pub fn case(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("cases")
+        .join(name)
+}
+
+/// Runs the program in a folder.
+pub fn frictionsim(folder: &Path, arguments: &[&str]) {
+    let run = Command::new(env!("CARGO_BIN_EXE_frictionsim"))
+        .args(arguments)
+        .args(["-q", "-q"])
+        .current_dir(folder)
+        .output()
+        .unwrap();
+    assert!(
+        run.status.success(),
+        "{arguments:?}: {}",
+        String::from_utf8_lossy(&run.stderr)
+    );
+}
+
+/// A case of the collection in `folder`, with a title that has markup in it, and its report.
+pub fn report_of(command: &str, name: &str, set: &[&str]) -> (TempDir, PathBuf) {
+    let folder = tempfile::tempdir().unwrap();
+    let text = std::fs::read_to_string(case(name)).unwrap();
+    let title = text.lines().find(|line| line.starts_with("title")).unwrap();
+    let text = text.replace(title, &format!("title = \"{MARKUP}\""));
+    std::fs::write(folder.path().join("case.toml"), text).unwrap();
+    let mut arguments = vec![command, "case.toml", "--out", "out"];
+    set.iter().for_each(|set| arguments.extend(["--set", set]));
+    frictionsim(folder.path(), &arguments);
+    let report = folder.path().join("out/report.html");
+    (folder, report)
+}
+
+/// A small eigenvalue analysis.
+pub const EIGENVALUE_SET: [&str; 4] = [
+    "mesh.circumferential_elements=36",
+    "mesh.radial_elements=5",
+    "cea.friction_coefficients={from=0.0,to=0.6,count=13}",
+    "cea.max_frequency_hz=13000.0",
+];
+
+pub fn eigenvalue_report() -> (TempDir, PathBuf) {
+    report_of("cea", "polycarbonate-disc.toml", &EIGENVALUE_SET)
+}
+
+pub fn transient_report(duration: &str) -> (TempDir, PathBuf) {
+    let set = [
+        "mesh.circumferential_elements=48",
+        "mesh.radial_elements=7",
+        "output.probes=[1,5]",
+        "output.snapshots=[0.005]",
+        "transient.perturbation.velocity=3e-2",
+        duration,
+    ];
+    report_of("transient", "polycarbonate-610rpm.toml", &set)
+}
+
+/// Presses the button of a figure whose text begins so.
+pub fn press(browser: &Browser, figure: &str, text: &str) {
+    let script = format!(
+        "const b = [...document.getElementById('{figure}').querySelectorAll('button')].find(b => b.textContent.startsWith('{text}'));\
+         if (!b) return false; b.scrollIntoView({{block: 'center'}}); b.click(); return true"
+    );
+    assert_eq!(browser.run(&script), json!(true), "{figure}: {text}");
+}
+
+/// The table that a figure lets one take along.
+pub fn data_of(browser: &Browser, figure: &str) -> Vec<Vec<String>> {
+    browser.run("window.taken = null; URL.createObjectURL = blob => { blob.text().then(t => window.taken = t); return 'blob:none'; }; HTMLAnchorElement.prototype.click = function () { window.takenName = this.download; };");
+    press(browser, figure, "Data");
+    browser.wait("return window.taken !== null");
+    assert_eq!(
+        browser.run("return window.takenName"),
+        json!(format!("{figure}.csv"))
+    );
+    let text = browser.run("return window.taken");
+    let mut reader = csv::ReaderBuilder::new()
+        .has_headers(false)
+        .from_reader(text.as_str().unwrap().as_bytes());
+    reader
+        .records()
+        .map(|row| row.unwrap().iter().map(str::to_owned).collect())
+        .collect()
+}
+
+pub fn check_accessibility(browser: &Browser) {
+    browser.run(include_str!("vendor/axe.min.js"));
+    let found = browser.run_async(
+        "const r = await axe.run(document, { runOnly: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'best-practice'] });\
+         return r.violations.map(v => v.id + ': ' + v.nodes.slice(0, 3).map(n => n.html.slice(0, 200)).join(' | '))",
+    );
+    assert_eq!(found, json!([]));
+}
+
+pub fn check_silence(browser: &Browser) {
+    let messages = browser.messages();
+    assert!(messages.is_empty(), "{messages:?}");
+}
+
+pub fn check_text_stays_text(browser: &Browser) {
+    assert_eq!(
+        browser.run("return document.querySelector('h1').textContent.startsWith(document.title)"),
+        json!(true)
+    );
+    assert!(
+        browser
+            .run("return document.title")
+            .as_str()
+            .unwrap()
+            .starts_with(MARKUP)
+    );
+    assert_eq!(
+        browser.run("return document.querySelectorAll('img').length"),
+        json!(0)
+    );
+}
+
+pub fn keep_screenshot(browser: &Browser, name: &str) {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("reports");
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::write(folder.join(name), browser.screenshot()).unwrap();
+}
+
+/// Rows of a table without its header.
+pub fn rows_of(path: &Path) -> Vec<Vec<String>> {
+    let mut reader = csv::Reader::from_path(path).unwrap();
+    reader
+        .records()
+        .map(|row| row.unwrap().iter().map(str::to_owned).collect())
+        .collect()
+}
