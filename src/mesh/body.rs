@@ -84,7 +84,9 @@ impl Mesh2d {
             .iter()
             .map(|&point| counterface.normal_angle(point));
         mesh.frame_angles = angles.collect();
-        let mut boundaries = vec![contact_boundary(&mesh, contact, &specification.contact)?];
+        let mut edge = contact_boundary(&mesh, contact, &specification.contact)?;
+        edge.order_along(&mesh);
+        let mut boundaries = vec![edge];
         for (name, condition) in &specification.conditions {
             if *name == specification.contact {
                 if *condition != BoundaryCondition::Free {

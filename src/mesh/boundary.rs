@@ -1,6 +1,6 @@
 //! Named boundaries of a body, and what holds them.
 
-use super::Mesh2d;
+use super::{Counterface, Mesh2d};
 
 /// Distributed springs and dashpots along a boundary, for each unit of its area.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -50,6 +50,33 @@ pub struct Boundary {
     pub is_closed: bool,
     /// What holds it.
     pub condition: BoundaryCondition,
+}
+
+impl Boundary {
+    /// Puts the nodes of the contact edge in the order in which their places along the counterface rise; a closed edge
+    /// begins at the smallest angle from 0 on.
+    pub(super) fn order_along(&mut self, mesh: &Mesh2d) {
+        let place = |node: u32| mesh.counterface.place(mesh.nodes[node as usize]);
+        let turned = |angle: f64| angle.rem_euclid(std::f64::consts::TAU);
+        if let (Counterface::Cylinder { .. }, [first, second, ..]) =
+            (mesh.counterface, &self.nodes[..])
+        {
+            let step = turned(place(*second) - place(*first));
+            if step > std::f64::consts::PI {
+                self.nodes.reverse();
+                self.tributary_lengths.reverse();
+                self.normal_angles.reverse();
+            }
+        }
+        if self.is_closed {
+            let angles = self.nodes.iter().map(|&node| turned(place(node)));
+            let first = angles.enumerate().min_by(|a, b| a.1.total_cmp(&b.1));
+            let first = first.map_or(0, |(i, _)| i);
+            self.nodes.rotate_left(first);
+            self.tributary_lengths.rotate_left(first);
+            self.normal_angles.rotate_left(first);
+        }
+    }
 }
 
 /// A spring and dashpot matrix at one node, in the node's frame.

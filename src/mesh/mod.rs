@@ -125,6 +125,19 @@ impl Mesh2d {
         &self.boundaries[self.contact]
     }
 
+    /// Whether the contact edge is a whole hole about the origin, as on the annulus.
+    pub fn has_round_contact(&self) -> bool {
+        let is_shaft = matches!(
+            self.counterface,
+            Counterface::Cylinder {
+                center: [0.0, 0.0],
+                is_inside: true,
+                ..
+            }
+        );
+        is_shaft && self.contact_edge().is_closed
+    }
+
     /// Corner points of an element's outline with mid-side nodes between them where it has any.
     pub fn element_outline(&self, element: usize) -> Vec<u32> {
         let nodes = self.element_nodes(element);

@@ -82,6 +82,67 @@ fn strobe_stride(nodes: usize, codes: &[u8], finest: usize) -> usize {
         .unwrap_or(finest)
 }
 
+/// Where nodes stand along the contact: the angle around a whole hole, a share of any other edge.
+pub fn place_axis(is_round: bool) -> Axis {
+    match is_round {
+        true => Axis::angle(),
+        false => Axis::new("place along the contact", "%")
+            .times(100.0 / TAU)
+            .between(0.0, TAU),
+    }
+}
+
+/// Tractions (Pa) and tangential velocity (m/s) of the nodes of an edge that is no whole hole, evenly spaced, on a ground
+/// coloured by status.
+pub fn open_contact_figure(
+    (name, caption, instant): (String, String, String),
+    status: &[ContactStatus],
+    [pressure, shear, velocity]: [&[f64]; 3],
+    surface_speed: f64,
+) -> Figure {
+    let step = TAU / status.len().saturating_sub(1).max(1) as f64;
+    let along = |values: &[f64]| {
+        let places = values.iter().enumerate();
+        Line::through(places.map(|(i, &value)| (i as f64 * step, value)))
+    };
+    let panel = |y: Axis| {
+        Panel::new(place_axis(false), y)
+            .plain()
+            .height(78.0)
+            .legend()
+            .layer(status_ground(status, |i| (i as f64 - 0.5) * step).unnamed())
+    };
+    let traction = Axis::new("traction", "Pa")
+        .prefixed()
+        .including(0.0)
+        .room(0.08);
+    Figure::new(name, caption)
+        .shared_x()
+        .panel(
+            panel(traction)
+                .caption(instant)
+                .layer(along(pressure).solid(INK, 1.1).name("pressure *p*"))
+                .layer(
+                    along(shear)
+                        .solid(SERIES[1], 1.1)
+                        .name("friction traction *τ*"),
+                ),
+        )
+        .panel(
+            panel(Axis::new("velocity", "m/s").including(0.0))
+                .layer(
+                    Rule::horizontal(surface_speed)
+                        .stretching()
+                        .name("counterface"),
+                )
+                .layer(
+                    along(velocity)
+                        .solid(SERIES[0], 1.1)
+                        .name("tangential velocity"),
+                ),
+        )
+}
+
 /// The contact at one instant: arcs of stick, slip and separation around the circle, and over the angle the tractions (Pa) and
 /// the tangential velocity (m/s) of nodes evenly spaced from an angle (rad), on a ground coloured by status.
 pub fn contact_figure(
@@ -180,13 +241,15 @@ pub fn field_figure(
         count => count.clamp(2, 4),
     };
     let (radius, first_angle) = disc.contact_place();
-    let has_status = frames.iter().any(|frame| !frame.2.is_empty());
+    // Beside an edge that is no whole hole there is no place for a ring.
+    let has_status = disc.mesh().has_round_contact() && frames.iter().any(|f| !f.2.is_empty());
     let panels = frames.into_iter().map(|(heading, values, status)| {
         let panel = disc
             .panel(0.01)
             .heading(heading)
             .layer(disc.field(values, axis.clone(), map));
-        let ring = (!status.is_empty()).then(|| status_ring(radius, first_angle, &status));
+        let ring =
+            (has_status && !status.is_empty()).then(|| status_ring(radius, first_angle, &status));
         panel.layers(ring).colour_bar(Side::Below)
     });
     let figure = Figure::new(name, caption).columns(columns).panels(panels);

@@ -96,6 +96,11 @@ impl<'a> Disc<'a> {
         places.map(|[x, y]| (x, y)).collect()
     }
 
+    /// The mesh.
+    pub fn mesh(&self) -> &Mesh2d {
+        self.mesh
+    }
+
     /// Smallest distance of the contact edge from the origin, m, and the angle of its first node.
     pub fn contact_place(&self) -> (f64, f64) {
         let edge = &self.mesh.contact_edge().nodes;

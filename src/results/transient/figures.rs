@@ -1,12 +1,12 @@
 //! The figures of a transient, from its record.
 
 use crate::chart::{Axis, ChartError, ColourMap, Figure, Line, Panel, SERIES, extremes};
-use crate::contact::ContactStatus;
+use crate::contact::{ContactInterface, ContactStatus};
 use crate::fem::{MaterialField, nodal_stress};
 use crate::mesh::Mesh2d;
 use crate::results::charts::palette::status_of_code;
 use crate::results::charts::{
-    Disc, FieldFrame, ModeLine, contact_figure, field_figure, status_curves,
+    Disc, FieldFrame, ModeLine, contact_figure, field_figure, open_contact_figure, status_curves,
 };
 use crate::results::drawing::{Declaration, DrawingOptions, draw_all};
 use crate::results::report::NamedFigure;
@@ -236,15 +236,25 @@ impl RunFigures<'_> {
         let snapshot = snapshot.ok_or_else(|| ChartError::empty("contact at the snapshots"))?;
         let frame = &snapshot.contact;
         let wide = |values: &[f32]| values.iter().map(|&v| f64::from(v)).collect::<Vec<f64>>();
-        let edge = self.mesh.contact_edge().nodes.iter();
+        let interface = ContactInterface::of(self.mesh);
+        let edge = interface.nodes.iter();
         let velocity: Vec<f64> = edge
             .map(|&node| snapshot.velocity[2 * node as usize + 1])
             .collect();
+        let values = [&wide(&frame.pressure)[..], &wide(&frame.shear), &velocity];
+        let instant = format!("*t* = {:.3} ms", snapshot.time * 1e3);
+        if !self.mesh.has_round_contact() {
+            let caption = "Contact at the last snapshot along the contact edge: tractions (a), velocity (b), on a ground coloured by status.";
+            return Ok(open_contact_figure(
+                ("contact".into(), caption.into(), instant),
+                &statuses(&frame.status),
+                values,
+                self.peripheral_speed,
+            ));
+        }
         let caption = "Contact at the last snapshot: status around the circle (a), tractions (b), velocity (c).";
         let first = self.record.contact_angles.first().copied().unwrap_or(0.0);
-        let instant = format!("*t* = {:.3} ms", snapshot.time * 1e3);
         let names = ("contact".into(), caption.into(), instant);
-        let values = [&wide(&frame.pressure)[..], &wide(&frame.shear), &velocity];
         Ok(contact_figure(
             names,
             (first, &statuses(&frame.status)),

@@ -6,7 +6,7 @@ use crate::chart::{
     Axis, Figure, INK, Line, MUTED, Panel, Rule, Stroke, extremes, look, significant,
 };
 use crate::results::charts::{
-    run_axis, signal_panel, spectrogram_panels, spectrum_panel, status_map, with_stages,
+    place_axis, run_axis, signal_panel, spectrogram_panels, spectrum_panel, status_map, with_stages,
 };
 use crate::signal::{SpectrogramOptions, Window, amplitude_spectrum, spectrogram};
 use std::collections::BTreeMap;
@@ -106,7 +106,7 @@ impl RunFigures<'_> {
             None => caption,
         };
         Some(
-            Panel::new(time, Axis::angle())
+            Panel::new(time, place_axis(self.mesh.has_round_contact()))
                 .plain()
                 .height(92.0)
                 .caption(caption)
