@@ -22,6 +22,7 @@ fn main() {
         radial_grading: 1.0,
         element: ElementKind::Quad4,
         outer: BoundaryCondition::Clamped,
+        shaft: None,
     };
     let material = ElasticMaterial {
         young_modulus: 2.5e9,

@@ -30,6 +30,7 @@ const SPECIFICATION: AnnulusSpecification = AnnulusSpecification {
     radial_grading: 1.0,
     element: ElementKind::Quad4,
     outer: BoundaryCondition::Clamped,
+    shaft: None,
 };
 const MATERIAL: ElasticMaterial = ElasticMaterial {
     young_modulus: 2.5e9,

@@ -20,6 +20,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
         radial_grading: 1.0,
         element: ElementKind::Quad8,
         outer: BoundaryCondition::Clamped,
+        shaft: None,
     };
     let polycarbonate = ElasticMaterial {
         young_modulus: 2.5e9,

@@ -23,6 +23,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
         radial_grading: 1.0,
         element: ElementKind::Quad4,
         outer: BoundaryCondition::Clamped,
+        shaft: None,
     })?
     .mesh;
     let polycarbonate = ElasticMaterial {

@@ -23,6 +23,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
         radial_grading: 1.0,
         element: ElementKind::Quad4,
         outer: BoundaryCondition::Clamped,
+        shaft: None,
     })?;
     let material = ElasticMaterial {
         young_modulus: 2.5e9,

@@ -49,6 +49,7 @@ fn disc_body(bytes: &[u8], scale: f64) -> Mesh2d {
         scale,
         contact: "inner".to_owned(),
         counterface: CYLINDER,
+        opposite: None,
         conditions: vec![("outer".to_owned(), BoundaryCondition::Clamped)],
     };
     Mesh2d::from_gmsh(&GmshFile::read(bytes).unwrap(), &specification).unwrap()
@@ -275,8 +276,9 @@ fn block_specification() -> BodySpecification {
         scale: 1.0,
         contact: "bottom".to_owned(),
         counterface: CounterfaceSpecification::Plane {
-            direction: [1.0, 0.0],
+            direction: Some([1.0, 0.0]),
         },
+        opposite: None,
         conditions: vec![
             ("right".to_owned(), BoundaryCondition::Guide),
             ("top".to_owned(), BoundaryCondition::Pressure(1e6)),
@@ -491,7 +493,7 @@ fn bad_files_and_names_are_refused_with_a_remedy() {
     let loose = with(&|s| s.conditions.clear());
     let away = with(&|s| {
         s.counterface = CounterfaceSpecification::Plane {
-            direction: [-1.0, 0.0],
+            direction: Some([-1.0, 0.0]),
         };
     });
     let half = &good[..good.len() / 2];
@@ -538,6 +540,7 @@ fn mutated_files_are_read_or_refused() {
         scale: 1.0,
         contact: "inner".to_owned(),
         counterface: CYLINDER,
+        opposite: None,
         conditions: vec![("outer".to_owned(), BoundaryCondition::Clamped)],
     };
     let mut state = 1_u64;

@@ -54,6 +54,8 @@ fn problem(
         unknowns: DofMap::excluding(size, []),
         contact_tangential: Vec::new(),
         contact_normal: Vec::new(),
+        contact_opposite: Vec::new(),
+        distances: Vec::new(),
         contact_angles: Vec::new(),
         sliding_direction: 1.0,
     }

@@ -20,6 +20,7 @@ fn ring(radii: [f64; 2], elements: [usize; 2]) -> AnnulusSpecification {
         radial_grading: 1.0,
         element: ElementKind::Quad4,
         outer: frictionsim::mesh::BoundaryCondition::Clamped,
+        shaft: None,
     }
 }
 

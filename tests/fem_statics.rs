@@ -22,6 +22,7 @@ fn annulus(element: ElementKind, circumferential: usize, radial: usize) -> Mesh2
         radial_grading: 1.05,
         element,
         outer: BoundaryCondition::Clamped,
+        shaft: None,
     };
     AnnulusMesh::generate(&specification).unwrap().mesh
 }

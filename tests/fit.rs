@@ -171,6 +171,7 @@ fn intervals_hold_on_an_imported_mesh() {
         radial_grading: 1.0,
         element: ElementKind::Quad8,
         outer: BoundaryCondition::Clamped,
+        shaft: None,
     };
     let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
     let numbers: Vec<usize> = (1..=mesh.node_count()).collect();

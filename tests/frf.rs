@@ -22,6 +22,7 @@ fn annulus() -> AnnulusMesh {
         radial_grading: 1.0,
         element: ElementKind::Quad4,
         outer: BoundaryCondition::Clamped,
+        shaft: None,
     })
     .unwrap()
 }

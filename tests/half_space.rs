@@ -55,6 +55,7 @@ fn annulus_speed(n: usize) -> c64 {
         radial_grading: 1.0,
         element: ElementKind::Quad8,
         outer: frictionsim::mesh::BoundaryCondition::Clamped,
+        shaft: None,
     };
     // Shear modulus and density one: speeds come in units of that of shear waves.
     let material = ElasticMaterial {

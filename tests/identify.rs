@@ -38,6 +38,7 @@ fn free_disc(step_hz: f64) -> (Vec<f64>, Vec<c64>) {
         radial_grading: 1.0,
         element: ElementKind::Quad4,
         outer: BoundaryCondition::Clamped,
+        shaft: None,
     };
     let material = ElasticMaterial {
         young_modulus: 2.5e9,

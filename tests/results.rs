@@ -25,6 +25,7 @@ fn annulus(element: ElementKind) -> AnnulusMesh {
         radial_grading: 1.2,
         element,
         outer: BoundaryCondition::Clamped,
+        shaft: None,
     })
     .unwrap()
 }

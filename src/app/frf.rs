@@ -139,7 +139,7 @@ fn cyclic_system(case: &Case, frf: &Frf) -> Result<CyclicSystem, Failure> {
     let contact = &case.contact.sliding;
     let system = if frf.boundary == FrfBoundary::Sliding {
         let options = tangent_options(case, frf.mass);
-        let tangent = SectorTangent::linearize(&sector, &case.material, &options, contact)?;
+        let tangent = SectorTangent::linearize(&sector, case.materials(), &options, contact)?;
         CyclicSystem::sliding(&tangent, contact.friction_coefficient)
     } else {
         let is_clamped = frf.boundary == FrfBoundary::Clamped;

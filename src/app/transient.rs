@@ -87,8 +87,7 @@ impl<'a> Prepared<'a> {
         let started = match self.settings.initial {
             InitialState::LimitCycle { harmonic, onset } => {
                 let family = Family { harmonic, onset };
-                let damping = self.model().bounding_damping();
-                let plan = StepPlan::new(operator, &damping, &self.settings)
+                let plan = StepPlan::of(&self.model(), operator, &self.settings)
                     .map_err(|error| self.failure(&error))?;
                 let [u, v] = initial::limit_cycle(self.case, family, plan.time_step)?;
                 CentralDifference::start_from(self.model(), operator, &self.settings, &u, v)
@@ -319,11 +318,7 @@ pub fn summarize(case: &Case, manifest: &Manifest) -> Result<Value, Failure> {
 pub fn time_step(case: &Case, manifest: &Manifest) -> Result<f64, Failure> {
     let prepared = Prepared::new(case, &manifest.simd)?;
     let operator = prepared.operator()?;
-    let plan = StepPlan::new(
-        operator.as_ref(),
-        &prepared.model().bounding_damping(),
-        &prepared.settings,
-    );
+    let plan = StepPlan::of(&prepared.model(), operator.as_ref(), &prepared.settings);
     Ok(plan.map_err(|error| prepared.failure(&error))?.time_step)
 }
 

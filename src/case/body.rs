@@ -1,6 +1,7 @@
 //! Bodies from mesh files: `mesh.file`, `[materials.*]`, and where the counterface is.
 
 use super::boundaries::NamedCondition;
+use super::opposite::{check_meeting, opposite_curve};
 use super::raw::{MeshBytes, RawCase};
 use super::reader::Section;
 use super::suggestion;
@@ -28,12 +29,15 @@ pub struct ImportedBody {
 pub(super) enum CounterfaceWord {
     Cylinder,
     Plane,
+    Body,
 }
 
 /// Where the counterface is, as `[contact]` says.
 pub(super) struct ContactPlace {
     pub boundary: String,
     pub counterface: CounterfaceSpecification,
+    /// Physical curve of the other body that it slides on.
+    pub opposite: Option<String>,
     /// Speed of a plane, m/s.
     pub plane_speed: Option<f64>,
 }
@@ -60,8 +64,16 @@ pub(super) fn contact_place(section: &Section<'_>) -> ContactPlace {
     let direction = pair("direction", [1.0, 0.0]);
     let speed = section.optional_number("speed");
     let word: CounterfaceWord = section.choice("counterface");
+    let opposite = opposite_curve(section, word);
     let (counterface, plane_speed) = match word {
-        CounterfaceWord::Cylinder => (CounterfaceSpecification::Cylinder { center, radius }, None),
+        CounterfaceWord::Body if speed.is_some() => {
+            let along = section.has("direction").then_some(direction);
+            let plane = CounterfaceSpecification::Plane { direction: along };
+            (plane, speed)
+        }
+        CounterfaceWord::Cylinder | CounterfaceWord::Body => {
+            (CounterfaceSpecification::Cylinder { center, radius }, None)
+        }
         CounterfaceWord::Plane => {
             if direction == [0.0; 2] {
                 section.reject(
@@ -71,7 +83,9 @@ pub(super) fn contact_place(section: &Section<'_>) -> ContactPlace {
                     None,
                 );
             }
-            let plane = CounterfaceSpecification::Plane { direction };
+            let plane = CounterfaceSpecification::Plane {
+                direction: Some(direction),
+            };
             (
                 plane,
                 Some(speed.unwrap_or_else(|| section.number("speed"))),
@@ -98,23 +112,9 @@ pub(super) fn contact_place(section: &Section<'_>) -> ContactPlace {
     ContactPlace {
         boundary,
         counterface,
+        opposite,
         plane_speed,
     }
-}
-
-/// The annulus has one material: sections for others are errors.
-pub(super) fn no_materials(root: &Section<'_>) {
-    let all = root.section("materials", false);
-    for (name, _) in all.remaining() {
-        all.reject(
-            name,
-            format!("[materials.{name}] is for a physical surface of a mesh file (mesh.file)"),
-            "the annulus has one material".to_owned(),
-            Some("describe it in [material]".to_owned()),
-        );
-        let _ = all.section(name, false);
-    }
-    all.close();
 }
 
 /// `[materials.*]`: elasticity in place of the common one, and damping of its own.
@@ -155,6 +155,8 @@ pub(super) fn materials(
 pub(super) struct BodyParts {
     pub scale: f64,
     pub place: ContactPlace,
+    /// How far the bodies are pushed into each other, m.
+    pub interference: f64,
     pub boundaries: Vec<NamedCondition>,
     pub materials: Vec<(String, RegionMaterial)>,
     pub common: ElasticMaterial,
@@ -189,9 +191,11 @@ pub(super) fn import(
         scale: parts.scale,
         contact: parts.place.boundary.clone(),
         counterface: parts.place.counterface,
+        opposite: parts.place.opposite.clone(),
         conditions: parts.boundaries.clone(),
     };
     let mesh = Mesh2d::from_gmsh(&read, &specification).map_err(unusable)?;
+    check_meeting(&mesh, parts).map_err(|message| (message, "bodies apart".to_owned()))?;
     for (name, _) in &parts.materials {
         if !mesh.regions.contains(name) {
             let known = mesh.regions.iter().map(String::as_str);
@@ -284,6 +288,7 @@ impl ImportedBody {
                 ElementKind::Quad4
             },
             outer: BoundaryCondition::Clamped,
+            shaft: None,
         }
     }
 }
@@ -311,7 +316,7 @@ impl super::Case {
     pub fn materials(&self) -> &dyn MaterialField {
         match &self.body {
             Some(body) => &body.materials,
-            None => &self.material,
+            None => &self.annulus_materials,
         }
     }
 }

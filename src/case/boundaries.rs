@@ -78,7 +78,11 @@ fn condition(section: &Section<'_>) -> BoundaryCondition {
 }
 
 /// The condition of the annulus's outer edge; other names are errors.
-pub(super) fn outer_edge(root: &Section<'_>, boundaries: &[NamedCondition]) -> BoundaryCondition {
+pub(super) fn outer_edge(
+    root: &Section<'_>,
+    boundaries: &[NamedCondition],
+    has_shaft: bool,
+) -> BoundaryCondition {
     let section = root.section("boundaries", false);
     let mut outer = BoundaryCondition::Clamped;
     for (name, condition) in boundaries {
@@ -93,6 +97,13 @@ pub(super) fn outer_edge(root: &Section<'_>, boundaries: &[NamedCondition]) -> B
                 "the contact is here",
                 "leave the section out",
             ),
+            ("shaft", _) => reject(
+                "boundaries.shaft is the contact edge of the shaft: it can have no condition of its own"
+                    .to_owned(),
+                "the contact is here",
+                "leave the section out; what holds the shaft is boundaries.bore",
+            ),
+            ("bore", _) if has_shaft => {}
             ("outer", BoundaryCondition::Clamped) => {}
             ("outer", BoundaryCondition::Support(support))
                 if support.tangential_stiffness > 0.0 =>
@@ -106,7 +117,7 @@ pub(super) fn outer_edge(root: &Section<'_>, boundaries: &[NamedCondition]) -> B
             ),
             _ => reject(
                 format!("the annulus has no boundary \"{name}\""),
-                "it has \"inner\" and \"outer\"",
+                "it has \"inner\" and \"outer\", and \"bore\" with geometry.shaft_inner_radius",
                 "other boundaries come from an imported mesh (mesh.file)",
             ),
         }

@@ -4,7 +4,7 @@ use super::Analysis;
 use super::body::ImportedBody;
 use super::model::node_count;
 use super::reader::Section;
-use crate::mesh::{AnnulusSpecification, ElementKind};
+use crate::mesh::{AnnulusSpecification, ElementKind, ShaftSpecification};
 
 /// Fewest refinements that an order can be observed from.
 const FEWEST: usize = 3;
@@ -32,7 +32,12 @@ impl Convergence {
         let radial_elements = times(annulus.radial_elements);
         // Element k of n begins at the same radius as element (factor k) of (factor n).
         let exponent = annulus.radial_elements as f64 / radial_elements.max(1) as f64;
+        let shaft = annulus.shaft.map(|shaft| ShaftSpecification {
+            radial_elements: times(shaft.radial_elements),
+            ..shaft
+        });
         AnnulusSpecification {
+            shaft,
             circumferential_elements: times(annulus.circumferential_elements),
             radial_elements,
             radial_grading: annulus.radial_grading.powf(exponent),

@@ -128,7 +128,7 @@ impl Case {
     pub fn cost(&self) -> Cost {
         let annulus = &self.annulus;
         let count = |mesh: &AnnulusSpecification| {
-            mesh.circumferential_elements as u128 * mesh.radial_elements as u128
+            mesh.circumferential_elements as u128 * mesh.elements_per_sector() as u128
         };
         let (mut nodes, mut elements) = (node_count(annulus), count(annulus));
         if let Some(body) = &self.body {

@@ -18,6 +18,7 @@ mod key;
 mod keys;
 mod model;
 mod node;
+mod opposite;
 mod overrides;
 mod parameters;
 mod plausibility;
@@ -26,6 +27,7 @@ mod raw;
 mod reader;
 pub mod reference;
 mod rules;
+mod shaft;
 mod suggestion;
 mod sweep;
 mod transient;
@@ -54,7 +56,7 @@ pub use sweep::{Analysis, Combination, Sweep, SweptKey};
 pub use transient::{Output, Transient};
 pub use uncertainty::{UncertainParameter, Uncertainty};
 
-use crate::fem::ElasticMaterial;
+use crate::fem::{AnnulusMaterials, ElasticMaterial};
 use crate::mesh::{AnnulusSpecification, ElementKind};
 use reader::{Findings, Section};
 
@@ -73,6 +75,8 @@ pub struct Case {
     pub body: Option<ImportedBody>,
     /// The disc's material.
     pub material: ElasticMaterial,
+    /// The materials of the annulus and its shaft.
+    pub annulus_materials: AnnulusMaterials,
     /// The disc's damping.
     pub damping: Damping,
     /// The cylinder and its contact.
@@ -129,6 +133,7 @@ impl Case {
         let material = model::material(&root);
         let model::Model {
             annulus,
+            shaft_material,
             thickness,
             body,
             mesh,
@@ -172,6 +177,10 @@ impl Case {
             annulus,
             body,
             material,
+            annulus_materials: AnnulusMaterials {
+                annulus: material,
+                shaft: shaft_material,
+            },
             damping,
             contact,
             cea,
@@ -237,6 +246,7 @@ impl Case {
     /// A case without `[basin]`, and one whose friction falls with speed.
     pub fn require_basin(&self) -> Result<&crate::cycle::BasinRequest, CaseErrors> {
         let remedy = "[basin]\nharmonics = [1, 2]";
+        self.require_rigid_shaft("the search for a basin")?;
         let found = self.basin.as_ref();
         let found = found.ok_or_else(|| self.lacks("basin", "search for a basin", remedy))?;
         self.require_constant_friction()?;
@@ -255,6 +265,7 @@ impl Case {
         if !self.is_annulus() {
             return Err(self.no_symmetry("limit cycles are rotating waves, which"));
         }
+        self.require_rigid_shaft("the search for limit cycles")?;
         self.require_quad4("limit cycles need \"quad4\"")?;
         self.require_constant_friction()?;
         let key = "contact.rotation_speed_rpm";
@@ -320,6 +331,9 @@ impl Case {
         let remedy =
             "[frf]\nforce_node = 36\nfrequencies_hz = { from = 1.0, to = 10000.0, count = 10000 }";
         let frf = self.frf.as_ref();
+        if frf.is_some_and(|frf| frf.boundary != crate::frf::FrfBoundary::Sliding) {
+            self.require_rigid_shaft("a response without contact (frf.boundary)")?;
+        }
         frf.ok_or_else(|| self.lacks("frf", "frequency response", remedy))
     }
 

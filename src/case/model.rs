@@ -4,8 +4,9 @@ use super::body::{self, BodyParts, ContactPlace, ImportedBody};
 use super::boundaries::{self, NamedCondition};
 use super::raw::{MeshBytes, RawCase};
 use super::reader::Section;
+use super::shaft;
 use crate::contact::{ContactStiffness, FrictionDecay, SlidingContact};
-use crate::fem::{ElasticMaterial, RayleighDamping};
+use crate::fem::{ElasticMaterial, RayleighDamping, RegionMaterial};
 use crate::mesh::{AnnulusSpecification, BoundaryCondition, ElementKind};
 use std::f64::consts::TAU;
 
@@ -30,18 +31,14 @@ pub struct Contact {
 
 /// Nodes of a mesh, in a width that no input overflows.
 pub(super) fn node_count(annulus: &AnnulusSpecification) -> u128 {
-    let radial = annulus.radial_elements as u128;
-    let per_sector = if annulus.element.is_quadratic() {
-        3 * radial + 2
-    } else {
-        radial + 1
-    };
-    per_sector.saturating_mul(annulus.circumferential_elements as u128)
+    let around = annulus.circumferential_elements as u128;
+    annulus.nodes_per_sector().saturating_mul(around)
 }
 
 /// Geometry, mesh and contact of a case.
 pub(super) struct Model {
     pub annulus: AnnulusSpecification,
+    pub shaft_material: Option<RegionMaterial>,
     pub thickness: f64,
     pub body: Option<ImportedBody>,
     pub mesh: Option<MeshBytes>,
@@ -57,13 +54,13 @@ pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &ElasticMateria
     let geometry = root.section("geometry", file.is_none());
     let thickness = geometry.number("thickness");
     let Some(file) = file else {
-        let annulus = annulus(root, &geometry, &mesh, &conditions);
+        let (annulus, shaft_material) = annulus(root, &geometry, &mesh, &conditions, material);
         geometry.close();
         mesh.close();
-        body::no_materials(root);
         let (contact, _) = contact(root, true);
         return Model {
             annulus,
+            shaft_material,
             thickness,
             body: None,
             mesh: None,
@@ -71,14 +68,21 @@ pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &ElasticMateria
         };
     };
     // What describes an annulus has no effect here.
-    let _ = ["inner_radius", "outer_radius"].map(|key| geometry.optional_number(key));
-    let _ = ["circumferential_elements", "radial_elements"].map(|key| mesh.optional_count(key));
+    let radii = ["inner_radius", "outer_radius", "shaft_inner_radius"];
+    let _ = radii.map(|key| geometry.optional_number(key));
+    let counts = [
+        "circumferential_elements",
+        "radial_elements",
+        "shaft_radial_elements",
+    ];
+    let _ = counts.map(|key| mesh.optional_count(key));
     let (_, _): (_, ElementKind) = (mesh.number("radial_grading"), mesh.choice("element"));
     geometry.close();
     let (contact, place) = contact(root, false);
     let parts = BodyParts {
         scale,
         place,
+        interference: contact.sliding.interference,
         boundaries: conditions,
         materials: body::materials(root, material),
         common: *material,
@@ -99,11 +103,13 @@ pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &ElasticMateria
         radial_grading: 1.0,
         element: ElementKind::Quad4,
         outer: BoundaryCondition::Clamped,
+        shaft: None,
     };
     Model {
         annulus: body
             .as_ref()
             .map_or(nothing, ImportedBody::equivalent_annulus),
+        shaft_material: None,
         thickness,
         body,
         mesh: bytes,
@@ -116,7 +122,8 @@ fn annulus(
     geometry: &Section<'_>,
     mesh: &Section<'_>,
     conditions: &[NamedCondition],
-) -> AnnulusSpecification {
+    material: &ElasticMaterial,
+) -> (AnnulusSpecification, Option<RegionMaterial>) {
     let inner_radius = geometry.number("inner_radius");
     let outer_radius = geometry.number("outer_radius");
     if outer_radius <= inner_radius {
@@ -130,6 +137,7 @@ fn annulus(
             Some("both are radii in metres; are they swapped?".to_owned()),
         );
     }
+    let shaft = shaft::shaft(root, [geometry, mesh], inner_radius, conditions, material);
     let annulus = AnnulusSpecification {
         inner_radius,
         outer_radius,
@@ -137,10 +145,11 @@ fn annulus(
         radial_elements: mesh.count("radial_elements"),
         radial_grading: mesh.number("radial_grading"),
         element: mesh.choice("element"),
-        outer: boundaries::outer_edge(root, conditions),
+        outer: boundaries::outer_edge(root, conditions, shaft.is_some()),
+        shaft: shaft.map(|(shaft, _)| shaft),
     };
     check_mesh(mesh, &annulus);
-    annulus
+    (annulus, shaft.map(|(_, material)| material))
 }
 
 fn check_mesh(mesh: &Section<'_>, annulus: &AnnulusSpecification) {
@@ -201,6 +210,7 @@ fn contact(root: &Section<'_>, is_annulus: bool) -> (Contact, ContactPlace) {
     if is_annulus {
         for key in [
             "boundary",
+            "counter_boundary",
             "counterface",
             "center",
             "radius",

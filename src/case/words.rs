@@ -36,7 +36,7 @@ words! {
         "pressure" = Self::Pressure,
         "free" = Self::Free,
     }
-    CounterfaceWord { "cylinder" = Self::Cylinder, "plane" = Self::Plane }
+    CounterfaceWord { "cylinder" = Self::Cylinder, "plane" = Self::Plane, "body" = Self::Body }
     ElementKind { "quad4" = Self::Quad4, "quad8" = Self::Quad8 }
     PlaneFormulation { "plane-strain" = Self::PlaneStrain, "plane-stress" = Self::PlaneStress }
     MassKind { "consistent" = Self::Consistent, "lumped" = Self::Lumped }

@@ -1,7 +1,10 @@
 //! The contact edge of a mesh.
 
+use super::opposite::{OppositeShare, meetings};
 use super::{SlidingContact, SteadyFriction};
+use crate::fem::Triplets;
 use crate::mesh::{BoundaryCondition, Counterface, Mesh2d};
+use std::collections::BTreeMap;
 
 /// Contact nodes with their geometry, in order along the edge (of rising angle on the annulus).
 #[derive(Clone, Debug, PartialEq)]
@@ -16,10 +19,13 @@ pub struct ContactInterface {
     pub gaps: Vec<f64>,
     /// The counterface.
     pub counterface: Counterface,
+    /// For each node how the opposite body moves there; empty on a rigid counterface.
+    pub opposite: Vec<Vec<OppositeShare>>,
 }
 
 impl ContactInterface {
-    /// The contact edge of `mesh`; nodes that a boundary condition clamps have no part in it.
+    /// The contact edge of `mesh`; nodes that a boundary condition clamps, or that have no other body before them, have no
+    /// part in it.
     pub fn of(mesh: &Mesh2d) -> Self {
         let edge = mesh.contact_edge();
         let mut is_clamped = vec![false; mesh.node_count()];
@@ -31,13 +37,15 @@ impl ContactInterface {
                     .for_each(|&node| is_clamped[node as usize] = true);
             }
         }
+        let mut meetings = meetings(mesh);
+        let meets = |i: usize| meetings.as_ref().is_none_or(|all| all[i].covered > 0.0);
         let kept: Vec<usize> = (0..edge.nodes.len())
-            .filter(|&i| !is_clamped[edge.nodes[i] as usize])
+            .filter(|&i| !is_clamped[edge.nodes[i] as usize] && meets(i))
             .collect();
         let nodes: Vec<u32> = kept.iter().map(|&i| edge.nodes[i]).collect();
         let point = |node: &u32| mesh.nodes[*node as usize];
         let counterface = mesh.counterface;
-        let (angles, gaps) = if mesh.is_cyclic {
+        let (angles, mut gaps) = if mesh.is_cyclic {
             // Exact as generated: a contact circle without gaps.
             let frames = nodes.iter().map(|&node| mesh.frame_angles[node as usize]);
             (frames.collect(), vec![0.0; nodes.len()])
@@ -46,13 +54,95 @@ impl ContactInterface {
             let gaps = nodes.iter().map(|node| counterface.gap(point(node)));
             (phases(&counterface, places.collect()), gaps.collect())
         };
+        let mut lengths: Vec<f64> = kept.iter().map(|&i| edge.tributary_lengths[i]).collect();
+        let mut opposite = Vec::new();
+        for (k, &i) in kept.iter().enumerate() {
+            if let Some(meeting) = meetings.as_mut().map(|all| std::mem::take(&mut all[i])) {
+                lengths[k] *= meeting.covered;
+                gaps[k] -= meeting.height;
+                opposite.push(meeting.shares);
+            }
+        }
         Self {
+            opposite,
             angles,
-            tributary_lengths: kept.iter().map(|&i| edge.tributary_lengths[i]).collect(),
+            tributary_lengths: lengths,
             gaps,
             counterface,
             nodes,
         }
+    }
+
+    /// The opposite body's shares at contact node `i`, none on a rigid counterface.
+    pub fn opposite_of(&self, i: usize) -> &[OppositeShare] {
+        self.opposite.get(i).map_or(&[], Vec::as_slice)
+    }
+
+    /// Slip of contact node `i` over what it touches, `u_t - sum P u`, as `(dof, coefficient)`.
+    pub fn slip(&self, i: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
+        let opposite = self.opposite_of(i).iter();
+        std::iter::once((self.tangential_dof(i), 1.0))
+            .chain(opposite.map(|share| (share.dof, -share.tangential)))
+            .filter(|&(_, along)| along != 0.0)
+    }
+
+    /// From displacements to distances: `T^T A T` with `u = T y`, where `y` has in place of each contact node's normal
+    /// displacement how far it moves away from the opposite body, `w_i = u_n,i - sum P u`.
+    ///
+    /// A force along `w_i` then acts on both bodies at once. Nothing changes on a rigid counterface.
+    pub fn to_distances(&self, matrix: &mut Triplets) {
+        if self.opposite.is_empty() {
+            return;
+        }
+        let shares = self.shares_by_normal();
+        let with_shares = |dof: usize| {
+            let opposite = shares.get(&dof).copied().unwrap_or(&[]).iter();
+            std::iter::once((dof, 1.0)).chain(opposite.map(|share| (share.dof, share.normal)))
+        };
+        let entries = matrix.entries.iter().flat_map(|&(row, column, value)| {
+            with_shares(row).flat_map(move |(row, along)| {
+                with_shares(column)
+                    .map(move |(column, across)| (row, column, along * value * across))
+            })
+        });
+        matrix.entries = entries.filter(|entry| entry.2 != 0.0).collect();
+    }
+
+    /// `u = T y`, see [`Self::to_distances`].
+    pub fn to_displacements<T>(&self, values: &mut [T])
+    where
+        T: Copy + std::ops::AddAssign + std::ops::Mul<f64, Output = T>,
+    {
+        for i in 0..self.opposite.len() {
+            for share in self.opposite_of(i) {
+                let moved = values[share.dof] * share.normal;
+                values[self.normal_dof(i)] += moved;
+            }
+        }
+    }
+
+    /// `T^T f` of forces over all dofs, see [`Self::to_distances`].
+    pub fn to_distance_forces(&self, forces: &mut [f64]) {
+        for i in 0..self.opposite.len() {
+            for share in self.opposite_of(i) {
+                forces[share.dof] += share.normal * forces[self.normal_dof(i)];
+            }
+        }
+    }
+
+    /// Separation of contact node `i` from what it touches, `u_n - sum P u`, as `(dof, coefficient)`.
+    pub fn separation(&self, i: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
+        let opposite = self.opposite_of(i).iter();
+        std::iter::once((self.normal_dof(i), 1.0))
+            .chain(opposite.map(|share| (share.dof, -share.normal)))
+            .filter(|&(_, along)| along != 0.0)
+    }
+
+    fn shares_by_normal(&self) -> BTreeMap<usize, &[OppositeShare]> {
+        let nodes = 0..self.opposite.len();
+        nodes
+            .map(|i| (self.normal_dof(i), self.opposite_of(i)))
+            .collect()
     }
 
     /// Full dof of contact node `i`'s normal displacement.

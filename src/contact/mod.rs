@@ -8,11 +8,13 @@
 
 mod interface;
 mod law;
+mod opposite;
 
 pub use interface::ContactInterface;
 pub use law::{
     ContactStatus, CoulombFriction, FrictionDecay, NodeFriction, SlippingNode, SteadyFriction,
 };
+pub use opposite::OppositeShare;
 
 /// The rigid moving counterface and its friction law.
 #[derive(Clone, Copy, Debug, PartialEq)]

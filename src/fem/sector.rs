@@ -6,7 +6,7 @@
 //! mirror, and `i` times real where the mirror reverses it (the stress of sliding friction).
 
 use super::element;
-use super::{ElasticMaterial, MassKind};
+use super::{MassKind, MaterialField, RayleighDamping};
 use crate::linalg::banded::BandedMatrix;
 use crate::mesh::{NodalSupport, SectorMesh};
 use nalgebra::DMatrix;
@@ -173,16 +173,22 @@ impl SectorMatrix {
     }
 }
 
-/// Half bandwidth of a sector's matrices.
+/// Half bandwidth of a sector's matrices; with room for the contact of two bodies, in which a node of the shaft takes part
+/// in the motion of the pair.
 pub fn half_bandwidth(sector: &SectorMesh) -> usize {
-    if sector.specification.element.is_quadratic() {
+    let of_one_body = if sector.specification.element.is_quadratic() {
         9
     } else {
         3
-    }
+    };
+    let pair = sector
+        .specification
+        .shaft
+        .map_or(0, |_| 2 * sector.contact_count);
+    of_one_body + pair
 }
 
-/// Springs and dashpots of the supported outer edge, Pa and Pa s; `None` where it has no support.
+/// Springs and dashpots of the supported edges, Pa and Pa s; `None` where it has no support.
 pub fn supports(sector: &SectorMesh) -> Option<[SectorMatrix; 2]> {
     let supports = sector.strip.nodal_supports();
     if supports.is_empty() {
@@ -197,7 +203,7 @@ pub fn supports(sector: &SectorMesh) -> Option<[SectorMatrix; 2]> {
 }
 
 /// Stiffness of one sector with the springs of its supports, Pa.
-pub fn supported_stiffness(sector: &SectorMesh, material: &ElasticMaterial) -> SectorMatrix {
+pub fn supported_stiffness(sector: &SectorMesh, material: &dyn MaterialField) -> SectorMatrix {
     let elastic = stiffness(sector, material);
     match supports(sector) {
         Some([springs, _]) => elastic.plus(&springs),
@@ -206,23 +212,52 @@ pub fn supported_stiffness(sector: &SectorMesh, material: &ElasticMaterial) -> S
 }
 
 /// Elastic stiffness `K_e` of one sector without its supports, Pa.
-pub fn stiffness(sector: &SectorMesh, material: &ElasticMaterial) -> SectorMatrix {
+pub fn stiffness(sector: &SectorMesh, material: &dyn MaterialField) -> SectorMatrix {
+    let mesh = &sector.strip;
     SectorMatrix::assemble(sector, MirrorParity::Even, |e| {
-        element::stiffness(&sector.strip, e, material)
+        element::stiffness(mesh, e, material.of(mesh.region(e)))
     })
 }
 
+/// What damping coefficients of their own add to `alpha_R M + beta_R K_e`, Pa s; `None` where no region has its own. See
+/// [`super::assemble_extra_damping`].
+pub fn extra_damping(
+    sector: &SectorMesh,
+    material: &dyn MaterialField,
+    kind: MassKind,
+    common: RayleighDamping,
+) -> Option<SectorMatrix> {
+    let mesh = &sector.strip;
+    let own = |e: usize| material.own_damping(mesh.region(e));
+    (0..mesh.element_count()).find_map(own)?;
+    Some(SectorMatrix::assemble(sector, MirrorParity::Even, |e| {
+        let elastic = material.of(mesh.region(e));
+        let damping = own(e).unwrap_or(common);
+        let mass = match kind {
+            MassKind::Consistent => element::consistent_mass(mesh, e, elastic),
+            MassKind::Lumped => {
+                let masses = element::lumped_mass(mesh, e, elastic);
+                let size = 2 * masses.len();
+                DMatrix::from_fn(size, size, |i, j| if i == j { masses[i / 2] } else { 0.0 })
+            }
+        };
+        mass * (damping.mass_coefficient - common.mass_coefficient)
+            + element::stiffness(mesh, e, elastic)
+                * (damping.stiffness_coefficient - common.stiffness_coefficient)
+    }))
+}
+
 /// Mass of one sector, kg/m.
-pub fn mass(sector: &SectorMesh, material: &ElasticMaterial, kind: MassKind) -> SectorMatrix {
+pub fn mass(sector: &SectorMesh, material: &dyn MaterialField, kind: MassKind) -> SectorMatrix {
     let mesh = &sector.strip;
     match kind {
         MassKind::Consistent => SectorMatrix::assemble(sector, MirrorParity::Even, |e| {
-            element::consistent_mass(mesh, e, material)
+            element::consistent_mass(mesh, e, material.of(mesh.region(e)))
         }),
         MassKind::Lumped => {
             let mut masses = vec![0.0; sector.node_count()];
             for e in 0..mesh.element_count() {
-                let shares = element::lumped_mass(mesh, e, material);
+                let shares = element::lumped_mass(mesh, e, material.of(mesh.region(e)));
                 for (&node, share) in mesh.element_nodes(e).iter().zip(shares) {
                     masses[sector.sector_node_of[node as usize]] += share;
                 }
@@ -238,7 +273,7 @@ pub fn mass(sector: &SectorMesh, material: &ElasticMaterial, kind: MassKind) -> 
 /// and purely tangential for odd parity.
 pub fn geometric_stiffness(
     sector: &SectorMesh,
-    material: &ElasticMaterial,
+    material: &dyn MaterialField,
     displacement: &[f64],
     parity: MirrorParity,
 ) -> SectorMatrix {
@@ -249,6 +284,7 @@ pub fn geometric_stiffness(
         .flat_map(|node| [component(2 * node), component(2 * node + 1)])
         .collect();
     SectorMatrix::assemble(sector, parity, |e| {
+        let material = material.of(sector.strip.region(e));
         element::geometric_stiffness(&sector.strip, e, material, &spread)
     })
 }

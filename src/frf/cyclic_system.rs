@@ -89,7 +89,15 @@ impl CyclicSystem {
             tangent: Box::new(tangent.clone()),
             friction_coefficient,
         };
-        Self::new(tangent.sector().clone(), state, tangent.unknowns())
+        let mut system = Self::new(tangent.sector().clone(), state, tangent.unknowns());
+        let sector = tangent.sector();
+        for node in sector.contact_nodes() {
+            // A distance between two bodies is no place to strike or to observe.
+            if sector.opposite(node).is_some() {
+                system.unknown_of[2 * node] = None;
+            }
+        }
+        system
     }
 
     fn new(sector: SectorMesh, state: State, unknowns: Vec<usize>) -> Self {

@@ -165,6 +165,7 @@ mod tests {
             radial_grading: 1.0,
             element: ElementKind::Quad4,
             outer: BoundaryCondition::Clamped,
+            shaft: None,
         };
         let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
         let material = ElasticMaterial {

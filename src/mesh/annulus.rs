@@ -1,10 +1,7 @@
 //! The structured annulus mesh.
 
-use super::{Boundary, BoundaryCondition, Counterface, ElementKind, Mesh2d};
-use std::f64::consts::{PI, TAU};
-
-/// Name of the inner edge, where the contact is.
-const INNER: &str = "inner";
+use super::sectors::{build, graded_radii, sector_node_count};
+use super::{BoundaryCondition, ElementKind, Mesh2d};
 
 /// What the annulus generator needs to know (lengths in m).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,6 +20,19 @@ pub struct AnnulusSpecification {
     pub element: ElementKind,
     /// What holds the outer edge, usually [`BoundaryCondition::Clamped`].
     pub outer: BoundaryCondition,
+    /// The deformable shaft inside; `None` is a rigid cylinder.
+    pub shaft: Option<ShaftSpecification>,
+}
+
+/// A deformable shaft, hollow, from its bore to the inner edge of the annulus.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ShaftSpecification {
+    /// Radius of the bore, m.
+    pub inner_radius: f64,
+    /// Elements along a radius, of equal size.
+    pub radial_elements: usize,
+    /// What holds the bore, usually [`BoundaryCondition::Clamped`].
+    pub bore: BoundaryCondition,
 }
 
 /// A mesh that cannot be built from its specification.
@@ -70,6 +80,23 @@ pub enum MeshError {
          or \"support\" with a tangential_stiffness"
     )]
     NotHeld,
+    /// A shaft without material between its bore and its outer edge.
+    #[error(
+        "the shaft's bore of {bore} m must be positive and smaller than geometry.inner_radius = {radius} m: \
+         correct geometry.shaft_inner_radius"
+    )]
+    Bore {
+        /// Radius of the bore, m.
+        bore: f64,
+        /// Radius of the contact, m.
+        radius: f64,
+    },
+    /// A bore that leaves the shaft free to turn with the disc.
+    #[error(
+        "nothing holds the shaft against the friction that turns it: boundaries.bore needs condition = \"clamped\", \
+         or \"support\" with a tangential_stiffness"
+    )]
+    ShaftNotHeld,
     /// The grading is not a positive finite ratio.
     #[error("mesh.radial_grading = {value} must be a positive number (1 = uniform)")]
     Grading {
@@ -83,7 +110,8 @@ pub enum MeshError {
 /// Nodes are numbered radially fastest: corner node `(i, j)` of a Quad4 mesh, `i = 0..=N_r`,
 /// `j = 0..N_theta`, has index `j (N_r + 1) + i`. A Quad8 sector holds `2 N_r + 1` nodes on its
 /// corner ray (corner and mid-side nodes alternate), then the `N_r + 1` mid-side nodes on its
-/// middle ray.
+/// middle ray. Of a shaft all nodes of a sector come before those of the annulus, numbered alike; the two bodies share
+/// no node, nodes of the contact lie in pairs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AnnulusMesh {
     /// The generated mesh.
@@ -103,7 +131,7 @@ impl AnnulusMesh {
         let spec = *specification;
         validate(&spec)?;
         let radii = graded_radii(&spec);
-        let mesh = build(&spec, &radii, spec.circumferential_elements);
+        let mesh = build(&spec, spec.circumferential_elements);
         Ok(Self {
             mesh,
             specification: spec,
@@ -122,11 +150,25 @@ impl AnnulusMesh {
     }
 }
 
-pub(super) fn sector_node_count(spec: &AnnulusSpecification) -> usize {
-    if spec.element.is_quadratic() {
-        3 * spec.radial_elements + 2
-    } else {
-        spec.radial_elements + 1
+impl AnnulusSpecification {
+    /// Nodes of one sector, in a width that no input overflows.
+    pub fn nodes_per_sector(&self) -> u128 {
+        let of = |radial: usize| {
+            let radial = radial as u128;
+            if self.element.is_quadratic() {
+                3 * radial + 2
+            } else {
+                radial + 1
+            }
+        };
+        let shaft = self.shaft.map_or(0, |shaft| of(shaft.radial_elements));
+        of(self.radial_elements) + shaft
+    }
+
+    /// Elements of one sector.
+    pub fn elements_per_sector(&self) -> usize {
+        let shaft = self.shaft.map_or(0, |shaft| shaft.radial_elements);
+        self.radial_elements.saturating_add(shaft)
     }
 }
 
@@ -158,18 +200,17 @@ pub(super) fn validate(spec: &AnnulusSpecification) -> Result<(), MeshError> {
     if !is_held {
         return Err(MeshError::NotHeld);
     }
+    if let Some(shaft) = spec.shaft {
+        validate_shaft(spec, &shaft)?;
+    }
     if !(spec.radial_grading > 0.0 && spec.radial_grading.is_finite()) {
         return Err(MeshError::Grading {
             value: spec.radial_grading,
         });
     }
-    let radial = spec.radial_elements as u128;
-    let per_sector = if spec.element.is_quadratic() {
-        3 * radial + 2
-    } else {
-        radial + 1
-    };
-    let nodes = per_sector.saturating_mul(spec.circumferential_elements as u128);
+    let nodes = spec
+        .nodes_per_sector()
+        .saturating_mul(spec.circumferential_elements as u128);
     if nodes > u128::from(u32::MAX / 2) {
         return Err(MeshError::TooManyNodes {
             nodes,
@@ -179,160 +220,32 @@ pub(super) fn validate(spec: &AnnulusSpecification) -> Result<(), MeshError> {
     Ok(())
 }
 
-/// Radii of the corner nodes: element sizes form a geometric sequence of ratio `radial_grading`.
-pub(super) fn graded_radii(spec: &AnnulusSpecification) -> Vec<f64> {
-    let count = spec.radial_elements;
-    let width = spec.outer_radius - spec.inner_radius;
-    let ratio = spec.radial_grading;
-    let mut radii: Vec<f64> = (0..=count)
-        .map(|i| {
-            let fraction = if ratio == 1.0 {
-                i as f64 / count as f64
-            } else {
-                // expm1 keeps ratios near 1 exact: (q^i - 1) / (q^n - 1).
-                let log = ratio.ln();
-                (i as f64 * log).exp_m1() / (count as f64 * log).exp_m1()
-            };
-            spec.inner_radius + width * fraction
-        })
-        .collect();
-    radii[count] = spec.outer_radius;
-    radii
-}
-
-/// The first `built` sectors: all of them, or one with the corner ray that it shares with the next.
-pub(super) fn build(spec: &AnnulusSpecification, radii: &[f64], built: usize) -> Mesh2d {
-    let sectors = spec.circumferential_elements;
-    let per_sector = sector_node_count(spec);
-    let node_sectors = if built < sectors { built + 1 } else { sectors };
-    let node_total = node_sectors * per_sector;
-    let mut nodes = Vec::with_capacity(node_total);
-    let mut frame_angles = Vec::with_capacity(node_total);
-    let mut push = |radius: f64, angle: f64| {
-        nodes.push([radius * angle.cos(), radius * angle.sin()]);
-        frame_angles.push(angle);
-    };
-    for sector in 0..node_sectors {
-        let angle = TAU * sector as f64 / sectors as f64;
-        if spec.element.is_quadratic() {
-            push(radii[0], angle);
-            for pair in radii.windows(2) {
-                push(0.5 * (pair[0] + pair[1]), angle);
-                push(pair[1], angle);
-            }
-            let middle = TAU * (sector as f64 + 0.5) / sectors as f64;
-            radii.iter().for_each(|&r| push(r, middle));
-        } else {
-            radii.iter().for_each(|&r| push(r, angle));
-        }
+fn validate_shaft(
+    spec: &AnnulusSpecification,
+    shaft: &ShaftSpecification,
+) -> Result<(), MeshError> {
+    let (bore, radius) = (shaft.inner_radius, spec.inner_radius);
+    if !(bore > 0.0 && bore < radius) {
+        return Err(MeshError::Bore { bore, radius });
     }
-    let (elements, congruent_to) = connect(spec, built);
-    let count = congruent_to.len();
-    let mut boundaries = [false, true].map(|outer| edge(spec, radii, outer, built));
-    for boundary in &mut boundaries {
-        let inward = if boundary.name == INNER { PI } else { 0.0 };
-        let nodes = boundary.nodes.iter();
-        boundary.normal_angles = nodes
-            .map(|&node| frame_angles[node as usize] + inward)
-            .collect();
+    if shaft.radial_elements < 1 {
+        return Err(MeshError::TooFewElements {
+            key: "shaft_radial_elements",
+            count: shaft.radial_elements,
+            minimum: 1,
+        });
     }
-    let per_element = spec.element.node_count();
-    Mesh2d {
-        nodes,
-        frame_angles,
-        element_kinds: vec![spec.element; count],
-        element_starts: (0..=count).map(|e| (per_element * e) as u32).collect(),
-        elements,
-        congruent_to,
-        regions: vec!["disc".to_owned()],
-        element_regions: vec![0; count],
-        labels: Vec::new(),
-        boundaries: boundaries.into(),
-        contact: 0,
-        counterface: Counterface::Cylinder {
-            center: [0.0; 2],
-            radius: radii[0],
-            is_inside: true,
-        },
-        is_cyclic: true,
+    match shaft.bore {
+        BoundaryCondition::Clamped => Ok(()),
+        BoundaryCondition::Support(support) if support.tangential_stiffness > 0.0 => Ok(()),
+        _ => Err(MeshError::ShaftNotHeld),
     }
-}
-
-/// Element connectivity, and for each element its representative in sector 0.
-fn connect(spec: &AnnulusSpecification, built: usize) -> (Vec<u32>, Vec<u32>) {
-    let (sectors, count) = (spec.circumferential_elements, spec.radial_elements);
-    let per_sector = sector_node_count(spec);
-    let mut elements = Vec::with_capacity(built * count * spec.element.node_count());
-    let mut congruent_to = Vec::with_capacity(built * count);
-    for sector in 0..built {
-        let here = sector * per_sector;
-        let next = (sector + 1) % sectors * per_sector;
-        for i in 0..count {
-            let ids = if spec.element.is_quadratic() {
-                let middle = here + 2 * count + 1;
-                vec![
-                    here + 2 * i,
-                    here + 2 * i + 2,
-                    next + 2 * i + 2,
-                    next + 2 * i,
-                    here + 2 * i + 1,
-                    middle + i + 1,
-                    next + 2 * i + 1,
-                    middle + i,
-                ]
-            } else {
-                vec![here + i, here + i + 1, next + i + 1, next + i]
-            };
-            elements.extend(ids.into_iter().map(|id| id as u32));
-            congruent_to.push(i as u32);
-        }
-    }
-    (elements, congruent_to)
-}
-
-/// Nodes along the inner or outer circle with `∫ N_i (n . e_r,i) ds` of the element edges.
-///
-/// With `h` half a sector's angle: a straight edge gives `a sin h cos h` to each end; a quadratic edge
-/// through three points of the circle gives `(a / 3) sin h (2 - cos h)` to each end and
-/// `(4 a / 3) sin h` to its middle.
-fn edge(spec: &AnnulusSpecification, radii: &[f64], outer: bool, built: usize) -> Boundary {
-    let (sectors, count) = (spec.circumferential_elements, spec.radial_elements);
-    let per_sector = sector_node_count(spec);
-    let radius = if outer { radii[count] } else { radii[0] };
-    let (sin, cos) = (PI / sectors as f64).sin_cos();
-    let (name, condition) = if outer {
-        ("outer", spec.outer)
-    } else {
-        (INNER, BoundaryCondition::Free)
-    };
-    let mut boundary = Boundary {
-        name: name.to_owned(),
-        is_closed: built == sectors,
-        condition,
-        ..Boundary::default()
-    };
-    let mut push = |node: usize, length: f64| {
-        boundary.nodes.push(node as u32);
-        boundary.tributary_lengths.push(length);
-    };
-    for sector in 0..built {
-        let here = sector * per_sector;
-        if spec.element.is_quadratic() {
-            let corner = here + if outer { 2 * count } else { 0 };
-            push(corner, 2.0 / 3.0 * radius * sin * (2.0 - cos));
-            let middle = here + 2 * count + 1 + if outer { count } else { 0 };
-            push(middle, 4.0 / 3.0 * radius * sin);
-        } else {
-            let corner = here + if outer { count } else { 0 };
-            push(corner, 2.0 * radius * sin * cos);
-        }
-    }
-    boundary
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::TAU;
 
     fn paper(element: ElementKind) -> AnnulusSpecification {
         AnnulusSpecification {
@@ -343,6 +256,7 @@ mod tests {
             radial_grading: 1.0,
             element,
             outer: BoundaryCondition::Clamped,
+            shaft: None,
         }
     }
 

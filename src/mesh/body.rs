@@ -1,7 +1,8 @@
 //! From a mesh file to a body: regions, boundaries with what holds them, and the contact edge.
 
 use super::curve::{Curve, EdgeWeights};
-use super::gmsh::{GmshFile, MeshFileError, PlaneElement};
+use super::gmsh::{GmshFile, MeshFileError};
+use super::plane_body::{plane_body, used_nodes};
 use super::{Boundary, BoundaryCondition, Counterface, Mesh2d};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -15,8 +16,10 @@ pub struct BodySpecification {
     pub scale: f64,
     /// Physical curve that touches the counterface.
     pub contact: String,
-    /// The counterface, as far as it is given.
+    /// The counterface, as far as it is given; of two bodies the surface that they share.
     pub counterface: CounterfaceSpecification,
+    /// Physical curve of the other body that it slides on; `None` for a rigid counterface.
+    pub opposite: Option<String>,
     /// What holds each boundary; those not named are free.
     pub conditions: Vec<(String, BoundaryCondition)>,
 }
@@ -33,8 +36,8 @@ pub enum CounterfaceSpecification {
     },
     /// A plane that just touches the undeformed body.
     Plane {
-        /// The way it slides.
-        direction: [f64; 2],
+        /// The way it slides; `None` along the contact curve, from its first point to its last, the body on the left.
+        direction: Option<[f64; 2]>,
     },
 }
 
@@ -105,6 +108,24 @@ impl Mesh2d {
                 &contact.nodes,
             ));
         }
+        if let Some(name) = &specification.opposite {
+            let curve = find(name, "contact.counter_boundary")?;
+            Curve::check_apart([contact, curve], [&specification.contact, name], &labels)?;
+            let place = boundaries
+                .iter()
+                .position(|boundary| boundary.name == *name);
+            if place.is_some_and(|b| boundaries[b].condition != BoundaryCondition::Free) {
+                return Err(body(format!(
+                    "boundaries.{name} is the contact curve of the other body (contact.counter_boundary): it can have no \
+                     condition of its own"
+                )));
+            }
+            let free = BoundaryCondition::Free;
+            mesh.opposite = Some(place.unwrap_or(boundaries.len()));
+            if place.is_none() {
+                boundaries.push(held_boundary(&mut mesh, curve, name, free, &contact.nodes));
+            }
+        }
         for (&name, curve) in &curves {
             if !boundaries.iter().any(|boundary| boundary.name == name) {
                 let free = BoundaryCondition::Free;
@@ -119,135 +140,6 @@ impl Mesh2d {
 
 pub(super) fn body(message: String) -> MeshFileError {
     MeshFileError::Body(message)
-}
-
-/// Position among the nodes of plane elements of each node of the file.
-fn used_nodes(file: &GmshFile) -> Result<Vec<Option<u32>>, MeshFileError> {
-    let mut is_plane = vec![false; file.points.len()];
-    for element in &file.elements {
-        element
-            .nodes
-            .iter()
-            .for_each(|&node| is_plane[node as usize] = true);
-    }
-    if let Some(node) = (0..is_plane.len()).find(|&node| !file.is_used[node]) {
-        return Err(body(format!(
-            "node {} belongs to no element: the mesh has dangling nodes; remove them (Coherence Mesh; in Gmsh), or save \
-             the physical groups alone (Mesh.SaveAll = 0)",
-            file.labels[node]
-        )));
-    }
-    // In order of their numbers, so that a file numbered from 1 keeps them.
-    let mut order: Vec<usize> = (0..is_plane.len()).filter(|&node| is_plane[node]).collect();
-    order.sort_unstable_by_key(|&node| file.labels[node]);
-    let mut index_of = vec![None; is_plane.len()];
-    for (index, node) in order.into_iter().enumerate() {
-        index_of[node] = Some(index as u32);
-    }
-    Ok(index_of)
-}
-
-/// Nodes and elements, counter-clockwise, without boundaries.
-fn plane_body(file: &GmshFile, scale: f64) -> Result<Mesh2d, MeshFileError> {
-    let index_of = used_nodes(file)?;
-    let count = index_of.iter().flatten().count();
-    let mut mesh = Mesh2d {
-        nodes: vec![[0.0; 2]; count],
-        frame_angles: vec![0.0; count],
-        element_starts: vec![0],
-        labels: vec![0; count],
-        ..Mesh2d::default()
-    };
-    let depth = file.points[file.elements[0].nodes[0] as usize][2];
-    let size = file
-        .points
-        .iter()
-        .fold(0.0_f64, |m, p| m.max(p[0].abs()).max(p[1].abs()));
-    for (node, (&[x, y, z], index)) in file.points.iter().zip(&index_of).enumerate() {
-        let Some(index) = *index else { continue };
-        if (z - depth).abs() > 1e-9 * size {
-            return Err(body(format!(
-                "node {} lies at z = {z}, others at {depth}: the body must be plane, in the x-y plane",
-                file.labels[node]
-            )));
-        }
-        mesh.nodes[index as usize] = [scale * x, scale * y];
-        mesh.labels[index as usize] = file.labels[node];
-    }
-    let names: BTreeSet<&str> = file.elements.iter().map(|e| e.region.as_str()).collect();
-    let names: Vec<&str> = names.into_iter().collect();
-    if names.len() > usize::from(u16::MAX) {
-        return Err(body(format!(
-            "{} physical surfaces are more than can be told apart",
-            names.len()
-        )));
-    }
-    mesh.regions = names.iter().map(|name| (*name).to_owned()).collect();
-    let is_reversed = reversed_surfaces(file)?;
-    for (e, element) in file.elements.iter().enumerate() {
-        let mut nodes: Vec<u32> = element
-            .nodes
-            .iter()
-            .filter_map(|&node| index_of[node as usize])
-            .collect();
-        if is_reversed.contains(&element.entity) {
-            let corners = element.kind.corner_count();
-            nodes[..corners].reverse();
-            // Middles follow their edges: edge i of the reversed outline was edge corners - 2 - i.
-            nodes[corners..].reverse();
-            if element.kind.is_quadratic() {
-                nodes[corners..].rotate_left(1);
-            }
-        }
-        mesh.elements.extend(nodes);
-        mesh.element_starts.push(mesh.elements.len() as u32);
-        mesh.element_kinds.push(element.kind);
-        mesh.congruent_to.push(e as u32);
-        let region = names.binary_search(&element.region.as_str()).unwrap_or(0);
-        mesh.element_regions.push(region as u16);
-    }
-    mesh.check_elements(|e| file.elements[e].label)?;
-    Ok(mesh)
-}
-
-/// Surfaces whose elements run clockwise, all of them: the surface is turned over, its elements are sound.
-fn reversed_surfaces(file: &GmshFile) -> Result<BTreeSet<i64>, MeshFileError> {
-    let area = |element: &PlaneElement| {
-        let corners = element.kind.corner_count();
-        let at = |i: usize| file.points[element.nodes[i % corners] as usize];
-        let cross = |p: [f64; 3], q: [f64; 3]| p[0] * q[1] - p[1] * q[0];
-        0.5 * (0..corners).map(|i| cross(at(i), at(i + 1))).sum::<f64>()
-    };
-    let mut balance: BTreeMap<i64, (usize, usize)> = BTreeMap::new();
-    for element in &file.elements {
-        let counts = balance.entry(element.entity).or_default();
-        if area(element) < 0.0 {
-            counts.0 += 1;
-        } else {
-            counts.1 += 1;
-        }
-    }
-    for element in &file.elements {
-        let (clockwise, counter) = balance[&element.entity];
-        let is_minority = if area(element) < 0.0 {
-            counter > 0
-        } else {
-            clockwise > counter
-        };
-        if is_minority {
-            return Err(body(format!(
-                "element {} is inverted: its nodes run the other way round than those of the {} other elements of \
-                 surface {}; mesh the surface again",
-                element.label,
-                clockwise.max(counter),
-                element.entity
-            )));
-        }
-    }
-    let reversed = balance
-        .into_iter()
-        .filter(|(_, (clockwise, counter))| clockwise > counter);
-    Ok(reversed.map(|(entity, _)| entity).collect())
 }
 
 fn no_curve(file: &GmshFile, name: &str, key: &str) -> MeshFileError {
@@ -290,7 +182,13 @@ fn counterface(
 ) -> Result<Counterface, MeshFileError> {
     let points = contact.nodes.iter().map(|&node| mesh.nodes[node as usize]);
     match specification.counterface {
-        CounterfaceSpecification::Plane { direction: [x, y] } => {
+        CounterfaceSpecification::Plane { direction } => {
+            let [x, y] = direction.unwrap_or_else(|| {
+                let last = contact.edges.len() - 1;
+                let ends = [contact.edges[0].0, contact.edges[last].1];
+                let [from, to] = ends.map(|node| mesh.nodes[node as usize]);
+                [to[0] - from[0], to[1] - from[1]]
+            });
             let length = x.hypot(y);
             let direction = [x / length, y / length];
             let height = |p: &[f64; 2]| direction[0] * p[1] - direction[1] * p[0];

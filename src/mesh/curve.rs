@@ -92,6 +92,33 @@ impl Curve {
         }
         Ok(())
     }
+
+    /// Two bodies touch along two curves that share no node.
+    pub fn check_apart(
+        [contact, opposite]: [&Self; 2],
+        [name, other]: [&str; 2],
+        labels: &[usize],
+    ) -> Result<(), MeshFileError> {
+        if name == other {
+            return Err(body(format!(
+                "contact.boundary and contact.counter_boundary are both \"{name}\": name the curve of the other body in \
+                 contact.counter_boundary"
+            )));
+        }
+        opposite.check_single(other, labels)?;
+        match contact
+            .nodes
+            .iter()
+            .find(|node| opposite.nodes.contains(node))
+        {
+            None => Ok(()),
+            Some(&node) => Err(body(format!(
+                "\"{name}\" (contact.boundary) and \"{other}\" (contact.counter_boundary) share node {}: mesh the bodies \
+                 apart, each with a curve of its own (in Gmsh without Coherence or BooleanFragments)",
+                labels[node as usize]
+            ))),
+        }
+    }
 }
 
 /// `∫ N_i ds` and `∫ N_i n ds` of each node of a curve, `n` the outward normal.

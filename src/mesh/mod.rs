@@ -8,12 +8,14 @@ mod counterface;
 mod curve;
 mod element;
 mod gmsh;
+mod plane_body;
 mod quality;
 mod refinement;
 mod rim;
 mod sector;
+mod sectors;
 
-pub use annulus::{AnnulusMesh, AnnulusSpecification, MeshError};
+pub use annulus::{AnnulusMesh, AnnulusSpecification, MeshError, ShaftSpecification};
 pub use body::{BodySpecification, CounterfaceSpecification};
 pub use boundary::{Boundary, BoundaryCondition, ElasticSupport, NodalSupport};
 pub use counterface::Counterface;
@@ -52,7 +54,9 @@ pub struct Mesh2d {
     pub boundaries: Vec<Boundary>,
     /// Which boundary is the contact edge.
     pub contact: usize,
-    /// What slides along it; the frames of its nodes are those of this surface.
+    /// The boundary of the other body that it slides on; `None` for a rigid counterface.
+    pub opposite: Option<usize>,
+    /// What slides along it; of two bodies the surface that both bound, as it is undeformed. The frames of its nodes are those of this surface.
     pub counterface: Counterface,
     /// Whether the body is a uniform annulus, all of whose sectors are alike.
     pub is_cyclic: bool,
@@ -143,6 +147,35 @@ impl Mesh2d {
         let nodes = self.element_nodes(element);
         let around = self.element_kind(element).outline().into_iter();
         around.map(|local| nodes[local]).collect()
+    }
+
+    /// The body of each node, counted from the first: nodes that elements connect.
+    pub fn bodies(&self) -> Vec<usize> {
+        // The lowest node that each is known to be connected with.
+        let mut lowest: Vec<usize> = (0..self.node_count()).collect();
+        let mut is_settled = false;
+        while !is_settled {
+            is_settled = true;
+            for element in 0..self.element_count() {
+                let nodes = self.element_nodes(element);
+                let least = nodes.iter().map(|&n| lowest[n as usize]).min();
+                for &node in nodes {
+                    let here = &mut lowest[node as usize];
+                    if least.is_some_and(|least| least < *here) {
+                        *here = least.unwrap_or(*here);
+                        is_settled = false;
+                    }
+                }
+            }
+            for node in 0..lowest.len() {
+                lowest[node] = lowest[lowest[node]];
+            }
+        }
+        let mut firsts: Vec<usize> = lowest.clone();
+        firsts.sort_unstable();
+        firsts.dedup();
+        let number = |first| firsts.partition_point(|other| other < first);
+        lowest.iter().map(number).collect()
     }
 
     /// Edges that belong to one element only, as `(start, end, middle)` with the body on their left.

@@ -1,13 +1,14 @@
 //! One sector of the annulus mesh.
 
-use super::annulus::{build, graded_radii, sector_node_count, validate};
+use super::annulus::validate;
+use super::sectors::{Ray, build, rays};
 use super::{AnnulusSpecification, BoundaryCondition, Mesh2d, MeshError};
 
 /// One sector of an annulus mesh, without the others.
 ///
 /// Its nodes are numbered outwards ("sector nodes"): on a Quad8 mesh the nodes at one radius are the
 /// corner-ray node, then the middle-ray node where there is one. The last ones are clamped where the
-/// outer edge is.
+/// outer edge is. A shaft comes before the annulus, but for a clamped bore, which comes after everything.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SectorMesh {
     /// The elements of sector 0; nodes of sectors 0 and 1 numbered as in the full mesh.
@@ -20,9 +21,11 @@ pub struct SectorMesh {
     pub half_steps: Vec<usize>,
     /// Position of each sector node among the nodes of a sector of the full mesh.
     pub numbering: Vec<usize>,
-    /// Sector nodes on the contact edge; they come first. One for Quad4, two for Quad8.
+    /// First sector node of the annulus; it and those that follow it lie on the contact edge.
+    pub contact_start: usize,
+    /// Sector nodes on the contact edge. One for Quad4, two for Quad8.
     pub contact_count: usize,
-    /// Sector nodes on the outer edge that are clamped; they come last.
+    /// Sector nodes that are clamped; they come last.
     pub clamped_count: usize,
 }
 
@@ -35,36 +38,52 @@ impl SectorMesh {
     /// [`MeshError`] names the key whose value makes no mesh.
     pub fn generate(specification: &AnnulusSpecification) -> Result<Self, MeshError> {
         validate(specification)?;
-        let radii = graded_radii(specification);
-        let strip = build(specification, &radii, 1);
-        let numbering = outward_numbering(specification);
-        let per_sector = sector_node_count(specification);
+        let strip = build(specification, 1);
+        let contact_count = strip.contact_edge().nodes.len();
+        let rays = rays(specification);
+        let mut numbering: Vec<usize> = rays.iter().flat_map(outward_numbering).collect();
+        let is_clamped = |condition| condition == BoundaryCondition::Clamped;
+        let is_bore_clamped = specification.shaft.is_some_and(|s| is_clamped(s.bore));
+        if is_bore_clamped {
+            numbering.rotate_left(contact_count);
+        }
+        let clamped_edges =
+            usize::from(is_bore_clamped) + usize::from(is_clamped(specification.outer));
+        let per_sector = numbering.len();
         let mut position = vec![0; per_sector];
         for (sector_node, &node) in numbering.iter().enumerate() {
             position[node] = sector_node;
         }
-        let is_quadratic = specification.element.is_quadratic();
-        let corner_ray = if is_quadratic {
-            2 * specification.radial_elements + 1
-        } else {
-            per_sector
+        let is_middle = |node: usize| {
+            let on_middle = |ray: &Ray| (ray.middle()..ray.nodes().end).contains(&node);
+            usize::from(rays.iter().any(on_middle))
         };
-        let edge_nodes = strip.contact_edge().nodes.len();
-        let is_clamped = specification.outer == BoundaryCondition::Clamped;
-        let is_middle = |node: usize| usize::from(node % per_sector >= corner_ray);
+        let first = rays.last().map_or(0, |annulus| annulus.start);
         Ok(Self {
             sector_node_of: (0..2 * per_sector)
                 .map(|node| position[node % per_sector])
                 .collect(),
             half_steps: (0..2 * per_sector)
-                .map(|node| 2 * (node / per_sector) + is_middle(node))
+                .map(|node| 2 * (node / per_sector) + is_middle(node % per_sector))
                 .collect(),
-            contact_count: edge_nodes,
-            clamped_count: if is_clamped { edge_nodes } else { 0 },
+            contact_start: position[first],
+            contact_count,
+            clamped_count: clamped_edges * contact_count,
             strip,
             specification: *specification,
             numbering,
         })
+    }
+
+    /// Sector nodes of the annulus on its contact edge.
+    pub fn contact_nodes(&self) -> std::ops::Range<usize> {
+        self.contact_start..self.contact_start + self.contact_count
+    }
+
+    /// The shaft's node at the place of a contact node; `None` on a rigid cylinder.
+    pub fn opposite(&self, contact_node: usize) -> Option<usize> {
+        let shaft = self.specification.shaft;
+        shaft.map(|_| contact_node - self.contact_count)
     }
 
     /// The same sector with nothing that holds its outer edge.
@@ -103,16 +122,17 @@ impl SectorMesh {
     }
 }
 
-/// Nodes of one sector in order of rising radius.
-fn outward_numbering(spec: &AnnulusSpecification) -> Vec<usize> {
-    let count = spec.radial_elements;
-    if !spec.element.is_quadratic() {
-        return (0..=count).collect();
+/// Nodes of one body of a sector in order of rising radius.
+fn outward_numbering(ray: &Ray) -> Vec<usize> {
+    let middle = ray.middle();
+    if middle == ray.nodes().end {
+        return ray.nodes().collect();
     }
-    (0..=2 * count)
-        .flat_map(|i| {
-            let middle = (i % 2 == 0).then_some(2 * count + 1 + i / 2);
-            std::iter::once(i).chain(middle)
+    (ray.start..middle)
+        .enumerate()
+        .flat_map(|(i, corner)| {
+            let beside = (i % 2 == 0).then_some(middle + i / 2);
+            std::iter::once(corner).chain(beside)
         })
         .collect()
 }
@@ -133,6 +153,7 @@ mod tests {
                 radial_grading: 1.1,
                 element,
                 outer: BoundaryCondition::Clamped,
+                shaft: None,
             };
             let full = AnnulusMesh::generate(&specification).unwrap().mesh;
             let sector = SectorMesh::generate(&specification).unwrap();

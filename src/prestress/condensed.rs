@@ -7,6 +7,7 @@ use crate::fem::{DofMap, Triplets};
 use crate::linalg::DenseLu;
 use crate::mesh::Mesh2d;
 use faer::Mat;
+use std::collections::BTreeMap;
 
 /// Contact dofs whose columns are condensed together.
 const BLOCK: usize = 32;
@@ -22,9 +23,12 @@ const MAX_SETS: usize = 200;
 /// S u_c = f_c + sum_i N_i (n_i + s mu(V) t_i),   u_n,i >= delta - g_i,   N_i >= 0,   N_i (u_n,i - delta + g_i) = 0
 /// ```
 ///
-/// is a linear complementarity problem with a matrix that is not symmetric.
+/// is a linear complementarity problem with a matrix that is not symmetric. Of two bodies the opposite nodes are
+/// condensed too; a separation stands in place of the contact node's normal displacement, and `t_i` acts on both sides
+/// (see [`ContactInterface::to_distances`]).
 pub(super) struct CondensedContact<'a> {
-    stiffness: &'a Triplets,
+    stiffness: Triplets,
+    interface: &'a ContactInterface,
     interior: DofMap,
     solver: CholeskySolver,
     /// Condensed stiffness over `contact`.
@@ -35,8 +39,11 @@ pub(super) struct CondensedContact<'a> {
     load: Vec<f64>,
     /// Condensed load.
     condensed_load: Vec<f64>,
-    /// Condensed dofs of each node's normal and, unless it is held, tangential displacement.
-    places: Vec<(usize, Option<usize>)>,
+    /// Condensed dof of each node's normal displacement.
+    normals: Vec<usize>,
+    /// Condensed dofs but for the normals, each with the nodes whose friction acts on it: the tangential ones in the order
+    /// of the nodes, then those of the opposite body.
+    sliding: Vec<(usize, Vec<(usize, f64)>)>,
     /// `delta - g_i`, m.
     pushed: Vec<f64>,
     /// `s mu(V) / mu`.
@@ -56,34 +63,35 @@ impl<'a> CondensedContact<'a> {
     /// Condenses `stiffness` (all dofs, supports included) onto the nodes of `interface`.
     pub fn new(
         mesh: &Mesh2d,
-        stiffness: &'a Triplets,
-        interface: &ContactInterface,
+        stiffness: &Triplets,
+        interface: &'a ContactInterface,
         contact: &SlidingContact,
     ) -> Result<Self, PrestressError> {
         let total = 2 * mesh.node_count();
         let free = DofMap::clamped(mesh);
-        let dofs = (0..interface.len()).flat_map(|i| {
-            let pair = [interface.normal_dof(i), interface.tangential_dof(i)];
-            pair.into_iter()
-                .filter(|&dof| free.unknown_of[dof].is_some())
-        });
+        let mut stiffness = stiffness.clone();
+        interface.to_distances(&mut stiffness);
+        let own = (0..interface.len())
+            .flat_map(|i| [interface.normal_dof(i), interface.tangential_dof(i)]);
+        let opposite = interface.opposite.iter().flatten().map(|share| share.dof);
         let mut is_contact = vec![false; total];
-        dofs.for_each(|dof| is_contact[dof] = true);
+        own.chain(opposite)
+            .filter(|&dof| free.unknown_of[dof].is_some())
+            .for_each(|dof| is_contact[dof] = true);
         let contact_map = DofMap::excluding(total, (0..total).filter(|&dof| !is_contact[dof]));
         let is_outside = |dof: &usize| is_contact[*dof] || free.unknown_of[*dof].is_none();
         let interior = DofMap::excluding(total, (0..total).filter(is_outside));
         let place = |dof: usize| contact_map.unknown_of[dof];
-        let places = (0..interface.len()).filter_map(|i| {
-            Some((
-                place(interface.normal_dof(i))?,
-                place(interface.tangential_dof(i)),
-            ))
-        });
-        let load = mesh.pressure_forces().unwrap_or_else(|| vec![0.0; total]);
+        let normals = (0..interface.len()).filter_map(|i| place(interface.normal_dof(i)));
+        let sliding = sliding_dofs(interface, &contact_map);
+        let mut load = mesh.pressure_forces().unwrap_or_else(|| vec![0.0; total]);
+        interface.to_distance_forces(&mut load);
         let mut condensed = Self {
-            solver: CholeskySolver::new(stiffness, &interior)?,
+            solver: CholeskySolver::new(&stiffness, &interior)?,
             stiffness,
-            places: places.collect(),
+            interface,
+            normals: normals.collect(),
+            sliding,
             schur: Mat::zeros(contact_map.len(), contact_map.len()),
             condensed_load: Vec::new(),
             pushed: interface
@@ -146,35 +154,41 @@ impl<'a> CondensedContact<'a> {
     pub fn state_of(&self, friction_coefficient: f64, is_pressed: &[bool]) -> ContactState {
         let follow = self.drag * friction_coefficient;
         // Unknown: every tangential displacement, and the normal ones of open nodes.
-        let mut unknowns: Vec<(usize, Option<usize>)> = Vec::new();
+        let mut unknowns: Vec<(usize, &[(usize, f64)])> = Vec::new();
         let mut displacement = vec![0.0; self.contact.len()];
-        for (i, &(normal, tangential)) in self.places.iter().enumerate() {
+        for (i, &normal) in self.normals.iter().enumerate() {
             if is_pressed[i] {
                 displacement[normal] = self.pushed[i];
-                unknowns.extend(tangential.map(|t| (t, Some(normal))));
             } else {
-                unknowns.push((normal, None));
-                unknowns.extend(tangential.map(|t| (t, None)));
+                unknowns.push((normal, &[]));
             }
         }
-        // Friction takes `s mu(V)` times the normal row from the tangential row of a pressed node.
-        let row = |(row, normal): (usize, Option<usize>), column: usize| {
-            self.schur[(row, column)] - normal.map_or(0.0, |n| follow * self.schur[(n, column)])
+        let sliding = self.sliding.iter();
+        unknowns.extend(sliding.map(|(dof, nodes)| (*dof, nodes.as_slice())));
+        // Friction takes `s mu` times the normal row from the tangential row of a pressed node.
+        let along = |nodes: &[(usize, f64)], of: &dyn Fn(usize) -> f64| -> f64 {
+            let pressed = nodes.iter().filter(|(i, _)| is_pressed[*i]);
+            pressed
+                .map(|&(i, along)| follow * along * of(self.normals[i]))
+                .sum()
+        };
+        let row = |(row, nodes): (usize, &[(usize, f64)]), column: usize| {
+            self.schur[(row, column)] - along(nodes, &|normal| self.schur[(normal, column)])
         };
         let count = unknowns.len();
         let matrix = Mat::from_fn(count, count, |i, j| row(unknowns[i], unknowns[j].0));
         let prescribed = self.forces(&displacement);
         let mut solution = Mat::from_fn(count, 1, |i, _| {
-            let (at, normal) = unknowns[i];
-            -(prescribed[at] - normal.map_or(0.0, |n| follow * prescribed[n]))
+            let (at, nodes) = unknowns[i];
+            -(prescribed[at] - along(nodes, &|normal| prescribed[normal]))
         });
         DenseLu::factorize(matrix).solve_in_place(solution.as_mut());
         for (i, &(at, _)) in unknowns.iter().enumerate() {
             displacement[at] = solution[(i, 0)];
         }
         let forces = self.forces(&displacement);
-        let pairs = self.places.iter().zip(is_pressed);
-        let normal_forces = pairs.map(|(place, &is)| if is { forces[place.0] } else { 0.0 });
+        let pairs = self.normals.iter().zip(is_pressed);
+        let normal_forces = pairs.map(|(&normal, &is)| if is { forces[normal] } else { 0.0 });
         ContactState {
             normal_forces: normal_forces.collect(),
             displacement,
@@ -233,7 +247,7 @@ impl<'a> CondensedContact<'a> {
             .iter()
             .fold(0.0_f64, |m, f| m.max(f.abs()));
         let excess = |i: usize| {
-            let normal = self.places[i].0;
+            let normal = self.normals[i];
             if is_pressed[i] {
                 -state.normal_forces[i]
             } else {
@@ -261,16 +275,42 @@ impl<'a> CondensedContact<'a> {
         for (&dof, value) in self.interior.dofs.iter().zip(self.solver.solve(right)) {
             displacement[dof] = value;
         }
+        self.interface.to_displacements(&mut displacement);
         displacement
     }
 
     /// Number of contact nodes.
     pub fn len(&self) -> usize {
-        self.places.len()
+        self.normals.len()
     }
 
     /// `delta - g_i` of each node, m.
     pub fn pushed(&self) -> &[f64] {
         &self.pushed
     }
+}
+
+/// Condensed dofs that friction acts on or that slide along, each with the contact nodes whose friction acts on it.
+fn sliding_dofs(interface: &ContactInterface, contact: &DofMap) -> Vec<(usize, Vec<(usize, f64)>)> {
+    let mut place_of: BTreeMap<usize, usize> = BTreeMap::new();
+    let mut sliding: Vec<(usize, Vec<(usize, f64)>)> = Vec::new();
+    let nodes = 0..interface.len();
+    let own = nodes.clone().map(|i| interface.tangential_dof(i));
+    let opposite = interface.opposite.iter().flatten().map(|share| share.dof);
+    for dof in own.chain(opposite) {
+        if let Some(condensed) = contact.unknown_of[dof] {
+            place_of.entry(dof).or_insert_with(|| {
+                sliding.push((condensed, Vec::new()));
+                sliding.len() - 1
+            });
+        }
+    }
+    for i in nodes {
+        for (dof, along) in interface.slip(i) {
+            if let Some(&place) = place_of.get(&dof) {
+                sliding[place].1.push((i, along));
+            }
+        }
+    }
+    sliding
 }

@@ -128,6 +128,9 @@ impl SteadySliding {
         contact: &SlidingContact,
     ) -> Result<Self, PrestressError> {
         let interface = ContactInterface::of(mesh);
+        let mut stiffness = stiffness.clone();
+        interface.to_distances(&mut stiffness);
+        let stiffness = &stiffness;
         let total = 2 * mesh.node_count();
         let contact_range = 0..interface.len();
         let normal_dofs: Vec<usize> = contact_range
@@ -154,9 +157,13 @@ impl SteadySliding {
         let friction = interface.steady_friction(contact);
         let mut traction = vec![0.0; total];
         for (i, force) in contact_range.zip(&normal_forces) {
-            traction[interface.tangential_dof(i)] = friction.drag * force;
+            for (dof, along) in interface.slip(i) {
+                traction[dof] += friction.drag * along * force;
+            }
         }
-        let sheared = unknowns.expand(&solver.solve(unknowns.restrict(&traction)));
+        let mut sheared = unknowns.expand(&solver.solve(unknowns.restrict(&traction)));
+        interface.to_displacements(&mut pressed);
+        interface.to_displacements(&mut sheared);
         Ok(Self {
             displacements: vec![pressed, sheared],
             is_pressed: vec![true; normal_forces.len()],

@@ -10,10 +10,14 @@ mod condensed;
 mod equilibrium;
 mod friction_polynomial;
 mod options;
+mod projection;
 mod sector;
 mod sector_rate;
 mod sector_tangent;
+mod sector_terms;
+mod sector_turning;
 mod tangent;
+mod turning;
 
 pub use equilibrium::{PrestressError, SlidingRange, SteadySliding};
 pub use options::{DampingModel, TangentOptions};

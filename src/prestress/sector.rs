@@ -42,10 +42,11 @@ impl SectorSliding {
         let sliding_direction = contact.sliding_direction();
         let surface_speed = sector.specification.inner_radius * contact.rotation_speed;
         let friction = contact.steady_friction(sliding_direction, surface_speed);
-        let sheared = system.sheared_by(&normal_forces, friction.drag);
+        let mut traction = vec![0.0; pressed.len()];
+        system.add_traction(&mut traction, &normal_forces, friction.drag);
         Ok(Self {
-            pressed_displacement: pressed,
-            sheared_displacement: sheared,
+            sheared_displacement: system.displacement(system.solve(traction)),
+            pressed_displacement: system.displacement(pressed),
             normal_forces,
             sliding_direction,
             friction,
@@ -69,25 +70,20 @@ impl SectorSliding {
     ) -> Result<Self, PrestressError> {
         let system = PressedSystem::new(sector, elastic)?;
         let rate = elastic_rate.harmonic(0);
-        let force = rate.multiply(&self.pressed_displacement);
+        let force = system.distance_forces(rate.multiply(&self.pressed_displacement));
         let pressed = system.solve(force.iter().map(|f| -f).collect());
         let normal_forces: Vec<f64> = system
             .normal_forces(&pressed)
             .iter()
-            .enumerate()
-            .map(|(i, reaction)| reaction + force[2 * i])
+            .zip(sector.contact_nodes())
+            .map(|(reaction, node)| reaction + force[2 * node])
             .collect();
-        let mut load: Vec<f64> = rate
-            .multiply(&self.sheared_displacement)
-            .iter()
-            .map(|f| -f)
-            .collect();
-        for (i, normal) in normal_forces.iter().enumerate() {
-            load[2 * i + 1] += self.friction.drag * normal;
-        }
+        let mut load = system.distance_forces(rate.multiply(&self.sheared_displacement));
+        load.iter_mut().for_each(|force| *force = -*force);
+        system.add_traction(&mut load, &normal_forces, self.friction.drag);
         Ok(Self {
-            pressed_displacement: pressed,
-            sheared_displacement: system.solve(load),
+            pressed_displacement: system.displacement(pressed),
+            sheared_displacement: system.displacement(system.solve(load)),
             normal_forces,
             sliding_direction: self.sliding_direction,
             friction: self.friction,
@@ -95,20 +91,48 @@ impl SectorSliding {
     }
 }
 
-/// Harmonic zero with the contact normals prescribed.
-struct PressedSystem {
+/// Each contact node of the annulus with the shaft's at its place; none on a rigid cylinder.
+pub(super) fn pairs(sector: &SectorMesh) -> impl Iterator<Item = (usize, usize)> + '_ {
+    let nodes = sector.contact_nodes();
+    nodes.filter_map(|node| Some((node, sector.opposite(node)?)))
+}
+
+/// `T^T A T` of a matrix over the dofs of a sector, with how far each pair of nodes moves apart in place of the annulus's
+/// normal displacement; see [`crate::contact::ContactInterface::to_distances`].
+pub(super) fn to_distances(matrix: &mut BandedMatrix, sector: &SectorMesh) {
+    for (node, opposite) in pairs(sector) {
+        let (from, to) = (2 * node, 2 * opposite);
+        for other in matrix.columns(from) {
+            let value = matrix.get(from, other);
+            if value != 0.0 {
+                matrix.add(to, other, value);
+            }
+        }
+        // The row of the shaft's node as well, which has just got what couples to the pair.
+        for other in matrix.columns(from) {
+            let value = matrix.get(other, from);
+            if value != 0.0 {
+                matrix.add(other, to, value);
+            }
+        }
+    }
+}
+
+/// Harmonic zero with the distances across the contact prescribed.
+struct PressedSystem<'a> {
+    sector: &'a SectorMesh,
     stiffness: BandedMatrix,
     unknowns: Vec<usize>,
     factor: BandedLdl,
-    contact_count: usize,
 }
 
-impl PressedSystem {
-    fn new(sector: &SectorMesh, elastic: &SectorMatrix) -> Result<Self, PrestressError> {
-        let stiffness = elastic.harmonic(0);
-        let contact_count = sector.contact_count;
+impl<'a> PressedSystem<'a> {
+    fn new(sector: &'a SectorMesh, elastic: &SectorMatrix) -> Result<Self, PrestressError> {
+        let mut stiffness = elastic.harmonic(0);
+        to_distances(&mut stiffness, sector);
+        let contact = sector.contact_nodes();
         let unknowns: Vec<usize> = (0..stiffness.dimension())
-            .filter(|dof| dof % 2 == 1 || dof / 2 >= contact_count)
+            .filter(|dof| dof % 2 == 1 || !contact.contains(&(dof / 2)))
             .collect();
         let reduced = stiffness.restricted_to(&unknowns);
         let none = BandedMatrix::zeros(reduced.dimension(), reduced.half_bandwidth());
@@ -117,14 +141,14 @@ impl PressedSystem {
             return Err(PrestressError::Singular);
         }
         Ok(Self {
+            sector,
             stiffness,
             unknowns,
             factor,
-            contact_count,
         })
     }
 
-    /// Response to a load on all dofs with the contact normals held.
+    /// Response to a load on all dofs with the distances held.
     fn solve(&self, load: Vec<f64>) -> Vec<f64> {
         let mut reduced: Vec<f64> = self.unknowns.iter().map(|&dof| load[dof]).collect();
         self.factor.solve(&mut reduced);
@@ -137,30 +161,45 @@ impl PressedSystem {
 
     fn pressed_by(&self, interference: f64) -> Vec<f64> {
         let mut prescribed = vec![0.0; self.stiffness.dimension()];
-        for node in 0..self.contact_count {
+        for node in self.sector.contact_nodes() {
             prescribed[2 * node] = interference;
         }
         let force = self.stiffness.multiply(&prescribed);
         let mut pressed = self.solve(force.iter().map(|f| -f).collect());
-        for node in 0..self.contact_count {
+        for node in self.sector.contact_nodes() {
             pressed[2 * node] = interference;
         }
         pressed
     }
 
-    fn normal_forces(&self, displacement: &[f64]) -> Vec<f64> {
-        let force = self.stiffness.multiply(displacement);
-        (0..self.contact_count)
-            .map(|node| force[2 * node])
-            .collect()
+    fn normal_forces(&self, distances: &[f64]) -> Vec<f64> {
+        let force = self.stiffness.multiply(distances);
+        let nodes = self.sector.contact_nodes();
+        nodes.map(|node| force[2 * node]).collect()
     }
 
-    fn sheared_by(&self, normal_forces: &[f64], drag: f64) -> Vec<f64> {
-        let mut load = vec![0.0; self.stiffness.dimension()];
-        for (node, force) in normal_forces.iter().enumerate() {
-            load[2 * node + 1] = drag * force;
+    /// Adds what drags the annulus along and holds the shaft back.
+    fn add_traction(&self, load: &mut [f64], normal_forces: &[f64], drag: f64) {
+        for (node, force) in self.sector.contact_nodes().zip(normal_forces) {
+            load[2 * node + 1] += drag * force;
+            if let Some(opposite) = self.sector.opposite(node) {
+                load[2 * opposite + 1] -= drag * force;
+            }
         }
-        self.solve(load)
+    }
+
+    fn displacement(&self, mut distances: Vec<f64>) -> Vec<f64> {
+        for (node, opposite) in pairs(self.sector) {
+            distances[2 * node] += distances[2 * opposite];
+        }
+        distances
+    }
+
+    fn distance_forces(&self, mut forces: Vec<f64>) -> Vec<f64> {
+        for (node, opposite) in pairs(self.sector) {
+            forces[2 * opposite] += forces[2 * node];
+        }
+        forces
     }
 }
 
@@ -176,8 +215,8 @@ fn check_pressed(sector: &SectorMesh, forces: &[f64]) -> Result<(), PrestressErr
     Err(PrestressError::Separation {
         count: open.len() * sector.sector_count(),
         total: forces.len() * sector.sector_count(),
-        node: sector.numbering[first] + 1,
-        angle_degrees: step * sector.half_step(first) as f64,
+        node: sector.numbering[sector.contact_start + first] + 1,
+        angle_degrees: step * sector.half_step(sector.contact_start + first) as f64,
         pressure: forces[first] / sector.tributary_lengths()[first],
     })
 }

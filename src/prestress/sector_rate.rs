@@ -1,12 +1,12 @@
 //! Derivatives of an annulus's tangent with respect to the parameters of the model.
 
 use super::PrestressError;
-use super::sector_tangent::{
-    FrictionPolynomial, HarmonicTangent, SectorTangent, Terms, friction_dashpots, stress_stiffness,
-    sum, turning,
-};
+use super::sector_tangent::{FrictionPolynomial, HarmonicTangent, SectorTangent};
+use super::sector_terms::{Terms, friction_dashpots, stress_stiffness, sum, turning};
 use crate::fem::sector::{self, SectorMatrix};
-use crate::fem::{ElasticMaterial, PlaneFormulation, RayleighDamping};
+use crate::fem::{
+    ElasticMaterial, MaterialField, PlaneFormulation, RayleighDamping, RegionMaterial,
+};
 
 /// A parameter that eigenvalues respond to, besides the friction coefficient.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,12 +46,13 @@ impl SectorTangent {
         }
         let follows = self.damping(&rate.terms, self.options.damping, false, n);
         let shared = self.damping(&self.terms, rate.rayleigh, false, n);
+        let own = self.project(vec![self.harmonic_of(&rate.terms.own_damping, n)]);
         HarmonicTangent {
             harmonic: n,
-            contact_count: self.contact_unknowns(),
+            contact: self.contact_unknowns(),
             mass: self.mass(&rate.terms, n),
             stiffness: self.stiffness(&rate.terms, n),
-            damping: Some(sum(follows, shared)),
+            damping: Some(sum(sum(follows, shared), own)),
             friction_dashpots: self.friction_dashpots(&rate.terms),
             rayleigh: rate.rayleigh,
         }
@@ -85,6 +86,7 @@ impl SectorTangent {
         let mut terms = Terms {
             elastic: None,
             supports: None,
+            own_damping: None,
             mass: None,
             stress: None,
             turning: vec![0.0; self.terms.turning.len()],
@@ -99,8 +101,14 @@ impl SectorTangent {
         let mut share = RayleighDamping::default();
         let scaled = |matrix: &SectorMatrix, value: f64| matrix.scaled(1.0 / value);
         match parameter {
-            Parameter::MassCoefficient => share.mass_coefficient = 1.0,
-            Parameter::StiffnessCoefficient => share.stiffness_coefficient = 1.0,
+            Parameter::MassCoefficient => {
+                share.mass_coefficient = 1.0;
+                terms.own_damping = self.own_damping_rate(share);
+            }
+            Parameter::StiffnessCoefficient => {
+                share.stiffness_coefficient = 1.0;
+                terms.own_damping = self.own_damping_rate(share);
+            }
             Parameter::StaticFrictionRatio | Parameter::DecaySpeed => {
                 let Some(decay) = self.contact.decay else {
                     return Ok(None);
@@ -121,17 +129,24 @@ impl SectorTangent {
                 terms.normal_stiffness = Some(self.sector.tributary_lengths().to_vec());
             }
             Parameter::Density => {
-                let mass = self.terms.mass.as_ref();
-                terms.mass = mass.map(|m| scaled(m, self.material.density));
+                let density = self.annulus_material().density;
+                terms.mass = self.terms.mass.as_ref().map(|m| scaled(m, density));
+                if self.materials.len() > 1 {
+                    let unit = self.of_annulus(ElasticMaterial {
+                        density: 1.0,
+                        ..*self.annulus_material()
+                    });
+                    terms.mass = Some(sector::mass(&self.sector, &unit, self.options.mass));
+                }
             }
             Parameter::YoungModulus => {
-                let e = self.material.young_modulus;
-                if self.terms.supports.is_some() {
+                let e = self.annulus_material().young_modulus;
+                if self.terms.supports.is_some() || self.materials.len() > 1 {
                     let unit = ElasticMaterial {
                         young_modulus: 1.0,
-                        ..self.material
+                        ..*self.annulus_material()
                     };
-                    self.stiffness_rate(&mut terms, &unit)?;
+                    self.stiffness_rate(&mut terms, &self.of_annulus(unit))?;
                     return Ok(Some(TangentRate {
                         terms,
                         rayleigh: share,
@@ -147,7 +162,8 @@ impl SectorTangent {
                 terms.friction_dashpots = dashpots.map(|d| d.iter().map(|v| v / e).collect());
             }
             Parameter::PoissonRatio => {
-                self.stiffness_rate(&mut terms, &poisson_rate_material(&self.material))?;
+                let rate = poisson_rate_material(self.annulus_material());
+                self.stiffness_rate(&mut terms, &self.of_annulus(rate))?;
             }
         }
         Ok(Some(TangentRate {
@@ -160,7 +176,7 @@ impl SectorTangent {
     fn stiffness_rate(
         &self,
         terms: &mut Terms,
-        rate: &ElasticMaterial,
+        rate: &dyn MaterialField,
     ) -> Result<(), PrestressError> {
         let Some(elastic) = &self.terms.elastic else {
             return Ok(());
@@ -174,7 +190,7 @@ impl SectorTangent {
             let base_rate = self.base.rate(&self.sector, &supported, &elastic_rate)?;
             terms.friction_dashpots = friction_dashpots(&base_rate, self.base.friction.slope);
             if self.terms.stress.is_some() {
-                let moved = stress_stiffness(&self.sector, &self.material, &base_rate);
+                let moved = stress_stiffness(&self.sector, &self.materials, &base_rate);
                 let stiffened = stress_stiffness(&self.sector, rate, &self.base);
                 terms.stress = Some([moved[0].plus(&stiffened[0]), moved[1].plus(&stiffened[1])]);
                 terms.turning = turning(&self.sector, &self.options, &base_rate);
@@ -182,6 +198,38 @@ impl SectorTangent {
         }
         terms.elastic = Some(elastic_rate);
         Ok(())
+    }
+
+    fn annulus_material(&self) -> &ElasticMaterial {
+        &self.materials[0].elastic
+    }
+
+    /// A material of the annulus and none of the shaft: what `[material]` alone is the cause of.
+    fn of_annulus(&self, material: ElasticMaterial) -> Vec<RegionMaterial> {
+        let nothing = ElasticMaterial {
+            young_modulus: 0.0,
+            density: 0.0,
+            ..material
+        };
+        let regions = (0..self.materials.len()).map(|region| RegionMaterial {
+            elastic: if region == 0 { material } else { nothing },
+            damping: None,
+        });
+        regions.collect()
+    }
+
+    /// A body with damping of its own has no part in the change of the common coefficients.
+    fn own_damping_rate(&self, share: RayleighDamping) -> Option<SectorMatrix> {
+        let (kind, unchanged) = (self.options.mass, RayleighDamping::default());
+        let fixed: Vec<RegionMaterial> = self
+            .materials
+            .iter()
+            .map(|material| RegionMaterial {
+                damping: material.damping.map(|_| unchanged),
+                ..*material
+            })
+            .collect();
+        sector::extra_damping(&self.sector, &fixed, kind, share)
     }
 }
 

@@ -1,11 +1,14 @@
 //! The matrices of small motions around steady sliding of an annulus, harmonic by harmonic.
 
+use super::sector::to_distances;
+use super::sector_terms::{Terms, friction_dashpots, multiplied, stress_stiffness, sum, turning};
 use super::{DampingModel, PrestressError, SectorSliding, TangentOptions};
 use crate::contact::SlidingContact;
-use crate::fem::sector::{self, MirrorParity, SectorMatrix};
-use crate::fem::{ElasticMaterial, RayleighDamping};
+use crate::fem::sector::{self, SectorMatrix};
+use crate::fem::{MaterialField, RayleighDamping, RegionMaterial};
 use crate::linalg::banded::BandedMatrix;
 use crate::mesh::SectorMesh;
+use std::ops::Range;
 
 /// A matrix that depends on the friction coefficient, `P(mu) = sum_p P_p (i mu)^p` with real `P_p`.
 pub type FrictionPolynomial = Vec<BandedMatrix>;
@@ -13,7 +16,8 @@ pub type FrictionPolynomial = Vec<BandedMatrix>;
 /// Mass, damping and stiffness of one circumferential harmonic.
 ///
 /// Unknowns are `(u_r, -i u_theta)` of each sector node, outwards, without clamped dofs and for rigid
-/// contact without the contact normals. All matrices share one shape. The wave of harmonic `-n` sees the
+/// contact without the contact normals; on a deformable shaft a contact normal of the annulus is the distance between the
+/// two nodes of the pair. All matrices share one shape. The wave of harmonic `-n` sees the
 /// complex conjugates.
 #[derive(Clone, Debug)]
 pub struct HarmonicTangent {
@@ -29,8 +33,8 @@ pub struct HarmonicTangent {
     pub friction_dashpots: Option<BandedMatrix>,
     /// Rayleigh coefficients.
     pub rayleigh: RayleighDamping,
-    /// Number of leading unknowns that belong to the contact edge.
-    pub contact_count: usize,
+    /// Unknowns that belong to the contact edge, of both bodies.
+    pub contact: Range<usize>,
 }
 
 /// [`super::SlidingTangent`] of an annulus, from the matrices of one sector.
@@ -40,28 +44,12 @@ pub struct HarmonicTangent {
 #[derive(Clone, Debug)]
 pub struct SectorTangent {
     pub(super) sector: SectorMesh,
-    pub(super) material: ElasticMaterial,
+    /// Of each region: the annulus, then the shaft.
+    pub(super) materials: Vec<RegionMaterial>,
     pub(super) options: TangentOptions,
     pub(super) contact: SlidingContact,
     pub(super) base: SectorSliding,
     pub(super) terms: Terms,
-}
-
-/// What the matrices are made of; each term may also be a derivative.
-#[derive(Clone, Debug)]
-pub(super) struct Terms {
-    pub(super) elastic: Option<SectorMatrix>,
-    /// Springs and dashpots of the outer edge.
-    pub(super) supports: Option<[SectorMatrix; 2]>,
-    pub(super) mass: Option<SectorMatrix>,
-    /// Stress of the pressed state and, for each unit of friction, of the sheared state.
-    pub(super) stress: Option<[SectorMatrix; 2]>,
-    /// `N / a` of each contact node, zero without geometric stiffness.
-    pub(super) turning: Vec<f64>,
-    /// `k_n w` of each contact node; `None` for rigid contact.
-    pub(super) normal_stiffness: Option<Vec<f64>>,
-    /// `N mu'(V) / mu` of each contact node; `None` where friction does not depend on the speed.
-    pub(super) friction_dashpots: Option<Vec<f64>>,
 }
 
 impl SectorTangent {
@@ -71,10 +59,11 @@ impl SectorTangent {
     /// [`PrestressError`] where that state does not exist.
     pub fn linearize(
         sector: &SectorMesh,
-        material: &ElasticMaterial,
+        material: &dyn MaterialField,
         options: &TangentOptions,
         contact: &SlidingContact,
     ) -> Result<Self, PrestressError> {
+        let regions = 0..sector.strip.regions.len();
         let elastic = sector::stiffness(sector, material);
         let supports = sector::supports(sector);
         let supported = sector::supported_stiffness(sector, material);
@@ -86,6 +75,7 @@ impl SectorTangent {
         let penalty = options.contact.normal_stiffness;
         let terms = Terms {
             turning: turning(sector, options, &base),
+            own_damping: sector::extra_damping(sector, material, options.mass, options.damping),
             stress,
             mass: Some(sector::mass(sector, material, options.mass)),
             elastic: Some(elastic),
@@ -95,7 +85,12 @@ impl SectorTangent {
         };
         Ok(Self {
             sector: sector.clone(),
-            material: *material,
+            materials: regions
+                .map(|region| RegionMaterial {
+                    elastic: *material.of(region),
+                    damping: material.own_damping(region),
+                })
+                .collect(),
             options: *options,
             contact: *contact,
             base,
@@ -122,25 +117,25 @@ impl SectorTangent {
     pub fn unknowns(&self) -> Vec<usize> {
         let total = 2 * self.sector.free_node_count();
         let is_rigid = self.terms.normal_stiffness.is_none();
+        let contact = self.sector.contact_nodes();
         let is_held =
-            |dof: usize| is_rigid && dof.is_multiple_of(2) && dof / 2 < self.sector.contact_count;
+            |dof: usize| is_rigid && dof.is_multiple_of(2) && contact.contains(&(dof / 2));
         (0..total).filter(|&dof| !is_held(dof)).collect()
     }
 
-    /// Number of leading unknowns that belong to contact nodes, which come first in a sector.
-    pub(super) fn contact_unknowns(&self) -> usize {
-        let components = if self.terms.normal_stiffness.is_none() {
-            1
-        } else {
-            2
-        };
-        components * self.sector.contact_count
+    /// Unknowns that belong to contact nodes, those of the shaft included.
+    pub(super) fn contact_unknowns(&self) -> Range<usize> {
+        let contact = self.sector.contact_nodes();
+        let first = self.sector.opposite(contact.start).unwrap_or(contact.start);
+        let unknowns = self.unknowns();
+        let place = |node: usize| unknowns.partition_point(|&dof| dof < 2 * node);
+        place(first)..place(contact.end)
     }
 
     /// Unknown of each contact node's tangential displacement.
     pub fn tangential_unknowns(&self) -> Vec<usize> {
         let unknowns = self.unknowns();
-        let dofs = (0..self.sector.contact_count).map(|node| 2 * node + 1);
+        let dofs = self.sector.contact_nodes().map(|node| 2 * node + 1);
         dofs.filter_map(|dof| unknowns.iter().position(|&u| u == dof))
             .collect()
     }
@@ -165,7 +160,7 @@ impl SectorTangent {
         let rayleigh = self.options.damping;
         HarmonicTangent {
             harmonic: n,
-            contact_count: self.contact_unknowns(),
+            contact: self.contact_unknowns(),
             mass: self.mass(&self.terms, n),
             stiffness: self.stiffness(&self.terms, n),
             damping: (!self.is_proportional())
@@ -178,11 +173,10 @@ impl SectorTangent {
     /// `M_n` and `K_n` without friction, real and symmetric.
     pub fn harmonic_at_rest(&self, n: usize) -> [BandedMatrix; 2] {
         let mass = self.harmonic_of(&self.terms.mass, n);
-        let mut stiffness = self.harmonic_of(&self.terms.elastic, n);
+        let mut stiffness = self.stiffness_at_rest(&self.terms, n);
         if let Some([springs, _]) = &self.terms.supports {
-            stiffness.add_scaled(1.0, &springs.harmonic(n));
+            stiffness.add_scaled(1.0, &self.wave(springs, n));
         }
-        self.add_at_rest(&self.terms, n, &mut stiffness);
         if self.terms.normal_stiffness.is_some() {
             return [mass, stiffness];
         }
@@ -195,8 +189,9 @@ impl SectorTangent {
         let contact = self.options.contact;
         let has_dashpots = contact.normal_damping != 0.0 || contact.tangential_damping != 0.0;
         let is_whole = self.options.damping_model == DampingModel::WholeTangent;
+        let has_own = self.terms.supports.is_some() || self.terms.own_damping.is_some();
         let is_steady = self.terms.friction_dashpots.is_none();
-        is_whole && is_steady && !has_dashpots && self.terms.supports.is_none()
+        is_whole && is_steady && !has_dashpots && !has_own
     }
 
     fn zero(&self) -> BandedMatrix {
@@ -204,10 +199,17 @@ impl SectorTangent {
         BandedMatrix::zeros(2 * self.sector.free_node_count(), half_bandwidth)
     }
 
-    fn harmonic_of(&self, matrix: &Option<SectorMatrix>, n: usize) -> BandedMatrix {
+    pub(super) fn harmonic_of(&self, matrix: &Option<SectorMatrix>, n: usize) -> BandedMatrix {
         matrix
             .as_ref()
-            .map_or_else(|| self.zero(), |m| m.harmonic(n))
+            .map_or_else(|| self.zero(), |matrix| self.wave(matrix, n))
+    }
+
+    /// Harmonic `n` of a matrix over displacements, with distances across the contact.
+    fn wave(&self, matrix: &SectorMatrix, n: usize) -> BandedMatrix {
+        let mut wave = matrix.harmonic(n);
+        to_distances(&mut wave, &self.sector);
+        wave
     }
 
     pub(super) fn mass(&self, terms: &Terms, n: usize) -> FrictionPolynomial {
@@ -218,39 +220,43 @@ impl SectorTangent {
     pub(super) fn stiffness(&self, terms: &Terms, n: usize) -> FrictionPolynomial {
         let mut full = self.damped_stiffness(terms, n);
         if let Some([springs, _]) = &terms.supports {
-            full[0].add_scaled(1.0, &springs.harmonic(n));
+            full[0].add_scaled(1.0, &self.wave(springs, n));
         }
         self.project(full)
     }
 
     /// The stiffness that `beta_R` multiplies: all but the supports; over all free dofs.
     fn damped_stiffness(&self, terms: &Terms, n: usize) -> FrictionPolynomial {
-        let mut full = vec![self.harmonic_of(&terms.elastic, n), self.zero()];
-        self.add_at_rest(terms, n, &mut full[0]);
+        let mut full = vec![self.stiffness_at_rest(terms, n), self.zero()];
         if let Some([_, sheared]) = &terms.stress {
             // Odd parity: the harmonic is i times this, which is what a coefficient of i mu wants.
-            full[1].add_scaled(1.0, &sheared.harmonic(n));
+            full[1].add_scaled(1.0, &self.wave(sheared, n));
         }
-        for (node, force) in terms.turning.iter().enumerate() {
-            full[1].add(2 * node, 2 * node + 1, self.base.friction.drag * force);
-        }
+        let mut turning = self.zero();
+        self.turning_friction(terms, n, &mut turning);
+        to_distances(&mut turning, &self.sector);
+        full[1].add_scaled(1.0, &turning);
         if let Some(normal_stiffness) = &terms.normal_stiffness {
             self.add_friction(&mut full[1], normal_stiffness);
         }
         full
     }
 
-    /// What prestress and contact add to the elastic stiffness without friction.
-    fn add_at_rest(&self, terms: &Terms, n: usize, stiffness: &mut BandedMatrix) {
+    /// Body, prestress and contact without friction and supports.
+    fn stiffness_at_rest(&self, terms: &Terms, n: usize) -> BandedMatrix {
+        let mut stiffness = self.harmonic_of(&terms.elastic, n);
         if let Some([pressed, _]) = &terms.stress {
-            stiffness.add_scaled(1.0, &pressed.harmonic(n));
+            stiffness.add_scaled(1.0, &self.wave(pressed, n));
         }
-        for (node, force) in terms.turning.iter().enumerate() {
-            stiffness.add(2 * node + 1, 2 * node + 1, -force);
-        }
-        for (node, value) in terms.normal_stiffness.iter().flatten().enumerate() {
+        let mut turning = self.zero();
+        self.turning_pressure(terms, n, &mut turning);
+        to_distances(&mut turning, &self.sector);
+        stiffness.add_scaled(1.0, &turning);
+        let values = terms.normal_stiffness.iter().flatten();
+        for (node, value) in self.sector.contact_nodes().zip(values) {
             stiffness.add(2 * node, 2 * node, *value);
         }
+        stiffness
     }
 
     /// `alpha_R M + beta_R K` with the options' damping model; dashpots if `with_dashpots`.
@@ -275,14 +281,21 @@ impl SectorTangent {
         let lengths = self.sector.tributary_lengths();
         let mut dashpots = vec![self.zero(), self.zero()];
         if let Some([_, supports]) = &terms.supports {
-            dashpots[0].add_scaled(1.0, &supports.harmonic(n));
+            dashpots[0].add_scaled(1.0, &self.wave(supports, n));
+        }
+        if let Some(own) = &terms.own_damping {
+            dashpots[0].add_scaled(1.0, &self.wave(own, n));
         }
         let normal: Vec<f64> = lengths.iter().map(|w| contact.normal_damping * w).collect();
         self.add_friction(&mut dashpots[1], &normal);
-        for (node, length) in lengths.iter().enumerate() {
-            let (radial, tangential) = (2 * node, 2 * node + 1);
-            dashpots[0].add(radial, radial, normal[node]);
-            dashpots[0].add(tangential, tangential, contact.tangential_damping * length);
+        for (i, node) in self.sector.contact_nodes().enumerate() {
+            dashpots[0].add(2 * node, 2 * node, normal[i]);
+            let value = contact.tangential_damping * lengths[i];
+            for (row, along) in self.slip(node) {
+                for (column, across) in self.slip(node) {
+                    dashpots[0].add(row, column, along * value * across);
+                }
+            }
         }
         sum(damping, self.project(dashpots))
     }
@@ -290,8 +303,13 @@ impl SectorTangent {
     /// On the tangential rows alone, whose scaling by `-i` cancels that of the unknown.
     pub(super) fn friction_dashpots(&self, terms: &Terms) -> Option<BandedMatrix> {
         let mut dashpots = self.zero();
-        for (node, value) in terms.friction_dashpots.as_ref()?.iter().enumerate() {
-            dashpots.add(2 * node + 1, 2 * node + 1, *value);
+        let values = terms.friction_dashpots.as_ref()?;
+        for (node, value) in self.sector.contact_nodes().zip(values) {
+            for (row, along) in self.slip(node) {
+                for (column, across) in self.slip(node) {
+                    dashpots.add(row, column, along * value * across);
+                }
+            }
         }
         if self.terms.normal_stiffness.is_some() {
             return Some(dashpots);
@@ -302,25 +320,34 @@ impl SectorTangent {
     /// Friction that follows `dN = -value q_n`, on the left-hand side; a tangential row times `-i` turns
     /// `s mu value` into `-s value (i mu)`.
     fn add_friction(&self, coefficient: &mut BandedMatrix, values: &[f64]) {
-        for (node, value) in values.iter().enumerate() {
-            coefficient.add(2 * node + 1, 2 * node, -self.base.friction.drag * value);
+        for (node, value) in self.sector.contact_nodes().zip(values) {
+            for (row, along) in self.slip(node) {
+                coefficient.add(row, 2 * node, -self.base.friction.drag * along * value);
+            }
         }
+    }
+
+    /// Slip at a contact node as `(dof, coefficient)`.
+    fn slip(&self, node: usize) -> impl Iterator<Item = (usize, f64)> {
+        let opposite = self.sector.opposite(node);
+        std::iter::once((2 * node + 1, 1.0)).chain(opposite.map(|node| (2 * node + 1, -1.0)))
     }
 
     /// Onto the unknowns; for rigid contact each normal row is added to its tangential row with the
     /// factor `-s mu`, which is `s (i mu)` once the tangential row is multiplied by `-i`.
-    fn project(&self, mut full: Vec<BandedMatrix>) -> FrictionPolynomial {
+    pub(super) fn project(&self, mut full: Vec<BandedMatrix>) -> FrictionPolynomial {
         if self.terms.normal_stiffness.is_none() {
             full.push(self.zero());
             for power in (1..full.len()).rev() {
                 let (lower, upper) = full.split_at_mut(power);
-                for node in 0..self.sector.contact_count {
-                    let (normal, tangential) = (2 * node, 2 * node + 1);
-                    for column in lower[power - 1].columns(normal) {
-                        let value = lower[power - 1].get(normal, column);
+                for node in self.sector.contact_nodes() {
+                    for column in lower[power - 1].columns(2 * node) {
+                        let value = lower[power - 1].get(2 * node, column);
                         if value != 0.0 {
                             let value = self.base.friction.drag * value;
-                            upper[0].add(tangential, column, value);
+                            for (row, along) in self.slip(node) {
+                                upper[0].add(row, column, along * value);
+                            }
                         }
                     }
                 }
@@ -334,60 +361,4 @@ impl SectorTangent {
         }
         full
     }
-}
-
-/// `N` of each contact node times `slope`; `None` without one.
-pub(super) fn friction_dashpots(base: &SectorSliding, slope: f64) -> Option<Vec<f64>> {
-    let forces = base.normal_forces.iter().map(|force| slope * force);
-    (slope != 0.0).then(|| forces.collect())
-}
-
-/// Geometric stiffness of the pressed and of the sheared state.
-pub(super) fn stress_stiffness(
-    sector: &SectorMesh,
-    material: &ElasticMaterial,
-    base: &SectorSliding,
-) -> [SectorMatrix; 2] {
-    let of = |displacement: &[f64], parity| {
-        sector::geometric_stiffness(sector, material, displacement, parity)
-    };
-    [
-        of(&base.pressed_displacement, MirrorParity::Even),
-        of(&base.sheared_displacement, MirrorParity::Odd),
-    ]
-}
-
-/// `N / a` of each contact node, zero where the prestress does not act back.
-pub(super) fn turning(
-    sector: &SectorMesh,
-    options: &TangentOptions,
-    base: &SectorSliding,
-) -> Vec<f64> {
-    let radius = sector.specification.inner_radius;
-    let factor = if options.geometric_stiffness {
-        1.0
-    } else {
-        0.0
-    };
-    base.normal_forces
-        .iter()
-        .map(|force| factor * force / radius)
-        .collect()
-}
-
-fn multiplied(mut polynomial: FrictionPolynomial, factor: f64) -> FrictionPolynomial {
-    for coefficient in &mut polynomial {
-        coefficient.scale(factor);
-    }
-    polynomial
-}
-
-pub(super) fn sum(mut a: FrictionPolynomial, b: FrictionPolynomial) -> FrictionPolynomial {
-    for (power, term) in b.into_iter().enumerate() {
-        match a.get_mut(power) {
-            Some(total) => total.add_scaled(1.0, &term),
-            None => a.push(term),
-        }
-    }
-    a
 }

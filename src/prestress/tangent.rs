@@ -1,12 +1,14 @@
 //! The matrices of small motions around steady sliding.
 
+use super::projection::{ProjectedPolynomial, Projection};
+use super::turning::turning_of;
 use super::{DampingModel, SteadySliding, TangentOptions};
-use crate::contact::{ContactInterface, ContactStiffness};
+use crate::contact::{ContactStiffness, OppositeShare};
 use crate::fem::{
     DofMap, MaterialField, RayleighDamping, Triplets, assemble_extra_damping,
     assemble_geometric_stiffness, assemble_mass, assemble_supports,
 };
-use crate::linalg::{MatrixPolynomial, SparsityPattern};
+use crate::linalg::{MatrixPolynomial, SparsityPattern, c64};
 use crate::mesh::Mesh2d;
 use std::sync::Arc;
 
@@ -47,6 +49,11 @@ pub struct SlidingTangent {
     pub contact_tangential: Vec<usize>,
     /// Unknown of each contact node's normal displacement; empty for rigid contact.
     pub contact_normal: Vec<usize>,
+    /// Unknowns of the opposite body that the contact touches, two for each contact node of an annulus; none on a rigid
+    /// counterface.
+    pub contact_opposite: Vec<usize>,
+    /// Contact normals whose unknown is a distance, with what the opposite body adds to it.
+    pub distances: Vec<(usize, Vec<OppositeShare>)>,
     /// Angle of each contact node, rad; empty for a body without rotational symmetry, whose modes have no
     /// circumferential harmonic.
     pub contact_angles: Vec<f64>,
@@ -54,11 +61,22 @@ pub struct SlidingTangent {
     pub sliding_direction: f64,
 }
 
+impl SlidingTangent {
+    /// Displacement of every dof from a vector over the unknowns.
+    pub fn displacement(&self, unknowns: &[c64]) -> Vec<c64> {
+        let mut full = self.unknowns.expand(unknowns);
+        for (normal, shares) in &self.distances {
+            for share in shares {
+                let moved = full[share.dof] * share.normal;
+                full[*normal] += moved;
+            }
+        }
+        full
+    }
+}
+
 /// Coefficients of one matrix over all dofs, by power of `mu`.
 type FullPolynomial = Vec<Triplets>;
-
-/// Entries `(row, column, value)` over the unknowns, by power of `mu`.
-type ProjectedPolynomial = Vec<Vec<(usize, usize, f64)>>;
 
 impl SlidingTangent {
     /// Linearises around `base`, whose stiffness `K_e` over all dofs is `elastic`.
@@ -70,13 +88,18 @@ impl SlidingTangent {
         options: &TangentOptions,
     ) -> Self {
         let projection = Projection::new(mesh, base, options.contact.normal_stiffness.is_some());
-        let mass = vec![assemble_mass(mesh, material, options.mass)];
+        let to_distances = |mut matrix: Triplets| {
+            base.interface.to_distances(&mut matrix);
+            matrix
+        };
+        let mass = vec![to_distances(assemble_mass(mesh, material, options.mass))];
 
         // What beta_R multiplies: body, prestress, contact.
         let mut stiffness = vec![elastic.clone(), Triplets::default()];
         if options.geometric_stiffness {
             add_prestress(&mut stiffness, mesh, material, base);
         }
+        stiffness = stiffness.into_iter().map(to_distances).collect();
         let contact = options.contact;
         if let Some(normal_stiffness) = contact.normal_stiffness {
             add_normal_law(&mut stiffness, base, normal_stiffness);
@@ -84,18 +107,20 @@ impl SlidingTangent {
         let mass = projection.apply(&mass);
         let damped = match options.damping_model {
             DampingModel::WholeTangent => projection.apply(&stiffness),
-            DampingModel::BodyOnly => projection.apply(std::slice::from_ref(elastic)),
+            DampingModel::BodyOnly => projection.apply(&[to_distances(elastic.clone())]),
         };
 
         // What it does not: supports, dashpots, regions with damping of their own.
         let [springs, support_dashpots] = assemble_supports(mesh);
         let has_supports = !springs.entries.is_empty() || !support_dashpots.entries.is_empty();
-        stiffness[0].entries.extend(springs.entries);
+        stiffness[0].entries.extend(to_distances(springs).entries);
         let mut dashpots = contact_dashpots(base, &contact);
-        dashpots[0].entries.extend(support_dashpots.entries);
+        dashpots[0]
+            .entries
+            .extend(to_distances(support_dashpots).entries);
         let rayleigh = options.damping;
         if let Some(own) = assemble_extra_damping(mesh, material, options.mass, rayleigh) {
-            dashpots[0].entries.extend(own.entries);
+            dashpots[0].entries.extend(to_distances(own).entries);
         }
         let has_dashpots = dashpots.iter().any(|terms| !terms.entries.is_empty());
         let stiffness = projection.apply(&stiffness);
@@ -128,6 +153,13 @@ impl SlidingTangent {
             proportional: (is_whole && !has_dashpots).then_some(rayleigh),
             contact_tangential: projection.tangential_unknowns(),
             contact_normal: projection.normal_unknowns(),
+            contact_opposite: projection.opposite_unknowns(),
+            distances: (0..base.interface.opposite.len())
+                .map(|i| {
+                    let shares = base.interface.opposite_of(i).to_vec();
+                    (base.interface.normal_dof(i), shares)
+                })
+                .collect(),
             contact_angles,
             sliding_direction: base.sliding_direction,
             unknowns: projection.unknowns,
@@ -148,15 +180,16 @@ fn add_prestress(
         let stress = assemble_geometric_stiffness(mesh, material, displacement);
         terms.entries.extend(stress.entries);
     }
-    let interface = &base.interface;
-    let curvature = interface.counterface.curvature();
     for (power, forces) in base.normal_forces.iter().enumerate() {
         for (i, force) in forces.iter().enumerate() {
-            let (normal, tangential) = (interface.normal_dof(i), interface.tangential_dof(i));
-            let turning = force * curvature;
-            stiffness[power].push(tangential, tangential, -turning);
-            let friction = base.friction.drag * turning;
-            stiffness[power + 1].push(normal, tangential, friction);
+            let [pressed, sheared] = turning_of(&base.interface, i);
+            for (row, column, value) in pressed {
+                stiffness[power].push(row, column, force * value);
+            }
+            for (row, column, value) in sheared {
+                let friction = base.friction.drag * force * value;
+                stiffness[power + 1].push(row, column, friction);
+            }
         }
     }
 }
@@ -165,10 +198,12 @@ fn add_prestress(
 fn add_normal_law(terms: &mut FullPolynomial, base: &SteadySliding, coefficient: f64) {
     for (i, length) in pressed_lengths(base) {
         let interface = &base.interface;
-        let (normal, tangential) = (interface.normal_dof(i), interface.tangential_dof(i));
+        let normal = interface.normal_dof(i);
         let value = coefficient * length;
         terms[0].push(normal, normal, value);
-        terms[1].push(tangential, normal, base.friction.drag * value);
+        for (dof, along) in interface.slip(i) {
+            terms[1].push(dof, normal, base.friction.drag * along * value);
+        }
     }
 }
 
@@ -187,8 +222,12 @@ fn contact_dashpots(base: &SteadySliding, contact: &ContactStiffness) -> FullPol
     }
     if contact.tangential_damping != 0.0 {
         for (i, length) in pressed_lengths(base) {
-            let dof = base.interface.tangential_dof(i);
-            terms[0].push(dof, dof, contact.tangential_damping * length);
+            let value = contact.tangential_damping * length;
+            for (row, along) in base.interface.slip(i) {
+                for (column, across) in base.interface.slip(i) {
+                    terms[0].push(row, column, along * value * across);
+                }
+            }
         }
     }
     if base.friction.slope != 0.0 {
@@ -198,8 +237,12 @@ fn contact_dashpots(base: &SteadySliding, contact: &ContactStiffness) -> FullPol
         );
         for (power, forces) in base.normal_forces.iter().enumerate() {
             for (i, _) in pressed_lengths(base) {
-                let dof = base.interface.tangential_dof(i);
-                terms[power + 1].push(dof, dof, base.friction.slope * forces[i]);
+                let value = base.friction.slope * forces[i];
+                for (row, along) in base.interface.slip(i) {
+                    for (column, across) in base.interface.slip(i) {
+                        terms[power + 1].push(row, column, along * value * across);
+                    }
+                }
             }
         }
     }
@@ -211,74 +254,6 @@ fn shared_pattern(dimension: usize, matrices: [&ProjectedPolynomial; 3]) -> Arc<
     let entries = matrices.into_iter().flatten().flatten();
     let positions = entries.map(|&(row, column, _)| (row, column));
     Arc::new(SparsityPattern::from_positions(dimension, positions))
-}
-
-/// From all dofs to the unknowns of small motions in sliding contact.
-///
-/// Columns are the unknowns: every dof that is not held and, for rigid contact, not a pressed contact node's
-/// normal displacement. Rows are the same, and for rigid contact each normal row is added to its
-/// tangential row with the factor `-s mu`.
-struct Projection<'a> {
-    unknowns: DofMap,
-    base: &'a SteadySliding,
-    is_penalty: bool,
-    /// For each full dof that is a rigid contact node's normal: unknown of its tangential row.
-    friction_row: Vec<Option<usize>>,
-}
-
-impl<'a> Projection<'a> {
-    fn new(mesh: &Mesh2d, base: &'a SteadySliding, is_penalty: bool) -> Self {
-        let interface = &base.interface;
-        let total = 2 * mesh.node_count();
-        let is_rigid = |i: &usize| !is_penalty && base.is_pressed[*i];
-        let rigid: Vec<usize> = (0..interface.len()).filter(is_rigid).collect();
-        let normals = rigid.iter().map(|&i| interface.normal_dof(i));
-        let unknowns = DofMap::excluding(total, mesh.held_dofs().chain(normals));
-        let mut friction_row = vec![None; total];
-        for i in rigid {
-            friction_row[interface.normal_dof(i)] =
-                unknowns.unknown_of[interface.tangential_dof(i)];
-        }
-        Self {
-            unknowns,
-            base,
-            is_penalty,
-            friction_row,
-        }
-    }
-
-    fn apply(&self, full: &[Triplets]) -> ProjectedPolynomial {
-        let mut projected = vec![Vec::new(); full.len() + usize::from(!self.is_penalty)];
-        for (power, terms) in full.iter().enumerate() {
-            for &(row, column, value) in &terms.entries {
-                let Some(unknown) = self.unknowns.unknown_of[column] else {
-                    continue;
-                };
-                if let Some(row) = self.unknowns.unknown_of[row] {
-                    projected[power].push((row, unknown, value));
-                } else if let Some(row) = self.friction_row[row] {
-                    let value = -self.base.friction.drag * value;
-                    projected[power + 1].push((row, unknown, value));
-                }
-            }
-        }
-        projected
-    }
-
-    fn tangential_unknowns(&self) -> Vec<usize> {
-        self.unknowns_of(ContactInterface::tangential_dof)
-    }
-
-    fn normal_unknowns(&self) -> Vec<usize> {
-        self.unknowns_of(ContactInterface::normal_dof)
-    }
-
-    fn unknowns_of(&self, dof: fn(&ContactInterface, usize) -> usize) -> Vec<usize> {
-        let nodes = 0..self.base.interface.len();
-        let dofs = nodes.map(|i| dof(&self.base.interface, i));
-        dofs.filter_map(|dof| self.unknowns.unknown_of[dof])
-            .collect()
-    }
 }
 
 #[cfg(test)]
@@ -306,6 +281,7 @@ mod tests {
             radial_grading: 1.2,
             element,
             outer: BoundaryCondition::Clamped,
+            shaft: None,
         });
         let material = ElasticMaterial {
             young_modulus: 2.5e9,

@@ -178,7 +178,10 @@ impl MeshStatistics {
         let area: f64 = regions.iter().map(|region| region.area_m2).sum();
         let exact = |annulus: &AnnulusMesh| {
             let spec = &annulus.specification;
-            std::f64::consts::PI * (spec.outer_radius.powi(2) - spec.inner_radius.powi(2))
+            let bore = spec
+                .shaft
+                .map_or(spec.inner_radius, |shaft| shaft.inner_radius);
+            std::f64::consts::PI * (spec.outer_radius.powi(2) - bore.powi(2))
         };
         let contact = mesh.contact_edge();
         let contact_length: f64 = contact.tributary_lengths.iter().sum();

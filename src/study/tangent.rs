@@ -36,10 +36,11 @@ pub fn modes_at_own_friction(
         limit,
         shapes_at: &[],
     };
+    let materials = case.materials();
     let found = if case.is_annulus() {
-        cyclic::sweep(&case.annulus, &case.material, options, sliding, &request)?.sweep
+        cyclic::sweep(&case.annulus, materials, options, sliding, &request)?.sweep
     } else {
-        let (mesh, materials) = (case.mesh()?, case.materials());
+        let mesh = case.mesh()?;
         let stiffness = assemble_stiffness(&mesh, materials);
         let base = SteadySliding::solve(&mesh, &stiffness, sliding)?;
         let tangent = SlidingTangent::linearize(&mesh, materials, &stiffness, &base, options);

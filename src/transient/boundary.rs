@@ -118,16 +118,24 @@ fn extra_damping(model: &TransientModel<'_>) -> Triplets {
 }
 
 impl TransientModel<'_> {
-    /// Coefficients of a Rayleigh damping that is nowhere below the body's, dashpots included: what bounds the step.
-    pub fn bounding_damping(&self) -> RayleighDamping {
-        let mut bound = self.damping;
-        let regions = (0..self.mesh.regions.len()).filter_map(|r| self.material.own_damping(r));
-        for own in regions {
+    /// Coefficients of a Rayleigh damping that is nowhere below that of the nodes `is_part`, dashpots included: what bounds
+    /// the step.
+    pub fn bounding_damping(&self, is_part: &dyn Fn(usize) -> bool) -> RayleighDamping {
+        let mut regions: Vec<usize> = (0..self.mesh.element_count())
+            .filter(|&e| is_part(self.mesh.element_nodes(e)[0] as usize))
+            .map(|e| self.mesh.region(e))
+            .collect();
+        regions.sort_unstable();
+        regions.dedup();
+        let mut bound = RayleighDamping::default();
+        for region in regions {
+            let own = self.material.own_damping(region).unwrap_or(self.damping);
             bound.mass_coefficient = bound.mass_coefficient.max(own.mass_coefficient);
             bound.stiffness_coefficient =
                 bound.stiffness_coefficient.max(own.stiffness_coefficient);
         }
-        let supports = self.mesh.nodal_supports();
+        let mut supports = self.mesh.nodal_supports();
+        supports.retain(|support| is_part(support.node));
         if supports.iter().any(|s| s.damping != [[0.0; 2]; 2]) {
             let masses = lumped_masses(self.mesh, self.material);
             let rates = supports

@@ -1,9 +1,12 @@
 //! Forward increment Lagrange multipliers of the contact edge.
 
+mod opposite;
+
 use super::compliance::{CompliantContact, CompressedNode};
 use super::{TransientError, TransientModel};
 use crate::contact::{ContactInterface, ContactStatus, CoulombFriction, SlippingNode};
 use crate::fem::operator::{MotionFields, StepCoefficients, StiffnessOperator};
+use opposite::OppositeBody;
 use serde::{Deserialize, Serialize};
 use std::ops::AddAssign;
 
@@ -86,7 +89,7 @@ impl StatusCounts {
     }
 }
 
-/// Contact of each node of the contact edge with the rigid moving counterface.
+/// Contact of each node of the contact edge with the moving counterface.
 ///
 /// The forces at `n` enforce the constraints at `n + 1` (equation (6) of Brunetti et al.). With a lumped mass and
 /// a rigid counterface each node stands alone and the multipliers are in closed form: a trial step without contact
@@ -100,6 +103,10 @@ impl StatusCounts {
 /// node is open and both vanish. Linear kinematics: the normal does not turn with the node. Friction that falls with
 /// the slip speed is implicit in it, node by node: [`CoulombFriction::resolve`]. A contact with a stiffness has `N` from
 /// its spring instead; a tangential dashpot adds `- c_t w v_t` while the node is in contact.
+///
+/// A deformable counterface takes the opposite forces; its motion is taken off that of the node, `1 / m` is the sum of
+/// both sides', and nodes that share a node of the other body are solved one after the other until nothing changes.
+/// Velocities in the powers are then those between the bodies.
 #[derive(Clone, Debug)]
 pub struct LagrangeContact {
     normal: Vec<usize>,
@@ -121,6 +128,8 @@ pub struct LagrangeContact {
     /// Before the step: `v_n, v_t, q_n, q_t`.
     before: Vec<[f64; 4]>,
     ambiguous: u64,
+    /// The other body; `None` for a rigid counterface.
+    opposite: Option<OppositeBody>,
 }
 
 impl LagrangeContact {
@@ -157,6 +166,7 @@ impl LagrangeContact {
             status: vec![ContactStatus::Open; count],
             before: vec![[0.0; 4]; count],
             ambiguous: 0,
+            opposite: OppositeBody::new(operator, interface),
         })
     }
 
@@ -169,6 +179,9 @@ impl LagrangeContact {
         coefficients: &StepCoefficients,
         shares: [f64; 3],
     ) {
+        if self.opposite.is_some() {
+            return self.apply_between_bodies(fields, coefficients, shares);
+        }
         let expansion = self.interference * shares[2];
         let dt = coefficients.time_step;
         let (alpha, beta) = (
@@ -193,7 +206,7 @@ impl LagrangeContact {
             self.status[i] = ContactStatus::Open;
             if self.compliance.is_some() {
                 let motion = [fields.displacement[n], v_n, trial_n];
-                normal = self.compress(i, motion, shares, dt);
+                normal = self.compress(i, mass, motion, shares, dt);
             } else if penetration > 0.0 {
                 // (6), node by node.
                 normal = mass * penetration / (dt * dt);
@@ -216,11 +229,18 @@ impl LagrangeContact {
     }
 
     /// Normal force of a spring, from `u_n`, `v_{n-1/2}` and the `v_{n+1/2}` without contact.
-    fn compress(&mut self, i: usize, motion: [f64; 3], shares: [f64; 3], dt: f64) -> f64 {
+    fn compress(
+        &mut self,
+        i: usize,
+        mass: f64,
+        motion: [f64; 3],
+        shares: [f64; 3],
+        dt: f64,
+    ) -> f64 {
         let [displacement, before, free] = motion;
         let [earlier, now, later] = shares.map(|share| self.pushed(i, share));
         let node = CompressedNode {
-            mass: self.masses[i],
+            mass,
             before: 0.5 * (earlier + now) - displacement + 0.5 * dt * before,
             free: 0.5 * (now + later) - displacement - 0.5 * dt * free,
         };
@@ -264,7 +284,10 @@ impl LagrangeContact {
         };
         let energy = |(i, &n): (usize, &usize)| {
             let [before, now] = shares.map(|share| self.pushed(i, share));
-            let mean = fields.displacement[n] - 0.5 * dt * fields.velocity[n];
+            let mut mean = fields.displacement[n] - 0.5 * dt * fields.velocity[n];
+            if let Some(opposite) = &self.opposite {
+                mean -= opposite.mean_displacement(i, fields, dt);
+            }
             law.energy(i, 0.5 * (before + now) - mean)
         };
         self.normal.iter().enumerate().map(energy).sum()
@@ -283,6 +306,9 @@ impl LagrangeContact {
             ambiguous: self.ambiguous,
             ..StatusCounts::default()
         };
+        if let Some(opposite) = &self.opposite {
+            opposite.settle(fields, dt);
+        }
         for i in 0..self.normal.len() {
             let (n, t) = (self.normal[i], self.tangential[i]);
             let [v_n, v_t, q_n, q_t] = self.before[i];
@@ -296,8 +322,13 @@ impl LagrangeContact {
             fields.elastic[n] = q_n + dt * fields.elastic_rate[n];
             fields.elastic[t] = q_t + dt * fields.elastic_rate[t];
             let (normal, tangential) = (self.normal_force[i], self.tangential_force[i]);
-            let mean_n = 0.5 * (v_n + fields.velocity[n]);
-            let mean_t = 0.5 * (v_t + fields.velocity[t]);
+            let mut mean_n = 0.5 * (v_n + fields.velocity[n]);
+            let mut mean_t = 0.5 * (v_t + fields.velocity[t]);
+            if let Some(opposite) = &self.opposite {
+                let [normal, tangential] = opposite.mean_velocity(i, fields);
+                mean_n -= normal;
+                mean_t -= tangential;
+            }
             let power = tangential * mean_t;
             if self.status[i] == ContactStatus::Stick {
                 counts.stick += 1;

@@ -138,13 +138,22 @@ struct Place {
 fn places_on(annulus: &AnnulusMesh) -> Vec<Place> {
     let specification = &annulus.specification;
     let (inner, outer) = (specification.inner_radius, specification.outer_radius);
+    let bore = specification
+        .shaft
+        .map_or(inner, |shaft| shaft.inner_radius);
+    let per_sector = annulus.sector_node_count();
+    let first = annulus.mesh.contact_edge().nodes[0] as usize;
     let nodes = annulus.mesh.nodes.iter().zip(&annulus.mesh.frame_angles);
-    let place = |([x, y], &angle): (&[f64; 2], &f64)| Place {
-        depth: (x.hypot(*y) - inner) / (outer - inner),
+    let place = |(node, ([x, y], &angle)): (usize, (&[f64; 2], &f64))| Place {
+        depth: if node % per_sector < first {
+            (inner - x.hypot(*y)) / (inner - bore)
+        } else {
+            (x.hypot(*y) - inner) / (outer - inner)
+        },
         angle,
         tangent: angle + FRAC_PI_2,
     };
-    nodes.map(place).collect()
+    nodes.enumerate().map(place).collect()
 }
 
 fn places(model: &TransientModel<'_>) -> Vec<Place> {

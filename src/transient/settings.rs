@@ -4,8 +4,9 @@ use super::{Perturbation, TransientError};
 use crate::contact::{ContactStiffness, SlidingContact};
 use crate::fem::operator::{
     CyclicStencil, OperatorError, SimdLevel, SparseOperator, StiffnessOperator, largest_frequency,
+    largest_frequency_of,
 };
-use crate::fem::{ElasticMaterial, MaterialField, RayleighDamping};
+use crate::fem::{MaterialField, RayleighDamping};
 use crate::mesh::{AnnulusMesh, Mesh2d};
 
 /// Share of the stability limit that an automatic time step uses.
@@ -32,7 +33,7 @@ impl<'a> TransientModel<'a> {
     /// A generated annulus of one material in rigid contact.
     pub fn of_annulus(
         annulus: &'a AnnulusMesh,
-        material: &'a ElasticMaterial,
+        material: &'a dyn MaterialField,
         damping: RayleighDamping,
         contact: SlidingContact,
     ) -> Self {
@@ -120,8 +121,8 @@ pub fn build_operator(
         return Ok(Box::new(operator));
     }
     let annulus = model.annulus.ok_or(OperatorError::NoSymmetry)?;
-    let material = model.material.of(0);
-    Ok(Box::new(CyclicStencil::assemble(annulus, material, simd)?))
+    let stencil = CyclicStencil::assemble(annulus, model.material, simd)?;
+    Ok(Box::new(stencil))
 }
 
 /// Largest stable step of central differences whose damping force lags half a step, s.
@@ -155,6 +156,33 @@ pub struct StepPlan {
 }
 
 impl StepPlan {
+    /// The step of a model, as [`Self::new`]: the smallest that any of its bodies asks for.
+    ///
+    /// # Errors
+    /// Those of [`Self::new`].
+    pub fn of(
+        model: &TransientModel<'_>,
+        operator: &dyn StiffnessOperator,
+        settings: &TransientSettings,
+    ) -> Result<Self, TransientError> {
+        check_times(settings)?;
+        let bodies = model.mesh.bodies();
+        let count = bodies.iter().max().map_or(0, |last| last + 1);
+        if count < 2 {
+            return Self::new(operator, &model.bounding_damping(&|_| true), settings);
+        }
+        let limits = (0..count).map(|body| {
+            let is_part = |node: usize| bodies[node] == body;
+            let frequency = largest_frequency_of(operator, &|dof| is_part(dof / 2));
+            let limit = stable_step_limit(frequency, &model.bounding_damping(&is_part));
+            (limit, frequency)
+        });
+        let limits: Vec<(f64, f64)> = limits.collect();
+        let smallest = limits.iter().min_by(|a, b| a.0.total_cmp(&b.0));
+        let (limit, frequency) = *smallest.expect("a mesh has a body");
+        Self::within(limit, frequency, settings)
+    }
+
     /// Chooses the step: the given one, or 0.95 of the limit, lowered so that it divides the sample interval. It does
     /// not depend on the duration; the run is as many whole sample intervals as lie within that.
     ///
@@ -168,6 +196,14 @@ impl StepPlan {
         check_times(settings)?;
         let largest_frequency = largest_frequency(operator);
         let limit = stable_step_limit(largest_frequency, damping);
+        Self::within(limit, largest_frequency, settings)
+    }
+
+    fn within(
+        limit: f64,
+        largest_frequency: f64,
+        settings: &TransientSettings,
+    ) -> Result<Self, TransientError> {
         let wanted = match settings.time_step {
             TimeStep::Auto => (SAFETY * limit).min(settings.sample_interval),
             TimeStep::Seconds(step) if step > limit => {

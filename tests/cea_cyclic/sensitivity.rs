@@ -62,7 +62,7 @@ fn sensitivities_equal_finite_differences() {
         };
         let model = CyclicModel {
             specification: annulus(element, 24, 6),
-            material,
+            material: material.into(),
             options,
             contact,
         };
@@ -96,19 +96,19 @@ fn sensitivities_equal_finite_differences() {
                     "nu",
                     1.0,
                     s.poisson_ratio,
-                    difference(1e-3, &|m, h| m.material.poisson_ratio += h),
+                    difference(1e-3, &|m, h| m.material.annulus.poisson_ratio += h),
                 ),
                 (
                     "E",
                     2.5e9,
                     s.young_modulus,
-                    difference(2e7, &|m, h| m.material.young_modulus += h),
+                    difference(2e7, &|m, h| m.material.annulus.young_modulus += h),
                 ),
                 (
                     "rho",
                     1228.0,
                     s.density,
-                    difference(10.0, &|m, h| m.material.density += h),
+                    difference(10.0, &|m, h| m.material.annulus.density += h),
                 ),
                 (
                     "alpha",

@@ -162,7 +162,7 @@ fn results_are_the_same_to_the_last_bit_on_any_number_of_threads() {
 fn stability_map_equals_single_sweeps_and_survives_failing_points() {
     let model = CyclicModel {
         specification: annulus(ElementKind::Quad4, 40, 10),
-        material: POLYCARBONATE,
+        material: POLYCARBONATE.into(),
         options: paper_options(),
         contact: contact(610.0),
     };

@@ -31,6 +31,7 @@ pub fn annulus(
         radial_grading: 1.0,
         element,
         outer: BoundaryCondition::Clamped,
+        shaft: None,
     }
 }
 

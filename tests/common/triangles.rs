@@ -92,6 +92,7 @@ pub fn body(file: &GmshFile) -> Mesh2d {
             center: [0.0; 2],
             radius: None,
         },
+        opposite: None,
         conditions: vec![("outer".to_owned(), BoundaryCondition::Clamped)],
     };
     Mesh2d::from_gmsh(file, &specification).unwrap()

@@ -40,6 +40,7 @@ pub fn refinements(element: ElementKind) -> [AnnulusSpecification; 3] {
             radial_grading: 4.0_f64.powf(1.0 / radial_elements as f64),
             element,
             outer: BoundaryCondition::Clamped,
+            shaft: None,
         }
     })
 }

@@ -37,6 +37,7 @@ pub fn mesh(circumferential_elements: usize, radial_elements: usize) -> Mesh2d {
         radial_grading: 1.0,
         element: ElementKind::Quad4,
         outer: frictionsim::mesh::BoundaryCondition::Clamped,
+        shaft: None,
     })
     .unwrap()
     .mesh

@@ -95,8 +95,9 @@ fn block() -> Mesh2d {
         scale: 1.0,
         contact: "bottom".to_owned(),
         counterface: CounterfaceSpecification::Plane {
-            direction: [1.0, 0.0],
+            direction: Some([1.0, 0.0]),
         },
+        opposite: None,
         conditions: vec![
             ("right".to_owned(), BoundaryCondition::Support(mounting)),
             ("top".to_owned(), BoundaryCondition::Pressure(1e6)),

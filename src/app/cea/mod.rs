@@ -163,7 +163,7 @@ pub fn modes_and_onsets(case: &Case) -> Result<FrictionSweep, Failure> {
         };
         let options = tangent_options(case, cea.mass);
         let sliding = &case.contact.sliding;
-        cyclic::sweep(&case.annulus, &case.material, &options, sliding, &request)?.sweep
+        cyclic::sweep(&case.annulus, case.materials(), &options, sliding, &request)?.sweep
     } else {
         let model = SlidingModel::new(case, &cea)?;
         solve::solve(case, &cea, &model, &ProgressBar::hidden())?.sweep

@@ -61,7 +61,7 @@ impl SlidingModel {
         }
         let annulus = AnnulusMesh::generate(&case.annulus).map_err(Failure::usage)?;
         let sector = SectorMesh::generate(&case.annulus).map_err(Failure::usage)?;
-        let tangent = SectorTangent::linearize(&sector, &case.material, &options, sliding)?;
+        let tangent = SectorTangent::linearize(&sector, case.materials(), &options, sliding)?;
         let base = SteadySliding::from_sector(&annulus, &sector, tangent.base());
         Ok(Self {
             mesh: Arc::new(annulus.mesh),

@@ -106,7 +106,7 @@ fn solve_cyclic(case: &Case, cea: &Cea, model: &SlidingModel) -> Result<Solution
     };
     let found = cyclic::sweep(
         &case.annulus,
-        &case.material,
+        case.materials(),
         &model.options,
         &case.contact.sliding,
         &request,
@@ -162,7 +162,7 @@ pub fn map(case: &Case, cea: &Cea, map: &CeaMap) -> Result<MapReport, Failure> {
             let point = Case::from_raw(point)?;
             let model = CyclicModel {
                 specification: point.annulus,
-                material: point.material,
+                material: point.annulus_materials,
                 options: tangent_options(&point, point.require_cea()?.mass),
                 contact: point.contact.sliding,
             };

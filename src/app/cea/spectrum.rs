@@ -61,7 +61,8 @@ pub fn modes_below(
             };
             let options = tangent_options(case, cea.mass);
             let sliding = &case.contact.sliding;
-            let found = cyclic::sweep(&case.annulus, &case.material, &options, sliding, &request)?;
+            let found =
+                cyclic::sweep(&case.annulus, case.materials(), &options, sliding, &request)?;
             let sensitivities = match with_rates {
                 true => cyclic::sensitivities(&found, friction)?,
                 false => Vec::new(),
@@ -107,14 +108,14 @@ pub fn unstable_intervals(
     let options = tangent_options(case, cea.mass);
     let sliding = &case.contact.sliding;
     if let Some(harmonics) = harmonics {
-        let (annulus, material) = (&case.annulus, &case.material);
+        let (annulus, material) = (&case.annulus, case.materials());
         // A branch that meets another needs the larger margin that the proof has.
         if let Ok(found) = cyclic::onsets(annulus, material, &options, sliding, &request, harmonics)
         {
             return Ok((found, Vec::new()));
         }
     }
-    let found = cyclic::sweep(&case.annulus, &case.material, &options, sliding, &request)?;
+    let found = cyclic::sweep(&case.annulus, case.materials(), &options, sliding, &request)?;
     super::refuse_no_modes(case, &cea, &found.sweep)?;
     Ok((found.sweep.intervals, found.coverage.followed))
 }

@@ -150,7 +150,22 @@ impl Case {
         let around = |radius: f64| TAU * radius / annulus.circumferential_elements as f64;
         let inner = (1.0 / first).hypot(1.0 / around(annulus.inner_radius + 0.5 * first));
         let outer = (1.0 / last).hypot(1.0 / around(annulus.outer_radius - 0.5 * last));
-        2.0 * speed * inner.max(outer)
+        2.0 * (speed * inner.max(outer)).max(self.highest_in_shaft())
+    }
+
+    /// The same of the shaft, half of it.
+    fn highest_in_shaft(&self) -> f64 {
+        let annulus = &self.annulus;
+        let pair = annulus.shaft.zip(self.annulus_materials.shaft);
+        pair.map_or(0.0, |(shaft, material)| {
+            let [lambda, shear] = material.elastic.lame_constants();
+            let speed = ((lambda + 2.0 * shear) / material.elastic.density).sqrt();
+            let width = annulus.inner_radius - shaft.inner_radius;
+            let radial = shaft.radial_elements as f64 / width;
+            let radius = shaft.inner_radius + 0.5 / radial;
+            let around = annulus.circumferential_elements as f64 / (TAU * radius);
+            speed * radial.hypot(around)
+        })
     }
 
     pub(super) fn transient_cost(

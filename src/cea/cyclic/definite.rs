@@ -250,7 +250,7 @@ mod tests {
         }
         friction.add(0, 1, coupling);
         HarmonicTangent {
-            contact_count: 1,
+            contact: 0..1,
             harmonic: 1,
             mass: vec![mass],
             stiffness: vec![stiffness, friction],

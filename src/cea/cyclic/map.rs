@@ -3,7 +3,7 @@
 use super::sweep;
 use crate::cea::{CeaError, ModeLimit, SweepRequest, UnstableInterval};
 use crate::contact::SlidingContact;
-use crate::fem::ElasticMaterial;
+use crate::fem::AnnulusMaterials;
 use crate::mesh::AnnulusSpecification;
 use crate::prestress::TangentOptions;
 use rayon::prelude::*;
@@ -13,8 +13,8 @@ use rayon::prelude::*;
 pub struct CyclicModel {
     /// The annulus and its mesh.
     pub specification: AnnulusSpecification,
-    /// Its material.
-    pub material: ElasticMaterial,
+    /// Its material, and that of its shaft.
+    pub material: AnnulusMaterials,
     /// Choices of the linearisation.
     pub options: TangentOptions,
     /// The cylinder.

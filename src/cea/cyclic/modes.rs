@@ -104,6 +104,13 @@ fn expand(tangent: &SectorTangent, harmonic: usize, waves: Waves, x: &[c64]) -> 
         };
         wave[sector.numbering[dof / 2]][dof % 2] = value;
     }
+    // Of a pair the unknown is the distance between the two bodies.
+    for node in sector.contact_nodes() {
+        if let Some(opposite) = sector.opposite(node) {
+            let moved = wave[sector.numbering[opposite]][0];
+            wave[sector.numbering[node]][0] += moved;
+        }
+    }
     let size = |u: &[c64; 2]| u[0].norm_sqr() + u[1].norm_sqr();
     let peak = wave.iter().fold(
         [zero; 2],

@@ -26,8 +26,8 @@ pub(super) struct HarmonicProblem {
     /// `mu` times this is a further part of `C`.
     friction_dashpots: Option<BandedMatrix>,
     pub rayleigh: RayleighDamping,
-    /// Leading unknowns that belong to the contact edge.
-    contact_count: usize,
+    /// Unknowns that belong to the contact edge.
+    contact: std::ops::Range<usize>,
 }
 
 /// The matrices at one friction value and their derivatives with respect to it, as bands of values.
@@ -46,7 +46,7 @@ impl HarmonicProblem {
     pub fn new(tangent: HarmonicTangent, is_standing: bool) -> Self {
         Self {
             harmonic: tangent.harmonic,
-            contact_count: tangent.contact_count,
+            contact: tangent.contact,
             is_standing,
             dimension: tangent.mass[0].dimension(),
             half_bandwidth: tangent.mass[0].half_bandwidth(),
@@ -243,11 +243,11 @@ impl HarmonicProblem {
         let part = |of: fn(&c64) -> f64| {
             let x: Vec<f64> = x.iter().map(of).collect();
             let momentum = self.mass[0].multiply(&x);
-            let energy = |last: usize| {
-                let pairs = x[..last].iter().zip(&momentum);
+            let energy = |unknowns: std::ops::Range<usize>| {
+                let pairs = x[unknowns.clone()].iter().zip(&momentum[unknowns]);
                 pairs.map(|(x, p)| x * p).sum::<f64>()
             };
-            [energy(self.contact_count), energy(x.len())]
+            [energy(self.contact.clone()), energy(0..x.len())]
         };
         let (real, imaginary) = (part(|v| v.re), part(|v| v.im));
         (real[0] + imaginary[0]) / (real[1] + imaginary[1])

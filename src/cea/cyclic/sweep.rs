@@ -11,7 +11,7 @@ use crate::cea::{
     UnstableInterval,
 };
 use crate::contact::SlidingContact;
-use crate::fem::ElasticMaterial;
+use crate::fem::MaterialField;
 use crate::mesh::{AnnulusSpecification, SectorMesh};
 use crate::prestress::{SectorTangent, TangentOptions};
 use rayon::prelude::*;
@@ -65,7 +65,7 @@ const MARGIN_ATTEMPTS: usize = 4;
 /// [`CeaError`] where there is no sliding equilibrium, or a branch cannot be followed.
 pub fn sweep(
     specification: &AnnulusSpecification,
-    material: &ElasticMaterial,
+    material: &dyn MaterialField,
     options: &TangentOptions,
     contact: &SlidingContact,
     request: &SweepRequest<'_>,
@@ -102,7 +102,7 @@ pub fn sweep(
 /// As [`sweep`].
 pub fn onsets(
     specification: &AnnulusSpecification,
-    material: &ElasticMaterial,
+    material: &dyn MaterialField,
     options: &TangentOptions,
     contact: &SlidingContact,
     request: &SweepRequest<'_>,

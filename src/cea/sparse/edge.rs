@@ -30,13 +30,18 @@ struct Waves {
 impl ContactEdge {
     /// The contact edge of `tangent`.
     pub fn of(tangent: &SlidingTangent) -> Self {
-        let components = [&tangent.contact_tangential, &tangent.contact_normal];
+        let mut components = vec![
+            tangent.contact_tangential.clone(),
+            tangent.contact_normal.clone(),
+        ];
+        if !tangent.contact_angles.is_empty() {
+            // Pairs of nodes: normal and tangential in turn.
+            let opposite = |component: usize| tangent.contact_opposite.iter().skip(component);
+            components.extend([0, 1].map(|c| opposite(c).step_by(2).copied().collect()));
+        }
+        components.retain(|component: &Vec<usize>| !component.is_empty());
         Self {
-            components: components
-                .into_iter()
-                .filter(|c| !c.is_empty())
-                .cloned()
-                .collect(),
+            components,
             angles: tangent.contact_angles.clone(),
             rotor: tangent.sliding_direction,
         }

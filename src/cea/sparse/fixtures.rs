@@ -33,6 +33,8 @@ pub fn string_on_belt(count: usize, coupling: f64, is_proportional: bool) -> Sli
         unknowns: DofMap::excluding(count, []),
         contact_tangential: Vec::new(),
         contact_normal: Vec::new(),
+        contact_opposite: Vec::new(),
+        distances: Vec::new(),
         contact_angles: Vec::new(),
         sliding_direction: 1.0,
     }

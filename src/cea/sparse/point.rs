@@ -126,6 +126,7 @@ impl PointSolver<'_> {
         let contact = [
             &self.tangent.contact_tangential,
             &self.tangent.contact_normal,
+            &self.tangent.contact_opposite,
         ];
         for &i in contact.into_iter().flatten() {
             let row = pattern.row(i);
@@ -143,14 +144,12 @@ impl PointSolver<'_> {
     pub fn shapes(&self, model: &ReducedModel, modes: &[ReducedMode]) -> Vec<Vec<c64>> {
         let packed = PackedModes::of(modes, model.dimension());
         let x = model.expand(packed.coordinates.as_ref());
-        let full = self.tangent.unknowns.unknown_of.len();
+        let count = self.tangent.unknowns.len();
         (0..modes.len())
             .map(|j| {
                 let vector = packed.vector(j, &x);
-                let mut shape = vec![c64::new(0.0, 0.0); full];
-                for (unknown, &dof) in self.tangent.unknowns.dofs.iter().enumerate() {
-                    shape[dof] = vector.at(unknown);
-                }
+                let values: Vec<c64> = (0..count).map(|unknown| vector.at(unknown)).collect();
+                let mut shape = self.tangent.displacement(&values);
                 normalize(&mut shape);
                 shape
             })

@@ -3,7 +3,7 @@
 use super::kernel::{self, RowLayout, RowStencil};
 use super::sparse::free_masses;
 use super::{MotionFields, OperatorError, SimdLevel, StepCoefficients, StiffnessOperator};
-use crate::fem::{ElasticMaterial, assemble_stiffness, assemble_supports};
+use crate::fem::{MaterialField, assemble_stiffness, assemble_supports};
 use crate::mesh::{AnnulusMesh, BoundaryCondition};
 
 /// `M^-1 K` of a four-node annulus mesh, without a matrix.
@@ -15,8 +15,10 @@ use crate::mesh::{AnnulusMesh, BoundaryCondition};
 #[derive(Clone, Debug)]
 pub struct CyclicStencil {
     layout: RowLayout,
-    /// Nodes of a sector, a clamped one included.
+    /// Nodes of a sector, clamped ones included.
     per_sector: usize,
+    /// Whether the first of them is clamped: the bore of a shaft, which takes the place of the row of zeros.
+    is_bore_clamped: bool,
     stencils: Vec<RowStencil>,
     masses: Vec<f64>,
     simd: SimdLevel,
@@ -26,13 +28,14 @@ pub struct CyclicStencil {
 type Blocks = Vec<[[[[f64; 2]; 2]; 3]; 3]>;
 
 impl CyclicStencil {
-    /// Assembles the stencil of `annulus` with its outer edge clamped.
+    /// Assembles the stencil of `annulus` with what holds its edges; the rows of a shaft come before its own, and no
+    /// coefficient connects them.
     ///
     /// # Errors
     /// [`OperatorError`] if the elements are not four-node quadrilaterals or the sectors not mirror-symmetric.
     pub fn assemble(
         annulus: &AnnulusMesh,
-        material: &ElasticMaterial,
+        material: &dyn MaterialField,
         simd: SimdLevel,
     ) -> Result<Self, OperatorError> {
         if !annulus.mesh.is_quad4() {
@@ -46,14 +49,18 @@ impl CyclicStencil {
             return Err(OperatorError::NotCyclic { relative });
         }
         let per_sector = annulus.sector_node_count();
-        let is_clamped = annulus.specification.outer == BoundaryCondition::Clamped;
-        let rows = per_sector - usize::from(is_clamped);
-        let layout = RowLayout::new(annulus.sector_count(), rows);
-        let stencils = (0..rows)
-            .map(|i| row_stencil(&blocks[i], node_masses[i], i + 1 < rows))
+        let specification = &annulus.specification;
+        let is_clamped = specification.outer == BoundaryCondition::Clamped;
+        let bore = specification.shaft.map(|shaft| shaft.bore);
+        let is_bore_clamped = bore == Some(BoundaryCondition::Clamped);
+        let nodes = usize::from(is_bore_clamped)..per_sector - usize::from(is_clamped);
+        let layout = RowLayout::new(annulus.sector_count(), nodes.len());
+        let stencils = nodes
+            .clone()
+            .map(|i| row_stencil(&blocks[i], node_masses[i], i + 1 < nodes.end))
             .collect();
         let mut masses = vec![0.0; layout.field_length()];
-        for (row, &mass) in node_masses.iter().enumerate().take(rows) {
+        for (row, &mass) in node_masses[nodes].iter().enumerate() {
             for component in 0..2 {
                 let start = layout.start(row, component);
                 masses[start..start + layout.count].fill(mass);
@@ -62,6 +69,7 @@ impl CyclicStencil {
         Ok(Self {
             layout,
             per_sector,
+            is_bore_clamped,
             stencils,
             masses,
             simd: simd.min(SimdLevel::detect()),
@@ -70,7 +78,7 @@ impl CyclicStencil {
 }
 
 /// Blocks that couple the nodes of sector 1 to sectors 0, 1 and 2.
-fn sector_blocks(annulus: &AnnulusMesh, material: &ElasticMaterial) -> Blocks {
+fn sector_blocks(annulus: &AnnulusMesh, material: &dyn MaterialField) -> Blocks {
     let per_sector = annulus.sector_node_count();
     let mut blocks = vec![[[[[0.0; 2]; 2]; 3]; 3]; per_sector];
     let [springs, _] = assemble_supports(&annulus.mesh);
@@ -141,7 +149,8 @@ impl StiffnessOperator for CyclicStencil {
 
     fn position(&self, dof: usize) -> usize {
         let (node, component) = (dof / 2, dof % 2);
-        self.layout.start(node % self.per_sector, component) + node / self.per_sector
+        let line = node % self.per_sector + usize::from(!self.is_bore_clamped);
+        self.layout.line(line, component) + node / self.per_sector
     }
 
     fn masses(&self) -> &[f64] {

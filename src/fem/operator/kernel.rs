@@ -56,7 +56,13 @@ impl RowLayout {
     /// row 0, so that every row has an inner neighbour.
     #[inline(always)]
     pub(super) fn start(&self, row: usize, component: usize) -> usize {
-        LANES + (2 * (row + 1) + component) * self.stride
+        self.line(row + 1, component)
+    }
+
+    /// First value of component `component` of line `line`: 0 is the row of zeros, `row + 1` row `row`.
+    #[inline(always)]
+    pub(super) fn line(&self, line: usize, component: usize) -> usize {
+        LANES + (2 * line + component) * self.stride
     }
 
     pub(super) fn field_length(&self) -> usize {

@@ -16,13 +16,21 @@ const TOLERANCE: f64 = 1e-10;
 /// the true value; they stop when they have settled to ten digits. The start vector is fixed, so every run gets the
 /// same value.
 pub fn largest_frequency(operator: &dyn StiffnessOperator) -> f64 {
+    largest_frequency_of(operator, &|_| true)
+}
+
+/// The same of one of several bodies that the operator does not connect, the one whose dofs are `is_part`.
+pub fn largest_frequency_of(
+    operator: &dyn StiffnessOperator,
+    is_part: &dyn Fn(usize) -> bool,
+) -> f64 {
     let masses = operator.masses();
     let dot = |a: &[f64], b: &[f64]| -> f64 {
         let products = a.iter().zip(b).zip(masses);
         // Padding has no mass, but may hold anything finite.
         products.map(|((x, y), m)| x * y * m).sum()
     };
-    let mut current = start_vector(operator);
+    let mut current = start_vector(operator, is_part);
     let mut previous = AlignedVector::zeros(operator.field_length());
     let mut next = previous.clone();
     let (mut diagonal, mut coupling) = (Vec::new(), Vec::new());
@@ -56,7 +64,10 @@ pub fn largest_frequency(operator: &dyn StiffnessOperator) -> f64 {
 }
 
 /// Values in (-1, 1) from a fixed linear congruence on every dof that moves.
-fn start_vector(operator: &dyn StiffnessOperator) -> AlignedVector {
+fn start_vector(
+    operator: &dyn StiffnessOperator,
+    is_part: &dyn Fn(usize) -> bool,
+) -> AlignedVector {
     let mut vector = AlignedVector::zeros(operator.field_length());
     let mut state = 0x9E37_79B9_7F4A_7C15_u64;
     for dof in 0..operator.dof_count() {
@@ -64,7 +75,7 @@ fn start_vector(operator: &dyn StiffnessOperator) -> AlignedVector {
             .wrapping_mul(6_364_136_223_846_793_005)
             .wrapping_add(1_442_695_040_888_963_407);
         let place = operator.position(dof);
-        if operator.masses()[place] > 0.0 {
+        if operator.masses()[place] > 0.0 && is_part(dof) {
             vector[place] = (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0;
         }
     }

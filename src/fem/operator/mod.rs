@@ -13,7 +13,7 @@ mod sparse;
 
 pub use cyclic::CyclicStencil;
 pub use field::{AlignedVector, MotionFields};
-pub use largest_frequency::largest_frequency;
+pub use largest_frequency::{largest_frequency, largest_frequency_of};
 pub use simd::{SimdError, SimdLevel};
 pub use sparse::SparseOperator;
 

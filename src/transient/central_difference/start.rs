@@ -51,7 +51,7 @@ impl<'a> CentralDifference<'a> {
         displacement: &[f64],
         mut velocity: Vec<f64>,
     ) -> Result<Self, TransientError> {
-        let plan = StepPlan::new(operator, &model.bounding_damping(), settings)?;
+        let plan = StepPlan::of(&model, operator, settings)?;
         let expected = operator.dof_count();
         for found in [displacement.len(), velocity.len()] {
             if found != expected {
@@ -85,7 +85,7 @@ impl<'a> CentralDifference<'a> {
         settings: &TransientSettings,
         state: &TransientState,
     ) -> Result<Self, TransientError> {
-        let plan = StepPlan::new(operator, &model.bounding_damping(), settings)?;
+        let plan = StepPlan::of(&model, operator, settings)?;
         let expected = operator.dof_count();
         for vector in [
             &state.displacement,

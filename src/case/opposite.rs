@@ -1,0 +1,56 @@
+//! The other body of a contact between two bodies of a mesh file.
+
+use super::body::{BodyParts, CounterfaceWord};
+use super::reader::Section;
+use crate::contact::ContactInterface;
+use crate::mesh::Mesh2d;
+
+/// `contact.counter_boundary`, which only two bodies have.
+pub(super) fn opposite_curve(section: &Section<'_>, word: CounterfaceWord) -> Option<String> {
+    let key = "counter_boundary";
+    let given = section.optional_text(key);
+    let (message, help) = match (word, &given) {
+        (CounterfaceWord::Body, None) => (
+            "contact.counterface = \"body\" needs contact.counter_boundary",
+            "name the physical curve of the other body",
+        ),
+        (CounterfaceWord::Cylinder | CounterfaceWord::Plane, Some(_)) => (
+            "contact.counter_boundary is for two bodies",
+            "set contact.counterface = \"body\", or leave it out",
+        ),
+        _ => return given,
+    };
+    let label = "the curve of the other body".to_owned();
+    section.reject(key, message.to_owned(), label, Some(help.to_owned()));
+    None
+}
+
+/// Two bodies must have their curves before each other, at most as far into each other as the interference.
+pub(super) fn check_meeting(mesh: &Mesh2d, parts: &BodyParts) -> Result<(), String> {
+    let Some(other) = &parts.place.opposite else {
+        return Ok(());
+    };
+    let interface = ContactInterface::of(mesh);
+    let name = &parts.place.boundary;
+    if interface.is_empty() {
+        return Err(format!(
+            "no point of \"{name}\" (contact.boundary) has \"{other}\" (contact.counter_boundary) before it: correct the \
+             curves, or contact.center, speed and direction, which say how they lie"
+        ));
+    }
+    let deepest =
+        (0..interface.len()).min_by(|&a, &b| interface.gaps[a].total_cmp(&interface.gaps[b]));
+    let Some(i) = deepest else { return Ok(()) };
+    let size = interface.tributary_lengths[i];
+    let depth = -interface.gaps[i];
+    // A thousandth of an element is what faceted curves differ by.
+    if depth > parts.interference + 1e-3 * size {
+        return Err(format!(
+            "the bodies overlap: node {} of \"{name}\" lies {depth:.3e} m inside the other body, more than \
+             contact.interference = {:e} m; mesh them touching, and let contact.interference press them",
+            mesh.node_label(interface.nodes[i] as usize),
+            parts.interference
+        ));
+    }
+    Ok(())
+}

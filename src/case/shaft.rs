@@ -1,0 +1,135 @@
+//! A deformable shaft in the annulus: `geometry.shaft_inner_radius`, `mesh.shaft_radial_elements`, `[materials.shaft]`,
+//! `[boundaries.bore]`.
+
+use super::body;
+use super::boundaries::NamedCondition;
+use super::reader::Section;
+use super::{Case, CaseErrors};
+use crate::fem::{ElasticMaterial, RegionMaterial};
+use crate::mesh::{BoundaryCondition, ShaftSpecification};
+
+/// The shaft, if the case has one, and its material.
+pub(super) fn shaft(
+    root: &Section<'_>,
+    [geometry, mesh]: [&Section<'_>; 2],
+    contact_radius: f64,
+    boundaries: &[NamedCondition],
+    material: &ElasticMaterial,
+) -> Option<(ShaftSpecification, RegionMaterial)> {
+    let bore = geometry.optional_number("shaft_inner_radius");
+    let elements = mesh.optional_count("shaft_radial_elements");
+    let found = materials(root, material, bore.is_some());
+    let Some(bore) = bore else {
+        if elements.is_some() {
+            mesh.reject(
+                "shaft_radial_elements",
+                "mesh.shaft_radial_elements is for a deformable shaft, and the case has none"
+                    .to_owned(),
+                "the cylinder is rigid".to_owned(),
+                Some("give geometry.shaft_inner_radius, or leave it out".to_owned()),
+            );
+        }
+        return None;
+    };
+    if bore >= contact_radius {
+        geometry.reject(
+            "shaft_inner_radius",
+            format!(
+                "geometry.shaft_inner_radius = {bore} must be below geometry.inner_radius = {contact_radius}: the shaft \
+                 reaches from its bore to the contact"
+            ),
+            format!("must be below {contact_radius}"),
+            None,
+        );
+    }
+    if found.is_none() {
+        geometry.reject(
+            "shaft_inner_radius",
+            "the shaft of geometry.shaft_inner_radius has no material".to_owned(),
+            "needs [materials.shaft]".to_owned(),
+            Some(
+                "add [materials.shaft] with young_modulus, poisson_ratio and density, or leave shaft_inner_radius out \
+                 for a rigid cylinder"
+                    .to_owned(),
+            ),
+        );
+    }
+    let shaft = ShaftSpecification {
+        inner_radius: bore,
+        radial_elements: elements.unwrap_or_else(|| mesh.count("shaft_radial_elements")),
+        bore: bore_condition(root, boundaries),
+    };
+    found.map(|material| (shaft, material))
+}
+
+/// `[materials.shaft]`; the annulus has no other surfaces.
+fn materials(
+    root: &Section<'_>,
+    material: &ElasticMaterial,
+    has_shaft: bool,
+) -> Option<RegionMaterial> {
+    let all = root.section("materials", false);
+    for (name, _) in all.remaining() {
+        let (message, help) = match (name, has_shaft) {
+            ("shaft", true) => continue,
+            ("shaft", false) => (
+                "[materials.shaft] is for a deformable shaft, and the case has none".to_owned(),
+                "give geometry.shaft_inner_radius, or leave the section out",
+            ),
+            _ => (
+                format!("[materials.{name}] is for a physical surface of a mesh file (mesh.file)"),
+                "describe the disc in [material] and a shaft in [materials.shaft]",
+            ),
+        };
+        let label = "the annulus has one material".to_owned();
+        all.reject(name, message, label, Some(help.to_owned()));
+    }
+    let read = body::materials(root, material);
+    all.close();
+    let mut shafts = read.into_iter().filter(|(name, _)| name == "shaft");
+    shafts.next().map(|(_, material)| material)
+}
+
+fn bore_condition(root: &Section<'_>, boundaries: &[NamedCondition]) -> BoundaryCondition {
+    let given = boundaries.iter().find(|(name, _)| name == "bore");
+    match given.map(|(_, condition)| *condition) {
+        None => BoundaryCondition::Clamped,
+        Some(condition @ BoundaryCondition::Clamped) => condition,
+        Some(condition @ BoundaryCondition::Support(support))
+            if support.tangential_stiffness > 0.0 =>
+        {
+            condition
+        }
+        Some(_) => {
+            root.section("boundaries", false).reject(
+                "bore",
+                "nothing holds the shaft against the friction that turns it".to_owned(),
+                "must hold the bore tangentially".to_owned(),
+                Some(
+                    "use condition = \"clamped\", or \"support\" with tangential_stiffness above 0"
+                        .to_owned(),
+                ),
+            );
+            BoundaryCondition::Clamped
+        }
+    }
+}
+
+impl Case {
+    /// An analysis that a deformable shaft has no part in.
+    ///
+    /// # Errors
+    /// A case with a shaft.
+    pub(super) fn require_rigid_shaft(&self, what: &str) -> Result<(), CaseErrors> {
+        if self.annulus.shaft.is_none() {
+            return Ok(());
+        }
+        let key = "geometry.shaft_inner_radius";
+        Err(self.error_at(
+            key,
+            format!("{what} takes the cylinder as rigid, and {key} gives a deformable shaft"),
+            "not with a deformable shaft".to_owned(),
+            Some(format!("leave {key} out")),
+        ))
+    }
+}

@@ -1,0 +1,303 @@
+//! How the nodes of a contact edge meet the edge of another body, whose mesh need not match.
+
+use crate::mesh::{Counterface, Mesh2d};
+use std::collections::BTreeMap;
+
+/// Part that a dof of the opposite body has in what a contact node meets.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct OppositeShare {
+    /// Full dof.
+    pub dof: usize,
+    /// In the displacement along the contact node's normal.
+    pub normal: f64,
+    /// In that along its tangent.
+    pub tangential: f64,
+    /// In the derivative of the displacement by the arc along the tangent, along the normal, 1/m.
+    pub normal_slope: f64,
+    /// The same along the tangent, 1/m.
+    pub tangential_slope: f64,
+}
+
+/// What a contact node meets.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Meeting {
+    /// Parts of the opposite body's dofs.
+    pub shares: Vec<OppositeShare>,
+    /// Share of the node's tributary length that has the opposite edge before it.
+    pub covered: f64,
+    /// Height of the opposite edge above the common surface, along the normal, m.
+    pub height: f64,
+}
+
+/// What each node of the contact edge meets; `None` on a rigid counterface.
+///
+/// Dual mortar weights (Wohlmuth 2000): `P_ij = ∫ psi_i M_j ds / ∫ psi_i ds` with the basis `psi` that is biorthogonal to the
+/// contact edge's shape functions, edge by edge on the part that is covered, and `M` the opposite edge's shape functions;
+/// places of both are their projections onto the common surface. A constant pressure passes exactly between straight
+/// edges. On the annulus nodes lie in pairs, `P` is the identity, and slopes are those of the nodal field, the mean of both
+/// elements at a corner.
+pub(super) fn meetings(mesh: &Mesh2d) -> Option<Vec<Meeting>> {
+    let opposite = mesh.opposite?;
+    if mesh.is_cyclic {
+        return Some(pairs(mesh, &mesh.boundaries[opposite].nodes));
+    }
+    let edges = Edge::of(mesh, mesh.contact);
+    let others = Edge::of(mesh, opposite);
+    Some(mortar(mesh, &edges, &others))
+}
+
+fn pairs(mesh: &Mesh2d, nodes: &[u32]) -> Vec<Meeting> {
+    let count = nodes.len();
+    let (lengths, curvature) = (
+        &mesh.contact_edge().tributary_lengths,
+        mesh.counterface.curvature(),
+    );
+    let is_quadratic = lengths[0] != lengths[1];
+    let per_arc = count as f64 / std::f64::consts::TAU * curvature;
+    let pair = |i: usize| {
+        let dof = 2 * nodes[i] as usize;
+        let own = OppositeShare {
+            dof,
+            normal: 1.0,
+            tangential_slope: curvature,
+            ..OppositeShare::default()
+        };
+        let across = OppositeShare {
+            dof: dof + 1,
+            tangential: 1.0,
+            normal_slope: -curvature,
+            ..OppositeShare::default()
+        };
+        let stencil: &[(usize, f64)] = match (is_quadratic, i % 2) {
+            (true, 0) => &[(count - 2, 0.25), (count - 1, -1.0), (1, 1.0), (2, -0.25)],
+            _ => &[(count - 1, -0.5), (1, 0.5)],
+        };
+        let slopes = stencil.iter().flat_map(|&(offset, weight)| {
+            let dof = 2 * nodes[(i + offset) % count] as usize;
+            let normal = OppositeShare {
+                dof,
+                normal_slope: weight * per_arc,
+                ..OppositeShare::default()
+            };
+            let tangential = OppositeShare {
+                dof: dof + 1,
+                tangential_slope: weight * per_arc,
+                ..OppositeShare::default()
+            };
+            [normal, tangential]
+        });
+        Meeting {
+            shares: [own, across].into_iter().chain(slopes).collect(),
+            covered: 1.0,
+            height: 0.0,
+        }
+    };
+    (0..count).map(pair).collect()
+}
+
+/// An element edge on the common surface.
+struct Edge {
+    /// Its ends and its middle, if it has one.
+    nodes: Vec<usize>,
+    /// Arc along the tangent of the contact at its first end, and how far the second end lies from there, m.
+    start: f64,
+    extent: f64,
+}
+
+impl Edge {
+    /// The edges of a boundary.
+    fn of(mesh: &Mesh2d, boundary: usize) -> Vec<Self> {
+        let nodes = &mesh.boundaries[boundary].nodes;
+        let is_on: std::collections::BTreeSet<u32> = nodes.iter().copied().collect();
+        let is_edge = |&(p, q, middle): &(u32, u32, Option<u32>)| {
+            is_on.contains(&p) && is_on.contains(&q) && middle.is_none_or(|m| is_on.contains(&m))
+        };
+        let surface = &mesh.counterface;
+        let edge = |(p, q, middle): (u32, u32, Option<u32>)| {
+            let arc = |node: u32| arc(surface, mesh.nodes[node as usize]);
+            Self {
+                start: arc(p),
+                extent: wrapped(surface, arc(q) - arc(p)),
+                nodes: [p, q]
+                    .into_iter()
+                    .chain(middle)
+                    .map(|n| n as usize)
+                    .collect(),
+            }
+        };
+        mesh.outline_edges()
+            .into_iter()
+            .filter(is_edge)
+            .map(edge)
+            .collect()
+    }
+
+    /// Shape functions and their derivatives by the arc at a share `0..1` of the way from the first to the second end.
+    fn shapes(&self, share: f64) -> Vec<(usize, f64, f64)> {
+        let (s, slope) = (2.0 * share - 1.0, 2.0 / self.extent);
+        let of: &[(f64, f64)] = if self.nodes.len() == 3 {
+            &[
+                (0.5 * s * (s - 1.0), s - 0.5),
+                (0.5 * s * (s + 1.0), s + 0.5),
+                (1.0 - s * s, -2.0 * s),
+            ]
+        } else {
+            &[(0.5 * (1.0 - s), -0.5), (0.5 * (1.0 + s), 0.5)]
+        };
+        let nodes = self.nodes.iter().zip(of);
+        nodes
+            .map(|(&node, &(value, rate))| (node, value, rate * slope))
+            .collect()
+    }
+
+    /// The part of this edge that has `other` before it, as shares of the way: `None` where they do not meet.
+    fn overlap(&self, other: &Self, surface: &Counterface) -> Option<[f64; 2]> {
+        let offset = wrapped(surface, other.start - self.start);
+        let ends = [offset, offset + other.extent].map(|arc| arc / self.extent);
+        let low = ends[0].min(ends[1]).max(0.0);
+        let high = ends[0].max(ends[1]).min(1.0);
+        (high - low > 1e-9).then_some([low, high])
+    }
+
+    /// Where a point of this edge lies on the way of `other`.
+    fn share_on(&self, other: &Self, share: f64, surface: &Counterface) -> f64 {
+        let offset = wrapped(surface, self.start - other.start);
+        ((offset + share * self.extent) / other.extent).clamp(0.0, 1.0)
+    }
+}
+
+/// Arc of the common surface along the contact nodes' tangent, m.
+fn arc(surface: &Counterface, point: [f64; 2]) -> f64 {
+    let place = surface.place(point);
+    match surface {
+        Counterface::Cylinder { .. } => place * surface.lever(),
+        Counterface::Plane { .. } => -place,
+    }
+}
+
+/// The same place less than half a turn away.
+fn wrapped(surface: &Counterface, arc: f64) -> f64 {
+    match surface {
+        Counterface::Cylinder { radius, .. } => {
+            let turn = std::f64::consts::TAU * radius;
+            arc - turn * (arc / turn).round()
+        }
+        Counterface::Plane { .. } => arc,
+    }
+}
+
+/// Points and weights of Gauss's rule with five points on `0..1`: exact for the product of three parabolas.
+const GAUSS: [(f64, f64); 5] = [
+    (0.046_910_077_030_668, 0.118_463_442_528_094_5),
+    (0.230_765_344_947_158_5, 0.239_314_335_249_683_2),
+    (0.5, 0.284_444_444_444_444_4),
+    (0.769_234_655_052_841_5, 0.239_314_335_249_683_2),
+    (0.953_089_922_969_332, 0.118_463_442_528_094_5),
+];
+
+/// Sums over the edges that end in a node.
+#[derive(Clone, Default)]
+struct Sums {
+    /// `∫ psi_i ds` over what is covered, and `∫ N_i ds` over all.
+    covered: f64,
+    whole: f64,
+    /// `∫ psi_i M_j ds` and `∫ psi_i M_j' ds` of the opposite nodes.
+    opposite: BTreeMap<usize, [f64; 2]>,
+}
+
+fn mortar(mesh: &Mesh2d, edges: &[Edge], others: &[Edge]) -> Vec<Meeting> {
+    let surface = &mesh.counterface;
+    let mut sums: BTreeMap<usize, Sums> = BTreeMap::new();
+    for edge in edges {
+        let length = edge.extent.abs();
+        for (weight, share) in GAUSS.map(|(share, weight)| (weight * length, share)) {
+            for (node, value, _) in edge.shapes(share) {
+                sums.entry(node).or_default().whole += weight * value;
+            }
+        }
+        let overlaps: Vec<(&Edge, [f64; 2])> = others
+            .iter()
+            .filter_map(|other| Some((other, edge.overlap(other, surface)?)))
+            .collect();
+        let points: Vec<(&Edge, f64, f64)> = overlaps
+            .iter()
+            .flat_map(|&(other, [low, high])| {
+                let width = high - low;
+                GAUSS.map(|(at, weight)| (other, low + width * at, weight * width * length))
+            })
+            .collect();
+        let Some(dual) = dual_basis(edge, &points) else {
+            continue;
+        };
+        for &(other, share, weight) in &points {
+            let shapes = edge.shapes(share);
+            let met = other.shapes(edge.share_on(other, share, surface));
+            for (row, &(node, ..)) in dual.iter().zip(&shapes) {
+                let psi: f64 = row.iter().zip(&shapes).map(|(a, shape)| a * shape.1).sum();
+                let sum = sums.entry(node).or_default();
+                sum.covered += weight * psi;
+                for &(opposite, value, slope) in &met {
+                    let entry = sum.opposite.entry(opposite).or_default();
+                    entry[0] += weight * psi * value;
+                    entry[1] += weight * psi * slope;
+                }
+            }
+        }
+    }
+    let nodes = mesh.contact_edge().nodes.iter();
+    nodes
+        .map(|&node| {
+            let sum = sums.get(&(node as usize)).cloned().unwrap_or_default();
+            meeting(mesh, node as usize, &sum)
+        })
+        .collect()
+}
+
+/// Coefficients of the basis that is biorthogonal to an edge's shape functions over the covered part, `A = D M^-1`;
+/// `None` where nothing is covered.
+fn dual_basis(edge: &Edge, points: &[(&Edge, f64, f64)]) -> Option<Vec<Vec<f64>>> {
+    let count = edge.nodes.len();
+    let mut mass = nalgebra::DMatrix::<f64>::zeros(count, count);
+    let mut diagonal = vec![0.0; count];
+    for &(_, share, weight) in points {
+        let shapes = edge.shapes(share);
+        for (i, a) in shapes.iter().enumerate() {
+            diagonal[i] += weight * a.1;
+            for (j, b) in shapes.iter().enumerate() {
+                mass[(i, j)] += weight * a.1 * b.1;
+            }
+        }
+    }
+    let inverse = mass.try_inverse()?;
+    let row = |i: usize| (0..count).map(|j| diagonal[i] * inverse[(i, j)]).collect();
+    Some((0..count).map(row).collect())
+}
+
+fn meeting(mesh: &Mesh2d, node: usize, sums: &Sums) -> Meeting {
+    let is_met = sums.covered > 1e-6 * sums.whole && sums.whole > 0.0;
+    if !is_met {
+        return Meeting::default();
+    }
+    let surface = &mesh.counterface;
+    let normal = surface.normal_angle(mesh.nodes[node]);
+    let mut meeting = Meeting {
+        covered: sums.covered / sums.whole,
+        ..Meeting::default()
+    };
+    for (&opposite, integrals) in &sums.opposite {
+        let [share, slope] = integrals.map(|value| value / sums.covered);
+        meeting.height += share * surface.gap(mesh.nodes[opposite]);
+        // Axes of the opposite node's frame along the contact node's.
+        let (sin, cos) = (mesh.frame_angles[opposite] - normal).sin_cos();
+        for (c, [along, across]) in [[cos, sin], [-sin, cos]].into_iter().enumerate() {
+            meeting.shares.push(OppositeShare {
+                dof: 2 * opposite + c,
+                normal: share * along,
+                tangential: share * across,
+                normal_slope: slope * along,
+                tangential_slope: slope * across,
+            });
+        }
+    }
+    meeting
+}

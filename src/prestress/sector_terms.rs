@@ -1,0 +1,82 @@
+//! What the matrices of an annulus's tangent are made of.
+
+use super::sector_tangent::FrictionPolynomial;
+use super::{SectorSliding, TangentOptions};
+use crate::fem::MaterialField;
+use crate::fem::sector::{self, MirrorParity, SectorMatrix};
+use crate::mesh::SectorMesh;
+
+/// What the matrices are made of; each term may also be a derivative.
+#[derive(Clone, Debug)]
+pub(super) struct Terms {
+    pub(super) elastic: Option<SectorMatrix>,
+    /// Springs and dashpots of the supported edges.
+    pub(super) supports: Option<[SectorMatrix; 2]>,
+    /// Damping that a body has beyond that of the whole.
+    pub(super) own_damping: Option<SectorMatrix>,
+    pub(super) mass: Option<SectorMatrix>,
+    /// Stress of the pressed state and, for each unit of friction, of the sheared state.
+    pub(super) stress: Option<[SectorMatrix; 2]>,
+    /// `N / a` of each contact node, zero without geometric stiffness.
+    pub(super) turning: Vec<f64>,
+    /// `k_n w` of each contact node; `None` for rigid contact.
+    pub(super) normal_stiffness: Option<Vec<f64>>,
+    /// `N mu'(V) / mu` of each contact node; `None` where friction does not depend on the speed.
+    pub(super) friction_dashpots: Option<Vec<f64>>,
+}
+
+/// `N` of each contact node times `slope`; `None` without one.
+pub(super) fn friction_dashpots(base: &SectorSliding, slope: f64) -> Option<Vec<f64>> {
+    let forces = base.normal_forces.iter().map(|force| slope * force);
+    (slope != 0.0).then(|| forces.collect())
+}
+
+/// Geometric stiffness of the pressed and of the sheared state.
+pub(super) fn stress_stiffness(
+    sector: &SectorMesh,
+    material: &dyn MaterialField,
+    base: &SectorSliding,
+) -> [SectorMatrix; 2] {
+    let of = |displacement: &[f64], parity| {
+        sector::geometric_stiffness(sector, material, displacement, parity)
+    };
+    [
+        of(&base.pressed_displacement, MirrorParity::Even),
+        of(&base.sheared_displacement, MirrorParity::Odd),
+    ]
+}
+
+/// `N / a` of each contact node, zero where the prestress does not act back.
+pub(super) fn turning(
+    sector: &SectorMesh,
+    options: &TangentOptions,
+    base: &SectorSliding,
+) -> Vec<f64> {
+    let radius = sector.specification.inner_radius;
+    let factor = if options.geometric_stiffness {
+        1.0
+    } else {
+        0.0
+    };
+    base.normal_forces
+        .iter()
+        .map(|force| factor * force / radius)
+        .collect()
+}
+
+pub(super) fn multiplied(mut polynomial: FrictionPolynomial, factor: f64) -> FrictionPolynomial {
+    for coefficient in &mut polynomial {
+        coefficient.scale(factor);
+    }
+    polynomial
+}
+
+pub(super) fn sum(mut a: FrictionPolynomial, b: FrictionPolynomial) -> FrictionPolynomial {
+    for (power, term) in b.into_iter().enumerate() {
+        match a.get_mut(power) {
+            Some(total) => total.add_scaled(1.0, &term),
+            None => a.push(term),
+        }
+    }
+    a
+}

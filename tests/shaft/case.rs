@@ -1,0 +1,118 @@
+//! Cases with a deformable shaft, good and bad.
+
+use frictionsim::case::Case;
+
+const CASE: &str = "
+[geometry]
+inner_radius = 0.0205
+outer_radius = 0.0905
+shaft_inner_radius = 0.006
+[mesh]
+circumferential_elements = 24
+radial_elements = 5
+shaft_radial_elements = 2
+[material]
+young_modulus = 2.5e9
+poisson_ratio = 0.3805
+density = 1228.0
+[materials.shaft]
+young_modulus = 2.1e11
+poisson_ratio = 0.3
+density = 7850.0
+[contact]
+friction_coefficient = 0.3
+interference = 25e-6
+rotation_speed_rpm = 610.0
+[cea]
+modes = 8
+[cycle]
+harmonics = [2]
+[frf]
+force_node = 8
+frequencies_hz = [1000.0]
+";
+
+fn parse(from: &str, to: &str) -> Result<Case, String> {
+    assert!(CASE.contains(from), "{from}");
+    let text = CASE.replacen(from, to, 1);
+    Case::parse("case.toml", text.as_bytes(), &[]).map_err(|error| error.to_string())
+}
+
+#[test]
+fn a_case_describes_disc_and_shaft() {
+    let case = parse("", "").unwrap();
+    let shaft = case.annulus.shaft.unwrap();
+    assert_eq!((shaft.inner_radius, shaft.radial_elements), (0.006, 2));
+    assert_eq!(case.materials().of(1).young_modulus, 2.1e11);
+    assert_eq!(case.mesh().unwrap().regions, ["disc", "shaft"]);
+    assert_eq!(case.cost().nodes, 24 * 9);
+    assert!(case.require_cea().is_ok());
+}
+
+/// Each message names its key and what to do.
+#[test]
+fn bad_shafts_are_refused_with_a_remedy() {
+    for (from, to, key, remedy) in [
+        (
+            "[materials.shaft]",
+            "[materials.disc]",
+            "materials.disc",
+            "[materials.shaft]",
+        ),
+        (
+            "[materials.shaft]\nyoung_modulus = 2.1e11\npoisson_ratio = 0.3\ndensity = 7850.0\n",
+            "",
+            "geometry.shaft_inner_radius",
+            "add [materials.shaft]",
+        ),
+        (
+            "shaft_inner_radius = 0.006",
+            "",
+            "materials.shaft",
+            "give geometry.shaft_inner_radius",
+        ),
+        (
+            "shaft_inner_radius = 0.006",
+            "shaft_inner_radius = 0.03",
+            "geometry.shaft_inner_radius = 0.03",
+            "must be below 0.0205",
+        ),
+        (
+            "shaft_radial_elements = 2",
+            "",
+            "shaft_radial_elements",
+            "missing",
+        ),
+        (
+            "[contact]",
+            "[boundaries.bore]\ncondition = \"free\"\n[contact]",
+            "holds the shaft",
+            "tangential_stiffness above 0",
+        ),
+        (
+            "[contact]",
+            "[boundaries.shaft]\ncondition = \"clamped\"\n[contact]",
+            "boundaries.shaft",
+            "boundaries.bore",
+        ),
+    ] {
+        let error = parse(from, to).unwrap_err();
+        assert!(
+            error.contains(key) && error.contains(remedy),
+            "{to}: {error}"
+        );
+    }
+}
+
+/// What takes the cylinder as rigid says so.
+#[test]
+fn limit_cycles_and_free_responses_refuse_a_deformable_shaft() {
+    let case = parse("", "").unwrap();
+    for error in [
+        case.require_cycle().unwrap_err().to_string(),
+        case.require_frf().unwrap_err().to_string(),
+    ] {
+        assert!(error.contains("geometry.shaft_inner_radius"), "{error}");
+        assert!(error.contains("leave"), "{error}");
+    }
+}

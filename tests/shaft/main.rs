@@ -1,0 +1,10 @@
+//! A deformable shaft in the disc: eigenvalues and transient against theory, a rigid shaft and each other.
+
+#[path = "../common/disc.rs"]
+mod disc;
+
+mod case;
+mod eigenvalues;
+mod model;
+mod statics;
+mod transient;

@@ -1,0 +1,73 @@
+//! The paper's disc on a deformable shaft.
+
+use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact};
+use frictionsim::cea::cyclic::{CyclicSweep, sweep};
+use frictionsim::cea::{ModeLimit, SweepRequest};
+use frictionsim::contact::ContactStiffness;
+use frictionsim::fem::{
+    AnnulusMaterials, ElasticMaterial, MassKind, PlaneFormulation, RegionMaterial,
+};
+use frictionsim::mesh::{AnnulusSpecification, BoundaryCondition, ElementKind, ShaftSpecification};
+use frictionsim::prestress::{DampingModel, TangentOptions};
+
+pub const STEEL: ElasticMaterial = ElasticMaterial {
+    young_modulus: 2.1e11,
+    poisson_ratio: 0.3,
+    density: 7850.0,
+    formulation: PlaneFormulation::PlaneStrain,
+};
+
+/// The disc with a bore of 6 mm in its shaft.
+pub fn with_shaft(element: ElementKind, around: usize, radial: [usize; 2]) -> AnnulusSpecification {
+    AnnulusSpecification {
+        shaft: Some(ShaftSpecification {
+            inner_radius: 0.006,
+            radial_elements: radial[0],
+            bore: BoundaryCondition::Clamped,
+        }),
+        ..annulus(element, around, radial[1])
+    }
+}
+
+pub fn on(shaft: ElasticMaterial) -> AnnulusMaterials {
+    AnnulusMaterials {
+        annulus: POLYCARBONATE,
+        shaft: Some(RegionMaterial {
+            elastic: shaft,
+            damping: None,
+        }),
+    }
+}
+
+/// A shaft of the disc's material, `factor` times as stiff.
+pub fn stiffer(factor: f64) -> AnnulusMaterials {
+    on(ElasticMaterial {
+        young_modulus: factor * POLYCARBONATE.young_modulus,
+        ..POLYCARBONATE
+    })
+}
+
+pub fn rigid_contact(geometric_stiffness: bool) -> TangentOptions {
+    TangentOptions {
+        mass: MassKind::Consistent,
+        geometric_stiffness,
+        damping: DAMPING,
+        damping_model: DampingModel::WholeTangent,
+        contact: ContactStiffness::default(),
+    }
+}
+
+pub fn spectrum(
+    specification: &AnnulusSpecification,
+    materials: &AnnulusMaterials,
+    options: &TangentOptions,
+    frictions: &[f64],
+    limit: ModeLimit,
+) -> CyclicSweep {
+    let request = SweepRequest {
+        friction_coefficients: frictions,
+        limit,
+        shapes_at: &[],
+    };
+    sweep(specification, materials, options, &contact(610.0), &request).unwrap()
+}
