@@ -97,22 +97,26 @@ pub fn of_sweeps(
     (quantities, notes)
 }
 
-/// Largest relative distance of an eigenvalue from that of the next finer mesh at which both are taken as one mode's.
-const SAME_MODE: f64 = 0.1;
+/// Least likeness (modal assurance criterion) of the shapes of one mode on two meshes.
+const SAME_MODE: f64 = 0.5;
 
 /// First number of the branches that the finest mesh does not have.
 const FOREIGN: usize = 1 << 20;
 
 /// Gives the branches of a body without symmetry the rank that their mode has by frequency on the finest mesh, from 1;
-/// from mesh to mesh the nearest eigenvalues at `friction` belong together.
+/// from mesh to mesh the likest shapes at `friction` belong together, `|x^H y|^2 / (|x|^2 |y|^2)` over the nodes of the
+/// coarser mesh, which come first on the finer one.
 fn name_by_rank(sweeps: &mut [FrictionSweep], friction: f64) {
-    let own = |sweep: &FrictionSweep| -> Vec<(c64, usize)> {
+    type Shapes = Vec<(Vec<c64>, usize)>;
+    let own = |sweep: &FrictionSweep| -> Shapes {
         let mut points = sweep.points.iter();
         let point = points.find(|point| point.friction_coefficient == friction);
         let modes = point.map_or(&[][..], |point| &point.modes).iter();
-        modes.map(|mode| (mode.eigenvalue, mode.branch)).collect()
+        modes
+            .map(|mode| (mode.shape.clone().unwrap_or_default(), mode.branch))
+            .collect()
     };
-    let mut finer: Option<Vec<(c64, usize)>> = None;
+    let mut finer: Option<Shapes> = None;
     for sweep in sweeps.iter_mut().rev() {
         let modes = own(sweep);
         let mut rank_of = BTreeMap::new();
@@ -120,16 +124,16 @@ fn name_by_rank(sweeps: &mut [FrictionSweep], friction: f64) {
         match &finer {
             None => rank_of.extend(modes.iter().enumerate().map(|(i, mode)| (mode.1, i + 1))),
             Some(finer) => {
-                for (here, &(a, _)) in modes.iter().enumerate() {
-                    for (there, &(b, _)) in finer.iter().enumerate() {
-                        pairs.push(((a - b).norm() / b.norm(), here, there));
+                for (here, (x, _)) in modes.iter().enumerate() {
+                    for (there, (y, _)) in finer.iter().enumerate() {
+                        pairs.push((likeness(x, y), here, there));
                     }
                 }
             }
         }
-        // Nearest pairs first, each mode once.
-        pairs.retain(|pair| pair.0 < SAME_MODE);
-        pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
+        // Likest pairs first, each mode once.
+        pairs.retain(|pair| pair.0 > SAME_MODE);
+        pairs.sort_by(|a, b| b.0.total_cmp(&a.0));
         let mut taken = BTreeSet::new();
         for (_, here, there) in pairs {
             let rank = finer.as_ref().map_or(0, |finer| finer[there].1);
@@ -151,6 +155,15 @@ fn name_by_rank(sweeps: &mut [FrictionSweep], friction: f64) {
         }
         finer = Some(own(sweep));
     }
+}
+
+/// `|x^H y|^2 / (|x|^2 |y|^2)` over the leading entries that both have.
+fn likeness(x: &[c64], y: &[c64]) -> f64 {
+    let pairs = || x.iter().zip(y);
+    let product: c64 = pairs().map(|(a, b)| a.conj() * b).sum();
+    let size = |v: f64, part: c64| v + part.norm_sqr();
+    let sizes = pairs().fold((0.0, 0.0), |(p, q), (a, b)| (size(p, *a), size(q, *b)));
+    product.norm_sqr() / (sizes.0 * sizes.1).max(f64::MIN_POSITIVE)
 }
 
 /// Critical friction of every branch that turns unstable within the range of every level.

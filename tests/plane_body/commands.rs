@@ -234,10 +234,10 @@ fn convergence_of_an_imported_body_splits_its_elements() {
             .then(|| quantity["order"].as_f64())?
     });
     let orders: Vec<f64> = orders.collect();
-    // A start of 24 by 4 elements is coarse: the order comes near 2, the fit is not yet at it.
-    assert!(orders.len() >= 4, "{orders:?}");
+    assert!(orders.len() >= 3, "{orders:?}");
+    // The start of 24 by 4 elements is coarse: only the lowest modes show the order within a twentieth.
     assert!(
-        orders.iter().all(|order| (order - 2.0).abs() < 0.35),
+        orders[..3].iter().all(|order| (order - 2.0).abs() < 0.1),
         "{orders:?}"
     );
     frictionsim(
