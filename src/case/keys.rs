@@ -153,7 +153,7 @@ pub const KEYS: &[CaseKey] = &[
     key("basin.seed_ratio_from", Number(Positive), "", Value("0.02"), "0.02", "the smallest seed of the second wave, in units of that of the first"),
     key("basin.seed_ratio_to", Number(Positive), "", Value("50.0"), "50.0", "the largest seed of the second wave, in units of that of the first"),
     key("basin.tolerance", Number(AtLeast(1.01)), "", Value("1.5"), "1.5", "the factor between the two bounds of the boundary at which the search ends"),
-    key("basin.periods", Count(50), "", Value("400"), "400", "the most periods of the slower wave that one transient takes"),
+    key("basin.periods", Count(50), "", Value("2000"), "2000", "the most periods of the slower wave that one transient takes"),
     key("cycle.harmonics", Counts(1), "", Otherwise("those that are unstable"), "[1, 2]", "the harmonics whose limit cycle is sought"),
     key("cycle.onsets", Choice(words::<OnsetChoice>), "", Value("\"all\""), "\"lowest\"", "the losses of stability of each harmonic whose limit cycles are sought (left out = all below the friction)"),
     key("cycle.phases", Count(31), "", Otherwise("as the mesh asks for"), "171", "the number of phases along the wave"),

@@ -21,12 +21,12 @@ const SEED: f64 = 0.01;
 const LOOKS: usize = 8;
 /// Periods over which amplitudes are averaged before they are compared.
 const WINDOW: usize = 10;
-/// A wave with less than this share of the other's amplitude has lost.
+/// A wave with less than this share of the other's amplitude has lost, if it goes on falling.
 const LOST: f64 = 0.02;
 /// Change of the amplitude ratio over one window that is none.
 const CONSTANT: f64 = 2e-3;
-/// Windows without change after which the larger wave has won.
-const CONSTANT_WINDOWS: usize = 3;
+/// Windows after saturation that must agree on the end.
+const AGREEING_WINDOWS: usize = 3;
 
 /// What is asked of two competing waves.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,9 +59,9 @@ pub struct BasinRun {
 /// The boundary between the basins of two waves.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BasinBoundary {
-    /// Largest ratio at saturation at which the first wave still wins; `None` if the second always does.
+    /// Largest ratio at saturation at which the first wave still wins; `None` if the second does at all that were tried.
     pub low: Option<f64>,
-    /// Smallest ratio at which the second wins; `None` if the first always does.
+    /// Smallest ratio at which the second wins; `None` if the first does at all that were tried.
     pub high: Option<f64>,
     /// All transients, in the order of the search.
     pub runs: Vec<BasinRun>,
@@ -99,7 +99,11 @@ impl DiscModel {
         let [mut low, mut high] = request.seed_ratios;
         for ratio in [low, high] {
             let run = contest.run(ratio)?;
-            bounds[usize::from(run.winner == second)] = run.saturation_ratio;
+            let bound = &mut bounds[usize::from(run.winner == second)];
+            // The second wave's bound is its smallest ratio, the first's its largest.
+            if run.winner == first || bound.is_none() {
+                *bound = run.saturation_ratio;
+            }
             runs.push(run);
         }
         let is_contested = runs[0].winner == first && runs[1].winner == second;
@@ -163,8 +167,7 @@ impl Contest<'_> {
         let window = WINDOW * steps;
         let mut sums: Amplitudes = [0.0; 2];
         let mut saturation_ratio = None;
-        let (mut before, mut constant): (Option<f64>, usize) = (None, 0);
-        let mut share = seed_ratio;
+        let (mut before, mut agreeing) = (seed_ratio, 0);
         for step in 1..=self.request.periods * steps {
             run.advance();
             if saturation_ratio.is_none() && is_saturated(&run) {
@@ -176,23 +179,17 @@ impl Contest<'_> {
                 sums.iter_mut().zip(found).for_each(|(sum, a)| *sum += a);
             }
             if step % window == 0 {
-                share = sums[1] / sums[0];
+                let share = sums[1] / sums[0];
                 sums = [0.0; 2];
-                let is_constant =
-                    before.is_some_and(|before| (share / before - 1.0).abs() < CONSTANT);
-                constant = if is_constant && saturation_ratio.is_some() {
-                    constant + 1
-                } else {
-                    0
-                };
-                before = Some(share);
-                let is_lost = !(LOST..=1.0 / LOST).contains(&share);
-                if saturation_ratio.is_some() && (is_lost || constant >= CONSTANT_WINDOWS) {
+                let is_end = saturation_ratio.is_some() && is_final(before, share);
+                agreeing = if is_end { agreeing + 1 } else { 0 };
+                before = share;
+                if agreeing >= AGREEING_WINDOWS {
                     return Ok(self.outcome(&run, seed_ratio, saturation_ratio, share, true));
                 }
             }
         }
-        Ok(self.outcome(&run, seed_ratio, saturation_ratio, share, false))
+        Ok(self.outcome(&run, seed_ratio, saturation_ratio, before, false))
     }
 
     fn outcome(
@@ -258,6 +255,13 @@ impl Contest<'_> {
             terms.sum::<c64>().norm()
         })
     }
+}
+
+/// Whether the amplitude ratio stays as it is from one window to the next, or leaves one wave less and less.
+fn is_final(before: f64, share: f64) -> bool {
+    let change = share / before - 1.0;
+    let is_lost = share < LOST && change < 0.0 || share > 1.0 / LOST && change > 0.0;
+    is_lost || change.abs() < CONSTANT
 }
 
 /// Whether a node sticks or is open.

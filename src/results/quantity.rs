@@ -163,6 +163,10 @@ const QUANTITIES: &[Quantity<'static>] = &[
         Significant(3),
     ),
     quantity_of("contact_open_fraction", "contact open", "", Percent(1)),
+    // Basins.
+    quantity_of("winner", "n that always wins", "", Count),
+    quantity_of("boundary.low", "ratio below", "", Fixed(3)),
+    quantity_of("boundary.high", "ratio above", "", Fixed(3)),
     // Studies.
     quantity_of("points_per_core_hour", "points per core-hour", "", Fixed(0)),
     quantity_of("phases", "phases", "", Count),

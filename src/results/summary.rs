@@ -83,6 +83,10 @@ pub struct PointSummary {
     pub growth: Vec<HarmonicGrowth>,
     /// Time step, s.
     pub time_step_s: Option<f64>,
+    /// The wave that wins whatever the seeds.
+    pub winner: Option<usize>,
+    /// The boundary between two basins.
+    pub boundary: Bounds,
 }
 
 /// A limit cycle, or the vibration at the end of a transient.
@@ -124,6 +128,15 @@ pub struct Crossing {
     pub harmonic: Option<usize>,
     /// Friction coefficient.
     pub critical_friction: Option<f64>,
+}
+
+/// Amplitude ratios between which the winner of two waves changes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Bounds {
+    /// Largest ratio at which the first wave wins; without `high` it wins at every ratio tried.
+    pub low: Option<f64>,
+    /// Smallest ratio at which the second wins; without `low` it wins at every ratio tried.
+    pub high: Option<f64>,
 }
 
 /// Growth of one harmonic.

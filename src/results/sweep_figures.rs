@@ -1,5 +1,6 @@
 //! The figures of a parameter study, from its points.
 
+use super::basin::basin_map;
 use super::charts::palette::{OPEN, SLIP, STICK};
 use super::charts::{CriticalBranch, ModeLine, critical_friction};
 use super::cycle_figures::{FamilyRecord, NamedFamily, draw_branches};
@@ -43,6 +44,7 @@ pub fn draw_sweep(
         Box::new(move || study.frequencies(modes, friction_coefficient)),
         Box::new(move || study.status()),
         Box::new(move || critical(records, highest_friction)),
+        Box::new(move || basin_map(records)),
     ];
     let mut figures = draw_all(declarations, options)?;
     let mut families = cycle_families(records);

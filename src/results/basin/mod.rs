@@ -1,11 +1,15 @@
 //! Results of a search for the boundary between two basins.
 
-use super::summary::{Entry, Summary};
+mod map;
+
+use super::summary::{Bounds, Entry, Summary};
 use super::table::{Table, format_number};
 use super::{FolderError, Manifest, OutputFolder};
 use crate::cycle::{BasinBoundary, BasinRequest, BasinRun};
 use serde::{Deserialize, Serialize};
 use std::fmt::Write as _;
+
+pub use map::basin_map;
 
 /// `summary.json` of a basin.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -28,15 +32,6 @@ pub struct BasinSummary {
     pub runs: Vec<RunSummary>,
     /// What it was made from.
     pub manifest: Manifest,
-}
-
-/// Two bounds.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
-pub struct Bounds {
-    /// Largest ratio at which the first wave wins.
-    pub low: Option<f64>,
-    /// Smallest ratio at which the second wins.
-    pub high: Option<f64>,
 }
 
 /// One transient.
@@ -85,8 +80,8 @@ impl BasinSummary {
             harmonics: request.harmonics,
             winner: alone,
             boundary: Bounds {
-                low: found.low.filter(|_| alone.is_none()),
-                high: found.high.filter(|_| alone.is_none()),
+                low: found.low,
+                high: found.high,
             },
             transients: found.runs.len(),
             runs: found.runs.iter().map(RunSummary::from).collect(),
@@ -99,9 +94,10 @@ impl BasinSummary {
         let [first, second] = self.harmonics;
         let mut out = format!("{}\n", self.title);
         let _ = match (self.winner, self.boundary.low, self.boundary.high) {
-            (Some(winner), ..) => writeln!(
+            (Some(winner), Some(ratio), _) | (Some(winner), None, Some(ratio)) => writeln!(
                 out,
-                "n = {winner} wins at every ratio of seeds looked at: the other has no basin there"
+                "n = {winner} wins at every ratio looked at, {} {ratio:.3} of n = {second} over n = {first} at saturation",
+                if winner == first { "up to" } else { "down to" }
             ),
             (None, Some(low), Some(high)) => writeln!(
                 out,
@@ -109,6 +105,9 @@ impl BasinSummary {
             ),
             _ => writeln!(out, "some runs never saturate: no boundary can be named"),
         };
+        if self.runs.iter().any(|run| !run.is_settled) {
+            out.push_str("some transients end before one wave has gone: raise basin.periods\n");
+        }
         for run in &self.runs {
             let ratio = run
                 .saturation_ratio

@@ -13,7 +13,7 @@ use std::fmt::Write as _;
 type NumberOf = fn(&PointSummary) -> Option<f64>;
 
 /// What a person wants first of a point: the key whose caption the column has, and the number.
-const FIRST_COLUMNS: [(&str, NumberOf); 15] = [
+const FIRST_COLUMNS: [(&str, NumberOf); 18] = [
     ("main_frequency_hz", |s| s.own.main_frequency_hz),
     ("harmonic", |s| s.own.harmonic.map(|n| n as f64)),
     ("status.stick", |s| s.own.status.stick),
@@ -33,6 +33,9 @@ const FIRST_COLUMNS: [(&str, NumberOf); 15] = [
     ("main_frequency_hz", |s| s.cycles.get(1)?.main_frequency_hz),
     ("status.stick", |s| s.cycles.get(1)?.status.stick),
     ("status.open", |s| s.cycles.get(1)?.status.open),
+    ("winner", |s| s.winner.map(|n| n as f64)),
+    ("boundary.low", |s| s.boundary.low),
+    ("boundary.high", |s| s.boundary.high),
 ];
 
 /// Longest table that is printed.
