@@ -156,7 +156,7 @@ fn intervals_of_three_parameters_hold_the_truth_in_95_of_100_noisy_spectra() {
     .concat();
     let case = case("fit-table-1.toml", &set);
     // Real parts are known ten times worse than frequencies: the weight between them is found.
-    let hits = coverage(&case, 15_000.0, [2e-4, 2e-3], 100);
+    let hits = coverage(&case, 15_000.0, [1e-4, 1e-3], 100);
     assert!(hits.iter().all(|hits| (90..=99).contains(hits)), "{hits:?}");
 }
 

@@ -51,8 +51,8 @@ impl Distribution {
     }
 }
 
-/// Probability that a normal variable of mean 0 and deviation 1 lies below `x`; relative error of the smaller tail below
-/// 1e-14.
+/// Probability that a normal variable of mean 0 and deviation 1 lies below `x`; absolute error below 1e-15, relative error
+/// of far tails below 1e-8.
 ///
 /// G. West, "Better approximations to cumulative normal functions", Wilmott (2005), after J. F. Hart.
 fn normal_below(x: f64) -> f64 {
@@ -114,9 +114,9 @@ mod tests {
         for i in -80..=80 {
             let x = 0.1 * f64::from(i);
             let exact = 0.5 * libm::erfc(-x / SQRT_2);
-            let tail = exact.min(1.0 - exact).max(1e-16);
+            let tail = exact.min(1.0 - exact);
             assert!(
-                (normal_below(x) - exact).abs() < 1e-12 * tail + 1e-16,
+                (normal_below(x) - exact).abs() < 1e-8 * tail.min(1e-7) + 3e-16,
                 "{x}"
             );
         }

@@ -7,6 +7,9 @@ use crate::results::fit::{FitSummary, FittedParameter, LineSummary, ModeSummary,
 use crate::study::fit::{Estimate, Fitted, LineFit, ModelMode, Side};
 use std::collections::BTreeMap;
 
+/// Share of its frequency within which an unmeasured mode is said to lie beside a line.
+const BESIDE: f64 = 0.05;
+
 /// The summary of a fit, without its source, time and manifest.
 pub fn summarize(case: &Case, wanted: &Fit, fitted: &Fitted, before: &[ComplexMode]) -> FitSummary {
     let keys: Vec<&String> = wanted.parameters.iter().map(|p| &p.parameter.key).collect();
@@ -144,8 +147,19 @@ fn notes(case: &Case, wanted: &Fit, fitted: &Fitted) -> Vec<String> {
     if fitted.lines.iter().any(|line| line.measured.is_unstable) {
         notes.extend(unheard.map(|mode| {
             let mode = model_mode(mode);
+            let is_beside = |line: &&LineFit| {
+                let measured = line.measured.frequency_hz;
+                (mode.frequency_hz - measured).abs() <= BESIDE * measured
+            };
+            let beside = fitted
+                .lines
+                .iter()
+                .find(is_beside)
+                .map_or(String::new(), |line| {
+                    format!(", beside the line at {:.0} Hz", line.measured.frequency_hz)
+                });
             format!(
-                "unstable but not measured: {} at {:.0} Hz, growth {:+.1} Hz",
+                "unstable but not measured: {} at {:.0} Hz, growth {:+.1} Hz{beside}",
                 mode.name(),
                 mode.frequency_hz,
                 mode.real_hz

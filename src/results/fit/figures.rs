@@ -72,12 +72,12 @@ pub fn fit(summary: &FitSummary) -> Figure {
     .layer(
         Points::new(frequencies.collect::<Vec<_>>())
             .marker(Marker::Disc, 1.8, STABLE)
-            .name("frequency"),
+            .name("difference of frequency"),
     )
     .layer(
         Points::new(reals.collect::<Vec<_>>())
             .marker(Marker::Diamond, 1.6, UNSTABLE)
-            .name("real part"),
+            .name("difference of real part"),
     );
     let measured = match summary.residuals.iter().any(|line| line.real_hz.is_some()) {
         true => "measured eigenvalues",

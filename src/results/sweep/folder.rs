@@ -24,8 +24,9 @@ const OVER_ALL: [&str; 7] = [
     "report.html",
 ];
 /// Figures over all points.
-const FIGURES: [&str; 7] = [
+const FIGURES: [&str; 8] = [
     "uncertainty",
+    "indices",
     "robust",
     "critical-friction",
     "frequencies",

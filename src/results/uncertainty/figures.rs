@@ -2,7 +2,7 @@
 
 use super::summary::{DesignCurve, RobustSummary, UncertaintySummary};
 use crate::chart::{
-    Axis, Bars, Figure, Fill, INK, Label, Line, Marker, Panel, Points, Rule, SERIES, Stroke, look,
+    Axis, Bars, Figure, Fill, INK, Label, Line, Marker, Panel, Rule, SERIES, Stroke, look,
 };
 use crate::results::parameter::parameter_axis;
 
@@ -14,7 +14,7 @@ pub fn uncertainty(summary: &UncertaintySummary) -> Figure {
     let families = summary
         .families
         .iter()
-        .take(6)
+        .take(5)
         .enumerate()
         .map(|(index, family)| {
             let quantiles = family.critical_friction_percentiles.iter().enumerate();
@@ -51,24 +51,18 @@ pub fn uncertainty(summary: &UncertaintySummary) -> Figure {
                 .name("some mode unstable"),
         )
         .legend();
-    let figure = Figure::new(
+    Figure::new(
         "uncertainty",
         "Distribution of the critical friction of each family of modes (a), probability of squeal over the friction coefficient \
-         (b), Sobol's indices of the lowest critical friction (c): first order alone, total with interactions.",
+         (b).",
     )
     .columns(2)
     .panel(distribution)
-    .panel(probability);
-    match indices(summary) {
-        Some(panel) => figure.panel(panel),
-        None => figure,
-    }
+    .panel(probability)
 }
 
-fn indices(summary: &UncertaintySummary) -> Option<Panel> {
-    if summary.sobol.is_empty() {
-        return None;
-    }
+/// Sobol's indices of the lowest critical friction.
+pub fn indices(summary: &UncertaintySummary) -> Figure {
     // The largest above.
     let mut rows: Vec<_> = summary.sobol.iter().collect();
     rows.sort_by(|a, b| a.1.total.total_cmp(&b.1.total));
@@ -90,19 +84,17 @@ fn indices(summary: &UncertaintySummary) -> Option<Panel> {
     let y = Axis::new("", "")
         .between(-0.6, rows.len() as f64 - 0.4)
         .ticks(names.collect::<Vec<_>>());
-    let key = |colour: &'static str, name: &str| {
-        Points::new(Vec::new())
-            .marker(Marker::Square, 2.0, colour)
-            .name(name)
-    };
-    Some(
-        Panel::new(Axis::new("Sobol index", "–").between(0.0, largest), y)
-            .height(34.0 * rows.len() as f64 + 12.0)
-            .layer(Bars::new(total.collect(), SERIES[5]))
-            .layer(Bars::new(first.collect(), SERIES[0]))
-            .layer(key(SERIES[0], "first order (lower bar)"))
-            .layer(key(SERIES[5], "total (upper bar)")),
+    let panel = Panel::new(Axis::new("Sobol index", "–").between(0.0, largest), y)
+        .height(34.0 * rows.len() as f64 + 12.0)
+        .layer(Bars::new(total.collect(), SERIES[5]))
+        .layer(Bars::new(first.collect(), SERIES[0]));
+    Figure::new(
+        "indices",
+        "Sobol's indices of the lowest critical friction: what share of its variance goes if the parameter is known (first \
+         order, dark), and what share stays if all others are (total, light).",
     )
+    .note("dark: first order; light: total")
+    .panel(panel)
 }
 
 /// Probability of squeal over each design parameter.
@@ -150,6 +142,6 @@ pub fn robust(summary: &RobustSummary) -> Figure {
         "Probability of squeal at the friction coefficient of the case over each design parameter, the uncertain parameters \
          scattering as stated.",
     )
-    .columns(2)
+    .columns(summary.curves.len().min(2))
     .panels(summary.curves.iter().map(panel).collect::<Vec<_>>())
 }

@@ -1,7 +1,7 @@
 //! Table, figures and report of an uncertainty analysis, in a folder that several processes may share.
 
 use super::Sample;
-use super::figures::{robust, uncertainty};
+use super::figures::{indices, robust, uncertainty};
 use super::summary::UncertaintySummary;
 use crate::results::FolderError;
 use crate::results::drawing::{Declaration, DrawingError, DrawingOptions, draw_all, figure_files};
@@ -65,6 +65,9 @@ pub fn draw_report(
     options: &DrawingOptions,
 ) -> Result<(), DrawingError> {
     let mut declarations: Vec<Declaration<'_>> = vec![Box::new(|| Ok(uncertainty(summary)))];
+    if !summary.sobol.is_empty() {
+        declarations.push(Box::new(|| Ok(indices(summary))));
+    }
     if let Some(designs) = &summary.robust {
         declarations.push(Box::new(|| Ok(robust(designs))));
     }

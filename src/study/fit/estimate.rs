@@ -125,9 +125,9 @@ pub fn fit(problem: &FitProblem<'_>) -> Result<Fitted, FitError> {
     let Some(first) = minima.first() else {
         return Err(failed(reason));
     };
-    let best = reweighted(&mut squares, first.clone()).map_err(failed)?;
+    let (best, degrees) = reweighted(&mut squares, first.clone()).map_err(failed)?;
     refuse_unmatched(problem, &best)?;
-    let (parameters, correlations) = estimates(&squares, &best).map_err(failed)??;
+    let (parameters, correlations) = estimates(&squares, &best, degrees).map_err(failed)??;
     let is_here = |trial: &&Trial| distance(&trial.places, &first.places) <= DISTINCT;
     let here = minima.iter().filter(is_here).count();
     Ok(Fitted {
@@ -179,36 +179,29 @@ fn weights(lines: &[MeasuredMode]) -> Vec<Weights> {
     lines.iter().map(of).collect()
 }
 
-/// The minimum under weights by which frequencies and real parts scatter alike.
-fn reweighted(squares: &mut Squares<'_>, mut best: Trial) -> Result<Trial, String> {
-    let reals = squares
-        .problem
-        .lines
-        .iter()
-        .filter(|line| line.real_hz.is_some())
-        .count();
-    if reals < OWN_SCATTER || squares.problem.lines.len() < OWN_SCATTER {
-        return Ok(best);
+/// The minimum under weights by which frequencies and real parts scatter alike, and the degrees of freedom left of the
+/// kind that has fewer.
+fn reweighted(squares: &mut Squares<'_>, mut best: Trial) -> Result<(Trial, f64), String> {
+    let lines = squares.problem.lines;
+    let all = squares.problem.data_count() as f64 - squares.problem.parameters.len() as f64;
+    let reals = lines.iter().filter(|line| line.real_hz.is_some()).count();
+    if reals < OWN_SCATTER || lines.len() < OWN_SCATTER {
+        return Ok((best, all));
     }
+    let mut degrees = all;
     for _ in 0..4 {
         let residuals = squares.residuals(&best);
-        let sum = |part: usize| {
-            residuals
-                .iter()
-                .skip(part)
-                .step_by(2)
-                .map(|r| r * r)
-                .sum::<f64>()
-        };
-        let mean = [
-            sum(0) / squares.problem.lines.len() as f64,
-            sum(1) / reals as f64,
-        ];
-        if !(mean[0] > 0.0 && mean[1] > 0.0) {
+        let left = degrees_left(squares, &best, [lines.len(), reals])?;
+        degrees = left[0].min(left[1]).max(1.0);
+        let variance = [0, 1].map(|part| {
+            let own = residuals.iter().skip(part).step_by(2);
+            own.map(|r| r * r).sum::<f64>() / left[part].max(1.0)
+        });
+        if !(variance[0] > 0.0 && variance[1] > 0.0) {
             break;
         }
         // One kind a thousand times better than the other is not believed to be.
-        let ratio = (mean[0] / mean[1]).sqrt().clamp(1e-3, 1e3);
+        let ratio = (variance[0] / variance[1]).sqrt().clamp(1e-3, 1e3);
         for weights in &mut squares.weights {
             weights.real *= ratio;
         }
@@ -218,7 +211,30 @@ fn reweighted(squares: &mut Squares<'_>, mut best: Trial) -> Result<Trial, Strin
             break;
         }
     }
-    Ok(best)
+    Ok((best, degrees))
+}
+
+/// Measured numbers of each kind less the share of the parameters that they determine (their leverages).
+fn degrees_left(
+    squares: &Squares<'_>,
+    best: &Trial,
+    counts: [usize; 2],
+) -> Result<[f64; 2], String> {
+    let free: Vec<usize> = (0..best.places.len())
+        .filter(|&k| best.places[k] > 0.0 && best.places[k] < 1.0)
+        .collect();
+    let jacobian = squares.jacobian(best)?.select_columns(&free);
+    let Some(inverse) = (jacobian.transpose() * &jacobian).try_inverse() else {
+        return Ok(counts.map(|count| count as f64));
+    };
+    let leverage = |row: usize| {
+        let row = jacobian.row(row);
+        (row * &inverse * row.transpose())[(0, 0)]
+    };
+    Ok([0, 1].map(|part| {
+        let rows = (part..jacobian.nrows()).step_by(2);
+        counts[part] as f64 - rows.map(leverage).sum::<f64>()
+    }))
 }
 
 fn distance(a: &[f64], b: &[f64]) -> f64 {
@@ -324,7 +340,11 @@ fn scatter(problem: &FitProblem<'_>, best: &Trial) -> [Option<f64>; 2] {
 type Estimates = (Vec<Estimate>, Vec<Vec<f64>>);
 
 /// Values, intervals and correlations from the derivatives at the minimum.
-fn estimates(squares: &Squares<'_>, best: &Trial) -> Result<Result<Estimates, FitError>, String> {
+fn estimates(
+    squares: &Squares<'_>,
+    best: &Trial,
+    most_degrees: f64,
+) -> Result<Result<Estimates, FitError>, String> {
     let (problem, parameters) = (squares.problem, squares.problem.parameters);
     let side = |place: f64| match place {
         0.0 => Some(Side::From),
@@ -344,7 +364,8 @@ fn estimates(squares: &Squares<'_>, best: &Trial) -> Result<Result<Estimates, Fi
     let variance = residuals.iter().map(|r| r * r).sum::<f64>() / degrees.max(1.0);
     let half_width = |k: usize| {
         let covariance = covariance.as_ref().filter(|_| degrees >= 1.0)?;
-        Some(student_95(degrees) * (variance * covariance[(k, k)]).sqrt())
+        let quantile = student_95(degrees.min(most_degrees));
+        Some(quantile * (variance * covariance[(k, k)]).sqrt())
     };
     let mut all: Vec<Estimate> = parameters
         .iter()
