@@ -85,7 +85,6 @@ fn materials(
         all.reject(name, message, label, Some(help.to_owned()));
     }
     let read = body::materials(root, material);
-    all.close();
     let mut shafts = read.into_iter().filter(|(name, _)| name == "shaft");
     shafts.next().map(|(_, material)| material)
 }

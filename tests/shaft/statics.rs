@@ -37,7 +37,7 @@ fn the_interference_is_shared_as_lame_says_at_the_order_of_the_element() {
         (mean / exact - 1.0).abs()
     };
     let errors = [error(12, [3, 5]), error(24, [6, 10])];
-    assert!(errors[1] < 1e-4, "{errors:?}");
+    assert!(errors[1] < 3e-4, "{errors:?}");
     // Quadratic elements give energies to the fourth order.
     assert!(errors[0] / errors[1] > 10.0, "{errors:?}");
 }

