@@ -207,6 +207,7 @@ fn a_supported_rim_has_one_spectrum_by_sectors_and_as_a_whole() {
     specification.outer = BoundaryCondition::Support(ElasticSupport {
         normal_stiffness: 3e11,
         tangential_stiffness: 1e11,
+        axial_stiffness: 0.0,
         normal_damping: 2e5,
         tangential_damping: 1e5,
     });
@@ -442,6 +443,7 @@ fn energy_closes_with_supports_pressure_and_partial_contact() {
     specification.conditions[0].1 = BoundaryCondition::Support(ElasticSupport {
         normal_stiffness: 1e11,
         tangential_stiffness: 1e10,
+        axial_stiffness: 0.0,
         normal_damping: 3e4,
         tangential_damping: 1e4,
     });

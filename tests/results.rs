@@ -40,6 +40,7 @@ fn mode(real_hz: f64, frequency_hz: f64, harmonic: usize, direction: i8) -> Comp
         residual: 1e-13,
         uncertainty: 1e-12,
         contact_share: 0.2,
+        axial_share: None,
         shape: None,
     }
 }
@@ -118,6 +119,7 @@ fn report<'a>(
             power_w: 1287.0,
         },
         field,
+        solid: None,
         sensitivities: None,
         map: None,
         notes: vec!["harmonics above 6 do not exist on this mesh".to_owned()],

@@ -8,7 +8,7 @@ use super::suggestion;
 use crate::fem::{ElasticMaterial, MaterialField, RayleighDamping, RegionMaterial};
 use crate::mesh::{
     AnnulusSpecification, BodySpecification, BoundaryCondition, Counterface,
-    CounterfaceSpecification, ElementKind, GmshFile, Mesh2d, MeshFileError,
+    CounterfaceSpecification, ElementKind, GmshFile, Mesh2d, MeshFileError, SolidContact,
 };
 use std::path::Path;
 use std::sync::Arc;
@@ -40,6 +40,8 @@ pub(super) struct ContactPlace {
     pub opposite: Option<String>,
     /// Speed of a plane, m/s.
     pub plane_speed: Option<f64>,
+    /// Where a rotor touches a three-dimensional body.
+    pub solid: SolidContact,
 }
 
 /// Reads the keys of `[contact]` that only an imported body has.
@@ -110,6 +112,7 @@ pub(super) fn contact_place(section: &Section<'_>) -> ContactPlace {
         );
     }
     ContactPlace {
+        solid: SolidContact::Inner,
         boundary,
         counterface,
         opposite,

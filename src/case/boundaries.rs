@@ -36,6 +36,7 @@ fn condition(section: &Section<'_>) -> BoundaryCondition {
     let support = ElasticSupport {
         normal_stiffness: section.number("normal_stiffness"),
         tangential_stiffness: section.number("tangential_stiffness"),
+        axial_stiffness: section.number("axial_stiffness"),
         normal_damping: section.number("normal_damping"),
         tangential_damping: section.number("tangential_damping"),
     };
@@ -55,6 +56,7 @@ fn condition(section: &Section<'_>) -> BoundaryCondition {
         for key in [
             "normal_stiffness",
             "tangential_stiffness",
+            "axial_stiffness",
             "normal_damping",
             "tangential_damping",
         ] {
@@ -74,6 +76,22 @@ fn condition(section: &Section<'_>) -> BoundaryCondition {
             BoundaryCondition::Pressure(pressure.unwrap_or_else(|| section.number("pressure")))
         }
         ConditionWord::Free => BoundaryCondition::Free,
+    }
+}
+
+/// Support along the axis is for bodies of revolution.
+pub(super) fn no_axial_support(root: &Section<'_>, boundaries: &[NamedCondition]) {
+    let section = root.section("boundaries", false);
+    for (name, condition) in boundaries {
+        if matches!(condition, BoundaryCondition::Support(support) if support.axial_stiffness > 0.0)
+        {
+            section.reject(
+                name,
+                format!("boundaries.{name}.axial_stiffness has no effect on a plane body"),
+                "needs material.formulation = \"three-dimensional\"".to_owned(),
+                Some("leave axial_stiffness out".to_owned()),
+            );
+        }
     }
 }
 

@@ -6,7 +6,7 @@
 mod estimate;
 mod memory;
 
-use super::model::node_count;
+use super::model::{node_count, solid_node_count};
 use super::{Analysis, Case, Convergence};
 use crate::mesh::AnnulusSpecification;
 
@@ -137,10 +137,15 @@ impl Case {
             nodes = times * body.mesh.node_count() as u128;
             elements = times * body.mesh.element_count() as u128;
         }
+        if let Some(solid) = &self.solid {
+            let layers = solid.axial_elements as u128;
+            nodes = solid_node_count(annulus, layers);
+            elements *= layers;
+        }
         Cost {
             nodes,
             elements,
-            dofs: 2 * nodes,
+            dofs: if self.solid.is_some() { 3 } else { 2 } * nodes,
             // Coordinates, frame, connectivity and result vectors of a node and its element.
             mesh_memory_bytes: 160.0 * nodes as f64,
             cea: self.cea.as_ref().map(|cea| self.cea_cost(cea, nodes)),

@@ -28,6 +28,7 @@ mod reader;
 pub mod reference;
 mod rules;
 mod shaft;
+mod solid;
 mod suggestion;
 mod sweep;
 mod transient;
@@ -57,7 +58,7 @@ pub use transient::{Output, Transient};
 pub use uncertainty::{UncertainParameter, Uncertainty};
 
 use crate::fem::{AnnulusMaterials, ElasticMaterial};
-use crate::mesh::{AnnulusSpecification, ElementKind};
+use crate::mesh::{AnnulusSpecification, ElementKind, SolidSpecification};
 use reader::{Findings, Section};
 
 /// A validated case, in SI units (the rotation speed in rad/s).
@@ -73,6 +74,8 @@ pub struct Case {
     pub annulus: AnnulusSpecification,
     /// The body, where a mesh file describes it; `annulus` then tells its size and fineness roughly.
     pub body: Option<ImportedBody>,
+    /// The body of revolution, where it is three-dimensional; `annulus` is its mesh in the plane.
+    pub solid: Option<SolidSpecification>,
     /// The disc's material.
     pub material: ElasticMaterial,
     /// The materials of the annulus and its shaft.
@@ -137,6 +140,7 @@ impl Case {
             thickness,
             body,
             mesh,
+            solid,
             contact,
         } = model::model(&root, &raw, &material);
         let damping = model::damping(&root);
@@ -176,6 +180,7 @@ impl Case {
             thickness,
             annulus,
             body,
+            solid,
             material,
             annulus_materials: AnnulusMaterials {
                 annulus: material,
@@ -234,6 +239,7 @@ impl Case {
         let remedy = "[transient]\nduration = 0.05";
         let transient = self.transient.as_ref();
         let transient = transient.ok_or_else(|| self.lacks("transient", "transient", remedy))?;
+        self.require_plane("the transient takes")?;
         if self.is_annulus() {
             self.require_quad4("the transient needs \"quad4\"")?;
         }
@@ -249,6 +255,7 @@ impl Case {
         self.require_rigid_shaft("the search for a basin")?;
         let found = self.basin.as_ref();
         let found = found.ok_or_else(|| self.lacks("basin", "search for a basin", remedy))?;
+        self.require_plane("the search for basins takes")?;
         self.require_constant_friction()?;
         Ok(found)
     }
@@ -266,6 +273,7 @@ impl Case {
             return Err(self.no_symmetry("limit cycles are rotating waves, which"));
         }
         self.require_rigid_shaft("the search for limit cycles")?;
+        self.require_plane("the search for limit cycles takes")?;
         self.require_quad4("limit cycles need \"quad4\"")?;
         self.require_constant_friction()?;
         let key = "contact.rotation_speed_rpm";
@@ -330,6 +338,7 @@ impl Case {
     pub fn require_frf(&self) -> Result<&Frf, CaseErrors> {
         let remedy =
             "[frf]\nforce_node = 36\nfrequencies_hz = { from = 1.0, to = 10000.0, count = 10000 }";
+        self.require_plane("the frequency response takes")?;
         let frf = self.frf.as_ref();
         if frf.is_some_and(|frf| frf.boundary != crate::frf::FrfBoundary::Sliding) {
             self.require_rigid_shaft("a response without contact (frf.boundary)")?;

@@ -5,9 +5,10 @@ use super::boundaries::{self, NamedCondition};
 use super::raw::{MeshBytes, RawCase};
 use super::reader::Section;
 use super::shaft;
+use super::solid;
 use crate::contact::{ContactStiffness, FrictionDecay, SlidingContact};
 use crate::fem::{ElasticMaterial, RayleighDamping, RegionMaterial};
-use crate::mesh::{AnnulusSpecification, BoundaryCondition, ElementKind};
+use crate::mesh::{AnnulusSpecification, BoundaryCondition, ElementKind, SolidSpecification};
 use std::f64::consts::TAU;
 
 /// `[damping]`.
@@ -35,6 +36,18 @@ pub(super) fn node_count(annulus: &AnnulusSpecification) -> u128 {
     annulus.nodes_per_sector().saturating_mul(around)
 }
 
+/// Nodes of a body of revolution with so many elements over its thickness.
+pub(super) fn solid_node_count(annulus: &AnnulusSpecification, layers: u128) -> u128 {
+    let radial = annulus.radial_elements as u128;
+    let corners = (radial + 1).saturating_mul(layers + 1);
+    let per_sector = if annulus.element.is_quadratic() {
+        2 * corners + radial * (layers + 1) + (radial + 1) * layers
+    } else {
+        corners
+    };
+    per_sector.saturating_mul(annulus.circumferential_elements as u128)
+}
+
 /// Geometry, mesh and contact of a case.
 pub(super) struct Model {
     pub annulus: AnnulusSpecification,
@@ -42,6 +55,7 @@ pub(super) struct Model {
     pub thickness: f64,
     pub body: Option<ImportedBody>,
     pub mesh: Option<MeshBytes>,
+    pub solid: Option<SolidSpecification>,
     pub contact: Contact,
 }
 
@@ -53,12 +67,30 @@ pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &ElasticMateria
     let scale = mesh.number("scale");
     let geometry = root.section("geometry", file.is_none());
     let thickness = geometry.number("thickness");
+    let is_solid = solid::is_solid(material);
+    if !is_solid {
+        boundaries::no_axial_support(root, &conditions);
+    }
     let Some(file) = file else {
-        let (annulus, shaft_material) = annulus(root, &geometry, &mesh, &conditions, material);
+        let axial = solid::axial_elements(&geometry, &mesh, is_solid);
+        let (mut annulus, shaft_material) =
+            annulus(root, &geometry, &mesh, (&conditions, is_solid), material);
         geometry.close();
         mesh.close();
-        let (contact, _) = contact(root, true);
+        let (contact, place) = contact(root, Some((&annulus, is_solid)));
+        let solid = axial.map(|axial| {
+            let conditions = solid::conditions(root, &conditions, place.solid);
+            annulus.outer = conditions[1];
+            SolidSpecification {
+                annulus,
+                thickness,
+                axial_elements: axial,
+                contact: place.solid,
+                conditions,
+            }
+        });
         return Model {
+            solid,
             annulus,
             shaft_material,
             thickness,
@@ -78,7 +110,16 @@ pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &ElasticMateria
     let _ = counts.map(|key| mesh.optional_count(key));
     let (_, _): (_, ElementKind) = (mesh.number("radial_grading"), mesh.choice("element"));
     geometry.close();
-    let (contact, place) = contact(root, false);
+    let (contact, place) = contact(root, None);
+    if is_solid {
+        mesh.reject(
+            "file",
+            "mesh.file describes a plane body: three-dimensional ones are generated".to_owned(),
+            "material.formulation is \"three-dimensional\"".to_owned(),
+            Some("give radii and element counts, or a plane formulation".to_owned()),
+        );
+    }
+    let _ = mesh.optional_count("axial_elements");
     let parts = BodyParts {
         scale,
         place,
@@ -110,6 +151,7 @@ pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &ElasticMateria
             .as_ref()
             .map_or(nothing, ImportedBody::equivalent_annulus),
         shaft_material: None,
+        solid: None,
         thickness,
         body,
         mesh: bytes,
@@ -121,7 +163,7 @@ fn annulus(
     root: &Section<'_>,
     geometry: &Section<'_>,
     mesh: &Section<'_>,
-    conditions: &[NamedCondition],
+    (conditions, is_solid): (&[NamedCondition], bool),
     material: &ElasticMaterial,
 ) -> (AnnulusSpecification, Option<RegionMaterial>) {
     let inner_radius = geometry.number("inner_radius");
@@ -138,6 +180,14 @@ fn annulus(
         );
     }
     let shaft = shaft::shaft(root, [geometry, mesh], inner_radius, conditions, material);
+    if is_solid && shaft.is_some() {
+        geometry.reject(
+            "shaft_inner_radius",
+            "a deformable shaft turns in a plane annulus only".to_owned(),
+            "the body is three-dimensional".to_owned(),
+            Some("leave the shaft out, or use a plane formulation".to_owned()),
+        );
+    }
     let annulus = AnnulusSpecification {
         inner_radius,
         outer_radius,
@@ -145,7 +195,10 @@ fn annulus(
         radial_elements: mesh.count("radial_elements"),
         radial_grading: mesh.number("radial_grading"),
         element: mesh.choice("element"),
-        outer: boundaries::outer_edge(root, conditions, shaft.is_some()),
+        outer: match is_solid {
+            true => BoundaryCondition::Clamped,
+            false => boundaries::outer_edge(root, conditions, shaft.is_some()),
+        },
         shaft: shaft.map(|(shaft, _)| shaft),
     };
     check_mesh(mesh, &annulus);
@@ -204,9 +257,17 @@ pub(super) fn damping(root: &Section<'_>) -> Damping {
     damping
 }
 
-fn contact(root: &Section<'_>, is_annulus: bool) -> (Contact, ContactPlace) {
+/// `annulus` is that of a generated body, with whether it is three-dimensional.
+fn contact(
+    root: &Section<'_>,
+    annulus: Option<(&AnnulusSpecification, bool)>,
+) -> (Contact, ContactPlace) {
     let section = root.section("contact", true);
     let mut place = body::contact_place(&section);
+    let (is_annulus, is_solid) = (annulus.is_some(), annulus.is_some_and(|given| given.1));
+    if let Some((annulus, is_solid)) = annulus {
+        place.solid = solid::contact(&section, annulus, is_solid);
+    }
     if is_annulus {
         for key in [
             "boundary",
@@ -219,7 +280,8 @@ fn contact(root: &Section<'_>, is_annulus: bool) -> (Contact, ContactPlace) {
         ] {
             // A default written out changes nothing.
             let is_default = section.is_text(key, "inner") || section.is_text(key, "cylinder");
-            if section.has(key) && !is_default {
+            let is_face = is_solid && key == "boundary";
+            if section.has(key) && !is_default && !is_face {
                 section.reject(
                     key,
                     format!("contact.{key} is for a body from a mesh file (mesh.file)"),
@@ -231,7 +293,8 @@ fn contact(root: &Section<'_>, is_annulus: bool) -> (Contact, ContactPlace) {
         place.plane_speed = None;
     }
     let interference = section.number("interference");
-    if is_annulus && interference == 0.0 {
+    // A pressure on a face may press a three-dimensional body.
+    if is_annulus && !is_solid && interference == 0.0 {
         section.reject(
             "interference",
             "contact.interference = 0.0 must be positive and finite".to_owned(),
@@ -246,6 +309,16 @@ fn contact(root: &Section<'_>, is_annulus: bool) -> (Contact, ContactPlace) {
         }
         None => section.number("rotation_speed_rpm") * TAU / 60.0,
     };
+    if is_solid && rotation_speed == 0.0 && section.has("rotation_speed_rpm") {
+        section.reject(
+            "rotation_speed_rpm",
+            "contact.rotation_speed_rpm = 0: at rest friction holds a three-dimensional body across the sliding too, as by \
+             an infinite dashpot (mu p / V): there is no steady sliding"
+                .to_owned(),
+            "must not be zero in three dimensions".to_owned(),
+            Some("give a speed; a very small one all but sticks across the sliding".to_owned()),
+        );
+    }
     let contact = Contact {
         sliding: SlidingContact {
             decay: friction_decay(&section),

@@ -38,7 +38,7 @@ words! {
     }
     CounterfaceWord { "cylinder" = Self::Cylinder, "plane" = Self::Plane, "body" = Self::Body }
     ElementKind { "quad4" = Self::Quad4, "quad8" = Self::Quad8 }
-    PlaneFormulation { "plane-strain" = Self::PlaneStrain, "plane-stress" = Self::PlaneStress }
+    PlaneFormulation { "plane-strain" = Self::PlaneStrain, "plane-stress" = Self::PlaneStress, "three-dimensional" = Self::ThreeDimensional }
     MassKind { "consistent" = Self::Consistent, "lumped" = Self::Lumped }
     Spacing { "linear" = Self::Linear, "log" = Self::Logarithmic }
     CeaMethod { "auto" = Self::Auto, "cyclic" = Self::Cyclic, "sparse" = Self::Sparse }

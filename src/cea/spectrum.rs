@@ -27,7 +27,9 @@ pub struct ComplexMode {
     /// The nodes' mass shrinks with the elements: compare modes of one mesh, or divide by the edge's share of
     /// the mass.
     pub contact_share: f64,
-    /// Displacement shape over all nodes in nodal frames, `2 * node_count` values with
+    /// Kinetic energy of motion along the axis over the whole, 0 to 1; `None` in the plane.
+    pub axial_share: Option<f64>,
+    /// Displacement shape over all nodes in nodal frames, two values a node (three in three dimensions) with
     /// `max |u| = 1`, where it was asked for.
     pub shape: Option<Vec<c64>>,
 }

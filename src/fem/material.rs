@@ -9,6 +9,8 @@ pub enum PlaneFormulation {
     PlaneStrain,
     /// `sigma_zz = 0`.
     PlaneStress,
+    /// Nothing: a body of revolution with a thickness; its plane sections are taken in plane strain.
+    ThreeDimensional,
 }
 
 /// Isotropic linear elastic material.
@@ -142,10 +144,19 @@ impl ElasticMaterial {
     pub fn lame_constants(&self) -> [f64; 2] {
         let (e, nu) = (self.young_modulus, self.poisson_ratio);
         let lambda = match self.formulation {
-            PlaneFormulation::PlaneStrain => e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)),
             PlaneFormulation::PlaneStress => e * nu / (1.0 - nu * nu),
+            _ => e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)),
         };
         [lambda, e / (2.0 * (1.0 + nu))]
+    }
+
+    /// Lamé constants `[lambda, G]` of the solid, Pa.
+    pub fn solid_lame_constants(&self) -> [f64; 2] {
+        let solid = Self {
+            formulation: PlaneFormulation::ThreeDimensional,
+            ..*self
+        };
+        solid.lame_constants()
     }
 
     /// Elasticity matrix `D` in `sigma = D epsilon`, Pa, with
@@ -159,8 +170,8 @@ impl ElasticMaterial {
     /// Out-of-plane stress `sigma_zz` for in-plane normal stresses, Pa.
     pub fn out_of_plane_stress(&self, sigma_xx: f64, sigma_yy: f64) -> f64 {
         match self.formulation {
-            PlaneFormulation::PlaneStrain => self.poisson_ratio * (sigma_xx + sigma_yy),
             PlaneFormulation::PlaneStress => 0.0,
+            _ => self.poisson_ratio * (sigma_xx + sigma_yy),
         }
     }
 }

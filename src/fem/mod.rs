@@ -9,6 +9,7 @@ pub mod element;
 mod material;
 pub mod operator;
 pub mod sector;
+pub mod solid;
 mod stress;
 
 pub use assembly::{

@@ -26,6 +26,18 @@ pub struct RealEigen {
     pub left: Option<Mat<f64>>,
 }
 
+/// Eigenvalues, rising, and orthonormal eigenvectors of a symmetric matrix, of which the lower triangle is read; nothing where
+/// the iteration fails.
+pub fn symmetric_eigen(matrix: &Mat<f64>) -> (Vec<f64>, Mat<f64>) {
+    match matrix.self_adjoint_eigen(faer::Side::Lower) {
+        Ok(found) => (
+            found.S().column_vector().iter().copied().collect(),
+            found.U().to_owned(),
+        ),
+        Err(_) => (Vec::new(), Mat::zeros(matrix.nrows(), 0)),
+    }
+}
+
 /// Eigenvalue decomposition of a real square matrix.
 ///
 /// The vectors of the `leading` eigenvalues of largest modulus are held to their equation and computed

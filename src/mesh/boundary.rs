@@ -9,6 +9,8 @@ pub struct ElasticSupport {
     pub normal_stiffness: f64,
     /// `k_t`, Pa/m.
     pub tangential_stiffness: f64,
+    /// Along the axis of a body of revolution, on its inner and outer face, Pa/m.
+    pub axial_stiffness: f64,
     /// `c_n`, Pa s/m.
     pub normal_damping: f64,
     /// `c_t`, Pa s/m.

@@ -14,6 +14,7 @@ mod refinement;
 mod rim;
 mod sector;
 mod sectors;
+mod solid;
 
 pub use annulus::{AnnulusMesh, AnnulusSpecification, MeshError, ShaftSpecification};
 pub use body::{BodySpecification, CounterfaceSpecification};
@@ -23,6 +24,10 @@ pub use element::{ElementKind, QuadraturePoint, Shape};
 pub use gmsh::{GmshFile, MeshFileError};
 pub use quality::MeshQuality;
 pub use sector::SectorMesh;
+pub use solid::{
+    BrickShape, ContactRing, FaceElement, SheetNode, SolidContact, SolidFace, SolidSector,
+    SolidSpecification, brick_places, brick_quadrature, brick_shapes, face_quadrature, face_shapes,
+};
 
 /// Nodes, elements, regions and named boundaries of a plane body.
 ///

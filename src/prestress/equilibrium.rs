@@ -59,6 +59,12 @@ pub enum PrestressError {
         /// Friction coefficient.
         friction_coefficient: f64,
     },
+    /// A rotor at rest under Coulomb's law as a vector.
+    #[error(
+        "contact.rotation_speed_rpm = 0: without sliding, friction holds a three-dimensional body across the sliding as by an \
+         infinite dashpot (mu p / V): there is no steady sliding to study; give a speed"
+    )]
+    AtRest,
     /// The stiffness matrix is not positive definite.
     #[error(
         "the stiffness matrix is not positive definite: nothing holds the body, or part of it; check [boundaries], \
@@ -92,7 +98,7 @@ pub struct SteadySliding {
 }
 
 /// States of steady sliding over a range of friction coefficients.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct SlidingRange {
     /// One state for each set of pressed nodes, in order of the friction coefficient.
     pub states: Vec<SteadySliding>,

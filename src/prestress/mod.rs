@@ -16,6 +16,8 @@ mod sector_rate;
 mod sector_tangent;
 mod sector_terms;
 mod sector_turning;
+mod solid;
+mod solid_tangent;
 mod tangent;
 mod turning;
 
@@ -24,4 +26,6 @@ pub use options::{DampingModel, TangentOptions};
 pub use sector::SectorSliding;
 pub use sector_rate::{Parameter, TangentRate};
 pub use sector_tangent::{FrictionPolynomial, HarmonicTangent, SectorTangent};
+pub use solid::SolidSliding;
+pub use solid_tangent::{SolidHarmonic, SolidTangent};
 pub use tangent::SlidingTangent;

@@ -50,6 +50,7 @@ impl SectorTangent {
         HarmonicTangent {
             harmonic: n,
             contact: self.contact_unknowns(),
+            shares: None,
             mass: self.mass(&rate.terms, n),
             stiffness: self.stiffness(&rate.terms, n),
             damping: Some(sum(sum(follows, shared), own)),
@@ -239,7 +240,7 @@ fn poisson_rate_material(material: &ElasticMaterial) -> ElasticMaterial {
     let (e, nu) = (material.young_modulus, material.poisson_ratio);
     let shear = -e / (2.0 * (1.0 + nu).powi(2));
     let lambda = match material.formulation {
-        PlaneFormulation::PlaneStrain => {
+        PlaneFormulation::PlaneStrain | PlaneFormulation::ThreeDimensional => {
             e * (1.0 + 2.0 * nu * nu) / ((1.0 + nu) * (1.0 - 2.0 * nu)).powi(2)
         }
         PlaneFormulation::PlaneStress => e * (1.0 + nu * nu) / (1.0 - nu * nu).powi(2),

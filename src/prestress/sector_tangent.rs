@@ -29,8 +29,11 @@ pub struct HarmonicTangent {
     pub stiffness: FrictionPolynomial,
     /// `C_n(mu)`, Pa s, where damping is not proportional; otherwise `alpha_R M_n + beta_R K_n`.
     pub damping: Option<FrictionPolynomial>,
-    /// Dashpots of friction that depends on the speed: `mu` times this is a further, real part of `C_n`, Pa s.
+    /// Dashpots of friction along and across the sliding: `mu` times this is a further, real part of `C_n`, Pa s.
     pub friction_dashpots: Option<BandedMatrix>,
+    /// Forms of the mass whose values over that of the mass itself are the shares of kinetic energy of the contact's nodes and of
+    /// axial motion; where unknowns are no displacements.
+    pub shares: Option<[BandedMatrix; 2]>,
     /// Rayleigh coefficients.
     pub rayleigh: RayleighDamping,
     /// Unknowns that belong to the contact edge, of both bodies.
@@ -161,6 +164,7 @@ impl SectorTangent {
         HarmonicTangent {
             harmonic: n,
             contact: self.contact_unknowns(),
+            shares: None,
             mass: self.mass(&self.terms, n),
             stiffness: self.stiffness(&self.terms, n),
             damping: (!self.is_proportional())

@@ -1,7 +1,7 @@
 //! Fields on the mesh for ParaView: VTK XML unstructured grids, appended raw, zlib-compressed.
 
 use crate::fem::NodalStress;
-use crate::mesh::Mesh2d;
+use crate::mesh::{Mesh2d, SolidSector};
 use flate2::{Compression, write::ZlibEncoder};
 use std::io::{self, Write};
 
@@ -152,6 +152,46 @@ impl EncodedMesh {
             connectivity: compress(&connectivity.flat_map(i64::to_le_bytes).collect::<Vec<u8>>())?,
             offsets: compress(&ends.flat_map(i64::to_le_bytes).collect::<Vec<u8>>())?,
             types: compress(&types)?,
+        })
+    }
+}
+
+impl EncodedMesh {
+    /// Compresses the bricks of a whole body of revolution, its nodes sector by sector.
+    ///
+    /// # Errors
+    /// Those of the compressor (out of memory).
+    pub fn solid(sector: &SolidSector) -> io::Result<Self> {
+        let (sectors, per_sector) = (sector.sector_count(), sector.node_count());
+        let bytes = |values: &mut dyn Iterator<Item = i64>| -> Vec<u8> {
+            values.flat_map(i64::to_le_bytes).collect()
+        };
+        let mut points = Vec::with_capacity(24 * sectors * per_sector);
+        for j in 0..sectors {
+            for (k, node) in sector.nodes.iter().enumerate() {
+                let (sin, cos) = sector.angle(k, j).sin_cos();
+                let place = [node.radius * cos, node.radius * sin, node.height];
+                points.extend(place.into_iter().flat_map(f64::to_le_bytes));
+            }
+        }
+        let count = sectors * sector.elements.len();
+        let nodes = (0..sectors).flat_map(|j| {
+            let all = sector.elements.iter().flatten();
+            all.map(move |&(node, half)| ((j + half / 2) % sectors * per_sector + node) as i64)
+        });
+        // VTK's hexahedra of 8 and of 20 nodes.
+        let (per_element, kind) = if sector.is_quadratic() {
+            (20, 25)
+        } else {
+            (8, 12)
+        };
+        Ok(Self {
+            node_count: sectors * per_sector,
+            element_count: count,
+            points: compress(&points)?,
+            connectivity: compress(&bytes(&mut { nodes }))?,
+            offsets: compress(&bytes(&mut (1..=count).map(|e| (per_element * e) as i64)))?,
+            types: compress(&vec![kind; count])?,
         })
     }
 }

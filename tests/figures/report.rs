@@ -60,6 +60,7 @@ fn report_of_an_eigenvalue_analysis_holds_every_figure_table_and_the_case() {
             power_w: 1287.0,
         },
         field: &field,
+        solid: None,
         sensitivities: None,
         map: None,
         notes: vec![],

@@ -65,6 +65,7 @@ pub fn modes(friction: f64, mesh: Option<&Mesh2d>) -> Vec<ComplexMode> {
                 residual: 1e-12,
                 uncertainty: 1e-12,
                 contact_share: 0.1,
+                axial_share: None,
                 shape: mesh.map(|mesh| shape(mesh, harmonic, branch, direction, friction)),
             });
         }

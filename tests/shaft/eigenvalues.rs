@@ -66,6 +66,7 @@ fn cyclic_and_sparse_spectra_of_two_bodies_are_the_same() {
             let spring = ElasticSupport {
                 normal_stiffness: 1e13,
                 tangential_stiffness: 2e13,
+                axial_stiffness: 0.0,
                 normal_damping: 10.0,
                 tangential_damping: 0.0,
             };

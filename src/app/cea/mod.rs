@@ -1,6 +1,7 @@
 //! `frictionsim cea`: complex eigenvalues of steady sliding over the friction coefficient.
 
 mod model;
+mod solid;
 mod solve;
 mod spectrum;
 mod states;
@@ -155,7 +156,7 @@ pub fn modes_and_onsets(case: &Case) -> Result<FrictionSweep, Failure> {
         shapes_at: vec![case.contact.sliding.friction_coefficient],
         ..case.require_cea()?.clone()
     };
-    let sweep = if case.is_annulus() {
+    let sweep = if case.is_annulus() && case.solid.is_none() {
         let request = SweepRequest {
             friction_coefficients: &cea.solved_friction_coefficients(),
             limit: solve::mode_limit(&cea),
@@ -194,6 +195,7 @@ fn report<'a>(
         sweep: &solution.sweep,
         base: model.base_state(case),
         field,
+        solid: model.solid.as_ref().map(|body| &body.report),
         sensitivities: solution.sensitivities.as_ref(),
         map: None,
         notes: solution.notes.clone(),
@@ -260,6 +262,7 @@ mod tests {
             residual: 1e-14,
             uncertainty: 1e-13,
             contact_share: 0.1,
+            axial_share: None,
             shape: Some(shape),
         };
         let values = cea.solved_friction_coefficients();

@@ -1,6 +1,7 @@
 //! The model that the eigenvalue solvers take.
 
 use super::Failure;
+use super::solid::SolidBody;
 use crate::case::{Case, Cea, CeaMethod};
 use crate::fem::{assemble_stiffness, nodal_stress};
 use crate::mesh::{AnnulusMesh, Counterface, Mesh2d, SectorMesh};
@@ -28,6 +29,8 @@ pub struct SlidingModel {
     pub range: SlidingRange,
     /// How the tangent is taken.
     pub options: TangentOptions,
+    /// The body and its base state where it is three-dimensional; there are no plane ones then.
+    pub solid: Option<SolidBody>,
 }
 
 impl SlidingModel {
@@ -47,6 +50,16 @@ impl SlidingModel {
                 Some("use \"auto\" or \"sparse\"".to_owned()),
             )));
         }
+        if let Some(specification) = &case.solid {
+            let solid = SolidBody::new(case, cea, specification)?;
+            let annulus = AnnulusMesh::generate(&solid.plane).map_err(Failure::usage)?;
+            return Ok(Self {
+                mesh: Arc::new(annulus.mesh),
+                range: SlidingRange::default(),
+                options,
+                solid: Some(solid),
+            });
+        }
         if method_of(case, cea) == CeaMethod::Sparse {
             let mesh = case.mesh().map_err(Failure::usage)?;
             let stiffness = assemble_stiffness(&mesh, case.materials());
@@ -57,6 +70,7 @@ impl SlidingModel {
                 mesh,
                 range,
                 options,
+                solid: None,
             });
         }
         let annulus = AnnulusMesh::generate(&case.annulus).map_err(Failure::usage)?;
@@ -71,6 +85,7 @@ impl SlidingModel {
                 changes: Vec::new(),
             },
             options,
+            solid: None,
         })
     }
 
@@ -89,6 +104,9 @@ impl SlidingModel {
 
     /// What the report says of the base state, scaled to the case's thickness.
     pub fn base_state(&self, case: &Case) -> BaseState {
+        if let Some(solid) = &self.solid {
+            return solid.base_state(case);
+        }
         let (base, friction) = (self.base(), case.contact.sliding.friction_coefficient);
         let pressures = base.pressures(friction);
         let smallest = pressures.iter().copied().fold(f64::INFINITY, f64::min);
@@ -117,6 +135,9 @@ impl SlidingModel {
 
     /// The base state node by node.
     pub fn base_field(&self, case: &Case) -> BaseField {
+        if self.solid.is_some() {
+            return BaseField::default();
+        }
         let (base, friction) = (self.base(), case.contact.sliding.friction_coefficient);
         let displacement = base.displacement(friction);
         let pressures = base.pressures(friction);

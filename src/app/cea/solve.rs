@@ -1,10 +1,11 @@
 //! Which eigenvalue solver runs, and what it has to say.
 
 use super::model::method_of;
+use super::solid::{SolidBody, solid_model};
 use super::states::solve_sparse;
 use super::{Failure, SlidingModel, Solution};
 use crate::case::{Case, Cea, CeaMap, CeaMethod, ModeSelection};
-use crate::cea::cyclic::{self, Coverage, CyclicModel};
+use crate::cea::cyclic::{self, Coverage, CyclicModel, SolidModel};
 use crate::cea::{FrictionSweep, ModeLimit, SweepRequest};
 use crate::results::cea::{MapReport, SensitivityReport};
 use crate::study::tangent_options;
@@ -21,6 +22,7 @@ pub fn solve(
     bar: &ProgressBar,
 ) -> Result<Solution, Failure> {
     let mut solution = match method_of(case, cea) {
+        _ if case.solid.is_some() => solve_solid(case, cea, model)?,
         CeaMethod::Sparse => solve_sparse(case, cea, model, bar)?,
         CeaMethod::Auto | CeaMethod::Cyclic => solve_cyclic(case, cea, model)?,
     };
@@ -139,6 +141,35 @@ fn solve_cyclic(case: &Case, cea: &Cea, model: &SlidingModel) -> Result<Solution
     })
 }
 
+fn solve_solid(case: &Case, cea: &Cea, model: &SlidingModel) -> Result<Solution, Failure> {
+    let friction_coefficients = cea.solved_friction_coefficients();
+    let request = SweepRequest {
+        friction_coefficients: &friction_coefficients,
+        limit: mode_limit(cea),
+        shapes_at: &cea.shapes_at,
+    };
+    let found = cyclic::solid_sweep(&solid_model(case, cea)?, &request)?;
+    let coverage = &found.coverage;
+    let mut notes = vec![format!(
+        "harmonics {} hold modes at rest (by inertia counts, up to {} of {}) and were followed from {:.0} Hz downwards",
+        ranges(&coverage.followed),
+        coverage
+            .counted_empty
+            .last()
+            .unwrap_or(&coverage.largest_harmonic),
+        coverage.largest_harmonic,
+        coverage.margin_hz,
+    )];
+    notes.extend(model.solid.as_ref().and_then(SolidBody::note));
+    Ok(Solution {
+        dofs: found.dofs,
+        method: "cyclic",
+        sensitivities: None,
+        notes,
+        sweep: found.sweep,
+    })
+}
+
 /// The modes that a case asks for.
 pub fn mode_limit(cea: &Cea) -> ModeLimit {
     match cea.modes {
@@ -152,14 +183,35 @@ pub fn mode_limit(cea: &Cea) -> ModeLimit {
 /// # Errors
 /// A value that makes no valid case.
 pub fn map(case: &Case, cea: &Cea, map: &CeaMap) -> Result<MapReport, Failure> {
+    let largest_friction = cea
+        .friction_coefficients
+        .iter()
+        .fold(0.0_f64, |m, &mu| m.max(mu));
+    let report = |points| MapReport {
+        key: map.key.clone(),
+        largest_friction,
+        points,
+    };
+    let point = |value: f64| -> Result<Case, Failure> {
+        let point = case
+            .raw
+            .with_overrides(&[format!("{}={value:?}", map.key)])?;
+        Ok(Case::from_raw(point)?)
+    };
+    if case.solid.is_some() {
+        let models: Result<Vec<(f64, SolidModel)>, Failure> = map
+            .values
+            .iter()
+            .map(|&value| Ok((value, solid_model(&point(value)?, cea)?)))
+            .collect();
+        let points = cyclic::solid_stability_map(&models?, mode_limit(cea), largest_friction);
+        return Ok(report(points));
+    }
     let models: Result<Vec<(f64, CyclicModel)>, Failure> = map
         .values
         .iter()
         .map(|&value| {
-            let point = case
-                .raw
-                .with_overrides(&[format!("{}={value:?}", map.key)])?;
-            let point = Case::from_raw(point)?;
+            let point = point(value)?;
             let model = CyclicModel {
                 specification: point.annulus,
                 material: point.annulus_materials,
@@ -169,15 +221,11 @@ pub fn map(case: &Case, cea: &Cea, map: &CeaMap) -> Result<MapReport, Failure> {
             Ok((value, model))
         })
         .collect();
-    let largest_friction = cea
-        .friction_coefficients
-        .iter()
-        .fold(0.0_f64, |m, &mu| m.max(mu));
-    Ok(MapReport {
-        key: map.key.clone(),
+    Ok(report(cyclic::stability_map(
+        &models?,
+        mode_limit(cea),
         largest_friction,
-        points: cyclic::stability_map(&models?, mode_limit(cea), largest_friction),
-    })
+    )))
 }
 
 /// Which harmonics were solved, and why no other can hold a mode of the range.

@@ -256,6 +256,7 @@ mod tests {
             stiffness: vec![stiffness, friction],
             damping: None,
             friction_dashpots: None,
+            shares: None,
             rayleigh: RayleighDamping::default(),
         }
     }

@@ -20,6 +20,8 @@ pub(super) struct Eigenpair {
     pub residual: f64,
     /// See [`crate::cea::ComplexMode::contact_share`]; known at the friction values asked for.
     pub contact_share: f64,
+    /// See [`crate::cea::ComplexMode::axial_share`]; known at the same values.
+    pub axial_share: f64,
     /// See [`crate::cea::ComplexMode::uncertainty`]; known at the same values.
     pub uncertainty: f64,
 }
@@ -114,6 +116,7 @@ impl<'a> Follower<'a> {
                     y,
                     residual,
                     contact_share: f64::NAN,
+                    axial_share: f64::NAN,
                     uncertainty: f64::NAN,
                 });
             }
@@ -160,6 +163,7 @@ impl<'a> Follower<'a> {
             rate: self.problem.rate_of(at, theta, &x, &y, slope),
             residual: self.problem.residual(at, theta, &x),
             contact_share: f64::NAN,
+            axial_share: f64::NAN,
             uncertainty: f64::NAN,
             x,
             y,
@@ -177,6 +181,9 @@ impl<'a> Follower<'a> {
     ) -> bool {
         let mut step = f64::INFINITY;
         while let Some(last) = path.last().filter(|last| last.parameter < target) {
+            if self.problem.is_ending(last.theta) {
+                return false;
+            }
             let goal = (last.parameter + step).min(target);
             let guess = extrapolate(path, goal);
             let at = matrices(goal);

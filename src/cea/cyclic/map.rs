@@ -1,6 +1,6 @@
 //! Critical friction as a function of a second parameter.
 
-use super::sweep;
+use super::{SolidModel, solid_sweep, sweep};
 use crate::cea::{CeaError, ModeLimit, SweepRequest, UnstableInterval};
 use crate::contact::SlidingContact;
 use crate::fem::AnnulusMaterials;
@@ -59,6 +59,37 @@ pub fn stability_map(
     limit: ModeLimit,
     largest_friction: f64,
 ) -> Vec<StabilityMapPoint> {
+    let solve = |model: &CyclicModel, request: &SweepRequest<'_>| {
+        let found = sweep(
+            &model.specification,
+            &model.material,
+            &model.options,
+            &model.contact,
+            request,
+        );
+        found.map(|found| found.sweep.intervals)
+    };
+    map_of(models, limit, largest_friction, solve)
+}
+
+/// [`stability_map`] of bodies of revolution in three dimensions.
+pub fn solid_stability_map(
+    models: &[(f64, SolidModel)],
+    limit: ModeLimit,
+    largest_friction: f64,
+) -> Vec<StabilityMapPoint> {
+    let solve = |model: &SolidModel, request: &SweepRequest<'_>| {
+        solid_sweep(model, request).map(|found| found.sweep.intervals)
+    };
+    map_of(models, limit, largest_friction, solve)
+}
+
+fn map_of<M: Sync>(
+    models: &[(f64, M)],
+    limit: ModeLimit,
+    largest_friction: f64,
+    solve: impl Fn(&M, &SweepRequest<'_>) -> Result<Vec<UnstableInterval>, CeaError> + Sync,
+) -> Vec<StabilityMapPoint> {
     let frictions: Vec<f64> = (0..=FRICTION_STEPS)
         .map(|i| largest_friction * i as f64 / FRICTION_STEPS as f64)
         .collect();
@@ -67,18 +98,9 @@ pub fn stability_map(
         limit,
         shapes_at: &[],
     };
-    let solve = |&(value, model): &(f64, CyclicModel)| {
-        let found = sweep(
-            &model.specification,
-            &model.material,
-            &model.options,
-            &model.contact,
-            &request,
-        );
-        StabilityMapPoint {
-            value,
-            outcome: found.map(|found| found.sweep.intervals),
-        }
+    let solve = |(value, model): &(f64, M)| StabilityMapPoint {
+        value: *value,
+        outcome: solve(model, &request),
     };
     models.par_iter().map(solve).collect()
 }

@@ -16,8 +16,10 @@ mod paths;
 mod problem;
 mod rest;
 mod sensitivity;
+mod solid;
 mod sweep;
 
-pub use map::{CyclicModel, StabilityMapPoint, stability_map};
+pub use map::{CyclicModel, StabilityMapPoint, solid_stability_map, stability_map};
 pub use sensitivity::{Sensitivity, sensitivities};
+pub use solid::{SolidModel, SolidSweep, solid_sweep};
 pub use sweep::{Coverage, CyclicSweep, onsets, sweep};

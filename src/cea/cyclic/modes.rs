@@ -8,9 +8,20 @@ use crate::linalg::c64;
 use crate::prestress::SectorTangent;
 use std::f64::consts::{PI, TAU};
 
+/// Displacement of all nodes of a wave of a harmonic from its unknowns.
+pub(super) type Expand<'a> = dyn Fn(usize, Waves, &[c64]) -> Vec<c64> + Sync + 'a;
+
+/// What turns paths into modes.
+pub(super) struct ShapeProducer<'a> {
+    /// Sense of the friction force.
+    pub sliding_direction: f64,
+    /// Displacement of all nodes of a wave of a harmonic.
+    pub expand: &'a Expand<'a>,
+}
+
 /// The modes wanted at one friction value.
 pub(super) fn point(
-    tangent: &SectorTangent,
+    producer: &ShapeProducer<'_>,
     followed: &[HarmonicPaths],
     friction: f64,
     request: &SweepRequest<'_>,
@@ -20,7 +31,7 @@ pub(super) fn point(
         for path in &paths.paths {
             for &waves in waves_of(path.waves) {
                 modes.extend(mode(
-                    tangent,
+                    producer,
                     &paths.problem,
                     path,
                     waves,
@@ -49,7 +60,7 @@ pub(super) fn point(
 
 /// One wave of a path at one friction value, if it oscillates below the limit.
 fn mode(
-    tangent: &SectorTangent,
+    producer: &ShapeProducer<'_>,
     problem: &HarmonicProblem,
     path: &Path,
     waves: Waves,
@@ -70,7 +81,7 @@ fn mode(
     if eigenvalue.im <= 0.0 {
         return None;
     }
-    let direction = direction_of(problem, waves, tangent.base().sliding_direction);
+    let direction = direction_of(problem, waves, producer.sliding_direction);
     let wants_shape = request.shapes_at.contains(&friction);
     Some(ComplexMode {
         eigenvalue,
@@ -80,13 +91,19 @@ fn mode(
         residual: pair.residual,
         uncertainty: pair.uncertainty,
         contact_share: pair.contact_share,
-        shape: wants_shape.then(|| expand(tangent, problem.harmonic, waves, &pair.x)),
+        axial_share: Some(pair.axial_share).filter(|share| !share.is_nan()),
+        shape: wants_shape.then(|| (producer.expand)(problem.harmonic, waves, &pair.x)),
     })
 }
 
 /// Displacement of all nodes in nodal frames, `U(r) e^{i n theta}`, largest nodal `|u|` one and real in
 /// its larger component.
-fn expand(tangent: &SectorTangent, harmonic: usize, waves: Waves, x: &[c64]) -> Vec<c64> {
+pub(super) fn expand(
+    tangent: &SectorTangent,
+    harmonic: usize,
+    waves: Waves,
+    x: &[c64],
+) -> Vec<c64> {
     let sector = tangent.sector();
     let per_sector = sector.node_count();
     let zero = c64::new(0.0, 0.0);

@@ -55,9 +55,19 @@ pub(super) fn follow_harmonic(
             found: pairs.len(),
         });
     }
+    follow_pairs(problem, &pairs, grid, kept)
+}
+
+/// Follows the branches with these `(kappa, x)` at rest.
+pub(super) fn follow_pairs(
+    problem: HarmonicProblem,
+    pairs: &[(f64, Vec<f64>)],
+    grid: &[f64],
+    kept: &[f64],
+) -> Result<HarmonicPaths, CeaError> {
     let mut follower = Follower::new(&problem);
-    let paths = follow_all(&mut follower, &pairs, grid, kept, StepControl::NORMAL)
-        .or_else(|_| follow_all(&mut follower, &pairs, grid, kept, StepControl::FINE))?;
+    let paths = follow_all(&mut follower, pairs, grid, kept, StepControl::NORMAL)
+        .or_else(|_| follow_all(&mut follower, pairs, grid, kept, StepControl::FINE))?;
     let factorizations = follower.factorizations;
     Ok(HarmonicPaths {
         paths,
@@ -95,10 +105,20 @@ fn follow_all(
             }
         };
         for index in 0..paths.len() {
+            let has_ended = |path: &Path| {
+                let last = path.points.last();
+                last.is_some_and(|last| problem.is_ending(last.theta))
+            };
+            if has_ended(&paths[index]) {
+                continue;
+            }
             while !follower.advance(&mut paths[index].points, friction, control, &mut matrices) {
                 let approach = |follower: &mut Follower<'_>, points: &mut Vec<_>, target: f64| {
                     follower.advance(points, target, control, &mut matrices);
                 };
+                if has_ended(&paths[index]) {
+                    break;
+                }
                 let may_meet = problem.is_standing && problem.is_proportional();
                 if !may_meet || !collision::pass(follower, &mut paths, index, friction, approach) {
                     return Err(lost(friction));
@@ -110,6 +130,7 @@ fn follow_all(
             let (earlier, last) = path.points.split_at_mut(reached);
             for point in last {
                 point.contact_share = problem.contact_share(&point.x);
+                point.axial_share = problem.axial_share(&point.x);
                 point.uncertainty = problem.uncertainty(&shared, point);
             }
             let earlier = earlier.iter_mut().rev();

@@ -9,6 +9,9 @@ use crate::prestress::{FrictionPolynomial, HarmonicTangent};
 pub(super) const ZERO: c64 = c64::new(0.0, 0.0);
 pub(super) const I: c64 = c64::new(0.0, 1.0);
 
+/// Frequency over the modulus of an eigenvalue below which a motion counts as overdamped.
+const STANDSTILL: f64 = 0.1;
+
 /// `T(theta) x = 0` for one harmonic.
 ///
 /// With proportional damping the unknown is `theta = kappa` of `T = K - kappa M`, and
@@ -25,6 +28,7 @@ pub(super) struct HarmonicProblem {
     damping: Option<FrictionPolynomial>,
     /// `mu` times this is a further part of `C`.
     friction_dashpots: Option<BandedMatrix>,
+    shares: Option<[BandedMatrix; 2]>,
     pub rayleigh: RayleighDamping,
     /// Unknowns that belong to the contact edge.
     contact: std::ops::Range<usize>,
@@ -54,6 +58,7 @@ impl HarmonicProblem {
             stiffness: tangent.stiffness,
             damping: tangent.damping,
             friction_dashpots: tangent.friction_dashpots,
+            shares: tangent.shares,
             rayleigh: tangent.rayleigh,
         }
     }
@@ -240,6 +245,9 @@ impl HarmonicProblem {
 
     /// Kinetic energy of the contact edge's nodes over the whole, see [`crate::cea::ComplexMode`].
     pub fn contact_share(&self, x: &[c64]) -> f64 {
+        if let Some([contact, _]) = &self.shares {
+            return self.share(contact, x);
+        }
         let part = |of: fn(&c64) -> f64| {
             let x: Vec<f64> = x.iter().map(of).collect();
             let momentum = self.mass[0].multiply(&x);
@@ -253,12 +261,34 @@ impl HarmonicProblem {
         (real[0] + imaginary[0]) / (real[1] + imaginary[1])
     }
 
+    /// Kinetic energy of axial motion over the whole; not a number in the plane.
+    pub fn axial_share(&self, x: &[c64]) -> f64 {
+        let shares = self.shares.as_ref();
+        shares.map_or(f64::NAN, |[_, axial]| self.share(axial, x))
+    }
+
+    /// `Re(x^H F x) / x^H M x`.
+    fn share(&self, form: &BandedMatrix, x: &[c64]) -> f64 {
+        let value = |matrix: &BandedMatrix, part: fn(&c64) -> f64| {
+            let x: Vec<f64> = x.iter().map(part).collect();
+            let image = matrix.multiply(&x);
+            x.iter().zip(image).map(|(a, b)| a * b).sum::<f64>()
+        };
+        let both = |matrix: &BandedMatrix| value(matrix, |v| v.re) + value(matrix, |v| v.im);
+        both(form) / both(&self.mass[0])
+    }
+
     /// `lambda` with `Im >= 0` of the wave `+n`.
     pub fn eigenvalue(&self, theta: c64) -> c64 {
         if !self.is_proportional() {
             return theta;
         }
         self.rayleigh.eigenvalue(theta)
+    }
+
+    /// Whether a motion hardly oscillates any more under the dashpot across the sliding, on the way to where it does not at all.
+    pub fn is_ending(&self, theta: c64) -> bool {
+        self.shares.is_some() && theta.im.abs() < STANDSTILL * theta.norm()
     }
 
     /// An isolated `kappa` of a standing harmonic, whose spectrum is its own conjugate, is real if it is

@@ -2,7 +2,7 @@
 
 use super::branch::branches_of;
 use super::completeness::{self, Verdict};
-use super::modes::point;
+use super::modes::{ShapeProducer, expand, point};
 use super::paths::{HarmonicPaths, follow_harmonic};
 use super::problem::HarmonicProblem;
 use super::rest;
@@ -162,9 +162,13 @@ fn solve(
         .collect();
     let mut followed = followed?;
     followed.retain(|paths| !paths.paths.is_empty());
+    let producer = ShapeProducer {
+        sliding_direction: tangent.base().sliding_direction,
+        expand: &|n, waves, x| expand(tangent, n, waves, x),
+    };
     let frictions = request.friction_coefficients.iter();
     let points: Vec<FrictionPoint> = frictions
-        .map(|&friction| point(tangent, &followed, friction, request))
+        .map(|&friction| point(&producer, &followed, friction, request))
         .collect();
     let highest = points.iter().filter_map(|point| point.modes.last());
     let highest = highest.fold(0.0_f64, |top, mode| top.max(mode.eigenvalue.im));
@@ -295,7 +299,7 @@ fn select_lowest(
     }
 }
 
-fn occurs_in(branch: &ModeBranch, points: &[FrictionPoint]) -> bool {
+pub(super) fn occurs_in(branch: &ModeBranch, points: &[FrictionPoint]) -> bool {
     let is_same =
         |mode: &ComplexMode| (mode.harmonic, mode.branch) == (branch.harmonic, branch.branch);
     points.iter().any(|point| point.modes.iter().any(is_same))

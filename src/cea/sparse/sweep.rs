@@ -331,6 +331,7 @@ impl<'a> SparseSweep<'a> {
                     residual: check.residual,
                     uncertainty: check.uncertainty,
                     contact_share: check.contact_share,
+                    axial_share: None,
                     shape: shapes.next(),
                 }
             });

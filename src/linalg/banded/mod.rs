@@ -2,10 +2,12 @@
 //! several complex systems at a time.
 
 mod batch;
+mod definite;
 mod lu;
 mod symmetric;
 
 pub use batch::{BandedBatch, LANES, Lanes, Quality};
+pub use definite::BandedFactor;
 pub use lu::BandedLu;
 pub use symmetric::{BandedHermitian, BandedLdl};
 

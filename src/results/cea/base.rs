@@ -45,7 +45,7 @@ impl BaseState {
 }
 
 /// The same state node by node.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct BaseField {
     /// Contact nodes, 0-based, in order of rising angle.
     pub nodes: Vec<u32>,

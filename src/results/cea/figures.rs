@@ -1,7 +1,7 @@
 //! The figures of an eigenvalue analysis.
 
 use super::locus::{interval_rows, locus};
-use super::shape::{ModeShape, moving, shape_panel};
+use super::shape::{Body, ModeShape, moving};
 use super::{CeaReport, direction_name, html_report};
 use crate::cea::{ComplexMode, FrictionSweep, UnstableInterval};
 use crate::chart::{
@@ -153,6 +153,9 @@ fn pairs(sweep: &FrictionSweep) -> Result<Figure, ChartError> {
 
 /// Contact pressure and friction traction around the edge, and the von Mises stress field.
 fn prestress(report: &CeaReport<'_>) -> Figure {
+    if let Some(solid) = report.solid {
+        return solid.prestress();
+    }
     let (field, disc) = (report.field, Disc::new(report.mesh));
     let von_mises = field.stress.iter().map(NodalStress::von_mises).collect();
     let stress = Axis::new("von Mises stress", "Pa").prefixed();
@@ -224,7 +227,7 @@ fn shapes(report: &CeaReport<'_>, friction: f64) -> Figure {
     let caption = format!(
         "Mode shapes at friction coefficient {friction}: the deformed body, coloured by displacement amplitude; unstable modes in red."
     );
-    let disc = Disc::with_lattice(report.mesh, if columns < 6 { 24 } else { 12 });
+    let body = Body::new(report, if columns < 6 { 24 } else { 12 });
     let panels = shapes.iter().map(|shape| {
         let first = format!(
             "{}: {} Hz",
@@ -236,14 +239,14 @@ fn shapes(report: &CeaReport<'_>, friction: f64) -> Figure {
             format!("Re {} Hz", signed(shape.mode.real_hz(), 1)),
             shape.harmonic(),
         ];
-        shape_panel(&disc, report.mesh, shape, &lines)
+        body.panel(shape, &lines)
     });
     let figure = multiples(
         Figure::new(format!("modes-mu-{friction}"), caption).columns(columns),
         panels,
         report.has_harmonics,
     );
-    match shapes.is_empty() {
+    match shapes.is_empty() || report.solid.is_some() {
         true => figure,
         false => figure.motion(moving(report.mesh, &shapes)),
     }
@@ -289,7 +292,7 @@ fn branch_shapes(report: &CeaReport<'_>, branch: Branch) -> Figure {
         branch.0, branch.1
     );
     let shapes = branch_points(report, branch);
-    let disc = Disc::with_lattice(report.mesh, 24);
+    let body = Body::new(report, 24);
     let panels = shapes.iter().map(|shape| {
         let mode = shape.mode;
         let values = format!(
@@ -302,7 +305,7 @@ fn branch_shapes(report: &CeaReport<'_>, branch: Branch) -> Figure {
             values,
             shape.harmonic(),
         ];
-        shape_panel(&disc, report.mesh, shape, &lines)
+        body.panel(shape, &lines)
     });
     let columns = shapes.len().clamp(2, 5);
     let columns = if shapes.len() == 6 { 3 } else { columns };

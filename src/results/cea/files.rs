@@ -25,7 +25,10 @@ pub fn write(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<Value, Fol
     if let Some(map) = report.map {
         folder.write("map.csv", |out| map.write(out))?;
     }
-    write_base(folder, report.mesh, report.field)?;
+    match report.solid {
+        Some(solid) => solid.write_base(folder)?,
+        None => write_base(folder, report.mesh, report.field)?,
+    }
     write_shapes(folder, report)?;
     let summary = summary(report, folder.manifest());
     folder.write("summary.json", |out| {
@@ -40,7 +43,7 @@ pub fn write(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<Value, Fol
 /// # Errors
 /// Those of the writer.
 pub fn write_eigenvalues(out: &mut dyn Write, report: &CeaReport<'_>) -> io::Result<()> {
-    let columns = [
+    let mut columns = vec![
         "friction_coefficient",
         "mode",
         "real_hz",
@@ -54,6 +57,7 @@ pub fn write_eigenvalues(out: &mut dyn Write, report: &CeaReport<'_>) -> io::Res
         "residual",
         "contact_share",
     ];
+    columns.extend(report.solid.map(|_| "axial_share"));
     // A body without symmetry has modes without a harmonic.
     let named = |text: String| {
         if report.has_harmonics {
@@ -65,7 +69,7 @@ pub fn write_eigenvalues(out: &mut dyn Write, report: &CeaReport<'_>) -> io::Res
     let mut table = Table::new(out, &columns)?;
     for point in report.tabulated() {
         for (index, mode) in point.modes.iter().enumerate() {
-            table.row([
+            let row = [
                 format_number(point.friction_coefficient),
                 (index + 1).to_string(),
                 format_number(mode.real_hz()),
@@ -78,7 +82,9 @@ pub fn write_eigenvalues(out: &mut dyn Write, report: &CeaReport<'_>) -> io::Res
                 mode.is_unstable().to_string(),
                 format_number(mode.residual),
                 format_number(mode.contact_share),
-            ])?;
+            ];
+            let axial = report.solid.and(mode.axial_share).map(format_number);
+            table.row(row.into_iter().chain(axial))?;
         }
     }
     table.finish()
@@ -157,7 +163,7 @@ pub fn summary(report: &CeaReport<'_>, manifest: &Manifest) -> Value {
         "notes": report.notes,
         "manifest": manifest,
     });
-    if !report.has_harmonics {
+    if !report.has_harmonics || report.solid.is_some() {
         let base = &report.base;
         let nodes = (base.slipping + base.sticking + base.open).max(1);
         summary["contact_open_fraction"] = json!(base.open as f64 / nodes as f64);
@@ -171,7 +177,7 @@ fn own_modes(report: &CeaReport<'_>) -> Option<Vec<Value>> {
     let mut points = report.sweep.points.iter();
     let point = points.find(|point| point.friction_coefficient == own)?;
     let modes = point.modes.iter().map(|mode| {
-        json!({
+        let mut object = json!({
             "harmonic": report.has_harmonics.then_some(mode.harmonic),
             "branch": mode.branch,
             "direction": report.has_harmonics.then_some(mode.direction),
@@ -179,7 +185,11 @@ fn own_modes(report: &CeaReport<'_>) -> Option<Vec<Value>> {
             "frequency_hz": mode.frequency_hz(),
             "unstable": mode.is_unstable(),
             "contact_share": mode.contact_share,
-        })
+        });
+        if let Some(share) = mode.axial_share {
+            object["axial_share"] = json!(share);
+        }
+        object
     });
     Some(modes.collect())
 }
@@ -210,7 +220,10 @@ fn write_shapes(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<(), Fol
     if shaped.is_empty() {
         return Ok(());
     }
-    let mesh = EncodedMesh::new(report.mesh);
+    let mesh = match report.solid {
+        Some(solid) => EncodedMesh::solid(&solid.sector),
+        None => EncodedMesh::new(report.mesh),
+    };
     let mut entries = Vec::new();
     // Compression takes the time: a batch of files side by side, written in order.
     for batch in shaped.chunks(rayon::current_num_threads().max(1)) {
@@ -257,6 +270,9 @@ fn encode_shape(
 
 fn shape_fields(report: &CeaReport<'_>, mode: &ComplexMode) -> [Field; 3] {
     let shape = mode.shape.as_deref().unwrap_or_default();
+    if let Some(solid) = report.solid {
+        return solid.shape_fields(shape);
+    }
     let part = |of: fn(&faer::c64) -> f64| shape.iter().map(of).collect::<Vec<f64>>();
     let amplitude = shape
         .chunks_exact(2)

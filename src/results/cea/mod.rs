@@ -9,6 +9,7 @@ mod print;
 mod report;
 mod sensitivity;
 mod shape;
+mod solid;
 
 pub use base::{BaseField, BaseState, write_base};
 pub use figures::draw;
@@ -17,6 +18,7 @@ pub use map::MapReport;
 pub use print::print;
 pub use report::html_report;
 pub use sensitivity::SensitivityReport;
+pub use solid::SolidReport;
 
 use crate::cea::{ComplexMode, FrictionPoint, FrictionSweep, UnstableInterval};
 use crate::mesh::Mesh2d;
@@ -44,6 +46,8 @@ pub struct CeaReport<'a> {
     pub base: BaseState,
     /// The same node by node.
     pub field: &'a BaseField,
+    /// The body where it is three-dimensional; `mesh` and `field` then stand for nothing.
+    pub solid: Option<&'a SolidReport>,
     /// Which parameter decides, where the solver knows.
     pub sensitivities: Option<&'a SensitivityReport>,
     /// Critical friction over a second parameter, where the case asks for it.

@@ -1,5 +1,7 @@
 //! A mode shape as a picture of the deformed body.
 
+use super::CeaReport;
+use super::solid::Picture;
 use crate::cea::ComplexMode;
 use crate::chart::{
     Axis, Field, INK, Line, MUTED, Motion, MotionKind, MotionState, Panel, Stroke, plain, signed,
@@ -26,6 +28,15 @@ pub(super) struct ModeShape<'a> {
 }
 
 impl ModeShape<'_> {
+    /// Colour of its headings.
+    fn colour(&self) -> &'static str {
+        if self.mode.is_unstable() {
+            UNSTABLE
+        } else {
+            INK
+        }
+    }
+
     /// Harmonic, direction and stability in mark-up.
     pub fn harmonic(&self) -> String {
         let arrow = match self.mode.direction {
@@ -45,11 +56,44 @@ impl ModeShape<'_> {
     }
 }
 
+/// A body whose shapes are drawn.
+pub(super) enum Body<'a> {
+    /// In the plane.
+    Plane(Disc<'a>, &'a Mesh2d),
+    /// With a thickness.
+    Solid(Picture<'a>),
+}
+
+impl<'a> Body<'a> {
+    /// The body of a report, with about so many rays on a plane one.
+    pub fn new(report: &CeaReport<'a>, rays: usize) -> Self {
+        match report.solid {
+            Some(solid) => Self::Solid(Picture::new(&solid.sector)),
+            None => Self::Plane(Disc::with_lattice(report.mesh, rays), report.mesh),
+        }
+    }
+
+    /// The deformed body under some lines of heading.
+    pub fn panel(&self, shape: &ModeShape<'_>, lines: &[String; 3]) -> Panel {
+        match self {
+            Self::Plane(disc, mesh) => shape_panel(disc, mesh, shape, lines),
+            Self::Solid(picture) => {
+                let values = shape.mode.shape.as_deref().unwrap_or(&[]);
+                let panel = picture.panel(values, Axis::new("", "").between(0.0, 1.0));
+                let heading = lines.iter();
+                heading
+                    .fold(panel, |panel, line| panel.heading_in(shape.colour(), line))
+                    .height(170.0)
+            }
+        }
+    }
+}
+
 /// The deformed body under some lines of heading, coloured by the displacement amplitude of the real part.
 ///
 /// A travelling wave is shown at the instant that puts its crest at angle zero; every shape is scaled to its own maximum,
 /// which an eigenvector leaves open.
-pub(super) fn shape_panel(
+fn shape_panel(
     disc: &Disc<'_>,
     mesh: &Mesh2d,
     shape: &ModeShape<'_>,
@@ -63,11 +107,7 @@ pub(super) fn shape_panel(
     let [low, high] = Field::window(&mesh.nodes, 0.0);
     let magnification = DEFLECTION * 0.5 * (high[0] - low[0]) / largest;
     let axis = Axis::new("", "").between(0.0, largest);
-    let colour = if shape.mode.is_unstable() {
-        UNSTABLE
-    } else {
-        INK
-    };
+    let colour = shape.colour();
     let stroke = Stroke {
         dash: &[1.5, 1.2],
         ..Stroke::solid(MUTED, 0.45)

@@ -1,0 +1,176 @@
+//! Bodies of revolution in three dimensions: `material.formulation = "three-dimensional"`.
+
+use super::boundaries::NamedCondition;
+use super::diagnostic::CaseErrors;
+use super::reader::Section;
+use super::{Case, suggestion};
+use crate::fem::{ElasticMaterial, PlaneFormulation};
+use crate::mesh::{AnnulusSpecification, BoundaryCondition, SolidContact, SolidFace};
+
+/// Whether the body has a thickness of its own.
+pub(super) fn is_solid(material: &ElasticMaterial) -> bool {
+    material.formulation == PlaneFormulation::ThreeDimensional
+}
+
+/// Elements over the thickness; `None` in the plane, where they are an error.
+pub(super) fn axial_elements(
+    geometry: &Section<'_>,
+    mesh: &Section<'_>,
+    is_solid: bool,
+) -> Option<usize> {
+    if !is_solid {
+        if mesh.has("axial_elements") {
+            mesh.reject(
+                "axial_elements",
+                "mesh.axial_elements has no effect on a plane body".to_owned(),
+                "needs material.formulation = \"three-dimensional\"".to_owned(),
+                Some("set that formulation, or leave mesh.axial_elements out".to_owned()),
+            );
+            let _ = mesh.optional_count("axial_elements");
+        }
+        return None;
+    }
+    if !geometry.has("thickness") {
+        geometry.reject(
+            "thickness",
+            "geometry.thickness is missing: a three-dimensional body needs one".to_owned(),
+            "no thickness to divide into mesh.axial_elements".to_owned(),
+            Some("give it in metres, for example thickness = 0.009".to_owned()),
+        );
+    }
+    Some(mesh.count("axial_elements"))
+}
+
+/// `contact.boundary` and the radii of a ring.
+pub(super) fn contact(
+    section: &Section<'_>,
+    annulus: &AnnulusSpecification,
+    is_solid: bool,
+) -> SolidContact {
+    let radii = ["ring_inner_radius", "ring_outer_radius"].map(|key| section.optional_number(key));
+    let is_top = is_solid && section.is_text("boundary", "top");
+    if !is_top {
+        for key in ["ring_inner_radius", "ring_outer_radius"]
+            .iter()
+            .filter(|key| section.has(key))
+        {
+            section.reject(
+                key,
+                format!("contact.{key} is for a ring on the top face of a three-dimensional body"),
+                "needs contact.boundary = \"top\"".to_owned(),
+                Some(format!(
+                    "set it (and material.formulation = \"three-dimensional\"), or leave {key} out"
+                )),
+            );
+        }
+        if is_solid && section.has("boundary") && !section.is_text("boundary", "inner") {
+            section.reject(
+                "boundary",
+                "contact.boundary of a three-dimensional body is \"inner\" or \"top\"".to_owned(),
+                "no such face of contact".to_owned(),
+                suggestion::nearest(&section.text("boundary"), ["inner", "top"].into_iter())
+                    .map(|near| format!("did you mean \"{near}\"?")),
+            );
+        }
+        return SolidContact::Inner;
+    }
+    let (low, high) = (annulus.inner_radius, annulus.outer_radius);
+    let [inner, outer] = [radii[0].unwrap_or(low), radii[1].unwrap_or(high)];
+    for (key, value) in [("ring_inner_radius", inner), ("ring_outer_radius", outer)] {
+        if !(value >= low && value <= high) && high > low {
+            section.reject(
+                key,
+                format!("contact.{key} = {value} lies outside the face, which reaches from {low} to {high} m"),
+                format!("between {low} and {high}"),
+                Some("a ring lies between geometry.inner_radius and geometry.outer_radius".to_owned()),
+            );
+        }
+    }
+    if inner >= outer {
+        section.reject(
+            "ring_outer_radius",
+            format!("contact.ring_outer_radius = {outer} must be above contact.ring_inner_radius = {inner}"),
+            format!("must be above {inner}"),
+            Some("are they swapped?".to_owned()),
+        );
+    }
+    SolidContact::Ring {
+        inner_radius: inner,
+        outer_radius: outer,
+    }
+}
+
+/// What holds each face, from `[boundaries.*]`; the outer one is clamped unless something else is said.
+pub(super) fn conditions(
+    root: &Section<'_>,
+    boundaries: &[NamedCondition],
+    contact: SolidContact,
+) -> [BoundaryCondition; 4] {
+    let section = root.section("boundaries", false);
+    let mut conditions = [BoundaryCondition::Free; 4];
+    conditions[1] = BoundaryCondition::Clamped;
+    for (name, condition) in boundaries {
+        let reject = |message: String, label: &str, help: &str| {
+            section.reject(name, message, label.to_owned(), Some(help.to_owned()));
+        };
+        let Some(face) = SolidFace::ALL.iter().position(|face| face.name() == name) else {
+            reject(
+                format!("a body of revolution has no boundary \"{name}\""),
+                "it has \"inner\", \"outer\", \"top\" and \"bottom\"",
+                "use one of these names",
+            );
+            continue;
+        };
+        if SolidFace::ALL[face] == contact.face() && *condition != BoundaryCondition::Free {
+            reject(
+                format!(
+                    "boundaries.{name} is the face of contact: it can have no condition of its own"
+                ),
+                "the contact is here",
+                "leave the section out",
+            );
+        }
+        if let BoundaryCondition::Support(support) = condition
+            && SolidFace::ALL[face].normal_component() == 2
+            && support.axial_stiffness > 0.0
+        {
+            reject(
+                format!(
+                    "boundaries.{name}.axial_stiffness: along the axis a flat face has its normal"
+                ),
+                "has no effect on a flat face",
+                "give it as normal_stiffness",
+            );
+        }
+        conditions[face] = *condition;
+    }
+    let holds = |condition: &BoundaryCondition| match condition {
+        BoundaryCondition::Clamped => true,
+        BoundaryCondition::Support(support) => support.tangential_stiffness > 0.0,
+        _ => false,
+    };
+    if !conditions.iter().any(holds) {
+        section.reject(
+            "outer",
+            "nothing holds the body against the friction that turns it".to_owned(),
+            "must hold a face tangentially".to_owned(),
+            Some("use condition = \"clamped\" on a face, or \"support\" with tangential_stiffness above 0".to_owned()),
+        );
+    }
+    conditions
+}
+
+impl Case {
+    /// Refuses an analysis that plane bodies only have.
+    pub(super) fn require_plane(&self, what: &str) -> Result<(), CaseErrors> {
+        if self.solid.is_none() {
+            return Ok(());
+        }
+        Err(self.error_at(
+            "material.formulation",
+            format!("material.formulation = \"three-dimensional\": {what} plane bodies only"),
+            "a three-dimensional body".to_owned(),
+            Some("`cea`, `sweep` and `convergence` take it; else use \"plane-stress\" or \"plane-strain\"".to_owned()),
+        ))
+    }
+}

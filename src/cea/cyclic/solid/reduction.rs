@@ -1,0 +1,266 @@
+//! From the matrices of one harmonic to small dense ones.
+
+use super::rest::{Modes, Pencil};
+use crate::fem::RayleighDamping;
+use crate::linalg::banded::BandedMatrix;
+use crate::linalg::dense::{dot, transpose_product};
+use crate::linalg::dense_eigen::symmetric_eigen;
+use crate::linalg::{Mat, c64};
+use crate::prestress::{FrictionPolynomial, HarmonicTangent, SolidHarmonic};
+
+/// Directions of the contact whose energy is below this share of the largest are left out; the error of an eigenvalue is
+/// of the order of the product of two of them.
+const LEAST_ENERGY: f64 = 1e-11;
+
+/// Basis vectors that add less than this share of their length are left out.
+const LEAST_PART: f64 = 1e-7;
+
+/// The reduced space of one harmonic.
+pub(super) struct Reduction {
+    /// Columns over all unknowns, orthonormal in the mass product; the modes at rest come first.
+    pub basis: Mat<f64>,
+    /// `kappa` of the modes at rest.
+    pub kappas: Vec<f64>,
+}
+
+/// Unknowns of a harmonic that may move: all but the normals in rigid contact, ascending.
+pub(super) fn moving(count: usize, rigid: &[(usize, Option<usize>, f64)]) -> Vec<usize> {
+    let is_held = |unknown: &usize| rigid.iter().any(|(normal, ..)| normal == unknown);
+    (0..count).filter(|unknown| !is_held(unknown)).collect()
+}
+
+impl Reduction {
+    /// The space of the modes at rest and of what the contact excites.
+    ///
+    /// With friction the shape of a mode is the response `G = (K - kappa M)^-1` to forces on the contact, and the left one that to
+    /// motions along its normal. Beside the modes, two terms of the series of `G` in `kappa` hold the rest of it:
+    /// `K^-1 b` and `K^-1 M K^-1 b` for forces `b` along and across the sliding and for the columns of `K` and `M` of
+    /// the normals.
+    pub fn new(pencil: &Pencil, harmonic: &SolidHarmonic, contact: &[usize], modes: Modes) -> Self {
+        let count = harmonic.mass.dimension();
+        let moving = moving(count, &harmonic.rigid);
+        let mut place = vec![None; count];
+        moving
+            .iter()
+            .enumerate()
+            .for_each(|(k, &unknown)| place[unknown] = Some(k));
+        let unit = |unknown: usize| {
+            let mut load = vec![0.0; moving.len()];
+            place[unknown].into_iter().for_each(|k| load[k] = 1.0);
+            load
+        };
+        let column = |matrix: &BandedMatrix, unknown: usize| -> Vec<f64> {
+            let rows = matrix.columns(unknown);
+            let mut load = vec![0.0; moving.len()];
+            for row in rows {
+                place[row]
+                    .into_iter()
+                    .for_each(|k| load[k] = matrix.get(row, unknown));
+            }
+            load
+        };
+        let is_moving = |unknown: &&usize| place[**unknown].is_some();
+        let mut loads: Vec<Vec<f64>> = contact.iter().filter(is_moving).map(|&u| unit(u)).collect();
+        loads.extend(
+            harmonic
+                .rigid
+                .iter()
+                .map(|(normal, ..)| column(&harmonic.stiffness[0], *normal)),
+        );
+        let first = main_directions(pencil, loads);
+        let mut loads: Vec<Vec<f64>> = first.iter().map(|x| pencil.mass.multiply(x)).collect();
+        loads.extend(
+            harmonic
+                .rigid
+                .iter()
+                .map(|(normal, ..)| column(&harmonic.mass, *normal)),
+        );
+        let second = main_directions(pencil, loads);
+
+        let kappas = modes.iter().map(|mode| mode.0).collect();
+        let mut columns: Vec<Vec<f64>> = modes.into_iter().map(|mode| mode.1).collect();
+        let mut momenta: Vec<Vec<f64>> = columns.iter().map(|x| pencil.mass.multiply(x)).collect();
+        for mut x in first.into_iter().chain(second) {
+            let length = |x: &[f64], p: &[f64]| dot(x, p).sqrt();
+            let before = length(&x, &pencil.mass.multiply(&x));
+            for _ in 0..2 {
+                for (q, p) in columns.iter().zip(&momenta) {
+                    let part = dot(p, &x);
+                    x.iter_mut().zip(q).for_each(|(v, q)| *v -= part * q);
+                }
+            }
+            let momentum = pencil.mass.multiply(&x);
+            let left = length(&x, &momentum);
+            if left > LEAST_PART * before {
+                columns.push(x.iter().map(|v| v / left).collect());
+                momenta.push(momentum.iter().map(|v| v / left).collect());
+            }
+        }
+        let mut basis = Mat::zeros(count, columns.len());
+        for (j, x) in columns.iter().enumerate() {
+            for (&unknown, value) in moving.iter().zip(x) {
+                basis[(unknown, j)] = *value;
+            }
+        }
+        Self { basis, kappas }
+    }
+
+    /// The tangent of the harmonic in this space, dense matrices stored as bands.
+    ///
+    /// `groups` are the unknowns of the contact's nodes and of the axial motion, of whose kinetic energy modes have a share.
+    pub fn tangent(
+        &self,
+        n: usize,
+        harmonic: &SolidHarmonic,
+        groups: [&[usize]; 2],
+        rayleigh: RayleighDamping,
+    ) -> HarmonicTangent {
+        let momenta = self.images(&harmonic.mass);
+        let polynomial = |powers: &[&BandedMatrix]| -> FrictionPolynomial {
+            let images: Vec<Mat<f64>> = powers.iter().map(|matrix| self.images(matrix)).collect();
+            self.project(&images, &harmonic.rigid)
+        };
+        let [k0, k1] = &harmonic.stiffness;
+        let [c0, c1] = &harmonic.damping;
+        let share = |unknowns: &[usize]| {
+            let size = self.basis.ncols();
+            let mut form = Mat::zeros(size, size);
+            for &unknown in unknowns {
+                for j in 0..size {
+                    for i in 0..size {
+                        form[(i, j)] += self.basis[(unknown, i)] * momenta[(unknown, j)];
+                    }
+                }
+            }
+            banded(&form)
+        };
+        HarmonicTangent {
+            harmonic: n,
+            shares: Some(groups.map(share)),
+            mass: self.project(std::slice::from_ref(&momenta), &harmonic.rigid),
+            stiffness: polynomial(&[k0, k1]),
+            damping: Some(polynomial(&[c0, c1])),
+            friction_dashpots: polynomial(&[&harmonic.across]).into_iter().next(),
+            rayleigh,
+            contact: 0..0,
+        }
+    }
+
+    /// A shape over all unknowns.
+    pub fn expand(&self, x: &[c64]) -> Vec<c64> {
+        (0..self.basis.nrows())
+            .map(|row| {
+                x.iter()
+                    .enumerate()
+                    .map(|(j, v)| v * self.basis[(row, j)])
+                    .sum()
+            })
+            .collect()
+    }
+
+    /// `A V`.
+    fn images(&self, matrix: &BandedMatrix) -> Mat<f64> {
+        let (rows, columns) = (self.basis.nrows(), self.basis.ncols());
+        let mut images = Mat::zeros(rows, columns);
+        for row in 0..rows {
+            let band = matrix.columns(row);
+            for column in band {
+                let value = matrix.get(row, column);
+                if value != 0.0 {
+                    for j in 0..columns {
+                        images[(row, j)] += value * self.basis[(column, j)];
+                    }
+                }
+            }
+        }
+        images
+    }
+
+    /// `V^T A_p V`, and from each normal equation, times `i mu`, what it adds to the tangential one.
+    fn project(
+        &self,
+        images: &[Mat<f64>],
+        rigid: &[(usize, Option<usize>, f64)],
+    ) -> FrictionPolynomial {
+        let size = self.basis.ncols();
+        let zero = || Mat::<f64>::zeros(size, size);
+        let mut powers: Vec<Mat<f64>> = (0..=images.len()).map(|_| zero()).collect();
+        for (power, image) in images.iter().enumerate() {
+            powers[power] += transpose_product(self.basis.as_ref(), image.as_ref());
+            for &(normal, tangential, factor) in rigid {
+                let Some(tangential) = tangential else {
+                    continue;
+                };
+                for j in 0..size {
+                    let force = factor * image[(normal, j)];
+                    for i in 0..size {
+                        powers[power + 1][(i, j)] += self.basis[(tangential, i)] * force;
+                    }
+                }
+            }
+        }
+        // At rest the matrices are symmetric.
+        let rest = &mut powers[0];
+        for j in 0..size {
+            for i in 0..j {
+                let mean = 0.5 * (rest[(i, j)] + rest[(j, i)]);
+                (rest[(i, j)], rest[(j, i)]) = (mean, mean);
+            }
+        }
+        while powers.len() > 1 && powers[powers.len() - 1].norm_max() == 0.0 {
+            powers.pop();
+        }
+        powers.iter().map(banded).collect()
+    }
+}
+
+/// A dense matrix as a band of full width.
+fn banded(matrix: &Mat<f64>) -> BandedMatrix {
+    let size = matrix.nrows();
+    let mut result = BandedMatrix::zeros(size, size.saturating_sub(1));
+    for j in 0..size {
+        for i in 0..size {
+            result.add(i, j, matrix[(i, j)]);
+        }
+    }
+    result
+}
+
+/// Responses `K^-1 b` to some loads, orthogonal in energy, without the directions that hardly occur.
+fn main_directions(pencil: &Pencil, loads: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
+    let responses: Vec<Vec<f64>> = loads
+        .iter()
+        .map(|load| {
+            let mut x = load.clone();
+            pencil.factor.solve(&mut x);
+            x
+        })
+        .collect();
+    let size = loads.len();
+    let scale: Vec<f64> = (0..size)
+        .map(|i| dot(&responses[i], &loads[i]).sqrt().recip())
+        .collect();
+    let mut gram = Mat::zeros(size, size);
+    for j in 0..size {
+        for i in 0..=j {
+            let energy = dot(&responses[i], &loads[j]) * scale[i] * scale[j];
+            (gram[(i, j)], gram[(j, i)]) = (energy, energy);
+        }
+    }
+    let (values, vectors) = symmetric_eigen(&gram);
+    let largest = values.last().copied().unwrap_or(0.0);
+    let kept = (0..size)
+        .rev()
+        .take_while(|&k| values[k] > LEAST_ENERGY * largest);
+    kept.map(|k| {
+        let mut x = vec![0.0; responses[0].len()];
+        for (i, response) in responses.iter().enumerate() {
+            let share = vectors[(i, k)] * scale[i];
+            x.iter_mut()
+                .zip(response)
+                .for_each(|(v, r)| *v += share * r);
+        }
+        x
+    })
+    .collect()
+}

@@ -1,0 +1,106 @@
+//! Matrices of one sector of a body of revolution in three dimensions, and their circumferential harmonics.
+//!
+//! As in [`super::sector`], with three components at each node, `(u_r, u_theta, u_z)`: a mirror along a radius
+//! turns `u_theta` over and leaves the other two.
+
+mod element;
+mod face;
+
+pub use element::{geometric_stiffness, mass, stiffness};
+pub use face::{FaceTerm, face_load, face_matrix, nodal_matrix};
+
+use super::sector::MirrorParity;
+use crate::linalg::banded::BandedMatrix;
+use crate::mesh::SolidSector;
+use nalgebra::DMatrix;
+use std::f64::consts::PI;
+
+/// One matrix of a body of revolution, kept as the element matrices of one sector.
+///
+/// Dofs are `3 k + c` for component `c` of sector node `k`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SolidMatrix {
+    /// Distinct matrices in nodal frames.
+    pub(super) matrices: Vec<DMatrix<f64>>,
+    /// Which matrix acts on which nodes, each with its angle in halves of a sector.
+    pub(super) places: Vec<(usize, Vec<(usize, usize)>)>,
+}
+
+impl SolidMatrix {
+    /// Adds `factor` times the matrix of the wave `U e^{i n theta}` to `sum`, whose unknowns `unknown_of` gives for each dof.
+    ///
+    /// Written for `(u_r, w, u_z)` with `u_theta = i w` and the tangential rows multiplied by `-i`; real as it stands for
+    /// even parity, to be multiplied by `i` for odd parity (see [`super::sector::SectorMatrix::harmonic`]).
+    pub fn add_harmonic(
+        &self,
+        sum: &mut BandedMatrix,
+        unknown_of: &[Option<usize>],
+        (sectors, n): (usize, usize),
+        (parity, factor): (MirrorParity, f64),
+    ) {
+        // Angles modulo a full turn, so that high harmonics lose no digits.
+        let turned = |difference: isize| {
+            let turns = (n as isize * difference).rem_euclid(2 * sectors as isize);
+            (PI * turns as f64 / sectors as f64).sin_cos()
+        };
+        let table: Vec<(f64, f64)> = (-2..=2).map(turned).collect();
+        for (matrix, nodes) in &self.places {
+            let matrix = &self.matrices[*matrix];
+            for (b, &(column_node, column_half)) in nodes.iter().enumerate() {
+                for (a, &(row_node, row_half)) in nodes.iter().enumerate() {
+                    let (sin, cos) = table[2 + column_half - row_half];
+                    let (same, radial_row, tangential_row) = match parity {
+                        MirrorParity::Even => (cos, -sin, sin),
+                        MirrorParity::Odd => (sin, cos, -cos),
+                    };
+                    for column in 0..3 {
+                        let Some(j) = unknown_of[3 * column_node + column] else {
+                            continue;
+                        };
+                        for row in 0..3 {
+                            let value = matrix[(3 * a + row, 3 * b + column)];
+                            let Some(i) = unknown_of[3 * row_node + row] else {
+                                continue;
+                            };
+                            let phase = match (row == 1, column == 1) {
+                                (false, true) => radial_row,
+                                (true, false) => tangential_row,
+                                _ => same,
+                            };
+                            if value != 0.0 && phase != 0.0 {
+                                sum.add(i, j, factor * phase * value);
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Appends the terms of another matrix.
+    pub fn extend(&mut self, other: Self) {
+        let offset = self.matrices.len();
+        self.matrices.extend(other.matrices);
+        let places = other.places.into_iter();
+        self.places
+            .extend(places.map(|(matrix, nodes)| (matrix + offset, nodes)));
+    }
+
+    /// Multiplies every entry.
+    pub fn scaled(mut self, factor: f64) -> Self {
+        self.matrices
+            .iter_mut()
+            .for_each(|matrix| *matrix *= factor);
+        self
+    }
+
+    /// Whether it has no entry.
+    pub fn is_empty(&self) -> bool {
+        self.places.is_empty()
+    }
+}
+
+/// Half bandwidth of the harmonics of one sector, all dofs counted.
+pub fn half_bandwidth(sector: &SolidSector) -> usize {
+    3 * sector.node_bandwidth() + 2
+}

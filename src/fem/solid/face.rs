@@ -1,0 +1,102 @@
+//! Terms on the faces of a body of revolution: contact, supports, pressure.
+
+use super::SolidMatrix;
+use crate::mesh::{FaceElement, SolidSector, face_quadrature};
+use nalgebra::DMatrix;
+
+/// A term `∫ w d_row (d_column . u) dA` on a face: a force along one direction for each unit of motion along another.
+pub struct FaceTerm<'a> {
+    /// Component `(r, theta, z)` along which the force acts.
+    pub row: usize,
+    /// Component of the motion.
+    pub column: usize,
+    /// `w`, per unit of area, from the radius (m) and the place along the element, -1 to 1.
+    pub weight: &'a dyn Fn(&FaceElement, f64, f64) -> f64,
+}
+
+/// Components in a node's frame of a unit vector along `component` at an angle `ahead` of the point.
+fn turned(component: usize, ahead: f64) -> [f64; 3] {
+    let (sin, cos) = ahead.sin_cos();
+    match component {
+        0 => [cos, -sin, 0.0],
+        1 => [sin, cos, 0.0],
+        _ => [0.0, 0.0, 1.0],
+    }
+}
+
+/// Angle of each node ahead of a point of a face element, rad.
+fn angles_ahead(sector: &SolidSector, face: &FaceElement, at: [f64; 2]) -> Vec<f64> {
+    let ahead = |(_, half): &(usize, usize)| sector.half_angle() * (*half as f64 - 1.0 - at[0]);
+    face.nodes.iter().map(ahead).collect()
+}
+
+/// The matrix of a term over some elements of a face: consistent for quadratic elements, lumped at the nodes for linear ones.
+pub fn face_matrix(
+    sector: &SolidSector,
+    faces: &[FaceElement],
+    term: &FaceTerm<'_>,
+) -> SolidMatrix {
+    let mut result = SolidMatrix::default();
+    for face in faces {
+        let size = 3 * face.nodes.len();
+        let mut matrix = DMatrix::zeros(size, size);
+        for point in face_quadrature(sector.is_quadratic()) {
+            let (values, area) = face.values_at(sector, point);
+            let weight = area * (term.weight)(face, face.radius_at(sector, point.0), point.0[1]);
+            if !sector.is_quadratic() {
+                for (a, value) in values.iter().enumerate() {
+                    matrix[(3 * a + term.row, 3 * a + term.column)] += weight * value;
+                }
+                continue;
+            }
+            let ahead = angles_ahead(sector, face, point.0);
+            let along = |component: usize| -> Vec<f64> {
+                let nodes = values.iter().zip(&ahead);
+                nodes
+                    .flat_map(|(value, angle)| turned(component, *angle).map(|c| c * value))
+                    .collect()
+            };
+            let (rows, columns) = (along(term.row), along(term.column));
+            for (j, column) in columns.iter().enumerate() {
+                for (i, row) in rows.iter().enumerate() {
+                    matrix[(i, j)] += weight * row * column;
+                }
+            }
+        }
+        result
+            .places
+            .push((result.matrices.len(), face.nodes.clone()));
+        result.matrices.push(matrix);
+    }
+    result
+}
+
+/// Forces of a unit traction along `component` over some elements of a face, the same in every sector, m2.
+pub fn face_load(sector: &SolidSector, faces: &[FaceElement], component: usize) -> Vec<f64> {
+    let mut load = vec![0.0; 3 * sector.node_count()];
+    for face in faces {
+        for point in face_quadrature(sector.is_quadratic()) {
+            let (values, area) = face.values_at(sector, point);
+            let ahead = angles_ahead(sector, face, point.0);
+            for (((node, _), value), angle) in face.nodes.iter().zip(values).zip(ahead) {
+                let angle = if sector.is_quadratic() { angle } else { 0.0 };
+                for (c, part) in turned(component, angle).into_iter().enumerate() {
+                    load[3 * node + c] += area * value * part;
+                }
+            }
+        }
+    }
+    load
+}
+
+/// A matrix that couples no two nodes, from `(node, row, column, value)`.
+pub fn nodal_matrix(entries: &[(usize, usize, usize, f64)]) -> SolidMatrix {
+    let mut result = SolidMatrix::default();
+    for &(node, row, column, value) in entries {
+        let mut matrix = DMatrix::zeros(3, 3);
+        matrix[(row, column)] = value;
+        result.places.push((result.matrices.len(), vec![(node, 0)]));
+        result.matrices.push(matrix);
+    }
+    result
+}

@@ -1,0 +1,420 @@
+//! One sector of a body of revolution in three dimensions.
+
+use super::annulus::validate;
+use super::sectors::graded_radii;
+use super::{AnnulusSpecification, BoundaryCondition, MeshError};
+use std::f64::consts::{PI, TAU};
+
+mod brick;
+mod faces;
+
+pub use brick::{BrickShape, brick_places, brick_quadrature, brick_shapes};
+pub use faces::{FaceElement, face_quadrature, face_shapes};
+
+/// A face of the body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SolidFace {
+    /// The cylinder of the inner radius.
+    Inner,
+    /// The cylinder of the outer radius.
+    Outer,
+    /// The plane at the height of the thickness.
+    Top,
+    /// The plane at height zero.
+    Bottom,
+}
+
+impl SolidFace {
+    /// All of them, in the order of [`SolidSpecification::conditions`].
+    pub const ALL: [Self; 4] = [Self::Inner, Self::Outer, Self::Top, Self::Bottom];
+
+    /// Its name in case files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Inner => "inner",
+            Self::Outer => "outer",
+            Self::Top => "top",
+            Self::Bottom => "bottom",
+        }
+    }
+
+    /// Component of the displacement `(u_r, u_theta, u_z)` along its normal.
+    pub fn normal_component(self) -> usize {
+        match self {
+            Self::Inner | Self::Outer => 0,
+            Self::Top | Self::Bottom => 2,
+        }
+    }
+
+    /// Component across both the normal and the direction of sliding `e_theta`.
+    pub fn across_component(self) -> usize {
+        2 - self.normal_component()
+    }
+
+    /// Sign of the normal's component that points into the body.
+    pub fn inward_sign(self) -> f64 {
+        match self {
+            Self::Inner | Self::Bottom => 1.0,
+            Self::Outer | Self::Top => -1.0,
+        }
+    }
+}
+
+/// Where the rotor touches a body of revolution.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SolidContact {
+    /// A rigid cylinder inside the inner radius.
+    Inner,
+    /// A rigid flat ring on the top face between two radii, m.
+    Ring {
+        /// Smaller radius, m.
+        inner_radius: f64,
+        /// Larger radius, m.
+        outer_radius: f64,
+    },
+}
+
+impl SolidContact {
+    /// The face it lies on.
+    pub fn face(self) -> SolidFace {
+        match self {
+            Self::Inner => SolidFace::Inner,
+            Self::Ring { .. } => SolidFace::Top,
+        }
+    }
+}
+
+/// What the generator of a body of revolution needs to know.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SolidSpecification {
+    /// Radii and divisions in the plane; its outer condition is that of [`Self::conditions`].
+    pub annulus: AnnulusSpecification,
+    /// Thickness, m.
+    pub thickness: f64,
+    /// Elements over the thickness.
+    pub axial_elements: usize,
+    /// Where the rotor touches.
+    pub contact: SolidContact,
+    /// What holds each face, in the order of [`SolidFace::ALL`].
+    pub conditions: [BoundaryCondition; 4],
+}
+
+/// A node of one sector's sheets.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SheetNode {
+    /// Radius, m.
+    pub radius: f64,
+    /// Height over the bottom face, m.
+    pub height: f64,
+    /// Angle from the sector's corner sheet in halves of a sector, 0 or 1.
+    pub half_step: usize,
+    /// Place among the radii and heights, in halves of an element.
+    pub place: [usize; 2],
+}
+
+/// Contact nodes of one radius (on a face) or one height (on a cylinder).
+#[derive(Clone, Debug, PartialEq)]
+pub struct ContactRing {
+    /// Sector nodes.
+    pub nodes: Vec<usize>,
+    /// Radius, m.
+    pub radius: f64,
+    /// Height, m.
+    pub height: f64,
+    /// Tributary area of the ring's part of one sector, m2.
+    pub area: f64,
+}
+
+/// One sector of a body of revolution: a sheet of nodes in the plane `(r, z)`, for quadratic elements a second one
+/// with the mid-side nodes half a sector ahead.
+///
+/// Nodes are numbered along the shorter side first, which makes the matrices of each circumferential harmonic narrow bands.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SolidSector {
+    /// What it was generated from.
+    pub specification: SolidSpecification,
+    /// Its nodes.
+    pub nodes: Vec<SheetNode>,
+    /// Radii of the corner nodes, m.
+    pub radii: Vec<f64>,
+    /// Sector nodes of each element with their angle in halves of a sector, 0 to 2; radial index fastest.
+    pub elements: Vec<Vec<(usize, usize)>>,
+    /// The contact, by rising radius or height.
+    pub rings: Vec<ContactRing>,
+}
+
+impl SolidSector {
+    /// Generates the sector.
+    ///
+    /// Radii of a ring that lie inside the face become radii of corner nodes: the nearest ones move there, the others
+    /// in proportion.
+    ///
+    /// # Errors
+    /// [`MeshError`] names the key whose value makes no mesh.
+    pub fn generate(specification: &SolidSpecification) -> Result<Self, MeshError> {
+        let annulus = AnnulusSpecification {
+            outer: BoundaryCondition::Clamped,
+            ..specification.annulus
+        };
+        validate(&annulus)?;
+        if specification.axial_elements == 0 {
+            return Err(MeshError::TooFewElements {
+                key: "axial_elements",
+                count: 0,
+                minimum: 1,
+            });
+        }
+        let mut radii = graded_radii(&annulus);
+        if let SolidContact::Ring {
+            inner_radius,
+            outer_radius,
+        } = specification.contact
+        {
+            fit(&mut radii, inner_radius, outer_radius);
+        }
+        let (nodes, index) = sheet_nodes(specification, &radii);
+        let elements = elements(specification, &index);
+        let mut sector = Self {
+            specification: *specification,
+            nodes,
+            radii,
+            elements,
+            rings: Vec::new(),
+        };
+        sector.rings = sector.contact_rings();
+        Ok(sector)
+    }
+
+    /// Nodes of one sector.
+    pub fn node_count(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// Number of sectors, `N_theta`.
+    pub fn sector_count(&self) -> usize {
+        self.specification.annulus.circumferential_elements
+    }
+
+    /// Elements along a radius and over the thickness.
+    pub fn divisions(&self) -> [usize; 2] {
+        let specification = &self.specification;
+        [
+            specification.annulus.radial_elements,
+            specification.axial_elements,
+        ]
+    }
+
+    /// Whether elements have 20 nodes, not 8.
+    pub fn is_quadratic(&self) -> bool {
+        self.specification.annulus.element.is_quadratic()
+    }
+
+    /// Half the angle of a sector, rad.
+    pub fn half_angle(&self) -> f64 {
+        PI / self.sector_count() as f64
+    }
+
+    /// Angle of a node of sector `sector`, rad.
+    pub fn angle(&self, node: usize, sector: usize) -> f64 {
+        TAU * (sector as f64 + 0.5 * self.nodes[node].half_step as f64) / self.sector_count() as f64
+    }
+
+    /// Whether a node lies on a face.
+    pub fn is_on(&self, node: usize, face: SolidFace) -> bool {
+        let ([i, j], [nr, nz]) = (self.nodes[node].place, self.divisions());
+        match face {
+            SolidFace::Inner => i == 0,
+            SolidFace::Outer => i == 2 * nr,
+            SolidFace::Top => j == 2 * nz,
+            SolidFace::Bottom => j == 0,
+        }
+    }
+
+    /// Dofs `3 node + component` that boundary conditions hold at zero.
+    pub fn is_held(&self, dof: usize) -> bool {
+        let conditions = SolidFace::ALL.iter().zip(&self.specification.conditions);
+        conditions
+            .filter(|(face, _)| self.is_on(dof / 3, **face))
+            .any(|(face, condition)| match condition {
+                BoundaryCondition::Clamped => true,
+                BoundaryCondition::Guide => dof % 3 == face.normal_component(),
+                _ => false,
+            })
+    }
+
+    /// Largest distance of two nodes of one element in the numbering.
+    pub fn node_bandwidth(&self) -> usize {
+        let spans = self.elements.iter().map(|element| {
+            let nodes = || element.iter().map(|(node, _)| *node);
+            nodes().max().unwrap_or(0) - nodes().min().unwrap_or(0)
+        });
+        spans.max().unwrap_or(0)
+    }
+
+    fn contact_rings(&self) -> Vec<ContactRing> {
+        let face = self.specification.contact.face();
+        let is_touched = |radius: f64| match self.specification.contact {
+            SolidContact::Inner => true,
+            SolidContact::Ring {
+                inner_radius,
+                outer_radius,
+            } => {
+                let slack = 1e-9 * self.specification.annulus.outer_radius;
+                radius >= inner_radius - slack && radius <= outer_radius + slack
+            }
+        };
+        let areas = self.contact_areas();
+        let along = face.across_component() / 2;
+        let mut rings: Vec<(usize, ContactRing)> = Vec::new();
+        for (k, node) in self.nodes.iter().enumerate() {
+            // Nodes that something else holds along the normal take no part.
+            let is_held = self.is_held(3 * k + face.normal_component());
+            if is_held || !self.is_on(k, face) || !is_touched(node.radius) {
+                continue;
+            }
+            let place = node.place[along];
+            match rings.iter_mut().find(|(known, _)| *known == place) {
+                Some((_, ring)) => {
+                    ring.nodes.push(k);
+                    ring.area += areas[k];
+                }
+                None => rings.push((
+                    place,
+                    ContactRing {
+                        nodes: vec![k],
+                        radius: node.radius,
+                        height: node.height,
+                        area: areas[k],
+                    },
+                )),
+            }
+        }
+        rings.sort_by_key(|(place, _)| *place);
+        rings.into_iter().map(|(_, ring)| ring).collect()
+    }
+
+    /// Integral of each node's shape function over the contact, m2.
+    fn contact_areas(&self) -> Vec<f64> {
+        let mut areas = vec![0.0; self.node_count()];
+        for face in self.contact_elements() {
+            for point in face_quadrature(self.is_quadratic()) {
+                let (values, measure) = face.values_at(self, point);
+                for ((node, _), value) in face.nodes.iter().zip(values) {
+                    areas[*node] += value * measure;
+                }
+            }
+        }
+        areas
+    }
+}
+
+/// Moves the corner radii so that both radii of a ring are among them, where they are not.
+fn fit(radii: &mut [f64], inner: f64, outer: f64) {
+    let last = radii.len() - 1;
+    let (low, high) = (radii[0], radii[last]);
+    let nearest = |radii: &[f64], wanted: f64| {
+        let distance = |i: &usize| (radii[*i] - wanted).abs();
+        (0..=last)
+            .min_by(|a, b| distance(a).total_cmp(&distance(b)))
+            .unwrap_or(0)
+    };
+    let slack = 1e-9 * high;
+    let place = |wanted: f64, radii: &[f64]| match wanted {
+        w if w <= low + slack => 0,
+        w if w >= high - slack => last,
+        w => nearest(radii, w).clamp(1, last.max(2) - 1),
+    };
+    let first = place(inner, radii);
+    let second = place(outer, radii).max(first + 1).min(last);
+    let old = radii.to_vec();
+    let ends = [
+        (0, low),
+        (first, if first == 0 { low } else { inner }),
+        (second, if second == last { high } else { outer }),
+        (last, high),
+    ];
+    for pair in ends.windows(2) {
+        let ((from, a), (to, b)) = (pair[0], pair[1]);
+        for i in from..=to {
+            let share = if to > from {
+                (old[i] - old[from]) / (old[to] - old[from])
+            } else {
+                0.0
+            };
+            radii[i] = a + (b - a) * share;
+        }
+        radii[to] = b;
+    }
+}
+
+/// Nodes in the order of the band, and their index by place and half step.
+type SheetIndex = Box<dyn Fn([usize; 2], usize) -> usize>;
+
+fn sheet_nodes(specification: &SolidSpecification, radii: &[f64]) -> (Vec<SheetNode>, SheetIndex) {
+    let (nr, nz) = (
+        specification.annulus.radial_elements,
+        specification.axial_elements,
+    );
+    let is_quadratic = specification.annulus.element.is_quadratic();
+    let radius = |i: usize| match i % 2 {
+        0 => radii[i / 2],
+        _ => 0.5 * (radii[i / 2] + radii[i / 2 + 1]),
+    };
+    let height = |j: usize| specification.thickness * j as f64 / (2 * nz) as f64;
+    let mut nodes = Vec::new();
+    let (slow, fast) = if nr >= nz { (nr, nz) } else { (nz, nr) };
+    for p in 0..=2 * slow {
+        for q in 0..=2 * fast {
+            let (i, j) = if nr >= nz { (p, q) } else { (q, p) };
+            let is_corner = i % 2 == 0 && j % 2 == 0;
+            let is_middle = i % 2 == 0 || j % 2 == 0;
+            for half_step in 0..2 {
+                let exists = match (half_step, is_quadratic) {
+                    (0, true) => is_middle,
+                    (0, false) | (1, true) => is_corner,
+                    _ => false,
+                };
+                if exists {
+                    nodes.push(SheetNode {
+                        radius: radius(i),
+                        height: height(j),
+                        half_step,
+                        place: [i, j],
+                    });
+                }
+            }
+        }
+    }
+    let width = 2 * nz + 1;
+    let mut index = vec![usize::MAX; (2 * nr + 1) * width * 2];
+    for (k, node) in nodes.iter().enumerate() {
+        index[(node.place[0] * width + node.place[1]) * 2 + node.half_step] = k;
+    }
+    (
+        nodes,
+        Box::new(move |[i, j], half| index[(i * width + j) * 2 + half]),
+    )
+}
+
+fn elements(specification: &SolidSpecification, index: &SheetIndex) -> Vec<Vec<(usize, usize)>> {
+    let (nr, nz) = (
+        specification.annulus.radial_elements,
+        specification.axial_elements,
+    );
+    let places = brick_places(specification.annulus.element.is_quadratic());
+    let mut elements = Vec::with_capacity(nr * nz);
+    for j in 0..nz {
+        for i in 0..nr {
+            let node = |[a, b, c]: &[isize; 3]| {
+                let place = [
+                    (2 * i + 1).wrapping_add_signed(*a),
+                    (2 * j + 1).wrapping_add_signed(*c),
+                ];
+                let half = 1usize.wrapping_add_signed(*b);
+                (index(place, half % 2), half)
+            };
+            elements.push(places.iter().map(node).collect());
+        }
+    }
+    elements
+}

@@ -1,0 +1,141 @@
+//! Bricks: constant strain, objectivity, bending.
+
+use crate::model::{disc, modes};
+use frictionsim::contact::ContactStiffness;
+use frictionsim::fem::sector::MirrorParity;
+use frictionsim::fem::solid::{half_bandwidth, stiffness};
+use frictionsim::linalg::banded::BandedMatrix;
+use frictionsim::mesh::{ElementKind, SheetNode, SolidContact, SolidSector};
+use frictionsim::prestress::{SolidTangent, TangentOptions};
+use std::f64::consts::TAU;
+
+/// Independent check: strains `xx`, `zx`, `zz` constant over the body cost no force inside. In waves around,
+/// `u_x = x` is `(r, r, 0) / 2` at n = 2, `u_z = x` is `(0, 0, r)` and `u_x = z` is `(z, z, 0)` at n = 1, and `u_z = z` is n = 0.
+#[test]
+fn bricks_hold_every_constant_strain() {
+    type Field = fn(&SheetNode) -> [f64; 3];
+    let fields: [(usize, Field); 4] = [
+        (2, |node| [node.radius, node.radius, 0.0]),
+        (1, |node| [0.0, 0.0, node.radius]),
+        (1, |node| [node.height, node.height, 0.0]),
+        (0, |node| [0.0, 0.0, node.height]),
+    ];
+    for element in [ElementKind::Quad4, ElementKind::Quad8] {
+        let model = disc(element, [12, 3, 3]);
+        let sector = SolidSector::generate(&model.specification).unwrap();
+        let elastic = stiffness(&sector, &model.material);
+        let dofs = 3 * sector.node_count();
+        let all: Vec<Option<usize>> = (0..dofs).map(Some).collect();
+        for (n, field) in fields {
+            let mut matrix = BandedMatrix::zeros(dofs, half_bandwidth(&sector));
+            elastic.add_harmonic(&mut matrix, &all, (12, n), (MirrorParity::Even, 1.0));
+            let displacement: Vec<f64> = sector.nodes.iter().flat_map(field).collect();
+            let force = matrix.multiply(&displacement);
+            let largest = force.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
+            let [nr, nz] = sector.divisions();
+            for (k, node) in sector.nodes.iter().enumerate() {
+                let [i, j] = node.place;
+                if i > 0 && i < 2 * nr && j > 0 && j < 2 * nz {
+                    let inside = force[3 * k..3 * k + 3]
+                        .iter()
+                        .fold(0.0_f64, |m, f| m.max(f.abs()));
+                    // Rounding of a hundred terms.
+                    assert!(inside < 1e-11 * largest, "{element:?} n = {n} {node:?}");
+                }
+            }
+        }
+    }
+}
+
+/// Independent check (objectivity): a rigid rotation costs no force, prestress and the contact forces that turn with the edge
+/// or the face included.
+#[test]
+fn rigid_rotation_leaves_the_prestressed_body_in_balance() {
+    let ring = SolidContact::Ring {
+        inner_radius: 0.04,
+        outer_radius: 0.07,
+    };
+    for element in [ElementKind::Quad4, ElementKind::Quad8] {
+        for contact in [SolidContact::Inner, ring] {
+            let mut model = disc(element, [12, 6, 2]);
+            model.options.geometric_stiffness = true;
+            model.specification.contact = contact;
+            let sector = SolidSector::generate(&model.specification).unwrap();
+            let of = |options| {
+                SolidTangent::linearize(&sector, &model.material, &options, &model.contact).unwrap()
+            };
+            let with = of(model.options);
+            let without = of(TangentOptions {
+                geometric_stiffness: false,
+                ..model.options
+            });
+            let without = without.harmonic(0).stiffness;
+            let mut rotation = vec![0.0; without[0].dimension()];
+            for (dof, unknown) in with.unknown_of().iter().enumerate() {
+                if let (Some(unknown), 1) = (unknown, dof % 3) {
+                    rotation[*unknown] = sector.nodes[dof / 3].radius;
+                }
+            }
+            // Neighbours of the clamped edge feel that it does not turn.
+            let outermost = |dof: usize| sector.nodes[dof / 3].place[0] + 2 >= 12;
+            for (after, before) in with.harmonic(0).stiffness.iter().zip(&without) {
+                let change: Vec<f64> = after
+                    .multiply(&rotation)
+                    .iter()
+                    .zip(before.multiply(&rotation))
+                    .map(|(a, b)| a - b)
+                    .collect();
+                let mut difference = after.clone();
+                difference.add_scaled(-1.0, before);
+                let scale = difference
+                    .values()
+                    .iter()
+                    .fold(0.0_f64, |m, v| m.max(v.abs()))
+                    * 0.09;
+                for (dof, unknown) in with.unknown_of().iter().enumerate() {
+                    if let (Some(unknown), false) = (unknown, outermost(dof)) {
+                        // Each row sums a hundred terms of that size.
+                        assert!(
+                            change[*unknown].abs() < 1e-10 * scale,
+                            "{element:?} {contact:?} {dof}"
+                        );
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Independent check: plate theory (Leissa, Vibration of Plates, NASA SP-160, 1969: clamped outside, free inside, radii 1 : 2,
+/// Poisson's ratio 1/3) gives `omega b^2 sqrt(rho h / D) = 17.715` for n = 0 and 22.015 for n = 1.
+#[test]
+fn bricks_of_8_and_20_nodes_bend_like_a_thin_plate() {
+    for (element, divisions) in [
+        (ElementKind::Quad4, [48, 16, 1]),
+        (ElementKind::Quad8, [32, 12, 1]),
+    ] {
+        let mut model = disc(element, divisions);
+        let (outer, thickness) = (0.1, 0.001);
+        model.specification.annulus.inner_radius = 0.5 * outer;
+        model.specification.annulus.outer_radius = outer;
+        model.specification.thickness = thickness;
+        model.material.poisson_ratio = 1.0 / 3.0;
+        // As good as free.
+        model.options.contact = ContactStiffness {
+            normal_stiffness: Some(1.0),
+            ..ContactStiffness::default()
+        };
+        let e = model.material.young_modulus;
+        let rigidity = e * thickness.powi(3) / (12.0 * (1.0 - 1.0 / 9.0));
+        let unit = (rigidity / (model.material.density * thickness)).sqrt() / (outer * outer) / TAU;
+        let found = modes(&model, 0.0, 40.0 * unit);
+        for (harmonic, factor) in [(0, 17.715), (1, 22.015)] {
+            let mode = found.iter().find(|mode| mode.harmonic == harmonic).unwrap();
+            let ratio = mode.frequency_hz() / (factor * unit);
+            assert!(
+                (ratio - 1.0).abs() < 0.01,
+                "{element:?} n = {harmonic}: {ratio}"
+            );
+        }
+    }
+}

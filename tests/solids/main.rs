@@ -1,0 +1,7 @@
+//! Bodies of revolution in three dimensions against theory, the plane program and an independent solution.
+
+mod disc;
+mod elements;
+mod limits;
+mod model;
+mod ring;
