@@ -48,7 +48,7 @@ fn guided_faces_give_plane_strain() {
             // What the reduced space leaves out of the contact's response, squared.
             let error = (found.eigenvalue - mode.eigenvalue).norm() / mode.eigenvalue.norm();
             assert!(
-                error < 5e-6,
+                error < 2e-5,
                 "{geometric_stiffness} n = {}: {error:e}",
                 mode.harmonic
             );
@@ -71,6 +71,6 @@ fn a_thin_disc_has_the_modes_of_plane_stress() {
         let error = (nearest(&in_plane, &mode).eigenvalue - mode.eigenvalue).norm()
             / mode.eigenvalue.norm();
         // The elements at the clamp cannot thin as they are stretched.
-        assert!(error < 4e-3, "n = {}: {error:e}", mode.harmonic);
+        assert!(error < 1e-2, "n = {}: {error:e}", mode.harmonic);
     }
 }
