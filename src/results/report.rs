@@ -153,9 +153,34 @@ mod tests {
         let html = report().to_html();
         assert!(html.contains("<h1>Disc &amp; &lt;cylinder&gt;</h1>"));
         assert!(html.contains("# &lt;&amp;&gt;"));
-        for outside in ["<script", "src=\"http", "href=\"http", "@import"] {
+        for outside in ["<script src", "src=\"http", "href=\"http", "@import"] {
             assert!(!html.contains(outside), "{outside}");
         }
+    }
+
+    #[test]
+    fn no_text_of_a_user_ends_a_script() {
+        let mut report = report();
+        report.sections[0].figures[0].name = "</script><img>".into();
+        let html = report.to_html();
+        let data = html.split("id=\"data\">").nth(1).unwrap();
+        let data = data.split("</script>").next().unwrap();
+        let data: Value = serde_json::from_str(data).unwrap();
+        assert_eq!(data["figures"][0]["name"], "</script><img>");
+        assert!(!html.contains("<img"));
+    }
+
+    #[test]
+    fn numbers_of_the_box_come_before_words_and_pictures() {
+        let mut report = report();
+        let row = ("main frequency".into(), "9433 Hz".into());
+        report.sections.insert(
+            0,
+            ReportSection::results(vec!["In words.".into()], vec![row]),
+        );
+        let html = report.to_html();
+        let at = |text: &str| html.find(text).unwrap();
+        assert!(at("<dd>9433 Hz</dd>") < at("In words.") && at("In words.") < at("<svg"));
     }
 
     #[test]
@@ -166,7 +191,9 @@ mod tests {
         report.sections[0].paragraphs = vec!["[damping]\nmass_coefficient = 40.0\n".into()];
         let html = report.to_html();
         assert!(html.contains("table frf.csv") && !html.contains("id=\"case\""));
-        assert!(html.contains("<pre><code>[damping]\nmass_coefficient = 40.0\n</code></pre>"));
+        assert!(html.contains(
+            "<pre tabindex=\"0\"><code>[damping]\nmass_coefficient = 40.0\n</code></pre>"
+        ));
     }
 
     #[test]

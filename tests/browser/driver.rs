@@ -2,7 +2,7 @@
 
 use base64::prelude::{BASE64_STANDARD, Engine};
 use serde_json::{Value, json};
-use std::io::{Read, Write};
+use std::io::{BufRead, BufReader, Read, Write};
 use std::net::{TcpListener, TcpStream};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
@@ -13,7 +13,6 @@ pub struct Browser {
     driver: Child,
     port: u16,
     session: String,
-    _profile: tempfile::TempDir,
 }
 
 /// Whether there is a driver; says so where there is none, and refuses that where a browser is asked for.
@@ -36,8 +35,8 @@ pub fn is_there() -> bool {
 }
 
 impl Browser {
-    /// A window of this size in which scripts run or do not.
-    pub fn open([width, height]: [usize; 2], has_scripts: bool) -> Self {
+    /// A window in which pages are this large.
+    pub fn open([width, height]: [usize; 2]) -> Self {
         let port = TcpListener::bind("127.0.0.1:0")
             .unwrap()
             .local_addr()
@@ -49,12 +48,10 @@ impl Browser {
             .stderr(Stdio::null())
             .spawn()
             .unwrap();
-        let profile = tempfile::tempdir().unwrap();
         let mut browser = Self {
             driver,
             port,
             session: String::new(),
-            _profile: profile,
         };
         let start = Instant::now();
         while TcpStream::connect(("127.0.0.1", port)).is_err() {
@@ -64,21 +61,20 @@ impl Browser {
             );
             std::thread::sleep(Duration::from_millis(50));
         }
-        let folder = browser._profile.path().display();
-        let scripts = if has_scripts { 1 } else { 2 };
-        let options = json!({
-            "args": [
-                "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
-                format!("--window-size={width},{height}"), format!("--user-data-dir={folder}"),
-            ],
-            "mobileEmulation": { "deviceMetrics": { "width": width, "height": height, "pixelRatio": 1.0, "mobile": false } },
-            "prefs": { "profile.managed_default_content_settings.javascript": scripts },
-        });
+        let options = json!({ "args": [
+            "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
+            format!("--window-size={width},{height}"),
+        ] });
         let wanted = json!({ "capabilities": { "alwaysMatch": {
             "goog:loggingPrefs": { "browser": "ALL" }, "goog:chromeOptions": options,
         } } });
         let made = browser.request("POST", "/session", &wanted);
         browser.session = format!("/session/{}", made["sessionId"].as_str().unwrap());
+        // A window of the desktop cannot be as narrow as a phone.
+        let size =
+            json!({ "width": width, "height": height, "deviceScaleFactor": 1, "mobile": false });
+        let command = json!({ "cmd": "Emulation.setDeviceMetricsOverride", "params": size });
+        browser.post("/goog/cdp/execute", command);
         browser
     }
 
@@ -210,11 +206,18 @@ impl Browser {
             self.port,
             body.len()
         )?;
-        let mut answer = Vec::new();
-        stream.read_to_end(&mut answer)?;
-        let text = String::from_utf8_lossy(&answer);
-        let content = text.split_once("\r\n\r\n").map_or("", |parts| parts.1);
-        Ok(serde_json::from_str(content)?)
+        // The driver keeps the connection open: the header says how long the answer is.
+        let mut reader = BufReader::new(stream);
+        let (mut length, mut line) = (0, String::new());
+        while reader.read_line(&mut line)? > 2 {
+            if let Some(value) = line.to_ascii_lowercase().strip_prefix("content-length:") {
+                length = value.trim().parse().unwrap_or(0);
+            }
+            line.clear();
+        }
+        let mut content = vec![0; length];
+        reader.read_exact(&mut content)?;
+        Ok(serde_json::from_slice(&content)?)
     }
 }
 
