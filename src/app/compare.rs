@@ -13,7 +13,7 @@ use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-/// Finished runs side by side: every number they share, and their figures over each other
+/// Finished runs side by side: every number they share, curve over curve
 ///
 /// Reads summary.json and report.html of each results folder; nothing is computed again. The first folder is what the others
 /// are compared with.

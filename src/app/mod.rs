@@ -39,8 +39,8 @@ use std::process::ExitCode;
 
 /// Stability and transient analysis of frictional contact by finite elements.
 ///
-/// A deformable disc, clamped at its outer edge, is pressed from inside by a rotating rigid
-/// cylinder. `frictionsim init` writes a case to start from.
+/// A deformable body, at first a disc on a rotating cylinder, is pressed against a moving counterface.
+/// `frictionsim init` writes a case to start from.
 #[derive(Parser)]
 #[command(
     name = "frictionsim",

@@ -69,7 +69,7 @@ pub const KEYS: &[CaseKey] = &[
     key("mesh.circumferential_elements", Count(3), "", Required, "180", "the number of elements around the disc"),
     key("mesh.radial_elements", Count(1), "", Required, "35", "the number of elements along a radius"),
     key("mesh.shaft_radial_elements", Count(1), "", Otherwise("needed by geometry.shaft_inner_radius"), "6", "the number of elements along a radius of the shaft"),
-    key("mesh.axial_elements", Count(1), "", Required, "4", "the number of elements over the thickness (three-dimensional bodies)"),
+    key("mesh.axial_elements", Count(1), "", Otherwise("needed by formulation = \"three-dimensional\""), "4", "the number of elements over the thickness of a three-dimensional body"),
     key("mesh.radial_grading", Number(Positive), "", Value("1.0"), "1.0", "the size ratio of successive elements outwards (1 = uniform)"),
     key("mesh.element", Choice(words::<ElementKind>), "", Value("\"quad4\""), "\"quad4\"", "the element shape"),
 

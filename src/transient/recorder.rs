@@ -92,7 +92,6 @@ pub struct Recorder {
     /// Probe nodes, 1-based.
     pub probes: Vec<usize>,
     /// Cosine and sine of the angle from the axes of each probe's report to its frame.
-    #[serde(skip)]
     probe_turns: Vec<[f64; 2]>,
     /// One row for each sample.
     pub rows: Vec<SampleRow>,
