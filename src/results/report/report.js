@@ -232,7 +232,7 @@ function plotPanel(panel, holder, { overlay, pick } = {}) {
       members.forEach((series) => (isOff ? hidden.add(series) : hidden.delete(series)));
       show(u, undefined);
       u.redraw(false);
-    }, { "aria-pressed": true, class: "series" });
+    }, { "aria-pressed": "true", class: "series" });
     toggle.append(members[0].name || "(no name)");
     if (members[0].name) tools.append(toggle);
   }

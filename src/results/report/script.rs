@@ -18,8 +18,10 @@ const COLUMNS: usize = 400;
 /// Most points of any other curve.
 const MOST_POINTS: usize = 4000;
 
-/// Longest signal that is kept whole: a page is to be mailed.
-const LONGEST_SIGNAL: usize = 1 << 16;
+/// Most samples of a signal that can be heard, every second, third ... of a longer one: a page is to be mailed.
+const LONGEST_SIGNAL: usize = 1 << 14;
+/// Longest signal that is kept for the ear.
+const LONGEST_HEARD: usize = 1 << 16;
 
 /// Writes the numbers of the figures and the scripts.
 pub fn write<'a>(out: &mut String, figures: impl Iterator<Item = &'a NamedFigure>) {
@@ -92,17 +94,19 @@ fn of_series(series: &Series, numbers: &mut Numbers) -> Value {
 fn thinned(series: &Series) -> (Vec<f64>, Vec<f64>) {
     let (xs, ys) = (&series.xs, &series.ys);
     let count = xs.len().min(ys.len());
-    if count <= 4 * COLUMNS || series.is_whole && count <= LONGEST_SIGNAL {
-        return (xs.clone(), ys.clone());
+    let strided = |stride: usize| (0..count).step_by(stride).map(|i| (xs[i], ys[i])).unzip();
+    if count <= 4 * COLUMNS {
+        return strided(1);
+    }
+    if series.is_whole && count <= LONGEST_HEARD {
+        return strided(count.div_ceil(LONGEST_SIGNAL));
     }
     if xs.is_sorted() {
         let width = (xs[count - 1] - xs[0]).max(f64::MIN_POSITIVE);
         let column = |x: f64| (x - xs[0]) / width * COLUMNS as f64;
         return keep_extremes(xs, ys, column).into_iter().unzip();
     }
-    let stride = count.div_ceil(MOST_POINTS);
-    let kept = (0..count).step_by(stride).map(|i| (xs[i], ys[i]));
-    kept.unzip()
+    strided(count.div_ceil(MOST_POINTS))
 }
 
 fn of_steps(steps: &Steps) -> Value {
