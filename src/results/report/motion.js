@@ -146,6 +146,11 @@ function wavOf(samples) {
   samples.forEach((v, i) => view.setInt16(44 + 2 * i, Math.round((26000 * v * Math.min(1, i / fade, (samples.length - 1 - i) / fade)) / peak), true));
   return view.buffer;
 }
+function base64Of(buffer) {
+  const bytes = new Uint8Array(buffer), parts = [];
+  for (let at = 0; at < bytes.length; at += 8192) parts.push(String.fromCharCode(...bytes.subarray(at, at + 8192)));
+  return btoa(parts.join(""));
+}
 // The strongest line between 0.1 and 45 kHz of the last samples, in Hz.
 function toneOf(values, interval) {
   const count = Math.min(values.length, 8192), end = values.slice(-count);
@@ -171,7 +176,7 @@ function toneOf(values, interval) {
   return (best + shift) / (count * interval);
 }
 function listen(signals, holder) {
-  let audio, address;
+  let audio;
   const source = make("select", {}, ...signals.map((signal, i) => make("option", { value: i }, signal.name)));
   const part = make("select", {}, make("option", { value: "end" }, "last fifth, repeated for 2 s"), make("option", { value: "all" }, "whole run, once"));
   const slow = make("select", {}, make("option", { value: 0 }, "as fast as audible"), ...[1, 2, 5, 10, 20, 50, 100].map((k) => make("option", { value: k }, k === 1 ? "as it is" : `${k} times slower`)));
@@ -185,10 +190,9 @@ function listen(signals, holder) {
     const isEnd = part.value === "end" && periods > 0 && Number.isFinite(period);
     let samples = samplesOf(isEnd ? end.slice(-Math.round(periods * period)) : values, interval, factor);
     if (isEnd) samples = Float64Array.from({ length: 2 * rate }, (_, i) => samples[i % samples.length]);
-    URL.revokeObjectURL(address);
-    address = URL.createObjectURL(new Blob([wavOf(samples)], { type: "audio/wav" }));
     audio?.remove();
-    audio = make("audio", { controls: true, src: address });
+    // A page that was opened as a file may not play blobs.
+    audio = make("audio", { controls: true, src: `data:audio/wav;base64,${base64Of(wavOf(samples))}` });
     text.textContent = `${hertz ? `loudest at ${digits(hertz / 1000, 4)} kHz` : "no tone"}, ${factor === 1 ? "at its own pitch" : `slowed ${factor} times: heard at ${digits(hertz / 1000 / factor, 4)} kHz`}; ${digits(samples.length / rate, 3)} s.`;
     text.after(audio);
     audio.play().catch(() => {});

@@ -7,7 +7,7 @@ use std::fmt::Write;
 const STYLE: &str = include_str!("style.css");
 
 /// What the page may load: nothing from outside.
-const POLICY: &str = "default-src 'none'; img-src data:; media-src blob:; style-src 'unsafe-inline'; \
+const POLICY: &str = "default-src 'none'; img-src data:; media-src data:; style-src 'unsafe-inline'; \
                       script-src 'unsafe-inline'";
 
 impl Report {
