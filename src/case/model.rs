@@ -267,6 +267,8 @@ fn contact(
     let (is_annulus, is_solid) = (annulus.is_some(), annulus.is_some_and(|given| given.1));
     if let Some((annulus, is_solid)) = annulus {
         place.solid = solid::contact(&section, annulus, is_solid);
+    } else {
+        let _ = ["ring_inner_radius", "ring_outer_radius"].map(|key| section.optional_number(key));
     }
     if is_annulus {
         for key in [

@@ -173,9 +173,10 @@ mod tests {
     #[test]
     fn the_bound_is_reached_where_the_curve_crosses_it_nearest_to_the_case() {
         let points = [[1.0, 0.0], [2.0, 0.1], [3.0, 0.9], [4.0, 0.0]].map(|[x, p]| [x, p, p, p]);
-        let crossing = reaches(&points, Some(2.9), 0.5).unwrap();
-        assert!((crossing - 2.5).abs() < 1e-14, "{crossing}");
-        assert_eq!(reaches(&points, Some(3.9), 0.05), Some(4.0));
+        for (own, bound, crossing) in [(2.9, 0.5, 2.5), (3.9, 0.05, 4.0 - 0.05 / 0.9)] {
+            let found = reaches(&points, Some(own), bound).unwrap();
+            assert!((found - crossing).abs() < 1e-14, "{found}");
+        }
         assert_eq!(reaches(&points[2..3], Some(3.0), 0.05), None);
     }
 
