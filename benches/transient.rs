@@ -2,24 +2,28 @@
 //!
 //! `cargo bench --bench transient`. Prints, for each operator and instruction set, microseconds a step
 //! (the fastest of many batches, so that other load on the machine counts little), nanoseconds an element-step,
-//! and the share of the processor's fused multiply-add peak, which it measures first.
+//! and the share of the processor's fused multiply-add peak, which it measures first; then bodies without like
+//! elements, and threads.
 
 #[path = "../tests/common/disc.rs"]
 mod disc;
 
 use disc::{DAMPING, POLYCARBONATE, annulus, contact};
+use frictionsim::contact::ContactStiffness;
 use frictionsim::fem::operator::SimdLevel;
-use frictionsim::mesh::{AnnulusMesh, ElementKind};
+use frictionsim::mesh::{AnnulusMesh, ElementKind, Mesh2d};
 use frictionsim::transient::{
     CentralDifference, InitialState, Observer, OperatorChoice, Perturbation, Sample, TimeStep,
     TransientModel, TransientSettings, build_operator,
 };
+use std::collections::BTreeSet;
 use std::hint::black_box;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-const STEPS: u32 = 500;
 const BATCHES: usize = 60;
+/// Node-steps of a batch.
+const BATCH: usize = 3_200_000;
 
 /// Additions and multiplications of one node's step with the stencil: 48 for `K v`, 4 for `K u`, 26 for
 /// motion and damping power.
@@ -48,14 +52,37 @@ fn main() {
             2 * annulus.mesh.node_count()
         );
         println!("operator  simd     us/step  ns/element-step  of FMA peak");
+        let model = TransientModel::of_annulus(&annulus, &POLYCARBONATE, DAMPING, contact(610.0));
         for choice in [OperatorChoice::Cyclic, OperatorChoice::Sparse] {
             for level in [SimdLevel::Scalar, SimdLevel::Avx2, SimdLevel::Avx512] {
                 if level.available().is_ok() {
-                    report(&annulus, choice, level, peak);
+                    report(model, choice, level, peak);
                 }
             }
         }
     }
+    let (annulus, level) = (mesh(180, 35), SimdLevel::detect());
+    let irregular = irregular(&annulus);
+    println!("\nno element like another, 180 x 35");
+    let even = TransientModel::of_annulus(&annulus, &POLYCARBONATE, DAMPING, contact(610.0));
+    let uneven = of_mesh(&irregular);
+    let alike = report(even, OperatorChoice::Sparse, level, peak);
+    let unlike = report(uneven, OperatorChoice::Sparse, level, peak);
+    println!("ratio to the annulus {:.2}", unlike / alike);
+    threads(level, peak);
+}
+
+/// 100,000 elements, none like another, on one thread and on two.
+fn threads(level: SimdLevel, peak: f64) {
+    let irregular = irregular(&mesh(720, 139));
+    println!("\nno element like another, 720 x 139, one thread and two");
+    let times = [1, 2].map(|count| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build();
+        let model = of_mesh(&irregular);
+        pool.expect("threads")
+            .install(|| report(model, OperatorChoice::Sparse, level, peak))
+    });
+    println!("ratio {:.2}", times[0] / times[1]);
 }
 
 fn mesh(circumferential: usize, radial: usize) -> AnnulusMesh {
@@ -63,41 +90,76 @@ fn mesh(circumferential: usize, radial: usize) -> AnnulusMesh {
     AnnulusMesh::generate(&specification).expect("a valid mesh")
 }
 
-fn report(annulus: &AnnulusMesh, choice: OperatorChoice, level: SimdLevel, peak: f64) {
-    let model = TransientModel::of_annulus(annulus, &POLYCARBONATE, DAMPING, contact(610.0));
+/// The annulus with its inner nodes moved by up to a tenth of an element at random.
+fn irregular(annulus: &AnnulusMesh) -> Mesh2d {
+    let mut mesh = annulus.mesh.clone();
+    let specification = &annulus.specification;
+    let width = specification.outer_radius - specification.inner_radius;
+    let reach = 0.1 * width / specification.radial_elements as f64;
+    let boundaries = mesh.boundaries.iter().flat_map(|b| &b.nodes);
+    let edges: BTreeSet<usize> = boundaries.map(|&node| node as usize).collect();
+    for (node, point) in mesh.nodes.iter_mut().enumerate() {
+        if !edges.contains(&node) {
+            // Multiples of the golden and the plastic ratio are spread evenly.
+            let spread = [0.618_033_988_749_895, 0.754_877_666_246_693];
+            for (x, ratio) in point.iter_mut().zip(spread) {
+                *x += reach * (2.0 * (node as f64 * ratio).fract() - 1.0);
+            }
+        }
+    }
+    mesh.congruent_to = (0..mesh.element_count() as u32).collect();
+    mesh.is_cyclic = false;
+    mesh
+}
+
+fn of_mesh(mesh: &Mesh2d) -> TransientModel<'_> {
+    TransientModel {
+        mesh,
+        annulus: None,
+        material: &POLYCARBONATE,
+        damping: DAMPING,
+        contact: contact(610.0),
+        stiffness: ContactStiffness::default(),
+    }
+}
+
+/// Prints a row; returns the time of a step, s.
+fn report(model: TransientModel<'_>, choice: OperatorChoice, level: SimdLevel, peak: f64) -> f64 {
     let operator = build_operator(&model, choice, level).expect("an operator");
     let sample_interval = 2e-6;
-    let mut settings = TransientSettings {
-        duration: 1.0,
+    let settings = TransientSettings {
+        duration: 0.002,
         time_step: TimeStep::Auto,
         sample_interval,
         expansion_time: 5e-4,
         initial: InitialState::SteadySliding,
         perturbation: Perturbation::of(&[1, 2], 1.0),
     };
-    settings.duration = 0.002;
+    let mesh = model.mesh;
     let mut run = CentralDifference::start(model, operator.as_ref(), &settings).expect("a start");
     // Stick, slip and open nodes all occur before the clock starts.
     run.run(&mut Ignore).expect("a run");
+    let nodes = mesh.node_count() as f64;
+    let steps = (BATCH / mesh.node_count()).max(10);
     let mut best = f64::INFINITY;
     for _ in 0..BATCHES {
         let clock = Instant::now();
-        (0..STEPS).for_each(|_| run.advance());
-        best = best.min(clock.elapsed().as_secs_f64() / f64::from(STEPS));
+        (0..steps).for_each(|_| run.advance());
+        best = best.min(clock.elapsed().as_secs_f64() / steps as f64);
     }
     let operations = match operator.name() {
         "cyclic" => OPERATIONS_STENCIL,
         _ => OPERATIONS_BLOCKS,
     };
-    let nodes = annulus.mesh.node_count() as f64;
     println!(
         "{:8}  {:7} {:8.2} {:12.3} {:15.1} %",
         operator.name(),
         operator.simd(),
         1e6 * best,
-        1e9 * best / annulus.mesh.element_count() as f64,
+        1e9 * best / mesh.element_count() as f64,
         100.0 * operations * nodes / best / peak,
     );
+    best
 }
 
 /// Fused multiply-adds a second of one thread, times two: the widest vectors of this processor, enough

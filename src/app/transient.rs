@@ -269,7 +269,8 @@ fn step(
     let clock = Instant::now();
     let end = match is_over {
         true => Ok(RunEnd::Finished),
-        false => run.run(&mut watch),
+        // On a thread of the pool: a step hands parts of itself to the others.
+        false => rayon::scope(|_| run.run(&mut watch)),
     };
     let stepping_s = clock.elapsed().as_secs_f64();
     let record = watch.finish()?;
@@ -298,9 +299,7 @@ pub fn summarize(case: &Case, manifest: &Manifest) -> Result<Value, Failure> {
     };
     let mut record = Recorder::new(&loop_, &settings).map_err(|error| prepared.failure(&error))?;
     let clock = Instant::now();
-    loop_
-        .run(&mut record)
-        .map_err(|error| prepared.failure(&error))?;
+    rayon::scope(|_| loop_.run(&mut record)).map_err(|error| prepared.failure(&error))?;
     let stepping_s = clock.elapsed().as_secs_f64();
     let analysis = prepared.analyse(&record);
     let report = TransientReport {

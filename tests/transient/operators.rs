@@ -3,7 +3,8 @@
 use crate::disc::POLYCARBONATE;
 use crate::model::{Watch, disc, largest, largest_difference, model, settings};
 use frictionsim::fem::operator::{
-    CyclicStencil, SimdLevel, SparseOperator, StiffnessOperator, gather, largest_frequency, scatter,
+    AlignedVector, CyclicStencil, MotionFields, SimdLevel, SparseOperator, StepCoefficients,
+    StiffnessOperator, gather, largest_frequency, scatter,
 };
 use frictionsim::fem::{DofMap, assemble_stiffness, lumped_masses};
 use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification};
@@ -141,7 +142,6 @@ fn largest_frequency_is_that_of_the_dense_matrix() {
 /// The stability limit is sharp: free motion stays bounded just below it and explodes just above.
 #[test]
 fn steps_are_stable_below_the_limit_and_unstable_above() {
-    use frictionsim::fem::operator::{AlignedVector, MotionFields, StepCoefficients};
     use frictionsim::transient::stable_step_limit;
     let annulus = disc(24, 6);
     let model = model(&annulus, 0.0);
@@ -167,5 +167,65 @@ fn steps_are_stable_below_the_limit_and_unstable_above() {
         }
         let speed = largest(&gather(operator.as_ref(), &fields.velocity));
         assert_eq!(speed < 10.0, is_stable, "{factor}: {speed:e}");
+    }
+}
+
+/// Large bodies are stepped in pieces by several threads, in an order of nodes of their own.
+#[test]
+fn a_large_body_moves_as_with_the_stencil_and_to_the_same_bits_on_any_number_of_threads() {
+    let annulus = disc(200, 180);
+    let model = model(&annulus, 0.0);
+    let operators = [OperatorChoice::Cyclic, OperatorChoice::Sparse]
+        .map(|choice| build_operator(&model, choice, SimdLevel::detect()).unwrap());
+    let [cyclic, sparse] = &operators;
+    let dofs = cyclic.dof_count();
+    assert!((0..dofs).any(|dof| sparse.position(dof) != dof));
+    let held: Vec<bool> = (0..dofs)
+        .map(|dof| cyclic.masses()[cyclic.position(dof)] == 0.0)
+        .collect();
+    let start: Vec<f64> = (0..dofs)
+        .map(|dof| {
+            if held[dof] {
+                0.0
+            } else {
+                (1.7 * dof as f64).sin()
+            }
+        })
+        .collect();
+    let coefficients = StepCoefficients {
+        time_step: 1e-8,
+        mass_coefficient: model.damping.mass_coefficient,
+        stiffness_coefficient: model.damping.stiffness_coefficient,
+    };
+    let moved = |operator: &dyn StiffnessOperator, threads: usize| {
+        let zeros = || AlignedVector::zeros(operator.field_length());
+        let mut fields = MotionFields {
+            displacement: zeros(),
+            velocity: scatter(operator, &start),
+            elastic: zeros(),
+            elastic_rate: zeros(),
+        };
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        let powers: Vec<f64> = pool.unwrap().install(|| {
+            operator.multiply(&mut fields.velocity, &mut fields.elastic_rate);
+            (0..4)
+                .map(|_| operator.advance(&mut fields, &coefficients))
+                .collect()
+        });
+        (gather(operator, &fields.elastic), powers)
+    };
+    let (expected, expected_powers) = moved(cyclic.as_ref(), 1);
+    let (alone, powers) = moved(sparse.as_ref(), 1);
+    // A dozen terms of the size of the largest in each of five products.
+    assert!(largest_difference(&alone, &expected) < 1e-13 * largest(&expected));
+    for (power, expected) in powers.iter().zip(expected_powers) {
+        // Sums of 70,000 terms, hardly any negative, in two orders.
+        assert!((power / expected - 1.0).abs() < 1e-12);
+    }
+    for threads in [2, 3] {
+        assert_eq!(
+            moved(sparse.as_ref(), threads),
+            (alone.clone(), powers.clone())
+        );
     }
 }

@@ -1,4 +1,4 @@
-//! Inner loops of the operators, compiled once for each instruction set.
+//! Inner loops of the stencil, compiled once for each instruction set, and what those of block rows share with them.
 //!
 //! Every kernel is one safe, always-inlined body; the wrappers only recompile it with more
 //! instructions enabled. The level is checked when an operator is built (`SimdLevel::available`),
@@ -10,7 +10,7 @@ use super::{MotionFields, SimdLevel, StepCoefficients};
 const LANES: usize = 8;
 
 /// Partial sums of a dot product: enough for a row of the usual meshes, few enough for the first-level cache.
-const SUMS: usize = 512;
+pub(super) const SUMS: usize = 512;
 
 /// One row of a cyclic stencil (one radius), already divided by the node's mass.
 ///
@@ -70,18 +70,8 @@ impl RowLayout {
     }
 }
 
-/// 2 x 2 block rows; `values` holds `[a_11, a_21, a_12, a_22]`.
-#[derive(Clone, Debug, Default)]
-pub(super) struct BlockRows {
-    /// First block of each node row.
-    pub starts: Vec<u32>,
-    /// First dof of each block's column node.
-    pub columns: Vec<u32>,
-    pub values: Vec<[f64; 4]>,
-}
-
 #[inline(always)]
-fn multiply_add<const FUSED: bool>(a: f64, b: f64, c: f64) -> f64 {
+pub(super) fn multiply_add<const FUSED: bool>(a: f64, b: f64, c: f64) -> f64 {
     if FUSED { a.mul_add(b, c) } else { a * b + c }
 }
 
@@ -116,25 +106,23 @@ fn move_nodes<const FUSED: bool>(
     }
 }
 
-/// Moves a range of places in pieces of at most [`SUMS`].
+/// Moves a range of places, given as its masses, `[u, v]` and `[q, z]`, in pieces of at most [`SUMS`].
 #[inline(always)]
-fn move_range<const FUSED: bool>(
-    range: std::ops::Range<usize>,
+pub(super) fn move_range<const FUSED: bool>(
     masses: &[f64],
-    fields: &mut MotionFields,
+    [displacement, velocity]: [&mut [f64]; 2],
+    [elastic, elastic_rate]: [&[f64]; 2],
     coefficients: &StepCoefficients,
     sums: &mut [f64; SUMS],
 ) {
-    let mut start = range.start;
-    while start < range.end {
-        let piece = start..range.end.min(start + SUMS);
-        start = piece.end;
+    for start in (0..masses.len()).step_by(SUMS) {
+        let piece = start..masses.len().min(start + SUMS);
         move_nodes::<FUSED>(
             &masses[piece.clone()],
-            &mut fields.displacement[piece.clone()],
-            &mut fields.velocity[piece.clone()],
-            &fields.elastic[piece.clone()],
-            &fields.elastic_rate[piece],
+            &mut displacement[piece.clone()],
+            &mut velocity[piece.clone()],
+            &elastic[piece.clone()],
+            &elastic_rate[piece],
             coefficients,
             sums,
         );
@@ -230,7 +218,16 @@ fn cyclic_advance_body<const FUSED: bool>(
     for row in 0..=layout.rows {
         if row < layout.rows {
             let range = layout.start(row, 0)..layout.start(row + 1, 0);
-            move_range::<FUSED>(range, masses, fields, coefficients, &mut sums);
+            move_range::<FUSED>(
+                &masses[range.clone()],
+                [
+                    &mut fields.displacement[range.clone()],
+                    &mut fields.velocity[range.clone()],
+                ],
+                [&fields.elastic[range.clone()], &fields.elastic_rate[range]],
+                coefficients,
+                &mut sums,
+            );
             close_seam(layout, row, &mut fields.velocity);
         }
         if row > 0 {
@@ -265,63 +262,9 @@ fn cyclic_multiply_body<const FUSED: bool>(
     }
 }
 
-/// Both components of one node row times `x`.
-#[inline(always)]
-fn block_row<const FUSED: bool>(
-    rows: &BlockRows,
-    range: std::ops::Range<usize>,
-    x: &[f64],
-) -> (f64, f64) {
-    let mut sum = [0.0; 4];
-    let blocks = rows.columns[range.clone()].iter().zip(&rows.values[range]);
-    for (&column, block) in blocks {
-        let pair = &x[column as usize..column as usize + 2];
-        let spread = [pair[0], pair[0], pair[1], pair[1]];
-        for k in 0..4 {
-            sum[k] = multiply_add::<FUSED>(block[k], spread[k], sum[k]);
-        }
-    }
-    (sum[0] + sum[2], sum[1] + sum[3])
-}
-
-#[inline(always)]
-fn sparse_advance_body<const FUSED: bool>(
-    rows: &BlockRows,
-    masses: &[f64],
-    fields: &mut MotionFields,
-    coefficients: &StepCoefficients,
-) -> f64 {
-    let mut sums = [0.0; SUMS];
-    move_range::<FUSED>(0..masses.len(), masses, fields, coefficients, &mut sums);
-    let velocity: &[f64] = &fields.velocity;
-    let elastic = fields.elastic.as_chunks_mut::<2>().0;
-    let elastic_rate = fields.elastic_rate.as_chunks_mut::<2>().0;
-    let outputs = elastic_rate.iter_mut().zip(elastic);
-    for ((z, q), range) in outputs.zip(rows.starts.windows(2)) {
-        let (y_1, y_2) = block_row::<FUSED>(rows, range[0] as usize..range[1] as usize, velocity);
-        *z = [y_1, y_2];
-        q[0] = multiply_add::<FUSED>(coefficients.time_step, y_1, q[0]);
-        q[1] = multiply_add::<FUSED>(coefficients.time_step, y_2, q[1]);
-    }
-    add_up(&sums)
-}
-
-#[inline(always)]
-fn sparse_multiply_body<const FUSED: bool>(rows: &BlockRows, x: &[f64], y: &mut [f64]) {
-    for (y, range) in y
-        .as_chunks_mut::<2>()
-        .0
-        .iter_mut()
-        .zip(rows.starts.windows(2))
-    {
-        let (y_1, y_2) = block_row::<FUSED>(rows, range[0] as usize..range[1] as usize, x);
-        *y = [y_1, y_2];
-    }
-}
-
 /// Sum of all partial sums, in eight chains that are added pairwise.
 #[inline(always)]
-fn add_up(sums: &[f64; SUMS]) -> f64 {
+pub(super) fn add_up(sums: &[f64; SUMS]) -> f64 {
     let mut lanes = [0.0; LANES];
     for chunk in sums.as_chunks::<LANES>().0 {
         for lane in 0..LANES {
@@ -360,14 +303,10 @@ macro_rules! dispatched {
         }
     };
 }
+pub(super) use dispatched;
 
 dispatched!(cyclic_advance, cyclic_advance_body, (
     layout: &RowLayout, stencils: &[RowStencil], masses: &[f64], fields: &mut MotionFields,
     coefficients: &StepCoefficients) -> f64);
 dispatched!(cyclic_multiply, cyclic_multiply_body, (
     layout: &RowLayout, stencils: &[RowStencil], x: &mut [f64], y: &mut [f64]) -> ());
-dispatched!(sparse_advance, sparse_advance_body, (
-    rows: &BlockRows, masses: &[f64], fields: &mut MotionFields,
-    coefficients: &StepCoefficients) -> f64);
-dispatched!(sparse_multiply, sparse_multiply_body, (
-    rows: &BlockRows, x: &[f64], y: &mut [f64]) -> ());

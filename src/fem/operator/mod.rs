@@ -4,10 +4,12 @@
 //! Two implementations stand behind one trait: [`SparseOperator`] for any mesh, [`CyclicStencil`] for a
 //! uniform annulus, whose sectors share one stencil in polar frames.
 
+mod block_rows;
 mod cyclic;
 mod field;
 mod kernel;
 mod largest_frequency;
+mod node_order;
 mod simd;
 mod sparse;
 

@@ -5,11 +5,11 @@ use super::framed::write_sealed;
 use super::manifest::Manifest;
 use super::reopening::{Contents, read_contents, read_manifest};
 use crate::results::drawing::{FIGURES, REPORT};
-use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 pub(crate) const MANIFEST: &str = "manifest.json";
 pub(crate) const LOCK: &str = ".lock";
@@ -40,7 +40,7 @@ pub struct OutputFolder {
     /// Files of earlier runs, and their checksums where they are known.
     earlier: BTreeMap<String, Option<u32>>,
     /// Files of this run and theirs.
-    written: RefCell<BTreeMap<String, Option<u32>>>,
+    written: Mutex<BTreeMap<String, Option<u32>>>,
     journal: File,
     _lock: File,
 }
@@ -87,7 +87,7 @@ impl OutputFolder {
             journal,
             manifest: manifest.clone(),
             earlier,
-            written: RefCell::default(),
+            written: Mutex::default(),
             _lock: lock,
         };
         if !is_same {
@@ -121,7 +121,7 @@ impl OutputFolder {
         let is_drawing = |name: &str| name.starts_with(FIGURES) || name == REPORT;
         let kept = folder.earlier.iter().filter(|(name, _)| !is_drawing(name));
         let kept = kept.map(|(name, checksum)| (name.clone(), *checksum));
-        folder.written.borrow_mut().extend(kept);
+        folder.written().extend(kept);
         Ok(folder)
     }
 
@@ -161,6 +161,11 @@ impl OutputFolder {
         self.write_as(name, false, fill)
     }
 
+    /// Checksums of the files written so far, by name.
+    fn written(&self) -> MutexGuard<'_, BTreeMap<String, Option<u32>>> {
+        self.written.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
     fn write_as(
         &self,
         name: &str,
@@ -169,24 +174,17 @@ impl OutputFolder {
     ) -> Result<PathBuf, FolderError> {
         let path = self.path.join(name);
         let failed = |error| FolderError::io("write", &path, error);
-        if self
-            .written
-            .borrow_mut()
-            .insert(name.to_owned(), None)
-            .is_none()
-        {
+        if self.written().insert(name.to_owned(), None).is_none() {
             writeln!(&self.journal, "{name}").map_err(failed)?;
         }
         let checksum = write_whole(&path, is_durable, fill).map_err(failed)?;
-        self.written
-            .borrow_mut()
-            .insert(name.to_owned(), Some(checksum));
+        self.written().insert(name.to_owned(), Some(checksum));
         Ok(path)
     }
 
     /// Removes a file that has served its purpose, written by this run or an earlier one.
     pub fn discard(&self, name: &str) {
-        self.written.borrow_mut().remove(name);
+        self.written().remove(name);
         self.remove(std::iter::once(&name.to_owned()));
     }
 
@@ -196,7 +194,7 @@ impl OutputFolder {
     /// # Errors
     /// As [`OutputFolder::write`].
     pub fn finish(self) -> Result<(), FolderError> {
-        let written = self.written.borrow();
+        let written = self.written();
         let stale = self
             .earlier
             .keys()
