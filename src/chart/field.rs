@@ -7,7 +7,8 @@ use super::decimation::simplify;
 use super::frame::Frame;
 use super::image::{Colours, IndexedImage, Palette};
 use super::layer::Layer;
-use super::svg::{Path, Stroke, Svg};
+use super::path::Path;
+use super::svg::{Stroke, Svg};
 use super::text::plain;
 use std::sync::Arc;
 

@@ -4,7 +4,8 @@ use super::data::{Series, SeriesKind};
 use super::frame::Frame;
 use super::layer::{COLUMNS_PER_POINT, Layer};
 use super::legend::Key;
-use super::svg::{Path, Svg};
+use super::path::Path;
+use super::svg::Svg;
 use super::text::plain;
 
 /// A filled area between two curves over the same rising abscissae.

@@ -1,8 +1,9 @@
 //! Where the data of a panel lie, and the axes around them.
 
 use super::colour::{GRID, INK};
+use super::path::Path;
 use super::ruler::{Ruler, Tick};
-use super::svg::{Path, Rect, Stroke, Svg};
+use super::svg::{Rect, Stroke, Svg};
 use super::text::{Anchor, TextStyle};
 
 /// Size of axis titles, points.

@@ -7,7 +7,8 @@ use super::frame::Frame;
 use super::image::Colours;
 use super::legend::Key;
 use super::panel::Side;
-use super::svg::{Path, Stroke, Svg};
+use super::path::Path;
+use super::svg::{Stroke, Svg};
 use super::text::plain;
 
 /// Columns for each point of width to which series are thinned (200 dots per inch, as the images have).

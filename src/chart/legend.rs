@@ -4,8 +4,9 @@ use super::colour::INK;
 use super::frame::{LABEL_SIZE, TITLE_SIZE, vertical_count};
 use super::image::{Colours, IndexedImage, Palette};
 use super::layer::Marker;
+use super::path::Path;
 use super::ruler::{Ruler, widest};
-use super::svg::{Path, Rect, Stroke, Svg};
+use super::svg::{Rect, Stroke, Svg};
 use super::text::{self, Anchor, TextStyle};
 
 /// What stands before the name of a legend entry: any of a line, a data point, a filled patch.

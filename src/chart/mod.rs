@@ -31,6 +31,7 @@ mod marks;
 mod motion;
 mod numbers;
 mod panel;
+mod path;
 mod pdf;
 mod raster;
 mod ruler;
@@ -53,10 +54,11 @@ pub use marks::{Label, Rule};
 pub use motion::{Motion, MotionKind, MotionState};
 pub use numbers::{prefixed, signed, significant};
 pub use panel::{Panel, Side};
+pub use path::Path;
 pub use raster::Drawing;
 pub use ruler::Ruler;
 pub use shapes::{Bars, Shapes};
-pub use svg::{ID_PREFIX, Path, Rect, Stroke, Svg, escape};
+pub use svg::{ID_PREFIX, Rect, Stroke, Svg, escape};
 pub use text::{Anchor, TextStyle, literal, plain};
 
 /// Look of the `index`-th of several series: its colour, marker and dashes, which together do not repeat before the 35th.

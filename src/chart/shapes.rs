@@ -4,7 +4,8 @@ use super::colour::INK;
 use super::frame::{Frame, LABEL_SIZE};
 use super::layer::Layer;
 use super::legend::Key;
-use super::svg::{Path, Rect, Stroke, Svg};
+use super::path::Path;
+use super::svg::{Rect, Stroke, Svg};
 use super::text::{self, Anchor, TextStyle};
 
 /// Lying bars of equal thickness, each with a label inside where it fits.

@@ -1,0 +1,133 @@
+//! Paths of a drawing, written as short as SVG allows: steps of hundredths from point to point.
+
+use std::fmt::Write;
+
+/// A path under construction, written relative to its last point to stay short.
+#[derive(Clone, Debug, Default)]
+pub struct Path {
+    pub(super) data: String,
+    last: (i64, i64),
+    /// Whether the last command is a line.
+    is_line: bool,
+}
+
+impl Path {
+    /// An empty path.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Starts a new piece at a point.
+    pub fn move_to(&mut self, x: f64, y: f64) {
+        let point = hundredths(x, y);
+        self.data.push('M');
+        push_hundredths(&mut self.data, point.0);
+        push_next(&mut self.data, point.1);
+        self.last = point;
+        self.is_line = false;
+    }
+
+    /// Draws a straight line to a point; the letter is said once for a row of lines.
+    pub fn line_to(&mut self, x: f64, y: f64) {
+        let point = hundredths(x, y);
+        let step = (point.0 - self.last.0, point.1 - self.last.1);
+        if self.is_line {
+            push_next(&mut self.data, step.0);
+        } else {
+            self.data.push('l');
+            push_hundredths(&mut self.data, step.0);
+        }
+        push_next(&mut self.data, step.1);
+        self.last = point;
+        self.is_line = true;
+    }
+
+    /// Starts a new piece through all points.
+    pub fn extend(&mut self, points: impl IntoIterator<Item = (f64, f64)>) {
+        for (index, (x, y)) in points.into_iter().enumerate() {
+            if index == 0 {
+                self.move_to(x, y);
+            } else {
+                self.line_to(x, y);
+            }
+        }
+    }
+
+    /// Closes the current piece.
+    pub fn close(&mut self) {
+        self.data.push('z');
+        self.is_line = false;
+    }
+
+    /// Whether nothing was drawn.
+    pub fn is_empty(&self) -> bool {
+        self.data.is_empty()
+    }
+
+    /// A path through all points, closed or not.
+    pub fn polyline(points: impl IntoIterator<Item = (f64, f64)>, closed: bool) -> Self {
+        let mut path = Self::new();
+        path.extend(points);
+        if closed && !path.is_empty() {
+            path.close();
+        }
+        path
+    }
+}
+
+fn hundredths(x: f64, y: f64) -> (i64, i64) {
+    ((x * 100.0).round() as i64, (y * 100.0).round() as i64)
+}
+
+/// Writes a number behind another one, with a space only where both would be read as one: a sign parts them,
+/// and so does a point where the number before has one.
+fn push_next(out: &mut String, value: i64) {
+    let before = out.len()
+        - out
+            .bytes()
+            .rev()
+            .take_while(|&byte| byte.is_ascii_digit() || byte == b'.')
+            .count();
+    let has_point = out[before..].contains('.');
+    if value > 99 || value == 0 || (value > 0 && !has_point) {
+        out.push(' ');
+    }
+    push_hundredths(out, value);
+}
+
+fn push_hundredths(out: &mut String, value: i64) {
+    let magnitude = value.unsigned_abs();
+    if value < 0 {
+        out.push('-');
+    }
+    let (whole, rest) = (magnitude / 100, magnitude % 100);
+    if whole > 0 || rest == 0 {
+        let _ = write!(out, "{whole}");
+    }
+    if rest > 0 {
+        if rest % 10 == 0 {
+            let _ = write!(out, ".{}", rest / 10);
+        } else {
+            let _ = write!(out, ".{rest:02}");
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_row_of_lines_has_one_letter_and_no_more_spaces_than_needed() {
+        let points = [
+            (1.0, 2.5),
+            (1.5, 3.25),
+            (0.5, 3.25),
+            (0.57, 4.0),
+            (2.07, 4.5),
+            (2.57, 3.5),
+        ];
+        let path = Path::polyline(points, true);
+        assert_eq!(path.data, "M1 2.5l.5.75-1 0 .07.75 1.5.5.5-1z");
+    }
+}
