@@ -23,6 +23,7 @@ mod options;
 pub mod plot;
 pub mod preflight;
 mod session;
+mod share;
 mod signal;
 pub mod sweep;
 pub mod terminal;

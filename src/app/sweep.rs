@@ -9,12 +9,12 @@ pub use progress::SweepProgress;
 pub use workers::{PointRunner, SweepRun};
 
 use super::linear_stage::LinearStage;
-use super::session::MESH;
+use super::share::ShareOptions;
 use super::{Failure, RunOptions, Session, terminal};
 use crate::case::{Analysis, Case};
-use crate::results::sweep::{Found, PointRecord, Start, SweepDrawing, SweepFolder, SweepReport};
+use crate::results::sweep::{Found, PointRecord, SweepDrawing, SweepFolder, SweepReport};
 use crate::results::sweep::{LONG_TABLES, SweepSummary, draw, print, write_points};
-use crate::results::{DrawingOptions, Manifest, OutputFolder};
+use crate::results::{DrawingOptions, Manifest};
 use clap::Args;
 use serde_json::Value;
 
@@ -26,12 +26,8 @@ use serde_json::Value;
 pub struct Arguments {
     #[command(flatten)]
     options: RunOptions,
-    /// Run part K of N only; all parts share the output folder
-    #[arg(long, value_name = "K/N")]
-    shard: Option<Shard>,
-    /// Keep the finished points of an earlier run and go on
-    #[arg(long, conflicts_with = "force")]
-    resume: bool,
+    #[command(flatten)]
+    share: ShareOptions,
 }
 
 /// Runs the subcommand.
@@ -43,22 +39,11 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let plan = SweepPlan::new(&session.case)?;
     let threads = session.manifest.threads;
     session.check_memory(threads.min(plan.count()) as f64 * point_memory(&session, &plan))?;
-    let points = plan.points(arguments.shard);
+    let points = arguments.share.pieces(plan.count());
     let output = &arguments.options.output;
-    let start = match (arguments.resume, output.force) {
-        (_, true) => Start::Over,
-        (true, false) => Start::Resume,
-        (false, false) => Start::Fresh,
-    };
-    let (path, replace) = output.destination(&session.manifest, arguments.resume);
-    if output.dry_run {
-        OutputFolder::may_open(&path, &session.manifest, replace)?;
-        return Err(output.dry_run_at(&path, &session.manifest));
-    }
-    let folder = SweepFolder::open(&path, &session.manifest, plan.count(), &points, start)?;
-    if let Some(mesh) = &session.case.raw.mesh {
-        folder.write(MESH, |out| out.write_all(&mesh.bytes))?;
-    }
+    let folder = arguments
+        .share
+        .open(&session, output, plan.count(), &points)?;
 
     terminal::catch_signals("finished points are kept: go on with --resume");
     let progress = SweepProgress::new(output.is_quiet(), points.len());

@@ -3,12 +3,12 @@
 mod robust;
 mod samples;
 
+use super::share::ShareOptions;
 use super::{Failure, RunOptions, Session, terminal};
 use crate::case::Case;
-use crate::results::sweep::{Found, Start, SweepFolder};
+use crate::results::sweep::{Found, SweepFolder};
 use crate::results::uncertainty::{Sample, UncertaintySummary, draw_report, write_samples};
-use crate::results::{DrawingOptions, Manifest, OutputFolder, object};
-use crate::study::Shard;
+use crate::results::{DrawingOptions, Manifest, object};
 use crate::study::uncertainty::summarize;
 use clap::Args;
 use robust::Design;
@@ -25,12 +25,8 @@ use std::path::Path;
 pub struct Arguments {
     #[command(flatten)]
     options: RunOptions,
-    /// Run part K of N only; all parts share the output folder
-    #[arg(long, value_name = "K/N")]
-    shard: Option<Shard>,
-    /// Keep the finished samples of an earlier run and go on
-    #[arg(long, conflicts_with = "force")]
-    resume: bool,
+    #[command(flatten)]
+    share: ShareOptions,
     /// Probability of squeal over a design parameter: KEY=FROM:TO or KEY=FROM:TO:COUNT (repeatable)
     #[arg(long, value_name = "KEY=FROM:TO")]
     robust: Vec<Design>,
@@ -63,19 +59,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let solver = cost.cea.map_or(0.0, |cea| cea.memory_bytes);
     session.check_memory(workers * (cost.mesh_memory_bytes + solver))?;
     let count = uncertainty.samples.div_ceil(BLOCK);
-    let blocks = Shard::points(arguments.shard, count);
+    let blocks = arguments.share.pieces(count);
     let output = &arguments.options.output;
-    let start = match (arguments.resume, output.force) {
-        (_, true) => Start::Over,
-        (true, false) => Start::Resume,
-        (false, false) => Start::Fresh,
-    };
-    let (path, replace) = output.destination(&session.manifest, arguments.resume);
-    if output.dry_run {
-        OutputFolder::may_open(&path, &session.manifest, replace)?;
-        return Err(output.dry_run_at(&path, &session.manifest));
-    }
-    let folder = SweepFolder::open(&path, &session.manifest, count, &blocks, start)?;
+    let folder = arguments.share.open(&session, output, count, &blocks)?;
     terminal::catch_signals("finished samples are kept: go on with --resume");
 
     let asked = blocks.len() * BLOCK;

@@ -1,0 +1,54 @@
+//! Options of the commands whose work is dealt out: parts of it, and a folder that is gone on with.
+
+use super::session::MESH;
+use super::{Failure, OutputOptions, Session};
+use crate::results::OutputFolder;
+use crate::results::sweep::{Start, SweepFolder};
+use crate::study::Shard;
+use clap::Args;
+
+/// Which part of the work is done, and whether an earlier run is gone on with.
+#[derive(Args)]
+pub struct ShareOptions {
+    /// Run part K of N only; all parts share the output folder
+    #[arg(long, value_name = "K/N")]
+    shard: Option<Shard>,
+    /// Keep what an earlier run has finished and go on
+    #[arg(long, conflicts_with = "force")]
+    resume: bool,
+}
+
+impl ShareOptions {
+    /// Numbers of those of `count` pieces of work that belong to this part, ascending from 1.
+    pub fn pieces(&self, count: usize) -> Vec<usize> {
+        Shard::points(self.shard, count)
+    }
+
+    /// The folder that `pieces` of `count` are kept in, with the mesh file of the case.
+    ///
+    /// # Errors
+    /// The folder holds other results or cannot be written; a dry run ends here.
+    pub fn open(
+        &self,
+        session: &Session,
+        output: &OutputOptions,
+        count: usize,
+        pieces: &[usize],
+    ) -> Result<SweepFolder, Failure> {
+        let start = match (self.resume, output.force) {
+            (_, true) => Start::Over,
+            (true, false) => Start::Resume,
+            (false, false) => Start::Fresh,
+        };
+        let (path, replace) = output.destination(&session.manifest, self.resume);
+        if output.dry_run {
+            OutputFolder::may_open(&path, &session.manifest, replace)?;
+            return Err(output.dry_run_at(&path, &session.manifest));
+        }
+        let folder = SweepFolder::open(&path, &session.manifest, count, pieces, start)?;
+        if let Some(mesh) = &session.case.raw.mesh {
+            folder.write(MESH, |out| out.write_all(&mesh.bytes))?;
+        }
+        Ok(folder)
+    }
+}
