@@ -2,14 +2,15 @@
 
 use super::super::Manifest;
 use super::super::folder::{
-    FolderError, LOCK, MANIFEST, Replace, TEMPORARY, check_owner, refuse_foreign, remove_files,
+    FolderError, MANIFEST, Replace, TEMPORARY, check_owner, refuse_foreign, remove_files,
     write_contents, write_whole,
 };
 use super::super::framed::write_sealed;
 use super::super::reopening::{Contents, own_value, read_contents};
+use super::company::{Company, open_lock, share};
 use super::{PointClock, PointRecord};
 use std::collections::BTreeMap;
-use std::fs::{self, File, OpenOptions, TryLockError};
+use std::fs::{self, File, TryLockError};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -36,7 +37,6 @@ const FIGURES: [&str; 8] = [
 ];
 const POINTS: &str = "points";
 const CLAIM: &str = ".claim-";
-const DOOR: &str = ".door";
 
 /// What becomes of finished points that are there already.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -294,69 +294,6 @@ fn over_all() -> impl Iterator<Item = String> {
 
 fn clock_name(point: usize) -> String {
     format!("{POINTS}/clock-{point:06}.json")
-}
-
-fn open_lock(path: &Path) -> Result<File, FolderError> {
-    OpenOptions::new()
-        .create(true)
-        .truncate(false)
-        .write(true)
-        .open(path)
-        .map_err(|e| FolderError::io("open", path, e))
-}
-
-/// Who else works in a folder.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Company {
-    /// No other process.
-    None,
-    /// Others, of the same sweep.
-    Others,
-    /// The file system has no locks to tell by.
-    Unknown,
-}
-
-/// Holds the folder's lock shared, after `enter` has run: under the exclusive lock if no other
-/// process is there.
-fn share(
-    path: &Path,
-    enter: impl FnOnce(Company) -> Result<(), FolderError>,
-) -> Result<File, FolderError> {
-    // One process enters at a time, which takes a moment; hundreds of them may start at once.
-    let door_path = path.join(DOOR);
-    let door = open_lock(&door_path)?;
-    match door.lock() {
-        Err(error) if error.kind() != io::ErrorKind::Unsupported => {
-            return Err(FolderError::io("lock", &door_path, error));
-        }
-        _ => {}
-    }
-    let lock_path = path.join(LOCK);
-    let file = open_lock(&lock_path)?;
-    let refusal = |error| match error {
-        TryLockError::WouldBlock => FolderError::Busy {
-            path: path.to_owned(),
-        },
-        TryLockError::Error(error) => FolderError::io("lock", &lock_path, error),
-    };
-    match file.try_lock() {
-        Ok(()) => {
-            enter(Company::None)?;
-            // Not every system turns one kind of lock into the other.
-            file.unlock()
-                .map_err(|error| refusal(TryLockError::Error(error)))?;
-            file.try_lock_shared().map_err(refusal)?;
-        }
-        Err(TryLockError::WouldBlock) => {
-            file.try_lock_shared().map_err(refusal)?;
-            enter(Company::Others)?;
-        }
-        Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => {
-            enter(Company::Unknown)?;
-        }
-        Err(error) => return Err(refusal(error)),
-    }
-    Ok(file)
 }
 
 /// Makes the folder that of this sweep, or finds that it is.

@@ -1,5 +1,6 @@
 //! Results of a parameter study: a file for each finished point, one table over them.
 
+mod company;
 mod figures;
 mod folder;
 mod long;

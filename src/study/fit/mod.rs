@@ -9,6 +9,7 @@
 //! points; eigenvalues are differentiated by the model where it can and by central differences elsewhere.
 
 mod estimate;
+mod interval;
 mod levenberg_marquardt;
 mod matching;
 
