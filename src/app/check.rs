@@ -133,6 +133,10 @@ fn describe(name: &str, case: &Case, found: &Preflight) -> String {
         let text = plural(study.runs, "point");
         line("sweep", text, study.memory_bytes, study.seconds);
     }
+    if let Some(study) = &found.uncertainty {
+        let text = plural(study.runs, "run");
+        line("uncertainty", text, study.memory_bytes, study.seconds);
+    }
     for warning in case.warnings.iter().chain(&found.warnings) {
         let _ = writeln!(out, "  warning: {warning}");
     }
@@ -200,6 +204,7 @@ fn object(name: &str, case: &Case, found: &Preflight) -> Value {
             "estimated_s": frf.seconds,
         })),
         "convergence": found.convergence.as_ref().map(|cost| study(cost, "runs")),
+        "uncertainty": found.uncertainty.as_ref().map(|cost| study(cost, "runs")),
         "sweep": found.sweep.as_ref().map(|cost| study(cost, "points")),
         "sweep_points": found.sweep.map(|sweep| sweep.runs),
         "warnings": warnings.map(ToString::to_string).collect::<Vec<_>>(),

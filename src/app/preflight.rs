@@ -24,6 +24,8 @@ pub struct Preflight {
     pub sweep: Option<StudyCost>,
     /// Cost of the convergence study.
     pub convergence: Option<StudyCost>,
+    /// Cost of the samples of an uncertainty study.
+    pub uncertainty: Option<StudyCost>,
     /// Memory of the hungriest command, bytes.
     pub memory_bytes: f64,
     /// Keys that an analysis of the case ignores.
@@ -40,6 +42,7 @@ pub fn preflight(case: &Case) -> Result<Preflight, Failure> {
         is_step_exact: false,
         sweep: case.sweep_cost(),
         convergence: case.convergence_cost(),
+        uncertainty: case.uncertainty_cost(),
         memory_bytes: 0.0,
         warnings: Vec::new(),
     };

@@ -188,6 +188,18 @@ impl Case {
         })
     }
 
+    /// Estimates what the samples of `[uncertainty]` cost: the onsets of each, and what the indices take.
+    pub fn uncertainty_cost(&self) -> Option<StudyCost> {
+        let (uncertainty, cost) = (self.uncertainty.as_ref()?, self.cost());
+        let for_indices = uncertainty.index_samples * (uncertainty.parameters.len() + 1);
+        let runs = uncertainty.samples + for_indices;
+        Some(StudyCost {
+            runs,
+            memory_bytes: cost.memory_of(Analysis::Cea),
+            seconds: runs as f64 * cost.seconds_of(Analysis::Cea),
+        })
+    }
+
     /// Estimates what the convergence study costs: every mesh and every time step.
     pub fn convergence_cost(&self) -> Option<StudyCost> {
         let study = self.convergence.as_ref()?;
