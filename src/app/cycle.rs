@@ -75,7 +75,7 @@ pub fn summarize(case: &Case, manifest: &Manifest) -> Result<Value, Failure> {
     let results = search.run(0);
     let report = search.report(results, 0.0);
     refuse_nothing(&report)?;
-    Ok(search.summary(report.results, manifest, start))
+    search.summary(report.results, manifest, start)
 }
 
 /// As [`summarize`], but a search that finds nothing has a summary too, which says why: a level of a convergence study.
@@ -85,7 +85,7 @@ pub fn summarize(case: &Case, manifest: &Manifest) -> Result<Value, Failure> {
 pub fn attempt(case: &Case, manifest: &Manifest) -> Result<Value, Failure> {
     let start = Instant::now();
     let search = Search::of(case, manifest)?;
-    Ok(search.summary(search.run(0), manifest, start))
+    search.summary(search.run(0), manifest, start)
 }
 
 /// Refuses phases whose dense matrices do not fit the machine's memory.

@@ -14,7 +14,7 @@ use crate::case::{Case, Cea, ModeSelection};
 use crate::cea::cyclic;
 use crate::cea::{FrictionSweep, SweepRequest};
 use crate::results::cea::{BaseField, CeaReport, SensitivityReport, draw, print, summary, write};
-use crate::results::{DrawingOptions, Manifest, OutputFolder};
+use crate::results::{DrawingOptions, Manifest, OutputFolder, object};
 use crate::study::tangent_options;
 use clap::Args;
 use indicatif::ProgressBar;
@@ -142,7 +142,7 @@ pub fn summarize(case: &Case, manifest: &Manifest) -> Result<Value, Failure> {
     let field = model.base_field(case);
     let wall_s = start.elapsed().as_secs_f64();
     let report = report(case, &cea, &model, &solution, &field, wall_s);
-    Ok(summary(&report, manifest))
+    object(&summary(&report, manifest)).map_err(Failure::run)
 }
 
 /// Modes at the case's own friction coefficient and the onsets over its sweep, by the cyclic method where the body is an

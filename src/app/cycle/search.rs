@@ -10,12 +10,14 @@ use crate::cycle::{
 };
 use crate::fem::operator::SimdLevel;
 use crate::mesh::AnnulusMesh;
-use crate::results::Manifest;
-use crate::results::cycle::{Absence, CycleFrame, CycleReport, CycleResult, known, summary};
+use crate::results::cycle::{
+    Absence, CycleFrame, CycleReport, CycleResult, CycleSummary, known, summary,
+};
 use crate::results::cycle_figures::FamilyRecord;
+use crate::results::{Manifest, object};
 use indicatif::ProgressBar;
 use rayon::prelude::*;
-use serde_json::{Value, json};
+use serde_json::Value;
 use std::time::Instant;
 
 /// The solver of a family, or why it has none.
@@ -108,12 +110,19 @@ impl<'a> Search<'a> {
     }
 
     /// The summary with the branches' `curves`.
-    pub fn summary(&self, results: Vec<CycleResult>, manifest: &Manifest, start: Instant) -> Value {
+    pub fn summary(
+        &self,
+        results: Vec<CycleResult>,
+        manifest: &Manifest,
+        start: Instant,
+    ) -> Result<Value, Failure> {
         let curves: Vec<FamilyRecord> = results.iter().map(FamilyRecord::of).collect();
         let report = self.report(results, start.elapsed().as_secs_f64());
-        let mut summary = summary(&report, manifest);
-        summary["curves"] = json!(curves);
-        summary
+        let summary = CycleSummary {
+            curves: Some(serde_json::to_value(curves).map_err(Failure::run)?),
+            ..summary(&report, manifest)
+        };
+        object(&summary).map_err(Failure::run)
     }
 
     fn onsets_of(&self, harmonic: usize) -> Vec<Onset> {

@@ -6,10 +6,10 @@ use crate::mesh::Mesh2d;
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::table::{Table, format_number};
 use crate::results::vtu::{EncodedMesh, Field, write_vtu};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// The steady sliding state at one friction coefficient in a few numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BaseState {
     /// Friction coefficient.
     pub friction_coefficient: f64,

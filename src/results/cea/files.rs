@@ -1,13 +1,14 @@
 //! `eigenvalues.csv`, `stability.csv`, `summary.json`, mode shapes.
 
 use super::base::write_base;
+use super::summary::summary;
 use super::{CeaReport, ComplexMode, UnstableInterval};
 use crate::results::folder::{FolderError, OutputFolder};
-use crate::results::manifest::Manifest;
+use crate::results::summary::write_summary;
 use crate::results::table::{Table, format_number};
 use crate::results::vtu::{EncodedMesh, Field, PvdEntry, write_pvd, write_vtu};
 use rayon::prelude::*;
-use serde_json::{Value, json};
+use serde_json::Value;
 use std::io::{self, Write};
 
 /// Writes all files of the analysis and returns the summary.
@@ -30,12 +31,7 @@ pub fn write(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<Value, Fol
         None => write_base(folder, report.mesh, report.field)?,
     }
     write_shapes(folder, report)?;
-    let summary = summary(report, folder.manifest());
-    folder.write("summary.json", |out| {
-        serde_json::to_writer_pretty(&mut *out, &summary)?;
-        out.write_all(b"\n")
-    })?;
-    Ok(summary)
+    write_summary(folder, &summary(report, folder.manifest()))
 }
 
 /// Writes one row for each mode and friction value, sorted by frequency within a value.
@@ -126,85 +122,6 @@ pub fn write_stability(
         ])?;
     }
     table.finish()
-}
-
-/// The summary object.
-pub fn summary(report: &CeaReport<'_>, manifest: &Manifest) -> Value {
-    let (_, modes) = report.mode_counts();
-    let unstable_counts: Vec<Value> = report
-        .tabulated()
-        .map(|point| {
-            let unstable = point.modes.iter().filter(|mode| mode.is_unstable());
-            json!({
-                "friction_coefficient": point.friction_coefficient,
-                "modes": point.modes.len(),
-                "unstable": unstable.count(),
-            })
-        })
-        .collect();
-    let intervals = report.sweep.intervals.iter();
-    let critical: Vec<Value> = intervals
-        .map(|interval| interval_object(interval, report.has_harmonics))
-        .collect();
-    let mut summary = json!({
-        "command": "cea",
-        "title": report.title,
-        "dofs": report.dofs,
-        "method": report.method,
-        "selection": report.selection,
-        "wall_s": report.wall_s,
-        "modes": modes,
-        "friction_values": report.friction_coefficients.len(),
-        "unstable_counts": unstable_counts,
-        "critical_frictions": critical,
-        "largest_residual": report.largest_residual(),
-        "modes_at_friction": own_modes(report),
-        "base_state": report.base,
-        "notes": report.notes,
-        "manifest": manifest,
-    });
-    if !report.has_harmonics || report.solid.is_some() {
-        let base = &report.base;
-        let nodes = (base.slipping + base.sticking + base.open).max(1);
-        summary["contact_open_fraction"] = json!(base.open as f64 / nodes as f64);
-    }
-    summary
-}
-
-/// The modes at the case's own friction coefficient, where it is one of those solved.
-fn own_modes(report: &CeaReport<'_>) -> Option<Vec<Value>> {
-    let own = report.base.friction_coefficient;
-    let mut points = report.sweep.points.iter();
-    let point = points.find(|point| point.friction_coefficient == own)?;
-    let modes = point.modes.iter().map(|mode| {
-        let mut object = json!({
-            "harmonic": report.has_harmonics.then_some(mode.harmonic),
-            "branch": mode.branch,
-            "direction": report.has_harmonics.then_some(mode.direction),
-            "real_hz": mode.real_hz(),
-            "frequency_hz": mode.frequency_hz(),
-            "unstable": mode.is_unstable(),
-            "contact_share": mode.contact_share,
-        });
-        if let Some(share) = mode.axial_share {
-            object["axial_share"] = json!(share);
-        }
-        object
-    });
-    Some(modes.collect())
-}
-
-fn interval_object(interval: &UnstableInterval, has_harmonics: bool) -> Value {
-    json!({
-        "harmonic": has_harmonics.then_some(interval.harmonic),
-        "branch": interval.branch,
-        "direction": has_harmonics.then_some(interval.direction),
-        "critical_friction": interval.critical_friction,
-        "frequency_hz": interval.frequency_hz,
-        "restabilized_friction": interval.restabilized.map(|end| end.0),
-        "restabilized_frequency_hz": interval.restabilized.map(|end| end.1),
-        "unstable_from_start": interval.unstable_from_start,
-    })
 }
 
 /// Writes the shapes that the modes carry: one VTU each with the real and the imaginary part of the

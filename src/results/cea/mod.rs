@@ -10,15 +10,17 @@ mod report;
 mod sensitivity;
 mod shape;
 mod solid;
+mod summary;
 
 pub use base::{BaseField, BaseState, write_base};
 pub use figures::draw;
-pub use files::{summary, write, write_eigenvalues, write_stability};
+pub use files::{write, write_eigenvalues, write_stability};
 pub use map::MapReport;
 pub use print::print;
 pub use report::html_report;
 pub use sensitivity::SensitivityReport;
 pub use solid::SolidReport;
+pub use summary::{CeaSummary, CriticalFriction, ModeSummary, UnstableCount, summary};
 
 use crate::cea::{ComplexMode, FrictionPoint, FrictionSweep, UnstableInterval};
 use crate::mesh::Mesh2d;

@@ -3,7 +3,8 @@
 use super::stability::known;
 use super::{CycleReport, CycleResult};
 use crate::cycle::{Confirmation, LimitCycle, Verdict};
-use serde_json::{Value, json};
+use crate::results::summary::{StatusFractions, present};
+use serde::{Deserialize, Serialize};
 
 /// The transient of a result and its cycle, where there are both.
 fn confirmed(result: &CycleResult) -> Option<(&LimitCycle, &Confirmation)> {
@@ -11,23 +12,62 @@ fn confirmed(result: &CycleResult) -> Option<(&LimitCycle, &Confirmation)> {
     Some((cycle, result.confirmation.as_ref()?.as_ref().ok()?))
 }
 
-/// The summary object: null where no transient was asked for.
-pub fn confirmation_object(report: &CycleReport<'_>, result: &CycleResult) -> Value {
-    let error = result.confirmation.as_ref().and_then(|c| c.as_ref().err());
-    match (confirmed(result), error) {
-        (Some((cycle, found)), _) => {
-            let [stick, slip, open] = found.status;
-            json!({
-                "periods": found.periods,
-                "agrees": found.agrees(cycle),
-                "main_frequency_hz": found.main_frequency_hz,
-                "main_harmonic": found.main_harmonic,
-                "status": { "stick": stick, "slip": slip, "open": open },
-                "power_w": { "external": found.external_power * report.thickness },
-            })
-        }
-        (None, Some(error)) => json!({ "agrees": false, "error": error }),
-        (None, None) => Value::Null,
+/// A transient that started on a cycle, in the summary.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum ConfirmationSummary {
+    /// It ran.
+    Ran {
+        /// Length of the run in periods of the cycle.
+        periods: usize,
+        /// Whether it still is on the cycle.
+        agrees: bool,
+        /// Frequency, Hz; none if it has stopped to vibrate.
+        main_frequency_hz: Option<f64>,
+        /// Its harmonic.
+        main_harmonic: Option<usize>,
+        /// Fractions of contact nodes.
+        status: StatusFractions,
+        /// Power of the rotor.
+        power_w: ExternalPower,
+    },
+    /// It could not.
+    Failed {
+        /// False.
+        agrees: bool,
+        /// Why.
+        error: String,
+    },
+}
+
+/// Power of the rotor alone.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ExternalPower {
+    /// Mean power, W.
+    pub external: Option<f64>,
+}
+
+impl ConfirmationSummary {
+    /// Of a result; none where no transient was asked for.
+    pub fn of(report: &CycleReport<'_>, result: &CycleResult) -> Option<Self> {
+        let Some((cycle, found)) = confirmed(result) else {
+            let error = result.confirmation.as_ref()?.as_ref().err()?;
+            return Some(Self::Failed {
+                agrees: false,
+                error: error.clone(),
+            });
+        };
+        let [stick, slip, open] = found.status.map(present);
+        Some(Self::Ran {
+            periods: found.periods,
+            agrees: found.agrees(cycle),
+            main_frequency_hz: found.main_frequency_hz,
+            main_harmonic: found.main_harmonic,
+            status: StatusFractions { stick, slip, open },
+            power_w: ExternalPower {
+                external: present(found.external_power * report.thickness),
+            },
+        })
     }
 }
 

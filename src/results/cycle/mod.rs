@@ -6,11 +6,12 @@ mod print;
 mod stability;
 mod summary;
 
+pub use confirmation::ConfirmationSummary;
 pub use confirmation::doubt;
 pub use fields::CycleFrame;
 pub use print::print;
-pub use stability::{Finding, known};
-pub use summary::summary;
+pub use stability::{ExponentSummary, Finding, StabilitySummary, known};
+pub use summary::{CycleSummary, FamilySummary, LimitCycleSummary, summary};
 
 use crate::contact::ContactStatus;
 use crate::cycle::{
@@ -20,6 +21,7 @@ use crate::mesh::Mesh2d;
 use crate::results::cycle_figures::CycleRecord;
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::record::write_record;
+use crate::results::summary::write_summary;
 use crate::results::table::{Table, format_number};
 use serde_json::Value;
 use std::f64::consts::TAU;
@@ -140,12 +142,7 @@ pub fn write(folder: &OutputFolder, report: &CycleReport<'_>) -> Result<Value, F
     }
     fields::write_fields(folder, report)?;
     write_record(folder, &CycleRecord::of(report))?;
-    let summary = summary(report, folder.manifest());
-    folder.write("summary.json", |out| {
-        serde_json::to_writer_pretty(&mut *out, &summary)?;
-        out.write_all(b"\n")
-    })?;
-    Ok(summary)
+    write_summary(folder, &summary(report, folder.manifest()))
 }
 
 /// Writes contact and motion of the edge along the phase, which is also the history of the contact node at angle zero.

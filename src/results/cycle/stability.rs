@@ -2,8 +2,9 @@
 
 use super::CycleResult;
 use crate::cycle::{CycleBranch, CycleStability, LimitCycle, Verdict};
+use crate::results::summary::present;
 use crate::results::table::{Table, format_number};
-use serde_json::{Value, json};
+use serde::{Deserialize, Serialize};
 use std::fmt::Write as _;
 use std::io::{self, Write};
 
@@ -66,29 +67,68 @@ fn value(branch: &CycleBranch, cycle: &LimitCycle) -> f64 {
     branch.parameter.in_key_units(value)
 }
 
-/// The summary's object.
-pub fn stability_object(finding: &Finding) -> Value {
-    match finding {
-        None => Value::Null,
-        Some(Err(error)) => json!({ "error": error }),
-        Some(Ok(stability)) => {
-            let leading = stability.leading().map(|leading| {
-                json!({
-                    "growth_rate_per_s": leading.exponent.re,
-                    "wave_frequency_rad_per_s": leading.exponent.im,
-                    "harmonic": leading.harmonic,
-                    "frequency_hz": leading.frequency_hz,
-                    "uncertainty_per_s": leading.uncertainty,
-                })
-            });
-            let verdict = stability.verdict();
-            json!({
-                "verdict": verdict.word(),
-                "is_stable": (verdict != Verdict::Undecided).then_some(verdict == Verdict::Stable),
-                "growing_harmonics": stability.growing_harmonics(),
-                "leading": leading,
-            })
-        }
+/// Stability of a cycle, in the summary.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum StabilitySummary {
+    /// It is known.
+    Known {
+        /// `stable`, `unstable` or `undecided`.
+        verdict: String,
+        /// The same as a boolean; none if undecided.
+        is_stable: Option<bool>,
+        /// Circumferential harmonics that grow.
+        growing_harmonics: Vec<usize>,
+        /// The leading perturbation.
+        leading: Option<ExponentSummary>,
+    },
+    /// It could not be found.
+    Failed {
+        /// Why.
+        error: String,
+    },
+}
+
+/// An exponent of a perturbation.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ExponentSummary {
+    /// Growth rate, 1/s.
+    pub growth_rate_per_s: f64,
+    /// Frequency in the frame of the wave, rad/s.
+    pub wave_frequency_rad_per_s: f64,
+    /// Circumferential harmonic.
+    pub harmonic: usize,
+    /// Frequency in the fixed frame, Hz.
+    pub frequency_hz: f64,
+    /// Uncertainty of the growth rate, 1/s.
+    pub uncertainty_per_s: Option<f64>,
+}
+
+impl StabilitySummary {
+    /// Of a finding; none where it was not asked for.
+    pub fn of(finding: &Finding) -> Option<Self> {
+        let stability = match finding.as_ref()? {
+            Ok(stability) => stability,
+            Err(error) => {
+                return Some(Self::Failed {
+                    error: error.clone(),
+                });
+            }
+        };
+        let leading = stability.leading().map(|leading| ExponentSummary {
+            growth_rate_per_s: leading.exponent.re,
+            wave_frequency_rad_per_s: leading.exponent.im,
+            harmonic: leading.harmonic,
+            frequency_hz: leading.frequency_hz,
+            uncertainty_per_s: present(leading.uncertainty),
+        });
+        let verdict = stability.verdict();
+        Some(Self::Known {
+            verdict: verdict.word().to_owned(),
+            is_stable: (verdict != Verdict::Undecided).then_some(verdict == Verdict::Stable),
+            growing_harmonics: stability.growing_harmonics(),
+            leading,
+        })
     }
 }
 

@@ -1,0 +1,177 @@
+//! `summary.json` of a complex eigenvalue analysis.
+
+use super::{BaseState, CeaReport};
+use crate::cea::{ComplexMode, UnstableInterval};
+use crate::results::manifest::Manifest;
+use crate::results::summary::{Entry, Summary, present};
+use serde::{Deserialize, Serialize};
+
+/// `summary.json` of `frictionsim cea`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CeaSummary {
+    /// `cea`.
+    pub command: String,
+    /// Title of the case.
+    pub title: String,
+    /// Unknowns of the eigenproblem.
+    pub dofs: usize,
+    /// `cyclic` or `sparse`.
+    pub method: String,
+    /// What was asked for, in words.
+    pub selection: String,
+    /// Wall time, s.
+    pub wall_s: Option<f64>,
+    /// Most modes at one friction value.
+    pub modes: usize,
+    /// Friction values of the tables.
+    pub friction_values: usize,
+    /// Modes and unstable modes at each.
+    pub unstable_counts: Vec<UnstableCount>,
+    /// Crossings into instability, lowest first.
+    pub critical_frictions: Vec<CriticalFriction>,
+    /// Largest relative residual of any eigenpair.
+    pub largest_residual: Option<f64>,
+    /// The modes at the case's own friction coefficient, where it is one of those solved.
+    pub modes_at_friction: Option<Vec<ModeSummary>>,
+    /// Steady sliding at the case's own friction coefficient.
+    pub base_state: BaseState,
+    /// What the solver has to say.
+    pub notes: Vec<String>,
+    /// What it was made from.
+    pub manifest: Manifest,
+    /// Fraction of the contact nodes that are open, where some may be.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub contact_open_fraction: Option<f64>,
+}
+
+/// Modes at one friction value.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct UnstableCount {
+    /// The friction coefficient.
+    pub friction_coefficient: f64,
+    /// Modes.
+    pub modes: usize,
+    /// Those that grow.
+    pub unstable: usize,
+}
+
+/// Where a branch turns unstable, and where it is stable again.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CriticalFriction {
+    /// Circumferential harmonic; none on a body without symmetry, nor a direction.
+    pub harmonic: Option<usize>,
+    /// Branch, or rank.
+    pub branch: usize,
+    /// +1 with the rotor, 0 standing, -1 against it.
+    pub direction: Option<i8>,
+    /// Critical friction coefficient.
+    pub critical_friction: Option<f64>,
+    /// Frequency there, Hz.
+    pub frequency_hz: Option<f64>,
+    /// Friction coefficient from which on it is stable again.
+    pub restabilized_friction: Option<f64>,
+    /// Frequency there, Hz.
+    pub restabilized_frequency_hz: Option<f64>,
+    /// Whether it is unstable at the lowest friction value already.
+    pub unstable_from_start: bool,
+}
+
+impl CriticalFriction {
+    fn of(interval: &UnstableInterval, has_harmonics: bool) -> Self {
+        Self {
+            harmonic: has_harmonics.then_some(interval.harmonic),
+            branch: interval.branch,
+            direction: has_harmonics.then_some(interval.direction),
+            critical_friction: present(interval.critical_friction),
+            frequency_hz: present(interval.frequency_hz),
+            restabilized_friction: interval.restabilized.map(|end| end.0),
+            restabilized_frequency_hz: interval.restabilized.map(|end| end.1),
+            unstable_from_start: interval.unstable_from_start,
+        }
+    }
+}
+
+/// A mode.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ModeSummary {
+    /// Circumferential harmonic; none on a body without symmetry, nor a direction.
+    pub harmonic: Option<usize>,
+    /// Branch, or rank.
+    pub branch: usize,
+    /// +1 with the rotor, 0 standing, -1 against it.
+    pub direction: Option<i8>,
+    /// `Re lambda / 2 pi`, Hz.
+    pub real_hz: f64,
+    /// `Im lambda / 2 pi`, Hz.
+    pub frequency_hz: f64,
+    /// Whether it grows.
+    pub unstable: bool,
+    /// Share of the kinetic energy at the contact edge.
+    pub contact_share: Option<f64>,
+    /// Share of the kinetic energy along the axis, of a body in three dimensions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub axial_share: Option<f64>,
+}
+
+impl ModeSummary {
+    fn of(mode: &ComplexMode, has_harmonics: bool) -> Self {
+        Self {
+            harmonic: has_harmonics.then_some(mode.harmonic),
+            branch: mode.branch,
+            direction: has_harmonics.then_some(mode.direction),
+            real_hz: mode.real_hz(),
+            frequency_hz: mode.frequency_hz(),
+            unstable: mode.is_unstable(),
+            contact_share: present(mode.contact_share),
+            axial_share: mode.axial_share,
+        }
+    }
+}
+
+impl Summary for CeaSummary {
+    fn headline(&self) -> Vec<Entry> {
+        let lowest = self.critical_frictions.first();
+        let friction = lowest.and_then(|lowest| lowest.critical_friction);
+        vec![
+            Entry::new("critical_frictions.0.critical_friction", friction),
+            Entry::new("modes", self.modes),
+        ]
+    }
+}
+
+/// The summary of an analysis.
+pub fn summary(report: &CeaReport<'_>, manifest: &Manifest) -> CeaSummary {
+    let of_point = |point: &crate::cea::FrictionPoint| UnstableCount {
+        friction_coefficient: point.friction_coefficient,
+        modes: point.modes.len(),
+        unstable: point.modes.iter().filter(|mode| mode.is_unstable()).count(),
+    };
+    let base = report.base;
+    let own = |point: &&crate::cea::FrictionPoint| {
+        point.friction_coefficient == base.friction_coefficient
+    };
+    let own = report.sweep.points.iter().find(own);
+    let of_mode = |mode: &ComplexMode| ModeSummary::of(mode, report.has_harmonics);
+    let of_interval =
+        |interval: &UnstableInterval| CriticalFriction::of(interval, report.has_harmonics);
+    let may_open = !report.has_harmonics || report.solid.is_some();
+    let nodes = (base.slipping + base.sticking + base.open).max(1);
+    CeaSummary {
+        command: "cea".to_owned(),
+        title: report.title.to_owned(),
+        dofs: report.dofs,
+        method: report.method.to_owned(),
+        selection: report.selection.clone(),
+        wall_s: present(report.wall_s),
+        modes: report.mode_counts().1,
+        friction_values: report.friction_coefficients.len(),
+        unstable_counts: report.tabulated().map(of_point).collect(),
+        critical_frictions: report.sweep.intervals.iter().map(of_interval).collect(),
+        largest_residual: present(report.largest_residual()),
+        modes_at_friction: own.map(|point| point.modes.iter().map(of_mode).collect()),
+        base_state: base,
+        notes: report.notes.clone(),
+        manifest: manifest.clone(),
+        contact_open_fraction: may_open.then(|| base.open as f64 / nodes as f64),
+    }
+}
