@@ -1,6 +1,6 @@
 //! `frictionsim convergence`: a case on several meshes and with several time steps.
 
-use super::{Failure, RunOptions, Session, basin, cea, cycle, terminal, transient};
+use super::{Failure, RunOptions, Session, basin, cycle, terminal, transient};
 use crate::case::{Analysis, Case, Convergence, StabilityChoice, TimeStep};
 use crate::cea::FrictionSweep;
 use crate::results::convergence::{
@@ -9,6 +9,7 @@ use crate::results::convergence::{
 use crate::results::summary::PointSummary;
 use crate::results::{DrawingOptions, Manifest, OutputFolder, read_record};
 use crate::study::convergence as quantities;
+use crate::study::eigenvalues;
 use clap::Args;
 use indicatif::ProgressBar;
 use rayon::prelude::*;
@@ -161,7 +162,7 @@ fn solve(
         .map(|(analysis, case)| {
             let start = Instant::now();
             let outcome = match analysis {
-                Analysis::Cea => Outcome::Cea(cea::modes_and_onsets(case)?),
+                Analysis::Cea => Outcome::Cea(eigenvalues::modes_and_onsets(case)?),
                 Analysis::Transient => summarized(&transient::summarize(case, manifest)?)?,
                 Analysis::Basin => summarized(&basin::summarize(case, manifest)?)?,
                 Analysis::Cycle => summarized(&cycle::attempt(&own_cycles(case), manifest)?)?,

@@ -5,6 +5,7 @@ use crate::case::CaseErrors;
 use crate::cea::CeaError;
 use crate::prestress::PrestressError;
 use crate::results::{DrawingError, FolderError};
+use crate::study::StudyError;
 use std::io;
 use std::process::ExitCode;
 
@@ -100,6 +101,15 @@ impl From<CeaError> for Failure {
             Self::Usage(error.into())
         } else {
             Self::Run(error.into())
+        }
+    }
+}
+
+impl From<StudyError> for Failure {
+    fn from(error: StudyError) -> Self {
+        match error {
+            StudyError::Case(errors) => errors.into(),
+            StudyError::Eigenvalues(error) => error.into(),
         }
     }
 }

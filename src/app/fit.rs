@@ -3,13 +3,14 @@
 mod summary;
 
 use super::options::{input_name, read_input};
-use super::{Failure, RunOptions, Session, cea, terminal};
+use super::{Failure, RunOptions, Session, terminal};
 use crate::case::{Case, Fit, ModelParameter};
 use crate::cea::cyclic::Sensitivity;
 use crate::linalg::c64;
 use crate::results::fit::{FitSummary, draw_report, write};
 use crate::results::{DrawingOptions, OutputFolder, read_summary};
 use crate::signal::reader::{MeasuredMode, read_modes};
+use crate::study::eigenvalues;
 use crate::study::fit::{BoundedParameter, FitError, FitProblem, Fitted, ModelMode, fit};
 use clap::{Args, ValueHint};
 use sha2::{Digest, Sha256};
@@ -51,8 +52,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let fitted = fit_case(case, &lines)?;
     let limit_hz = limit_hz(&lines);
     // The case as it is written need not have a solution.
-    let before =
-        cea::modes_below(case, limit_hz, false).map_or_else(|_| Vec::new(), |found| found.0);
+    let before = eigenvalues::modes_below(case, limit_hz, false)
+        .map_or_else(|_| Vec::new(), |found| found.0);
     let mut found = summary::summarize(case, &wanted, &fitted, &before);
     found.measurement = input_name(&arguments.modes);
     found.wall_s = session.wall_seconds();
@@ -165,7 +166,7 @@ fn modes(
         .iter()
         .map(|parameter| &parameter.parameter);
     let case = case.with_parameters(parameters.clone().zip(values.iter().copied()))?;
-    let solved = cea::modes_below(&case, limit_hz, with_rates);
+    let solved = eigenvalues::modes_below(&case, limit_hz, with_rates);
     let (modes, sensitivities) = solved.map_err(|failure| failure.messages().join("; "))?;
     let has_harmonics = case.is_annulus();
     let of = |mode: &crate::cea::ComplexMode| {

@@ -1,10 +1,11 @@
 //! Samples, block by block.
 
-use crate::app::{Failure, cea};
+use crate::app::Failure;
 use crate::case::{Case, Uncertainty};
 use crate::results::Manifest;
 use crate::results::sweep::{Found, PointClock, PointRecord, SweepFolder};
 use crate::results::uncertainty::{Onset, Sample};
+use crate::study::eigenvalues;
 use crate::study::uncertainty::SamplePlan;
 use rayon::prelude::*;
 use serde_json::{Map, Value};
@@ -85,7 +86,7 @@ impl<'a> Sampler<'a> {
         let mut frictions = vec![own, largest_friction(self.case)];
         frictions.sort_by(f64::total_cmp);
         frictions.dedup();
-        let found = cea::unstable_intervals(&case, &frictions, harmonics);
+        let found = eigenvalues::unstable_intervals(&case, &frictions, harmonics);
         let (intervals, followed) = found.map_err(|failure| failure.messages().join("; "))?;
         let onset = |interval: &crate::cea::UnstableInterval| Onset {
             harmonic: interval.harmonic,

@@ -1,13 +1,12 @@
 //! The spectrum of a case for those who study it: no files, no base fields, no shapes.
 
 use super::solve::{mode_limit, solve};
-use super::{Failure, SlidingModel};
+use super::{SlidingModel, StudyError};
 use crate::case::{Case, Cea, CeaMethod, ModeSelection};
 use crate::cea::cyclic::{self, Sensitivity};
 use crate::cea::{ComplexMode, SweepRequest, UnstableInterval};
 use crate::fem::MassKind;
 use crate::study::tangent_options;
-use indicatif::ProgressBar;
 
 /// What `[cea]` says of a case, or its defaults, for these friction coefficients and modes up to a frequency.
 fn analysis(case: &Case, frictions: &[f64], limit_hz: f64) -> Cea {
@@ -42,16 +41,13 @@ pub fn modes_below(
     case: &Case,
     limit_hz: f64,
     with_rates: bool,
-) -> Result<(Vec<ComplexMode>, Vec<Sensitivity>), Failure> {
+) -> Result<(Vec<ComplexMode>, Vec<Sensitivity>), StudyError> {
     let friction = case.contact.sliding.friction_coefficient;
     let cea = analysis(case, &[friction], limit_hz);
     let (sweep, sensitivities) = match super::model::method_of(case, &cea) {
         CeaMethod::Sparse => {
             let model = SlidingModel::new(case, &cea)?;
-            (
-                solve(case, &cea, &model, &ProgressBar::hidden())?.sweep,
-                Vec::new(),
-            )
+            (solve(case, &cea, &model, &|_| {})?.sweep, Vec::new())
         }
         CeaMethod::Auto | CeaMethod::Cyclic => {
             let request = SweepRequest {
@@ -88,7 +84,7 @@ pub fn unstable_intervals(
     case: &Case,
     frictions: &[f64],
     harmonics: Option<&[usize]>,
-) -> Result<(Vec<UnstableInterval>, Vec<usize>), Failure> {
+) -> Result<(Vec<UnstableInterval>, Vec<usize>), StudyError> {
     let own = case.require_cea()?;
     let cea = Cea {
         modes: own.modes,
@@ -96,7 +92,7 @@ pub fn unstable_intervals(
     };
     if super::model::method_of(case, &cea) == CeaMethod::Sparse {
         let model = SlidingModel::new(case, &cea)?;
-        let sweep = solve(case, &cea, &model, &ProgressBar::hidden())?.sweep;
+        let sweep = solve(case, &cea, &model, &|_| {})?.sweep;
         super::refuse_no_modes(case, &cea, &sweep)?;
         return Ok((sweep.intervals, Vec::new()));
     }

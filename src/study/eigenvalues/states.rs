@@ -1,11 +1,10 @@
 //! A sweep over friction coefficients between which contact nodes open or close.
 
 use super::solve::mode_limit;
-use super::{Failure, SlidingModel, Solution};
+use super::{Progress, SlidingModel, Solution, StudyError};
 use crate::case::{Case, Cea};
 use crate::cea::sparse;
 use crate::cea::{FrictionPoint, FrictionSweep, SweepRequest, UnstableInterval};
-use indicatif::ProgressBar;
 
 /// Solves the sparse eigenproblems: each base state has a tangent and a sweep of its own, which the friction
 /// coefficients where one state gives way to the next end and begin.
@@ -16,8 +15,8 @@ pub fn solve_sparse(
     case: &Case,
     cea: &Cea,
     model: &SlidingModel,
-    bar: &ProgressBar,
-) -> Result<Solution, Failure> {
+    progress: &Progress<'_>,
+) -> Result<Solution, StudyError> {
     let frictions = cea.solved_friction_coefficients();
     let range = &model.range;
     let (mut parts, mut dofs) = (Vec::new(), 0);
@@ -42,13 +41,9 @@ pub fn solve_sparse(
             limit: mode_limit(cea),
             shapes_at: &cea.shapes_at,
         };
-        let found = sparse::sweep(&tangent, &request, &|progress| {
-            bar.set_length(progress.total as u64);
-            bar.set_position(progress.solved as u64);
-        })?;
+        let found = sparse::sweep(&tangent, &request, progress)?;
         parts.push(found);
     }
-    bar.finish_and_clear();
     let notes = changes_note(&range.changes).into_iter().collect();
     Ok(Solution {
         dofs,

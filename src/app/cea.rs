@@ -1,23 +1,11 @@
 //! `frictionsim cea`: complex eigenvalues of steady sliding over the friction coefficient.
 
-mod model;
-mod solid;
-mod solve;
-mod spectrum;
-mod states;
-
-pub use model::SlidingModel;
-pub use spectrum::{modes_below, unstable_intervals};
-
 use super::{Failure, RunOptions, Session, terminal};
 use crate::case::{Case, Cea, ModeSelection};
-use crate::cea::cyclic;
-use crate::cea::{FrictionSweep, SweepRequest};
-use crate::results::cea::{BaseField, CeaReport, SensitivityReport, draw, print, summary, write};
+use crate::results::cea::{BaseField, CeaReport, draw, print, summary, write};
 use crate::results::{DrawingOptions, Manifest, OutputFolder, object};
-use crate::study::tangent_options;
+use crate::study::eigenvalues::{self, SlidingModel, Solution, refuse_no_modes};
 use clap::Args;
-use indicatif::ProgressBar;
 use serde_json::Value;
 use std::time::Instant;
 
@@ -36,22 +24,13 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     run_with(arguments, |session, cea, model| {
         let bar = terminal::progress(session.options.output.is_quiet(), 0, "friction values");
-        solve::solve(&session.case, cea, model, &bar)
+        let solution = eigenvalues::solve(&session.case, cea, model, &|progress| {
+            bar.set_length(progress.total as u64);
+            bar.set_position(progress.solved as u64);
+        })?;
+        bar.finish_and_clear();
+        Ok(solution)
     })
-}
-
-/// What a solver gives back.
-pub struct Solution {
-    /// Modes at every friction value, and where branches turn unstable.
-    pub sweep: FrictionSweep,
-    /// Unknowns of the eigenproblem.
-    pub dofs: usize,
-    /// Which solver.
-    pub method: &'static str,
-    /// Derivatives of the eigenvalues at the case's own friction coefficient.
-    pub sensitivities: Option<SensitivityReport>,
-    /// What it has to say.
-    pub notes: Vec<String>,
 }
 
 /// Runs the subcommand with a solver.
@@ -78,7 +57,7 @@ fn run_with(
     let map = cea
         .map
         .as_ref()
-        .map(|map| solve::map(case, cea, map))
+        .map(|map| eigenvalues::map(case, cea, map))
         .transpose()?;
     let field = model.base_field(case);
     let report = CeaReport {
@@ -113,10 +92,12 @@ pub fn redraw(
 ) -> Result<(), Failure> {
     let cea = case.require_cea()?;
     let model = SlidingModel::new(case, cea)?;
-    let solution = solve::solve(case, cea, &model, &ProgressBar::hidden())?;
+    let solution = eigenvalues::solve(case, cea, &model, &|_| {})?;
     let field = model.base_field(case);
     let map = cea.map.as_ref();
-    let map = map.map(|map| solve::map(case, cea, map)).transpose()?;
+    let map = map
+        .map(|map| eigenvalues::map(case, cea, map))
+        .transpose()?;
     let wall_s = summary["wall_s"].as_f64().unwrap_or(f64::NAN);
     let report = CeaReport {
         map: map.as_ref(),
@@ -137,40 +118,12 @@ pub fn summarize(case: &Case, manifest: &Manifest) -> Result<Value, Failure> {
         ..case.require_cea()?.clone()
     };
     let model = SlidingModel::new(case, &cea)?;
-    let solution = solve::solve(case, &cea, &model, &ProgressBar::hidden())?;
+    let solution = eigenvalues::solve(case, &cea, &model, &|_| {})?;
     refuse_no_modes(case, &cea, &solution.sweep)?;
     let field = model.base_field(case);
     let wall_s = start.elapsed().as_secs_f64();
     let report = report(case, &cea, &model, &solution, &field, wall_s);
     object(&summary(&report, manifest)).map_err(Failure::run)
-}
-
-/// Modes at the case's own friction coefficient and the onsets over its sweep, by the cyclic method where the body is an
-/// annulus; mode shapes are not computed there.
-///
-/// # Errors
-/// As [`run`].
-pub fn modes_and_onsets(case: &Case) -> Result<FrictionSweep, Failure> {
-    let cea = Cea {
-        // Solved beside the values of the sweep, where it is none of them.
-        shapes_at: vec![case.contact.sliding.friction_coefficient],
-        ..case.require_cea()?.clone()
-    };
-    let sweep = if case.is_annulus() && case.solid.is_none() {
-        let request = SweepRequest {
-            friction_coefficients: &cea.solved_friction_coefficients(),
-            limit: solve::mode_limit(&cea),
-            shapes_at: &[],
-        };
-        let options = tangent_options(case, cea.mass);
-        let sliding = &case.contact.sliding;
-        cyclic::sweep(&case.annulus, case.materials(), &options, sliding, &request)?.sweep
-    } else {
-        let model = SlidingModel::new(case, &cea)?;
-        solve::solve(case, &cea, &model, &ProgressBar::hidden())?.sweep
-    };
-    refuse_no_modes(case, &cea, &sweep)?;
-    Ok(sweep)
 }
 
 fn report<'a>(
@@ -203,28 +156,12 @@ fn report<'a>(
     }
 }
 
-/// A frequency limit below the first mode is an error of the case.
-fn refuse_no_modes(case: &Case, cea: &Cea, sweep: &FrictionSweep) -> Result<(), Failure> {
-    let ModeSelection::BelowHz(limit) = cea.modes else {
-        return Ok(());
-    };
-    if sweep.points.iter().any(|point| !point.modes.is_empty()) {
-        return Ok(());
-    }
-    Err(Failure::Case(case.error_at(
-        "cea.max_frequency_hz",
-        format!("cea.max_frequency_hz = {limit}: there are no modes below it"),
-        "below the first mode".to_owned(),
-        Some("raise it, or ask for the lowest ones with `modes = 10` instead".to_owned()),
-    )))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::app::options::CaseChanges;
     use crate::app::{OutputOptions, SimdChoice};
-    use crate::cea::{ComplexMode, FrictionPoint};
+    use crate::cea::{ComplexMode, FrictionPoint, FrictionSweep};
     use faer::c64;
     use std::f64::consts::TAU;
     use std::path::Path;

@@ -1,6 +1,6 @@
 //! The model that the eigenvalue solvers take.
 
-use super::Failure;
+use super::StudyError;
 use super::solid::SolidBody;
 use crate::case::{Case, Cea, CeaMethod};
 use crate::fem::{assemble_stiffness, nodal_stress};
@@ -39,11 +39,11 @@ impl SlidingModel {
     /// # Errors
     /// A mesh that cannot be built; contact that would open on an annulus; no state of sliding; a method that needs a
     /// symmetry which is not there.
-    pub fn new(case: &Case, cea: &Cea) -> Result<Self, Failure> {
+    pub fn new(case: &Case, cea: &Cea) -> Result<Self, StudyError> {
         let options = tangent_options(case, cea.mass);
         let sliding = &case.contact.sliding;
         if cea.method == CeaMethod::Cyclic && !case.is_annulus() {
-            return Err(Failure::Case(case.error_at(
+            return Err(StudyError::Case(case.error_at(
                 "cea.method",
                 "cea.method = \"cyclic\" needs the symmetry of the built-in annulus".to_owned(),
                 "an imported mesh has no sectors".to_owned(),
@@ -52,7 +52,7 @@ impl SlidingModel {
         }
         if let Some(specification) = &case.solid {
             let solid = SolidBody::new(case, cea, specification)?;
-            let annulus = AnnulusMesh::generate(&solid.plane).map_err(Failure::usage)?;
+            let annulus = AnnulusMesh::generate(&solid.plane)?;
             return Ok(Self {
                 mesh: Arc::new(annulus.mesh),
                 range: SlidingRange::default(),
@@ -61,7 +61,7 @@ impl SlidingModel {
             });
         }
         if method_of(case, cea) == CeaMethod::Sparse {
-            let mesh = case.mesh().map_err(Failure::usage)?;
+            let mesh = case.mesh()?;
             let stiffness = assemble_stiffness(&mesh, case.materials());
             let mut frictions = cea.solved_friction_coefficients();
             frictions.push(sliding.friction_coefficient);
@@ -73,8 +73,8 @@ impl SlidingModel {
                 solid: None,
             });
         }
-        let annulus = AnnulusMesh::generate(&case.annulus).map_err(Failure::usage)?;
-        let sector = SectorMesh::generate(&case.annulus).map_err(Failure::usage)?;
+        let annulus = AnnulusMesh::generate(&case.annulus)?;
+        let sector = SectorMesh::generate(&case.annulus)?;
         let tangent = SectorTangent::linearize(&sector, case.materials(), &options, sliding)?;
         let base = SteadySliding::from_sector(&annulus, &sector, tangent.base());
         Ok(Self {

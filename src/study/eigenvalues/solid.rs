@@ -1,6 +1,6 @@
 //! Eigenvalues of a body of revolution in three dimensions.
 
-use super::Failure;
+use super::StudyError;
 use crate::case::{Case, Cea, CeaMethod};
 use crate::cea::cyclic::SolidModel;
 use crate::fem::solid;
@@ -26,16 +26,16 @@ impl SolidBody {
         case: &Case,
         cea: &Cea,
         specification: &SolidSpecification,
-    ) -> Result<Self, Failure> {
+    ) -> Result<Self, StudyError> {
         if cea.method == CeaMethod::Sparse {
-            return Err(Failure::Case(case.error_at(
+            return Err(StudyError::Case(case.error_at(
                 "cea.method",
                 "cea.method = \"sparse\" is for plane bodies".to_owned(),
                 "the body is three-dimensional".to_owned(),
                 Some("use \"auto\" or \"cyclic\"".to_owned()),
             )));
         }
-        let sector = SolidSector::generate(specification).map_err(Failure::usage)?;
+        let sector = SolidSector::generate(specification)?;
         let elastic = solid::stiffness(&sector, &case.material);
         let base = SolidSliding::solve(&sector, &elastic, &case.contact.sliding)?;
         let plane = AnnulusSpecification {
@@ -110,10 +110,15 @@ impl SolidBody {
 ///
 /// # Errors
 /// A case without `[cea]`.
-pub fn solid_model(case: &Case, cea: &Cea) -> Result<SolidModel, Failure> {
-    let specification = case
-        .solid
-        .ok_or_else(|| Failure::usage("the case has no three-dimensional body"))?;
+pub fn solid_model(case: &Case, cea: &Cea) -> Result<SolidModel, StudyError> {
+    let specification = case.solid.ok_or_else(|| {
+        StudyError::Case(case.error_at(
+            "material.formulation",
+            "the case has no three-dimensional body".to_owned(),
+            "a plane body".to_owned(),
+            Some("set it to \"three-dimensional\", with mesh.axial_elements".to_owned()),
+        ))
+    })?;
     Ok(SolidModel {
         specification,
         material: case.material,

@@ -3,15 +3,14 @@
 use super::model::method_of;
 use super::solid::{SolidBody, solid_model};
 use super::states::solve_sparse;
-use super::{Failure, SlidingModel, Solution};
+use super::{Progress, SlidingModel, Solution, StudyError};
 use crate::case::{Case, Cea, CeaMap, CeaMethod, ModeSelection};
 use crate::cea::cyclic::{self, Coverage, CyclicModel, SolidModel};
 use crate::cea::{FrictionSweep, ModeLimit, SweepRequest};
 use crate::results::cea::{MapReport, SensitivityReport};
 use crate::study::tangent_options;
-use indicatif::ProgressBar;
 
-/// Solves the case's eigenproblems with its method; `bar` counts the friction values solved.
+/// Solves the case's eigenproblems with its method; `progress` hears of every friction value solved.
 ///
 /// # Errors
 /// Those of the solver.
@@ -19,11 +18,11 @@ pub fn solve(
     case: &Case,
     cea: &Cea,
     model: &SlidingModel,
-    bar: &ProgressBar,
-) -> Result<Solution, Failure> {
+    progress: &Progress<'_>,
+) -> Result<Solution, StudyError> {
     let mut solution = match method_of(case, cea) {
         _ if case.solid.is_some() => solve_solid(case, cea, model)?,
-        CeaMethod::Sparse => solve_sparse(case, cea, model, bar)?,
+        CeaMethod::Sparse => solve_sparse(case, cea, model, progress)?,
         CeaMethod::Auto | CeaMethod::Cyclic => solve_cyclic(case, cea, model)?,
     };
     solution
@@ -99,7 +98,7 @@ fn friction_note(case: &Case, model: &SlidingModel) -> Option<String> {
     ))
 }
 
-fn solve_cyclic(case: &Case, cea: &Cea, model: &SlidingModel) -> Result<Solution, Failure> {
+fn solve_cyclic(case: &Case, cea: &Cea, model: &SlidingModel) -> Result<Solution, StudyError> {
     let friction_coefficients = cea.solved_friction_coefficients();
     let request = SweepRequest {
         friction_coefficients: &friction_coefficients,
@@ -141,7 +140,7 @@ fn solve_cyclic(case: &Case, cea: &Cea, model: &SlidingModel) -> Result<Solution
     })
 }
 
-fn solve_solid(case: &Case, cea: &Cea, model: &SlidingModel) -> Result<Solution, Failure> {
+fn solve_solid(case: &Case, cea: &Cea, model: &SlidingModel) -> Result<Solution, StudyError> {
     let friction_coefficients = cea.solved_friction_coefficients();
     let request = SweepRequest {
         friction_coefficients: &friction_coefficients,
@@ -182,7 +181,7 @@ pub fn mode_limit(cea: &Cea) -> ModeLimit {
 ///
 /// # Errors
 /// A value that makes no valid case.
-pub fn map(case: &Case, cea: &Cea, map: &CeaMap) -> Result<MapReport, Failure> {
+pub fn map(case: &Case, cea: &Cea, map: &CeaMap) -> Result<MapReport, StudyError> {
     let largest_friction = cea
         .friction_coefficients
         .iter()
@@ -192,14 +191,14 @@ pub fn map(case: &Case, cea: &Cea, map: &CeaMap) -> Result<MapReport, Failure> {
         largest_friction,
         points,
     };
-    let point = |value: f64| -> Result<Case, Failure> {
+    let point = |value: f64| -> Result<Case, StudyError> {
         let point = case
             .raw
             .with_overrides(&[format!("{}={value:?}", map.key)])?;
         Ok(Case::from_raw(point)?)
     };
     if case.solid.is_some() {
-        let models: Result<Vec<(f64, SolidModel)>, Failure> = map
+        let models: Result<Vec<(f64, SolidModel)>, StudyError> = map
             .values
             .iter()
             .map(|&value| Ok((value, solid_model(&point(value)?, cea)?)))
@@ -207,7 +206,7 @@ pub fn map(case: &Case, cea: &Cea, map: &CeaMap) -> Result<MapReport, Failure> {
         let points = cyclic::solid_stability_map(&models?, mode_limit(cea), largest_friction);
         return Ok(report(points));
     }
-    let models: Result<Vec<(f64, CyclicModel)>, Failure> = map
+    let models: Result<Vec<(f64, CyclicModel)>, StudyError> = map
         .values
         .iter()
         .map(|&value| {

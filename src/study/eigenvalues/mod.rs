@@ -1,0 +1,93 @@
+//! Complex eigenvalues of the steady sliding of a case: its model, the sweep over friction by the solver it gets, the map
+//! over a second parameter, and the spectrum alone for those who study it.
+//!
+//! ```no_run
+//! use frictionsim::case::Case;
+//! use frictionsim::study::eigenvalues::modes_and_onsets;
+//!
+//! let bytes = std::fs::read("cases/polycarbonate-disc.toml")?;
+//! let case = Case::parse("disc", &bytes, &["contact.friction_coefficient=0.25".to_owned()])?;
+//! let sweep = modes_and_onsets(&case)?;
+//! println!("{:?}", sweep.intervals.first());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod model;
+mod solid;
+mod solve;
+mod spectrum;
+mod states;
+
+pub use model::SlidingModel;
+pub use solid::SolidBody;
+pub use solve::{map, mode_limit, solve};
+pub use spectrum::{modes_below, unstable_intervals};
+
+use super::{StudyError, tangent_options};
+use crate::case::{Case, Cea, ModeSelection};
+use crate::cea::{FrictionSweep, SweepProgress, SweepRequest, cyclic};
+use crate::results::cea::SensitivityReport;
+
+/// Hears of every friction value that is solved.
+pub type Progress<'a> = dyn Fn(SweepProgress) + Sync + 'a;
+
+/// What a solver gives back.
+pub struct Solution {
+    /// Modes at every friction value, and where branches turn unstable.
+    pub sweep: FrictionSweep,
+    /// Unknowns of the eigenproblem.
+    pub dofs: usize,
+    /// Which solver.
+    pub method: &'static str,
+    /// Derivatives of the eigenvalues at the case's own friction coefficient.
+    pub sensitivities: Option<SensitivityReport>,
+    /// What it has to say.
+    pub notes: Vec<String>,
+}
+
+/// Modes at the case's own friction coefficient and the onsets over its sweep, by the cyclic method where the body is an
+/// annulus; mode shapes are not computed there.
+///
+/// # Errors
+/// As [`run`].
+pub fn modes_and_onsets(case: &Case) -> Result<FrictionSweep, StudyError> {
+    let cea = Cea {
+        // Solved beside the values of the sweep, where it is none of them.
+        shapes_at: vec![case.contact.sliding.friction_coefficient],
+        ..case.require_cea()?.clone()
+    };
+    let sweep = if case.is_annulus() && case.solid.is_none() {
+        let request = SweepRequest {
+            friction_coefficients: &cea.solved_friction_coefficients(),
+            limit: mode_limit(&cea),
+            shapes_at: &[],
+        };
+        let options = tangent_options(case, cea.mass);
+        let sliding = &case.contact.sliding;
+        cyclic::sweep(&case.annulus, case.materials(), &options, sliding, &request)?.sweep
+    } else {
+        let model = SlidingModel::new(case, &cea)?;
+        solve(case, &cea, &model, &|_| {})?.sweep
+    };
+    refuse_no_modes(case, &cea, &sweep)?;
+    Ok(sweep)
+}
+
+/// A frequency limit below the first mode is an error of the case.
+///
+/// # Errors
+/// That one.
+pub fn refuse_no_modes(case: &Case, cea: &Cea, sweep: &FrictionSweep) -> Result<(), StudyError> {
+    let ModeSelection::BelowHz(limit) = cea.modes else {
+        return Ok(());
+    };
+    if sweep.points.iter().any(|point| !point.modes.is_empty()) {
+        return Ok(());
+    }
+    Err(StudyError::Case(case.error_at(
+        "cea.max_frequency_hz",
+        format!("cea.max_frequency_hz = {limit}: there are no modes below it"),
+        "below the first mode".to_owned(),
+        Some("raise it, or ask for the lowest ones with `modes = 10` instead".to_owned()),
+    )))
+}
