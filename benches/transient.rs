@@ -24,9 +24,9 @@ use std::hint::black_box;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-const BATCHES: usize = 60;
+const BATCHES: usize = 240;
 /// Node-steps of a batch.
-const BATCH: usize = 3_200_000;
+const BATCH: usize = 800_000;
 
 /// Additions and multiplications of one node's step with the stencil: 48 for `K v`, 4 for `K u`, 26 for
 /// motion and damping power.
@@ -157,17 +157,17 @@ fn of_mesh(mesh: &Mesh2d) -> TransientModel<'_> {
 
 /// Prints a row; returns the time of a step, s.
 fn report(model: TransientModel<'_>, choice: OperatorChoice, level: SimdLevel, peak: f64) -> f64 {
+    let mesh = model.mesh;
     let operator = build_operator(&model, choice, level).expect("an operator");
     let sample_interval = 2e-6;
     let settings = TransientSettings {
-        duration: 0.002,
+        duration: 13.0 / mesh.node_count() as f64,
         time_step: TimeStep::Auto,
         sample_interval,
-        expansion_time: 5e-4,
+        expansion_time: 0.0,
         initial: InitialState::SteadySliding,
         perturbation: Perturbation::of(&[1, 2], 1.0),
     };
-    let mesh = model.mesh;
     let mut run = CentralDifference::start(model, operator.as_ref(), &settings).expect("a start");
     // Stick, slip and open nodes all occur before the clock starts.
     run.run(&mut Ignore).expect("a run");
