@@ -13,14 +13,14 @@ use super::{Failure, RunOptions, Session};
 use crate::case::{Case, Transient};
 use crate::cycle::Family;
 use crate::fem::operator::{SimdLevel, StiffnessOperator};
-use crate::mesh::{AnnulusMesh, Mesh2d};
+use crate::mesh::{AnnulusMesh, Mesh2d, SolidSector};
 use crate::results::transient::{
     CHECKPOINT, Checkpoint, TransientReport, print, summary, write, write_checkpoint,
 };
 use crate::results::{Manifest, OutputFolder, object, read_record};
 use crate::transient::{
     CentralDifference, InitialState, Recorder, RecorderSettings, RunEnd, StepPlan,
-    TransientAnalysis, TransientModel, TransientSettings, build_operator,
+    TransientAnalysis, TransientBody, TransientSettings,
 };
 use clap::Args;
 use serde_json::Value;
@@ -47,6 +47,8 @@ struct Prepared<'a> {
     transient: &'a Transient,
     annulus: Option<AnnulusMesh>,
     mesh: Arc<Mesh2d>,
+    /// One sector of a body in three dimensions, of which `mesh` is the section across the axis.
+    sector: Option<SolidSector>,
     simd: SimdLevel,
     settings: TransientSettings,
 }
@@ -55,9 +57,13 @@ impl<'a> Prepared<'a> {
     fn new(case: &'a Case, simd: &str) -> Result<Self, Failure> {
         let transient = case.require_transient()?;
         let generate = || AnnulusMesh::generate(&case.annulus).map_err(Failure::usage);
-        let annulus = case.is_annulus().then(generate).transpose()?;
-        let mesh = match (&annulus, &case.body) {
-            (None, Some(body)) => Arc::clone(&body.mesh),
+        let is_plane = case.is_annulus() && case.solid.is_none();
+        let annulus = is_plane.then(generate).transpose()?;
+        let sector = case.solid.as_ref().map(SolidSector::generate);
+        let sector = sector.transpose().map_err(Failure::usage)?;
+        let mesh = match (&sector, &annulus, &case.body) {
+            (Some(sector), ..) => Arc::new(sector.section().map_err(Failure::usage)?),
+            (_, None, Some(body)) => Arc::clone(&body.mesh),
             _ => case.mesh().map_err(Failure::usage)?,
         };
         Ok(Self {
@@ -65,18 +71,21 @@ impl<'a> Prepared<'a> {
             transient,
             annulus,
             mesh,
+            sector,
             simd: SimdLevel::choose(simd).map_err(Failure::usage)?,
             settings: conversion::settings(case, transient),
         })
     }
 
-    fn model(&self) -> TransientModel<'_> {
-        conversion::model(self.case, &self.mesh, self.annulus.as_ref())
+    fn body(&self) -> TransientBody<'_> {
+        let sector = self.sector.as_ref();
+        conversion::body(self.case, &self.mesh, self.annulus.as_ref(), sector)
     }
 
     fn operator(&self) -> Result<Box<dyn StiffnessOperator>, Failure> {
         let choice = self.transient.operator;
-        build_operator(&self.model(), choice, self.simd).map_err(|error| self.failure(&error))
+        let operator = self.body().operator(choice, self.simd);
+        operator.map_err(|error| self.failure(&error))
     }
 
     /// The run from its initial state.
@@ -87,12 +96,12 @@ impl<'a> Prepared<'a> {
         let started = match self.settings.initial {
             InitialState::LimitCycle { harmonic, onset } => {
                 let family = Family { harmonic, onset };
-                let plan = StepPlan::of(&self.model(), operator, &self.settings)
+                let plan = StepPlan::of(self.body(), operator, &self.settings)
                     .map_err(|error| self.failure(&error))?;
                 let [u, v] = initial::limit_cycle(self.case, family, plan.time_step)?;
-                CentralDifference::start_from(self.model(), operator, &self.settings, &u, v)
+                CentralDifference::start_from(self.body(), operator, &self.settings, &u, v)
             }
-            _ => CentralDifference::start(self.model(), operator, &self.settings),
+            _ => CentralDifference::start(self.body(), operator, &self.settings),
         };
         started.map_err(|error| self.failure(&error))
     }
@@ -104,7 +113,7 @@ impl<'a> Prepared<'a> {
         saved: Checkpoint,
         folder: &OutputFolder,
     ) -> Result<(CentralDifference<'b>, Recorder), Failure> {
-        let run = CentralDifference::resume(self.model(), operator, &self.settings, &saved.state)
+        let run = CentralDifference::resume(self.body(), operator, &self.settings, &saved.state)
             .map_err(|error| self.failure(&error))?;
         let plan = run.plan();
         if run.steps_done() > plan.total_steps() {
@@ -122,6 +131,25 @@ impl<'a> Prepared<'a> {
         };
         let record = record.resume(&run, &self.recorder_settings());
         Ok((run, record.map_err(|error| self.failure(&error))?))
+    }
+
+    /// Whether a record can be one of this body.
+    fn is_of(&self, record: &Recorder) -> bool {
+        let components = self.body().components();
+        let nodes = match &self.sector {
+            Some(sector) => sector.node_count() * sector.sector_count(),
+            None => self.mesh.node_count(),
+        };
+        record.fits(
+            components * nodes,
+            components,
+            self.body().interface().len(),
+        )
+    }
+
+    /// What records are multiplied by: those of a body in three dimensions are of the whole.
+    fn thickness(&self) -> f64 {
+        self.sector.as_ref().map_or(self.case.thickness, |_| 1.0)
     }
 
     fn recorder_settings(&self) -> RecorderSettings {
@@ -153,8 +181,9 @@ impl<'a> Prepared<'a> {
         TransientReport {
             title: &self.case.title,
             mesh: &self.mesh,
+            solid: self.sector.as_ref(),
             material: self.case.materials(),
-            thickness: self.case.thickness,
+            thickness: self.thickness(),
             friction_coefficient: self.case.contact.sliding.friction_coefficient,
             initial: conversion::initial_name(self.transient),
             perturbation: &self.settings.perturbation,
@@ -317,7 +346,7 @@ pub fn summarize(case: &Case, manifest: &Manifest) -> Result<Value, Failure> {
 pub fn time_step(case: &Case, manifest: &Manifest) -> Result<f64, Failure> {
     let prepared = Prepared::new(case, &manifest.simd)?;
     let operator = prepared.operator()?;
-    let plan = StepPlan::of(&prepared.model(), operator.as_ref(), &prepared.settings);
+    let plan = StepPlan::of(prepared.body(), operator.as_ref(), &prepared.settings);
     Ok(plan.map_err(|error| prepared.failure(&error))?.time_step)
 }
 

@@ -145,10 +145,11 @@ impl Case {
         } = model::model(&root, &raw, &material);
         let damping = model::damping(&root);
         let cea = cea::cea(&root, &annulus, contact.sliding.friction_coefficient);
-        let transient = transient::transient(&root, &annulus, &contact.sliding);
+        let transient = transient::transient(&root, &annulus, solid.as_ref(), &contact.sliding);
         let nodes = node::Nodes {
             annulus: &annulus,
             body: body.as_ref(),
+            solid: solid.as_ref(),
             is_unknown: body.is_none() && root.section("mesh", false).has("file"),
         };
         let output = transient::output(&root, &nodes, transient.as_ref());
@@ -229,21 +230,6 @@ impl Case {
         let remedy = "[cea]\nmax_frequency_hz = 17500.0";
         let cea = self.cea.as_ref();
         cea.ok_or_else(|| self.lacks("cea", "complex eigenvalue analysis", remedy))
-    }
-
-    /// The explicit transient.
-    ///
-    /// # Errors
-    /// A case without `[transient]`, and one of Quad8 elements, which the transient cannot run.
-    pub fn require_transient(&self) -> Result<&Transient, CaseErrors> {
-        let remedy = "[transient]\nduration = 0.05";
-        let transient = self.transient.as_ref();
-        let transient = transient.ok_or_else(|| self.lacks("transient", "transient", remedy))?;
-        self.require_plane("the transient takes")?;
-        if self.is_annulus() {
-            self.require_quad4("the transient needs \"quad4\"")?;
-        }
-        Ok(transient)
     }
 
     /// The two waves that compete.

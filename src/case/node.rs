@@ -2,9 +2,11 @@
 
 use super::body::ImportedBody;
 use super::diagnostic::Location;
-use super::model::node_count;
+use super::model::{node_count, solid_node_count};
 use super::reader::{NodePlace, Section};
-use crate::mesh::{AnnulusSpecification, Counterface, SectorMesh};
+use crate::mesh::{
+    AnnulusSpecification, Counterface, SectorMesh, SolidFace, SolidSector, SolidSpecification,
+};
 use std::f64::consts::TAU;
 
 /// Share of the body's size beyond which the nearest node to a place is hardly what was meant.
@@ -33,6 +35,7 @@ impl PlacedNode {
 pub(super) struct Nodes<'a> {
     pub annulus: &'a AnnulusSpecification,
     pub body: Option<&'a ImportedBody>,
+    pub solid: Option<&'a SolidSpecification>,
     /// Whether a mesh file is named that makes no body: nothing is known of its nodes.
     pub is_unknown: bool,
 }
@@ -98,13 +101,18 @@ impl Nodes<'_> {
             _ => format!("{} = {number}", section.name(key)),
         };
         let Some(body) = self.body else {
-            let nodes = node_count(self.annulus);
+            let nodes = self.solid.map_or(node_count(self.annulus), |solid| {
+                solid_node_count(self.annulus, solid.axial_elements as u128)
+            });
             if number as u128 > nodes && nodes > 0 {
                 section.reject_there(
                     at,
                     format!("{what} does not exist: the mesh has nodes 1 to {nodes}"),
                     format!("must be at most {nodes}"),
-                    "node ids count radially outwards first: 1 + j (radial_elements + 1) + i",
+                    match self.solid {
+                        None => "node ids count radially outwards first: 1 + j (radial_elements + 1) + i",
+                        Some(_) => "node ids count the sheet of a sector first; name nodes by their place instead",
+                    },
                 );
                 return None;
             }
@@ -149,6 +157,9 @@ impl Nodes<'_> {
             let (node, _) = body.mesh.nearest_node(point)?;
             return Some((node, body.mesh.nodes[node]));
         }
+        if let Some(solid) = self.solid {
+            return nearest_on_top(&SolidSector::generate(solid).ok()?, point);
+        }
         // Only the first sector is built: on each ring of its nodes the nearest is that of the nearest angle.
         let sector = SectorMesh::generate(self.annulus).ok()?;
         let (per_sector, sectors) = (sector.node_count(), sector.sector_count());
@@ -166,6 +177,20 @@ impl Nodes<'_> {
         let (_, node, at) = around.min_by(|a, b| a.0.total_cmp(&b.0))?;
         Some((node, at))
     }
+}
+
+/// The node of the top face that lies nearest to a point, and where it is.
+fn nearest_on_top(sector: &SolidSector, [x, y]: [f64; 2]) -> Option<(usize, [f64; 2])> {
+    let sectors = sector.sector_count() as f64;
+    let turn = (y.atan2(x) / TAU * sectors).round().rem_euclid(sectors);
+    let angle = TAU * turn / sectors;
+    let top = (0..sector.node_count()).filter(|&k| sector.is_on(k, SolidFace::Top));
+    let corners = top.filter(|&k| sector.nodes[k].half_step == 0);
+    let distance = |k: &usize| (sector.nodes[*k].radius - x.hypot(y)).abs();
+    let node = corners.min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+    let radius = sector.nodes[node].radius;
+    let place = [radius * angle.cos(), radius * angle.sin()];
+    Some((turn as usize * sector.node_count() + node, place))
 }
 
 impl super::Case {

@@ -162,7 +162,10 @@ pub(super) fn conditions(
 
 impl Case {
     /// Refuses an analysis that plane bodies only have.
-    pub(super) fn require_plane(&self, what: &str) -> Result<(), CaseErrors> {
+    ///
+    /// # Errors
+    /// A case of a three-dimensional body.
+    pub fn require_plane(&self, what: &str) -> Result<(), CaseErrors> {
         if self.solid.is_none() {
             return Ok(());
         }
@@ -170,7 +173,7 @@ impl Case {
             "material.formulation",
             format!("material.formulation = \"three-dimensional\": {what} plane bodies only"),
             "a three-dimensional body".to_owned(),
-            Some("`cea`, `sweep` and `convergence` take it; else use \"plane-stress\" or \"plane-strain\"".to_owned()),
+            Some("`cea`, `transient` and `sweep` take it; else use \"plane-stress\" or \"plane-strain\"".to_owned()),
         ))
     }
 }

@@ -1,10 +1,12 @@
 //! `[transient]` and `[output]`: the explicit transient and what it writes.
 
+use super::Case;
+use super::diagnostic::CaseErrors;
 use super::node::{Nodes, PlacedNode};
 use super::reader::Section;
 use super::rules::{harmonics, rising};
 use crate::contact::SlidingContact;
-use crate::mesh::AnnulusSpecification;
+use crate::mesh::{AnnulusSpecification, SolidContact, SolidSpecification};
 use crate::transient::{
     InitialState, OperatorChoice, Perturbation, StandingWave, TimeStep, whole_intervals,
 };
@@ -50,9 +52,33 @@ pub struct Output {
     pub checkpoint_interval: f64,
 }
 
+impl Case {
+    /// The explicit transient.
+    ///
+    /// # Errors
+    /// A case without `[transient]`, and one of Quad8 elements, which the transient cannot run.
+    pub fn require_transient(&self) -> Result<&Transient, CaseErrors> {
+        let remedy = "[transient]\nduration = 0.05";
+        let transient = self.transient.as_ref();
+        let transient = transient.ok_or_else(|| self.lacks("transient", "transient", remedy))?;
+        let cycle = matches!(transient.initial, InitialState::LimitCycle { .. });
+        if cycle {
+            self.require_plane("limit cycles are sought in")?;
+        }
+        if self.is_annulus() {
+            self.require_quad4(match self.solid {
+                None => "the transient needs \"quad4\"",
+                Some(_) => "the transient needs bricks of 8 nodes, \"quad4\": it lumps the mass",
+            })?;
+        }
+        Ok(transient)
+    }
+}
+
 pub(super) fn transient(
     root: &Section<'_>,
     annulus: &AnnulusSpecification,
+    solid: Option<&SolidSpecification>,
     sliding: &SlidingContact,
 ) -> Option<Transient> {
     let section = root.section("transient", false);
@@ -109,7 +135,12 @@ pub(super) fn transient(
         initial,
         operator: section.choice("operator"),
         stop_when_settled: section.flag("stop_when_settled"),
-        perturbation: perturbation(&section, annulus, sliding, duration),
+        perturbation: perturbation(
+            &section,
+            annulus,
+            slip_speed(annulus, solid, sliding),
+            duration,
+        ),
     };
     section.close();
     Some(transient)
@@ -160,12 +191,12 @@ fn initial(section: &Section<'_>, annulus: &AnnulusSpecification) -> InitialStat
 fn perturbation(
     transient: &Section<'_>,
     annulus: &AnnulusSpecification,
-    sliding: &SlidingContact,
+    slip_speed: f64,
     duration: f64,
 ) -> Perturbation {
     let section = transient.section("perturbation", false);
     let harmonics = harmonics(&section, annulus).unwrap_or_default();
-    let unit = velocity_unit(&section, annulus, sliding);
+    let unit = velocity_unit(&section, slip_speed);
     let velocities = one_for_each(&section, "velocity", &harmonics);
     let phases = one_for_each(&section, "phase_deg", &harmonics);
     if harmonics.is_empty() && section.has("phase_deg") {
@@ -226,16 +257,28 @@ fn reject(section: &Section<'_>, key: &'static str, what: String, label: &str) {
     section.reject(key, message, label.to_owned(), None);
 }
 
-/// What the velocities of a perturbation are given in, m/s: 1, or with `relative` the slip speed `Omega a`.
-fn velocity_unit(
-    section: &Section<'_>,
+/// `|Omega| a`, under a ring `|Omega|` times its mean radius, m/s.
+fn slip_speed(
     annulus: &AnnulusSpecification,
+    solid: Option<&SolidSpecification>,
     sliding: &SlidingContact,
 ) -> f64 {
+    let radius = match solid.map(|solid| solid.contact) {
+        Some(SolidContact::Ring {
+            inner_radius,
+            outer_radius,
+        }) => 0.5 * (inner_radius + outer_radius),
+        _ => annulus.inner_radius,
+    };
+    sliding.rotation_speed.abs() * radius
+}
+
+/// What the velocities of a perturbation are given in, m/s: 1, or with `relative` the slip speed.
+fn velocity_unit(section: &Section<'_>, slip_speed: f64) -> f64 {
     if !section.flag("relative") {
         return 1.0;
     }
-    if sliding.rotation_speed == 0.0 {
+    if slip_speed == 0.0 {
         reject(
             section,
             "relative",
@@ -243,7 +286,7 @@ fn velocity_unit(
             "needs a cylinder that turns",
         );
     }
-    sliding.rotation_speed.abs() * annulus.inner_radius
+    slip_speed
 }
 
 /// One number for all harmonics or one for each.

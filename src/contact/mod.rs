@@ -9,12 +9,14 @@
 mod interface;
 mod law;
 mod opposite;
+mod surface_law;
 
 pub use interface::ContactInterface;
 pub use law::{
     ContactStatus, CoulombFriction, FrictionDecay, NodeFriction, SlippingNode, SteadyFriction,
 };
 pub use opposite::OppositeShare;
+pub use surface_law::{PointFriction, SlippingPoint};
 
 /// The rigid moving counterface and its friction law.
 #[derive(Clone, Copy, Debug, PartialEq)]

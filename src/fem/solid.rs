@@ -94,6 +94,28 @@ impl SolidMatrix {
         self
     }
 
+    /// `(row, column, value)` over the dofs of a sector of a matrix that couples no two nodes; a node's parts come from both sides.
+    pub fn nodal_blocks(&self, nodes: usize) -> Vec<(usize, usize, f64)> {
+        let mut blocks = vec![[[0.0; 3]; 3]; nodes];
+        for (matrix, own) in &self.places {
+            for (a, (node, _)) in own.iter().enumerate() {
+                for (c, row) in blocks[*node].iter_mut().enumerate() {
+                    for (d, value) in row.iter_mut().enumerate() {
+                        *value += self.matrices[*matrix][(3 * a + c, 3 * a + d)];
+                    }
+                }
+            }
+        }
+        let of_block = |(node, block): (usize, &[[f64; 3]; 3])| -> Vec<(usize, usize, f64)> {
+            let pairs = (0..9).map(|k| (k / 3, k % 3));
+            pairs
+                .map(|(c, d)| (3 * node + c, 3 * node + d, block[c][d]))
+                .collect()
+        };
+        let entries = blocks.iter().enumerate().flat_map(of_block);
+        entries.filter(|entry| entry.2 != 0.0).collect()
+    }
+
     /// Whether it has no entry.
     pub fn is_empty(&self) -> bool {
         self.places.is_empty()

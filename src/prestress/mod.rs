@@ -26,6 +26,6 @@ pub use options::{DampingModel, TangentOptions};
 pub use sector::SectorSliding;
 pub use sector_rate::{Parameter, TangentRate};
 pub use sector_tangent::{FrictionPolynomial, HarmonicTangent, SectorTangent};
-pub use solid::SolidSliding;
+pub use solid::{SolidSliding, pressure_load, supports};
 pub use solid_tangent::{SolidHarmonic, SolidTangent};
 pub use tangent::SlidingTangent;

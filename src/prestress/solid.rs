@@ -184,7 +184,7 @@ impl SolidSliding {
 }
 
 /// Springs and dashpots of every support, N/m and N s/m.
-pub(super) fn supports(sector: &SolidSector) -> [SolidMatrix; 2] {
+pub fn supports(sector: &SolidSector) -> [SolidMatrix; 2] {
     let mut result = [SolidMatrix::default(), SolidMatrix::default()];
     for (face, condition) in SolidFace::ALL
         .into_iter()
@@ -233,8 +233,8 @@ pub(super) fn supports(sector: &SolidSector) -> [SolidMatrix; 2] {
     result
 }
 
-/// Forces of the pressures on the faces, N.
-fn pressure_load(sector: &SolidSector) -> Vec<f64> {
+/// Forces of the pressures on the faces, the same in every sector, N.
+pub fn pressure_load(sector: &SolidSector) -> Vec<f64> {
     let mut load = vec![0.0; 3 * sector.node_count()];
     for (face, condition) in SolidFace::ALL
         .into_iter()

@@ -105,6 +105,20 @@ impl Field {
     }
 }
 
+/// Turns nodal-frame vectors `(r, theta, z)` of a whole body of revolution into Cartesian `(x, y, z)` triples.
+pub fn solid_vectors(name: &str, sector: &SolidSector, nodal: &[f64]) -> Field {
+    let per_sector = sector.node_count();
+    let triples = nodal.chunks_exact(3).enumerate();
+    let values = triples.flat_map(|(k, u)| {
+        let (sin, cos) = sector.angle(k % per_sector, k / per_sector).sin_cos();
+        [u[0] * cos - u[1] * sin, u[0] * sin + u[1] * cos, u[2]]
+    });
+    Field {
+        components: 3,
+        ..Field::scalars(name, values.collect())
+    }
+}
+
 /// Turns nodal-frame vectors (`2 * node_count` values) into Cartesian `(x, y, 0)` triples.
 pub fn cartesian_vectors(mesh: &Mesh2d, nodal: &[f64]) -> Vec<f64> {
     let pairs = nodal.chunks_exact(2).zip(&mesh.frame_angles);

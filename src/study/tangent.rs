@@ -1,6 +1,7 @@
 //! Small motions around the steady sliding of a case.
 
 use crate::case::Case;
+use crate::cea::cyclic::{SolidModel, solid_sweep};
 use crate::cea::{CeaError, ComplexMode, ModeLimit, SweepRequest, cyclic, sparse};
 use crate::fem::{MassKind, assemble_stiffness};
 use crate::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
@@ -37,7 +38,15 @@ pub fn modes_at_own_friction(
         shapes_at: &[],
     };
     let materials = case.materials();
-    let found = if case.is_annulus() {
+    let found = if let Some(specification) = case.solid {
+        let model = SolidModel {
+            specification,
+            material: case.material,
+            options: *options,
+            contact: *sliding,
+        };
+        solid_sweep(&model, &request)?.sweep
+    } else if case.is_annulus() {
         cyclic::sweep(&case.annulus, materials, options, sliding, &request)?.sweep
     } else {
         let mesh = case.mesh()?;

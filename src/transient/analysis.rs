@@ -70,6 +70,8 @@ pub struct ProbeMotion {
     pub acceleration_rms: [f64; 2],
     /// Largest magnitude of the acceleration, m/s2.
     pub acceleration_peak: [f64; 2],
+    /// The same three along the axis of a body in three dimensions.
+    pub axial: Option<[f64; 3]>,
 }
 
 /// What a run did.
@@ -81,8 +83,8 @@ pub struct TransientAnalysis {
     pub settling: Settling,
     /// Growth of each perturbed harmonic in the linear stage.
     pub growth: Vec<Growth>,
-    /// End of the linear stage, the longest time with every contact node slipping: when the first node sticks or
-    /// opens, s. `None` if there is no linear stage or it lasts to the end of the run.
+    /// End of the linear stage, the longest time with every contact node slipping (but those that steady sliding leaves open):
+    /// when the first node sticks or opens, s. `None` if there is no linear stage or it lasts to the end of the run.
     pub first_nonlinearity: Option<f64>,
     /// Largest balance residual.
     pub largest_residual: f64,
@@ -111,11 +113,27 @@ impl TransientAnalysis {
     }
 }
 
-/// Longest range of samples over which every contact node slipped all the time.
+/// Longest range of samples over which every contact node slipped all the time, but for those that were open from the start of
+/// a run from steady sliding.
 fn linear_stage(rows: &[SampleRow]) -> Range<usize> {
     let (mut best, mut start) = (0..0, 0);
+    let first = rows
+        .first()
+        .map_or_else(StatusCounts::default, |row| row.counts);
+    let opened = match first.stick == 0 && first.slip > 0 {
+        true => first.open,
+        false => 0,
+    };
+    let is_base = |counts: &StatusCounts| {
+        // Samples count the nodes of one step or of several.
+        counts.stick == 0 && counts.open * first.slip == opened * counts.slip
+    };
     for (i, row) in rows.iter().enumerate() {
-        if row.counts.stick + row.counts.open > 0 {
+        let is_linear = match opened {
+            0 => row.counts.stick + row.counts.open == 0,
+            _ => is_base(&row.counts),
+        };
+        if !is_linear {
             start = i + 1;
         } else if i + 1 - start > best.len() {
             best = start..i + 1;
@@ -160,7 +178,14 @@ impl LastFifth {
             probes: record
                 .probe_rows
                 .iter()
-                .map(|rows| ProbeMotion::of(&rows[range.clone()]))
+                .enumerate()
+                .map(|(probe, rows)| ProbeMotion {
+                    axial: record
+                        .axial_rows
+                        .get(probe)
+                        .map(|rows| axial_motion(&rows[range.clone()])),
+                    ..ProbeMotion::of(&rows[range.clone()])
+                })
                 .collect(),
         }
     }
@@ -192,8 +217,22 @@ impl ProbeMotion {
             displacement_amplitude: both(&|c| 0.5 * (largest(c) - smallest(c))),
             acceleration_rms: both(&|c| mean_square(4 + c).sqrt()),
             acceleration_peak: both(&|c| column(4 + c).fold(0.0, |m, v| m.max(v.abs()))),
+            axial: None,
         }
     }
+}
+
+/// Half the range of `u_z` (m), root mean square and largest magnitude of `a_z` (m/s2).
+fn axial_motion(rows: &[[f64; 4]]) -> [f64; 3] {
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    let (mut square, mut peak) = (0.0, 0.0_f64);
+    for [u, _, a, _] in rows {
+        (low, high) = (low.min(*u), high.max(*u));
+        square += a * a;
+        peak = peak.max(a.abs());
+    }
+    let rms = (square / rows.len() as f64).sqrt();
+    [0.5 * (high - low), rms, peak]
 }
 
 /// Harmonic and signed frequency (Hz) of the strongest vibration; `None` where all are remnants.

@@ -38,11 +38,16 @@ struct Row {
 impl BoundaryForces {
     /// The forces of `model` in the layout of `operator`.
     pub fn new(model: &TransientModel<'_>, operator: &dyn StiffnessOperator) -> Self {
+        let pressure = model.mesh.pressure_forces().unwrap_or_default();
+        Self::of(&extra_damping(model), &pressure, operator)
+    }
+
+    /// From the entries of `D` and the forces of the full pressure over all dofs; no forces for no pressure.
+    pub fn of(damping: &Triplets, pressure: &[f64], operator: &dyn StiffnessOperator) -> Self {
         let mut rows: BTreeMap<usize, BTreeMap<usize, f64>> = BTreeMap::new();
-        for &(row, column, value) in &extra_damping(model).entries {
+        for &(row, column, value) in &damping.entries {
             *rows.entry(row).or_default().entry(column).or_default() += value;
         }
-        let pressure = model.mesh.pressure_forces().unwrap_or_default();
         for (dof, _) in pressure
             .iter()
             .enumerate()

@@ -6,8 +6,8 @@ mod start;
 
 use super::boundary::BoundaryForces;
 use super::{
-    ContactPowers, LagrangeContact, Observer, Sample, StatusCounts, StepPlan, TransientError,
-    TransientModel,
+    ContactPowers, LagrangeContact, Observer, Sample, StatusCounts, StepPlan, TransientBody,
+    TransientError,
 };
 use crate::contact::ContactInterface;
 use crate::fem::operator::{
@@ -78,7 +78,7 @@ struct Kick {
 /// exactly; the balance residual is what round-off leaves of it. The springs of a compliant contact add their energy to
 /// `E`. Linear kinematics, no geometric stiffness.
 pub struct CentralDifference<'a> {
-    model: TransientModel<'a>,
+    body: TransientBody<'a>,
     operator: &'a dyn StiffnessOperator,
     plan: StepPlan,
     expansion_time: f64,
@@ -249,8 +249,8 @@ impl<'a> CentralDifference<'a> {
     }
 
     /// The body and its contact.
-    pub fn model(&self) -> &TransientModel<'a> {
-        &self.model
+    pub fn body(&self) -> &TransientBody<'a> {
+        &self.body
     }
 
     /// The stiffness operator.

@@ -63,18 +63,25 @@ impl CompliantContact {
         let elastic = assemble_stiffness(model.mesh, model.material);
         let base = SteadySliding::solve(model.mesh, &elastic, &model.contact)?;
         let forces = base.normal_forces(model.contact.friction_coefficient);
-        let scaled = |factor: f64| {
-            let lengths = interface.tributary_lengths.iter();
-            lengths.map(|w| factor * w).collect::<Vec<f64>>()
-        };
+        let shares = &interface.tributary_lengths;
+        Ok(Some(Self::of(
+            [stiffness, model.stiffness.normal_damping],
+            shares,
+            &forces,
+        )))
+    }
+
+    /// From stiffness and dashpot for each unit of the nodes' `shares` of the contact, and the nodes' forces in steady sliding.
+    pub fn of([stiffness, damping]: [f64; 2], shares: &[f64], forces: &[f64]) -> Self {
+        let scaled = |factor: f64| shares.iter().map(|w| factor * w).collect::<Vec<f64>>();
         let stiffness = scaled(stiffness);
         let pairs = forces.iter().zip(&stiffness);
-        Ok(Some(Self {
+        Self {
             compression: pairs.map(|(force, k)| force.max(0.0) / k).collect(),
-            damping: scaled(model.stiffness.normal_damping),
+            damping: scaled(damping),
             dissipation: vec![0.0; stiffness.len()],
             stiffness,
-        }))
+        }
     }
 
     /// What the interface gives way under the base state's force at node `i`, m.

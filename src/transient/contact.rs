@@ -1,11 +1,13 @@
 //! Forward increment Lagrange multipliers of the contact edge.
 
+mod face;
 mod opposite;
 
 use super::compliance::{CompliantContact, CompressedNode};
 use super::{TransientError, TransientModel};
 use crate::contact::{ContactInterface, ContactStatus, CoulombFriction, SlippingNode};
 use crate::fem::operator::{MotionFields, StepCoefficients, StiffnessOperator};
+use face::FaceSliding;
 use opposite::OppositeBody;
 use serde::{Deserialize, Serialize};
 use std::ops::AddAssign;
@@ -130,6 +132,10 @@ pub struct LagrangeContact {
     ambiguous: u64,
     /// The other body; `None` for a rigid counterface.
     opposite: Option<OppositeBody>,
+    /// Sign of the normal dofs along the normal into the body.
+    inward: f64,
+    /// The face of a body in three dimensions.
+    face: Option<FaceSliding>,
 }
 
 impl LagrangeContact {
@@ -167,6 +173,8 @@ impl LagrangeContact {
             before: vec![[0.0; 4]; count],
             ambiguous: 0,
             opposite: OppositeBody::new(operator, interface),
+            inward: 1.0,
+            face: None,
         })
     }
 
@@ -181,6 +189,9 @@ impl LagrangeContact {
     ) {
         if self.opposite.is_some() {
             return self.apply_between_bodies(fields, coefficients, shares);
+        }
+        if self.face.is_some() {
+            return self.apply_on_face(fields, coefficients, shares);
         }
         let expansion = self.interference * shares[2];
         let dt = coefficients.time_step;
@@ -285,6 +296,7 @@ impl LagrangeContact {
         let energy = |(i, &n): (usize, &usize)| {
             let [before, now] = shares.map(|share| self.pushed(i, share));
             let mut mean = fields.displacement[n] - 0.5 * dt * fields.velocity[n];
+            mean *= self.inward;
             if let Some(opposite) = &self.opposite {
                 mean -= opposite.mean_displacement(i, fields, dt);
             }
@@ -300,6 +312,9 @@ impl LagrangeContact {
         coefficients: &StepCoefficients,
         shares: [f64; 3],
     ) -> (ContactPowers, StatusCounts) {
+        if self.face.is_some() {
+            return self.settle_on_face(fields, coefficients, shares);
+        }
         let dt = coefficients.time_step;
         let mut powers = ContactPowers::default();
         let mut counts = StatusCounts {
@@ -350,6 +365,11 @@ impl LagrangeContact {
             }
         }
         (powers, counts)
+    }
+
+    /// Distance of node `i` from the counterface under a `share` of the interference, m, from its normal dof.
+    pub fn gap(&self, i: usize, displacement: f64, share: f64) -> f64 {
+        self.inward * displacement - self.pushed(i, share)
     }
 
     /// Place of each node's normal dof in a field.

@@ -6,6 +6,7 @@
 //! that keeps what results need, and [`TransientAnalysis`] reads frequencies, growth and powers from it.
 
 mod analysis;
+mod body;
 mod boundary;
 mod central_difference;
 mod compliance;
@@ -16,8 +17,10 @@ mod recorder;
 mod sample;
 mod settings;
 mod settling;
+mod solid;
 
 pub use analysis::{Growth, LastFifth, ProbeMotion, TransientAnalysis};
+pub use body::TransientBody;
 pub use central_difference::{CentralDifference, RunEnd, TransientState};
 pub use contact::{ContactPowers, LagrangeContact, StatusCounts};
 pub use error::{Breakdown, TransientError};
@@ -29,3 +32,4 @@ pub use settings::{
     build_operator, stable_step_limit, whole_intervals,
 };
 pub use settling::{Drift, EndState, Settling, Unsettled};
+pub use solid::SolidTransientModel;

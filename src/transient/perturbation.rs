@@ -68,40 +68,54 @@ impl Perturbation {
             Some(annulus) => annulus.specification.circumferential_elements,
             None => model.interface().len(),
         };
-        let limit = elements / 2;
-        if let Some(wave) = self.waves.iter().find(|wave| wave.harmonic > limit) {
-            return Err(TransientError::HarmonicAboveNyquist {
-                harmonic: wave.harmonic,
-                limit,
-                elements,
-            });
-        }
+        self.check_harmonics(elements)?;
         let mesh = model.mesh;
         let mut velocity = vec![0.0; 2 * mesh.node_count()];
         match model.annulus {
             Some(annulus) => self.add_waves(&places_on(annulus), mesh, &mut velocity),
             None => self.add_waves(&places(model), mesh, &mut velocity),
         }
-        self.add_noise(&mut velocity);
+        self.add_noise(&mut velocity, 2);
         mesh.held_dofs().for_each(|dof| velocity[dof] = 0.0);
         Ok(velocity)
     }
 
-    fn add_waves(&self, places: &[Place], mesh: &Mesh2d, velocity: &mut [f64]) {
+    /// Refuses harmonics that `elements` around do not hold.
+    pub(super) fn check_harmonics(&self, elements: usize) -> Result<(), TransientError> {
+        let limit = elements / 2;
+        match self.waves.iter().find(|wave| wave.harmonic > limit) {
+            Some(wave) => Err(TransientError::HarmonicAboveNyquist {
+                harmonic: wave.harmonic,
+                limit,
+                elements,
+            }),
+            None => Ok(()),
+        }
+    }
+
+    /// Velocity of the waves along the sliding, m/s.
+    pub(super) fn along(&self, place: &Place) -> f64 {
         // Amplitudes relative to the largest: waves of one amplitude have the factor one, exactly.
         let largest = self
             .waves
             .iter()
             .fold(0.0, |m: f64, w| m.max(w.velocity.abs()));
         if largest == 0.0 {
+            return 0.0;
+        }
+        let wave = |wave: &StandingWave| {
+            (wave.velocity / largest) * (wave.harmonic as f64 * place.angle - wave.phase).cos()
+        };
+        let sum: f64 = self.waves.iter().map(wave).sum();
+        largest * (FRAC_PI_2 * place.depth).cos() * sum
+    }
+
+    fn add_waves(&self, places: &[Place], mesh: &Mesh2d, velocity: &mut [f64]) {
+        if self.waves.iter().all(|wave| wave.velocity == 0.0) {
             return;
         }
         for (node, place) in places.iter().enumerate() {
-            let wave = |wave: &StandingWave| {
-                (wave.velocity / largest) * (wave.harmonic as f64 * place.angle - wave.phase).cos()
-            };
-            let sum: f64 = self.waves.iter().map(wave).sum();
-            let along = largest * (FRAC_PI_2 * place.depth).cos() * sum;
+            let along = self.along(place);
             let turn = place.tangent - mesh.frame_angles[node];
             // A quarter turn, but for round-off: along the node's second axis exactly.
             if (turn - FRAC_PI_2).abs() < 1e-12 {
@@ -113,26 +127,30 @@ impl Perturbation {
         }
     }
 
-    fn add_noise(&self, velocity: &mut [f64]) {
+    /// Adds noise to every component of nodes with `components` each.
+    pub(super) fn add_noise(&self, velocity: &mut [f64], components: usize) {
         if self.noise == 0.0 {
             return;
         }
         let mut noise = GaussianNoise::new(self.noise_seed);
-        for components in velocity.chunks_exact_mut(2) {
-            let draw = noise.draw();
-            components[0] += self.noise * draw.re;
-            components[1] += self.noise * draw.im;
+        for node in velocity.chunks_exact_mut(components) {
+            for pair in node.chunks_mut(2) {
+                let draw = noise.draw();
+                for (v, part) in pair.iter_mut().zip([draw.re, draw.im]) {
+                    *v += self.noise * part;
+                }
+            }
         }
     }
 }
 
 /// Where a node stands for the waves.
-struct Place {
+pub(super) struct Place {
     /// 0 at the contact edge, 1 where the waves vanish.
-    depth: f64,
-    angle: f64,
+    pub depth: f64,
+    pub angle: f64,
     /// Direction along the counterface, rad.
-    tangent: f64,
+    pub tangent: f64,
 }
 
 fn places_on(annulus: &AnnulusMesh) -> Vec<Place> {

@@ -3,9 +3,11 @@
 mod consistency;
 mod observation;
 
-use super::{CentralDifference, ContactPowers, StatusCounts, TransientError, settings::StepPlan};
+use super::{
+    CentralDifference, ContactPowers, StatusCounts, StepPlan, TransientBody, TransientError,
+    TransientModel,
+};
 use crate::contact::ContactInterface;
-use crate::mesh::Mesh2d;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
@@ -99,6 +101,9 @@ pub struct Recorder {
     /// sample, `(v_n - v_{n-1}) / interval`. An impact of one step, as a contact node has it, is in that mean whenever it
     /// comes; the acceleration of the sampled step alone shows it or not by chance.
     pub probe_rows: Vec<Vec<[f64; 6]>>,
+    /// For each probe of a body in three dimensions and each sample `u_z` (m), `v_z` (m/s), the mean of `a_z` since the last
+    /// sample and that of the sampled step (m/s2); empty in the plane.
+    pub axial_rows: Vec<Vec<[f64; 4]>>,
     /// Acceleration `a_r, a_t` of the sampled step of each probe, m/s2, where it is asked for.
     pub raw_accelerations: Option<Vec<Vec<[f64; 2]>>>,
     /// Contact edge over time.
@@ -145,19 +150,25 @@ impl Recorder {
         settings: &RecorderSettings,
     ) -> Result<Self, TransientError> {
         let (plan, interface) = (run.plan(), run.interface());
-        let count = run.operator().dof_count() / 2;
+        let components = run.body().components();
+        let count = run.operator().dof_count() / components;
         let mut nodes = settings.probes.iter();
         if let Some(&probe) = nodes.find(|&&node| node == 0 || node > count) {
             return Err(TransientError::UnknownProbe { probe, count });
         }
         let stride = settings.contact_interval.unwrap_or(0.0) / plan.sample_interval;
-        let higher_harmonics = higher_harmonics(interface.len() / 2, run.seeded_harmonics());
-        let (contact, probes) = (&run.model().contact, settings.probes.len());
+        let higher_harmonics =
+            higher_harmonics(run.body().highest_harmonic(), run.seeded_harmonics());
+        let (contact, probes) = (run.body().contact(), settings.probes.len());
         Ok(Self {
             probes: settings.probes.clone(),
-            probe_turns: probe_turns(run.model().mesh, &settings.probes),
+            probe_turns: probe_turns(run.body(), &settings.probes),
             rows: Vec::with_capacity(plan.samples as usize),
             probe_rows: vec![Vec::with_capacity(plan.samples as usize); probes],
+            axial_rows: match components {
+                3 => vec![Vec::new(); probes],
+                _ => Vec::new(),
+            },
             raw_accelerations: settings.raw_acceleration.then(|| vec![Vec::new(); probes]),
             frames: Vec::new(),
             frame_stride: (stride.round() as u64).max(1),
@@ -190,12 +201,13 @@ impl Recorder {
         settings: &RecorderSettings,
     ) -> Result<Self, TransientError> {
         let fresh = Self::new(run, settings)?;
-        let nodes = run.operator().dof_count() / 2;
+        let dofs = run.operator().dof_count();
         let done = run.steps_done().div_ceil(run.plan().steps_per_sample) as usize;
         let is_whole = self.rows.len() == done
             && self.is_consistent()
-            && self.fits(nodes, fresh.contact_angles.len())
+            && self.fits(dofs, run.body().components(), fresh.contact_angles.len())
             && self.probes == fresh.probes
+            && self.axial_rows.len() == fresh.axial_rows.len()
             && self.raw_accelerations.is_some() == fresh.raw_accelerations.is_some()
             && self.higher_harmonics == fresh.higher_harmonics
             && self.is_stride_given == fresh.is_stride_given
@@ -272,7 +284,10 @@ impl Recorder {
 }
 
 /// How each probe's frame is turned against the axes of its report.
-fn probe_turns(mesh: &Mesh2d, probes: &[usize]) -> Vec<[f64; 2]> {
+fn probe_turns(body: &TransientBody<'_>, probes: &[usize]) -> Vec<[f64; 2]> {
+    let TransientBody::Plane(TransientModel { mesh, .. }) = body else {
+        return vec![[1.0, 0.0]; probes.len()];
+    };
     let turn = |&probe: &usize| {
         let (frame, reported) = (mesh.frame_angles[probe - 1], mesh.reported_angle(probe - 1));
         let (sin, cos) = (frame - reported).sin_cos();

@@ -75,7 +75,8 @@ impl Sample<'_> {
     pub fn gap(&self, i: usize) -> f64 {
         let place = self.run.contact().normal_places()[i];
         let share = self.run.expanded_share(self.time);
-        self.displacement_before[place] - self.run.contact().pushed(i, share)
+        let displacement = self.displacement_before[place];
+        self.run.contact().gap(i, displacement, share)
     }
 
     /// Status of each contact node at `n`.

@@ -1,6 +1,6 @@
 //! What a transient needs to know, checked before it runs.
 
-use super::{Perturbation, TransientError};
+use super::{Perturbation, TransientBody, TransientError};
 use crate::contact::{ContactStiffness, SlidingContact};
 use crate::fem::operator::{
     CyclicStencil, OperatorError, SimdLevel, SparseOperator, StiffnessOperator, largest_frequency,
@@ -156,11 +156,19 @@ pub struct StepPlan {
 }
 
 impl StepPlan {
-    /// The step of a model, as [`Self::new`]: the smallest that any of its bodies asks for.
+    /// The step of a body, as [`Self::new`]: the smallest that any of its parts asks for.
     ///
     /// # Errors
     /// Those of [`Self::new`].
-    pub fn of(
+    pub fn of<'a>(
+        body: impl Into<TransientBody<'a>>,
+        operator: &dyn StiffnessOperator,
+        settings: &TransientSettings,
+    ) -> Result<Self, TransientError> {
+        body.into().plan(operator, settings)
+    }
+
+    pub(super) fn of_plane(
         model: &TransientModel<'_>,
         operator: &dyn StiffnessOperator,
         settings: &TransientSettings,

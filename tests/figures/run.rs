@@ -53,6 +53,7 @@ fn a_run_gets_every_figure_of_its_record() {
         record: &record,
         analysis: &analysis,
         mesh: &annulus.mesh,
+        solid: None,
         material: model.material,
         thickness: 0.009,
         peripheral_speed: rotation_speed * 0.0205,

@@ -5,3 +5,4 @@ mod elements;
 mod limits;
 mod model;
 mod ring;
+mod transient;

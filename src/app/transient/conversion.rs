@@ -2,29 +2,46 @@
 
 use crate::app::Failure;
 use crate::case::{Case, Transient};
-use crate::mesh::{AnnulusMesh, Mesh2d};
+use crate::mesh::{AnnulusMesh, Mesh2d, SolidSector};
 use crate::transient::{
-    Breakdown, InitialState, RecorderSettings, TransientError, TransientModel, TransientSettings,
+    Breakdown, InitialState, RecorderSettings, SolidTransientModel, TransientBody, TransientError,
+    TransientModel, TransientSettings,
 };
 
-pub fn model<'a>(
+/// The body of a case; `mesh` and `annulus` are the section of one in three dimensions, `sector`.
+pub fn body<'a>(
     case: &'a Case,
     mesh: &'a Mesh2d,
     annulus: Option<&'a AnnulusMesh>,
-) -> TransientModel<'a> {
+    sector: Option<&'a SolidSector>,
+) -> TransientBody<'a> {
     let damped = if case.damping.include_contact {
         case.damping.rayleigh.stiffness_coefficient
     } else {
         0.0
     };
+    let (damping, contact) = (case.damping.rayleigh, case.contact.sliding);
+    let stiffness = case.contact.stiffness.damped_by(damped);
+    if let Some(sector) = sector {
+        let material = &case.material;
+        return SolidTransientModel {
+            sector,
+            material,
+            damping,
+            contact,
+            stiffness,
+        }
+        .into();
+    }
     TransientModel {
         mesh,
         annulus,
         material: case.materials(),
-        damping: case.damping.rayleigh,
-        contact: case.contact.sliding,
-        stiffness: case.contact.stiffness.damped_by(damped),
+        damping,
+        contact,
+        stiffness,
     }
+    .into()
 }
 
 pub fn settings(case: &Case, transient: &Transient) -> TransientSettings {

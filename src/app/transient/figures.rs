@@ -31,10 +31,11 @@ pub(super) fn draw_record(
         record,
         analysis: &prepared.analyse(record),
         mesh: &prepared.mesh,
+        solid: prepared.sector.as_ref(),
         material: case.materials(),
-        thickness: case.thickness,
+        thickness: prepared.thickness(),
         peripheral_speed: prepared
-            .model()
+            .body()
             .interface()
             .surface_speed(sliding.rotation_speed),
         references: stage.references,
@@ -56,8 +57,7 @@ pub fn redraw(
 ) -> Result<(), Failure> {
     let prepared = Prepared::new(case, "scalar")?;
     let record: Recorder = read_record(folder.path())?;
-    let mesh = &prepared.mesh;
-    let fits = record.fits(mesh.node_count(), prepared.model().interface().len());
+    let fits = prepared.is_of(&record);
     refuse_misfit(folder.path(), fits)?;
     let summary = TransientSummary::deserialize(summary).map_err(|error| {
         let path = folder.path().display();
@@ -81,8 +81,8 @@ pub fn draw_beside(
     for (path, case) in runs {
         let prepared = Prepared::new(case, "scalar")?;
         let record: Recorder = read_record(path)?;
-        let mesh = &prepared.mesh;
-        let fits = record.fits(mesh.node_count(), mesh.contact_edge().nodes.len());
+        case.require_plane("pictures of stresses side by side are of")?;
+        let fits = prepared.is_of(&record);
         refuse_misfit(path, fits)?;
         records.push((prepared, record));
     }

@@ -1,12 +1,12 @@
 //! Operation counts and typical rates behind the cost of each analysis.
 
 use super::{CeaCost, CycleCost, FrfCost, TransientCost};
-use crate::case::model::node_count;
+use crate::case::model::{node_count, solid_node_count};
 use crate::case::{
     Case, Cea, CeaMethod, Cycle, Frf, FrfMethod, ModeSelection, StabilityChoice, TimeStep,
     Transient,
 };
-use crate::mesh::ElementKind;
+use crate::mesh::{ElementKind, SolidContact};
 use crate::transient::stable_step_limit;
 use std::f64::consts::TAU;
 
@@ -36,13 +36,24 @@ impl Case {
         } else {
             2
         };
-        let contact_nodes = per_element * self.annulus.circumferential_elements;
+        // Under a ring at most a whole face.
+        let rings = self.solid.map_or(1, |solid| match solid.contact {
+            SolidContact::Inner => solid.axial_elements + 1,
+            SolidContact::Ring { .. } => self.annulus.radial_elements + 1,
+        });
+        let contact_nodes = rings * per_element * self.annulus.circumferential_elements;
         frames * (100.0 + 9.0 * contact_nodes as f64)
     }
 
     /// Displacements and velocities of all nodes at each snapshot.
     pub(super) fn snapshot_bytes(&self) -> f64 {
-        32.0 * node_count(&self.annulus) as f64 * self.output.snapshots.len() as f64
+        let bytes = match &self.solid {
+            None => 32.0 * node_count(&self.annulus) as f64,
+            Some(solid) => {
+                48.0 * solid_node_count(&self.annulus, solid.axial_elements as u128) as f64
+            }
+        };
+        bytes * self.output.snapshots.len() as f64
     }
 
     pub(super) fn cea_cost(&self, cea: &Cea, nodes: u128) -> CeaCost {
@@ -159,7 +170,10 @@ impl Case {
         let around = |radius: f64| TAU * radius / annulus.circumferential_elements as f64;
         let inner = (1.0 / first).hypot(1.0 / around(annulus.inner_radius + 0.5 * first));
         let outer = (1.0 / last).hypot(1.0 / around(annulus.outer_radius - 0.5 * last));
-        2.0 * (speed * inner.max(outer)).max(self.highest_in_shaft())
+        let through = self
+            .solid
+            .map_or(0.0, |solid| solid.axial_elements as f64 / solid.thickness);
+        2.0 * (speed * inner.max(outer).hypot(through)).max(self.highest_in_shaft())
     }
 
     /// The same of the shaft, half of it.

@@ -278,7 +278,7 @@ pub(super) fn add_up(sums: &[f64; SUMS]) -> f64 {
 /// Compiles a body for every instruction set and picks one at run time.
 macro_rules! dispatched {
     ($name:ident, $body:ident, ($($argument:ident: $kind:ty),*) -> $result:ty) => {
-        pub(super) fn $name(level: SimdLevel, $($argument: $kind),*) -> $result {
+        pub(in crate::fem::operator) fn $name(level: SimdLevel, $($argument: $kind),*) -> $result {
             #[cfg(target_arch = "x86_64")]
             {
                 #[target_feature(enable = "avx2,fma")]
@@ -304,6 +304,8 @@ macro_rules! dispatched {
     };
 }
 pub(super) use dispatched;
+
+pub(super) mod solid;
 
 dispatched!(cyclic_advance, cyclic_advance_body, (
     layout: &RowLayout, stencils: &[RowStencil], masses: &[f64], fields: &mut MotionFields,

@@ -1,8 +1,8 @@
 //! The stiffness operator of an explicit time step: `M^-1 K` with a lumped mass, applied without a
 //! factorization.
 //!
-//! Two implementations stand behind one trait: [`SparseOperator`] for any mesh, [`CyclicStencil`] for a
-//! uniform annulus, whose sectors share one stencil in polar frames.
+//! Three implementations stand behind one trait: [`SparseOperator`] for any plane mesh, [`CyclicStencil`] for a uniform annulus,
+//! whose sectors share one stencil in polar frames, and [`SolidStencil`] for a body of revolution in three dimensions.
 
 mod block_rows;
 mod cyclic;
@@ -11,12 +11,14 @@ mod kernel;
 mod largest_frequency;
 mod node_order;
 mod simd;
+mod solid;
 mod sparse;
 
 pub use cyclic::CyclicStencil;
 pub use field::{AlignedVector, MotionFields};
 pub use largest_frequency::{largest_frequency, largest_frequency_of};
 pub use simd::{SimdError, SimdLevel};
+pub use solid::SolidStencil;
 pub use sparse::SparseOperator;
 
 /// Coefficients of one explicit step.
@@ -53,6 +55,17 @@ pub enum OperatorError {
         /// Largest deviation, relative to the largest coefficient.
         relative: f64,
     },
+    /// A sparse matrix is for plane bodies.
+    #[error(
+        "transient.operator = \"sparse\" is for plane bodies; a three-dimensional one takes \"auto\" or \"cyclic\""
+    )]
+    NotPlane,
+    /// Bricks of 20 nodes have no stencil.
+    #[error(
+        "the transient of a three-dimensional body takes bricks of 8 nodes, mesh.element = \"quad4\": a lumped mass of 20 nodes \
+         allows no step worth taking"
+    )]
+    NotBrick8,
     /// A node has no mass.
     #[error("node {node} has the lumped mass {mass:e} kg/m; an explicit step needs a positive one")]
     Massless {

@@ -8,7 +8,7 @@ use crate::mesh::{ContactRing, SheetNode, SolidFace, SolidSector};
 use crate::prestress::SolidSliding;
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::table::{Table, format_number};
-use crate::results::vtu::{EncodedMesh, Field, write_vtu};
+use crate::results::vtu::{EncodedMesh, Field, solid_vectors, write_vtu};
 use faer::c64;
 use std::sync::Arc;
 
@@ -44,16 +44,7 @@ impl SolidReport {
 
     /// A vector of each node from its nodal frame `(r, theta, z)`, as Cartesian `(x, y, z)`.
     pub(super) fn vectors(&self, name: &str, nodal: &[f64]) -> Field {
-        let per_sector = self.sector.node_count();
-        let triples = nodal.chunks_exact(3).enumerate();
-        let values = triples.flat_map(|(k, u)| {
-            let (sin, cos) = self.sector.angle(k % per_sector, k / per_sector).sin_cos();
-            [u[0] * cos - u[1] * sin, u[0] * sin + u[1] * cos, u[2]]
-        });
-        Field {
-            components: 3,
-            ..Field::scalars(name, values.collect())
-        }
+        solid_vectors(name, &self.sector, nodal)
     }
 
     /// The fields of a mode shape.

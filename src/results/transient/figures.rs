@@ -3,7 +3,7 @@
 use crate::chart::{Axis, ChartError, ColourMap, Figure, Line, Panel, SERIES, extremes};
 use crate::contact::{ContactInterface, ContactStatus};
 use crate::fem::{MaterialField, nodal_stress};
-use crate::mesh::Mesh2d;
+use crate::mesh::{Mesh2d, SolidFace, SolidSector};
 use crate::results::charts::palette::status_of_code;
 use crate::results::charts::{
     Disc, FieldFrame, ModeLine, contact_figure, field_figure, open_contact_figure, status_curves,
@@ -24,6 +24,8 @@ pub struct RunFigures<'a> {
     pub analysis: &'a TransientAnalysis,
     /// The mesh.
     pub mesh: &'a Mesh2d,
+    /// One sector of a body in three dimensions, of which `mesh` is the section across the axis.
+    pub solid: Option<&'a SolidSector>,
     /// The material, for the stress fields.
     pub material: &'a dyn MaterialField,
     /// Thickness, m: the record is for each metre.
@@ -110,11 +112,22 @@ impl RunFigures<'_> {
         // What is that much slower than the cylinder is round-off of a body at rest.
         let rest = 1e-9 * self.peripheral_speed.abs();
         let frames = self.snapshots().map(|snapshot| -> FieldFrame {
-            let speeds = snapshot.velocity.chunks_exact(2).map(|v| v[0].hypot(v[1]));
+            let speeds = match self.solid {
+                Some(sector) => super::solid::speeds_on_top(sector, &snapshot.velocity),
+                None => {
+                    let speeds = snapshot.velocity.chunks_exact(2);
+                    speeds.map(|v| v[0].hypot(v[1])).collect()
+                }
+            };
             let values = speeds
+                .into_iter()
                 .map(|speed| if speed > rest { speed } else { 0.0 })
                 .collect();
-            let status = statuses(&snapshot.contact.status);
+            // A ring of statuses shows one edge.
+            let status = match self.solid {
+                Some(_) => Vec::new(),
+                None => statuses(&snapshot.contact.status),
+            };
             (heading(snapshot), values, status)
         });
         let caption = (
@@ -132,6 +145,9 @@ impl RunFigures<'_> {
     }
 
     fn shear_stress(&self) -> Result<Figure, ChartError> {
+        if self.solid.is_some() {
+            return Err(ChartError::empty("shear stress of a plane body"));
+        }
         let frames = self.snapshots().map(|snapshot| -> FieldFrame {
             let stress = nodal_stress(self.mesh, self.material, &snapshot.displacement);
             (
@@ -154,6 +170,9 @@ impl RunFigures<'_> {
     /// Whether a probe lies on the contact edge.
     pub(super) fn is_on_contact(&self, probe: usize) -> bool {
         let node = self.record.probes[probe] as u32;
+        if let Some(sector) = self.solid {
+            return super::solid::contact_nodes(sector).contains(&(node - 1));
+        }
         self.mesh
             .contact_edge()
             .nodes
@@ -163,6 +182,12 @@ impl RunFigures<'_> {
 
     /// Phase plot of an internal node, and path of a contact node coloured by status over the last fifth.
     fn trajectories(&self) -> Result<Figure, ChartError> {
+        if self
+            .solid
+            .is_some_and(|sector| sector.specification.contact.face() != SolidFace::Inner)
+        {
+            return Err(ChartError::empty("paths of nodes of an edge"));
+        }
         let probes = 0..self.record.probes.len();
         let (edge, inside): (Vec<usize>, Vec<usize>) =
             probes.partition(|&probe| self.is_on_contact(probe));
@@ -235,11 +260,24 @@ impl RunFigures<'_> {
         let snapshot = self.record.snapshots.last();
         let snapshot = snapshot.ok_or_else(|| ChartError::empty("contact at the snapshots"))?;
         let frame = &snapshot.contact;
-        let wide = |values: &[f32]| values.iter().map(|&v| f64::from(v)).collect::<Vec<f64>>();
-        let interface = ContactInterface::of(self.mesh);
-        let edge = interface.nodes.iter();
-        let velocity: Vec<f64> = edge
-            .map(|&node| snapshot.velocity[2 * node as usize + 1])
+        // Of several rings of nodes the middle one.
+        let rings = self.solid.map_or(1, |sector| sector.rings.len());
+        let one = |i: &usize| i % rings == rings / 2;
+        let wide = |values: &[f32]| -> Vec<f64> {
+            let places = (0..values.len()).filter(one);
+            places.map(|i| f64::from(values[i])).collect()
+        };
+        let (edge, components) = match self.solid {
+            Some(sector) => (super::solid::contact_nodes(sector), 3),
+            None => (ContactInterface::of(self.mesh).nodes, 2),
+        };
+        let velocity: Vec<f64> = (0..edge.len())
+            .filter(one)
+            .map(|i| snapshot.velocity[components * edge[i] as usize + 1])
+            .collect();
+        let codes: Vec<u8> = (0..edge.len())
+            .filter(one)
+            .map(|i| frame.status[i])
             .collect();
         let values = [&wide(&frame.pressure)[..], &wide(&frame.shear), &velocity];
         let instant = format!("*t* = {:.3} ms", snapshot.time * 1e3);
@@ -247,7 +285,7 @@ impl RunFigures<'_> {
             let caption = "Contact at the last snapshot along the contact edge: tractions (a), velocity (b), on a ground coloured by status.";
             return Ok(open_contact_figure(
                 ("contact".into(), caption.into(), instant),
-                &statuses(&frame.status),
+                &statuses(&codes),
                 values,
                 self.peripheral_speed,
             ));
@@ -257,7 +295,7 @@ impl RunFigures<'_> {
         let names = ("contact".into(), caption.into(), instant);
         Ok(contact_figure(
             names,
-            (first, &statuses(&frame.status)),
+            (first, &statuses(&codes)),
             values,
             self.peripheral_speed,
         ))

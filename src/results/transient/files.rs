@@ -1,6 +1,7 @@
 //! Probes, energies, contact, snapshots, summary.
 
 use super::contact::encode_contact;
+use super::solid::contact_nodes;
 use super::{TransientReport, TransientSummary, summary};
 use crate::contact::ContactInterface;
 use crate::fem::nodal_stress;
@@ -8,7 +9,7 @@ use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::record::write_record;
 use crate::results::summary::write_summary;
 use crate::results::table::{Table, format_number};
-use crate::results::vtu::{EncodedMesh, Field, PvdEntry, write_pvd, write_vtu};
+use crate::results::vtu::{EncodedMesh, Field, PvdEntry, solid_vectors, write_pvd, write_vtu};
 use crate::transient::{Recorder, SampleRow, Snapshot};
 use std::io::{self, Write};
 
@@ -24,7 +25,8 @@ pub fn write(
     for (index, rows) in report.record.probe_rows.iter().enumerate() {
         let probe = report.probe_label(index);
         folder.write(&format!("probe-{probe}.csv"), |out| {
-            write_probe(out, &report.record.rows, rows, raw(index))
+            let axial = report.record.axial_rows.get(index).map(Vec::as_slice);
+            write_probe(out, &report.record.rows, rows, axial, raw(index))
         })?;
     }
     folder.write("energy.csv", |out| write_energy(out, report))?;
@@ -46,6 +48,7 @@ fn write_probe(
     out: &mut dyn Write,
     samples: &[SampleRow],
     rows: &[[f64; 6]],
+    axial: Option<&[[f64; 4]]>,
     raw: Option<&[[f64; 2]]>,
 ) -> io::Result<()> {
     let mut columns = vec![
@@ -57,14 +60,22 @@ fn write_probe(
         "a_r_m_per_s2",
         "a_theta_m_per_s2",
     ];
+    if axial.is_some() {
+        columns.extend(["u_z_m", "v_z_m_per_s", "a_z_m_per_s2"]);
+    }
     if raw.is_some() {
         columns.extend(["a_r_step_m_per_s2", "a_theta_step_m_per_s2"]);
+        columns.extend(axial.map(|_| "a_z_step_m_per_s2"));
     }
     let mut table = Table::new(out, &columns)?;
     for (index, (sample, row)) in samples.iter().zip(rows).enumerate() {
         let step = raw.map(|raw| raw[index]);
         let mean = std::iter::once(sample.time).chain(*row);
-        table.row(mean.chain(step.into_iter().flatten()).map(format_number))?;
+        let axial = axial.map(|rows| rows[index]);
+        let mean = mean.chain(axial.into_iter().flat_map(|row| [row[0], row[1], row[2]]));
+        let axial = axial.filter(|_| raw.is_some()).map(|row| row[3]);
+        let numbers = mean.chain(step.into_iter().flatten()).chain(axial);
+        table.row(numbers.map(format_number))?;
     }
     table.finish()
 }
@@ -159,7 +170,10 @@ fn write_snapshots(folder: &OutputFolder, report: &TransientReport<'_>) -> Resul
         ];
         folder.write(&name, |out| {
             if encoded.is_none() {
-                encoded = Some(EncodedMesh::new(report.mesh)?);
+                encoded = Some(match report.solid {
+                    Some(sector) => EncodedMesh::solid(sector)?,
+                    None => EncodedMesh::new(report.mesh)?,
+                });
             }
             match &encoded {
                 Some(mesh) => write_vtu(out, mesh, &whole, &fields, &[]),
@@ -179,20 +193,36 @@ fn write_snapshots(folder: &OutputFolder, report: &TransientReport<'_>) -> Resul
 /// Motion and stress of all nodes, and the contact at the same step: status (0 open, 1 stick, 2 slip; -1 off the contact
 /// edge), pressure, shear and gap (zero off the contact edge).
 fn snapshot_fields(report: &TransientReport<'_>, snapshot: &Snapshot) -> Vec<Field> {
+    if let Some(sector) = report.solid {
+        let mut fields = vec![
+            solid_vectors("displacement_m", sector, &snapshot.displacement),
+            solid_vectors("velocity_m_per_s", sector, &snapshot.velocity),
+        ];
+        let nodes = snapshot.displacement.len() / 3;
+        fields.extend(contact_fields(&contact_nodes(sector), nodes, snapshot));
+        return fields;
+    }
     let mut fields = vec![
         Field::vectors("displacement_m", report.mesh, &snapshot.displacement),
         Field::vectors("velocity_m_per_s", report.mesh, &snapshot.velocity),
     ];
     let stresses = nodal_stress(report.mesh, report.material, &snapshot.displacement);
     fields.extend(Field::stresses(&stresses));
-    let edge = &ContactInterface::of(report.mesh).nodes;
-    let mut status = vec![-1; report.mesh.node_count()];
+    let edge = ContactInterface::of(report.mesh).nodes;
+    let count = report.mesh.node_count();
+    fields.extend(contact_fields(&edge, count, snapshot));
+    fields
+}
+
+/// Status, pressure, shear and gap of the contact nodes `edge` among `count` nodes.
+fn contact_fields(edge: &[u32], count: usize, snapshot: &Snapshot) -> Vec<Field> {
+    let mut status = vec![-1; count];
     for (&node, &code) in edge.iter().zip(&snapshot.contact.status) {
         status[node as usize] = i64::from(code);
     }
-    fields.push(Field::integers("status", status));
+    let mut fields = vec![Field::integers("status", status)];
     let mut on_edge = |name: &str, values: &mut dyn Iterator<Item = f64>| {
-        let mut field = vec![0.0; report.mesh.node_count()];
+        let mut field = vec![0.0; count];
         for (&node, value) in edge.iter().zip(values) {
             field[node as usize] = value;
         }

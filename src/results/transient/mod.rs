@@ -10,6 +10,7 @@ mod print;
 mod record;
 mod report;
 mod signals;
+mod solid;
 mod stages;
 mod summary;
 
@@ -22,7 +23,7 @@ pub use report::{draw, html_report};
 pub use summary::{TransientSummary, summary};
 
 use crate::fem::MaterialField;
-use crate::mesh::Mesh2d;
+use crate::mesh::{Mesh2d, SolidSector};
 use crate::transient::{Perturbation, Recorder, StepPlan, TransientAnalysis};
 
 /// Everything a transient reports. Forces, powers and energies of the record are for one metre of thickness;
@@ -33,9 +34,11 @@ pub struct TransientReport<'a> {
     pub title: &'a str,
     /// The mesh, for the snapshots.
     pub mesh: &'a Mesh2d,
+    /// One sector of a body in three dimensions, of which `mesh` is the section across the axis.
+    pub solid: Option<&'a SolidSector>,
     /// Its material, for the stresses.
     pub material: &'a dyn MaterialField,
-    /// Thickness, m.
+    /// Thickness, m; 1 in three dimensions, where records are of the whole body.
     pub thickness: f64,
     /// Friction coefficient, for the snapshots.
     pub friction_coefficient: f64,
@@ -68,8 +71,22 @@ pub struct TransientReport<'a> {
 impl TransientReport<'_> {
     /// Elements times steps for each second of stepping.
     pub fn element_steps_per_second(&self) -> f64 {
-        let elements = self.mesh.element_count() as f64;
+        let layers = self.solid.map_or(1, |sector| sector.divisions()[1]);
+        let elements = (layers * self.mesh.element_count()) as f64;
         elements * self.steps_timed as f64 / self.stepping_s.max(f64::MIN_POSITIVE)
+    }
+
+    /// Where a node is in the plane across the axis, m.
+    fn place(&self, node: usize) -> [f64; 2] {
+        let Some(sector) = self.solid else {
+            return self.mesh.nodes[node];
+        };
+        let per_sector = sector.node_count();
+        let (radius, angle) = (
+            sector.nodes[node % per_sector].radius,
+            sector.angle(node % per_sector, node / per_sector),
+        );
+        [radius * angle.cos(), radius * angle.sin()]
     }
 
     /// Number of a probe as the user knows it.

@@ -5,7 +5,7 @@ use crate::transient::Recorder;
 
 impl Record for Recorder {
     const MAGIC: [u8; 8] = *b"FRICSIMR";
-    const VERSION: u32 = 3;
+    const VERSION: u32 = 4;
 
     fn inconsistency(&self) -> Option<&'static str> {
         (!self.is_consistent()).then_some("its samples, probes and frames do not fit together")

@@ -135,10 +135,14 @@ fn results(summary: &TransientSummary) -> Vec<(String, String)> {
 fn motion_table(summary: &TransientSummary) -> ReportTable {
     let rows = summary.probes.iter().flat_map(|(node, motion)| {
         let directions = [
-            ("radial", &motion.radial),
-            ("tangential", &motion.tangential),
+            ("radial", Some(&motion.radial)),
+            ("tangential", Some(&motion.tangential)),
+            ("axial", motion.axial.as_ref()),
         ];
-        directions.map(|(direction, motion)| {
+        let known = directions
+            .into_iter()
+            .filter_map(|(name, motion)| Some((name, motion?)));
+        known.map(|(direction, motion)| {
             vec![
                 node.clone(),
                 direction.to_owned(),

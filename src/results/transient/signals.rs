@@ -117,8 +117,7 @@ impl RunFigures<'_> {
     /// Spectra of both components over the last fifth of the run.
     pub(super) fn spectrum(&self, probe: usize) -> Figure {
         let node = self.probe_label(probe);
-        let spectrum_of = |column: usize| {
-            let signal = self.column(probe, column);
+        let spectrum_of = |signal: Vec<f64>| {
             let end = &signal[signal.len() - signal.len().div_ceil(5)..];
             let found =
                 amplitude_spectrum(end, 1.0 / self.interval().max(1e-12), Window::Hann, 2).ok();
@@ -126,11 +125,18 @@ impl RunFigures<'_> {
                 (found.frequencies_hz, found.amplitudes)
             })
         };
-        let [tangential, radial] = [5, 4].map(spectrum_of);
-        let spectra: [(&str, &[f64], &[f64]); 2] = [
+        let [tangential, radial] = [5, 4].map(|column| spectrum_of(self.column(probe, column)));
+        let axial = self.record.axial_rows.get(probe);
+        let axial = axial.map(|rows| spectrum_of(rows.iter().map(|row| row[2]).collect()));
+        let mut spectra: Vec<(&str, &[f64], &[f64])> = vec![
             ("tangential acceleration", &tangential.0, &tangential.1),
             ("radial acceleration", &radial.0, &radial.1),
         ];
+        spectra.extend(
+            axial
+                .iter()
+                .map(|(f, a)| ("axial acceleration", &f[..], &a[..])),
+        );
         let caption =
             format!("Spectra of the accelerations of node {node} over the last fifth of the run.");
         let frequencies = (

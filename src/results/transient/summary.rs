@@ -154,6 +154,9 @@ pub struct ProbeSummary {
     pub radial: MotionSummary,
     /// Tangentially.
     pub tangential: MotionSummary,
+    /// Along the axis; absent in the plane.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub axial: Option<MotionSummary>,
 }
 
 /// A place that was asked for, and its nearest node.
@@ -275,13 +278,18 @@ fn probes(report: &TransientReport<'_>) -> BTreeMap<String, ProbeSummary> {
             let node = report.record.probes[probe] - 1;
             let mut places = report.places.iter();
             let place = places.find(|place| place.0 == node).map(|&(_, asked_m)| {
-                let at_m = report.mesh.nodes[node];
+                let at_m = report.place(node);
                 PlaceSummary { asked_m, at_m }
             });
             let summary = ProbeSummary {
                 place,
                 radial,
                 tangential,
+                axial: motion.axial.map(|[displacement, rms, peak]| MotionSummary {
+                    displacement_amplitude_m: displacement,
+                    acceleration_rms_m_per_s2: rms,
+                    acceleration_peak_m_per_s2: peak,
+                }),
             };
             (report.probe_label(probe).to_string(), summary)
         })

@@ -32,27 +32,30 @@ impl CentralDifference<'_> {
     }
 
     fn unstable(&self, symptom: String, cause: Breakdown) -> TransientError {
-        let mesh = self.model.mesh;
+        let count = self.body.components();
         let speed = |node: usize| {
-            let [r, t] = [0, 1].map(|c| self.fields.velocity[self.operator.position(2 * node + c)]);
-            let speed = r.hypot(t);
+            let component =
+                |c: usize| self.fields.velocity[self.operator.position(count * node + c)];
+            let speed = (2..count).fold(component(0).hypot(component(1)), |size, c| {
+                size.hypot(component(c))
+            });
             if speed.is_finite() { speed } else { f64::MAX }
         };
         let (mut node, mut largest) = (0, speed(0));
-        for candidate in 1..mesh.node_count() {
+        for candidate in 1..self.operator.dof_count() / count {
             let value = speed(candidate);
             if value > largest {
                 (node, largest) = (candidate, value);
             }
         }
-        let [x, y] = mesh.nodes[node];
+        let [radius, angle] = self.body.place(node);
         TransientError::Unstable {
             time: (self.next_step - 1) as f64 * self.plan.time_step,
             step: self.next_step - 1,
             symptom,
             node: node + 1,
-            angle_degrees: mesh.frame_angles[node].to_degrees(),
-            radius: x.hypot(y),
+            angle_degrees: angle.to_degrees(),
+            radius,
             speed: largest,
             cause,
         }

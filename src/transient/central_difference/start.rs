@@ -1,14 +1,12 @@
 //! How a run begins: at rest, from given fields, or where another one stopped.
 
-use super::{BoundaryForces, CentralDifference, Kick, TransientState};
-use crate::fem::assemble_stiffness;
+use super::{CentralDifference, Kick, TransientState};
 use crate::fem::operator::{
     AlignedVector, MotionFields, StepCoefficients, StiffnessOperator, scatter,
 };
-use crate::prestress::SteadySliding;
 use crate::transient::{
-    ContactPowers, InitialState, LagrangeContact, StatusCounts, StepPlan, TransientError,
-    TransientModel, TransientSettings,
+    ContactPowers, InitialState, StatusCounts, StepPlan, TransientBody, TransientError,
+    TransientSettings,
 };
 
 impl<'a> CentralDifference<'a> {
@@ -18,24 +16,20 @@ impl<'a> CentralDifference<'a> {
     /// [`TransientError`] names the setting that does not fit, with its bound;
     /// [`TransientError::FieldsMissing`] for a limit cycle, which [`Self::start_from`] takes.
     pub fn start(
-        model: TransientModel<'a>,
+        body: impl Into<TransientBody<'a>>,
         operator: &'a dyn StiffnessOperator,
         settings: &TransientSettings,
     ) -> Result<Self, TransientError> {
-        let mesh = model.mesh;
+        let body = body.into();
         let still = vec![0.0; operator.dof_count()];
         let displacement = match settings.initial {
             InitialState::Rest => still.clone(),
-            InitialState::SteadySliding => {
-                let stiffness = assemble_stiffness(mesh, model.material);
-                let base = SteadySliding::solve(mesh, &stiffness, &model.contact)?;
-                base.displacement(model.contact.friction_coefficient)
-            }
+            InitialState::SteadySliding => body.sliding_displacement()?,
             InitialState::LimitCycle { harmonic, .. } => {
                 return Err(TransientError::FieldsMissing { harmonic });
             }
         };
-        Self::start_from(model, operator, settings, &displacement, still)
+        Self::start_from(body, operator, settings, &displacement, still)
     }
 
     /// A run from given fields, `u_0` (m) and `v_{-1/2}` (m/s) over all dofs in nodal frames; a perturbation at the
@@ -45,20 +39,21 @@ impl<'a> CentralDifference<'a> {
     /// [`TransientError`] names the setting that does not fit, with its bound;
     /// [`TransientError::ForeignState`] for fields of another size.
     pub fn start_from(
-        model: TransientModel<'a>,
+        body: impl Into<TransientBody<'a>>,
         operator: &'a dyn StiffnessOperator,
         settings: &TransientSettings,
         displacement: &[f64],
         mut velocity: Vec<f64>,
     ) -> Result<Self, TransientError> {
-        let plan = StepPlan::of(&model, operator, settings)?;
+        let body = body.into();
+        let plan = body.plan(operator, settings)?;
         let expected = operator.dof_count();
         for found in [displacement.len(), velocity.len()] {
             if found != expected {
                 return Err(TransientError::ForeignState { found, expected });
             }
         }
-        let mut run = Self::new(model, operator, plan, settings)?;
+        let mut run = Self::new(body, operator, plan, settings)?;
         if let Some(kick) = run.kick.take_if(|kick| kick.step == 0) {
             velocity
                 .iter_mut()
@@ -80,12 +75,13 @@ impl<'a> CentralDifference<'a> {
     /// # Errors
     /// As [`Self::start`], and [`TransientError::ForeignState`] for a state of another size.
     pub fn resume(
-        model: TransientModel<'a>,
+        body: impl Into<TransientBody<'a>>,
         operator: &'a dyn StiffnessOperator,
         settings: &TransientSettings,
         state: &TransientState,
     ) -> Result<Self, TransientError> {
-        let plan = StepPlan::of(&model, operator, settings)?;
+        let body = body.into();
+        let plan = body.plan(operator, settings)?;
         let expected = operator.dof_count();
         for vector in [
             &state.displacement,
@@ -98,7 +94,7 @@ impl<'a> CentralDifference<'a> {
                 return Err(TransientError::ForeignState { found, expected });
             }
         }
-        let mut run = Self::new(model, operator, plan, settings)?;
+        let mut run = Self::new(body, operator, plan, settings)?;
         // What was added at the start is in the state.
         run.kick.take_if(|kick| kick.step == 0);
         run.fields = MotionFields {
@@ -116,12 +112,12 @@ impl<'a> CentralDifference<'a> {
     }
 
     fn new(
-        model: TransientModel<'a>,
+        body: TransientBody<'a>,
         operator: &'a dyn StiffnessOperator,
         plan: StepPlan,
         settings: &TransientSettings,
     ) -> Result<Self, TransientError> {
-        let interface = model.interface();
+        let (interface, damping) = (body.interface(), body.damping());
         let zeros = || AlignedVector::zeros(operator.field_length());
         // All others start fully expanded: a ramp of no length.
         let expansion_time = match settings.initial {
@@ -130,13 +126,13 @@ impl<'a> CentralDifference<'a> {
         };
         let kick = Kick {
             step: (settings.perturbation.time / plan.time_step).round() as u64,
-            velocity: settings.perturbation.field(&model)?,
+            velocity: body.perturbed(&settings.perturbation)?,
         };
         Ok(Self {
             coefficients: StepCoefficients {
                 time_step: plan.time_step,
-                mass_coefficient: model.damping.mass_coefficient,
-                stiffness_coefficient: model.damping.stiffness_coefficient,
+                mass_coefficient: damping.mass_coefficient,
+                stiffness_coefficient: damping.stiffness_coefficient,
             },
             fields: MotionFields {
                 displacement: zeros(),
@@ -144,8 +140,8 @@ impl<'a> CentralDifference<'a> {
                 elastic: zeros(),
                 elastic_rate: zeros(),
             },
-            contact: LagrangeContact::new(operator, &interface, &model)?,
-            boundary: BoundaryForces::new(&model, operator),
+            contact: body.lagrange_contact(operator, &interface)?,
+            boundary: body.boundary_forces(operator),
             interface,
             next_step: 0,
             initial_energy: 0.0,
@@ -157,7 +153,7 @@ impl<'a> CentralDifference<'a> {
             counts: StatusCounts::default(),
             displacement_before: zeros(),
             velocity_before: zeros(),
-            model,
+            body,
             operator,
             plan,
             expansion_time,

@@ -16,6 +16,9 @@ impl Recorder {
         let probes_fit = self.probes.len() == self.probe_rows.len()
             && self.probes.iter().all(nodes_are_known)
             && self.probe_rows.iter().all(|rows| rows.len() == samples);
+        let axial_fits = self.axial_rows.is_empty()
+            || self.axial_rows.len() == self.probes.len()
+                && self.axial_rows.iter().all(|rows| rows.len() == samples);
         let raw_fits = self.raw_accelerations.as_ref().is_none_or(|raw| {
             raw.len() == self.probes.len() && raw.iter().all(|rows| rows.len() == samples)
         });
@@ -33,6 +36,7 @@ impl Recorder {
             && rises(&times)
             && times.iter().all(|time| time.is_finite())
             && probes_fit
+            && axial_fits
             && raw_fits
             && self.frames.iter().all(of_edge)
             && self.sample_interval > 0.0
@@ -45,11 +49,11 @@ impl Recorder {
             && self.higher_amplitudes.len() == samples.saturating_mul(self.higher_harmonics.len())
     }
 
-    /// Whether probes, fields and contact nodes can be those of a mesh.
-    pub fn fits(&self, nodes: usize, contact_nodes: usize) -> bool {
+    /// Whether probes, fields and contact nodes can be those of a mesh of `dofs`, some `components` to a node.
+    pub fn fits(&self, dofs: usize, components: usize, contact_nodes: usize) -> bool {
         let mut snapshots = self.snapshots.iter();
         self.contact_angles.len() == contact_nodes
-            && self.probes.iter().all(|&probe| probe <= nodes)
-            && snapshots.all(|snapshot| snapshot.displacement.len() == 2 * nodes)
+            && self.probes.iter().all(|&probe| probe * components <= dofs)
+            && snapshots.all(|snapshot| snapshot.displacement.len() == dofs)
     }
 }

@@ -86,7 +86,9 @@ impl Recorder {
             [cos, sin] => [cos * a - sin * b, sin * a + cos * b],
         };
         for (place, &node) in self.probes.iter().enumerate() {
-            let dofs = [2 * node - 2, 2 * node - 1];
+            let components = if self.axial_rows.is_empty() { 2 } else { 3 };
+            let first = components * (node - 1);
+            let dofs = [first, first + 1];
             let rows = &mut self.probe_rows[place];
             let velocity = turned(place, dofs.map(|dof| sample.velocity_at(dof)));
             let step = turned(place, dofs.map(|dof| sample.acceleration_at(dof)));
@@ -97,6 +99,16 @@ impl Recorder {
             let [u_r, u_t] = turned(place, dofs.map(|dof| sample.displacement_at(dof)));
             let ([v_r, v_t], [a_r, a_t]) = (velocity, acceleration);
             rows.push([u_r, u_t, v_r, v_t, a_r, a_t]);
+            if let Some(rows) = self.axial_rows.get_mut(place) {
+                let (v, step) = (
+                    sample.velocity_at(first + 2),
+                    sample.acceleration_at(first + 2),
+                );
+                let mean = rows
+                    .last()
+                    .map_or(step, |last: &[f64; 4]| (v - last[1]) / self.sample_interval);
+                rows.push([sample.displacement_at(first + 2), v, mean, step]);
+            }
             if let Some(raw) = &mut self.raw_accelerations {
                 raw[place].push(step);
             }

@@ -228,14 +228,17 @@ fn banded(matrix: &Mat<f64>) -> BandedMatrix {
 
 /// Responses `K^-1 b` to some loads, orthogonal in energy, without the directions that hardly occur.
 fn main_directions(pencil: &Pencil, loads: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
-    let responses: Vec<Vec<f64>> = loads
-        .iter()
-        .map(|load| {
-            let mut x = load.clone();
-            pencil.factor.solve(&mut x);
-            x
-        })
-        .collect();
+    let respond = |load: Vec<f64>| {
+        let mut x = load.clone();
+        pencil.factor.solve(&mut x);
+        // A lumped mass couples no two unknowns: some loads vanish.
+        (dot(&x, &load) > 0.0).then_some((x, load))
+    };
+    let pairs = loads.into_iter().filter_map(respond);
+    let (responses, loads): (Vec<Vec<f64>>, Vec<Vec<f64>>) = pairs.unzip();
+    if loads.is_empty() {
+        return Vec::new();
+    }
     let size = loads.len();
     let scale: Vec<f64> = (0..size)
         .map(|i| dot(&responses[i], &loads[i]).sqrt().recip())

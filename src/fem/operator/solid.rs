@@ -1,0 +1,196 @@
+//! `M^-1 K` of a body of revolution in three dimensions, one stencil for each node of a sector.
+
+use super::kernel::solid::{SheetCoupling, SheetLayout, solid_advance, solid_multiply};
+use super::{MotionFields, OperatorError, SimdLevel, StepCoefficients, StiffnessOperator};
+use crate::fem::solid::{self, SolidMatrix};
+use crate::fem::{ElasticMaterial, MassKind};
+use crate::mesh::SolidSector;
+use std::collections::BTreeMap;
+
+/// `M^-1 K` of bricks of 8 nodes, without a matrix.
+///
+/// In cylindrical frames every sector has the same element matrices, so a node couples to its at most 27 neighbours in its own
+/// sector and the two beside it through 3 x 3 blocks that depend on the node of the sector alone. Fields hold one line along the
+/// circumference for each of these nodes and each component `(u_r, u_theta, u_z)`. Dof `3 (s n + k) + c` is component `c` of node
+/// `k` of sector `s`, `n` nodes to a sector. The mass is lumped by row sums.
+#[derive(Clone, Debug)]
+pub struct SolidStencil {
+    layout: SheetLayout,
+    rows: Vec<Vec<SheetCoupling>>,
+    masses: Vec<f64>,
+    simd: SimdLevel,
+}
+
+/// `[l][c][d]`: from component `d` of a node in sector `s + l - 1` to component `c` of one in sector `s`.
+type Blocks = [[[f64; 3]; 3]; 3];
+
+impl SolidStencil {
+    /// Assembles the stencil from the elastic stiffness of a sector and the springs of its supports.
+    ///
+    /// # Errors
+    /// [`OperatorError`] for bricks of 20 nodes, for sectors that are not mirror-symmetric, for a node without mass.
+    pub fn assemble(
+        sector: &SolidSector,
+        material: &ElasticMaterial,
+        springs: &SolidMatrix,
+        simd: SimdLevel,
+    ) -> Result<Self, OperatorError> {
+        if sector.is_quadratic() {
+            return Err(OperatorError::NotBrick8);
+        }
+        let layout = SheetLayout::new(
+            sector.sector_count(),
+            sector.node_count(),
+            sector.node_bandwidth(),
+        );
+        let node_masses = nodal_masses(sector, material)?;
+        let elastic = solid::stiffness(sector, material);
+        let blocks = sector_blocks(sector, &[&elastic, springs]);
+        let relative = asymmetry(&blocks);
+        // Assembly order leaves a few units of round-off; anything more is no sector.
+        if relative > 1e-11 {
+            return Err(OperatorError::NotCyclic { relative });
+        }
+        let row = |(node, neighbours): (usize, &BTreeMap<usize, Blocks>)| {
+            let scale = [0, 1, 2].map(|c| match sector.is_held(3 * node + c) {
+                true => 0.0,
+                false => node_masses[node].recip(),
+            });
+            neighbours
+                .iter()
+                .filter(|_| scale != [0.0; 3])
+                .map(|(&other, blocks)| coupling(blocks, scale, layout.line(other, 0)))
+                .collect()
+        };
+        let mut masses = vec![0.0; layout.field_length()];
+        for (node, mass) in node_masses.iter().enumerate() {
+            for component in (0..3).filter(|c| !sector.is_held(3 * node + c)) {
+                let start = layout.line(node, component);
+                masses[start..start + layout.count].fill(*mass);
+            }
+        }
+        Ok(Self {
+            rows: blocks.iter().enumerate().map(row).collect(),
+            layout,
+            masses,
+            simd: simd.min(SimdLevel::detect()),
+        })
+    }
+}
+
+/// Lumped masses of the nodes of a sector, kg.
+fn nodal_masses(
+    sector: &SolidSector,
+    material: &ElasticMaterial,
+) -> Result<Vec<f64>, OperatorError> {
+    let mut masses = vec![0.0; sector.node_count()];
+    let lumped = solid::mass(sector, material, MassKind::Lumped);
+    for (matrix, nodes) in &lumped.places {
+        for (a, (node, _)) in nodes.iter().enumerate() {
+            masses[*node] += lumped.matrices[*matrix][(3 * a, 3 * a)];
+        }
+    }
+    match masses.iter().position(|mass| !(*mass > 0.0)) {
+        Some(node) => Err(OperatorError::Massless {
+            node: node + 1,
+            mass: masses[node],
+        }),
+        None => Ok(masses),
+    }
+}
+
+/// Blocks between each node of a sector and its neighbours.
+fn sector_blocks(sector: &SolidSector, terms: &[&SolidMatrix]) -> Vec<BTreeMap<usize, Blocks>> {
+    let mut blocks = vec![BTreeMap::<usize, Blocks>::new(); sector.node_count()];
+    for term in terms {
+        for (matrix, nodes) in &term.places {
+            let matrix = &term.matrices[*matrix];
+            for (a, &(node, half)) in nodes.iter().enumerate() {
+                for (b, &(other, other_half)) in nodes.iter().enumerate() {
+                    let block =
+                        &mut blocks[node].entry(other).or_default()[(2 + other_half - half) / 2];
+                    for (c, row) in block.iter_mut().enumerate() {
+                        for (d, value) in row.iter_mut().enumerate() {
+                            *value += matrix[(3 * a + c, 3 * b + d)];
+                        }
+                    }
+                }
+            }
+        }
+    }
+    blocks
+}
+
+/// Largest deviation from mirror symmetry, relative to the largest entry.
+fn asymmetry(blocks: &[BTreeMap<usize, Blocks>]) -> f64 {
+    let (mut largest, mut worst) = (0.0_f64, 0.0_f64);
+    for [before, here, after] in blocks.iter().flat_map(BTreeMap::values) {
+        for c in 0..3 {
+            for d in 0..3 {
+                let is_odd = (c == 1) != (d == 1);
+                let parity = if is_odd { -1.0 } else { 1.0 };
+                worst = worst.max((after[c][d] - parity * before[c][d]).abs());
+                if is_odd {
+                    worst = worst.max(here[c][d].abs());
+                }
+                largest = largest.max(here[c][d].abs());
+            }
+        }
+    }
+    worst / largest
+}
+
+/// A neighbour's part of a stencil; rows are multiplied by `scale`.
+fn coupling([before, here, after]: &Blocks, scale: [f64; 3], start: usize) -> SheetCoupling {
+    const EVEN: [(usize, usize); 5] = [(0, 0), (0, 2), (2, 0), (2, 2), (1, 1)];
+    const ODD: [(usize, usize); 4] = [(0, 1), (2, 1), (1, 0), (1, 2)];
+    SheetCoupling {
+        start,
+        here: EVEN.map(|(c, d)| scale[c] * here[c][d]),
+        beside: EVEN.map(|(c, d)| scale[c] * 0.5 * (after[c][d] + before[c][d])),
+        odd: ODD.map(|(c, d)| scale[c] * 0.5 * (after[c][d] - before[c][d])),
+    }
+}
+
+impl StiffnessOperator for SolidStencil {
+    fn name(&self) -> &'static str {
+        "cyclic"
+    }
+
+    fn simd(&self) -> SimdLevel {
+        self.simd
+    }
+
+    fn dof_count(&self) -> usize {
+        3 * self.layout.nodes * self.layout.count
+    }
+
+    fn field_length(&self) -> usize {
+        self.masses.len()
+    }
+
+    fn position(&self, dof: usize) -> usize {
+        let (node, component) = (dof / 3, dof % 3);
+        let line = self.layout.line(node % self.layout.nodes, component);
+        line + node / self.layout.nodes
+    }
+
+    fn masses(&self) -> &[f64] {
+        &self.masses
+    }
+
+    fn multiply(&self, x: &mut [f64], y: &mut [f64]) {
+        solid_multiply(self.simd, &self.layout, &self.rows, x, y);
+    }
+
+    fn advance(&self, fields: &mut MotionFields, coefficients: &StepCoefficients) -> f64 {
+        solid_advance(
+            self.simd,
+            &self.layout,
+            &self.rows,
+            &self.masses,
+            fields,
+            coefficients,
+        )
+    }
+}

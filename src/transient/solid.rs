@@ -1,0 +1,198 @@
+//! What a transient of a body of revolution in three dimensions is made of.
+
+use super::boundary::BoundaryForces;
+use super::perturbation::Place;
+use super::{
+    LagrangeContact, OperatorChoice, Perturbation, StepPlan, TransientError, TransientSettings,
+};
+use crate::contact::{ContactInterface, ContactStiffness, SlidingContact};
+use crate::fem::operator::{OperatorError, SimdLevel, SolidStencil, StiffnessOperator};
+use crate::fem::solid::{self, SolidMatrix};
+use crate::fem::{ElasticMaterial, RayleighDamping, Triplets};
+use crate::mesh::{BoundaryCondition, Counterface, SolidFace, SolidSector};
+use crate::prestress::{PrestressError, SolidSliding, pressure_load, supports};
+
+/// The body, of bricks with 8 nodes, and its contact.
+///
+/// Dofs over the whole body are `3 (s n + k) + c`: component `c` of `(u_r, u_theta, u_z)` at node `k` of sector `s`, `n` nodes to a
+/// sector. Forces are those of the whole body in N, energies in J.
+#[derive(Clone, Copy, Debug)]
+pub struct SolidTransientModel<'a> {
+    /// One of its sectors.
+    pub sector: &'a SolidSector,
+    /// Its material.
+    pub material: &'a ElasticMaterial,
+    /// Rayleigh coefficients.
+    pub damping: RayleighDamping,
+    /// The rotor.
+    pub contact: SlidingContact,
+    /// Springs and dashpots of the contact; the default is rigid.
+    pub stiffness: ContactStiffness,
+}
+
+impl SolidTransientModel<'_> {
+    /// Its operator: the stencil of a sector.
+    ///
+    /// # Errors
+    /// [`TransientError::Operator`] for bricks of 20 nodes, and for [`OperatorChoice::Sparse`].
+    pub fn operator(
+        &self,
+        choice: OperatorChoice,
+        simd: SimdLevel,
+    ) -> Result<Box<dyn StiffnessOperator>, TransientError> {
+        if choice == OperatorChoice::Sparse {
+            return Err(OperatorError::NotPlane.into());
+        }
+        let [springs, _] = supports(self.sector);
+        let stencil = SolidStencil::assemble(self.sector, self.material, &springs, simd)?;
+        Ok(Box::new(stencil))
+    }
+
+    /// Contact nodes by rising angle, at each angle by rising radius or height; each has an area for a length.
+    pub fn interface(&self) -> ContactInterface {
+        let (sector, rings) = (self.sector, &self.sector.rings);
+        let per_sector = sector.node_count();
+        let mut nodes = Vec::new();
+        let (mut angles, mut areas) = (Vec::new(), Vec::new());
+        for s in 0..sector.sector_count() {
+            for ring in rings {
+                for &node in &ring.nodes {
+                    nodes.push((s * per_sector + node) as u32);
+                    angles.push(sector.angle(node, s));
+                    areas.push(ring.area / ring.nodes.len() as f64);
+                }
+            }
+        }
+        let area: f64 = rings.iter().map(|ring| ring.area).sum();
+        let moment: f64 = rings.iter().map(|ring| ring.area * ring.radius).sum();
+        ContactInterface {
+            gaps: vec![0.0; nodes.len()],
+            nodes,
+            angles,
+            tributary_lengths: areas,
+            counterface: Counterface::Cylinder {
+                center: [0.0; 2],
+                radius: moment / area,
+                is_inside: true,
+            },
+            opposite: Vec::new(),
+        }
+    }
+
+    /// The state of steady sliding.
+    ///
+    /// # Errors
+    /// Where there is none.
+    pub fn base(&self) -> Result<SolidSliding, PrestressError> {
+        let elastic = solid::stiffness(self.sector, self.material);
+        SolidSliding::solve(self.sector, &elastic, &self.contact)
+    }
+
+    /// Displacement of steady sliding over all dofs, m.
+    pub(super) fn sliding_displacement(&self) -> Result<Vec<f64>, TransientError> {
+        let base = self.base()?;
+        let sector = base.displacement(self.contact.friction_coefficient);
+        Ok(sector.repeat(self.sector.sector_count()))
+    }
+
+    pub(super) fn plan(
+        &self,
+        operator: &dyn StiffnessOperator,
+        settings: &TransientSettings,
+    ) -> Result<StepPlan, TransientError> {
+        let mut damping = self.damping;
+        let rates = self.support_damping();
+        let rates = rates.entries.iter().filter_map(|&(row, _, value)| {
+            let mass = operator.masses()[operator.position(row)];
+            (mass > 0.0 && value > 0.0).then(|| value / mass)
+        });
+        damping.mass_coefficient += rates.fold(0.0, f64::max);
+        StepPlan::new(operator, &damping, settings)
+    }
+
+    /// Dashpots of the supports, by dof, N s/m.
+    fn support_damping(&self) -> Triplets {
+        let [_, dashpots] = supports(self.sector);
+        self.everywhere(&dashpots)
+    }
+
+    /// A matrix that couples no two nodes, in all sectors.
+    fn everywhere(&self, matrix: &SolidMatrix) -> Triplets {
+        let own = matrix.nodal_blocks(self.sector.node_count());
+        let mut all = Triplets::default();
+        for s in 0..self.sector.sector_count() {
+            let offset = 3 * s * self.sector.node_count();
+            let moved = own
+                .iter()
+                .map(|&(i, j, value)| (offset + i, offset + j, value));
+            all.entries.extend(moved);
+        }
+        all
+    }
+
+    pub(super) fn boundary_forces(&self, operator: &dyn StiffnessOperator) -> BoundaryForces {
+        let [springs, _] = supports(self.sector);
+        let mut damping = self.support_damping();
+        let beta = self.damping.stiffness_coefficient;
+        if beta != 0.0 {
+            let springs = self.everywhere(&springs.scaled(-beta));
+            damping.entries.extend(springs.entries);
+        }
+        let pressure = pressure_load(self.sector).repeat(self.sector.sector_count());
+        BoundaryForces::of(&damping, &pressure, operator)
+    }
+
+    pub(super) fn lagrange_contact(
+        &self,
+        operator: &dyn StiffnessOperator,
+        interface: &ContactInterface,
+    ) -> Result<LagrangeContact, TransientError> {
+        let base = match self.stiffness.normal_stiffness {
+            Some(_) => Some(self.base()?),
+            None => None,
+        };
+        Ok(LagrangeContact::on_face(
+            operator,
+            interface,
+            self,
+            base.as_ref(),
+        ))
+    }
+
+    /// The velocity of a perturbation over all dofs, m/s: waves along `e_theta`, uniform over the thickness, which fade towards the
+    /// cylinder that is clamped, the outer one where neither is.
+    pub(super) fn perturbed(
+        &self,
+        perturbation: &Perturbation,
+    ) -> Result<Vec<f64>, TransientError> {
+        let sector = self.sector;
+        perturbation.check_harmonics(sector.sector_count())?;
+        let specification = &sector.specification;
+        let (inner, outer) = (
+            specification.annulus.inner_radius,
+            specification.annulus.outer_radius,
+        );
+        let fades_inwards =
+            specification.conditions[SolidFace::Inner as usize] == BoundaryCondition::Clamped;
+        let per_sector = sector.node_count();
+        let nodes = per_sector * sector.sector_count();
+        let mut velocity = vec![0.0; 3 * nodes];
+        for node in 0..nodes {
+            let radius = sector.nodes[node % per_sector].radius;
+            let share = (radius - inner) / (outer - inner);
+            let place = Place {
+                depth: if fades_inwards { 1.0 - share } else { share },
+                angle: sector.angle(node % per_sector, node / per_sector),
+                tangent: 0.0,
+            };
+            velocity[3 * node + 1] = perturbation.along(&place);
+        }
+        perturbation.add_noise(&mut velocity, 3);
+        for (dof, v) in velocity.iter_mut().enumerate() {
+            if sector.is_held(dof % (3 * per_sector)) {
+                *v = 0.0;
+            }
+        }
+        Ok(velocity)
+    }
+}
