@@ -4,6 +4,9 @@
 //! `FRICTIONSIM_FUZZ_SECONDS`, 5 unless said otherwise; `FRICTIONSIM_FUZZ_SEED` chooses where the seeds begin. A failure names
 //! its seed and leaves the input in `target/tmp`.
 
+mod meshes;
+#[path = "../common/msh.rs"]
+mod msh;
 mod mutation;
 mod readers;
 mod results;
