@@ -75,8 +75,13 @@ impl Axis {
     pub fn angle() -> Self {
         let quarters =
             [0, 90, 180, 270, 360].map(|degrees| (f64::from(degrees), degrees.to_string()));
-        let axis = Self::new("angle *θ*", "°").times(180.0 / std::f64::consts::PI);
-        axis.between(0.0, std::f64::consts::TAU).ticks(quarters)
+        let circle = Self::degrees().between(0.0, std::f64::consts::TAU);
+        circle.ticks(quarters)
+    }
+
+    /// An angle, as much of the circle as the data take; data in rad.
+    pub fn degrees() -> Self {
+        Self::new("angle *θ*", "°").times(180.0 / std::f64::consts::PI)
     }
 
     /// The friction coefficient.

@@ -160,9 +160,14 @@ fn prestress(report: &CeaReport<'_>) -> Figure {
     let von_mises = field.stress.iter().map(NodalStress::von_mises).collect();
     let stress = Axis::new("von Mises stress", "Pa").prefixed();
     let is_closed = report.mesh.contact_edge().is_closed;
-    // The angles of an open edge stand for shares of its length where it is straight.
+    let angles = || field.angles.iter().copied();
+    let spread =
+        angles().fold(f64::NEG_INFINITY, f64::max) - angles().fold(f64::INFINITY, f64::min);
     let place = match report.mesh.counterface {
+        // The angles of a straight edge stand for shares of its length.
         Counterface::Plane { .. } => Axis::new("place along the contact", "%").times(100.0 / TAU),
+        // A pad is looked at from end to end.
+        Counterface::Cylinder { .. } if spread < 0.5 * TAU => Axis::degrees(),
         Counterface::Cylinder { .. } => Axis::angle(),
     };
     let around = |name: &str, values: &[f64], colour| {
