@@ -3,15 +3,18 @@
 //! `cargo bench --bench transient`. Prints, for each operator and instruction set, microseconds a step
 //! (the fastest of many batches, so that other load on the machine counts little), nanoseconds an element-step,
 //! and the share of the processor's fused multiply-add peak, which it measures first; then bodies without like
-//! elements, and threads.
+//! elements, threads, and what a step of two bodies costs over one of a single body.
 
 #[path = "../tests/common/disc.rs"]
 mod disc;
+#[allow(dead_code)]
+#[path = "../tests/two_bodies/model.rs"]
+mod two_bodies;
 
 use disc::{DAMPING, POLYCARBONATE, annulus, contact};
 use frictionsim::contact::ContactStiffness;
 use frictionsim::fem::operator::SimdLevel;
-use frictionsim::mesh::{AnnulusMesh, ElementKind, Mesh2d};
+use frictionsim::mesh::{AnnulusMesh, BoundaryCondition, ElementKind, Mesh2d, ShaftSpecification};
 use frictionsim::transient::{
     CentralDifference, InitialState, Observer, OperatorChoice, Perturbation, Sample, TimeStep,
     TransientModel, TransientSettings, build_operator,
@@ -21,9 +24,9 @@ use std::hint::black_box;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-const BATCHES: usize = 60;
+const BATCHES: usize = 240;
 /// Node-steps of a batch.
-const BATCH: usize = 3_200_000;
+const BATCH: usize = 800_000;
 
 /// Additions and multiplications of one node's step with the stencil: 48 for `K v`, 4 for `K u`, 26 for
 /// motion and damping power.
@@ -70,6 +73,35 @@ fn main() {
     let unlike = report(uneven, OperatorChoice::Sparse, level, peak);
     println!("ratio to the annulus {:.2}", unlike / alike);
     threads(level, peak);
+    bodies(level, peak);
+}
+
+/// Disc and shaft, their nodes in pairs and their meshes not matching, over one ring, for each element.
+fn bodies(level: SimdLevel, peak: f64) {
+    let one = mesh(180, 35);
+    let mut specification = annulus(ElementKind::Quad4, 180, 28);
+    specification.shaft = Some(ShaftSpecification {
+        inner_radius: 0.006,
+        radial_elements: 7,
+        bore: BoundaryCondition::Clamped,
+    });
+    let pairs = AnnulusMesh::generate(&specification).expect("a valid mesh");
+    let apart = two_bodies::rings([170, 186], [7, 28], 0.01);
+    let of = |annulus| TransientModel::of_annulus(annulus, &POLYCARBONATE, DAMPING, contact(610.0));
+    println!("\none body, nodes in pairs (cyclic, sparse), meshes that do not match");
+    let each = |model: TransientModel<'_>, choice| {
+        report(model, choice, level, peak) / model.mesh.element_count() as f64
+    };
+    let [cyclic, sparse] = [OperatorChoice::Cyclic, OperatorChoice::Sparse];
+    let alone = [cyclic, sparse].map(|choice| each(of(&one), choice));
+    let paired = [cyclic, sparse].map(|choice| each(of(&pairs), choice));
+    let unmatched = each(of_mesh(&apart), sparse);
+    println!(
+        "ratios {:.2}, {:.2}, {:.2}",
+        paired[0] / alone[0],
+        paired[1] / alone[1],
+        unmatched / alone[1]
+    );
 }
 
 /// 100,000 elements, none like another, on one thread and on two.
@@ -125,17 +157,17 @@ fn of_mesh(mesh: &Mesh2d) -> TransientModel<'_> {
 
 /// Prints a row; returns the time of a step, s.
 fn report(model: TransientModel<'_>, choice: OperatorChoice, level: SimdLevel, peak: f64) -> f64 {
+    let mesh = model.mesh;
     let operator = build_operator(&model, choice, level).expect("an operator");
     let sample_interval = 2e-6;
     let settings = TransientSettings {
-        duration: 0.002,
+        duration: 13.0 / mesh.node_count() as f64,
         time_step: TimeStep::Auto,
         sample_interval,
-        expansion_time: 5e-4,
+        expansion_time: 0.0,
         initial: InitialState::SteadySliding,
         perturbation: Perturbation::of(&[1, 2], 1.0),
     };
-    let mesh = model.mesh;
     let mut run = CentralDifference::start(model, operator.as_ref(), &settings).expect("a start");
     // Stick, slip and open nodes all occur before the clock starts.
     run.run(&mut Ignore).expect("a run");

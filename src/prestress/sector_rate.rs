@@ -21,12 +21,16 @@ pub enum Parameter {
     MassCoefficient,
     /// `damping.stiffness_coefficient`, s.
     StiffnessCoefficient,
-    /// `material.young_modulus`, Pa.
-    YoungModulus,
-    /// `material.poisson_ratio`.
-    PoissonRatio,
-    /// `material.density`, kg/m3.
-    Density,
+    /// `young_modulus` of a region, Pa: 0 is `[material]`, 1 the shaft.
+    YoungModulus(usize),
+    /// `poisson_ratio` of a region.
+    PoissonRatio(usize),
+    /// `density` of a region, kg/m3.
+    Density(usize),
+    /// `mass_coefficient` that the shaft has of its own, 1/s.
+    OwnMassCoefficient,
+    /// `stiffness_coefficient` that the shaft has of its own, s.
+    OwnStiffnessCoefficient,
 }
 
 /// Derivative of a [`SectorTangent`] with respect to one [`Parameter`].
@@ -78,8 +82,8 @@ impl SectorTangent {
         }
     }
 
-    /// Derivative with respect to `parameter`, the base state following; `None` for a normal stiffness or
-    /// a friction law that the contact does not have.
+    /// Derivative with respect to `parameter`, the base state following; `None` for a normal stiffness or a friction law that
+    /// the contact does not have, for a region that is not there, and for damping that the shaft has not of its own.
     ///
     /// # Errors
     /// [`PrestressError::Singular`] as for the base state itself.
@@ -100,7 +104,6 @@ impl SectorTangent {
         };
         let mut drag = 0.0;
         let mut share = RayleighDamping::default();
-        let scaled = |matrix: &SectorMatrix, value: f64| matrix.scaled(1.0 / value);
         match parameter {
             Parameter::MassCoefficient => {
                 share.mass_coefficient = 1.0;
@@ -129,42 +132,21 @@ impl SectorTangent {
                 }
                 terms.normal_stiffness = Some(self.sector.tributary_lengths().to_vec());
             }
-            Parameter::Density => {
-                let density = self.annulus_material().density;
-                terms.mass = self.terms.mass.as_ref().map(|m| scaled(m, density));
-                if self.materials.len() > 1 {
-                    let unit = self.of_annulus(ElasticMaterial {
-                        density: 1.0,
-                        ..*self.annulus_material()
-                    });
-                    terms.mass = Some(sector::mass(&self.sector, &unit, self.options.mass));
-                }
+            Parameter::OwnMassCoefficient => {
+                share.mass_coefficient = 1.0;
+                return Ok(self.shaft_damping_rate(terms, share));
             }
-            Parameter::YoungModulus => {
-                let e = self.annulus_material().young_modulus;
-                if self.terms.supports.is_some() || self.materials.len() > 1 {
-                    let unit = ElasticMaterial {
-                        young_modulus: 1.0,
-                        ..*self.annulus_material()
-                    };
-                    self.stiffness_rate(&mut terms, &self.of_annulus(unit))?;
-                    return Ok(Some(TangentRate {
-                        terms,
-                        rayleigh: share,
-                        drag,
-                    }));
-                }
-                // The base displacements do not depend on E, so every stress is proportional to it.
-                terms.elastic = self.terms.elastic.as_ref().map(|k| scaled(k, e));
-                let stress = self.terms.stress.as_ref();
-                terms.stress = stress.map(|[a, b]| [scaled(a, e), scaled(b, e)]);
-                terms.turning = self.terms.turning.iter().map(|value| value / e).collect();
-                let dashpots = self.terms.friction_dashpots.as_ref();
-                terms.friction_dashpots = dashpots.map(|d| d.iter().map(|v| v / e).collect());
+            Parameter::OwnStiffnessCoefficient => {
+                share.stiffness_coefficient = 1.0;
+                return Ok(self.shaft_damping_rate(terms, share));
             }
-            Parameter::PoissonRatio => {
-                let rate = poisson_rate_material(self.annulus_material());
-                self.stiffness_rate(&mut terms, &self.of_annulus(rate))?;
+            Parameter::YoungModulus(region)
+            | Parameter::PoissonRatio(region)
+            | Parameter::Density(region) => {
+                if region >= self.materials.len() {
+                    return Ok(None);
+                }
+                self.material_rate(&mut terms, parameter, region)?;
             }
         }
         Ok(Some(TangentRate {
@@ -172,6 +154,59 @@ impl SectorTangent {
             rayleigh: share,
             drag,
         }))
+    }
+
+    /// Derivative with respect to a constant of a region's material.
+    fn material_rate(
+        &self,
+        terms: &mut Terms,
+        parameter: Parameter,
+        region: usize,
+    ) -> Result<(), PrestressError> {
+        let material = self.materials[region].elastic;
+        let scaled = |matrix: &SectorMatrix, value: f64| matrix.scaled(1.0 / value);
+        let is_alone = self.materials.len() == 1;
+        // Matrices are linear in density and Lame's constants.
+        let rate = match parameter {
+            Parameter::Density(_) => ElasticMaterial {
+                young_modulus: 0.0,
+                density: 1.0,
+                ..material
+            },
+            Parameter::YoungModulus(_) => ElasticMaterial {
+                young_modulus: 1.0,
+                density: 0.0,
+                ..material
+            },
+            _ => ElasticMaterial {
+                density: 0.0,
+                ..poisson_rate_material(&material)
+            },
+        };
+        let rate = self.of_region(region, rate);
+        terms.own_damping =
+            sector::extra_damping(&self.sector, &rate, self.options.mass, self.options.damping);
+        match parameter {
+            Parameter::Density(_) if is_alone => {
+                let mass = self.terms.mass.as_ref();
+                terms.mass = mass.map(|m| scaled(m, material.density));
+            }
+            Parameter::Density(_) => {
+                terms.mass = Some(sector::mass(&self.sector, &rate, self.options.mass));
+            }
+            Parameter::YoungModulus(_) if is_alone && self.terms.supports.is_none() => {
+                // The base displacements do not depend on E, so every stress is proportional to it.
+                let e = material.young_modulus;
+                terms.elastic = self.terms.elastic.as_ref().map(|k| scaled(k, e));
+                let stress = self.terms.stress.as_ref();
+                terms.stress = stress.map(|[a, b]| [scaled(a, e), scaled(b, e)]);
+                terms.turning = self.terms.turning.iter().map(|value| value / e).collect();
+                let dashpots = self.terms.friction_dashpots.as_ref();
+                terms.friction_dashpots = dashpots.map(|d| d.iter().map(|v| v / e).collect());
+            }
+            _ => self.stiffness_rate(terms, &rate)?,
+        }
+        Ok(())
     }
 
     fn stiffness_rate(
@@ -201,22 +236,34 @@ impl SectorTangent {
         Ok(())
     }
 
-    fn annulus_material(&self) -> &ElasticMaterial {
-        &self.materials[0].elastic
-    }
-
-    /// A material of the annulus and none of the shaft: what `[material]` alone is the cause of.
-    fn of_annulus(&self, material: ElasticMaterial) -> Vec<RegionMaterial> {
+    /// A material of one region, with the damping that the region has of its own, and nothing elsewhere: what one
+    /// section of the case is the cause of.
+    fn of_region(&self, own: usize, elastic: ElasticMaterial) -> Vec<RegionMaterial> {
         let nothing = ElasticMaterial {
             young_modulus: 0.0,
             density: 0.0,
-            ..material
+            ..elastic
         };
-        let regions = (0..self.materials.len()).map(|region| RegionMaterial {
-            elastic: if region == 0 { material } else { nothing },
-            damping: None,
+        let regions = self.materials.iter().enumerate();
+        let regions = regions.map(|(region, material)| RegionMaterial {
+            elastic: if region == own { elastic } else { nothing },
+            damping: material.damping,
         });
         regions.collect()
+    }
+
+    /// Derivative with respect to the coefficients that the shaft has of its own.
+    fn shaft_damping_rate(&self, mut terms: Terms, share: RayleighDamping) -> Option<TangentRate> {
+        let unchanged = RayleighDamping::default();
+        let mut materials = self.materials.clone();
+        *materials.get_mut(1)?.damping.as_mut()? = share;
+        terms.own_damping =
+            sector::extra_damping(&self.sector, &materials, self.options.mass, unchanged);
+        Some(TangentRate {
+            terms,
+            rayleigh: unchanged,
+            drag: 0.0,
+        })
     }
 
     /// A body with damping of its own has no part in the change of the common coefficients.

@@ -48,6 +48,9 @@ pub struct Sensitivity {
     pub static_friction_ratio: Option<c64>,
     /// With respect to the decay speed `v_c`, m/s; `None` for constant friction.
     pub decay_speed: Option<c64>,
+    /// With respect to Young's modulus (Pa), Poisson's ratio and density (kg/m3) of a deformable shaft, and to the
+    /// `alpha_R` (1/s) and `beta_R` (s) that it has of its own; `None` of what there is not.
+    pub shaft: [Option<c64>; 5],
 }
 
 /// Sensitivities of every branch of a sweep at one friction coefficient within its range.
@@ -71,15 +74,20 @@ pub fn sensitivities(
         .collect()
 }
 
-const PARAMETERS: [Parameter; 8] = [
+const PARAMETERS: [Parameter; 13] = [
     Parameter::NormalStiffness,
     Parameter::MassCoefficient,
     Parameter::StiffnessCoefficient,
-    Parameter::YoungModulus,
-    Parameter::PoissonRatio,
-    Parameter::Density,
+    Parameter::YoungModulus(0),
+    Parameter::PoissonRatio(0),
+    Parameter::Density(0),
     Parameter::StaticFrictionRatio,
     Parameter::DecaySpeed,
+    Parameter::YoungModulus(1),
+    Parameter::PoissonRatio(1),
+    Parameter::Density(1),
+    Parameter::OwnMassCoefficient,
+    Parameter::OwnStiffnessCoefficient,
 ];
 
 fn of_branch(
@@ -163,6 +171,7 @@ fn of_branch(
         density: given(5),
         static_friction_ratio: responses[6],
         decay_speed: responses[7],
+        shaft: std::array::from_fn(|i| responses[8 + i]),
     })
 }
 

@@ -5,7 +5,7 @@ use super::branches::{BranchLabel, TrackedBranch, label_frictionless, track};
 use super::edge::ContactEdge;
 use super::frictionless::FrictionlessModes;
 use super::onset::OnsetFinder;
-use super::point::{ModeCheck, PointSolver, SolvedPoint};
+use super::point::{PointSolver, SolvedPoint};
 use super::structure::Linearization;
 use super::{RESIDUAL_BOUND, TRACKING_MARGIN};
 use crate::cea::{
@@ -18,12 +18,6 @@ use rayon::prelude::*;
 use std::f64::consts::TAU;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Residual force relative to inertia force above which a point is improved; the basis aims lower.
-const FORCE_RESIDUAL_GOAL: f64 = 1e-10;
-/// Residual relative to the matrices below which there is only round-off.
-const ROUND_OFF: f64 = 1e-15;
-/// Relative error of an eigenvalue that such a residual may mean.
-const EIGENVALUE_GOAL: f64 = 1e-9;
 /// Friction values at which the basis is refined, at least, over a range.
 const MIN_SAMPLES: usize = 6;
 /// Attempts to improve points that miss the goal.
@@ -133,7 +127,7 @@ impl<'a> SparseSweep<'a> {
             let missing: Vec<usize> = all
                 .iter()
                 .copied()
-                .filter(|&k| misses_goal(&self.points[k]))
+                .filter(|&k| self.points[k].misses_goal())
                 .collect();
             let error = |k: usize| self.points[k].worst().1;
             let Some(&worst) = missing
@@ -340,17 +334,6 @@ impl<'a> SparseSweep<'a> {
             modes: modes.collect(),
         }
     }
-}
-
-/// Whether a mode of a point could still be improved.
-fn misses_goal(point: &SolvedPoint) -> bool {
-    let is_met = |check: &ModeCheck| {
-        // A residual of round-off is no excuse where the mode answers to it.
-        let error = check.residual / f64::EPSILON * check.uncertainty;
-        let is_round_off = check.residual <= ROUND_OFF && error <= EIGENVALUE_GOAL;
-        check.force_residual <= FORCE_RESIDUAL_GOAL || is_round_off
-    };
-    !point.checks.iter().take(point.wanted).all(is_met)
 }
 
 #[cfg(test)]

@@ -12,13 +12,13 @@ use std::io::{self, Write};
 pub struct SensitivityReport {
     /// One entry for each branch.
     pub branches: Vec<Sensitivity>,
-    /// Normal stiffness, `alpha_R`, `beta_R`, `E`, `nu`, `rho`, static over kinetic friction and decay speed of the case (0 for
-    /// rigid contact, constant friction).
-    pub values: [f64; 8],
+    /// Normal stiffness, `alpha_R`, `beta_R`, `E`, `nu`, `rho`, static over kinetic friction and decay speed of the case, then
+    /// `E`, `nu`, `rho`, `alpha_R`, `beta_R` of its shaft (0 for rigid contact, constant friction, no shaft).
+    pub values: [f64; 13],
 }
 
 /// Short names of the parameters, the friction coefficient first.
-const NAMES: [&str; 9] = [
+const NAMES: [&str; 14] = [
     "friction_coefficient",
     "normal_stiffness",
     "mass_coefficient",
@@ -28,11 +28,20 @@ const NAMES: [&str; 9] = [
     "density",
     "static_friction_ratio",
     "decay_speed",
+    "shaft_young_modulus",
+    "shaft_poisson_ratio",
+    "shaft_density",
+    "shaft_mass_coefficient",
+    "shaft_stiffness_coefficient",
 ];
 
-/// Derivatives in the order of [`NAMES`]; none with respect to a contact stiffness that is rigid, or to how constant
-/// friction falls.
-fn derivatives(branch: &Sensitivity) -> [Option<c64>; 9] {
+/// Of those, the columns that every table has.
+const ALWAYS: usize = 7;
+
+/// Derivatives in the order of [`NAMES`]; none with respect to a contact stiffness that is rigid, to how constant
+/// friction falls, or to a shaft that is not there.
+fn derivatives(branch: &Sensitivity) -> [Option<c64>; 14] {
+    let [modulus, ratio, density, mass, stiffness] = branch.shaft;
     [
         Some(branch.friction),
         branch.normal_stiffness,
@@ -43,6 +52,11 @@ fn derivatives(branch: &Sensitivity) -> [Option<c64>; 9] {
         Some(branch.density),
         branch.static_friction_ratio,
         branch.decay_speed,
+        modulus,
+        ratio,
+        density,
+        mass,
+        stiffness,
     ]
 }
 
@@ -63,7 +77,7 @@ impl SensitivityReport {
 
     /// Writes one row for each branch: the derivative of its growth rate (1/s) and of its frequency (Hz)
     /// for each unit of each parameter; empty where the contact is rigid. Columns of a friction law that falls with
-    /// speed are there where the case has one.
+    /// speed, and of a shaft, are there where the case has one.
     ///
     /// # Errors
     /// Those of the writer.
@@ -78,19 +92,16 @@ impl SensitivityReport {
         ]
         .map(str::to_owned)
         .to_vec();
-        let is_constant = |branch: &Sensitivity| branch.static_friction_ratio.is_none();
-        let count = if self.branches.iter().all(is_constant) {
-            NAMES.len() - 2
-        } else {
-            NAMES.len()
-        };
-        for name in &NAMES[..count] {
+        let all: Vec<_> = self.branches.iter().map(derivatives).collect();
+        let is_given = |i: &usize| *i < ALWAYS || all.iter().any(|row| row[*i].is_some());
+        let given: Vec<usize> = (0..NAMES.len()).filter(is_given).collect();
+        for name in given.iter().map(|&i| NAMES[i]) {
             columns.push(format!("growth_rate_per_{name}"));
             columns.push(format!("frequency_hz_per_{name}"));
         }
         let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
         let mut table = Table::new(out, &columns)?;
-        for branch in &self.branches {
+        for (branch, derivatives) in self.branches.iter().zip(&all) {
             let mut row = vec![
                 format_number(branch.friction_coefficient),
                 branch.harmonic.to_string(),
@@ -99,8 +110,8 @@ impl SensitivityReport {
                 format_number(branch.eigenvalue.re),
                 format_number(branch.eigenvalue.im / TAU),
             ];
-            for derivative in derivatives(branch).into_iter().take(count) {
-                let parts = derivative.map_or([f64::NAN; 2], |d| [d.re, d.im / TAU]);
+            for &i in &given {
+                let parts = derivatives[i].map_or([f64::NAN; 2], |d| [d.re, d.im / TAU]);
                 row.extend(parts.map(format_number));
             }
             table.row(row)?;

@@ -7,6 +7,7 @@ use super::{Progress, SlidingModel, Solution, StudyError};
 use crate::case::{Case, Cea, CeaMap, CeaMethod, ModeSelection};
 use crate::cea::cyclic::{self, Coverage, CyclicModel, SolidModel};
 use crate::cea::{FrictionSweep, ModeLimit, SweepRequest};
+use crate::fem::RegionMaterial;
 use crate::results::cea::{MapReport, SensitivityReport};
 use crate::study::tangent_options;
 
@@ -119,6 +120,15 @@ fn solve_cyclic(case: &Case, cea: &Cea, model: &SlidingModel) -> Result<Solution
         .then(|| cyclic::sensitivities(&found, friction))
         .transpose()?;
     let law = case.contact.sliding.decay;
+    let shaft = case.annulus_materials.shaft;
+    let of_shaft = shaft.map_or([0.0; 3], |RegionMaterial { elastic, .. }| {
+        [
+            elastic.young_modulus,
+            elastic.poisson_ratio,
+            elastic.density,
+        ]
+    });
+    let own = shaft.and_then(|shaft| shaft.damping).unwrap_or_default();
     Ok(Solution {
         dofs: found.tangent.dimension() * found.tangent.sector().sector_count(),
         method: "cyclic",
@@ -133,6 +143,11 @@ fn solve_cyclic(case: &Case, cea: &Cea, model: &SlidingModel) -> Result<Solution
                 case.material.density,
                 law.map_or(1.0, |law| law.static_ratio),
                 law.map_or(0.0, |law| law.decay_speed),
+                of_shaft[0],
+                of_shaft[1],
+                of_shaft[2],
+                own.mass_coefficient,
+                own.stiffness_coefficient,
             ],
         }),
         notes: vec![coverage_note(&found.coverage)],

@@ -11,18 +11,18 @@ const MOST_SWEEPS: usize = 400;
 /// Change of a force within a sweep, relative to the largest, at which the sweeps end.
 const TOLERANCE: f64 = 1e-12;
 
-/// The dofs of the other body that the contact touches.
+/// The dofs of the other body that the contact touches, and how forces between the bodies move one over the other.
 #[derive(Clone, Debug)]
 pub(super) struct OppositeBody {
     dofs: Vec<TouchedDof>,
     /// For each contact node its shares.
     shares: Vec<Vec<Share>>,
-    /// `1 / m` of each contact node and its shares, along the normal and along the tangent, m/kg.
-    mobilities: Vec<[f64; 2]>,
-    /// Whether two contact nodes share a dof.
-    is_coupled: bool,
-    /// Velocities of the touched dofs at the end of the step as known so far, m/s.
-    velocities: Vec<f64>,
+    /// `A`, row by row, each with its own node first: `dv_i = dt sum A_ij f_j`, of relative velocities and forces along
+    /// normal and tangent, `A = diag(1 / m) + P M^-1 P^T`, m/kg.
+    mobility: Vec<Vec<Response>>,
+    /// Contact nodes while their forces are sought, and those forces, N/m.
+    nodes: Vec<PairedNode>,
+    forces: Vec<[f64; 2]>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -31,6 +31,8 @@ struct TouchedDof {
     inverse_mass: f64,
     /// Velocity and elastic acceleration before the step.
     before: [f64; 2],
+    /// Velocity at the end of a step without contact, m/s.
+    free: f64,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -41,6 +43,23 @@ struct Share {
     along: [f64; 2],
 }
 
+/// How a force at `node` moves another one.
+#[derive(Clone, Copy, Debug)]
+struct Response {
+    node: usize,
+    mobility: [[f64; 2]; 2],
+}
+
+/// Motion of a contact node over what it meets, along its normal and along its tangent.
+#[derive(Clone, Copy, Debug, Default)]
+struct PairedNode {
+    /// Along the normal, m.
+    displacement: f64,
+    /// Velocity before the step, and at its end without contact, m/s.
+    before: [f64; 2],
+    free: [f64; 2],
+}
+
 impl OppositeBody {
     /// `None` on a rigid counterface. Held dofs do not move and have no share.
     pub fn new(operator: &dyn StiffnessOperator, interface: &ContactInterface) -> Option<Self> {
@@ -49,7 +68,6 @@ impl OppositeBody {
         }
         let mut touched: BTreeMap<usize, usize> = BTreeMap::new();
         let mut dofs = Vec::new();
-        let mut is_coupled = false;
         let mut shares = Vec::new();
         for i in 0..interface.len() {
             let mut own = Vec::new();
@@ -60,12 +78,12 @@ impl OppositeBody {
                 if mass == 0.0 || along == [0.0; 2] {
                     continue;
                 }
-                is_coupled |= touched.contains_key(&place);
                 let touched = *touched.entry(place).or_insert_with(|| {
                     dofs.push(TouchedDof {
                         place,
                         inverse_mass: 1.0 / mass,
                         before: [0.0; 2],
+                        free: 0.0,
                     });
                     dofs.len() - 1
                 });
@@ -73,22 +91,13 @@ impl OppositeBody {
             }
             shares.push(own);
         }
-        let mobilities = (0..interface.len()).map(|i| {
-            let place = operator.position(interface.normal_dof(i));
-            [0, 1].map(|c| {
-                let opposite = shares[i].iter();
-                let sum: f64 = opposite
-                    .map(|s: &Share| s.along[c] * s.along[c] * dofs[s.touched].inverse_mass)
-                    .sum();
-                1.0 / operator.masses()[place] + sum
-            })
-        });
+        let own = |i: usize| 1.0 / operator.masses()[operator.position(interface.normal_dof(i))];
         Some(Self {
-            mobilities: mobilities.collect(),
-            velocities: vec![0.0; dofs.len()],
+            mobility: mobility(&dofs, &shares, &own),
+            nodes: vec![PairedNode::default(); shares.len()],
+            forces: vec![[0.0; 2]; shares.len()],
             dofs,
             shares,
-            is_coupled,
         })
     }
 
@@ -124,26 +133,67 @@ impl OppositeBody {
             .sum()
     }
 
-    /// What contact node `i` meets: its displacement along the normal, its velocity before the step and at its end along
-    /// component `c` of the node's frame.
-    fn motion(&self, i: usize, c: usize, fields: &MotionFields) -> [f64; 3] {
-        let mut motion = [0.0; 3];
+    /// The motion of contact node `i`, that of its own dofs given, less that of what it meets.
+    fn relative(&self, i: usize, own: PairedNode, fields: &MotionFields) -> PairedNode {
+        let mut node = own;
         for share in &self.shares[i] {
             let dof = &self.dofs[share.touched];
-            motion[0] += share.along[c] * fields.displacement[dof.place];
-            motion[1] += share.along[c] * dof.before[0];
-            motion[2] += share.along[c] * self.velocities[share.touched];
+            node.displacement -= share.along[0] * fields.displacement[dof.place];
+            for c in 0..2 {
+                node.before[c] -= share.along[c] * dof.before[0];
+                node.free[c] -= share.along[c] * dof.free;
+            }
         }
-        motion
+        node
     }
 
-    /// Adds an impulse on contact node `i`, of which this body takes the opposite, N s/m.
-    fn push(&mut self, i: usize, impulse: [f64; 2]) {
-        for share in &self.shares[i] {
-            let along = share.along[0] * impulse[0] + share.along[1] * impulse[1];
-            self.velocities[share.touched] -= along * self.dofs[share.touched].inverse_mass;
+    /// Relative velocity of contact node `i` at the end of the step without its own force along `c`, m/s.
+    fn free(&self, i: usize, c: usize, dt: f64) -> f64 {
+        let row = &self.mobility[i];
+        let moved = row.iter().map(|response| {
+            let [normal, tangential] = self.forces[response.node];
+            response.mobility[c][0] * normal + response.mobility[c][1] * tangential
+        });
+        let moved: f64 = moved.sum();
+        self.nodes[i].free[c] + dt * (moved - row[0].mobility[c][c] * self.forces[i][c])
+    }
+}
+
+/// Rows of [`OppositeBody::mobility`]; `own` is `1 / m` of a contact node.
+fn mobility(
+    dofs: &[TouchedDof],
+    shares: &[Vec<Share>],
+    own: &dyn Fn(usize) -> f64,
+) -> Vec<Vec<Response>> {
+    let mut touching: Vec<Vec<(usize, [f64; 2])>> = vec![Vec::new(); dofs.len()];
+    for (i, shares) in shares.iter().enumerate() {
+        for share in shares {
+            touching[share.touched].push((i, share.along));
         }
     }
+    let row = |(i, shares): (usize, &Vec<Share>)| {
+        let mut own_block = [[0.0; 2]; 2];
+        (0..2).for_each(|c| own_block[c][c] = own(i));
+        let mut blocks = BTreeMap::from([(i, own_block)]);
+        for share in shares {
+            let inverse_mass = dofs[share.touched].inverse_mass;
+            for &(j, along) in &touching[share.touched] {
+                let block = blocks.entry(j).or_insert([[0.0; 2]; 2]);
+                for (c, entries) in block.iter_mut().enumerate() {
+                    for (d, entry) in entries.iter_mut().enumerate() {
+                        *entry += share.along[c] * along[d] * inverse_mass;
+                    }
+                }
+            }
+        }
+        let mut row: Vec<Response> = blocks
+            .into_iter()
+            .map(|(node, mobility)| Response { node, mobility })
+            .collect();
+        row.sort_by_key(|response| response.node != i);
+        row
+    };
+    shares.iter().enumerate().map(row).collect()
 }
 
 impl LagrangeContact {
@@ -162,136 +212,100 @@ impl LagrangeContact {
             return;
         };
         let dt = coefficients.time_step;
-        let free = |place: usize, fields: &MotionFields| {
-            let (v, q) = (fields.velocity[place], fields.elastic[place]);
-            let damping = coefficients.mass_coefficient * v
-                + coefficients.stiffness_coefficient * fields.elastic_rate[place];
-            v - dt * (q + damping)
-        };
-        for (dof, velocity) in opposite.dofs.iter_mut().zip(&mut opposite.velocities) {
-            dof.before = [fields.velocity[dof.place], fields.elastic[dof.place]];
-            *velocity = free(dof.place, fields);
-        }
-        let count = self.normal.len();
-        let mut nodes = vec![PairedNode::default(); count];
-        for (i, node) in nodes.iter_mut().enumerate() {
-            let (n, t) = (self.normal[i], self.tangential[i]);
-            self.before[i] = [
-                fields.velocity[n],
-                fields.velocity[t],
-                fields.elastic[n],
-                fields.elastic[t],
-            ];
-            node.velocity = [free(n, fields), free(t, fields)];
-        }
+        self.gather(&mut opposite, fields, coefficients);
+        let is_coupled = opposite.mobility.iter().any(|row| row.len() > 1);
         for _ in 0..MOST_SWEEPS {
             let (mut change, mut largest) = (0.0_f64, 0.0_f64);
             self.ambiguous = 0;
-            for (i, node) in nodes.iter_mut().enumerate() {
-                let before = node.force;
-                self.press(i, node, &mut opposite, fields, shares, dt);
-                self.drag(i, node, &mut opposite, fields, dt);
-                let moved = [0, 1].map(|c| (node.force[c] - before[c]).abs());
+            for i in 0..self.normal.len() {
+                let before = opposite.forces[i];
+                opposite.forces[i][0] = self.press(i, &opposite, shares, dt);
+                opposite.forces[i][1] = self.drag(i, &opposite, dt);
+                let force = opposite.forces[i];
+                let moved = [0, 1].map(|c| (force[c] - before[c]).abs());
                 change = change.max(moved[0]).max(moved[1]);
-                largest = largest.max(node.force[0]);
+                largest = largest.max(force[0]);
             }
-            if !opposite.is_coupled || change <= TOLERANCE * largest {
+            if !is_coupled || change <= TOLERANCE * largest {
                 break;
             }
         }
-        for (i, node) in nodes.iter().enumerate() {
-            self.normal_force[i] = node.force[0];
-            fields.elastic[self.normal[i]] -= node.force[0] / self.masses[i];
-            fields.elastic[self.tangential[i]] -= node.force[1] / self.masses[i];
+        for (i, force) in opposite.forces.iter().enumerate() {
+            self.normal_force[i] = force[0];
+            fields.elastic[self.normal[i]] -= force[0] / self.masses[i];
+            fields.elastic[self.tangential[i]] -= force[1] / self.masses[i];
             for share in &opposite.shares[i] {
                 let dof = &opposite.dofs[share.touched];
-                let force = share.along[0] * node.force[0] + share.along[1] * node.force[1];
+                let force = share.along[0] * force[0] + share.along[1] * force[1];
                 fields.elastic[dof.place] += force * dof.inverse_mass;
             }
         }
         self.opposite = Some(opposite);
     }
 
-    /// The normal force of one node in its turn.
-    fn press(
+    /// The motion of both bodies before the step and after a step without contact; no forces yet.
+    fn gather(
         &mut self,
-        i: usize,
-        node: &mut PairedNode,
         opposite: &mut OppositeBody,
         fields: &MotionFields,
-        shares: [f64; 3],
-        dt: f64,
+        coefficients: &StepCoefficients,
     ) {
-        let mobility = opposite.mobilities[i][0];
-        let [displacement, before, velocity] = opposite.motion(i, 0, fields);
-        let displacement = fields.displacement[self.normal[i]] - displacement;
-        // Without this node's own force.
-        let free = node.velocity[0] - velocity - dt * mobility * node.force[0];
-        let normal = if self.compliance.is_some() {
-            let motion = [displacement, self.before[i][0] - before, free];
-            self.compress(i, 1.0 / mobility, motion, shares, dt)
-        } else {
-            let expansion = self.interference * shares[2];
-            let penetration = expansion - self.gaps[i] - (displacement + dt * free);
-            (penetration / (dt * dt * mobility)).max(0.0)
+        let free = |place: usize| {
+            let (v, q) = (fields.velocity[place], fields.elastic[place]);
+            let damping = coefficients.mass_coefficient * v
+                + coefficients.stiffness_coefficient * fields.elastic_rate[place];
+            v - coefficients.time_step * (q + damping)
         };
-        node.push(0, normal, self.masses[i], i, opposite, dt);
+        for dof in &mut opposite.dofs {
+            dof.before = [fields.velocity[dof.place], fields.elastic[dof.place]];
+            dof.free = free(dof.place);
+        }
+        for i in 0..self.normal.len() {
+            let (n, t) = (self.normal[i], self.tangential[i]);
+            let (v, q) = (&fields.velocity, &fields.elastic);
+            self.before[i] = [v[n], v[t], q[n], q[t]];
+            let own = PairedNode {
+                displacement: fields.displacement[n],
+                before: [v[n], v[t]],
+                free: [free(n), free(t)],
+            };
+            opposite.nodes[i] = opposite.relative(i, own, fields);
+        }
+        opposite.forces.fill([0.0; 2]);
+    }
+
+    /// The normal force of one node in its turn.
+    fn press(&mut self, i: usize, opposite: &OppositeBody, shares: [f64; 3], dt: f64) -> f64 {
+        let mobility = opposite.mobility[i][0].mobility[0][0];
+        let node = &opposite.nodes[i];
+        let free = opposite.free(i, 0, dt);
+        if self.compliance.is_some() {
+            let motion = [node.displacement, node.before[0], free];
+            return self.compress(i, 1.0 / mobility, motion, shares, dt);
+        }
+        let expansion = self.interference * shares[2];
+        let penetration = expansion - self.gaps[i] - (node.displacement + dt * free);
+        (penetration / (dt * dt * mobility)).max(0.0)
     }
 
     /// The tangential force of one node in its turn.
-    fn drag(
-        &mut self,
-        i: usize,
-        node: &mut PairedNode,
-        opposite: &mut OppositeBody,
-        fields: &MotionFields,
-        dt: f64,
-    ) {
-        let mobility = opposite.mobilities[i][1];
-        let [_, before, velocity] = opposite.motion(i, 1, fields);
-        let free = node.velocity[1] - velocity - dt * mobility * node.force[1];
-        let inertia = 1.0 / (dt * mobility);
-        let normal = node.force[0];
+    fn drag(&mut self, i: usize, opposite: &OppositeBody, dt: f64) -> f64 {
+        let normal = opposite.forces[i][0];
         self.status[i] = ContactStatus::Open;
-        let mut force = 0.0;
         self.tangential_force[i] = 0.0;
-        if normal > 0.0 && self.law.decay.is_none() && self.dashpots.is_empty() {
-            let trial = inertia * (self.surface_speed - free);
-            (force, self.status[i]) = self.law.project(trial, normal);
-            self.tangential_force[i] = force;
-        } else if normal > 0.0 {
-            let velocity = [self.before[i][1] - before, free];
-            (self.tangential_force[i], force) = self.slip(i, inertia, velocity, normal);
+        if normal == 0.0 {
+            return 0.0;
         }
-        node.push(1, force, self.masses[i], i, opposite, dt);
-    }
-}
-
-/// A contact node while its forces are sought.
-#[derive(Clone, Copy, Debug, Default)]
-struct PairedNode {
-    /// Velocity at the end of the step as known so far, m/s.
-    velocity: [f64; 2],
-    /// Forces on it, those of dashpots included, N/m.
-    force: [f64; 2],
-}
-
-impl PairedNode {
-    /// Changes one force; both bodies move.
-    fn push(
-        &mut self,
-        c: usize,
-        force: f64,
-        mass: f64,
-        i: usize,
-        opposite: &mut OppositeBody,
-        dt: f64,
-    ) {
-        let impulse = dt * (force - self.force[c]);
-        self.velocity[c] += impulse / mass;
-        self.force[c] = force;
-        let mut impulses = [0.0; 2];
-        impulses[c] = impulse;
-        opposite.push(i, impulses);
+        let inertia = 1.0 / (dt * opposite.mobility[i][0].mobility[1][1]);
+        let free = opposite.free(i, 1, dt);
+        if self.law.decay.is_none() && self.dashpots.is_empty() {
+            let trial = inertia * (self.surface_speed - free);
+            (self.tangential_force[i], self.status[i]) = self.law.project(trial, normal);
+            return self.tangential_force[i];
+        }
+        let velocity = [opposite.nodes[i].before[1], free];
+        let (friction, force) = self.slip(i, inertia, velocity, normal);
+        self.tangential_force[i] = friction;
+        force
     }
 }
