@@ -133,25 +133,6 @@ impl<'a> Prepared<'a> {
         Ok((run, record.map_err(|error| self.failure(&error))?))
     }
 
-    /// Whether a record can be one of this body.
-    fn is_of(&self, record: &Recorder) -> bool {
-        let components = self.body().components();
-        let nodes = match &self.sector {
-            Some(sector) => sector.node_count() * sector.sector_count(),
-            None => self.mesh.node_count(),
-        };
-        record.fits(
-            components * nodes,
-            components,
-            self.body().interface().len(),
-        )
-    }
-
-    /// What records are multiplied by: those of a body in three dimensions are of the whole.
-    fn thickness(&self) -> f64 {
-        self.sector.as_ref().map_or(self.case.thickness, |_| 1.0)
-    }
-
     fn recorder_settings(&self) -> RecorderSettings {
         conversion::recorder_settings(self.case, self.transient)
     }

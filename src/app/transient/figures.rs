@@ -25,7 +25,6 @@ pub(super) fn draw_record(
     options: &DrawingOptions,
 ) -> Result<(), Failure> {
     let case = prepared.case;
-    let sliding = &case.contact.sliding;
     let stage = LinearStage::of(case);
     let run = RunFigures {
         record,
@@ -34,10 +33,7 @@ pub(super) fn draw_record(
         solid: prepared.sector.as_ref(),
         material: case.materials(),
         thickness: prepared.thickness(),
-        peripheral_speed: prepared
-            .body()
-            .interface()
-            .surface_speed(sliding.rotation_speed),
+        peripheral_speed: prepared.shown_speed(),
         references: stage.references,
         growth_rates: stage.growth_rates,
     };
@@ -104,4 +100,34 @@ pub fn draw_beside(
     let figures = draw_all(vec![Box::new(|| Ok(shear_stress_beside(&ends)))], options);
     write_figures(folder, &figures.map_err(DrawingError::from)?, options)?;
     Ok(())
+}
+
+impl Prepared<'_> {
+    /// Whether a record can be one of this body.
+    pub(super) fn is_of(&self, record: &Recorder) -> bool {
+        let components = self.body().components();
+        let nodes = match &self.sector {
+            Some(sector) => sector.node_count() * sector.sector_count(),
+            None => self.mesh.node_count(),
+        };
+        record.fits(
+            components * nodes,
+            components,
+            self.body().interface().len(),
+        )
+    }
+
+    /// Speed of the counterface where figures show the contact, m/s: of several rings of nodes at the middle one.
+    pub(super) fn shown_speed(&self) -> f64 {
+        let speed = self.case.contact.sliding.rotation_speed;
+        match &self.sector {
+            Some(sector) => speed * sector.rings[sector.rings.len() / 2].radius,
+            None => self.body().interface().surface_speed(speed),
+        }
+    }
+
+    /// What records are multiplied by: those of a body in three dimensions are of the whole.
+    pub(super) fn thickness(&self) -> f64 {
+        self.sector.as_ref().map_or(self.case.thickness, |_| 1.0)
+    }
 }
