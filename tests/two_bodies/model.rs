@@ -33,19 +33,24 @@ pub fn file_of(parts: &[Part<'_>]) -> Vec<u8> {
         }
         tag += 1;
         names += &format!("2 {tag} \"{}\"\n", part.region);
+        let number = |node: u32| (first + node as usize).to_string();
         for e in 0..part.mesh.element_count() {
-            let corners = part.mesh.element_nodes(e).iter();
-            let corners: Vec<String> = corners.map(|&n| (first + n as usize).to_string()).collect();
-            elements.push(format!("3 2 {tag} {tag} {}", corners.join(" ")));
+            let kind = part.mesh.element_kind(e).gmsh_type();
+            let nodes = part.mesh.element_nodes(e).iter();
+            let nodes: Vec<String> = nodes.map(|&n| number(n)).collect();
+            elements.push(format!("{kind} 2 {tag} {tag} {}", nodes.join(" ")));
         }
+        // Corners and middles alternate where edges have a middle.
+        let (stride, kind) = if part.mesh.is_quad4() { (1, 1) } else { (2, 8) };
         for (boundary, name) in part.mesh.boundaries.iter().zip(part.names) {
             tag += 1;
             names += &format!("1 {tag} \"{name}\"\n");
             let count = boundary.nodes.len();
-            for i in 0..count - usize::from(!boundary.is_closed) {
-                let ends = [boundary.nodes[i], boundary.nodes[(i + 1) % count]];
-                let [p, q] = ends.map(|node| first + node as usize);
-                elements.push(format!("1 2 {tag} {tag} {p} {q}"));
+            for i in (0..count - usize::from(!boundary.is_closed)).step_by(stride) {
+                let place = |k: usize| number(boundary.nodes[(i + k) % count]);
+                let nodes = [place(stride), place(1)];
+                let nodes = nodes[..stride].join(" ");
+                elements.push(format!("{kind} 2 {tag} {tag} {} {nodes}", place(0)));
             }
         }
     }
@@ -64,16 +69,21 @@ pub fn file_of(parts: &[Part<'_>]) -> Vec<u8> {
     (text + "$EndElements\n").into_bytes()
 }
 
-/// Disc and shaft of the same material as rings of `around` elements (shaft, disc); the shaft is turned by `turn`.
+/// Disc and shaft as rings of `around` elements (shaft, disc); the shaft is turned by `turn`.
 pub fn rings(around: [usize; 2], radial: [usize; 2], turn: f64) -> Mesh2d {
-    let ring =
-        |specification: &AnnulusSpecification| AnnulusMesh::generate(specification).unwrap().mesh;
-    let shaft = ring(&AnnulusSpecification {
-        inner_radius: 0.006,
-        outer_radius: 0.0205,
-        ..annulus(ElementKind::Quad4, around[0], radial[0])
-    });
-    let disc = ring(&annulus(ElementKind::Quad4, around[1], radial[1]));
+    rings_of(ElementKind::Quad4, 0.0905, around, radial, turn)
+}
+
+/// The same of any element, with the outer radius of the disc.
+pub fn rings_of(
+    element: ElementKind,
+    outer_radius: f64,
+    around: [usize; 2],
+    radial: [usize; 2],
+    turn: f64,
+) -> Mesh2d {
+    let shaft = ring(element, [0.006, 0.0205], around[0], radial[0]);
+    let disc = ring(element, [0.0205, outer_radius], around[1], radial[1]);
     let parts = [
         Part {
             mesh: disc,
@@ -102,6 +112,16 @@ pub fn rings(around: [usize; 2], radial: [usize; 2], turn: f64) -> Mesh2d {
     Mesh2d::from_gmsh(&GmshFile::read(&file_of(&parts)).unwrap(), &specification).unwrap()
 }
 
+/// One ring of even elements.
+pub fn ring(element: ElementKind, radii: [f64; 2], around: usize, radial: usize) -> Mesh2d {
+    let specification = AnnulusSpecification {
+        inner_radius: radii[0],
+        outer_radius: radii[1],
+        ..annulus(element, around, radial)
+    };
+    AnnulusMesh::generate(&specification).unwrap().mesh
+}
+
 pub fn options(mass: MassKind, geometric_stiffness: bool) -> TangentOptions {
     TangentOptions {
         mass,
@@ -122,13 +142,24 @@ pub fn modes(
     options: &TangentOptions,
     count: usize,
 ) -> Vec<ComplexMode> {
+    modes_of(mesh, material, options, ModeLimit::Lowest(count), &[])
+}
+
+/// Modes at friction 0.3, with their shapes if `shapes_at` asks for them.
+pub fn modes_of(
+    mesh: &Mesh2d,
+    material: &dyn MaterialField,
+    options: &TangentOptions,
+    limit: ModeLimit,
+    shapes_at: &[f64],
+) -> Vec<ComplexMode> {
     let stiffness = assemble_stiffness(mesh, material);
     let base = SteadySliding::solve(mesh, &stiffness, &contact()).unwrap();
     let tangent = SlidingTangent::linearize(mesh, material, &stiffness, &base, options);
     let request = SweepRequest {
         friction_coefficients: &[0.3],
-        limit: ModeLimit::Lowest(count),
-        shapes_at: &[],
+        limit,
+        shapes_at,
     };
     let found = sweep(&tangent, &request, &|_| {}).unwrap();
     found.points.into_iter().next().unwrap().modes
