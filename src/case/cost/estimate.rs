@@ -203,6 +203,8 @@ impl Case {
             TimeStep::Auto => stable_step,
         };
         let steps = (transient.duration / time_step).ceil();
+        // Measured: a brick of 180 x 35 x 4 takes 43 ns, a plane element of 180 x 35 2 ns.
+        let each = if self.solid.is_some() { 4.3e-8 } else { 2e-9 };
         TransientCost {
             time_step,
             stable_step,
@@ -211,7 +213,7 @@ impl Case {
             memory_bytes: 160.0 * nodes as f64
                 + self.snapshot_bytes()
                 + 2.0 * (self.sample_bytes() + self.frame_bytes()),
-            seconds: 2e-9 * elements as f64 * steps,
+            seconds: each * elements as f64 * steps,
         }
     }
 }
