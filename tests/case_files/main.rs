@@ -5,6 +5,7 @@ mod friction_law;
 mod keys;
 mod plausibility;
 mod sizes;
+mod solid;
 
 use frictionsim::case::{
     Case, CaseErrors, CeaMethod, KEYS, ModeSelection, RawCase, Spacing, TimeStep, range_values,

@@ -1,7 +1,9 @@
 //! Bricks: constant strain, objectivity, bending.
 
 use crate::model::{disc, modes};
+use frictionsim::cea::ComplexMode;
 use frictionsim::contact::ContactStiffness;
+use frictionsim::fem::RayleighDamping;
 use frictionsim::fem::sector::MirrorParity;
 use frictionsim::fem::solid::{half_bandwidth, stiffness};
 use frictionsim::linalg::banded::BandedMatrix;
@@ -137,5 +139,51 @@ fn bricks_of_8_and_20_nodes_bend_like_a_thin_plate() {
                 "{element:?} n = {harmonic}: {ratio}"
             );
         }
+    }
+}
+
+/// Theory: a frequency of a smooth motion converges with the fourth order of the element's size on bricks of 20 nodes, with the
+/// second on those of 8. The twist `u_theta(r)` of a disc that is clamped outside and free of shear inside has the wave number
+/// `k` of `J_2(ka) Y_1(kb) = Y_2(ka) J_1(kb)`.
+#[test]
+fn frequencies_converge_with_the_order_of_the_bricks() {
+    let base = disc(ElementKind::Quad8, [12, 2, 1]);
+    let [a, b] = [
+        base.specification.annulus.inner_radius,
+        base.specification.annulus.outer_radius,
+    ];
+    let residual =
+        |k: f64| libm::jn(2, k * a) * libm::yn(1, k * b) - libm::yn(2, k * a) * libm::jn(1, k * b);
+    let (mut low, mut high) = (3.0 / b, 5.0 / b);
+    assert!(residual(low) * residual(high) < 0.0);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if residual(low) * residual(middle) > 0.0 {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    let modulus = base.material.young_modulus / (2.0 * (1.0 + base.material.poisson_ratio));
+    let exact = low * (modulus / base.material.density).sqrt() / TAU;
+    assert!((exact - 5855.0).abs() < 5.0, "{exact}");
+    for (element, order) in [(ElementKind::Quad8, 4.0), (ElementKind::Quad4, 2.0)] {
+        let errors = [1, 2, 4].map(|refined| {
+            let mut model = disc(element, [12 * refined, 2 * refined, 1]);
+            model.options.damping = RayleighDamping::default();
+            let found = modes(&model, 0.0, 1.15 * exact);
+            let distance = |mode: &&ComplexMode| (mode.frequency_hz() - exact).abs();
+            let twists = found
+                .iter()
+                .filter(|mode| mode.harmonic == 0 && mode.axial_share < Some(1e-6));
+            let nearest = twists.min_by(|a, b| distance(a).total_cmp(&distance(b)));
+            distance(&nearest.unwrap()) / exact
+        });
+        let orders = [0, 1].map(|k| (errors[k] / errors[k + 1]).log2());
+        // Terms of the next order are a twentieth of the error on the finer pair.
+        assert!(
+            orders[1] > order - 0.2,
+            "{element:?}: {errors:?}, {orders:?}"
+        );
     }
 }

@@ -49,7 +49,7 @@ pub struct Solution {
 /// annulus; mode shapes are not computed there.
 ///
 /// # Errors
-/// As [`run`].
+/// Those of the mesh, of steady sliding and of the solver; a frequency limit below the first mode.
 pub fn modes_and_onsets(case: &Case) -> Result<FrictionSweep, StudyError> {
     let cea = Cea {
         // Solved beside the values of the sweep, where it is none of them.
