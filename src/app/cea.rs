@@ -162,7 +162,7 @@ mod tests {
     use crate::app::options::CaseChanges;
     use crate::app::{OutputOptions, SimdChoice};
     use crate::cea::{ComplexMode, FrictionPoint, FrictionSweep};
-    use faer::c64;
+    use crate::linalg::c64;
     use std::f64::consts::TAU;
     use std::path::Path;
 

@@ -8,6 +8,7 @@ use crate::frf::{
     direct_response_with, reduced_response,
 };
 use crate::linalg::GaussianNoise;
+use crate::linalg::c64;
 use crate::mesh::SectorMesh;
 use crate::prestress::{SectorTangent, SlidingTangent, SteadySliding};
 use crate::results::{
@@ -18,7 +19,6 @@ use crate::signal::FrequencyResponse;
 use crate::signal::reader::{ResponseOptions, read_response};
 use crate::study::tangent_options;
 use clap::Args;
-use faer::c64;
 use indicatif::ProgressBar;
 use std::f64::consts::TAU;
 

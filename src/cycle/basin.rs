@@ -4,12 +4,12 @@ use super::onset::DiscModel;
 use super::{CycleError, OperatingPoint};
 use crate::contact::ContactStatus;
 use crate::fem::operator::{SimdLevel, StiffnessOperator, largest_frequency};
+use crate::linalg::c64;
 use crate::mesh::AnnulusMesh;
 use crate::transient::{
     CentralDifference, InitialState, OperatorChoice, Perturbation, StandingWave, TimeStep,
     TransientModel, TransientSettings, build_operator, stable_step_limit,
 };
-use faer::c64;
 use std::f64::consts::TAU;
 
 /// Share of the stability limit that a step takes.

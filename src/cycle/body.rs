@@ -3,8 +3,8 @@
 use super::CycleError;
 use crate::fem::{ElasticMaterial, MassKind, RayleighDamping, sector};
 use crate::linalg::banded::BandedMatrix;
+use crate::linalg::c64;
 use crate::mesh::{AnnulusSpecification, BoundaryCondition, ElementKind, SectorMesh};
-use faer::c64;
 use nalgebra::Matrix2;
 
 /// Receptance of the contact edge: `(u_r, u_theta) = R (f_r, f_theta)`, m for each N/m.

@@ -4,7 +4,7 @@ use super::limit_cycle::LimitCycle;
 use super::stability::FloquetExponent;
 use super::stepping::MeshStepping;
 use super::{CycleError, CycleStability, Verdict};
-use faer::c64;
+use crate::linalg::c64;
 use std::f64::consts::TAU;
 
 /// Velocity of the seed in the harmonic of the leading perturbation, in units of the slip speed.

@@ -4,7 +4,7 @@ use super::CycleError;
 use super::stability::{CycleStability, FloquetExponent};
 use super::stepping::Period;
 use crate::linalg::dense_eigen::{RealEigen, real_eigen};
-use faer::{Mat, c64};
+use crate::linalg::{Mat, c64};
 use std::f64::consts::TAU;
 
 /// Exponents kept.

@@ -4,7 +4,7 @@ use super::body::DynamicCoefficients;
 use super::state::WaveState;
 use super::wave::Wave;
 use crate::contact::ContactStatus;
-use faer::c64;
+use crate::linalg::c64;
 use std::f64::consts::TAU;
 
 /// Harmonics of the contact edge in a summary, `n = 0..=8`.

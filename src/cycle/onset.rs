@@ -10,9 +10,9 @@ use crate::cea::cyclic;
 use crate::cea::{ModeLimit, SweepRequest};
 use crate::contact::{ContactStiffness, SlidingContact};
 use crate::fem::{ElasticMaterial, MassKind, RayleighDamping};
+use crate::linalg::c64;
 use crate::mesh::AnnulusSpecification;
 use crate::prestress::{DampingModel, TangentOptions};
-use faer::c64;
 use std::f64::consts::TAU;
 
 /// Largest friction coefficient at which the onset of a wave that is asked for by name is looked for.

@@ -11,8 +11,8 @@ use super::wave::Wave;
 use super::{CycleError, Family, Onset, WaveBody};
 use crate::cea::ModeLimit;
 use crate::fem::{ElasticMaterial, RayleighDamping};
+use crate::linalg::c64;
 use crate::mesh::{AnnulusSpecification, ElementKind};
-use faer::c64;
 use std::f64::consts::TAU;
 
 /// Most changes of contact state along one branch.

@@ -1,6 +1,6 @@
 //! Stability of limit cycles: growth of small perturbations that ride on the wave.
 
-use faer::c64;
+use crate::linalg::c64;
 
 /// One exponent of a small perturbation of a limit cycle, and the mode that has it.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -18,7 +18,7 @@ use super::body::{DynamicCoefficients, Receptance, WaveBody};
 use super::parameter::{OperatingPoint, Parameter};
 use super::state::WaveState;
 use crate::fem::RayleighDamping;
-use faer::c64;
+use crate::linalg::c64;
 use rustfft::{Fft, FftPlanner};
 use std::f64::consts::TAU;
 use std::sync::Arc;

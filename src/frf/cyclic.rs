@@ -5,7 +5,7 @@ use super::system::check_frequencies;
 use super::{CyclicSystem, FrfError, Terminal};
 use crate::linalg::LinalgError;
 use crate::linalg::banded::{BandedBatch, BandedLu, LANES, Lanes};
-use faer::c64;
+use crate::linalg::c64;
 use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
 

@@ -4,9 +4,9 @@ use super::{FrfError, Terminal};
 use crate::fem::sector::{self, SectorMatrix};
 use crate::fem::{ElasticMaterial, MassKind, RayleighDamping};
 use crate::linalg::banded::BandedMatrix;
+use crate::linalg::c64;
 use crate::mesh::SectorMesh;
 use crate::prestress::SectorTangent;
-use faer::c64;
 
 /// [`super::FrfSystem`] of an annulus, as the matrices of its circumferential harmonics.
 #[derive(Clone, Debug)]

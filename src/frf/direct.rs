@@ -3,8 +3,8 @@
 use super::neighbours::solve_together;
 use super::system::check_frequencies;
 use super::{FrfError, FrfSystem};
+use crate::linalg::c64;
 use crate::linalg::{ComplexSparseLu, LdlAnalysis, LuAnalysis};
-use faer::c64;
 use rayon::prelude::*;
 
 /// Lines that share one real factorization ...

@@ -1,7 +1,7 @@
 //! Krylov spaces in which many lines are solved at once.
 
+use crate::linalg::{Mat, c64};
 use faer::linalg::solvers::Solve;
-use faer::{Mat, c64};
 use std::ops::Mul;
 
 /// Relative residual of the projected systems at which the space is large enough.

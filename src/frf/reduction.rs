@@ -5,8 +5,8 @@ use super::system::check_frequencies;
 use super::{FrfError, FrfSystem};
 use crate::linalg::dense::{join_columns, orthonormalize, transpose_product};
 use crate::linalg::{LuAnalysis, SparseLu};
+use crate::linalg::{Mat, c64};
 use faer::linalg::solvers::Solve;
-use faer::{Mat, c64};
 use std::f64::consts::TAU;
 
 /// Krylov vectors taken at each shift, for force and response each.

@@ -5,10 +5,10 @@ use crate::fem::{
     DofMap, MassKind, MaterialField, RayleighDamping, assemble_extra_damping, assemble_mass,
     assemble_stiffness, assemble_supports,
 };
+use crate::linalg::c64;
 use crate::linalg::{MatrixPolynomial, SparsityPattern};
 use crate::mesh::Mesh2d;
 use crate::prestress::SlidingTangent;
-use faer::c64;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 

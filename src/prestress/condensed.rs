@@ -5,8 +5,8 @@ use super::cholesky::CholeskySolver;
 use crate::contact::{ContactInterface, SlidingContact};
 use crate::fem::{DofMap, Triplets};
 use crate::linalg::DenseLu;
+use crate::linalg::Mat;
 use crate::mesh::Mesh2d;
-use faer::Mat;
 use std::collections::BTreeMap;
 
 /// Contact dofs whose columns are condensed together.

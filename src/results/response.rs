@@ -9,8 +9,8 @@ use super::report::{Report, ReportSection};
 use super::summary::{Entry, Summary, present};
 use super::table::Table;
 use crate::chart::{Axis, Figure, INK, Line, Marker, Panel, Points, SERIES};
+use crate::linalg::c64;
 use crate::signal::{FrequencyResponse, ResponseQuantity};
-use faer::c64;
 use serde::{Deserialize, Serialize};
 
 /// `summary.json` of `frictionsim frf`.

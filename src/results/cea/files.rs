@@ -190,7 +190,7 @@ fn shape_fields(report: &CeaReport<'_>, mode: &ComplexMode) -> [Field; 3] {
     if let Some(solid) = report.solid {
         return solid.shape_fields(shape);
     }
-    let part = |of: fn(&faer::c64) -> f64| shape.iter().map(of).collect::<Vec<f64>>();
+    let part = |of: fn(&crate::linalg::c64) -> f64| shape.iter().map(of).collect::<Vec<f64>>();
     let amplitude = shape
         .chunks_exact(2)
         .map(|pair| (pair[0].norm_sqr() + pair[1].norm_sqr()).sqrt())

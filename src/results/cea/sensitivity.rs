@@ -1,8 +1,8 @@
 //! `sensitivities.csv`: which parameter decides whether a mode grows.
 
 use crate::cea::cyclic::Sensitivity;
+use crate::linalg::c64;
 use crate::results::table::{Table, format_number};
-use faer::c64;
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 use std::io::{self, Write};

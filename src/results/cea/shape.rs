@@ -6,10 +6,10 @@ use crate::cea::ComplexMode;
 use crate::chart::{
     Axis, Field, INK, Line, MUTED, Motion, MotionKind, MotionState, Panel, Stroke, plain, signed,
 };
+use crate::linalg::c64;
 use crate::mesh::Mesh2d;
 use crate::results::charts::palette::UNSTABLE;
 use crate::results::charts::{Disc, MovingBody};
-use faer::c64;
 
 /// Largest displacement drawn, as a fraction of the half width of the mesh.
 const DEFLECTION: f64 = 0.07;

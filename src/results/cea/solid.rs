@@ -4,12 +4,12 @@ use crate::chart::{
     Axis, Cell, ColourMap, Field as ColourField, Figure, Line, Marker, Mesh, Panel, SERIES, Side,
 };
 use crate::contact::ContactStatus;
+use crate::linalg::c64;
 use crate::mesh::{ContactRing, SheetNode, SolidFace, SolidSector};
 use crate::prestress::SolidSliding;
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::table::{Table, format_number};
 use crate::results::vtu::{EncodedMesh, Field, solid_vectors, write_vtu};
-use faer::c64;
 use std::sync::Arc;
 
 /// Largest displacement drawn, as a fraction of the outer radius.
