@@ -255,16 +255,20 @@ impl RunFigures<'_> {
         status.collect()
     }
 
+    /// Which places of the contact figures over the angle show: of several rings of nodes the middle one.
+    pub(super) fn shown_places(&self) -> impl Fn(&usize) -> bool + use<> {
+        let rings = self.solid.map_or(1, |sector| sector.rings.len());
+        move |place| place % rings == rings / 2
+    }
+
     /// The contact at the last snapshot.
     fn contact(&self) -> Result<Figure, ChartError> {
         let snapshot = self.record.snapshots.last();
         let snapshot = snapshot.ok_or_else(|| ChartError::empty("contact at the snapshots"))?;
         let frame = &snapshot.contact;
-        // Of several rings of nodes the middle one.
-        let rings = self.solid.map_or(1, |sector| sector.rings.len());
-        let one = |i: &usize| i % rings == rings / 2;
+        let one = self.shown_places();
         let wide = |values: &[f32]| -> Vec<f64> {
-            let places = (0..values.len()).filter(one);
+            let places = (0..values.len()).filter(&one);
             places.map(|i| f64::from(values[i])).collect()
         };
         let (edge, components) = match self.solid {
@@ -272,11 +276,11 @@ impl RunFigures<'_> {
             None => (ContactInterface::of(self.mesh).nodes, 2),
         };
         let velocity: Vec<f64> = (0..edge.len())
-            .filter(one)
+            .filter(&one)
             .map(|i| snapshot.velocity[components * edge[i] as usize + 1])
             .collect();
         let codes: Vec<u8> = (0..edge.len())
-            .filter(one)
+            .filter(&one)
             .map(|i| frame.status[i])
             .collect();
         let values = [&wide(&frame.pressure)[..], &wide(&frame.shear), &velocity];

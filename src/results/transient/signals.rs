@@ -93,11 +93,14 @@ impl RunFigures<'_> {
     fn status_panel(&self, time: Axis, range: (f64, f64), caption: String) -> Option<Panel> {
         let frames = &self.record.frames;
         let times: Vec<f64> = frames.iter().map(|frame| frame.time).collect();
+        let places: Vec<usize> = (0..self.record.contact_angles.len())
+            .filter(self.shown_places())
+            .collect();
         let codes: Vec<u8> = frames
             .iter()
-            .flat_map(|frame| frame.status.iter().copied())
+            .flat_map(|frame| places.iter().map(|&place| frame.status[place]))
             .collect();
-        let (map, strobe) = status_map(&times, self.record.contact_angles.len(), &codes, range)?;
+        let (map, strobe) = status_map(&times, places.len(), &codes, range)?;
         let caption = match strobe {
             Some(interval) => format!(
                 "{caption} at instants {} ms apart (stripes drift as under a stroboscope)",
