@@ -285,5 +285,11 @@ fn mesh_level(case: &Case) -> (f64, String) {
     let area = 0.5 * TAU * (annulus.outer_radius.powi(2) - annulus.inner_radius.powi(2));
     let (around, radial) = (annulus.circumferential_elements, annulus.radial_elements);
     let size = (area / (around as f64 * radial as f64)).sqrt();
-    (size, format!("{around} x {radial}"))
+    let layers = case
+        .solid
+        .map(|solid| format!(" x {}", solid.axial_elements));
+    (
+        size,
+        format!("{around} x {radial}{}", layers.unwrap_or_default()),
+    )
 }

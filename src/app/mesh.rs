@@ -2,8 +2,10 @@
 
 use super::{Failure, RunOptions, Session};
 use crate::case::{Case, ModeSelection};
-use crate::mesh::AnnulusMesh;
-use crate::results::mesh::{MeshStatistics, MeshSummary, print, write_mesh, write_mesh_picture};
+use crate::mesh::{AnnulusMesh, SolidSector, SolidSpecification};
+use crate::results::mesh::{
+    MeshStatistics, MeshSummary, print, write_mesh, write_mesh_picture, write_solid_mesh,
+};
 use crate::results::{DrawingOptions, OutputFolder, write_summary};
 use clap::Args;
 
@@ -26,7 +28,17 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let generate = || AnnulusMesh::generate(&case.annulus).map_err(Failure::usage);
     let annulus = case.is_annulus().then(generate).transpose()?;
     let mesh = case.mesh().map_err(Failure::usage)?;
-    write_mesh(&folder, &mesh)?;
+    let generate =
+        |solid: &SolidSpecification| SolidSector::generate(solid).map_err(Failure::usage);
+    let solid = case.solid.as_ref().map(generate).transpose()?;
+    match &solid {
+        Some(sector) => write_solid_mesh(&folder, sector)?,
+        None => write_mesh(&folder, &mesh)?,
+    }
+    let mut statistics = MeshStatistics::new(&mesh, annulus.as_ref(), shortest_wave(case));
+    if let Some(sector) = &solid {
+        statistics.turn(sector);
+    }
     if !session.options.output.no_figures {
         redraw(&folder, case, &session.options.output.figures.drawing())?;
     }
@@ -34,7 +46,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         command: "mesh".to_owned(),
         title: case.title.clone(),
         wall_s: session.wall_seconds(),
-        mesh: MeshStatistics::new(&mesh, annulus.as_ref(), shortest_wave(case)),
+        mesh: statistics,
         manifest: session.manifest.clone(),
     };
     let object = write_summary(&folder, &summary)?;

@@ -4,7 +4,7 @@ use super::Analysis;
 use super::body::ImportedBody;
 use super::model::node_count;
 use super::reader::Section;
-use crate::mesh::{AnnulusSpecification, ElementKind, ShaftSpecification};
+use crate::mesh::{AnnulusSpecification, ElementKind, ShaftSpecification, SolidSpecification};
 
 /// Fewest refinements that an order can be observed from.
 const FEWEST: usize = 3;
@@ -47,17 +47,28 @@ impl Convergence {
 }
 
 impl super::Case {
+    /// The case on the built-in mesh with `factor` times as many elements in every direction.
+    pub(super) fn divided(&self, factor: f64) -> Self {
+        let annulus = Convergence::refined(&self.annulus, factor);
+        let solid = self.solid.map(|solid| SolidSpecification {
+            annulus: Convergence::refined(&solid.annulus, factor),
+            axial_elements: (solid.axial_elements as f64 * factor).round() as usize,
+            ..solid
+        });
+        Self {
+            annulus,
+            solid,
+            ..self.clone()
+        }
+    }
+
     /// The case on a mesh whose elements are `factor` times as fine.
     ///
     /// # Errors
     /// An imported mesh that cannot be refined.
     pub fn refined(&self, factor: f64) -> Result<Self, super::CaseErrors> {
         let Some(body) = &self.body else {
-            let annulus = Convergence::refined(&self.annulus, factor);
-            return Ok(Self {
-                annulus,
-                ..self.clone()
-            });
+            return Ok(self.divided(factor));
         };
         let fine = body.refined(factor.log2() as u32).map_err(|error| {
             let (key, label) = ("convergence.factors", "makes no body".to_owned());
@@ -78,7 +89,7 @@ const SPLITS: [f64; 3] = [1.0, 2.0, 4.0];
 pub(super) fn read(
     root: &Section<'_>,
     annulus: &AnnulusSpecification,
-    body: Option<&ImportedBody>,
+    (body, solid): (Option<&ImportedBody>, Option<&SolidSpecification>),
     has: [bool; 3],
 ) -> Option<Convergence> {
     let section = root.section("convergence", false);
@@ -92,7 +103,7 @@ pub(super) fn read(
     if has_enough(&section, "factors", &factors) && is_ordered(&section, "factors", &factors, 1.0) {
         match body {
             Some(body) => check_splits(&section, body, &factors),
-            None => check_meshes(&section, annulus, &factors),
+            None => check_meshes(&section, annulus, solid, &factors),
         }
     }
     let steps = section.numbers("time_step_factors");
@@ -197,7 +208,12 @@ fn check_splits(section: &Section<'_>, body: &ImportedBody, factors: &[f64]) {
 }
 
 /// Refuses factors whose rounded meshes are none, too large, or not refinements of each other.
-fn check_meshes(section: &Section<'_>, annulus: &AnnulusSpecification, factors: &[f64]) {
+fn check_meshes(
+    section: &Section<'_>,
+    annulus: &AnnulusSpecification,
+    solid: Option<&SolidSpecification>,
+    factors: &[f64],
+) {
     if annulus.circumferential_elements == 0 || annulus.radial_elements == 0 {
         return;
     }
@@ -243,6 +259,18 @@ fn check_meshes(section: &Section<'_>, annulus: &AnnulusSpecification, factors: 
                 format!(
                     "{name}, refines by {a:.3} around and {r:.3} along the radius after rounding: \
                      the observed order suffers from that"
+                ),
+                "uneven after rounding",
+            );
+        }
+        let layers = solid.map_or(1, |solid| solid.axial_elements) as f64;
+        let z = (layers * factor).round() / layers;
+        if solid.is_some() && (z / a - 1.0).abs() > UNEVEN {
+            section.warn(
+                "factors",
+                format!(
+                    "{name}, refines by {a:.3} around and {z:.3} over the thickness after rounding: the observed order suffers \
+                     from that"
                 ),
                 "uneven after rounding",
             );

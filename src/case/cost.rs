@@ -7,7 +7,7 @@ mod estimate;
 mod memory;
 
 use super::model::{node_count, solid_node_count};
-use super::{Analysis, Case, Convergence};
+use super::{Analysis, Case};
 use crate::mesh::AnnulusSpecification;
 
 /// Points of a study whose cost is looked at.
@@ -204,12 +204,7 @@ impl Case {
     pub fn convergence_cost(&self) -> Option<StudyCost> {
         let study = self.convergence.as_ref()?;
         let meshes = study.factors.iter().map(|factor| {
-            let annulus = Convergence::refined(&self.annulus, *factor);
-            let cost = Case {
-                annulus,
-                ..self.clone()
-            }
-            .cost();
+            let cost = self.divided(*factor).cost();
             (cost, study.analyses.clone(), 1.0)
         });
         let steps = study.time_step_factors.iter();

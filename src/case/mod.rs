@@ -166,7 +166,7 @@ impl Case {
         let basin = basin::basin(&root, &annulus);
         let frf = frf::read(&root, &nodes);
         let has = [cea.is_some(), transient.is_some(), cycle.is_some()];
-        let convergence = convergence::read(&root, &annulus, body.as_ref(), has);
+        let convergence = convergence::read(&root, &annulus, (body.as_ref(), solid.as_ref()), has);
         let fit = fit::fit(&root);
         let uncertainty = uncertainty::uncertainty(&root);
         let sweep = sweep::read(&root);

@@ -4,9 +4,7 @@ use super::body::ImportedBody;
 use super::diagnostic::Location;
 use super::model::{node_count, solid_node_count};
 use super::reader::{NodePlace, Section};
-use crate::mesh::{
-    AnnulusSpecification, Counterface, SectorMesh, SolidFace, SolidSector, SolidSpecification,
-};
+use crate::mesh::{AnnulusSpecification, Counterface, SectorMesh, SolidSpecification};
 use std::f64::consts::TAU;
 
 /// Share of the body's size beyond which the nearest node to a place is hardly what was meant.
@@ -158,7 +156,7 @@ impl Nodes<'_> {
             return Some((node, body.mesh.nodes[node]));
         }
         if let Some(solid) = self.solid {
-            return nearest_on_top(&SolidSector::generate(solid).ok()?, point);
+            return nearest_on_top(solid, point);
         }
         // Only the first sector is built: on each ring of its nodes the nearest is that of the nearest angle.
         let sector = SectorMesh::generate(self.annulus).ok()?;
@@ -180,17 +178,23 @@ impl Nodes<'_> {
 }
 
 /// The node of the top face that lies nearest to a point, and where it is.
-fn nearest_on_top(sector: &SolidSector, [x, y]: [f64; 2]) -> Option<(usize, [f64; 2])> {
-    let sectors = sector.sector_count() as f64;
+fn nearest_on_top(solid: &SolidSpecification, [x, y]: [f64; 2]) -> Option<(usize, [f64; 2])> {
+    let count = solid.annulus.circumferential_elements;
+    let nodes = solid_node_count(&solid.annulus, solid.axial_elements as u128);
+    let per_sector = usize::try_from(nodes / count.max(1) as u128).ok()?;
+    let sectors = count as f64;
     let turn = (y.atan2(x) / TAU * sectors).round().rem_euclid(sectors);
     let angle = TAU * turn / sectors;
-    let top = (0..sector.node_count()).filter(|&k| sector.is_on(k, SolidFace::Top));
-    let corners = top.filter(|&k| sector.nodes[k].half_step == 0);
-    let distance = |k: &usize| (sector.nodes[*k].radius - x.hypot(y)).abs();
-    let node = corners.min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
-    let radius = sector.nodes[node].radius;
+    let radii = solid.corner_radii().ok()?;
+    let distance = |radius: f64| (radius - x.hypot(y)).abs();
+    let places = radii.iter().copied().enumerate();
+    let (i, radius) = places.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)))?;
+    let node = solid.corner_node([i, solid.axial_elements]);
     let place = [radius * angle.cos(), radius * angle.sin()];
-    Some((turn as usize * sector.node_count() + node, place))
+    Some((
+        (turn as usize).checked_mul(per_sector)?.checked_add(node)?,
+        place,
+    ))
 }
 
 impl super::Case {

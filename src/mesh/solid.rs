@@ -66,26 +66,7 @@ impl SolidSector {
     /// # Errors
     /// [`MeshError`] names the key whose value makes no mesh.
     pub fn generate(specification: &SolidSpecification) -> Result<Self, MeshError> {
-        let annulus = AnnulusSpecification {
-            outer: BoundaryCondition::Clamped,
-            ..specification.annulus
-        };
-        validate(&annulus)?;
-        if specification.axial_elements == 0 {
-            return Err(MeshError::TooFewElements {
-                key: "axial_elements",
-                count: 0,
-                minimum: 1,
-            });
-        }
-        let mut radii = graded_radii(&annulus);
-        if let SolidContact::Ring {
-            inner_radius,
-            outer_radius,
-        } = specification.contact
-        {
-            fit(&mut radii, inner_radius, outer_radius);
-        }
+        let radii = specification.corner_radii()?;
         let (nodes, index) = sheet_nodes(specification, &radii);
         let elements = elements(specification, &index);
         let mut sector = Self {
@@ -237,6 +218,51 @@ impl SolidSector {
             }
         }
         areas
+    }
+}
+
+impl SolidSpecification {
+    /// Radii of the corner nodes, m.
+    ///
+    /// # Errors
+    /// [`MeshError`] as in [`SolidSector::generate`].
+    pub fn corner_radii(&self) -> Result<Vec<f64>, MeshError> {
+        let annulus = AnnulusSpecification {
+            outer: BoundaryCondition::Clamped,
+            ..self.annulus
+        };
+        validate(&annulus)?;
+        if self.axial_elements == 0 {
+            return Err(MeshError::TooFewElements {
+                key: "axial_elements",
+                count: 0,
+                minimum: 1,
+            });
+        }
+        let mut radii = graded_radii(&annulus);
+        if let SolidContact::Ring {
+            inner_radius,
+            outer_radius,
+        } = self.contact
+        {
+            fit(&mut radii, inner_radius, outer_radius);
+        }
+        Ok(radii)
+    }
+
+    /// The corner node of a sector on radius `i` in layer `j` of the corner nodes, without generating it.
+    pub fn corner_node(&self, [i, j]: [usize; 2]) -> usize {
+        let (nr, nz) = (self.annulus.radial_elements, self.axial_elements);
+        let (slow, fast, [p, q]) = match nr >= nz {
+            true => (nr, nz, [i, j]),
+            false => (nz, nr, [j, i]),
+        };
+        debug_assert!(p <= slow && q <= fast);
+        match self.annulus.element.is_quadratic() {
+            // A row of corners has two sheets and the middles between them, a row of middles one.
+            true => p * (4 * fast + 3) + 3 * q,
+            false => p * (fast + 1) + q,
+        }
     }
 }
 

@@ -9,7 +9,7 @@ use super::vtu::{EncodedMesh, Field, write_vtu};
 use crate::chart::{
     Axis, Field as Window, Figure, INK, Label, Line, Marker, Panel, Points, SERIES,
 };
-use crate::mesh::{AnnulusMesh, Boundary, BoundaryCondition, Mesh2d};
+use crate::mesh::{AnnulusMesh, Boundary, BoundaryCondition, Mesh2d, SolidContact, SolidSector};
 use serde::{Deserialize, Serialize};
 use std::fmt::Write as _;
 
@@ -65,6 +65,14 @@ pub fn print(summary: &MeshSummary) -> String {
         );
     }
     let area = text("area_m2", mesh.area_m2);
+    if let (Some(layers), Some(nodes)) = (mesh.axial_elements, mesh.nodes_per_sector) {
+        let _ = writeln!(
+            out,
+            "{layers} layers of bricks over the thickness; edges, quality and picture are of the section across the axis, area {area}\n\
+             node ids: 1 + j {nodes} + k, k in the sheet of a sector, j around from +x"
+        );
+        return out;
+    }
     if let (Some(error), Some(nodes)) = (mesh.area_error, mesh.nodes_per_sector) {
         let _ = writeln!(
             out,
@@ -103,6 +111,10 @@ pub struct MeshStatistics {
     pub dofs: usize,
     /// Nodes on the contact edge.
     pub contact_nodes: usize,
+    /// Layers of bricks over the thickness of a body in three dimensions; edges, quality and areas are then of its plane
+    /// section across the axis.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub axial_elements: Option<usize>,
     /// On the annulus, nodes of one ray of corner nodes: node `1 + j (nodes_per_sector) + i`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub nodes_per_sector: Option<usize>,
@@ -157,6 +169,24 @@ pub struct BoundaryStatistics {
 }
 
 impl MeshStatistics {
+    /// Counts of the body of revolution whose plane section was measured.
+    pub fn turn(&mut self, sector: &SolidSector) {
+        let sectors = sector.sector_count();
+        self.nodes = sectors * sector.node_count();
+        self.elements = sectors * sector.elements.len();
+        self.dofs = 3 * self.nodes;
+        self.contact_nodes = sector
+            .rings
+            .iter()
+            .map(|ring| sectors * ring.nodes.len())
+            .sum();
+        self.axial_elements = Some(sector.specification.axial_elements);
+        self.nodes_per_sector = Some(sector.node_count());
+        if sector.specification.contact != SolidContact::Inner {
+            self.contact_nodes_per_wave = None;
+        }
+    }
+
     /// Measures a mesh between its corner nodes; areas follow curved edges. `wavelength` is the shortest that the case
     /// is about, m.
     pub fn new(mesh: &Mesh2d, annulus: Option<&AnnulusMesh>, wavelength: Option<f64>) -> Self {
@@ -191,6 +221,7 @@ impl MeshStatistics {
             elements: mesh.element_count(),
             dofs: 2 * mesh.node_count(),
             contact_nodes: contact.nodes.len(),
+            axial_elements: None,
             nodes_per_sector: annulus.map(AnnulusMesh::sector_node_count),
             smallest_edge_m: quality.smallest_edge,
             largest_edge_m: quality.largest_edge,
@@ -256,6 +287,29 @@ pub fn write_mesh(folder: &OutputFolder, mesh: &Mesh2d) -> Result<(), FolderErro
     ];
     folder.write("mesh.vtu", |out| {
         write_vtu(out, &EncodedMesh::new(mesh)?, &[], &fields, &[])
+    })?;
+    Ok(())
+}
+
+/// Writes the bricks of a body of revolution.
+///
+/// # Errors
+/// Those of the folder.
+pub fn write_solid_mesh(folder: &OutputFolder, sector: &SolidSector) -> Result<(), FolderError> {
+    let per_sector = sector.node_count();
+    let count = per_sector * sector.sector_count();
+    let edge_of = |node: usize| match node % per_sector {
+        node if sector.rings.iter().any(|ring| ring.nodes.contains(&node)) => 1,
+        node => 2 * i64::from((3 * node..3 * node + 3).any(|dof| sector.is_held(dof))),
+    };
+    let edge = (0..count).map(edge_of).collect();
+    let fields = [
+        Field::integers("node_id", (1..=count as i64).collect()),
+        // 1 contact, 2 held, 0 elsewhere.
+        Field::integers("edge", edge),
+    ];
+    folder.write("mesh.vtu", |out| {
+        write_vtu(out, &EncodedMesh::solid(sector)?, &[], &fields, &[])
     })?;
     Ok(())
 }
