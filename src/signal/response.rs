@@ -1,7 +1,7 @@
 //! Frequency response functions.
 
 use super::error::{SignalError, check_finite};
-use crate::linalg::c64;
+use faer::c64;
 use std::f64::consts::TAU;
 
 /// What a frequency response relates to a unit force.

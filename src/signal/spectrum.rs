@@ -2,7 +2,7 @@
 
 use super::Window;
 use super::error::{SignalError, check_finite, check_positive};
-use crate::linalg::c64;
+use faer::c64;
 use realfft::RealFftPlanner;
 
 /// One-sided amplitude spectrum: a sinusoid `A cos(2 pi f t + phi)` on a bin reads `A`.

@@ -2,7 +2,7 @@
 
 use super::demodulation::{Demodulated, demodulate};
 use super::{ExponentialStage, LARGEST_DEVIATION, NoGrowth, round_off_floor};
-use crate::linalg::c64;
+use faer::c64;
 use rustfft::FftPlanner;
 use std::f64::consts::TAU;
 

@@ -1,7 +1,7 @@
 //! A frequency response as a sum of modes and a smooth remainder.
 
-use crate::linalg::{Mat, c64};
 use crate::signal::ResponseQuantity;
+use faer::{Mat, c64};
 use std::f64::consts::TAU;
 
 /// Lowest power of `s` in the remainder: damped rigid-body motion, `1/(s^2 + alpha s)`, expanded.

@@ -3,9 +3,9 @@
 use super::basis::{ModalModel, Pole};
 use super::least_squares::{Fitted, Problem};
 use super::{Estimate, NoiseModel};
-use crate::linalg::{Mat, c64};
 use crate::signal::statistics::{NORMAL_95, median};
 use crate::signal::{FrequencyResponse, SignalError};
+use faer::{Mat, c64};
 
 /// Remainder terms to begin with: `s^-3 .. s^0`.
 const REMAINDER: usize = 4;

@@ -268,7 +268,7 @@ fn mark_overlaps(bands: &mut [HalfPowerBand]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::linalg::c64;
+    use faer::c64;
     use std::f64::consts::TAU;
 
     fn single(zeta: f64, f0: f64, quantity: ResponseQuantity, step: f64) -> FrequencyResponse {

@@ -4,8 +4,8 @@ use super::basis::Pole;
 use super::fit::{FittedMode, ModalFit, fit_modes};
 use super::half_power::{HalfPowerBand, LINES_NEEDED, ResonanceNote, half_power};
 use super::rayleigh::{DampingSample, RayleighFit, fit_rayleigh};
-use crate::linalg::Mat;
 use crate::signal::{FrequencyResponse, SignalError};
+use faer::Mat;
 
 /// Largest relative standard error of a damping factor that still enters the Rayleigh fit.
 const LARGEST_RELATIVE_ERROR: f64 = 0.1;

@@ -3,8 +3,8 @@
 use super::NoiseModel;
 use super::basis::{Lines, ModalModel, ModalShare, Pole};
 use super::normal_equations::{damped_step, gram, inverse};
-use crate::linalg::{Mat, c64};
 use crate::signal::{FrequencyResponse, SignalError};
+use faer::{Mat, c64};
 use nalgebra::{DMatrix, DVector};
 
 /// Iterations of Levenberg and Marquardt.

@@ -1,6 +1,6 @@
 //! How much of a frequency response is noise.
 
-use crate::linalg::c64;
+use faer::c64;
 
 /// Noise of each real component of a response value: variance `additive^2 + relative^2 |H|^2`.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,8 +1,8 @@
 //! Rayleigh coefficients from modal damping factors (equation 3).
 
-use crate::linalg::Mat;
 use crate::signal::SignalError;
 use crate::signal::statistics::{NORMAL_95, student_95};
+use faer::Mat;
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::TAU;
 

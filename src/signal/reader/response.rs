@@ -6,7 +6,7 @@ use super::error::{ReadError, ReadProblem};
 use super::table::{Table, read_table};
 use super::units::{hertz, words};
 use super::{Format, mat, uff};
-use crate::linalg::c64;
+use faer::c64;
 
 /// What the header of a response does not say, or says wrongly.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -7,7 +7,7 @@ use super::super::{FrequencyResponse, ResponseQuantity};
 use super::error::{ReadError, ReadProblem};
 use super::response::{NamedResponse, ResponseFile};
 use super::time_signal::{Channel, SignalFile};
-use crate::linalg::c64;
+use faer::c64;
 
 /// Function types: time response, frequency response, coherence.
 pub(super) const TIME: u32 = 1;

@@ -3,8 +3,8 @@
 use super::response::NamedResponse;
 use super::time_signal::SignalFile;
 use super::uff::{FREQUENCY_RESPONSE, TIME, TIME_AXIS};
-use crate::linalg::c64;
 use crate::signal::ResponseQuantity;
+use faer::c64;
 use std::fmt::Write as _;
 
 /// A frequency response as dataset 58 in text, complex double precision.
