@@ -8,12 +8,12 @@ mod msh;
 mod table_1;
 
 use assert_cmd::Command;
-use frictionsim::app::fit::fit_case;
 use frictionsim::case::Case;
 use frictionsim::linalg::GaussianNoise;
 use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind};
 use frictionsim::signal::reader::MeasuredMode;
 use frictionsim::study::eigenvalues::modes_below;
+use frictionsim::study::fit::fit_case;
 use serde_json::Value;
 use std::path::Path;
 

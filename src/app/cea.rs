@@ -1,13 +1,12 @@
 //! `frictionsim cea`: complex eigenvalues of steady sliding over the friction coefficient.
 
 use super::{Failure, RunOptions, Session, terminal};
-use crate::case::{Case, Cea, ModeSelection};
-use crate::results::cea::{BaseField, CeaReport, draw, print, summary, write};
-use crate::results::{DrawingOptions, Manifest, OutputFolder, object};
+use crate::case::{Case, Cea};
+use crate::results::cea::{CeaReport, draw, print, write};
+use crate::results::{DrawingOptions, OutputFolder};
 use crate::study::eigenvalues::{self, SlidingModel, Solution, refuse_no_modes};
 use clap::Args;
 use serde_json::Value;
-use std::time::Instant;
 
 /// Complex eigenvalue sweep over the friction coefficient
 #[derive(Args)]
@@ -62,7 +61,7 @@ fn run_with(
     let field = model.base_field(case);
     let report = CeaReport {
         map: map.as_ref(),
-        ..report(case, cea, &model, &solution, &field, session.wall_seconds())
+        ..eigenvalues::report(case, cea, &model, &solution, &field, session.wall_seconds())
     };
     let summary = write(&folder, &report)?;
     if !session.options.output.no_figures {
@@ -101,59 +100,10 @@ pub fn redraw(
     let wall_s = summary["wall_s"].as_f64().unwrap_or(f64::NAN);
     let report = CeaReport {
         map: map.as_ref(),
-        ..report(case, cea, &model, &solution, &field, wall_s)
+        ..eigenvalues::report(case, cea, &model, &solution, &field, wall_s)
     };
     draw(folder, &report, case.damping.rayleigh, options)?;
     Ok(())
-}
-
-/// Solves a case without writing a file, and gives its summary; mode shapes are not computed.
-///
-/// # Errors
-/// As [`run`].
-pub fn summarize(case: &Case, manifest: &Manifest) -> Result<Value, Failure> {
-    let start = Instant::now();
-    let cea = Cea {
-        shapes_at: Vec::new(),
-        ..case.require_cea()?.clone()
-    };
-    let model = SlidingModel::new(case, &cea)?;
-    let solution = eigenvalues::solve(case, &cea, &model, &|_| {})?;
-    refuse_no_modes(case, &cea, &solution.sweep)?;
-    let field = model.base_field(case);
-    let wall_s = start.elapsed().as_secs_f64();
-    let report = report(case, &cea, &model, &solution, &field, wall_s);
-    object(&summary(&report, manifest)).map_err(Failure::run)
-}
-
-fn report<'a>(
-    case: &'a Case,
-    cea: &'a Cea,
-    model: &'a SlidingModel,
-    solution: &'a Solution,
-    field: &'a BaseField,
-    wall_s: f64,
-) -> CeaReport<'a> {
-    CeaReport {
-        title: &case.title,
-        mesh: &model.mesh,
-        has_harmonics: case.is_annulus(),
-        dofs: solution.dofs,
-        method: solution.method,
-        selection: match cea.modes {
-            ModeSelection::BelowHz(limit) => format!("below {limit} Hz"),
-            ModeSelection::Lowest(count) => format!("the lowest {count}"),
-        },
-        friction_coefficients: &cea.friction_coefficients,
-        sweep: &solution.sweep,
-        base: model.base_state(case),
-        field,
-        solid: model.solid.as_ref().map(|body| &body.report),
-        sensitivities: solution.sensitivities.as_ref(),
-        map: None,
-        notes: solution.notes.clone(),
-        wall_s,
-    }
 }
 
 #[cfg(test)]

@@ -109,7 +109,8 @@ impl From<StudyError> for Failure {
     fn from(error: StudyError) -> Self {
         match error {
             StudyError::Case(errors) => errors.into(),
-            StudyError::Eigenvalues(error) => error.into(),
+            error if error.is_usage() => Self::Usage(error.into()),
+            error => Self::Run(error.into()),
         }
     }
 }

@@ -3,6 +3,7 @@
 use super::figure_options::FigureOptions;
 use super::{Failure, terminal};
 use crate::case::unset;
+use crate::fem::operator::SimdLevel;
 use crate::results::{Manifest, OutputFolder, Replace, read_manifest};
 use clap::{ArgAction, Args, ValueEnum, ValueHint};
 use serde_json::{Value, json};
@@ -258,38 +259,15 @@ pub enum SimdChoice {
 
 impl SimdChoice {
     /// The level that a run uses and records; `None` if this machine does not have it.
-    pub fn resolve(self) -> Option<&'static str> {
-        match self {
-            Self::Auto if has_avx512() => Some("avx512"),
-            Self::Auto if has_avx2() => Some("avx2"),
-            Self::Auto | Self::Scalar => Some("scalar"),
-            Self::Avx2 => has_avx2().then_some("avx2"),
-            Self::Avx512 => has_avx512().then_some("avx512"),
-        }
+    pub fn resolve(self) -> Option<SimdLevel> {
+        let wanted = match self {
+            Self::Auto => return Some(SimdLevel::detect()),
+            Self::Scalar => SimdLevel::Scalar,
+            Self::Avx2 => SimdLevel::Avx2,
+            Self::Avx512 => SimdLevel::Avx512,
+        };
+        wanted.available().ok()
     }
-}
-
-#[cfg(target_arch = "x86_64")]
-fn has_avx2() -> bool {
-    is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma")
-}
-
-#[cfg(target_arch = "x86_64")]
-fn has_avx512() -> bool {
-    has_avx2()
-        && is_x86_feature_detected!("avx512f")
-        && is_x86_feature_detected!("avx512vl")
-        && is_x86_feature_detected!("avx512dq")
-}
-
-#[cfg(not(target_arch = "x86_64"))]
-fn has_avx2() -> bool {
-    false
-}
-
-#[cfg(not(target_arch = "x86_64"))]
-fn has_avx512() -> bool {
-    false
 }
 
 #[cfg(test)]

@@ -2,10 +2,13 @@
 //! the runs ask.
 
 use super::session::available_memory;
-use super::{Failure, SimdChoice, cea, frf, transient};
-use crate::case::{Case, Cea, Cost, Diagnostic, Location, StudyCost};
+use super::{Failure, frf};
+use crate::case::{Case, Cost, Diagnostic, Location, StudyCost};
+use crate::fem::operator::SimdLevel;
 use crate::mesh::ElementKind;
-use crate::results::Manifest;
+use crate::study::eigenvalues;
+use crate::study::transient::TransientStudy;
+use crate::transient::StepPlan;
 
 /// Nodes up to which matrices are set up to find out.
 const MOST_NODES: u128 = 200_000;
@@ -61,9 +64,8 @@ pub fn preflight(case: &Case) -> Result<Preflight, Failure> {
         case.require_cycle()?;
     }
     let is_small = found.cost.nodes <= MOST_NODES;
-    let simd = SimdChoice::Auto.resolve().unwrap_or("scalar");
     if is_small && commands.contains(&"transient") {
-        let plan = found.tolerate("transient", transient::preflight(case, simd))?;
+        let plan = found.tolerate("transient", transient_plan(case))?;
         if let (Some(run), Some(plan)) = (&mut found.cost.transient, plan) {
             let steps = plan.total_steps() as f64;
             run.seconds *= steps / run.steps;
@@ -72,11 +74,15 @@ pub fn preflight(case: &Case) -> Result<Preflight, Failure> {
             found.is_step_exact = true;
         }
     }
-    if let Some(eigenvalues) = &case.cea
+    if let Some(cea) = &case.cea
         && is_small
     {
-        let tried = try_eigenvalues(case, eigenvalues, &found.cost);
-        found.tolerate("cea", tried)?;
+        let modes = found.cost.cea.map_or(0, |cost| cost.modes);
+        let sector = found.cost.dofs as usize / case.annulus.circumferential_elements.max(1);
+        if sector.saturating_mul(modes) <= MOST_EIGENVALUE_WORK {
+            let tried = eigenvalues::preflight(case, cea);
+            found.tolerate("cea", tried.map_err(Failure::from))?;
+        }
     }
     if let Some(response) = &case.frf
         && is_small
@@ -138,21 +144,6 @@ pub fn refuse_memory(case: &Case, command: &str, bytes: f64) -> Result<(), Failu
     Ok(())
 }
 
-/// Solves at one friction coefficient: bounds that have no mode below them show there.
-fn try_eigenvalues(case: &Case, cea: &Cea, cost: &Cost) -> Result<(), Failure> {
-    let modes = cost.cea.map_or(0, |cost| cost.modes);
-    let sector = cost.dofs as usize / case.annulus.circumferential_elements.max(1);
-    if sector.saturating_mul(modes) > MOST_EIGENVALUE_WORK {
-        return Ok(());
-    }
-    let one = Case {
-        cea: Some(Cea {
-            friction_coefficients: vec![cea.friction_coefficients[0]],
-            shapes_at: Vec::new(),
-            map: None,
-            ..cea.clone()
-        }),
-        ..case.clone()
-    };
-    cea::summarize(&one, &Manifest::new("cea")).map(|_| ())
+fn transient_plan(case: &Case) -> Result<StepPlan, Failure> {
+    Ok(TransientStudy::new(case, SimdLevel::detect())?.preflight()?)
 }

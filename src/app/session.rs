@@ -6,6 +6,7 @@ use super::preflight::refuse_memory;
 use super::terminal;
 use super::{Failure, RunOptions};
 use crate::case::{Case, RawCase};
+use crate::fem::operator::SimdLevel;
 use crate::results::{Manifest, OutputFolder};
 use std::path::Path;
 use std::time::Instant;
@@ -22,6 +23,8 @@ pub struct Session {
     pub options: RunOptions,
     /// What the results are made from.
     pub manifest: Manifest,
+    /// Instruction set of the kernels.
+    pub simd: SimdLevel,
     start: Instant,
 }
 
@@ -53,13 +56,14 @@ impl Session {
             case_hash: case.raw.hash(),
             overrides: case.raw.overrides.clone(),
             threads: start_threads(options.threads),
-            simd: simd.to_owned(),
+            simd: simd.to_string(),
             ..Manifest::new(command)
         };
         Ok(Self {
             case,
             options: options.clone(),
             manifest,
+            simd,
             start,
         })
     }

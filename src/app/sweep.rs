@@ -8,8 +8,8 @@ pub use crate::study::{Shard, SweepPlan};
 pub use progress::SweepProgress;
 pub use workers::{PointRunner, SweepRun};
 
-use super::linear_stage::LinearStage;
 use super::share::ShareOptions;
+use super::transient::linear_stage;
 use super::{Failure, RunOptions, Session, terminal};
 use crate::case::{Analysis, Case};
 use crate::results::sweep::{Found, PointRecord, SweepDrawing, SweepFolder, SweepReport};
@@ -137,7 +137,7 @@ pub fn drawing(case: &Case, plan: &SweepPlan<'_>, options: &DrawingOptions) -> S
     let cea = case.cea.as_ref().map(|cea| &cea.friction_coefficients);
     SweepDrawing {
         references: if has_modes {
-            LinearStage::of(case).references
+            linear_stage(case).references
         } else {
             Vec::new()
         },

@@ -1,19 +1,19 @@
 //! `frictionsim uncertainty`: how likely is squeal, and which parameter decides it.
 
-mod robust;
-mod samples;
-
 use super::share::ShareOptions;
 use super::{Failure, RunOptions, Session, terminal};
-use crate::case::Case;
-use crate::results::sweep::{Found, SweepFolder};
+use crate::case::{Case, find_key};
+use crate::results::sweep::{Found, PointClock, PointRecord, SweepFolder};
 use crate::results::uncertainty::{Sample, UncertaintySummary, draw_report, write_samples};
 use crate::results::{DrawingOptions, Manifest, object};
-use crate::study::uncertainty::summarize;
+use crate::study::uncertainty::{BLOCK, Design, Sampler, curves, summarize};
 use clap::Args;
-use robust::Design;
-use samples::{BLOCK, Sampler, block_samples};
+use serde_json::{Map, Value};
 use std::path::Path;
+use std::time::Instant;
+
+/// Name of the samples in the file of a block.
+const SAMPLES: &str = "samples";
 
 /// How likely is squeal, and which parameter decides it
 ///
@@ -43,7 +43,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let session = Session::start("uncertainty", &arguments.options)?;
     for design in &arguments.robust {
         // What the results depend on belongs to what they are made from.
-        design.check(&session.case)?;
+        check(design, &session.case)?;
     }
     if !(arguments.bound > 0.0 && arguments.bound < 1.0) {
         let bound = arguments.bound;
@@ -67,7 +67,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let asked = blocks.len() * BLOCK;
     let bar = terminal::progress(output.is_quiet(), asked as u64, "samples");
     for &block in &blocks {
-        sampler.run_block(&folder, &session.manifest, block)?;
+        run_block(&sampler, &folder, &session.manifest, block)?;
         bar.inc(BLOCK as u64);
     }
     bar.finish_and_clear();
@@ -76,18 +76,17 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         .into_iter()
         .filter(|sample| sample.number <= uncertainty.samples)
         .collect();
-    let mut summary = summary_of(&case, &samples, &session.manifest);
+    let mut summary = UncertaintySummary {
+        manifest: session.manifest.clone(),
+        ..summarize(&case, &samples)
+    };
     if missing > 0 {
         summary.notes.push(format!(
             "{missing} of {count} blocks of samples are missing: run it again with --resume once all shards have ended"
         ));
     } else if !arguments.robust.is_empty() {
-        summary.robust = Some(robust::curves(
-            &case,
-            &sampler,
-            &arguments.robust,
-            arguments.bound,
-        )?);
+        let (designs, bound) = (&arguments.robust, arguments.bound);
+        summary.robust = Some(curves(&case, &sampler, designs, bound)?);
     }
     summary.wall_s = session.wall_seconds();
     for note in &summary.notes {
@@ -136,19 +135,72 @@ fn finished(folder: &SweepFolder, count: usize) -> Result<(Vec<Sample>, usize), 
     Ok((samples, missing))
 }
 
-fn summary_of(case: &Case, samples: &[Sample], manifest: &Manifest) -> UncertaintySummary {
-    let keys: Vec<String> = match &case.uncertainty {
-        Some(uncertainty) => uncertainty
-            .parameters
-            .iter()
-            .map(|p| p.parameter.key.clone())
-            .collect(),
-        None => Vec::new(),
-    };
-    let friction = case.contact.sliding.friction_coefficient;
-    let largest = samples::largest_friction(case);
-    UncertaintySummary {
-        manifest: manifest.clone(),
-        ..summarize(&case.title, &keys, samples, friction, largest)
+/// Runs one block and keeps it, unless it is finished or another process has it.
+///
+/// # Errors
+/// Those of the folder.
+fn run_block(
+    sampler: &Sampler<'_>,
+    folder: &SweepFolder,
+    manifest: &Manifest,
+    block: usize,
+) -> Result<(), Failure> {
+    let is_finished = || Ok::<_, Failure>(matches!(folder.read(block)?, Found::Point(_)));
+    if is_finished()? {
+        return Ok(());
     }
+    let Some(_claim) = folder.claim(block)? else {
+        return Ok(());
+    };
+    // Another process may have finished it between the look and the claim.
+    if is_finished()? {
+        return Ok(());
+    }
+    let start = Instant::now();
+    let samples = serde_json::to_value(sampler.block(block)).map_err(Failure::run)?;
+    let record = PointRecord {
+        point: block,
+        swept: Map::new(),
+        error: None,
+        summaries: Map::from_iter([(SAMPLES.to_owned(), samples)]),
+        case_hash: manifest.case_hash.clone(),
+        sweep_hash: manifest.case_hash.clone(),
+        version: manifest.version.clone(),
+        simd: manifest.simd.clone(),
+    };
+    let clock = PointClock {
+        wall_s: start.elapsed().as_secs_f64(),
+        ..PointClock::default()
+    };
+    Ok(folder.write_point(&record, &clock)?)
+}
+
+/// The samples of a finished block.
+fn block_samples(record: &PointRecord) -> serde_json::Result<Vec<Sample>> {
+    let samples: Value = record.summaries.get(SAMPLES).cloned().unwrap_or_default();
+    serde_json::from_value(samples)
+}
+
+/// Refuses what cannot be designed.
+fn check(design: &Design, case: &Case) -> Result<(), Failure> {
+    let key = &design.key;
+    if !find_key(key).is_some_and(|known| known.is_numeric()) {
+        return Err(Failure::usage(format!(
+            "--robust {key}: not a numeric case key"
+        )));
+    }
+    let is_uncertain = case
+        .uncertainty
+        .iter()
+        .flat_map(|u| &u.parameters)
+        .any(|p| p.parameter.key == *key || p.parameter.also.contains(key));
+    if is_uncertain {
+        return Err(Failure::usage(format!(
+            "--robust {key}: it is uncertain already; take it out of uncertainty.distributions"
+        )));
+    }
+    for value in &design.values {
+        design.case(case, *value)?;
+    }
+    Ok(())
 }

@@ -69,6 +69,14 @@ pub struct Period<'a> {
 }
 
 impl CycleSolver {
+    /// Displacement of a limit cycle at time zero (m) and its velocity half a step earlier (m/s), over all dofs in nodal
+    /// frames: what the time loop starts from.
+    pub fn starting_fields(&self, cycle: &LimitCycle, time_step: f64) -> [Vec<f64>; 2] {
+        let [displacement, _] = self.field(cycle, 0.0);
+        let [_, velocity] = self.field(cycle, -0.5 * time_step);
+        [displacement, velocity]
+    }
+
     /// The time stepping of its mesh.
     ///
     /// # Errors
@@ -131,8 +139,7 @@ impl MeshStepping<'_> {
                 Perturbation::of(&[harmonic], velocity)
             }),
         };
-        let [displacement, _] = self.solver.field(cycle, 0.0);
-        let [_, velocity] = self.solver.field(cycle, -0.5 * time_step);
+        let [displacement, velocity] = self.solver.starting_fields(cycle, time_step);
         let operator = self.operator.as_ref();
         let run =
             CentralDifference::start_from(model, operator, &settings, &displacement, velocity)?;

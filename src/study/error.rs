@@ -1,9 +1,13 @@
 //! Why a study has no result.
 
+use super::fit::FitError;
 use crate::case::CaseErrors;
 use crate::cea::CeaError;
+use crate::cycle::CycleError;
+use crate::fem::operator::SimdError;
 use crate::mesh::MeshError;
 use crate::prestress::PrestressError;
+use crate::transient::TransientError;
 
 /// Why a study of a case has no result.
 #[derive(Debug, thiserror::Error)]
@@ -14,6 +18,42 @@ pub enum StudyError {
     /// There is no mesh, no steady sliding, or no spectrum.
     #[error(transparent)]
     Eigenvalues(#[from] CeaError),
+    /// The transient cannot start, or belongs to another case.
+    #[error(transparent)]
+    Transient(TransientError),
+    /// The transient became numerically unstable.
+    #[error("{error}: {remedy}")]
+    Unstable {
+        /// Where, and how it showed.
+        error: TransientError,
+        /// Which keys to change.
+        remedy: &'static str,
+    },
+    /// There is no such limit cycle, or it cannot be looked for.
+    #[error(transparent)]
+    Cycle(#[from] CycleError),
+    /// No limit cycle was found, of any family: why, family by family.
+    #[error("no limit cycle found: {0}")]
+    NoCycle(String),
+    /// An instruction set that this processor has not.
+    #[error(transparent)]
+    Simd(#[from] SimdError),
+    /// A summary that does not serialize.
+    #[error(transparent)]
+    Summary(#[from] serde_json::Error),
+    /// A fit that cannot be made.
+    #[error(transparent)]
+    Fit(#[from] FitError),
+    /// The first sample of a design cannot be solved.
+    #[error("{key} = {value}: {error}")]
+    Design {
+        /// Case key of the design parameter.
+        key: String,
+        /// Its value.
+        value: f64,
+        /// Why not.
+        error: String,
+    },
 }
 
 impl From<MeshError> for StudyError {
@@ -33,7 +73,17 @@ impl StudyError {
     pub fn messages(&self) -> Vec<String> {
         match self {
             Self::Case(errors) => errors.messages(),
-            Self::Eigenvalues(error) => vec![error.to_string()],
+            _ => vec![self.to_string()],
+        }
+    }
+
+    /// Whether the case is to blame rather than the run.
+    pub fn is_usage(&self) -> bool {
+        match self {
+            Self::Case(_) | Self::Simd(_) => true,
+            Self::Eigenvalues(error) => error.is_usage(),
+            Self::Cycle(error) => error.is_usage(),
+            _ => false,
         }
     }
 }

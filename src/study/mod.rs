@@ -1,20 +1,28 @@
 //! Studies of a case: what is computed at which points, and what is compared between them.
 //!
 //! A [`SweepPlan`] deals the points of a parameter study out to shards, each point a case of its own;
-//! [`eigenvalues`] sweeps over friction; [`convergence`] compares the levels of a refinement; [`fit`] finds parameters from
+//! [`eigenvalues`] sweeps over friction; [`transient`] steps through time; [`cycle`] finds limit cycles directly and
+//! [`basin`] which of two wins; [`convergence`] compares the levels of a refinement; [`fit`] finds parameters from
 //! measured modes; [`uncertainty`] draws samples of rough ones; [`tangent_options`] is how a case takes the tangent of
 //! steady sliding. Nothing here touches a file or the terminal.
 
+pub mod basin;
 pub mod convergence;
+pub mod cycle;
 pub mod eigenvalues;
 mod error;
 pub mod fit;
+mod linear_stage;
 mod plan;
 mod sobol;
+mod summary;
 mod tangent;
+pub mod transient;
 pub mod uncertainty;
 
 pub use error::StudyError;
+pub use linear_stage::{LinearStage, LinearStageError};
 pub use plan::{Shard, SweepPlan, analysis_name, one_line};
 pub use sobol::ScrambledSobol;
+pub use summary::summarize;
 pub use tangent::{modes_at_own_friction, tangent_options};

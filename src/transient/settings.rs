@@ -74,6 +74,17 @@ pub enum InitialState {
     },
 }
 
+impl InitialState {
+    /// Its name in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Rest => "rest",
+            Self::SteadySliding => "steady-sliding",
+            Self::LimitCycle { .. } => "limit-cycle",
+        }
+    }
+}
+
 /// Which operator applies the stiffness.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OperatorChoice {

@@ -1,9 +1,11 @@
 //! Consistency check: what `check` says of a case is what its runs say.
 
 use super::RUN;
-use frictionsim::app::{Failure, cea, preflight::preflight, transient};
-use frictionsim::case::Case;
+use frictionsim::app::Failure;
+use frictionsim::app::preflight::preflight;
+use frictionsim::case::{Analysis, Case};
 use frictionsim::results::Manifest;
+use frictionsim::study::summarize;
 
 /// Values for keys, good and bad ones.
 const POOL: &[(&str, &[&str])] = &[
@@ -67,15 +69,17 @@ fn overrides(seed: u64) -> Vec<String> {
 }
 
 /// Whether a command refuses its case, which is exit code 2.
-fn is_refused<T>(outcome: Result<T, Failure>) -> bool {
-    matches!(outcome, Err(Failure::Case(_) | Failure::Usage(_)))
+fn is_refused<T>(outcome: Result<T, impl Into<Failure>>) -> bool {
+    outcome
+        .err()
+        .is_some_and(|error| matches!(error.into(), Failure::Case(_) | Failure::Usage(_)))
 }
 
 #[test]
 fn check_refuses_what_a_run_refuses_and_nothing_else() {
     let simd = frictionsim::app::SimdChoice::Auto.resolve().unwrap();
     let manifest = Manifest {
-        simd: simd.to_owned(),
+        simd: simd.to_string(),
         ..Manifest::new("transient")
     };
     let mut counts = [0, 0];
@@ -88,8 +92,8 @@ fn check_refuses_what_a_run_refuses_and_nothing_else() {
         let checked = is_refused(preflight(&case));
         // Elements that the transient cannot run are a warning of the case.
         let runs = case.require_transient().is_ok();
-        let run = (runs && is_refused(transient::summarize(&case, &manifest)))
-            || is_refused(cea::summarize(&case, &manifest));
+        let run = (runs && is_refused(summarize(&case, Analysis::Transient, &manifest)))
+            || is_refused(summarize(&case, Analysis::Cea, &manifest));
         assert_eq!(checked, run, "seed {seed}: {overrides:?}");
         counts[usize::from(run)] += 1;
     }

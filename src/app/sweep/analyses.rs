@@ -1,9 +1,9 @@
 //! What runs at a point of a sweep.
 
-use crate::app::{Failure, basin, cea, cycle, transient};
+use crate::app::{Failure, cycle};
 use crate::case::{Analysis, Case};
 use crate::results::Manifest;
-use crate::study::analysis_name;
+use crate::study::{analysis_name, summarize};
 use serde_json::{Map, Value};
 
 /// Runs the analyses of one point and gives the summary of each by its name, without the manifest:
@@ -18,12 +18,10 @@ pub fn run_point(
 ) -> Result<Map<String, Value>, Failure> {
     let mut summaries = Map::new();
     for &analysis in analyses {
-        let mut summary = match analysis {
-            Analysis::Cea => cea::summarize(case, manifest)?,
-            Analysis::Transient => transient::summarize(case, manifest)?,
-            Analysis::Basin => basin::summarize(case, manifest)?,
-            Analysis::Cycle => cycle::summarize(case, manifest)?,
-        };
+        if analysis == Analysis::Cycle {
+            cycle::check_memory(case)?;
+        }
+        let mut summary = summarize(case, analysis, manifest)?;
         if let Value::Object(entries) = &mut summary {
             entries.shift_remove("manifest");
         }

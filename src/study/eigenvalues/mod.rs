@@ -20,13 +20,13 @@ mod states;
 
 pub use model::SlidingModel;
 pub use solid::SolidBody;
-pub use solve::{map, mode_limit, solve};
+pub use solve::{asked_modes, map, mode_limit, solve};
 pub use spectrum::{modes_below, unstable_intervals};
 
 use super::{StudyError, tangent_options};
 use crate::case::{Case, Cea, ModeSelection};
 use crate::cea::{FrictionSweep, SweepProgress, SweepRequest, cyclic};
-use crate::results::cea::SensitivityReport;
+use crate::results::cea::{BaseField, CeaReport, SensitivityReport};
 
 /// Hears of every friction value that is solved.
 pub type Progress<'a> = dyn Fn(SweepProgress) + Sync + 'a;
@@ -73,6 +73,22 @@ pub fn modes_and_onsets(case: &Case) -> Result<FrictionSweep, StudyError> {
     Ok(sweep)
 }
 
+/// Solves at the first friction coefficient alone: bounds that have no mode below them show there.
+///
+/// # Errors
+/// As [`solve`] and [`refuse_no_modes`].
+pub fn preflight(case: &Case, cea: &Cea) -> Result<(), StudyError> {
+    let one = Cea {
+        friction_coefficients: vec![cea.friction_coefficients[0]],
+        shapes_at: Vec::new(),
+        map: None,
+        ..cea.clone()
+    };
+    let model = SlidingModel::new(case, &one)?;
+    let solution = solve(case, &one, &model, &|_| {})?;
+    refuse_no_modes(case, &one, &solution.sweep)
+}
+
 /// A frequency limit below the first mode is an error of the case.
 ///
 /// # Errors
@@ -90,4 +106,35 @@ pub fn refuse_no_modes(case: &Case, cea: &Cea, sweep: &FrictionSweep) -> Result<
         "below the first mode".to_owned(),
         Some("raise it, or ask for the lowest ones with `modes = 10` instead".to_owned()),
     )))
+}
+
+/// What there is to report of a solution; the map is left out.
+pub fn report<'a>(
+    case: &'a Case,
+    cea: &'a Cea,
+    model: &'a SlidingModel,
+    solution: &'a Solution,
+    field: &'a BaseField,
+    wall_s: f64,
+) -> CeaReport<'a> {
+    CeaReport {
+        title: &case.title,
+        mesh: &model.mesh,
+        has_harmonics: case.is_annulus(),
+        dofs: solution.dofs,
+        method: solution.method,
+        selection: match cea.modes {
+            ModeSelection::BelowHz(limit) => format!("below {limit} Hz"),
+            ModeSelection::Lowest(count) => format!("the lowest {count}"),
+        },
+        friction_coefficients: &cea.friction_coefficients,
+        sweep: &solution.sweep,
+        base: model.base_state(case),
+        field,
+        solid: model.solid.as_ref().map(|body| &body.report),
+        sensitivities: solution.sensitivities.as_ref(),
+        map: None,
+        notes: solution.notes.clone(),
+        wall_s,
+    }
 }

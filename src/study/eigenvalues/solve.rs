@@ -192,6 +192,12 @@ pub fn mode_limit(cea: &Cea) -> ModeLimit {
     }
 }
 
+/// The modes of the case's own eigenvalue analysis, else so many of the lowest.
+pub fn asked_modes(case: &Case, otherwise: usize) -> ModeLimit {
+    let own = case.cea.as_ref().map(mode_limit);
+    own.unwrap_or(ModeLimit::Lowest(otherwise))
+}
+
 /// The stability map that a case asks for: every value makes a case of its own, validated like any other.
 ///
 /// # Errors

@@ -8,12 +8,15 @@
 //! their bounds, 0 to 1, linear or logarithmic. The method of Levenberg and Marquardt starts from the best of several
 //! points; eigenvalues are differentiated by the model where it can and by central differences elsewhere.
 
+mod case;
 mod estimate;
 mod interval;
 mod levenberg_marquardt;
 mod matching;
+mod summary;
 
 pub use crate::signal::reader::MeasuredMode;
+pub use case::{fit_case, refuse_too_few, summarize};
 pub use estimate::{Estimate, Fitted, LineFit, Side, fit};
 
 use crate::linalg::c64;

@@ -1,21 +1,22 @@
-//! `--robust`: the probability of squeal over design parameters.
+//! The probability of squeal over design parameters.
 
-use super::samples::Sampler;
-use crate::app::Failure;
-use crate::case::{Case, find_key};
+use super::{Sampler, wilson};
+use crate::case::Case;
 use crate::results::uncertainty::{DesignCurve, RobustSummary};
-use crate::study::uncertainty::wilson;
+use crate::study::StudyError;
 use rayon::prelude::*;
 use std::str::FromStr;
 
 /// Samples at each design, at most.
 const SAMPLES: usize = 256;
 
-/// A design parameter and its values.
+/// A design parameter and its values, in text `KEY=FROM:TO` or `KEY=FROM:TO:COUNT`.
 #[derive(Clone, Debug)]
 pub struct Design {
-    key: String,
-    values: Vec<f64>,
+    /// Case key.
+    pub key: String,
+    /// Its values.
+    pub values: Vec<f64>,
 }
 
 impl FromStr for Design {
@@ -48,37 +49,13 @@ impl FromStr for Design {
 }
 
 impl Design {
-    /// Refuses what cannot be designed.
+    /// The case with a value of the design parameter.
     ///
     /// # Errors
-    /// [`Failure::Usage`].
-    pub fn check(&self, case: &Case) -> Result<(), Failure> {
-        let key = &self.key;
-        if !find_key(key).is_some_and(|known| known.is_numeric()) {
-            return Err(Failure::usage(format!(
-                "--robust {key}: not a numeric case key"
-            )));
-        }
-        let is_uncertain = case
-            .uncertainty
-            .iter()
-            .flat_map(|u| &u.parameters)
-            .any(|p| p.parameter.key == *key || p.parameter.also.contains(key));
-        if is_uncertain {
-            return Err(Failure::usage(format!(
-                "--robust {key}: it is uncertain already; take it out of uncertainty.distributions"
-            )));
-        }
-        for value in &self.values {
-            self.case(case, *value)?;
-        }
-        Ok(())
-    }
-
-    fn case(&self, case: &Case, value: f64) -> Result<Case, Failure> {
-        let raw = case
-            .raw
-            .with_overrides(&[format!("{}={value:?}", self.key)])?;
+    /// [`StudyError::Case`] for a value that makes no valid case.
+    pub fn case(&self, case: &Case, value: f64) -> Result<Case, StudyError> {
+        let overrides = [format!("{}={value:?}", self.key)];
+        let raw = case.raw.with_overrides(&overrides)?;
         Ok(Case::from_raw(raw)?)
     }
 }
@@ -92,33 +69,13 @@ pub fn curves(
     sampler: &Sampler<'_>,
     designs: &[Design],
     bound: f64,
-) -> Result<RobustSummary, Failure> {
-    let uncertainty = case.require_uncertainty()?;
-    let samples = uncertainty.samples.min(SAMPLES);
-    let curve = |design: &Design| {
-        let points: Result<Vec<[f64; 4]>, Failure> = design
+) -> Result<RobustSummary, StudyError> {
+    let samples = case.require_uncertainty()?.samples.min(SAMPLES);
+    let curves = designs.iter().map(|design| {
+        let points: Result<Vec<[f64; 4]>, StudyError> = design
             .values
             .iter()
-            .map(|&value| {
-                let designed = design.case(case, value)?;
-                let (leading, followed) = sampler.sample(&designed, 0, None);
-                if let Some(error) = leading.error {
-                    return Err(Failure::run(format!("{} = {value}: {error}", design.key)));
-                }
-                let harmonics = sampler.harmonics(&followed);
-                let outcomes: Vec<Option<bool>> = (0..samples)
-                    .into_par_iter()
-                    .map(|index| {
-                        let (sample, _) = sampler.sample(&designed, index, harmonics.as_deref());
-                        let is_unstable = sample.is_unstable(sample.friction_coefficient);
-                        sample.error.is_none().then_some(is_unstable)
-                    })
-                    .collect();
-                let solved = outcomes.iter().flatten().count();
-                let hits = outcomes.iter().flatten().filter(|hit| **hit).count();
-                let p = wilson(hits, solved);
-                Ok([value, p.value, p.low, p.high])
-            })
+            .map(|&value| probability(case, sampler, design, value, samples))
             .collect();
         let (points, own) = (points?, case.number(&design.key));
         let reached = reaches(&points, own, bound);
@@ -131,11 +88,8 @@ pub fn curves(
                 .map(|(value, own)| 100.0 * (value / own - 1.0)),
             points,
         })
-    };
-    let curves = designs
-        .iter()
-        .map(curve)
-        .collect::<Result<Vec<DesignCurve>, Failure>>()?;
+    });
+    let curves = curves.collect::<Result<Vec<DesignCurve>, StudyError>>()?;
     let change = |curve: &DesignCurve| curve.change_percent.map_or(f64::INFINITY, f64::abs);
     let cheapest = curves.iter().filter(|curve| change(curve).is_finite());
     let cheapest = cheapest.min_by(|a, b| change(a).total_cmp(&change(b)));
@@ -145,6 +99,35 @@ pub fn curves(
         cheapest: cheapest.map(|curve| curve.key.clone()),
         curves,
     })
+}
+
+/// A design, its probability of squeal and the ends of that probability's interval.
+fn probability(
+    case: &Case,
+    sampler: &Sampler<'_>,
+    design: &Design,
+    value: f64,
+    samples: usize,
+) -> Result<[f64; 4], StudyError> {
+    let designed = design.case(case, value)?;
+    let (leading, followed) = sampler.sample(&designed, 0, None);
+    if let Some(error) = leading.error {
+        let key = design.key.clone();
+        return Err(StudyError::Design { key, value, error });
+    }
+    let harmonics = sampler.harmonics(&followed);
+    let outcomes: Vec<Option<bool>> = (0..samples)
+        .into_par_iter()
+        .map(|index| {
+            let (sample, _) = sampler.sample(&designed, index, harmonics.as_deref());
+            let is_unstable = sample.is_unstable(sample.friction_coefficient);
+            sample.error.is_none().then_some(is_unstable)
+        })
+        .collect();
+    let solved = outcomes.iter().flatten().count();
+    let hits = outcomes.iter().flatten().filter(|hit| **hit).count();
+    let p = wilson(hits, solved);
+    Ok([value, p.value, p.low, p.high])
 }
 
 /// The value nearest to the case's own at which the probability is no higher than the bound, by linear interpolation.

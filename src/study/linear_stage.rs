@@ -1,11 +1,12 @@
-//! The modes that a transient has in its linear stage, for its figures.
+//! The modes that a transient has in its linear stage.
 
-use crate::case::{Case, ModeSelection};
-use crate::cea::{CeaError, ComplexMode, ModeLimit};
+use super::eigenvalues::asked_modes;
+use super::modes_at_own_friction;
+use crate::case::Case;
+use crate::cea::{CeaError, ComplexMode};
 use crate::fem::MassKind;
 use crate::prestress::{DampingModel, TangentOptions};
 use crate::results::charts::ModeLine;
-use crate::study::modes_at_own_friction;
 
 /// Modes looked at where the case has no `[cea]`.
 const MODES: usize = 30;
@@ -13,8 +14,20 @@ const MODES: usize = 30;
 /// Nodes of an imported mesh beyond which its modes would take longer than a figure is worth.
 const MOST_NODES: usize = 30_000;
 
+/// Why figures go without the modes of a linear stage.
+#[derive(Debug, thiserror::Error)]
+pub enum LinearStageError {
+    /// They would take too long.
+    #[error("more than {MOST_NODES} nodes")]
+    TooManyNodes,
+    /// There is no steady sliding, or no spectrum.
+    #[error(transparent)]
+    Eigenvalues(#[from] CeaError),
+}
+
 /// Unstable modes of steady sliding as the time loop has it: the same mesh and contact, lumped mass, small
 /// displacements.
+#[derive(Default)]
 pub struct LinearStage {
     /// Frequencies, numbered among all modes by frequency.
     pub references: Vec<ModeLine>,
@@ -23,26 +36,16 @@ pub struct LinearStage {
 }
 
 impl LinearStage {
-    /// Solves at the case's own friction coefficient; where that fails (steady sliding would open, say)
-    /// there are no modes, and the log says why.
-    pub fn of(case: &Case) -> Self {
-        if case
-            .body
-            .as_ref()
-            .is_some_and(|body| body.mesh.node_count() > MOST_NODES)
-        {
-            tracing::warn!(
-                "figures without modes of the eigenvalue analysis: more than {MOST_NODES} nodes"
-            );
-            return Self {
-                references: Vec::new(),
-                growth_rates: Vec::new(),
-            };
+    /// Solves at the case's own friction coefficient.
+    ///
+    /// # Errors
+    /// [`LinearStageError::TooManyNodes`]; those of steady sliding, which would open, say, and of the solver.
+    pub fn of(case: &Case) -> Result<Self, LinearStageError> {
+        let nodes = case.body.as_ref().map_or(0, |body| body.mesh.node_count());
+        if nodes > MOST_NODES {
+            return Err(LinearStageError::TooManyNodes);
         }
-        let modes = modes(case).unwrap_or_else(|error| {
-            tracing::warn!("figures without modes of the eigenvalue analysis: {error}");
-            Vec::new()
-        });
+        let modes = modes(case)?;
         let unstable = || modes.iter().enumerate().filter(|(_, m)| m.is_unstable());
         let mut growth_rates: Vec<(usize, f64)> = Vec::new();
         // A body without symmetry has no harmonics that its waves belong to.
@@ -54,7 +57,7 @@ impl LinearStage {
             }
         }
         growth_rates.sort_by_key(|&(harmonic, _)| harmonic);
-        Self {
+        Ok(Self {
             references: unstable()
                 .map(|(index, mode)| ModeLine {
                     frequency_hz: mode.frequency_hz(),
@@ -65,7 +68,7 @@ impl LinearStage {
                 })
                 .collect(),
             growth_rates,
-        }
+        })
     }
 }
 
@@ -84,10 +87,6 @@ fn modes(case: &Case) -> Result<Vec<ComplexMode>, CeaError> {
         damping_model,
         contact,
     };
-    let limit = match case.cea.as_ref().map(|cea| cea.modes) {
-        Some(ModeSelection::BelowHz(limit)) => ModeLimit::MaxFrequency(limit),
-        Some(ModeSelection::Lowest(count)) => ModeLimit::Lowest(count),
-        None => ModeLimit::Lowest(MODES),
-    };
+    let limit = asked_modes(case, MODES);
     modes_at_own_friction(case, &options, limit)
 }

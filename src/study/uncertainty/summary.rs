@@ -1,7 +1,7 @@
 //! From samples to a probability of squeal.
 
-use super::ScrambledSobol;
-use crate::case::Uncertainty;
+use super::largest_friction;
+use crate::case::Case;
 use crate::results::Manifest;
 use crate::results::uncertainty::{
     CriticalFriction, FamilySummary, Index, Interval, Sample, UncertaintySummary,
@@ -14,58 +14,6 @@ const PARTS: usize = 16;
 
 /// Friction coefficients at which the probability of squeal is reported.
 const FRICTIONS: usize = 101;
-
-/// The points at which a model with uncertain parameters is solved.
-///
-/// Point `i` of a scrambled Sobol sequence in twice as many dimensions as there are parameters makes two samples: `A_i`
-/// of its first half, which is the sample proper, and `B_i` of its second, which only the indices need.
-#[derive(Clone, Debug)]
-pub struct SamplePlan<'a> {
-    uncertainty: &'a Uncertainty,
-    sequence: ScrambledSobol,
-}
-
-impl<'a> SamplePlan<'a> {
-    /// The plan of a case.
-    pub fn new(uncertainty: &'a Uncertainty) -> Self {
-        let dimensions = 2 * uncertainty.parameters.len();
-        Self {
-            sequence: ScrambledSobol::new(dimensions, uncertainty.seed),
-            uncertainty,
-        }
-    }
-
-    /// Values of sample `index` (from 0).
-    pub fn values(&self, index: usize) -> Vec<f64> {
-        self.halves(index).0
-    }
-
-    /// The further points that the indices need of sample `index`: `B_i`, then `A_i` with the value of one parameter
-    /// from `B_i`, parameter by parameter; none beyond the samples that they rest on.
-    pub fn mixed(&self, index: usize) -> Vec<Vec<f64>> {
-        if index >= self.uncertainty.index_samples {
-            return Vec::new();
-        }
-        let (a, b) = self.halves(index);
-        let with = |k: usize| {
-            let mut values = a.clone();
-            values[k] = b[k];
-            values
-        };
-        let mixed: Vec<Vec<f64>> = (0..a.len()).map(with).collect();
-        std::iter::once(b).chain(mixed).collect()
-    }
-
-    fn halves(&self, index: usize) -> (Vec<f64>, Vec<f64>) {
-        let point = self.sequence.point(index as u32);
-        let count = self.uncertainty.parameters.len();
-        let of = |part: &[f64]| {
-            let pairs = self.uncertainty.parameters.iter().zip(part);
-            pairs.map(|(parameter, p)| parameter.value(*p)).collect()
-        };
-        (of(&point[..count]), of(&point[count..]))
-    }
-}
 
 /// 95 % interval of a probability of which `count` trials gave `hits`.
 ///
@@ -116,16 +64,11 @@ pub fn indices(a: &[f64], b: &[f64], mixed: &[Vec<f64>]) -> Vec<Index> {
     mixed.iter().map(of).collect()
 }
 
-/// What the samples say.
-///
-/// `friction_coefficient` is the case's own; `largest_friction` ends the range of onsets.
-pub fn summarize(
-    title: &str,
-    keys: &[String],
-    samples: &[Sample],
-    friction_coefficient: f64,
-    largest_friction: f64,
-) -> UncertaintySummary {
+/// What the samples of a case say.
+pub fn summarize(case: &Case, samples: &[Sample]) -> UncertaintySummary {
+    let parameters = case.uncertainty.iter().flat_map(|u| &u.parameters);
+    let keys: Vec<String> = parameters.map(|p| p.parameter.key.clone()).collect();
+    let largest_friction = largest_friction(case);
     let solved: Vec<&Sample> = samples
         .iter()
         .filter(|sample| sample.error.is_none())
@@ -142,7 +85,7 @@ pub fn summarize(
         let p = wilson(hits(&|_| friction), count);
         [friction, p.value, p.low, p.high]
     });
-    let (sobol, index_samples) = sobol_of(keys, &solved, largest_friction);
+    let (sobol, index_samples) = sobol_of(&keys, &solved, largest_friction);
     let decisive = sobol.iter().max_by(|a, b| a.1.total.total_cmp(&b.1.total));
     let failed = samples.len() - count;
     let mut notes = Vec::new();
@@ -155,12 +98,12 @@ pub fn summarize(
     }
     UncertaintySummary {
         command: "uncertainty".to_owned(),
-        title: title.to_owned(),
+        title: case.title.clone(),
         wall_s: 0.0,
         samples: samples.len(),
         failed,
         index_samples,
-        friction_coefficient,
+        friction_coefficient: case.contact.sliding.friction_coefficient,
         largest_friction,
         probability_unstable: wilson(hits(&|sample| sample.friction_coefficient), count),
         critical_friction: critical_friction(&solved, largest_friction),
@@ -312,6 +255,7 @@ fn families(solved: &[&Sample], most: f64) -> Vec<FamilySummary> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::study::ScrambledSobol;
     use std::f64::consts::PI;
 
     /// Ishigami's function on the unit cube.

@@ -1,17 +1,17 @@
 //! A fit in the words of its results.
 
+use super::{Estimate, Fitted, LineFit, ModelMode, Side};
 use crate::case::{Case, Fit, find_key};
 use crate::cea::ComplexMode;
 use crate::results::Manifest;
 use crate::results::fit::{FitSummary, FittedParameter, LineSummary, ModeSummary, SearchSummary};
-use crate::study::fit::{Estimate, Fitted, LineFit, ModelMode, Side};
 use std::collections::BTreeMap;
 
 /// Share of its frequency within which an unmeasured mode is said to lie beside a line.
 const BESIDE: f64 = 0.05;
 
 /// The summary of a fit, without its source, time and manifest.
-pub fn summarize(case: &Case, wanted: &Fit, fitted: &Fitted, before: &[ComplexMode]) -> FitSummary {
+pub fn of(case: &Case, wanted: &Fit, fitted: &Fitted, before: &[ComplexMode]) -> FitSummary {
     let keys: Vec<&String> = wanted.parameters.iter().map(|p| &p.parameter.key).collect();
     let by_key = |values: &[f64]| -> BTreeMap<String, f64> {
         keys.iter()

@@ -1,24 +1,17 @@
-//! Samples, block by block.
+//! Onsets of samples, block by block.
 
-use crate::app::Failure;
+use super::SamplePlan;
 use crate::case::{Case, Uncertainty};
-use crate::results::Manifest;
-use crate::results::sweep::{Found, PointClock, PointRecord, SweepFolder};
+use crate::cea::UnstableInterval;
 use crate::results::uncertainty::{Onset, Sample};
-use crate::study::eigenvalues;
-use crate::study::uncertainty::SamplePlan;
+use crate::study::{StudyError, eigenvalues, one_line};
 use rayon::prelude::*;
-use serde_json::{Map, Value};
-use std::time::Instant;
 
-/// Samples of one block: one file, whose first sample proves which harmonics hold modes.
+/// Samples of one block, the first of which proves which harmonics hold modes.
 pub const BLOCK: usize = 64;
 
 /// Harmonics looked at above the highest that holds modes in the first sample of a block.
 const FURTHER_HARMONICS: usize = 3;
-
-/// Name of the samples in the file of a block.
-const SAMPLES: &str = "samples";
 
 /// Solves samples.
 pub struct Sampler<'a> {
@@ -38,18 +31,12 @@ pub fn largest_friction(case: &Case) -> f64 {
     }
 }
 
-/// The samples of a finished block.
-pub fn block_samples(record: &PointRecord) -> serde_json::Result<Vec<Sample>> {
-    let samples = record.summaries.get(SAMPLES).cloned().unwrap_or_default();
-    serde_json::from_value(samples)
-}
-
 impl<'a> Sampler<'a> {
     /// The samples of a case.
     ///
     /// # Errors
     /// A case without uncertain parameters, or that has no onsets to look for as it is written.
-    pub fn new(case: &'a Case) -> Result<Self, Failure> {
+    pub fn new(case: &'a Case) -> Result<Self, StudyError> {
         let uncertainty = case.require_uncertainty()?;
         let sampler = Self {
             case,
@@ -88,7 +75,7 @@ impl<'a> Sampler<'a> {
         frictions.dedup();
         let found = eigenvalues::unstable_intervals(&case, &frictions, harmonics);
         let (intervals, followed) = found.map_err(|failure| failure.messages().join("; "))?;
-        let onset = |interval: &crate::cea::UnstableInterval| Onset {
+        let onset = |interval: &UnstableInterval| Onset {
             harmonic: interval.harmonic,
             branch: interval.branch,
             direction: interval.direction,
@@ -122,7 +109,7 @@ impl<'a> Sampler<'a> {
                 (sample, followed)
             }
             Err(error) => {
-                sample.error = Some(crate::study::one_line(&error));
+                sample.error = Some(one_line(&error));
                 (sample, Vec::new())
             }
         }
@@ -135,28 +122,8 @@ impl<'a> Sampler<'a> {
         Some((0..=(highest + FURTHER_HARMONICS).min(most)).collect())
     }
 
-    /// Runs one block and keeps it, unless it is finished or another process has it.
-    ///
-    /// # Errors
-    /// Those of the folder.
-    pub fn run_block(
-        &self,
-        folder: &SweepFolder,
-        manifest: &Manifest,
-        block: usize,
-    ) -> Result<(), Failure> {
-        let is_finished = || Ok::<_, Failure>(matches!(folder.read(block)?, Found::Point(_)));
-        if is_finished()? {
-            return Ok(());
-        }
-        let Some(_claim) = folder.claim(block)? else {
-            return Ok(());
-        };
-        // Another process may have finished it between the look and the claim.
-        if is_finished()? {
-            return Ok(());
-        }
-        let start = Instant::now();
+    /// Solves one block of samples, counted from 1.
+    pub fn block(&self, block: usize) -> Vec<Sample> {
         let first = (block - 1) * BLOCK;
         let last = (first + BLOCK).min(self.uncertainty.samples);
         let (leading, followed) = self.sample(self.case, first, None);
@@ -166,24 +133,7 @@ impl<'a> Sampler<'a> {
         let mut samples = vec![leading];
         samples.extend(others.collect::<Vec<_>>());
         self.mix(&mut samples);
-        let mut summaries = Map::new();
-        let value: Value = serde_json::to_value(&samples).map_err(Failure::run)?;
-        summaries.insert(SAMPLES.to_owned(), value);
-        let record = PointRecord {
-            point: block,
-            swept: Map::new(),
-            error: None,
-            summaries,
-            case_hash: manifest.case_hash.clone(),
-            sweep_hash: manifest.case_hash.clone(),
-            version: manifest.version.clone(),
-            simd: manifest.simd.clone(),
-        };
-        let clock = PointClock {
-            wall_s: start.elapsed().as_secs_f64(),
-            ..PointClock::default()
-        };
-        Ok(folder.write_point(&record, &clock)?)
+        samples
     }
 
     /// Solves the further points of the indices, in the harmonics in which some sample of the block has an onset.

@@ -1,10 +1,10 @@
 //! From the case's terms to those of the time loop, and its errors back to keys of the case.
 
-use crate::app::Failure;
 use crate::case::{Case, Transient};
 use crate::mesh::{AnnulusMesh, Mesh2d, SolidSector};
+use crate::study::StudyError;
 use crate::transient::{
-    Breakdown, InitialState, RecorderSettings, SolidTransientModel, TransientBody, TransientError,
+    Breakdown, RecorderSettings, SolidTransientModel, TransientBody, TransientError,
     TransientModel, TransientSettings,
 };
 
@@ -44,7 +44,7 @@ pub fn body<'a>(
     .into()
 }
 
-pub fn settings(case: &Case, transient: &Transient) -> TransientSettings {
+pub fn run_settings(case: &Case, transient: &Transient) -> TransientSettings {
     TransientSettings {
         duration: transient.duration,
         time_step: transient.time_step,
@@ -52,14 +52,6 @@ pub fn settings(case: &Case, transient: &Transient) -> TransientSettings {
         expansion_time: transient.expansion_time,
         initial: transient.initial,
         perturbation: transient.perturbation.clone(),
-    }
-}
-
-pub fn initial_name(transient: &Transient) -> &'static str {
-    match transient.initial {
-        InitialState::Rest => "rest",
-        InitialState::SteadySliding => "steady-sliding",
-        InitialState::LimitCycle { .. } => "limit-cycle",
     }
 }
 
@@ -77,8 +69,8 @@ pub fn recorder_settings(case: &Case, transient: &Transient) -> RecorderSettings
 const OUTPUT: [&str; 3] = ["probes", "sample_interval", "snapshots"];
 
 /// An error of the case at its key where there is one, else of the run.
-pub fn failure(case: &Case, error: &TransientError) -> Failure {
-    let label = match error {
+pub fn study_error(case: &Case, error: TransientError) -> StudyError {
+    let label = match &error {
         TransientError::StepAboveLimit { limit, .. } => format!("at most {limit:.4e}"),
         TransientError::SampleBelowStep { step, .. } => format!("at least {step:.4e}"),
         TransientError::Time { .. } => "a positive time".to_owned(),
@@ -88,21 +80,22 @@ pub fn failure(case: &Case, error: &TransientError) -> Failure {
         TransientError::UnknownProbe { count, .. } => format!("1 to {count}"),
         TransientError::SnapshotOutsideRun { duration, .. } => format!("0 to {duration}"),
         TransientError::Unstable { cause, .. } => {
-            return Failure::run(format!("{error}: {}", remedy(*cause)));
+            let remedy = remedy(*cause);
+            return StudyError::Unstable { error, remedy };
         }
         _ => "not on this mesh".to_owned(),
     };
-    match (error.setting(), error) {
+    match (error.setting(), &error) {
         (Some(setting), _) => {
             let is_output = OUTPUT.contains(&setting);
             let section = if is_output { "output" } else { "transient" };
             let (key, message) = (format!("{section}.{setting}"), format!("{section}.{error}"));
-            Failure::Case(case.error_at(&key, message, label, None))
+            StudyError::Case(case.error_at(&key, message, label, None))
         }
         (None, TransientError::Operator(_)) => {
-            Failure::Case(case.error_at("transient.operator", error.to_string(), label, None))
+            StudyError::Case(case.error_at("transient.operator", error.to_string(), label, None))
         }
-        _ => Failure::run(error),
+        _ => StudyError::Transient(error),
     }
 }
 

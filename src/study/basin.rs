@@ -1,0 +1,43 @@
+//! Which of two waves of a case wins.
+//!
+//! ```no_run
+//! use frictionsim::case::Case;
+//! use frictionsim::fem::operator::SimdLevel;
+//! use frictionsim::study::basin::boundary;
+//!
+//! let case = Case::parse("disc", &std::fs::read("cases/basin.toml")?, &[])?;
+//! let found = boundary(&case, SimdLevel::detect())?;
+//! println!("the second wave wins above {:?}, the first below {:?}", found.high, found.low);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+use super::StudyError;
+use super::cycle::{disc_model, operating_point};
+use crate::case::Case;
+use crate::cycle::BasinBoundary;
+use crate::fem::operator::SimdLevel;
+use crate::results::Manifest;
+use crate::results::basin::BasinSummary;
+use std::time::Instant;
+
+/// Bisects for the amplitude ratio at saturation that decides between the two waves of `[basin]`.
+///
+/// # Errors
+/// [`StudyError::Case`] for a case without `[basin]`; steady sliding that is stable; a transient that cannot start.
+pub fn boundary(case: &Case, simd: SimdLevel) -> Result<BasinBoundary, StudyError> {
+    let request = case.require_basin()?;
+    Ok(disc_model(case).basin(&operating_point(case), request, simd)?)
+}
+
+/// As [`boundary`], in the words of its results.
+///
+/// # Errors
+/// As [`boundary`].
+pub fn summary(case: &Case, manifest: &Manifest) -> Result<BasinSummary, StudyError> {
+    let start = Instant::now();
+    let request = case.require_basin()?;
+    let found = boundary(case, SimdLevel::choose(&manifest.simd)?)?;
+    let wall_s = start.elapsed().as_secs_f64();
+    let title = &case.title;
+    Ok(BasinSummary::new(title, request, &found, wall_s, manifest))
+}

@@ -1,0 +1,275 @@
+//! A case on several meshes and with several time steps, and what is compared between them.
+//!
+//! ```no_run
+//! use frictionsim::case::Case;
+//! use frictionsim::fem::operator::SimdLevel;
+//! use frictionsim::results::Manifest;
+//! use frictionsim::study::convergence::{levels, solve};
+//!
+//! let case = Case::parse("disc", &std::fs::read("cases/convergence.toml")?, &[])?;
+//! let levels = levels(&case, SimdLevel::detect())?;
+//! for series in solve(&case, &levels, &Manifest::new("convergence"), &|| {})? {
+//!     println!("{} over {}", series.analysis, series.levels.join(", "));
+//! }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod quantities;
+
+use super::transient::TransientStudy;
+use super::{StudyError, eigenvalues, summarize, summary};
+use crate::case::{Analysis, Case, CaseErrors, StabilityChoice, TimeStep};
+use crate::cea::FrictionSweep;
+use crate::fem::operator::SimdLevel;
+use crate::results::Manifest;
+use crate::results::convergence::{Quantity, Refinement, Series};
+use crate::results::summary::PointSummary;
+use rayon::prelude::*;
+use serde_json::Value;
+use std::f64::consts::TAU;
+use std::time::Instant;
+
+/// Levels of one series: the same case refined.
+pub struct Levels {
+    /// What runs.
+    pub analysis: Analysis,
+    /// What is refined.
+    pub refinement: Refinement,
+    /// One case for each level, coarsest first.
+    pub cases: Vec<Case>,
+}
+
+/// What one level gave.
+enum Outcome {
+    Cea(FrictionSweep),
+    Summary(Box<PointSummary>),
+}
+
+/// A level done, and its wall time, s.
+type Timed = (Outcome, f64);
+
+/// The levels that a case asks for.
+///
+/// # Errors
+/// [`StudyError::Case`] for a case without `[convergence]`, or that makes no valid case when refined.
+pub fn levels(case: &Case, simd: SimdLevel) -> Result<Vec<Levels>, StudyError> {
+    let convergence = case.require_convergence()?;
+    let factors = convergence.factors.iter();
+    let meshes: Result<Vec<Case>, CaseErrors> = factors.map(|&f| case.refined(f)).collect();
+    let meshes = meshes?;
+    let over_meshes = convergence.analyses.iter().map(|&analysis| Levels {
+        analysis,
+        refinement: Refinement::Mesh,
+        cases: match analysis {
+            Analysis::Cycle => meshes.iter().map(own_cycles).collect(),
+            _ => meshes.clone(),
+        },
+    });
+    let mut all: Vec<Levels> = over_meshes.collect();
+    if !convergence.time_step_factors.is_empty() {
+        let study = TransientStudy::new(case, simd)?;
+        let step = study.plan(study.operator()?.as_ref())?.time_step;
+        let factors = convergence.time_step_factors.iter();
+        all.push(Levels {
+            analysis: Analysis::Transient,
+            refinement: Refinement::TimeStep,
+            cases: factors.map(|&f| with_time_step(case, f * step)).collect(),
+        });
+    }
+    Ok(all)
+}
+
+/// Solves every level, side by side, the costliest first, and compares them; `done` hears of every level.
+///
+/// # Errors
+/// Those of the first level that cannot be solved; time steps that are the same.
+pub fn solve(
+    case: &Case,
+    levels: &[Levels],
+    manifest: &Manifest,
+    done: &(dyn Fn() + Sync),
+) -> Result<Vec<Series>, StudyError> {
+    let mut all = Vec::new();
+    let solved = solve_levels(levels, manifest, done)?;
+    for (outcomes, levels) in solved.into_iter().zip(levels) {
+        all.extend(series(case, levels, outcomes)?);
+    }
+    Ok(all)
+}
+
+fn with_time_step(case: &Case, step: f64) -> Case {
+    let mut case = case.clone();
+    if let Some(transient) = &mut case.transient {
+        transient.time_step = TimeStep::Seconds(step);
+    }
+    case
+}
+
+impl Levels {
+    /// Memory of all levels at once, bytes: they run side by side.
+    pub fn memory_bytes(&self) -> f64 {
+        let bytes = self.cases.iter().map(|case| {
+            let cost = case.cost();
+            cost.mesh_memory_bytes
+                + match self.analysis {
+                    Analysis::Cea => cost.cea.map_or(0.0, |cea| cea.memory_bytes),
+                    Analysis::Transient => cost.transient.map_or(0.0, |run| run.memory_bytes),
+                    // Receptances of one sector at a few hundred phases.
+                    Analysis::Cycle | Analysis::Basin => 0.0,
+                }
+        });
+        bytes.sum()
+    }
+}
+
+fn solve_levels(
+    studies: &[Levels],
+    manifest: &Manifest,
+    done: &(dyn Fn() + Sync),
+) -> Result<Vec<Vec<Timed>>, StudyError> {
+    let jobs = studies.iter().flat_map(|study| {
+        let cases = study.cases.iter();
+        cases.map(|case| (study.analysis, case))
+    });
+    // Finest meshes and shortest steps stand last in each study.
+    let jobs: Vec<(Analysis, &Case)> = jobs.collect();
+    let solved: Vec<Result<Timed, StudyError>> = jobs
+        .par_iter()
+        .with_max_len(1)
+        .rev()
+        .map(|(analysis, case)| {
+            let start = Instant::now();
+            let outcome = match analysis {
+                Analysis::Cea => Outcome::Cea(eigenvalues::modes_and_onsets(case)?),
+                // That a level has no cycle is said beside the others.
+                Analysis::Cycle => summarized(&summary::cycle(case, manifest, |_| Ok(()))?)?,
+                Analysis::Transient | Analysis::Basin => {
+                    summarized(&summarize(case, *analysis, manifest)?)?
+                }
+            };
+            done();
+            Ok((outcome, start.elapsed().as_secs_f64()))
+        })
+        .collect();
+    // The first level that failed speaks, whichever thread was first.
+    let mut solved = solved.into_iter().rev();
+    studies
+        .iter()
+        .map(|study| solved.by_ref().take(study.cases.len()).collect())
+        .collect()
+}
+
+fn summarized(summary: &Value) -> Result<Outcome, StudyError> {
+    let read = PointSummary::read(summary)?;
+    Ok(Outcome::Summary(Box::new(read)))
+}
+
+/// The case with the limit cycles at its own operating point alone.
+fn own_cycles(case: &Case) -> Case {
+    let mut case = case.clone();
+    if let Some(cycle) = &mut case.cycle {
+        cycle.continuation = None;
+        cycle.stability = StabilityChoice::None;
+    }
+    case
+}
+
+/// The series of a study: one, or for limit cycles one for each family.
+fn series(case: &Case, study: &Levels, outcomes: Vec<Timed>) -> Result<Vec<Series>, StudyError> {
+    let (outcomes, wall_s): (Vec<Outcome>, Vec<f64>) = outcomes.into_iter().unzip();
+    let (mut sweeps, mut summaries) = (Vec::new(), Vec::new());
+    for outcome in outcomes {
+        match outcome {
+            Outcome::Cea(sweep) => sweeps.push(sweep),
+            Outcome::Summary(summary) => summaries.push(*summary),
+        }
+    }
+    let steps = summaries
+        .iter()
+        .filter_map(|s: &PointSummary| s.time_step_s);
+    let steps: Vec<f64> = steps.collect();
+    let (sizes, levels): (Vec<f64>, Vec<String>) = match study.refinement {
+        Refinement::Mesh => study.cases.iter().map(mesh_level).unzip(),
+        Refinement::TimeStep => steps.iter().map(|&s| (s, format!("{s:.4e}"))).unzip(),
+    };
+    if sizes.windows(2).any(|pair| pair[1] >= pair[0]) {
+        return Err(StudyError::Case(case.error_at(
+            "convergence.time_step_factors",
+            format!(
+                "convergence.time_step_factors gives the time steps {} s: two are the same, as a step \
+                 divides output.sample_interval",
+                levels.join(", ")
+            ),
+            "factors further apart".to_owned(),
+            None,
+        )));
+    }
+    let of = |analysis: &str, quantities: Vec<Quantity>, notes: Vec<String>| Series {
+        analysis: analysis.to_owned(),
+        refinement: study.refinement,
+        levels: levels.clone(),
+        sizes: sizes.clone(),
+        quantities,
+        wall_s: wall_s.clone(),
+        notes,
+    };
+    Ok(match study.analysis {
+        Analysis::Cea => {
+            let (quantities, notes) = quantities::of_sweeps(case, &sizes, &sweeps);
+            vec![of("cea", quantities, notes)]
+        }
+        Analysis::Transient => {
+            let steps: Vec<String> = steps.iter().map(|step| format!("{step:.4e}")).collect();
+            let notes = match study.refinement {
+                Refinement::Mesh => vec![format!("time steps {} s", steps.join(", "))],
+                Refinement::TimeStep => Vec::new(),
+            };
+            let quantities = quantities::of_transients(&sizes, &summaries);
+            vec![of("transient", quantities, notes)]
+        }
+        Analysis::Basin => vec![of("basin", Vec::new(), Vec::new())],
+        Analysis::Cycle => quantities::by_family(&summaries)
+            .into_iter()
+            .map(|(family, cycles)| {
+                let phases = cycles.iter().map(|cycle| match cycle.phases {
+                    Some(phases) => phases.to_string(),
+                    None => "no".to_owned(),
+                });
+                let mut notes = vec![format!("{} phases", phases.collect::<Vec<_>>().join(", "))];
+                for (level, cycle) in levels.iter().zip(&cycles) {
+                    let error = cycle.error.as_ref();
+                    notes.extend(error.map(|error| format!("{level}: {error}")));
+                    if cycle.confirmation.and_then(|said| said.agrees) == Some(false) {
+                        notes.push(format!(
+                            "{level}: NOT CONFIRMED: a transient does not stay on the cycle found: take a finer mesh"
+                        ));
+                    }
+                }
+                let quantities = quantities::of_limit_cycles(&sizes, &cycles);
+                of(&format!("cycle-{}", family.tag()), quantities, notes)
+            })
+            .collect(),
+    })
+}
+
+/// Element size and name of a mesh: the size is the side of a square of the mean element area, m.
+fn mesh_level(case: &Case) -> (f64, String) {
+    if let Some(body) = &case.body {
+        let (mesh, count) = (&body.mesh, body.mesh.element_count());
+        return (
+            (mesh.area() / count as f64).sqrt(),
+            format!("{count} elements"),
+        );
+    }
+    let annulus = &case.annulus;
+    let area = 0.5 * TAU * (annulus.outer_radius.powi(2) - annulus.inner_radius.powi(2));
+    let (around, radial) = (annulus.circumferential_elements, annulus.radial_elements);
+    let size = (area / (around as f64 * radial as f64)).sqrt();
+    let layers = case
+        .solid
+        .map(|solid| format!(" x {}", solid.axial_elements));
+    (
+        size,
+        format!("{around} x {radial}{}", layers.unwrap_or_default()),
+    )
+}

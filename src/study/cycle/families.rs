@@ -1,0 +1,108 @@
+//! Which limit cycles a case asks for, and what they are followed over.
+
+use crate::case::{Case, Cycle, OnsetChoice};
+use crate::cea::ModeLimit;
+use crate::cycle::{CycleError, CycleSolver, DiscModel, Family, MODES, Onset, Parameter};
+use crate::study::StudyError;
+use crate::study::eigenvalues::asked_modes;
+
+/// The solver of a family, or why it has none.
+pub type Sought = Result<CycleSolver, (Family, CycleError)>;
+
+/// The parameter of `[cycle.continuation]` and its SI values.
+pub fn continuation(
+    case: &Case,
+    cycle: &Cycle,
+) -> Result<Option<(Parameter, Vec<f64>)>, StudyError> {
+    let Some(continuation) = &cycle.continuation else {
+        return Ok(None);
+    };
+    let Some(parameter) = Parameter::from_key(&continuation.key) else {
+        let known: Vec<&str> = Parameter::ALL.iter().map(|known| known.key()).collect();
+        return Err(StudyError::Case(case.error_at(
+            "cycle.continuation.key",
+            format!("limit cycles cannot be followed over {}", continuation.key),
+            "not one of the parameters of a cycle".to_owned(),
+            Some(format!("one of {}", known.join(", "))),
+        )));
+    };
+    if continuation.from.min(continuation.to) < 0.0 {
+        return Err(StudyError::Case(case.error_at(
+            "cycle.continuation.from",
+            format!("{} cannot be negative along a branch", continuation.key),
+            "must not be negative".to_owned(),
+            None,
+        )));
+    }
+    let values = continuation.values().into_iter();
+    let values = values.map(|value| value * parameter.unit()).collect();
+    Ok(Some((parameter, values)))
+}
+
+/// The first onset above a friction coefficient, for the sentence that steady sliding is stable there.
+pub fn next_onset(case: &Case, friction: f64) -> Option<Onset> {
+    let mut highest = 2.0 * friction;
+    while highest <= 2.0 {
+        let found = disc_model(case).onsets(highest, mode_limit(case)).ok()?;
+        if let Some(first) = found.into_iter().next() {
+            return Some(first);
+        }
+        highest *= 2.0;
+    }
+    None
+}
+
+/// The disc of a case as its limit cycles see it.
+pub fn disc_model(case: &Case) -> DiscModel {
+    DiscModel {
+        specification: case.annulus,
+        material: case.material,
+        damping: case.damping.rayleigh,
+    }
+}
+
+/// The modes whose onsets are looked for: those of the case's own eigenvalue analysis, else the lowest.
+pub fn mode_limit(case: &Case) -> ModeLimit {
+    asked_modes(case, MODES)
+}
+
+/// One solver for each family asked for; where no harmonic is named, for every wave that is unstable at the case's
+/// friction. A harmonic that is named is sought even where steady sliding is stable: its cycles may outlive their birth.
+pub fn solvers(case: &Case, cycle: &Cycle, onsets: &[Onset]) -> Result<Vec<Sought>, StudyError> {
+    let (model, limit) = (disc_model(case), mode_limit(case));
+    let mut harmonics: Vec<usize> = match &cycle.harmonics {
+        Some(harmonics) => harmonics.clone(),
+        None => onsets.iter().map(|onset| onset.harmonic).collect(),
+    };
+    harmonics.sort_unstable();
+    harmonics.dedup();
+    let mut solvers = Vec::new();
+    for harmonic in harmonics {
+        let own = onsets.iter().filter(|onset| onset.harmonic == harmonic);
+        let mut own: Vec<Onset> = own.copied().collect();
+        if own.is_empty() {
+            match model.onset_of(Family::lowest(harmonic), limit) {
+                Ok(onset) => own.push(onset),
+                Err(error) => {
+                    solvers.push(Err((Family::lowest(harmonic), error)));
+                    continue;
+                }
+            }
+        }
+        if cycle.onsets == OnsetChoice::Lowest {
+            own.truncate(1);
+        }
+        for (rank, onset) in own.iter().enumerate() {
+            let family = Family {
+                harmonic,
+                onset: rank + 1,
+            };
+            match CycleSolver::born_at(&model, family, onset, cycle.phases) {
+                Ok(solver) => solvers.push(Ok(solver)),
+                Err(error @ CycleError::Undamped { .. }) => solvers.push(Err((family, error))),
+                Err(error) => return Err(error.into()),
+            }
+        }
+    }
+    Ok(solvers)
+}

@@ -1,0 +1,265 @@
+//! Limit cycles of a case: found directly, followed over a parameter, with their stability.
+//!
+//! ```no_run
+//! use frictionsim::case::Case;
+//! use frictionsim::fem::operator::SimdLevel;
+//! use frictionsim::study::cycle::CycleStudy;
+//!
+//! let bytes = std::fs::read("cases/limit-cycle.toml")?;
+//! let case = Case::parse("disc", &bytes, &["cycle.stability=\"none\"".to_owned()])?;
+//! for result in CycleStudy::new(&case, SimdLevel::detect())?.run(0, &|| {}) {
+//!     println!("{}: {:?} Hz", result.family, result.cycle.map(|cycle| cycle.frequency_hz()));
+//! }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod along;
+mod families;
+
+pub use families::{disc_model, mode_limit};
+
+use super::StudyError;
+use crate::case::{Case, Cycle, StabilityChoice};
+use crate::cycle::{
+    CycleError, CycleSolver, CycleStability, Family, LimitCycle, MeshStepping, Onset,
+    OperatingPoint, Parameter,
+};
+use crate::fem::operator::SimdLevel;
+use crate::mesh::AnnulusMesh;
+use crate::results::cycle::{Absence, CycleFrame, CycleReport, CycleResult, known};
+use along::{along, changes};
+use families::{Sought, continuation, next_onset, solvers};
+use rayon::prelude::*;
+use std::time::Instant;
+
+/// What a case asks for: cycles of which harmonics, where, and followed over what.
+pub struct CycleStudy<'a> {
+    case: &'a Case,
+    /// What the case says of its cycles.
+    pub choices: &'a Cycle,
+    annulus: AnnulusMesh,
+    simd: SimdLevel,
+    point: OperatingPoint,
+    continuation: Option<(Parameter, Vec<f64>)>,
+    /// Every onset below the case's friction coefficient; where there is none, those of the harmonics sought.
+    onsets: Vec<Onset>,
+    solvers: Vec<Sought>,
+}
+
+impl<'a> CycleStudy<'a> {
+    /// What a case asks for.
+    ///
+    /// # Errors
+    /// A bad case; steady sliding that is stable against every harmonic, where the case names none.
+    pub fn new(case: &'a Case, simd: SimdLevel) -> Result<Self, StudyError> {
+        let choices = case.require_cycle()?;
+        let point = operating_point(case);
+        let friction = point.contact.friction_coefficient;
+        let mut onsets = disc_model(case).onsets(friction, mode_limit(case))?;
+        let solvers = solvers(case, choices, &onsets)?;
+        if onsets.is_empty() {
+            onsets = solvers.iter().flatten().map(|s| *s.onset()).collect();
+            onsets.extend(next_onset(case, friction));
+            onsets.sort_by(|a, b| a.friction_coefficient.total_cmp(&b.friction_coefficient));
+        }
+        Ok(Self {
+            case,
+            choices,
+            annulus: AnnulusMesh::generate(&case.annulus)?,
+            simd,
+            point,
+            continuation: continuation(case, choices)?,
+            solvers,
+            onsets,
+        })
+    }
+
+    /// How many families are sought.
+    pub fn family_count(&self) -> usize {
+        self.solvers.len()
+    }
+
+    /// The cycles, with the whole field at so many times over one period; `done` hears of every family.
+    pub fn run(&self, frames: usize, done: &(dyn Fn() + Sync)) -> Vec<CycleResult> {
+        let solvers = self.solvers.par_iter();
+        let solve = |solver: &Sought| {
+            let result = match solver {
+                Ok(solver) => self.solve(solver, frames),
+                Err((family, error)) => self.absent(*family, error),
+            };
+            done();
+            result
+        };
+        solvers.map(solve).collect()
+    }
+
+    /// Everything that there is to report of the results.
+    pub fn report(&self, results: Vec<CycleResult>, wall_s: f64) -> CycleReport<'_> {
+        CycleReport {
+            title: &self.case.title,
+            mesh: &self.annulus.mesh,
+            inner_radius: self.case.annulus.inner_radius,
+            thickness: self.case.thickness,
+            friction_coefficient: self.point.contact.friction_coefficient,
+            lowest_onset: self.onsets.first().copied(),
+            results,
+            wall_s,
+        }
+    }
+
+    /// That there is no cycle is an answer where steady sliding is stable, else a failure.
+    ///
+    /// # Errors
+    /// [`StudyError::NoCycle`].
+    pub fn refuse_nothing(report: &CycleReport<'_>) -> Result<(), StudyError> {
+        let is_found = report.results.iter().any(|result| result.cycle.is_ok());
+        if is_found || report.stable_sliding().is_some() {
+            return Ok(());
+        }
+        let absences = report.results.iter().filter_map(|r| r.cycle.as_ref().err());
+        let reasons: Vec<&str> = absences.map(|absence| absence.reason.as_str()).collect();
+        Err(StudyError::NoCycle(reasons.join("; ")))
+    }
+
+    fn onsets_of(&self, harmonic: usize) -> Vec<Onset> {
+        let own = self.onsets.iter().filter(|o| o.harmonic == harmonic);
+        own.copied().collect()
+    }
+
+    /// Why a family whose onset is known has no cycle.
+    fn absence(&self, solver: &CycleSolver, error: &CycleError) -> Absence {
+        let (friction, onset) = (
+            self.point.contact.friction_coefficient,
+            solver.onset().friction_coefficient,
+        );
+        let is_stable = friction < onset;
+        Absence {
+            reason: match is_stable {
+                true => {
+                    format!("{friction} < {onset:.4}: steady sliding is stable against this wave")
+                }
+                false => error.to_string(),
+            },
+            is_stable,
+        }
+    }
+
+    /// The result of a family that cannot be sought at all.
+    fn absent(&self, family: Family, error: &CycleError) -> CycleResult {
+        let absence = Absence {
+            reason: error.to_string(),
+            is_stable: matches!(error, CycleError::NoOnset { .. }),
+        };
+        self.result(family, Err(absence))
+    }
+
+    /// The result of a family with nothing found out beside its cycle.
+    fn result(&self, family: Family, cycle: Result<LimitCycle, Absence>) -> CycleResult {
+        CycleResult {
+            family,
+            onsets: self.onsets_of(family.harmonic),
+            cycle,
+            frames: Vec::new(),
+            phases: 0,
+            confirmation: None,
+            stability: None,
+            branch_stability: Vec::new(),
+            stability_changes: Vec::new(),
+            branch: None,
+            wall_s: 0.0,
+        }
+    }
+
+    /// The cycle of a family with everything asked for: branch, stability, confirmation, fields.
+    fn solve(&self, solver: &CycleSolver, frame_count: usize) -> CycleResult {
+        let start = Instant::now();
+        let stability = self.choices.stability;
+        let found = solver.find(&self.point);
+        let mut branch = match (&found, &self.continuation) {
+            (Ok(cycle), Some((parameter, values))) => {
+                Some(solver.follow(cycle, *parameter, values))
+            }
+            _ => None,
+        };
+        let frames = found
+            .as_ref()
+            .map_or(Vec::new(), |cycle| frames(solver, cycle, frame_count));
+        let cycle = found.map_err(|error| self.absence(solver, &error));
+        let mut result = CycleResult {
+            phases: solver.grid().points,
+            frames,
+            ..self.result(solver.family(), cycle)
+        };
+        // What the mesh's own time stepping makes of it.
+        if let Ok(cycle) = &mut result.cycle {
+            match solver.stepping(self.simd) {
+                Ok(stepping) => {
+                    if stability != StabilityChoice::None {
+                        result.stability = Some(settle(&stepping, cycle));
+                    }
+                    let periods = self.choices.confirmation_periods;
+                    let known = known(&result.stability);
+                    result.confirmation = (periods > 0).then(|| {
+                        stepping
+                            .confirm(cycle, known, periods)
+                            .map_err(|e| e.to_string())
+                    });
+                    if let (Some(branch), StabilityChoice::Branch) = (&mut branch, stability) {
+                        let settled = along(&stepping, &mut branch.cycles);
+                        result.stability_changes = changes(&stepping, branch.parameter, &settled);
+                        result.branch_stability = settled
+                            .into_iter()
+                            .map(|settled| Some(settled.map(|settled| settled.stability)))
+                            .collect();
+                    }
+                }
+                Err(error) => result.confirmation = Some(Err(error.to_string())),
+            }
+        }
+        result.branch = branch;
+        result.wall_s = start.elapsed().as_secs_f64();
+        result
+    }
+}
+
+/// The limit cycle of `family` at the case's own operating point, and its solver.
+///
+/// # Errors
+/// No such cycle, or elements that a cycle cannot be sought on.
+pub fn limit_cycle(case: &Case, family: Family) -> Result<(CycleSolver, LimitCycle), StudyError> {
+    let phases = case.cycle.as_ref().and_then(|cycle| cycle.phases);
+    let model = disc_model(case);
+    let onset = model.onset_of(family, mode_limit(case))?;
+    let solver = CycleSolver::born_at(&model, family, &onset, phases)?;
+    let cycle = solver.find(&operating_point(case))?;
+    Ok((solver, cycle))
+}
+
+/// Where a case stands among the limit cycles of its disc.
+pub fn operating_point(case: &Case) -> OperatingPoint {
+    OperatingPoint {
+        contact: case.contact.sliding,
+        damping: case.damping.rayleigh,
+    }
+}
+
+/// Stability of a cycle; its powers and fractions become those of the transient.
+fn settle(stepping: &MeshStepping<'_>, cycle: &mut LimitCycle) -> Result<CycleStability, String> {
+    let settled = stepping.settle(cycle, None).map_err(|e| e.to_string())?;
+    *cycle = settled.cycle;
+    Ok(settled.stability)
+}
+
+/// The whole field at `count` times over one period.
+fn frames(solver: &CycleSolver, cycle: &LimitCycle, count: usize) -> Vec<CycleFrame> {
+    let period = 1.0 / cycle.frequency_hz();
+    (0..count)
+        .map(|i| {
+            let time = period * i as f64 / count as f64;
+            CycleFrame {
+                time,
+                fields: solver.field(cycle, time),
+            }
+        })
+        .collect()
+}

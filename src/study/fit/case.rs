@@ -1,0 +1,144 @@
+//! The parameters that a case asks to be fitted.
+
+use super::{
+    BoundedParameter, FitError, FitProblem, Fitted, MeasuredMode, ModelMode, fit, summary,
+};
+use crate::case::{Case, Fit, FitParameter, ModelParameter, Spacing};
+use crate::cea::ComplexMode;
+use crate::cea::cyclic::Sensitivity;
+use crate::linalg::c64;
+use crate::results::fit::FitSummary;
+use crate::study::{StudyError, eigenvalues};
+
+/// Modes are computed up to this much above the highest line.
+const MARGIN: f64 = 1.15;
+
+/// Modes are computed up to this frequency.
+fn limit_hz(lines: &[MeasuredMode]) -> f64 {
+    MARGIN
+        * lines
+            .iter()
+            .map(|line| line.frequency_hz)
+            .fold(0.0, f64::max)
+}
+
+/// Fits the parameters of a case to measured modes.
+///
+/// # Errors
+/// A case without `[fit]`; a fit that cannot be made.
+pub fn fit_case(case: &Case, lines: &[MeasuredMode]) -> Result<Fitted, StudyError> {
+    let wanted = case.require_fit()?;
+    let limit_hz = limit_hz(lines);
+    let model =
+        |values: &[f64], with_rates: bool| modes(case, wanted, values, limit_hz, with_rates);
+    let parameters: Vec<BoundedParameter> = wanted.parameters.iter().map(bounded).collect();
+    let problem = FitProblem {
+        model: &model,
+        parameters: &parameters,
+        lines,
+        starts: wanted.starts,
+        own: own_values(case, wanted),
+    };
+    Ok(fit(&problem)?)
+}
+
+/// The summary of a fit, without its source, time and manifest.
+///
+/// # Errors
+/// A case without `[fit]`.
+pub fn summarize(
+    case: &Case,
+    lines: &[MeasuredMode],
+    fitted: &Fitted,
+) -> Result<FitSummary, StudyError> {
+    // The case as it is written need not have a solution.
+    let before = eigenvalues::modes_below(case, limit_hz(lines), false)
+        .map_or_else(|_| Vec::new(), |found| found.0);
+    Ok(summary::of(case, case.require_fit()?, fitted, &before))
+}
+
+/// Refuses fewer measured numbers than there are parameters.
+///
+/// # Errors
+/// [`StudyError::Case`] for a case without `[fit]`, and at `fit.parameters`.
+pub fn refuse_too_few(case: &Case, lines: &[MeasuredMode]) -> Result<(), StudyError> {
+    let wanted = case.require_fit()?;
+    let data = lines
+        .iter()
+        .map(|line| 1 + usize::from(line.real_hz.is_some()))
+        .sum();
+    let parameters = wanted.parameters.len();
+    if data >= parameters {
+        return Ok(());
+    }
+    let message = FitError::TooFewData { parameters, data }.to_string();
+    let label = format!("{data} numbers are measured");
+    let errors = case.error_at("fit.parameters", message, label, None);
+    Err(errors.into())
+}
+
+fn bounded(parameter: &FitParameter) -> BoundedParameter {
+    BoundedParameter {
+        name: parameter.parameter.key.clone(),
+        from: parameter.from,
+        to: parameter.to,
+        is_logarithmic: parameter.scale == Spacing::Logarithmic,
+    }
+}
+
+/// The values that the case itself gives the parameters, where it gives them all.
+fn own_values(case: &Case, wanted: &Fit) -> Option<Vec<f64>> {
+    let own = wanted
+        .parameters
+        .iter()
+        .map(|parameter| case.number(&parameter.parameter.key));
+    own.collect()
+}
+
+/// The modes of the case with its parameters at some values.
+fn modes(
+    case: &Case,
+    wanted: &Fit,
+    values: &[f64],
+    limit_hz: f64,
+    with_rates: bool,
+) -> Result<Vec<ModelMode>, String> {
+    let parameters = wanted
+        .parameters
+        .iter()
+        .map(|parameter| &parameter.parameter);
+    let case = case.with_parameters(parameters.clone().zip(values.iter().copied()))?;
+    let solved = eigenvalues::modes_below(&case, limit_hz, with_rates);
+    let (modes, sensitivities) = solved.map_err(|failure| failure.messages().join("; "))?;
+    let has_harmonics = case.is_annulus();
+    let of = |mode: &ComplexMode| {
+        let is_it = |s: &&Sensitivity| {
+            (s.harmonic, s.branch, s.direction) == (mode.harmonic, mode.branch, mode.direction)
+        };
+        let own = sensitivities.iter().find(is_it);
+        ModelMode {
+            eigenvalue: mode.eigenvalue,
+            harmonic: has_harmonics.then_some(mode.harmonic),
+            branch: mode.branch,
+            direction: mode.direction,
+            rates: parameters.clone().map(|p| rate(own?, p)).collect(),
+        }
+    };
+    Ok(modes.iter().map(of).collect())
+}
+
+/// Derivative of an eigenvalue by a parameter, with the keys that follow it; `None` where it is not known.
+fn rate(sensitivity: &Sensitivity, parameter: &ModelParameter) -> Option<c64> {
+    let of = |key: &String| match key.as_str() {
+        "contact.friction_coefficient" => Some(sensitivity.friction),
+        "contact.normal_stiffness" => sensitivity.normal_stiffness,
+        "damping.mass_coefficient" => Some(sensitivity.mass_coefficient),
+        "damping.stiffness_coefficient" => Some(sensitivity.stiffness_coefficient),
+        "material.young_modulus" => Some(sensitivity.young_modulus),
+        "material.poisson_ratio" => Some(sensitivity.poisson_ratio),
+        "material.density" => Some(sensitivity.density),
+        _ => None,
+    };
+    let keys = std::iter::once(&parameter.key).chain(&parameter.also);
+    keys.map(of).sum()
+}

@@ -1,0 +1,85 @@
+//! The summary of one analysis of a case, as its command prints it, without a file written: what a point of a sweep holds.
+
+use super::cycle::CycleStudy;
+use super::eigenvalues::{self, SlidingModel};
+use super::transient::TransientStudy;
+use super::{StudyError, basin};
+use crate::case::{Analysis, Case, Cea};
+use crate::fem::operator::SimdLevel;
+use crate::results::cycle::{CycleReport, CycleSummary};
+use crate::results::cycle_figures::FamilyRecord;
+use crate::results::transient::TransientReport;
+use crate::results::{self, Manifest, object};
+use serde_json::Value;
+use std::time::Instant;
+
+/// Runs an analysis of a case and gives its summary; nothing is kept that would only go to files.
+///
+/// # Errors
+/// A case without the section of the analysis, and those of the analysis.
+pub fn summarize(
+    case: &Case,
+    analysis: Analysis,
+    manifest: &Manifest,
+) -> Result<Value, StudyError> {
+    match analysis {
+        Analysis::Cea => cea(case, manifest),
+        Analysis::Transient => transient(case, manifest),
+        Analysis::Basin => Ok(serde_json::to_value(basin::summary(case, manifest)?)?),
+        Analysis::Cycle => cycle(case, manifest, CycleStudy::refuse_nothing),
+    }
+}
+
+/// Mode shapes are not computed.
+fn cea(case: &Case, manifest: &Manifest) -> Result<Value, StudyError> {
+    let start = Instant::now();
+    let cea = Cea {
+        shapes_at: Vec::new(),
+        ..case.require_cea()?.clone()
+    };
+    let model = SlidingModel::new(case, &cea)?;
+    let solution = eigenvalues::solve(case, &cea, &model, &|_| {})?;
+    eigenvalues::refuse_no_modes(case, &cea, &solution.sweep)?;
+    let field = model.base_field(case);
+    let wall_s = start.elapsed().as_secs_f64();
+    let report = eigenvalues::report(case, &cea, &model, &solution, &field, wall_s);
+    Ok(object(&results::cea::summary(&report, manifest))?)
+}
+
+fn transient(case: &Case, manifest: &Manifest) -> Result<Value, StudyError> {
+    let start = Instant::now();
+    let study = TransientStudy::new(case, SimdLevel::choose(&manifest.simd)?)?;
+    let solved = study.solve()?;
+    let report = TransientReport {
+        steps: solved.steps,
+        steps_timed: solved.steps,
+        stepping_s: solved.stepping_s,
+        wall_s: start.elapsed().as_secs_f64(),
+        ..study.report(
+            &solved.record,
+            &solved.analysis,
+            solved.plan,
+            solved.operator,
+        )
+    };
+    Ok(object(&results::transient::summary(&report, manifest))?)
+}
+
+/// With the branches as `curves`, of which the command itself writes tables; `judge` may refuse what was found.
+pub(super) fn cycle(
+    case: &Case,
+    manifest: &Manifest,
+    judge: impl Fn(&CycleReport<'_>) -> Result<(), StudyError>,
+) -> Result<Value, StudyError> {
+    let start = Instant::now();
+    let study = CycleStudy::new(case, SimdLevel::choose(&manifest.simd)?)?;
+    let results = study.run(0, &|| {});
+    let curves: Vec<FamilyRecord> = results.iter().map(FamilyRecord::of).collect();
+    let report = study.report(results, start.elapsed().as_secs_f64());
+    judge(&report)?;
+    let summary = CycleSummary {
+        curves: Some(serde_json::to_value(curves)?),
+        ..results::cycle::summary(&report, manifest)
+    };
+    Ok(object(&summary)?)
+}

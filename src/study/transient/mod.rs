@@ -1,0 +1,300 @@
+//! The explicit transient of a case: its body, where it starts, the time loop, and what its record says.
+//!
+//! ```
+//! use frictionsim::case::Case;
+//! use frictionsim::fem::operator::SimdLevel;
+//! use frictionsim::study::transient::TransientStudy;
+//!
+//! # let coarse = ["mesh.circumferential_elements=24", "mesh.radial_elements=4", "output.snapshots=[]", "output.probes=[1]"];
+//! # let shorter = ["transient.duration=2e-4", "transient.time_step=\"auto\""];
+//! # let overrides: Vec<String> = coarse.iter().chain(&shorter).map(|text| text.to_string()).collect();
+//! let bytes = std::fs::read("cases/polycarbonate-610rpm.toml")?;
+//! let case = Case::parse("disc", &bytes, &overrides)?;
+//! let solved = TransientStudy::new(&case, SimdLevel::detect())?.solve()?;
+//! println!("{:?}", solved.analysis.settling.state);
+//! assert!(solved.analysis.largest_residual < 1e-10);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod settings;
+
+use super::StudyError;
+use super::cycle::limit_cycle;
+use crate::case::{Case, Transient};
+use crate::cycle::Family;
+use crate::fem::operator::{SimdLevel, StiffnessOperator};
+use crate::mesh::{AnnulusMesh, Mesh2d, SolidSector};
+use crate::results::transient::TransientReport;
+use crate::transient::{
+    CentralDifference, InitialState, Recorder, RecorderSettings, StepPlan, TransientAnalysis,
+    TransientBody, TransientError, TransientSettings, TransientState,
+};
+use std::sync::Arc;
+use std::time::Instant;
+
+/// A case made ready for the time loop.
+pub struct TransientStudy<'a> {
+    /// The case.
+    pub case: &'a Case,
+    /// Its mesh; of a body in three dimensions the section across the axis.
+    pub mesh: Arc<Mesh2d>,
+    /// One sector of a body in three dimensions.
+    pub sector: Option<SolidSector>,
+    transient: &'a Transient,
+    annulus: Option<AnnulusMesh>,
+    simd: SimdLevel,
+    settings: TransientSettings,
+}
+
+/// What came of a run.
+pub struct SolvedTransient {
+    /// What was recorded: the samples, without fields and contact frames.
+    pub record: Recorder,
+    /// What it says.
+    pub analysis: TransientAnalysis,
+    /// Time step and samples.
+    pub plan: StepPlan,
+    /// Steps done.
+    pub steps: u64,
+    /// Name of the operator.
+    pub operator: &'static str,
+    /// Wall time of the steps, s.
+    pub stepping_s: f64,
+}
+
+impl<'a> TransientStudy<'a> {
+    /// The body and the settings of a case.
+    ///
+    /// # Errors
+    /// [`StudyError::Case`] for a case without `[transient]`; a mesh that cannot be built.
+    pub fn new(case: &'a Case, simd: SimdLevel) -> Result<Self, StudyError> {
+        let transient = case.require_transient()?;
+        let generate = || AnnulusMesh::generate(&case.annulus);
+        let is_plane = case.is_annulus() && case.solid.is_none();
+        let annulus = is_plane.then(generate).transpose()?;
+        let sector = case.solid.as_ref().map(SolidSector::generate).transpose()?;
+        let mesh = match (&sector, &annulus, &case.body) {
+            (Some(sector), ..) => Arc::new(sector.section()?),
+            (_, None, Some(body)) => Arc::clone(&body.mesh),
+            _ => case.mesh()?,
+        };
+        Ok(Self {
+            case,
+            mesh,
+            sector,
+            transient,
+            annulus,
+            simd,
+            settings: settings::run_settings(case, transient),
+        })
+    }
+
+    /// The body with its contact.
+    pub fn body(&self) -> TransientBody<'_> {
+        let sector = self.sector.as_ref();
+        settings::body(self.case, &self.mesh, self.annulus.as_ref(), sector)
+    }
+
+    /// Choices of the run.
+    pub fn settings(&self) -> &TransientSettings {
+        &self.settings
+    }
+
+    /// What the case asks a run to keep.
+    pub fn recorder_settings(&self) -> RecorderSettings {
+        settings::recorder_settings(self.case, self.transient)
+    }
+
+    /// What applies the stiffness.
+    ///
+    /// # Errors
+    /// [`StudyError::Case`] at `transient.operator` for one that cannot represent the mesh.
+    pub fn operator(&self) -> Result<Box<dyn StiffnessOperator>, StudyError> {
+        let operator = self.body().operator(self.transient.operator, self.simd);
+        operator.map_err(|error| self.error(error))
+    }
+
+    /// Time step and samples of the run.
+    ///
+    /// # Errors
+    /// [`StudyError::Case`] for times that do not fit together.
+    pub fn plan(&self, operator: &dyn StiffnessOperator) -> Result<StepPlan, StudyError> {
+        let plan = StepPlan::of(self.body(), operator, &self.settings);
+        plan.map_err(|error| self.error(error))
+    }
+
+    /// The run in its initial state.
+    ///
+    /// # Errors
+    /// [`StudyError::Case`] for settings that do not fit the mesh; a base state or a limit cycle that does not exist.
+    pub fn start<'b>(
+        &'b self,
+        operator: &'b dyn StiffnessOperator,
+    ) -> Result<CentralDifference<'b>, StudyError> {
+        let started = match self.settings.initial {
+            InitialState::LimitCycle { harmonic, onset } => {
+                let family = Family { harmonic, onset };
+                let time_step = self.plan(operator)?.time_step;
+                let (solver, cycle) = limit_cycle(self.case, family)?;
+                let [u, v] = solver.starting_fields(&cycle, time_step);
+                CentralDifference::start_from(self.body(), operator, &self.settings, &u, v)
+            }
+            _ => CentralDifference::start(self.body(), operator, &self.settings),
+        };
+        started.map_err(|error| self.error(error))
+    }
+
+    /// The run where a saved state left it.
+    ///
+    /// # Errors
+    /// As [`Self::start`]; a state of another case.
+    pub fn resume<'b>(
+        &'b self,
+        operator: &'b dyn StiffnessOperator,
+        state: &TransientState,
+    ) -> Result<CentralDifference<'b>, StudyError> {
+        CentralDifference::resume(self.body(), operator, &self.settings, state)
+            .map_err(|error| self.error(error))
+    }
+
+    /// What keeps of a run that starts what the case asks for.
+    ///
+    /// # Errors
+    /// [`StudyError::Case`] for probes that are no nodes, snapshots outside the run.
+    pub fn recorder(&self, run: &CentralDifference<'_>) -> Result<Recorder, StudyError> {
+        let recorder = Recorder::new(run, &self.recorder_settings());
+        recorder.map_err(|error| self.error(error))
+    }
+
+    /// A record that goes on with its run.
+    ///
+    /// # Errors
+    /// As [`Self::recorder`]; a record of another run.
+    pub fn resume_record(
+        &self,
+        run: &CentralDifference<'_>,
+        record: Recorder,
+    ) -> Result<Recorder, StudyError> {
+        let record = record.resume(run, &self.recorder_settings());
+        record.map_err(|error| self.error(error))
+    }
+
+    /// Reads a record.
+    pub fn analyse(&self, record: &Recorder) -> TransientAnalysis {
+        let perturbation = &self.settings.perturbation;
+        // Noise seeds every harmonic.
+        let seeded = match perturbation.noise {
+            0.0 => perturbation.harmonics(),
+            _ => record.significant_harmonics(),
+        };
+        TransientAnalysis::of(record, &seeded)
+    }
+
+    /// Runs to the end, or to where it settles if the case says so, and keeps the samples alone.
+    ///
+    /// # Errors
+    /// As [`Self::start`]; a run that becomes unstable.
+    pub fn solve(&self) -> Result<SolvedTransient, StudyError> {
+        let operator = self.operator()?;
+        let mut run = self.start(operator.as_ref())?;
+        let settings = RecorderSettings {
+            stop_when_settled: self.transient.stop_when_settled,
+            ..RecorderSettings::default()
+        };
+        let mut record = Recorder::new(&run, &settings).map_err(|error| self.error(error))?;
+        let clock = Instant::now();
+        // On a thread of the pool: a step hands parts of itself to the others.
+        rayon::scope(|_| run.run(&mut record)).map_err(|error| self.error(error))?;
+        let stepping_s = clock.elapsed().as_secs_f64();
+        Ok(SolvedTransient {
+            analysis: self.analyse(&record),
+            record,
+            plan: *run.plan(),
+            steps: run.steps_done(),
+            operator: operator.name(),
+            stepping_s,
+        })
+    }
+
+    /// Sets the run up to its first step: finds out whether it can start, and gives its time step. A limit cycle that it
+    /// would start on is not looked for.
+    ///
+    /// # Errors
+    /// As [`Self::start`] and [`Self::recorder`].
+    pub fn preflight(&self) -> Result<StepPlan, StudyError> {
+        let operator = self.operator()?;
+        if matches!(self.settings.initial, InitialState::LimitCycle { .. }) {
+            let damping = &self.case.damping.rayleigh;
+            let plan = StepPlan::new(operator.as_ref(), damping, &self.settings);
+            return plan.map_err(|error| self.error(error));
+        }
+        let fresh = self.start(operator.as_ref())?;
+        self.recorder(&fresh)?;
+        Ok(*fresh.plan())
+    }
+
+    /// What there is to report of a run by its record; what it took is left zero.
+    pub fn report<'b>(
+        &'b self,
+        record: &'b Recorder,
+        analysis: &'b TransientAnalysis,
+        plan: StepPlan,
+        operator: &'b str,
+    ) -> TransientReport<'b> {
+        let (case, settings) = (self.case, &self.settings);
+        let places = case.output.placed_probes.iter();
+        TransientReport {
+            title: &case.title,
+            mesh: &self.mesh,
+            solid: self.sector.as_ref(),
+            material: case.materials(),
+            thickness: self.thickness(),
+            friction_coefficient: case.contact.sliding.friction_coefficient,
+            initial: settings.initial.name(),
+            perturbation: &settings.perturbation,
+            places: places.map(|place| (place.node, place.asked)).collect(),
+            operator,
+            plan,
+            record,
+            analysis,
+            steps: 0,
+            steps_timed: 0,
+            stepping_s: 0.0,
+            wall_s: 0.0,
+            is_finished: true,
+        }
+    }
+
+    /// An error of the time loop, at its key of the case where it has one.
+    pub fn error(&self, error: TransientError) -> StudyError {
+        settings::study_error(self.case, error)
+    }
+
+    /// Whether a record can be one of this body.
+    pub fn is_of(&self, record: &Recorder) -> bool {
+        let components = self.body().components();
+        let nodes = match &self.sector {
+            Some(sector) => sector.node_count() * sector.sector_count(),
+            None => self.mesh.node_count(),
+        };
+        record.fits(
+            components * nodes,
+            components,
+            self.body().interface().len(),
+        )
+    }
+
+    /// Speed of the counterface where figures show the contact, m/s: of several rings of nodes at the middle one.
+    pub fn shown_speed(&self) -> f64 {
+        let speed = self.case.contact.sliding.rotation_speed;
+        match &self.sector {
+            Some(sector) => speed * sector.rings[sector.rings.len() / 2].radius,
+            None => self.body().interface().surface_speed(speed),
+        }
+    }
+
+    /// What records are multiplied by, m: those of a body in three dimensions are of the whole, and this is 1.
+    pub fn thickness(&self) -> f64 {
+        self.sector.as_ref().map_or(self.case.thickness, |_| 1.0)
+    }
+}

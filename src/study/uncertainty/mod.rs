@@ -1,0 +1,24 @@
+//! How likely is squeal, and which parameter decides it: onsets of samples drawn from the distributions of a case.
+//!
+//! ```no_run
+//! use frictionsim::case::Case;
+//! use frictionsim::study::uncertainty::{BLOCK, Sampler, summarize};
+//!
+//! let bytes = std::fs::read("cases/squeal-probability.toml")?;
+//! let case = Case::parse("disc", &bytes, &["uncertainty.samples=128".to_owned()])?;
+//! let sampler = Sampler::new(&case)?;
+//! let samples: Vec<_> = (1..=128 / BLOCK).flat_map(|block| sampler.block(block)).collect();
+//! let found = summarize(&case, &samples);
+//! println!("{:?}, decided by {:?}", found.probability_unstable, found.decisive);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod plan;
+mod robust;
+mod samples;
+mod summary;
+
+pub use plan::SamplePlan;
+pub use robust::{Design, curves};
+pub use samples::{BLOCK, Sampler, largest_friction};
+pub use summary::{indices, summarize, wilson};
