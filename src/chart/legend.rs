@@ -27,15 +27,6 @@ impl Key {
         }
     }
 
-    /// A data point.
-    pub fn point(marker: Marker, colour: &'static str) -> Self {
-        Self {
-            stroke: None,
-            marker: Some((marker, colour)),
-            patch: None,
-        }
-    }
-
     /// A filled patch; opacity from 0 to 1.
     pub fn patch(colour: &'static str, opacity: f64) -> Self {
         Self {

@@ -5,7 +5,7 @@ use super::frame::{Frame, LABEL_SIZE};
 use super::layer::Layer;
 use super::legend::Key;
 use super::path::Path;
-use super::svg::{Rect, Stroke, Svg};
+use super::svg::{Rect, Svg};
 use super::text::{self, Anchor, TextStyle};
 
 /// Lying bars of equal thickness, each with a label inside where it fits.
@@ -57,12 +57,11 @@ impl Layer for Bars {
     }
 }
 
-/// Filled areas with outlines, one path for each style.
+/// Filled areas, one path for each style.
 #[derive(Clone, Debug, Default)]
 pub struct Shapes {
     polygons: Vec<(Vec<(f64, f64)>, &'static str)>,
     bands: Vec<(f64, f64, &'static str)>,
-    outlines: Vec<(Vec<(f64, f64)>, Stroke)>,
     names: Vec<(Key, String)>,
 }
 
@@ -83,12 +82,6 @@ impl Shapes {
         }
     }
 
-    /// The same with a curve drawn over it.
-    pub fn outline(mut self, points: impl IntoIterator<Item = (f64, f64)>, stroke: Stroke) -> Self {
-        self.outlines.push((points.into_iter().collect(), stroke));
-        self
-    }
-
     /// The same without entries in the legend.
     pub fn unnamed(self) -> Self {
         Self {
@@ -106,11 +99,7 @@ impl Shapes {
 
 impl Layer for Shapes {
     fn extent(&self, see: &mut dyn FnMut(f64, f64)) {
-        let shapes = self.polygons.iter().map(|(points, _)| points);
-        for (x, y) in shapes
-            .chain(self.outlines.iter().map(|(points, _)| points))
-            .flatten()
-        {
+        for (x, y) in self.polygons.iter().flat_map(|(points, _)| points) {
             see(*x, *y);
         }
         self.bands
@@ -136,9 +125,6 @@ impl Layer for Shapes {
             }
             svg.fill_path(&path, colour, 1.0);
         }
-        for (points, stroke) in &self.outlines {
-            svg.path(&Path::polyline(place(points), false), stroke);
-        }
     }
 
     fn keys(&self) -> Vec<(Key, String)> {
@@ -146,6 +132,6 @@ impl Layer for Shapes {
     }
 
     fn is_data(&self) -> bool {
-        !self.polygons.is_empty() || !self.outlines.is_empty()
+        !self.polygons.is_empty()
     }
 }

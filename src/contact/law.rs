@@ -14,9 +14,6 @@ pub enum ContactStatus {
 }
 
 impl ContactStatus {
-    /// Every status, at the place of its code.
-    pub const ALL: [Self; 3] = [Self::Open, Self::Stick, Self::Slip];
-
     /// Its name in tables.
     pub fn name(self) -> &'static str {
         match self {

@@ -48,11 +48,6 @@ impl<'a> Wave<'a> {
         }
     }
 
-    /// Landing time as a share of the period.
-    pub fn landing_share(&self) -> f64 {
-        self.landing_share
-    }
-
     /// Number of points along the phase.
     pub fn points(&self) -> usize {
         self.points

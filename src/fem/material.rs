@@ -93,49 +93,7 @@ impl MaterialField for Vec<RegionMaterial> {
     }
 }
 
-/// A material value outside its physical range.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum MaterialError {
-    /// A value that must be positive is not.
-    #[error("material.{key} = {value} must be a positive finite number")]
-    NotPositive {
-        /// Case key without its section.
-        key: &'static str,
-        /// Given value.
-        value: f64,
-    },
-    /// Poisson's ratio outside `(-1, 1/2)`.
-    #[error(
-        "material.poisson_ratio = {value} must lie strictly between -1 and 0.5 \
-         (0.5 is incompressible, which displacement elements cannot hold)"
-    )]
-    PoissonRatio {
-        /// Given value.
-        value: f64,
-    },
-}
-
 impl ElasticMaterial {
-    /// Checks every value against its physical range.
-    ///
-    /// # Errors
-    /// [`MaterialError`] names the first key out of range.
-    pub fn validate(&self) -> Result<(), MaterialError> {
-        for (key, value) in [
-            ("young_modulus", self.young_modulus),
-            ("density", self.density),
-        ] {
-            if !(value > 0.0 && value.is_finite()) {
-                return Err(MaterialError::NotPositive { key, value });
-            }
-        }
-        let value = self.poisson_ratio;
-        if !(value > -1.0 && value < 0.5) {
-            return Err(MaterialError::PoissonRatio { value });
-        }
-        Ok(())
-    }
-
     /// Lamé constants `[lambda, G]` of the plane problem, Pa:
     /// `sigma = lambda tr(epsilon) I + 2 G epsilon` with the in-plane trace.
     ///

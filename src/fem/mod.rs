@@ -17,7 +17,7 @@ pub use assembly::{
     assemble_mass, assemble_stiffness, assemble_supports, lumped_masses,
 };
 pub use material::{
-    AnnulusMaterials, ElasticMaterial, MaterialError, MaterialField, PlaneFormulation,
-    RayleighDamping, RegionMaterial,
+    AnnulusMaterials, ElasticMaterial, MaterialField, PlaneFormulation, RayleighDamping,
+    RegionMaterial,
 };
 pub use stress::{NodalStress, nodal_stress};

@@ -124,16 +124,6 @@ impl SectorMatrix {
         result
     }
 
-    /// What the mirror does to it.
-    pub fn parity(&self) -> MirrorParity {
-        self.parity
-    }
-
-    /// Number of dofs of one sector.
-    pub fn dimension(&self) -> usize {
-        self.couplings[0].1.dimension()
-    }
-
     /// Matrix of the wave `U e^{i n theta}`, one row for each dof of the sector.
     ///
     /// ```text

@@ -134,14 +134,6 @@ impl ElementKind {
             .collect()
     }
 
-    /// Parent coordinates of the centre.
-    pub fn centre(self) -> (f64, f64) {
-        match self.corner_count() {
-            3 => (1.0 / 3.0, 1.0 / 3.0),
-            _ => (0.0, 0.0),
-        }
-    }
-
     /// Parent coordinates of each node.
     pub fn node_places(self) -> Vec<(f64, f64)> {
         let corners = match self.corner_count() {

@@ -111,12 +111,6 @@ pub fn entries<'a>(summary: &'a Value, key: &str) -> &'a [Value] {
     summary[key].as_array().map_or(&[][..], Vec::as_slice)
 }
 
-/// The texts of an array of a summary.
-pub fn texts(summary: &Value, key: &str) -> Vec<String> {
-    let texts = entries(summary, key).iter().filter_map(Value::as_str);
-    texts.map(str::to_owned).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

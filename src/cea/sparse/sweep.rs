@@ -184,13 +184,6 @@ impl<'a> SparseSweep<'a> {
         }
     }
 
-    /// Columns of the basis, and the largest residual force relative to the inertia force of all
-    /// reported modes.
-    pub fn dimension_and_worst(&self) -> (usize, f64) {
-        let worst = self.points.iter().map(|p| p.worst().1).fold(0.0, f64::max);
-        (self.builder.model.dimension(), worst)
-    }
-
     fn check_residuals(&self) -> Result<(), CeaError> {
         for point in &self.points {
             for (mode, check) in point.modes.iter().zip(&point.checks).take(point.wanted) {

@@ -2,7 +2,6 @@
 
 use crate::signal::ResponseQuantity;
 use faer::{Mat, c64};
-use std::f64::consts::TAU;
 
 /// Lowest power of `s` in the remainder: damped rigid-body motion, `1/(s^2 + alpha s)`, expanded.
 const LOWEST_POWER: i32 = -3;
@@ -17,11 +16,6 @@ pub struct Pole {
 }
 
 impl Pole {
-    /// Undamped natural frequency, rad/s.
-    pub fn angular_frequency(&self) -> f64 {
-        TAU * self.frequency_hz
-    }
-
     /// Width of the half-power band, Hz.
     pub fn bandwidth_hz(&self) -> f64 {
         2.0 * self.damping_factor * self.frequency_hz

@@ -35,14 +35,10 @@ pub struct SolidModel {
 pub struct SolidSweep {
     /// Modes at each friction value and unstable intervals of the branches that have one of them.
     pub sweep: FrictionSweep,
-    /// The branches of all modes that occur in the sweep.
-    pub branches: Vec<ModeBranch>,
     /// Which harmonics were solved.
     pub coverage: Coverage,
     /// Unknowns of all harmonics.
     pub dofs: usize,
-    /// The linearisation.
-    pub tangent: SolidTangent,
 }
 
 /// Branches are followed from this much above the highest frequency wanted.
@@ -146,10 +142,8 @@ pub fn solid_sweep(model: &SolidModel, request: &SweepRequest<'_>) -> Result<Sol
     };
     Ok(SolidSweep {
         sweep: FrictionSweep { points, intervals },
-        branches,
         coverage,
         dofs: tangent.unknown_of().iter().flatten().count() * sector.sector_count(),
-        tangent,
     })
 }
 
