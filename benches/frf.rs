@@ -8,8 +8,8 @@ use frictionsim::fem::{
     ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping, assemble_stiffness,
 };
 use frictionsim::frf::{
-    CyclicSystem, FrfSystem, ReductionSettings, Terminal, cyclic_response, direct_response,
-    reduced_response,
+    CyclicSystem, Direction, FrfSystem, ReductionSettings, Terminal, cyclic_response,
+    direct_response, reduced_response,
 };
 use frictionsim::mesh::{
     AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind, SectorMesh,
@@ -50,11 +50,11 @@ const CONTACT: SlidingContact = SlidingContact {
 };
 const FORCE: Terminal = Terminal {
     node: 5,
-    is_tangential: false,
+    direction: Direction::Radial,
 };
 const RESPONSE: Terminal = Terminal {
     node: 36 * 40 + 20,
-    is_tangential: true,
+    direction: Direction::Tangential,
 };
 
 fn options() -> TangentOptions {

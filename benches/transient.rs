@@ -7,11 +7,14 @@
 
 #[path = "../tests/common/disc.rs"]
 mod disc;
+#[path = "../tests/common/fma_peak.rs"]
+mod fma_peak;
 #[allow(dead_code)]
 #[path = "../tests/two_bodies/model.rs"]
 mod two_bodies;
 
 use disc::{DAMPING, POLYCARBONATE, annulus, contact};
+use fma_peak::fma_peak;
 use frictionsim::contact::ContactStiffness;
 use frictionsim::fem::operator::SimdLevel;
 use frictionsim::mesh::{AnnulusMesh, BoundaryCondition, ElementKind, Mesh2d, ShaftSpecification};
@@ -20,7 +23,6 @@ use frictionsim::transient::{
     TransientModel, TransientSettings, build_operator,
 };
 use std::collections::BTreeSet;
-use std::hint::black_box;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
@@ -192,52 +194,4 @@ fn report(model: TransientModel<'_>, choice: OperatorChoice, level: SimdLevel, p
         100.0 * operations * nodes / best / peak,
     );
     best
-}
-
-/// Fused multiply-adds a second of one thread, times two: the widest vectors of this processor, enough
-/// independent sums to fill its pipelines.
-fn fma_peak() -> f64 {
-    const ROUNDS: usize = 100_000;
-    const SUMS: usize = 96;
-    #[inline(always)]
-    fn body(x: f64, fused: bool) -> [f64; SUMS] {
-        let mut sums = [0.5_f64; SUMS];
-        for _ in 0..ROUNDS {
-            for sum in &mut sums {
-                *sum = if fused {
-                    sum.mul_add(x, 1.0)
-                } else {
-                    *sum * x + 1.0
-                };
-            }
-        }
-        sums
-    }
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx2,fma")]
-    unsafe fn wide(x: f64) -> [f64; SUMS] {
-        body(x, true)
-    }
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx2,fma")]
-    unsafe fn narrow(x: f64) -> [f64; SUMS] {
-        body(x, true)
-    }
-    let mut best = f64::INFINITY;
-    for _ in 0..20 {
-        let clock = Instant::now();
-        let x = black_box(0.999);
-        let sums = match SimdLevel::detect() {
-            // SAFETY: the processor has these instructions.
-            #[cfg(target_arch = "x86_64")]
-            SimdLevel::Avx512 => unsafe { wide(x) },
-            // SAFETY: as above.
-            #[cfg(target_arch = "x86_64")]
-            SimdLevel::Avx2 => unsafe { narrow(x) },
-            _ => body(x, false),
-        };
-        black_box(sums);
-        best = best.min(clock.elapsed().as_secs_f64());
-    }
-    2.0 * (ROUNDS * SUMS) as f64 / best
 }

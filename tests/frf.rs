@@ -5,7 +5,7 @@ use frictionsim::fem::{
     ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping, assemble_stiffness,
 };
 use frictionsim::frf::{
-    FrfError, FrfSystem, ReductionSettings, Terminal, direct_response, reduced_response,
+    Direction, FrfError, FrfSystem, ReductionSettings, Terminal, direct_response, reduced_response,
 };
 use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind};
 use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
@@ -74,7 +74,11 @@ fn sliding(damping_model: DampingModel) -> FrfSystem {
 fn unknown(system: &FrfSystem, node: usize, is_tangential: bool) -> usize {
     let terminal = Terminal {
         node,
-        is_tangential,
+        direction: if is_tangential {
+            Direction::Tangential
+        } else {
+            Direction::Radial
+        },
     };
     system.unknown(terminal, "force_node").unwrap()
 }
@@ -150,7 +154,7 @@ fn a_clamped_node_and_a_missing_one_are_refused_with_their_key() {
     let system = body(true, DAMPING);
     let at = |node| Terminal {
         node,
-        is_tangential: false,
+        direction: Direction::Radial,
     };
     let error = system.unknown(at(RADIAL), "force_node").unwrap_err();
     assert!(

@@ -8,7 +8,7 @@ use disc::{DAMPING, POLYCARBONATE, annulus, contact};
 use frictionsim::contact::ContactStiffness;
 use frictionsim::fem::{MassKind, assemble_stiffness};
 use frictionsim::frf::{
-    CyclicSystem, FrfError, FrfSystem, Terminal, cyclic_response, direct_response,
+    CyclicSystem, Direction, FrfError, FrfSystem, Terminal, cyclic_response, direct_response,
 };
 use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind, SectorMesh};
 use frictionsim::prestress::{
@@ -33,7 +33,11 @@ fn terminals(specification: &AnnulusSpecification, is_sliding: bool) -> Vec<[Ter
     let per_sector = mesh.node_count() / specification.circumferential_elements;
     let at = |sector: usize, position: usize, is_tangential: bool| Terminal {
         node: sector * per_sector + position,
-        is_tangential,
+        direction: if is_tangential {
+            Direction::Tangential
+        } else {
+            Direction::Radial
+        },
     };
     // On the contact edge, inside, and (Quad8) on the middle ray of a sector.
     let middle = if specification.element.is_quadratic() {
@@ -148,7 +152,7 @@ fn held_and_missing_nodes_and_negative_frequencies_are_refused_with_their_key() 
     let system = CyclicSystem::body(&sector, &POLYCARBONATE, mass, DAMPING, true);
     let at = |node| Terminal {
         node,
-        is_tangential: false,
+        direction: Direction::Radial,
     };
     let error = system.check(at(6), "force_node").unwrap_err();
     assert!(

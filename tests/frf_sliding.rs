@@ -10,7 +10,9 @@ use frictionsim::cea::sparse::sweep;
 use frictionsim::cea::{ModeLimit, SweepRequest};
 use frictionsim::contact::ContactStiffness;
 use frictionsim::fem::{MassKind, assemble_stiffness};
-use frictionsim::frf::{CyclicSystem, FrfSystem, Terminal, cyclic_response, direct_response};
+use frictionsim::frf::{
+    CyclicSystem, Direction, FrfSystem, Terminal, cyclic_response, direct_response,
+};
 use frictionsim::linalg::{DenseLu, MatrixPolynomial};
 use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind, SectorMesh};
 use frictionsim::prestress::{
@@ -56,7 +58,11 @@ fn cyclic(options: &TangentOptions, friction_coefficient: f64) -> CyclicSystem {
 fn at(sector: usize, ring: usize, is_tangential: bool) -> Terminal {
     Terminal {
         node: sector * (RADIAL + 1) + ring,
-        is_tangential,
+        direction: if is_tangential {
+            Direction::Tangential
+        } else {
+            Direction::Radial
+        },
     }
 }
 

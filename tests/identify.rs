@@ -6,7 +6,7 @@
 use assert_cmd::Command;
 use faer::c64;
 use frictionsim::fem::{ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping};
-use frictionsim::frf::{FrfSystem, ReductionSettings, Terminal, reduced_response};
+use frictionsim::frf::{Direction, FrfSystem, ReductionSettings, Terminal, reduced_response};
 use frictionsim::linalg::GaussianNoise;
 use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind};
 use frictionsim::signal::{
@@ -55,7 +55,7 @@ fn free_disc(step_hz: f64) -> (Vec<f64>, Vec<c64>) {
     let system = FrfSystem::body(&annulus.mesh, &material, mass, damping, false);
     let rim = Terminal {
         node: 18,
-        is_tangential: false,
+        direction: Direction::Radial,
     };
     let unknown = system.unknown(rim, "force_node").unwrap();
     let f: Vec<f64> = (1..=(1e4 / step_hz) as usize)

@@ -1,26 +1,16 @@
 //! `frictionsim frf`: frequency response of the model between two nodes.
 
 use super::{Failure, RunOptions, Session, terminal};
-use crate::case::{Case, Frf, FrfMethod};
-use crate::fem::assemble_stiffness;
-use crate::frf::{
-    CyclicSystem, FrfBoundary, FrfSystem, ReductionSettings, Terminal, cyclic_response,
-    direct_response_with, reduced_response,
-};
-use crate::linalg::GaussianNoise;
-use crate::linalg::c64;
-use crate::mesh::SectorMesh;
-use crate::prestress::{SectorTangent, SlidingTangent, SteadySliding};
+use crate::case::{Case, Frf};
+use crate::frf::Terminal;
 use crate::results::{
     DrawingOptions, OutputFolder, RESPONSE_TABLE, ResponseSummary, draw_response_report,
     read_response_table, read_summary, write_response, write_summary,
 };
 use crate::signal::FrequencyResponse;
 use crate::signal::reader::{ResponseOptions, read_response};
-use crate::study::tangent_options;
+use crate::study::response::{FrequencyStudy, Response};
 use clap::Args;
-use indicatif::ProgressBar;
-use std::f64::consts::TAU;
 
 /// Frequency response of the model between two nodes
 ///
@@ -30,18 +20,6 @@ use std::f64::consts::TAU;
 pub struct Arguments {
     #[command(flatten)]
     options: RunOptions,
-}
-
-/// A computed response and how it came about.
-struct Computed {
-    receptance: Vec<c64>,
-    dofs: usize,
-    method: &'static str,
-    /// Largest relative error found at the check lines of a reduction.
-    error: Option<f64>,
-    vectors: Option<usize>,
-    /// Largest backward error of the solutions, harmonic by harmonic.
-    backward_error: Option<f64>,
 }
 
 /// Runs the subcommand.
@@ -56,9 +34,12 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let folder = session.open_folder()?;
     terminal::catch_signals(terminal::NOTHING_KEPT);
     let bar = terminal::progress(session.options.output.is_quiet(), 0, "frequencies");
-    let computed = compute(case, frf, &bar)?;
+    let computed = FrequencyStudy::new(case)?.solve(&|lines| {
+        bar.set_length(frf.frequencies_hz.len() as u64);
+        bar.inc(lines as u64);
+    })?;
     bar.finish_and_clear();
-    let values = observed(case, frf, &computed.receptance);
+    let values = computed.observed(frf);
     write_response(&folder, frf.quantity, &frf.frequencies_hz, &values)?;
     let summary = ResponseSummary {
         command: "frf".to_owned(),
@@ -67,7 +48,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         dofs: computed.dofs,
         lines: frf.frequencies_hz.len(),
         method: computed.method.to_owned(),
-        largest_error: computed.error,
+        largest_error: computed.largest_error,
         basis_vectors: computed.vectors,
         backward_error: computed.backward_error,
         quantity: frf.quantity.name().to_owned(),
@@ -104,145 +85,16 @@ pub fn redraw(folder: &OutputFolder, options: &DrawingOptions) -> Result<(), Fai
     Ok(())
 }
 
-/// Receptance by the method of the case.
-fn compute(case: &Case, frf: &Frf, bar: &ProgressBar) -> Result<Computed, Failure> {
-    match frf.method {
-        FrfMethod::Auto if !case.is_annulus() => reduced(case, frf),
-        FrfMethod::Auto | FrfMethod::Cyclic => cyclic(case, frf),
-        FrfMethod::Direct => direct(case, frf, bar),
-        FrfMethod::Reduced => reduced(case, frf),
-    }
-}
-
-/// Finds out whether force and response act where the boundary leaves the body free.
-///
-/// # Errors
-/// A node that does not exist or is held; a base state that does not exist.
-pub fn preflight(case: &Case, frf: &Frf) -> Result<(), Failure> {
-    if case.is_annulus() {
-        cyclic_system(case, frf).map(|_| ())
-    } else {
-        whole_mesh(case, frf).map(|_| ())
-    }
-}
-
-fn cyclic_system(case: &Case, frf: &Frf) -> Result<CyclicSystem, Failure> {
-    if !case.is_annulus() {
-        return Err(Failure::Case(case.error_at(
-            "frf.method",
-            "frf.method = \"cyclic\" needs the symmetry of the built-in annulus".to_owned(),
-            "an imported mesh has no sectors".to_owned(),
-            Some("use \"auto\", \"direct\" or \"reduced\"".to_owned()),
-        )));
-    }
-    let sector = SectorMesh::generate(&case.annulus).map_err(Failure::usage)?;
-    let contact = &case.contact.sliding;
-    let system = if frf.boundary == FrfBoundary::Sliding {
-        let options = tangent_options(case, frf.mass);
-        let tangent = SectorTangent::linearize(&sector, case.materials(), &options, contact)?;
-        CyclicSystem::sliding(&tangent, contact.friction_coefficient)
-    } else {
-        let is_clamped = frf.boundary == FrfBoundary::Clamped;
-        let rayleigh = case.damping.rayleigh;
-        CyclicSystem::body(&sector, &case.material, frf.mass, rayleigh, is_clamped)
-    };
-    for (terminal, key) in [(frf.force, "force_node"), (frf.response, "response_node")] {
-        system.check(terminal, key).map_err(Failure::usage)?;
-    }
-    Ok(system)
-}
-
-fn cyclic(case: &Case, frf: &Frf) -> Result<Computed, Failure> {
-    let system = cyclic_system(case, frf)?;
-    let solved = cyclic_response(&system, frf.force, frf.response, &frf.frequencies_hz)
-        .map_err(Failure::run)?;
-    Ok(Computed {
-        receptance: solved.receptance,
-        dofs: system.dimension(),
-        method: "cyclic",
-        error: None,
-        vectors: None,
-        backward_error: Some(solved.backward_error),
-    })
-}
-
-fn direct(case: &Case, frf: &Frf, bar: &ProgressBar) -> Result<Computed, Failure> {
-    let (system, force, response) = whole_mesh(case, frf)?;
-    bar.set_length(frf.frequencies_hz.len() as u64);
-    let done = |lines: usize| bar.inc(lines as u64);
-    let lines = &frf.frequencies_hz;
-    let solved =
-        direct_response_with(&system, force, response, lines, &done).map_err(Failure::run)?;
-    Ok(Computed {
-        receptance: solved.receptance,
-        dofs: system.dimension(),
-        method: "direct",
-        error: None,
-        vectors: None,
-        backward_error: None,
-    })
-}
-
-fn reduced(case: &Case, frf: &Frf) -> Result<Computed, Failure> {
-    let (system, force, response) = whole_mesh(case, frf)?;
-    let settings = ReductionSettings::default();
-    let reduced = reduced_response(&system, force, response, &frf.frequencies_hz, &settings)
-        .map_err(Failure::run)?;
-    Ok(Computed {
-        receptance: reduced.receptance,
-        dofs: system.dimension(),
-        method: "reduced",
-        error: Some(reduced.largest_error),
-        vectors: Some(reduced.vectors),
-        backward_error: None,
-    })
-}
-
-/// Matrices of the body as it is held, and the unknowns of force and response.
-fn whole_mesh(case: &Case, frf: &Frf) -> Result<(FrfSystem, usize, usize), Failure> {
-    let mesh = &*case.mesh().map_err(Failure::usage)?;
-    let system = if frf.boundary == FrfBoundary::Sliding {
-        let stiffness = assemble_stiffness(mesh, case.materials());
-        let base = SteadySliding::solve(mesh, &stiffness, &case.contact.sliding)?;
-        let options = tangent_options(case, frf.mass);
-        let tangent =
-            SlidingTangent::linearize(mesh, case.materials(), &stiffness, &base, &options);
-        FrfSystem::sliding(&tangent, case.contact.sliding.friction_coefficient)
-    } else {
-        let is_clamped = frf.boundary == FrfBoundary::Clamped;
-        let rayleigh = case.damping.rayleigh;
-        FrfSystem::body(mesh, case.materials(), frf.mass, rayleigh, is_clamped)
-    };
-    let unknown = |terminal, key| system.unknown(terminal, key).map_err(Failure::usage);
-    let force = unknown(frf.force, "force_node")?;
-    let response = unknown(frf.response, "response_node")?;
-    Ok((system, force, response))
-}
-
-/// The quantity asked for, for the disc's thickness, with noise.
-fn observed(case: &Case, frf: &Frf, receptance: &[c64]) -> Vec<c64> {
-    let mut noise = GaussianNoise::new(frf.noise_seed as u64);
-    frf.frequencies_hz
-        .iter()
-        .zip(receptance)
-        .map(|(f, h)| {
-            let rate = c64::new(0.0, TAU * f).powi(frf.quantity.derivatives());
-            let value = h * rate / case.thickness;
-            value + noise.draw() * (frf.noise * value.norm())
-        })
-        .collect()
-}
-
-fn described(case: &Case, frf: &Frf, computed: &Computed) -> String {
+fn described(case: &Case, frf: &Frf, computed: &Response) -> String {
     let place = |t: Terminal| {
-        let direction = if t.is_tangential {
-            "tangential"
-        } else {
-            "radial"
-        };
+        let direction = t.direction.name();
         format!("node {} {direction}", case.node_label(t.node))
     };
-    let error = match (computed.error, computed.vectors, computed.backward_error) {
+    let error = match (
+        computed.largest_error,
+        computed.vectors,
+        computed.backward_error,
+    ) {
         (Some(error), Some(vectors), _) => {
             format!(" ({vectors} vectors, largest relative error at the check lines {error:.1e})")
         }

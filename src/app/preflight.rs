@@ -1,12 +1,13 @@
 //! Everything about a case that can be known to be wrong before it runs, asked of the same code that
 //! the runs ask.
 
+use super::Failure;
 use super::session::available_memory;
-use super::{Failure, frf};
 use crate::case::{Case, Cost, Diagnostic, Location, StudyCost};
 use crate::fem::operator::SimdLevel;
 use crate::mesh::ElementKind;
 use crate::study::eigenvalues;
+use crate::study::response::FrequencyStudy;
 use crate::study::transient::TransientStudy;
 use crate::transient::StepPlan;
 
@@ -84,11 +85,9 @@ pub fn preflight(case: &Case) -> Result<Preflight, Failure> {
             found.tolerate("cea", tried.map_err(Failure::from))?;
         }
     }
-    if let Some(response) = &case.frf
-        && is_small
-    {
-        let tried = frf::preflight(case, response);
-        found.tolerate("frf", tried)?;
+    if case.frf.is_some() && is_small {
+        let tried = FrequencyStudy::new(case).map(|_| ());
+        found.tolerate("frf", tried.map_err(Failure::from))?;
     }
     Ok(found)
 }

@@ -2,9 +2,8 @@
 
 use super::node::Nodes;
 use super::reader::Section;
-use super::words::Direction;
 use crate::fem::MassKind;
-use crate::frf::{FrfBoundary, Terminal};
+use crate::frf::{Direction, FrfBoundary, Terminal};
 use crate::signal::ResponseQuantity;
 
 /// How a frequency response is computed.
@@ -68,16 +67,30 @@ pub(super) fn read(root: &Section<'_>, nodes: &Nodes<'_>) -> Option<Frf> {
     }
     frequencies_hz.sort_by(f64::total_cmp);
     frequencies_hz.dedup();
-    let is_tangential = |key| section.choice::<Direction>(key) == Direction::Tangential;
+    let direction = |key| {
+        let direction: Direction = section.choice(key);
+        if direction == Direction::Axial && nodes.solid.is_none() {
+            section.reject(
+                key,
+                format!("frf.{key} = \"axial\": a plane body does not move along its axis"),
+                "the body is plane".to_owned(),
+                Some(
+                    "use \"radial\" or \"tangential\", or material.formulation = \"three-dimensional\""
+                        .to_owned(),
+                ),
+            );
+        }
+        direction
+    };
     let frf = Frf {
         boundary: section.choice("boundary"),
         force: Terminal {
             node: force_node,
-            is_tangential: is_tangential("force_direction"),
+            direction: direction("force_direction"),
         },
         response: Terminal {
             node: response_node,
-            is_tangential: is_tangential("response_direction"),
+            direction: direction("response_direction"),
         },
         frequencies_hz,
         quantity: section.choice("quantity"),

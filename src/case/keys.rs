@@ -10,13 +10,12 @@ use super::key::Kind::{
     Text,
 };
 use super::key::{CaseKey, Default, Kind, words};
-use super::words::Direction;
 use super::{
     Analysis, CeaMethod, Combination, FrfMethod, InitialState, OnsetChoice, OperatorChoice,
     Spacing, StabilityChoice,
 };
 use crate::fem::{MassKind, PlaneFormulation};
-use crate::frf::FrfBoundary;
+use crate::frf::{Direction, FrfBoundary};
 use crate::mesh::ElementKind;
 use crate::signal::ResponseQuantity;
 
@@ -172,9 +171,9 @@ pub const KEYS: &[CaseKey] = &[
 
     key("frf.boundary", Choice(words::<FrfBoundary>), "", Value("\"free\""), "\"free\"", "how the disc is held while it is excited"),
     key("frf.force_node", Node, "", Required, "36", "the node that is struck, by number or by place"),
-    key("frf.force_direction", Choice(words::<Direction>), "", Value("\"radial\""), "\"radial\"", "the direction of the force"),
+    key("frf.force_direction", Choice(words::<Direction>), "", Value("\"radial\""), "\"radial\"", "the direction of the force; \"axial\" in three dimensions"),
     key("frf.response_node", Node, "", Otherwise("frf.force_node"), "36", "the node observed, by number or by place"),
-    key("frf.response_direction", Choice(words::<Direction>), "", Value("\"radial\""), "\"radial\"", "the direction observed"),
+    key("frf.response_direction", Choice(words::<Direction>), "", Value("\"radial\""), "\"radial\"", "the direction observed; \"axial\" in three dimensions"),
     key("frf.frequencies_hz", Numbers(Positive), "Hz", Required, "{ from = 1.0, to = 10000.0, count = 10000 }", "the frequencies of the response"),
     key("frf.quantity", Choice(words::<ResponseQuantity>), "", Value("\"accelerance\""), "\"accelerance\"", "what is observed for each unit of force"),
     key("frf.method", Choice(words::<FrfMethod>), "", Value("\"auto\""), "\"auto\"", "how the response is computed (auto = cyclic)"),

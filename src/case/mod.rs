@@ -324,7 +324,6 @@ impl Case {
     pub fn require_frf(&self) -> Result<&Frf, CaseErrors> {
         let remedy =
             "[frf]\nforce_node = 36\nfrequencies_hz = { from = 1.0, to = 10000.0, count = 10000 }";
-        self.require_plane("the frequency response takes")?;
         let frf = self.frf.as_ref();
         if frf.is_some_and(|frf| frf.boundary != crate::frf::FrfBoundary::Sliding) {
             self.require_rigid_shaft("a response without contact (frf.boundary)")?;

@@ -8,16 +8,9 @@ use super::{
     Spacing, StabilityChoice,
 };
 use crate::fem::{MassKind, PlaneFormulation};
-use crate::frf::FrfBoundary;
+use crate::frf::{Direction, FrfBoundary};
 use crate::mesh::ElementKind;
 use crate::signal::ResponseQuantity;
-
-/// Direction of a force or of an observed motion.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Direction {
-    Radial,
-    Tangential,
-}
 
 /// States the words of each choice.
 macro_rules! words {
@@ -54,7 +47,7 @@ words! {
     OnsetChoice { "all" = Self::All, "lowest" = Self::Lowest }
     StabilityChoice { "point" = Self::Point, "branch" = Self::Branch, "none" = Self::None }
     FrfBoundary { "free" = Self::Free, "clamped" = Self::Clamped, "sliding" = Self::Sliding }
-    Direction { "radial" = Self::Radial, "tangential" = Self::Tangential }
+    Direction { "radial" = Self::Radial, "tangential" = Self::Tangential, "axial" = Self::Axial }
     ResponseQuantity {
         "accelerance" = Self::Accelerance,
         "mobility" = Self::Mobility,

@@ -13,13 +13,14 @@ use std::f64::consts::{PI, TAU};
 const BACKWARD_ERROR_BOUND: f64 = 1e-14;
 /// `|A| |x| / |b|` above which a matrix has no inverse in double precision.
 const GROWTH_BOUND: f64 = 1e15;
-/// Harmonics held in memory at a time.
+/// Harmonics held in memory at a time, and the entries of their bands where those are wide.
 const HARMONICS_AT_ONCE: usize = 16;
+const ENTRIES_AT_ONCE: usize = 1 << 21;
 
 /// A response summed over all harmonics.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CyclicResponse {
-    /// Receptance `u / f` for each frequency, m/N for each metre of thickness.
+    /// Receptance `u / f` for each frequency, m/N; of a plane body for each metre of thickness.
     pub receptance: Vec<c64>,
     /// Largest backward error `|f - A x| / (|A| |x|)` of all harmonics and frequencies.
     pub backward_error: f64,
@@ -27,18 +28,18 @@ pub struct CyclicResponse {
 
 /// Receptance between two terminals, by direct solution of every circumferential harmonic.
 ///
-/// A force at one node is a sum of waves over all `N` sectors, which an annulus answers one by one:
+/// A force at one node is a sum of waves over all `N` sectors, which a body of revolution answers one by one:
 ///
 /// ```text
 /// h = 1/N sum_n e^{i n (theta_response - theta_force)} [(K_n + i omega C_n - omega^2 M_n)^{-1}]_{response, force}
 /// ```
 ///
 /// No harmonic is left out: this is [`super::direct_response`] up to round-off, in sliding contact
-/// too. Frequencies in parallel, the result independent of their number of threads. For a body of
-/// thickness `b` divide by `b`.
+/// too. Frequencies in parallel, the result independent of their number of threads. For a plane body of
+/// thickness `b` divide by `b`; a body in three dimensions has its own thickness, and `h` is in m/N.
 ///
 /// # Errors
-/// [`FrfError::NoNode`], [`FrfError::Constrained`]; [`FrfError::Frequency`];
+/// [`FrfError::NoNode`], [`FrfError::Constrained`], [`FrfError::InPlane`]; [`FrfError::Frequency`];
 /// [`FrfError::Factorization`] where an undamped system is at resonance.
 pub fn cyclic_response(
     system: &CyclicSystem,
@@ -52,7 +53,7 @@ pub fn cyclic_response(
     let mut receptance = vec![c64::new(0.0, 0.0); frequencies_hz.len()];
     let mut backward_error = 0.0_f64;
     let all: Vec<usize> = (0..=system.sector_count() / 2).collect();
-    for numbers in all.chunks(HARMONICS_AT_ONCE) {
+    for numbers in all.chunks(system.harmonics_at_once(HARMONICS_AT_ONCE, ENTRIES_AT_ONCE)) {
         let waves: Vec<Wave> = numbers
             .par_iter()
             .map(|&n| Wave::new(system, n, force, response))

@@ -1,6 +1,7 @@
 //! Harmonics of the annulus in the state that is excited.
 
-use super::{FrfError, Terminal};
+use super::cyclic_solid::SolidState;
+use super::{Direction, FrfError, Terminal};
 use crate::fem::sector::{self, SectorMatrix};
 use crate::fem::{ElasticMaterial, MassKind, RayleighDamping};
 use crate::linalg::banded::BandedMatrix;
@@ -8,10 +9,14 @@ use crate::linalg::c64;
 use crate::mesh::SectorMesh;
 use crate::prestress::SectorTangent;
 
-/// [`super::FrfSystem`] of an annulus, as the matrices of its circumferential harmonics.
+/// [`super::FrfSystem`] of an annulus or of a body of revolution, as the matrices of its circumferential harmonics.
 #[derive(Clone, Debug)]
 pub struct CyclicSystem {
-    sector: SectorMesh,
+    sector_count: usize,
+    /// Sector node of each node of a sector, in the order of the mesh, and its angle in halves of a sector.
+    nodes: Vec<(usize, usize)>,
+    /// Components of a displacement: 2 in the plane, 3 in space.
+    components: usize,
     state: State,
     /// Unknown of each dof of the sector.
     unknown_of: Vec<Option<usize>>,
@@ -30,9 +35,10 @@ enum State {
         tangent: Box<SectorTangent>,
         friction_coefficient: f64,
     },
+    Solid(SolidState),
 }
 
-/// Bands of one harmonic, in the basis `(u_r, -i u_theta)`.
+/// Bands of one harmonic, in the basis `(u_r, -i u_theta)` or `(u_r, -i u_theta, u_z)`.
 pub(super) struct Harmonic {
     pub half_bandwidth: usize,
     pub mass: Vec<c64>,
@@ -79,8 +85,8 @@ impl CyclicSystem {
             supports: sector::supports(&sector),
             damping,
         };
-        let unknowns = (0..2 * sector.free_node_count()).collect();
-        Self::new(sector, state, unknowns)
+        let unknowns: Vec<usize> = (0..2 * sector.free_node_count()).collect();
+        Self::new(&sector, state, &unknowns)
     }
 
     /// Small motions around steady sliding at a friction coefficient.
@@ -89,7 +95,7 @@ impl CyclicSystem {
             tangent: Box::new(tangent.clone()),
             friction_coefficient,
         };
-        let mut system = Self::new(tangent.sector().clone(), state, tangent.unknowns());
+        let mut system = Self::new(tangent.sector(), state, &tangent.unknowns());
         let sector = tangent.sector();
         for node in sector.contact_nodes() {
             // A distance between two bodies is no place to strike or to observe.
@@ -100,16 +106,37 @@ impl CyclicSystem {
         system
     }
 
-    fn new(sector: SectorMesh, state: State, unknowns: Vec<usize>) -> Self {
+    fn new(sector: &SectorMesh, state: State, unknowns: &[usize]) -> Self {
         let mut unknown_of = vec![None; 2 * sector.node_count()];
         for (unknown, &dof) in unknowns.iter().enumerate() {
             unknown_of[dof] = Some(unknown);
         }
+        let nodes = sector.sector_node_of.iter().take(sector.node_count());
         Self {
-            sector,
+            sector_count: sector.sector_count(),
+            nodes: nodes.map(|&k| (k, sector.half_step(k))).collect(),
+            components: 2,
             state,
             unknown_of,
             dimension: unknowns.len(),
+        }
+    }
+
+    /// The harmonics of a body with three components at each of the nodes of a sector, `half_steps` their angles in
+    /// halves of a sector.
+    pub(super) fn of_solid(
+        sector_count: usize,
+        half_steps: impl Iterator<Item = usize>,
+        state: SolidState,
+        unknown_of: Vec<Option<usize>>,
+    ) -> Self {
+        Self {
+            sector_count,
+            nodes: half_steps.enumerate().collect(),
+            components: 3,
+            state: State::Solid(state),
+            dimension: unknown_of.iter().flatten().count(),
+            unknown_of,
         }
     }
 
@@ -132,7 +159,17 @@ impl CyclicSystem {
     }
 
     pub(super) fn sector_count(&self) -> usize {
-        self.sector.sector_count()
+        self.sector_count
+    }
+
+    /// How many harmonics are held at a time: at most `count`, and few where their bands have many entries.
+    pub(super) fn harmonics_at_once(&self, count: usize, entries: usize) -> usize {
+        let width = match &self.state {
+            State::Solid(state) => 2 * state.half_bandwidth() + 1,
+            // Bands of plane harmonics are narrow.
+            State::Body { .. } | State::Sliding { .. } => return count,
+        };
+        (entries / (self.dimension * width).max(1)).clamp(1, count)
     }
 
     /// Place of a terminal; `key` is the case key of its node.
@@ -140,19 +177,23 @@ impl CyclicSystem {
     /// # Errors
     /// [`FrfError::NoNode`], or [`FrfError::Constrained`] where the boundary holds it.
     pub(super) fn place(&self, terminal: Terminal, key: &'static str) -> Result<Place, FrfError> {
-        let per_sector = self.sector.node_count();
-        let count = per_sector * self.sector_count();
+        let per_sector = self.nodes.len();
+        let count = per_sector * self.sector_count;
         let node = terminal.node + 1;
         if node > count {
             return Err(FrfError::NoNode { key, node, count });
         }
+        let component = terminal.direction.component();
+        if component >= self.components {
+            return Err(FrfError::in_plane(terminal, key));
+        }
         let (sector, position) = (terminal.node / per_sector, terminal.node % per_sector);
-        let sector_node = self.sector.sector_node_of[position];
-        let unknown = self.unknown_of[2 * sector_node + usize::from(terminal.is_tangential)];
+        let (sector_node, half_step) = self.nodes[position];
+        let unknown = self.unknown_of[self.components * sector_node + component];
         Ok(Place {
             unknown: unknown.ok_or_else(|| FrfError::constrained(terminal, key))?,
-            half_steps: 2 * sector + self.sector.half_step(sector_node),
-            is_tangential: terminal.is_tangential,
+            half_steps: 2 * sector + half_step,
+            is_tangential: terminal.direction == Direction::Tangential,
         })
     }
 
@@ -166,54 +207,73 @@ impl CyclicSystem {
                 supports,
                 damping,
             } => {
-                let mass = mass.harmonic(n);
-                let mut stiffness = stiffness.harmonic(n);
-                let mut damped = Damping::Proportional(*damping);
-                if let Some([springs, dashpots]) = supports {
-                    let mut band = dashpots.harmonic(n);
-                    // A support couples no two nodes, but its matrices have the shape of all.
-                    band.add_scaled(damping.mass_coefficient, &mass);
-                    band.add_scaled(damping.stiffness_coefficient, &stiffness);
-                    stiffness.add_scaled(1.0, &springs.harmonic(n));
-                    damped = Damping::Band(evaluate(&[band], 0.0));
-                }
-                Harmonic {
-                    half_bandwidth: mass.half_bandwidth(),
-                    mass: evaluate(&[mass], 0.0),
-                    stiffness: evaluate(&[stiffness], 0.0),
-                    damping: damped,
-                    is_standing,
-                }
+                let supports = supports
+                    .as_ref()
+                    .map(|matrices| matrices.each_ref().map(|matrix| matrix.harmonic(n)));
+                let matrices = [mass.harmonic(n), stiffness.harmonic(n)];
+                held_harmonic(matrices, supports, *damping, is_standing)
             }
             State::Sliding {
                 tangent,
                 friction_coefficient,
-            } => {
-                let mu = *friction_coefficient;
-                let harmonic = tangent.harmonic(n);
-                Harmonic {
-                    half_bandwidth: harmonic.mass[0].half_bandwidth(),
-                    mass: evaluate(&harmonic.mass, mu),
-                    stiffness: evaluate(&harmonic.stiffness, mu),
-                    damping: match &harmonic.damping {
-                        Some(damping) => {
-                            let mut band = evaluate(damping, mu);
-                            let dashpots = harmonic.friction_dashpots.iter();
-                            let values = dashpots.flat_map(BandedMatrix::values);
-                            band.iter_mut().zip(values).for_each(|(c, v)| *c += mu * v);
-                            Damping::Band(band)
-                        }
-                        None => Damping::Proportional(harmonic.rayleigh),
-                    },
-                    is_standing,
-                }
-            }
+            } => sliding_harmonic(tangent, *friction_coefficient, (n, is_standing)),
+            State::Solid(state) => state.harmonic(n, is_standing),
         }
     }
 }
 
+/// Small motions around steady sliding in the plane.
+fn sliding_harmonic(
+    tangent: &SectorTangent,
+    friction_coefficient: f64,
+    (n, is_standing): (usize, bool),
+) -> Harmonic {
+    let mu = friction_coefficient;
+    let harmonic = tangent.harmonic(n);
+    Harmonic {
+        half_bandwidth: harmonic.mass[0].half_bandwidth(),
+        mass: evaluate(&harmonic.mass, mu),
+        stiffness: evaluate(&harmonic.stiffness, mu),
+        damping: match &harmonic.damping {
+            Some(damping) => {
+                let mut band = evaluate(damping, mu);
+                let dashpots = harmonic.friction_dashpots.iter();
+                let values = dashpots.flat_map(BandedMatrix::values);
+                band.iter_mut().zip(values).for_each(|(c, v)| *c += mu * v);
+                Damping::Band(band)
+            }
+            None => Damping::Proportional(harmonic.rayleigh),
+        },
+        is_standing,
+    }
+}
+
+/// A body with springs and dashpots of its supports, `C = alpha_R M + beta_R K + D`.
+pub(super) fn held_harmonic(
+    [mass, mut stiffness]: [BandedMatrix; 2],
+    supports: Option<[BandedMatrix; 2]>,
+    damping: RayleighDamping,
+    is_standing: bool,
+) -> Harmonic {
+    let mut damped = Damping::Proportional(damping);
+    if let Some([springs, mut band]) = supports {
+        // A support couples no two nodes, but its matrices have the shape of all.
+        band.add_scaled(damping.mass_coefficient, &mass);
+        band.add_scaled(damping.stiffness_coefficient, &stiffness);
+        stiffness.add_scaled(1.0, &springs);
+        damped = Damping::Band(evaluate(&[band], 0.0));
+    }
+    Harmonic {
+        half_bandwidth: mass.half_bandwidth(),
+        mass: evaluate(&[mass], 0.0),
+        stiffness: evaluate(&[stiffness], 0.0),
+        damping: damped,
+        is_standing,
+    }
+}
+
 /// `sum_p P_p (i mu)^p`.
-fn evaluate(polynomial: &[BandedMatrix], friction_coefficient: f64) -> Vec<c64> {
+pub(super) fn evaluate(polynomial: &[BandedMatrix], friction_coefficient: f64) -> Vec<c64> {
     let mut band = vec![c64::new(0.0, 0.0); polynomial[0].values().len()];
     let mut power = c64::new(1.0, 0.0);
     for coefficient in polynomial {

@@ -26,8 +26,19 @@ pub enum FrfError {
         key: &'static str,
         /// Node id, from 1.
         node: usize,
-        /// `radial` or `tangential`.
+        /// `radial`, `tangential` or `axial`.
         direction: &'static str,
+    },
+    /// A plane body, along its axis.
+    #[error(
+        "frf.{key} = {node} cannot move in axial direction: the body is plane; use \"radial\" or \"tangential\", or \
+         material.formulation = \"three-dimensional\""
+    )]
+    InPlane {
+        /// Case key.
+        key: &'static str,
+        /// Node id, from 1.
+        node: usize,
     },
     /// A frequency that is not positive.
     #[error("frequency {value} Hz must be positive and finite: check frf.frequencies")]
@@ -59,16 +70,30 @@ pub enum FrfError {
 }
 
 impl FrfError {
+    /// The case key of the node that cannot be excited or observed.
+    pub fn node_key(&self) -> Option<&'static str> {
+        match self {
+            Self::NoNode { key, .. }
+            | Self::Constrained { key, .. }
+            | Self::InPlane { key, .. } => Some(key),
+            _ => None,
+        }
+    }
+
     /// The boundary holds this terminal.
     pub(super) fn constrained(terminal: Terminal, key: &'static str) -> Self {
         Self::Constrained {
             key,
             node: terminal.node + 1,
-            direction: if terminal.is_tangential {
-                "tangential"
-            } else {
-                "radial"
-            },
+            direction: terminal.direction.name(),
+        }
+    }
+
+    /// A plane body has no such terminal.
+    pub(super) fn in_plane(terminal: Terminal, key: &'static str) -> Self {
+        Self::InPlane {
+            key,
+            node: terminal.node + 1,
         }
     }
 }

@@ -1,7 +1,6 @@
 //! Krylov spaces in which many lines are solved at once.
 
-use crate::linalg::{Mat, c64};
-use faer::linalg::solvers::Solve;
+use crate::linalg::{ComplexDenseLu, Mat, c64};
 use std::ops::Mul;
 
 /// Relative residual of the projected systems at which the space is large enough.
@@ -162,10 +161,10 @@ impl<T: Entry> KrylovSpace<T> {
             let unit = if i == j { 1.0 } else { 0.0 };
             c64::new(unit, 0.0) - distance * image
         });
-        let right = Mat::from_fn(m, 1, |i, _| {
+        let mut y = Mat::from_fn(m, 1, |i, _| {
             c64::new(if i == 0 { self.length } else { 0.0 }, 0.0)
         });
-        let y = matrix.partial_piv_lu().solve(&right);
+        ComplexDenseLu::factorize(matrix).solve_in_place(y.as_mut());
         let y: Vec<c64> = (0..m).map(|i| y[(i, 0)]).collect();
         let size = y.iter().map(|v| v.norm_sqr()).sum::<f64>().sqrt();
         let next = self.images[m - 1][m];

@@ -4,8 +4,7 @@ use super::FrfSystem;
 use super::direct::Analyses;
 use super::krylov::KrylovSpace;
 use crate::fem::RayleighDamping;
-use crate::linalg::{ComplexSparseLu, SparseLdl, SparseLu};
-use faer::{MatMut, c64};
+use crate::linalg::{ComplexSparseLu, MatMut, SparseLdl, SparseLu, c64};
 use std::f64::consts::TAU;
 
 /// Backward error `|f - A x| / (|A| |x|)` above which a line is not taken from the space.

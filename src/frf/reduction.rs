@@ -4,9 +4,7 @@ use super::direct::factorized;
 use super::system::check_frequencies;
 use super::{FrfError, FrfSystem};
 use crate::linalg::dense::{join_columns, orthonormalize, transpose_product};
-use crate::linalg::{LuAnalysis, SparseLu};
-use crate::linalg::{Mat, c64};
-use faer::linalg::solvers::Solve;
+use crate::linalg::{ComplexDenseLu, LuAnalysis, Mat, SparseLu, c64};
 use std::f64::consts::TAU;
 
 /// Krylov vectors taken at each shift, for force and response each.
@@ -250,8 +248,8 @@ impl ReducedModel {
             let real = self.stiffness[(i, j)] - omega * omega * self.mass[(i, j)];
             c64::new(real, omega * self.damping[(i, j)])
         });
-        let right = Mat::from_fn(n, 1, |i, _| c64::new(self.force[i], 0.0));
-        let x = matrix.partial_piv_lu().solve(&right);
+        let mut x = Mat::from_fn(n, 1, |i, _| c64::new(self.force[i], 0.0));
+        ComplexDenseLu::factorize(matrix).solve_in_place(x.as_mut());
         (0..n).map(|i| x[(i, 0)] * self.response[i]).sum()
     }
 }

@@ -1,6 +1,6 @@
 //! Mass, damping and stiffness of the body in the state that is excited.
 
-use super::FrfError;
+use super::{Direction, FrfError, Terminal};
 use crate::fem::{
     DofMap, MassKind, MaterialField, RayleighDamping, assemble_extra_damping, assemble_mass,
     assemble_stiffness, assemble_supports,
@@ -11,26 +11,6 @@ use crate::mesh::Mesh2d;
 use crate::prestress::SlidingTangent;
 use std::f64::consts::TAU;
 use std::sync::Arc;
-
-/// How the body is held while it is excited.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FrfBoundary {
-    /// Both edges free, as on the strings of a hammer test.
-    Free,
-    /// Outer edge clamped, inner edge free.
-    Clamped,
-    /// Outer edge clamped, inner edge in sliding contact.
-    Sliding,
-}
-
-/// A degree of freedom at which the body is excited or observed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Terminal {
-    /// Node, counted from 0.
-    pub node: usize,
-    /// Tangential instead of radial.
-    pub is_tangential: bool,
-}
 
 /// `M`, `C`, `K` over the unknowns, on one sparsity pattern.
 #[derive(Clone, Debug)]
@@ -128,9 +108,12 @@ impl FrfSystem {
     /// Unknown of a terminal; `key` is the case key of its node.
     ///
     /// # Errors
-    /// [`FrfError::NoNode`], or [`FrfError::Constrained`] where the boundary holds it.
+    /// [`FrfError::NoNode`], [`FrfError::Constrained`] where the boundary holds it, [`FrfError::InPlane`] along the axis.
     pub fn unknown(&self, terminal: Terminal, key: &'static str) -> Result<usize, FrfError> {
-        let dof = 2 * terminal.node + usize::from(terminal.is_tangential);
+        if terminal.direction == Direction::Axial {
+            return Err(FrfError::in_plane(terminal, key));
+        }
+        let dof = 2 * terminal.node + terminal.direction.component();
         let node = terminal.node + 1;
         match self.unknowns.unknown_of.get(dof) {
             None => Err(FrfError::NoNode {

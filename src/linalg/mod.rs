@@ -13,7 +13,7 @@ mod sparse_ldl;
 mod sparse_lu;
 mod sparse_product;
 
-pub use faer::{Mat, MatRef, Scale, c64};
+pub use faer::{Mat, MatMut, MatRef, Scale, c64};
 
 pub use dense_lu::{ComplexDenseLu, DenseLu};
 pub use distribution::Distribution;

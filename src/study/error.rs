@@ -5,6 +5,7 @@ use crate::case::CaseErrors;
 use crate::cea::CeaError;
 use crate::cycle::CycleError;
 use crate::fem::operator::SimdError;
+use crate::frf::FrfError;
 use crate::mesh::MeshError;
 use crate::prestress::PrestressError;
 use crate::transient::TransientError;
@@ -54,6 +55,9 @@ pub enum StudyError {
         /// Why not.
         error: String,
     },
+    /// There is no frequency response.
+    #[error(transparent)]
+    Response(#[from] FrfError),
 }
 
 impl From<MeshError> for StudyError {

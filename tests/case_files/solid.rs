@@ -54,3 +54,17 @@ fn bodies_without_thickness_rings_beside_the_face_and_contact_at_rest_are_refuse
     ];
     assert_reports(&report(&flat, &[]), &parts);
 }
+
+#[test]
+fn axial_forces_on_plane_bodies_are_refused_with_the_key() {
+    let disc = include_str!("../../cases/hammer-test.toml");
+    for key in ["force_direction", "response_direction"] {
+        let set = format!("frf.{key}=\"axial\"");
+        let found = format!("frf.{key} = \"axial\": a plane body does not move along its axis");
+        let parts = [
+            found.as_str(),
+            "material.formulation = \"three-dimensional\"",
+        ];
+        assert_reports(&report(disc, &[&set]), &parts);
+    }
+}

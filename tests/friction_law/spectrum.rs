@@ -7,7 +7,9 @@ use frictionsim::cea::cyclic::{self, CyclicSweep, Sensitivity, sensitivities};
 use frictionsim::cea::{ComplexMode, FrictionSweep, ModeBranch, ModeLimit, SweepRequest, sparse};
 use frictionsim::contact::{ContactStiffness, FrictionDecay, SlidingContact};
 use frictionsim::fem::{ElasticMaterial, MassKind, assemble_stiffness};
-use frictionsim::frf::{CyclicSystem, FrfSystem, Terminal, cyclic_response, direct_response};
+use frictionsim::frf::{
+    CyclicSystem, Direction, FrfSystem, Terminal, cyclic_response, direct_response,
+};
 use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind, SectorMesh};
 use frictionsim::prestress::{
     DampingModel, SectorTangent, SlidingTangent, SteadySliding, TangentOptions,
@@ -132,7 +134,7 @@ fn responses_by_harmonics_and_of_the_whole_mesh_agree_under_a_falling_law() {
     let tangent = SectorTangent::linearize(&sector, &POLYCARBONATE, &options, &contact).unwrap();
     let terminal = Terminal {
         node: 3,
-        is_tangential: true,
+        direction: Direction::Tangential,
     };
     let frequencies = [3000.0, 9000.0];
     let by_harmonics = cyclic_response(

@@ -2,7 +2,11 @@
 
 mod disc;
 mod elements;
+mod frf_command;
 mod limits;
 mod model;
+mod plane_transient;
+mod response;
 mod ring;
 mod transient;
+mod whole_ring;

@@ -161,6 +161,20 @@ fn energy_is_balanced_through_stick_slip_and_separation() {
     }
 }
 
+/// Nodes stick, slip and lift in every period.
+#[test]
+fn energy_is_balanced_over_half_a_million_steps_of_squeal() {
+    let model = lumped(ElementKind::Quad4, [24, 4, 2]);
+    let mut settings = seeded(1, 1.0, 0.5);
+    settings.time_step = TimeStep::Seconds(1e-6);
+    settings.sample_interval = 1e-4;
+    let analysis = TransientAnalysis::of(&run(&model, &settings), &[1]);
+    let status = analysis.last_fifth.status;
+    println!("{status:?}, residual {:e}", analysis.largest_residual);
+    assert!(status[0] > 0.01 && status[2] > 0.1, "{status:?}");
+    assert!(analysis.largest_residual < 1e-10);
+}
+
 #[test]
 fn a_compliant_ring_with_dashpots_on_supports_of_its_own_keeps_the_balance() {
     let mut model = ringed([24, 4, 2]);

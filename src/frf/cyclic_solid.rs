@@ -1,0 +1,199 @@
+//! Harmonics of a body of revolution in three dimensions, in the state that is excited.
+
+use super::CyclicSystem;
+use super::cyclic_system::{Damping, Harmonic, evaluate, held_harmonic};
+use crate::fem::sector::MirrorParity;
+use crate::fem::solid::{self, SolidMatrix, half_bandwidth};
+use crate::fem::{ElasticMaterial, MassKind, RayleighDamping};
+use crate::linalg::banded::BandedMatrix;
+use crate::linalg::c64;
+use crate::mesh::{BoundaryCondition, SolidSector};
+use crate::prestress::{SolidTangent, supports};
+
+/// What the matrices of a harmonic are made of.
+#[derive(Clone, Debug)]
+pub(super) enum SolidState {
+    Body(Box<SolidBody>),
+    Sliding {
+        tangent: Box<SolidTangent>,
+        friction_coefficient: f64,
+    },
+}
+
+#[derive(Clone, Debug)]
+pub(super) struct SolidBody {
+    sector: SolidSector,
+    mass: SolidMatrix,
+    stiffness: SolidMatrix,
+    supports: [SolidMatrix; 2],
+    damping: RayleighDamping,
+    unknown_of: Vec<Option<usize>>,
+}
+
+impl CyclicSystem {
+    /// A body of revolution without contact and prestress, all of it free or held by the conditions of its faces,
+    /// `C = alpha_R M + beta_R K` and the dashpots of its supports.
+    pub fn solid_body(
+        sector: &SolidSector,
+        material: &ElasticMaterial,
+        mass: MassKind,
+        damping: RayleighDamping,
+        is_clamped: bool,
+    ) -> Self {
+        let mut sector = sector.clone();
+        if !is_clamped {
+            sector.specification.conditions = [BoundaryCondition::Free; 4];
+        }
+        let mut next = 0;
+        let unknown_of = (0..3 * sector.node_count()).map(|dof| {
+            let is_free = !sector.is_held(dof);
+            next += usize::from(is_free);
+            is_free.then(|| next - 1)
+        });
+        let unknown_of: Vec<Option<usize>> = unknown_of.collect();
+        let half_steps: Vec<usize> = sector.nodes.iter().map(|node| node.half_step).collect();
+        let count = sector.sector_count();
+        let body = SolidBody {
+            mass: solid::mass(&sector, material, mass),
+            stiffness: solid::stiffness(&sector, material),
+            supports: supports(&sector),
+            damping,
+            unknown_of: unknown_of.clone(),
+            sector,
+        };
+        let state = SolidState::Body(Box::new(body));
+        Self::of_solid(count, half_steps.into_iter(), state, unknown_of)
+    }
+
+    /// Small motions of a body of revolution around steady sliding at a friction coefficient, the dashpot `mu p_0 / V`
+    /// across the sliding included.
+    ///
+    /// In rigid contact the motion along the normal of pressed nodes is no unknown; the force of excitation acts on the
+    /// body, not through the contact.
+    pub fn solid_sliding(tangent: &SolidTangent, friction_coefficient: f64) -> Self {
+        let sector = tangent.sector();
+        let rigid = tangent.rigid();
+        let mut next = 0;
+        let unknown_of = tangent.unknown_of().iter().map(|unknown| {
+            let is_moving = unknown.is_some_and(|u| rigid.iter().all(|(normal, ..)| *normal != u));
+            next += usize::from(is_moving);
+            is_moving.then(|| next - 1)
+        });
+        let unknown_of = unknown_of.collect();
+        let half_steps = sector.nodes.iter().map(|node| node.half_step);
+        let state = SolidState::Sliding {
+            tangent: Box::new(tangent.clone()),
+            friction_coefficient,
+        };
+        Self::of_solid(sector.sector_count(), half_steps, state, unknown_of)
+    }
+}
+
+impl SolidState {
+    /// Off-diagonals of every harmonic on either side.
+    pub(super) fn half_bandwidth(&self) -> usize {
+        half_bandwidth(match self {
+            Self::Body(body) => &body.sector,
+            Self::Sliding { tangent, .. } => tangent.sector(),
+        })
+    }
+
+    pub(super) fn harmonic(&self, n: usize, is_standing: bool) -> Harmonic {
+        match self {
+            Self::Sliding {
+                tangent,
+                friction_coefficient,
+            } => sliding_harmonic(tangent, *friction_coefficient, (n, is_standing)),
+            Self::Body(body) => body.harmonic(n, is_standing),
+        }
+    }
+}
+
+impl SolidBody {
+    fn harmonic(&self, n: usize, is_standing: bool) -> Harmonic {
+        let count = self.unknown_of.iter().flatten().count();
+        let band = |matrix: &SolidMatrix| {
+            let mut sum = BandedMatrix::zeros(count, half_bandwidth(&self.sector));
+            let at = (self.sector.sector_count(), n);
+            matrix.add_harmonic(&mut sum, &self.unknown_of, at, (MirrorParity::Even, 1.0));
+            sum
+        };
+        let is_supported = self.supports.iter().any(|matrix| !matrix.is_empty());
+        let supports = is_supported.then(|| self.supports.each_ref().map(&band));
+        let matrices = [band(&self.mass), band(&self.stiffness)];
+        held_harmonic(matrices, supports, self.damping, is_standing)
+    }
+}
+
+/// Small motions around steady sliding.
+///
+/// In rigid contact the normal equation of a pressed node is the balance of its contact force `N`, and Coulomb's law adds
+/// `s mu N` to the tangential equation of the same node: its row, times `i mu s` in the basis `(u_r, -i u_theta, u_z)`, goes
+/// there, in `M`, `C` and `K` alike, before it is dropped with the normal motion.
+fn sliding_harmonic(
+    tangent: &SolidTangent,
+    friction_coefficient: f64,
+    (n, is_standing): (usize, bool),
+) -> Harmonic {
+    let mu = friction_coefficient;
+    let harmonic = tangent.harmonic(n);
+    let h = harmonic.mass.half_bandwidth();
+    let mut damping = evaluate(&harmonic.damping, mu);
+    let across = harmonic.across.values().iter();
+    damping
+        .iter_mut()
+        .zip(across)
+        .for_each(|(c, a)| *c += mu * a);
+    let moving: Vec<usize> = (0..harmonic.mass.dimension())
+        .filter(|unknown| harmonic.rigid.iter().all(|(normal, ..)| normal != unknown))
+        .collect();
+    let condensed = |mut band: Vec<c64>| {
+        for &(normal, tangential, factor) in &harmonic.rigid {
+            if let Some(tangential) = tangential {
+                add_row(
+                    &mut band,
+                    h,
+                    [normal, tangential],
+                    c64::new(0.0, mu * factor),
+                );
+            }
+        }
+        restricted(&band, h, &moving)
+    };
+    Harmonic {
+        half_bandwidth: h,
+        mass: condensed(evaluate(std::slice::from_ref(&harmonic.mass), mu)),
+        stiffness: condensed(evaluate(&harmonic.stiffness, mu)),
+        damping: Damping::Band(condensed(damping)),
+        is_standing,
+    }
+}
+
+/// Adds `factor` times row `from` to row `to` of a band laid out like [`BandedMatrix::values`]; both belong to one node, whose
+/// neighbours lie within the band of either.
+fn add_row(band: &mut [c64], h: usize, [from, to]: [usize; 2], factor: c64) {
+    let width = 2 * h + 1;
+    for k in 0..width {
+        let value = band[from * width + k];
+        if value != c64::new(0.0, 0.0) {
+            // Column `from + k - h` in both rows.
+            band[to * width + k + from - to] += factor * value;
+        }
+    }
+}
+
+/// Rows and columns `kept` (ascending) of a band alone.
+fn restricted(band: &[c64], h: usize, kept: &[usize]) -> Vec<c64> {
+    let width = 2 * h + 1;
+    let mut result = vec![c64::new(0.0, 0.0); kept.len() * width];
+    for (row, &old_row) in kept.iter().enumerate() {
+        for column in row.saturating_sub(h)..(row + h + 1).min(kept.len()) {
+            let old_column = kept[column];
+            if old_row.abs_diff(old_column) <= h {
+                result[row * width + column + h - row] =
+                    band[old_row * width + old_column + h - old_row];
+            }
+        }
+    }
+    result
+}

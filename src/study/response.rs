@@ -1,0 +1,277 @@
+//! Frequency response of a case between two of its nodes.
+//!
+//! ```no_run
+//! use frictionsim::case::Case;
+//! use frictionsim::study::response::FrequencyStudy;
+//!
+//! let bytes = std::fs::read("cases/hammer-test.toml")?;
+//! let case = Case::parse("hammer", &bytes, &[])?;
+//! let response = FrequencyStudy::new(&case)?.solve(&|_| {})?;
+//! println!("{} unknowns, {:?} m/N", response.dofs, response.receptance().first());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+use super::{StudyError, tangent_options};
+use crate::case::{Case, CaseErrors, Frf, FrfMethod};
+use crate::fem::assemble_stiffness;
+use crate::frf::{
+    CyclicSystem, FrfBoundary, FrfError, FrfSystem, ReductionSettings, cyclic_response,
+    direct_response_with, reduced_response,
+};
+use crate::linalg::{GaussianNoise, c64};
+use crate::mesh::{SectorMesh, SolidSector, SolidSpecification};
+use crate::prestress::{SectorTangent, SlidingTangent, SolidTangent, SteadySliding};
+use std::f64::consts::TAU;
+
+/// Hears how many frequencies are solved, a few at a time, from any thread; the cyclic method and the reduction are silent.
+pub type Progress<'a> = dyn Fn(usize) + Sync + 'a;
+
+/// The system that a case excites, ready to be solved.
+#[derive(Clone, Debug)]
+pub struct FrequencyStudy<'a> {
+    case: &'a Case,
+    frf: &'a Frf,
+    system: System,
+}
+
+#[derive(Clone, Debug)]
+enum System {
+    /// Harmonic by harmonic.
+    Cyclic(Box<CyclicSystem>),
+    /// The whole mesh, with the unknowns of force and response.
+    Whole {
+        system: Box<FrfSystem>,
+        force: usize,
+        response: usize,
+        is_reduced: bool,
+    },
+}
+
+/// A computed response and how it came about.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Response {
+    /// Frequencies, Hz.
+    pub frequencies_hz: Vec<f64>,
+    /// Unknowns.
+    pub dofs: usize,
+    /// Method: `cyclic`, `direct` or `reduced`.
+    pub method: &'static str,
+    /// Largest relative error found at the check lines of a reduction.
+    pub largest_error: Option<f64>,
+    /// Vectors of a reduction.
+    pub vectors: Option<usize>,
+    /// Largest backward error of the solutions, harmonic by harmonic.
+    pub backward_error: Option<f64>,
+    /// As solved: of a plane body for each metre of thickness.
+    solved: Vec<c64>,
+    /// What to divide that by: the thickness of a plane body, 1 in three dimensions.
+    thickness: f64,
+}
+
+impl<'a> FrequencyStudy<'a> {
+    /// Builds the system of `[frf]`, with its base state where the contact slides.
+    ///
+    /// # Errors
+    /// A case without `[frf]`, a node that does not exist or is held, a method that the body does not allow, each with its
+    /// key; a mesh that cannot be built; no state of sliding.
+    pub fn new(case: &'a Case) -> Result<Self, StudyError> {
+        let frf = case.require_frf()?;
+        let system = match frf.method {
+            FrfMethod::Auto if case.is_annulus() => cyclic(case, frf)?,
+            FrfMethod::Cyclic => cyclic(case, frf)?,
+            FrfMethod::Auto | FrfMethod::Reduced => whole(case, frf, true)?,
+            FrfMethod::Direct => whole(case, frf, false)?,
+        };
+        Ok(Self { case, frf, system })
+    }
+
+    /// Solves at all frequencies.
+    ///
+    /// # Errors
+    /// [`StudyError::Response`] at an undamped resonance, or where a reduction misses its tolerance.
+    pub fn solve(&self, done: &Progress<'_>) -> Result<Response, StudyError> {
+        let (frf, lines) = (self.frf, &self.frf.frequencies_hz);
+        let mut found = Response {
+            frequencies_hz: lines.clone(),
+            dofs: 0,
+            method: "cyclic",
+            largest_error: None,
+            vectors: None,
+            backward_error: None,
+            solved: Vec::new(),
+            thickness: match self.case.solid {
+                Some(_) => 1.0,
+                None => self.case.thickness,
+            },
+        };
+        match &self.system {
+            System::Cyclic(system) => {
+                let solved = cyclic_response(system, frf.force, frf.response, lines)?;
+                found.dofs = system.dimension();
+                found.backward_error = Some(solved.backward_error);
+                found.solved = solved.receptance;
+            }
+            System::Whole {
+                system,
+                force,
+                response,
+                is_reduced: false,
+            } => {
+                let solved = direct_response_with(system, *force, *response, lines, done)?;
+                found.dofs = system.dimension();
+                found.method = "direct";
+                found.solved = solved.receptance;
+            }
+            System::Whole {
+                system,
+                force,
+                response,
+                is_reduced: true,
+            } => {
+                let settings = ReductionSettings::default();
+                let solved = reduced_response(system, *force, *response, lines, &settings)?;
+                found.dofs = system.dimension();
+                found.method = "reduced";
+                found.largest_error = Some(solved.largest_error);
+                found.vectors = Some(solved.vectors);
+                found.solved = solved.receptance;
+            }
+        }
+        Ok(found)
+    }
+}
+
+impl Response {
+    /// Displacement for each unit of force at each frequency, of the body's true thickness, m/N.
+    pub fn receptance(&self) -> Vec<c64> {
+        self.solved.iter().map(|h| h / self.thickness).collect()
+    }
+
+    /// The quantity that `[frf]` asks for, `h (i omega)^d`, with its noise.
+    pub fn observed(&self, frf: &Frf) -> Vec<c64> {
+        let mut noise = GaussianNoise::new(frf.noise_seed as u64);
+        self.frequencies_hz
+            .iter()
+            .zip(&self.solved)
+            .map(|(f, h)| {
+                let rate = c64::new(0.0, TAU * f).powi(frf.quantity.derivatives());
+                let value = h * rate / self.thickness;
+                value + noise.draw() * (frf.noise * value.norm())
+            })
+            .collect()
+    }
+}
+
+/// The harmonics of an annulus, or of a body of revolution in three dimensions.
+fn cyclic(case: &Case, frf: &Frf) -> Result<System, StudyError> {
+    if !case.is_annulus() {
+        return Err(StudyError::Case(case.error_at(
+            "frf.method",
+            "frf.method = \"cyclic\" needs the symmetry of the built-in annulus".to_owned(),
+            "an imported mesh has no sectors".to_owned(),
+            Some("use \"auto\", \"direct\" or \"reduced\"".to_owned()),
+        )));
+    }
+    let system = match &case.solid {
+        Some(specification) => solid(case, frf, specification)?,
+        None => annulus(case, frf)?,
+    };
+    for (terminal, key) in [(frf.force, "force_node"), (frf.response, "response_node")] {
+        let checked = system.check(terminal, key);
+        checked.map_err(|error| at_node(case, &error))?;
+    }
+    Ok(System::Cyclic(Box::new(system)))
+}
+
+fn annulus(case: &Case, frf: &Frf) -> Result<CyclicSystem, StudyError> {
+    let sector = SectorMesh::generate(&case.annulus)?;
+    let contact = &case.contact.sliding;
+    if frf.boundary == FrfBoundary::Sliding {
+        let options = tangent_options(case, frf.mass);
+        let tangent = SectorTangent::linearize(&sector, case.materials(), &options, contact)?;
+        return Ok(CyclicSystem::sliding(
+            &tangent,
+            contact.friction_coefficient,
+        ));
+    }
+    let is_clamped = frf.boundary == FrfBoundary::Clamped;
+    let rayleigh = case.damping.rayleigh;
+    Ok(CyclicSystem::body(
+        &sector,
+        &case.material,
+        frf.mass,
+        rayleigh,
+        is_clamped,
+    ))
+}
+
+fn solid(
+    case: &Case,
+    frf: &Frf,
+    specification: &SolidSpecification,
+) -> Result<CyclicSystem, StudyError> {
+    let sector = SolidSector::generate(specification)?;
+    let contact = &case.contact.sliding;
+    if frf.boundary == FrfBoundary::Sliding {
+        let options = tangent_options(case, frf.mass);
+        let tangent = SolidTangent::linearize(&sector, &case.material, &options, contact)?;
+        return Ok(CyclicSystem::solid_sliding(
+            &tangent,
+            contact.friction_coefficient,
+        ));
+    }
+    let is_clamped = frf.boundary == FrfBoundary::Clamped;
+    let rayleigh = case.damping.rayleigh;
+    Ok(CyclicSystem::solid_body(
+        &sector,
+        &case.material,
+        frf.mass,
+        rayleigh,
+        is_clamped,
+    ))
+}
+
+/// Matrices of the body as it is held, and the unknowns of force and response.
+fn whole(case: &Case, frf: &Frf, is_reduced: bool) -> Result<System, StudyError> {
+    if case.solid.is_some() {
+        let name = if is_reduced { "reduced" } else { "direct" };
+        return Err(StudyError::Case(case.error_at(
+            "frf.method",
+            format!("frf.method = \"{name}\" is for plane bodies"),
+            "the body is three-dimensional".to_owned(),
+            Some("use \"auto\" or \"cyclic\"".to_owned()),
+        )));
+    }
+    let mesh = &*case.mesh()?;
+    let system = if frf.boundary == FrfBoundary::Sliding {
+        let stiffness = assemble_stiffness(mesh, case.materials());
+        let base = SteadySliding::solve(mesh, &stiffness, &case.contact.sliding)?;
+        let options = tangent_options(case, frf.mass);
+        let tangent =
+            SlidingTangent::linearize(mesh, case.materials(), &stiffness, &base, &options);
+        FrfSystem::sliding(&tangent, case.contact.sliding.friction_coefficient)
+    } else {
+        let is_clamped = frf.boundary == FrfBoundary::Clamped;
+        let rayleigh = case.damping.rayleigh;
+        FrfSystem::body(mesh, case.materials(), frf.mass, rayleigh, is_clamped)
+    };
+    let unknown = |terminal, key| {
+        let found = system.unknown(terminal, key);
+        found.map_err(|error| at_node(case, &error))
+    };
+    let force = unknown(frf.force, "force_node")?;
+    let response = unknown(frf.response, "response_node")?;
+    Ok(System::Whole {
+        system: Box::new(system),
+        force,
+        response,
+        is_reduced,
+    })
+}
+
+/// What is wrong with a node, at its key.
+fn at_node(case: &Case, error: &FrfError) -> CaseErrors {
+    let key = format!("frf.{}", error.node_key().unwrap_or("force_node"));
+    let label = "cannot be excited or observed here".to_owned();
+    case.error_at(&key, error.to_string(), label, None)
+}
