@@ -10,6 +10,7 @@ use super::key::Kind::{
     Text,
 };
 use super::key::{CaseKey, Default, Kind, words};
+use super::words::BaseContact;
 use super::{
     Analysis, CeaMethod, Combination, FrfMethod, InitialState, OnsetChoice, OperatorChoice,
     Spacing, StabilityChoice,
@@ -113,6 +114,7 @@ pub const KEYS: &[CaseKey] = &[
     key("contact.direction", Numbers(Finite), "", Otherwise("[1, 0]"), "[1.0, 0.0]", "the way a plane slides, the body on its left-hand side"),
     key("contact.speed", Number(Finite), "m/s", Otherwise("needed by counterface = \"plane\""), "1.5", "the speed of a plane, or of another body along a straight contact curve"),
     key("contact.normal_stiffness", NumberOr(Positive, "rigid"), "Pa/m", Otherwise("rigid"), "7.4e12", "the normal stiffness of the contact (left out or \"rigid\" = rigid)").used_by(COMPLIANT, "its contact is rigid"),
+    key("contact.base_state", Choice(words::<BaseContact>), "", Value("\"rigid\""), "\"rigid\"", "whether normal_stiffness carries the base state of a three-dimensional body too").used_by(COMPLIANT, "its contact is rigid"),
     key("contact.normal_damping", Number(NotNegative), "Pa s/m", Value("0.0"), "0.0", "a normal dashpot on the contact").used_by(COMPLIANT, "its contact is rigid"),
     key("contact.tangential_damping", Number(NotNegative), "Pa s/m", Value("0.0"), "0.0", "a tangential dashpot on the contact").used_by(COMPLIANT, "Coulomb's law alone acts along its contact"),
 

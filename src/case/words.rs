@@ -12,6 +12,13 @@ use crate::frf::{Direction, FrfBoundary};
 use crate::mesh::ElementKind;
 use crate::signal::ResponseQuantity;
 
+/// What presses the body in steady sliding.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum BaseContact {
+    Rigid,
+    Compliant,
+}
+
 /// States the words of each choice.
 macro_rules! words {
     ($($choice:ty { $($word:literal = $value:expr),+ $(,)? })+) => {$(
@@ -47,6 +54,7 @@ words! {
     OnsetChoice { "all" = Self::All, "lowest" = Self::Lowest }
     StabilityChoice { "point" = Self::Point, "branch" = Self::Branch, "none" = Self::None }
     FrfBoundary { "free" = Self::Free, "clamped" = Self::Clamped, "sliding" = Self::Sliding }
+    BaseContact { "rigid" = Self::Rigid, "compliant" = Self::Compliant }
     Direction { "radial" = Self::Radial, "tangential" = Self::Tangential, "axial" = Self::Axial }
     ResponseQuantity {
         "accelerance" = Self::Accelerance,

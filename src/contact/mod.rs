@@ -68,9 +68,16 @@ pub struct ContactStiffness {
     pub normal_damping: f64,
     /// Tangential dashpot, Pa s/m.
     pub tangential_damping: f64,
+    /// Whether the normal stiffness carries the base state of a body in three dimensions too; otherwise that is rigid contact's.
+    pub is_base_compliant: bool,
 }
 
 impl ContactStiffness {
+    /// Stiffness of the springs that carry the base state, Pa/m; `None` is rigid contact.
+    pub fn base_stiffness(&self) -> Option<f64> {
+        self.normal_stiffness.filter(|_| self.is_base_compliant)
+    }
+
     /// The same with the dashpot `beta_R k_n` of a stiffness damping that acts on the contact too.
     pub fn damped_by(self, stiffness_coefficient: f64) -> Self {
         let added = stiffness_coefficient * self.normal_stiffness.unwrap_or(0.0);

@@ -7,7 +7,7 @@ mod element;
 mod face;
 
 pub use element::{geometric_stiffness, mass, stiffness};
-pub use face::{FaceTerm, face_load, face_matrix, nodal_matrix};
+pub use face::{FaceTerm, face_load, face_matrix, nodal_matrix, whole_element};
 
 use super::sector::MirrorParity;
 use crate::linalg::banded::BandedMatrix;

@@ -10,6 +10,7 @@ mod condensed;
 mod equilibrium;
 mod friction_polynomial;
 mod options;
+mod pressing;
 mod projection;
 mod sector;
 mod sector_rate;

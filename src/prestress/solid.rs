@@ -1,14 +1,10 @@
 //! Steady sliding of a body of revolution in three dimensions, from one sector.
 
 use super::PrestressError;
+use super::pressing::{System, along_element, press_on_springs, press_rigidly, pressed_span};
 use crate::contact::{SlidingContact, SteadyFriction};
-use crate::fem::sector::MirrorParity;
-use crate::fem::solid::{FaceTerm, SolidMatrix, face_load, face_matrix, half_bandwidth};
-use crate::linalg::banded::{BandedFactor, BandedMatrix};
+use crate::fem::solid::{FaceTerm, SolidMatrix, face_load, face_matrix, whole_element};
 use crate::mesh::{BoundaryCondition, FaceElement, SolidFace, SolidSector};
-
-/// Choices of the set of pressed rings tried before the search is given up.
-const SETS: usize = 200;
 
 /// The state of steady sliding of a body of revolution, the same in every sector.
 ///
@@ -18,7 +14,9 @@ const SETS: usize = 200;
 ///
 /// with `u_n` towards the body. Friction drags along `e_theta` only, which harmonic zero does not couple to the other two
 /// components: pressure and pressed rings do not depend on `mu`, and `u(mu) = u_0 + mu u_1`. The contact is rigid here whatever
-/// stiffness the eigenvalue analysis gives it. Vectors hold `(u_r, u_theta, u_z)` of each sector node.
+/// stiffness the eigenvalue analysis gives it, unless that is asked to carry the base state too
+/// ([`ContactStiffness::is_base_compliant`](crate::contact::ContactStiffness)): then `p = max(0, k (delta - u_n))` all over
+/// the face. Vectors hold `(u_r, u_theta, u_z)` of each sector node.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SolidSliding {
     /// Displacement without friction `u_0`, m.
@@ -30,8 +28,12 @@ pub struct SolidSliding {
     pub normal_forces: Vec<(usize, f64)>,
     /// Whether each ring of the contact is pressed.
     pub is_pressed: Vec<bool>,
-    /// Pressure at each ring, its force over its tributary area, Pa.
+    /// Pressure at each ring, Pa: its force over its tributary area, or that of the spring.
     pub pressures: Vec<f64>,
+    /// `delta - u_n` at each ring, m: below zero it is a gap.
+    pub approaches: Vec<f64>,
+    /// Stiffness of the springs that carry the base state, Pa/m; `None` is rigid contact.
+    pub normal_stiffness: Option<f64>,
     /// Sense of the friction force `s`, +1 or -1.
     pub sliding_direction: f64,
     /// The rotor.
@@ -49,83 +51,50 @@ impl SolidSliding {
         elastic: &SolidMatrix,
         contact: &SlidingContact,
     ) -> Result<Self, PrestressError> {
+        Self::solve_with(sector, elastic, contact, None)
+    }
+
+    /// [`Self::solve`] with springs of `normal_stiffness` (Pa/m) between face and rotor, where there are some.
+    ///
+    /// # Errors
+    /// As [`Self::solve`].
+    pub fn solve_with(
+        sector: &SolidSector,
+        elastic: &SolidMatrix,
+        contact: &SlidingContact,
+        normal_stiffness: Option<f64>,
+    ) -> Result<Self, PrestressError> {
         let [springs, _] = supports(sector);
         let system = System::new(sector, &[elastic, &springs]);
-        let face = sector.specification.contact.face();
-        let (inward, component) = (face.inward_sign(), face.normal_component());
-        let load = pressure_load(sector);
-        let rings = &sector.rings;
-        let mut is_pressed = vec![true; rings.len()];
-        for _ in 0..SETS {
-            let mut prescribed = vec![None; system.dofs];
-            for (ring, _) in rings.iter().zip(&is_pressed).filter(|(_, p)| **p) {
-                for node in &ring.nodes {
-                    prescribed[3 * node + component] = Some(inward * contact.interference);
-                }
-            }
-            let pressed = system.solve(&load, &prescribed)?;
-            let reaction = system.reaction(&pressed, &load);
-            let force = |node: &usize| inward * reaction[3 * node + component];
-            let ring_forces: Vec<f64> = rings
-                .iter()
-                .map(|ring| ring.nodes.iter().map(force).sum())
-                .collect();
-            let scale = ring_forces.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
-            let depth = |k: usize| {
-                contact.interference - inward * pressed[3 * rings[k].nodes[0] + component]
-            };
-            let next: Vec<bool> = (0..rings.len())
-                .map(|k| match is_pressed[k] {
-                    true => ring_forces[k] > 1e-12 * scale,
-                    false => depth(k) > 1e-12 * contact.interference.abs(),
-                })
-                .collect();
-            if next != is_pressed {
-                is_pressed = next;
-                continue;
-            }
-            if !is_pressed.contains(&true) {
-                let distance = (0..rings.len())
-                    .map(|k| -depth(k))
-                    .fold(f64::INFINITY, f64::min);
-                return Err(PrestressError::GapEverywhere {
-                    total: rings.len() * sector.sector_count(),
-                    distance,
-                    interference: contact.interference,
-                });
-            }
-            let sliding_direction = contact.sliding_direction();
-            let mut normal_forces = Vec::new();
-            let mut drag = vec![0.0; system.dofs];
-            for (ring, _) in rings.iter().zip(&is_pressed).filter(|(_, p)| **p) {
-                for node in &ring.nodes {
-                    normal_forces.push((*node, force(node)));
-                    let speed = contact.rotation_speed.abs() * sector.nodes[*node].radius;
-                    let friction = contact.steady_friction(sliding_direction, speed);
-                    drag[3 * node + 1] = friction.drag * force(node);
-                }
-            }
-            let held = vec![None; system.dofs];
-            let pressures = rings.iter().zip(&ring_forces).zip(&is_pressed);
-            let pressure = |((ring, force), pressed): (
-                (&crate::mesh::ContactRing, &f64),
-                &bool,
-            )| match pressed {
-                true => force / ring.area,
-                false => 0.0,
-            };
-            return Ok(Self {
-                sheared_displacement: system.torsion(&drag, &held)?,
-                pressures: pressures.map(pressure).collect(),
-                pressed_displacement: pressed,
-                normal_forces,
-                is_pressed,
-                sliding_direction,
-                contact: *contact,
+        let pressing = match normal_stiffness {
+            None => press_rigidly(sector, &system, contact)?,
+            Some(stiffness) => press_on_springs(sector, &[elastic, &springs], contact, stiffness)?,
+        };
+        if !pressing.is_pressed.contains(&true) {
+            let distances = pressing.approaches.iter().map(|approach| -approach);
+            return Err(PrestressError::GapEverywhere {
+                total: sector.rings.len() * sector.sector_count(),
+                distance: distances.fold(f64::INFINITY, f64::min),
+                interference: contact.interference,
             });
         }
-        Err(PrestressError::NoState {
-            friction_coefficient: contact.friction_coefficient,
+        let sliding_direction = contact.sliding_direction();
+        let mut drag = vec![0.0; system.dofs];
+        for (node, force) in &pressing.normal_forces {
+            let speed = contact.rotation_speed.abs() * sector.nodes[*node].radius;
+            let friction = contact.steady_friction(sliding_direction, speed);
+            drag[3 * node + 1] = friction.drag * force;
+        }
+        Ok(Self {
+            sheared_displacement: system.torsion(&drag, &vec![None; system.dofs])?,
+            pressed_displacement: pressing.displacement,
+            normal_forces: pressing.normal_forces,
+            is_pressed: pressing.is_pressed,
+            pressures: pressing.pressures,
+            approaches: pressing.approaches,
+            normal_stiffness,
+            sliding_direction,
+            contact: *contact,
         })
     }
 
@@ -165,21 +134,21 @@ impl SolidSliding {
     /// Pressure along the contact by the places of the rings, for the elements of the face: through the two rings at the ends of an
     /// element, and the one at its middle where there is one.
     pub fn pressure_along(&self, sector: &SolidSector, element: &FaceElement, along: f64) -> f64 {
-        let at = |node: usize| {
-            let rings = sector.rings.iter().zip(&self.pressures);
-            let own = rings
-                .into_iter()
-                .find(|(ring, _)| ring.nodes.contains(&node));
-            own.map_or(0.0, |(_, pressure)| *pressure)
-        };
-        let [from, to] = [0, 2].map(|corner| at(element.nodes[corner].0));
-        let linear = 0.5 * ((1.0 - along) * from + (1.0 + along) * to);
-        if !sector.is_quadratic() {
-            return linear;
+        match self.normal_stiffness {
+            Some(stiffness) if sector.is_quadratic() => {
+                stiffness * along_element(sector, &self.approaches, element, along).max(0.0)
+            }
+            _ => along_element(sector, &self.pressures, element, along).max(0.0),
         }
-        let middle = at(element.nodes[5].0);
-        let pressure = linear + (1.0 - along * along) * (middle - 0.5 * (from + to));
-        pressure.max(0.0)
+    }
+
+    /// The part of an element of the face that is pressed, see [`FaceTerm::span`]. Of quadratic elements in rigid contact it is all.
+    pub fn pressed_span(&self, sector: &SolidSector, element: &FaceElement) -> [f64; 2] {
+        match self.normal_stiffness {
+            None if sector.is_quadratic() => whole_element(element),
+            None => pressed_span(sector, &self.pressures, element),
+            Some(_) => pressed_span(sector, &self.approaches, element),
+        }
     }
 }
 
@@ -225,6 +194,7 @@ pub fn supports(sector: &SolidSector) -> [SolidMatrix; 2] {
                     row: component,
                     column: component,
                     weight: &|_, _, _| value,
+                    span: &whole_element,
                 };
                 sum.extend(face_matrix(sector, &elements, &term));
             }
@@ -249,76 +219,4 @@ pub fn pressure_load(sector: &SolidSector) -> Vec<f64> {
         }
     }
     load
-}
-
-/// Harmonic zero of the supported body.
-struct System {
-    dofs: usize,
-    is_held: Vec<bool>,
-    stiffness: BandedMatrix,
-}
-
-impl System {
-    fn new(sector: &SolidSector, terms: &[&SolidMatrix]) -> Self {
-        let dofs = 3 * sector.node_count();
-        let all: Vec<Option<usize>> = (0..dofs).map(Some).collect();
-        let mut stiffness = BandedMatrix::zeros(dofs, half_bandwidth(sector));
-        for term in terms {
-            let zero = (sector.sector_count(), 0);
-            term.add_harmonic(&mut stiffness, &all, zero, (MirrorParity::Even, 1.0));
-        }
-        Self {
-            dofs,
-            is_held: (0..dofs).map(|dof| sector.is_held(dof)).collect(),
-            stiffness,
-        }
-    }
-
-    /// Displacement under a load with some dofs prescribed and without tangential motion.
-    fn solve(&self, load: &[f64], prescribed: &[Option<f64>]) -> Result<Vec<f64>, PrestressError> {
-        self.part(load, prescribed, |component| component != 1)
-    }
-
-    /// Tangential displacement under a tangential load.
-    fn torsion(
-        &self,
-        load: &[f64],
-        prescribed: &[Option<f64>],
-    ) -> Result<Vec<f64>, PrestressError> {
-        self.part(load, prescribed, |component| component == 1)
-    }
-
-    fn part(
-        &self,
-        load: &[f64],
-        prescribed: &[Option<f64>],
-        is_in: impl Fn(usize) -> bool,
-    ) -> Result<Vec<f64>, PrestressError> {
-        let mut displacement: Vec<f64> = prescribed
-            .iter()
-            .map(|value| value.unwrap_or(0.0))
-            .collect();
-        let unknowns: Vec<usize> = (0..self.dofs)
-            .filter(|&dof| is_in(dof % 3) && !self.is_held[dof] && prescribed[dof].is_none())
-            .collect();
-        let force = self.stiffness.multiply(&displacement);
-        let mut right: Vec<f64> = unknowns.iter().map(|&dof| load[dof] - force[dof]).collect();
-        let reduced = self.stiffness.restricted_to(&unknowns);
-        let none = BandedMatrix::zeros(reduced.dimension(), reduced.half_bandwidth());
-        let factor = BandedFactor::new(&reduced, &none, 0.0);
-        if factor.negative_count() > 0 || !factor.is_regular() {
-            return Err(PrestressError::Singular);
-        }
-        factor.solve(&mut right);
-        for (&dof, value) in unknowns.iter().zip(right) {
-            displacement[dof] = value;
-        }
-        Ok(displacement)
-    }
-
-    /// Force that holds a displacement beside the load, N.
-    fn reaction(&self, displacement: &[f64], load: &[f64]) -> Vec<f64> {
-        let force = self.stiffness.multiply(displacement);
-        force.iter().zip(load).map(|(f, l)| f - l).collect()
-    }
 }

@@ -75,7 +75,8 @@ impl SolidTangent {
             return Err(PrestressError::AtRest);
         }
         let elastic = solid::stiffness(sector, material);
-        let base = SolidSliding::solve(sector, &elastic, contact)?;
+        let base =
+            SolidSliding::solve_with(sector, &elastic, contact, options.contact.base_stiffness())?;
         let faces = sector.contact_elements();
         let face = sector.specification.contact.face();
         let (normal, side) = (face.normal_component(), face.across_component());
@@ -89,6 +90,7 @@ impl SolidTangent {
                     row,
                     column,
                     weight,
+                    span: &|element| base.pressed_span(sector, element),
                 },
             )
         };

@@ -84,6 +84,15 @@ impl CompliantContact {
         }
     }
 
+    /// The same over a base state whose displacement has `given_way`, m, of the compression of its pressed nodes.
+    pub fn beyond(mut self, given_way: &[f64]) -> Self {
+        let pressed = self.compression.iter_mut().zip(given_way);
+        pressed
+            .filter(|(compression, _)| **compression > 0.0)
+            .for_each(|(compression, given_way)| *compression -= given_way);
+        self
+    }
+
     /// What the interface gives way under the base state's force at node `i`, m.
     pub fn compression(&self, i: usize) -> f64 {
         self.compression[i]

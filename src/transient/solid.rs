@@ -85,7 +85,8 @@ impl SolidTransientModel<'_> {
     /// Where there is none.
     pub fn base(&self) -> Result<SolidSliding, PrestressError> {
         let elastic = solid::stiffness(self.sector, self.material);
-        SolidSliding::solve(self.sector, &elastic, &self.contact)
+        let stiffness = self.stiffness.base_stiffness();
+        SolidSliding::solve_with(self.sector, &elastic, &self.contact, stiffness)
     }
 
     /// Displacement of steady sliding over all dofs, m.

@@ -20,14 +20,14 @@ fn ringed(element: ElementKind, divisions: [usize; 3]) -> SolidModel {
 fn base(model: &SolidModel) -> Result<(SolidSector, SolidSliding), PrestressError> {
     let sector = SolidSector::generate(&model.specification).unwrap();
     let elastic = solid::stiffness(&sector, &model.material);
-    let base = SolidSliding::solve(&sector, &elastic, &model.contact)?;
+    let stiffness = model.options.contact.base_stiffness();
+    let base = SolidSliding::solve_with(&sector, &elastic, &model.contact, stiffness)?;
     Ok((sector, base))
 }
 
-/// Independent check: a layer squeezed between the ring and a bottom that cannot move, guided at its sides, is in uniaxial strain.
-#[test]
-fn a_guided_layer_under_a_ring_has_the_pressure_of_uniaxial_strain() {
-    let mut model = ringed(ElementKind::Quad8, [24, 4, 2]);
+/// A ring on the whole face of a layer whose bottom cannot move, guided at its sides.
+fn layer(element: ElementKind) -> SolidModel {
+    let mut model = ringed(element, [24, 4, 2]);
     model.specification.contact = SolidContact::Ring {
         inner_radius: 0.0205,
         outer_radius: 0.0905,
@@ -38,6 +38,13 @@ fn a_guided_layer_under_a_ring_has_the_pressure_of_uniaxial_strain() {
         BoundaryCondition::Free,
         BoundaryCondition::Clamped,
     ];
+    model
+}
+
+/// Independent check: a squeezed layer is in uniaxial strain.
+#[test]
+fn a_guided_layer_under_a_ring_has_the_pressure_of_uniaxial_strain() {
+    let model = layer(ElementKind::Quad8);
     let (_, base) = base(&model).unwrap();
     let [lambda, shear] = model.material.solid_lame_constants();
     let exact = (lambda + 2.0 * shear) * 5e-6 / 0.009;
@@ -45,6 +52,64 @@ fn a_guided_layer_under_a_ring_has_the_pressure_of_uniaxial_strain() {
     for pressure in &base.pressures {
         // Sides of elements are parabolas, not arcs.
         assert!((pressure / exact - 1.0).abs() < 1e-4, "{pressure} {exact}");
+    }
+}
+
+/// Independent check: layer and springs in series.
+#[test]
+fn springs_that_carry_the_base_state_stand_in_series_with_a_layer() {
+    for element in [ElementKind::Quad4, ElementKind::Quad8] {
+        let mut model = layer(element);
+        compliant(&mut model, 3e11);
+        let (sector, base) = base(&model).unwrap();
+        let [lambda, shear] = model.material.solid_lame_constants();
+        let exact = 5e-6 / (0.009 / (lambda + 2.0 * shear) + 1.0 / 3e11);
+        let nodal: f64 = base.normal_forces.iter().map(|(_, force)| force).sum();
+        let area: f64 = sector.rings.iter().map(|ring| ring.area).sum();
+        for pressure in base.pressures.iter().chain(&[nodal / area]) {
+            assert!((pressure / exact - 1.0).abs() < 1e-4, "{pressure} {exact}");
+        }
+    }
+}
+
+fn compliant(model: &mut SolidModel, stiffness: f64) {
+    model.options.contact.normal_stiffness = Some(stiffness);
+    model.options.contact.is_base_compliant = true;
+}
+
+/// Under rigid contact the ring of a bending plate touches a line, and springs on it are as many as the mesh is wide.
+#[test]
+fn springs_that_carry_the_base_state_give_a_contact_that_opens_a_width_of_its_own() {
+    let found = [14, 28, 56].map(|radial| {
+        let mut model = ringed(ElementKind::Quad8, [24, radial, 2]);
+        compliant(&mut model, 3e11);
+        let (sector, base) = base(&model).unwrap();
+        assert!(base.is_pressed.contains(&true) && base.is_pressed.contains(&false));
+        let force: f64 = base.normal_forces.iter().map(|(_, force)| force).sum();
+        let modes = modes(&model, 0.5, 4000.0);
+        let rate = modes.iter().map(|mode| mode.growth_rate());
+        println!(
+            "{radial}: {force} N, {:?}",
+            modes
+                .iter()
+                .map(|m| [m.frequency_hz(), m.growth_rate()])
+                .collect::<Vec<_>>()
+        );
+        [
+            force * sector.sector_count() as f64,
+            rate.fold(f64::MIN, f64::max),
+        ]
+    });
+    for quantity in 0..2 {
+        let [coarse, middle, fine] = found.map(|values| values[quantity]);
+        assert!(
+            (middle / fine - 1.0).abs() < 0.01,
+            "{coarse} {middle} {fine}"
+        );
+        assert!(
+            (coarse - fine).abs() > 1.5 * (middle - fine).abs(),
+            "{coarse} {middle} {fine}"
+        );
     }
 }
 

@@ -113,6 +113,21 @@ fn a_wave_under_a_ring_grows_at_the_rate_of_the_eigenvalue_analysis() {
     grows_as_predicted(&model, 1, 7e3, 0.01);
 }
 
+/// The ring of a bending plate whose contact opens in part, carried by the springs of the interface.
+#[test]
+fn a_wave_under_a_ring_that_opens_in_part_grows_at_the_rate_of_the_eigenvalue_analysis() {
+    let mut model = ringed([24, 14, 2]);
+    model.specification.conditions[3] = BoundaryCondition::Free;
+    model.contact.rotation_speed = 6000.0 * TAU / 60.0;
+    model.options.contact.normal_stiffness = Some(3e11);
+    model.options.contact.is_base_compliant = true;
+    model.options.damping_model = DampingModel::BodyOnly;
+    let sector = SolidSector::generate(&model.specification).unwrap();
+    let base = body(&model, &sector).base().unwrap();
+    assert!(base.is_pressed.contains(&true) && base.is_pressed.contains(&false));
+    grows_as_predicted(&model, 1, 7e3, 0.02);
+}
+
 /// Watches the disc of Coulomb's law at every contact node.
 struct Cone {
     seen: [bool; 3],

@@ -12,6 +12,14 @@ pub struct FaceTerm<'a> {
     pub column: usize,
     /// `w`, per unit of area, from the radius (m) and the place along the element, -1 to 1.
     pub weight: &'a dyn Fn(&FaceElement, f64, f64) -> f64,
+    /// The part of an element that it acts on, from -1 to 1 along it; of a linear element the nodes at those of its ends that
+    /// belong to it.
+    pub span: &'a dyn Fn(&FaceElement) -> [f64; 2],
+}
+
+/// All of an element.
+pub fn whole_element(_: &FaceElement) -> [f64; 2] {
+    [-1.0, 1.0]
 }
 
 /// Components in a node's frame of a unit vector along `component` at an angle `ahead` of the point.
@@ -40,12 +48,21 @@ pub fn face_matrix(
     for face in faces {
         let size = 3 * face.nodes.len();
         let mut matrix = DMatrix::zeros(size, size);
-        for point in face_quadrature(sector.is_quadratic()) {
+        let span = (term.span)(face);
+        let (middle, half) = match sector.is_quadratic() {
+            true => (0.5 * (span[0] + span[1]), 0.5 * (span[1] - span[0])),
+            false => (0.0, 1.0),
+        };
+        for ([x, y], share) in face_quadrature(sector.is_quadratic()) {
+            let point = ([x, middle + half * y], half * share);
             let (values, area) = face.values_at(sector, point);
             let weight = area * (term.weight)(face, face.radius_at(sector, point.0), point.0[1]);
             if !sector.is_quadratic() {
                 for (a, value) in values.iter().enumerate() {
-                    matrix[(3 * a + term.row, 3 * a + term.column)] += weight * value;
+                    // Corners 0 and 1 lie at the beginning of the element.
+                    if span[a / 2].abs() == 1.0 {
+                        matrix[(3 * a + term.row, 3 * a + term.column)] += weight * value;
+                    }
                 }
                 continue;
             }

@@ -4,7 +4,9 @@ use super::StudyError;
 use crate::case::{Case, Cea, CeaMethod};
 use crate::cea::cyclic::SolidModel;
 use crate::fem::solid;
-use crate::mesh::{AnnulusSpecification, BoundaryCondition, SolidSector, SolidSpecification};
+use crate::mesh::{
+    AnnulusSpecification, BoundaryCondition, ContactRing, SolidSector, SolidSpecification,
+};
 use crate::prestress::SolidSliding;
 use crate::results::cea::{BaseState, SolidReport};
 use crate::study::tangent_options;
@@ -37,7 +39,8 @@ impl SolidBody {
         }
         let sector = SolidSector::generate(specification)?;
         let elastic = solid::stiffness(&sector, &case.material);
-        let base = SolidSliding::solve(&sector, &elastic, &case.contact.sliding)?;
+        let stiffness = case.contact.stiffness.base_stiffness();
+        let base = SolidSliding::solve_with(&sector, &elastic, &case.contact.sliding, stiffness)?;
         let plane = AnnulusSpecification {
             outer: BoundaryCondition::Clamped,
             ..specification.annulus
@@ -86,23 +89,29 @@ impl SolidBody {
     /// What an open part of the contact means.
     pub fn note(&self) -> Option<String> {
         let SolidReport { sector, base, .. } = &self.report;
-        let open = base.is_pressed.iter().filter(|pressed| !**pressed).count();
-        (open > 0).then(|| {
-            let pressed = sector.rings.iter().zip(&base.is_pressed).filter(|(_, pressed)| **pressed);
-            let places: Vec<f64> = pressed
-                .map(|(ring, _)| match sector.specification.contact.face().normal_component() {
-                    0 => ring.height,
-                    _ => ring.radius,
-                })
-                .collect();
-            format!(
-                "{open} of {} rings of contact nodes are open; the others lie at {} between {:.6} and {:.6} m",
-                base.is_pressed.len(),
-                if sector.specification.contact.face().normal_component() == 0 { "heights" } else { "radii" },
-                places.iter().copied().fold(f64::INFINITY, f64::min),
-                places.iter().copied().fold(f64::NEG_INFINITY, f64::max),
-            )
-        })
+        let rings = sector.rings.iter().zip(&base.is_pressed);
+        let pressed = rings.filter(|(_, pressed)| **pressed).map(|(ring, _)| ring);
+        let pressed: Vec<_> = pressed.collect();
+        let open = sector.rings.len() - pressed.len();
+        let is_edge = sector.specification.contact.face().normal_component() == 0;
+        let place = |ring: &&ContactRing| if is_edge { ring.height } else { ring.radius };
+        let word = if is_edge { "height" } else { "radius" };
+        match pressed.as_slice() {
+            _ if open == 0 => None,
+            [only] => Some(format!(
+                "the contact has shrunk to the ring of nodes at {word} {:.6} m, a line: its pressure is spread over the width of \
+                 the mesh, {:.2e} m2 in all, and contact.normal_stiffness acts on that alone; with contact.base_state = \
+                 \"compliant\" the stiffness of the interface gives the contact a width of its own",
+                place(only),
+                only.area * sector.sector_count() as f64,
+            )),
+            _ => Some(format!(
+                "{open} of {} rings of contact nodes are open; the others lie between {word} {:.6} and {:.6} m",
+                sector.rings.len(),
+                pressed.iter().map(place).fold(f64::INFINITY, f64::min),
+                pressed.iter().map(place).fold(f64::NEG_INFINITY, f64::max),
+            )),
+        }
     }
 }
 

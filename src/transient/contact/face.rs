@@ -54,8 +54,20 @@ impl LagrangeContact {
         };
         let stiffness = &model.stiffness;
         let forces: Vec<f64> = interface.nodes.iter().map(force).collect();
+        // What the springs of a compliant base state have given way already is in its displacement.
+        let approach = |node: &u32| {
+            base.map_or(0.0, |base| {
+                let normal = base.pressed_displacement[3 * local(node) + face.normal_component()];
+                model.contact.interference - face.inward_sign() * normal
+            })
+        };
         let compliance = stiffness.normal_stiffness.map(|normal_stiffness| {
-            CompliantContact::of([normal_stiffness, stiffness.normal_damping], areas, &forces)
+            let law = [normal_stiffness, stiffness.normal_damping];
+            let given_way: Vec<f64> = match stiffness.is_base_compliant {
+                true => interface.nodes.iter().map(approach).collect(),
+                false => vec![0.0; count],
+            };
+            CompliantContact::of(law, areas, &forces).beyond(&given_way)
         });
         let dashpots = areas.iter().map(|area| stiffness.tangential_damping * area);
         let speed = |node: &u32| model.contact.rotation_speed * sector.nodes[local(node)].radius;

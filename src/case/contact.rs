@@ -1,0 +1,167 @@
+//! The section `[contact]`.
+
+use super::body::{self, ContactPlace};
+use super::reader::Section;
+use super::solid;
+use super::words::BaseContact;
+use crate::contact::{ContactStiffness, FrictionDecay, SlidingContact};
+use crate::mesh::AnnulusSpecification;
+use std::f64::consts::TAU;
+
+/// `[contact]`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    /// The rotating cylinder and its friction law.
+    pub sliding: SlidingContact,
+    /// Linearised contact of the eigenvalue analysis.
+    pub stiffness: ContactStiffness,
+}
+
+/// `annulus` is that of a generated body, with whether it is three-dimensional.
+pub(super) fn contact(
+    root: &Section<'_>,
+    annulus: Option<(&AnnulusSpecification, bool)>,
+) -> (Contact, ContactPlace) {
+    let section = root.section("contact", true);
+    let mut place = body::contact_place(&section);
+    let (is_annulus, is_solid) = (annulus.is_some(), annulus.is_some_and(|given| given.1));
+    if let Some((annulus, is_solid)) = annulus {
+        place.solid = solid::contact(&section, annulus, is_solid);
+    } else {
+        let _ = ["ring_inner_radius", "ring_outer_radius"].map(|key| section.optional_number(key));
+    }
+    if is_annulus {
+        for key in [
+            "boundary",
+            "counter_boundary",
+            "counterface",
+            "center",
+            "radius",
+            "direction",
+            "speed",
+        ] {
+            // A default written out changes nothing.
+            let is_default = section.is_text(key, "inner") || section.is_text(key, "cylinder");
+            let is_face = is_solid && key == "boundary";
+            if section.has(key) && !is_default && !is_face {
+                section.reject(
+                    key,
+                    format!("contact.{key} is for a body from a mesh file (mesh.file)"),
+                    "the annulus turns about its own shaft".to_owned(),
+                    Some("leave it out".to_owned()),
+                );
+            }
+        }
+        place.plane_speed = None;
+    }
+    let interference = section.number("interference");
+    // A pressure on a face may press a three-dimensional body.
+    if is_annulus && !is_solid && interference == 0.0 {
+        section.reject(
+            "interference",
+            "contact.interference = 0.0 must be positive and finite".to_owned(),
+            "must be positive and finite".to_owned(),
+            Some("without it nothing presses the disc".to_owned()),
+        );
+    }
+    let rotation_speed = match place.plane_speed {
+        Some(speed) => {
+            let _ = section.optional_number("rotation_speed_rpm");
+            speed
+        }
+        None => section.number("rotation_speed_rpm") * TAU / 60.0,
+    };
+    if is_solid && rotation_speed == 0.0 && section.has("rotation_speed_rpm") {
+        section.reject(
+            "rotation_speed_rpm",
+            "contact.rotation_speed_rpm = 0: at rest friction holds a three-dimensional body across the sliding too, as by \
+             an infinite dashpot (mu p / V): there is no steady sliding"
+                .to_owned(),
+            "must not be zero in three dimensions".to_owned(),
+            Some("give a speed; a very small one all but sticks across the sliding".to_owned()),
+        );
+    }
+    let contact = Contact {
+        sliding: SlidingContact {
+            decay: friction_decay(&section),
+            friction_coefficient: section.number("friction_coefficient"),
+            interference,
+            rotation_speed,
+        },
+        stiffness: ContactStiffness {
+            normal_stiffness: section.optional_number("normal_stiffness"),
+            normal_damping: section.number("normal_damping"),
+            tangential_damping: section.number("tangential_damping"),
+            is_base_compliant: section.choice::<BaseContact>("base_state")
+                == BaseContact::Compliant,
+        },
+    };
+    let stiffness = &contact.stiffness;
+    let is_rigid = !section.has("normal_stiffness") || section.is_text("normal_stiffness", "rigid");
+    if is_rigid && stiffness.normal_damping > 0.0 {
+        section.reject(
+            "normal_damping",
+            format!(
+                "contact.normal_damping = {} has no effect on a rigid contact",
+                stiffness.normal_damping
+            ),
+            "needs contact.normal_stiffness".to_owned(),
+            Some("give contact.normal_stiffness, or leave normal_damping out".to_owned()),
+        );
+    }
+    if stiffness.is_base_compliant && (is_rigid || !is_solid) {
+        let [label, help] = match is_solid {
+            true => [
+                "needs contact.normal_stiffness",
+                "give it, or leave base_state out",
+            ],
+            false => [
+                "is for three-dimensional bodies",
+                "a plane body is pressed by rigid contact",
+            ],
+        };
+        let message = format!("contact.base_state = \"compliant\" {label}");
+        section.reject(
+            "base_state",
+            message,
+            label.to_owned(),
+            Some(help.to_owned()),
+        );
+    }
+    section.close();
+    (contact, place)
+}
+
+/// How friction falls with the slip speed; a ratio of one is a constant coefficient.
+fn friction_decay(section: &Section<'_>) -> Option<FrictionDecay> {
+    let static_ratio = section.number("static_friction_ratio");
+    let decay_speed = section.optional_number("decay_speed");
+    let decay = decay_speed.map(|decay_speed| FrictionDecay {
+        static_ratio,
+        decay_speed,
+    });
+    if static_ratio > 1.0 && !section.has("decay_speed") {
+        section.reject(
+            "static_friction_ratio",
+            format!("contact.static_friction_ratio = {static_ratio} needs contact.decay_speed"),
+            "falls over no speed".to_owned(),
+            Some(
+                "give the speed over which friction falls, for example decay_speed = 0.2"
+                    .to_owned(),
+            ),
+        );
+    }
+    if decay.is_some() && !section.has("static_friction_ratio") {
+        section.reject(
+            "decay_speed",
+            "contact.decay_speed has no effect without contact.static_friction_ratio".to_owned(),
+            "friction does not fall".to_owned(),
+            Some(
+                "give static friction over kinetic, for example static_friction_ratio = 1.4, or \
+                 leave decay_speed out"
+                    .to_owned(),
+            ),
+        );
+    }
+    decay.filter(|decay| decay.static_ratio > 1.0)
+}

@@ -1,0 +1,288 @@
+//! How a body of revolution is pressed in steady sliding: rigid contact ring by ring, or springs all over the face.
+
+use super::PrestressError;
+use super::solid::pressure_load;
+use crate::contact::SlidingContact;
+use crate::fem::sector::MirrorParity;
+use crate::fem::solid::{FaceTerm, SolidMatrix, face_matrix, half_bandwidth};
+use crate::linalg::banded::{BandedFactor, BandedMatrix};
+use crate::mesh::{FaceElement, SolidSector};
+
+/// Choices of what is pressed that are tried before the search is given up.
+const SETS: usize = 200;
+
+/// Change of `delta - u_n` relative to the largest at which springs are settled: Newton's method, whose next change is its square.
+const SETTLED: f64 = 1e-10;
+
+/// The values of the rings at the beginning, in the middle (of a quadratic element) and at the end of an element of the face.
+fn of_element(sector: &SolidSector, values: &[f64], element: &FaceElement) -> [f64; 3] {
+    let at = |node: usize| {
+        let mut rings = sector.rings.iter().zip(values);
+        let own = rings.find(|(ring, _)| ring.nodes.contains(&node));
+        own.map_or(0.0, |(_, value)| *value)
+    };
+    let [from, to] = [0, 2].map(|corner| at(element.nodes[corner].0));
+    match sector.is_quadratic() {
+        true => [from, at(element.nodes[5].0), to],
+        false => [from, 0.5 * (from + to), to],
+    }
+}
+
+/// What the rings have, along an element of the face from -1 to 1.
+pub(super) fn along_element(
+    sector: &SolidSector,
+    values: &[f64],
+    element: &FaceElement,
+    along: f64,
+) -> f64 {
+    let [from, middle, to] = of_element(sector, values, element);
+    let linear = 0.5 * ((1.0 - along) * from + (1.0 + along) * to);
+    if !sector.is_quadratic() {
+        return linear;
+    }
+    linear + (1.0 - along * along) * (middle - 0.5 * (from + to))
+}
+
+/// The part of an element along which the values of the rings are positive: between the roots of the parabola through them; of a
+/// linear element the ends that have positive values.
+pub(super) fn pressed_span(
+    sector: &SolidSector,
+    values: &[f64],
+    element: &FaceElement,
+) -> [f64; 2] {
+    let [from, middle, to] = of_element(sector, values, element);
+    let ends = [(-1.0, from), (1.0, to)].map(|(end, value)| if value > 0.0 { end } else { 0.0 });
+    if !sector.is_quadratic() || (from > 0.0 && to > 0.0) {
+        return ends;
+    }
+    // c + b s + a s^2
+    let (a, b, c) = (0.5 * (from + to) - middle, 0.5 * (to - from), middle);
+    let discriminant = b * b - 4.0 * a * c;
+    if discriminant <= 0.0 {
+        return [0.0; 2];
+    }
+    let q = -0.5 * (b + discriminant.sqrt().copysign(b));
+    let roots = [q / a, c / q];
+    let within = |root: &&f64| root.abs() <= 1.0;
+    match (from > 0.0, to > 0.0) {
+        (true, _) => [-1.0, *roots.iter().find(within).unwrap_or(&-1.0)],
+        (_, true) => [*roots.iter().find(within).unwrap_or(&1.0), 1.0],
+        // Pressed in the middle alone.
+        _ if roots.iter().filter(within).count() == 2 => {
+            [roots[0].min(roots[1]), roots[0].max(roots[1])]
+        }
+        _ => [0.0; 2],
+    }
+}
+
+/// The body pressed without friction.
+pub(super) struct Pressing {
+    pub displacement: Vec<f64>,
+    pub normal_forces: Vec<(usize, f64)>,
+    pub is_pressed: Vec<bool>,
+    pub pressures: Vec<f64>,
+    pub approaches: Vec<f64>,
+}
+
+/// `delta - u_n` at each ring, the mean over its nodes, m.
+fn approaches(sector: &SolidSector, contact: &SlidingContact, displacement: &[f64]) -> Vec<f64> {
+    let face = sector.specification.contact.face();
+    let mean = |nodes: &[usize]| {
+        let normals = nodes
+            .iter()
+            .map(|node| displacement[3 * node + face.normal_component()]);
+        face.inward_sign() * normals.sum::<f64>() / nodes.len() as f64
+    };
+    let rings = sector.rings.iter();
+    rings
+        .map(|ring| contact.interference - mean(&ring.nodes))
+        .collect()
+}
+
+/// Signorini's conditions ring by ring: the set of pressed ones.
+pub(super) fn press_rigidly(
+    sector: &SolidSector,
+    system: &System,
+    contact: &SlidingContact,
+) -> Result<Pressing, PrestressError> {
+    let face = sector.specification.contact.face();
+    let (inward, component) = (face.inward_sign(), face.normal_component());
+    let load = pressure_load(sector);
+    let rings = &sector.rings;
+    let mut is_pressed = vec![true; rings.len()];
+    for _ in 0..SETS {
+        let mut prescribed = vec![None; system.dofs];
+        for (ring, _) in rings.iter().zip(&is_pressed).filter(|(_, p)| **p) {
+            for node in &ring.nodes {
+                prescribed[3 * node + component] = Some(inward * contact.interference);
+            }
+        }
+        let displacement = system.solve(&load, &prescribed)?;
+        let reaction = system.reaction(&displacement, &load);
+        let force = |node: &usize| inward * reaction[3 * node + component];
+        let ring_forces = rings.iter().map(|ring| ring.nodes.iter().map(force).sum());
+        let ring_forces: Vec<f64> = ring_forces.collect();
+        let scale = ring_forces.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
+        let approaches = approaches(sector, contact, &displacement);
+        let next: Vec<bool> = (0..rings.len())
+            .map(|k| match is_pressed[k] {
+                true => ring_forces[k] > 1e-12 * scale,
+                false => approaches[k] > 1e-12 * contact.interference.abs(),
+            })
+            .collect();
+        if next != is_pressed {
+            is_pressed = next;
+            continue;
+        }
+        let pressed = rings.iter().zip(&is_pressed).filter(|(_, p)| **p);
+        let nodes = pressed.flat_map(|(ring, _)| &ring.nodes);
+        let pressures = rings.iter().zip(&ring_forces).zip(&is_pressed);
+        return Ok(Pressing {
+            normal_forces: nodes.map(|node| (*node, force(node))).collect(),
+            pressures: pressures
+                .map(|((ring, force), pressed)| if *pressed { force / ring.area } else { 0.0 })
+                .collect(),
+            displacement,
+            is_pressed,
+            approaches,
+        });
+    }
+    Err(PrestressError::NoState {
+        friction_coefficient: contact.friction_coefficient,
+    })
+}
+
+/// Springs that push and do not pull, `K u + int k (u_n - delta) n dA = f` over the points of the face where `u_n < delta`: the
+/// tangent of the eigenvalue analysis is the derivative of this state.
+pub(super) fn press_on_springs(
+    sector: &SolidSector,
+    terms: &[&SolidMatrix],
+    contact: &SlidingContact,
+    stiffness: f64,
+) -> Result<Pressing, PrestressError> {
+    let face = sector.specification.contact.face();
+    let (inward, component) = (face.inward_sign(), face.normal_component());
+    let faces = sector.contact_elements();
+    let load = pressure_load(sector);
+    let mut values = vec![contact.interference; sector.rings.len()];
+    for _ in 0..SETS {
+        let term = FaceTerm {
+            row: component,
+            column: component,
+            weight: &|_, _, _| stiffness,
+            span: &|element| pressed_span(sector, &values, element),
+        };
+        let springs = face_matrix(sector, &faces, &term);
+        let system = System::new(sector, &[terms, &[&springs]].concat());
+        let spring = System::new(sector, &[&springs]);
+        let mut pushed = vec![0.0; system.dofs];
+        for node in sector.rings.iter().flat_map(|ring| &ring.nodes) {
+            pushed[3 * node + component] = inward * contact.interference;
+        }
+        let push = spring.stiffness.multiply(&pushed);
+        let loads: Vec<f64> = load.iter().zip(&push).map(|(a, b)| a + b).collect();
+        let displacement = system.solve(&loads, &vec![None; system.dofs])?;
+        let last = std::mem::replace(&mut values, approaches(sector, contact, &displacement));
+        let changes = values.iter().zip(&last).map(|(a, b)| (a - b).abs());
+        let scale = values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+        if changes.fold(0.0, f64::max) > SETTLED * scale {
+            continue;
+        }
+        let normals = displacement
+            .iter()
+            .zip(&pushed)
+            .map(|(u, pushed)| pushed - u);
+        let mut distance: Vec<f64> = normals.collect();
+        for (dof, value) in distance.iter_mut().enumerate() {
+            *value *= f64::from(u8::from(dof % 3 == component));
+        }
+        let forces = spring.stiffness.multiply(&distance);
+        let nodes = sector.rings.iter().flat_map(|ring| &ring.nodes);
+        let nodes = nodes.map(|&node| (node, inward * forces[3 * node + component]));
+        return Ok(Pressing {
+            normal_forces: nodes.filter(|(_, force)| *force != 0.0).collect(),
+            is_pressed: values.iter().map(|approach| *approach > 0.0).collect(),
+            pressures: values
+                .iter()
+                .map(|approach| stiffness * approach.max(0.0))
+                .collect(),
+            approaches: values,
+            displacement,
+        });
+    }
+    Err(PrestressError::NoState {
+        friction_coefficient: contact.friction_coefficient,
+    })
+}
+
+/// Harmonic zero of the supported body.
+pub(super) struct System {
+    pub dofs: usize,
+    is_held: Vec<bool>,
+    stiffness: BandedMatrix,
+}
+
+impl System {
+    pub fn new(sector: &SolidSector, terms: &[&SolidMatrix]) -> Self {
+        let dofs = 3 * sector.node_count();
+        let all: Vec<Option<usize>> = (0..dofs).map(Some).collect();
+        let mut stiffness = BandedMatrix::zeros(dofs, half_bandwidth(sector));
+        for term in terms {
+            let zero = (sector.sector_count(), 0);
+            term.add_harmonic(&mut stiffness, &all, zero, (MirrorParity::Even, 1.0));
+        }
+        Self {
+            dofs,
+            is_held: (0..dofs).map(|dof| sector.is_held(dof)).collect(),
+            stiffness,
+        }
+    }
+
+    /// Displacement under a load with some dofs prescribed and without tangential motion.
+    fn solve(&self, load: &[f64], prescribed: &[Option<f64>]) -> Result<Vec<f64>, PrestressError> {
+        self.part(load, prescribed, |component| component != 1)
+    }
+
+    /// Tangential displacement under a tangential load.
+    pub fn torsion(
+        &self,
+        load: &[f64],
+        prescribed: &[Option<f64>],
+    ) -> Result<Vec<f64>, PrestressError> {
+        self.part(load, prescribed, |component| component == 1)
+    }
+
+    fn part(
+        &self,
+        load: &[f64],
+        prescribed: &[Option<f64>],
+        is_in: impl Fn(usize) -> bool,
+    ) -> Result<Vec<f64>, PrestressError> {
+        let mut displacement: Vec<f64> = prescribed
+            .iter()
+            .map(|value| value.unwrap_or(0.0))
+            .collect();
+        let unknowns: Vec<usize> = (0..self.dofs)
+            .filter(|&dof| is_in(dof % 3) && !self.is_held[dof] && prescribed[dof].is_none())
+            .collect();
+        let force = self.stiffness.multiply(&displacement);
+        let mut right: Vec<f64> = unknowns.iter().map(|&dof| load[dof] - force[dof]).collect();
+        let reduced = self.stiffness.restricted_to(&unknowns);
+        let none = BandedMatrix::zeros(reduced.dimension(), reduced.half_bandwidth());
+        let factor = BandedFactor::new(&reduced, &none, 0.0);
+        if factor.negative_count() > 0 || !factor.is_regular() {
+            return Err(PrestressError::Singular);
+        }
+        factor.solve(&mut right);
+        for (&dof, value) in unknowns.iter().zip(right) {
+            displacement[dof] = value;
+        }
+        Ok(displacement)
+    }
+
+    /// Force that holds a displacement beside the load, N.
+    fn reaction(&self, displacement: &[f64], load: &[f64]) -> Vec<f64> {
+        let force = self.stiffness.multiply(displacement);
+        force.iter().zip(load).map(|(f, l)| f - l).collect()
+    }
+}
