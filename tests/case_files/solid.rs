@@ -6,7 +6,7 @@ const RING: &str = include_str!("../../cases/ring-on-layer.toml");
 
 #[test]
 fn bodies_without_thickness_rings_beside_the_face_and_contact_at_rest_are_refused_with_the_key() {
-    let cases: [(&[&str], [&str; 2]); 5] = [
+    let cases: [(&[&str], [&str; 2]); 6] = [
         (
             &["contact.ring_inner_radius=0.01"],
             [
@@ -34,6 +34,16 @@ fn bodies_without_thickness_rings_beside_the_face_and_contact_at_rest_are_refuse
         (
             &["contact.rotation_speed_rpm=0"],
             ["contact.rotation_speed_rpm = 0", "infinite dashpot"],
+        ),
+        (
+            &[
+                "contact.normal_stiffness=rigid",
+                "contact.base_state=compliant",
+            ],
+            [
+                "contact.base_state = \"compliant\" needs contact.normal_stiffness",
+                "leave base_state out",
+            ],
         ),
         (
             &["material.formulation=plane-stress"],

@@ -5,6 +5,7 @@ use frictionsim::cea::cyclic::SolidModel;
 use frictionsim::fem::solid;
 use frictionsim::mesh::{BoundaryCondition, ElementKind, SolidContact, SolidSector};
 use frictionsim::prestress::{PrestressError, SolidSliding};
+use std::f64::consts::TAU;
 
 /// A ring on the outer half of the top face.
 fn ringed(element: ElementKind, divisions: [usize; 3]) -> SolidModel {
@@ -55,10 +56,12 @@ fn a_guided_layer_under_a_ring_has_the_pressure_of_uniaxial_strain() {
     }
 }
 
-/// Independent check: layer and springs in series.
+/// Independent check: layer and springs in series. Of the edge of an 8-node brick the body has the chord, of a
+/// 20-node one a parabola, the springs the arc.
 #[test]
 fn springs_that_carry_the_base_state_stand_in_series_with_a_layer() {
-    for element in [ElementKind::Quad4, ElementKind::Quad8] {
+    let [chord, parabola] = [2, 4].map(|order| (TAU / 24.0_f64).powi(order) / 6.0);
+    for (element, tolerance) in [(ElementKind::Quad4, chord), (ElementKind::Quad8, parabola)] {
         let mut model = layer(element);
         compliant(&mut model, 3e11);
         let (sector, base) = base(&model).unwrap();
@@ -67,7 +70,10 @@ fn springs_that_carry_the_base_state_stand_in_series_with_a_layer() {
         let nodal: f64 = base.normal_forces.iter().map(|(_, force)| force).sum();
         let area: f64 = sector.rings.iter().map(|ring| ring.area).sum();
         for pressure in base.pressures.iter().chain(&[nodal / area]) {
-            assert!((pressure / exact - 1.0).abs() < 1e-4, "{pressure} {exact}");
+            assert!(
+                (pressure / exact - 1.0).abs() < tolerance,
+                "{pressure} {exact}"
+            );
         }
     }
 }
@@ -88,13 +94,6 @@ fn springs_that_carry_the_base_state_give_a_contact_that_opens_a_width_of_its_ow
         let force: f64 = base.normal_forces.iter().map(|(_, force)| force).sum();
         let modes = modes(&model, 0.5, 4000.0);
         let rate = modes.iter().map(|mode| mode.growth_rate());
-        println!(
-            "{radial}: {force} N, {:?}",
-            modes
-                .iter()
-                .map(|m| [m.frequency_hz(), m.growth_rate()])
-                .collect::<Vec<_>>()
-        );
         [
             force * sector.sector_count() as f64,
             rate.fold(f64::MIN, f64::max),
@@ -102,14 +101,8 @@ fn springs_that_carry_the_base_state_give_a_contact_that_opens_a_width_of_its_ow
     });
     for quantity in 0..2 {
         let [coarse, middle, fine] = found.map(|values| values[quantity]);
-        assert!(
-            (middle / fine - 1.0).abs() < 0.01,
-            "{coarse} {middle} {fine}"
-        );
-        assert!(
-            (coarse - fine).abs() > 1.5 * (middle - fine).abs(),
-            "{coarse} {middle} {fine}"
-        );
+        let errors = [coarse, middle].map(|value| (value / fine - 1.0).abs());
+        assert!(errors[0] < 0.04 && errors[1] < 0.01, "{errors:?}");
     }
 }
 

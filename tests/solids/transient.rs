@@ -3,8 +3,8 @@
 use crate::model::{disc, modes};
 use frictionsim::cea::cyclic::SolidModel;
 use frictionsim::contact::ContactStatus;
-use frictionsim::fem::MassKind;
 use frictionsim::fem::operator::{OperatorError, SimdLevel, StiffnessOperator};
+use frictionsim::fem::{MassKind, RayleighDamping};
 use frictionsim::mesh::{
     BoundaryCondition, ElasticSupport, ElementKind, SolidContact, SolidSector,
 };
@@ -113,19 +113,40 @@ fn a_wave_under_a_ring_grows_at_the_rate_of_the_eigenvalue_analysis() {
     grows_as_predicted(&model, 1, 7e3, 0.01);
 }
 
-/// The ring of a bending plate whose contact opens in part, carried by the springs of the interface.
+/// A steel disc clamped at its bore, under a ring with a lining from which it bends away.
 #[test]
 fn a_wave_under_a_ring_that_opens_in_part_grows_at_the_rate_of_the_eigenvalue_analysis() {
-    let mut model = ringed([24, 14, 2]);
-    model.specification.conditions[3] = BoundaryCondition::Free;
-    model.contact.rotation_speed = 6000.0 * TAU / 60.0;
-    model.options.contact.normal_stiffness = Some(3e11);
-    model.options.contact.is_base_compliant = true;
+    let mut model = lumped(ElementKind::Quad4, [24, 8, 2]);
+    let specification = &mut model.specification;
+    specification.annulus.inner_radius = 0.045;
+    specification.annulus.outer_radius = 0.12;
+    specification.thickness = 0.008;
+    specification.contact = SolidContact::Ring {
+        inner_radius: 0.075,
+        outer_radius: 0.11,
+    };
+    specification.conditions = [
+        BoundaryCondition::Clamped,
+        BoundaryCondition::Free,
+        BoundaryCondition::Free,
+        BoundaryCondition::Free,
+    ];
+    model.material.young_modulus = 2.1e11;
+    model.material.poisson_ratio = 0.3;
+    model.material.density = 7850.0;
+    model.options.damping = RayleighDamping {
+        mass_coefficient: 20.0,
+        stiffness_coefficient: 1.5e-7,
+    };
     model.options.damping_model = DampingModel::BodyOnly;
+    model.options.contact.normal_stiffness = Some(1e11);
+    model.options.contact.is_base_compliant = true;
+    model.contact.friction_coefficient = 0.4;
+    model.contact.interference = 1e-5;
     let sector = SolidSector::generate(&model.specification).unwrap();
     let base = body(&model, &sector).base().unwrap();
     assert!(base.is_pressed.contains(&true) && base.is_pressed.contains(&false));
-    grows_as_predicted(&model, 1, 7e3, 0.02);
+    grows_as_predicted(&model, 3, 4e3, 0.03);
 }
 
 /// Watches the disc of Coulomb's law at every contact node.
