@@ -65,6 +65,7 @@ fn sliding(damping_model: DampingModel) -> FrfSystem {
             normal_stiffness: None,
             normal_damping: 0.0,
             tangential_damping: 0.0,
+            ..ContactStiffness::default()
         },
     };
     let tangent = SlidingTangent::linearize(&mesh, &material(), &stiffness, &base, &options);

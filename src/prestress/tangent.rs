@@ -349,6 +349,7 @@ mod tests {
                         normal_stiffness,
                         normal_damping: 0.0,
                         tangential_damping: 3.0,
+                        ..ContactStiffness::default()
                     },
                 },
             );

@@ -206,6 +206,7 @@ fn quadratic_problem_equals_dense_companion_solution() {
                 normal_stiffness,
                 normal_damping,
                 tangential_damping,
+                ..ContactStiffness::default()
             };
             for element in [ElementKind::Quad4, ElementKind::Quad8] {
                 let worst = worst_difference(

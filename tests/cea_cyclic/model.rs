@@ -18,6 +18,7 @@ pub fn paper_options() -> TangentOptions {
             normal_stiffness: Some(7.4e12),
             normal_damping: 0.0,
             tangential_damping: 0.0,
+            ..ContactStiffness::default()
         },
     }
 }

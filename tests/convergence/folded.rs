@@ -90,6 +90,7 @@ impl Discretisation {
                 normal_stiffness: contact.normal_stiffness,
                 normal_damping: 0.0,
                 tangential_damping: 0.0,
+                ..ContactStiffness::default()
             },
         };
         let base = base_state(&mesh, annulus, rotation_speed);

@@ -99,6 +99,7 @@ fn a_wave_on_a_compliant_contact_grows_as_its_eigenvalue_says() {
         normal_stiffness: Some(5e11),
         normal_damping: 1e5,
         tangential_damping: 1e4,
+        ..ContactStiffness::default()
     };
     let rigid = ContactStiffness::default();
     for contact in [contact(610.0), falling(610.0)] {

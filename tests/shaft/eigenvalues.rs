@@ -27,6 +27,7 @@ fn cyclic_and_sparse_spectra_of_two_bodies_are_the_same() {
         normal_stiffness: Some(7.4e12),
         normal_damping: 1e3,
         tangential_damping: 2e3,
+        ..ContactStiffness::default()
     };
     let damped = |mut materials: AnnulusMaterials| {
         if let Some(shaft) = &mut materials.shaft {

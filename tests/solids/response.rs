@@ -155,6 +155,7 @@ fn harmonics_in_sliding_contact_sum_to_the_response_of_a_whole_ring_of_bricks() 
         normal_stiffness: Some(1e12),
         normal_damping: 3e4,
         tangential_damping: 2e4,
+        ..ContactStiffness::default()
     };
     let ring = SolidContact::Ring {
         inner_radius: 0.03,

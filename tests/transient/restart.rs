@@ -42,6 +42,7 @@ fn restarted_run_equals_uninterrupted_run_bitwise() {
         normal_stiffness: Some(2e12),
         normal_damping: 1e5,
         tangential_damping: 1e4,
+        ..ContactStiffness::default()
     };
     for (model, choice) in [
         (rigid, OperatorChoice::Cyclic),

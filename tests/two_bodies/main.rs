@@ -227,6 +227,7 @@ fn energy_closes_through_stick_and_opening_between_meshes_that_do_not_match() {
         normal_stiffness: Some(2e12),
         normal_damping: 1e4,
         tangential_damping: 1e3,
+        ..ContactStiffness::default()
     };
     for stiffness in [ContactStiffness::default(), compliant] {
         let record = run(&mesh, stiffness, InitialState::Rest, 2e-3, 4.0);
