@@ -157,6 +157,12 @@ const QUANTITIES: &[Quantity<'static>] = &[
         Percent(2),
     ),
     quantity_of(
+        "unconverged_steps",
+        "steps without converged forces between the bodies",
+        "",
+        Count,
+    ),
+    quantity_of(
         "element_steps_per_s",
         "element-steps",
         "1/s",

@@ -205,6 +205,7 @@ impl<'a> CentralDifference<'a> {
         let powers = std::mem::take(&mut self.powers).scaled(1.0 / steps as f64);
         let material_damping = std::mem::take(&mut self.damping_power) / steps as f64;
         let counts = std::mem::take(&mut self.counts);
+        let unconverged_steps = std::mem::take(&mut self.contact.unconverged_steps);
         let sample = Sample {
             index: step / self.plan.steps_per_sample,
             time: self.plan.sample_time(step / self.plan.steps_per_sample),
@@ -214,6 +215,7 @@ impl<'a> CentralDifference<'a> {
             powers,
             material_damping,
             counts,
+            unconverged_steps,
             balance_residual,
             run: self,
             displacement_before: &self.displacement_before,

@@ -2,6 +2,9 @@
 
 mod face;
 mod opposite;
+mod sums;
+
+pub use sums::{ContactPowers, StatusCounts};
 
 use super::compliance::{CompliantContact, CompressedNode};
 use super::{TransientError, TransientModel};
@@ -9,87 +12,6 @@ use crate::contact::{ContactInterface, ContactStatus, CoulombFriction, SlippingN
 use crate::fem::operator::{MotionFields, StepCoefficients, StiffnessOperator};
 use face::FaceSliding;
 use opposite::OppositeBody;
-use serde::{Deserialize, Serialize};
-use std::ops::AddAssign;
-
-/// Powers that cross the contact edge, W for each metre of thickness, with every velocity the mean
-/// `v_n = (v_{n+1/2} + v_{n-1/2}) / 2`.
-///
-/// `external = stick + slide + contact_dissipated` holds term by term (equation 10 of Brunetti et al.). A
-/// node that starts or ends to stick within the step still slides in its mean velocity; that part is counted as
-/// dissipated, which the paper's sum over slipping nodes leaves open.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct ContactPowers {
-    /// `sum T Omega a` (equation 9).
-    pub external: f64,
-    /// `sum T v_t` over sticking nodes.
-    pub stick: f64,
-    /// `sum T v_t` over slipping nodes.
-    pub slide: f64,
-    /// `sum T (Omega a - v_t)`.
-    pub contact_dissipated: f64,
-    /// Of the normal forces: `sum N v_n`, impacts and the expansion of the cylinder; for compliant contact, whose springs
-    /// and dashpots keep accounts of their own, `N` times the normal velocity of the counterface.
-    pub normal: f64,
-    /// What the dashpots of the contact dissipate.
-    pub damping: f64,
-}
-
-impl AddAssign for ContactPowers {
-    fn add_assign(&mut self, other: Self) {
-        self.external += other.external;
-        self.stick += other.stick;
-        self.slide += other.slide;
-        self.contact_dissipated += other.contact_dissipated;
-        self.normal += other.normal;
-        self.damping += other.damping;
-    }
-}
-
-impl ContactPowers {
-    /// Every power times `factor`.
-    pub fn scaled(&self, factor: f64) -> Self {
-        Self {
-            external: factor * self.external,
-            stick: factor * self.stick,
-            slide: factor * self.slide,
-            contact_dissipated: factor * self.contact_dissipated,
-            normal: factor * self.normal,
-            damping: factor * self.damping,
-        }
-    }
-}
-
-/// Number of contact nodes in each status.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct StatusCounts {
-    /// Sticking.
-    pub stick: u64,
-    /// Slipping.
-    pub slip: u64,
-    /// Not in contact.
-    pub open: u64,
-    /// Of those in contact, how many could have stuck and slipped alike: friction falls faster with speed than the
-    /// inertia of the node allows.
-    pub ambiguous: u64,
-}
-
-impl AddAssign for StatusCounts {
-    fn add_assign(&mut self, other: Self) {
-        self.stick += other.stick;
-        self.slip += other.slip;
-        self.open += other.open;
-        self.ambiguous += other.ambiguous;
-    }
-}
-
-impl StatusCounts {
-    /// Fractions `[stick, slip, open]`; zeros if nothing was counted.
-    pub fn fractions(&self) -> [f64; 3] {
-        let total = (self.stick + self.slip + self.open).max(1) as f64;
-        [self.stick, self.slip, self.open].map(|count| count as f64 / total)
-    }
-}
 
 /// Contact of each node of the contact edge with the moving counterface.
 ///
@@ -130,6 +52,8 @@ pub struct LagrangeContact {
     /// Before the step: `v_n, v_t, q_n, q_t`.
     before: Vec<[f64; 4]>,
     ambiguous: u64,
+    /// Steps in which the forces between two bodies had not converged when their sweeps ended.
+    pub(super) unconverged_steps: u64,
     /// The other body; `None` for a rigid counterface.
     opposite: Option<OppositeBody>,
     /// Sign of the normal dofs along the normal into the body.
@@ -172,6 +96,7 @@ impl LagrangeContact {
             status: vec![ContactStatus::Open; count],
             before: vec![[0.0; 4]; count],
             ambiguous: 0,
+            unconverged_steps: 0,
             opposite: OppositeBody::new(operator, interface),
             inward: 1.0,
             face: None,
@@ -336,7 +261,7 @@ impl LagrangeContact {
             }
             fields.elastic[n] = q_n + dt * fields.elastic_rate[n];
             fields.elastic[t] = q_t + dt * fields.elastic_rate[t];
-            let (normal, tangential) = (self.normal_force[i], self.tangential_force[i]);
+            let tangential = self.tangential_force[i];
             let mut mean_n = 0.5 * (v_n + fields.velocity[n]);
             let mut mean_t = 0.5 * (v_t + fields.velocity[t]);
             if let Some(opposite) = &self.opposite {
@@ -344,27 +269,53 @@ impl LagrangeContact {
                 mean_n -= normal;
                 mean_t -= tangential;
             }
-            let power = tangential * mean_t;
-            if self.status[i] == ContactStatus::Stick {
-                counts.stick += 1;
-                powers.stick += power;
-            } else {
-                counts.slip += 1;
-                powers.slide += power;
-            }
-            // (9) and (10).
-            powers.external += tangential * self.surface_speed;
-            powers.contact_dissipated += tangential * (self.surface_speed - mean_t);
-            powers.normal += normal
-                * match &self.compliance {
-                    None => mean_n,
-                    Some(_) => 0.5 * (self.pushed(i, shares[2]) - self.pushed(i, shares[0])) / dt,
-                };
+            let tangential = [
+                tangential * self.surface_speed,
+                tangential * mean_t,
+                tangential * (self.surface_speed - mean_t),
+            ];
+            self.account(
+                i,
+                tangential,
+                mean_n,
+                shares,
+                dt,
+                (&mut powers, &mut counts),
+            );
             if let Some(dashpot) = self.dashpots.get(i) {
                 powers.damping += dashpot * mean_t * mean_t;
             }
         }
         (powers, counts)
+    }
+
+    /// Adds what node `i` in contact does, (9) and (10): `tangential` are the power that friction takes from the counterface,
+    /// what of it the node gets, and what is lost between them; `mean_n` is the velocity along its normal.
+    #[inline]
+    fn account(
+        &self,
+        i: usize,
+        tangential: [f64; 3],
+        mean_n: f64,
+        shares: [f64; 3],
+        dt: f64,
+        (powers, counts): (&mut ContactPowers, &mut StatusCounts),
+    ) {
+        let [external, own, dissipated] = tangential;
+        if self.status[i] == ContactStatus::Stick {
+            counts.stick += 1;
+            powers.stick += own;
+        } else {
+            counts.slip += 1;
+            powers.slide += own;
+        }
+        powers.external += external;
+        powers.contact_dissipated += dissipated;
+        powers.normal += self.normal_force[i]
+            * match &self.compliance {
+                None => mean_n,
+                Some(_) => 0.5 * (self.pushed(i, shares[2]) - self.pushed(i, shares[0])) / dt,
+            };
     }
 
     /// Distance of node `i` from the counterface under a `share` of the interference, m, from its normal dof.

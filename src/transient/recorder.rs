@@ -138,6 +138,26 @@ pub struct Recorder {
     stop_when_settled: bool,
     /// Whether it stopped the run because that had settled.
     pub has_stopped: bool,
+    /// Steps in which the forces between two bodies had not converged when their sweeps ended.
+    #[serde(with = "absent_if_zero")]
+    pub unconverged_steps: u64,
+}
+
+/// A number that ends a record, and takes no byte of it where it is zero.
+mod absent_if_zero {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    pub fn serialize<S: Serializer>(number: &u64, serializer: S) -> Result<S::Ok, S::Error> {
+        match number {
+            0 => serializer.serialize_unit(),
+            number => number.serialize(serializer),
+        }
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<u64, D::Error> {
+        // The record ends here.
+        Ok(u64::deserialize(deserializer).unwrap_or(0))
+    }
 }
 
 impl Recorder {
@@ -188,6 +208,7 @@ impl Recorder {
             start_up_time: run.seed_time().max(run.expansion_time()),
             stop_when_settled: settings.stop_when_settled,
             has_stopped: false,
+            unconverged_steps: 0,
         })
     }
 

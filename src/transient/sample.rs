@@ -22,6 +22,8 @@ pub struct Sample<'a> {
     pub material_damping: f64,
     /// Node statuses counted over the steps since the last sample.
     pub counts: StatusCounts,
+    /// Steps since the last sample in which the forces between two bodies had not converged.
+    pub unconverged_steps: u64,
     /// `|E_{n+1/2} - E_{-1/2} - work|` relative to the largest energy so far.
     pub balance_residual: f64,
     pub(super) run: &'a CentralDifference<'a>,

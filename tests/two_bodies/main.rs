@@ -7,6 +7,7 @@ mod glued;
 mod growth;
 mod model;
 mod refusals;
+mod sweeps;
 
 use disc::{DAMPING, POLYCARBONATE, annulus};
 use faer::c64;

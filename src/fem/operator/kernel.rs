@@ -5,6 +5,7 @@
 //! which is what makes the calls sound.
 
 use super::{MotionFields, SimdLevel, StepCoefficients};
+use std::ops::Range;
 
 /// Values in a cache line.
 const LANES: usize = 8;
@@ -129,6 +130,27 @@ pub(super) fn move_range<const FUSED: bool>(
     }
 }
 
+/// Moves the places of `range` among all of `fields`.
+#[inline(always)]
+fn move_places<const FUSED: bool>(
+    range: Range<usize>,
+    masses: &[f64],
+    fields: &mut MotionFields,
+    coefficients: &StepCoefficients,
+    sums: &mut [f64; SUMS],
+) {
+    move_range::<FUSED>(
+        &masses[range.clone()],
+        [
+            &mut fields.displacement[range.clone()],
+            &mut fields.velocity[range.clone()],
+        ],
+        [&fields.elastic[range.clone()], &fields.elastic_rate[range]],
+        coefficients,
+        sums,
+    );
+}
+
 /// Writes the copies of the nodes across the seam of one row, and zeros into the rest of its padding.
 #[inline(always)]
 fn close_seam(layout: &RowLayout, row: usize, x: &mut [f64]) {
@@ -218,16 +240,7 @@ fn cyclic_advance_body<const FUSED: bool>(
     for row in 0..=layout.rows {
         if row < layout.rows {
             let range = layout.start(row, 0)..layout.start(row + 1, 0);
-            move_range::<FUSED>(
-                &masses[range.clone()],
-                [
-                    &mut fields.displacement[range.clone()],
-                    &mut fields.velocity[range.clone()],
-                ],
-                [&fields.elastic[range.clone()], &fields.elastic_rate[range]],
-                coefficients,
-                &mut sums,
-            );
+            move_places::<FUSED>(range, masses, fields, coefficients, &mut sums);
             close_seam(layout, row, &mut fields.velocity);
         }
         if row > 0 {

@@ -3,7 +3,7 @@
 mod map;
 
 use super::summary::{Bounds, Entry, Summary};
-use super::table::{Table, format_number};
+use super::table::{Column, write_rows};
 use super::{FolderError, Manifest, OutputFolder};
 use crate::cycle::{BasinBoundary, BasinRequest, BasinRun};
 use serde::{Deserialize, Serialize};
@@ -143,25 +143,13 @@ impl Summary for BasinSummary {
 /// # Errors
 /// Those of the folder.
 pub fn write_basin(folder: &OutputFolder, summary: &BasinSummary) -> Result<(), FolderError> {
-    let columns = [
-        "seed_ratio",
-        "saturation_ratio",
-        "winner",
-        "is_settled",
-        "duration_s",
+    let columns: &[Column<'_, &RunSummary>] = &[
+        ("seed_ratio", &|run| run.seed_ratio.into()),
+        ("saturation_ratio", &|run| run.saturation_ratio.into()),
+        ("winner", &|run| run.winner.into()),
+        ("is_settled", &|run| u8::from(run.is_settled).into()),
+        ("duration_s", &|run| run.duration_s.into()),
     ];
-    folder.write("basin.csv", |out| {
-        let mut table = Table::new(out, &columns)?;
-        for run in &summary.runs {
-            table.row([
-                format_number(run.seed_ratio),
-                run.saturation_ratio.map_or(String::new(), format_number),
-                run.winner.to_string(),
-                u8::from(run.is_settled).to_string(),
-                format_number(run.duration_s),
-            ])?;
-        }
-        table.finish()
-    })?;
+    folder.write("basin.csv", |out| write_rows(out, columns, &summary.runs))?;
     Ok(())
 }

@@ -5,7 +5,7 @@ use super::summary::summary;
 use super::{CeaReport, ComplexMode, UnstableInterval};
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::summary::write_summary;
-use crate::results::table::{Table, format_number};
+use crate::results::table::{Column, write_rows};
 use crate::results::vtu::{EncodedMesh, Field, PvdEntry, write_pvd, write_vtu};
 use rayon::prelude::*;
 use serde_json::Value;
@@ -39,51 +39,31 @@ pub fn write(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<Value, Fol
 /// # Errors
 /// Those of the writer.
 pub fn write_eigenvalues(out: &mut dyn Write, report: &CeaReport<'_>) -> io::Result<()> {
-    let mut columns = vec![
-        "friction_coefficient",
-        "mode",
-        "real_hz",
-        "frequency_hz",
-        "damping_factor",
-        "growth_rate_per_s",
-        "harmonic",
-        "branch",
-        "direction",
-        "unstable",
-        "residual",
-        "contact_share",
-    ];
-    columns.extend(report.solid.map(|_| "axial_share"));
     // A body without symmetry has modes without a harmonic.
-    let named = |text: String| {
-        if report.has_harmonics {
-            text
-        } else {
-            String::new()
-        }
-    };
-    let mut table = Table::new(out, &columns)?;
-    for point in report.tabulated() {
-        for (index, mode) in point.modes.iter().enumerate() {
-            let row = [
-                format_number(point.friction_coefficient),
-                (index + 1).to_string(),
-                format_number(mode.real_hz()),
-                format_number(mode.frequency_hz()),
-                format_number(mode.damping_factor()),
-                format_number(mode.growth_rate()),
-                named(mode.harmonic.to_string()),
-                mode.branch.to_string(),
-                named(mode.direction.to_string()),
-                mode.is_unstable().to_string(),
-                format_number(mode.residual),
-                format_number(mode.contact_share),
-            ];
-            let axial = report.solid.and(mode.axial_share).map(format_number);
-            table.row(row.into_iter().chain(axial))?;
-        }
-    }
-    table.finish()
+    let harmonic = |mode: &ComplexMode| report.has_harmonics.then_some(mode.harmonic);
+    let direction = |mode: &ComplexMode| report.has_harmonics.then_some(mode.direction);
+    let columns: &[Column<'_, (f64, usize, &ComplexMode)>] = &[
+        ("friction_coefficient", &|row| row.0.into()),
+        ("mode", &|row| (row.1 + 1).into()),
+        ("real_hz", &|row| row.2.real_hz().into()),
+        ("frequency_hz", &|row| row.2.frequency_hz().into()),
+        ("damping_factor", &|row| row.2.damping_factor().into()),
+        ("growth_rate_per_s", &|row| row.2.growth_rate().into()),
+        ("harmonic", &|row| harmonic(row.2).into()),
+        ("branch", &|row| row.2.branch.into()),
+        ("direction", &|row| direction(row.2).into()),
+        ("unstable", &|row| row.2.is_unstable().into()),
+        ("residual", &|row| row.2.residual.into()),
+        ("contact_share", &|row| row.2.contact_share.into()),
+        ("axial_share", &|row| row.2.axial_share.into()),
+    ];
+    let is_plane = report.solid.is_none();
+    let columns = &columns[..columns.len() - usize::from(is_plane)];
+    let rows = report.tabulated().into_iter().flat_map(|point| {
+        let modes = point.modes.iter().enumerate();
+        modes.map(|(index, mode)| (point.friction_coefficient, index, mode))
+    });
+    write_rows(out, columns, rows)
 }
 
 /// Writes one row for each crossing into instability; the last columns say where the branch turns
@@ -96,32 +76,23 @@ pub fn write_stability(
     intervals: &[UnstableInterval],
     has_harmonics: bool,
 ) -> io::Result<()> {
-    let named = |text: String| if has_harmonics { text } else { String::new() };
-    let columns = [
-        "harmonic",
-        "branch",
-        "direction",
-        "critical_friction",
-        "frequency_hz",
-        "restabilized_friction",
-        "restabilized_frequency_hz",
-        "unstable_from_start",
+    let columns: &[Column<'_, &UnstableInterval>] = &[
+        ("harmonic", &|i| has_harmonics.then_some(i.harmonic).into()),
+        ("branch", &|i| i.branch.into()),
+        ("direction", &|i| {
+            has_harmonics.then_some(i.direction).into()
+        }),
+        ("critical_friction", &|i| i.critical_friction.into()),
+        ("frequency_hz", &|i| i.frequency_hz.into()),
+        ("restabilized_friction", &|i| {
+            i.restabilized.map(|end| end.0).into()
+        }),
+        ("restabilized_frequency_hz", &|i| {
+            i.restabilized.map(|end| end.1).into()
+        }),
+        ("unstable_from_start", &|i| i.unstable_from_start.into()),
     ];
-    let mut table = Table::new(out, &columns)?;
-    for interval in intervals {
-        let end = interval.restabilized.unwrap_or((f64::NAN, f64::NAN));
-        table.row([
-            named(interval.harmonic.to_string()),
-            interval.branch.to_string(),
-            named(interval.direction.to_string()),
-            format_number(interval.critical_friction),
-            format_number(interval.frequency_hz),
-            format_number(end.0),
-            format_number(end.1),
-            interval.unstable_from_start.to_string(),
-        ])?;
-    }
-    table.finish()
+    write_rows(out, columns, intervals)
 }
 
 /// Writes the shapes that the modes carry: one VTU each with the real and the imaginary part of the

@@ -8,7 +8,7 @@ use crate::linalg::c64;
 use crate::mesh::{ContactRing, SheetNode, SolidFace, SolidSector};
 use crate::prestress::SolidSliding;
 use crate::results::folder::{FolderError, OutputFolder};
-use crate::results::table::{Table, format_number};
+use crate::results::table::{Column, write_rows};
 use crate::results::vtu::{EncodedMesh, Field, solid_vectors, write_vtu};
 use std::sync::Arc;
 
@@ -61,22 +61,19 @@ impl SolidReport {
     /// Writes `prestress.csv`, one row for each ring of contact nodes, and `prestress.vtu`.
     pub(super) fn write_base(&self, folder: &OutputFolder) -> Result<(), FolderError> {
         folder.write("prestress.csv", |out| {
-            let columns = ["radius_m", "height_m", "pressure_pa", "shear_pa", "status"];
-            let mut table = Table::new(out, &columns)?;
-            for (k, (ring, shear)) in self.sector.rings.iter().zip(self.shears()).enumerate() {
-                let status = match self.base.is_pressed[k] {
-                    true => ContactStatus::Slip,
-                    false => ContactStatus::Open,
-                };
-                table.row([
-                    format_number(ring.radius),
-                    format_number(ring.height),
-                    format_number(self.base.pressures[k]),
-                    format_number(shear),
-                    status.name().to_owned(),
-                ])?;
-            }
-            table.finish()
+            let status = |k: usize| match self.base.is_pressed[k] {
+                true => ContactStatus::Slip,
+                false => ContactStatus::Open,
+            };
+            let (rings, shears) = (&self.sector.rings, self.shears());
+            let columns: &[Column<'_, usize>] = &[
+                ("radius_m", &|k| rings[*k].radius.into()),
+                ("height_m", &|k| rings[*k].height.into()),
+                ("pressure_pa", &|k| self.base.pressures[*k].into()),
+                ("shear_pa", &|k| shears[*k].into()),
+                ("status", &|k| status(*k).name().into()),
+            ];
+            write_rows(out, columns, 0..rings.len())
         })?;
         let displacement = self.base.displacement(self.friction_coefficient);
         let fields = [self.vectors("displacement_m", &self.repeated(&displacement))];

@@ -8,6 +8,7 @@ use crate::chart::{
     Axis, ChartError, ColourMap, Figure, Heat, INK, Label, Line, Palette, Panel, Rule, SERIES, Side,
 };
 use crate::contact::ContactStatus;
+use crate::fem::{MaterialField, nodal_stress};
 use std::f64::consts::TAU;
 
 /// Columns of a status map: three for each point of a wide panel.
@@ -223,6 +224,23 @@ pub fn contact_figure(
 
 /// One field of several: heading, values at the nodes, status of each node of the contact edge.
 pub type FieldFrame = (String, Vec<f64>, Vec<ContactStatus>);
+
+/// Shear stress of several displacement fields side by side, each with its heading.
+pub fn shear_stress_figure<'a>(
+    caption: &str,
+    disc: &Disc<'_>,
+    material: &dyn MaterialField,
+    fields: impl Iterator<Item = (String, &'a [f64])>,
+) -> Result<Figure, ChartError> {
+    let frame = |(heading, displacement): (String, &[f64])| -> FieldFrame {
+        let stress = nodal_stress(disc.mesh(), material, displacement);
+        let shear = stress.iter().map(|node| node.shear);
+        (heading, shear.collect(), Vec::new())
+    };
+    let axis = Axis::new("shear stress *τ*_{rθ}", "MPa").times(1e-6);
+    let (names, frames) = (("shear-stress", caption), fields.map(frame).collect());
+    field_figure(names, disc, &axis, ColourMap::Diverging, frames)
+}
 
 /// Fields side by side, each with its own scale of colours, as amplitudes may differ by decades, and with the contact status
 /// around the hole where it is known.

@@ -12,7 +12,7 @@ use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::manifest::Manifest;
 use crate::results::record::{Record, write_record};
 use crate::results::summary::{present, write_summary};
-use crate::results::table::{Table, format_number};
+use crate::results::table::{Column, write_rows};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::io::{self, Write};
@@ -250,40 +250,36 @@ impl QuantitySummary {
 
 /// Writes one row for each quantity on each level.
 fn write_table(out: &mut dyn Write, report: &ConvergenceReport) -> io::Result<()> {
-    let columns = [
-        "analysis",
-        "refinement",
-        "quantity",
-        "unit",
-        "level",
-        "size",
-        "value",
-        "error",
-        "extrapolated",
-        "order",
-        "verdict",
+    type Row<'a> = (&'a Series, &'a Quantity, usize);
+    let columns: &[Column<'_, Row<'_>>] = &[
+        ("analysis", &|(series, ..)| (&series.analysis).into()),
+        ("refinement", &|(series, ..)| {
+            series.refinement.name().into()
+        }),
+        ("quantity", &|(_, quantity, _)| (&quantity.name).into()),
+        ("unit", &|(_, quantity, _)| (&quantity.unit).into()),
+        ("level", &|(series, _, level)| {
+            (&series.levels[*level]).into()
+        }),
+        ("size", &|(series, _, level)| series.sizes[*level].into()),
+        ("value", &|(_, quantity, level)| {
+            quantity.values[*level].into()
+        }),
+        ("error", &|(_, quantity, level)| {
+            quantity.errors()[*level].into()
+        }),
+        ("extrapolated", &|(_, quantity, _)| {
+            quantity.verdict.limit().into()
+        }),
+        ("order", &|(_, quantity, _)| quantity.verdict.order().into()),
+        ("verdict", &|(_, quantity, _)| {
+            quantity.verdict.name().into()
+        }),
     ];
-    let mut table = Table::new(out, &columns)?;
-    for series in &report.series {
-        for quantity in &series.quantities {
-            let errors = quantity.errors();
-            let number = |value: Option<f64>| format_number(value.unwrap_or(f64::NAN));
-            for (level, name) in series.levels.iter().enumerate() {
-                table.row([
-                    series.analysis.clone(),
-                    series.refinement.name().to_owned(),
-                    quantity.name.clone(),
-                    quantity.unit.clone(),
-                    name.clone(),
-                    format_number(series.sizes[level]),
-                    format_number(quantity.values[level]),
-                    format_number(errors[level]),
-                    number(quantity.verdict.limit()),
-                    number(quantity.verdict.order()),
-                    quantity.verdict.name().to_owned(),
-                ])?;
-            }
-        }
-    }
-    table.finish()
+    let all = report.series.iter();
+    let each = all.flat_map(|series| series.quantities.iter().map(move |of| (series, of)));
+    let rows = each.flat_map(|(series, quantity)| {
+        (0..series.levels.len()).map(move |level| (series, quantity, level))
+    });
+    write_rows(out, columns, rows)
 }

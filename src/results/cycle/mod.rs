@@ -13,16 +13,16 @@ pub use print::print;
 pub use stability::{ExponentSummary, Finding, StabilitySummary, known};
 pub use summary::{CycleSummary, FamilySummary, LimitCycleSummary, summary};
 
-use crate::contact::ContactStatus;
 use crate::cycle::{
-    Confirmation, CycleBranch, CycleStability, Family, LimitCycle, Onset, StabilityChange,
+    Confirmation, CycleBranch, CyclePowers, CycleStability, Family, LimitCycle, Onset, PhasePoint,
+    StabilityChange,
 };
 use crate::mesh::Mesh2d;
 use crate::results::cycle_figures::CycleRecord;
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::record::write_record;
 use crate::results::summary::write_summary;
-use crate::results::table::{Table, format_number};
+use crate::results::table::{Column, write_rows};
 use serde_json::Value;
 use std::f64::consts::TAU;
 use std::io::{self, Write};
@@ -150,37 +150,20 @@ pub fn write(folder: &OutputFolder, report: &CycleReport<'_>) -> Result<Value, F
 /// # Errors
 /// Those of the writer.
 pub fn write_phases(out: &mut dyn Write, cycle: &LimitCycle) -> io::Result<()> {
-    let columns = [
-        "phase_rad",
-        "time_s",
-        "status",
-        "pressure_pa",
-        "shear_pa",
-        "u_r_m",
-        "u_theta_m",
-        "v_r_m_per_s",
-        "v_theta_m_per_s",
+    let columns: &[Column<'_, &PhasePoint>] = &[
+        ("phase_rad", &|point| point.phase.into()),
+        ("time_s", &|point| {
+            (point.phase / cycle.state.frequency).into()
+        }),
+        ("status", &|point| point.status.name().into()),
+        ("pressure_pa", &|point| point.pressure.into()),
+        ("shear_pa", &|point| point.shear.into()),
+        ("u_r_m", &|point| point.displacement[0].into()),
+        ("u_theta_m", &|point| point.displacement[1].into()),
+        ("v_r_m_per_s", &|point| point.velocity[0].into()),
+        ("v_theta_m_per_s", &|point| point.velocity[1].into()),
     ];
-    let mut table = Table::new(out, &columns)?;
-    for point in &cycle.points {
-        let status = match point.status {
-            ContactStatus::Open => "open",
-            ContactStatus::Stick => "stick",
-            ContactStatus::Slip => "slip",
-        };
-        table.row([
-            format_number(point.phase),
-            format_number(point.phase / cycle.state.frequency),
-            status.to_owned(),
-            format_number(point.pressure),
-            format_number(point.shear),
-            format_number(point.displacement[0]),
-            format_number(point.displacement[1]),
-            format_number(point.velocity[0]),
-            format_number(point.velocity[1]),
-        ])?;
-    }
-    table.finish()
+    write_rows(out, columns, &cycle.points)
 }
 
 /// Writes one row for each cycle of a branch, in the order of the branch.
@@ -193,50 +176,39 @@ pub fn write_branch(
     stability: &[Finding],
     report: &CycleReport<'_>,
 ) -> io::Result<()> {
-    let columns = [
-        branch.parameter.key(),
-        "harmonic",
-        "main_frequency_hz",
-        "stick",
-        "slip",
-        "open",
-        "external_w",
-        "stick_w",
-        "slide_w",
-        "contact_dissipated_w",
-        "material_damping_w",
-        "normal_contact_w",
-        "amplitude_m",
-        "balance_residual",
-        "growth_rate_per_s",
+    type Row<'a> = (&'a LimitCycle, CyclePowers, f64);
+    let value = |cycle: &LimitCycle| {
+        let value = branch.parameter.of(&cycle.state.point);
+        branch.parameter.in_key_units(value)
+    };
+    let columns: &[Column<'_, Row<'_>>] = &[
+        (branch.parameter.key(), &|row| value(row.0).into()),
+        ("harmonic", &|row| (row.0.harmonic as f64).into()),
+        ("main_frequency_hz", &|row| row.0.frequency_hz().into()),
+        ("stick", &|row| row.0.fractions[0].into()),
+        ("slip", &|row| row.0.fractions[1].into()),
+        ("open", &|row| row.0.fractions[2].into()),
+        ("external_w", &|row| row.1.external.into()),
+        ("stick_w", &|row| row.1.stick.into()),
+        ("slide_w", &|row| row.1.slide.into()),
+        ("contact_dissipated_w", &|row| {
+            row.1.contact_dissipated.into()
+        }),
+        ("material_damping_w", &|row| row.1.material_damping.into()),
+        ("normal_contact_w", &|row| row.1.normal_contact.into()),
+        ("amplitude_m", &|row| amplitude(row.0).into()),
+        ("balance_residual", &|row| {
+            row.0.powers.balance_residual().into()
+        }),
+        ("growth_rate_per_s", &|row| row.2.into()),
     ];
-    let mut table = Table::new(out, &columns)?;
-    for (i, cycle) in branch.cycles.iter().enumerate() {
+    let rows = branch.cycles.iter().enumerate().map(|(i, cycle)| {
         let leading = stability.get(i).and_then(known);
         let leading = leading.and_then(CycleStability::leading);
-        let powers = cycle.powers.scaled(report.thickness);
-        let [stick, slip, open] = cycle.fractions;
-        table.numbers(&[
-            branch
-                .parameter
-                .in_key_units(branch.parameter.of(&cycle.state.point)),
-            cycle.harmonic as f64,
-            cycle.frequency_hz(),
-            stick,
-            slip,
-            open,
-            powers.external,
-            powers.stick,
-            powers.slide,
-            powers.contact_dissipated,
-            powers.material_damping,
-            powers.normal_contact,
-            amplitude(cycle),
-            cycle.powers.balance_residual(),
-            leading.map_or(f64::NAN, |leading| leading.exponent.re),
-        ])?;
-    }
-    table.finish()
+        let growth = leading.map_or(f64::NAN, |leading| leading.exponent.re);
+        (cycle, cycle.powers.scaled(report.thickness), growth)
+    });
+    write_rows(out, columns, rows)
 }
 
 /// Amplitude of the wave's own harmonic of the edge's tangential displacement, m; half the peak-to-peak motion where the

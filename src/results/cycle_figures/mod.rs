@@ -10,7 +10,9 @@ pub use record::{BranchRecord, CycleRecord, FamilyRecord, WaveRecord};
 pub use report::draw;
 
 use super::charts::palette::{status_ground, status_of_code};
-use super::charts::{Disc, FieldFrame, MovingBody, contact_figure, field_figure, status_curves};
+use super::charts::{
+    Disc, FieldFrame, MovingBody, contact_figure, field_figure, shear_stress_figure, status_curves,
+};
 use super::drawing::{Declaration, DrawingOptions, draw_all};
 use super::report::NamedFigure;
 use crate::chart::{
@@ -19,7 +21,7 @@ use crate::chart::{
 };
 use crate::contact::{ContactStatus, SlidingContact};
 use crate::cycle::Family;
-use crate::fem::{ElasticMaterial, nodal_stress};
+use crate::fem::ElasticMaterial;
 use crate::mesh::Mesh2d;
 use std::f64::consts::TAU;
 
@@ -285,26 +287,13 @@ impl CycleFigures<'_> {
     }
 
     fn shear_stress(&self) -> Result<Figure, ChartError> {
-        let frames = self
-            .cycles()
-            .take(FIELD_LIMIT)
-            .map(|(family, wave)| -> FieldFrame {
-                let stress = nodal_stress(self.mesh, self.material, &wave.displacement_field);
-                (
-                    heading(family.harmonic, wave),
-                    stress.iter().map(|node| node.shear).collect(),
-                    Vec::new(),
-                )
-            });
-        let axis = Axis::new("shear stress *τ*_{rθ}", "MPa").times(1e-6);
-        let caption = ("shear-stress", "Shear stress of the waves at one instant.");
-        field_figure(
-            caption,
-            &Disc::new(self.mesh),
-            &axis,
-            ColourMap::Diverging,
-            frames.collect(),
-        )
+        let waves = self.cycles().take(FIELD_LIMIT);
+        let fields = waves.map(|(family, wave)| {
+            let heading = heading(family.harmonic, wave);
+            (heading, &wave.displacement_field[..])
+        });
+        let caption = "Shear stress of the waves at one instant.";
+        shear_stress_figure(caption, &Disc::new(self.mesh), self.material, fields)
     }
 }
 

@@ -8,7 +8,7 @@ pub use report::draw_report;
 pub use summary::{FitSummary, FittedParameter, LineSummary, ModeSummary, SearchSummary};
 
 use super::summary::write_summary;
-use super::table::{Table, format_number};
+use super::table::{Column, write_rows};
 use super::{FolderError, OutputFolder};
 use serde_json::Value;
 
@@ -21,64 +21,30 @@ const BLOCK: &str = "fitted.toml";
 /// # Errors
 /// Those of the folder.
 pub fn write(folder: &OutputFolder, summary: &FitSummary) -> Result<Value, FolderError> {
-    let columns = [
-        "line",
-        "frequency_hz",
-        "real_hz",
-        "harmonic",
-        "model_harmonic",
-        "model_branch",
-        "model_direction",
-        "model_frequency_hz",
-        "model_real_hz",
-        "difference_hz",
-        "difference_percent",
-        "real_difference_hz",
+    let lines: &[Column<'_, &LineSummary>] = &[
+        ("line", &|line| line.line.into()),
+        ("frequency_hz", &|line| line.frequency_hz.into()),
+        ("real_hz", &|line| line.real_hz.into()),
+        ("harmonic", &|line| line.harmonic.into()),
+        ("model_harmonic", &|line| line.mode.harmonic.into()),
+        ("model_branch", &|line| line.mode.branch.into()),
+        ("model_direction", &|line| line.mode.direction.into()),
+        ("model_frequency_hz", &|line| line.mode.frequency_hz.into()),
+        ("model_real_hz", &|line| line.mode.real_hz.into()),
+        ("difference_hz", &|line| line.difference_hz.into()),
+        ("difference_percent", &|line| line.difference_percent.into()),
+        ("real_difference_hz", &|line| line.real_difference_hz.into()),
     ];
-    let optional = |value: Option<f64>| value.map_or_else(String::new, format_number);
-    let count = |value: Option<usize>| value.map_or_else(String::new, |n| n.to_string());
-    folder.write("fit.csv", |out| {
-        let mut table = Table::new(out, &columns)?;
-        for line in &summary.residuals {
-            table.row([
-                line.line.to_string(),
-                format_number(line.frequency_hz),
-                optional(line.real_hz),
-                count(line.harmonic),
-                count(line.mode.harmonic),
-                line.mode.branch.to_string(),
-                line.mode.direction.to_string(),
-                format_number(line.mode.frequency_hz),
-                format_number(line.mode.real_hz),
-                format_number(line.difference_hz),
-                format_number(line.difference_percent),
-                optional(line.real_difference_hz),
-            ])?;
-        }
-        table.finish()
-    })?;
-    let columns = [
-        "harmonic",
-        "branch",
-        "direction",
-        "frequency_hz",
-        "real_hz",
-        "unstable",
+    folder.write("fit.csv", |out| write_rows(out, lines, &summary.residuals))?;
+    let modes: &[Column<'_, &ModeSummary>] = &[
+        ("harmonic", &|mode| mode.harmonic.into()),
+        ("branch", &|mode| mode.branch.into()),
+        ("direction", &|mode| mode.direction.into()),
+        ("frequency_hz", &|mode| mode.frequency_hz.into()),
+        ("real_hz", &|mode| mode.real_hz.into()),
+        ("unstable", &|mode| u8::from(mode.is_unstable()).into()),
     ];
-    folder.write("modes.csv", |out| {
-        let mut table = Table::new(out, &columns)?;
-        for mode in &summary.modes {
-            table.row([
-                count(mode.harmonic),
-                mode.branch.to_string(),
-                mode.direction.to_string(),
-                format_number(mode.frequency_hz),
-                format_number(mode.real_hz),
-                u8::from(mode.is_unstable()).to_string(),
-            ])?;
-        }
-        table.finish()
-    })?;
+    folder.write("modes.csv", |out| write_rows(out, modes, &summary.modes))?;
     folder.write(BLOCK, |out| out.write_all(summary.block().as_bytes()))?;
     write_summary(folder, summary)
 }

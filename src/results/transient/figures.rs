@@ -2,11 +2,12 @@
 
 use crate::chart::{Axis, ChartError, ColourMap, Figure, Line, Panel, SERIES, extremes};
 use crate::contact::{ContactInterface, ContactStatus};
-use crate::fem::{MaterialField, nodal_stress};
+use crate::fem::MaterialField;
 use crate::mesh::{Mesh2d, SolidFace, SolidSector};
 use crate::results::charts::palette::status_of_code;
 use crate::results::charts::{
-    Disc, FieldFrame, ModeLine, contact_figure, field_figure, open_contact_figure, status_curves,
+    Disc, FieldFrame, ModeLine, contact_figure, field_figure, open_contact_figure,
+    shear_stress_figure, status_curves,
 };
 use crate::results::drawing::{Declaration, DrawingOptions, draw_all};
 use crate::results::report::NamedFigure;
@@ -148,23 +149,10 @@ impl RunFigures<'_> {
         if self.solid.is_some() {
             return Err(ChartError::empty("shear stress of a plane body"));
         }
-        let frames = self.snapshots().map(|snapshot| -> FieldFrame {
-            let stress = nodal_stress(self.mesh, self.material, &snapshot.displacement);
-            (
-                heading(snapshot),
-                stress.iter().map(|node| node.shear).collect(),
-                Vec::new(),
-            )
-        });
-        let axis = Axis::new("shear stress *τ*_{rθ}", "MPa").times(1e-6);
-        let caption = ("shear-stress", "Shear stress at the snapshot times.");
-        field_figure(
-            caption,
-            &Disc::new(self.mesh),
-            &axis,
-            ColourMap::Diverging,
-            frames.collect(),
-        )
+        let fields = self.snapshots();
+        let fields = fields.map(|snapshot| (heading(snapshot), &snapshot.displacement[..]));
+        let caption = "Shear stress at the snapshot times.";
+        shear_stress_figure(caption, &Disc::new(self.mesh), self.material, fields)
     }
 
     /// Whether a probe lies on the contact edge.

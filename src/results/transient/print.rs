@@ -72,6 +72,15 @@ pub fn print(summary: &TransientSummary, state: EndState) -> String {
             fixed(100.0 * share, 3)
         );
     }
+    if let Some(steps) = summary.unconverged_steps {
+        let _ = writeln!(
+            out,
+            "  forces between the bodies had not converged in {steps} of {} steps: there they are approximate, though the \
+             energy closes; many contact nodes meet one node of the other body: name the coarser of the two curves in \
+             contact.boundary, or refine the other body",
+            summary.steps
+        );
+    }
     for (node, probe) in &summary.probes {
         if let Some(place) = probe.place {
             let [[x, y], [p, q]] =

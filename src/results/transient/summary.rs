@@ -61,6 +61,9 @@ pub struct TransientSummary {
     /// Share of the steps of contact nodes that could have ended in stick and in slip alike; absent where there is none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ambiguous_friction: Option<f64>,
+    /// Steps in which the forces between two bodies had not converged; absent where there is none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub unconverged_steps: Option<u64>,
     /// Mean amplitudes of the harmonics 0 to 8 of the contact edge's tangential displacement, m.
     pub harmonics: Vec<f64>,
     /// The same of all harmonics `n >= 1` above a thousandth of the largest, by `nN`.
@@ -235,6 +238,7 @@ pub fn summary(report: &TransientReport<'_>, manifest: &Manifest) -> TransientSu
                 .then_some(report.thickness * end.powers.damping),
         },
         ambiguous_friction: report.record.ambiguous_share(),
+        unconverged_steps: Some(report.record.unconverged_steps).filter(|steps| *steps > 0),
         harmonics: end.harmonics.to_vec(),
         significant_harmonics_m: by_harmonic(end.significant.iter().copied()),
         growth: analysis.growth.iter().filter_map(growth).collect(),

@@ -5,7 +5,7 @@ use crate::contact::{ContactInterface, ContactStatus};
 use crate::fem::operator::{MotionFields, StepCoefficients, StiffnessOperator};
 use std::collections::BTreeMap;
 
-/// Sweeps over the contact nodes within one step, at most.
+/// Sweeps over the contact nodes within one step, at most; a step that needs more is counted.
 const MOST_SWEEPS: usize = 400;
 
 /// Change of a force within a sweep, relative to the largest, at which the sweeps end.
@@ -214,6 +214,7 @@ impl LagrangeContact {
         let dt = coefficients.time_step;
         self.gather(&mut opposite, fields, coefficients);
         let is_coupled = opposite.mobility.iter().any(|row| row.len() > 1);
+        let mut is_converged = false;
         for _ in 0..MOST_SWEEPS {
             let (mut change, mut largest) = (0.0_f64, 0.0_f64);
             self.ambiguous = 0;
@@ -226,10 +227,12 @@ impl LagrangeContact {
                 change = change.max(moved[0]).max(moved[1]);
                 largest = largest.max(force[0]);
             }
-            if !is_coupled || change <= TOLERANCE * largest {
+            is_converged = !is_coupled || change <= TOLERANCE * largest;
+            if is_converged {
                 break;
             }
         }
+        self.unconverged_steps += u64::from(!is_converged);
         for (i, force) in opposite.forces.iter().enumerate() {
             self.normal_force[i] = force[0];
             fields.elastic[self.normal[i]] -= force[0] / self.masses[i];

@@ -28,6 +28,7 @@ impl Observer for Recorder {
             balance_residual: sample.balance_residual,
             harmonics: std::array::from_fn(|n| amplitudes[n]),
         });
+        self.unconverged_steps += sample.unconverged_steps;
         self.observe_probes(sample);
         self.observe_contact(sample);
         if self.snapshot_indices.contains(&sample.index) {

@@ -185,7 +185,11 @@ fn bound(tangent: &SolidTangent, limit: ModeLimit) -> Result<f64, CeaError> {
                 .collect())
         })
         .collect();
-    let mut kappas: Vec<f64> = found?.into_iter().flatten().collect();
+    just_above(asked, found?.into_iter().flatten().collect())
+}
+
+/// A little more than the lowest `kappa` but `asked - 1`.
+fn just_above(asked: usize, mut kappas: Vec<f64>) -> Result<f64, CeaError> {
     kappas.sort_by(f64::total_cmp);
     let total = kappas.len();
     kappas
@@ -212,13 +216,7 @@ fn wanted(
             .iter()
             .flat_map(move |&kappa| vec![kappa; waves])
     });
-    let mut kappas: Vec<f64> = all.collect();
-    kappas.sort_by(f64::total_cmp);
-    let total = kappas.len();
-    kappas
-        .get(asked - 1)
-        .map(|kappa| kappa * (1.0 + 1e-9))
-        .ok_or(CeaError::TooManyModes { asked, total })
+    just_above(asked, all.collect())
 }
 
 /// The harmonics that have modes below `kappa` at rest, reduced, and those counted empty.

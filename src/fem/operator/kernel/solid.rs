@@ -1,6 +1,6 @@
 //! Inner loops of a body of revolution in three dimensions.
 
-use super::{LANES, SUMS, add_up, move_range, multiply_add};
+use super::{LANES, SUMS, add_up, move_places, multiply_add};
 use crate::fem::operator::{MotionFields, SimdLevel, StepCoefficients};
 
 /// What one sheet node does to another of its own sector and of the two beside it, already divided by the mass.
@@ -158,16 +158,7 @@ fn solid_advance_body<const FUSED: bool>(
     for step in 0..layout.nodes + layout.reach {
         if step < layout.nodes {
             let range = layout.line(step, 0)..layout.line(step + 1, 0);
-            move_range::<FUSED>(
-                &masses[range.clone()],
-                [
-                    &mut fields.displacement[range.clone()],
-                    &mut fields.velocity[range.clone()],
-                ],
-                [&fields.elastic[range.clone()], &fields.elastic_rate[range]],
-                coefficients,
-                &mut sums,
-            );
+            move_places::<FUSED>(range, masses, fields, coefficients, &mut sums);
             close_seams(layout, step, &mut fields.velocity);
         }
         let Some(node) = step.checked_sub(layout.reach) else {

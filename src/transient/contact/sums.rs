@@ -1,0 +1,83 @@
+//! What the contact does, summed over its nodes and over steps.
+
+use serde::{Deserialize, Serialize};
+use std::ops::AddAssign;
+
+/// Powers that cross the contact edge, W for each metre of thickness, with every velocity the mean
+/// `v_n = (v_{n+1/2} + v_{n-1/2}) / 2`.
+///
+/// `external = stick + slide + contact_dissipated` holds term by term (equation 10 of Brunetti et al.). A
+/// node that starts or ends to stick within the step still slides in its mean velocity; that part is counted as
+/// dissipated, which the paper's sum over slipping nodes leaves open.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ContactPowers {
+    /// `sum T Omega a` (equation 9).
+    pub external: f64,
+    /// `sum T v_t` over sticking nodes.
+    pub stick: f64,
+    /// `sum T v_t` over slipping nodes.
+    pub slide: f64,
+    /// `sum T (Omega a - v_t)`.
+    pub contact_dissipated: f64,
+    /// Of the normal forces: `sum N v_n`, impacts and the expansion of the cylinder; for compliant contact, whose springs
+    /// and dashpots keep accounts of their own, `N` times the normal velocity of the counterface.
+    pub normal: f64,
+    /// What the dashpots of the contact dissipate.
+    pub damping: f64,
+}
+
+impl AddAssign for ContactPowers {
+    fn add_assign(&mut self, other: Self) {
+        self.external += other.external;
+        self.stick += other.stick;
+        self.slide += other.slide;
+        self.contact_dissipated += other.contact_dissipated;
+        self.normal += other.normal;
+        self.damping += other.damping;
+    }
+}
+
+impl ContactPowers {
+    /// Every power times `factor`.
+    pub fn scaled(&self, factor: f64) -> Self {
+        Self {
+            external: factor * self.external,
+            stick: factor * self.stick,
+            slide: factor * self.slide,
+            contact_dissipated: factor * self.contact_dissipated,
+            normal: factor * self.normal,
+            damping: factor * self.damping,
+        }
+    }
+}
+
+/// Number of contact nodes in each status.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct StatusCounts {
+    /// Sticking.
+    pub stick: u64,
+    /// Slipping.
+    pub slip: u64,
+    /// Not in contact.
+    pub open: u64,
+    /// Of those in contact, how many could have stuck and slipped alike: friction falls faster with speed than the
+    /// inertia of the node allows.
+    pub ambiguous: u64,
+}
+
+impl AddAssign for StatusCounts {
+    fn add_assign(&mut self, other: Self) {
+        self.stick += other.stick;
+        self.slip += other.slip;
+        self.open += other.open;
+        self.ambiguous += other.ambiguous;
+    }
+}
+
+impl StatusCounts {
+    /// Fractions `[stick, slip, open]`; zeros if nothing was counted.
+    pub fn fractions(&self) -> [f64; 3] {
+        let total = (self.stick + self.slip + self.open).max(1) as f64;
+        [self.stick, self.slip, self.open].map(|count| count as f64 / total)
+    }
+}
