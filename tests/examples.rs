@@ -8,6 +8,8 @@ mod friction_sweep;
 mod limit_cycle;
 #[path = "../examples/parameter_study.rs"]
 mod parameter_study;
+#[path = "../examples/studies.rs"]
+mod studies;
 
 #[test]
 fn modes_of_an_annulus_are_those_of_the_continuum() {
@@ -27,4 +29,9 @@ fn a_parameter_study_finds_friction_to_decide() {
 #[test]
 fn limit_cycle_closes_its_energy_balance() {
     limit_cycle::main().unwrap();
+}
+
+#[test]
+fn studies_of_shipped_cases_take_a_handful_of_calls() {
+    studies::main().unwrap();
 }

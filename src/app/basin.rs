@@ -30,7 +30,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let summary = summary(&session.case, &session.manifest)?;
     write_basin(&folder, &summary)?;
     let object = write_summary(&folder, &summary)?;
-    let path = folder.path().to_owned();
-    folder.finish()?;
-    session.print(&summary.text(), &object, &path)
+    session
+        .options
+        .output
+        .finish(folder, &summary.text(), &object)
 }

@@ -64,18 +64,11 @@ fn run_with(
         ..eigenvalues::report(case, cea, &model, &solution, &field, session.wall_seconds())
     };
     let summary = write(&folder, &report)?;
-    if !session.options.output.no_figures {
-        draw(
-            &folder,
-            &report,
-            case.damping.rayleigh,
-            &session.options.output.figures.drawing(),
-        )?;
+    if let Some(drawing) = session.options.output.drawing() {
+        draw(&folder, &report, case.damping.rayleigh, &drawing)?;
     }
-    let path = folder.path().to_owned();
-    folder.finish()?;
     let table = print(&report, session.options.output.verbose > 0);
-    session.print(&table, &summary, &path)
+    session.options.output.finish(folder, &table, &summary)
 }
 
 /// Draws the figures of a folder again: solves the case anew, which the same case answers with the same

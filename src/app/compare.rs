@@ -63,8 +63,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let manifest = manifest_of(&arguments.folders, &runs);
     let folder = arguments.output.open_folder(&manifest, false)?;
     write_comparison(&folder, &runs, &quantities)?;
-    if !arguments.output.no_figures {
-        let drawing = arguments.output.figures.drawing();
+    if let Some(drawing) = arguments.output.drawing() {
         let figures = overlaid(&runs, &drawing).map_err(DrawingError::from)?;
         write_report(
             &folder,
@@ -80,9 +79,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         manifest,
     };
     let summary = write_summary(&folder, &summary)?;
-    let path = folder.path().to_owned();
-    folder.finish()?;
-    arguments.output.print(&table, &summary, &path)
+    arguments.output.finish(folder, &table, &summary)
 }
 
 /// What the comparison is made from: the folders and the cases of their results.

@@ -44,12 +44,13 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         wall_s: session.wall_seconds(),
     };
     let summary = write(&folder, &report)?;
-    if !session.options.output.no_figures {
-        draw(&folder, &report, &session.options.output.figures.drawing())?;
+    if let Some(drawing) = session.options.output.drawing() {
+        draw(&folder, &report, &drawing)?;
     }
-    let path = folder.path().to_owned();
-    folder.finish()?;
-    session.print(&print(&report), &summary, &path)
+    session
+        .options
+        .output
+        .finish(folder, &print(&report), &summary)
 }
 
 /// Draws the figures of a folder again, from its `record.bin`.

@@ -48,17 +48,13 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         }
     }
     let summary = write(&folder, &report)?;
-    if !session.options.output.no_figures {
-        figures::redraw(
-            &folder,
-            case,
-            &summary,
-            &session.options.output.figures.drawing(),
-        )?;
+    if let Some(drawing) = session.options.output.drawing() {
+        figures::redraw(&folder, case, &summary, &drawing)?;
     }
-    let path = folder.path().to_owned();
-    folder.finish()?;
-    session.print(&print(&report), &summary, &path)
+    session
+        .options
+        .output
+        .finish(folder, &print(&report), &summary)
 }
 
 /// Refuses phases whose dense matrices do not fit the machine's memory.

@@ -49,12 +49,13 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         tracing::warn!("{note}");
     }
     let object = write(&folder, &found)?;
-    if !session.options.output.no_figures {
-        draw_report(&folder, &found, &session.options.output.figures.drawing())?;
+    if let Some(drawing) = session.options.output.drawing() {
+        draw_report(&folder, &found, &drawing)?;
     }
-    let path = folder.path().to_owned();
-    folder.finish()?;
-    session.print(&found.text(), &object, &path)
+    session
+        .options
+        .output
+        .finish(folder, &found.text(), &object)
 }
 
 /// Draws the figure and the report of a folder from its summary.

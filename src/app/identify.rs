@@ -116,13 +116,10 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         let text: String = file.responses.iter().map(write_response).collect();
         write_aside(path, text.as_bytes())?;
     }
-    if !arguments.output.no_figures {
-        let drawing = arguments.output.figures.drawing();
+    if let Some(drawing) = arguments.output.drawing() {
         draw_all(&folder, &record, &summary, &drawing)?;
     }
-    let path = folder.path().to_owned();
-    folder.finish()?;
-    measurement.print(&summary.print(), &object, &path)
+    arguments.output.finish(folder, &summary.print(), &object)
 }
 
 /// Draws the figure and the report of a folder from its `record.bin` and its summary.

@@ -4,7 +4,6 @@ use super::options::{OutputOptions, input_name, read_input};
 use super::{Failure, terminal};
 use crate::results::{Manifest, OutputFolder};
 use crate::signal::reader::ReadError;
-use serde_json::Value;
 use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
 use std::io::Write as _;
@@ -75,14 +74,6 @@ impl Measurement {
     /// Wall time since the start, s.
     pub fn wall_seconds(&self) -> f64 {
         self.start.elapsed().as_secs_f64()
-    }
-
-    /// Prints the summary as JSON, or the table for people and where the files are.
-    ///
-    /// # Errors
-    /// Those of stdout.
-    pub fn print(&self, table: &str, summary: &Value, folder: &Path) -> Result<(), Failure> {
-        self.options.print(table, summary, folder)
     }
 }
 

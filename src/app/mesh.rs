@@ -39,8 +39,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     if let Some(sector) = &solid {
         statistics.turn(sector);
     }
-    if !session.options.output.no_figures {
-        redraw(&folder, case, &session.options.output.figures.drawing())?;
+    if let Some(drawing) = session.options.output.drawing() {
+        redraw(&folder, case, &drawing)?;
     }
     let summary = MeshSummary {
         command: "mesh".to_owned(),
@@ -50,9 +50,10 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         manifest: session.manifest.clone(),
     };
     let object = write_summary(&folder, &summary)?;
-    let path = folder.path().to_owned();
-    folder.finish()?;
-    session.print(&print(&summary), &object, &path)
+    session
+        .options
+        .output
+        .finish(folder, &print(&summary), &object)
 }
 
 /// Draws the picture of a folder again.

@@ -4,7 +4,7 @@ use super::figure_options::FigureOptions;
 use super::{Failure, terminal};
 use crate::case::unset;
 use crate::fem::operator::SimdLevel;
-use crate::results::{Manifest, OutputFolder, Replace, read_manifest};
+use crate::results::{DrawingOptions, Manifest, OutputFolder, Replace, read_manifest};
 use clap::{ArgAction, Args, ValueEnum, ValueHint};
 use serde_json::{Value, json};
 use std::path::{Component, Path, PathBuf};
@@ -152,6 +152,26 @@ impl OutputOptions {
         } else {
             Ok(())
         }
+    }
+
+    /// How figures are drawn, if they are.
+    pub fn drawing(&self) -> Option<DrawingOptions> {
+        (!self.no_figures).then(|| self.figures.drawing())
+    }
+
+    /// Completes the output folder and prints as [`Self::print`].
+    ///
+    /// # Errors
+    /// Those of the folder and of stdout.
+    pub fn finish(
+        &self,
+        folder: OutputFolder,
+        table: &str,
+        summary: &Value,
+    ) -> Result<(), Failure> {
+        let path = folder.path().to_owned();
+        folder.finish()?;
+        self.print(table, summary, &path)
     }
 
     /// Says what a run would do; the end of a dry run.

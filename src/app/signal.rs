@@ -157,18 +157,13 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let object = write(&folder, &summary, &spectra)?;
     let record = record(arguments, &file, &summary, &modes, spectra);
     write_record(&folder, &record)?;
-    if !arguments.output.no_figures {
-        draw_all(
-            &folder,
-            &record,
-            &summary,
-            &arguments.output.figures.drawing(),
-        )?;
+    if let Some(drawing) = arguments.output.drawing() {
+        draw_all(&folder, &record, &summary, &drawing)?;
     }
     let aside = write_copies(arguments, &file)?;
-    let path = folder.path().to_owned();
-    folder.finish()?;
-    measurement.print(&(summary.print() + &aside), &object, &path)
+    arguments
+        .output
+        .finish(folder, &(summary.print() + &aside), &object)
 }
 
 /// Length of the spectrogram's window, s.

@@ -71,8 +71,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         wall_s: session.wall_seconds(),
     };
     let summary = if report.missing().is_empty() {
-        let is_drawn = !output.no_figures;
-        let drawing = is_drawn.then(|| drawing(&session.case, &plan, &output.figures.drawing()));
+        let options = output.drawing();
+        let drawing = options.map(|options| drawing(&session.case, &plan, &options));
         gather(&folder, &report, &session.manifest, drawing.as_ref())?
     } else {
         summary_object(&report, &session.manifest)?
@@ -177,9 +177,6 @@ pub fn gather(
         })?;
     }
     let summary = summary_object(report, manifest)?;
-    folder.write("summary.json", |out| {
-        serde_json::to_writer_pretty(&mut *out, &summary)?;
-        out.write_all(b"\n")
-    })?;
+    folder.write_summary(&summary)?;
     Ok(summary)
 }

@@ -105,15 +105,12 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         return Err(stopped(folder, &loop_));
     }
     let output = &arguments.options.output;
-    if !output.no_figures {
-        let drawing = output.figures.drawing();
+    if let Some(drawing) = output.drawing() {
         figures::draw_record(&folder, &study, record, &summary, &drawing)?;
     }
-    let path = folder.path().to_owned();
-    folder.finish()?;
     let table = print(&summary, analysis.settling.state);
     let object = object(&summary).map_err(Failure::run)?;
-    session.print(&table, &object, &path)
+    output.finish(folder, &table, &object)
 }
 
 /// What came of the time loop.

@@ -96,12 +96,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     if missing == 0 {
         let largest = summary.largest_friction;
         write_samples(&folder, &sampler.keys(), &samples, largest)?;
-        folder.write("summary.json", |out| {
-            serde_json::to_writer_pretty(&mut *out, &object)?;
-            out.write_all(b"\n")
-        })?;
-        if !output.no_figures {
-            draw_report(&folder, &summary, &output.figures.drawing())?;
+        folder.write_summary(&object)?;
+        if let Some(drawing) = output.drawing() {
+            draw_report(&folder, &summary, &drawing)?;
         }
     }
     session.print(&summary.text(), &object, folder.path())

@@ -12,7 +12,7 @@ pub use summary::{
 };
 
 use super::summary::write_summary;
-use super::table::{Table, format_number};
+use super::table::{Column, Table, write_rows};
 use super::{FolderError, OutputFolder};
 use crate::signal::AmplitudeSpectrum;
 use serde_json::Value;
@@ -40,44 +40,38 @@ pub fn write(
 }
 
 fn write_peaks(out: &mut dyn std::io::Write, summary: &SignalSummary) -> std::io::Result<()> {
-    let columns = [
-        "channel",
-        "peak",
-        "frequency_hz",
-        "amplitude",
-        "superharmonic_of_peak",
-        "order",
-        "nearest_mode",
-        "mode_frequency_hz",
-        "harmonic",
-        "branch",
-        "direction",
-    ];
-    let mut table = Table::new(out, &columns)?;
-    for channel in &summary.channels {
-        for (k, peak) in channel.peaks.iter().enumerate() {
-            let mut cells = vec![
-                channel.name.clone(),
-                (k + 1).to_string(),
-                format_number(peak.frequency_hz),
-                format_number(peak.amplitude),
-            ];
-            cells.extend(match &peak.superharmonic {
-                Some(line) => [line.of_peak.to_string(), line.order.to_string()],
-                None => [String::new(), String::new()],
-            });
-            cells.extend(match &peak.nearest_mode {
-                Some(mode) => [
-                    mode.mode.to_string(),
-                    format_number(mode.frequency_hz),
-                    mode.harmonic.map_or(String::new(), |n| n.to_string()),
-                    mode.branch.to_string(),
-                    mode.direction.map_or(String::new(), |d| d.to_string()),
-                ],
-                None => Default::default(),
-            });
-            table.row(cells)?;
-        }
+    type Row<'a> = (&'a str, usize, &'a PeakSummary);
+    fn mode<'a>(row: &Row<'a>) -> Option<&'a ModeSummary> {
+        row.2.nearest_mode.as_ref()
     }
-    table.finish()
+    let columns: &[Column<'_, Row<'_>>] = &[
+        ("channel", &|row| row.0.into()),
+        ("peak", &|row| (row.1 + 1).into()),
+        ("frequency_hz", &|row| row.2.frequency_hz.into()),
+        ("amplitude", &|row| row.2.amplitude.into()),
+        ("superharmonic_of_peak", &|row| {
+            row.2.superharmonic.as_ref().map(|line| line.of_peak).into()
+        }),
+        ("order", &|row| {
+            row.2.superharmonic.as_ref().map(|line| line.order).into()
+        }),
+        ("nearest_mode", &|row| {
+            mode(row).map(|mode| mode.mode).into()
+        }),
+        ("mode_frequency_hz", &|row| {
+            mode(row).map(|mode| mode.frequency_hz).into()
+        }),
+        ("harmonic", &|row| {
+            mode(row).and_then(|mode| mode.harmonic).into()
+        }),
+        ("branch", &|row| mode(row).map(|mode| mode.branch).into()),
+        ("direction", &|row| {
+            mode(row).and_then(|mode| mode.direction).into()
+        }),
+    ];
+    let rows = summary.channels.iter().flat_map(|channel| {
+        let peaks = channel.peaks.iter().enumerate();
+        peaks.map(|(k, peak)| (&*channel.name, k, peak))
+    });
+    write_rows(out, columns, rows)
 }

@@ -4,7 +4,7 @@ use crate::contact::ContactStatus;
 use crate::fem::NodalStress;
 use crate::mesh::Mesh2d;
 use crate::results::folder::{FolderError, OutputFolder};
-use crate::results::table::{Table, format_number};
+use crate::results::table::{Column, write_rows};
 use crate::results::vtu::{EncodedMesh, Field, write_vtu};
 use serde::{Deserialize, Serialize};
 
@@ -73,30 +73,24 @@ pub fn write_base(
     base: &BaseField,
 ) -> Result<(), FolderError> {
     folder.write("prestress.csv", |out| {
-        let mut columns = vec!["node", "angle_degrees", "pressure_pa", "shear_pa"];
-        if base.is_pressed.is_some() {
-            columns.extend(["status", "x_m", "y_m"]);
-        }
-        let mut table = Table::new(out, &columns)?;
-        for (i, &node) in base.nodes.iter().enumerate() {
-            let of_a_body = base.is_pressed.as_ref().map(|is_pressed| {
-                let status = if is_pressed[i] {
-                    ContactStatus::Slip
-                } else {
-                    ContactStatus::Open
-                };
-                let [x, y] = mesh.nodes[node as usize].map(format_number);
-                [status.name().to_owned(), x, y]
-            });
-            let row = [
-                mesh.node_label(node as usize).to_string(),
-                format_number(base.angles[i].to_degrees()),
-                format_number(base.pressures[i]),
-                format_number(base.shears[i]),
-            ];
-            table.row(row.into_iter().chain(of_a_body.into_iter().flatten()))?;
-        }
-        table.finish()
+        let status = |i: usize| {
+            let is_pressed = base.is_pressed.as_ref()?[i];
+            let status = [ContactStatus::Open, ContactStatus::Slip][usize::from(is_pressed)];
+            Some(status.name())
+        };
+        let place = |i: usize| mesh.nodes[base.nodes[i] as usize];
+        let columns: &[Column<'_, usize>] = &[
+            ("node", &|i| mesh.node_label(base.nodes[*i] as usize).into()),
+            ("angle_degrees", &|i| base.angles[*i].to_degrees().into()),
+            ("pressure_pa", &|i| base.pressures[*i].into()),
+            ("shear_pa", &|i| base.shears[*i].into()),
+            ("status", &|i| status(*i).into()),
+            ("x_m", &|i| place(*i)[0].into()),
+            ("y_m", &|i| place(*i)[1].into()),
+        ];
+        // On an annulus every node slips, at its angle.
+        let shown = if base.is_pressed.is_some() { 7 } else { 4 };
+        write_rows(out, &columns[..shown], 0..base.nodes.len())
     })?;
     let mut fields = vec![Field::vectors("displacement_m", mesh, &base.displacement)];
     fields.extend(Field::stresses(&base.stress));

@@ -4,7 +4,7 @@ use crate::cea::UnstableInterval;
 use crate::cea::cyclic::StabilityMapPoint;
 use crate::chart::{ChartError, Figure};
 use crate::results::charts::{CriticalBranch, critical_friction};
-use crate::results::table::{Table, format_number};
+use crate::results::table::{Column, write_rows};
 use std::collections::BTreeSet;
 use std::io::{self, Write};
 
@@ -26,47 +26,29 @@ impl MapReport {
     /// # Errors
     /// Those of the writer.
     pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
-        let columns = [
-            self.key.as_str(),
-            "harmonic",
-            "branch",
-            "direction",
-            "critical_friction",
-            "frequency_hz",
-            "restabilized_friction",
-            "error",
+        type Row<'a> = (f64, Option<&'a UnstableInterval>, Option<String>);
+        let columns: &[Column<'_, Row<'_>>] = &[
+            (&self.key, &|row| row.0.into()),
+            ("harmonic", &|row| row.1.map(|i| i.harmonic).into()),
+            ("branch", &|row| row.1.map(|i| i.branch).into()),
+            ("direction", &|row| row.1.map(|i| i.direction).into()),
+            ("critical_friction", &|row| {
+                row.1.map(|i| i.critical_friction).into()
+            }),
+            ("frequency_hz", &|row| row.1.map(|i| i.frequency_hz).into()),
+            ("restabilized_friction", &|row| {
+                row.1.and_then(|i| i.restabilized).map(|end| end.0).into()
+            }),
+            ("error", &|row| row.2.clone().into()),
         ];
-        let mut table = Table::new(out, &columns)?;
-        for point in &self.points {
-            let value = format_number(point.value);
-            let mut row = |interval: Option<&UnstableInterval>, error: String| {
-                let text =
-                    |of: &dyn Fn(&UnstableInterval) -> String| interval.map_or(String::new(), of);
-                table.row([
-                    value.clone(),
-                    text(&|i| i.harmonic.to_string()),
-                    text(&|i| i.branch.to_string()),
-                    text(&|i| i.direction.to_string()),
-                    text(&|i| format_number(i.critical_friction)),
-                    text(&|i| format_number(i.frequency_hz)),
-                    text(&|i| {
-                        i.restabilized
-                            .map_or(String::new(), |end| format_number(end.0))
-                    }),
-                    error,
-                ])
-            };
+        let rows = self.points.iter().flat_map(|point| -> Vec<Row<'_>> {
             match &point.outcome {
-                Ok(intervals) if intervals.is_empty() => row(None, String::new())?,
-                Ok(intervals) => {
-                    for interval in intervals {
-                        row(Some(interval), String::new())?;
-                    }
-                }
-                Err(error) => row(None, error.to_string())?,
+                Ok(intervals) if intervals.is_empty() => vec![(point.value, None, None)],
+                Ok(all) => all.iter().map(|i| (point.value, Some(i), None)).collect(),
+                Err(error) => vec![(point.value, None, Some(error.to_string()))],
             }
-        }
-        table.finish()
+        });
+        write_rows(out, columns, rows)
     }
 
     /// The critical friction of every branch over the second parameter.

@@ -1,9 +1,9 @@
 //! Stability of limit cycles: tables, summary and words.
 
 use super::CycleResult;
-use crate::cycle::{CycleBranch, CycleStability, LimitCycle, Verdict};
+use crate::cycle::{CycleBranch, CycleStability, FloquetExponent, LimitCycle, Verdict};
 use crate::results::summary::present;
-use crate::results::table::{Table, format_number};
+use crate::results::table::{Column, write_rows};
 use serde::{Deserialize, Serialize};
 use std::fmt::Write as _;
 use std::io::{self, Write};
@@ -23,43 +23,31 @@ pub fn known(finding: &Finding) -> Option<&CycleStability> {
 /// Those of the writer.
 pub fn write_stability(out: &mut dyn Write, result: &CycleResult) -> io::Result<()> {
     let key = result.branch.as_ref().map(|branch| branch.parameter.key());
-    let columns = [
-        key.unwrap_or("point"),
-        "class",
-        "growth_rate_per_s",
-        "wave_frequency_rad_per_s",
-        "harmonic",
-        "frequency_hz",
-        "uncertainty_per_s",
+    let columns: &[Column<'_, (f64, &FloquetExponent)>] = &[
+        (key.unwrap_or("point"), &|row| row.0.into()),
+        ("class", &|row| row.1.class.into()),
+        ("growth_rate_per_s", &|row| row.1.exponent.re.into()),
+        ("wave_frequency_rad_per_s", &|row| row.1.exponent.im.into()),
+        ("harmonic", &|row| row.1.harmonic.into()),
+        ("frequency_hz", &|row| row.1.frequency_hz.into()),
+        ("uncertainty_per_s", &|row| row.1.uncertainty.into()),
     ];
-    let mut table = Table::new(out, &columns)?;
-    let mut rows = |at: f64, finding: &Finding| -> io::Result<()> {
-        for found in known(finding)
-            .into_iter()
-            .flat_map(|found| &found.exponents)
-        {
-            table.row([
-                format_number(at),
-                found.class.to_string(),
-                format_number(found.exponent.re),
-                format_number(found.exponent.im),
-                found.harmonic.to_string(),
-                format_number(found.frequency_hz),
-                format_number(found.uncertainty),
-            ])?;
-        }
-        Ok(())
-    };
+    let mut findings: Vec<(f64, &Finding)> = Vec::new();
     match (&result.branch, &result.cycle) {
         (Some(branch), Ok(own)) => {
-            rows(value(branch, own), &result.stability)?;
-            for (cycle, finding) in branch.cycles.iter().zip(&result.branch_stability) {
-                rows(value(branch, cycle), finding)?;
-            }
+            findings.push((value(branch, own), &result.stability));
+            let along = branch.cycles.iter().map(|cycle| value(branch, cycle));
+            findings.extend(along.zip(&result.branch_stability));
         }
-        _ => rows(0.0, &result.stability)?,
+        _ => findings.push((0.0, &result.stability)),
     }
-    table.finish()
+    let rows = findings.into_iter().flat_map(|(at, finding)| {
+        let exponents = known(finding)
+            .into_iter()
+            .flat_map(|found| &found.exponents);
+        exponents.map(move |exponent| (at, exponent))
+    });
+    write_rows(out, columns, rows)
 }
 
 fn value(branch: &CycleBranch, cycle: &LimitCycle) -> f64 {

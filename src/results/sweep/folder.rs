@@ -9,6 +9,7 @@ use super::super::framed::write_sealed;
 use super::super::reopening::{Contents, own_value, read_contents};
 use super::company::{Company, open_lock, share};
 use super::{PointClock, PointRecord};
+use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs::{self, File, TryLockError};
 use std::io::{self, Write};
@@ -245,6 +246,17 @@ impl SweepFolder {
     pub fn write_point(&self, record: &PointRecord, clock: &PointClock) -> Result<(), FolderError> {
         self.write(&clock_name(record.point), |out| write_sealed(out, clock))?;
         self.write(&point_name(record.point), |out| write_sealed(out, record))
+    }
+
+    /// Writes `summary.json`.
+    ///
+    /// # Errors
+    /// Those of the file system.
+    pub fn write_summary(&self, summary: &Value) -> Result<(), FolderError> {
+        self.write("summary.json", |out| {
+            serde_json::to_writer_pretty(&mut *out, summary)?;
+            out.write_all(b"\n")
+        })
     }
 
     /// Writes one file whole or not at all.
