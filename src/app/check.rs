@@ -1,10 +1,10 @@
 //! `frictionsim check`: is the case valid, and what would it cost?
 
 use super::options::CaseChanges;
-use super::preflight::{Preflight, preflight};
-use super::session::{gibibytes, read_case};
+use super::session::{gibibytes, machine_memory, read_case};
 use super::{Failure, terminal};
 use crate::case::{Case, Convergence, Cost, StudyCost};
+use crate::study::{Preflight, preflight};
 use clap::{Args, ValueHint};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
@@ -62,7 +62,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 
 fn check(path: &std::path::Path, arguments: &Arguments) -> Result<(Case, Preflight), Failure> {
     let case = read_case(path, &arguments.changes.overrides())?;
-    let found = preflight(&case)?;
+    let found = preflight(&case, machine_memory())?;
     if arguments.changes.deny_warnings {
         case.deny_warnings(&found.warnings)?;
     }

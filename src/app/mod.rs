@@ -20,7 +20,6 @@ mod measurement;
 mod mesh;
 mod options;
 pub mod plot;
-pub mod preflight;
 mod session;
 mod share;
 mod signal;

@@ -2,12 +2,12 @@
 //! what came out.
 
 use super::options::{input_name, read_input};
-use super::preflight::refuse_memory;
 use super::terminal;
 use super::{Failure, RunOptions};
 use crate::case::{Case, RawCase};
 use crate::fem::operator::SimdLevel;
 use crate::results::{Manifest, OutputFolder};
+use crate::study::refuse_memory;
 use std::path::Path;
 use std::time::Instant;
 
@@ -107,7 +107,8 @@ impl Session {
     /// # Errors
     /// [`Failure::Case`] at the key that asks for most of it.
     pub fn check_memory(&self, bytes: f64) -> Result<(), Failure> {
-        refuse_memory(&self.case, &self.manifest.command, bytes)
+        let command = &self.manifest.command;
+        Ok(refuse_memory(&self.case, command, bytes, machine_memory())?)
     }
 
     /// Prints the summary as JSON, or the table for people and where the files are.
@@ -161,6 +162,11 @@ pub fn available_memory() -> Option<f64> {
         .and_then(|text| text.trim().parse().ok())
         .unwrap_or(f64::INFINITY);
     Some((1024.0 * kibibytes).min(limit))
+}
+
+/// As [`available_memory`]; where the system does not say, more than any workstation has.
+pub fn machine_memory() -> f64 {
+    available_memory().unwrap_or(1e12)
 }
 
 /// Bytes in GiB.

@@ -1,11 +1,9 @@
 //! Consistency check: what `check` says of a case is what its runs say.
 
 use super::RUN;
-use frictionsim::app::Failure;
-use frictionsim::app::preflight::preflight;
 use frictionsim::case::{Analysis, Case};
 use frictionsim::results::Manifest;
-use frictionsim::study::summarize;
+use frictionsim::study::{StudyError, preflight, summarize};
 
 /// Values for keys, good and bad ones.
 const POOL: &[(&str, &[&str])] = &[
@@ -69,10 +67,8 @@ fn overrides(seed: u64) -> Vec<String> {
 }
 
 /// Whether a command refuses its case, which is exit code 2.
-fn is_refused<T>(outcome: Result<T, impl Into<Failure>>) -> bool {
-    outcome
-        .err()
-        .is_some_and(|error| matches!(error.into(), Failure::Case(_) | Failure::Usage(_)))
+fn is_refused<T>(outcome: Result<T, StudyError>) -> bool {
+    outcome.is_err_and(|error| error.is_usage())
 }
 
 #[test]
@@ -89,7 +85,7 @@ fn check_refuses_what_a_run_refuses_and_nothing_else() {
         let Ok(case) = Case::parse("case.toml", RUN.as_bytes(), &overrides) else {
             continue;
         };
-        let checked = is_refused(preflight(&case));
+        let checked = is_refused(preflight(&case, f64::INFINITY));
         // Elements that the transient cannot run are a warning of the case.
         let runs = case.require_transient().is_ok();
         let run = (runs && is_refused(summarize(&case, Analysis::Transient, &manifest)))

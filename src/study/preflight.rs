@@ -1,14 +1,12 @@
 //! Everything about a case that can be known to be wrong before it runs, asked of the same code that
 //! the runs ask.
 
-use super::Failure;
-use super::session::available_memory;
-use crate::case::{Case, Cost, Diagnostic, Location, StudyCost};
+use super::response::FrequencyStudy;
+use super::transient::TransientStudy;
+use super::{StudyError, eigenvalues};
+use crate::case::{Case, CaseErrors, Cost, Diagnostic, Location, StudyCost};
 use crate::fem::operator::SimdLevel;
 use crate::mesh::ElementKind;
-use crate::study::eigenvalues;
-use crate::study::response::FrequencyStudy;
-use crate::study::transient::TransientStudy;
 use crate::transient::StepPlan;
 
 /// Nodes up to which matrices are set up to find out.
@@ -36,11 +34,11 @@ pub struct Preflight {
     pub warnings: Vec<Diagnostic>,
 }
 
-/// Finds out whether the commands that a case is for can run.
+/// Finds out whether the commands that a case is for can run on a machine with so much memory, bytes.
 ///
 /// # Errors
-/// What those commands would refuse with exit code 2.
-pub fn preflight(case: &Case) -> Result<Preflight, Failure> {
+/// What those commands would refuse as bad input.
+pub fn preflight(case: &Case, available: f64) -> Result<Preflight, StudyError> {
     let mut found = Preflight {
         cost: case.cost(),
         is_step_exact: false,
@@ -53,7 +51,7 @@ pub fn preflight(case: &Case) -> Result<Preflight, Failure> {
     let commands = commands(case);
     for command in &commands {
         let (bytes, _) = case.memory(command);
-        refuse_memory(case, command, bytes)?;
+        refuse_memory(case, command, bytes, available)?;
         found.memory_bytes = found.memory_bytes.max(bytes);
         for warning in case.ignored_by(command) {
             if !found.warnings.contains(&warning) {
@@ -82,12 +80,12 @@ pub fn preflight(case: &Case) -> Result<Preflight, Failure> {
         let sector = found.cost.dofs as usize / case.annulus.circumferential_elements.max(1);
         if sector.saturating_mul(modes) <= MOST_EIGENVALUE_WORK {
             let tried = eigenvalues::preflight(case, cea);
-            found.tolerate("cea", tried.map_err(Failure::from))?;
+            found.tolerate("cea", tried)?;
         }
     }
     if case.frf.is_some() && is_small {
         let tried = FrequencyStudy::new(case).map(|_| ());
-        found.tolerate("frf", tried.map_err(Failure::from))?;
+        found.tolerate("frf", tried)?;
     }
     Ok(found)
 }
@@ -97,18 +95,18 @@ impl Preflight {
     fn tolerate<T>(
         &mut self,
         command: &str,
-        outcome: Result<T, Failure>,
-    ) -> Result<Option<T>, Failure> {
+        outcome: Result<T, StudyError>,
+    ) -> Result<Option<T>, StudyError> {
         match outcome {
             Ok(value) => Ok(Some(value)),
-            Err(Failure::Run(error)) => {
+            Err(error) if error.is_usage() => Err(error),
+            Err(error) => {
                 let message = format!("{command} would fail: {error}");
                 let at = Location::default();
                 let warning = Diagnostic::error(message, String::new(), at, None);
                 self.warnings.push(warning);
                 Ok(None)
             }
-            Err(failure) => Err(failure),
         }
     }
 }
@@ -130,19 +128,22 @@ fn commands(case: &Case) -> Vec<&'static str> {
     here.map(|pair| pair.0).collect()
 }
 
-/// Refuses a command that does not fit the machine's memory.
+/// Refuses a command that takes more bytes than are available.
 ///
 /// # Errors
-/// [`Failure::Case`] at the key that asks for most of it.
-pub fn refuse_memory(case: &Case, command: &str, bytes: f64) -> Result<(), Failure> {
-    // Where the system does not say what there is: more than any workstation has.
-    let available = available_memory().unwrap_or(1e12);
-    if bytes > available {
-        return Err(Failure::Case(case.memory_error(command, bytes, available)));
+/// Those of the case, at the key that asks for most of it.
+pub fn refuse_memory(
+    case: &Case,
+    command: &str,
+    bytes: f64,
+    available: f64,
+) -> Result<(), CaseErrors> {
+    match bytes > available {
+        true => Err(case.memory_error(command, bytes, available)),
+        false => Ok(()),
     }
-    Ok(())
 }
 
-fn transient_plan(case: &Case) -> Result<StepPlan, Failure> {
-    Ok(TransientStudy::new(case, SimdLevel::detect())?.preflight()?)
+fn transient_plan(case: &Case) -> Result<StepPlan, StudyError> {
+    TransientStudy::new(case, SimdLevel::detect())?.preflight()
 }
