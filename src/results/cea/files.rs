@@ -59,7 +59,7 @@ pub fn write_eigenvalues(out: &mut dyn Write, report: &CeaReport<'_>) -> io::Res
     ];
     let is_plane = report.solid.is_none();
     let columns = &columns[..columns.len() - usize::from(is_plane)];
-    let rows = report.tabulated().into_iter().flat_map(|point| {
+    let rows = report.tabulated().flat_map(|point| {
         let modes = point.modes.iter().enumerate();
         modes.map(|(index, mode)| (point.friction_coefficient, index, mode))
     });
