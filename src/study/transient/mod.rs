@@ -6,7 +6,7 @@
 //! use frictionsim::study::transient::TransientStudy;
 //!
 //! # let coarse = ["mesh.circumferential_elements=24", "mesh.radial_elements=4", "output.snapshots=[]", "output.probes=[1]"];
-//! # let shorter = ["transient.duration=2e-4", "transient.time_step=\"auto\""];
+//! # let shorter = ["transient.duration=2e-4", "transient.expansion_time=1e-4"];
 //! # let overrides: Vec<String> = coarse.iter().chain(&shorter).map(|text| text.to_string()).collect();
 //! let bytes = std::fs::read("cases/polycarbonate-610rpm.toml")?;
 //! let case = Case::parse("disc", &bytes, &overrides)?;
