@@ -84,8 +84,11 @@ pub struct ContactFrame {
     pub status: Vec<u8>,
     /// Contact pressure `N / w`, Pa.
     pub pressure: Vec<f32>,
-    /// Contact shear `T / w`, Pa.
+    /// Contact shear `T / w`, Pa, along the sliding.
     pub shear: Vec<f32>,
+    /// The same across the sliding on a body in three dimensions, along `e_z` on its inner edge and `e_r` on its top; empty
+    /// in the plane.
+    pub shear_across: Vec<f32>,
 }
 
 /// Keeps samples, probes, contact frames and snapshots in memory; can be saved and loaded with the state.

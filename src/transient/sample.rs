@@ -96,6 +96,11 @@ impl Sample<'_> {
         &self.run.contact().tangential_force
     }
 
+    /// Friction across the sliding on each contact node at `n`, N; empty for a plane body.
+    pub fn across_force(&self) -> &[f64] {
+        self.run.contact().across_force()
+    }
+
     /// The complete state after this sample, from which a run goes on bit by bit.
     pub fn state(&self) -> TransientState {
         self.run.state()

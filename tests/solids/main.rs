@@ -7,6 +7,8 @@ mod limits;
 mod model;
 mod plane_transient;
 mod response;
+mod response_limits;
 mod ring;
+mod studies;
 mod transient;
 mod whole_ring;

@@ -153,13 +153,21 @@ fn a_wave_under_a_ring_that_opens_in_part_grows_at_the_rate_of_the_eigenvalue_an
 struct Cone {
     seen: [bool; 3],
     largest_residual: f64,
+    /// Share of friction that acts across the sliding.
+    largest_across: f64,
 }
 
 impl Observer for Cone {
     fn observe(&mut self, sample: &Sample<'_>) -> ControlFlow<()> {
         let forces = sample.normal_force().iter().zip(sample.tangential_force());
-        for ((normal, tangential), status) in forces.zip(sample.status()) {
-            assert!(*normal >= 0.0 && tangential.abs() <= 0.3 * normal * (1.0 + 1e-12));
+        let forces = forces.zip(sample.across_force());
+        for (((normal, tangential), across), status) in forces.zip(sample.status()) {
+            let friction = tangential.hypot(*across);
+            assert!(*normal >= 0.0 && friction <= 0.3 * normal * (1.0 + 1e-12));
+            // A slipping node stands on the rim of the disc.
+            let is_slipping = *status == ContactStatus::Slip;
+            assert!(!is_slipping || friction >= 0.3 * normal * (1.0 - 1e-12));
+            self.largest_across = self.largest_across.max(across.abs() / friction.max(1e-300));
             assert_eq!(*normal == 0.0, *status == ContactStatus::Open);
             self.seen[*status as usize] = true;
         }
@@ -188,12 +196,14 @@ fn energy_is_balanced_through_stick_slip_and_separation() {
         let mut cone = Cone {
             seen: [false; 3],
             largest_residual: 0.0,
+            largest_across: 0.0,
         };
         run.run(&mut cone).unwrap();
         // Only a body that is free across the face lifts off it.
         let lifts = contact == SolidContact::Inner;
         assert_eq!(cone.seen, [lifts, true, true]);
         assert!(cone.largest_residual < 1e-10, "{}", cone.largest_residual);
+        assert!(cone.largest_across > 0.1, "{}", cone.largest_across);
     }
 }
 

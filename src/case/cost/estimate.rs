@@ -46,7 +46,8 @@ impl Case {
             SolidContact::Ring { .. } => self.annulus.radial_elements + 1,
         });
         let contact_nodes = rings * per_element * self.annulus.circumferential_elements;
-        frames * (100.0 + 9.0 * contact_nodes as f64)
+        let each = if self.solid.is_some() { 13.0 } else { 9.0 };
+        frames * (100.0 + each * contact_nodes as f64)
     }
 
     /// Displacements and velocities of all nodes at each snapshot.

@@ -7,7 +7,8 @@ use std::io;
 
 /// Writes the arrays `time_s (F)`, `angle_rad (N)`, `status (F, N)`, `pressure_pa (F, N)` and `shear_pa (F, N)` for `F`
 /// frames and `N` contact nodes, as NumPy reads them; the numbers `interval_s` between frames, and `status_open` (0),
-/// `status_stick` (1), `status_slip` (2), which say what the codes of `status` mean.
+/// `status_stick` (1), `status_slip` (2), which say what the codes of `status` mean. A body in three dimensions has
+/// `shear_across_pa (F, N)` too, along `e_z` on its inner edge and `e_r` on its top.
 ///
 /// A frame is the state of one step; frames may lie several samples apart.
 ///
@@ -29,6 +30,10 @@ pub fn encode_contact(record: &Recorder) -> io::Result<Vec<u8>> {
     archive.array("pressure_pa", &shape, pressure)?;
     let shear = frames.iter().flat_map(|f| f.shear.iter().copied());
     archive.array("shear_pa", &shape, shear)?;
+    if frames.iter().any(|frame| !frame.shear_across.is_empty()) {
+        let across = frames.iter().flat_map(|f| f.shear_across.iter().copied());
+        archive.array("shear_across_pa", &shape, across)?;
+    }
     let interval = record.frame_stride as f64 * record.sample_interval;
     archive.array("interval_s", &[], std::iter::once(interval))?;
     for (name, code) in [

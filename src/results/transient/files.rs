@@ -214,7 +214,7 @@ fn snapshot_fields(report: &TransientReport<'_>, snapshot: &Snapshot) -> Vec<Fie
     fields
 }
 
-/// Status, pressure, shear and gap of the contact nodes `edge` among `count` nodes.
+/// Status, pressure, shear (in three dimensions across the sliding too) and gap of the contact nodes `edge` among `count` nodes.
 fn contact_fields(edge: &[u32], count: usize, snapshot: &Snapshot) -> Vec<Field> {
     let mut status = vec![-1; count];
     for (&node, &code) in edge.iter().zip(&snapshot.contact.status) {
@@ -232,6 +232,10 @@ fn contact_fields(edge: &[u32], count: usize, snapshot: &Snapshot) -> Vec<Field>
     let wide = |values: &[f32]| values.iter().copied().map(f64::from).collect::<Vec<f64>>();
     on_edge("pressure_pa", &mut wide(&contact.pressure).into_iter());
     on_edge("shear_pa", &mut wide(&contact.shear).into_iter());
+    if !contact.shear_across.is_empty() {
+        let across = wide(&contact.shear_across);
+        on_edge("shear_across_pa", &mut across.into_iter());
+    }
     on_edge("gap_m", &mut snapshot.gap.iter().copied());
     fields
 }

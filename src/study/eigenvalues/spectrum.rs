@@ -32,7 +32,7 @@ fn analysis(case: &Case, frictions: &[f64], limit_hz: f64) -> Cea {
     }
 }
 
-/// The modes of a case below `limit_hz` at its own friction coefficient, and on the cyclic path with `with_rates` their
+/// The modes of a case below `limit_hz` at its own friction coefficient, and of a plane annulus with `with_rates` their
 /// sensitivities.
 ///
 /// # Errors
@@ -44,12 +44,12 @@ pub fn modes_below(
 ) -> Result<(Vec<ComplexMode>, Vec<Sensitivity>), StudyError> {
     let friction = case.contact.sliding.friction_coefficient;
     let cea = analysis(case, &[friction], limit_hz);
-    let (sweep, sensitivities) = match super::model::method_of(case, &cea) {
-        CeaMethod::Sparse => {
+    let (sweep, sensitivities) = match is_plane_annulus(case, &cea) {
+        false => {
             let model = SlidingModel::new(case, &cea)?;
             (solve(case, &cea, &model, &|_| {})?.sweep, Vec::new())
         }
-        CeaMethod::Auto | CeaMethod::Cyclic => {
+        true => {
             let request = SweepRequest {
                 friction_coefficients: &cea.friction_coefficients,
                 limit: mode_limit(&cea),
@@ -73,6 +73,11 @@ pub fn modes_below(
     ))
 }
 
+/// Whether the harmonics of a plane annulus are solved; bodies in three dimensions have theirs, all others the whole mesh.
+fn is_plane_annulus(case: &Case, cea: &Cea) -> bool {
+    case.solid.is_none() && super::model::method_of(case, cea) != CeaMethod::Sparse
+}
+
 /// The ranges of friction over which branches of a case are unstable, from 0 to the largest of `frictions`, and the
 /// harmonics that hold modes.
 ///
@@ -90,7 +95,7 @@ pub fn unstable_intervals(
         modes: own.modes,
         ..analysis(case, frictions, f64::INFINITY)
     };
-    if super::model::method_of(case, &cea) == CeaMethod::Sparse {
+    if !is_plane_annulus(case, &cea) {
         let model = SlidingModel::new(case, &cea)?;
         let sweep = solve(case, &cea, &model, &|_| {})?.sweep;
         super::refuse_no_modes(case, &cea, &sweep)?;

@@ -99,6 +99,11 @@ impl LagrangeContact {
         }
     }
 
+    /// Friction across the sliding of each node, N; none on an edge.
+    pub(in crate::transient) fn across_force(&self) -> &[f64] {
+        self.face.as_ref().map_or(&[], |face| &face.forces)
+    }
+
     /// [`Self::apply`] on a face.
     pub(super) fn apply_on_face(
         &mut self,

@@ -24,7 +24,10 @@ impl Recorder {
         });
         let of_edge = |frame: &ContactFrame| {
             let lengths = [frame.status.len(), frame.pressure.len(), frame.shear.len()];
-            lengths == [contact; 3] && frame.status.iter().all(|&code| code <= 2)
+            let across = frame.shear_across.len();
+            lengths == [contact; 3]
+                && [0, contact].contains(&across)
+                && frame.status.iter().all(|&code| code <= 2)
         };
         let snapshots_fit = self.snapshots.iter().all(|snapshot| {
             snapshot.time.is_finite()
@@ -52,8 +55,14 @@ impl Recorder {
     /// Whether probes, fields and contact nodes can be those of a mesh of `dofs`, some `components` to a node.
     pub fn fits(&self, dofs: usize, components: usize, contact_nodes: usize) -> bool {
         let mut snapshots = self.snapshots.iter();
+        let across = if components == 3 { contact_nodes } else { 0 };
+        let frames = self.frames.iter();
+        let frames = frames.chain(self.snapshots.iter().map(|snapshot| &snapshot.contact));
         self.contact_angles.len() == contact_nodes
             && self.probes.iter().all(|&probe| probe * components <= dofs)
+            && frames
+                .into_iter()
+                .all(|frame| frame.shear_across.len() == across)
             && snapshots.all(|snapshot| snapshot.displacement.len() == dofs)
     }
 }

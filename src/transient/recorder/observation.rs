@@ -77,6 +77,7 @@ impl Recorder {
             status: sample.status().iter().map(|&status| status as u8).collect(),
             pressure: traction(sample.normal_force()),
             shear: traction(sample.tangential_force()),
+            shear_across: traction(sample.across_force()),
         }
     }
 

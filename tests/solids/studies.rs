@@ -1,0 +1,91 @@
+//! Studies and files of bodies of revolution.
+
+use assert_cmd::Command;
+use frictionsim::case::Case;
+use frictionsim::study::eigenvalues::{modes_and_onsets, modes_below, unstable_intervals};
+use std::fs::File;
+use std::path::{Path, PathBuf};
+
+const COARSE: [&str; 4] = [
+    "mesh.circumferential_elements=24",
+    "mesh.radial_elements=5",
+    "mesh.axial_elements=1",
+    "cea.friction_coefficients=[0.0, 0.6]",
+];
+
+fn shipped() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/disc-three-dimensions.toml")
+}
+
+/// Cross-method: what `fit` and `uncertainty` ask for is what `cea` finds of the same body, not of its plane section.
+#[test]
+fn modes_for_a_fit_and_onsets_of_a_sample_are_those_of_the_body_with_its_thickness() {
+    let bytes = std::fs::read(shipped()).unwrap();
+    let overrides = COARSE.map(str::to_owned);
+    let case = Case::parse("disc", &bytes, &overrides).unwrap();
+    let known = modes_and_onsets(&case).unwrap();
+    let (intervals, _) = unstable_intervals(&case, &[0.3, 0.6], None).unwrap();
+    assert_eq!(intervals.len(), known.intervals.len());
+    for (found, known) in intervals.iter().zip(&known.intervals) {
+        // Onsets are located to 1e-9, from other friction values.
+        let apart = (found.critical_friction - known.critical_friction).abs();
+        assert!(apart < 1e-8, "{found:?} {known:?}");
+    }
+    let (modes, rates) = modes_below(&case, 10e3, false).unwrap();
+    assert!(rates.is_empty());
+    let mut points = known.points.iter();
+    let point = points.find(|point| point.friction_coefficient == 0.3);
+    let solved = &point.unwrap().modes;
+    assert!(modes.len() > 10);
+    for mode in &modes {
+        let apart = |other: &frictionsim::cea::ComplexMode| {
+            (other.eigenvalue - mode.eigenvalue).norm() / mode.eigenvalue.norm()
+        };
+        let nearest = solved.iter().map(apart).fold(f64::INFINITY, f64::min);
+        // The reduced spaces reach up to different frequencies.
+        assert!(nearest < 1e-5, "{mode:?}: {nearest:e}");
+        assert!(mode.axial_share.is_some());
+    }
+}
+
+/// Names and NumPy headers of the arrays of `contact.npz` of a short run.
+fn contact_arrays(overrides: &[&str]) -> Vec<(String, String)> {
+    let folder = tempfile::tempdir().unwrap();
+    let mut run = Command::cargo_bin("frictionsim").unwrap();
+    run.current_dir(folder.path()).arg("transient");
+    run.arg(shipped())
+        .args(["--out", "run", "--no-figures", "-qq"]);
+    let transient = [
+        "mesh.element=quad4",
+        "transient.duration=2e-5",
+        "transient.initial=steady-sliding",
+    ];
+    for set in COARSE.iter().chain(&transient).chain(overrides) {
+        run.args(["--set", set]);
+    }
+    run.assert().code(0);
+    let file = File::open(folder.path().join("run/contact.npz")).unwrap();
+    let mut archive = zip::ZipArchive::new(file).unwrap();
+    let mut found = Vec::new();
+    for k in 0..archive.len() {
+        let mut entry = archive.by_index(k).unwrap();
+        let mut bytes = Vec::new();
+        std::io::Read::read_to_end(&mut entry, &mut bytes).unwrap();
+        let header = String::from_utf8_lossy(&bytes[..bytes.len().min(128)]).into_owned();
+        found.push((entry.name().unwrap().into_owned(), header));
+    }
+    found
+}
+
+#[test]
+fn the_contact_file_of_a_body_with_thickness_has_both_parts_of_the_shear() {
+    let arrays = contact_arrays(&[]);
+    let header = |name: &str| {
+        let mut own = arrays.iter().filter(|array| array.0 == name);
+        own.next().map(|array| array.1.clone())
+    };
+    // 24 sectors with two rings of nodes, as many frames as of the other part.
+    let across = header("shear_across_pa.npy").unwrap();
+    assert_eq!(Some(&across), header("shear_pa.npy").as_ref());
+    assert!(across.contains(", 48)"), "{across}");
+}
