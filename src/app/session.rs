@@ -137,9 +137,9 @@ pub fn read_case(path: &Path, overrides: &[String]) -> Result<Case, Failure> {
 
 /// Fixes the number of worker threads of the whole process and returns it.
 pub fn start_threads(asked: Option<u16>) -> usize {
-    // Threads belong to the outer loops (friction values, harmonics); inside them faer would only
+    // Threads belong to the outer loops (friction values, harmonics); inside them more of them would only
     // make small factorizations slower.
-    faer::set_global_parallelism(faer::Par::Seq);
+    crate::linalg::factorize_on_one_thread();
     let mut builder = rayon::ThreadPoolBuilder::new();
     if let Some(count) = asked {
         builder = builder.num_threads(usize::from(count));

@@ -4,8 +4,7 @@ use super::branch::Event;
 use super::parameter::Parameter;
 use super::state::{PointState, WaveState};
 use super::wave::Linearization;
-use crate::linalg::DenseLu;
-use faer::{Mat, MatMut};
+use crate::linalg::{DenseLu, Mat, MatMut, c64};
 
 /// A change of forces, frequency and parameter.
 #[derive(Clone, Debug)]
@@ -171,8 +170,7 @@ impl<'a> System<'a> {
         let at = self.size() - 2;
         let points = self.state.contact.len() as f64;
         let friction = self.state.point.contact.friction_coefficient;
-        let turn =
-            |i: usize| faer::c64::from_polar(1.0, -std::f64::consts::TAU * i as f64 / points);
+        let turn = |i: usize| c64::from_polar(1.0, -std::f64::consts::TAU * i as f64 / points);
         let force = scale * self.force_scale;
         for (j, &i) in self.contact.iter().enumerate() {
             let drag = friction * self.state.contact[i].drag();

@@ -9,6 +9,7 @@ mod error;
 mod gaussian_noise;
 mod krylov_schur;
 mod polynomial;
+mod sparse_cholesky;
 mod sparse_ldl;
 mod sparse_lu;
 mod sparse_product;
@@ -21,5 +22,11 @@ pub use error::LinalgError;
 pub use gaussian_noise::GaussianNoise;
 pub use krylov_schur::{BlockOperator, KrylovSchurSettings, RealPairs, Wanted, krylov_schur};
 pub use polynomial::{MatrixPolynomial, SparsityPattern};
+pub use sparse_cholesky::SparseCholesky;
 pub use sparse_ldl::{LdlAnalysis, SparseLdl};
 pub use sparse_lu::{ComplexSparseLu, LuAnalysis, SparseLu};
+
+/// Keeps the dense and sparse factorizations of the whole process on the thread that calls them.
+pub fn factorize_on_one_thread() {
+    faer::set_global_parallelism(faer::Par::Seq);
+}

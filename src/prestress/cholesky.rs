@@ -2,28 +2,19 @@
 
 use super::PrestressError;
 use crate::fem::{DofMap, Triplets};
-use faer::linalg::solvers::Solve;
-use faer::sparse::{SparseColMat, Triplet};
-use faer::{MatMut, Side};
+use crate::linalg::{MatMut, SparseCholesky};
 
 pub(super) struct CholeskySolver {
-    factor: faer::sparse::linalg::solvers::Llt<usize, f64>,
+    factor: SparseCholesky,
 }
 
 impl CholeskySolver {
     pub fn new(stiffness: &Triplets, unknowns: &DofMap) -> Result<Self, PrestressError> {
         let place = |dof: usize| unknowns.unknown_of[dof];
-        let triplets: Vec<_> = stiffness
-            .entries
-            .iter()
-            .filter_map(|&(row, column, value)| {
-                Some(Triplet::new(place(row)?, place(column)?, value))
-            })
-            .collect();
-        let matrix = SparseColMat::try_new_from_triplets(unknowns.len(), unknowns.len(), &triplets)
-            .map_err(|_| PrestressError::Singular)?;
-        let factor = matrix
-            .sp_cholesky(Side::Lower)
+        let entries = stiffness.entries.iter();
+        let kept =
+            entries.filter_map(|&(row, column, value)| Some((place(row)?, place(column)?, value)));
+        let factor = SparseCholesky::factorize(unknowns.len(), kept)
             .map_err(|_| PrestressError::Singular)?;
         Ok(Self { factor })
     }

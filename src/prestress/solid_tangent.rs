@@ -183,8 +183,8 @@ impl SolidTangent {
         let stiffness = [
             &self.elastic,
             &self.stress[0],
-            &self.supports[0],
             &self.penalty[0],
+            &self.supports[0],
         ];
         [
             self.sum(n, MirrorParity::Even, &[&self.mass]),
@@ -194,17 +194,14 @@ impl SolidTangent {
 
     /// All matrices of harmonic `n`.
     pub fn harmonic(&self, n: usize) -> SolidHarmonic {
-        let [mass, rest] = self.at_rest(n);
+        let mass = self.sum(n, MirrorParity::Even, &[&self.mass]);
+        let body = [&self.elastic, &self.stress[0], &self.penalty[0]];
+        let body = self.sum(n, MirrorParity::Even, &body);
+        let mut rest = body.clone();
+        self.add(&mut rest, n, MirrorParity::Even, &[&self.supports[0]]);
         let friction = self.sum(n, MirrorParity::Odd, &[&self.stress[1], &self.penalty[1]]);
         let damped = match self.options.damping_model {
-            DampingModel::WholeTangent => [
-                self.sum(
-                    n,
-                    MirrorParity::Even,
-                    &[&self.elastic, &self.stress[0], &self.penalty[0]],
-                ),
-                friction.clone(),
-            ],
+            DampingModel::WholeTangent => [body, friction.clone()],
             DampingModel::BodyOnly => [
                 self.sum(n, MirrorParity::Even, &[&self.elastic]),
                 self.sum(n, MirrorParity::Odd, &[]),
@@ -235,11 +232,15 @@ impl SolidTangent {
     fn sum(&self, n: usize, parity: MirrorParity, terms: &[&SolidMatrix]) -> BandedMatrix {
         let count = self.unknown_of.iter().flatten().count();
         let mut sum = BandedMatrix::zeros(count, half_bandwidth(&self.sector));
-        for term in terms {
-            let at = (self.sector.sector_count(), n);
-            term.add_harmonic(&mut sum, &self.unknown_of, at, (parity, 1.0));
-        }
+        self.add(&mut sum, n, parity, terms);
         sum
+    }
+
+    fn add(&self, sum: &mut BandedMatrix, n: usize, parity: MirrorParity, terms: &[&SolidMatrix]) {
+        let at = (self.sector.sector_count(), n);
+        for term in terms {
+            term.add_harmonic(sum, &self.unknown_of, at, (parity, 1.0));
+        }
     }
 
     /// See [`SolidHarmonic::rigid`].

@@ -35,10 +35,13 @@ impl Values {
     fn bytes(&self) -> Vec<u8> {
         match self {
             // Adding zero turns -0.0 into 0.0.
-            Self::Real(values) => values
-                .iter()
-                .flat_map(|v| (v + 0.0).to_le_bytes())
-                .collect(),
+            Self::Real(values) => {
+                let mut bytes = vec![0; 8 * values.len()];
+                for (place, v) in bytes.chunks_exact_mut(8).zip(values) {
+                    place.copy_from_slice(&(v + 0.0).to_le_bytes());
+                }
+                bytes
+            }
             Self::Integer(values) => values.iter().flat_map(|v| v.to_le_bytes()).collect(),
         }
     }
@@ -108,14 +111,19 @@ impl Field {
 /// Turns nodal-frame vectors `(r, theta, z)` of a whole body of revolution into Cartesian `(x, y, z)` triples.
 pub fn solid_vectors(name: &str, sector: &SolidSector, nodal: &[f64]) -> Field {
     let per_sector = sector.node_count();
-    let triples = nodal.chunks_exact(3).enumerate();
-    let values = triples.flat_map(|(k, u)| {
-        let (sin, cos) = sector.angle(k % per_sector, k / per_sector).sin_cos();
-        [u[0] * cos - u[1] * sin, u[0] * sin + u[1] * cos, u[2]]
-    });
+    let mut values = Vec::with_capacity(nodal.len());
+    for (j, own) in nodal.chunks_exact(3 * per_sector).enumerate() {
+        // Nodes at the first radius of a sector, and those half a sector on.
+        let mut frames: [Option<(f64, f64)>; 2] = [None; 2];
+        for (k, u) in own.chunks_exact(3).enumerate() {
+            let frame = &mut frames[sector.nodes[k].half_step];
+            let (sin, cos) = *frame.get_or_insert_with(|| sector.angle(k, j).sin_cos());
+            values.extend([u[0] * cos - u[1] * sin, u[0] * sin + u[1] * cos, u[2]]);
+        }
+    }
     Field {
         components: 3,
-        ..Field::scalars(name, values.collect())
+        ..Field::scalars(name, values)
     }
 }
 

@@ -6,7 +6,8 @@
 
 use super::follow::{Eigenpair, Follower};
 use super::paths::Path;
-use super::problem::{Matrices, dot, normalize};
+use super::problem::Matrices;
+use super::vectors::{dot, normalize};
 use crate::linalg::c64;
 
 /// Two branches closer than this, relative, may be about to meet.

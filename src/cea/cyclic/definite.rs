@@ -151,7 +151,7 @@ impl<'a> TestSpace<'a> {
             for j in 0..=i {
                 let (ti, tj) = (self.tangential[i], self.tangential[j]);
                 let mut value = 0.5 * (rows[i][tj] + rows[j][ti].conj());
-                value -= super::problem::dot(&solved[i], &solved[j]);
+                value -= super::vectors::dot(&solved[i], &solved[j]);
                 let known = lower[i].iter().zip(&lower[j]).take(j);
                 value -= known.map(|(a, b)| a * b.conj()).sum::<c64>();
                 if i == j {

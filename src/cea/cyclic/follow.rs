@@ -1,6 +1,7 @@
 //! Following one eigenpair along a parameter.
 
-use super::problem::{HarmonicProblem, Matrices, dot, normalize};
+use super::problem::{HarmonicProblem, Matrices};
+use super::vectors::{dot, normalize};
 use crate::linalg::banded::BandedLu;
 use crate::linalg::c64;
 use std::rc::Rc;
@@ -27,7 +28,7 @@ pub(super) struct Eigenpair {
 }
 
 /// How far apart two successive points of a path may lie.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct StepControl {
     /// Least `|x_0^H x_1|` of the unit right vectors.
     pub least_overlap: f64,

@@ -18,6 +18,7 @@ mod rest;
 mod sensitivity;
 mod solid;
 mod sweep;
+mod vectors;
 
 pub use map::{CyclicModel, StabilityMapPoint, solid_stability_map, stability_map};
 pub use sensitivity::{Sensitivity, sensitivities};

@@ -1,7 +1,8 @@
 //! All branches of one harmonic, followed together over the friction coefficient.
 
 use super::follow::{Eigenpair, Follower, StepControl};
-use super::problem::{HarmonicProblem, Matrices, dot};
+use super::problem::{HarmonicProblem, Matrices};
+use super::vectors::dot;
 use super::{collision, rest};
 use crate::cea::CeaError;
 use crate::linalg::c64;
@@ -104,6 +105,7 @@ fn follow_all(
                 Rc::new(problem.at(value))
             }
         };
+        let reached: Vec<usize> = paths.iter().map(|path| path.points.len()).collect();
         for index in 0..paths.len() {
             let has_ended = |path: &Path| {
                 let last = path.points.last();
@@ -113,12 +115,22 @@ fn follow_all(
                 continue;
             }
             while !follower.advance(&mut paths[index].points, friction, control, &mut matrices) {
-                let approach = |follower: &mut Follower<'_>, points: &mut Vec<_>, target: f64| {
-                    follower.advance(points, target, control, &mut matrices);
-                };
                 if has_ended(&paths[index]) {
                     break;
                 }
+                // In three dimensions smaller steps since the last value mostly do, where small ones all along cost many times more.
+                if problem.is_reduced() && control != StepControl::FINE {
+                    let points = &mut paths[index].points;
+                    points.truncate(reached[index]);
+                    if follower.advance(points, friction, StepControl::FINE, &mut matrices)
+                        || has_ended(&paths[index])
+                    {
+                        break;
+                    }
+                }
+                let approach = |follower: &mut Follower<'_>, points: &mut Vec<_>, target: f64| {
+                    follower.advance(points, target, control, &mut matrices);
+                };
                 let may_meet = problem.is_standing && problem.is_proportional();
                 if !may_meet || !collision::pass(follower, &mut paths, index, friction, approach) {
                     return Err(lost(friction));

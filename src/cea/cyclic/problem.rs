@@ -1,6 +1,7 @@
 //! The eigenproblem of one harmonic as a function of one scalar `theta`.
 
 use super::follow::Eigenpair;
+use super::vectors::{add, dot, largest, product};
 use crate::fem::RayleighDamping;
 use crate::linalg::banded::{BandedLu, BandedMatrix};
 use crate::linalg::c64;
@@ -286,9 +287,14 @@ impl HarmonicProblem {
         self.rayleigh.eigenvalue(theta)
     }
 
+    /// Whether the matrices are small full ones, of a harmonic in three dimensions.
+    pub fn is_reduced(&self) -> bool {
+        self.shares.is_some()
+    }
+
     /// Whether a motion hardly oscillates any more under the dashpot across the sliding, on the way to where it does not at all.
     pub fn is_ending(&self, theta: c64) -> bool {
-        self.shares.is_some() && theta.im.abs() < STANDSTILL * theta.norm()
+        self.is_reduced() && theta.im.abs() < STANDSTILL * theta.norm()
     }
 
     /// An isolated `kappa` of a standing harmonic, whose spectrum is its own conjugate, is real if it is
@@ -322,6 +328,8 @@ impl HarmonicProblem {
                 for (value, sum) in band.iter().zip(&mut result[first..last]) {
                     *sum += value.conj() * x[row];
                 }
+            } else if self.is_reduced() {
+                result[row] = product(band, &x[first..last]);
             } else {
                 let sum: c64 = band.iter().zip(&x[first..last]).map(|(v, x)| v * x).sum();
                 result[row] = sum;
@@ -369,25 +377,4 @@ fn rate(polynomial: &FrictionPolynomial, z: c64) -> Option<Vec<c64>> {
         factor *= z;
     }
     Some(values)
-}
-
-pub(super) fn dot(y: &[c64], x: &[c64]) -> c64 {
-    y.iter().zip(x).map(|(y, x)| y.conj() * x).sum()
-}
-
-fn add(sum: &mut [c64], term: &[c64]) {
-    for (s, t) in sum.iter_mut().zip(term) {
-        *s += t;
-    }
-}
-
-pub(super) fn largest(x: &[c64]) -> f64 {
-    x.iter().fold(0.0, |m, v| v.norm().max(m))
-}
-
-/// Scales to unit Euclidean length; returns the length before.
-pub(super) fn normalize(x: &mut [c64]) -> f64 {
-    let norm = x.iter().map(|v| v.norm_sqr()).sum::<f64>().sqrt();
-    x.iter_mut().for_each(|v| *v *= 1.0 / norm);
-    norm
 }

@@ -2,11 +2,13 @@
 //! several complex systems at a time.
 
 mod batch;
+mod compact;
 mod definite;
 mod lu;
 mod symmetric;
 
 pub use batch::{BandedBatch, LANES, Lanes, Quality};
+pub use compact::CompactRows;
 pub use definite::BandedFactor;
 pub use lu::BandedLu;
 pub use symmetric::{BandedHermitian, BandedLdl};

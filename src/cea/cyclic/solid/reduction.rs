@@ -2,7 +2,7 @@
 
 use super::rest::{Modes, Pencil};
 use crate::fem::RayleighDamping;
-use crate::linalg::banded::BandedMatrix;
+use crate::linalg::banded::{BandedMatrix, CompactRows};
 use crate::linalg::dense::{dot, transpose_product};
 use crate::linalg::dense_eigen::symmetric_eigen;
 use crate::linalg::{Mat, c64};
@@ -160,20 +160,7 @@ impl Reduction {
 
     /// `A V`.
     fn images(&self, matrix: &BandedMatrix) -> Mat<f64> {
-        let (rows, columns) = (self.basis.nrows(), self.basis.ncols());
-        let mut images = Mat::zeros(rows, columns);
-        for row in 0..rows {
-            let band = matrix.columns(row);
-            for column in band {
-                let value = matrix.get(row, column);
-                if value != 0.0 {
-                    for j in 0..columns {
-                        images[(row, j)] += value * self.basis[(column, j)];
-                    }
-                }
-            }
-        }
-        images
+        CompactRows::new(matrix).multiply_columns(&self.basis)
     }
 
     /// `V^T A_p V`, and from each normal equation, times `i mu`, what it adds to the tangential one.

@@ -1,14 +1,14 @@
 //! Modes of one harmonic without friction.
 
 use crate::linalg::Mat;
-use crate::linalg::banded::{BandedFactor, BandedMatrix};
+use crate::linalg::banded::{BandedFactor, BandedMatrix, CompactRows};
 use crate::linalg::dense::{dot, random_columns};
 use crate::linalg::dense_eigen::symmetric_eigen;
 
 /// The pencil of one harmonic at rest over the unknowns that may move, and its stiffness factorized.
 pub(super) struct Pencil {
-    pub mass: BandedMatrix,
-    pub stiffness: BandedMatrix,
+    pub mass: CompactRows,
+    bands: [BandedMatrix; 2],
     pub factor: BandedFactor,
 }
 
@@ -24,21 +24,22 @@ impl Pencil {
         let factor = BandedFactor::new(&stiffness, &mass, 0.0);
         let is_held = factor.negative_count() == 0 && factor.is_regular();
         is_held.then_some(Self {
-            mass,
-            stiffness,
+            mass: CompactRows::new(&mass),
+            bands: [mass, stiffness],
             factor,
         })
     }
 
     /// Number of modes below `kappa`.
     pub fn count_below(&self, kappa: f64) -> usize {
-        BandedFactor::new(&self.stiffness, &self.mass, kappa).negative_count()
+        let [mass, stiffness] = &self.bands;
+        BandedFactor::new(stiffness, mass, kappa).negative_count()
     }
 
     /// The `count` modes of lowest frequency, by the Lanczos method on `K^-1 M` with full reorthogonalization; fewer
     /// where it does not settle.
     pub fn lowest(&self, count: usize) -> Modes {
-        let dimension = self.mass.dimension();
+        let dimension = self.bands[0].dimension();
         let count = count.min(dimension);
         let longest = (6 * count + 60).min(dimension);
         let start = random_columns(dimension, 1, 7);

@@ -1,7 +1,7 @@
 //! A sweep over the friction coefficient in three dimensions.
 
 use super::reduction::{Reduction, moving};
-use super::rest::Pencil;
+use super::rest::{Modes, Pencil};
 use crate::cea::cyclic::Coverage;
 use crate::cea::cyclic::branch::branches_of;
 use crate::cea::cyclic::modes::{ShapeProducer, point};
@@ -50,9 +50,18 @@ const SPAN: f64 = 1.4;
 /// Harmonics without a mode in a row after which only some of the higher ones are counted: short waves around are stiff.
 const EMPTY: usize = 3;
 
+/// Harmonics solved side by side.
+const BATCH: usize = 4;
+
+/// Modes of one harmonic without friction.
+struct AtRest {
+    harmonic: usize,
+    pencil: Pencil,
+    modes: Modes,
+}
+
 /// One harmonic ready to be followed.
 struct Reduced {
-    harmonic: usize,
     reduction: Reduction,
     problem: HarmonicProblem,
 }
@@ -70,10 +79,12 @@ pub fn solid_sweep(model: &SolidModel, request: &SweepRequest<'_>) -> Result<Sol
     let sector = SolidSector::generate(&model.specification)?;
     let tangent =
         SolidTangent::linearize(&sector, &model.material, &model.options, &model.contact)?;
-    let bound = bound(&tangent, request.limit)?;
-    let (reduced, empty) = reduce(&tangent, bound * (MARGIN * SPAN).powi(2))?;
-    let wanted = wanted(&tangent, &reduced, request.limit, bound)?;
+    let (bound, known) = bound(&tangent, request.limit)?;
+    let (mut found, empty) = modes_below(&tangent, bound * (MARGIN * SPAN).powi(2), known)?;
+    let wanted = wanted(&tangent, &found, request.limit, bound)?;
     let margin = wanted * MARGIN * MARGIN;
+    found.retain(|found| found.modes.iter().any(|mode| mode.0 < margin));
+    let reduced = reduce(&tangent, found);
     let followed: Result<Vec<(HarmonicPaths, Reduction)>, CeaError> = reduced
         .into_par_iter()
         .map(|found| {
@@ -90,15 +101,7 @@ pub fn solid_sweep(model: &SolidModel, request: &SweepRequest<'_>) -> Result<Sol
             Ok((paths, found.reduction))
         })
         .collect();
-    let (mut followed, mut reductions): (Vec<_>, Vec<_>) = followed?.into_iter().unzip();
-    let has_paths: Vec<bool> = followed
-        .iter()
-        .map(|paths: &HarmonicPaths| !paths.paths.is_empty())
-        .collect();
-    let mut keep = has_paths.iter();
-    followed.retain(|_| *keep.next().unwrap_or(&true));
-    let mut keep = has_paths.iter();
-    reductions.retain(|_| *keep.next().unwrap_or(&true));
+    let (followed, reductions): (Vec<_>, Vec<_>) = followed?.into_iter().unzip();
     let direction = tangent.base().sliding_direction;
     let expand = |n: usize, waves: Waves, x: &[c64]| {
         let own = followed
@@ -147,17 +150,9 @@ pub fn solid_sweep(model: &SolidModel, request: &SweepRequest<'_>) -> Result<Sol
     })
 }
 
-fn waves(tangent: &SolidTangent, n: usize) -> usize {
-    if tangent.is_standing(n) { 1 } else { 2 }
-}
-
-fn pencil(
-    tangent: &SolidTangent,
-    n: usize,
-    rigid: &[(usize, Option<usize>, f64)],
-) -> Result<Pencil, CeaError> {
+fn pencil(tangent: &SolidTangent, n: usize) -> Result<Pencil, CeaError> {
     let [mass, stiffness] = tangent.at_rest(n);
-    let moving = moving(mass.dimension(), rigid);
+    let moving = moving(mass.dimension(), &tangent.rigid());
     let (mass, stiffness) = (
         mass.restricted_to(&moving),
         stiffness.restricted_to(&moving),
@@ -165,68 +160,67 @@ fn pencil(
     Pencil::new(mass, stiffness).ok_or(CeaError::Prestress(PrestressError::Singular))
 }
 
-/// A bound of `kappa` at rest of the modes wanted, from above.
-fn bound(tangent: &SolidTangent, limit: ModeLimit) -> Result<f64, CeaError> {
+/// A bound of `kappa` at rest of the modes wanted, from above, and the lowest harmonics as far as they were needed for it.
+fn bound(tangent: &SolidTangent, limit: ModeLimit) -> Result<(f64, Vec<Pencil>), CeaError> {
     let asked = match limit {
-        ModeLimit::MaxFrequency(value) => return Ok((TAU * value).powi(2)),
+        ModeLimit::MaxFrequency(value) => return Ok(((TAU * value).powi(2), Vec::new())),
         ModeLimit::Lowest(asked) => asked,
     };
-    let rigid = tangent.rigid();
-    let largest = tangent.sector().sector_count() / 2;
-    let few = largest.min(3);
-    let found: Result<Vec<Vec<f64>>, CeaError> = (0..=few)
+    let few = (tangent.sector().sector_count() / 2).min(BATCH - 1);
+    let pencils: Result<Vec<Pencil>, CeaError> = (0..=few)
         .into_par_iter()
-        .map(|n| {
-            let modes = pencil(tangent, n, &rigid)?.lowest(asked.div_ceil(2 * few.max(1)) + 1);
-            let waves = waves(tangent, n);
-            Ok(modes
-                .into_iter()
-                .flat_map(|(kappa, _)| vec![kappa; waves])
-                .collect())
-        })
+        .map(|n| pencil(tangent, n))
         .collect();
-    just_above(asked, found?.into_iter().flatten().collect())
-}
-
-/// A little more than the lowest `kappa` but `asked - 1`.
-fn just_above(asked: usize, mut kappas: Vec<f64>) -> Result<f64, CeaError> {
-    kappas.sort_by(f64::total_cmp);
-    let total = kappas.len();
-    kappas
-        .get(asked - 1)
-        .map(|kappa| kappa * (1.0 + 1e-9))
-        .ok_or(CeaError::TooManyModes { asked, total })
+    let pencils = pencils?;
+    let count = asked.div_ceil(2 * few.max(1)) + 1;
+    let found: Vec<Vec<f64>> = pencils
+        .par_iter()
+        .enumerate()
+        .map(|(n, pencil)| of_all_waves(tangent, n, &pencil.lowest(count)))
+        .collect();
+    Ok((just_above(asked, found.concat())?, pencils))
 }
 
 /// `kappa` at rest up to which the modes wanted lie.
 fn wanted(
     tangent: &SolidTangent,
-    reduced: &[Reduced],
+    found: &[AtRest],
     limit: ModeLimit,
     bound: f64,
 ) -> Result<f64, CeaError> {
     let ModeLimit::Lowest(asked) = limit else {
         return Ok(bound);
     };
-    let all = reduced.iter().flat_map(|found| {
-        let waves = waves(tangent, found.harmonic);
-        found
-            .reduction
-            .kappas
-            .iter()
-            .flat_map(move |&kappa| vec![kappa; waves])
-    });
+    let all = found
+        .iter()
+        .flat_map(|found| of_all_waves(tangent, found.harmonic, &found.modes));
     just_above(asked, all.collect())
 }
 
-/// The harmonics that have modes below `kappa` at rest, reduced, and those counted empty.
-fn reduce(tangent: &SolidTangent, kappa: f64) -> Result<(Vec<Reduced>, Vec<usize>), CeaError> {
+/// `kappa` of the modes of harmonic `n`, of each wave once.
+fn of_all_waves(tangent: &SolidTangent, n: usize, modes: &Modes) -> Vec<f64> {
+    let waves = if tangent.is_standing(n) { 1 } else { 2 };
+    let kappas = modes.iter().flat_map(|mode| vec![mode.0; waves]);
+    kappas.collect()
+}
+
+/// A little more than the lowest `kappa` but `asked - 1`.
+fn just_above(asked: usize, mut kappas: Vec<f64>) -> Result<f64, CeaError> {
+    kappas.sort_by(f64::total_cmp);
+    let total = kappas.len();
+    let highest = kappas.get(asked - 1).map(|kappa| kappa * (1.0 + 1e-9));
+    highest.ok_or(CeaError::TooManyModes { asked, total })
+}
+
+/// The harmonics that have modes below `kappa` at rest with these modes, and those counted empty; `known` are the first.
+fn modes_below(
+    tangent: &SolidTangent,
+    kappa: f64,
+    known: Vec<Pencil>,
+) -> Result<(Vec<AtRest>, Vec<usize>), CeaError> {
     let largest = tangent.sector().sector_count() / 2;
-    let groups = groups(tangent);
-    let [contact, axial, touched] = &groups;
-    let solve = |n: usize| -> Result<Option<Reduced>, CeaError> {
-        let harmonic: SolidHarmonic = tangent.harmonic(n);
-        let pencil = pencil(tangent, n, &harmonic.rigid)?;
+    let solve = |(n, known): (usize, Option<Pencil>)| -> Result<Option<AtRest>, CeaError> {
+        let pencil = known.map_or_else(|| pencil(tangent, n), Ok)?;
         let counted = pencil.count_below(kappa);
         if counted == 0 {
             return Ok(None);
@@ -240,30 +234,29 @@ fn reduce(tangent: &SolidTangent, kappa: f64) -> Result<(Vec<Reduced>, Vec<usize
                 found,
             });
         }
-        let reduction = Reduction::new(&pencil, &harmonic, touched, modes);
-        let reduced = reduction.tangent(n, &harmonic, [contact, axial], tangent.rayleigh());
-        Ok(Some(Reduced {
+        Ok(Some(AtRest {
             harmonic: n,
-            problem: HarmonicProblem::new(reduced, tangent.is_standing(n)),
-            reduction,
+            pencil,
+            modes,
         }))
     };
-    let (mut reduced, mut empty) = (Vec::new(), Vec::new());
+    let (mut all, mut empty, mut known) = (Vec::new(), Vec::new(), known.into_iter());
     let (mut n, mut in_a_row, mut step) = (0, 0, 1);
     while n <= largest {
         // Several harmonics side by side.
-        let batch: Vec<usize> = (0..if step == 1 { 4 } else { 1 })
+        let batch: Vec<usize> = (0..if step == 1 { BATCH } else { 1 })
             .map(|k| n + k)
             .filter(|n| *n <= largest)
             .collect();
-        let found: Result<Vec<Option<Reduced>>, CeaError> =
-            batch.par_iter().map(|&n| solve(n)).collect();
+        let with_known: Vec<_> = batch.iter().map(|&n| (n, known.next())).collect();
+        let found: Result<Vec<Option<AtRest>>, CeaError> =
+            with_known.into_par_iter().map(solve).collect();
         for (&n, found) in batch.iter().zip(found?) {
             in_a_row = if found.is_some() { 0 } else { in_a_row + 1 };
             if found.is_none() {
                 empty.push(n);
             }
-            reduced.extend(found);
+            all.extend(found);
         }
         n = batch[batch.len() - 1];
         step = if in_a_row >= EMPTY { 1 + n / 2 } else { 1 };
@@ -273,7 +266,23 @@ fn reduce(tangent: &SolidTangent, kappa: f64) -> Result<(Vec<Reduced>, Vec<usize
             n + 1
         };
     }
-    Ok((reduced, empty))
+    Ok((all, empty))
+}
+
+/// The harmonics on small spaces.
+fn reduce(tangent: &SolidTangent, found: Vec<AtRest>) -> Vec<Reduced> {
+    let [contact, axial, touched] = &groups(tangent);
+    let solve = |found: AtRest| {
+        let n = found.harmonic;
+        let harmonic: SolidHarmonic = tangent.harmonic(n);
+        let reduction = Reduction::new(&found.pencil, &harmonic, touched, found.modes);
+        let reduced = reduction.tangent(n, &harmonic, [contact, axial], tangent.rayleigh());
+        Reduced {
+            problem: HarmonicProblem::new(reduced, tangent.is_standing(n)),
+            reduction,
+        }
+    };
+    found.into_par_iter().map(solve).collect()
 }
 
 /// Unknowns of the contact's nodes, of axial motion, and along and across the sliding of pressed nodes.
@@ -324,12 +333,16 @@ fn shape(tangent: &SolidTangent, n: usize, waves: Waves, x: &[c64]) -> Vec<c64> 
     let scale = larger.conj() / (larger.norm() * size(peak).sqrt()).max(f64::MIN_POSITIVE);
     let sectors = sector.sector_count();
     let sign = if is_backward { -1.0 } else { 1.0 };
+    let phases: Vec<c64> = (0..2 * sectors)
+        .map(|turns| {
+            let angle = sign * PI * turns as f64 / sectors as f64;
+            c64::new(angle.cos(), angle.sin()) * scale
+        })
+        .collect();
     let mut shape = Vec::with_capacity(3 * wave.len() * sectors);
     for j in 0..sectors {
         for (node, u) in sector.nodes.iter().zip(&wave) {
-            let turns = n * (2 * j + node.half_step) % (2 * sectors);
-            let angle = sign * PI * turns as f64 / sectors as f64;
-            let phase = c64::new(angle.cos(), angle.sin()) * scale;
+            let phase = phases[n * (2 * j + node.half_step) % (2 * sectors)];
             shape.extend(u.map(|v| v * phase));
         }
     }
