@@ -5,11 +5,12 @@ use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::matrix_free::LinOp;
 use faer::matrix_free::eigen::{PartialEigenParams, partial_eigen, partial_eigen_scratch};
 use faer::{Mat, MatMut, MatRef, Par, c64};
-use frictionsim::linalg::dense::{product, random_columns};
+use frictionsim::linalg::banded::{BandedMatrix, CompactRows};
+use frictionsim::linalg::dense::{GrowingColumns, column, product, random_columns};
 use frictionsim::linalg::dense_eigen::real_eigen;
 use frictionsim::linalg::{
     BlockOperator, ComplexSparseLu, KrylovSchurSettings, LdlAnalysis, LinalgError, LuAnalysis,
-    MatrixPolynomial, SparseLdl, SparseLu, Wanted, krylov_schur,
+    MatrixPolynomial, SparseCholesky, SparseLdl, SparseLu, Wanted, krylov_schur,
 };
 
 /// Five-point Laplacian on a `side x side` grid, plus `skew` times an unsymmetric convection.
@@ -259,4 +260,45 @@ fn a_start_block_near_the_solution_saves_most_applications() {
         assert!((a.norm() - b.norm()).abs() < 1e-11 * b.norm());
     }
     assert!(warm.applications < 2 * again.applications);
+}
+
+#[test]
+fn products_of_the_nonzero_entries_are_those_of_the_band() {
+    let (n, h) = (19, 5);
+    let mut matrix = BandedMatrix::zeros(n, h);
+    for i in 0..n {
+        for j in matrix.columns(i).filter(|j| (i + 2 * j) % 3 != 0) {
+            matrix.add(i, j, ((7 * i + j) as f64).sin());
+        }
+    }
+    let x = Mat::from_fn(n, 3, |i, j| ((i + 5 * j) as f64).cos());
+    let images = CompactRows::new(&matrix).multiply_columns(&x);
+    for j in 0..3 {
+        let expected = matrix.multiply(column(x.as_ref(), j));
+        let pairs = expected.iter().zip(column(images.as_ref(), j));
+        // Sums of eleven terms of at most one each.
+        assert!(pairs.into_iter().all(|(a, b)| (a - b).abs() < 1e-14));
+    }
+}
+
+#[test]
+fn cholesky_sums_repeated_places_and_refuses_an_indefinite_matrix() {
+    let entries = [(0, 0, 2.0), (0, 0, 2.0), (1, 0, 1.0), (1, 1, 3.0)];
+    let factors = SparseCholesky::factorize(2, entries.into_iter()).unwrap();
+    let mut x = [6.0, 7.0];
+    factors.solve_in_place(MatMut::from_column_major_slice_mut(&mut x, 2, 1));
+    // [[4, 1], [1, 3]] x = (6, 7): condition 2.6.
+    assert!((x[0] - 1.0).abs() < 1e-15 && (x[1] - 2.0).abs() < 1e-15);
+    let indefinite = [(0, 0, 1.0), (1, 0, 2.0), (1, 1, 1.0)];
+    assert!(SparseCholesky::factorize(2, indefinite.into_iter()).is_err());
+}
+
+#[test]
+fn columns_that_grow_keep_what_they_hold() {
+    let all = random_columns(37, 23, 5);
+    let mut growing = GrowingColumns::new(37);
+    for (from, to) in [(0, 1), (1, 4), (4, 5), (5, 16), (16, 23)] {
+        growing.append(all.get(.., from..to));
+        assert_eq!(growing.columns(), all.get(.., ..to));
+    }
 }

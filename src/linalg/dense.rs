@@ -34,7 +34,8 @@ pub fn join_columns(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
 #[derive(Clone, Debug)]
 pub struct GrowingColumns {
     storage: Mat<f64>,
-    count: usize,
+    /// Columns that there is memory for.
+    room: usize,
 }
 
 impl GrowingColumns {
@@ -42,36 +43,40 @@ impl GrowingColumns {
     pub fn new(rows: usize) -> Self {
         Self {
             storage: Mat::zeros(rows, 0),
-            count: 0,
+            room: 0,
         }
     }
 
     /// Number of columns.
     pub fn count(&self) -> usize {
-        self.count
+        self.storage.ncols()
     }
 
     /// The columns.
     pub fn columns(&self) -> MatRef<'_, f64> {
-        self.storage.get(.., ..self.count)
+        self.storage.as_ref()
     }
 
     /// Appends columns.
     pub fn append(&mut self, new: MatRef<'_, f64>) {
-        let (known, total) = (self.count, self.count + new.ncols());
-        if self.storage.ncols() < total {
-            let mut roomy = Mat::zeros(self.storage.nrows(), total + total / 2);
-            roomy.get_mut(.., ..known).copy_from(self.columns());
+        let known = self.count();
+        let total = known + new.ncols();
+        let rows = self.storage.nrows();
+        if self.room < total {
+            // Memory that no column fills yet is not touched.
+            let mut roomy = Mat::with_capacity(rows, total + total / 2);
+            roomy.resize_with(rows, known, |i, j| self.storage[(i, j)]);
             self.storage = roomy;
+            self.room = total + total / 2;
         }
-        self.storage.get_mut(.., known..total).copy_from(new);
-        self.count = total;
+        self.storage
+            .resize_with(rows, total, |i, j| new[(i, j - known)]);
     }
 
     /// Takes the columns' place by their combinations `columns * coefficients`.
     pub fn combine(&mut self, coefficients: MatRef<'_, f64>) {
         self.storage = product(self.columns(), coefficients);
-        self.count = coefficients.ncols();
+        self.room = self.count();
     }
 }
 

@@ -38,20 +38,3 @@ impl SparseCholesky {
         self.factor.solve_in_place(right_sides);
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn repeated_places_are_summed_and_an_indefinite_matrix_is_refused() {
-        let entries = [(0, 0, 2.0), (0, 0, 2.0), (1, 0, 1.0), (1, 1, 3.0)];
-        let factors = SparseCholesky::factorize(2, entries.into_iter()).unwrap();
-        let mut x = [6.0, 7.0];
-        factors.solve_in_place(MatMut::from_column_major_slice_mut(&mut x, 2, 1));
-        // [[4, 1], [1, 3]] x = (6, 7): condition 2.6.
-        assert!((x[0] - 1.0).abs() < 1e-15 && (x[1] - 2.0).abs() < 1e-15);
-        let indefinite = [(0, 0, 1.0), (1, 0, 2.0), (1, 1, 1.0)];
-        assert!(SparseCholesky::factorize(2, indefinite.into_iter()).is_err());
-    }
-}

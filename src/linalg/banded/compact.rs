@@ -59,28 +59,3 @@ impl CompactRows {
         image
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn products_of_the_nonzero_entries_are_those_of_the_band() {
-        let (n, h) = (19, 5);
-        let mut matrix = BandedMatrix::zeros(n, h);
-        for i in 0..n {
-            for j in matrix.columns(i).filter(|j| (i + 2 * j) % 3 != 0) {
-                matrix.add(i, j, ((7 * i + j) as f64).sin());
-            }
-        }
-        let compact = CompactRows::new(&matrix);
-        let x = Mat::from_fn(n, 3, |i, j| ((i + 5 * j) as f64).cos());
-        let images = compact.multiply_columns(&x);
-        for j in 0..3 {
-            let expected = matrix.multiply(column(x.as_ref(), j));
-            // Sums of eleven terms of at most one each.
-            let pairs = expected.iter().zip(column(images.as_ref(), j));
-            assert!(pairs.into_iter().all(|(a, b)| (a - b).abs() < 1e-14));
-        }
-    }
-}
