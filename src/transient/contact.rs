@@ -291,7 +291,7 @@ impl LagrangeContact {
 
     /// Adds what node `i` in contact does, (9) and (10): `tangential` are the power that friction takes from the counterface,
     /// what of it the node gets, and what is lost between them; `mean_n` is the velocity along its normal.
-    #[inline]
+    #[inline(always)]
     fn account(
         &self,
         i: usize,
