@@ -4,6 +4,7 @@
 //! the few nodes of the contact, so each harmonic is first reduced to its modes at rest and to what forces and motions of the
 //! contact cause ([`reduction`]); the reduced problem is followed over friction like that of the plane annulus.
 
+mod error;
 mod reduction;
 mod rest;
 mod sweep;

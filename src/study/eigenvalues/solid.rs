@@ -3,6 +3,7 @@
 use super::StudyError;
 use crate::case::{Case, Cea, CeaMethod};
 use crate::cea::cyclic::SolidModel;
+use crate::contact::SteadyFriction;
 use crate::fem::solid;
 use crate::mesh::{
     AnnulusSpecification, BoundaryCondition, ContactRing, SolidSector, SolidSpecification,
@@ -84,6 +85,18 @@ impl SolidBody {
             drag_n: None,
             power_w: torque * case.contact.sliding.rotation_speed,
         }
+    }
+
+    /// Friction at the mean radius of the contact, and the mean pressure there, Pa.
+    pub fn mean_friction(&self) -> (SteadyFriction, f64) {
+        let SolidReport { sector, base, .. } = &self.report;
+        let area: f64 = sector.rings.iter().map(|ring| ring.area).sum();
+        let moment: f64 = sector
+            .rings
+            .iter()
+            .map(|ring| ring.area * ring.radius)
+            .sum();
+        (base.friction(moment / area).1, base.mean_pressure(sector))
     }
 
     /// What an open part of the contact means.

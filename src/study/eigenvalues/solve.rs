@@ -87,15 +87,21 @@ fn damping_note(case: &Case, sweep: &FrictionSweep) -> Option<String> {
 /// What a friction law does at the speed of sliding.
 fn friction_note(case: &Case, model: &SlidingModel) -> Option<String> {
     case.contact.sliding.decay?;
-    let (base, friction) = (model.base(), case.contact.sliding.friction_coefficient);
-    let pressures = base.pressures(friction);
-    let pressure = pressures.iter().sum::<f64>() / pressures.len().max(1) as f64;
+    let friction = case.contact.sliding.friction_coefficient;
+    let (law, pressure) = match &model.solid {
+        Some(solid) => solid.mean_friction(),
+        None => {
+            let pressures = model.base().pressures(friction);
+            let mean = pressures.iter().sum::<f64>() / pressures.len().max(1) as f64;
+            (model.base().friction, mean)
+        }
+    };
     Some(format!(
         "friction falls with speed: friction coefficients are those of high speed; in steady sliding friction is {:.4} \
          times as large, and at contact.friction_coefficient = {friction} its fall is a dashpot of {:.3e} Pa s/m on the \
          tangential motion of the edge (mean pressure {pressure:.3e} Pa)",
-        base.friction.drag.abs(),
-        friction * pressure * base.friction.slope,
+        law.drag.abs(),
+        friction * pressure * law.slope,
     ))
 }
 
@@ -174,6 +180,12 @@ fn solve_solid(case: &Case, cea: &Cea, model: &SlidingModel) -> Result<Solution,
         coverage.largest_harmonic,
         coverage.margin_hz,
     )];
+    notes.push(format!(
+        "each harmonic is solved in a small space (residuals are those there), which leaves out up to {:.1e} of an eigenvalue, \
+         estimated at friction {}",
+        found.reduction_error,
+        friction_coefficients.iter().fold(0.0_f64, |m, &mu| m.max(mu)),
+    ));
     notes.extend(model.solid.as_ref().and_then(SolidBody::note));
     Ok(Solution {
         dofs: found.dofs,

@@ -1,5 +1,6 @@
 //! A sweep over the friction coefficient in three dimensions.
 
+use super::error::{ReducedPair, reduction_error};
 use super::reduction::{Reduction, moving};
 use super::rest::{Modes, Pencil};
 use crate::cea::cyclic::Coverage;
@@ -39,6 +40,9 @@ pub struct SolidSweep {
     pub coverage: Coverage,
     /// Unknowns of all harmonics.
     pub dofs: usize,
+    /// What the reduction of the harmonics leaves out of an eigenvalue, relative to it: the largest estimate at the largest friction
+    /// coefficient.
+    pub reduction_error: f64,
 }
 
 /// Branches are followed from this much above the highest frequency wanted.
@@ -64,6 +68,8 @@ struct AtRest {
 struct Reduced {
     reduction: Reduction,
     problem: HarmonicProblem,
+    harmonic: SolidHarmonic,
+    pencil: Pencil,
 }
 
 /// Eigenvalues of steady sliding of a body of revolution over a range of friction coefficients.
@@ -85,7 +91,7 @@ pub fn solid_sweep(model: &SolidModel, request: &SweepRequest<'_>) -> Result<Sol
     let margin = wanted * MARGIN * MARGIN;
     found.retain(|found| found.modes.iter().any(|mode| mode.0 < margin));
     let reduced = reduce(&tangent, found);
-    let followed: Result<Vec<(HarmonicPaths, Reduction)>, CeaError> = reduced
+    let solved: Result<Vec<(HarmonicPaths, Reduction, f64)>, CeaError> = reduced
         .into_par_iter()
         .map(|found| {
             let kappas = found.reduction.kappas.iter().enumerate();
@@ -98,10 +104,16 @@ pub fn solid_sweep(model: &SolidModel, request: &SweepRequest<'_>) -> Result<Sol
                 });
             let pairs: Vec<_> = pairs.collect();
             let paths = follow_pairs(found.problem, &pairs, &grid, request.shapes_at)?;
-            Ok((paths, found.reduction))
+            let error = largest_error(&paths, &found.reduction, &found.harmonic, &found.pencil);
+            Ok((paths, found.reduction, error))
         })
         .collect();
-    let (followed, reductions): (Vec<_>, Vec<_>) = followed?.into_iter().unzip();
+    let (mut followed, mut reductions, mut error) = (Vec::new(), Vec::new(), 0.0_f64);
+    for (paths, reduction, own) in solved? {
+        followed.push(paths);
+        reductions.push(reduction);
+        error = error.max(own);
+    }
     let direction = tangent.base().sliding_direction;
     let expand = |n: usize, waves: Waves, x: &[c64]| {
         let own = followed
@@ -147,7 +159,28 @@ pub fn solid_sweep(model: &SolidModel, request: &SweepRequest<'_>) -> Result<Sol
         sweep: FrictionSweep { points, intervals },
         coverage,
         dofs: tangent.unknown_of().iter().flatten().count() * sector.sector_count(),
+        reduction_error: error,
     })
+}
+
+/// The largest [`reduction_error`] of the paths of a harmonic at their ends.
+fn largest_error(
+    paths: &HarmonicPaths,
+    reduction: &Reduction,
+    harmonic: &SolidHarmonic,
+    pencil: &Pencil,
+) -> f64 {
+    let ends = paths.paths.iter().filter_map(|path| path.points.last());
+    let errors = ends.map(|end| {
+        let pair = ReducedPair {
+            friction_coefficient: end.parameter,
+            eigenvalue: paths.problem.eigenvalue(end.theta),
+            right: &end.x,
+            left: &end.y,
+        };
+        reduction_error(reduction, harmonic, pencil, &pair)
+    });
+    errors.fold(0.0, f64::max)
 }
 
 fn pencil(tangent: &SolidTangent, n: usize) -> Result<Pencil, CeaError> {
@@ -280,6 +313,8 @@ fn reduce(tangent: &SolidTangent, found: Vec<AtRest>) -> Vec<Reduced> {
         Reduced {
             problem: HarmonicProblem::new(reduced, tangent.is_standing(n)),
             reduction,
+            harmonic,
+            pencil: found.pencil,
         }
     };
     found.into_par_iter().map(solve).collect()
