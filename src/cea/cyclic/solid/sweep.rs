@@ -104,7 +104,8 @@ pub fn solid_sweep(model: &SolidModel, request: &SweepRequest<'_>) -> Result<Sol
                 });
             let pairs: Vec<_> = pairs.collect();
             let paths = follow_pairs(found.problem, &pairs, &grid, request.shapes_at)?;
-            let error = largest_error(&paths, &found.reduction, &found.harmonic, &found.pencil);
+            let whole = (&found.reduction, &found.harmonic, &found.pencil);
+            let error = largest_error(&paths, whole, wanted);
             Ok((paths, found.reduction, error))
         })
         .collect();
@@ -163,12 +164,11 @@ pub fn solid_sweep(model: &SolidModel, request: &SweepRequest<'_>) -> Result<Sol
     })
 }
 
-/// The largest [`reduction_error`] of the paths of a harmonic at their ends.
+/// The largest [`reduction_error`] of the paths of a harmonic that end below `|lambda|^2 = wanted`.
 fn largest_error(
     paths: &HarmonicPaths,
-    reduction: &Reduction,
-    harmonic: &SolidHarmonic,
-    pencil: &Pencil,
+    (reduction, harmonic, pencil): (&Reduction, &SolidHarmonic, &Pencil),
+    wanted: f64,
 ) -> f64 {
     let ends = paths.paths.iter().filter_map(|path| path.points.last());
     let errors = ends.map(|end| {
@@ -178,7 +178,10 @@ fn largest_error(
             right: &end.x,
             left: &end.y,
         };
-        reduction_error(reduction, harmonic, pencil, &pair)
+        match pair.eigenvalue.norm_sqr() <= wanted {
+            true => reduction_error(reduction, harmonic, pencil, &pair),
+            false => 0.0,
+        }
     });
     errors.fold(0.0, f64::max)
 }
