@@ -48,6 +48,33 @@ fn modes_for_a_fit_and_onsets_of_a_sample_are_those_of_the_body_with_its_thickne
     }
 }
 
+/// Falling friction is a negative dashpot: squeal from a lower friction on, and the law is said.
+#[test]
+fn friction_that_falls_with_the_speed_is_said_and_destabilizes_a_body_with_thickness() {
+    let lowest = |law: &[&str]| {
+        let folder = tempfile::tempdir().unwrap();
+        let mut run = Command::cargo_bin("frictionsim").unwrap();
+        run.current_dir(folder.path()).arg("cea");
+        run.arg(shipped()).args(["--out", "run", "--no-figures"]);
+        for set in COARSE.iter().chain(law) {
+            run.args(["--set", set]);
+        }
+        let output = run.assert().success().get_output().stdout.clone();
+        let summary = std::fs::read(folder.path().join("run/summary.json")).unwrap();
+        let summary: serde_json::Value = serde_json::from_slice(&summary).unwrap();
+        let onset = &summary["critical_frictions"][0]["critical_friction"];
+        (String::from_utf8(output).unwrap(), onset.as_f64().unwrap())
+    };
+    let (said, falling) = lowest(&[
+        "contact.static_friction_ratio=1.4",
+        "contact.decay_speed=2.0",
+    ]);
+    assert!(said.contains("friction falls with speed"), "{said}");
+    let (said, constant) = lowest(&[]);
+    assert!(!said.contains("friction falls with speed"), "{said}");
+    assert!(falling < constant, "{falling} {constant}");
+}
+
 /// Names and NumPy headers of the arrays of `contact.npz` of a short run.
 fn contact_arrays(overrides: &[&str]) -> Vec<(String, String)> {
     let folder = tempfile::tempdir().unwrap();
