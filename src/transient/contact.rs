@@ -261,7 +261,7 @@ impl LagrangeContact {
             }
             fields.elastic[n] = q_n + dt * fields.elastic_rate[n];
             fields.elastic[t] = q_t + dt * fields.elastic_rate[t];
-            let tangential = self.tangential_force[i];
+            let (normal, tangential) = (self.normal_force[i], self.tangential_force[i]);
             let mut mean_n = 0.5 * (v_n + fields.velocity[n]);
             let mut mean_t = 0.5 * (v_t + fields.velocity[t]);
             if let Some(opposite) = &self.opposite {
@@ -269,53 +269,27 @@ impl LagrangeContact {
                 mean_n -= normal;
                 mean_t -= tangential;
             }
-            let tangential = [
-                tangential * self.surface_speed,
-                tangential * mean_t,
-                tangential * (self.surface_speed - mean_t),
-            ];
-            self.account(
-                i,
-                tangential,
-                mean_n,
-                shares,
-                dt,
-                (&mut powers, &mut counts),
-            );
+            let power = tangential * mean_t;
+            if self.status[i] == ContactStatus::Stick {
+                counts.stick += 1;
+                powers.stick += power;
+            } else {
+                counts.slip += 1;
+                powers.slide += power;
+            }
+            // (9) and (10).
+            powers.external += tangential * self.surface_speed;
+            powers.contact_dissipated += tangential * (self.surface_speed - mean_t);
+            powers.normal += normal
+                * match &self.compliance {
+                    None => mean_n,
+                    Some(_) => 0.5 * (self.pushed(i, shares[2]) - self.pushed(i, shares[0])) / dt,
+                };
             if let Some(dashpot) = self.dashpots.get(i) {
                 powers.damping += dashpot * mean_t * mean_t;
             }
         }
         (powers, counts)
-    }
-
-    /// Adds what node `i` in contact does, (9) and (10): `tangential` are the power that friction takes from the counterface,
-    /// what of it the node gets, and what is lost between them; `mean_n` is the velocity along its normal.
-    #[inline(always)]
-    fn account(
-        &self,
-        i: usize,
-        tangential: [f64; 3],
-        mean_n: f64,
-        shares: [f64; 3],
-        dt: f64,
-        (powers, counts): (&mut ContactPowers, &mut StatusCounts),
-    ) {
-        let [external, own, dissipated] = tangential;
-        if self.status[i] == ContactStatus::Stick {
-            counts.stick += 1;
-            powers.stick += own;
-        } else {
-            counts.slip += 1;
-            powers.slide += own;
-        }
-        powers.external += external;
-        powers.contact_dissipated += dissipated;
-        powers.normal += self.normal_force[i]
-            * match &self.compliance {
-                None => mean_n,
-                Some(_) => 0.5 * (self.pushed(i, shares[2]) - self.pushed(i, shares[0])) / dt,
-            };
     }
 
     /// Distance of node `i` from the counterface under a `share` of the interference, m, from its normal dof.

@@ -210,17 +210,22 @@ impl LagrangeContact {
             let [mean_n, mean_t, mean_a] = means;
             let tangential = self.tangential_force[i];
             let power = tangential * mean_t + face.forces[i] * mean_a;
+            if self.status[i] == ContactStatus::Stick {
+                counts.stick += 1;
+                powers.stick += power;
+            } else {
+                counts.slip += 1;
+                powers.slide += power;
+            }
+            // (9) and (10).
             let external = tangential * face.speeds[i];
-            let tangential = [external, power, external - power];
-            let mean_n = self.inward * mean_n;
-            self.account(
-                i,
-                tangential,
-                mean_n,
-                shares,
-                dt,
-                (&mut powers, &mut counts),
-            );
+            powers.external += external;
+            powers.contact_dissipated += external - power;
+            powers.normal += self.normal_force[i]
+                * match &self.compliance {
+                    None => self.inward * mean_n,
+                    Some(_) => 0.5 * (self.pushed(i, shares[2]) - self.pushed(i, shares[0])) / dt,
+                };
             if let Some(dashpot) = self.dashpots.get(i) {
                 powers.damping += dashpot * (mean_t * mean_t + mean_a * mean_a);
             }
