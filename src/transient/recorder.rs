@@ -84,11 +84,20 @@ pub struct ContactFrame {
     pub status: Vec<u8>,
     /// Contact pressure `N / w`, Pa.
     pub pressure: Vec<f32>,
-    /// Contact shear `T / w`, Pa, along the sliding.
-    pub shear: Vec<f32>,
-    /// The same across the sliding on a body in three dimensions, along `e_z` on its inner edge and `e_r` on its top; empty
-    /// in the plane.
-    pub shear_across: Vec<f32>,
+    /// Contact shear `T / w`, Pa, of all nodes along the sliding; then, on a body in three dimensions, of all nodes across it.
+    pub shears: Vec<f32>,
+}
+
+impl ContactFrame {
+    /// Contact shear along the sliding, Pa.
+    pub fn shear(&self) -> &[f32] {
+        self.shears.get(..self.status.len()).unwrap_or_default()
+    }
+
+    /// Contact shear across the sliding, along `e_z` on the inner edge and `e_r` on the top, Pa; empty in the plane.
+    pub fn shear_across(&self) -> &[f32] {
+        self.shears.get(self.status.len()..).unwrap_or_default()
+    }
 }
 
 /// Keeps samples, probes, contact frames and snapshots in memory; can be saved and loaded with the state.

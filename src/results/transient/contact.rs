@@ -28,10 +28,10 @@ pub fn encode_contact(record: &Recorder) -> io::Result<Vec<u8>> {
     archive.array("status", &shape, status)?;
     let pressure = frames.iter().flat_map(|f| f.pressure.iter().copied());
     archive.array("pressure_pa", &shape, pressure)?;
-    let shear = frames.iter().flat_map(|f| f.shear.iter().copied());
+    let shear = frames.iter().flat_map(|f| f.shear().iter().copied());
     archive.array("shear_pa", &shape, shear)?;
-    if frames.iter().any(|frame| !frame.shear_across.is_empty()) {
-        let across = frames.iter().flat_map(|f| f.shear_across.iter().copied());
+    if frames.iter().any(|frame| !frame.shear_across().is_empty()) {
+        let across = frames.iter().flat_map(|f| f.shear_across().iter().copied());
         archive.array("shear_across_pa", &shape, across)?;
     }
     let interval = record.frame_stride as f64 * record.sample_interval;

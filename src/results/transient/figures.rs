@@ -271,7 +271,7 @@ impl RunFigures<'_> {
             .filter(&one)
             .map(|i| frame.status[i])
             .collect();
-        let values = [&wide(&frame.pressure)[..], &wide(&frame.shear), &velocity];
+        let values = [&wide(&frame.pressure)[..], &wide(frame.shear()), &velocity];
         let instant = format!("*t* = {:.3} ms", snapshot.time * 1e3);
         if !self.mesh.has_round_contact() {
             let caption = "Contact at the last snapshot along the contact edge: tractions (a), velocity (b), on a ground coloured by status.";

@@ -231,9 +231,9 @@ fn contact_fields(edge: &[u32], count: usize, snapshot: &Snapshot) -> Vec<Field>
     let contact = &snapshot.contact;
     let wide = |values: &[f32]| values.iter().copied().map(f64::from).collect::<Vec<f64>>();
     on_edge("pressure_pa", &mut wide(&contact.pressure).into_iter());
-    on_edge("shear_pa", &mut wide(&contact.shear).into_iter());
-    if !contact.shear_across.is_empty() {
-        let across = wide(&contact.shear_across);
+    on_edge("shear_pa", &mut wide(contact.shear()).into_iter());
+    if !contact.shear_across().is_empty() {
+        let across = wide(contact.shear_across());
         on_edge("shear_across_pa", &mut across.into_iter());
     }
     on_edge("gap_m", &mut snapshot.gap.iter().copied());

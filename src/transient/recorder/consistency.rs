@@ -23,10 +23,8 @@ impl Recorder {
             raw.len() == self.probes.len() && raw.iter().all(|rows| rows.len() == samples)
         });
         let of_edge = |frame: &ContactFrame| {
-            let lengths = [frame.status.len(), frame.pressure.len(), frame.shear.len()];
-            let across = frame.shear_across.len();
-            lengths == [contact; 3]
-                && [0, contact].contains(&across)
+            [frame.status.len(), frame.pressure.len()] == [contact; 2]
+                && [contact, contact.saturating_mul(2)].contains(&frame.shears.len())
                 && frame.status.iter().all(|&code| code <= 2)
         };
         let snapshots_fit = self.snapshots.iter().all(|snapshot| {
@@ -62,7 +60,7 @@ impl Recorder {
             && self.probes.iter().all(|&probe| probe * components <= dofs)
             && frames
                 .into_iter()
-                .all(|frame| frame.shear_across.len() == across)
+                .all(|frame| frame.shear_across().len() == across)
             && snapshots.all(|snapshot| snapshot.displacement.len() == dofs)
     }
 }

@@ -70,14 +70,17 @@ impl Recorder {
             let pairs = forces.iter().zip(&self.tributary_lengths);
             pairs
                 .map(|(force, length)| (force / length) as f32)
-                .collect()
+                .collect::<Vec<f32>>()
         };
         ContactFrame {
             time: sample.time,
             status: sample.status().iter().map(|&status| status as u8).collect(),
             pressure: traction(sample.normal_force()),
-            shear: traction(sample.tangential_force()),
-            shear_across: traction(sample.across_force()),
+            shears: [
+                traction(sample.tangential_force()),
+                traction(sample.across_force()),
+            ]
+            .concat(),
         }
     }
 
