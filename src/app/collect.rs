@@ -1,7 +1,7 @@
 //! `frictionsim collect`: the table over the points that a sweep has finished so far.
 
 use super::figure_options::FigureOptions;
-use super::plot::recorded_case;
+use super::recorded_case::recorded_case;
 use super::session::start_threads;
 use super::sweep::{SweepPlan, core_seconds, drawing, finished_points, gather};
 use super::{Failure, terminal};

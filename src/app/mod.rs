@@ -20,6 +20,7 @@ mod measurement;
 mod mesh;
 mod options;
 pub mod plot;
+mod recorded_case;
 mod session;
 mod share;
 mod signal;

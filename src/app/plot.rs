@@ -1,18 +1,17 @@
 //! `frictionsim plot`: the figures of a results folder once more.
 
 use super::figure_options::FigureOptions;
-use super::session::{MESH, start_threads};
+use super::recorded_case::recorded_case;
+use super::session::start_threads;
 use super::{
     Failure, cea, collect, convergence, cycle, fit, frf, identify, mesh, signal, terminal,
     transient, uncertainty,
 };
-use crate::case::{Case, MeshBytes, RawCase, RawValue};
 use crate::results::{
     DrawingOptions, FolderError, Manifest, OutputFolder, read_manifest, read_summary,
 };
 use clap::{ArgAction, Args, ValueHint};
 use serde_json::Value;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Draw the figures of a results folder again
@@ -121,21 +120,4 @@ fn draw_beside(path: &Path, others: &[PathBuf], options: &DrawingOptions) -> Res
     let folder = OutputFolder::reopen(path)?;
     transient::draw_beside(&folder, &runs, options)?;
     Ok(folder.finish()?)
-}
-
-/// The case that the manifest of a folder records, overrides included, with the mesh file that the folder holds.
-///
-/// # Errors
-/// Those of the case, if the manifest was edited.
-pub fn recorded_case(folder: &Path, manifest: &Manifest) -> Result<Case, Failure> {
-    let text = manifest.case_text.as_bytes();
-    let mut raw = RawCase::parse(&manifest.case_file, text, &manifest.overrides)?;
-    let file = raw.find("mesh.file").map(|item| &item.value);
-    if let (Some(RawValue::String(file)), Ok(bytes)) = (file, fs::read(folder.join(MESH))) {
-        raw.mesh = Some(MeshBytes {
-            file: file.clone(),
-            bytes: bytes.into(),
-        });
-    }
-    Ok(Case::from_raw(raw)?)
 }

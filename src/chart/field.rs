@@ -1,6 +1,6 @@
 //! A nodal field over a (deformed) mesh as a small image with sharp outlines.
 
-use super::axis::{Axis, extremes};
+use super::axis::Axis;
 use super::colour::{ColourMap, INK};
 use super::data::{Series, SeriesKind};
 use super::decimation::simplify;
@@ -8,6 +8,7 @@ use super::frame::Frame;
 use super::image::{Colours, IndexedImage, Palette};
 use super::layer::Layer;
 use super::path::Path;
+use super::scale::extremes;
 use super::svg::{Stroke, Svg};
 use super::text::plain;
 use std::sync::Arc;

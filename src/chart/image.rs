@@ -1,10 +1,11 @@
 //! Small images inside drawings: heat maps, maps of states.
 
-use super::axis::{Axis, extremes};
+use super::axis::Axis;
 use super::colour::{ColourMap, channels};
 use super::frame::Frame;
 use super::layer::Layer;
 use super::legend::Key;
+use super::scale::extremes;
 use super::svg::Svg;
 
 /// Colours of an image by index; one index more is transparent.

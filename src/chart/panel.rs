@@ -1,6 +1,6 @@
 //! One plot: two axes and the layers between them.
 
-use super::axis::{Axis, extremes};
+use super::axis::Axis;
 use super::colour::{INK, MUTED};
 use super::data::{AxisData, PanelData, Series};
 use super::frame::{
@@ -10,6 +10,7 @@ use super::image::Colours;
 use super::layer::Layer;
 use super::legend::{Key, Legend};
 use super::ruler::{Ruler, Tick, widest};
+use super::scale::extremes;
 use super::svg::{Stroke, Svg};
 use super::text::{Anchor, TextStyle, plain};
 

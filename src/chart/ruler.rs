@@ -1,7 +1,7 @@
 //! An axis whose range is known: places, round ticks, labels.
 
-use super::axis::Scale;
 use super::numbers::signed;
+use super::scale::Scale;
 use super::text;
 
 /// One labelled tick.

@@ -1,7 +1,8 @@
 //! Branches of one harmonic as continuous functions of the friction coefficient, and where they grow.
 
-use super::follow::{Eigenpair, Follower};
-use super::paths::{HarmonicPaths, Path, Waves};
+use super::follow::Follower;
+use super::path::{Eigenpair, Path, Waves};
+use super::paths::HarmonicPaths;
 use super::problem::HarmonicProblem;
 use crate::cea::onset::{BranchSolver, instabilities};
 use crate::cea::{BranchPoint, ModeBranch};

@@ -4,8 +4,8 @@
 //! `kappa` can meet and go on as a conjugate pair, or the other way round. No derivative exists at that
 //! point; both are followed on the far side.
 
-use super::follow::{Eigenpair, Follower};
-use super::paths::Path;
+use super::follow::Follower;
+use super::path::{Eigenpair, Path};
 use super::problem::Matrices;
 use super::vectors::{dot, normalize};
 use crate::linalg::c64;

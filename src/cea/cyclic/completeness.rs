@@ -1,7 +1,8 @@
 //! Whether any mode of the range was left out.
 
 use super::definite::{self, Region};
-use super::paths::{HarmonicPaths, Waves};
+use super::path::Waves;
+use super::paths::HarmonicPaths;
 use super::problem::{HarmonicProblem, Matrices};
 use crate::linalg::banded::BandedLu;
 use crate::linalg::c64;

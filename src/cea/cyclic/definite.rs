@@ -1,6 +1,6 @@
 //! Proof that a harmonic holds no eigenvalue in a region, for a whole range of friction at once.
 
-use super::problem::ZERO;
+use super::vectors::ZERO;
 use crate::linalg::banded::{BandedHermitian, BandedLdl, BandedMatrix};
 use crate::linalg::c64;
 use crate::prestress::HarmonicTangent;

@@ -1,31 +1,11 @@
 //! Following one eigenpair along a parameter.
 
+use super::path::Eigenpair;
 use super::problem::{HarmonicProblem, Matrices};
 use super::vectors::{dot, normalize};
 use crate::linalg::banded::BandedLu;
 use crate::linalg::c64;
 use std::rc::Rc;
-
-/// An eigenpair of `T(theta)` at one parameter value.
-#[derive(Clone, Debug)]
-pub(super) struct Eigenpair {
-    /// Friction coefficient (or share of the damping, on the way to the first point).
-    pub parameter: f64,
-    pub theta: c64,
-    /// `d theta / d parameter`.
-    pub rate: c64,
-    /// Right vector, unit Euclidean length.
-    pub x: Vec<c64>,
-    /// Left vector, unit Euclidean length.
-    pub y: Vec<c64>,
-    pub residual: f64,
-    /// See [`crate::cea::ComplexMode::contact_share`]; known at the friction values asked for.
-    pub contact_share: f64,
-    /// See [`crate::cea::ComplexMode::axial_share`]; known at the same values.
-    pub axial_share: f64,
-    /// See [`crate::cea::ComplexMode::uncertainty`]; known at the same values.
-    pub uncertainty: f64,
-}
 
 /// How far apart two successive points of a path may lie.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -12,6 +12,7 @@ mod definite;
 mod follow;
 mod map;
 mod modes;
+mod path;
 mod paths;
 mod problem;
 mod rest;

@@ -1,7 +1,8 @@
 //! The modes at one friction value, from the followed branches.
 
 use super::branch::{direction_of, eigenvalue_of, waves_of};
-use super::paths::{HarmonicPaths, Path, Waves};
+use super::path::{Path, Waves};
+use super::paths::HarmonicPaths;
 use super::problem::HarmonicProblem;
 use crate::cea::{ComplexMode, FrictionPoint, ModeLimit, SweepRequest, keeping_ties};
 use crate::linalg::c64;

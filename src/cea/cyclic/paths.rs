@@ -1,34 +1,13 @@
 //! All branches of one harmonic, followed together over the friction coefficient.
 
-use super::follow::{Eigenpair, Follower, StepControl};
+use super::follow::{Follower, StepControl};
+use super::path::{Eigenpair, Path, Waves};
 use super::problem::{HarmonicProblem, Matrices};
 use super::vectors::dot;
 use super::{collision, rest};
 use crate::cea::CeaError;
 use crate::linalg::c64;
 use std::rc::Rc;
-
-/// Which waves a path stands for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Waves {
-    /// `+n` from `theta` and `-n` from its conjugate (proportional damping).
-    Both,
-    /// `+n` alone, or a standing wave.
-    Forward,
-    /// `-n` alone: `lambda` is the conjugate of `theta`.
-    Backward,
-}
-
-/// One branch of one harmonic.
-pub(super) struct Path {
-    /// Rank among the harmonic's modes without friction.
-    pub branch: usize,
-    /// `kappa` without friction and damping.
-    pub rest: c64,
-    pub waves: Waves,
-    /// Accepted points, rising; vectors are dropped but for the last and those kept on purpose.
-    pub points: Vec<Eigenpair>,
-}
 
 /// The followed branches of one harmonic.
 pub(super) struct HarmonicPaths {

@@ -1,13 +1,12 @@
 //! The eigenproblem of one harmonic as a function of one scalar `theta`.
 
-use super::follow::Eigenpair;
-use super::vectors::{add, dot, largest, product};
+use super::path::Eigenpair;
+use super::vectors::{ZERO, add, dot, largest, product};
 use crate::fem::RayleighDamping;
 use crate::linalg::banded::{BandedLu, BandedMatrix};
 use crate::linalg::c64;
 use crate::prestress::{FrictionPolynomial, HarmonicTangent};
 
-pub(super) const ZERO: c64 = c64::new(0.0, 0.0);
 pub(super) const I: c64 = c64::new(0.0, 1.0);
 
 /// Frequency over the modulus of an eigenvalue below which a motion counts as overdamped.

@@ -3,7 +3,8 @@
 use super::CyclicSweep;
 use super::branch::path_theta;
 use super::follow::Follower;
-use super::problem::{HarmonicProblem, ZERO};
+use super::problem::HarmonicProblem;
+use super::vectors::ZERO;
 use crate::cea::{CeaError, ModeBranch};
 use crate::linalg::banded::BandedMatrix;
 use crate::linalg::c64;

@@ -1,7 +1,8 @@
 //! Sums over short complex vectors.
 
-use super::problem::ZERO;
 use crate::linalg::c64;
+
+pub(super) const ZERO: c64 = c64::new(0.0, 0.0);
 
 /// `y^H x`.
 pub(super) fn dot(y: &[c64], x: &[c64]) -> c64 {

@@ -1,0 +1,25 @@
+//! The case of a folder of results.
+
+use super::Failure;
+use super::session::MESH;
+use crate::case::{Case, MeshBytes, RawCase, RawValue};
+use crate::results::Manifest;
+use std::fs;
+use std::path::Path;
+
+/// The case that the manifest of a folder records, overrides included, with the mesh file that the folder holds.
+///
+/// # Errors
+/// Those of the case, if the manifest was edited.
+pub fn recorded_case(folder: &Path, manifest: &Manifest) -> Result<Case, Failure> {
+    let text = manifest.case_text.as_bytes();
+    let mut raw = RawCase::parse(&manifest.case_file, text, &manifest.overrides)?;
+    let file = raw.find("mesh.file").map(|item| &item.value);
+    if let (Some(RawValue::String(file)), Ok(bytes)) = (file, fs::read(folder.join(MESH))) {
+        raw.mesh = Some(MeshBytes {
+            file: file.clone(),
+            bytes: bytes.into(),
+        });
+    }
+    Ok(Case::from_raw(raw)?)
+}

@@ -1,0 +1,46 @@
+//! What is known of one branch: its points.
+
+use crate::linalg::c64;
+
+/// An eigenpair of `T(theta)` at one parameter value.
+#[derive(Clone, Debug)]
+pub(super) struct Eigenpair {
+    /// Friction coefficient (or share of the damping, on the way to the first point).
+    pub parameter: f64,
+    pub theta: c64,
+    /// `d theta / d parameter`.
+    pub rate: c64,
+    /// Right vector, unit Euclidean length.
+    pub x: Vec<c64>,
+    /// Left vector, unit Euclidean length.
+    pub y: Vec<c64>,
+    pub residual: f64,
+    /// See [`crate::cea::ComplexMode::contact_share`]; known at the friction values asked for.
+    pub contact_share: f64,
+    /// See [`crate::cea::ComplexMode::axial_share`]; known at the same values.
+    pub axial_share: f64,
+    /// See [`crate::cea::ComplexMode::uncertainty`]; known at the same values.
+    pub uncertainty: f64,
+}
+
+/// Which waves a path stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Waves {
+    /// `+n` from `theta` and `-n` from its conjugate (proportional damping).
+    Both,
+    /// `+n` alone, or a standing wave.
+    Forward,
+    /// `-n` alone: `lambda` is the conjugate of `theta`.
+    Backward,
+}
+
+/// One branch of one harmonic.
+pub(super) struct Path {
+    /// Rank among the harmonic's modes without friction.
+    pub branch: usize,
+    /// `kappa` without friction and damping.
+    pub rest: c64,
+    pub waves: Waves,
+    /// Accepted points, rising; vectors are dropped but for the last and those kept on purpose.
+    pub points: Vec<Eigenpair>,
+}
