@@ -4,11 +4,11 @@ use super::CyclicSystem;
 use super::cyclic_system::{Damping, Harmonic, evaluate, held_harmonic};
 use crate::fem::sector::MirrorParity;
 use crate::fem::solid::{self, SolidMatrix, half_bandwidth};
-use crate::fem::{ElasticMaterial, MassKind, RayleighDamping};
+use crate::fem::{DofMap, ElasticMaterial, MassKind, RayleighDamping};
 use crate::linalg::banded::BandedMatrix;
 use crate::linalg::c64;
 use crate::mesh::{BoundaryCondition, SolidSector};
-use crate::prestress::{SolidTangent, supports};
+use crate::prestress::{SolidTangent, moving_unknowns, sector_unknowns, supports};
 
 /// What the matrices of a harmonic are made of.
 #[derive(Clone, Debug)]
@@ -44,13 +44,7 @@ impl CyclicSystem {
         if !is_clamped {
             sector.specification.conditions = [BoundaryCondition::Free; 4];
         }
-        let mut next = 0;
-        let unknown_of = (0..3 * sector.node_count()).map(|dof| {
-            let is_free = !sector.is_held(dof);
-            next += usize::from(is_free);
-            is_free.then(|| next - 1)
-        });
-        let unknown_of: Vec<Option<usize>> = unknown_of.collect();
+        let unknown_of = sector_unknowns(&sector);
         let half_steps: Vec<usize> = sector.nodes.iter().map(|node| node.half_step).collect();
         let count = sector.sector_count();
         let body = SolidBody {
@@ -73,13 +67,12 @@ impl CyclicSystem {
     pub fn solid_sliding(tangent: &SolidTangent, friction_coefficient: f64) -> Self {
         let sector = tangent.sector();
         let rigid = tangent.rigid();
-        let mut next = 0;
-        let unknown_of = tangent.unknown_of().iter().map(|unknown| {
-            let is_moving = unknown.is_some_and(|u| rigid.iter().all(|(normal, ..)| *normal != u));
-            next += usize::from(is_moving);
-            is_moving.then(|| next - 1)
-        });
-        let unknown_of = unknown_of.collect();
+        let unknowns = tangent.unknown_of();
+        let is_still = |dof: &usize| {
+            unknowns[*dof].is_none_or(|u| rigid.iter().any(|(normal, ..)| *normal == u))
+        };
+        let still = (0..unknowns.len()).filter(is_still);
+        let unknown_of = DofMap::excluding(unknowns.len(), still).unknown_of;
         let half_steps = sector.nodes.iter().map(|node| node.half_step);
         let state = SolidState::Sliding {
             tangent: Box::new(tangent.clone()),
@@ -144,9 +137,7 @@ fn sliding_harmonic(
         .iter_mut()
         .zip(across)
         .for_each(|(c, a)| *c += mu * a);
-    let moving: Vec<usize> = (0..harmonic.mass.dimension())
-        .filter(|unknown| harmonic.rigid.iter().all(|(normal, ..)| normal != unknown))
-        .collect();
+    let moving = moving_unknowns(harmonic.mass.dimension(), &harmonic.rigid);
     let condensed = |mut band: Vec<c64>| {
         for &(normal, tangential, factor) in &harmonic.rigid {
             if let Some(tangential) = tangential {

@@ -28,5 +28,5 @@ pub use sector::SectorSliding;
 pub use sector_rate::{Parameter, TangentRate};
 pub use sector_tangent::{FrictionPolynomial, HarmonicTangent, SectorTangent};
 pub use solid::{SolidSliding, pressure_load, supports};
-pub use solid_tangent::{SolidHarmonic, SolidTangent};
+pub use solid_tangent::{SolidHarmonic, SolidTangent, moving_unknowns, sector_unknowns};
 pub use tangent::SlidingTangent;

@@ -5,7 +5,7 @@ use super::{DampingModel, PrestressError, SolidSliding, TangentOptions};
 use crate::contact::SlidingContact;
 use crate::fem::sector::MirrorParity;
 use crate::fem::solid::{self, FaceTerm, SolidMatrix, face_matrix, half_bandwidth, nodal_matrix};
-use crate::fem::{ElasticMaterial, RayleighDamping};
+use crate::fem::{DofMap, ElasticMaterial, RayleighDamping};
 use crate::linalg::banded::BandedMatrix;
 use crate::mesh::{FaceElement, SolidSector};
 
@@ -132,14 +132,8 @@ impl SolidTangent {
                 pressure(element, along) * base.friction(radius).1.slope
             }));
         }
-        let mut next = 0;
-        let unknown_of = (0..3 * sector.node_count()).map(|dof| {
-            let is_free = !sector.is_held(dof);
-            next += usize::from(is_free);
-            is_free.then(|| next - 1)
-        });
         Ok(Self {
-            unknown_of: unknown_of.collect(),
+            unknown_of: sector_unknowns(sector),
             mass: solid::mass(sector, material, options.mass),
             supports: supports(sector),
             stress,
@@ -262,6 +256,18 @@ impl SolidTangent {
             })
             .collect()
     }
+}
+
+/// Unknown of each dof of a sector, `None` for those that a boundary holds.
+pub fn sector_unknowns(sector: &SolidSector) -> Vec<Option<usize>> {
+    let dofs = 3 * sector.node_count();
+    DofMap::excluding(dofs, (0..dofs).filter(|&dof| sector.is_held(dof))).unknown_of
+}
+
+/// Unknowns of a harmonic that may move, ascending: all of `count` but the normals of [`SolidHarmonic::rigid`].
+pub fn moving_unknowns(count: usize, rigid: &[(usize, Option<usize>, f64)]) -> Vec<usize> {
+    let normals = rigid.iter().map(|(normal, ..)| *normal);
+    DofMap::excluding(count, normals).dofs
 }
 
 /// Geometric stiffness of the pressed and of the sheared state with the contact forces that turn with their nodes.

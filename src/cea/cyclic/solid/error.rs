@@ -1,10 +1,10 @@
 //! What the reduction of a harmonic leaves out of an eigenvalue.
 
-use super::reduction::{Reduction, moving};
+use super::reduction::Reduction;
 use super::rest::Pencil;
 use crate::linalg::banded::BandedMatrix;
 use crate::linalg::c64;
-use crate::prestress::SolidHarmonic;
+use crate::prestress::{SolidHarmonic, moving_unknowns};
 
 /// One eigenvalue of a reduced harmonic with its vectors in the reduced space.
 pub(super) struct ReducedPair<'a> {
@@ -68,7 +68,7 @@ pub(super) fn reduction_error(
     ] {
         add_product(&mut slope, factor, matrix, &x, false);
     }
-    let moving = moving(x.len(), &harmonic.rigid);
+    let moving = moving_unknowns(x.len(), &harmonic.rigid);
     let part = |of: fn(&c64) -> f64| {
         let mut part: Vec<f64> = moving.iter().map(|&unknown| of(&right[unknown])).collect();
         pencil.factor.solve(&mut part);

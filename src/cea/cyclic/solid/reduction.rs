@@ -6,7 +6,7 @@ use crate::linalg::banded::{BandedMatrix, CompactRows};
 use crate::linalg::dense::{dot, transpose_product};
 use crate::linalg::dense_eigen::symmetric_eigen;
 use crate::linalg::{Mat, c64};
-use crate::prestress::{FrictionPolynomial, HarmonicTangent, SolidHarmonic};
+use crate::prestress::{FrictionPolynomial, HarmonicTangent, SolidHarmonic, moving_unknowns};
 
 /// Directions of the contact whose energy is below this share of the largest are left out; the error of an eigenvalue is
 /// of the order of the product of two of them.
@@ -23,12 +23,6 @@ pub(super) struct Reduction {
     pub kappas: Vec<f64>,
 }
 
-/// Unknowns of a harmonic that may move: all but the normals in rigid contact, ascending.
-pub(super) fn moving(count: usize, rigid: &[(usize, Option<usize>, f64)]) -> Vec<usize> {
-    let is_held = |unknown: &usize| rigid.iter().any(|(normal, ..)| normal == unknown);
-    (0..count).filter(|unknown| !is_held(unknown)).collect()
-}
-
 impl Reduction {
     /// The space of the modes at rest and of what the contact excites.
     ///
@@ -39,7 +33,7 @@ impl Reduction {
     /// [`super::error::reduction_error`]: 1.7e-8 of an eigenvalue at 11 kHz on 24 x 5 x 1 bricks.
     pub fn new(pencil: &Pencil, harmonic: &SolidHarmonic, contact: &[usize], modes: Modes) -> Self {
         let count = harmonic.mass.dimension();
-        let moving = moving(count, &harmonic.rigid);
+        let moving = moving_unknowns(count, &harmonic.rigid);
         let mut place = vec![None; count];
         moving
             .iter()

@@ -1,7 +1,7 @@
 //! A sweep over the friction coefficient in three dimensions.
 
 use super::error::{ReducedPair, reduction_error};
-use super::reduction::{Reduction, moving};
+use super::reduction::Reduction;
 use super::rest::{Modes, Pencil};
 use crate::cea::cyclic::Coverage;
 use crate::cea::cyclic::branch::branches_of;
@@ -15,7 +15,9 @@ use crate::contact::SlidingContact;
 use crate::fem::ElasticMaterial;
 use crate::linalg::c64;
 use crate::mesh::{SolidSector, SolidSpecification};
-use crate::prestress::{PrestressError, SolidHarmonic, SolidTangent, TangentOptions};
+use crate::prestress::{
+    PrestressError, SolidHarmonic, SolidTangent, TangentOptions, moving_unknowns,
+};
 use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
 
@@ -189,7 +191,7 @@ fn largest_error(
 
 fn pencil(tangent: &SolidTangent, n: usize) -> Result<Pencil, CeaError> {
     let [mass, stiffness] = tangent.at_rest(n);
-    let moving = moving(mass.dimension(), &tangent.rigid());
+    let moving = moving_unknowns(mass.dimension(), &tangent.rigid());
     let (mass, stiffness) = (
         mass.restricted_to(&moving),
         stiffness.restricted_to(&moving),
