@@ -6,7 +6,7 @@
 //! the side on which its new inequality holds: folds need no special care, no iteration over contact states can cycle.
 
 use super::parameter::Parameter;
-use super::state::{PointState, WaveState};
+use super::state::{Event, PointState, WaveState};
 use super::system::{Closure, Heading, System};
 use super::wave::{Linearization, Wave};
 
@@ -25,33 +25,6 @@ const STAGNANT: f64 = 1e-9;
 
 /// Inequalities broken by less than this share of the mean normal force are round-off.
 const TOLERANCE: f64 = 1e-8;
-
-/// The first inequality to break.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Event {
-    /// A normal force vanishes: the point opens.
-    Lift(usize),
-    /// A gap vanishes: the point touches.
-    Touch(usize),
-    /// Stick reaches `+mu N`.
-    SlideForward(usize),
-    /// Stick reaches `-mu N`.
-    SlideBackward(usize),
-    /// Slip comes to rest.
-    Rest(usize),
-}
-
-impl Event {
-    fn point(self) -> usize {
-        match self {
-            Self::Lift(i)
-            | Self::Touch(i)
-            | Self::SlideForward(i)
-            | Self::SlideBackward(i)
-            | Self::Rest(i) => i,
-        }
-    }
-}
 
 /// Where one step along a branch ended.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,9 +1,8 @@
 //! Where limit cycles are born: steady sliding that neither damps nor feeds a wave.
 
 use super::body::DynamicCoefficients;
-use super::branch::Event;
 use super::parameter::OperatingPoint;
-use super::state::{PointState, WaveState};
+use super::state::{Event, PointState, WaveState};
 use super::wave::Wave;
 use super::{CycleError, Family};
 use crate::cea::cyclic;

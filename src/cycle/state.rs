@@ -36,6 +36,34 @@ impl PointState {
     }
 }
 
+/// The first inequality to break.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Event {
+    /// A normal force vanishes: the point opens.
+    Lift(usize),
+    /// A gap vanishes: the point touches.
+    Touch(usize),
+    /// Stick reaches `+mu N`.
+    SlideForward(usize),
+    /// Stick reaches `-mu N`.
+    SlideBackward(usize),
+    /// Slip comes to rest.
+    Rest(usize),
+}
+
+impl Event {
+    /// The point at which it breaks.
+    pub(super) fn point(self) -> usize {
+        match self {
+            Self::Lift(i)
+            | Self::Touch(i)
+            | Self::SlideForward(i)
+            | Self::SlideBackward(i)
+            | Self::Rest(i) => i,
+        }
+    }
+}
+
 /// Contact forces of a rotating wave along its phase, its frequency, and what it lives on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WaveState {

@@ -1,8 +1,7 @@
 //! The linear systems of one step along a branch.
 
-use super::branch::Event;
 use super::parameter::Parameter;
-use super::state::{PointState, WaveState};
+use super::state::{Event, PointState, WaveState};
 use super::wave::Linearization;
 use crate::linalg::{DenseLu, Mat, MatMut, c64};
 

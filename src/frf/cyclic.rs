@@ -1,6 +1,7 @@
 //! Direct solution of each harmonic at each frequency.
 
-use super::cyclic_system::{Damping, Harmonic, Place};
+use super::cyclic_system::Place;
+use super::harmonic::{Damping, Harmonic};
 use super::system::check_frequencies;
 use super::{CyclicSystem, FrfError, Terminal};
 use crate::linalg::LinalgError;

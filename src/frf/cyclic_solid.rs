@@ -1,7 +1,6 @@
 //! Harmonics of a body of revolution in three dimensions, in the state that is excited.
 
-use super::CyclicSystem;
-use super::cyclic_system::{Damping, Harmonic, evaluate, held_harmonic};
+use super::harmonic::{Damping, Harmonic, evaluate, held_harmonic};
 use crate::fem::sector::MirrorParity;
 use crate::fem::solid::{self, SolidMatrix, half_bandwidth};
 use crate::fem::{DofMap, ElasticMaterial, MassKind, RayleighDamping};
@@ -30,10 +29,9 @@ pub(super) struct SolidBody {
     unknown_of: Vec<Option<usize>>,
 }
 
-impl CyclicSystem {
-    /// A body of revolution without contact and prestress, all of it free or held by the conditions of its faces,
-    /// `C = alpha_R M + beta_R K` and the dashpots of its supports.
-    pub fn solid_body(
+impl SolidState {
+    /// A body without contact and prestress.
+    pub(super) fn body(
         sector: &SolidSector,
         material: &ElasticMaterial,
         mass: MassKind,
@@ -44,51 +42,40 @@ impl CyclicSystem {
         if !is_clamped {
             sector.specification.conditions = [BoundaryCondition::Free; 4];
         }
-        let unknown_of = sector_unknowns(&sector);
-        let half_steps: Vec<usize> = sector.nodes.iter().map(|node| node.half_step).collect();
-        let count = sector.sector_count();
-        let body = SolidBody {
+        Self::Body(Box::new(SolidBody {
             mass: solid::mass(&sector, material, mass),
             stiffness: solid::stiffness(&sector, material),
             supports: supports(&sector),
             damping,
-            unknown_of: unknown_of.clone(),
+            unknown_of: sector_unknowns(&sector),
             sector,
-        };
-        let state = SolidState::Body(Box::new(body));
-        Self::of_solid(count, half_steps.into_iter(), state, unknown_of)
+        }))
     }
 
-    /// Small motions of a body of revolution around steady sliding at a friction coefficient, the dashpot `mu p_0 / V`
-    /// across the sliding included.
-    ///
-    /// In rigid contact the motion along the normal of pressed nodes is no unknown; the force of excitation acts on the
-    /// body, not through the contact.
-    pub fn solid_sliding(tangent: &SolidTangent, friction_coefficient: f64) -> Self {
-        let sector = tangent.sector();
-        let rigid = tangent.rigid();
-        let unknowns = tangent.unknown_of();
+    pub(super) fn sector(&self) -> &SolidSector {
+        match self {
+            Self::Body(body) => &body.sector,
+            Self::Sliding { tangent, .. } => tangent.sector(),
+        }
+    }
+
+    /// Unknown of each dof of the sector that can move.
+    pub(super) fn unknown_of(&self) -> Vec<Option<usize>> {
+        let tangent = match self {
+            Self::Body(body) => return body.unknown_of.clone(),
+            Self::Sliding { tangent, .. } => tangent,
+        };
+        let (unknowns, rigid) = (tangent.unknown_of(), tangent.rigid());
         let is_still = |dof: &usize| {
             unknowns[*dof].is_none_or(|u| rigid.iter().any(|(normal, ..)| *normal == u))
         };
         let still = (0..unknowns.len()).filter(is_still);
-        let unknown_of = DofMap::excluding(unknowns.len(), still).unknown_of;
-        let half_steps = sector.nodes.iter().map(|node| node.half_step);
-        let state = SolidState::Sliding {
-            tangent: Box::new(tangent.clone()),
-            friction_coefficient,
-        };
-        Self::of_solid(sector.sector_count(), half_steps, state, unknown_of)
+        DofMap::excluding(unknowns.len(), still).unknown_of
     }
-}
 
-impl SolidState {
     /// Off-diagonals of every harmonic on either side.
     pub(super) fn half_bandwidth(&self) -> usize {
-        half_bandwidth(match self {
-            Self::Body(body) => &body.sector,
-            Self::Sliding { tangent, .. } => tangent.sector(),
-        })
+        half_bandwidth(self.sector())
     }
 
     pub(super) fn harmonic(&self, n: usize, is_standing: bool) -> Harmonic {

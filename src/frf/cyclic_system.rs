@@ -1,13 +1,13 @@
 //! Harmonics of the annulus in the state that is excited.
 
 use super::cyclic_solid::SolidState;
+use super::harmonic::{Damping, Harmonic, evaluate, held_harmonic};
 use super::{Direction, FrfError, Terminal};
 use crate::fem::sector::{self, SectorMatrix};
 use crate::fem::{ElasticMaterial, MassKind, RayleighDamping};
 use crate::linalg::banded::BandedMatrix;
-use crate::linalg::c64;
-use crate::mesh::SectorMesh;
-use crate::prestress::SectorTangent;
+use crate::mesh::{SectorMesh, SolidSector};
+use crate::prestress::{SectorTangent, SolidTangent};
 
 /// [`super::FrfSystem`] of an annulus or of a body of revolution, as the matrices of its circumferential harmonics.
 #[derive(Clone, Debug)]
@@ -36,24 +36,6 @@ enum State {
         friction_coefficient: f64,
     },
     Solid(SolidState),
-}
-
-/// Bands of one harmonic, in the basis `(u_r, -i u_theta)` or `(u_r, -i u_theta, u_z)`.
-pub(super) struct Harmonic {
-    pub half_bandwidth: usize,
-    pub mass: Vec<c64>,
-    pub stiffness: Vec<c64>,
-    pub damping: Damping,
-    /// No other harmonic is the mirror image of this one.
-    pub is_standing: bool,
-}
-
-/// Damping of one harmonic.
-pub(super) enum Damping {
-    /// `alpha_R M + beta_R K`.
-    Proportional(RayleighDamping),
-    /// Any other.
-    Band(Vec<c64>),
 }
 
 /// Where a terminal lies.
@@ -122,21 +104,44 @@ impl CyclicSystem {
         }
     }
 
-    /// The harmonics of a body with three components at each of the nodes of a sector, `half_steps` their angles in
-    /// halves of a sector.
-    pub(super) fn of_solid(
-        sector_count: usize,
-        half_steps: impl Iterator<Item = usize>,
-        state: SolidState,
-        unknown_of: Vec<Option<usize>>,
+    /// A body of revolution without contact and prestress, all of it free or held by the conditions of its faces,
+    /// `C = alpha_R M + beta_R K` and the dashpots of its supports.
+    pub fn solid_body(
+        sector: &SolidSector,
+        material: &ElasticMaterial,
+        mass: MassKind,
+        damping: RayleighDamping,
+        is_clamped: bool,
     ) -> Self {
+        Self::of_solid(SolidState::body(
+            sector, material, mass, damping, is_clamped,
+        ))
+    }
+
+    /// Small motions of a body of revolution around steady sliding at a friction coefficient, the dashpot `mu p_0 / V`
+    /// across the sliding included.
+    ///
+    /// In rigid contact the motion along the normal of pressed nodes is no unknown; the force of excitation acts on the
+    /// body, not through the contact.
+    pub fn solid_sliding(tangent: &SolidTangent, friction_coefficient: f64) -> Self {
+        let tangent = Box::new(tangent.clone());
+        Self::of_solid(SolidState::Sliding {
+            tangent,
+            friction_coefficient,
+        })
+    }
+
+    fn of_solid(state: SolidState) -> Self {
+        let unknown_of = state.unknown_of();
+        let sector = state.sector();
+        let half_steps = sector.nodes.iter().map(|node| node.half_step);
         Self {
-            sector_count,
+            sector_count: sector.sector_count(),
             nodes: half_steps.enumerate().collect(),
             components: 3,
-            state: State::Solid(state),
             dimension: unknown_of.iter().flatten().count(),
             unknown_of,
+            state: State::Solid(state),
         }
     }
 
@@ -246,41 +251,4 @@ fn sliding_harmonic(
         },
         is_standing,
     }
-}
-
-/// A body with springs and dashpots of its supports, `C = alpha_R M + beta_R K + D`.
-pub(super) fn held_harmonic(
-    [mass, mut stiffness]: [BandedMatrix; 2],
-    supports: Option<[BandedMatrix; 2]>,
-    damping: RayleighDamping,
-    is_standing: bool,
-) -> Harmonic {
-    let mut damped = Damping::Proportional(damping);
-    if let Some([springs, mut band]) = supports {
-        // A support couples no two nodes, but its matrices have the shape of all.
-        band.add_scaled(damping.mass_coefficient, &mass);
-        band.add_scaled(damping.stiffness_coefficient, &stiffness);
-        stiffness.add_scaled(1.0, &springs);
-        damped = Damping::Band(evaluate(&[band], 0.0));
-    }
-    Harmonic {
-        half_bandwidth: mass.half_bandwidth(),
-        mass: evaluate(&[mass], 0.0),
-        stiffness: evaluate(&[stiffness], 0.0),
-        damping: damped,
-        is_standing,
-    }
-}
-
-/// `sum_p P_p (i mu)^p`.
-pub(super) fn evaluate(polynomial: &[BandedMatrix], friction_coefficient: f64) -> Vec<c64> {
-    let mut band = vec![c64::new(0.0, 0.0); polynomial[0].values().len()];
-    let mut power = c64::new(1.0, 0.0);
-    for coefficient in polynomial {
-        for (sum, value) in band.iter_mut().zip(coefficient.values()) {
-            *sum += power * *value;
-        }
-        power *= c64::new(0.0, friction_coefficient);
-    }
-    band
 }

@@ -1,10 +1,10 @@
 //! Sparse solution of the whole mesh at each frequency.
 
+use super::factors::{Analyses, factorized};
 use super::neighbours::solve_together;
 use super::system::check_frequencies;
 use super::{FrfError, FrfSystem};
 use crate::linalg::c64;
-use crate::linalg::{ComplexSparseLu, LdlAnalysis, LuAnalysis};
 use rayon::prelude::*;
 
 /// Lines that share one real factorization ...
@@ -17,12 +17,6 @@ const GENERAL_LINES_AT_ONCE: usize = 16;
 pub struct DirectResponse {
     /// Receptance `u / f` for each frequency, m/N for each metre of thickness.
     pub receptance: Vec<c64>,
-}
-
-/// Symbolic factorizations of the system's pattern.
-pub(super) struct Analyses {
-    pub lu: LuAnalysis,
-    pub ldl: LdlAnalysis,
 }
 
 /// Receptance between two unknowns, `h = e_response^T (K + i omega C - omega^2 M)^{-1} e_force`.
@@ -61,10 +55,7 @@ pub fn direct_response_with(
         frequency_hz: first,
         source,
     };
-    let analyses = Analyses {
-        lu: LuAnalysis::new(system.pattern()).map_err(fail)?,
-        ldl: LdlAnalysis::new(system.pattern()).map_err(fail)?,
-    };
+    let analyses = Analyses::of(system).map_err(fail)?;
     let at_once = match system.proportional() {
         Some(_) => LINES_AT_ONCE,
         None => GENERAL_LINES_AT_ONCE,
@@ -87,23 +78,4 @@ pub fn direct_response_with(
         .collect::<Result<Vec<_>, _>>()?
         .concat();
     Ok(DirectResponse { receptance })
-}
-
-/// One line by a complex factorization of its own.
-pub(super) fn factorized(
-    system: &FrfSystem,
-    analysis: &LuAnalysis,
-    force: usize,
-    response: usize,
-    frequency_hz: f64,
-) -> Result<c64, FrfError> {
-    let mut unit = vec![c64::new(0.0, 0.0); system.dimension()];
-    unit[force] = c64::new(1.0, 0.0);
-    let values = system.dynamic_stiffness(frequency_hz);
-    let lu =
-        ComplexSparseLu::factorize(analysis, values).map_err(|source| FrfError::Factorization {
-            frequency_hz,
-            source,
-        })?;
-    Ok(lu.solve_refined(&unit)[response])
 }

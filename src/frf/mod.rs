@@ -13,6 +13,8 @@ mod cyclic_solid;
 mod cyclic_system;
 mod direct;
 mod error;
+mod factors;
+mod harmonic;
 mod krylov;
 mod neighbours;
 mod reduction;

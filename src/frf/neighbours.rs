@@ -1,7 +1,7 @@
 //! Lines close to each other, solved from one factorization.
 
 use super::FrfSystem;
-use super::direct::Analyses;
+use super::factors::Analyses;
 use super::krylov::KrylovSpace;
 use crate::fem::RayleighDamping;
 use crate::linalg::{ComplexSparseLu, MatMut, SparseLdl, SparseLu, c64};
@@ -150,8 +150,7 @@ mod tests {
     use super::*;
     use crate::contact::{ContactStiffness, SlidingContact};
     use crate::fem::{ElasticMaterial, MassKind, PlaneFormulation, assemble_stiffness};
-    use crate::frf::direct::factorized;
-    use crate::linalg::{LdlAnalysis, LuAnalysis};
+    use crate::frf::factors::factorized;
     use crate::mesh::{AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind};
     use crate::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
 
@@ -199,10 +198,7 @@ mod tests {
     fn lines_10_hz_apart_need_no_factorization_of_their_own() {
         for damping_model in [DampingModel::WholeTangent, DampingModel::BodyOnly] {
             let system = sliding(damping_model);
-            let analyses = Analyses {
-                lu: LuAnalysis::new(system.pattern()).unwrap(),
-                ldl: LdlAnalysis::new(system.pattern()).unwrap(),
-            };
+            let analyses = Analyses::of(&system).unwrap();
             // Two of the lines lie within the bandwidth of unstable modes (9.9 and 10.5 kHz).
             for first in [500.0, 5000.0, 9850.0, 10_450.0] {
                 let lines: Vec<f64> = (0..16).map(|k| first + 10.0 * f64::from(k)).collect();

@@ -1,6 +1,6 @@
 //! Response of a projected model.
 
-use super::direct::factorized;
+use super::factors::factorized;
 use super::system::check_frequencies;
 use super::{FrfError, FrfSystem};
 use crate::linalg::dense::{join_columns, orthonormalize, transpose_product};

@@ -93,7 +93,7 @@ impl Mesh2d {
         for (name, condition) in &specification.conditions {
             if *name == specification.contact {
                 if *condition != BoundaryCondition::Free {
-                    return Err(body(format!(
+                    return Err(MeshFileError::Body(format!(
                         "boundaries.{name} is the contact curve (contact.boundary): it can have no condition of its own"
                     )));
                 }
@@ -115,7 +115,7 @@ impl Mesh2d {
                 .iter()
                 .position(|boundary| boundary.name == *name);
             if place.is_some_and(|b| boundaries[b].condition != BoundaryCondition::Free) {
-                return Err(body(format!(
+                return Err(MeshFileError::Body(format!(
                     "boundaries.{name} is the contact curve of the other body (contact.counter_boundary): it can have no \
                      condition of its own"
                 )));
@@ -138,13 +138,9 @@ impl Mesh2d {
     }
 }
 
-pub(super) fn body(message: String) -> MeshFileError {
-    MeshFileError::Body(message)
-}
-
 fn no_curve(file: &GmshFile, name: &str, key: &str) -> MeshFileError {
     if file.curves.contains_key(name) {
-        return body(format!(
+        return MeshFileError::Body(format!(
             "physical curve \"{name}\" ({key}) is not on the rim of the body: its edges are not edges of one element each"
         ));
     }
@@ -169,7 +165,7 @@ fn no_curve(file: &GmshFile, name: &str, key: &str) -> MeshFileError {
     } else {
         format!("the file has {}", names.join(", "))
     };
-    body(format!(
+    MeshFileError::Body(format!(
         "{key}: no physical curve is called \"{name}\"; {list}{hint}"
     ))
 }
@@ -211,7 +207,7 @@ fn counterface(
             if let (None, Some((i, d))) = (radius, worst)
                 && (d - mean).abs() > ROUND * mean
             {
-                return Err(body(format!(
+                return Err(MeshFileError::Body(format!(
                     "the contact curve \"{}\" is no circle about contact.center = [{}, {}]: node {} lies {d:.6e} m from \
                      it, the mean is {mean:.6e} m; correct contact.center, or give the cylinder's contact.radius",
                     specification.contact,
@@ -251,7 +247,7 @@ fn contact_boundary(mesh: &Mesh2d, curve: &Curve, name: &str) -> Result<Boundary
         let length = -(vector[0] * cos + vector[1] * sin);
         if length <= 0.0 {
             let [x, y] = mesh.nodes[node as usize];
-            return Err(body(format!(
+            return Err(MeshFileError::Body(format!(
                 "the contact curve \"{name}\" does not face the counterface at node {} ({x:.6e}, {y:.6e}) m: leave that \
                  part out of the physical curve, or correct contact.counterface, center or direction",
                 mesh.labels[node as usize]

@@ -1,7 +1,6 @@
 //! Curves of element edges: their order and the lengths that belong to their nodes.
 
 use super::Mesh2d;
-use super::body::body;
 use super::gmsh::{CurveEdge, MeshFileError};
 use std::collections::BTreeMap;
 
@@ -75,14 +74,14 @@ impl Curve {
     /// A contact curve must be one piece that does not touch itself.
     pub fn check_single(&self, name: &str, labels: &[usize]) -> Result<(), MeshFileError> {
         if let Some(node) = self.touching {
-            return Err(body(format!(
+            return Err(MeshFileError::Body(format!(
                 "the contact curve \"{name}\" touches itself at node {}: more than two of its edges meet there",
                 labels[node as usize]
             )));
         }
         if let [_, second, ..] = self.pieces[..] {
             let (end, start) = (self.edges[second - 1].1, self.edges[second].0);
-            return Err(body(format!(
+            return Err(MeshFileError::Body(format!(
                 "the contact curve \"{name}\" is open: it is in {} pieces, one ends at node {} and another begins at node \
                  {}; put every edge between them into the physical curve, or name a curve for each contact",
                 self.pieces.len(),
@@ -100,7 +99,7 @@ impl Curve {
         labels: &[usize],
     ) -> Result<(), MeshFileError> {
         if name == other {
-            return Err(body(format!(
+            return Err(MeshFileError::Body(format!(
                 "contact.boundary and contact.counter_boundary are both \"{name}\": name the curve of the other body in \
                  contact.counter_boundary"
             )));
@@ -112,7 +111,7 @@ impl Curve {
             .find(|node| opposite.nodes.contains(node))
         {
             None => Ok(()),
-            Some(&node) => Err(body(format!(
+            Some(&node) => Err(MeshFileError::Body(format!(
                 "\"{name}\" (contact.boundary) and \"{other}\" (contact.counter_boundary) share node {}: mesh the bodies \
                  apart, each with a curve of its own (in Gmsh without Coherence or BooleanFragments)",
                 labels[node as usize]

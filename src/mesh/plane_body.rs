@@ -1,7 +1,6 @@
 //! Nodes and elements of a mesh file as a plane body.
 
 use super::Mesh2d;
-use super::body::body;
 use super::gmsh::{GmshFile, MeshFileError, PlaneElement};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -15,7 +14,7 @@ pub(super) fn used_nodes(file: &GmshFile) -> Result<Vec<Option<u32>>, MeshFileEr
             .for_each(|&node| is_plane[node as usize] = true);
     }
     if let Some(node) = (0..is_plane.len()).find(|&node| !file.is_used[node]) {
-        return Err(body(format!(
+        return Err(MeshFileError::Body(format!(
             "node {} belongs to no element: the mesh has dangling nodes; remove them (Coherence Mesh; in Gmsh), or save \
              the physical groups alone (Mesh.SaveAll = 0)",
             file.labels[node]
@@ -50,7 +49,7 @@ pub(super) fn plane_body(file: &GmshFile, scale: f64) -> Result<Mesh2d, MeshFile
     for (node, (&[x, y, z], index)) in file.points.iter().zip(&index_of).enumerate() {
         let Some(index) = *index else { continue };
         if (z - depth).abs() > 1e-9 * size {
-            return Err(body(format!(
+            return Err(MeshFileError::Body(format!(
                 "node {} lies at z = {z}, others at {depth}: the body must be plane, in the x-y plane",
                 file.labels[node]
             )));
@@ -61,7 +60,7 @@ pub(super) fn plane_body(file: &GmshFile, scale: f64) -> Result<Mesh2d, MeshFile
     let names: BTreeSet<&str> = file.elements.iter().map(|e| e.region.as_str()).collect();
     let names: Vec<&str> = names.into_iter().collect();
     if names.len() > usize::from(u16::MAX) {
-        return Err(body(format!(
+        return Err(MeshFileError::Body(format!(
             "{} physical surfaces are more than can be told apart",
             names.len()
         )));
@@ -119,7 +118,7 @@ fn reversed_surfaces(file: &GmshFile) -> Result<BTreeSet<i64>, MeshFileError> {
             clockwise > counter
         };
         if is_minority {
-            return Err(body(format!(
+            return Err(MeshFileError::Body(format!(
                 "element {} is inverted: its nodes run the other way round than those of the {} other elements of \
                  surface {}; mesh the surface again",
                 element.label,

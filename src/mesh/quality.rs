@@ -1,6 +1,5 @@
 //! Whether the elements of a mesh are sound, and whether its body is held.
 
-use super::body::body;
 use super::gmsh::MeshFileError;
 use super::{BoundaryCondition, Mesh2d};
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
@@ -115,7 +114,7 @@ impl Mesh2d {
                 let nodes: Vec<String> = nodes
                     .map(|&node| self.labels[node as usize].to_string())
                     .collect();
-                Err(body(format!(
+                Err(MeshFileError::Body(format!(
                     "element {} (nodes {}) is inverted or has no area: its Jacobian is not positive everywhere; mesh the \
                      surface again, finer where it curves",
                     label(element),
@@ -177,7 +176,7 @@ impl Mesh2d {
                 let node = part.iter().position(|&p| p == k).unwrap_or(0);
                 let [x, y] = self.nodes[node];
                 let names: Vec<&str> = self.boundaries.iter().map(|b| b.name.as_str()).collect();
-                return Err(body(format!(
+                return Err(MeshFileError::Body(format!(
                     "nothing holds {} (with node {} at {x:.4e}, {y:.4e} m): it can move as a rigid body, and sliding \
                      friction holds nothing; give one of its boundaries ({}) condition = \"clamped\", \"support\" or \
                      \"guide\" under [boundaries.NAME]",

@@ -1,6 +1,5 @@
 //! Uniform refinement of a mesh file: every element into four.
 
-use super::body::body;
 use super::gmsh::{CurveEdge, GmshFile, MeshFileError, PlaneElement};
 use super::rim::Rim;
 use std::collections::BTreeMap;
@@ -29,7 +28,7 @@ impl GmshFile {
     /// [`MeshFileError::Body`] for a mesh that would have too many nodes.
     pub fn refined(&self) -> Result<Self, MeshFileError> {
         if self.points.len().saturating_mul(4) > MOST_NODES {
-            return Err(body(format!(
+            return Err(MeshFileError::Body(format!(
                 "a refinement of {} nodes has more than {MOST_NODES}: refine less",
                 self.points.len()
             )));

@@ -8,6 +8,7 @@
 mod cholesky;
 mod condensed;
 mod equilibrium;
+mod face_conditions;
 mod friction_polynomial;
 mod options;
 mod pressing;
@@ -23,10 +24,12 @@ mod tangent;
 mod turning;
 
 pub use equilibrium::{PrestressError, SlidingRange, SteadySliding};
+pub use face_conditions::{pressure_load, supports};
 pub use options::{DampingModel, TangentOptions};
 pub use sector::SectorSliding;
 pub use sector_rate::{Parameter, TangentRate};
-pub use sector_tangent::{FrictionPolynomial, HarmonicTangent, SectorTangent};
-pub use solid::{SolidSliding, pressure_load, supports};
+pub use sector_tangent::{HarmonicTangent, SectorTangent};
+pub use sector_terms::FrictionPolynomial;
+pub use solid::SolidSliding;
 pub use solid_tangent::{SolidHarmonic, SolidTangent, moving_unknowns, sector_unknowns};
 pub use tangent::SlidingTangent;

@@ -1,7 +1,7 @@
 //! How a body of revolution is pressed in steady sliding: rigid contact ring by ring, or springs all over the face.
 
 use super::PrestressError;
-use super::solid::pressure_load;
+use super::face_conditions::pressure_load;
 use crate::contact::SlidingContact;
 use crate::fem::sector::MirrorParity;
 use crate::fem::solid::{FaceTerm, SolidMatrix, face_matrix, half_bandwidth};

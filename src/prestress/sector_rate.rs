@@ -1,7 +1,8 @@
 //! Derivatives of an annulus's tangent with respect to the parameters of the model.
 
+use super::FrictionPolynomial;
 use super::PrestressError;
-use super::sector_tangent::{FrictionPolynomial, HarmonicTangent, SectorTangent};
+use super::sector_tangent::{HarmonicTangent, SectorTangent};
 use super::sector_terms::{Terms, friction_dashpots, stress_stiffness, sum, turning};
 use crate::fem::sector::{self, SectorMatrix};
 use crate::fem::{

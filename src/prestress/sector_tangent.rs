@@ -1,7 +1,9 @@
 //! The matrices of small motions around steady sliding of an annulus, harmonic by harmonic.
 
 use super::sector::to_distances;
-use super::sector_terms::{Terms, friction_dashpots, multiplied, stress_stiffness, sum, turning};
+use super::sector_terms::{
+    FrictionPolynomial, Terms, friction_dashpots, multiplied, stress_stiffness, sum, turning,
+};
 use super::{DampingModel, PrestressError, SectorSliding, TangentOptions};
 use crate::contact::SlidingContact;
 use crate::fem::sector::{self, SectorMatrix};
@@ -9,9 +11,6 @@ use crate::fem::{MaterialField, RayleighDamping, RegionMaterial};
 use crate::linalg::banded::BandedMatrix;
 use crate::mesh::SectorMesh;
 use std::ops::Range;
-
-/// A matrix that depends on the friction coefficient, `P(mu) = sum_p P_p (i mu)^p` with real `P_p`.
-pub type FrictionPolynomial = Vec<BandedMatrix>;
 
 /// Mass, damping and stiffness of one circumferential harmonic.
 ///

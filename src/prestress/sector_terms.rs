@@ -1,10 +1,13 @@
 //! What the matrices of an annulus's tangent are made of.
 
-use super::sector_tangent::FrictionPolynomial;
 use super::{SectorSliding, TangentOptions};
 use crate::fem::MaterialField;
 use crate::fem::sector::{self, MirrorParity, SectorMatrix};
+use crate::linalg::banded::BandedMatrix;
 use crate::mesh::SectorMesh;
+
+/// A matrix that depends on the friction coefficient, `P(mu) = sum_p P_p (i mu)^p` with real `P_p`.
+pub type FrictionPolynomial = Vec<BandedMatrix>;
 
 /// What the matrices are made of; each term may also be a derivative.
 #[derive(Clone, Debug)]

@@ -1,6 +1,6 @@
 //! The matrices of small motions around steady sliding of a body of revolution, harmonic by harmonic.
 
-use super::solid::supports;
+use super::face_conditions::supports;
 use super::{DampingModel, PrestressError, SolidSliding, TangentOptions};
 use crate::contact::SlidingContact;
 use crate::fem::sector::MirrorParity;

@@ -2,16 +2,10 @@
 
 use super::recorder::HARMONIC_COUNT;
 use super::settling::Settling;
+use super::vibration::{amplitudes, last_fifth, main_vibration, rms, series};
 use super::{ContactPowers, Recorder, SampleRow, StatusCounts};
-use crate::signal::{ExponentialStage, NoGrowth, harmonic_growth, strongest_vibration};
-use rustfft::num_complex::Complex64;
+use crate::signal::{ExponentialStage, NoGrowth, harmonic_growth};
 use std::ops::Range;
-
-/// Fewest samples that a vibration is read from.
-const FEWEST: usize = 64;
-
-/// Share of the deformation below which a vibration is a remnant.
-const REMNANT: f64 = 1e-6;
 
 /// Growth (or decay) of one harmonic of the contact edge in the linear stage.
 #[derive(Clone, Debug, PartialEq)]
@@ -143,14 +137,8 @@ fn linear_stage(rows: &[SampleRow]) -> Range<usize> {
 }
 
 impl LastFifth {
-    /// Samples of the last fifth of a record.
-    pub fn range(record: &Recorder) -> Range<usize> {
-        let count = record.rows.len();
-        count - count.div_ceil(5)..count
-    }
-
     fn of(record: &Recorder) -> Self {
-        let range = Self::range(record);
+        let range = last_fifth(record);
         let rows = &record.rows[range.clone()];
         let mut counts = StatusCounts::default();
         let mut powers = ContactPowers::default();
@@ -235,21 +223,6 @@ fn axial_motion(rows: &[[f64; 4]]) -> [f64; 3] {
     [0.5 * (high - low), rms, peak]
 }
 
-/// Harmonic and signed frequency (Hz) of the strongest vibration; `None` where all are remnants.
-pub(super) fn main_vibration(record: &Recorder, range: Range<usize>) -> Option<(usize, f64)> {
-    if range.len() < FEWEST {
-        return None;
-    }
-    let rate = 1.0 / record.sample_interval;
-    let followed = record.followed_harmonics();
-    let vibrations = followed.filter_map(|n| {
-        let (frequency, amplitude) = strongest_vibration(&series(record, range.clone(), n)?, rate)?;
-        Some((n, frequency, amplitude))
-    });
-    let (harmonic, frequency, amplitude) = vibrations.max_by(|a, b| a.2.total_cmp(&b.2))?;
-    (amplitude > REMNANT * record.largest_motion(range)).then_some((harmonic, frequency))
-}
-
 fn growth(record: &Recorder, stage: Range<usize>, harmonic: usize) -> Option<Growth> {
     let series = amplitudes(record, stage.clone(), harmonic)?;
     let motion = record.largest_motion(stage);
@@ -258,31 +231,4 @@ fn growth(record: &Recorder, stage: Range<usize>, harmonic: usize) -> Option<Gro
         stage: harmonic_growth(&series, 1.0 / record.sample_interval, motion),
         rotation_direction: record.rotation_direction,
     })
-}
-
-/// A followed harmonic, m.
-fn amplitudes(record: &Recorder, range: Range<usize>, harmonic: usize) -> Option<Vec<Complex64>> {
-    let parts = range.map(|sample| record.amplitude(sample, harmonic));
-    parts
-        .map(|parts| parts.map(|[re, im]| Complex64::new(re, im)))
-        .collect()
-}
-
-/// A followed harmonic about its mean, m.
-pub(super) fn series(
-    record: &Recorder,
-    range: Range<usize>,
-    harmonic: usize,
-) -> Option<Vec<Complex64>> {
-    let count = range.len() as f64;
-    let mut series = amplitudes(record, range, harmonic)?;
-    let mean = series.iter().sum::<Complex64>() / count;
-    series.iter_mut().for_each(|value| *value -= mean);
-    Some(series)
-}
-
-/// Root mean square of a series.
-pub(super) fn rms(series: &[Complex64]) -> f64 {
-    let sum: f64 = series.iter().map(Complex64::norm_sqr).sum();
-    (sum / series.len().max(1) as f64).sqrt()
 }

@@ -18,6 +18,7 @@ mod sample;
 mod settings;
 mod settling;
 mod solid;
+mod vibration;
 
 pub use analysis::{Growth, LastFifth, ProbeMotion, TransientAnalysis};
 pub use body::TransientBody;

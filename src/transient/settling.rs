@@ -1,8 +1,8 @@
 //! Whether a run has settled, and on what.
 
-use super::analysis::{main_vibration, rms, series};
+use super::StatusCounts;
 use super::recorder::{Recorder, SampleRow};
-use super::{LastFifth, StatusCounts};
+use super::vibration::{last_fifth, main_vibration, rms, series};
 use crate::signal::round_off_floor;
 use rustfft::num_complex::Complex64;
 use std::f64::consts::TAU;
@@ -153,7 +153,7 @@ impl Settling {
 
     /// Reads a record.
     pub fn of(record: &Recorder) -> Self {
-        let fifth = LastFifth::range(record);
+        let fifth = last_fifth(record);
         let main = main_vibration(record, fifth.clone());
         match Self::judge(record, &fifth, main) {
             Ok(settled) => settled,

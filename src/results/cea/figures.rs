@@ -1,9 +1,10 @@
 //! The figures of an eigenvalue analysis.
 
-use super::locus::{interval_rows, locus};
+use super::branches::{Branch, branch_of, branches, interval_rows};
+use super::locus::locus;
 use super::shape::{Body, ModeShape, moving};
 use super::{CeaReport, direction_name, html_report};
-use crate::cea::{ComplexMode, FrictionSweep, UnstableInterval};
+use crate::cea::{ComplexMode, FrictionSweep};
 use crate::chart::{
     Axis, ChartError, ColourMap, Figure, INK, Line, Marker, Panel, Points, Rule, SERIES, Side,
     Stroke, signed,
@@ -14,7 +15,6 @@ use crate::results::charts::Disc;
 use crate::results::charts::palette::{STABLE, UNSTABLE};
 use crate::results::drawing::{Declaration, DrawingError, DrawingOptions, draw_all, write_report};
 use crate::results::folder::OutputFolder;
-use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 /// Branches whose shape is followed over friction, at most.
@@ -50,41 +50,6 @@ pub fn draw(
     let figures = draw_all(figures, options)?;
     let report = html_report(report, figures, folder.manifest());
     write_report(folder, &report, options)
-}
-
-/// Harmonic, branch and direction: what identifies a mode over friction.
-pub(super) type Branch = (usize, usize, i8);
-
-pub(super) fn branch_of(interval: &UnstableInterval) -> Branch {
-    (interval.harmonic, interval.branch, interval.direction)
-}
-
-/// Points of each branch over friction: (friction coefficient, mode).
-pub(super) fn branches(sweep: &FrictionSweep) -> BTreeMap<Branch, Vec<(f64, &ComplexMode)>> {
-    let mut out: BTreeMap<Branch, Vec<(f64, &ComplexMode)>> = BTreeMap::new();
-    for point in &sweep.points {
-        for mode in &point.modes {
-            // Where a pair is degenerate its modes have no direction and stand at the start of both waves.
-            let is_pair = mode.harmonic > 0 && mode.direction == 0;
-            let directions = if is_pair {
-                &[-1, 1][..]
-            } else {
-                &[mode.direction]
-            };
-            for direction in directions {
-                let points = out
-                    .entry((mode.harmonic, mode.branch, *direction))
-                    .or_default();
-                if points
-                    .last()
-                    .is_none_or(|last| last.0 != point.friction_coefficient)
-                {
-                    points.push((point.friction_coefficient, mode));
-                }
-            }
-        }
-    }
-    out
 }
 
 /// Frequency and damping factor over friction of each pair that turns unstable, the wave with the rotor and the wave against

@@ -1,8 +1,8 @@
 //! The eigenvalues in the complex plane, and where they are unstable.
 
-use super::figures::{Branch, branch_of, branches};
+use super::branches::{Branch, branch_of, branches, interval_rows};
 use super::{CeaReport, direction_name};
-use crate::cea::{ComplexMode, FrictionSweep, UnstableInterval};
+use crate::cea::{ComplexMode, FrictionSweep};
 use crate::chart::{
     Axis, Bars, Figure, INK, Label, Line, MUTED, Mark, Marker, Panel, Points, Rule, Steps, Stroke,
     TextStyle, extremes, signed,
@@ -141,17 +141,6 @@ fn steps(report: &CeaReport<'_>) -> Steps {
             .collect(),
         marks: marks.collect(),
     }
-}
-
-/// Unstable intervals by branch, lowest frequency first, as the frequency axis has it.
-pub(super) fn interval_rows(sweep: &FrictionSweep) -> Vec<(Branch, Vec<&UnstableInterval>)> {
-    let mut rows: BTreeMap<Branch, Vec<&UnstableInterval>> = BTreeMap::new();
-    for interval in &sweep.intervals {
-        rows.entry(branch_of(interval)).or_default().push(interval);
-    }
-    let mut rows: Vec<_> = rows.into_iter().collect();
-    rows.sort_by(|a, b| a.1[0].frequency_hz.total_cmp(&b.1[0].frequency_hz));
-    rows
 }
 
 fn stability_bars(sweep: &FrictionSweep, numbers: &BTreeMap<Branch, usize>) -> Panel {

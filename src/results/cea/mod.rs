@@ -1,6 +1,7 @@
 //! Results of a complex eigenvalue analysis: what is printed and what is written.
 
 mod base;
+mod branches;
 mod figures;
 mod files;
 mod locus;

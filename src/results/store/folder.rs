@@ -3,7 +3,7 @@
 pub(crate) use super::error::FolderError;
 use super::framed::write_sealed;
 use super::manifest::Manifest;
-use super::reopening::{Contents, read_contents, read_manifest};
+use super::reopening::{Contents, JOURNAL, MANIFEST, read_contents, read_manifest};
 use crate::results::drawing::{FIGURES, REPORT};
 use std::collections::BTreeMap;
 use std::fs::{self, File, OpenOptions, TryLockError};
@@ -11,10 +11,7 @@ use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-pub(crate) const MANIFEST: &str = "manifest.json";
 pub(crate) const LOCK: &str = ".lock";
-/// Names of the files that a run has written so far; gone when it is complete.
-pub(crate) const JOURNAL: &str = ".written";
 /// How the name of a file that is still being written begins.
 pub(crate) const TEMPORARY: &str = ".writing-";
 

@@ -1,7 +1,6 @@
 //! What a results folder says of the run that it holds, if it is whole.
 
 use super::error::FolderError;
-use super::folder::{JOURNAL, MANIFEST};
 use super::framed::{Defect, Sealed, read_sealed};
 use super::manifest::Manifest;
 use serde::{Deserialize, Serialize};
@@ -10,6 +9,11 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::io;
 use std::path::Path;
+
+pub(crate) const MANIFEST: &str = "manifest.json";
+
+/// Names of the files that a run has written so far; gone when it is complete.
+pub(crate) const JOURNAL: &str = ".written";
 
 /// Name of the summary in its folder.
 pub(crate) const SUMMARY: &str = "summary.json";

@@ -2,11 +2,11 @@
 
 use super::super::Manifest;
 use super::super::folder::{
-    FolderError, MANIFEST, Replace, TEMPORARY, check_owner, refuse_foreign, remove_files,
-    write_contents, write_whole,
+    FolderError, Replace, TEMPORARY, check_owner, refuse_foreign, remove_files, write_contents,
+    write_whole,
 };
 use super::super::framed::write_sealed;
-use super::super::reopening::{Contents, own_value, read_contents};
+use super::super::reopening::{Contents, MANIFEST, own_value, read_contents};
 use super::company::{Company, open_lock, share};
 use super::{PointClock, PointRecord};
 use serde_json::Value;

@@ -1,6 +1,6 @@
 //! The energy figure of a transient: where the power of the drive goes.
 
-use super::figures::RunFigures;
+use super::run::RunFigures;
 use crate::chart::{
     Axis, Figure, Fill, INK, Label, Line, MUTED, Panel, Rule, SERIES, Stroke, TextStyle, extremes,
     prefixed, significant,

@@ -1,43 +1,20 @@
 //! The figures of a transient, from its record.
 
+use super::run::RunFigures;
 use crate::chart::{Axis, ChartError, ColourMap, Figure, Line, Panel, SERIES, extremes};
 use crate::contact::{ContactInterface, ContactStatus};
-use crate::fem::MaterialField;
-use crate::mesh::{Mesh2d, SolidFace, SolidSector};
+use crate::mesh::SolidFace;
 use crate::results::charts::palette::status_of_code;
 use crate::results::charts::{
-    Disc, FieldFrame, ModeLine, contact_figure, field_figure, open_contact_figure,
-    shear_stress_figure, status_curves,
+    Disc, FieldFrame, contact_figure, field_figure, open_contact_figure, shear_stress_figure,
+    status_curves,
 };
 use crate::results::drawing::{Declaration, DrawingOptions, draw_all};
 use crate::results::report::NamedFigure;
-use crate::transient::{EndState, Recorder, Snapshot, TransientAnalysis};
+use crate::transient::{EndState, Snapshot};
 
 /// Whole-field pictures of one kind, at most.
 const FIELD_LIMIT: usize = 8;
-
-/// A run and what its figures show besides.
-#[derive(Clone, Debug)]
-pub struct RunFigures<'a> {
-    /// The record.
-    pub record: &'a Recorder,
-    /// What was read from it.
-    pub analysis: &'a TransientAnalysis,
-    /// The mesh.
-    pub mesh: &'a Mesh2d,
-    /// One sector of a body in three dimensions, of which `mesh` is the section across the axis.
-    pub solid: Option<&'a SolidSector>,
-    /// The material, for the stress fields.
-    pub material: &'a dyn MaterialField,
-    /// Thickness, m: the record is for each metre.
-    pub thickness: f64,
-    /// Peripheral speed of the cylinder, m/s.
-    pub peripheral_speed: f64,
-    /// Modes of the eigenvalue analysis drawn across spectrograms and spectra.
-    pub references: Vec<ModeLine>,
-    /// Harmonic and growth rate (1/s) of its unstable modes.
-    pub growth_rates: Vec<(usize, f64)>,
-}
 
 /// Draws every figure that the record has data for.
 ///
@@ -62,49 +39,6 @@ pub fn draw_run(
 }
 
 impl RunFigures<'_> {
-    /// Number of a probe as the user knows it.
-    pub(super) fn probe_label(&self, probe: usize) -> usize {
-        self.mesh.node_label(self.record.probes[probe] - 1)
-    }
-
-    /// Times of all samples, s.
-    pub(super) fn times(&self) -> Vec<f64> {
-        self.record.rows.iter().map(|row| row.time).collect()
-    }
-
-    /// Time between samples, s; zero for fewer than two.
-    pub(super) fn interval(&self) -> f64 {
-        let rows = &self.record.rows;
-        match (rows.first(), rows.last(), rows.len()) {
-            (Some(first), Some(last), 2..) => (last.time - first.time) / (rows.len() - 1) as f64,
-            _ => 0.0,
-        }
-    }
-
-    /// One column of a probe: displacements, velocities, accelerations, each radial and tangential.
-    pub(super) fn column(&self, probe: usize, column: usize) -> Vec<f64> {
-        let rows = self.record.probe_rows[probe].iter();
-        rows.map(|row| row[column]).collect()
-    }
-
-    /// The tangential acceleration of a probe: the component that friction drives, and the one over which runs are compared.
-    pub(super) fn acceleration(&self, probe: usize) -> Vec<f64> {
-        self.column(probe, 5)
-    }
-
-    /// Highest frequency shown: three superharmonics, or all modes drawn.
-    pub(super) fn highest_frequency(&self) -> f64 {
-        let main = self.analysis.last_fifth.main_frequency_hz.unwrap_or(0.0);
-        let modes = self.references.iter().map(|mode| mode.frequency_hz);
-        let wanted = modes.fold(3.4 * main, |top, f| top.max(1.1 * f));
-        let nyquist = 0.5 / self.interval().max(1e-12);
-        if wanted > 0.0 {
-            wanted.min(nyquist)
-        } else {
-            nyquist.min(35e3)
-        }
-    }
-
     fn snapshots(&self) -> impl Iterator<Item = &Snapshot> {
         self.record.snapshots.iter().take(FIELD_LIMIT)
     }

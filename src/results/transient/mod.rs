@@ -9,6 +9,7 @@ mod files;
 mod print;
 mod record;
 mod report;
+mod run;
 mod signals;
 mod solid;
 mod stages;
@@ -16,10 +17,11 @@ mod summary;
 
 pub use beside::{RunEnd, shear_stress_beside};
 pub use checkpoint::{CHECKPOINT, Checkpoint, CheckpointError, read_checkpoint, write_checkpoint};
-pub use figures::{RunFigures, draw_run};
+pub use figures::draw_run;
 pub use files::write;
 pub use print::print;
 pub use report::{draw, html_report};
+pub use run::RunFigures;
 pub use summary::{TransientSummary, summary};
 
 use crate::fem::MaterialField;

@@ -1,6 +1,6 @@
 //! Figures of the probes' signals and of the harmonics of the contact edge.
 
-use super::figures::RunFigures;
+use super::run::RunFigures;
 use super::stages::stages;
 use crate::chart::{
     Axis, Figure, INK, Line, MUTED, Panel, Rule, Stroke, extremes, look, significant,

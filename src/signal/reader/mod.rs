@@ -10,6 +10,7 @@
 
 mod column;
 mod columns;
+mod contents;
 mod error;
 mod field;
 mod mat;
@@ -24,10 +25,11 @@ mod uff_writing;
 mod units;
 mod wav;
 
+pub use contents::{Channel, NamedResponse, ResponseFile, SignalFile};
 pub use error::{ReadError, ReadProblem};
 pub use modes::{MeasuredMode, read_modes};
-pub use response::{NamedResponse, ResponseFile, ResponseOptions, read_response};
-pub use time_signal::{Channel, SignalFile, SignalOptions, read_signal};
+pub use response::{ResponseOptions, read_response};
+pub use time_signal::{SignalOptions, read_signal};
 pub use uff_writing::{write_response, write_signal};
 pub use wav::{slowdown, write_wav};
 

@@ -2,6 +2,7 @@
 
 use super::super::{FrequencyResponse, ResponseQuantity};
 use super::columns::{Layout, Part, layouts, part};
+use super::contents::{NamedResponse, ResponseFile};
 use super::error::{ReadError, ReadProblem};
 use super::table::{Table, read_table};
 use super::units::{hertz, words};
@@ -18,24 +19,6 @@ pub struct ResponseOptions {
     pub columns: Vec<String>,
     /// The responses to use, by name or number; empty: all.
     pub channels: Vec<String>,
-}
-
-/// A response and its name.
-#[derive(Clone, Debug, PartialEq)]
-pub struct NamedResponse {
-    /// Name of its column without the words for real and imaginary part, or `response k`.
-    pub name: String,
-    /// The response.
-    pub response: FrequencyResponse,
-}
-
-/// Frequency responses and what the reader had to decide.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ResponseFile {
-    /// The responses, at least one.
-    pub responses: Vec<NamedResponse>,
-    /// Decisions a user should know of: rows sorted, repeated rows dropped, quantity assumed.
-    pub notes: Vec<String>,
 }
 
 /// Reads frequency responses: frequency with real and imaginary part, complex numbers, magnitude (linear or

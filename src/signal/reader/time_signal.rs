@@ -1,6 +1,7 @@
 //! Time signals.
 
 use super::super::SignalError;
+use super::contents::{Channel, SignalFile};
 use super::error::{ReadError, ReadProblem};
 use super::table::{Table, read_table};
 use super::units::{sampling_rate, seconds};
@@ -21,28 +22,6 @@ pub struct SignalOptions {
     pub columns: Vec<String>,
     /// The channels to use, by name or number; empty: all.
     pub channels: Vec<String>,
-}
-
-/// One column of a signal table.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Channel {
-    /// Name as written, or `channel k`.
-    pub name: String,
-    /// Samples, in the unit of the file.
-    pub samples: Vec<f64>,
-}
-
-/// Equidistant samples of one or more channels.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SignalFile {
-    /// Sampling rate, Hz.
-    pub sampling_rate: f64,
-    /// Time of the first sample, s.
-    pub start: f64,
-    /// Channels in the order of their columns, of one length, at least one.
-    pub channels: Vec<Channel>,
-    /// Decisions a user should know of.
-    pub notes: Vec<String>,
 }
 
 /// Reads time signals: a time column with any number of channels, or channels with a sampling rate

@@ -4,9 +4,8 @@
 //! binary form.
 
 use super::super::{FrequencyResponse, ResponseQuantity};
+use super::contents::{Channel, NamedResponse, ResponseFile, SignalFile};
 use super::error::{ReadError, ReadProblem};
-use super::response::{NamedResponse, ResponseFile};
-use super::time_signal::{Channel, SignalFile};
 use faer::c64;
 
 /// Function types: time response, frequency response, coherence.

@@ -1,7 +1,6 @@
 //! Responses and signals as universal files, dataset 58 in text.
 
-use super::response::NamedResponse;
-use super::time_signal::SignalFile;
+use super::contents::{NamedResponse, SignalFile};
 use super::uff::{FREQUENCY_RESPONSE, TIME, TIME_AXIS};
 use crate::signal::ResponseQuantity;
 use faer::c64;

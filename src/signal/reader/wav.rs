@@ -1,8 +1,8 @@
 //! WAV files: sound in, and a signal made audible.
 
 use super::super::SignalError;
+use super::contents::{Channel, SignalFile};
 use super::error::{ReadError, ReadProblem};
-use super::time_signal::{Channel, SignalFile};
 use hound::{SampleFormat, WavReader, WavSpec, WavWriter};
 use std::io::Cursor;
 

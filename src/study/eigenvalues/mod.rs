@@ -18,9 +18,9 @@ mod solve;
 mod spectrum;
 mod states;
 
-pub use model::SlidingModel;
+pub use model::{SlidingModel, asked_modes, mode_limit};
 pub use solid::SolidBody;
-pub use solve::{asked_modes, map, mode_limit, solve};
+pub use solve::{map, solve};
 pub use spectrum::{modes_below, unstable_intervals};
 
 use super::{StudyError, tangent_options};

@@ -2,7 +2,8 @@
 
 use super::StudyError;
 use super::solid::SolidBody;
-use crate::case::{Case, Cea, CeaMethod};
+use crate::case::{Case, Cea, CeaMethod, ModeSelection};
+use crate::cea::ModeLimit;
 use crate::fem::{assemble_stiffness, nodal_stress};
 use crate::mesh::{AnnulusMesh, Counterface, Mesh2d, SectorMesh};
 use crate::prestress::{
@@ -155,4 +156,18 @@ impl SlidingModel {
             displacement,
         }
     }
+}
+
+/// The modes that a case asks for.
+pub fn mode_limit(cea: &Cea) -> ModeLimit {
+    match cea.modes {
+        ModeSelection::BelowHz(limit) => ModeLimit::MaxFrequency(limit),
+        ModeSelection::Lowest(count) => ModeLimit::Lowest(count),
+    }
+}
+
+/// The modes of the case's own eigenvalue analysis, else so many of the lowest.
+pub fn asked_modes(case: &Case, otherwise: usize) -> ModeLimit {
+    let own = case.cea.as_ref().map(mode_limit);
+    own.unwrap_or(ModeLimit::Lowest(otherwise))
 }

@@ -1,12 +1,12 @@
 //! Which eigenvalue solver runs, and what it has to say.
 
-use super::model::method_of;
+use super::model::{method_of, mode_limit};
 use super::solid::{SolidBody, solid_model};
 use super::states::solve_sparse;
 use super::{Progress, SlidingModel, Solution, StudyError};
-use crate::case::{Case, Cea, CeaMap, CeaMethod, ModeSelection};
+use crate::case::{Case, Cea, CeaMap, CeaMethod};
 use crate::cea::cyclic::{self, Coverage, CyclicModel, SolidModel};
-use crate::cea::{FrictionSweep, ModeLimit, SweepRequest};
+use crate::cea::{FrictionSweep, SweepRequest};
 use crate::fem::RegionMaterial;
 use crate::results::cea::{MapReport, SensitivityReport};
 use crate::study::tangent_options;
@@ -194,20 +194,6 @@ fn solve_solid(case: &Case, cea: &Cea, model: &SlidingModel) -> Result<Solution,
         notes,
         sweep: found.sweep,
     })
-}
-
-/// The modes that a case asks for.
-pub fn mode_limit(cea: &Cea) -> ModeLimit {
-    match cea.modes {
-        ModeSelection::BelowHz(limit) => ModeLimit::MaxFrequency(limit),
-        ModeSelection::Lowest(count) => ModeLimit::Lowest(count),
-    }
-}
-
-/// The modes of the case's own eigenvalue analysis, else so many of the lowest.
-pub fn asked_modes(case: &Case, otherwise: usize) -> ModeLimit {
-    let own = case.cea.as_ref().map(mode_limit);
-    own.unwrap_or(ModeLimit::Lowest(otherwise))
 }
 
 /// The stability map that a case asks for: every value makes a case of its own, validated like any other.

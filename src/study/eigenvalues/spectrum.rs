@@ -1,6 +1,7 @@
 //! The spectrum of a case for those who study it: no files, no base fields, no shapes.
 
-use super::solve::{mode_limit, solve};
+use super::model::mode_limit;
+use super::solve::solve;
 use super::{SlidingModel, StudyError};
 use crate::case::{Case, Cea, CeaMethod, ModeSelection};
 use crate::cea::cyclic::{self, Sensitivity};

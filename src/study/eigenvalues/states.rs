@@ -1,6 +1,6 @@
 //! A sweep over friction coefficients between which contact nodes open or close.
 
-use super::solve::mode_limit;
+use super::model::mode_limit;
 use super::{Progress, SlidingModel, Solution, StudyError};
 use crate::case::{Case, Cea};
 use crate::cea::sparse;

@@ -1,6 +1,6 @@
 //! The search from several points, and what is known of its result.
 
-use super::interval::estimates;
+use super::interval::{Estimate, estimates};
 use super::levenberg_marquardt::{Squares, Trial};
 use super::matching::{Weights, differences};
 use super::{FitError, FitProblem, MeasuredMode, ModelMode};
@@ -19,26 +19,6 @@ const LARGEST_DIFFERENCE: f64 = 0.25;
 
 /// Distance of two minima, in units of the bounds, from which on they are two.
 const DISTINCT: f64 = 0.02;
-
-/// A bound.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Side {
-    /// The lower.
-    From,
-    /// The upper.
-    To,
-}
-
-/// One parameter.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Estimate {
-    /// Its value.
-    pub value: f64,
-    /// 95 % interval; `None` where the value lies on a bound, or no data are left to tell the scatter.
-    pub interval: Option<[f64; 2]>,
-    /// The bound that it lies on.
-    pub at_bound: Option<Side>,
-}
 
 /// One line and its mode.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,6 +1,5 @@
 //! Intervals and correlations of fitted parameters, and the direction that the data do not see.
 
-use super::estimate::{Estimate, Side};
 use super::levenberg_marquardt::{Squares, Trial};
 use super::{BoundedParameter, FitError};
 use crate::signal::student_95;
@@ -8,6 +7,26 @@ use nalgebra::DMatrix;
 
 /// Least ratio of singular values of what the data see.
 const BLIND: f64 = 1e-6;
+
+/// A bound.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// The lower.
+    From,
+    /// The upper.
+    To,
+}
+
+/// One parameter.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Estimate {
+    /// Its value.
+    pub value: f64,
+    /// 95 % interval; `None` where the value lies on a bound, or no data are left to tell the scatter.
+    pub interval: Option<[f64; 2]>,
+    /// The bound that it lies on.
+    pub at_bound: Option<Side>,
+}
 
 type Estimates = (Vec<Estimate>, Vec<Vec<f64>>);
 

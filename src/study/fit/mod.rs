@@ -17,7 +17,8 @@ mod summary;
 
 pub use crate::signal::reader::MeasuredMode;
 pub use case::{fit_case, refuse_too_few, summarize};
-pub use estimate::{Estimate, Fitted, LineFit, Side, fit};
+pub use estimate::{Fitted, LineFit, fit};
+pub use interval::{Estimate, Side};
 
 use crate::linalg::c64;
 use std::f64::consts::TAU;

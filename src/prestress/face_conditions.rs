@@ -1,0 +1,73 @@
+//! What the conditions of the faces of a body of revolution add: springs, dashpots, pressures.
+
+use crate::fem::solid::{FaceTerm, SolidMatrix, face_load, face_matrix, whole_element};
+use crate::mesh::{BoundaryCondition, SolidFace, SolidSector};
+
+/// Springs and dashpots of every support, N/m and N s/m.
+pub fn supports(sector: &SolidSector) -> [SolidMatrix; 2] {
+    let mut result = [SolidMatrix::default(), SolidMatrix::default()];
+    for (face, condition) in SolidFace::ALL
+        .into_iter()
+        .zip(&sector.specification.conditions)
+    {
+        let BoundaryCondition::Support(support) = condition else {
+            continue;
+        };
+        let elements = sector.face_elements(face);
+        let (normal, across) = (face.normal_component(), face.across_component());
+        // Across, a face is tangential like around; a cylinder has its own word for it.
+        let is_cylinder = normal == 0;
+        let axial = if is_cylinder {
+            support.axial_stiffness
+        } else {
+            support.tangential_stiffness
+        };
+        let axial_damping = if is_cylinder {
+            0.0
+        } else {
+            support.tangential_damping
+        };
+        let values = [
+            [
+                (normal, support.normal_stiffness),
+                (1, support.tangential_stiffness),
+                (across, axial),
+            ],
+            [
+                (normal, support.normal_damping),
+                (1, support.tangential_damping),
+                (across, axial_damping),
+            ],
+        ];
+        for (sum, terms) in result.iter_mut().zip(values) {
+            for (component, value) in terms.into_iter().filter(|(_, value)| *value != 0.0) {
+                let term = FaceTerm {
+                    row: component,
+                    column: component,
+                    weight: &|_, _, _| value,
+                    span: &whole_element,
+                };
+                sum.extend(face_matrix(sector, &elements, &term));
+            }
+        }
+    }
+    result
+}
+
+/// Forces of the pressures on the faces, the same in every sector, N.
+pub fn pressure_load(sector: &SolidSector) -> Vec<f64> {
+    let mut load = vec![0.0; 3 * sector.node_count()];
+    for (face, condition) in SolidFace::ALL
+        .into_iter()
+        .zip(&sector.specification.conditions)
+    {
+        if let BoundaryCondition::Pressure(pressure) = condition {
+            let unit = face_load(sector, &sector.face_elements(face), face.normal_component());
+            let factor = pressure * face.inward_sign();
+            load.iter_mut()
+                .zip(unit)
+                .for_each(|(sum, value)| *sum += factor * value);
+        }
+    }
+    load
+}

@@ -1,0 +1,50 @@
+//! The modes of a sweep and its unstable intervals by branch.
+
+use crate::cea::{ComplexMode, FrictionSweep, UnstableInterval};
+use std::collections::BTreeMap;
+
+/// Harmonic, branch and direction: what identifies a mode over friction.
+pub(super) type Branch = (usize, usize, i8);
+
+pub(super) fn branch_of(interval: &UnstableInterval) -> Branch {
+    (interval.harmonic, interval.branch, interval.direction)
+}
+
+/// Points of each branch over friction: (friction coefficient, mode).
+pub(super) fn branches(sweep: &FrictionSweep) -> BTreeMap<Branch, Vec<(f64, &ComplexMode)>> {
+    let mut out: BTreeMap<Branch, Vec<(f64, &ComplexMode)>> = BTreeMap::new();
+    for point in &sweep.points {
+        for mode in &point.modes {
+            // Where a pair is degenerate its modes have no direction and stand at the start of both waves.
+            let is_pair = mode.harmonic > 0 && mode.direction == 0;
+            let directions = if is_pair {
+                &[-1, 1][..]
+            } else {
+                &[mode.direction]
+            };
+            for direction in directions {
+                let points = out
+                    .entry((mode.harmonic, mode.branch, *direction))
+                    .or_default();
+                if points
+                    .last()
+                    .is_none_or(|last| last.0 != point.friction_coefficient)
+                {
+                    points.push((point.friction_coefficient, mode));
+                }
+            }
+        }
+    }
+    out
+}
+
+/// Unstable intervals by branch, lowest frequency first, as the frequency axis has it.
+pub(super) fn interval_rows(sweep: &FrictionSweep) -> Vec<(Branch, Vec<&UnstableInterval>)> {
+    let mut rows: BTreeMap<Branch, Vec<&UnstableInterval>> = BTreeMap::new();
+    for interval in &sweep.intervals {
+        rows.entry(branch_of(interval)).or_default().push(interval);
+    }
+    let mut rows: Vec<_> = rows.into_iter().collect();
+    rows.sort_by(|a, b| a.1[0].frequency_hz.total_cmp(&b.1[0].frequency_hz));
+    rows
+}

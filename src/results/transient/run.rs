@@ -1,0 +1,74 @@
+//! A recorded run as its figures see it.
+
+use crate::fem::MaterialField;
+use crate::mesh::{Mesh2d, SolidSector};
+use crate::results::charts::ModeLine;
+use crate::transient::{Recorder, TransientAnalysis};
+
+/// A run and what its figures show besides.
+#[derive(Clone, Debug)]
+pub struct RunFigures<'a> {
+    /// The record.
+    pub record: &'a Recorder,
+    /// What was read from it.
+    pub analysis: &'a TransientAnalysis,
+    /// The mesh.
+    pub mesh: &'a Mesh2d,
+    /// One sector of a body in three dimensions, of which `mesh` is the section across the axis.
+    pub solid: Option<&'a SolidSector>,
+    /// The material, for the stress fields.
+    pub material: &'a dyn MaterialField,
+    /// Thickness, m: the record is for each metre.
+    pub thickness: f64,
+    /// Peripheral speed of the cylinder, m/s.
+    pub peripheral_speed: f64,
+    /// Modes of the eigenvalue analysis drawn across spectrograms and spectra.
+    pub references: Vec<ModeLine>,
+    /// Harmonic and growth rate (1/s) of its unstable modes.
+    pub growth_rates: Vec<(usize, f64)>,
+}
+
+impl RunFigures<'_> {
+    /// Number of a probe as the user knows it.
+    pub(super) fn probe_label(&self, probe: usize) -> usize {
+        self.mesh.node_label(self.record.probes[probe] - 1)
+    }
+
+    /// Times of all samples, s.
+    pub(super) fn times(&self) -> Vec<f64> {
+        self.record.rows.iter().map(|row| row.time).collect()
+    }
+
+    /// Time between samples, s; zero for fewer than two.
+    pub(super) fn interval(&self) -> f64 {
+        let rows = &self.record.rows;
+        match (rows.first(), rows.last(), rows.len()) {
+            (Some(first), Some(last), 2..) => (last.time - first.time) / (rows.len() - 1) as f64,
+            _ => 0.0,
+        }
+    }
+
+    /// One column of a probe: displacements, velocities, accelerations, each radial and tangential.
+    pub(super) fn column(&self, probe: usize, column: usize) -> Vec<f64> {
+        let rows = self.record.probe_rows[probe].iter();
+        rows.map(|row| row[column]).collect()
+    }
+
+    /// The tangential acceleration of a probe: the component that friction drives, and the one over which runs are compared.
+    pub(super) fn acceleration(&self, probe: usize) -> Vec<f64> {
+        self.column(probe, 5)
+    }
+
+    /// Highest frequency shown: three superharmonics, or all modes drawn.
+    pub(super) fn highest_frequency(&self) -> f64 {
+        let main = self.analysis.last_fifth.main_frequency_hz.unwrap_or(0.0);
+        let modes = self.references.iter().map(|mode| mode.frequency_hz);
+        let wanted = modes.fold(3.4 * main, |top, f| top.max(1.1 * f));
+        let nyquist = 0.5 / self.interval().max(1e-12);
+        if wanted > 0.0 {
+            wanted.min(nyquist)
+        } else {
+            nyquist.min(35e3)
+        }
+    }
+}
