@@ -1,8 +1,10 @@
 //! Growth of the common basis until it holds the modes of every friction coefficient.
 
+use super::linearization::Linearization;
+use super::mode::ReducedMode;
 use super::packed::{PackedEntry, PackedModes};
-use super::reduced::{ReducedMode, ReducedModel};
-use super::structure::{Linearization, ShiftInverted, StiffnessFactors, StructureMatrices};
+use super::reduced::ReducedModel;
+use super::structure::{ShiftInverted, StiffnessFactors, StructureMatrices};
 use crate::cea::CeaError;
 use crate::linalg::dense::{
     column, column_norms, dot, join_columns, orthonormal_complement, pick_columns,

@@ -1,9 +1,10 @@
 //! Continuation of mode branches over the friction coefficient.
 
 use super::edge::ContactEdge;
+use super::mode::ReducedMode;
 use super::packed::ComplexColumns;
 use super::point::SolvedPoint;
-use super::reduced::{ReducedMode, ReducedModel};
+use super::reduced::ReducedModel;
 use crate::linalg::{ComplexDenseLu, LinalgError};
 use crate::linalg::{Mat, c64};
 

@@ -1,7 +1,8 @@
 //! The undamped modes without friction, and the proof that none is missing.
 
 use super::GUARD_MODES;
-use super::structure::{Linearization, ShiftInverted, StiffnessFactors, StructureMatrices};
+use super::linearization::Linearization;
+use super::structure::{ShiftInverted, StiffnessFactors, StructureMatrices};
 use crate::cea::{CeaError, ModeLimit};
 use crate::fem::RayleighDamping;
 use crate::linalg::Mat;

@@ -16,6 +16,8 @@ mod edge;
 #[cfg(test)]
 mod fixtures;
 mod frictionless;
+mod linearization;
+mod mode;
 mod onset;
 mod packed;
 mod point;
@@ -28,10 +30,12 @@ pub use basis::BasisBuilder;
 pub use branches::{BranchLabel, Lost, TrackedBranch, label_frictionless, track};
 pub use edge::ContactEdge;
 pub use frictionless::FrictionlessModes;
+pub use linearization::Linearization;
+pub use mode::ReducedMode;
 pub use onset::OnsetFinder;
 pub use point::{ModeCheck, PointSolver, SolvedPoint};
-pub use reduced::{ProjectedMatrices, ReducedMode, ReducedModel};
-pub use structure::{Linearization, ShiftInverted, StiffnessFactors, StructureMatrices};
+pub use reduced::{ProjectedMatrices, ReducedModel};
+pub use structure::{ShiftInverted, StiffnessFactors, StructureMatrices};
 pub use sweep::{SparseSweep, sweep};
 
 /// Modes beyond the wanted ones that are computed along, so that crossings at the upper end of the range

@@ -2,9 +2,10 @@
 
 use super::RESIDUAL_BOUND;
 use super::branches::TrackedBranch;
+use super::mode::ReducedMode;
 use super::packed::ComplexColumns;
 use super::point::{PointSolver, SolvedPoint};
-use super::reduced::{ReducedMode, ReducedModel};
+use super::reduced::ReducedModel;
 use crate::cea::onset::{BranchSolver, Instability, instabilities};
 use crate::cea::{BranchPoint, CeaError, UnstableInterval};
 use crate::linalg::LinalgError;

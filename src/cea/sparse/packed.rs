@@ -1,6 +1,6 @@
 //! Complex vectors of modes in real matrices, for real arithmetic.
 
-use super::reduced::ReducedMode;
+use super::mode::ReducedMode;
 use crate::linalg::dense::{column, dot, product};
 use crate::linalg::{Mat, c64};
 

@@ -2,9 +2,11 @@
 
 use super::TRACKING_MARGIN;
 use super::edge::ContactEdge;
+use super::linearization::Linearization;
+use super::mode::ReducedMode;
 use super::packed::{PackedModes, PackedVector};
-use super::reduced::{ReducedMode, ReducedModel};
-use super::structure::{Linearization, StructureMatrices};
+use super::reduced::ReducedModel;
+use super::structure::StructureMatrices;
 use crate::cea::{ModeLimit, keeping_ties};
 use crate::linalg::LinalgError;
 use crate::linalg::c64;

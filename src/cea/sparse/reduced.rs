@@ -1,28 +1,14 @@
 //! The matrices of small motions projected on one basis that serves every friction coefficient.
 
+use super::linearization::Linearization;
+use super::mode::ReducedMode;
 use super::packed::ComplexColumns;
-use super::structure::Linearization;
 use super::term::Term;
 use crate::linalg::dense::{GrowingColumns, orthonormal_complement, product, transpose_product};
 use crate::linalg::dense_eigen::real_eigen;
 use crate::linalg::{DenseLu, LinalgError, MatrixPolynomial};
 use crate::linalg::{Mat, MatRef, Scale, c64};
 use crate::prestress::SlidingTangent;
-
-/// One mode of the projected problem.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ReducedMode {
-    /// Eigenvalue `lambda`, `Im > 0`, rad/s.
-    pub eigenvalue: c64,
-    /// The eigenvalue `s` of the shift-inverted operator that it comes from.
-    pub inverse_value: c64,
-    /// `dlambda/dmu`, rad/s.
-    pub derivative: c64,
-    /// Coordinates of the right vector `x`, of unit length.
-    pub right: Vec<c64>,
-    /// Coordinates of the left vector `w`, scaled to `w^T (2 lambda M + C) x = 1` (no conjugation).
-    pub left: Vec<c64>,
-}
 
 /// `K`, `C` and `M` (or their derivatives) projected, at one friction coefficient.
 pub struct ProjectedMatrices {

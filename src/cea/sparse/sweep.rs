@@ -4,9 +4,9 @@ use super::basis::BasisBuilder;
 use super::branches::{BranchLabel, TrackedBranch, label_frictionless, track};
 use super::edge::ContactEdge;
 use super::frictionless::FrictionlessModes;
+use super::linearization::Linearization;
 use super::onset::OnsetFinder;
 use super::point::{PointSolver, SolvedPoint};
-use super::structure::Linearization;
 use super::{RESIDUAL_BOUND, TRACKING_MARGIN};
 use crate::cea::{
     CeaError, ComplexMode, FrictionPoint, FrictionSweep, ModeLimit, SweepProgress, SweepRequest,

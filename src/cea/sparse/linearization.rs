@@ -1,0 +1,44 @@
+//! How the quadratic eigenproblem becomes a linear one.
+
+use crate::fem::RayleighDamping;
+use crate::linalg::c64;
+use crate::prestress::SlidingTangent;
+
+/// How `T(lambda) x = (lambda^2 M + lambda C + K) x = 0` becomes a linear eigenproblem.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Linearization {
+    /// Proportional damping `C = alpha M + beta K`: `K x = kappa M x` and
+    /// `lambda^2 + alpha lambda + (1 + beta lambda) kappa = 0`. Half the size.
+    Reduced(RayleighDamping),
+    /// Any damping: `z = (x, nu x)`, `lambda = omega nu`. The scale `omega` makes the two halves of `z`
+    /// alike in size; without it the linearisation loses digits.
+    Companion {
+        /// Scale of the eigenvalues `omega`, rad/s.
+        frequency_scale: f64,
+    },
+}
+
+impl Linearization {
+    /// The cheapest linearisation of `tangent`; `frequency_scale` (rad/s) is a typical wanted frequency.
+    pub fn of(tangent: &SlidingTangent, frequency_scale: f64) -> Self {
+        match tangent.proportional {
+            Some(damping) => Self::Reduced(damping),
+            None => Self::Companion { frequency_scale },
+        }
+    }
+
+    /// `lambda` with `Im > 0` that belongs to the eigenvalue `s` of the shift-inverted operator,
+    /// `s = 1/kappa` or `s = 1/nu`; `None` for an overdamped mode and for the conjugate of a mode.
+    pub fn eigenvalue(self, s: c64) -> Option<c64> {
+        match self {
+            Self::Reduced(damping) => {
+                let lambda = damping.eigenvalue(s.inv());
+                (lambda.im > 0.0).then_some(lambda)
+            }
+            Self::Companion { frequency_scale } => {
+                let nu = s.inv();
+                (nu.im > 0.0).then_some(nu * frequency_scale)
+            }
+        }
+    }
+}
