@@ -1,5 +1,8 @@
 //! Thinning of long series for drawing.
 
+/// Columns for each point of width to which series are thinned (200 dots per inch, as the images have).
+pub(super) const COLUMNS_PER_POINT: f64 = 200.0 / 72.0;
+
 /// Thins a series with rising abscissae to at most four points for each column of a drawing, and
 /// keeps the first, lowest, highest and last value of each column, so no extreme is lost.
 ///

@@ -2,10 +2,11 @@
 
 use super::axis::Axis;
 use super::colour::{ColourMap, INK};
+use super::colour_bar::Colours;
 use super::data::{Series, SeriesKind};
 use super::decimation::simplify;
 use super::frame::Frame;
-use super::image::{Colours, IndexedImage, Palette};
+use super::image::{IndexedImage, Palette};
 use super::layer::Layer;
 use super::path::Path;
 use super::scale::extremes;

@@ -3,9 +3,9 @@
 use super::ChartError;
 use super::axis::Axis;
 use super::colour::ColourMap;
+use super::colour_bar::Colours;
 use super::data::{FigureData, Steps};
-use super::image::Colours;
-use super::layout::Layout;
+use super::layout::{Grid, Layout, letter};
 use super::motion::Motion;
 use super::panel::Panel;
 use super::svg::{POINTS_PER_MM, Svg};
@@ -22,14 +22,7 @@ pub struct Figure {
     pub name: String,
     /// What is shown, in a sentence or two of plain text.
     pub caption: String,
-    pub(super) width_mm: f64,
-    pub(super) columns: usize,
-    pub(super) weights: Vec<f64>,
-    pub(super) cells: Vec<Option<Panel>>,
-    pub(super) shares: [bool; 2],
-    pub(super) has_letters: bool,
-    pub(super) notes: Vec<String>,
-    pub(super) foot: Option<Colours>,
+    grid: Grid,
     motion: Option<Motion>,
     steps: Option<Steps>,
 }
@@ -40,14 +33,7 @@ impl Figure {
         Self {
             name: name.into(),
             caption: caption.into(),
-            width_mm: TWO_COLUMNS,
-            columns: 1,
-            weights: Vec::new(),
-            cells: Vec::new(),
-            shares: [false, false],
-            has_letters: true,
-            notes: Vec::new(),
-            foot: None,
+            grid: Grid::new(TWO_COLUMNS),
             motion: None,
             steps: None,
         }
@@ -62,79 +48,69 @@ impl Figure {
     }
 
     /// The same for one column of a page.
-    pub fn narrow(self) -> Self {
-        Self {
-            width_mm: ONE_COLUMN,
-            ..self
-        }
+    pub fn narrow(mut self) -> Self {
+        self.grid.width_mm = ONE_COLUMN;
+        self
     }
 
     /// The same with so many panels in a row.
-    pub fn columns(self, columns: usize) -> Self {
-        Self {
-            columns: columns.max(1),
-            ..self
-        }
+    pub fn columns(mut self, columns: usize) -> Self {
+        self.grid.columns = columns.max(1);
+        self
     }
 
     /// The same with columns of these relative widths.
-    pub fn weighted(self, weights: &[f64]) -> Self {
-        Self {
-            weights: weights.to_vec(),
-            ..self.columns(weights.len())
-        }
+    pub fn weighted(mut self, weights: &[f64]) -> Self {
+        self.grid.weights = weights.to_vec();
+        self.columns(weights.len())
     }
 
     /// The same with one horizontal axis for all panels of a column.
     pub fn shared_x(mut self) -> Self {
-        self.shares[0] = true;
+        self.grid.shares[0] = true;
         self
     }
 
     /// The same with one vertical axis for all panels of a row.
     pub fn shared_y(mut self) -> Self {
-        self.shares[1] = true;
+        self.grid.shares[1] = true;
         self
     }
 
     /// The same with one more panel.
     pub fn panel(mut self, panel: Panel) -> Self {
-        self.cells.push(Some(panel));
+        self.grid.cells.push(Some(panel));
         self
     }
 
     /// The same with more panels.
     pub fn panels(mut self, panels: impl IntoIterator<Item = Panel>) -> Self {
-        self.cells.extend(panels.into_iter().map(Some));
+        self.grid.cells.extend(panels.into_iter().map(Some));
         self
     }
 
     /// The same with the panel, or with its place left free where there is none.
     pub fn panel_or_gap(mut self, panel: Option<Panel>) -> Self {
-        self.cells.push(panel);
+        self.grid.cells.push(panel);
         self
     }
 
     /// The same without letters on its panels.
-    pub fn unlettered(self) -> Self {
-        Self {
-            has_letters: false,
-            ..self
-        }
+    pub fn unlettered(mut self) -> Self {
+        self.grid.has_letters = false;
+        self
     }
 
     /// The same with a line of remarks below, in mark-up.
     pub fn note(mut self, note: impl Into<String>) -> Self {
-        self.notes.push(note.into());
+        self.grid.notes.push(note.into());
         self
     }
 
     /// The same with one scale of colours for all panels below them, over the given ends of an axis.
-    pub fn colour_foot(self, axis: Axis, map: ColourMap) -> Self {
-        Self {
-            foot: Some(Colours::over(axis, map, &[])),
-            ..self
-        }
+    pub fn colour_foot(mut self, axis: Axis, map: ColourMap) -> Self {
+        self.grid.foot = Some(Colours::over(axis, map, &[]));
+        self
     }
 
     /// The same with a body that moves, where the figure is read with scripts.
@@ -156,14 +132,14 @@ impl Figure {
     /// The numbers behind the drawing.
     pub fn data(&self) -> FigureData {
         let mut steps = self.steps.clone();
-        if let (Some(steps), Some(panel)) = (&mut steps, self.cells.iter().flatten().next()) {
+        if let (Some(steps), Some(panel)) = (&mut steps, self.grid.panels().next()) {
             let [x, y] = panel.rulers();
             for mark in steps.marks.iter_mut().flatten() {
                 mark.place = (x.shown(mark.place.0), y.shown(mark.place.1));
             }
         }
         FigureData {
-            panels: self.cells.iter().flatten().map(Panel::data).collect(),
+            panels: self.grid.panels().map(Panel::data).collect(),
             motion: self.motion.clone(),
             steps,
         }
@@ -174,34 +150,28 @@ impl Figure {
     /// # Errors
     /// [`ChartError::Empty`] if no panel has data.
     pub fn to_svg(&self, width_mm: Option<f64>) -> Result<String, ChartError> {
-        let panels = || self.cells.iter().flatten();
-        if !panels().any(Panel::has_data) {
+        if !self.grid.panels().any(Panel::has_data) {
             return Err(ChartError::empty(&self.name));
         }
-        let width_mm = width_mm.unwrap_or(self.width_mm);
+        let width_mm = width_mm.unwrap_or(self.grid.width_mm);
         let mut svg = Svg::new(&self.name, width_mm * POINTS_PER_MM, 100.0);
-        let layout = Layout::of(self, width_mm);
-        layout.draw(&mut svg);
+        Layout::of(&self.grid, width_mm).draw(&mut svg);
         let title = self
             .caption
             .split(['.', ';', ':'])
             .next()
             .unwrap_or_default();
         let describe = |(index, panel): (usize, &Panel)| {
-            let letter = (b'a' + (index % 26) as u8) as char;
-            let parts = [
-                &panel.caption,
-                panel.headings.first().map_or(&panel.caption, |h| &h.0),
-            ];
-            format!(
-                " ({letter}) {}",
-                plain(parts[if panel.caption.is_empty() { 1 } else { 0 }])
-            )
+            let name = Some(&panel.caption).filter(|caption| !caption.is_empty());
+            let name = name.or(panel.headings.first().map(|heading| &heading.0))?;
+            Some(format!(" ({}) {}", letter(index), plain(name)))
         };
-        let named = panels()
+        let parts: String = self
+            .grid
+            .panels()
             .enumerate()
-            .filter(|(_, p)| !p.caption.is_empty() || !p.headings.is_empty());
-        let parts: String = named.map(describe).collect();
+            .filter_map(describe)
+            .collect();
         Ok(svg.finish(title, &format!("{}{parts}", self.caption)))
     }
 }

@@ -1,8 +1,9 @@
 //! Filled areas.
 
 use super::data::{Series, SeriesKind};
+use super::decimation::COLUMNS_PER_POINT;
 use super::frame::Frame;
-use super::layer::{COLUMNS_PER_POINT, Layer};
+use super::layer::Layer;
 use super::legend::Key;
 use super::path::Path;
 use super::svg::Svg;

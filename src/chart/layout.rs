@@ -1,12 +1,12 @@
 //! Where the panels of a figure stand: a grid whose data areas line up.
 
-use super::figure::Figure;
+use super::colour::MUTED;
+use super::colour_bar::Colours;
 use super::frame::{Frame, LABEL_SIZE, TITLE_SIZE};
-use super::image::Colours;
 use super::legend::{LINE_HEIGHT, Legend};
 use super::panel::Panel;
 use super::ruler::Ruler;
-use super::svg::{Rect, Svg};
+use super::svg::{POINTS_PER_MM, Rect, Svg};
 use super::text::{self, Anchor, TextStyle};
 
 /// Distance of everything from the rim, points.
@@ -15,6 +15,47 @@ const RIM: f64 = 4.0;
 const GAP: f64 = 6.0;
 /// Size of headings, points.
 const HEADING_SIZE: f64 = 7.5;
+
+/// What a figure has in a grid, row by row, with all that tells where it stands.
+pub(super) struct Grid {
+    /// Width of the page that it is meant for, mm.
+    pub width_mm: f64,
+    /// Panels in a row.
+    pub columns: usize,
+    /// Relative widths of the columns; empty for equal ones.
+    pub weights: Vec<f64>,
+    /// Panels in reading order, and places left free.
+    pub cells: Vec<Option<Panel>>,
+    /// Whether the panels of a column have one horizontal axis, those of a row one vertical axis.
+    pub shares: [bool; 2],
+    /// Whether each of several panels has a letter.
+    pub has_letters: bool,
+    /// Lines of remarks below, in mark-up.
+    pub notes: Vec<String>,
+    /// One scale of colours below all panels.
+    pub foot: Option<Colours>,
+}
+
+impl Grid {
+    /// An empty grid of one column.
+    pub fn new(width_mm: f64) -> Self {
+        Self {
+            width_mm,
+            columns: 1,
+            weights: Vec::new(),
+            cells: Vec::new(),
+            shares: [false, false],
+            has_letters: true,
+            notes: Vec::new(),
+            foot: None,
+        }
+    }
+
+    /// The panels in reading order.
+    pub fn panels(&self) -> impl Iterator<Item = &Panel> {
+        self.cells.iter().flatten()
+    }
+}
 
 /// A panel with its cell, its axes and its place.
 struct Placed<'a> {
@@ -27,9 +68,14 @@ struct Placed<'a> {
     legend: Legend,
 }
 
-/// A figure laid out on a page of some width.
+/// Letter of the `index`-th panel.
+pub(super) fn letter(index: usize) -> char {
+    (b'a' + (index % 26) as u8) as char
+}
+
+/// A grid laid out on a page of some width.
 pub(super) struct Layout<'a> {
-    figure: &'a Figure,
+    grid: &'a Grid,
     placed: Vec<Placed<'a>>,
     left: Vec<f64>,
     legend: Legend,
@@ -40,18 +86,18 @@ pub(super) struct Layout<'a> {
 
 impl<'a> Layout<'a> {
     /// Places all panels.
-    pub fn of(figure: &'a Figure, width_mm: f64) -> Self {
-        let width = width_mm * super::svg::POINTS_PER_MM;
+    pub fn of(grid: &'a Grid, width_mm: f64) -> Self {
+        let width = width_mm * POINTS_PER_MM;
         // On a page much narrower than meant, fewer panels stand side by side.
-        let is_narrow = width_mm < 0.75 * figure.width_mm;
+        let is_narrow = width_mm < 0.75 * grid.width_mm;
         let columns = match is_narrow {
-            true => ((figure.columns as f64 * width_mm / figure.width_mm) as usize).max(1),
-            false => figure.columns,
+            true => ((grid.columns as f64 * width_mm / grid.width_mm) as usize).max(1),
+            false => grid.columns,
         };
-        let mut placed = place_cells(figure, columns, is_narrow);
-        resolve_axes(figure, &mut placed);
+        let mut placed = place_cells(grid, columns, is_narrow);
+        resolve_axes(grid, &mut placed);
         let mut layout = Self {
-            figure,
+            grid,
             placed,
             left: Vec::new(),
             legend: Legend::default(),
@@ -85,8 +131,8 @@ impl<'a> Layout<'a> {
         }
         let margins: f64 = left.iter().chain(&right).sum();
         let free = self.width - 2.0 * RIM - GAP * (columns - 1) as f64 - margins;
-        let weights = match self.figure.weights.len() == columns {
-            true => self.figure.weights.clone(),
+        let weights = match self.grid.weights.len() == columns {
+            true => self.grid.weights.clone(),
             false => vec![1.0; columns],
         };
         let total: f64 = weights.iter().sum();
@@ -104,10 +150,9 @@ impl<'a> Layout<'a> {
 
     fn collect_legends(&mut self) {
         for cell in &mut self.placed {
-            let legend = if cell.panel.has_legend {
-                &mut cell.legend
-            } else {
-                &mut self.legend
+            let legend = match cell.panel.has_legend {
+                true => &mut cell.legend,
+                false => &mut self.legend,
             };
             cell.panel.add_keys(&cell.frame, legend);
         }
@@ -151,7 +196,7 @@ impl<'a> Layout<'a> {
     }
 
     fn has_letters(&self) -> bool {
-        self.figure.has_letters && self.placed.len() > 1
+        self.grid.has_letters && self.placed.len() > 1
     }
 
     /// Draws the figure and sets its height.
@@ -161,19 +206,19 @@ impl<'a> Layout<'a> {
         for (index, cell) in self.placed.iter().enumerate() {
             let distance = self.left[cell.column] - TITLE_SIZE;
             cell.panel.draw(svg, &cell.frame, cell.labels, distance);
-            cell.draw_head(svg, self.has_letters().then_some(index));
+            cell.draw_head(svg, self.has_letters().then(|| letter(index)));
         }
         let mut y = self.bottom;
-        if let Some(colours) = &self.figure.foot {
+        if let Some(colours) = &self.grid.foot {
             let width = 160f64.min(0.5 * self.width);
             colours.draw_flat_bar(svg, (self.width - width - 16.0, y + 3.0), width);
         }
-        let style = TextStyle::new(6.25).coloured(super::colour::MUTED);
-        for note in &self.figure.notes {
+        let style = TextStyle::new(6.25).coloured(MUTED);
+        for note in &self.grid.notes {
             y += 9.0;
             svg.text(RIM + 2.0, y, note, &style);
         }
-        if self.figure.foot.is_some() {
+        if self.grid.foot.is_some() {
             y = y.max(self.bottom + Colours::flat_bar_height());
         }
         svg.set_height(y + RIM);
@@ -181,11 +226,11 @@ impl<'a> Layout<'a> {
 }
 
 /// Fills the grid row by row; a panel beside several rows keeps its column in all of them.
-fn place_cells(figure: &Figure, columns: usize, is_narrow: bool) -> Vec<Placed<'_>> {
+fn place_cells(grid: &Grid, columns: usize, is_narrow: bool) -> Vec<Placed<'_>> {
     let mut taken: Vec<(usize, usize)> = Vec::new();
     let mut placed = Vec::new();
     let mut next = 0;
-    for cell in &figure.cells {
+    for cell in &grid.cells {
         while taken.contains(&(next / columns, next % columns)) {
             next += 1;
         }
@@ -194,13 +239,11 @@ fn place_cells(figure: &Figure, columns: usize, is_narrow: bool) -> Vec<Placed<'
             Some(panel) => {
                 let span = if is_narrow { 1 } else { panel.span };
                 taken.extend((row..row + span).map(|row| (row, column)));
-                let empty = || panel.x.resolve(None);
                 let frame = Frame {
                     area: Rect::new(0.0, 0.0, 0.0, 0.0),
-                    x: empty(),
-                    y: empty(),
+                    x: panel.x.resolve(None),
+                    y: panel.y.resolve(None),
                 };
-                let legend = Legend::default();
                 placed.push(Placed {
                     panel,
                     row,
@@ -208,7 +251,7 @@ fn place_cells(figure: &Figure, columns: usize, is_narrow: bool) -> Vec<Placed<'
                     span,
                     labels: [true; 2],
                     frame,
-                    legend,
+                    legend: Legend::default(),
                 });
             }
             None if is_narrow => continue,
@@ -220,7 +263,7 @@ fn place_cells(figure: &Figure, columns: usize, is_narrow: bool) -> Vec<Placed<'
 }
 
 /// Ends of all axes, and which of them are labelled: of shared ones the lowest and the leftmost.
-fn resolve_axes(figure: &Figure, placed: &mut [Placed<'_>]) {
+fn resolve_axes(grid: &Grid, placed: &mut [Placed<'_>]) {
     let ranges: Vec<_> = placed.iter().map(|cell| cell.panel.ranges()).collect();
     let cells: Vec<(usize, usize)> = placed.iter().map(|cell| (cell.row, cell.column)).collect();
     let union = |all: &mut dyn Iterator<Item = Option<(f64, f64)>>| {
@@ -228,8 +271,8 @@ fn resolve_axes(figure: &Figure, placed: &mut [Placed<'_>]) {
     };
     for (index, cell) in placed.iter_mut().enumerate() {
         let together = |other: usize, axis: usize| match axis {
-            0 => figure.shares[0] && cells[other].1 == cell.column,
-            _ => figure.shares[1] && cells[other].0 == cell.row,
+            0 => grid.shares[0] && cells[other].1 == cell.column,
+            _ => grid.shares[1] && cells[other].0 == cell.row,
         };
         let range = |axis: usize| {
             let own = (0..ranges.len()).filter(|&other| other == index || together(other, axis));
@@ -245,7 +288,7 @@ fn resolve_axes(figure: &Figure, placed: &mut [Placed<'_>]) {
         let before = cells
             .iter()
             .any(|other| other.0 == cell.row && other.1 < cell.column);
-        cell.labels = [!(figure.shares[0] && below), !(figure.shares[1] && before)];
+        cell.labels = [!(grid.shares[0] && below), !(grid.shares[1] && before)];
         [cell.frame.x, cell.frame.y] = rulers;
     }
 }
@@ -285,27 +328,19 @@ impl Placed<'_> {
     /// Room needed above the data area, points.
     fn top_need(&self, letters: bool) -> f64 {
         let headings = self.panel.headings.len() as f64 * 1.25 * HEADING_SIZE;
-        let line = if letters || !self.panel.caption.is_empty() {
-            9.5
-        } else {
-            0.0
-        };
-        let legend = match self.legend.is_empty() || self.legend.width() <= self.legend_room() {
-            true => {
-                if self.legend.is_empty() {
-                    0.0
-                } else {
-                    LINE_HEIGHT
-                }
-            }
-            false => line + self.legend.height(self.frame.area.width),
+        let has_line = letters || !self.panel.caption.is_empty();
+        let line = if has_line { 9.5 } else { 0.0 };
+        let legend = match self.legend.width() {
+            _ if self.legend.is_empty() => 0.0,
+            width if width <= self.legend_room() => LINE_HEIGHT,
+            _ => line + self.legend.height(self.frame.area.width),
         };
         let head = headings.max(line).max(legend);
         head + self.panel.rim_height() + if head > 0.0 { 3.0 } else { 0.0 }
     }
 
     /// Draws letter, caption, headings and the panel's own legend.
-    fn draw_head(&self, svg: &mut Svg, letter: Option<usize>) {
+    fn draw_head(&self, svg: &mut Svg, letter: Option<char>) {
         let (area, panel) = (&self.frame.area, self.panel);
         let mut baseline = area.y - 3.5 - panel.rim_height();
         if !self.legend.is_empty() {
@@ -328,8 +363,7 @@ impl Placed<'_> {
                 .coloured(colour);
             svg.text(area.x + 0.5 * area.width, y, line, &style);
         }
-        if let Some(index) = letter {
-            let letter = (b'a' + (index % 26) as u8) as char;
+        if let Some(letter) = letter {
             let style = TextStyle::new(8.0).bold();
             svg.text(area.x, baseline, &format!("({letter})"), &style);
         }

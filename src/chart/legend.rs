@@ -1,13 +1,11 @@
-//! Legends and colour bars.
+//! Legends.
 
 use super::colour::INK;
-use super::frame::{LABEL_SIZE, TITLE_SIZE, vertical_count};
-use super::image::{Colours, IndexedImage, Palette};
-use super::layer::Marker;
+use super::frame::LABEL_SIZE;
+use super::marker::Marker;
 use super::path::Path;
-use super::ruler::{Ruler, widest};
-use super::svg::{Rect, Stroke, Svg};
-use super::text::{self, Anchor, TextStyle};
+use super::svg::{Stroke, Svg};
+use super::text::{self, TextStyle};
 
 /// What stands before the name of a legend entry: any of a line, a data point, a filled patch.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -123,95 +121,4 @@ impl Legend {
 
 fn entry_width(name: &str) -> f64 {
     KEY_WIDTH + 3.0 + text::width(name, LABEL_SIZE, false) + 9.0
-}
-
-impl Colours {
-    fn ruler(&self) -> Ruler {
-        let (low, high) = self.range;
-        self.axis.clone().between(low, high).resolve(None)
-    }
-
-    /// Room that an upright bar needs, points.
-    pub(super) fn bar_width(&self, height: f64) -> f64 {
-        21.0 + widest(&self.ruler().ticks(vertical_count(height)), LABEL_SIZE) + TITLE_SIZE
-    }
-
-    /// Room that a flat bar needs below its top, points.
-    pub(super) fn flat_bar_height() -> f64 {
-        LABEL_SIZE + TITLE_SIZE + 14.0
-    }
-
-    /// Draws an upright bar with its left edge at `x`, over the height of an area: ticks and title at its right.
-    pub(super) fn draw_bar(&self, svg: &mut Svg, x: f64, area: &Rect) {
-        let ruler = self.ruler();
-        let height = area.height.min(150.0);
-        let bar = Rect::new(x, area.y + 0.5 * (area.height - height), 6.0, height);
-        self.draw_colours(svg, &bar, true);
-        let ticks = ruler.ticks(vertical_count(bar.height));
-        for tick in &ticks {
-            let y = bar.bottom() - bar.height * ruler.place(tick.value);
-            svg.line(
-                (bar.right(), y),
-                (bar.right() + 2.2, y),
-                &Stroke::solid(INK, 0.5),
-            );
-            let style = TextStyle::new(LABEL_SIZE);
-            svg.text(
-                bar.right() + 4.0,
-                y + 0.36 * LABEL_SIZE,
-                &tick.label,
-                &style,
-            );
-        }
-        let x = bar.right() + 7.0 + widest(&ticks, LABEL_SIZE) + TITLE_SIZE;
-        let style = TextStyle::new(TITLE_SIZE)
-            .anchored(Anchor::Middle)
-            .rotated(-90.0);
-        svg.text(x, bar.y + 0.5 * bar.height, &ruler.full_title(), &style);
-    }
-
-    fn draw_colours(&self, svg: &mut Svg, bar: &Rect, is_upright: bool) {
-        const LEVELS: usize = 128;
-        let palette = Palette::of_map(self.map, LEVELS);
-        let levels = 0..LEVELS as u8;
-        let (width, height, pixels) = match is_upright {
-            true => (1, LEVELS, levels.rev().collect()),
-            false => (LEVELS, 1, levels.collect()),
-        };
-        if let Some(png) = (IndexedImage {
-            width,
-            height,
-            pixels,
-        })
-        .encode(&palette)
-        {
-            svg.image(bar, &png, false);
-        }
-        svg.rectangle(bar, "none", Some(&Stroke::solid(INK, 0.5)));
-    }
-
-    /// Draws a flat bar: ticks and title below it.
-    pub(super) fn draw_flat_bar(&self, svg: &mut Svg, (x, y): (f64, f64), width: f64) {
-        let ruler = self.ruler();
-        let bar = Rect::new(x, y, width, 5.0);
-        self.draw_colours(svg, &bar, false);
-        let style = TextStyle::new(LABEL_SIZE).anchored(Anchor::Middle);
-        for tick in ruler.ticks((bar.width / 26.0) as usize) {
-            let x = bar.x + bar.width * ruler.place(tick.value);
-            svg.line(
-                (x, bar.bottom()),
-                (x, bar.bottom() + 2.2),
-                &Stroke::solid(INK, 0.5),
-            );
-            svg.text(x, bar.bottom() + LABEL_SIZE + 3.0, &tick.label, &style);
-        }
-        let baseline = bar.bottom() + LABEL_SIZE + TITLE_SIZE + 6.0;
-        let style = TextStyle::new(TITLE_SIZE).anchored(Anchor::Middle);
-        svg.text(
-            bar.x + 0.5 * bar.width,
-            baseline,
-            &ruler.full_title(),
-            &style,
-        );
-    }
 }

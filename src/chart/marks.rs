@@ -2,9 +2,8 @@
 
 use super::colour::{INK, MUTED};
 use super::frame::{Frame, LABEL_SIZE};
-use super::layer::Layer;
+use super::layer::{Layer, Side};
 use super::legend::Key;
-use super::panel::Side;
 use super::svg::{Stroke, Svg};
 use super::text::{self, Anchor, TextStyle};
 
@@ -229,12 +228,9 @@ pub(super) fn draw_rim_labels(svg: &mut Svg, frame: &Frame, labels: &[(Side, f64
     let leader = Stroke::solid(MUTED, 0.4);
     let area = &frame.area;
     for side in [Side::Right, Side::Above] {
-        let at = |value: f64| {
-            if side == Side::Right {
-                frame.at_y(value)
-            } else {
-                frame.at_x(value)
-            }
+        let at = |value: f64| match side {
+            Side::Right => frame.at_y(value),
+            _ => frame.at_x(value),
         };
         let own = labels.iter().filter(|label| label.0 == side);
         let mut own: Vec<(f64, &str)> = own.map(|label| (at(label.1), label.2)).collect();

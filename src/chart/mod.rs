@@ -17,16 +17,20 @@
 
 mod axis;
 mod colour;
+mod colour_bar;
 mod data;
 mod decimation;
 mod field;
 mod figure;
 mod fill;
 mod frame;
+mod heat;
 mod image;
 mod layer;
 mod layout;
 mod legend;
+mod line;
+mod marker;
 mod marks;
 mod motion;
 mod numbers;
@@ -48,13 +52,16 @@ pub use field::{Cell, Field, Mesh};
 pub use figure::Figure;
 pub use fill::Fill;
 pub use frame::Frame;
-pub use image::{Heat, Palette};
-pub use layer::{Layer, Line, Marker, Points};
+pub use heat::Heat;
+pub use image::Palette;
+pub use layer::{Layer, Side};
 pub use legend::Key;
+pub use line::{Line, Points};
+pub use marker::{Marker, look};
 pub use marks::{Label, Rule};
 pub use motion::{Motion, MotionKind, MotionState};
 pub use numbers::{prefixed, signed, significant};
-pub use panel::{Panel, Side};
+pub use panel::Panel;
 pub use path::Path;
 pub use raster::Drawing;
 pub use ruler::Ruler;
@@ -62,14 +69,6 @@ pub use scale::{Scale, extremes};
 pub use shapes::{Bars, Shapes};
 pub use svg::{ID_PREFIX, Rect, Stroke, Svg, escape};
 pub use text::{Anchor, TextStyle, literal, plain};
-
-/// Look of the `index`-th of several series: its colour, marker and dashes, which together do not repeat before the 35th.
-pub fn look(index: usize) -> (&'static str, Marker, &'static [f64]) {
-    const DASHES: [&[f64]; 3] = [&[], &[4.0, 1.6], &[1.2, 1.2]];
-    let colour = SERIES[index % SERIES.len()];
-    let dashes = DASHES[index / SERIES.len() % DASHES.len()];
-    (colour, Marker::ALL[index % Marker::ALL.len()], dashes)
-}
 
 /// A figure that cannot be drawn.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

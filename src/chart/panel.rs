@@ -2,28 +2,18 @@
 
 use super::axis::Axis;
 use super::colour::{INK, MUTED};
+use super::colour_bar::Colours;
 use super::data::{AxisData, PanelData, Series};
 use super::frame::{
     Frame, LABEL_SIZE, TICK, TITLE_SIZE, draw_grid, draw_x_axis, draw_y_axis, vertical_count,
 };
-use super::image::Colours;
-use super::layer::Layer;
+use super::layer::{Layer, Side};
 use super::legend::{Key, Legend};
+use super::marks::{RIM_SIZE, draw_rim_labels};
 use super::ruler::{Ruler, Tick, widest};
 use super::scale::extremes;
 use super::svg::{Stroke, Svg};
-use super::text::{Anchor, TextStyle, plain};
-
-/// A side of a panel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Side {
-    /// Beyond its right edge.
-    Right,
-    /// Above it.
-    Above,
-    /// Below it.
-    Below,
-}
+use super::text::{self, Anchor, TextStyle, plain};
 
 /// A plot of a figure.
 pub struct Panel {
@@ -86,11 +76,8 @@ impl Panel {
     }
 
     /// The same with more layers.
-    pub fn layers<L: Layer + 'static>(mut self, layers: impl IntoIterator<Item = L>) -> Self {
-        for layer in layers {
-            self.layers.push(Box::new(layer));
-        }
-        self
+    pub fn layers<L: Layer + 'static>(self, layers: impl IntoIterator<Item = L>) -> Self {
+        layers.into_iter().fold(self, Self::layer)
     }
 
     /// The same with a caption above its left corner.
@@ -196,14 +183,9 @@ impl Panel {
     pub(super) fn data(&self) -> PanelData {
         let [x, y] = self.rulers();
         let shown = |mut series: Series| {
-            series
-                .xs
-                .iter_mut()
-                .for_each(|value| *value = x.shown(*value));
-            series
-                .ys
-                .iter_mut()
-                .for_each(|value| *value = y.shown(*value));
+            for (values, ruler) in [(&mut series.xs, &x), (&mut series.ys, &y)] {
+                values.iter_mut().for_each(|v| *v = ruler.shown(*v));
+            }
             series
         };
         let headings = self.headings.iter().map(|heading| &heading.0);
@@ -274,8 +256,7 @@ impl Panel {
             .rim_labels(None)
             .into_iter()
             .filter(|label| label.0 == Side::Right);
-        let widths =
-            names.map(|label| super::text::width(label.2, super::marks::RIM_SIZE, false) + 8.0);
+        let widths = names.map(|label| text::width(label.2, RIM_SIZE, false) + 8.0);
         let names = widths.fold(0.0, f64::max);
         let bar = match (self.bar, self.colours()) {
             (Some(Side::Right), Some(colours)) => colours.bar_width(self.height.min(150.0)),
@@ -331,20 +312,16 @@ impl Panel {
             draw_x_axis(svg, frame, &ticks[0], labels[0]);
             draw_y_axis(svg, frame, &ticks[1], labels[1].then_some(title_distance));
         }
-        self.layers
-            .iter()
-            .for_each(|layer| layer.draw_over(svg, frame));
+        for layer in &self.layers {
+            layer.draw_over(svg, frame);
+        }
         if !self.has_data() {
-            let (x, y) = (
-                frame.area.x + 0.5 * frame.area.width,
-                frame.area.y + 0.5 * frame.area.height,
-            );
-            let style = TextStyle::new(TITLE_SIZE)
-                .anchored(Anchor::Middle)
-                .coloured(MUTED);
+            let (area, style) = (&frame.area, TextStyle::new(TITLE_SIZE));
+            let (x, y) = (area.x + 0.5 * area.width, area.y + 0.5 * area.height);
+            let style = style.anchored(Anchor::Middle).coloured(MUTED);
             svg.text(x, y, "no data", &style);
         }
-        super::marks::draw_rim_labels(svg, frame, &self.rim_labels(Some(frame)));
+        draw_rim_labels(svg, frame, &self.rim_labels(Some(frame)));
         self.draw_bar(svg, frame);
     }
 

@@ -4,7 +4,7 @@
 //! so equal input gives equal bytes.
 
 use super::path::Path;
-use super::text::{self, TextStyle};
+use super::text::{Anchor, FONT_FAMILY, SCRIPT_SIZE, TextStyle, parse, plain};
 use base64::prelude::{BASE64_STANDARD, Engine};
 use std::fmt::Write;
 
@@ -46,6 +46,12 @@ impl Rect {
     /// Lower edge.
     pub fn bottom(&self) -> f64 {
         self.y + self.height
+    }
+
+    /// Place and size as an element has them.
+    fn attributes(&self) -> String {
+        let [x, y, width, height] = [self.x, self.y, self.width, self.height].map(number);
+        format!(r#"x="{x}" y="{y}" width="{width}" height="{height}""#)
     }
 }
 
@@ -112,7 +118,7 @@ impl Stroke {
 }
 
 /// A coordinate with at most two decimals and no trailing zeros.
-pub fn number(value: f64) -> String {
+fn number(value: f64) -> String {
     let hundredths = (value * 100.0).round();
     if !hundredths.is_finite() || hundredths == 0.0 {
         return "0".into();
@@ -216,34 +222,67 @@ impl Svg {
 
     /// A filled rectangle with an optional outline.
     pub fn rectangle(&mut self, rect: &Rect, fill: &str, stroke: Option<&Stroke>) {
-        let _ = write!(
-            self.body,
-            r#"<rect x="{}" y="{}" width="{}" height="{}""#,
-            number(rect.x),
-            number(rect.y),
-            number(rect.width),
-            number(rect.height)
-        );
-        match stroke {
-            // `Stroke` writes fill="none"; a filled outline needs its own attributes.
-            Some(stroke) => {
-                let _ = write!(
-                    self.body,
-                    r#" fill="{fill}" stroke="{}" stroke-width="{}""#,
-                    stroke.colour,
-                    number(stroke.width)
-                );
-            }
-            None => {
-                let _ = write!(self.body, r#" fill="{fill}""#);
-            }
+        let place = rect.attributes();
+        let _ = write!(self.body, r#"<rect {place} fill="{fill}""#);
+        // `Stroke` writes fill="none"; a filled outline needs its own attributes.
+        if let Some(Stroke { colour, width, .. }) = stroke {
+            let width = number(*width);
+            let _ = write!(self.body, r#" stroke="{colour}" stroke-width="{width}""#);
         }
         self.body.push_str("/>\n");
     }
 
     /// Text at a baseline point; see `text::parse` for its mark-up.
     pub fn text(&mut self, x: f64, y: f64, markup: &str, style: &TextStyle) {
-        text::write(&mut self.body, x, y, markup, style);
+        let out = &mut self.body;
+        let (x, y) = (number(x), number(y));
+        let _ = write!(
+            out,
+            r#"<text x="{x}" y="{y}" font-size="{}""#,
+            number(style.size)
+        );
+        match style.anchor {
+            Anchor::Start => {}
+            Anchor::Middle => out.push_str(r#" text-anchor="middle""#),
+            Anchor::End => out.push_str(r#" text-anchor="end""#),
+        }
+        if style.rotation != 0.0 {
+            let _ = write!(
+                out,
+                r#" transform="rotate({} {x} {y})""#,
+                number(style.rotation)
+            );
+        }
+        if style.bold {
+            out.push_str(r#" font-weight="bold""#);
+        }
+        if style.halo {
+            out.push_str(r##" stroke="#ffffff" stroke-width="1.6" paint-order="stroke""##);
+        }
+        let _ = write!(out, r#" fill="{}">"#, style.colour);
+        let mut raised = 0.0;
+        for run in parse(markup) {
+            let target =
+                -f64::from(run.shift) * style.size * if run.shift > 0 { 0.36 } else { 0.2 };
+            let step: f64 = target - raised;
+            raised = target;
+            if step == 0.0 && run.shift == 0 && !run.italic {
+                out.push_str(&escape(&run.text));
+                continue;
+            }
+            out.push_str("<tspan");
+            if step != 0.0 {
+                let _ = write!(out, r#" dy="{}""#, number(step));
+            }
+            if run.shift != 0 {
+                let _ = write!(out, r#" font-size="{}""#, number(style.size * SCRIPT_SIZE));
+            }
+            if run.italic && !style.bold {
+                out.push_str(r#" font-style="italic""#);
+            }
+            let _ = write!(out, ">{}</tspan>", escape(&run.text));
+        }
+        out.push_str("</text>\n");
     }
 
     /// A PNG image stretched over a rectangle; `pixelated` keeps its pixels sharp.
@@ -255,11 +294,8 @@ impl Svg {
         };
         let _ = writeln!(
             self.body,
-            r#"<image x="{}" y="{}" width="{}" height="{}" preserveAspectRatio="none"{rendering} xlink:href="data:image/png;base64,{}"/>"#,
-            number(rect.x),
-            number(rect.y),
-            number(rect.width),
-            number(rect.height),
+            r#"<image {} preserveAspectRatio="none"{rendering} xlink:href="data:image/png;base64,{}"/>"#,
+            rect.attributes(),
             BASE64_STANDARD.encode(png)
         );
     }
@@ -269,11 +305,8 @@ impl Svg {
         let id = self.id();
         let _ = writeln!(
             self.definitions,
-            r#"<clipPath id="{id}"><rect x="{}" y="{}" width="{}" height="{}"/></clipPath>"#,
-            number(rect.x),
-            number(rect.y),
-            number(rect.width),
-            number(rect.height)
+            r#"<clipPath id="{id}"><rect {}/></clipPath>"#,
+            rect.attributes()
         );
         let _ = writeln!(self.body, r##"<g clip-path="url(#{id})">"##);
     }
@@ -286,7 +319,7 @@ impl Svg {
     /// The finished document, with a title and a description for readers who cannot see it.
     pub fn finish(&self, title: &str, description: &str) -> String {
         let (width, height) = (number(self.width), number(self.height));
-        let (prefix, family) = (&self.prefix, text::FONT_FAMILY);
+        let (prefix, family) = (&self.prefix, FONT_FAMILY);
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" \
              width=\"{width}pt\" height=\"{height}pt\" viewBox=\"0 0 {width} {height}\" role=\"img\" \
@@ -294,8 +327,8 @@ impl Svg {
              stroke-linejoin=\"round\">\n\
              <title id=\"{ID_PREFIX}{prefix}-title\">{}</title>\n<desc id=\"{ID_PREFIX}{prefix}-desc\">{}</desc>\n\
              <defs>\n{}</defs>\n<rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n{}</svg>\n",
-            escape(&text::plain(title)),
-            escape(&text::plain(description)),
+            escape(&plain(title)),
+            escape(&plain(description)),
             self.definitions,
             self.body
         )

@@ -1,9 +1,7 @@
 //! Text: the embedded font, its widths, and a small mark-up for symbols and indices.
 
-use super::svg::{escape, number};
 use skrifa::instance::{LocationRef, Size};
 use skrifa::{FontRef, MetadataProvider};
-use std::fmt::Write;
 use std::sync::LazyLock;
 
 /// Font families named in every drawing; the first is embedded in this program for PNG output,
@@ -18,7 +16,7 @@ pub const FACES: [&[u8]; 3] = [
 ];
 
 /// Size of sub- and superscripts relative to the text.
-const SCRIPT_SIZE: f64 = 0.72;
+pub(super) const SCRIPT_SIZE: f64 = 0.72;
 
 /// Which point of the text its position names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -172,57 +170,6 @@ pub fn width(markup: &str, size: f64, bold: bool) -> f64 {
             run.text.chars().map(|c| advance(face, c)).sum::<f64>() * scale * size
         })
         .sum()
-}
-
-/// Writes a `<text>` element.
-pub(super) fn write(out: &mut String, x: f64, y: f64, markup: &str, style: &TextStyle) {
-    let (x, y) = (number(x), number(y));
-    let _ = write!(
-        out,
-        r#"<text x="{x}" y="{y}" font-size="{}""#,
-        number(style.size)
-    );
-    match style.anchor {
-        Anchor::Start => {}
-        Anchor::Middle => out.push_str(r#" text-anchor="middle""#),
-        Anchor::End => out.push_str(r#" text-anchor="end""#),
-    }
-    if style.rotation != 0.0 {
-        let _ = write!(
-            out,
-            r#" transform="rotate({} {x} {y})""#,
-            number(style.rotation)
-        );
-    }
-    if style.bold {
-        out.push_str(r#" font-weight="bold""#);
-    }
-    if style.halo {
-        out.push_str(r##" stroke="#ffffff" stroke-width="1.6" paint-order="stroke""##);
-    }
-    let _ = write!(out, r#" fill="{}">"#, style.colour);
-    let mut raised = 0.0;
-    for run in parse(markup) {
-        let target = -f64::from(run.shift) * style.size * if run.shift > 0 { 0.36 } else { 0.2 };
-        let step: f64 = target - raised;
-        raised = target;
-        if step == 0.0 && run.shift == 0 && !run.italic {
-            out.push_str(&escape(&run.text));
-            continue;
-        }
-        out.push_str("<tspan");
-        if step != 0.0 {
-            let _ = write!(out, r#" dy="{}""#, number(step));
-        }
-        if run.shift != 0 {
-            let _ = write!(out, r#" font-size="{}""#, number(style.size * SCRIPT_SIZE));
-        }
-        if run.italic && !style.bold {
-            out.push_str(r#" font-style="italic""#);
-        }
-        let _ = write!(out, ">{}</tspan>", escape(&run.text));
-    }
-    out.push_str("</text>\n");
 }
 
 /// Advance width of a character in one face, em; 0.6 where the face does not tell.

@@ -1,0 +1,109 @@
+//! Heat maps, maps of states.
+
+use super::axis::Axis;
+use super::colour::ColourMap;
+use super::colour_bar::Colours;
+use super::frame::Frame;
+use super::image::{IndexedImage, Palette};
+use super::layer::Layer;
+use super::legend::Key;
+use super::svg::Svg;
+
+/// Values over a grid of equal cells, as colours.
+#[derive(Clone, Debug)]
+pub struct Heat {
+    x: (f64, f64),
+    y: (f64, f64),
+    image: IndexedImage,
+    palette: Palette,
+    colours: Option<Colours>,
+    names: Vec<(Key, String)>,
+}
+
+impl Heat {
+    /// `value(column, row)` over `columns` by `rows` cells between the ends, row 0 lowest.
+    pub fn of_values(
+        x: ((f64, f64), usize),
+        y: ((f64, f64), usize),
+        (axis, map): (Axis, ColourMap),
+        value: impl Fn(usize, usize) -> f64,
+    ) -> Self {
+        let values = downwards(x.1, y.1, value);
+        let colours = Colours::over(axis, map, &values);
+        let palette = Palette::of_map(map, Palette::FINE);
+        let level = |&value: &f64| palette.level_of(value, colours.range);
+        let pixels = values.iter().map(level).collect();
+        Self {
+            colours: Some(colours),
+            ..Self::of_pixels(x, y, pixels, palette)
+        }
+    }
+
+    /// States by their index in the palette.
+    pub fn of_states(
+        x: ((f64, f64), usize),
+        y: ((f64, f64), usize),
+        palette: Palette,
+        state: impl Fn(usize, usize) -> u8,
+    ) -> Self {
+        Self::of_pixels(x, y, downwards(x.1, y.1, state), palette)
+    }
+
+    fn of_pixels(
+        (x, width): ((f64, f64), usize),
+        (y, height): ((f64, f64), usize),
+        pixels: Vec<u8>,
+        palette: Palette,
+    ) -> Self {
+        Self {
+            x,
+            y,
+            image: IndexedImage {
+                width,
+                height,
+                pixels,
+            },
+            palette,
+            colours: None,
+            names: Vec::new(),
+        }
+    }
+
+    /// The same with entries in the legend.
+    pub fn names(self, names: Vec<(Key, String)>) -> Self {
+        Self { names, ..self }
+    }
+}
+
+/// What each cell has, row by row from the top, as images have it.
+fn downwards<T>(columns: usize, rows: usize, of: impl Fn(usize, usize) -> T) -> Vec<T> {
+    let row = |row: usize| (0..columns).map(move |column| (column, row));
+    let cells = (0..rows).rev().flat_map(row);
+    cells.map(|(column, row)| of(column, row)).collect()
+}
+
+impl Layer for Heat {
+    fn extent(&self, see: &mut dyn FnMut(f64, f64)) {
+        if self.image.width * self.image.height > 0 {
+            see(self.x.0, self.y.0);
+            see(self.x.1, self.y.1);
+            // The corners may lie outside what is shown.
+            see(0.5 * (self.x.0 + self.x.1), 0.5 * (self.y.0 + self.y.1));
+        }
+    }
+
+    fn draw(&self, svg: &mut Svg, frame: &Frame) {
+        let place = frame.rect(self.x, self.y);
+        if let Some(png) = self.image.encode(&self.palette) {
+            svg.image(&place, &png, self.colours.is_none());
+        }
+    }
+
+    fn keys(&self) -> Vec<(Key, String)> {
+        self.names.clone()
+    }
+
+    fn colours(&self) -> Option<&Colours> {
+        self.colours.as_ref()
+    }
+}

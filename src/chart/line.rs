@@ -1,0 +1,286 @@
+//! Curves and data points.
+
+use super::colour::{INK, SERIES};
+use super::data::{Series, SeriesKind};
+use super::decimation::{COLUMNS_PER_POINT, keep_extremes, simplify};
+use super::frame::Frame;
+use super::layer::Layer;
+use super::legend::Key;
+use super::marker::{Marker, look};
+use super::path::Path;
+use super::svg::{Stroke, Svg};
+use super::text::plain;
+
+/// Deviation that no reader sees, points.
+const INVISIBLE: f64 = 0.03;
+
+/// A curve; one with rising abscissae is thinned with its extremes kept, values that are not finite break it.
+#[derive(Clone, Debug)]
+pub struct Line {
+    xs: Vec<f64>,
+    ys: Vec<f64>,
+    stroke: Stroke,
+    marker: Option<(Marker, f64)>,
+    arrows: usize,
+    name: Option<String>,
+    is_whole: bool,
+}
+
+impl Line {
+    /// A curve through `(xs[i], ys[i])`.
+    pub fn new(xs: &[f64], ys: &[f64]) -> Self {
+        Self::through(xs.iter().copied().zip(ys.iter().copied()))
+    }
+
+    /// A curve through points.
+    pub fn through(points: impl IntoIterator<Item = (f64, f64)>) -> Self {
+        let (xs, ys) = points.into_iter().unzip();
+        let stroke = Stroke::solid(SERIES[0], 1.1);
+        Self {
+            xs,
+            ys,
+            stroke,
+            marker: None,
+            arrows: 0,
+            name: None,
+            is_whole: false,
+        }
+    }
+
+    /// The same with a stroke.
+    pub fn stroke(self, stroke: Stroke) -> Self {
+        Self { stroke, ..self }
+    }
+
+    /// The same, full, in a colour and with a width in points.
+    pub fn solid(self, colour: &'static str, width: f64) -> Self {
+        self.stroke(Stroke::solid(colour, width))
+    }
+
+    /// The same with a marker of this radius (points) at every point.
+    pub fn marked(self, marker: Marker, radius: f64) -> Self {
+        Self {
+            marker: Some((marker, radius)),
+            ..self
+        }
+    }
+
+    /// The same as the `index`-th of several series, with its colour and dashes.
+    pub fn nth(mut self, index: usize) -> Self {
+        let (colour, _, dash) = look(index);
+        self.stroke = Stroke {
+            colour,
+            dash,
+            ..self.stroke
+        };
+        self
+    }
+
+    /// The same with so many arrow heads along it.
+    pub fn arrows(self, arrows: usize) -> Self {
+        Self { arrows, ..self }
+    }
+
+    /// The same with an entry in the legend.
+    pub fn name(self, name: impl Into<String>) -> Self {
+        Self {
+            name: Some(name.into()),
+            ..self
+        }
+    }
+
+    /// The same, with every sample kept for those who take the numbers: a signal to listen to.
+    pub fn whole(self) -> Self {
+        Self {
+            is_whole: true,
+            ..self
+        }
+    }
+
+    /// The unbroken pieces as they are drawn.
+    fn pieces(&self, frame: &Frame) -> Vec<Vec<(f64, f64)>> {
+        let thinned = match self.xs.is_sorted() {
+            true => keep_extremes(&self.xs, &self.ys, |x| frame.at_x(x) * COLUMNS_PER_POINT),
+            false => self.points().collect(),
+        };
+        let pieces = thinned.split(|&(x, y)| !frame.has_place(x, y));
+        let places = pieces.map(|piece| -> Vec<(f64, f64)> {
+            let places = piece.iter().map(|&(x, y)| frame.at(x, y));
+            simplify(&places.collect::<Vec<_>>(), INVISIBLE)
+        });
+        places.filter(|piece| !piece.is_empty()).collect()
+    }
+
+    fn points(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
+        self.xs.iter().copied().zip(self.ys.iter().copied())
+    }
+}
+
+impl Layer for Line {
+    fn extent(&self, see: &mut dyn FnMut(f64, f64)) {
+        self.points().for_each(|(x, y)| see(x, y));
+    }
+
+    fn draw(&self, svg: &mut Svg, frame: &Frame) {
+        let mut path = Path::new();
+        for piece in self.pieces(frame) {
+            path.extend(piece);
+        }
+        svg.path(&path, &self.stroke);
+    }
+
+    fn draw_over(&self, svg: &mut Svg, frame: &Frame) {
+        if let Some((marker, radius)) = self.marker {
+            marker.draw(svg, frame.inside(self.points()), radius, self.stroke.colour);
+        }
+        if self.arrows > 0 {
+            let mut heads = Path::new();
+            for piece in self.pieces(frame) {
+                arrow_heads(&mut heads, &piece, self.arrows);
+            }
+            svg.fill_path(&heads, INK, 1.0);
+        }
+    }
+
+    fn keys(&self) -> Vec<(Key, String)> {
+        let key = Key {
+            // The finest lines still show their colour in a legend.
+            stroke: Some(Stroke {
+                width: self.stroke.width.max(0.8),
+                ..self.stroke
+            }),
+            marker: self.marker.map(|m| (m.0, self.stroke.colour)),
+            patch: None,
+        };
+        self.name.iter().map(|name| (key, name.clone())).collect()
+    }
+
+    fn series(&self) -> Vec<Series> {
+        // A line without width carries the arrows of others.
+        let is_shown = self.stroke.width > 0.0 && !self.xs.is_empty();
+        let series = Series {
+            name: self.name.as_deref().map(plain).unwrap_or_default(),
+            kind: match self.stroke.dash {
+                [] => SeriesKind::Line,
+                _ => SeriesKind::Dashed,
+            },
+            colour: self.stroke.colour,
+            xs: self.xs.clone(),
+            ys: self.ys.clone(),
+            values: None,
+            rows: Vec::new(),
+            is_whole: self.is_whole,
+        };
+        is_shown.then_some(series).into_iter().collect()
+    }
+}
+
+/// An arrow head on the longest step of each part of a curve: which way it is run through.
+fn arrow_heads(path: &mut Path, points: &[(f64, f64)], count: usize) {
+    let steps: Vec<_> = points.windows(2).map(|pair| (pair[0], pair[1])).collect();
+    let length = |((ax, ay), (bx, by)): ((f64, f64), (f64, f64))| (bx - ax).hypot(by - ay);
+    for part in steps.chunks(steps.len().div_ceil(count).max(1)) {
+        let longest = part
+            .iter()
+            .copied()
+            .max_by(|&a, &b| length(a).total_cmp(&length(b)));
+        let Some(step) = longest.filter(|&step| length(step) > 0.0) else {
+            continue;
+        };
+        let ((ax, ay), (bx, by)) = step;
+        let (dx, dy) = ((bx - ax) / length(step), (by - ay) / length(step));
+        let (x, y) = (0.5 * (ax + bx), 0.5 * (ay + by));
+        let corner =
+            |along: f64, across: f64| (x + along * dx - across * dy, y + along * dy + across * dx);
+        path.extend([corner(3.2, 0.0), corner(-2.4, 2.1), corner(-2.4, -2.1)]);
+        path.close();
+    }
+}
+
+/// Data points, whole even at the ends of an axis.
+#[derive(Clone, Debug)]
+pub struct Points {
+    points: Vec<(f64, f64)>,
+    marker: Marker,
+    radius: f64,
+    colour: &'static str,
+    name: Option<String>,
+    rows: Vec<usize>,
+}
+
+impl Points {
+    /// Discs at points.
+    pub fn new(points: impl IntoIterator<Item = (f64, f64)>) -> Self {
+        let points = points.into_iter().collect();
+        Self {
+            points,
+            marker: Marker::Disc,
+            radius: 2.0,
+            colour: SERIES[0],
+            name: None,
+            rows: Vec::new(),
+        }
+    }
+
+    /// The same with a marker of this radius, points, and colour.
+    pub fn marker(self, marker: Marker, radius: f64, colour: &'static str) -> Self {
+        Self {
+            marker,
+            radius,
+            colour,
+            ..self
+        }
+    }
+
+    /// The same, each point standing for the row of a table with this number.
+    pub fn rows(self, rows: Vec<usize>) -> Self {
+        Self { rows, ..self }
+    }
+
+    /// The same with an entry in the legend.
+    pub fn name(self, name: impl Into<String>) -> Self {
+        Self {
+            name: Some(name.into()),
+            ..self
+        }
+    }
+}
+
+impl Layer for Points {
+    fn extent(&self, see: &mut dyn FnMut(f64, f64)) {
+        self.points.iter().for_each(|&(x, y)| see(x, y));
+    }
+
+    fn draw(&self, _svg: &mut Svg, _frame: &Frame) {}
+
+    fn draw_over(&self, svg: &mut Svg, frame: &Frame) {
+        let places = frame.inside(self.points.iter().copied());
+        self.marker.draw(svg, places, self.radius, self.colour);
+    }
+
+    fn keys(&self) -> Vec<(Key, String)> {
+        let key = Key {
+            stroke: None,
+            marker: Some((self.marker, self.colour)),
+            patch: None,
+        };
+        self.name.iter().map(|name| (key, name.clone())).collect()
+    }
+
+    fn series(&self) -> Vec<Series> {
+        let (xs, ys) = self.points.iter().copied().unzip();
+        let series = Series {
+            name: self.name.as_deref().map(plain).unwrap_or_default(),
+            kind: SeriesKind::Points,
+            colour: self.colour,
+            xs,
+            ys,
+            values: None,
+            rows: self.rows.clone(),
+            is_whole: true,
+        };
+        // Points too small to see stand in legends only.
+        let is_shown = self.radius > 0.1 && !self.points.is_empty();
+        is_shown.then_some(series).into_iter().collect()
+    }
+}
