@@ -1,5 +1,6 @@
 //! `frictionsim basin`: which of two waves wins.
 
+use super::profile::{Profile, Redraw};
 use super::{Failure, RunOptions, Session, terminal};
 use crate::results::basin::write_basin;
 use crate::results::write_summary;
@@ -16,6 +17,16 @@ pub struct Arguments {
     #[command(flatten)]
     options: RunOptions,
 }
+
+/// What the rest of the program asks of this command.
+pub const PROFILE: Profile = Profile {
+    files: &[("basin.csv", "one row for each transient of the search")],
+    examples: &[(
+        "frictionsim basin disc.toml",
+        "which of two waves wins, by the ratio of their amplitudes at saturation",
+    )],
+    redraw: Redraw::Nothing,
+};
 
 /// Runs the subcommand.
 ///

@@ -1,9 +1,10 @@
 //! `frictionsim cea`: complex eigenvalues of steady sliding over the friction coefficient.
 
+use super::profile::{Profile, Redraw};
 use super::{Failure, RunOptions, Session, terminal};
 use crate::case::{Case, Cea};
 use crate::results::cea::{CeaReport, draw, print, write};
-use crate::results::{DrawingOptions, OutputFolder};
+use crate::results::{DrawingOptions, OutputFolder, read_summary};
 use crate::study::eigenvalues::{self, SlidingModel, Solution, refuse_no_modes};
 use clap::Args;
 use serde_json::Value;
@@ -15,6 +16,47 @@ pub struct Arguments {
     #[command(flatten)]
     pub options: RunOptions,
 }
+
+/// What the rest of the program asks of this command.
+pub const PROFILE: Profile = Profile {
+    files: &[
+        (
+            "eigenvalues.csv",
+            "one row for each mode and friction value",
+        ),
+        (
+            "stability.csv",
+            "one row for each crossing into instability",
+        ),
+        (
+            "sensitivities.csv",
+            "derivatives of eigenvalues and onsets by parameters",
+        ),
+        (
+            "prestress.csv, prestress.vtu",
+            "steady sliding, node by node",
+        ),
+        (
+            "modes.pvd, modes/*.vtu",
+            "mode shapes, real and imaginary part",
+        ),
+        (
+            "map.csv",
+            "critical friction over a second parameter (cea.map)",
+        ),
+    ],
+    examples: &[
+        (
+            "frictionsim cea disc.toml",
+            "critical friction of every branch",
+        ),
+        (
+            "frictionsim cea disc.toml --set contact.interference=30e-6 --json | jq .critical_frictions",
+            "for scripts",
+        ),
+    ],
+    redraw: Redraw::OfCase(redraw),
+};
 
 /// Runs the subcommand.
 ///
@@ -72,16 +114,12 @@ fn run_with(
 }
 
 /// Draws the figures of a folder again: solves the case anew, which the same case answers with the same
-/// bytes; `summary` says how long the run took.
+/// bytes; how long the run took is in its summary.
 ///
 /// # Errors
 /// As [`run`].
-pub fn redraw(
-    folder: &OutputFolder,
-    case: &Case,
-    summary: &Value,
-    options: &DrawingOptions,
-) -> Result<(), Failure> {
+pub fn redraw(folder: &OutputFolder, case: &Case, options: &DrawingOptions) -> Result<(), Failure> {
+    let summary: Value = read_summary(folder.path())?;
     let cea = case.require_cea()?;
     let model = SlidingModel::new(case, cea)?;
     let solution = eigenvalues::solve(case, cea, &model, &|_| {})?;

@@ -1,6 +1,7 @@
 //! `frictionsim check`: is the case valid, and what would it cost?
 
 use super::options::CaseChanges;
+use super::profile::{Profile, Redraw};
 use super::session::{gibibytes, machine_memory, read_case};
 use super::{Failure, terminal};
 use crate::case::{Case, Convergence, Cost, StudyCost};
@@ -22,6 +23,16 @@ pub struct Arguments {
     #[arg(long)]
     json: bool,
 }
+
+/// What the rest of the program asks of this command.
+pub const PROFILE: Profile = Profile {
+    files: &[],
+    examples: &[(
+        "frictionsim check *.toml",
+        "are these cases valid, and what do they cost?",
+    )],
+    redraw: Redraw::Nothing,
+};
 
 /// Runs the subcommand: every case is checked, whatever the others are like.
 ///

@@ -1,6 +1,7 @@
 //! `frictionsim collect`: the table over the points that a sweep has finished so far.
 
 use super::figure_options::FigureOptions;
+use super::profile::{Profile, Redraw};
 use super::recorded_case::recorded_case;
 use super::session::start_threads;
 use super::sweep::{SweepPlan, core_seconds, drawing, finished_points, gather};
@@ -31,6 +32,16 @@ pub struct Arguments {
     #[arg(long, short, action = ArgAction::Count)]
     quiet: u8,
 }
+
+/// What the rest of the program asks of this command.
+pub const PROFILE: Profile = Profile {
+    files: &[("points.csv", "one row for each finished point")],
+    examples: &[(
+        "frictionsim collect study",
+        "gather what the shards have finished",
+    )],
+    redraw: Redraw::Nothing,
+};
 
 /// Runs the subcommand.
 ///

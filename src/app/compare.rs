@@ -1,6 +1,7 @@
 //! `frictionsim compare`: runs side by side.
 
 use super::options::OutputOptions;
+use super::profile::{Profile, Redraw};
 use super::{Failure, terminal};
 use crate::results::compare::{
     ComparedRun, ComparisonSummary, html_report, overlaid, print, shared, write_comparison,
@@ -25,6 +26,13 @@ pub struct Arguments {
     #[command(flatten)]
     output: OutputOptions,
 }
+
+/// What the rest of the program asks of this command.
+pub const PROFILE: Profile = Profile {
+    files: &[("compare.csv", "every shared number, with differences")],
+    examples: &[("frictionsim compare a/cea b/cea", "two runs side by side")],
+    redraw: Redraw::Nothing,
+};
 
 /// Runs the subcommand.
 ///

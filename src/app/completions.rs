@@ -1,5 +1,6 @@
 //! `frictionsim completions`: a shell's completion script.
 
+use super::profile::Profile;
 use super::{CommandLine, Failure, terminal};
 use clap::{Args, CommandFactory};
 use clap_complete::Shell;
@@ -10,6 +11,9 @@ pub struct Arguments {
     /// Shell
     shell: Shell,
 }
+
+/// What the rest of the program asks of this command.
+pub const PROFILE: Profile = Profile::NONE;
 
 /// Runs the subcommand.
 ///

@@ -1,5 +1,6 @@
 //! `frictionsim convergence`: a case on several meshes and with several time steps.
 
+use super::profile::{Profile, Redraw};
 use super::{Failure, RunOptions, Session, cycle, terminal};
 use crate::case::Analysis;
 use crate::results::convergence::{ConvergenceReport, draw, print, write};
@@ -17,6 +18,19 @@ pub struct Arguments {
     #[command(flatten)]
     options: RunOptions,
 }
+
+/// What the rest of the program asks of this command.
+pub const PROFILE: Profile = Profile {
+    files: &[
+        ("convergence.csv", "one row for each quantity on each level"),
+        ("record.bin", "what the figures are drawn from"),
+    ],
+    examples: &[(
+        "frictionsim convergence disc.toml",
+        "observed orders and extrapolated values",
+    )],
+    redraw: Redraw::OfFolder(redraw),
+};
 
 /// Runs the subcommand.
 ///

@@ -2,8 +2,7 @@
 
 mod figures;
 
-pub use figures::redraw;
-
+use super::profile::{Profile, Redraw};
 use super::session::{available_memory, gibibytes};
 use super::{Failure, RunOptions, Session, terminal};
 use crate::case::Case;
@@ -22,6 +21,25 @@ pub struct Arguments {
     #[command(flatten)]
     pub options: RunOptions,
 }
+
+/// What the rest of the program asks of this command.
+pub const PROFILE: Profile = Profile {
+    files: &[
+        (
+            "cycle-nN.csv",
+            "contact and motion of the edge along the phase",
+        ),
+        ("branch-nN.csv", "one row for each cycle of a branch"),
+        ("stability-nN.csv", "exponents of perturbations"),
+        ("cycles.pvd, cycle-nN.vtu", "fields over one period"),
+        ("record.bin", "what the figures are drawn from"),
+    ],
+    examples: &[(
+        "frictionsim cycle disc.toml",
+        "the limit cycles of a case, without time stepping",
+    )],
+    redraw: Redraw::OfCase(figures::redraw),
+};
 
 /// Runs the subcommand.
 ///
@@ -49,7 +67,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     let summary = write(&folder, &report)?;
     if let Some(drawing) = session.options.output.drawing() {
-        figures::redraw(&folder, case, &summary, &drawing)?;
+        figures::draw_record(&folder, case, &summary, &drawing)?;
     }
     session
         .options

@@ -1,6 +1,7 @@
 //! `frictionsim fit`: parameters of a case from measured modes.
 
 use super::options::{input_name, read_input};
+use super::profile::{Profile, Redraw};
 use super::{Failure, RunOptions, Session, terminal};
 use crate::results::fit::{FitSummary, draw_report, write};
 use crate::results::{DrawingOptions, OutputFolder, read_summary};
@@ -23,6 +24,26 @@ pub struct Arguments {
     #[arg(value_name = "MODES.csv", value_hint = ValueHint::FilePath)]
     modes: PathBuf,
 }
+
+/// What the rest of the program asks of this command.
+pub const PROFILE: Profile = Profile {
+    files: &[
+        (
+            "fit.csv",
+            "each measured line with its mode and their difference",
+        ),
+        ("modes.csv", "every mode of the fitted model"),
+        (
+            "fitted.toml",
+            "sections with the fitted values to paste into a case",
+        ),
+    ],
+    examples: &[(
+        "frictionsim fit bench.toml squeal.csv",
+        "which support explains the frequencies heard?",
+    )],
+    redraw: Redraw::OfFolder(redraw),
+};
 
 /// Runs the subcommand.
 ///

@@ -1,5 +1,6 @@
 //! `frictionsim frf`: frequency response of the model between two nodes.
 
+use super::profile::{Profile, Redraw};
 use super::{Failure, RunOptions, Session, terminal};
 use crate::case::{Case, Frf};
 use crate::frf::Terminal;
@@ -21,6 +22,16 @@ pub struct Arguments {
     #[command(flatten)]
     options: RunOptions,
 }
+
+/// What the rest of the program asks of this command.
+pub const PROFILE: Profile = Profile {
+    files: &[("frf.csv", "frequency, real and imaginary part")],
+    examples: &[(
+        "frictionsim frf hammer-test.toml",
+        "response of the model between two nodes",
+    )],
+    redraw: Redraw::OfFolder(redraw),
+};
 
 /// Runs the subcommand.
 ///

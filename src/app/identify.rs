@@ -3,6 +3,7 @@
 use super::Failure;
 use super::measurement::{Measurement, write_aside};
 use super::options::OutputOptions;
+use super::profile::{Profile, Redraw};
 use crate::results::identification::{
     IdentificationRecord, IdentificationSummary, draw_report, write,
 };
@@ -70,6 +71,23 @@ impl From<Quantity> for ResponseQuantity {
         }
     }
 }
+
+/// What the rest of the program asks of this command.
+pub const PROFILE: Profile = Profile {
+    files: &[
+        (
+            "modes.csv, fit.csv",
+            "frequencies and damping factors, and the fit through them",
+        ),
+        ("damping.toml", "a [damping] block to paste into a case"),
+        ("record.bin", "what the figures are drawn from"),
+    ],
+    examples: &[(
+        "frictionsim identify FRF.csv --json",
+        "Rayleigh coefficients with intervals",
+    )],
+    redraw: Redraw::OfFolder(redraw),
+};
 
 /// Runs the subcommand.
 ///

@@ -1,5 +1,6 @@
 //! `frictionsim init`: a commented case to start from.
 
+use super::profile::{Profile, Redraw};
 use super::{Failure, terminal};
 use crate::case::reference;
 use clap::{Args, ValueHint};
@@ -66,6 +67,13 @@ pub struct Arguments {
     #[arg(long)]
     force: bool,
 }
+
+/// What the rest of the program asks of this command.
+pub const PROFILE: Profile = Profile {
+    files: &[("TEMPLATE.toml", "the commented case")],
+    examples: &[("frictionsim init transient", "write transient.toml")],
+    redraw: Redraw::Nothing,
+};
 
 /// Runs the subcommand.
 ///

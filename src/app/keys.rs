@@ -1,5 +1,6 @@
 //! `frictionsim keys`: every key of a case file.
 
+use super::profile::Profile;
 use super::{Failure, terminal};
 use crate::case::{CaseKey, KEYS, reference};
 use clap::Args;
@@ -21,6 +22,9 @@ pub struct Arguments {
     #[arg(long, conflicts_with = "word")]
     schema: bool,
 }
+
+/// What the rest of the program asks of this command.
+pub const PROFILE: Profile = Profile::NONE;
 
 /// Runs the subcommand.
 ///

@@ -1,12 +1,10 @@
 //! `frictionsim man`: manual pages.
 
-mod pages;
-
-use super::{Failure, command_line, terminal};
+use super::profile::Profile;
+use super::{Failure, command_line, profile, terminal};
 use crate::case::{CaseKey, KEYS};
 use clap::{Args, ValueHint};
 use clap_mangen::Man;
-use pages::{EVERYWHERE, PAGES};
 use std::fmt::Write as _;
 use std::fs;
 use std::io;
@@ -23,12 +21,28 @@ pub struct Arguments {
     out: Option<PathBuf>,
 }
 
+/// Files that every command with an output folder writes.
+const EVERYWHERE: [(&str, &str); 3] = [
+    (
+        "summary.json",
+        "the results in short, and what they were made from",
+    ),
+    (
+        "manifest.json",
+        "case, overrides, version; names and checksums of all files",
+    ),
+    ("report.html, figures/", "tables and figures"),
+];
+
 const EXIT_STATUS: [(&str, &str); 4] = [
     ("0", "done"),
     ("1", "the run failed"),
     ("2", "bad usage or case"),
     ("130", "interrupted by Ctrl-C or SIGTERM"),
 ];
+
+/// What the rest of the program asks of this command.
+pub const PROFILE: Profile = Profile::NONE;
 
 /// Runs the subcommand.
 ///
@@ -79,14 +93,16 @@ fn page(command: &clap::Command) -> io::Result<Vec<u8>> {
         man.render_subcommands_section(&mut out)?;
     }
     let mut text = String::new();
-    if let Some(page) = PAGES.iter().find(|page| page.command == command.get_name()) {
+    if let Some(profile) =
+        profile(command.get_name()).filter(|profile| !profile.examples.is_empty())
+    {
         let writes_folder = command
             .get_arguments()
             .any(|arg| arg.get_id() == "no_figures");
         let everywhere: &[_] = if writes_folder { &EVERYWHERE } else { &[] };
-        let files: Vec<_> = page.files.iter().chain(everywhere).copied().collect();
+        let files: Vec<_> = profile.files.iter().chain(everywhere).copied().collect();
         section(&mut text, "FILES", &files);
-        section(&mut text, "EXAMPLES", page.examples);
+        section(&mut text, "EXAMPLES", profile.examples);
     }
     section(&mut text, "EXIT STATUS", &EXIT_STATUS);
     if command.get_subcommands().next().is_some() || runs_a_case(command) {
@@ -158,20 +174,23 @@ fn escaped(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::app::PROFILES;
 
     #[test]
     fn every_command_that_runs_has_files_and_examples_in_its_page() {
         let mut command = command_line();
         command.build();
         for sub in command.get_subcommands() {
-            let is_told = PAGES.iter().any(|page| page.command == sub.get_name());
+            let is_told = profile(sub.get_name()).is_some_and(|told| !told.examples.is_empty());
             let needs = sub.get_arguments().any(|arg| arg.get_id() == "no_figures");
             assert!(is_told || !needs, "{}", sub.get_name());
         }
-        for page in PAGES {
-            let found = command.find_subcommand(page.command);
-            assert!(found.is_some(), "{} is no command", page.command);
-            for (line, _) in page.examples {
+        for (name, profile) in PROFILES {
+            assert!(
+                command.find_subcommand(name).is_some(),
+                "{name} is no command"
+            );
+            for (line, _) in profile.examples {
                 let line = line.split(" | ").next().unwrap_or(line);
                 let words = line.split(' ').collect::<Vec<&str>>();
                 let parsed = command.clone().try_get_matches_from(words);

@@ -1,5 +1,6 @@
 //! `frictionsim mesh`: the mesh alone.
 
+use super::profile::{Profile, Redraw};
 use super::{Failure, RunOptions, Session};
 use crate::case::{Case, ModeSelection};
 use crate::mesh::{AnnulusMesh, SolidSector, SolidSpecification};
@@ -15,6 +16,13 @@ pub struct Arguments {
     #[command(flatten)]
     options: RunOptions,
 }
+
+/// What the rest of the program asks of this command.
+pub const PROFILE: Profile = Profile {
+    files: &[("mesh.vtu", "nodes, elements, node numbers, edges")],
+    examples: &[("frictionsim mesh disc.toml", "look at a mesh before a run")],
+    redraw: Redraw::OfCase(redraw),
+};
 
 /// Runs the subcommand.
 ///

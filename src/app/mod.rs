@@ -20,6 +20,7 @@ mod measurement;
 mod mesh;
 mod options;
 pub mod plot;
+mod profile;
 mod recorded_case;
 mod session;
 mod share;
@@ -32,6 +33,8 @@ mod uncertainty;
 pub use failure::Failure;
 pub use options::{OutputOptions, RunOptions, SimdChoice};
 pub use session::Session;
+
+use profile::Profile;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use std::ffi::OsString;
@@ -55,28 +58,54 @@ pub struct CommandLine {
     command: Command,
 }
 
-#[derive(Subcommand)]
-enum Command {
-    Cea(cea::Arguments),
-    Transient(transient::Arguments),
-    Sweep(sweep::Arguments),
-    Collect(collect::Arguments),
-    Compare(compare::Arguments),
-    Plot(plot::Arguments),
-    Cycle(cycle::Arguments),
-    Basin(basin::Arguments),
-    Convergence(convergence::Arguments),
-    Mesh(mesh::Arguments),
-    Check(check::Arguments),
-    Init(init::Arguments),
-    Keys(keys::Arguments),
-    Fit(fit::Arguments),
-    Frf(frf::Arguments),
-    Identify(identify::Arguments),
-    Signal(signal::Arguments),
-    Uncertainty(uncertainty::Arguments),
-    Completions(completions::Arguments),
-    Man(man::Arguments),
+/// The table of commands, each with the file that holds it.
+macro_rules! commands {
+    ($($name:ident: $module:ident,)*) => {
+        #[derive(Subcommand)]
+        enum Command {
+            $($name($module::Arguments),)*
+        }
+
+        impl Command {
+            fn run(&self) -> Result<(), Failure> {
+                match self {
+                    $(Self::$name(arguments) => $module::run(arguments),)*
+                }
+            }
+        }
+
+        /// What the commands say of themselves, by their names.
+        const PROFILES: &[(&str, Profile)] = &[$((stringify!($module), $module::PROFILE),)*];
+    };
+}
+
+commands! {
+    Cea: cea,
+    Transient: transient,
+    Sweep: sweep,
+    Collect: collect,
+    Compare: compare,
+    Plot: plot,
+    Cycle: cycle,
+    Basin: basin,
+    Convergence: convergence,
+    Mesh: mesh,
+    Check: check,
+    Init: init,
+    Keys: keys,
+    Fit: fit,
+    Frf: frf,
+    Identify: identify,
+    Signal: signal,
+    Uncertainty: uncertainty,
+    Completions: completions,
+    Man: man,
+}
+
+/// The profile of a command.
+fn profile(command: &str) -> Option<&'static Profile> {
+    let found = PROFILES.iter().find(|(name, _)| *name == command);
+    found.map(|(_, profile)| profile)
 }
 
 /// The command line with what its declarations cannot say: each command's own default folder.
@@ -141,29 +170,8 @@ pub fn main() -> ExitCode {
     let command = command_line();
     let given = options_behind_subcommand(&command, std::env::args_os().collect());
     let parsed = CommandLine::from_arg_matches(&command.get_matches_from(given));
-    let outcome = match parsed.unwrap_or_else(|error| error.exit()).command {
-        Command::Cea(arguments) => cea::run(&arguments),
-        Command::Transient(arguments) => transient::run(&arguments),
-        Command::Sweep(arguments) => sweep::run(&arguments),
-        Command::Collect(arguments) => collect::run(&arguments),
-        Command::Compare(arguments) => compare::run(&arguments),
-        Command::Plot(arguments) => plot::run(&arguments),
-        Command::Cycle(arguments) => cycle::run(&arguments),
-        Command::Basin(arguments) => basin::run(&arguments),
-        Command::Convergence(arguments) => convergence::run(&arguments),
-        Command::Mesh(arguments) => mesh::run(&arguments),
-        Command::Check(arguments) => check::run(&arguments),
-        Command::Init(arguments) => init::run(&arguments),
-        Command::Keys(arguments) => keys::run(&arguments),
-        Command::Fit(arguments) => fit::run(&arguments),
-        Command::Frf(arguments) => frf::run(&arguments),
-        Command::Identify(arguments) => identify::run(&arguments),
-        Command::Signal(arguments) => signal::run(&arguments),
-        Command::Uncertainty(arguments) => uncertainty::run(&arguments),
-        Command::Completions(arguments) => completions::run(&arguments),
-        Command::Man(arguments) => man::run(&arguments),
-    };
-    match outcome {
+    let parsed = parsed.unwrap_or_else(|error| error.exit());
+    match parsed.command.run() {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => failure.report(),
     }

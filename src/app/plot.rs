@@ -1,12 +1,10 @@
 //! `frictionsim plot`: the figures of a results folder once more.
 
 use super::figure_options::FigureOptions;
+use super::profile::{Profile, Redraw};
 use super::recorded_case::recorded_case;
 use super::session::start_threads;
-use super::{
-    Failure, cea, collect, convergence, cycle, fit, frf, identify, mesh, signal, terminal,
-    transient, uncertainty,
-};
+use super::{Failure, profile, terminal, transient};
 use crate::results::{
     DrawingOptions, FolderError, Manifest, OutputFolder, read_manifest, read_summary,
 };
@@ -36,6 +34,13 @@ pub struct Arguments {
     #[arg(long, short, action = ArgAction::Count)]
     quiet: u8,
 }
+
+/// What the rest of the program asks of this command.
+pub const PROFILE: Profile = Profile {
+    files: &[("figures/*.svg, figures/*.png", "the figures, drawn again")],
+    examples: &[("frictionsim plot results/disc/cea --dpi 300", "for print")],
+    redraw: Redraw::Nothing,
+};
 
 /// Runs the subcommand.
 ///
@@ -71,33 +76,24 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 /// As [`run`].
 pub fn redraw(path: &Path, manifest: &Manifest, options: &DrawingOptions) -> Result<(), Failure> {
     let command = manifest.command.as_str();
-    match command {
-        // A sweep's folder has its own lock and list of files.
-        "sweep" => return collect::redraw(path, options),
-        "uncertainty" => return uncertainty::redraw(path, options),
-        "cea" | "transient" | "cycle" | "convergence" | "fit" | "frf" | "identify" | "signal"
-        | "mesh" => {}
-        other => {
+    let redraw = profile(command).map_or(&Redraw::Nothing, |profile| &profile.redraw);
+    match redraw {
+        Redraw::Nothing => {
             let reason =
-                format!("it belongs to frictionsim {other}, which draws no figures to repeat");
+                format!("it belongs to frictionsim {command}, which draws no figures to repeat");
             let path = path.to_owned();
             return Err(FolderError::NotResults { path, reason }.into());
         }
+        Redraw::OfPoints(redraw) => return redraw(path, options),
+        Redraw::OfFolder(_) | Redraw::OfCase(_) => {}
     }
-    let summary: Value = read_summary(path)?;
-    // Of the commands that start from a table there is no case.
-    let case = || recorded_case(path, manifest);
+    // A run that is not finished has no summary.
+    let _: Value = read_summary(path)?;
     let folder = OutputFolder::reopen(path)?;
-    match command {
-        "cea" => cea::redraw(&folder, &case()?, &summary, options)?,
-        "transient" => transient::redraw(&folder, &case()?, &summary, options)?,
-        "cycle" => cycle::redraw(&folder, &case()?, &summary, options)?,
-        "convergence" => convergence::redraw(&folder, options)?,
-        "mesh" => mesh::redraw(&folder, &case()?, options)?,
-        "fit" => fit::redraw(&folder, options)?,
-        "frf" => frf::redraw(&folder, options)?,
-        "identify" => identify::redraw(&folder, options)?,
-        _ => signal::redraw(&folder, options)?,
+    match redraw {
+        Redraw::OfFolder(redraw) => redraw(&folder, options)?,
+        Redraw::OfCase(redraw) => redraw(&folder, &recorded_case(path, manifest)?, options)?,
+        Redraw::Nothing | Redraw::OfPoints(_) => {}
     }
     Ok(folder.finish()?)
 }

@@ -2,6 +2,7 @@
 
 use super::measurement::{Measurement, write_aside};
 use super::options::OutputOptions;
+use super::profile::{Profile, Redraw};
 use super::session::read_case;
 use super::{Failure, terminal};
 use crate::case::{Case, Cea};
@@ -86,6 +87,20 @@ pub struct Arguments {
     #[command(flatten)]
     output: OutputOptions,
 }
+
+/// What the rest of the program asks of this command.
+pub const PROFILE: Profile = Profile {
+    files: &[
+        ("peaks.csv", "main peaks of each channel"),
+        ("spectrum-N.csv", "spectrum of each channel"),
+        ("record.bin", "what the figures are drawn from"),
+    ],
+    examples: &[(
+        "frictionsim signal microphone.csv --case disc.toml",
+        "which mode squeals",
+    )],
+    redraw: Redraw::OfFolder(redraw),
+};
 
 /// Runs the subcommand.
 ///

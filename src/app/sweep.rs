@@ -8,6 +8,7 @@ pub use crate::study::{Shard, SweepPlan};
 pub use progress::SweepProgress;
 pub use workers::{PointRunner, SweepRun};
 
+use super::profile::{Profile, Redraw};
 use super::share::ShareOptions;
 use super::transient::linear_stage;
 use super::{Failure, RunOptions, Session, terminal};
@@ -29,6 +30,30 @@ pub struct Arguments {
     #[command(flatten)]
     share: ShareOptions,
 }
+
+/// What the rest of the program asks of this command.
+pub const PROFILE: Profile = Profile {
+    files: &[
+        ("points.csv", "one row for each point"),
+        (
+            "points/point-NNNNNN.json",
+            "what came out of a point; the same bytes whoever ran it",
+        ),
+        ("points/clock-NNNNNN.json", "how long that took"),
+    ],
+    examples: &[
+        ("frictionsim sweep study.toml", "all points on all cores"),
+        (
+            "frictionsim sweep study.toml --out study --shard 2/8",
+            "one of eight processes",
+        ),
+        (
+            "frictionsim sweep study.toml --resume",
+            "go on after Ctrl-C",
+        ),
+    ],
+    redraw: Redraw::OfPoints(super::collect::redraw),
+};
 
 /// Runs the subcommand.
 ///

@@ -4,8 +4,9 @@ mod continuation;
 mod figures;
 mod watch;
 
-pub use figures::{draw_beside, linear_stage, redraw};
+pub use figures::{draw_beside, linear_stage};
 
+use super::profile::{Profile, Redraw};
 use super::{Failure, RunOptions, Session};
 use crate::fem::operator::StiffnessOperator;
 use crate::results::transient::{
@@ -56,6 +57,42 @@ fn resume<'b>(
     let record = study.resume_record(&run, record)?;
     Ok((run, record))
 }
+
+/// What the rest of the program asks of this command.
+pub const PROFILE: Profile = Profile {
+    files: &[
+        ("probe-ID.csv", "motion of each probe over time"),
+        ("energy.csv", "energies and powers, equations (8) to (12)"),
+        (
+            "contact.csv, contact.npz",
+            "contact status: fractions, and node by node",
+        ),
+        (
+            "harmonics.csv",
+            "amplitudes of the nodal diameters over time",
+        ),
+        (
+            "snapshots.pvd, snapshots/*.vtu",
+            "fields at the times asked for",
+        ),
+        (
+            "checkpoint.bin",
+            "state of an interrupted run, for --resume",
+        ),
+        ("record.bin", "what the figures are drawn from"),
+    ],
+    examples: &[
+        (
+            "frictionsim transient run.toml",
+            "from first expansion to limit cycle",
+        ),
+        (
+            "frictionsim transient run.toml --resume",
+            "go on after Ctrl-C",
+        ),
+    ],
+    redraw: Redraw::OfCase(figures::redraw),
+};
 
 /// Runs the subcommand.
 ///

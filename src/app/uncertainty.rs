@@ -1,5 +1,6 @@
 //! `frictionsim uncertainty`: how likely is squeal, and which parameter decides it.
 
+use super::profile::{Profile, Redraw};
 use super::share::ShareOptions;
 use super::{Failure, RunOptions, Session, terminal};
 use crate::case::{Case, find_key};
@@ -34,6 +35,28 @@ pub struct Arguments {
     #[arg(long, value_name = "P", default_value = "0.05", requires = "robust")]
     bound: f64,
 }
+
+/// What the rest of the program asks of this command.
+pub const PROFILE: Profile = Profile {
+    files: &[
+        ("samples.csv", "one row for each sample"),
+        (
+            "points/point-NNNNNN.json",
+            "a block of samples, for --resume",
+        ),
+    ],
+    examples: &[
+        (
+            "frictionsim uncertainty disc.toml",
+            "how likely is squeal, and which parameter decides it?",
+        ),
+        (
+            "frictionsim uncertainty disc.toml --robust contact.interference=1e-5:4e-5 --bound 0.05",
+            "which design is silent with 95 % probability?",
+        ),
+    ],
+    redraw: Redraw::OfPoints(redraw),
+};
 
 /// Runs the subcommand.
 ///

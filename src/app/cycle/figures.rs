@@ -4,14 +4,22 @@ use crate::app::Failure;
 use crate::case::Case;
 use crate::mesh::AnnulusMesh;
 use crate::results::cycle_figures::{CycleFigures, CycleRecord, draw};
-use crate::results::{DrawingOptions, OutputFolder, read_record, refuse_misfit};
+use crate::results::{DrawingOptions, OutputFolder, read_record, read_summary, refuse_misfit};
 use serde_json::Value;
 
-/// Draws the figures of a folder from its `record.bin`.
+/// Draws the figures of a folder again, from its `record.bin`.
+///
+/// # Errors
+/// As [`draw_record`].
+pub fn redraw(folder: &OutputFolder, case: &Case, options: &DrawingOptions) -> Result<(), Failure> {
+    draw_record(folder, case, &read_summary(folder.path())?, options)
+}
+
+/// Draws the figures and the report of the record in the folder.
 ///
 /// # Errors
 /// A folder without a whole record; those of the drawing and of the folder.
-pub fn redraw(
+pub fn draw_record(
     folder: &OutputFolder,
     case: &Case,
     summary: &Value,

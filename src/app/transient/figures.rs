@@ -5,7 +5,8 @@ use crate::case::Case;
 use crate::fem::operator::SimdLevel;
 use crate::results::transient::{RunEnd, RunFigures, TransientSummary, draw, shear_stress_beside};
 use crate::results::{
-    DrawingError, DrawingOptions, OutputFolder, draw_all, read_record, refuse_misfit, write_figures,
+    DrawingError, DrawingOptions, OutputFolder, draw_all, read_record, read_summary, refuse_misfit,
+    write_figures,
 };
 use crate::study::LinearStage;
 use crate::study::transient::TransientStudy;
@@ -54,17 +55,13 @@ pub(super) fn draw_record(
 ///
 /// # Errors
 /// A folder without a whole record; those of the drawing and of the folder.
-pub fn redraw(
-    folder: &OutputFolder,
-    case: &Case,
-    summary: &Value,
-    options: &DrawingOptions,
-) -> Result<(), Failure> {
+pub fn redraw(folder: &OutputFolder, case: &Case, options: &DrawingOptions) -> Result<(), Failure> {
+    let summary: Value = read_summary(folder.path())?;
     let study = TransientStudy::new(case, SimdLevel::Scalar)?;
     let record: Recorder = read_record(folder.path())?;
     let fits = study.is_of(&record);
     refuse_misfit(folder.path(), fits)?;
-    let summary = TransientSummary::deserialize(summary).map_err(|error| {
+    let summary = TransientSummary::deserialize(&summary).map_err(|error| {
         let path = folder.path().display();
         Failure::usage(format!(
             "the summary.json of {path} is of another version ({error}): run it again"

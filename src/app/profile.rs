@@ -1,0 +1,37 @@
+//! What the rest of the program asks of a subcommand, besides its arguments and its run.
+
+use super::Failure;
+use crate::case::Case;
+use crate::results::{DrawingOptions, OutputFolder};
+use std::path::Path;
+
+/// What the declarations of a subcommand do not say.
+pub struct Profile {
+    /// Name and contents of what it writes, relative to its output folder.
+    pub files: &'static [(&'static str, &'static str)],
+    /// Command lines and what they are for.
+    pub examples: &'static [(&'static str, &'static str)],
+    /// How its figures are drawn again.
+    pub redraw: Redraw,
+}
+
+impl Profile {
+    /// Of a command that tells everything in its help.
+    pub const NONE: Self = Self {
+        files: &[],
+        examples: &[],
+        redraw: Redraw::Nothing,
+    };
+}
+
+/// How `frictionsim plot` draws a folder of results again.
+pub enum Redraw {
+    /// The command draws nothing to repeat.
+    Nothing,
+    /// From the folder alone.
+    OfFolder(fn(&OutputFolder, &DrawingOptions) -> Result<(), Failure>),
+    /// From the folder and the case that it records.
+    OfCase(fn(&OutputFolder, &Case, &DrawingOptions) -> Result<(), Failure>),
+    /// From the points of a folder with its own lock and list of files.
+    OfPoints(fn(&Path, &DrawingOptions) -> Result<(), Failure>),
+}
