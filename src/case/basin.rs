@@ -1,14 +1,15 @@
 //! `[basin]`: which of two waves wins.
 
 use super::reader::Section;
-use super::rules::harmonics;
 use crate::cycle::BasinRequest;
 use crate::mesh::AnnulusSpecification;
 
 pub(super) fn basin(root: &Section<'_>, annulus: &AnnulusSpecification) -> Option<BasinRequest> {
     let section = root.section("basin", false);
     let given = section.is_given();
-    let pair = harmonics(&section, annulus).unwrap_or_else(|| vec![1, 2]);
+    let pair = section
+        .harmonics(annulus.circumferential_elements)
+        .unwrap_or_else(|| vec![1, 2]);
     let request = BasinRequest {
         harmonics: [pair.first(), pair.last()].map(|n| n.copied().unwrap_or(1)),
         seed_ratios: [

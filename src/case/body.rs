@@ -5,6 +5,7 @@ use super::opposite::{check_meeting, opposite_curve};
 use super::raw::{MeshBytes, RawCase};
 use super::reader::Section;
 use super::suggestion;
+use super::words::CounterfaceWord;
 use crate::fem::{ElasticMaterial, MaterialField, RayleighDamping, RegionMaterial};
 use crate::mesh::{
     AnnulusSpecification, BodySpecification, BoundaryCondition, Counterface,
@@ -22,14 +23,6 @@ pub struct ImportedBody {
     pub materials: Vec<RegionMaterial>,
     /// What the mesh was made of, for its refinements.
     source: Arc<(GmshFile, BodySpecification)>,
-}
-
-/// The shape of the counterface, in words.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum CounterfaceWord {
-    Cylinder,
-    Plane,
-    Body,
 }
 
 /// Where the counterface is, as `[contact]` says.
@@ -198,7 +191,8 @@ pub(super) fn import(
         conditions: parts.boundaries.clone(),
     };
     let mesh = Mesh2d::from_gmsh(&read, &specification).map_err(unusable)?;
-    check_meeting(&mesh, parts).map_err(|message| (message, "bodies apart".to_owned()))?;
+    check_meeting(&mesh, &specification, parts.interference)
+        .map_err(|message| (message, "bodies apart".to_owned()))?;
     for (name, _) in &parts.materials {
         if !mesh.regions.contains(name) {
             let known = mesh.regions.iter().map(String::as_str);

@@ -1,17 +1,8 @@
 //! `[boundaries.*]`: what holds each boundary.
 
 use super::reader::Section;
+use super::words::ConditionWord;
 use crate::mesh::{BoundaryCondition, ElasticSupport};
-
-/// What holds a boundary, in words.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum ConditionWord {
-    Clamped,
-    Support,
-    Guide,
-    Pressure,
-    Free,
-}
 
 /// A boundary of the case with its condition.
 pub(super) type NamedCondition = (String, BoundaryCondition);

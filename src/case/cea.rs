@@ -2,7 +2,7 @@
 
 use super::model::node_count;
 use super::reader::Section;
-use super::rules::{parameter, rising};
+use super::words::CeaMethod;
 use crate::fem::MassKind;
 use crate::mesh::AnnulusSpecification;
 
@@ -13,17 +13,6 @@ pub enum ModeSelection {
     BelowHz(f64),
     /// This many of the lowest.
     Lowest(usize),
-}
-
-/// Eigenvalue solver.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CeaMethod {
-    /// Cyclic where mesh and base state have the symmetry, sparse elsewhere.
-    Auto,
-    /// One small problem for each circumferential harmonic.
-    Cyclic,
-    /// Shift-invert Krylov-Schur on the whole mesh.
-    Sparse,
 }
 
 /// `[cea]`.
@@ -78,8 +67,9 @@ pub(super) fn cea(
     if !section.is_given() {
         return None;
     }
-    let friction_coefficients =
-        rising(&section, "friction_coefficients").unwrap_or_else(|| vec![friction_coefficient]);
+    let friction_coefficients = section
+        .rising("friction_coefficients")
+        .unwrap_or_else(|| vec![friction_coefficient]);
     if friction_coefficients.is_empty() && section.is_empty_list("friction_coefficients") {
         section.reject(
             "friction_coefficients",
@@ -93,7 +83,9 @@ pub(super) fn cea(
         method: section.choice("method"),
         mass: section.choice("mass"),
         geometric_stiffness: section.flag("geometric_stiffness"),
-        shapes_at: rising(&section, "shapes_at").unwrap_or_else(|| vec![friction_coefficient]),
+        shapes_at: section
+            .rising("shapes_at")
+            .unwrap_or_else(|| vec![friction_coefficient]),
         friction_coefficients,
         map: cea_map(&section),
     };
@@ -157,7 +149,7 @@ fn cea_map(cea: &Section<'_>) -> Option<CeaMap> {
     if !section.is_given() {
         return None;
     }
-    let key = parameter(&section, "key");
+    let key = section.parameter("key");
     if section.has("key") && key == "contact.friction_coefficient" {
         section.reject(
             "key",
@@ -167,7 +159,7 @@ fn cea_map(cea: &Section<'_>) -> Option<CeaMap> {
             None,
         );
     }
-    let values = rising(&section, "values").unwrap_or_default();
+    let values = section.rising("values").unwrap_or_default();
     if !section.has("values") || section.is_empty_list("values") {
         section.reject(
             "values",

@@ -1,9 +1,9 @@
 //! `[convergence]`: the same case on several meshes and with several time steps.
 
-use super::Analysis;
 use super::body::ImportedBody;
 use super::model::node_count;
 use super::reader::Section;
+use super::words::Analysis;
 use crate::mesh::{AnnulusSpecification, ElementKind, ShaftSpecification, SolidSpecification};
 
 /// Fewest refinements that an order can be observed from.

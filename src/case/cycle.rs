@@ -3,7 +3,7 @@
 use super::keys;
 use super::range::{Spacing, range_values};
 use super::reader::Section;
-use super::rules::{harmonics, parameter};
+use super::words::{OnsetChoice, StabilityChoice};
 use crate::cycle::Parameter;
 use crate::mesh::AnnulusSpecification;
 
@@ -30,26 +30,6 @@ pub struct Cycle {
     pub continuation: Option<Continuation>,
 }
 
-/// `cycle.onsets`: at which losses of stability of a harmonic the cycles are born.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum OnsetChoice {
-    /// At every one below the case's friction coefficient; where there is none, at the lowest.
-    All,
-    /// At the lowest.
-    Lowest,
-}
-
-/// `cycle.stability`: which cycles' stability is worked out.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum StabilityChoice {
-    /// Those at the case's own operating point.
-    Point,
-    /// Those along the branch, too.
-    Branch,
-    /// None.
-    None,
-}
-
 /// `[cycle.continuation]`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Continuation {
@@ -74,7 +54,7 @@ impl Continuation {
 
 pub(super) fn cycle(root: &Section<'_>, annulus: &AnnulusSpecification) -> Option<Cycle> {
     let section = root.section("cycle", false);
-    let harmonics = harmonics(&section, annulus);
+    let harmonics = section.harmonics(annulus.circumferential_elements);
     let onsets = section.choice("onsets");
     let phases = section.optional_count("phases");
     let frames = section.count("frames");
@@ -90,7 +70,7 @@ pub(super) fn cycle(root: &Section<'_>, annulus: &AnnulusSpecification) -> Optio
     let stability = section.choice("stability");
     let inner = section.section("continuation", false);
     let continuation = inner.is_given().then(|| Continuation {
-        key: parameter(&inner, "key"),
+        key: inner.parameter("key"),
         from: inner.number("from"),
         to: inner.number("to"),
         count: inner.count("count"),

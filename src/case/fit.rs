@@ -3,8 +3,8 @@
 use super::diagnostic::CaseErrors;
 use super::parameters::{ModelParameter, entries, number, only, refuse_twice};
 use super::range::Spacing;
-use super::raw::{RawEntry, RawValue};
 use super::reader::Section;
+use super::value::{RawEntry, RawValue};
 
 /// A parameter with the bounds between which it is sought.
 #[derive(Clone, Debug, PartialEq)]

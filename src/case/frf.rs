@@ -2,22 +2,10 @@
 
 use super::node::Nodes;
 use super::reader::Section;
+use super::words::FrfMethod;
 use crate::fem::MassKind;
 use crate::frf::{Direction, FrfBoundary, Terminal};
 use crate::signal::ResponseQuantity;
-
-/// How a frequency response is computed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FrfMethod {
-    /// The fastest that needs no tolerance: cyclic.
-    Auto,
-    /// Every circumferential harmonic at each frequency.
-    Cyclic,
-    /// A sparse solution of the whole mesh at each frequency.
-    Direct,
-    /// Rational Krylov reduction with its error stated.
-    Reduced,
-}
 
 /// `[frf]`.
 #[derive(Clone, Debug, PartialEq)]

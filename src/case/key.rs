@@ -1,6 +1,6 @@
 //! What a key of the case file is: the kind of its value, bound, unit, default, meaning.
 
-use super::raw::RawValue;
+use super::value::RawValue;
 
 /// Where a number must lie.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,7 +13,6 @@ pub enum Bound {
     Between(f64, f64),
     /// This value or above.
     AtLeast(f64),
-    /// Any finite number but zero.
     /// Any finite number.
     Finite,
 }
@@ -200,19 +199,8 @@ impl CaseKey {
     /// The default's value, where it has one.
     pub(super) fn default_value(&self) -> Option<RawValue> {
         match self.default {
-            Default::Value(text) => super::overrides::value(text),
+            Default::Value(text) => RawValue::parse(text),
             _ => None,
         }
     }
-}
-
-/// A choice that a case names by a word.
-pub(super) trait Choice: Copy + 'static {
-    /// Every word with what it stands for, in the order of the documentation.
-    const WORDS: &'static [(&'static str, Self)];
-}
-
-/// The words of a choice.
-pub(super) fn words<T: Choice>() -> Vec<&'static str> {
-    T::WORDS.iter().map(|pair| pair.0).collect()
 }

@@ -1,24 +1,23 @@
 //! Every key a case can have: the one declaration that readers, messages, `frictionsim keys`, the
 //! JSON schema and the commented template are made from.
 
-use super::body::CounterfaceWord;
-use super::boundaries::ConditionWord;
 use super::key::Bound::{AtLeast, Between, Finite, NotNegative, Positive};
 use super::key::Default::{Otherwise, Required, Value};
 use super::key::Kind::{
     Choice, Choices, Count, Counts, Flag, Node, Nodes, Number, NumberOr, Numbers, Parameter, Table,
     Text,
 };
-use super::key::{CaseKey, Default, Kind, words};
-use super::words::BaseContact;
-use super::{
-    Analysis, CeaMethod, Combination, FrfMethod, InitialState, OnsetChoice, OperatorChoice,
-    Spacing, StabilityChoice,
+use super::key::{CaseKey, Default, Kind};
+use super::range::Spacing;
+use super::words::{
+    Analysis, BaseContact, CeaMethod, Combination, ConditionWord, CounterfaceWord, FrfMethod,
+    OnsetChoice, StabilityChoice, words,
 };
 use crate::fem::{MassKind, PlaneFormulation};
 use crate::frf::{Direction, FrfBoundary};
 use crate::mesh::ElementKind;
 use crate::signal::ResponseQuantity;
+use crate::transient::{InitialState, OperatorChoice};
 
 /// A key that every command uses which reads its section.
 const fn key(

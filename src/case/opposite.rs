@@ -1,9 +1,9 @@
 //! The other body of a contact between two bodies of a mesh file.
 
-use super::body::{BodyParts, CounterfaceWord};
 use super::reader::Section;
+use super::words::CounterfaceWord;
 use crate::contact::ContactInterface;
-use crate::mesh::Mesh2d;
+use crate::mesh::{BodySpecification, Mesh2d};
 
 /// `contact.counter_boundary`, which only two bodies have.
 pub(super) fn opposite_curve(section: &Section<'_>, word: CounterfaceWord) -> Option<String> {
@@ -26,12 +26,16 @@ pub(super) fn opposite_curve(section: &Section<'_>, word: CounterfaceWord) -> Op
 }
 
 /// Two bodies must have their curves before each other, at most as far into each other as the interference.
-pub(super) fn check_meeting(mesh: &Mesh2d, parts: &BodyParts) -> Result<(), String> {
-    let Some(other) = &parts.place.opposite else {
+pub(super) fn check_meeting(
+    mesh: &Mesh2d,
+    body: &BodySpecification,
+    interference: f64,
+) -> Result<(), String> {
+    let Some(other) = &body.opposite else {
         return Ok(());
     };
     let interface = ContactInterface::of(mesh);
-    let name = &parts.place.boundary;
+    let name = &body.contact;
     if interface.is_empty() {
         return Err(format!(
             "no point of \"{name}\" (contact.boundary) has \"{other}\" (contact.counter_boundary) before it: correct the \
@@ -44,12 +48,11 @@ pub(super) fn check_meeting(mesh: &Mesh2d, parts: &BodyParts) -> Result<(), Stri
     let size = interface.tributary_lengths[i];
     let depth = -interface.gaps[i];
     // A thousandth of an element is what faceted curves differ by.
-    if depth > parts.interference + 1e-3 * size {
+    if depth > interference + 1e-3 * size {
         return Err(format!(
             "the bodies overlap: node {} of \"{name}\" lies {depth:.3e} m inside the other body, more than \
-             contact.interference = {:e} m; mesh them touching, and let contact.interference press them",
-            mesh.node_label(interface.nodes[i] as usize),
-            parts.interference
+             contact.interference = {interference:e} m; mesh them touching, and let contact.interference press them",
+            mesh.node_label(interface.nodes[i] as usize)
         ));
     }
     Ok(())

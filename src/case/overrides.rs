@@ -1,7 +1,7 @@
 //! `--set KEY=VALUE` and `--unset KEY`: assignments laid over the case, keys taken away.
 
 use super::diagnostic::{Diagnostic, Location, Source};
-use super::raw::{RawEntry, RawItem, RawTable, RawValue, convert};
+use super::value::{RawEntry, RawItem, RawTable, RawValue, convert, cut};
 use super::{keys, suggestion};
 use toml::de::{DeTable, DeValue};
 
@@ -30,16 +30,11 @@ pub(super) fn source(text: &str) -> Source {
 
 /// An override as a title quotes it.
 pub(super) fn shown(text: &str) -> String {
-    const LONGEST: usize = 60;
-    let text = match (text.strip_prefix(UNSET), text.split_once('=')) {
+    cut(match (text.strip_prefix(UNSET), text.split_once('=')) {
         (Some(key), _) => format!("no {key}"),
         (None, Some((key, value))) => format!("{} = {}", key.trim(), value.trim()),
         (None, None) => text.to_owned(),
-    };
-    match text.char_indices().nth(LONGEST) {
-        Some((end, _)) => format!("{}...", &text[..end]),
-        None => text,
-    }
+    })
 }
 
 /// Lays one override over a case: `KEY=VALUE`, or what [`unset`] gives.
@@ -149,14 +144,6 @@ fn parse(
     };
     relocate(&mut item, &value_at);
     Some((path, item))
-}
-
-/// A value alone, in TOML; none if it is not.
-pub(super) fn value(text: &str) -> Option<RawValue> {
-    let parsed = DeValue::parse(text).ok()?;
-    let mut errors = Vec::new();
-    let value = convert(parsed.get_ref(), 0, 0..text.len(), &mut errors);
-    errors.is_empty().then_some(value)
 }
 
 /// Position of the `=` between key and value: the first one outside quotes.

@@ -2,8 +2,8 @@
 
 use super::diagnostic::{CaseErrors, Location};
 use super::key::{Bound, Kind};
-use super::raw::{RawEntry, RawTable, RawValue};
 use super::reader::Section;
+use super::value::{RawEntry, RawTable, RawValue};
 use super::{keys, suggestion};
 
 /// Sections that make the model.
@@ -108,12 +108,8 @@ fn also(section: &Section<'_>, name: &str, entry: &RawEntry) -> Vec<String> {
     let Some(given) = table.get("also") else {
         return Vec::new();
     };
-    let items = match &given.item.value {
-        RawValue::Array(items) => items.as_slice(),
-        _ => std::slice::from_ref(&given.item),
-    };
     let mut keys = Vec::new();
-    for item in items {
+    for item in given.item.listed() {
         let refuse = |message: String, help: &str| {
             section.reject_there(&item.at, message, "not a key to tie".to_owned(), help);
         };
@@ -133,22 +129,19 @@ fn also(section: &Section<'_>, name: &str, entry: &RawEntry) -> Vec<String> {
 
 /// A number of an entry; an error where it is missing or none.
 pub(super) fn number(section: &Section<'_>, entry: &RawEntry, value: Option<&RawValue>) -> f64 {
-    match value {
-        Some(RawValue::Float(value)) if value.is_finite() => *value,
-        Some(RawValue::Integer(value)) => *value as f64,
-        other => {
-            let found = other.map_or("missing".to_owned(), |v| {
-                format!("{} is given", v.shortened())
-            });
-            section.reject_there(
-                &entry.item.at,
-                format!("a finite number is needed: {found}"),
-                "not a number".to_owned(),
-                "write numbers in SI units",
-            );
-            f64::NAN
-        }
-    }
+    let number = value.and_then(RawValue::number);
+    number.filter(|v| v.is_finite()).unwrap_or_else(|| {
+        let found = value.map_or("missing".to_owned(), |v| {
+            format!("{} is given", v.shortened())
+        });
+        section.reject_there(
+            &entry.item.at,
+            format!("a finite number is needed: {found}"),
+            "not a number".to_owned(),
+            "write numbers in SI units",
+        );
+        f64::NAN
+    })
 }
 
 /// Reports the keys of an entry that it does not take.
@@ -208,10 +201,6 @@ impl super::Case {
 
     /// The number that the case gives a key, if it gives one.
     pub fn number(&self, key: &str) -> Option<f64> {
-        match self.raw.find(key)?.value {
-            RawValue::Float(value) => Some(value),
-            RawValue::Integer(value) => Some(value as f64),
-            _ => None,
-        }
+        self.raw.find(key)?.value.number()
     }
 }

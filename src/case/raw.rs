@@ -2,12 +2,11 @@
 
 use super::diagnostic::{CaseErrors, Diagnostic, Location, Source};
 use super::overrides;
-use super::value::quote;
-pub use super::value::{RawEntry, RawItem, RawTable, RawValue};
+use super::value::{RawItem, RawTable, RawValue, convert_table, quote};
 use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
 use std::sync::Arc;
-use toml::de::{DeTable, DeValue};
+use toml::de::DeTable;
 
 /// A parsed, not yet validated case: the file's TOML with the overrides laid over it.
 #[derive(Clone, Debug, PartialEq)]
@@ -255,58 +254,4 @@ fn parse_document(text: &str, source: usize, diagnostics: &mut Vec<Diagnostic>) 
         ));
     }
     convert_table(table.get_ref(), source, diagnostics)
-}
-
-fn convert_table(table: &DeTable<'_>, source: usize, errors: &mut Vec<Diagnostic>) -> RawTable {
-    table
-        .iter()
-        .map(|(key, value)| {
-            let entry = RawEntry {
-                key_at: Location::new(source, key.span()),
-                item: RawItem {
-                    value: convert(value.get_ref(), source, value.span(), errors),
-                    at: Location::new(source, value.span()),
-                },
-            };
-            (key.get_ref().to_string(), entry)
-        })
-        .collect()
-}
-
-/// Takes over one value, whose place is `span` of text `source`.
-pub(super) fn convert(
-    value: &DeValue<'_>,
-    source: usize,
-    span: std::ops::Range<usize>,
-    errors: &mut Vec<Diagnostic>,
-) -> RawValue {
-    match value {
-        DeValue::String(text) => RawValue::String(text.to_string()),
-        DeValue::Integer(integer) => match i64::from_str_radix(integer.as_str(), integer.radix()) {
-            Ok(value) => RawValue::Integer(value),
-            Err(_) => {
-                errors.push(Diagnostic::error(
-                    format!("the integer {integer} does not fit 64 bits"),
-                    "out of range".to_owned(),
-                    Location::new(source, span),
-                    Some("write it with a decimal point if it is meant as a number".to_owned()),
-                ));
-                RawValue::Integer(0)
-            }
-        },
-        // A float that TOML accepts and Rust does not cannot exist; NaN is refused where it is used.
-        DeValue::Float(float) => RawValue::Float(float.as_str().parse().unwrap_or(f64::NAN)),
-        DeValue::Boolean(value) => RawValue::Boolean(*value),
-        DeValue::Datetime(value) => RawValue::Datetime(value.to_string()),
-        DeValue::Array(items) => RawValue::Array(
-            items
-                .iter()
-                .map(|item| RawItem {
-                    value: convert(item.get_ref(), source, item.span(), errors),
-                    at: Location::new(source, item.span()),
-                })
-                .collect(),
-        ),
-        DeValue::Table(table) => RawValue::Table(convert_table(table, source, errors)),
-    }
 }

@@ -7,7 +7,7 @@ mod places;
 
 use super::diagnostic::{Diagnostic, Location};
 use super::key::{Bound, CaseKey, Default, Kind};
-use super::raw::{RawEntry, RawItem, RawTable, RawValue};
+use super::value::{RawEntry, RawItem, RawTable, RawValue};
 use super::{keys, suggestion};
 pub(super) use places::NodePlace;
 use std::cell::RefCell;
@@ -243,14 +243,10 @@ impl<'a> Section<'a> {
     }
 
     fn read_number(&self, key: &str, item: &RawItem, bound: Bound) -> Option<f64> {
-        let value = match item.value {
-            RawValue::Integer(value) => value as f64,
-            RawValue::Float(value) => value,
-            ref other => {
-                let kind = other.kind();
-                self.reject_at(item, key, &format!("must be a number, not {kind}"));
-                return None;
-            }
+        let Some(value) = item.value.number() else {
+            let kind = item.value.kind();
+            self.reject_at(item, key, &format!("must be a number, not {kind}"));
+            return None;
         };
         if bound.admits(value) {
             Some(value)
@@ -276,11 +272,7 @@ impl<'a> Section<'a> {
                 None
             }
             (Some(item), _) => Some(self.read_number(key, item, bound).unwrap_or(f64::NAN)),
-            (None, _) => match declared.default_value()? {
-                RawValue::Float(value) => Some(value),
-                RawValue::Integer(value) => Some(value as f64),
-                _ => None,
-            },
+            (None, _) => declared.default_value()?.number(),
         }
     }
 

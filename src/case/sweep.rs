@@ -2,31 +2,10 @@
 
 use super::diagnostic::{CaseErrors, Location};
 use super::key::Bound;
-use super::raw::{RawEntry, RawValue};
 use super::reader::Section;
+use super::value::{RawEntry, RawValue, range_count};
+use super::words::{Analysis, Combination};
 use super::{Case, RawCase, keys, suggestion};
-
-/// What runs at a point of a sweep.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Analysis {
-    /// The complex eigenvalue analysis.
-    Cea,
-    /// The explicit transient.
-    Transient,
-    /// The direct search for limit cycles.
-    Cycle,
-    /// Boundary between the basins of two limit cycles.
-    Basin,
-}
-
-/// How several swept keys combine.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Combination {
-    /// Every value of each with every value of the others, the last key fastest.
-    Grid,
-    /// The first value of each, then the second of each, and so on.
-    Zip,
-}
 
 /// A swept key and its values.
 #[derive(Clone, Debug, PartialEq)]
@@ -154,10 +133,7 @@ fn swept<'a>(
 fn length(entry: &RawEntry) -> usize {
     match &entry.item.value {
         RawValue::Array(items) => items.len(),
-        RawValue::Table(table) => match table.get("count").map(|count| &count.item.value) {
-            Some(RawValue::Integer(count)) => usize::try_from(*count).unwrap_or(0),
-            _ => 0,
-        },
+        RawValue::Table(table) => range_count(table),
         _ => 1,
     }
 }

@@ -4,7 +4,6 @@ use super::Case;
 use super::diagnostic::CaseErrors;
 use super::node::{Nodes, PlacedNode};
 use super::reader::Section;
-use super::rules::{harmonics, rising};
 use crate::contact::SlidingContact;
 use crate::mesh::{AnnulusSpecification, SolidContact, SolidSpecification};
 use crate::transient::{
@@ -195,7 +194,9 @@ fn perturbation(
     duration: f64,
 ) -> Perturbation {
     let section = transient.section("perturbation", false);
-    let harmonics = harmonics(&section, annulus).unwrap_or_default();
+    let harmonics = section
+        .harmonics(annulus.circumferential_elements)
+        .unwrap_or_default();
     let unit = velocity_unit(&section, slip_speed);
     let velocities = one_for_each(&section, "velocity", &harmonics);
     let phases = one_for_each(&section, "phase_deg", &harmonics);
@@ -317,7 +318,7 @@ pub(super) fn output(
     let section = root.section("output", false);
     let (probes, placed_probes) = probes(&section, nodes);
     let sample_interval = section.number("sample_interval");
-    let mut snapshots = rising(&section, "snapshots").unwrap_or_default();
+    let mut snapshots = section.rising("snapshots").unwrap_or_default();
     if let Some(transient) = transient {
         let last = whole_intervals(transient.duration, sample_interval) as f64;
         // They rise: those after the end stand last.

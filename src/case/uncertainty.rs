@@ -2,8 +2,8 @@
 
 use super::diagnostic::CaseErrors;
 use super::parameters::{ModelParameter, entries, number, only, refuse_twice};
-use super::raw::{RawEntry, RawValue};
 use super::reader::Section;
+use super::value::{RawEntry, RawValue};
 use crate::linalg::Distribution;
 
 /// Share of a distribution beyond what its key can take from which on it is refused.

@@ -1,7 +1,8 @@
 //! Values of a case as its TOML says them, each with its place.
 
-use super::diagnostic::Location;
+use super::diagnostic::{Diagnostic, Location};
 use std::collections::BTreeMap;
+use toml::de::{DeTable, DeValue};
 
 /// A TOML value with the place it was written at.
 #[derive(Clone, Debug, PartialEq)]
@@ -10,6 +11,16 @@ pub struct RawItem {
     pub value: RawValue,
     /// Where it was written.
     pub at: Location,
+}
+
+impl RawItem {
+    /// The items of a list; anything else is a list of itself alone.
+    pub(super) fn listed(&self) -> &[Self] {
+        match &self.value {
+            RawValue::Array(items) => items,
+            _ => std::slice::from_ref(self),
+        }
+    }
 }
 
 /// One `key = value` of a table.
@@ -56,20 +67,31 @@ impl RawValue {
             Self::Table(_) => "a table",
         }
     }
-}
 
-impl RawValue {
+    /// A value alone, in TOML; none if it is not.
+    pub(super) fn parse(text: &str) -> Option<Self> {
+        let parsed = DeValue::parse(text).ok()?;
+        let mut errors = Vec::new();
+        let value = convert(parsed.get_ref(), 0, 0..text.len(), &mut errors);
+        errors.is_empty().then_some(value)
+    }
+
+    /// The number that it is, integers included.
+    pub(super) fn number(&self) -> Option<f64> {
+        match self {
+            Self::Integer(value) => Some(*value as f64),
+            Self::Float(value) => Some(*value),
+            _ => None,
+        }
+    }
+
     /// How many values it holds, those that ranges stand for included.
     pub(super) fn length(&self) -> usize {
         match self {
             Self::Array(items) => items.iter().map(|item| item.value.length()).sum(),
             Self::Table(table) => {
-                let count = match table.get("count").map(|entry| &entry.item.value) {
-                    Some(Self::Integer(count)) => usize::try_from(*count).unwrap_or(0),
-                    _ => 0,
-                };
                 let lengths = table.values().map(|entry| entry.item.value.length());
-                lengths.fold(count, usize::saturating_add)
+                lengths.fold(range_count(table), usize::saturating_add)
             }
             _ => 1,
         }
@@ -77,7 +99,6 @@ impl RawValue {
 
     /// The value as messages quote it: no longer than a line.
     pub(super) fn shortened(&self) -> String {
-        const LONGEST: usize = 60;
         // A long list is not written out to be cut off.
         let text = match self {
             Self::Array(items) if items.len() > LONGEST => {
@@ -87,10 +108,7 @@ impl RawValue {
             }
             value => value.to_string(),
         };
-        match text.char_indices().nth(LONGEST) {
-            Some((end, _)) => format!("{}...", &text[..end]),
-            None => text,
-        }
+        cut(text)
     }
 }
 
@@ -126,6 +144,25 @@ impl std::fmt::Display for RawValue {
     }
 }
 
+/// Longest text that messages and titles quote, characters.
+const LONGEST: usize = 60;
+
+/// A text no longer than messages and titles quote it.
+pub(super) fn cut(text: String) -> String {
+    match text.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("{}...", &text[..end]),
+        None => text,
+    }
+}
+
+/// How many values a table stands for as a range.
+pub(super) fn range_count(table: &RawTable) -> usize {
+    match table.get("count").map(|entry| &entry.item.value) {
+        Some(RawValue::Integer(count)) => usize::try_from(*count).unwrap_or(0),
+        _ => 0,
+    }
+}
+
 /// A key as TOML needs it written: bare where it can be.
 pub(super) fn quote(key: &str) -> String {
     let bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
@@ -133,5 +170,64 @@ pub(super) fn quote(key: &str) -> String {
         key.to_owned()
     } else {
         toml::Value::String(key.to_owned()).to_string()
+    }
+}
+
+/// Takes over a table of text `source`.
+pub(super) fn convert_table(
+    table: &DeTable<'_>,
+    source: usize,
+    errors: &mut Vec<Diagnostic>,
+) -> RawTable {
+    table
+        .iter()
+        .map(|(key, value)| {
+            let entry = RawEntry {
+                key_at: Location::new(source, key.span()),
+                item: RawItem {
+                    value: convert(value.get_ref(), source, value.span(), errors),
+                    at: Location::new(source, value.span()),
+                },
+            };
+            (key.get_ref().to_string(), entry)
+        })
+        .collect()
+}
+
+/// Takes over one value, whose place is `span` of text `source`.
+pub(super) fn convert(
+    value: &DeValue<'_>,
+    source: usize,
+    span: std::ops::Range<usize>,
+    errors: &mut Vec<Diagnostic>,
+) -> RawValue {
+    match value {
+        DeValue::String(text) => RawValue::String(text.to_string()),
+        DeValue::Integer(integer) => match i64::from_str_radix(integer.as_str(), integer.radix()) {
+            Ok(value) => RawValue::Integer(value),
+            Err(_) => {
+                errors.push(Diagnostic::error(
+                    format!("the integer {integer} does not fit 64 bits"),
+                    "out of range".to_owned(),
+                    Location::new(source, span),
+                    Some("write it with a decimal point if it is meant as a number".to_owned()),
+                ));
+                RawValue::Integer(0)
+            }
+        },
+        // A float that TOML accepts and Rust does not cannot exist; NaN is refused where it is used.
+        DeValue::Float(float) => RawValue::Float(float.as_str().parse().unwrap_or(f64::NAN)),
+        DeValue::Boolean(value) => RawValue::Boolean(*value),
+        DeValue::Datetime(value) => RawValue::Datetime(value.to_string()),
+        DeValue::Array(items) => RawValue::Array(
+            items
+                .iter()
+                .map(|item| RawItem {
+                    value: convert(item.get_ref(), source, item.span(), errors),
+                    at: Location::new(source, item.span()),
+                })
+                .collect(),
+        ),
+        DeValue::Table(table) => RawValue::Table(convert_table(table, source, errors)),
     }
 }

@@ -1,16 +1,40 @@
-//! The words by which a case names its choices.
+//! The choices that a case names by a word, and their words.
 
-use super::body::CounterfaceWord;
-use super::boundaries::ConditionWord;
-use super::key::Choice;
-use super::{
-    Analysis, CeaMethod, Combination, FrfMethod, InitialState, OnsetChoice, OperatorChoice,
-    Spacing, StabilityChoice,
-};
+use super::range::Spacing;
 use crate::fem::{MassKind, PlaneFormulation};
 use crate::frf::{Direction, FrfBoundary};
 use crate::mesh::ElementKind;
 use crate::signal::ResponseQuantity;
+use crate::transient::{InitialState, OperatorChoice};
+
+/// A choice that a case names by a word.
+pub(super) trait Choice: Copy + 'static {
+    /// Every word with what it stands for, in the order of the documentation.
+    const WORDS: &'static [(&'static str, Self)];
+}
+
+/// The words of a choice.
+pub(super) fn words<T: Choice>() -> Vec<&'static str> {
+    T::WORDS.iter().map(|pair| pair.0).collect()
+}
+
+/// What holds a boundary, in words.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum ConditionWord {
+    Clamped,
+    Support,
+    Guide,
+    Pressure,
+    Free,
+}
+
+/// The shape of the counterface, in words.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum CounterfaceWord {
+    Cylinder,
+    Plane,
+    Body,
+}
 
 /// What presses the body in steady sliding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,8 +43,74 @@ pub(super) enum BaseContact {
     Compliant,
 }
 
+/// Eigenvalue solver.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CeaMethod {
+    /// Cyclic where mesh and base state have the symmetry, sparse elsewhere.
+    Auto,
+    /// One small problem for each circumferential harmonic.
+    Cyclic,
+    /// Shift-invert Krylov-Schur on the whole mesh.
+    Sparse,
+}
+
+/// `cycle.onsets`: at which losses of stability of a harmonic the cycles are born.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OnsetChoice {
+    /// At every one below the case's friction coefficient; where there is none, at the lowest.
+    All,
+    /// At the lowest.
+    Lowest,
+}
+
+/// `cycle.stability`: which cycles' stability is worked out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StabilityChoice {
+    /// Those at the case's own operating point.
+    Point,
+    /// Those along the branch, too.
+    Branch,
+    /// None.
+    None,
+}
+
+/// How a frequency response is computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FrfMethod {
+    /// The fastest that needs no tolerance: cyclic.
+    Auto,
+    /// Every circumferential harmonic at each frequency.
+    Cyclic,
+    /// A sparse solution of the whole mesh at each frequency.
+    Direct,
+    /// Rational Krylov reduction with its error stated.
+    Reduced,
+}
+
+/// What runs at a point of a sweep.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Analysis {
+    /// The complex eigenvalue analysis.
+    Cea,
+    /// The explicit transient.
+    Transient,
+    /// The direct search for limit cycles.
+    Cycle,
+    /// Boundary between the basins of two limit cycles.
+    Basin,
+}
+
+/// How several swept keys combine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Combination {
+    /// Every value of each with every value of the others, the last key fastest.
+    Grid,
+    /// The first value of each, then the second of each, and so on.
+    Zip,
+}
+
 /// States the words of each choice.
-macro_rules! words {
+macro_rules! choices {
     ($($choice:ty { $($word:literal = $value:expr),+ $(,)? })+) => {$(
         impl Choice for $choice {
             const WORDS: &'static [(&'static str, Self)] = &[$(($word, $value)),+];
@@ -28,7 +118,7 @@ macro_rules! words {
     )+};
 }
 
-words! {
+choices! {
     ConditionWord {
         "clamped" = Self::Clamped,
         "support" = Self::Support,

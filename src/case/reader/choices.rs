@@ -1,15 +1,14 @@
-//! Words that stand for choices.
+//! Words that stand for choices, names of keys.
 
 use super::Section;
-use super::lists::listed;
-use crate::case::key::{self, Choice};
-use crate::case::raw::{RawItem, RawValue};
-use crate::case::suggestion;
+use crate::case::value::{RawItem, RawValue};
+use crate::case::words::{self, Choice};
+use crate::case::{keys, suggestion};
 
 impl Section<'_> {
     /// A list of words out of a few; empty where it is not given.
     pub fn choices<T: Choice>(&self, key: &str) -> Vec<T> {
-        let items = self.item(key).map_or(&[][..], listed);
+        let items = self.item(key).map_or(&[][..], RawItem::listed);
         if self.is_empty_list(key) {
             self.reject(
                 key,
@@ -36,8 +35,24 @@ impl Section<'_> {
             })
     }
 
+    /// The name of a numeric case key.
+    pub fn parameter(&self, key: &str) -> String {
+        let name = self.text(key);
+        if self.is_some_text(key) && keys::find(&name).is_none_or(|known| !known.is_numeric()) {
+            let numeric = keys::KEYS.iter().filter(|known| known.is_numeric());
+            self.reject(
+                key,
+                format!("{} = \"{name}\" is not a numeric case key", self.name(key)),
+                "must name a key whose value is a number".to_owned(),
+                suggestion::nearest(&name, numeric.map(|known| known.name))
+                    .map(|near| format!("did you mean \"{near}\"?")),
+            );
+        }
+        name
+    }
+
     fn read_choice<T: Choice>(&self, key: &str, item: &RawItem) -> Option<T> {
-        let words = key::words::<T>();
+        let words = words::words::<T>();
         let bound = format!("must be one of \"{}\"", words.join("\", \""));
         if let RawValue::String(text) = &item.value {
             if let Some(choice) = T::WORDS.iter().find(|choice| choice.0 == text) {

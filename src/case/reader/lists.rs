@@ -5,18 +5,10 @@ use crate::case::diagnostic::Location;
 use crate::case::key::{Bound, Kind};
 use crate::case::keys;
 use crate::case::range::{Spacing, range_values};
-use crate::case::raw::{RawItem, RawTable, RawValue};
+use crate::case::value::{RawItem, RawTable, RawValue};
 
 /// Longest list that a range may stand for.
 const LONGEST_RANGE: usize = 100_000;
-
-/// The items of a list; anything else is a list of itself alone.
-pub(super) fn listed(item: &RawItem) -> &[RawItem] {
-    match &item.value {
-        RawValue::Array(items) => items,
-        _ => std::slice::from_ref(item),
-    }
-}
 
 impl<'a> Section<'a> {
     /// A list of whole numbers without repetition, each with its place.
@@ -24,7 +16,7 @@ impl<'a> Section<'a> {
         let (item, least) = (self.item(key)?, self.least(key));
         let mut values: Vec<(usize, Location)> = Vec::new();
         let mut seen = std::collections::BTreeSet::new();
-        for item in listed(item) {
+        for item in item.listed() {
             let Some(value) = self.read_count(key, item, least) else {
                 continue;
             };
@@ -33,6 +25,40 @@ impl<'a> Section<'a> {
             } else {
                 self.reject_at(item, key, "must not be listed twice");
             }
+        }
+        Some(values)
+    }
+
+    /// The key `harmonics`: those that a mesh of so many elements around can hold.
+    pub fn harmonics(&self, elements: usize) -> Option<Vec<usize>> {
+        let (values, highest) = (self.counts("harmonics")?, elements / 2);
+        for (value, at) in &values {
+            if *value > highest && elements > 0 {
+                self.reject_there(
+                    at,
+                    format!(
+                        "harmonic {value} in {} is above the mesh's highest, {highest}",
+                        self.name("harmonics")
+                    ),
+                    format!("at most half of {elements} elements"),
+                    "lower the harmonic or raise mesh.circumferential_elements",
+                );
+            }
+        }
+        Some(values.into_iter().map(|(value, _)| value).collect())
+    }
+
+    /// A list of numbers in rising order; equal ones are an error.
+    pub fn rising(&self, key: &str) -> Option<Vec<f64>> {
+        let mut values = self.numbers(key)?;
+        values.sort_by(f64::total_cmp);
+        if let Some(pair) = values.windows(2).find(|pair| pair[0] == pair[1]) {
+            self.reject(
+                key,
+                format!("{} has {} twice", self.name(key), pair[0]),
+                "every value once".to_owned(),
+                None,
+            );
         }
         Some(values)
     }
@@ -63,7 +89,7 @@ impl<'a> Section<'a> {
             self.reject_at(item, key, wanted);
             return Some(Vec::new());
         }
-        let values = listed(item).iter();
+        let values = item.listed().iter();
         Some(
             values
                 .filter_map(|item| self.read_number(key, item, bound))

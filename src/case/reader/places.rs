@@ -1,10 +1,9 @@
 //! Nodes, by number or by place.
 
 use super::Section;
-use super::lists::listed;
 use crate::case::diagnostic::Location;
 use crate::case::keys;
-use crate::case::raw::{RawItem, RawValue};
+use crate::case::value::{RawItem, RawValue};
 
 /// How a case names a node.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,7 +19,7 @@ pub(in crate::case) enum NodePlace {
 impl<'a> Section<'a> {
     /// A list of nodes, each with its place in the case.
     pub fn nodes(&self, key: &str) -> Vec<(NodePlace, Location)> {
-        let items = self.item(key).map_or(&[][..], listed).iter();
+        let items = self.item(key).map_or(&[][..], RawItem::listed).iter();
         items
             .filter_map(|item| Some((self.read_node(key, item)?, item.at.clone())))
             .collect()
