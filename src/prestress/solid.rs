@@ -143,7 +143,7 @@ impl SolidSliding {
         }
     }
 
-    /// The part of an element of the face that is pressed, see [`FaceTerm::span`]. Of quadratic elements in rigid contact it is all.
+    /// The part of an element of the face that is pressed, see [`span`](crate::fem::solid::FaceTerm::span). Of quadratic elements in rigid contact it is all.
     pub fn pressed_span(&self, sector: &SolidSector, element: &FaceElement) -> [f64; 2] {
         match self.normal_stiffness {
             None if sector.is_quadratic() => whole_element(element),
