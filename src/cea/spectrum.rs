@@ -3,7 +3,7 @@
 use crate::linalg::c64;
 use std::f64::consts::TAU;
 
-/// One eigenpair of `(lambda^2 M + lambda C + K_t) phi = 0` with `Im(lambda) >= 0`.
+/// One eigenpair of `(lambda^2 M + lambda C + K_t) phi = 0`, equation (1) with the contact in it, with `Im(lambda) >= 0`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ComplexMode {
     /// Eigenvalue `lambda`, rad/s.
@@ -45,7 +45,7 @@ impl ComplexMode {
         self.eigenvalue.im / TAU
     }
 
-    /// Damping factor `zeta = -Re(lambda) / |lambda|` (equation 4).
+    /// Damping factor `zeta = -Re(lambda) / |lambda|` (equation (4)).
     pub fn damping_factor(&self) -> f64 {
         -self.eigenvalue.re / self.eigenvalue.re.hypot(self.eigenvalue.im)
     }

@@ -134,7 +134,7 @@ impl ElasticMaterial {
     }
 }
 
-/// Rayleigh damping, `C = alpha_R M + beta_R K` (equation 2 of Brunetti et al.).
+/// Rayleigh damping, `C = alpha_R M + beta_R K` (equation (2) of Brunetti et al.).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RayleighDamping {
     /// `alpha_R`, 1/s.
@@ -144,7 +144,7 @@ pub struct RayleighDamping {
 }
 
 impl RayleighDamping {
-    /// Modal damping factor `zeta = (alpha_R / omega + beta_R omega) / 2` (equation 3) at the
+    /// Modal damping factor `zeta = (alpha_R / omega + beta_R omega) / 2` (equation (3)) at the
     /// undamped angular frequency `omega`, rad/s.
     pub fn damping_factor(&self, omega: f64) -> f64 {
         0.5 * (self.mass_coefficient / omega + self.stiffness_coefficient * omega)
@@ -153,7 +153,7 @@ impl RayleighDamping {
     /// The eigenvalue `lambda` with `Im >= 0`, rad/s, of `lambda^2 + alpha_R lambda + (1 + beta_R lambda) kappa = 0`,
     /// where `K x = kappa M x`; with `Im = 0` for an overdamped mode.
     ///
-    /// The relation to which proportional damping reduces `(lambda^2 M + lambda C + K) x = 0`.
+    /// The relation to which proportional damping (2) reduces `(lambda^2 M + lambda C + K) x = 0`, which is (1) for `e^{lambda t} x`.
     pub fn eigenvalue(&self, kappa: c64) -> c64 {
         let half = (self.mass_coefficient + self.stiffness_coefficient * kappa) * 0.5;
         c64::new(0.0, 1.0) * (kappa - half * half).sqrt() - half

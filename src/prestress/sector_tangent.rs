@@ -262,7 +262,7 @@ impl SectorTangent {
         stiffness
     }
 
-    /// `alpha_R M + beta_R K` with the options' damping model; dashpots if `with_dashpots`.
+    /// (2), `alpha_R M + beta_R K`, with the options' damping model; dashpots if `with_dashpots`.
     pub(super) fn damping(
         &self,
         terms: &Terms,

@@ -125,7 +125,7 @@ impl SlidingTangent {
         let has_dashpots = dashpots.iter().any(|terms| !terms.entries.is_empty());
         let stiffness = projection.apply(&stiffness);
 
-        // One pattern for all; C = alpha_R M + beta_R K and the rest.
+        // One pattern for all; C = alpha_R M + beta_R K (2) and the rest.
         let dashpots = projection.apply(&dashpots);
         let pattern = shared_pattern(projection.unknowns.len(), [&mass, &stiffness, &dashpots]);
         let on_pattern =

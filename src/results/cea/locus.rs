@@ -62,7 +62,7 @@ pub(super) fn locus(report: &CeaReport<'_>, damping: RayleighDamping) -> Figure 
     });
     let undamped = (1..=400).map(|step| TAU * 1.05 * highest * f64::from(step) / 400.0);
     let rayleigh = undamped.filter_map(|omega| {
-        // (3) and (4), with the undamped frequency as parameter.
+        // (5): the curve through (3) and (4), with the undamped frequency as parameter.
         let factor = damping.damping_factor(omega);
         let root = (factor < 1.0).then(|| (1.0 - factor * factor).sqrt())?;
         Some((-factor * omega / TAU, omega * root / TAU))

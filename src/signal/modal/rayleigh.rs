@@ -1,4 +1,4 @@
-//! Rayleigh coefficients from modal damping factors (equation 3).
+//! Rayleigh coefficients from modal damping factors (equation (3)).
 
 use crate::signal::SignalError;
 use crate::signal::statistics::{NORMAL_95, student_95};

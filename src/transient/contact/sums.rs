@@ -6,12 +6,12 @@ use std::ops::AddAssign;
 /// Powers that cross the contact edge, W for each metre of thickness, with every velocity the mean
 /// `v_n = (v_{n+1/2} + v_{n-1/2}) / 2`.
 ///
-/// `external = stick + slide + contact_dissipated` holds term by term (equation 10 of Brunetti et al.). A
+/// `external = stick + slide + contact_dissipated` holds term by term (equation (10) of Brunetti et al.). A
 /// node that starts or ends to stick within the step still slides in its mean velocity; that part is counted as
 /// dissipated, which the paper's sum over slipping nodes leaves open.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ContactPowers {
-    /// `sum T Omega a` (equation 9).
+    /// `sum T Omega a` (equation (9)).
     pub external: f64,
     /// `sum T v_t` over sticking nodes.
     pub stick: f64,
