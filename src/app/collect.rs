@@ -6,10 +6,9 @@ use super::recorded_case::recorded_case;
 use super::session::start_threads;
 use super::sweep::{SweepPlan, core_seconds, drawing, finished_points, gather};
 use super::{Failure, terminal};
-use crate::results::DrawingOptions;
-use crate::results::sweep::{SweepFolder, SweepReport, draw, print};
+use crate::results::sweep::{SweepFolder, SweepReport, print};
 use clap::{ArgAction, Args, ValueHint};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
 /// Gather a sharded sweep's points: points.csv and summary.json
@@ -82,28 +81,4 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             report.count
         ))),
     }
-}
-
-/// Draws the figures of the points that a sweep has finished so far.
-///
-/// # Errors
-/// A folder that is no sweep's or cannot be written.
-pub fn redraw(path: &Path, options: &DrawingOptions) -> Result<(), Failure> {
-    let (folder, manifest) = SweepFolder::find(path)?;
-    let case = recorded_case(path, &manifest)?;
-    let plan = SweepPlan::new(&case)?;
-    let records = finished_points(&folder, plan.count())?;
-    let report = SweepReport {
-        title: &case.title,
-        friction_coefficient: case.contact.sliding.friction_coefficient,
-        keys: &plan.keys(),
-        analyses: &plan.analysis_names(),
-        count: plan.count(),
-        records: &records,
-        core_s: core_seconds(&folder, &records),
-        ran: None,
-        wall_s: 0.0,
-    };
-    draw(&folder, &report, &manifest, &drawing(&case, &plan, options))?;
-    Ok(())
 }

@@ -9,6 +9,7 @@ pub use progress::SweepProgress;
 pub use workers::{PointRunner, SweepRun};
 
 use super::profile::{Profile, Redraw};
+use super::recorded_case::recorded_case;
 use super::share::ShareOptions;
 use super::transient::linear_stage;
 use super::{Failure, RunOptions, Session, terminal};
@@ -18,6 +19,7 @@ use crate::results::sweep::{LONG_TABLES, SweepSummary, draw, print, write_points
 use crate::results::{DrawingOptions, Manifest};
 use clap::Args;
 use serde_json::Value;
+use std::path::Path;
 
 /// Grid of transients, eigenvalue analyses, limit cycles
 ///
@@ -52,7 +54,7 @@ pub const PROFILE: Profile = Profile {
             "go on after Ctrl-C",
         ),
     ],
-    redraw: Redraw::OfPoints(super::collect::redraw),
+    redraw: Redraw::OfPoints(redraw),
 };
 
 /// Runs the subcommand.
@@ -204,4 +206,28 @@ pub fn gather(
     let summary = summary_object(report, manifest)?;
     folder.write_summary(&summary)?;
     Ok(summary)
+}
+
+/// Draws the figures of the points that a sweep has finished so far.
+///
+/// # Errors
+/// A folder that is no sweep's or cannot be written.
+pub fn redraw(path: &Path, options: &DrawingOptions) -> Result<(), Failure> {
+    let (folder, manifest) = SweepFolder::find(path)?;
+    let case = recorded_case(path, &manifest)?;
+    let plan = SweepPlan::new(&case)?;
+    let records = finished_points(&folder, plan.count())?;
+    let report = SweepReport {
+        title: &case.title,
+        friction_coefficient: case.contact.sliding.friction_coefficient,
+        keys: &plan.keys(),
+        analyses: &plan.analysis_names(),
+        count: plan.count(),
+        records: &records,
+        core_s: core_seconds(&folder, &records),
+        ran: None,
+        wall_s: 0.0,
+    };
+    draw(&folder, &report, &manifest, &drawing(&case, &plan, options))?;
+    Ok(())
 }
