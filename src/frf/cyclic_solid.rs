@@ -1,13 +1,12 @@
 //! Harmonics of a body of revolution in three dimensions, in the state that is excited.
 
-use super::harmonic::{Damping, Harmonic, evaluate, held_harmonic};
+use super::harmonic::{Damping, Harmonic, held_harmonic};
 use crate::fem::sector::MirrorParity;
 use crate::fem::solid::{self, SolidMatrix, half_bandwidth};
 use crate::fem::{DofMap, ElasticMaterial, MassKind, RayleighDamping};
 use crate::linalg::banded::BandedMatrix;
-use crate::linalg::c64;
 use crate::mesh::{BoundaryCondition, SolidSector};
-use crate::prestress::{SolidTangent, moving_unknowns, sector_unknowns, supports};
+use crate::prestress::{SolidTangent, sector_unknowns, supports};
 
 /// What the matrices of a harmonic are made of.
 #[derive(Clone, Debug)]
@@ -106,72 +105,17 @@ impl SolidBody {
 }
 
 /// Small motions around steady sliding.
-///
-/// In rigid contact the normal equation of a pressed node is the balance of its contact force `N`, and Coulomb's law adds
-/// `s mu N` to the tangential equation of the same node: its row, times `i mu s` in the basis `(u_r, -i u_theta, u_z)`, goes
-/// there, in `M`, `C` and `K` alike, before it is dropped with the normal motion.
 fn sliding_harmonic(
     tangent: &SolidTangent,
     friction_coefficient: f64,
     (n, is_standing): (usize, bool),
 ) -> Harmonic {
-    let mu = friction_coefficient;
-    let harmonic = tangent.harmonic(n);
-    let h = harmonic.mass.half_bandwidth();
-    let mut damping = evaluate(&harmonic.damping, mu);
-    let across = harmonic.across.values().iter();
-    damping
-        .iter_mut()
-        .zip(across)
-        .for_each(|(c, a)| *c += mu * a);
-    let moving = moving_unknowns(harmonic.mass.dimension(), &harmonic.rigid);
-    let condensed = |mut band: Vec<c64>| {
-        for &(normal, tangential, factor) in &harmonic.rigid {
-            if let Some(tangential) = tangential {
-                add_row(
-                    &mut band,
-                    h,
-                    [normal, tangential],
-                    c64::new(0.0, mu * factor),
-                );
-            }
-        }
-        restricted(&band, h, &moving)
-    };
+    let matrices = tangent.harmonic(n).at(friction_coefficient);
     Harmonic {
-        half_bandwidth: h,
-        mass: condensed(evaluate(std::slice::from_ref(&harmonic.mass), mu)),
-        stiffness: condensed(evaluate(&harmonic.stiffness, mu)),
-        damping: Damping::Band(condensed(damping)),
+        half_bandwidth: matrices.half_bandwidth,
+        mass: matrices.mass,
+        stiffness: matrices.stiffness,
+        damping: Damping::Band(matrices.damping),
         is_standing,
     }
-}
-
-/// Adds `factor` times row `from` to row `to` of a band laid out like [`BandedMatrix::values`]; both belong to one node, whose
-/// neighbours lie within the band of either.
-fn add_row(band: &mut [c64], h: usize, [from, to]: [usize; 2], factor: c64) {
-    let width = 2 * h + 1;
-    for k in 0..width {
-        let value = band[from * width + k];
-        if value != c64::new(0.0, 0.0) {
-            // Column `from + k - h` in both rows.
-            band[to * width + k + from - to] += factor * value;
-        }
-    }
-}
-
-/// Rows and columns `kept` (ascending) of a band alone.
-fn restricted(band: &[c64], h: usize, kept: &[usize]) -> Vec<c64> {
-    let width = 2 * h + 1;
-    let mut result = vec![c64::new(0.0, 0.0); kept.len() * width];
-    for (row, &old_row) in kept.iter().enumerate() {
-        for column in row.saturating_sub(h)..(row + h + 1).min(kept.len()) {
-            let old_column = kept[column];
-            if old_row.abs_diff(old_column) <= h {
-                result[row * width + column + h - row] =
-                    band[old_row * width + old_column + h - old_row];
-            }
-        }
-    }
-    result
 }

@@ -5,7 +5,6 @@ use super::harmonic::{Damping, Harmonic, evaluate, held_harmonic};
 use super::{Direction, FrfError, Terminal};
 use crate::fem::sector::{self, SectorMatrix};
 use crate::fem::{ElasticMaterial, MassKind, RayleighDamping};
-use crate::linalg::banded::BandedMatrix;
 use crate::mesh::{SectorMesh, SolidSector};
 use crate::prestress::{SectorTangent, SolidTangent};
 
@@ -243,8 +242,8 @@ fn sliding_harmonic(
             Some(damping) => {
                 let mut band = evaluate(damping, mu);
                 let dashpots = harmonic.friction_dashpots.iter();
-                let values = dashpots.flat_map(BandedMatrix::values);
-                band.iter_mut().zip(values).for_each(|(c, v)| *c += mu * v);
+                let values = dashpots.flat_map(|dashpots| evaluate(dashpots, mu));
+                band.iter_mut().zip(values).for_each(|(c, v)| *c += v * mu);
                 Damping::Band(band)
             }
             None => Damping::Proportional(harmonic.rayleigh),

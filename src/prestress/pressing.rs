@@ -84,8 +84,41 @@ pub(super) struct Pressing {
     pub approaches: Vec<f64>,
 }
 
+/// Derivative of [`pressed_span`] where the values of the rings change at `rates`: the roots of the parabola move.
+pub(super) fn pressed_span_rate(
+    sector: &SolidSector,
+    (values, rates): (&[f64], &[f64]),
+    element: &FaceElement,
+) -> [f64; 2] {
+    let [from, middle, to] = of_element(sector, values, element);
+    let slope = |at: f64| 0.5 * (to - from) + (from + to - 2.0 * middle) * at;
+    let span = pressed_span(sector, values, element);
+    let is_open = span[0] == span[1];
+    span.map(|end| match end.abs() < 1.0 && !is_open {
+        true if sector.is_quadratic() && slope(end) != 0.0 => {
+            -along_element(sector, rates, element, end) / slope(end)
+        }
+        _ => 0.0,
+    })
+}
+
+/// Derivative along an element of what [`along_element`] gives.
+pub(super) fn slope_along(
+    sector: &SolidSector,
+    values: &[f64],
+    element: &FaceElement,
+    along: f64,
+) -> f64 {
+    let [from, middle, to] = of_element(sector, values, element);
+    0.5 * (to - from) + (from + to - 2.0 * middle) * along
+}
+
 /// `delta - u_n` at each ring, the mean over its nodes, m.
-fn approaches(sector: &SolidSector, contact: &SlidingContact, displacement: &[f64]) -> Vec<f64> {
+pub(super) fn approaches(
+    sector: &SolidSector,
+    interference: f64,
+    displacement: &[f64],
+) -> Vec<f64> {
     let face = sector.specification.contact.face();
     let mean = |nodes: &[usize]| {
         let normals = nodes
@@ -94,9 +127,7 @@ fn approaches(sector: &SolidSector, contact: &SlidingContact, displacement: &[f6
         face.inward_sign() * normals.sum::<f64>() / nodes.len() as f64
     };
     let rings = sector.rings.iter();
-    rings
-        .map(|ring| contact.interference - mean(&ring.nodes))
-        .collect()
+    rings.map(|ring| interference - mean(&ring.nodes)).collect()
 }
 
 /// Signorini's conditions ring by ring: the set of pressed ones.
@@ -123,7 +154,7 @@ pub(super) fn press_rigidly(
         let ring_forces = rings.iter().map(|ring| ring.nodes.iter().map(force).sum());
         let ring_forces: Vec<f64> = ring_forces.collect();
         let scale = ring_forces.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
-        let approaches = approaches(sector, contact, &displacement);
+        let approaches = approaches(sector, contact.interference, &displacement);
         let next: Vec<bool> = (0..rings.len())
             .map(|k| match is_pressed[k] {
                 true => ring_forces[k] > 1e-12 * scale,
@@ -162,41 +193,28 @@ pub(super) fn press_on_springs(
 ) -> Result<Pressing, PrestressError> {
     let face = sector.specification.contact.face();
     let (inward, component) = (face.inward_sign(), face.normal_component());
-    let faces = sector.contact_elements();
     let load = pressure_load(sector);
+    let pushed = pushed(sector, contact.interference);
     let mut values = vec![contact.interference; sector.rings.len()];
     for _ in 0..SETS {
-        let term = FaceTerm {
-            row: component,
-            column: component,
-            weight: &|_, _, _| stiffness,
-            span: &|element| pressed_span(sector, &values, element),
-        };
-        let springs = face_matrix(sector, &faces, &term);
+        let springs = springs(sector, stiffness, &values);
         let system = System::new(sector, &[terms, &[&springs]].concat());
         let spring = System::new(sector, &[&springs]);
-        let mut pushed = vec![0.0; system.dofs];
-        for node in sector.rings.iter().flat_map(|ring| &ring.nodes) {
-            pushed[3 * node + component] = inward * contact.interference;
-        }
         let push = spring.stiffness.multiply(&pushed);
         let loads: Vec<f64> = load.iter().zip(&push).map(|(a, b)| a + b).collect();
         let displacement = system.solve(&loads, &vec![None; system.dofs])?;
-        let last = std::mem::replace(&mut values, approaches(sector, contact, &displacement));
+        let last = std::mem::replace(
+            &mut values,
+            approaches(sector, contact.interference, &displacement),
+        );
         let changes = values.iter().zip(&last).map(|(a, b)| (a - b).abs());
         let scale = values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
         if changes.fold(0.0, f64::max) > SETTLED * scale {
             continue;
         }
-        let normals = displacement
-            .iter()
-            .zip(&pushed)
-            .map(|(u, pushed)| pushed - u);
-        let mut distance: Vec<f64> = normals.collect();
-        for (dof, value) in distance.iter_mut().enumerate() {
-            *value *= f64::from(u8::from(dof % 3 == component));
-        }
-        let forces = spring.stiffness.multiply(&distance);
+        let forces = spring
+            .stiffness
+            .multiply(&distance(sector, &pushed, &displacement));
         let nodes = sector.rings.iter().flat_map(|ring| &ring.nodes);
         let nodes = nodes.map(|&node| (node, inward * forces[3 * node + component]));
         return Ok(Pressing {
@@ -215,11 +233,42 @@ pub(super) fn press_on_springs(
     })
 }
 
+/// Springs on the part of the face where the rings' values are positive.
+pub(super) fn springs(sector: &SolidSector, stiffness: f64, values: &[f64]) -> SolidMatrix {
+    let component = sector.specification.contact.face().normal_component();
+    let term = FaceTerm {
+        row: component,
+        column: component,
+        weight: &|_, _, _| stiffness,
+        span: &|element| pressed_span(sector, values, element),
+    };
+    face_matrix(sector, &sector.contact_elements(), &term)
+}
+
+/// The displacement of the face that fits the rotor.
+pub(super) fn pushed(sector: &SolidSector, interference: f64) -> Vec<f64> {
+    let face = sector.specification.contact.face();
+    let mut pushed = vec![0.0; 3 * sector.node_count()];
+    for node in sector.rings.iter().flat_map(|ring| &ring.nodes) {
+        pushed[3 * node + face.normal_component()] = face.inward_sign() * interference;
+    }
+    pushed
+}
+
+/// What is left to it along the normal.
+pub(super) fn distance(sector: &SolidSector, pushed: &[f64], displacement: &[f64]) -> Vec<f64> {
+    let component = sector.specification.contact.face().normal_component();
+    let pairs = pushed.iter().zip(displacement).enumerate();
+    pairs
+        .map(|(dof, (pushed, u))| (pushed - u) * f64::from(u8::from(dof % 3 == component)))
+        .collect()
+}
+
 /// Harmonic zero of the supported body.
 pub(super) struct System {
     pub dofs: usize,
     is_held: Vec<bool>,
-    stiffness: BandedMatrix,
+    pub stiffness: BandedMatrix,
 }
 
 impl System {
@@ -239,7 +288,11 @@ impl System {
     }
 
     /// Displacement under a load with some dofs prescribed and without tangential motion.
-    fn solve(&self, load: &[f64], prescribed: &[Option<f64>]) -> Result<Vec<f64>, PrestressError> {
+    pub fn solve(
+        &self,
+        load: &[f64],
+        prescribed: &[Option<f64>],
+    ) -> Result<Vec<f64>, PrestressError> {
         self.part(load, prescribed, |component| component != 1)
     }
 

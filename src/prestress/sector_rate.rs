@@ -5,9 +5,7 @@ use super::PrestressError;
 use super::sector_tangent::{HarmonicTangent, SectorTangent};
 use super::sector_terms::{Terms, friction_dashpots, stress_stiffness, sum, turning};
 use crate::fem::sector::{self, SectorMatrix};
-use crate::fem::{
-    ElasticMaterial, MaterialField, PlaneFormulation, RayleighDamping, RegionMaterial,
-};
+use crate::fem::{ElasticMaterial, MaterialField, RayleighDamping, RegionMaterial};
 
 /// A parameter that eigenvalues respond to, besides the friction coefficient.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,7 +57,7 @@ impl SectorTangent {
             mass: self.mass(&rate.terms, n),
             stiffness: self.stiffness(&rate.terms, n),
             damping: Some(sum(sum(follows, shared), own)),
-            friction_dashpots: self.friction_dashpots(&rate.terms),
+            friction_dashpots: self.friction_dashpots(&rate.terms).map(|c| vec![c]),
             rayleigh: rate.rayleigh,
         }
     }
@@ -77,7 +75,7 @@ impl SectorTangent {
             mass: scaled(own.mass),
             stiffness: scaled(own.stiffness),
             damping: own.damping.map(scaled),
-            friction_dashpots: self.friction_dashpots(&rate.terms),
+            friction_dashpots: self.friction_dashpots(&rate.terms).map(|c| vec![c]),
             rayleigh: RayleighDamping::default(),
             ..own
         }
@@ -181,7 +179,7 @@ impl SectorTangent {
             },
             _ => ElasticMaterial {
                 density: 0.0,
-                ..poisson_rate_material(&material)
+                ..material.poisson_rate()
             },
         };
         let rate = self.of_region(region, rate);
@@ -279,24 +277,5 @@ impl SectorTangent {
             })
             .collect();
         sector::extra_damping(&self.sector, &fixed, kind, share)
-    }
-}
-
-/// A material whose Lamé constants are the derivatives of `material`'s with respect to Poisson's ratio,
-/// so that whatever is linear in the Lamé constants differentiates itself.
-fn poisson_rate_material(material: &ElasticMaterial) -> ElasticMaterial {
-    let (e, nu) = (material.young_modulus, material.poisson_ratio);
-    let shear = -e / (2.0 * (1.0 + nu).powi(2));
-    let lambda = match material.formulation {
-        PlaneFormulation::PlaneStrain | PlaneFormulation::ThreeDimensional => {
-            e * (1.0 + 2.0 * nu * nu) / ((1.0 + nu) * (1.0 - 2.0 * nu)).powi(2)
-        }
-        PlaneFormulation::PlaneStress => e * (1.0 + nu * nu) / (1.0 - nu * nu).powi(2),
-    };
-    ElasticMaterial {
-        young_modulus: shear * (3.0 * lambda + 2.0 * shear) / (lambda + shear),
-        poisson_ratio: lambda / (2.0 * (lambda + shear)),
-        density: material.density,
-        formulation: PlaneFormulation::PlaneStrain,
     }
 }

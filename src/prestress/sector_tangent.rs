@@ -28,8 +28,8 @@ pub struct HarmonicTangent {
     pub stiffness: FrictionPolynomial,
     /// `C_n(mu)`, Pa s, where damping is not proportional; otherwise `alpha_R M_n + beta_R K_n`.
     pub damping: Option<FrictionPolynomial>,
-    /// Dashpots of friction along and across the sliding: `mu` times this is a further, real part of `C_n`, Pa s.
-    pub friction_dashpots: Option<BandedMatrix>,
+    /// Dashpots of friction along and across the sliding: `mu` times this is a further part of `C_n`, Pa s.
+    pub friction_dashpots: Option<FrictionPolynomial>,
     /// Forms of the mass whose values over that of the mass itself are the shares of kinetic energy of the contact's nodes and of
     /// axial motion; where unknowns are no displacements.
     pub shares: Option<[BandedMatrix; 2]>,
@@ -168,7 +168,7 @@ impl SectorTangent {
             stiffness: self.stiffness(&self.terms, n),
             damping: (!self.is_proportional())
                 .then(|| self.damping(&self.terms, rayleigh, true, n)),
-            friction_dashpots: self.friction_dashpots(&self.terms),
+            friction_dashpots: self.friction_dashpots(&self.terms).map(|c| vec![c]),
             rayleigh,
         }
     }

@@ -1,35 +1,14 @@
 //! The matrices of small motions around steady sliding of a body of revolution, harmonic by harmonic.
 
 use super::face_conditions::supports;
-use super::{DampingModel, PrestressError, SolidSliding, TangentOptions};
+use super::solid_contact::{ContactTerms, contact_terms};
+use super::{DampingModel, PrestressError, SolidHarmonic, SolidSliding, TangentOptions};
 use crate::contact::SlidingContact;
 use crate::fem::sector::MirrorParity;
-use crate::fem::solid::{self, FaceTerm, SolidMatrix, face_matrix, half_bandwidth, nodal_matrix};
+use crate::fem::solid::{self, SolidMatrix, half_bandwidth, nodal_matrix};
 use crate::fem::{DofMap, ElasticMaterial, RayleighDamping};
 use crate::linalg::banded::BandedMatrix;
-use crate::mesh::{FaceElement, SolidSector};
-
-/// A matrix of the wave `U e^{i n theta}` by power of `i mu`, real.
-type Powers = [BandedMatrix; 2];
-
-/// Mass, damping and stiffness of one harmonic before the contact condition is put in.
-///
-/// Unknowns are `(u_r, -i u_theta, u_z)` of the nodes that nothing holds. In rigid contact the motion of pressed nodes along the
-/// normal vanishes, and the force there drives the tangential equation of the same node: [`Self::rigid`].
-#[derive(Clone, Debug)]
-pub struct SolidHarmonic {
-    /// `M`, kg.
-    pub mass: BandedMatrix,
-    /// `K`, N/m, by power of `i mu`.
-    pub stiffness: Powers,
-    /// `C` without the part across the sliding, N s/m, by power of `i mu`.
-    pub damping: Powers,
-    /// Dashpots to be multiplied by `mu`, N s/m: `p_0 / V` across the sliding, and along it where friction falls with the speed.
-    pub across: BandedMatrix,
-    /// Unknowns `(normal, tangential)` of each node in rigid contact, and the factor `s` times the sign of the inward normal
-    /// with which the normal equation, times `i mu`, is added to the tangential one.
-    pub rigid: Vec<(usize, Option<usize>, f64)>,
-}
+use crate::mesh::SolidSector;
 
 /// The tangent of a body of revolution in three dimensions.
 ///
@@ -44,20 +23,23 @@ pub struct SolidHarmonic {
 /// no force.
 #[derive(Clone, Debug)]
 pub struct SolidTangent {
-    sector: SolidSector,
-    options: TangentOptions,
-    base: SolidSliding,
-    elastic: SolidMatrix,
-    mass: SolidMatrix,
+    pub(super) sector: SolidSector,
+    pub(super) material: ElasticMaterial,
+    pub(super) options: TangentOptions,
+    pub(super) base: SolidSliding,
+    pub(super) terms: SolidTerms,
     supports: [SolidMatrix; 2],
-    /// Even and odd parts of prestress and turning forces.
-    stress: [SolidMatrix; 2],
-    /// Penalty stiffness at rest and its friction; empty for rigid contact.
-    penalty: [SolidMatrix; 2],
-    /// Contact dashpots at rest and their friction.
-    dashpots: [SolidMatrix; 2],
-    friction_dashpots: SolidMatrix,
     unknown_of: Vec<Option<usize>>,
+}
+
+/// What the matrices are made of; each term may also be a derivative.
+#[derive(Clone, Debug, Default)]
+pub(super) struct SolidTerms {
+    pub elastic: SolidMatrix,
+    pub mass: SolidMatrix,
+    /// Even and odd parts of prestress and turning forces.
+    pub stress: [SolidMatrix; 2],
+    pub contact: ContactTerms,
 }
 
 impl SolidTangent {
@@ -77,72 +59,23 @@ impl SolidTangent {
         let elastic = solid::stiffness(sector, material);
         let base =
             SolidSliding::solve_with(sector, &elastic, contact, options.contact.base_stiffness())?;
-        let faces = sector.contact_elements();
-        let face = sector.specification.contact.face();
-        let (normal, side) = (face.normal_component(), face.across_component());
-        let pressure =
-            |element: &FaceElement, along: f64| base.pressure_along(sector, element, along);
-        let term = |row, column, weight: &dyn Fn(&FaceElement, f64, f64) -> f64| {
-            face_matrix(
-                sector,
-                &faces,
-                &FaceTerm {
-                    row,
-                    column,
-                    weight,
-                    span: &|element| base.pressed_span(sector, element),
-                },
-            )
-        };
-        let pressed = |row, column, value: f64, factor: &dyn Fn(f64) -> f64| {
-            let weight =
-                |element: &FaceElement, radius: f64, along: f64| match pressure(element, along)
-                    > 0.0
-                {
-                    true => value * factor(radius),
-                    false => 0.0,
-                };
-            term(row, column, &weight)
-        };
-        let drag = |radius: f64| face.inward_sign() * base.friction(radius).1.drag;
-        let law = |value: f64| match value {
-            0.0 => [SolidMatrix::default(), SolidMatrix::default()],
-            value => [
-                pressed(normal, normal, value, &|_| 1.0),
-                pressed(1, normal, value, &drag),
-            ],
-        };
-        let mut dashpots = law(options.contact.normal_damping);
-        let tangential = options.contact.tangential_damping;
-        if tangential != 0.0 {
-            for component in [1, side] {
-                dashpots[0].extend(pressed(component, component, tangential, &|_| 1.0));
-            }
-        }
         let stress = match options.geometric_stiffness {
             true => prestress(sector, material, &base),
             false => Default::default(),
         };
-        let mut friction_dashpots = term(side, side, &|element, radius, along| {
-            let (speed, friction) = base.friction(radius);
-            pressure(element, along) * friction.drag.abs() / speed
-        });
-        if contact.decay.is_some() {
-            friction_dashpots.extend(term(1, 1, &|element, radius, along| {
-                pressure(element, along) * base.friction(radius).1.slope
-            }));
-        }
+        let terms = SolidTerms {
+            mass: solid::mass(sector, material, options.mass),
+            contact: contact_terms(&base, sector, &options.contact),
+            stress,
+            elastic,
+        };
         Ok(Self {
             unknown_of: sector_unknowns(sector),
-            mass: solid::mass(sector, material, options.mass),
             supports: supports(sector),
-            stress,
-            penalty: law(options.contact.normal_stiffness.unwrap_or(0.0)),
-            dashpots,
-            friction_dashpots,
             sector: sector.clone(),
+            material: *material,
             options: *options,
-            elastic,
+            terms,
             base,
         })
     }
@@ -174,56 +107,89 @@ impl SolidTangent {
 
     /// `M` and `K` without friction, all unknowns.
     pub fn at_rest(&self, n: usize) -> [BandedMatrix; 2] {
+        let terms = &self.terms;
         let stiffness = [
-            &self.elastic,
-            &self.stress[0],
-            &self.penalty[0],
+            &terms.elastic,
+            &terms.stress[0],
+            &terms.contact.penalty[0],
             &self.supports[0],
         ];
         [
-            self.sum(n, MirrorParity::Even, &[&self.mass]),
+            self.sum(n, MirrorParity::Even, &[&terms.mass]),
             self.sum(n, MirrorParity::Even, &stiffness),
         ]
     }
 
     /// All matrices of harmonic `n`.
     pub fn harmonic(&self, n: usize) -> SolidHarmonic {
-        let mass = self.sum(n, MirrorParity::Even, &[&self.mass]);
-        let body = [&self.elastic, &self.stress[0], &self.penalty[0]];
-        let body = self.sum(n, MirrorParity::Even, &body);
-        let mut rest = body.clone();
-        self.add(&mut rest, n, MirrorParity::Even, &[&self.supports[0]]);
-        let friction = self.sum(n, MirrorParity::Odd, &[&self.stress[1], &self.penalty[1]]);
-        let damped = match self.options.damping_model {
-            DampingModel::WholeTangent => [body, friction.clone()],
-            DampingModel::BodyOnly => [
-                self.sum(n, MirrorParity::Even, &[&self.elastic]),
-                self.sum(n, MirrorParity::Odd, &[]),
-            ],
-        };
-        let rayleigh = self.options.damping;
-        let mut damping = damped.map(|mut matrix| {
-            matrix.scale(rayleigh.stiffness_coefficient);
-            matrix
-        });
-        damping[0].add_scaled(rayleigh.mass_coefficient, &mass);
-        let even = self.sum(
+        let mut harmonic = self.assembled(&self.terms, n);
+        let [springs, dashpots] = &self.supports;
+        self.add(
+            &mut harmonic.stiffness[0],
             n,
             MirrorParity::Even,
-            &[&self.supports[1], &self.dashpots[0]],
+            &[springs],
         );
-        damping[0].add_scaled(1.0, &even);
-        damping[1].add_scaled(1.0, &self.sum(n, MirrorParity::Odd, &[&self.dashpots[1]]));
+        self.add(&mut harmonic.damping[0], n, MirrorParity::Even, &[dashpots]);
+        harmonic.rigid = self.rigid();
+        harmonic
+    }
+
+    /// The matrices of harmonic `n` that some terms make, without the supports and rigid contact.
+    pub(super) fn assembled(&self, terms: &SolidTerms, n: usize) -> SolidHarmonic {
+        let mass = self.sum(n, MirrorParity::Even, &[&terms.mass]);
+        let stiffness = self.stiffness(terms, n);
+        let rayleigh = self.options.damping;
+        let mut damping = self.damped(terms, &stiffness, n);
+        for matrix in &mut damping {
+            matrix.scale(rayleigh.stiffness_coefficient);
+        }
+        damping[0].add_scaled(rayleigh.mass_coefficient, &mass);
+        let [even, odd] = &terms.contact.dashpots;
+        damping[0].add_scaled(1.0, &self.sum(n, MirrorParity::Even, &[even]));
+        damping[1].add_scaled(1.0, &self.sum(n, MirrorParity::Odd, &[odd]));
+        let across = &terms.contact.friction_dashpots;
         SolidHarmonic {
             mass,
-            stiffness: [rest, friction],
+            stiffness,
             damping,
-            across: self.sum(n, MirrorParity::Even, &[&self.friction_dashpots]),
-            rigid: self.rigid(),
+            across: self.sum(n, MirrorParity::Even, &[across]),
+            rigid: Vec::new(),
         }
     }
 
-    fn sum(&self, n: usize, parity: MirrorParity, terms: &[&SolidMatrix]) -> BandedMatrix {
+    /// Body, prestress and contact, by power of `i mu`.
+    pub(super) fn stiffness(&self, terms: &SolidTerms, n: usize) -> [BandedMatrix; 2] {
+        let [pressed, sheared] = &terms.stress;
+        let [normal, friction] = &terms.contact.penalty;
+        [
+            self.sum(n, MirrorParity::Even, &[&terms.elastic, pressed, normal]),
+            self.sum(n, MirrorParity::Odd, &[sheared, friction]),
+        ]
+    }
+
+    /// The part of the stiffness that `beta_R` multiplies.
+    pub(super) fn damped(
+        &self,
+        terms: &SolidTerms,
+        stiffness: &[BandedMatrix; 2],
+        n: usize,
+    ) -> [BandedMatrix; 2] {
+        match self.options.damping_model {
+            DampingModel::WholeTangent => stiffness.clone(),
+            DampingModel::BodyOnly => [
+                self.sum(n, MirrorParity::Even, &[&terms.elastic]),
+                self.sum(n, MirrorParity::Odd, &[]),
+            ],
+        }
+    }
+
+    pub(super) fn sum(
+        &self,
+        n: usize,
+        parity: MirrorParity,
+        terms: &[&SolidMatrix],
+    ) -> BandedMatrix {
         let count = self.unknown_of.iter().flatten().count();
         let mut sum = BandedMatrix::zeros(count, half_bandwidth(&self.sector));
         self.add(&mut sum, n, parity, terms);
@@ -239,22 +205,24 @@ impl SolidTangent {
 
     /// See [`SolidHarmonic::rigid`].
     pub fn rigid(&self) -> Vec<(usize, Option<usize>, f64)> {
-        if self.options.contact.normal_stiffness.is_some() {
-            return Vec::new();
-        }
         let face = self.sector.specification.contact.face();
-        let nodes = self.base.normal_forces.iter();
-        nodes
-            .filter_map(|(node, _)| {
-                let normal = self.unknown_of[3 * node + face.normal_component()]?;
-                let drag = self.base.friction(self.sector.nodes[*node].radius).1.drag;
-                Some((
-                    normal,
-                    self.unknown_of[3 * node + 1],
-                    face.inward_sign() * drag,
-                ))
-            })
-            .collect()
+        let nodes = self.rigid_nodes().filter_map(|node| {
+            let normal = self.unknown_of[3 * node + face.normal_component()]?;
+            let drag = self.base.friction(self.sector.nodes[node].radius).1.drag;
+            Some((
+                normal,
+                self.unknown_of[3 * node + 1],
+                face.inward_sign() * drag,
+            ))
+        });
+        nodes.collect()
+    }
+
+    /// Nodes in rigid contact; none on springs. Those of a ring are free to move along the normal, else they would not belong to it.
+    pub(super) fn rigid_nodes(&self) -> impl Iterator<Item = usize> {
+        let is_rigid = self.options.contact.normal_stiffness.is_none();
+        let nodes = self.base.normal_forces.iter().map(|(node, _)| *node);
+        nodes.filter(move |_| is_rigid)
     }
 }
 
@@ -262,12 +230,6 @@ impl SolidTangent {
 pub fn sector_unknowns(sector: &SolidSector) -> Vec<Option<usize>> {
     let dofs = 3 * sector.node_count();
     DofMap::excluding(dofs, (0..dofs).filter(|&dof| sector.is_held(dof))).unknown_of
-}
-
-/// Unknowns of a harmonic that may move, ascending: all of `count` but the normals of [`SolidHarmonic::rigid`].
-pub fn moving_unknowns(count: usize, rigid: &[(usize, Option<usize>, f64)]) -> Vec<usize> {
-    let normals = rigid.iter().map(|(normal, ..)| *normal);
-    DofMap::excluding(count, normals).dofs
 }
 
 /// Geometric stiffness of the pressed and of the sheared state with the contact forces that turn with their nodes.
@@ -278,17 +240,29 @@ fn prestress(
 ) -> [SolidMatrix; 2] {
     let mut pressed = solid::geometric_stiffness(sector, material, &base.pressed_displacement);
     let mut sheared = solid::geometric_stiffness(sector, material, &base.sheared_displacement);
+    let forces = base.normal_forces.iter().map(|&(node, force)| {
+        let radius = sector.nodes[node].radius;
+        let turning = force / radius;
+        (node, [turning, base.friction(radius).1.drag * turning])
+    });
+    let [turning, dragging] = turning_forces(sector, forces);
+    pressed.extend(turning);
+    sheared.extend(dragging);
+    [pressed, sheared]
+}
+
+/// What forces of the contact do that turn with their nodes, from `(node, [N / r, s N mu(V) / (mu r)])`.
+pub(super) fn turning_forces(
+    sector: &SolidSector,
+    forces: impl Iterator<Item = (usize, [f64; 2])>,
+) -> [SolidMatrix; 2] {
     let is_cylinder = sector.specification.contact.face().normal_component() == 0;
     let (mut turning, mut dragging) = (Vec::new(), Vec::new());
-    for (node, force) in &base.normal_forces {
-        let force = force / sector.nodes[*node].radius;
+    for (node, [force, drag]) in forces {
         if is_cylinder {
-            turning.push((*node, 1, 1, -force));
+            turning.push((node, 1, 1, -force));
         }
-        let drag = base.friction(sector.nodes[*node].radius).1.drag;
-        dragging.push((*node, 0, 1, drag * force));
+        dragging.push((node, 0, 1, drag));
     }
-    pressed.extend(nodal_matrix(&turning));
-    sheared.extend(nodal_matrix(&dragging));
-    [pressed, sheared]
+    [nodal_matrix(&turning), nodal_matrix(&dragging)]
 }

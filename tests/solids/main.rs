@@ -6,6 +6,7 @@ mod frf_command;
 mod limits;
 mod model;
 mod plane_transient;
+mod poles;
 mod response;
 mod response_limits;
 mod ring;

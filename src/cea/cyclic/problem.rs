@@ -17,6 +17,7 @@ const STANDSTILL: f64 = 0.1;
 /// With proportional damping the unknown is `theta = kappa` of `T = K - kappa M`, and
 /// `lambda^2 + alpha lambda + (1 + beta lambda) kappa = 0`; otherwise it is `theta = lambda` of
 /// `T = lambda^2 M + lambda C + K`. Either way `T = a(theta) M + b(theta) C + K`.
+#[derive(Clone, Debug)]
 pub(super) struct HarmonicProblem {
     pub harmonic: usize,
     /// `+n` and `-n` are the same wave.
@@ -27,7 +28,7 @@ pub(super) struct HarmonicProblem {
     stiffness: FrictionPolynomial,
     damping: Option<FrictionPolynomial>,
     /// `mu` times this is a further part of `C`.
-    friction_dashpots: Option<BandedMatrix>,
+    friction_dashpots: Option<FrictionPolynomial>,
     shares: Option<[BandedMatrix; 2]>,
     pub rayleigh: RayleighDamping,
     /// Unknowns that belong to the contact edge.
@@ -81,9 +82,16 @@ impl HarmonicProblem {
         let mut damping_rate = self.damping.as_ref().and_then(|c| rate(c, z));
         if let (Some(dashpots), Some(damping)) = (&self.friction_dashpots, &mut damping) {
             let rate = damping_rate.get_or_insert_with(|| vec![ZERO; damping.len()]);
-            for ((c, rate), value) in damping.iter_mut().zip(rate).zip(dashpots.values()) {
-                *c += mu * value;
-                *rate += *value;
+            // `mu P(i mu)`: a term of power p is one of degree p + 1 in mu.
+            let mut power = c64::new(1.0, 0.0);
+            for (p, dashpots) in dashpots.iter().enumerate() {
+                let (share, slope) = (power * mu, power * (p + 1) as f64);
+                let values = dashpots.values();
+                for ((c, rate), value) in damping.iter_mut().zip(rate.iter_mut()).zip(values) {
+                    *c += share * *value;
+                    *rate += slope * *value;
+                }
+                power *= z;
             }
         }
         let norms = self.norms(&mass, damping.as_deref(), &stiffness);

@@ -3,6 +3,7 @@
 use super::CyclicSweep;
 use super::branch::path_theta;
 use super::follow::Follower;
+use super::path::Eigenpair;
 use super::problem::HarmonicProblem;
 use super::vectors::ZERO;
 use crate::cea::{CeaError, ModeBranch};
@@ -75,7 +76,7 @@ pub fn sensitivities(
         .collect()
 }
 
-const PARAMETERS: [Parameter; 13] = [
+pub(super) const PARAMETERS: [Parameter; 13] = [
     Parameter::NormalStiffness,
     Parameter::MassCoefficient,
     Parameter::StiffnessCoefficient,
@@ -91,6 +92,89 @@ const PARAMETERS: [Parameter; 13] = [
     Parameter::OwnStiffnessCoefficient,
 ];
 
+impl Sensitivity {
+    /// Of a branch, from its derivatives with respect to the friction coefficient and to [`PARAMETERS`].
+    pub(super) fn new(
+        branch: &ModeBranch,
+        friction_coefficient: f64,
+        eigenvalue: c64,
+        friction: c64,
+        responses: &[Option<c64>],
+    ) -> Self {
+        let given = |index: usize| responses[index].unwrap_or(ZERO);
+        Self {
+            harmonic: branch.harmonic,
+            branch: branch.branch,
+            direction: branch.direction,
+            friction_coefficient,
+            eigenvalue,
+            friction,
+            normal_stiffness: responses[0],
+            mass_coefficient: given(1),
+            stiffness_coefficient: given(2),
+            young_modulus: given(3),
+            poisson_ratio: given(4),
+            density: given(5),
+            static_friction_ratio: responses[6],
+            decay_speed: responses[7],
+            shaft: std::array::from_fn(|i| responses[8 + i]),
+        }
+    }
+}
+
+/// An eigenpair of a branch in its harmonic's problem.
+pub(super) struct BranchPair {
+    /// Of the wave `+n`, which carries the wave `-n` too.
+    pub found: Eigenpair,
+    is_backward: bool,
+    /// Of the branch's own wave.
+    own: c64,
+    /// `lambda` of the branch.
+    pub eigenvalue: c64,
+    /// `lambda` of the wave `+n`: the wave `-n` is the complex conjugate of a root of its problem with `Im < 0`.
+    pub root: c64,
+}
+
+impl BranchPair {
+    /// Solves for a branch at a friction coefficient within its range.
+    pub fn find(
+        problem: &HarmonicProblem,
+        branch: &ModeBranch,
+        friction: f64,
+        sliding_direction: f64,
+    ) -> Result<Self, CeaError> {
+        let guess = branch.interpolate(friction);
+        let guess = guess.ok_or(CeaError::Friction { value: friction })?;
+        let is_backward = f64::from(branch.direction) * sliding_direction > 0.0;
+        let theta = path_theta(problem, is_backward, guess);
+        let found = Follower::new(problem).find(&problem.at(friction), friction, theta);
+        let found = found.ok_or(CeaError::LostHarmonic {
+            harmonic: branch.harmonic,
+            friction,
+        })?;
+        let mut pair = Self {
+            own: found.theta,
+            is_backward,
+            eigenvalue: ZERO,
+            root: ZERO,
+            found,
+        };
+        pair.own = pair.of_wave(pair.own);
+        pair.eigenvalue = problem.eigenvalue(pair.own);
+        pair.root = pair.of_wave(pair.eigenvalue);
+        Ok(pair)
+    }
+
+    /// What belongs to the branch of what belongs to the wave `+n`, and the other way round.
+    pub fn of_wave(&self, value: c64) -> c64 {
+        if self.is_backward {
+            value.conj()
+        } else {
+            value
+        }
+    }
+}
+
 fn of_branch(
     tangent: &SectorTangent,
     rates: &[Option<TangentRate>],
@@ -98,35 +182,16 @@ fn of_branch(
     friction: f64,
 ) -> Result<Sensitivity, CeaError> {
     let n = branch.harmonic;
-    let guess = branch.interpolate(friction);
-    let guess = guess.ok_or(CeaError::Friction { value: friction })?;
-    let sliding_direction = tangent.base().sliding_direction;
     let matrices = tangent.harmonic(n);
     let problem = HarmonicProblem::new(matrices.clone(), tangent.is_standing(n));
-    let is_backward = f64::from(branch.direction) * sliding_direction > 0.0;
-    let theta = path_theta(&problem, is_backward, guess);
-    let found = Follower::new(&problem).find(&problem.at(friction), friction, theta);
-    let found = found.ok_or(CeaError::LostHarmonic {
-        harmonic: n,
-        friction,
-    })?;
-    // The wave -n is the complex conjugate of a root of the wave +n's problem with Im < 0.
-    let own = if is_backward {
-        found.theta.conj()
-    } else {
-        found.theta
-    };
-    let eigenvalue = problem.eigenvalue(own);
-    let root = if is_backward {
-        eigenvalue.conj()
-    } else {
-        eigenvalue
-    };
+    let direction = tangent.base().sliding_direction;
+    let pair = BranchPair::find(&problem, branch, friction, direction)?;
+    let (found, root) = (&pair.found, pair.root);
     let z = c64::new(0.0, friction);
     let forms = |set: &HarmonicTangent| {
         let of = |matrix: &[BandedMatrix]| form(matrix, z, &found.y, &found.x);
         let dashpots = set.friction_dashpots.as_ref();
-        let dashpots = dashpots.map_or(ZERO, |c| of(std::slice::from_ref(c)));
+        let dashpots = dashpots.map_or(ZERO, |c| of(c));
         let damping = set.damping.as_ref().map_or(ZERO, |c| of(c));
         [
             of(&set.mass),
@@ -144,36 +209,17 @@ fn of_branch(
         let rate = tangent.harmonic_rate(rate.as_ref()?, n);
         let [m, c, k] = forms(&rate);
         let response = -(root * root * m + root * c + k) / slope;
-        Some(if is_backward {
-            response.conj()
-        } else {
-            response
-        })
+        Some(pair.of_wave(response))
     };
     let responses: Vec<Option<c64>> = rates.iter().map(respond).collect();
-    let given = |index: usize| responses[index].unwrap_or(ZERO);
-    let theta_rate = if is_backward {
-        found.rate.conj()
-    } else {
-        found.rate
-    };
-    Ok(Sensitivity {
-        harmonic: n,
-        branch: branch.branch,
-        direction: branch.direction,
-        friction_coefficient: friction,
-        eigenvalue,
-        friction: problem.eigenvalue_slope(own) * theta_rate,
-        normal_stiffness: responses[0],
-        mass_coefficient: given(1),
-        stiffness_coefficient: given(2),
-        young_modulus: given(3),
-        poisson_ratio: given(4),
-        density: given(5),
-        static_friction_ratio: responses[6],
-        decay_speed: responses[7],
-        shaft: std::array::from_fn(|i| responses[8 + i]),
-    })
+    let by_friction = problem.eigenvalue_slope(pair.own) * pair.of_wave(found.rate);
+    Ok(Sensitivity::new(
+        branch,
+        friction,
+        pair.eigenvalue,
+        by_friction,
+        &responses,
+    ))
 }
 
 /// `y^H P(z) x`.

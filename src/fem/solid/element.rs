@@ -6,23 +6,23 @@ use crate::mesh::{SolidSector, brick_quadrature, brick_shapes};
 use nalgebra::{DMatrix, Matrix3, SMatrix, Vector3, Vector6};
 
 /// Geometry of one element of sector 0.
-struct Geometry {
+pub(super) struct Geometry {
     is_quadratic: bool,
-    nodes: Vec<Vector3<f64>>,
+    pub nodes: Vec<Vector3<f64>>,
     /// `e_r`, `e_theta`, `e_z` at each node, as columns.
-    frames: Vec<Matrix3<f64>>,
+    pub frames: Vec<Matrix3<f64>>,
 }
 
 /// Shape functions, their gradients and the volume that belongs to a Gauss point.
-struct Point {
+pub(super) struct Point {
     at: [f64; 3],
     values: Vec<f64>,
-    gradients: Vec<Vector3<f64>>,
-    measure: f64,
+    pub gradients: Vec<Vector3<f64>>,
+    pub measure: f64,
 }
 
 impl Geometry {
-    fn new(sector: &SolidSector, element: usize) -> Self {
+    pub fn new(sector: &SolidSector, element: usize) -> Self {
         let (mut nodes, mut frames) = (Vec::new(), Vec::new());
         for &(node, half) in &sector.elements[element] {
             let place = &sector.nodes[node];
@@ -54,7 +54,7 @@ impl Geometry {
         jacobian
     }
 
-    fn points(&self) -> Vec<Point> {
+    pub fn points(&self) -> Vec<Point> {
         let points = brick_quadrature(self.is_quadratic).into_iter();
         points
             .map(|(at, weight)| {
@@ -77,7 +77,7 @@ impl Geometry {
 
     /// Gradients of the three incompatible modes `1 - xi_k^2` at a point, scaled so that a constant stress does no work on
     /// them (Taylor, Beresford and Wilson 1976).
-    fn incompatible(
+    pub fn incompatible(
         &self,
         point: &Point,
         center: &(Matrix3<f64>, f64),
@@ -88,7 +88,7 @@ impl Geometry {
     }
 
     /// Inverse transpose of the Jacobian at the centre, and its determinant.
-    fn center(&self) -> (Matrix3<f64>, f64) {
+    pub fn center(&self) -> (Matrix3<f64>, f64) {
         let jacobian = self.jacobian([0.0; 3]);
         let inverse = jacobian.try_inverse().unwrap_or_else(Matrix3::zeros);
         (inverse.transpose(), jacobian.determinant().abs())
@@ -96,7 +96,7 @@ impl Geometry {
 }
 
 /// Strain `(xx, yy, zz, 2 xy, 2 yz, 2 zx)` of a displacement along `e` with the gradient `g` of its size.
-fn strain(g: &Vector3<f64>, e: &Vector3<f64>) -> Vector6<f64> {
+pub(super) fn strain(g: &Vector3<f64>, e: &Vector3<f64>) -> Vector6<f64> {
     Vector6::new(
         g.x * e.x,
         g.y * e.y,
@@ -107,7 +107,7 @@ fn strain(g: &Vector3<f64>, e: &Vector3<f64>) -> Vector6<f64> {
     )
 }
 
-fn elasticity(material: &ElasticMaterial) -> SMatrix<f64, 6, 6> {
+pub(super) fn elasticity(material: &ElasticMaterial) -> SMatrix<f64, 6, 6> {
     let [lambda, shear] = material.solid_lame_constants();
     let mut matrix = SMatrix::<f64, 6, 6>::zeros();
     for i in 0..3 {
@@ -120,12 +120,8 @@ fn elasticity(material: &ElasticMaterial) -> SMatrix<f64, 6, 6> {
     matrix
 }
 
-/// Stiffness of an element over its nodes, and for 8 nodes what the amplitudes of the incompatible modes are for each
-/// nodal displacement, `alpha = -K_ii^-1 K_iu u`.
-fn element_stiffness(
-    geometry: &Geometry,
-    material: &ElasticMaterial,
-) -> (DMatrix<f64>, Option<DMatrix<f64>>) {
+/// Stiffness of an element over its nodes and, for 8 nodes, the amplitudes of the incompatible modes; linear in Lamé's constants.
+fn full_stiffness(geometry: &Geometry, material: &ElasticMaterial) -> DMatrix<f64> {
     let count = geometry.nodes.len();
     let internal = if geometry.is_quadratic { 0 } else { 9 };
     let size = 3 * count + internal;
@@ -151,10 +147,26 @@ fn element_stiffness(
         }
     }
     full.fill_lower_triangle_with_upper_triangle();
+    full
+}
+
+/// An element's stiffness over its nodes, or its derivative.
+pub(super) struct Condensed {
+    stiffness: DMatrix<f64>,
+    /// What the amplitudes of the incompatible modes are for each nodal displacement, `alpha = R u`, `R = -K_ii^-1 K_iu`.
+    pub recovered: Option<DMatrix<f64>>,
+}
+
+pub(super) fn element_stiffness(geometry: &Geometry, material: &ElasticMaterial) -> Condensed {
+    let full = full_stiffness(geometry, material);
+    let nodal = 3 * geometry.nodes.len();
+    let internal = full.nrows() - nodal;
     if internal == 0 {
-        return (full, None);
+        return Condensed {
+            stiffness: full,
+            recovered: None,
+        };
     }
-    let nodal = 3 * count;
     let coupling = full.view((nodal, 0), (internal, nodal)).into_owned();
     let inner = full.view((nodal, nodal), (internal, internal)).into_owned();
     let recovered = inner.cholesky().map(|factor| -factor.solve(&coupling));
@@ -162,7 +174,45 @@ fn element_stiffness(
     let mut condensed = full.view((0, 0), (nodal, nodal)) + coupling.transpose() * &recovered;
     // Exactly symmetric.
     condensed.fill_lower_triangle_with_upper_triangle();
-    (condensed, Some(recovered))
+    Condensed {
+        stiffness: condensed,
+        recovered: Some(recovered),
+    }
+}
+
+/// Derivative of [`element_stiffness`] where Lamé's constants change at the `rate` of another material's:
+///
+/// ```text
+/// dK = [1; R]^T dK_full [1; R],   dR = -K_ii^-1 (dK_iu + dK_ii R)
+/// ```
+pub(super) fn element_stiffness_rate(
+    geometry: &Geometry,
+    material: &ElasticMaterial,
+    rate: &ElasticMaterial,
+) -> Condensed {
+    let change = full_stiffness(geometry, rate);
+    let nodal = 3 * geometry.nodes.len();
+    let internal = change.nrows() - nodal;
+    let Some(recovered) = element_stiffness(geometry, material).recovered else {
+        return Condensed {
+            stiffness: change,
+            recovered: None,
+        };
+    };
+    let mut follows = DMatrix::<f64>::identity(nodal + internal, nodal);
+    follows
+        .view_mut((nodal, 0), (internal, nodal))
+        .copy_from(&recovered);
+    let image = &change * &follows;
+    let mut stiffness = follows.transpose() * &image;
+    stiffness.fill_lower_triangle_with_upper_triangle();
+    let full = full_stiffness(geometry, material);
+    let inner = full.view((nodal, nodal), (internal, internal)).into_owned();
+    let load = image.view((nodal, 0), (internal, nodal)).into_owned();
+    Condensed {
+        stiffness,
+        recovered: inner.cholesky().map(|factor| -factor.solve(&load)),
+    }
 }
 
 /// A matrix that is the same in every layer, from the elements of the first.
@@ -180,7 +230,18 @@ fn layered(sector: &SolidSector, compute: impl FnMut(usize) -> DMatrix<f64>) -> 
 /// Elastic stiffness `∫ B^T D B dV`, N/m: full integration for 20 nodes, incompatible modes for 8, which do not lock in bending.
 pub fn stiffness(sector: &SolidSector, material: &ElasticMaterial) -> SolidMatrix {
     layered(sector, |e| {
-        element_stiffness(&Geometry::new(sector, e), material).0
+        element_stiffness(&Geometry::new(sector, e), material).stiffness
+    })
+}
+
+/// Derivative of [`stiffness`] where Lamé's constants change at the `rate` of another material's, N/m for each unit.
+pub fn stiffness_rate(
+    sector: &SolidSector,
+    material: &ElasticMaterial,
+    rate: &ElasticMaterial,
+) -> SolidMatrix {
+    layered(sector, |e| {
+        element_stiffness_rate(&Geometry::new(sector, e), material, rate).stiffness
     })
 }
 
@@ -206,68 +267,8 @@ pub fn mass(sector: &SolidSector, material: &ElasticMaterial, kind: MassKind) ->
     })
 }
 
-/// Geometric stiffness `∫ (grad N_I . sigma . grad N_J) I dV` of the stress that `displacement`, the same in every sector,
-/// causes, N/m.
-pub fn geometric_stiffness(
-    sector: &SolidSector,
-    material: &ElasticMaterial,
-    displacement: &[f64],
-) -> SolidMatrix {
-    let law = elasticity(material);
-    let [radial, _] = sector.divisions();
-    let mut matrix = SolidMatrix::default();
-    // Layers are alike.
-    let recovered: Vec<_> = (0..radial)
-        .map(|e| match sector.is_quadratic() {
-            true => None,
-            false => element_stiffness(&Geometry::new(sector, e), material).1,
-        })
-        .collect();
-    for (e, nodes) in sector.elements.iter().enumerate() {
-        let geometry = Geometry::new(sector, e);
-        let recovered = &recovered[e % radial];
-        let local: Vec<f64> = nodes
-            .iter()
-            .flat_map(|(node, _)| [0, 1, 2].map(|c| displacement[3 * node + c]))
-            .collect();
-        let local = nalgebra::DVector::from_vec(local);
-        let internal = recovered.as_ref().map(|recovered| recovered * &local);
-        let center = geometry.center();
-        let count = geometry.nodes.len();
-        let mut scalar = DMatrix::<f64>::zeros(count, count);
-        for point in geometry.points() {
-            let mut total = Vector6::zeros();
-            for (a, (gradient, frame)) in point.gradients.iter().zip(&geometry.frames).enumerate() {
-                let u = frame * Vector3::new(local[3 * a], local[3 * a + 1], local[3 * a + 2]);
-                total += strain(gradient, &u);
-            }
-            if let Some(internal) = &internal {
-                for (k, gradient) in geometry
-                    .incompatible(&point, &center, 1.0)
-                    .iter()
-                    .enumerate()
-                {
-                    let u = Vector3::new(internal[3 * k], internal[3 * k + 1], internal[3 * k + 2]);
-                    total += strain(gradient, &u);
-                }
-            }
-            let s = law * total * point.measure;
-            let stress = Matrix3::new(s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2]);
-            for column in 0..count {
-                let flux = stress * point.gradients[column];
-                for row in 0..count {
-                    scalar[(row, column)] += point.gradients[row].dot(&flux);
-                }
-            }
-        }
-        matrix.matrices.push(rotated(&geometry, &scalar));
-        matrix.places.push((e, nodes.clone()));
-    }
-    matrix
-}
-
 /// `s_IJ F_I^T F_J`, `F_I` node I's frame.
-fn rotated(geometry: &Geometry, scalar: &DMatrix<f64>) -> DMatrix<f64> {
+pub(super) fn rotated(geometry: &Geometry, scalar: &DMatrix<f64>) -> DMatrix<f64> {
     let count = scalar.nrows();
     let mut matrix = DMatrix::zeros(3 * count, 3 * count);
     for column in 0..count {

@@ -2,7 +2,7 @@
 
 use super::BandedMatrix;
 use crate::linalg::dense::{column, column_mut};
-use faer::Mat;
+use faer::{Mat, c64};
 
 /// A banded matrix by its nonzero entries, for products where most of the band is empty.
 #[derive(Clone, Debug)]
@@ -45,6 +45,21 @@ impl CompactRows {
             entries.map(|(&column, value)| value * x[column]).sum()
         })
         .collect()
+    }
+
+    /// `y^H A x`.
+    ///
+    /// # Panics
+    /// If a vector is shorter than the matrix.
+    pub fn form(&self, y: &[c64], x: &[c64]) -> c64 {
+        let rows = self.starts.windows(2).map(|ends| ends[0]..ends[1]);
+        rows.zip(y)
+            .map(|(row, y)| {
+                let entries = self.columns[row.clone()].iter().zip(&self.values[row]);
+                let image: c64 = entries.map(|(&column, value)| x[column] * *value).sum();
+                y.conj() * image
+            })
+            .sum()
     }
 
     /// `A X`.

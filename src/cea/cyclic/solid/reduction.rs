@@ -16,6 +16,7 @@ const LEAST_ENERGY: f64 = 1e-11;
 const LEAST_PART: f64 = 1e-7;
 
 /// The reduced space of one harmonic.
+#[derive(Clone, Debug)]
 pub(super) struct Reduction {
     /// Columns over all unknowns, orthonormal in the mass product; the modes at rest come first.
     pub basis: Mat<f64>,
@@ -135,7 +136,7 @@ impl Reduction {
             mass: self.project(std::slice::from_ref(&momenta), &harmonic.rigid),
             stiffness: polynomial(&[k0, k1]),
             damping: Some(polynomial(&[c0, c1])),
-            friction_dashpots: polynomial(&[&harmonic.across]).into_iter().next(),
+            friction_dashpots: Some(polynomial(&[&harmonic.across])),
             rayleigh,
             contact: 0..0,
         }
