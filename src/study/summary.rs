@@ -38,7 +38,7 @@ fn cea(case: &Case, manifest: &Manifest) -> Result<Value, StudyError> {
         ..case.require_cea()?.clone()
     };
     let model = SlidingModel::new(case, &cea)?;
-    let solution = eigenvalues::solve(case, &cea, &model, &|_| {})?;
+    let solution = eigenvalues::solve_modes(case, &cea, &model)?;
     eigenvalues::refuse_no_modes(case, &cea, &solution.sweep)?;
     let field = model.base_field(case);
     let wall_s = start.elapsed().as_secs_f64();

@@ -10,6 +10,7 @@ mod poles;
 mod response;
 mod response_limits;
 mod ring;
+mod sensitivity;
 mod studies;
 mod transient;
 mod whole_ring;

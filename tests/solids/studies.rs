@@ -46,6 +46,14 @@ fn modes_for_a_fit_and_onsets_of_a_sample_are_those_of_the_body_with_its_thickne
         assert!(nearest < 1e-5, "{mode:?}: {nearest:e}");
         assert!(mode.axial_share.is_some());
     }
+    // Every mode of a fit has its derivatives.
+    let (modes, rates) = modes_below(&case, 6e3, true).unwrap();
+    for mode in modes {
+        let name = (mode.harmonic, mode.branch, mode.direction);
+        let mut own = rates.iter();
+        let own = own.find(|s| (s.harmonic, s.branch, s.direction) == name);
+        assert!((own.unwrap().eigenvalue - mode.eigenvalue).norm() < 1e-6 * mode.eigenvalue.norm());
+    }
 }
 
 /// Falling friction is a negative dashpot: squeal from a lower friction on, and the law is said.
@@ -62,6 +70,7 @@ fn friction_that_falls_with_the_speed_is_said_and_destabilizes_a_body_with_thick
         let output = run.assert().success().get_output().stdout.clone();
         let summary = std::fs::read(folder.path().join("run/summary.json")).unwrap();
         let summary: serde_json::Value = serde_json::from_slice(&summary).unwrap();
+        assert!(folder.path().join("run/sensitivities.csv").exists());
         let onset = &summary["critical_frictions"][0]["critical_friction"];
         (String::from_utf8(output).unwrap(), onset.as_f64().unwrap())
     };
@@ -70,6 +79,10 @@ fn friction_that_falls_with_the_speed_is_said_and_destabilizes_a_body_with_thick
         "contact.decay_speed=2.0",
     ]);
     assert!(said.contains("friction falls with speed"), "{said}");
+    assert!(
+        said.contains("one per cent more of") && said.contains("decay_speed"),
+        "{said}"
+    );
     let (said, constant) = lowest(&[]);
     assert!(!said.contains("friction falls with speed"), "{said}");
     assert!(falling < constant, "{falling} {constant}");

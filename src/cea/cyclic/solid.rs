@@ -7,6 +7,9 @@
 mod error;
 mod reduction;
 mod rest;
+mod sensitivity;
+mod shape;
 mod sweep;
 
+pub use sensitivity::solid_sensitivities;
 pub use sweep::{SolidModel, SolidSweep, solid_sweep};

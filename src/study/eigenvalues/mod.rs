@@ -20,7 +20,7 @@ mod states;
 
 pub use model::{SlidingModel, asked_modes, mode_limit};
 pub use solid::SolidBody;
-pub use solve::{map, solve};
+pub use solve::{map, solve, solve_modes};
 pub use spectrum::{modes_below, unstable_intervals};
 
 use super::{StudyError, tangent_options};
@@ -67,7 +67,7 @@ pub fn modes_and_onsets(case: &Case) -> Result<FrictionSweep, StudyError> {
         cyclic::sweep(&case.annulus, case.materials(), &options, sliding, &request)?.sweep
     } else {
         let model = SlidingModel::new(case, &cea)?;
-        solve(case, &cea, &model, &|_| {})?.sweep
+        solve_modes(case, &cea, &model)?.sweep
     };
     refuse_no_modes(case, &cea, &sweep)?;
     Ok(sweep)
@@ -85,7 +85,7 @@ pub fn preflight(case: &Case, cea: &Cea) -> Result<(), StudyError> {
         ..cea.clone()
     };
     let model = SlidingModel::new(case, &one)?;
-    let solution = solve(case, &one, &model, &|_| {})?;
+    let solution = solve_modes(case, &one, &model)?;
     refuse_no_modes(case, &one, &solution.sweep)
 }
 

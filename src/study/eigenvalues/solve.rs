@@ -5,7 +5,7 @@ use super::solid::{SolidBody, solid_model};
 use super::states::solve_sparse;
 use super::{Progress, SlidingModel, Solution, StudyError};
 use crate::case::{Case, Cea, CeaMap, CeaMethod};
-use crate::cea::cyclic::{self, Coverage, CyclicModel, SolidModel};
+use crate::cea::cyclic::{self, Coverage, CyclicModel, Sensitivity, SolidModel};
 use crate::cea::{FrictionSweep, SweepRequest};
 use crate::fem::RegionMaterial;
 use crate::results::cea::{MapReport, SensitivityReport};
@@ -21,10 +21,31 @@ pub fn solve(
     model: &SlidingModel,
     progress: &Progress<'_>,
 ) -> Result<Solution, StudyError> {
+    solve_with(case, cea, model, (true, progress))
+}
+
+/// [`solve`] without the sensitivities.
+///
+/// # Errors
+/// Those of the solver.
+pub fn solve_modes(case: &Case, cea: &Cea, model: &SlidingModel) -> Result<Solution, StudyError> {
+    solve_with(case, cea, model, (false, &|_| {}))
+}
+
+fn solve_with(
+    case: &Case,
+    cea: &Cea,
+    model: &SlidingModel,
+    (with_rates, progress): (bool, &Progress<'_>),
+) -> Result<Solution, StudyError> {
+    // Branches are known up to the largest friction coefficient of the sweep.
+    let friction = case.contact.sliding.friction_coefficient;
+    let frictions = cea.solved_friction_coefficients();
+    let with_rates = with_rates && frictions.iter().any(|&mu| mu >= friction);
     let mut solution = match method_of(case, cea) {
-        _ if case.solid.is_some() => solve_solid(case, cea, model)?,
+        _ if case.solid.is_some() => solve_solid(case, cea, model, with_rates)?,
         CeaMethod::Sparse => solve_sparse(case, cea, model, progress)?,
-        CeaMethod::Auto | CeaMethod::Cyclic => solve_cyclic(case, cea, model)?,
+        CeaMethod::Auto | CeaMethod::Cyclic => solve_cyclic(case, cea, model, with_rates)?,
     };
     solution
         .notes
@@ -105,7 +126,12 @@ fn friction_note(case: &Case, model: &SlidingModel) -> Option<String> {
     ))
 }
 
-fn solve_cyclic(case: &Case, cea: &Cea, model: &SlidingModel) -> Result<Solution, StudyError> {
+fn solve_cyclic(
+    case: &Case,
+    cea: &Cea,
+    model: &SlidingModel,
+    with_rates: bool,
+) -> Result<Solution, StudyError> {
     let friction_coefficients = cea.solved_friction_coefficients();
     let request = SweepRequest {
         friction_coefficients: &friction_coefficients,
@@ -119,12 +145,22 @@ fn solve_cyclic(case: &Case, cea: &Cea, model: &SlidingModel) -> Result<Solution
         &case.contact.sliding,
         &request,
     )?;
-    // Branches are known up to the largest friction coefficient of the sweep.
     let friction = case.contact.sliding.friction_coefficient;
-    let is_covered = friction_coefficients.iter().any(|&mu| mu >= friction);
-    let sensitivities = is_covered
-        .then(|| cyclic::sensitivities(&found, friction))
-        .transpose()?;
+    let sensitivities = match with_rates {
+        true => Some(cyclic::sensitivities(&found, friction)?),
+        false => None,
+    };
+    Ok(Solution {
+        dofs: found.tangent.dimension() * found.tangent.sector().sector_count(),
+        method: "cyclic",
+        sensitivities: sensitivities.map(|branches| sensitivity_report(case, branches)),
+        notes: vec![coverage_note(&found.coverage)],
+        sweep: found.sweep,
+    })
+}
+
+/// Sensitivities with the values that the case gives its parameters.
+fn sensitivity_report(case: &Case, branches: Vec<Sensitivity>) -> SensitivityReport {
     let law = case.contact.sliding.decay;
     let shaft = case.annulus_materials.shaft;
     let of_shaft = shaft.map_or([0.0; 3], |RegionMaterial { elastic, .. }| {
@@ -135,33 +171,32 @@ fn solve_cyclic(case: &Case, cea: &Cea, model: &SlidingModel) -> Result<Solution
         ]
     });
     let own = shaft.and_then(|shaft| shaft.damping).unwrap_or_default();
-    Ok(Solution {
-        dofs: found.tangent.dimension() * found.tangent.sector().sector_count(),
-        method: "cyclic",
-        sensitivities: sensitivities.map(|branches| SensitivityReport {
-            branches,
-            values: [
-                case.contact.stiffness.normal_stiffness.unwrap_or(0.0),
-                case.damping.rayleigh.mass_coefficient,
-                case.damping.rayleigh.stiffness_coefficient,
-                case.material.young_modulus,
-                case.material.poisson_ratio,
-                case.material.density,
-                law.map_or(1.0, |law| law.static_ratio),
-                law.map_or(0.0, |law| law.decay_speed),
-                of_shaft[0],
-                of_shaft[1],
-                of_shaft[2],
-                own.mass_coefficient,
-                own.stiffness_coefficient,
-            ],
-        }),
-        notes: vec![coverage_note(&found.coverage)],
-        sweep: found.sweep,
-    })
+    SensitivityReport {
+        branches,
+        values: [
+            case.contact.stiffness.normal_stiffness.unwrap_or(0.0),
+            case.damping.rayleigh.mass_coefficient,
+            case.damping.rayleigh.stiffness_coefficient,
+            case.material.young_modulus,
+            case.material.poisson_ratio,
+            case.material.density,
+            law.map_or(1.0, |law| law.static_ratio),
+            law.map_or(0.0, |law| law.decay_speed),
+            of_shaft[0],
+            of_shaft[1],
+            of_shaft[2],
+            own.mass_coefficient,
+            own.stiffness_coefficient,
+        ],
+    }
 }
 
-fn solve_solid(case: &Case, cea: &Cea, model: &SlidingModel) -> Result<Solution, StudyError> {
+fn solve_solid(
+    case: &Case,
+    cea: &Cea,
+    model: &SlidingModel,
+    with_rates: bool,
+) -> Result<Solution, StudyError> {
     let friction_coefficients = cea.solved_friction_coefficients();
     let request = SweepRequest {
         friction_coefficients: &friction_coefficients,
@@ -187,10 +222,15 @@ fn solve_solid(case: &Case, cea: &Cea, model: &SlidingModel) -> Result<Solution,
         friction_coefficients.iter().fold(0.0_f64, |m, &mu| m.max(mu)),
     ));
     notes.extend(model.solid.as_ref().and_then(SolidBody::note));
+    let friction = case.contact.sliding.friction_coefficient;
+    let sensitivities = match with_rates {
+        true => Some(cyclic::solid_sensitivities(&found, friction)?),
+        false => None,
+    };
     Ok(Solution {
         dofs: found.dofs,
         method: "cyclic",
-        sensitivities: None,
+        sensitivities: sensitivities.map(|branches| sensitivity_report(case, branches)),
         notes,
         sweep: found.sweep,
     })

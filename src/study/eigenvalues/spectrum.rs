@@ -1,7 +1,7 @@
 //! The spectrum of a case for those who study it: no files, no base fields, no shapes.
 
 use super::model::mode_limit;
-use super::solve::solve;
+use super::solve::{solve, solve_modes};
 use super::{SlidingModel, StudyError};
 use crate::case::{Case, Cea, CeaMethod, ModeSelection};
 use crate::cea::cyclic::{self, Sensitivity};
@@ -33,7 +33,7 @@ fn analysis(case: &Case, frictions: &[f64], limit_hz: f64) -> Cea {
     }
 }
 
-/// The modes of a case below `limit_hz` at its own friction coefficient, and of a plane annulus with `with_rates` their
+/// The modes of a case below `limit_hz` at its own friction coefficient, and of bodies of revolution with `with_rates` their
 /// sensitivities.
 ///
 /// # Errors
@@ -48,7 +48,12 @@ pub fn modes_below(
     let (sweep, sensitivities) = match is_plane_annulus(case, &cea) {
         false => {
             let model = SlidingModel::new(case, &cea)?;
-            (solve(case, &cea, &model, &|_| {})?.sweep, Vec::new())
+            let found = match with_rates {
+                true => solve(case, &cea, &model, &|_| {})?,
+                false => solve_modes(case, &cea, &model)?,
+            };
+            let rates = found.sensitivities.map(|rates| rates.branches);
+            (found.sweep, rates.unwrap_or_default())
         }
         true => {
             let request = SweepRequest {
@@ -98,7 +103,7 @@ pub fn unstable_intervals(
     };
     if !is_plane_annulus(case, &cea) {
         let model = SlidingModel::new(case, &cea)?;
-        let sweep = solve(case, &cea, &model, &|_| {})?.sweep;
+        let sweep = solve_modes(case, &cea, &model)?.sweep;
         super::refuse_no_modes(case, &cea, &sweep)?;
         return Ok((sweep.intervals, Vec::new()));
     }

@@ -3,6 +3,7 @@
 use super::error::{ReducedPair, reduction_error};
 use super::reduction::Reduction;
 use super::rest::{Modes, Pencil};
+use super::shape::shape;
 use crate::cea::cyclic::Coverage;
 use crate::cea::cyclic::branch::branches_of;
 use crate::cea::cyclic::modes::{ShapeProducer, point};
@@ -19,7 +20,7 @@ use crate::prestress::{
     PrestressError, SolidHarmonic, SolidTangent, TangentOptions, moving_unknowns,
 };
 use rayon::prelude::*;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 /// Everything that an analysis of a body of revolution is made from.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,6 +47,18 @@ pub struct SolidSweep {
     /// What the reduction of the harmonics leaves out of an eigenvalue, relative to it: the largest estimate at the largest friction
     /// coefficient.
     pub reduction_error: f64,
+    /// Every branch followed that has one of the modes.
+    pub branches: Vec<ModeBranch>,
+    /// The linearisation, for sensitivities.
+    pub tangent: SolidTangent,
+    pub(super) solved: Vec<Solved>,
+}
+
+/// A harmonic with the small space that its branches were followed in.
+#[derive(Clone, Debug)]
+pub(super) struct Solved {
+    pub reduction: Reduction,
+    pub problem: HarmonicProblem,
 }
 
 /// Branches are followed from this much above the highest frequency wanted.
@@ -159,11 +172,19 @@ pub fn solid_sweep(model: &SolidModel, request: &SweepRequest<'_>) -> Result<Sol
         margin_hz: margin.sqrt() / TAU,
         factorizations: followed.iter().map(|paths| paths.factorizations).sum(),
     };
+    let solved = followed.into_iter().zip(reductions);
+    let solved = solved.map(|(paths, reduction)| Solved {
+        reduction,
+        problem: paths.problem,
+    });
     Ok(SolidSweep {
         sweep: FrictionSweep { points, intervals },
         coverage,
         dofs: tangent.unknown_of().iter().flatten().count() * sector.sector_count(),
         reduction_error: error,
+        branches,
+        solved: solved.collect(),
+        tangent,
     })
 }
 
@@ -344,48 +365,4 @@ fn groups(tangent: &SolidTangent) -> [Vec<usize>; 3] {
             components.into_iter().flatten().map(move |c| 3 * node + c)
         })),
     ]
-}
-
-/// Displacement of all nodes in nodal frames, `U e^{i n theta}`, largest nodal `|u|` one and real in its largest component.
-fn shape(tangent: &SolidTangent, n: usize, waves: Waves, x: &[c64]) -> Vec<c64> {
-    let sector = tangent.sector();
-    let is_backward = waves == Waves::Backward;
-    let value = |dof: usize| {
-        let value = tangent.unknown_of()[dof].map_or(c64::new(0.0, 0.0), |unknown| x[unknown]);
-        let turned = if dof % 3 == 1 {
-            value * c64::new(0.0, 1.0)
-        } else {
-            value
-        };
-        if is_backward { turned.conj() } else { turned }
-    };
-    let wave: Vec<[c64; 3]> = (0..sector.node_count())
-        .map(|node| [0, 1, 2].map(|c| value(3 * node + c)))
-        .collect();
-    let size = |u: &[c64; 3]| u.iter().map(|v| v.norm_sqr()).sum::<f64>();
-    let peak = wave.iter().fold(
-        &wave[0],
-        |best, u| if size(u) > size(best) { u } else { best },
-    );
-    let larger = peak.iter().fold(
-        peak[0],
-        |best, v| if v.norm() > best.norm() { *v } else { best },
-    );
-    let scale = larger.conj() / (larger.norm() * size(peak).sqrt()).max(f64::MIN_POSITIVE);
-    let sectors = sector.sector_count();
-    let sign = if is_backward { -1.0 } else { 1.0 };
-    let phases: Vec<c64> = (0..2 * sectors)
-        .map(|turns| {
-            let angle = sign * PI * turns as f64 / sectors as f64;
-            c64::new(angle.cos(), angle.sin()) * scale
-        })
-        .collect();
-    let mut shape = Vec::with_capacity(3 * wave.len() * sectors);
-    for j in 0..sectors {
-        for (node, u) in sector.nodes.iter().zip(&wave) {
-            let phase = phases[n * (2 * j + node.half_step) % (2 * sectors)];
-            shape.extend(u.map(|v| v * phase));
-        }
-    }
-    shape
 }
