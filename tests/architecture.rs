@@ -1,6 +1,7 @@
-//! Consistency check of the source tree: a module names only lower floors, and siblings do not name
-//! each other.
+//! Consistency check of the source tree: a module names only lower floors, siblings do not name each other, and no files
+//! name each other in a circle.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -32,13 +33,16 @@ fn rust_files(folder: &Path, files: &mut Vec<PathBuf>) {
     }
 }
 
+/// Code without its line comments.
+fn without_comments(code: &str) -> String {
+    let lines = code.lines();
+    let stripped = lines.map(|line| line.split("//").next().unwrap_or(""));
+    stripped.collect::<Vec<_>>().join("\n")
+}
+
 /// Top-level modules that code names through `crate::`, brace groups included, with the line of each.
 fn named_modules(code: &str) -> Vec<(usize, String)> {
-    let stripped: Vec<&str> = code
-        .lines()
-        .map(|line| line.split("//").next().unwrap_or(""))
-        .collect();
-    let stripped = stripped.join("\n");
+    let stripped = without_comments(code);
     let mut named = Vec::new();
     for (at, pattern) in stripped.match_indices("crate::") {
         let line = stripped[..at].matches('\n').count() + 1;
@@ -113,11 +117,7 @@ fn the_eigenvalue_theory_names_none_of_its_producers_and_they_not_each_other() {
     rust_files(&home, &mut files);
     for path in files {
         let place = path.strip_prefix(&home).unwrap().to_str().unwrap();
-        let text = fs::read_to_string(&path).unwrap();
-        let lines = text
-            .lines()
-            .map(|line| line.split("//").next().unwrap_or(""));
-        let code = lines.collect::<Vec<_>>().join("\n");
+        let code = without_comments(&fs::read_to_string(&path).unwrap());
         let forbidden: &[&str] = match place {
             "mod.rs" => &["faer::"],
             _ if place.starts_with("sparse") => &["faer::", "cyclic::"],
@@ -136,4 +136,147 @@ fn every_way_to_name_a_module_is_seen() {
     let named = named_modules(code);
     let expected = [(1, "cea"), (2, "fem"), (2, "mesh"), (3, "linalg")];
     assert_eq!(named, expected.map(|(line, name)| (line, name.to_string())));
+}
+
+/// A path in the module tree: `["results", "cea", "Branch"]`.
+type Names = Vec<String>;
+
+/// Paths that code names through `crate::`, `super::` and `self::` from a module, brace groups included.
+fn named_paths(code: &str, module: &[String]) -> Vec<Names> {
+    let is_word = |c: char| c.is_alphanumeric() || c == '_';
+    let mut paths = Vec::new();
+    for (root, kept) in [
+        ("crate::", 0),
+        ("super::", module.len() - 1),
+        ("self::", module.len()),
+    ] {
+        for (at, _) in code.match_indices(root) {
+            // `super::super::` is found at its first word, and the end of a longer word is none.
+            let before = code[..at].chars().next_back();
+            if before.is_none_or(|c| !is_word(c) && c != ':') {
+                paths_of(
+                    &code[at + root.len()..],
+                    module[..kept].to_vec(),
+                    &mut paths,
+                );
+            }
+        }
+    }
+    paths
+}
+
+/// The paths of a `use` tree behind its prefix.
+fn paths_of(tree: &str, mut prefix: Names, paths: &mut Vec<Names>) {
+    let tree = tree.trim_start();
+    if let Some(group) = tree.strip_prefix('{') {
+        for item in top_level_items(group) {
+            paths_of(item, prefix.clone(), paths);
+        }
+        return;
+    }
+    let end = tree.find(|c: char| !c.is_alphanumeric() && c != '_');
+    let (name, rest) = tree.split_at(end.unwrap_or(tree.len()));
+    match name {
+        "super" => drop(prefix.pop()),
+        "self" | "" => {}
+        name => prefix.push(name.to_owned()),
+    }
+    match rest.strip_prefix("::") {
+        Some(rest) => paths_of(rest, prefix, paths),
+        None => paths.push(prefix),
+    }
+}
+
+/// The modules of the tree, each with its code.
+fn modules() -> BTreeMap<Names, String> {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut files = Vec::new();
+    rust_files(&source, &mut files);
+    let module = |path: PathBuf| {
+        let relative = path.strip_prefix(&source).unwrap().with_extension("");
+        let mut names: Names = relative
+            .iter()
+            .map(|name| name.to_str().unwrap().to_owned())
+            .collect();
+        names.retain(|name| !["mod", "lib", "main"].contains(&name.as_str()));
+        (names, without_comments(&fs::read_to_string(path).unwrap()))
+    };
+    files
+        .into_iter()
+        .map(module)
+        .filter(|(names, _)| !names.is_empty())
+        .collect()
+}
+
+/// The module that defines what a path names, through the `pub use` of the faces of folders.
+fn home_of(path: &[String], modules: &BTreeMap<Names, String>) -> Option<Names> {
+    let depth = (1..=path.len())
+        .rev()
+        .find(|&n| modules.contains_key(&path[..n]))?;
+    let (module, item) = (&path[..depth], path.get(depth));
+    let Some(item) = item else {
+        return Some(module.to_vec());
+    };
+    for exported in modules[module].split("pub use ").skip(1) {
+        let mut found = Vec::new();
+        let tree = exported.split(';').next().unwrap_or("");
+        paths_of(tree, module.to_vec(), &mut found);
+        let is_own = |path: &&Names| path.last() == Some(item) && path[..] != path[..depth];
+        if let Some(target) = found.iter().find(is_own) {
+            return home_of(target, modules);
+        }
+    }
+    Some(module.to_vec())
+}
+
+/// A file may be read before those that build on it. The faces of folders (`mod.rs`) stand aside: they hand names on.
+#[test]
+fn no_files_name_each_other_in_a_circle() {
+    let modules = modules();
+    let is_face = |name: &Names| {
+        let below = |other: &Names| other.len() > name.len() && other.starts_with(name);
+        modules.keys().any(below)
+    };
+    let mut named: BTreeMap<&Names, BTreeSet<Names>> = BTreeMap::new();
+    for (module, code) in modules.iter().filter(|(module, _)| !is_face(module)) {
+        let paths = named_paths(code, module);
+        let homes = paths.iter().filter_map(|path| home_of(path, &modules));
+        named.insert(
+            module,
+            homes
+                .filter(|home| home != module && !is_face(home))
+                .collect(),
+        );
+    }
+    assert!(
+        named.values().map(BTreeSet::len).sum::<usize>() > 500,
+        "imports were not found"
+    );
+    // What names nothing that is left, and what nothing left names, is taken away until only circles and ways between them are.
+    let is_end = |named: &BTreeMap<&Names, BTreeSet<Names>>, module: &Names| {
+        !named[module].iter().any(|to| named.contains_key(to))
+            || !named.values().any(|to| to.contains(module))
+    };
+    while let Some(end) = named.keys().copied().find(|module| is_end(&named, module)) {
+        named.remove(end);
+    }
+    let left: Vec<String> = named
+        .iter()
+        .map(|(module, to)| {
+            let to = to
+                .iter()
+                .filter(|t| named.contains_key(t))
+                .map(|t| t.join("::"));
+            format!(
+                "{} names {}",
+                module.join("::"),
+                to.collect::<Vec<_>>().join(", ")
+            )
+        })
+        .collect();
+    assert!(
+        left.is_empty(),
+        "circles, and what stands on them:\n{}",
+        left.join("\n")
+    );
 }

@@ -51,7 +51,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             }
             Err(failure) => {
                 bad += 1;
-                failure.report();
+                terminal::report(&failure);
                 let errors = failure.messages();
                 reports.push(json!({ "case": name, "valid": false, "errors": errors }));
             }

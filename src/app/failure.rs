@@ -1,13 +1,11 @@
 //! How a command fails, and the exit code that says so.
 
-use super::terminal;
 use crate::case::CaseErrors;
 use crate::cea::CeaError;
 use crate::prestress::PrestressError;
 use crate::results::{DrawingError, FolderError};
 use crate::study::StudyError;
 use std::io;
-use std::process::ExitCode;
 
 /// Why a command did not do what it was asked.
 #[derive(Debug)]
@@ -45,22 +43,6 @@ impl Failure {
             Self::Interrupted(message) => vec![message.clone()],
             Self::BrokenPipe | Self::DryRun => Vec::new(),
         }
-    }
-
-    /// Says on stderr what went wrong (every error names its cause itself), and gives the exit code.
-    pub fn report(&self) -> ExitCode {
-        use std::io::Write;
-        let word = terminal::error_word();
-        let (text, code) = match self {
-            Self::Case(errors) => (errors.render(terminal::is_coloured()), 2),
-            Self::Usage(error) => (format!("{word} {error}"), 2),
-            Self::Run(error) => (format!("{word} {error}"), 1),
-            Self::Interrupted(message) => (format!("{word} {message}"), terminal::INTERRUPTED),
-            Self::BrokenPipe | Self::DryRun => return ExitCode::SUCCESS,
-        };
-        // Nobody is left to tell if stderr is closed.
-        let _ = writeln!(io::stderr().lock(), "{text}");
-        ExitCode::from(code)
     }
 }
 

@@ -173,7 +173,7 @@ pub fn main() -> ExitCode {
     let parsed = parsed.unwrap_or_else(|error| error.exit());
     match parsed.command.run() {
         Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => failure.report(),
+        Err(failure) => terminal::report(&failure),
     }
 }
 

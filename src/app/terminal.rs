@@ -3,6 +3,7 @@
 use super::Failure;
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use std::io::{self, IsTerminal, Write};
+use std::process::ExitCode;
 
 /// Writes a result to stdout.
 ///
@@ -20,6 +21,21 @@ pub fn print(text: &str) -> Result<(), Failure> {
 /// As [`print()`].
 pub fn print_json(value: &serde_json::Value) -> Result<(), Failure> {
     print(&format!("{value:#}\n"))
+}
+
+/// Says on stderr what went wrong (every error names its cause itself), and gives the exit code.
+pub fn report(failure: &Failure) -> ExitCode {
+    let word = error_word();
+    let (text, code) = match failure {
+        Failure::Case(errors) => (errors.render(is_coloured()), 2),
+        Failure::Usage(error) => (format!("{word} {error}"), 2),
+        Failure::Run(error) => (format!("{word} {error}"), 1),
+        Failure::Interrupted(message) => (format!("{word} {message}"), INTERRUPTED),
+        Failure::BrokenPipe | Failure::DryRun => return ExitCode::SUCCESS,
+    };
+    // Nobody is left to tell if stderr is closed.
+    let _ = writeln!(io::stderr().lock(), "{text}");
+    ExitCode::from(code)
 }
 
 /// Advice for a run that keeps nothing before its end.

@@ -15,8 +15,9 @@ mod rim;
 mod sector;
 mod sectors;
 mod solid;
+mod specification;
 
-pub use annulus::{AnnulusMesh, AnnulusSpecification, MeshError, ShaftSpecification};
+pub use annulus::AnnulusMesh;
 pub use body::{BodySpecification, CounterfaceSpecification};
 pub use boundary::{Boundary, BoundaryCondition, ElasticSupport, NodalSupport};
 pub use counterface::Counterface;
@@ -28,6 +29,7 @@ pub use solid::{
     BrickShape, ContactRing, FaceElement, SheetNode, SolidContact, SolidFace, SolidSector,
     SolidSpecification, brick_places, brick_quadrature, brick_shapes, face_quadrature, face_shapes,
 };
+pub use specification::{AnnulusSpecification, MeshError, ShaftSpecification};
 
 /// Nodes, elements, regions and named boundaries of a plane body.
 ///

@@ -1,8 +1,8 @@
 //! One sector of the annulus mesh.
 
-use super::annulus::validate;
 use super::sectors::{Ray, build, rays};
-use super::{AnnulusSpecification, BoundaryCondition, Mesh2d, MeshError};
+use super::specification::{AnnulusSpecification, MeshError, validate};
+use super::{BoundaryCondition, Mesh2d};
 
 /// One sector of an annulus mesh, without the others.
 ///

@@ -1,7 +1,7 @@
 //! One sector of a body of revolution in three dimensions.
 
-use super::annulus::validate;
 use super::sectors::graded_radii;
+use super::specification::validate;
 use super::{AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind, Mesh2d, MeshError};
 use std::f64::consts::{PI, TAU};
 

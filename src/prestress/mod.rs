@@ -8,6 +8,7 @@
 mod cholesky;
 mod condensed;
 mod equilibrium;
+mod error;
 mod face_conditions;
 mod friction_polynomial;
 mod options;
@@ -27,7 +28,8 @@ mod solid_tangent;
 mod tangent;
 mod turning;
 
-pub use equilibrium::{PrestressError, SlidingRange, SteadySliding};
+pub use equilibrium::{SlidingRange, SteadySliding};
+pub use error::PrestressError;
 pub use face_conditions::{pressure_load, supports};
 pub use options::{DampingModel, TangentOptions};
 pub use sector::SectorSliding;

@@ -125,7 +125,7 @@ impl TransientBody<'_> {
         settings: &TransientSettings,
     ) -> Result<StepPlan, TransientError> {
         match self {
-            Self::Plane(model) => StepPlan::of_plane(model, operator, settings),
+            Self::Plane(model) => model.plan(operator, settings),
             Self::Solid(model) => model.plan(operator, settings),
         }
     }
@@ -157,5 +157,19 @@ impl TransientBody<'_> {
             Self::Plane(model) => perturbation.field(model),
             Self::Solid(model) => model.perturbed(perturbation),
         }
+    }
+}
+
+impl StepPlan {
+    /// The step of a body, as [`Self::new`]: the smallest that any of its parts asks for.
+    ///
+    /// # Errors
+    /// Those of [`Self::new`].
+    pub fn of<'a>(
+        body: impl Into<TransientBody<'a>>,
+        operator: &dyn StiffnessOperator,
+        settings: &TransientSettings,
+    ) -> Result<Self, TransientError> {
+        body.into().plan(operator, settings)
     }
 }

@@ -1,11 +1,8 @@
 //! Forces of supports, boundary pressures and regions with damping of their own.
 
 use super::TransientModel;
-use crate::contact::ContactInterface;
 use crate::fem::operator::{MotionFields, StiffnessOperator};
-use crate::fem::{
-    MassKind, RayleighDamping, Triplets, assemble_extra_damping, assemble_supports, lumped_masses,
-};
+use crate::fem::{MassKind, Triplets, assemble_extra_damping, assemble_supports};
 use std::collections::BTreeMap;
 
 /// What acts on a few nodes beside `K u` and `alpha_R M v + beta_R K v`, which the operator knows.
@@ -120,39 +117,4 @@ fn extra_damping(model: &TransientModel<'_>) -> Triplets {
     let own = assemble_extra_damping(model.mesh, model.material, MassKind::Lumped, model.damping);
     damping.entries.extend(own.unwrap_or_default().entries);
     damping
-}
-
-impl TransientModel<'_> {
-    /// Coefficients of a Rayleigh damping that is nowhere below that of the nodes `is_part`, dashpots included: what bounds
-    /// the step.
-    pub fn bounding_damping(&self, is_part: &dyn Fn(usize) -> bool) -> RayleighDamping {
-        let mut regions: Vec<usize> = (0..self.mesh.element_count())
-            .filter(|&e| is_part(self.mesh.element_nodes(e)[0] as usize))
-            .map(|e| self.mesh.region(e))
-            .collect();
-        regions.sort_unstable();
-        regions.dedup();
-        let mut bound = RayleighDamping::default();
-        for region in regions {
-            let own = self.material.own_damping(region).unwrap_or(self.damping);
-            bound.mass_coefficient = bound.mass_coefficient.max(own.mass_coefficient);
-            bound.stiffness_coefficient =
-                bound.stiffness_coefficient.max(own.stiffness_coefficient);
-        }
-        let mut supports = self.mesh.nodal_supports();
-        supports.retain(|support| is_part(support.node));
-        if supports.iter().any(|s| s.damping != [[0.0; 2]; 2]) {
-            let masses = lumped_masses(self.mesh, self.material);
-            let rates = supports
-                .iter()
-                .map(|s| (s.damping[0][0] + s.damping[1][1]) / masses[s.node]);
-            bound.mass_coefficient += rates.fold(0.0, f64::max);
-        }
-        bound
-    }
-
-    /// The contact edge.
-    pub fn interface(&self) -> ContactInterface {
-        ContactInterface::of(self.mesh)
-    }
 }

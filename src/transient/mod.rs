@@ -12,6 +12,7 @@ mod central_difference;
 mod compliance;
 mod contact;
 mod error;
+mod model;
 mod perturbation;
 mod recorder;
 mod sample;
@@ -25,12 +26,13 @@ pub use body::TransientBody;
 pub use central_difference::{CentralDifference, RunEnd, TransientState};
 pub use contact::{ContactPowers, LagrangeContact, StatusCounts};
 pub use error::{Breakdown, TransientError};
+pub use model::{TransientModel, build_operator};
 pub use perturbation::{Perturbation, StandingWave};
 pub use recorder::{ContactFrame, Recorder, RecorderSettings, SampleRow, Snapshot};
 pub use sample::{Observer, Sample};
 pub use settings::{
-    InitialState, OperatorChoice, StepPlan, TimeStep, TransientModel, TransientSettings,
-    build_operator, stable_step_limit, whole_intervals,
+    InitialState, OperatorChoice, StepPlan, TimeStep, TransientSettings, stable_step_limit,
+    whole_intervals,
 };
 pub use settling::{Drift, EndState, Settling, Unsettled};
 pub use solid::SolidTransientModel;

@@ -1,6 +1,7 @@
 //! The seed that decides which mode grows: a velocity added to that of the body.
 
-use super::{TransientError, TransientModel};
+use super::TransientError;
+use crate::contact::ContactInterface;
 use crate::linalg::GaussianNoise;
 use crate::mesh::{AnnulusMesh, Counterface, Mesh2d};
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -56,24 +57,21 @@ impl Perturbation {
         self.waves.iter().map(|wave| wave.harmonic).collect()
     }
 
-    /// Velocity over all dofs of `model`, m/s.
-    ///
-    /// On a body that is no annulus the depth is the distance from the counterface over the largest there is, and the
-    /// angle that about the cylinder's axis, or `2 pi` times the share of the contact edge along a plane.
-    ///
-    /// # Errors
-    /// [`TransientError::HarmonicAboveNyquist`] for a harmonic above half the circumferential elements.
-    pub fn field(&self, model: &TransientModel<'_>) -> Result<Vec<f64>, TransientError> {
-        let elements = match model.annulus {
+    /// [`Self::field`] over a mesh, which may belong to an annulus.
+    pub(super) fn over(
+        &self,
+        mesh: &Mesh2d,
+        annulus: Option<&AnnulusMesh>,
+    ) -> Result<Vec<f64>, TransientError> {
+        let elements = match annulus {
             Some(annulus) => annulus.specification.circumferential_elements,
-            None => model.interface().len(),
+            None => ContactInterface::of(mesh).len(),
         };
         self.check_harmonics(elements)?;
-        let mesh = model.mesh;
         let mut velocity = vec![0.0; 2 * mesh.node_count()];
-        match model.annulus {
+        match annulus {
             Some(annulus) => self.add_waves(&places_on(annulus), mesh, &mut velocity),
-            None => self.add_waves(&places(model), mesh, &mut velocity),
+            None => self.add_waves(&places(mesh), mesh, &mut velocity),
         }
         self.add_noise(&mut velocity, 2);
         mesh.held_dofs().for_each(|dof| velocity[dof] = 0.0);
@@ -174,8 +172,8 @@ fn places_on(annulus: &AnnulusMesh) -> Vec<Place> {
     nodes.enumerate().map(place).collect()
 }
 
-fn places(model: &TransientModel<'_>) -> Vec<Place> {
-    let (mesh, counterface) = (model.mesh, model.mesh.counterface);
+fn places(mesh: &Mesh2d) -> Vec<Place> {
+    let counterface = mesh.counterface;
     let gaps: Vec<f64> = mesh
         .nodes
         .iter()

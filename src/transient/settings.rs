@@ -1,52 +1,11 @@
 //! What a transient needs to know, checked before it runs.
 
-use super::{Perturbation, TransientBody, TransientError};
-use crate::contact::{ContactStiffness, SlidingContact};
-use crate::fem::operator::{
-    CyclicStencil, OperatorError, SimdLevel, SparseOperator, StiffnessOperator, largest_frequency,
-    largest_frequency_of,
-};
-use crate::fem::{MaterialField, RayleighDamping};
-use crate::mesh::{AnnulusMesh, Mesh2d};
+use super::{Perturbation, TransientError};
+use crate::fem::RayleighDamping;
+use crate::fem::operator::{StiffnessOperator, largest_frequency};
 
 /// Share of the stability limit that an automatic time step uses.
 const SAFETY: f64 = 0.95;
-
-/// The body and its contact.
-#[derive(Clone, Copy, Debug)]
-pub struct TransientModel<'a> {
-    /// Mesh of the disc.
-    pub mesh: &'a Mesh2d,
-    /// The annulus that the mesh belongs to, if it is one.
-    pub annulus: Option<&'a AnnulusMesh>,
-    /// Its material.
-    pub material: &'a dyn MaterialField,
-    /// Rayleigh coefficients.
-    pub damping: RayleighDamping,
-    /// The rotating cylinder.
-    pub contact: SlidingContact,
-    /// Springs and dashpots of the contact; the default is rigid.
-    pub stiffness: ContactStiffness,
-}
-
-impl<'a> TransientModel<'a> {
-    /// A generated annulus of one material in rigid contact.
-    pub fn of_annulus(
-        annulus: &'a AnnulusMesh,
-        material: &'a dyn MaterialField,
-        damping: RayleighDamping,
-        contact: SlidingContact,
-    ) -> Self {
-        Self {
-            mesh: &annulus.mesh,
-            annulus: Some(annulus),
-            material,
-            damping,
-            contact,
-            stiffness: ContactStiffness::default(),
-        }
-    }
-}
 
 /// How the time step is chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -113,29 +72,6 @@ pub struct TransientSettings {
     pub perturbation: Perturbation,
 }
 
-/// The operator of `model`.
-///
-/// # Errors
-/// [`TransientError::Operator`] if the chosen operator cannot represent the mesh.
-pub fn build_operator(
-    model: &TransientModel<'_>,
-    choice: OperatorChoice,
-    simd: SimdLevel,
-) -> Result<Box<dyn StiffnessOperator>, TransientError> {
-    let is_cyclic = match choice {
-        OperatorChoice::Auto => model.annulus.is_some() && model.mesh.is_quad4(),
-        OperatorChoice::Cyclic => true,
-        OperatorChoice::Sparse => false,
-    };
-    if !is_cyclic {
-        let operator = SparseOperator::assemble(model.mesh, model.material, simd)?;
-        return Ok(Box::new(operator));
-    }
-    let annulus = model.annulus.ok_or(OperatorError::NoSymmetry)?;
-    let stencil = CyclicStencil::assemble(annulus, model.material, simd)?;
-    Ok(Box::new(stencil))
-}
-
 /// Largest stable step of central differences whose damping force lags half a step, s.
 ///
 /// ```text
@@ -167,41 +103,6 @@ pub struct StepPlan {
 }
 
 impl StepPlan {
-    /// The step of a body, as [`Self::new`]: the smallest that any of its parts asks for.
-    ///
-    /// # Errors
-    /// Those of [`Self::new`].
-    pub fn of<'a>(
-        body: impl Into<TransientBody<'a>>,
-        operator: &dyn StiffnessOperator,
-        settings: &TransientSettings,
-    ) -> Result<Self, TransientError> {
-        body.into().plan(operator, settings)
-    }
-
-    pub(super) fn of_plane(
-        model: &TransientModel<'_>,
-        operator: &dyn StiffnessOperator,
-        settings: &TransientSettings,
-    ) -> Result<Self, TransientError> {
-        check_times(settings)?;
-        let bodies = model.mesh.bodies();
-        let count = bodies.iter().max().map_or(0, |last| last + 1);
-        if count < 2 {
-            return Self::new(operator, &model.bounding_damping(&|_| true), settings);
-        }
-        let limits = (0..count).map(|body| {
-            let is_part = |node: usize| bodies[node] == body;
-            let frequency = largest_frequency_of(operator, &|dof| is_part(dof / 2));
-            let limit = stable_step_limit(frequency, &model.bounding_damping(&is_part));
-            (limit, frequency)
-        });
-        let limits: Vec<(f64, f64)> = limits.collect();
-        let smallest = limits.iter().min_by(|a, b| a.0.total_cmp(&b.0));
-        let (limit, frequency) = *smallest.expect("a mesh has a body");
-        Self::within(limit, frequency, settings)
-    }
-
     /// Chooses the step: the given one, or 0.95 of the limit, lowered so that it divides the sample interval. It does
     /// not depend on the duration; the run is as many whole sample intervals as lie within that.
     ///
@@ -218,7 +119,7 @@ impl StepPlan {
         Self::within(limit, largest_frequency, settings)
     }
 
-    fn within(
+    pub(super) fn within(
         limit: f64,
         largest_frequency: f64,
         settings: &TransientSettings,
@@ -274,7 +175,7 @@ pub fn whole_intervals(duration: f64, sample_interval: f64) -> u64 {
     (duration / sample_interval * (1.0 + 1e-9)).floor() as u64
 }
 
-fn check_times(settings: &TransientSettings) -> Result<(), TransientError> {
+pub(super) fn check_times(settings: &TransientSettings) -> Result<(), TransientError> {
     let perturbation = &settings.perturbation;
     let mut positive = vec![
         ("duration", settings.duration),

@@ -1,0 +1,60 @@
+//! Where there is no steady sliding.
+
+/// A sliding equilibrium that does not exist or cannot be computed.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum PrestressError {
+    /// A contact node is pulled, not pressed.
+    #[error(
+        "contact opens in the base state: {count} of {total} contact nodes are not pressed, first \
+         node {node} at {angle_degrees:.3} degrees with {pressure:.6e} Pa; full sliding needs \
+         pressure everywhere: raise contact.interference"
+    )]
+    Separation {
+        /// Nodes without pressure.
+        count: usize,
+        /// Contact nodes.
+        total: usize,
+        /// First open node, 1-based.
+        node: usize,
+        /// Its angle, degrees.
+        angle_degrees: f64,
+        /// Its pressure, Pa.
+        pressure: f64,
+    },
+    /// No contact node touches.
+    #[error(
+        "there is a gap everywhere: the nearest of {total} contact nodes is {distance:.3e} m away from the counterface \
+         pushed in by contact.interference = {interference:e} m; raise contact.interference by more than that, or \
+         press the body with a boundary pressure"
+    )]
+    GapEverywhere {
+        /// Contact nodes.
+        total: usize,
+        /// Smallest distance left, m.
+        distance: f64,
+        /// Interference, m.
+        interference: f64,
+    },
+    /// The complementarity problem has no solution that could be found.
+    #[error(
+        "there is no state of steady sliding at contact.friction_coefficient = {friction_coefficient}: every choice of \
+         pressed and open contact nodes pulls one or lets one penetrate (friction this large has no such state, or \
+         several); lower the friction coefficient"
+    )]
+    NoState {
+        /// Friction coefficient.
+        friction_coefficient: f64,
+    },
+    /// A rotor at rest under Coulomb's law as a vector.
+    #[error(
+        "contact.rotation_speed_rpm = 0: without sliding, friction holds a three-dimensional body across the sliding as by an \
+         infinite dashpot (mu p / V): there is no steady sliding to study; give a speed"
+    )]
+    AtRest,
+    /// The stiffness matrix is not positive definite.
+    #[error(
+        "the stiffness matrix is not positive definite: nothing holds the body, or part of it; check [boundaries], \
+         [material] and [mesh]"
+    )]
+    Singular,
+}
