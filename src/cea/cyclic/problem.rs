@@ -17,7 +17,6 @@ const STANDSTILL: f64 = 0.1;
 /// With proportional damping the unknown is `theta = kappa` of `T = K - kappa M`, and
 /// `lambda^2 + alpha lambda + (1 + beta lambda) kappa = 0`; otherwise it is `theta = lambda` of
 /// `T = lambda^2 M + lambda C + K`. Either way `T = a(theta) M + b(theta) C + K`.
-#[derive(Clone, Debug)]
 pub(super) struct HarmonicProblem {
     pub harmonic: usize,
     /// `+n` and `-n` are the same wave.

@@ -3,7 +3,6 @@
 use super::CyclicSweep;
 use super::branch::path_theta;
 use super::follow::Follower;
-use super::path::Eigenpair;
 use super::problem::HarmonicProblem;
 use super::vectors::ZERO;
 use crate::cea::{CeaError, ModeBranch};
@@ -122,51 +121,21 @@ impl Sensitivity {
     }
 }
 
-/// An eigenpair of a branch in its harmonic's problem.
-pub(super) struct BranchPair {
-    /// Of the wave `+n`, which carries the wave `-n` too.
-    pub found: Eigenpair,
+/// The wave that a branch is: `+n`, or `-n`, which is the complex conjugate of a root of the wave `+n`'s problem with `Im < 0`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Wave {
     is_backward: bool,
-    /// Of the branch's own wave.
-    own: c64,
-    /// `lambda` of the branch.
-    pub eigenvalue: c64,
-    /// `lambda` of the wave `+n`: the wave `-n` is the complex conjugate of a root of its problem with `Im < 0`.
-    pub root: c64,
 }
 
-impl BranchPair {
-    /// Solves for a branch at a friction coefficient within its range.
-    pub fn find(
-        problem: &HarmonicProblem,
-        branch: &ModeBranch,
-        friction: f64,
-        sliding_direction: f64,
-    ) -> Result<Self, CeaError> {
-        let guess = branch.interpolate(friction);
-        let guess = guess.ok_or(CeaError::Friction { value: friction })?;
-        let is_backward = f64::from(branch.direction) * sliding_direction > 0.0;
-        let theta = path_theta(problem, is_backward, guess);
-        let found = Follower::new(problem).find(&problem.at(friction), friction, theta);
-        let found = found.ok_or(CeaError::LostHarmonic {
-            harmonic: branch.harmonic,
-            friction,
-        })?;
-        let mut pair = Self {
-            own: found.theta,
-            is_backward,
-            eigenvalue: ZERO,
-            root: ZERO,
-            found,
-        };
-        pair.own = pair.of_wave(pair.own);
-        pair.eigenvalue = problem.eigenvalue(pair.own);
-        pair.root = pair.of_wave(pair.eigenvalue);
-        Ok(pair)
+impl Wave {
+    pub fn of(branch: &ModeBranch, sliding_direction: f64) -> Self {
+        Self {
+            is_backward: f64::from(branch.direction) * sliding_direction > 0.0,
+        }
     }
 
     /// What belongs to the branch of what belongs to the wave `+n`, and the other way round.
-    pub fn of_wave(&self, value: c64) -> c64 {
+    pub fn own(self, value: c64) -> c64 {
         if self.is_backward {
             value.conj()
         } else {
@@ -184,9 +153,18 @@ fn of_branch(
     let n = branch.harmonic;
     let matrices = tangent.harmonic(n);
     let problem = HarmonicProblem::new(matrices.clone(), tangent.is_standing(n));
-    let direction = tangent.base().sliding_direction;
-    let pair = BranchPair::find(&problem, branch, friction, direction)?;
-    let (found, root) = (&pair.found, pair.root);
+    let guess = branch.interpolate(friction);
+    let guess = guess.ok_or(CeaError::Friction { value: friction })?;
+    let wave = Wave::of(branch, tangent.base().sliding_direction);
+    let theta = path_theta(&problem, wave.is_backward, guess);
+    let found = Follower::new(&problem).find(&problem.at(friction), friction, theta);
+    let found = found.ok_or(CeaError::LostHarmonic {
+        harmonic: n,
+        friction,
+    })?;
+    let own = wave.own(found.theta);
+    let eigenvalue = problem.eigenvalue(own);
+    let root = wave.own(eigenvalue);
     let z = c64::new(0.0, friction);
     let forms = |set: &HarmonicTangent| {
         let of = |matrix: &[BandedMatrix]| form(matrix, z, &found.y, &found.x);
@@ -209,14 +187,14 @@ fn of_branch(
         let rate = tangent.harmonic_rate(rate.as_ref()?, n);
         let [m, c, k] = forms(&rate);
         let response = -(root * root * m + root * c + k) / slope;
-        Some(pair.of_wave(response))
+        Some(wave.own(response))
     };
     let responses: Vec<Option<c64>> = rates.iter().map(respond).collect();
-    let by_friction = problem.eigenvalue_slope(pair.own) * pair.of_wave(found.rate);
+    let by_friction = problem.eigenvalue_slope(own) * wave.own(found.rate);
     Ok(Sensitivity::new(
         branch,
         friction,
-        pair.eigenvalue,
+        eigenvalue,
         by_friction,
         &responses,
     ))

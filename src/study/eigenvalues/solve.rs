@@ -227,6 +227,16 @@ fn solve_solid(
         true => Some(cyclic::solid_sensitivities(&found, friction)?),
         false => None,
     };
+    if let Some(own) = &sensitivities {
+        let there = found.branches.iter();
+        let there = there.filter(|branch| branch.interpolate(friction).is_some());
+        let left = there.count() - own.len();
+        if left > 0 {
+            notes.push(format!(
+                "sensitivities.csv leaves {left} of the branches out, which could not be found again at friction {friction}"
+            ));
+        }
+    }
     Ok(Solution {
         dofs: found.dofs,
         method: "cyclic",

@@ -16,7 +16,6 @@ const LEAST_ENERGY: f64 = 1e-11;
 const LEAST_PART: f64 = 1e-7;
 
 /// The reduced space of one harmonic.
-#[derive(Clone, Debug)]
 pub(super) struct Reduction {
     /// Columns over all unknowns, orthonormal in the mass product; the modes at rest come first.
     pub basis: Mat<f64>,

@@ -1,23 +1,25 @@
 //! How each eigenvalue of a body of revolution responds to the parameters of the model.
 
 use super::SolidSweep;
-use super::sweep::Solved;
-use crate::cea::cyclic::sensitivity::{BranchPair, PARAMETERS, Sensitivity};
+use crate::cea::cyclic::sensitivity::{PARAMETERS, Sensitivity, Wave};
 use crate::cea::cyclic::vectors::{ZERO, normalize};
 use crate::cea::{CeaError, ModeBranch};
 use crate::linalg::banded::{BandedLu, BandedMatrix, CompactRows, multiply_band};
 use crate::linalg::c64;
-use crate::prestress::{MovingHarmonic, SolidHarmonic, SolidRate, SolidTangent};
+use crate::prestress::{MovingHarmonic, SolidHarmonic, SolidRate};
 use rayon::prelude::*;
 
-/// Inverse iterations at the eigenvalue of the small space, each with two solves of either side; the space leaves vectors with errors of
-/// 1e-4, and one iteration multiplies them by what it leaves out of the eigenvalue over the distance to the next.
-const ITERATIONS: usize = 2;
+/// Rayleigh quotient iterations of one branch at most, each with two solves of either side.
+const ITERATIONS: usize = 8;
 
-/// Change of an eigenvalue relative to it above which the small space did not hold the branch.
+/// Change of an eigenvalue relative to it at which its vectors have settled to the square of that.
+const SETTLED: f64 = 1e-8;
+
+/// Distance relative to an eigenvalue from that of its branch above which it is another's: small spaces leave out far less.
 const LOST: f64 = 1e-3;
 
-/// [`crate::cea::cyclic::sensitivities`] of a body of revolution: of every branch that oscillates at that friction coefficient.
+/// [`crate::cea::cyclic::sensitivities`] of a body of revolution: of every branch that oscillates at that friction coefficient, but
+/// for those that Rayleigh quotient iteration does not find again.
 ///
 /// Eigenvalues and vectors are those of the whole harmonic, not of the small space that the branches were followed in. In rigid contact the
 /// left vector's part along a pressed normal is `s mu` times that along its tangent, so that a change of the drag adds the normal
@@ -28,7 +30,7 @@ const LOST: f64 = 1e-3;
 /// ```
 ///
 /// # Errors
-/// [`CeaError::LostHarmonic`] where a branch cannot be solved for there.
+/// [`CeaError::Prestress`] as for the base state itself.
 pub fn solid_sensitivities(
     result: &SolidSweep,
     friction_coefficient: f64,
@@ -39,12 +41,13 @@ pub fn solid_sensitivities(
         .map(|parameter| tangent.rate(parameter))
         .collect();
     let rates = rates?;
-    let found: Result<Vec<Vec<(usize, Sensitivity)>>, CeaError> = result
-        .solved
+    let found: Vec<Vec<(usize, Sensitivity)>> = result
+        .coverage
+        .followed
         .par_iter()
-        .map(|solved| of_harmonic(result, &rates, solved, friction_coefficient))
+        .map(|&n| of_harmonic(result, &rates, n, friction_coefficient))
         .collect();
-    let mut found: Vec<(usize, Sensitivity)> = found?.into_iter().flatten().collect();
+    let mut found: Vec<(usize, Sensitivity)> = found.into_iter().flatten().collect();
     found.sort_by_key(|(place, _)| *place);
     Ok(found.into_iter().map(|(_, own)| own).collect())
 }
@@ -53,7 +56,7 @@ pub fn solid_sensitivities(
 struct FullPair {
     /// Place of its branch in the sweep.
     place: usize,
-    reduced: BranchPair,
+    wave: Wave,
     root: c64,
     /// Right and left vector over all unknowns.
     x: Vec<c64>,
@@ -64,25 +67,22 @@ struct FullPair {
     works: Vec<c64>,
 }
 
-/// Sensitivities of the branches of one harmonic with their places in the sweep.
+/// Sensitivities of the branches of harmonic `n` with their places in the sweep.
 fn of_harmonic(
     result: &SolidSweep,
     rates: &[Option<SolidRate>],
-    solved: &Solved,
+    n: usize,
     friction: f64,
-) -> Result<Vec<(usize, Sensitivity)>, CeaError> {
-    let (tangent, n) = (&result.tangent, solved.problem.harmonic);
+) -> Vec<(usize, Sensitivity)> {
+    let tangent = &result.tangent;
     let harmonic = tangent.harmonic(n);
-    let own = result.branches.iter().enumerate();
-    let own: Vec<(usize, &ModeBranch)> = own
-        .filter(|(_, branch)| branch.harmonic == n && branch.interpolate(friction).is_some())
+    let full = Full::new(&harmonic, friction);
+    let direction = tangent.base().sliding_direction;
+    let own = result.branches.par_iter().enumerate();
+    let own = own.filter(|(_, branch)| branch.harmonic == n);
+    let pairs: Vec<FullPair> = own
+        .filter_map(|(place, branch)| full.pair(place, branch, Wave::of(branch, direction)))
         .collect();
-    let full = Full::new(tangent, &harmonic, friction);
-    let pairs: Result<Vec<FullPair>, CeaError> = own
-        .par_iter()
-        .map(|(place, branch)| full.pair(solved, *place, branch))
-        .collect();
-    let pairs = pairs?;
     let by_friction = friction_terms(&harmonic);
     let mut responses: Vec<Vec<Option<c64>>> = vec![Vec::new(); pairs.len()];
     for rate in rates {
@@ -109,7 +109,7 @@ fn of_harmonic(
             Sensitivity::new(branch, friction, pair.eigenvalue(), by_friction, responses),
         )
     };
-    Ok(pairs.iter().zip(&responses).map(of_pair).collect())
+    pairs.iter().zip(&responses).map(of_pair).collect()
 }
 
 /// A term of `dT`: a real matrix times a constant and a power of `lambda`.
@@ -151,7 +151,7 @@ fn term((factor, power, matrix): (c64, i32, &BandedMatrix)) -> Option<Term> {
 impl FullPair {
     /// `lambda` of the branch's own wave.
     fn eigenvalue(&self) -> c64 {
-        self.reduced.of_wave(self.root)
+        self.wave.own(self.root)
     }
 
     /// `d lambda / d parameter`.
@@ -165,13 +165,12 @@ impl FullPair {
             .zip(drags)
             .map(|(work, drag)| work * *drag);
         let response = -(forms.sum::<c64>() + works.sum::<c64>()) / self.slope;
-        self.reduced.of_wave(response)
+        self.wave.own(response)
     }
 }
 
 /// One harmonic at one friction coefficient.
 struct Full<'a> {
-    tangent: &'a SolidTangent,
     harmonic: &'a SolidHarmonic,
     friction: f64,
     at: MovingHarmonic,
@@ -179,31 +178,19 @@ struct Full<'a> {
 }
 
 impl<'a> Full<'a> {
-    fn new(tangent: &'a SolidTangent, harmonic: &'a SolidHarmonic, friction: f64) -> Self {
+    fn new(harmonic: &'a SolidHarmonic, friction: f64) -> Self {
         Self {
             at: harmonic.at(friction),
             moving: harmonic.moving(),
-            tangent,
             harmonic,
             friction,
         }
     }
 
-    /// The eigenpair of a branch, from that of the small space.
-    fn pair(
-        &self,
-        solved: &Solved,
-        place: usize,
-        branch: &ModeBranch,
-    ) -> Result<FullPair, CeaError> {
-        let direction = self.tangent.base().sliding_direction;
-        let reduced = BranchPair::find(&solved.problem, branch, self.friction, direction)?;
-        let start = reduced.root;
-        let moving = |x: &[c64]| -> Vec<c64> {
-            let whole = solved.reduction.expand(x);
-            self.moving.iter().map(|&unknown| whole[unknown]).collect()
-        };
-        let (mut x, mut y) = (moving(&reduced.found.x), moving(&reduced.found.y));
+    /// The eigenpair of a branch, from its eigenvalue in the small space; `None` where it has stopped to oscillate or is not found.
+    fn pair(&self, place: usize, branch: &ModeBranch, wave: Wave) -> Option<FullPair> {
+        let start = wave.own(branch.interpolate(self.friction)?);
+        let (mut x, mut y) = (self.any_vector(0.3), self.any_vector(1.1));
         let mut root = start;
         for _ in 0..ITERATIONS {
             let lu = self.factorized(root);
@@ -215,21 +202,26 @@ impl<'a> Full<'a> {
                 lu.solve_adjoint(&mut y);
                 normalize(&mut y);
             }
-            root = self.rayleigh_quotient(root, &x, &y);
-            if (root - start).norm() <= f64::EPSILON.sqrt() * start.norm() {
+            let last = root;
+            root = self.rayleigh_quotient(last, &x, &y);
+            if (root - last).norm() <= SETTLED * root.norm() {
                 break;
             }
         }
+        // Not so of what is not a number.
         let is_it = (root - start).norm() <= LOST * start.norm();
-        if !is_it {
-            return Err(CeaError::LostHarmonic {
-                harmonic: solved.problem.harmonic,
-                friction: self.friction,
-            });
-        }
         let slope = self.apply_slope(root, &x, false);
         let slope = y.iter().zip(&slope).map(|(y, s)| y.conj() * s).sum();
-        Ok(self.whole((place, reduced, root), [x, y], slope))
+        is_it.then(|| self.whole((place, wave, root), [x, y], slope))
+    }
+
+    /// A vector with a part of every mode.
+    fn any_vector(&self, phase: f64) -> Vec<c64> {
+        let entry = |i: usize| {
+            let at = i as f64;
+            c64::new(1.0 + (1.7 * at).sin(), (phase + 0.9 * at).cos())
+        };
+        (0..self.moving.len()).map(entry).collect()
     }
 }
 
@@ -282,7 +274,7 @@ impl Full<'_> {
     /// The pair over all unknowns.
     fn whole(
         &self,
-        (place, reduced, root): (usize, BranchPair, c64),
+        (place, wave, root): (usize, Wave, c64),
         moving: [Vec<c64>; 2],
         slope: c64,
     ) -> FullPair {
@@ -304,7 +296,7 @@ impl Full<'_> {
         }
         FullPair {
             place,
-            reduced,
+            wave,
             root,
             x,
             y,

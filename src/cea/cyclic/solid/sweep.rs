@@ -51,14 +51,6 @@ pub struct SolidSweep {
     pub branches: Vec<ModeBranch>,
     /// The linearisation, for sensitivities.
     pub tangent: SolidTangent,
-    pub(super) solved: Vec<Solved>,
-}
-
-/// A harmonic with the small space that its branches were followed in.
-#[derive(Clone, Debug)]
-pub(super) struct Solved {
-    pub reduction: Reduction,
-    pub problem: HarmonicProblem,
 }
 
 /// Branches are followed from this much above the highest frequency wanted.
@@ -172,18 +164,12 @@ pub fn solid_sweep(model: &SolidModel, request: &SweepRequest<'_>) -> Result<Sol
         margin_hz: margin.sqrt() / TAU,
         factorizations: followed.iter().map(|paths| paths.factorizations).sum(),
     };
-    let solved = followed.into_iter().zip(reductions);
-    let solved = solved.map(|(paths, reduction)| Solved {
-        reduction,
-        problem: paths.problem,
-    });
     Ok(SolidSweep {
         sweep: FrictionSweep { points, intervals },
         coverage,
         dofs: tangent.unknown_of().iter().flatten().count() * sector.sector_count(),
         reduction_error: error,
         branches,
-        solved: solved.collect(),
         tangent,
     })
 }
