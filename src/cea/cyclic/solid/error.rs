@@ -91,8 +91,9 @@ pub(super) fn reduction_error(
 /// Adds `factor A x`, or `factor A^T x`.
 fn add_product(sum: &mut [c64], factor: c64, matrix: &BandedMatrix, x: &[c64], transposed: bool) {
     for row in 0..matrix.dimension() {
-        for column in matrix.columns(row) {
-            let value = matrix.get(row, column);
+        let columns = matrix.columns(row);
+        let first = columns.start + matrix.half_bandwidth() - row;
+        for (column, &value) in columns.zip(&matrix.row(row)[first..]) {
             if value != 0.0 {
                 let (to, from) = if transposed {
                     (column, row)
