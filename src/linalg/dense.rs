@@ -1,7 +1,7 @@
 //! Dense kernels over faer, sequential and instantiated once for `f64`.
 
 use faer::linalg::matmul::matmul;
-use faer::prelude::IntoConst;
+use faer::prelude::{IntoConst, ReborrowMut};
 use faer::{Accum, Mat, MatMut, MatRef, Par};
 
 /// `a b`.
@@ -63,21 +63,45 @@ impl GrowingColumns {
         let total = known + new.ncols();
         let rows = self.storage.nrows();
         if self.room < total {
-            // Memory that no column fills yet is not touched.
-            let mut roomy = Mat::with_capacity(rows, total + total / 2);
+            // Memory that no column fills yet is not touched, and a copy touches all of it twice.
+            let room = 4 * total;
+            let mut roomy = Mat::with_capacity(rows, room);
             roomy.resize_with(rows, known, |i, j| self.storage[(i, j)]);
             self.storage = roomy;
-            self.room = total + total / 2;
+            self.room = room;
         }
         self.storage
             .resize_with(rows, total, |i, j| new[(i, j - known)]);
     }
 
-    /// Takes the columns' place by their combinations `columns * coefficients`.
+    /// Takes the columns' place by their combinations, see [`combine`].
     pub fn combine(&mut self, coefficients: MatRef<'_, f64>) {
-        self.storage = product(self.columns(), coefficients);
-        self.room = self.count();
+        combine(&mut self.storage, coefficients);
     }
+}
+
+/// Puts combinations `a * coefficients`, no more than `a` has columns, in its place, a strip of rows after the other:
+/// fresh memory for tall columns costs more than their product.
+pub fn combine(a: &mut Mat<f64>, coefficients: MatRef<'_, f64>) {
+    const STRIP: usize = 1024;
+    let (rows, known, kept) = (a.nrows(), a.ncols(), coefficients.ncols());
+    let mut image = Mat::zeros(STRIP.min(rows), kept);
+    for first in (0..rows).step_by(STRIP) {
+        let count = STRIP.min(rows - first);
+        let mut image = image.as_mut().subrows_mut(0, count);
+        let strip = a.as_ref().submatrix(first, 0, count, known);
+        matmul(
+            image.rb_mut(),
+            Accum::Replace,
+            strip,
+            coefficients,
+            1.0,
+            Par::Seq,
+        );
+        let mut place = a.as_mut().submatrix_mut(first, 0, count, kept);
+        place.copy_from(image);
+    }
+    a.truncate(rows, kept);
 }
 
 /// Rows `a` above rows `b`.

@@ -1,8 +1,12 @@
 //! Block Krylov-Schur iteration for the eigenvalues of largest modulus of a real operator.
 
 use super::LinalgError;
-use super::dense::{GrowingColumns, orthonormalize, product, random_columns};
+use super::dense::{
+    GrowingColumns, Orthonormalized, add_product, orthonormalize, product, random_columns,
+    transpose_product,
+};
 use super::dense_eigen::{RealEigen, real_eigen};
+use super::gram::orthonormal_columns;
 use faer::{Mat, MatRef, c64};
 
 /// A real linear operator that is applied to blocks of vectors.
@@ -204,7 +208,7 @@ impl<'a> BlockArnoldi<'a> {
         self.applications += self.width();
         let (old, width) = (self.dimension(), self.width());
         self.basis.append(self.next.as_ref());
-        let result = orthonormalize(self.basis.columns(), image, 1e-14);
+        let result = orthonormalize_block(self.basis.columns(), image);
         let mut projection = Mat::zeros(old + width, old + width);
         for j in 0..old + width {
             for i in 0..old + width {
@@ -295,6 +299,28 @@ impl<'a> BlockArnoldi<'a> {
             residuals,
             applications: self.applications,
         })
+    }
+}
+
+/// [`orthonormalize`] by Gram matrices, unless columns depend on one another.
+fn orthonormalize_block(basis: MatRef<'_, f64>, mut w: Mat<f64>) -> Orthonormalized {
+    let mut against = Mat::zeros(basis.ncols(), w.ncols());
+    for _ in 0..2 {
+        let overlap = transpose_product(basis, w.as_ref());
+        add_product(w.as_mut(), -1.0, basis, overlap.as_ref());
+        against += overlap;
+    }
+    match orthonormal_columns(w) {
+        Ok(factors) => Orthonormalized {
+            columns: factors.columns,
+            against,
+            within: factors.within,
+        },
+        Err(w) => {
+            let mut rest = orthonormalize(basis, w, 1e-14);
+            rest.against += against;
+            rest
+        }
     }
 }
 

@@ -7,6 +7,7 @@ mod dense_lu;
 mod distribution;
 mod error;
 mod gaussian_noise;
+pub mod gram;
 mod krylov_schur;
 mod polynomial;
 mod sparse_cholesky;

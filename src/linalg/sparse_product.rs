@@ -3,10 +3,18 @@
 use super::SparsityPattern;
 use super::dense::{column, column_mut};
 use faer::{Mat, MatRef};
+use std::cell::Cell;
 
 /// Vectors multiplied together; their entries are interleaved so that each nonzero is read once and
 /// meets contiguous memory.
 const LANES: usize = 8;
+/// Rows of results that stay in cache until their columns are written.
+const STRIP: usize = 128;
+
+thread_local! {
+    /// Interleaved vectors, kept from product to product: fresh memory would cost as much as the product itself.
+    static INTERLEAVED: Cell<Vec<[f64; LANES]>> = const { Cell::new(Vec::new()) };
+}
 
 /// `sum + value * source`, by value: the lanes stay in vector registers.
 #[inline(always)]
@@ -65,8 +73,10 @@ impl SparsityPattern {
         let n = self.dimension();
         assert_eq!(x.nrows(), n, "vectors and matrix differ in length");
         let mut results = [(); N].map(|()| Mat::zeros(n, x.ncols()));
-        let mut input = vec![[0.0; LANES]; n];
-        let mut outputs = [(); N].map(|()| vec![[0.0; LANES]; n]);
+        let mut input = INTERLEAVED.take();
+        input.clear();
+        input.resize(n, [0.0; LANES]);
+        let mut strips = [[[0.0; LANES]; STRIP]; N];
         for first in (0..x.ncols()).step_by(LANES) {
             let width = LANES.min(x.ncols() - first);
             for lane in 0..width {
@@ -74,20 +84,25 @@ impl SparsityPattern {
                     entry[lane] = *value;
                 }
             }
-            for index in 0..n {
-                let sums = kernel(&input, index);
-                for (output, sum) in outputs.iter_mut().zip(sums) {
-                    output[index] = sum;
+            for start in (0..n).step_by(STRIP) {
+                let rows = start..n.min(start + STRIP);
+                for index in rows.clone() {
+                    let sums = kernel(&input, index);
+                    for (strip, sum) in strips.iter_mut().zip(sums) {
+                        strip[index - start] = sum;
+                    }
                 }
-            }
-            for (result, output) in results.iter_mut().zip(&outputs) {
-                for lane in 0..width {
-                    for (value, entry) in column_mut(result, first + lane).iter_mut().zip(output) {
-                        *value = entry[lane];
+                for (result, strip) in results.iter_mut().zip(&strips) {
+                    for lane in 0..width {
+                        let target = &mut column_mut(result, first + lane)[rows.clone()];
+                        for (value, entry) in target.iter_mut().zip(strip) {
+                            *value = entry[lane];
+                        }
                     }
                 }
             }
         }
+        INTERLEAVED.set(input);
         results
     }
 }

@@ -4,8 +4,9 @@ use super::linearization::Linearization;
 use super::mode::ReducedMode;
 use super::packed::ComplexColumns;
 use super::term::Term;
-use crate::linalg::dense::{GrowingColumns, orthonormal_complement, product, transpose_product};
+use crate::linalg::dense::{GrowingColumns, product, transpose_product};
 use crate::linalg::dense_eigen::real_eigen;
+use crate::linalg::gram::complement;
 use crate::linalg::{DenseLu, LinalgError, MatrixPolynomial};
 use crate::linalg::{Mat, MatRef, Scale, c64};
 use crate::prestress::SlidingTangent;
@@ -60,10 +61,10 @@ impl ReducedModel {
         self.basis.count()
     }
 
-    /// Adds what `columns` hold beyond the basis, down to the length `drop_below`; returns the new columns of the
-    /// basis.
+    /// Adds what `columns` hold beyond the basis, down to the length `drop_below` and to a millionth of their own;
+    /// returns the new columns of the basis.
     pub fn extend(&mut self, columns: Mat<f64>, drop_below: f64) -> Mat<f64> {
-        let new = orthonormal_complement(self.basis.columns(), columns, drop_below);
+        let new = complement(self.basis.columns(), columns, drop_below);
         if new.ncols() == 0 {
             return new;
         }
