@@ -1,5 +1,6 @@
 //! Growth of the common basis until it holds the modes of every friction coefficient.
 
+use super::GROUP_WIDTH;
 use super::linearization::Linearization;
 use super::mode::ReducedMode;
 use super::packed::{PackedEntry, PackedModes};
@@ -10,7 +11,7 @@ use crate::linalg::dense::{
     column, column_norms, dot, join_columns, orthonormal_complement, pick_columns,
 };
 use crate::linalg::{KrylovSchurSettings, LinalgError, LuAnalysis, Wanted, krylov_schur};
-use crate::linalg::{Mat, Scale};
+use crate::linalg::{Mat, MatRef, Scale};
 use crate::prestress::SlidingTangent;
 use std::ops::Range;
 use std::sync::OnceLock;
@@ -24,8 +25,11 @@ const COMPRESSED: f64 = 5e-12;
 const SMALLEST_ENERGY: f64 = 1e-24;
 /// Residual force, relative to the inertia force, below which a mode is left as it is.
 const CONVERGED: f64 = 1e-11;
-/// Lengths of corrections above which one Krylov step more follows a refinement.
-const KRYLOV_STEPS: [f64; 2] = [1e-4, 1e-8];
+/// Length of corrections, of modes of unit length, that refinement aims at.
+const SHORTEST: f64 = 1e-11;
+/// Krylov steps that follow a refinement, for each decade between its longest correction and [`SHORTEST`]: a step wins
+/// about a decade and a half, and costs half of another refinement, which needs residuals.
+const STEPS_PER_DECADE: f64 = 0.7;
 /// Part of the vectors of such a step, relative to the mode of highest frequency, that is worth keeping.
 const KRYLOV_TOLERANCE: f64 = 1e-3;
 /// Friction values whose modes make up the compressed basis, besides the ends.
@@ -35,10 +39,11 @@ const MAX_ROUNDS: usize = 40;
 
 /// Block Davidson iteration over friction coefficients.
 ///
-/// The modes at `mu` of the projected problem leave residuals `r`; `K(0)^-1 r` are the directions that
-/// the basis lacks. `K(0)` is symmetric and factorized once: as a preconditioner for all `mu` it costs a
-/// fifth of the LU factors of `K(mu)`, and the directions found at one `mu` serve all others. Where this
-/// does not converge (strong friction), [`BasisBuilder::search`] factorizes `K(mu)`.
+/// The modes at `mu` of the projected problem leave residuals `r`; `(K(0) - sigma M(0))^-1 r` are the directions that
+/// the basis lacks. This matrix is symmetric and factorized once: as a preconditioner for all `mu` it costs a
+/// fifth of the LU factors of `K(mu)`, and the directions found at one `mu` serve all others. A `sigma` amid the
+/// modes needs two thirds of the directions that `sigma = 0` needs. Where this does not converge (strong friction),
+/// [`BasisBuilder::search`] factorizes `K(mu)`.
 ///
 /// Source: E. R. Davidson, J. Comput. Phys. 17 (1975), here in blocks over a family of problems.
 pub struct BasisBuilder<'a> {
@@ -53,7 +58,7 @@ pub struct BasisBuilder<'a> {
 }
 
 impl<'a> BasisBuilder<'a> {
-    /// Starts from frictionless `modes`, one column each, and the factors of `K(0)`.
+    /// Starts from frictionless `modes`, one column each, and the factors of `K(0)` or, better, `K(0) - sigma M(0)`.
     pub fn new(
         tangent: &'a SlidingTangent,
         linearization: Linearization,
@@ -79,7 +84,9 @@ impl<'a> BasisBuilder<'a> {
     /// If a dense decomposition fails.
     pub fn cover(&mut self, values: &[f64]) -> Result<(), LinalgError> {
         for &mu in spread(values).iter().cycle().take(MAX_ROUNDS) {
-            if !self.refine_at(mu)? {
+            // Of a single value the last corrections need no other look: its point is checked.
+            let is_done = |longest: f64| values.len() == 1 && longest <= SHORTEST;
+            if self.refine_at(mu)?.is_none_or(is_done) {
                 break;
             }
         }
@@ -117,14 +124,14 @@ impl<'a> BasisBuilder<'a> {
         Ok(())
     }
 
-    /// One refinement at one friction coefficient; whether it added anything.
+    /// One refinement at one friction coefficient; the length of its longest correction, if it added any.
     ///
-    /// Corrections follow one another like the vectors of a Krylov iteration with `K(0)^-1 M(0)`, so while they are
-    /// long a few steps of it are taken at once: only the last ones need new residuals.
+    /// Corrections follow one another like the vectors of a Krylov iteration with `(K(0) - sigma M(0))^-1 M(0)`, so as
+    /// many steps of it as their length asks for are taken at once: only the last corrections need new residuals.
     ///
     /// # Errors
     /// If a dense decomposition fails.
-    pub fn refine_at(&mut self, mu: f64) -> Result<bool, LinalgError> {
+    pub fn refine_at(&mut self, mu: f64) -> Result<Option<f64>, LinalgError> {
         let modes = self.model.solve_right(mu, self.count)?;
         let corrections = self.corrections(&modes, mu);
         let longest = column_norms(corrections.as_ref())
@@ -132,12 +139,10 @@ impl<'a> BasisBuilder<'a> {
             .fold(0.0, f64::max);
         let mut new = self.model.extend(corrections, VECTOR_TOLERANCE * longest);
         let has_added = new.ncols() > 0;
-        let steps = KRYLOV_STEPS
-            .iter()
-            .filter(|&&length| longest > length)
-            .count();
+        let steps = STEPS_PER_DECADE * (longest / SHORTEST).log10();
         let (mass, inertia) = (&self.tangent.mass, self.highest_kappa(&modes));
-        for _ in 0..steps {
+        // A negative number is none.
+        for _ in 0..steps as usize {
             if new.ncols() == 0 {
                 break;
             }
@@ -148,7 +153,7 @@ impl<'a> BasisBuilder<'a> {
             image *= Scale(inertia);
             new = self.model.extend(image, KRYLOV_TOLERANCE);
         }
-        Ok(has_added)
+        Ok(has_added.then_some(longest))
     }
 
     /// `|kappa|`, or `|lambda|^2`, of the highest of the modes to be held.
@@ -157,48 +162,19 @@ impl<'a> BasisBuilder<'a> {
         moduli.fold(0.0, f64::max)
     }
 
-    /// `K(0)^-1 r` of those of the modes' packed vectors that have not converged.
+    /// `(K(0) - sigma M(0))^-1 r` of those of the modes' packed vectors that have not converged.
     fn corrections(&self, modes: &[ReducedMode], mu: f64) -> Mat<f64> {
         let packed = PackedModes::of(modes, self.model.dimension());
-        let vectors = self.model.expand(packed.coordinates.as_ref());
         let matrices = StructureMatrices::at(self.tangent, self.linearization, mu);
-        let (residuals, momenta) =
-            matrices.residuals_and_momenta(&packed.entries, vectors.as_ref());
-        // Modes whose residual force is not yet small against their inertia force.
-        let (forces, inertia) = (
-            column_norms(residuals.as_ref()),
-            column_norms(momenta.as_ref()),
-        );
-        let largest = |norms: &[f64], entry: &PackedEntry| {
-            let parts = norms[entry.columns()].iter();
-            parts.fold(0.0, |m: f64, v| m.max(*v))
-        };
-        let mut open = packed.entries.clone();
-        open.retain(|entry| {
-            let scale = matrices.inertia_factor(entry) * largest(&inertia, entry);
-            largest(&forces, entry) > CONVERGED * scale
-        });
-        let columns: Vec<usize> = open.iter().flat_map(PackedEntry::columns).collect();
-        let open_residuals = pick_columns(&residuals, &columns);
-        let mut corrections = open_residuals.clone();
-        self.preconditioner.solve_in_place(&mut corrections);
-        // Of these, those whose correction t has an energy, t^T K(0) t = t^T r against |kappa| x^T M x.
-        let products = |a: &Mat<f64>, b: &Mat<f64>, columns: Range<usize>| -> f64 {
-            let pair = |j| dot(column(a.as_ref(), j), column(b.as_ref(), j)).abs();
-            columns.map(pair).sum()
-        };
-        let (mut first, mut kept) = (0, Vec::new());
-        for entry in &open {
-            let own = first..first + entry.columns().len();
-            first = own.end;
-            let energy = products(&corrections, &open_residuals, own.clone());
-            let whole =
-                matrices.inertia_factor(entry) * products(&vectors, &momenta, entry.columns());
-            if energy > SMALLEST_ENERGY * whole {
-                kept.extend(own);
-            }
+        let mut open = OpenResiduals::none(matrices.dimension(), packed.coordinates.ncols());
+        for group in packed.groups(GROUP_WIDTH) {
+            let coordinates = packed.coordinates.get(.., group.columns.clone());
+            let vectors = self.model.expand(coordinates);
+            open.gather(&matrices, &group.entries, &vectors);
         }
-        pick_columns(&corrections, &kept)
+        let mut corrections = open.columns.clone();
+        self.preconditioner.solve_in_place(&mut corrections);
+        open.with_energy(corrections)
     }
 
     /// Adds the dominant vectors at `mu` from a Krylov-Schur iteration of its own, independent of the
@@ -231,6 +207,65 @@ impl<'a> BasisBuilder<'a> {
         self.model.extend(vectors, COMPRESSED);
         Ok(())
     }
+}
+
+/// Residuals of the packed vectors that have not converged.
+struct OpenResiduals {
+    columns: Mat<f64>,
+    /// Columns of each vector, and its energy `|kappa| x^T M x`.
+    vectors: Vec<(Range<usize>, f64)>,
+}
+
+impl OpenResiduals {
+    /// No residuals, with memory for `count` columns.
+    fn none(unknowns: usize, count: usize) -> Self {
+        let mut columns = Mat::with_capacity(unknowns, count);
+        columns.resize_with(unknowns, 0, |_, _| 0.0);
+        Self {
+            columns,
+            vectors: Vec::new(),
+        }
+    }
+
+    /// Adds the residuals of those packed vectors `x` whose residual force is not yet small against their inertia force.
+    fn gather(&mut self, matrices: &StructureMatrices<'_>, entries: &[PackedEntry], x: &Mat<f64>) {
+        let (residuals, momenta) = matrices.residuals_and_momenta(entries, x.as_ref());
+        let largest = |a: &Mat<f64>, entry: &PackedEntry| {
+            let norms = entry.columns().map(|j| a.col(j).norm_l2());
+            norms.fold(0.0, f64::max)
+        };
+        for entry in entries {
+            let factor = matrices.inertia_factor(entry);
+            if largest(&residuals, entry) <= CONVERGED * factor * largest(&momenta, entry) {
+                continue;
+            }
+            let (first, own) = (self.columns.ncols(), entry.columns());
+            let end = first + own.len();
+            let energy = factor * products(x.as_ref(), momenta.as_ref(), own.clone());
+            self.columns
+                .resize_with(x.nrows(), end, |i, j| residuals[(i, own.start + j - first)]);
+            self.vectors.push((first..end, energy));
+        }
+    }
+
+    /// Those `corrections` `t` of these residuals `r` that have an energy, `t^T r`, beside that of their mode.
+    fn with_energy(&self, corrections: Mat<f64>) -> Mat<f64> {
+        let has_energy = |(own, whole): &&(Range<usize>, f64)| {
+            let (t, r) = (corrections.as_ref(), self.columns.as_ref());
+            products(t, r, own.clone()) > SMALLEST_ENERGY * whole
+        };
+        let kept = self.vectors.iter().filter(has_energy);
+        let kept: Vec<usize> = kept.flat_map(|(own, _)| own.clone()).collect();
+        if kept.len() == corrections.ncols() {
+            return corrections;
+        }
+        pick_columns(&corrections, &kept)
+    }
+}
+
+/// `sum_j |a_j^T b_j|` over some columns.
+fn products(a: MatRef<'_, f64>, b: MatRef<'_, f64>, columns: Range<usize>) -> f64 {
+    columns.map(|j| dot(column(a, j), column(b, j)).abs()).sum()
 }
 
 /// The values in an order that samples their range evenly at any time: the largest first, then the

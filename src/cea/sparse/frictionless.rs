@@ -17,6 +17,8 @@ use std::f64::consts::TAU;
 const TOLERANCE: f64 = 1e-11;
 /// Width of its random start block: a compromise of cheap blocked solves and few vectors.
 const BLOCK: usize = 8;
+/// Where the shift of the factors kept may lie between zero and the highest eigenvalue `kappa`.
+const AMID: std::ops::Range<f64> = 0.4..0.65;
 
 /// The lowest modes of `K x = kappa M x` at `mu = 0`.
 pub struct FrictionlessModes {
@@ -24,7 +26,7 @@ pub struct FrictionlessModes {
     pub vectors: Mat<f64>,
     /// Angular frequencies `sqrt(kappa)`, rad/s.
     pub frequencies: Vec<f64>,
-    /// Factors of `K(0)`.
+    /// Factors of `K(0) - sigma M(0)`, `sigma` amid the modes where it can be.
     pub factors: StiffnessFactors,
 }
 
@@ -86,6 +88,9 @@ impl FrictionlessModes {
             }
             kept
         };
+        let factors = inertia
+            .factorize_amid(&frequencies[..kept])
+            .unwrap_or(factors);
         Ok(Self {
             vectors: pairs.vectors.get(.., ..kept).to_owned(),
             frequencies: frequencies[..kept].to_vec(),
@@ -100,6 +105,17 @@ fn widest_gap(frequencies: &[f64], wanted: usize) -> usize {
     (wanted.max(1)..frequencies.len())
         .max_by(|&i, &j| gap(i).total_cmp(&gap(j)).then(j.cmp(&i)))
         .unwrap_or(frequencies.len())
+}
+
+/// Angular frequency in the middle of the widest relative gap among those whose square is about half of the highest.
+fn frequency_amid(frequencies: &[f64]) -> Option<f64> {
+    let highest = frequencies.last()?;
+    let gaps = frequencies
+        .windows(2)
+        .map(|pair| (pair[1] / pair[0], 0.5 * (pair[0] + pair[1])));
+    let amid = gaps.filter(|(_, middle)| AMID.contains(&(middle / highest).powi(2)));
+    let widest = amid.max_by(|a, b| a.0.total_cmp(&b.0));
+    widest.map(|(_, middle)| middle)
 }
 
 /// Counts the eigenvalues of the symmetric pencil at `mu = 0` below a shift.
@@ -123,20 +139,29 @@ impl<'a> Inertia<'a> {
         Ok(StiffnessFactors::Symmetric(Box::new(ldl)))
     }
 
+    /// Factors of `K - sigma M` with a shift amid the modes; nothing where there is no such gap, or no such factors.
+    fn factorize_amid(&self, frequencies: &[f64]) -> Option<StiffnessFactors> {
+        let shift = frequency_amid(frequencies)?.powi(2);
+        let ldl = SparseLdl::factorize(&self.analysis, &self.shifted(shift)).ok()?;
+        Some(StiffnessFactors::Symmetric(Box::new(ldl)))
+    }
+
+    /// Values of `K - shift M`.
+    fn shifted(&self, shift: f64) -> Vec<f64> {
+        let (stiffness, mass) = (self.stiffness.evaluate(0.0), self.mass.evaluate(0.0));
+        let pairs = stiffness.iter().zip(&mass);
+        pairs.map(|(k, m)| k - shift * m).collect()
+    }
+
     /// Number of modes below an angular frequency, by Sylvester's law of inertia.
     ///
     /// A shift that the unpivoted factorization cannot bear is moved by parts in 1e8 a few times.
     fn count_below(&self, frequency: f64) -> Result<usize, LinalgError> {
-        let (stiffness, mass) = (self.stiffness.evaluate(0.0), self.mass.evaluate(0.0));
         let mut outcome = Ok(0);
         for attempt in 0..5 {
             let shift = (frequency * (1.0 + 1e-8 * f64::from(attempt))).powi(2);
-            let values: Vec<f64> = stiffness
-                .iter()
-                .zip(&mass)
-                .map(|(k, m)| k - shift * m)
-                .collect();
-            outcome = SparseLdl::factorize(&self.analysis, &values).map(|ldl| ldl.negative_count());
+            outcome = SparseLdl::factorize(&self.analysis, &self.shifted(shift))
+                .map(|ldl| ldl.negative_count());
             if outcome.is_ok() {
                 break;
             }

@@ -43,5 +43,7 @@ pub use sweep::{SparseSweep, sweep};
 const GUARD_MODES: usize = 5;
 /// Modes beyond those to which a branch may be matched.
 const TRACKING_MARGIN: usize = 6;
+/// Vectors over the unknowns that are expanded, multiplied and solved for together.
+const GROUP_WIDTH: usize = 24;
 /// Relative residual of the quadratic problem above which no pair is reported as converged.
 const RESIDUAL_BOUND: f64 = 1e-9;

@@ -63,6 +63,16 @@ impl PackedEntry {
     }
 }
 
+/// Neighbouring packed columns that are worked on together.
+pub struct PackedGroup {
+    /// Their range among all packed columns.
+    pub columns: std::ops::Range<usize>,
+    /// Their entries, columns counted from the first of the group.
+    pub entries: Vec<PackedEntry>,
+    /// The modes, stored or conjugate, whose vectors they hold.
+    pub modes: Vec<usize>,
+}
+
 /// Real and imaginary parts of right vectors, packed for real arithmetic.
 ///
 /// Of two modes with conjugate `s` only the first is stored: the other's vector is its conjugate.
@@ -114,13 +124,42 @@ impl PackedModes {
         }
     }
 
-    /// A mode's complex vector among expanded (or otherwise mapped) packed columns.
-    pub fn vector<'m>(&self, mode: usize, mapped: &'m Mat<f64>) -> PackedVector<'m> {
+    /// All columns in groups of about `width`, so that vectors over the unknowns need memory for a group only.
+    pub fn groups(&self, width: usize) -> Vec<PackedGroup> {
+        let mut groups: Vec<PackedGroup> = Vec::new();
+        for (index, entry) in self.entries.iter().enumerate() {
+            if groups.last().is_none_or(|g| g.columns.len() >= width) {
+                groups.push(PackedGroup {
+                    columns: entry.column..entry.column,
+                    entries: Vec::new(),
+                    modes: Vec::new(),
+                });
+            }
+            let group = groups.last_mut().expect("one was added");
+            group.columns.end = entry.columns().end;
+            group.entries.push(PackedEntry {
+                column: entry.column - group.columns.start,
+                ..*entry
+            });
+            let modes = (0..self.places.len()).filter(|&mode| self.places[mode].0 == index);
+            group.modes.extend(modes);
+        }
+        groups
+    }
+
+    /// A mode's complex vector among the expanded (or otherwise mapped) columns of its group.
+    pub fn vector<'m>(
+        &self,
+        mode: usize,
+        group: &PackedGroup,
+        mapped: &'m Mat<f64>,
+    ) -> PackedVector<'m> {
         let (entry, is_conjugate) = self.places[mode];
         let entry = self.entries[entry];
-        let imaginary = entry.column + 1;
+        let real = entry.column - group.columns.start;
+        let imaginary = real + 1;
         PackedVector {
-            real: column(mapped.as_ref(), entry.column),
+            real: column(mapped.as_ref(), real),
             imaginary: entry.is_complex.then(|| column(mapped.as_ref(), imaginary)),
             sign: if is_conjugate { -1.0 } else { 1.0 },
         }

@@ -1,12 +1,12 @@
 //! All modes at one friction coefficient, each held to its residual in the full matrices.
 
-use super::TRACKING_MARGIN;
 use super::edge::ContactEdge;
 use super::linearization::Linearization;
 use super::mode::ReducedMode;
 use super::packed::{PackedModes, PackedVector};
 use super::reduced::ReducedModel;
 use super::structure::StructureMatrices;
+use super::{GROUP_WIDTH, TRACKING_MARGIN};
 use crate::cea::{ModeLimit, keeping_ties};
 use crate::linalg::LinalgError;
 use crate::linalg::c64;
@@ -112,27 +112,32 @@ impl PointSolver<'_> {
     pub fn check(&self, model: &ReducedModel, mu: f64, modes: &[ReducedMode]) -> Vec<ModeCheck> {
         let matrices = StructureMatrices::at(self.tangent, self.linearization, mu);
         let packed = PackedModes::of(modes, model.dimension());
-        let x = model.expand(packed.coordinates.as_ref());
-        let (residuals, momenta) = matrices.residuals_and_momenta(&packed.entries, x.as_ref());
         let norms = matrices.norms();
-        (0..modes.len())
-            .map(|j| {
+        let mut checks: Vec<(usize, ModeCheck)> = Vec::with_capacity(modes.len());
+        for group in packed.groups(GROUP_WIDTH) {
+            let x = model.expand(packed.coordinates.get(.., group.columns.clone()));
+            let (residuals, momenta) = matrices.residuals_and_momenta(&group.entries, x.as_ref());
+            for &j in &group.modes {
                 let lambda = modes[j].eigenvalue;
                 let modulus = lambda.norm();
-                let force = matrices.residual_factor(lambda) * packed.vector(j, &residuals).norm();
-                let inertia = modulus * modulus * packed.vector(j, &momenta).norm();
-                let shape = packed.vector(j, &x);
+                let [residual, momentum, shape] =
+                    [&residuals, &momenta, &x].map(|mapped| packed.vector(j, &group, mapped));
+                let force = matrices.residual_factor(lambda) * residual.norm();
+                let inertia = modulus * modulus * momentum.norm();
                 let scale = modulus * modulus * norms[2] + modulus * norms[1] + norms[0];
-                ModeCheck {
+                let check = ModeCheck {
                     residual: force / (scale * shape.norm()),
                     force_residual: force / inertia,
                     uncertainty: f64::EPSILON * scale * length(&modes[j].left) / modulus,
-                    contact_share: self.contact_share(shape, packed.vector(j, &momenta)),
+                    contact_share: self.contact_share(shape, momentum),
                     edge: self.edge.restrict(|unknown| shape.at(unknown)),
                     peak: shape.peak(),
-                }
-            })
-            .collect()
+                };
+                checks.push((j, check));
+            }
+        }
+        checks.sort_by_key(|(j, _)| *j);
+        checks.into_iter().map(|(_, check)| check).collect()
     }
 
     /// Kinetic energy of the contact edge's nodes over the whole. `momentum` is `M(mu) x`, which differs from
@@ -162,17 +167,18 @@ impl PointSolver<'_> {
     /// Shapes of `modes` over all nodal dofs, the largest displacement vector of length 1 and real there.
     pub fn shapes(&self, model: &ReducedModel, modes: &[ReducedMode]) -> Vec<Vec<c64>> {
         let packed = PackedModes::of(modes, model.dimension());
-        let x = model.expand(packed.coordinates.as_ref());
         let count = self.tangent.unknowns.len();
-        (0..modes.len())
-            .map(|j| {
-                let vector = packed.vector(j, &x);
+        let mut shapes = vec![Vec::new(); modes.len()];
+        for group in packed.groups(GROUP_WIDTH) {
+            let x = model.expand(packed.coordinates.get(.., group.columns.clone()));
+            for &j in &group.modes {
+                let vector = packed.vector(j, &group, &x);
                 let values: Vec<c64> = (0..count).map(|unknown| vector.at(unknown)).collect();
-                let mut shape = self.tangent.displacement(&values);
-                normalize(&mut shape);
-                shape
-            })
-            .collect()
+                shapes[j] = self.tangent.displacement(&values);
+                normalize(&mut shapes[j]);
+            }
+        }
+        shapes
     }
 }
 

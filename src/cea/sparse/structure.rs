@@ -35,6 +35,11 @@ impl<'a> StructureMatrices<'a> {
         }
     }
 
+    /// Number of unknowns.
+    pub fn dimension(&self) -> usize {
+        self.pattern.dimension()
+    }
+
     /// `K x - kappa M x` or, of the general problem, `T(lambda) x`, for the packed vectors `x` of `entries`, in
     /// the same packing; and `M x`.
     pub fn residuals_and_momenta(

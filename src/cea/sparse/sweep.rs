@@ -136,7 +136,7 @@ impl<'a> SparseSweep<'a> {
             else {
                 break;
             };
-            if !self.builder.refine_at(self.grid[worst])? {
+            if self.builder.refine_at(self.grid[worst])?.is_none() {
                 if self.points[worst].worst().0 <= RESIDUAL_BOUND {
                     break;
                 }
