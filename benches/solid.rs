@@ -8,7 +8,7 @@
 #[path = "../tests/common/fma_peak.rs"]
 mod fma_peak;
 #[allow(dead_code)]
-#[path = "../tests/solids/model.rs"]
+#[path = "../tests/numerics/solids/model.rs"]
 mod model;
 
 use fma_peak::fma_peak;

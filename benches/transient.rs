@@ -10,7 +10,7 @@ mod disc;
 #[path = "../tests/common/fma_peak.rs"]
 mod fma_peak;
 #[allow(dead_code)]
-#[path = "../tests/two_bodies/model.rs"]
+#[path = "../tests/numerics/two_bodies/model.rs"]
 mod two_bodies;
 
 use disc::{DAMPING, POLYCARBONATE, annulus, contact};

@@ -1,0 +1,627 @@
+//! Consistency checks of the case parser: shipped cases, overrides, ranges, messages, robustness.
+
+mod agreement;
+mod friction_law;
+mod keys;
+mod plausibility;
+mod sizes;
+mod solid;
+
+use frictionsim::case::{
+    Case, CaseErrors, CeaMethod, KEYS, ModeSelection, RawCase, Spacing, TimeStep, range_values,
+};
+use frictionsim::mesh::ElementKind;
+use proptest::prelude::*;
+use std::f64::consts::TAU;
+
+const DISC: &str = include_str!("../../../cases/polycarbonate-disc.toml");
+const RUN: &str = include_str!("../../../cases/polycarbonate-610rpm.toml");
+const STUDY: &str = include_str!("../../../cases/speed-friction-study.toml");
+
+fn parse(text: &str, overrides: &[&str]) -> Result<Case, CaseErrors> {
+    let overrides: Vec<String> = overrides.iter().map(|text| text.to_string()).collect();
+    Case::parse("case.toml", text.as_bytes(), &overrides)
+}
+
+fn valid(text: &str, overrides: &[&str]) -> Case {
+    parse(text, overrides).unwrap_or_else(|errors| panic!("{errors}"))
+}
+
+/// The report of a case that must not be valid.
+fn report(text: &str, overrides: &[&str]) -> String {
+    match parse(text, overrides) {
+        Ok(_) => panic!("valid under {overrides:?}"),
+        Err(errors) => errors.to_string(),
+    }
+}
+
+/// `DISC` with one line replaced.
+fn disc_with(key: &str, line: &str) -> String {
+    let is_key = |text: &str| text.split('=').next().map(str::trim) == Some(key);
+    assert_eq!(DISC.lines().filter(|text| is_key(text)).count(), 1, "{key}");
+    let lines: Vec<&str> = DISC
+        .lines()
+        .map(|text| if is_key(text) { line } else { text })
+        .collect();
+    lines.join("\n")
+}
+
+fn assert_reports(report: &str, parts: &[&str]) {
+    for part in parts {
+        assert!(report.contains(part), "{part:?} is not in\n{report}");
+    }
+}
+
+#[test]
+fn the_disc_case_holds_the_model_of_the_paper() {
+    let case = valid(DISC, &[]);
+    let cea = case.require_cea().unwrap();
+    assert_eq!(case.annulus.element, ElementKind::Quad8);
+    assert_eq!(case.annulus.circumferential_elements, 150);
+    assert_eq!(cea.friction_coefficients.len(), 51);
+    assert!(cea.friction_coefficients.contains(&0.3));
+    assert_eq!(cea.shapes_at, [0.3]);
+    assert_eq!(cea.modes, ModeSelection::BelowHz(17500.0));
+    assert_eq!(cea.method, CeaMethod::Auto);
+    assert_eq!(case.contact.stiffness.normal_stiffness, Some(7.4e12));
+    // 610 revolutions a minute.
+    assert_eq!(case.contact.sliding.rotation_speed, 610.0 * TAU / 60.0);
+}
+
+#[test]
+fn every_key_is_known_where_the_table_of_keys_puts_it() {
+    for key in KEYS {
+        let text = format!("{}={}", key.name, key.example);
+        let Err(errors) = parse("", &[&text]) else {
+            panic!("an empty case is valid");
+        };
+        for error in &errors.diagnostics {
+            assert!(
+                !error.message.contains("unknown") && !error.message.contains(" must be "),
+                "{text}: {}",
+                error.message
+            );
+        }
+    }
+}
+
+#[test]
+fn the_swept_points_are_the_grid_in_order_with_the_last_key_fastest() {
+    let case = valid(STUDY, &[]);
+    let sweep = case.require_sweep().unwrap();
+    assert_eq!(sweep.point_count(), 72);
+    assert_eq!(sweep.overrides(25)[0], "contact.friction_coefficient=0.3");
+    let speeds = range_values(10.0, 6000.0, 24, Spacing::Logarithmic);
+    for index in [0, 25, 71] {
+        let raw = case.raw.sweep_point(&sweep.overrides(index)).unwrap();
+        let point = Case::from_raw(raw).unwrap();
+        let speed = point.contact.sliding.rotation_speed / TAU * 60.0;
+        // Two roundings of a product by 2 pi / 60.
+        assert!((speed / speeds[index % 24] - 1.0).abs() < 1e-15);
+    }
+}
+
+#[test]
+fn a_point_keeps_its_hash_when_the_study_grows() {
+    let point = |text: &str, overrides: &[&str]| {
+        let raw = valid(text, overrides).raw;
+        let at = ["contact.friction_coefficient=0.4".to_owned()];
+        raw.sweep_point(&at).unwrap().hash()
+    };
+    let grown = ["sweep.\"contact.friction_coefficient\"=[0.1, 0.2, 0.3, 0.4]"];
+    assert_eq!(point(STUDY, &[]), point(STUDY, &grown));
+}
+
+#[test]
+fn zipped_keys_run_side_by_side_and_need_equal_lengths() {
+    let zipped = valid(
+        STUDY,
+        &[
+            "sweep.combine=zip",
+            "sweep.\"contact.rotation_speed_rpm\"=[70, 300, 610]",
+        ],
+    );
+    let sweep = zipped.require_sweep().unwrap();
+    assert_eq!(sweep.point_count(), 3);
+    assert_eq!(
+        sweep.overrides(1),
+        [
+            "contact.friction_coefficient=0.3",
+            "contact.rotation_speed_rpm=300"
+        ]
+    );
+    let report = report(STUDY, &["sweep.combine=zip"]);
+    assert_reports(&report, &["has 24 values", "has 3", "equally many"]);
+}
+
+#[test]
+fn a_bad_swept_value_is_found_before_the_sweep() {
+    let report = report(STUDY, &["sweep.\"mesh.radial_elements\"=[10, 0]"]);
+    assert_reports(
+        &report,
+        &["swept value mesh.radial_elements=0", "1 or more"],
+    );
+}
+
+#[test]
+fn an_unknown_swept_key_is_an_error_with_a_suggestion() {
+    let report = report(STUDY, &["sweep.\"contact.rotation_speed\"=[1]"]);
+    assert_reports(&report, &["did you mean \"contact.rotation_speed_rpm\"?"]);
+}
+
+#[test]
+fn swept_keys_may_be_written_with_or_without_quotes() {
+    let plain = STUDY.replace(
+        "\"contact.friction_coefficient\"",
+        "contact.friction_coefficient",
+    );
+    let keys = |text: &str| valid(text, &[]).sweep.unwrap().keys.len();
+    assert_eq!(keys(&plain), keys(STUDY));
+}
+
+#[test]
+fn overrides_change_exactly_their_key() {
+    let case = valid(
+        DISC,
+        &[
+            "contact.friction_coefficient=0.45",
+            "mesh.element=quad4",
+            "mesh.radial_elements=12",
+            "cea.friction_coefficients={ from = 0, to = 0.6, count = 3 }",
+        ],
+    );
+    assert_eq!(case.contact.sliding.friction_coefficient, 0.45);
+    assert_eq!(case.annulus.element, ElementKind::Quad4);
+    assert_eq!(case.annulus.radial_elements, 12);
+    assert_eq!(case.annulus.circumferential_elements, 150);
+    assert_eq!(case.cea.unwrap().friction_coefficients, [0.0, 0.3, 0.6]);
+}
+
+#[test]
+fn overrides_may_reach_into_a_range() {
+    let case = valid(DISC, &["cea.friction_coefficients.count=101"]);
+    assert_eq!(case.cea.unwrap().friction_coefficients.len(), 101);
+}
+
+#[test]
+fn an_override_of_one_mode_selection_replaces_the_other() {
+    let case = valid(DISC, &["cea.modes=28"]);
+    assert_eq!(case.cea.unwrap().modes, ModeSelection::Lowest(28));
+    let text = DISC.replace("max_frequency_hz", "modes = 28\nmax_frequency_hz");
+    assert_reports(&report(&text, &[]), &["exclude each other", "keep one"]);
+}
+
+#[test]
+fn the_word_rigid_takes_the_contact_stiffness_away() {
+    let case = valid(DISC, &["contact.normal_stiffness=rigid"]);
+    assert_eq!(case.contact.stiffness.normal_stiffness, None);
+}
+
+#[test]
+fn a_bad_override_names_itself() {
+    for (text, parts) in [
+        ("contact.friction_coefficient", ["no `=`", "KEY=VALUE"]),
+        (
+            "contact.friction_coefficient=0,4",
+            ["\"0,4\"", "must be a number"],
+        ),
+        (
+            "contact.friction=0.4",
+            ["unknown key", "did you mean `friction_coefficient`?"],
+        ),
+        ("a b=1", ["is not a key", "dotted key"]),
+        ("cea.shapes_at=[0.3", ["not TOML", "KEY=VALUE"]),
+        ("mesh.element.x=1", ["mesh.element", "must be one of"]),
+        ("geometry=1", ["not a section", "[geometry]"]),
+    ] {
+        let report = report(DISC, &[text]);
+        assert_reports(&report, &["--set:1:"]);
+        assert_reports(&report, &parts);
+    }
+}
+
+#[test]
+fn the_hash_sees_values_and_not_their_spelling() {
+    let hash = |text: &str, overrides: &[&str]| valid(text, overrides).raw.hash();
+    let plain = hash(DISC, &[]);
+    let respelt = DISC
+        .replace("40.0 ", "4e1 ")
+        .replace("  # paper", "# from the paper")
+        .replace("radial_grading = 1.0", "radial_grading = 1")
+        .replace("[damping]\n", "\n\n[damping]\n\n");
+    assert_ne!(respelt, DISC);
+    assert_eq!(hash(&respelt, &[]), plain);
+    assert_eq!(hash(DISC, &["contact.friction_coefficient=0.30"]), plain);
+    assert_ne!(hash(DISC, &["contact.friction_coefficient=0.31"]), plain);
+}
+
+#[test]
+fn canonical_text_is_a_case_of_the_same_hash() {
+    for text in [DISC, RUN, STUDY] {
+        let case = valid(text, &[]);
+        let again = valid(&case.raw.canonical(), &[]);
+        assert_eq!(again.raw.hash(), case.raw.hash());
+        assert_eq!(again.cea, case.cea);
+        assert_eq!(again.transient, case.transient);
+    }
+}
+
+#[test]
+fn every_bad_value_of_the_model_names_key_bound_and_place() {
+    for (key, line, parts) in [
+        (
+            "poisson_ratio",
+            "poisson_ratio = 0.5",
+            [
+                "material.poisson_ratio = 0.5",
+                "strictly between -1 and 0.5",
+            ],
+        ),
+        (
+            "outer_radius",
+            "outer_radius = 0.0205",
+            ["must be above", "geometry.inner_radius = 0.0205"],
+        ),
+        (
+            "radial_elements",
+            "radial_elements = 0",
+            ["mesh.radial_elements = 0", "must be 1 or more"],
+        ),
+        (
+            "circumferential_elements",
+            "circumferential_elements = 2.5",
+            ["must be an integer", "number of elements"],
+        ),
+        (
+            "density",
+            "density = -1228",
+            ["material.density = -1228", "must be positive"],
+        ),
+        (
+            "friction_coefficient",
+            "friction_coefficient = -0.1",
+            ["contact.friction_coefficient", "must be zero or positive"],
+        ),
+        (
+            "young_modulus",
+            "young_modulus = nan",
+            ["material.young_modulus = nan", "must be positive"],
+        ),
+        (
+            "density",
+            "density = 1e999",
+            ["material.density = inf", "finite"],
+        ),
+        (
+            "interference",
+            "interference = \"25 um\"",
+            ["must be a number, not a string", "radial expansion"],
+        ),
+        (
+            "max_frequency_hz",
+            "max_frequency_hz = 0",
+            ["cea.max_frequency_hz = 0", "must be positive"],
+        ),
+        (
+            "method",
+            "method = \"cyclc\"",
+            ["must be one of", "did you mean \"cyclic\"?"],
+        ),
+        (
+            "shapes_at",
+            "shapes_at = [0.3, 0.3]",
+            ["has 0.3 twice", "every value once"],
+        ),
+        (
+            "friction_coefficients",
+            "friction_coefficients = []",
+            ["is empty", "at least one"],
+        ),
+        (
+            "radial_grading",
+            "radial_grading = 1e9",
+            ["largest element", "nearer to 1"],
+        ),
+        (
+            "circumferential_elements",
+            "circumferential_elements = 9223372036854775807",
+            ["nodes, above the limit", "lower mesh"],
+        ),
+        (
+            "formulation",
+            "formulation = 1979-05-27",
+            ["material.formulation", "must be one of"],
+        ),
+        (
+            "geometric_stiffness",
+            "geometric_stiffness = 1",
+            ["must be true or false", "prestress"],
+        ),
+        (
+            "normal_stiffness",
+            "normal_damping = 5.0",
+            ["no effect on a rigid contact", "contact.normal_stiffness"],
+        ),
+    ] {
+        let text = disc_with(key, line);
+        let number = text.lines().position(|text| text == line).unwrap() + 1;
+        let report = report(&text, &[]);
+        assert_reports(&report, &[&format!("case.toml:{number}:"), "^"]);
+        assert_reports(&report, &parts);
+    }
+}
+
+#[test]
+fn all_errors_of_a_case_are_reported_at_once() {
+    let text = disc_with("density", "density = -1\ncolour = \"red\"")
+        .replace("inner_radius = 0.0205", "inner_radius = 0.1")
+        .replace("[damping]", "[dampng]");
+    let errors = parse(&text, &["contact.interference=0"]).unwrap_err();
+    assert_eq!(errors.diagnostics.len(), 5, "{errors}");
+    assert_reports(
+        &errors.to_string(),
+        &[
+            "did you mean `damping`?",
+            "material.colour",
+            "must be above",
+            "--set:1:",
+        ],
+    );
+}
+
+#[test]
+fn a_key_in_the_wrong_section_is_sent_home() {
+    let text = disc_with("mass_coefficient", "friction_coefficient = 40.0").replacen(
+        "friction_coefficient = 0.3",
+        "mass_coefficient = 40.0",
+        1,
+    );
+    let report = report(&text, &[]);
+    assert_reports(
+        &report,
+        &[
+            "did you mean `friction_coefficient` of [contact]?",
+            "did you mean `mass_coefficient` of [damping]?",
+        ],
+    );
+}
+
+#[test]
+fn syntax_errors_have_a_place() {
+    let report = report(&disc_with("density", "density = = 3"), &[]);
+    assert_reports(&report, &["case.toml:", "density = = 3", "^"]);
+    let bytes = [b"title = \"".as_slice(), &[0xff, 0xfe], b"\""].concat();
+    let errors = Case::parse("case.toml", &bytes, &[])
+        .unwrap_err()
+        .to_string();
+    assert_reports(&errors, &["UTF-8", "case.toml:1:"]);
+}
+
+#[test]
+fn windows_line_ends_and_a_byte_order_mark_are_read() {
+    let text = format!("\u{feff}{}", DISC.replace('\n', "\r\n"));
+    assert_eq!(valid(&text, &[]).raw.hash(), valid(DISC, &[]).raw.hash());
+}
+
+#[test]
+fn impossible_transients_are_refused_with_the_bound() {
+    for (text, parts) in [
+        (
+            "output.probes=[1, 6481]",
+            ["probe 6481 does not exist", "nodes 1 to 6480"],
+        ),
+        ("output.probes=[0]", ["output.probes = 0", "1 or more"]),
+        (
+            "transient.duration=0",
+            ["transient.duration = 0", "must be positive"],
+        ),
+        (
+            "transient.time_step=1",
+            ["above transient.duration", "at most 0.05"],
+        ),
+        (
+            "transient.perturbation.harmonics=[91]",
+            ["highest, 90", "mesh.circumferential_elements"],
+        ),
+        (
+            "transient.perturbation.harmonics=[2, 2]",
+            ["listed twice", "harmonics"],
+        ),
+        (
+            "transient.initial=resting",
+            ["must be one of", "did you mean \"rest\"?"],
+        ),
+    ] {
+        assert_reports(&report(RUN, &[text]), &parts);
+    }
+    let both = ["transient.time_step=1e-7", "output.sample_interval=1e-8"];
+    assert_reports(
+        &report(RUN, &both),
+        &["output.sample_interval = 1e-8", "at least 1e-7"],
+    );
+}
+
+#[test]
+fn a_quadratic_mesh_runs_no_transient() {
+    let case = valid(RUN, &["mesh.element=quad8"]);
+    let report = case.require_transient().unwrap_err().to_string();
+    assert_reports(&report, &["mesh.element", "--set:1:", "quad4"]);
+    assert!(case.require_cea().is_ok());
+}
+
+#[test]
+fn a_missing_analysis_says_what_to_add() {
+    let case = valid(DISC, &[]);
+    assert_reports(
+        &case.require_transient().unwrap_err().to_string(),
+        &["no [transient] section", "duration"],
+    );
+    assert!(case.require_sweep().is_err());
+}
+
+#[test]
+fn snapshots_after_the_end_are_a_warning() {
+    let case = valid(RUN, &["transient.duration=0.01"]);
+    assert_eq!(case.warnings.len(), 2);
+    assert_eq!(case.transient.unwrap().time_step, TimeStep::Auto);
+}
+
+#[test]
+fn maps_and_cycles_take_numeric_keys_only() {
+    let map = |key: &str| format!("cea.map={{ key = \"{key}\", values = [1e12, 1e13] }}");
+    let case = valid(DISC, &[&map("contact.normal_stiffness")]);
+    assert_eq!(case.cea.unwrap().map.unwrap().values, [1e12, 1e13]);
+    for (key, part) in [
+        ("contact.friction_coefficient", "first parameter already"),
+        ("mesh.element", "not a numeric case key"),
+        (
+            "contact.normal_stifness",
+            "did you mean \"contact.normal_stiffness\"?",
+        ),
+    ] {
+        assert_reports(&report(DISC, &[&map(key)]), &[part]);
+    }
+    let cycle = "cycle={ harmonics = [1, 2], continuation = { key = \"contact.rotation_speed_rpm\", from = 10, to = 6000 } }";
+    let cycle = valid(DISC, &[cycle]).cycle.unwrap();
+    assert_eq!(cycle.harmonics, Some(vec![1, 2]));
+    assert_eq!(cycle.continuation.unwrap().to, 6000.0);
+}
+
+#[test]
+fn shapes_are_solved_for_beside_the_values_of_the_tables() {
+    let overrides = [
+        "cea.friction_coefficients=[0.5, 0.1]",
+        "cea.shapes_at=[0.3, 0.5]",
+    ];
+    let cea = valid(DISC, &overrides).cea.unwrap();
+    assert_eq!(cea.friction_coefficients, [0.1, 0.5]);
+    assert_eq!(cea.solved_friction_coefficients(), [0.1, 0.3, 0.5]);
+}
+
+#[test]
+fn estimated_step_bounds_the_known_highest_frequency() {
+    // The highest frequency of this mesh is 5.0e6 rad/s, which with this damping allows 0.153 us.
+    let step = valid(RUN, &[]).cost().transient.unwrap().time_step;
+    assert!((0.11e-6..0.153e-6).contains(&step), "{step}");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(512))]
+
+    #[test]
+    fn no_bytes_make_the_parser_panic(bytes in proptest::collection::vec(any::<u8>(), 0..200)) {
+        if let Err(errors) = Case::parse("x", &bytes, &[]) {
+            prop_assert!(!errors.to_string().is_empty());
+        }
+    }
+
+    #[test]
+    fn no_damage_to_a_valid_case_makes_it_panic(
+        which in 0..3usize,
+        start in 0.0..1.0f64,
+        length in 0..12usize,
+        insert in "\\PC{0,6}|[=\\[\\]{}\"'.,#\n0-9e-]{0,6}",
+    ) {
+        let mut bytes = [DISC, RUN, STUDY][which].as_bytes().to_vec();
+        let at = (start * bytes.len() as f64) as usize;
+        let end = (at + length).min(bytes.len());
+        bytes.splice(at..end, insert.bytes());
+        if let Err(errors) = Case::parse("x", &bytes, &[]) {
+            prop_assert!(!errors.render(true).is_empty());
+        }
+    }
+
+    #[test]
+    fn no_override_makes_the_parser_panic(
+        key in "[a-z_.\"']{0,12}|contact|cea\\.friction_coefficients|sweep\\.x|output\\.probes",
+        value in "\\PC{0,12}|[=\\[\\]{}\"'.,#\n0-9e-]{0,12}|-?[0-9]{1,22}|nan|inf",
+    ) {
+        let overrides = [format!("{key}={value}"), value];
+        if let Err(errors) = Case::parse("x", DISC.as_bytes(), &overrides) {
+            prop_assert!(!errors.to_string().is_empty());
+        }
+    }
+
+    #[test]
+    fn any_number_for_any_key_is_read_or_refused(
+        which in 0..KEYS.len(),
+        value in prop_oneof![
+            any::<f64>().prop_map(|value| format!("{value:e}")),
+            any::<i64>().prop_map(|value| value.to_string()),
+        ],
+    ) {
+        let overrides = [format!("{}={value}", KEYS[which].name)];
+        if let Ok(case) = Case::parse("x", RUN.as_bytes(), &overrides) {
+            prop_assert!(case.cost().nodes > 0);
+        }
+    }
+
+    #[test]
+    fn an_override_reads_back_the_number_it_was_given(value in 1e-300..1e25f64) {
+        let overrides = [format!("contact.normal_stiffness={value:?}")];
+        let raw = RawCase::parse("x", DISC.as_bytes(), &overrides).unwrap();
+        let case = Case::from_raw(raw).unwrap();
+        prop_assert_eq!(case.contact.stiffness.normal_stiffness, Some(value));
+    }
+}
+
+#[test]
+fn a_start_on_a_limit_cycle_names_a_harmonic_that_the_mesh_carries() {
+    use frictionsim::transient::InitialState;
+    let start = "transient.initial=\"limit-cycle\"";
+    let case = valid(RUN, &[start, "transient.limit_cycle_harmonic=2"]);
+    let initial = case.require_transient().unwrap().initial;
+    assert_eq!(
+        initial,
+        InitialState::LimitCycle {
+            harmonic: 2,
+            onset: 1
+        }
+    );
+    let second = "transient.limit_cycle_onset=2";
+    let case = valid(RUN, &[start, "transient.limit_cycle_harmonic=1", second]);
+    assert_eq!(
+        case.require_transient().unwrap().initial,
+        InitialState::LimitCycle {
+            harmonic: 1,
+            onset: 2
+        }
+    );
+    assert_reports(&report(RUN, &[second]), &["transient.limit_cycle_onset"]);
+    assert_reports(&report(RUN, &[start]), &["transient.limit_cycle_harmonic"]);
+    assert_reports(
+        &report(RUN, &["transient.limit_cycle_harmonic=2"]),
+        &["initial = \"limit-cycle\""],
+    );
+    assert_reports(
+        &report(RUN, &[start, "transient.limit_cycle_harmonic=91"]),
+        &["above the mesh's highest, 90"],
+    );
+}
+
+#[test]
+fn stability_along_a_branch_needs_a_branch() {
+    use frictionsim::case::StabilityChoice;
+    const CYCLES: &str = include_str!("../../../cases/limit-cycle.toml");
+    let case = valid(CYCLES, &["cycle.stability=\"branch\"", "cycle.phases=151"]);
+    let cycle = case.require_cycle().unwrap();
+    assert_eq!(
+        (cycle.stability, cycle.phases),
+        (StabilityChoice::Branch, Some(151))
+    );
+    assert_reports(
+        &report(RUN, &["cycle.stability=\"branch\""]),
+        &["cycle.stability", "[cycle.continuation]"],
+    );
+    assert_reports(
+        &report(CYCLES, &["cycle.confirmation_periods=19"]),
+        &["cycle.confirmation_periods", "20 and more"],
+    );
+    for periods in [0, 20] {
+        valid(CYCLES, &[&format!("cycle.confirmation_periods={periods}")]);
+    }
+    assert_reports(
+        &report(CYCLES, &["cycle.phases=3"]),
+        &["cycle.phases", "31 or more"],
+    );
+}

@@ -1,0 +1,102 @@
+//! Consistency checks of warnings: what is possible but hardly meant is said, with the reason.
+
+use super::{DISC, RUN, STUDY, assert_reports, valid};
+
+#[test]
+fn slips_of_units_are_said() {
+    for (overrides, parts) in [
+        (
+            vec!["contact.interference=25"],
+            ["of geometry.inner_radius", "25e-6"],
+        ),
+        (vec!["contact.interference=9e-4"], ["0.04", ""]),
+        (
+            vec!["contact.friction_coefficient=30"],
+            ["above 2", "ratio"],
+        ),
+        (
+            vec!["cea.shapes_at=[0.3, 3]"],
+            ["cea.friction_coefficients = 3", "above 2"],
+        ),
+        (
+            vec!["geometry.inner_radius=20.5", "geometry.outer_radius=90.5"],
+            ["geometry.inner_radius = 20.5", "millimetres"],
+        ),
+        (vec!["material.young_modulus=2500"], ["waves of", "not MPa"]),
+        (vec!["material.density=1.228"], ["waves of", "g/cm3"]),
+        (
+            vec!["material.poisson_ratio=0.495"],
+            ["incompressible", "time step"],
+        ),
+        (
+            vec!["contact.normal_stiffness=1e21"],
+            ["contact.normal_stiffness", "rigid"],
+        ),
+        (
+            vec!["damping.stiffness_coefficient=1e-3"],
+            ["damping factor", "do not vibrate"],
+        ),
+    ] {
+        let case = valid(DISC, &overrides);
+        let all: Vec<String> = case.warnings.iter().map(ToString::to_string).collect();
+        if parts[0] == "0.04" {
+            assert!(all.is_empty(), "{all:?}");
+            continue;
+        }
+        assert_eq!(all.len(), 1, "{overrides:?}: {all:?}");
+        assert_reports(&all[0], &parts);
+    }
+}
+
+#[test]
+fn a_pressure_near_the_modulus_is_said() {
+    // A thin ring between its two edges: a strain of 0.2 over its width.
+    let case = valid(
+        DISC,
+        &["geometry.outer_radius=0.0225", "contact.interference=4e-4"],
+    );
+    let warning = case.warnings[0].to_string();
+    assert_reports(&warning, &["contact pressure", "strains are not small"]);
+}
+
+#[test]
+fn shipped_cases_are_plausible() {
+    for text in [DISC, RUN, STUDY] {
+        assert_eq!(valid(text, &[]).warnings, []);
+    }
+}
+
+#[test]
+fn denied_warnings_are_errors_with_their_place() {
+    let case = valid(RUN, &["contact.friction_coefficient=30"]);
+    let errors = case.deny_warnings(&[]).unwrap_err().to_string();
+    assert_reports(&errors, &["above 2", "--set:1:", "^"]);
+    assert!(valid(RUN, &[]).deny_warnings(&[]).is_ok());
+}
+
+#[test]
+fn keys_that_an_analysis_ignores_are_said() {
+    const CYCLES: &str = include_str!("../../../cases/limit-cycle.toml");
+    let case = valid(CYCLES, &["contact.normal_stiffness=7e12"]);
+    let ignored = case.ignored_by("cycle");
+    assert_eq!(
+        ignored[0].message,
+        "contact.normal_stiffness is not used by cycle: its contact is rigid"
+    );
+    assert!(case.ignored_by("cea").is_empty());
+    let compliant = valid(RUN, &["contact.normal_stiffness=7e12"]);
+    assert!(compliant.ignored_by("transient").is_empty());
+    let sliding = valid(RUN, &["transient.initial=\"steady-sliding\""]);
+    assert_reports(
+        &sliding.warnings[0].to_string(),
+        &["transient.expansion_time is not used"],
+    );
+    let rigid = valid(
+        RUN,
+        &[
+            "contact.normal_stiffness=rigid",
+            "damping.include_contact=true",
+        ],
+    );
+    assert!(rigid.ignored_by("transient").is_empty());
+}

@@ -1,0 +1,132 @@
+//! Consistency checks of sizes: what a case asks for is weighed before anything of it is made.
+
+use super::{DISC, RUN, STUDY, assert_reports, parse, report, valid};
+use std::time::{Duration, Instant};
+
+/// Reads a case under an override, well or not, and says how long that took.
+fn seconds_to_read(text: &str, overrides: &[&str]) -> Duration {
+    let start = Instant::now();
+    let _ = parse(text, overrides).map_err(|errors| errors.to_string());
+    start.elapsed()
+}
+
+#[test]
+fn no_override_is_costly() {
+    let long = "{ from = 1, to = 2, count = 100000 }";
+    let nested = format!("{}=1", vec!["a"; 20_000].join("."));
+    for overrides in [
+        vec![
+            "sweep.\"contact.rotation_speed_rpm\"={ from = 1, to = 2, count = 1000000000000 }"
+                .to_owned(),
+        ],
+        vec![format!("sweep.\"contact.rotation_speed_rpm\"={long}")],
+        vec![
+            format!("sweep.\"contact.rotation_speed_rpm\"={long}"),
+            format!("sweep.\"contact.interference\"={long}"),
+            format!("sweep.\"material.density\"={long}"),
+        ],
+        vec![
+            format!("sweep.\"contact.rotation_speed_rpm\"={long}"),
+            format!("output.snapshots={long}"),
+        ],
+        vec!["output.snapshots={ from = 0, to = 1, count = 9000000000000000000 }".to_owned()],
+        vec![format!("{}=1", "[".repeat(50_000))],
+        vec![format!("a={}", "[".repeat(50_000))],
+        vec![nested],
+    ] {
+        let overrides: Vec<&str> = overrides.iter().map(String::as_str).collect();
+        let seconds = seconds_to_read(STUDY, &overrides);
+        // Milliseconds where nobody else is at work.
+        assert!(
+            seconds < Duration::from_secs(4),
+            "{seconds:?}: {:.80}",
+            overrides[0]
+        );
+    }
+}
+
+#[test]
+fn a_study_too_large_names_the_key_that_makes_it_so() {
+    let many = "sweep.\"contact.rotation_speed_rpm\"={ from = 1, to = 2, count = 500000 }";
+    assert_reports(
+        &report(STUDY, &[many]),
+        &["1500000 points", "contact.rotation_speed_rpm", "--set:1:"],
+    );
+    let long = "cea.friction_coefficients={ from = 0, to = 1, count = 1000000 }";
+    assert_reports(&report(DISC, &[long]), &["count of at most 100000"]);
+}
+
+#[test]
+fn memory_is_refused_at_the_key_that_asks_for_it() {
+    const CYCLES: &str = include_str!("../../../cases/limit-cycle.toml");
+    for (text, overrides, command, key) in [
+        (
+            RUN,
+            vec!["output.sample_interval=1e-12"],
+            "transient",
+            "output.sample_interval",
+        ),
+        (
+            RUN,
+            vec!["transient.duration=1e4"],
+            "transient",
+            "transient.duration",
+        ),
+        (
+            RUN,
+            vec![
+                "mesh.circumferential_elements=100000",
+                "mesh.radial_elements=10000",
+            ],
+            "transient",
+            "mesh.circumferential_elements",
+        ),
+        (CYCLES, vec!["cycle.phases=100001"], "cycle", "cycle.phases"),
+    ] {
+        let case = valid(text, &overrides);
+        let (bytes, blamed) = case.memory(command);
+        assert!(bytes > 1e11, "{overrides:?}: {bytes}");
+        assert_eq!(blamed, key);
+        let errors = case.memory_error(command, bytes, 1e9).to_string();
+        assert_reports(&errors, &[key, "GiB are available", "--set:1:"]);
+    }
+}
+
+#[test]
+fn a_run_without_end_or_without_stability_is_refused_for_what_it_is() {
+    assert_reports(
+        &report(RUN, &["transient.duration=1e9"]),
+        &["transient.duration = 1000000000", "time steps"],
+    );
+    // The sample interval is shorter still, but that is not the point.
+    assert_reports(
+        &report(RUN, &["transient.time_step=1e-3"]),
+        &["transient.time_step = 0.001", "stability limit"],
+    );
+    assert_reports(
+        &report(RUN, &["contact.normal_stiffness=1e30"]),
+        &["contact.normal_stiffness", "use \"rigid\""],
+    );
+}
+
+#[test]
+fn the_cost_of_studies_counts_every_run() {
+    let study = valid(STUDY, &[]);
+    let one = study.cost().transient.unwrap().seconds;
+    let all = study.sweep_cost().unwrap();
+    assert_eq!(all.runs, 72);
+    assert!((all.seconds / (72.0 * one) - 1.0).abs() < 1e-9);
+
+    let meshes = valid(include_str!("../../../cases/convergence.toml"), &[]);
+    let (one, all) = (meshes.cost(), meshes.convergence_cost().unwrap());
+    // Three analyses on three meshes, and three time steps.
+    assert_eq!(all.runs, 12);
+    // Twice as fine a mesh has four times the elements and twice the steps.
+    let transients =
+        one.transient.unwrap().seconds * (1.0 + 1.5f64.powi(3) + 8.0 + 1.0 + 2.0 + 4.0);
+    assert!(
+        all.seconds > 0.95 * transients,
+        "{} {transients}",
+        all.seconds
+    );
+}

@@ -1,0 +1,255 @@
+//! The chart grammar: figures of any data draw or say why not.
+//!
+//! Consistency checks: they look at the drawing, not at the physics.
+
+use crate::figures::{check, is_finite, texts};
+use frictionsim::chart::{
+    Axis, Bars, Cell, ChartError, ColourMap, Drawing, Field, Figure, Fill, Heat, Label, Line,
+    Marker, Mesh, Panel, Points, Rule, SERIES, Shapes, Side,
+};
+use proptest::prelude::*;
+use std::sync::Arc;
+
+/// Numbers that a result may hold when something went wrong, and ordinary ones.
+fn number() -> impl Strategy<Value = f64> {
+    let odd = [
+        0.0,
+        -0.0,
+        f64::NAN,
+        f64::INFINITY,
+        f64::NEG_INFINITY,
+        f64::MAX,
+        f64::MIN_POSITIVE,
+        5e-324,
+        -1e300,
+    ];
+    prop_oneof![
+        prop::sample::select(odd.to_vec()),
+        -1e3..1e3f64,
+        (-300.0..300.0f64).prop_map(|e| 10f64.powf(e))
+    ]
+}
+
+fn series() -> impl Strategy<Value = Vec<f64>> {
+    prop_oneof![
+        prop::collection::vec(number(), 0..12),
+        (number(), 0..5usize).prop_map(|(value, count)| vec![value; count]),
+    ]
+}
+
+fn axis(choice: u8, value: f64) -> Axis {
+    let axis = Axis::new("quantity *q*", "m");
+    match choice % 9 {
+        0 => axis,
+        1 => axis.prefixed(),
+        2 => axis.logarithmic(),
+        3 => axis.prefixed().decades(5.0),
+        4 => axis.symmetric(),
+        5 => axis.tight().including(value),
+        6 => axis.between(0.0, value),
+        7 => axis.logarithmic().between(value, 1.0),
+        _ => axis.times(value),
+    }
+}
+
+/// A figure with every layer there is.
+fn figure(xs: &[f64], ys: &[f64], zs: &[f64], axes: (u8, u8), value: f64) -> Figure {
+    let pairs = || xs.iter().copied().zip(ys.iter().copied());
+    let plot = Panel::new(axis(axes.0, value), axis(axes.1, value))
+        .caption("all layers")
+        .legend()
+        .layer(Shapes::bands(vec![(value, 1.0, SERIES[5])]))
+        .layer(Fill::between(xs, ys, zs, SERIES[1]).name("between"))
+        .layer(Fill::from(value, xs, ys, SERIES[3]).opacity(0.5))
+        .layer(Fill::range_of(xs, zs, SERIES[2]))
+        .layer(
+            Line::new(xs, ys)
+                .name("line")
+                .marked(Marker::Circle, 2.0)
+                .arrows(2),
+        )
+        .layer(Points::new(pairs()).name("points"))
+        .layer(
+            Rule::horizontal(value)
+                .stretching()
+                .at_rim("level")
+                .beside("here"),
+        )
+        .layer(Rule::vertical(value).at_rim("place"))
+        .layer(Bars::new(
+            pairs().map(|(x, y)| (x, value, y, "bar".into())).collect(),
+            SERIES[0],
+        ))
+        .layer(Label::new((value, value), "label"));
+    let nodes: Vec<[f64; 2]> = pairs().map(|(x, y)| [x, y]).collect();
+    let ring = (0..nodes.len() as u32 + 1).collect();
+    let mesh = Mesh {
+        cells: vec![Cell {
+            ring,
+            is_quadratic: false,
+        }],
+        ..Mesh::default()
+    };
+    let window = Field::window(&nodes, 0.1);
+    let field = Field::new(
+        Arc::new(mesh),
+        nodes,
+        zs.to_vec(),
+        Axis::new("field", "Pa"),
+        ColourMap::Diverging,
+    );
+    let picture = Panel::plane(window).layer(field).colour_bar(Side::Below);
+    let colours = (Axis::new("level", "dB"), ColourMap::Inferno);
+    let at = |column: usize, row: usize| zs.get(column + row).copied().unwrap_or(f64::NAN);
+    let heat = Heat::of_values(
+        ((value, 1.0), xs.len()),
+        ((0.0, value), ys.len()),
+        colours,
+        at,
+    );
+    let map = Panel::new(axis(axes.1, value), axis(axes.0, value))
+        .layer(heat)
+        .colour_bar(Side::Right);
+    Figure::new("any", "Any data: everything.")
+        .columns(2)
+        .shared_y()
+        .panel(plot)
+        .panel(picture)
+        .panel(map)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn figures_of_any_data_draw_or_say_that_there_is_nothing(
+        xs in series(), ys in series(), zs in series(), axes in (0u8..9, 0u8..9), value in number(), width in 60.0..200.0f64,
+    ) {
+        let figure = figure(&xs, &ys, &zs, axes, value);
+        match figure.to_svg(Some(width)) {
+            Ok(svg) => {
+                prop_assert!(is_finite(&svg), "{svg}");
+                let drawing = Drawing::parse(&svg).unwrap();
+                prop_assert!(drawing.to_png(40.0).is_ok() && drawing.to_pdf().is_ok());
+                prop_assert_eq!(figure.to_svg(Some(width)).unwrap(), svg);
+            }
+            Err(error) => prop_assert!(matches!(error, ChartError::Empty { .. }), "{error}"),
+        }
+    }
+}
+
+fn line(ys: &[f64], name: &str) -> Line {
+    let xs: Vec<f64> = (0..ys.len()).map(|i| i as f64).collect();
+    Line::new(&xs, ys).name(name)
+}
+
+fn plot() -> Panel {
+    Panel::new(
+        Axis::new("time *t*", "s").tight(),
+        Axis::new("amplitude", "m").decades(3.0),
+    )
+}
+
+#[test]
+fn legend_names_only_what_is_seen() {
+    let panel = plot()
+        .layer(line(&[1.0, 2.0], "alive"))
+        .layer(line(&[1e-9, 1e-9], "far below"))
+        .layer(line(&[f64::NAN; 2], "missing"));
+    let svg = Figure::new("legend", "Legend.")
+        .panel(panel)
+        .to_svg(None)
+        .unwrap();
+    let words = texts(&svg);
+    assert!(words.iter().any(|word| word == "alive"));
+    assert!(
+        !words
+            .iter()
+            .any(|word| word == "far below" || word == "missing"),
+        "{words:?}"
+    );
+}
+
+#[test]
+fn figures_without_data_say_so_and_panels_without_data_are_marked() {
+    let empty = Figure::new("nothing", "Nothing.").panel(plot());
+    assert_eq!(empty.to_svg(None), Err(ChartError::empty("nothing")));
+    let half = Figure::new("half", "Half.")
+        .columns(2)
+        .panel(plot())
+        .panel(plot().layer(line(&[1.0, 2.0], "line")));
+    check(
+        "half-empty",
+        &half.to_svg(None).unwrap(),
+        &["no data", "(a)", "(b)", "line"],
+    );
+}
+
+#[test]
+fn narrow_pages_stack_panels_and_keep_the_width_asked_for() {
+    let figure = (0..3).fold(Figure::new("stack", "Stack.").columns(3), |figure, _| {
+        figure.panel(plot().layer(line(&[1.0, 2.0], "line")))
+    });
+    let size = |width: Option<f64>| {
+        let svg = figure.to_svg(width).unwrap();
+        let view = svg
+            .split("viewBox=\"0 0 ")
+            .nth(1)
+            .unwrap()
+            .split('"')
+            .next()
+            .unwrap()
+            .to_owned();
+        let mut parts = view.split(' ').map(|part| part.parse::<f64>().unwrap());
+        (parts.next().unwrap(), parts.next().unwrap())
+    };
+    let ((wide, low), (narrow, high)) = (size(None), size(Some(85.0)));
+    // 178 and 85 mm in points.
+    assert!((wide - 504.57).abs() < 0.01 && (narrow - 240.94).abs() < 0.01);
+    assert!(high > 2.5 * low, "{low} {high}");
+}
+
+#[test]
+fn shared_axes_have_one_range_and_one_row_of_labels() {
+    let figure = Figure::new("shared", "Shared.")
+        .shared_x()
+        .panel(plot().layer(line(&[1.0; 3], "short")))
+        .panel(plot().layer(line(&[1.0; 9], "long")));
+    let words = texts(&figure.to_svg(None).unwrap());
+    assert_eq!(words.iter().filter(|word| *word == "time t (s)").count(), 1);
+    assert_eq!(words.iter().filter(|word| *word == "8").count(), 1);
+}
+
+#[test]
+fn markers_at_the_end_of_an_axis_are_whole() {
+    let panel = Panel::new(Axis::new("x", "").tight(), Axis::new("y", "").tight());
+    let svg = Figure::new("ends", "Ends.")
+        .panel(panel.layer(Points::new([(0.0, 0.0), (1.0, 1.0)])))
+        .to_svg(None)
+        .unwrap();
+    let clipped = svg
+        .split("<g clip-path")
+        .nth(1)
+        .unwrap()
+        .split("</g>")
+        .next()
+        .unwrap()
+        .to_owned();
+    assert!(!clipped.contains("<path"), "{clipped}");
+}
+
+#[test]
+fn drawings_become_one_page_of_pdf_of_their_size() {
+    let figure = Figure::new("page", "Page.").panel(plot().layer(line(&[1.0, 2.0], "line")));
+    let pdf = Drawing::parse(&figure.to_svg(None).unwrap())
+        .unwrap()
+        .to_pdf()
+        .unwrap();
+    let text = String::from_utf8_lossy(&pdf);
+    assert!(
+        pdf.starts_with(b"%PDF-1.7")
+            && text.contains("/Count 1")
+            && text.contains("/MediaBox [0 0 504.5"),
+        "{text}"
+    );
+}

@@ -1,0 +1,95 @@
+//! Figures of a real run: the polycarbonate disc on a coarse mesh, seeded with harmonic 2.
+
+use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact};
+use crate::figures::check;
+use frictionsim::contact::SlidingContact;
+use frictionsim::fem::operator::SimdLevel;
+use frictionsim::mesh::{AnnulusMesh, ElementKind};
+use frictionsim::results::DrawingOptions;
+use frictionsim::results::charts::ModeLine;
+use frictionsim::results::transient::{RunFigures, draw_run};
+use frictionsim::transient::{
+    CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
+    TimeStep, TransientAnalysis, TransientModel, TransientSettings, build_operator,
+};
+
+#[test]
+fn a_run_gets_every_figure_of_its_record() {
+    let annulus = AnnulusMesh::generate(&annulus(ElementKind::Quad4, 60, 12)).unwrap();
+    let contact = SlidingContact {
+        decay: None,
+        friction_coefficient: 0.4,
+        ..contact(610.0)
+    };
+    let rotation_speed = contact.rotation_speed;
+    let model = TransientModel::of_annulus(&annulus, &POLYCARBONATE, DAMPING, contact);
+    let settings = TransientSettings {
+        duration: 0.02,
+        time_step: TimeStep::Auto,
+        sample_interval: 2e-6,
+        expansion_time: 5e-4,
+        initial: InitialState::Rest,
+        perturbation: Perturbation::of(&[2], 1e-2),
+    };
+    let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
+    let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
+    // Node 1 + 15 * 13 lies on the contact edge at 90 degrees, seven nodes further out on its ray.
+    let mut record = Recorder::new(
+        &run,
+        &RecorderSettings {
+            probes: vec![196, 203],
+            snapshots: vec![0.001, 0.006, 0.0195],
+            ..RecorderSettings::default()
+        },
+    )
+    .unwrap();
+    run.run(&mut record).unwrap();
+    let analysis = TransientAnalysis::of(&record, &[2]);
+    let growth = analysis.growth.iter().filter_map(|g| {
+        let stage = g.stage.as_ref().ok()?;
+        Some((g.harmonic, stage.rate_per_s.value))
+    });
+    let data = RunFigures {
+        record: &record,
+        analysis: &analysis,
+        mesh: &annulus.mesh,
+        solid: None,
+        material: model.material,
+        thickness: 0.009,
+        peripheral_speed: rotation_speed * 0.0205,
+        references: vec![ModeLine {
+            frequency_hz: 9901.0,
+            label: "mode 5, *n* = 2".into(),
+        }],
+        growth_rates: growth.collect(),
+    };
+    let started = std::time::Instant::now();
+    let figures = draw_run(&data, &DrawingOptions::default()).unwrap();
+    println!(
+        "{} figures of a run drawn in {:?}",
+        figures.len(),
+        started.elapsed()
+    );
+    let expected: [(&str, &[&str]); 10] = [
+        ("overview-196", &["node 196", "time t (ms)"]),
+        ("spectrum-196", &["frequency f (kHz)"]),
+        ("overview-203", &["contact status", "mode 5", "angle θ (°)"]),
+        (
+            "spectrum-203",
+            &["accelerations of node 203", "mode 5", "2f"],
+        ),
+        ("growth", &["n = 2", "amplitude of uθ (m)"]),
+        ("velocity", &["velocity |v| (m/s)", "t = 19.50 ms"]),
+        ("shear-stress", &["shear stress τrθ (MPa)"]),
+        ("trajectories", &["contact node 196", "radial ur"]),
+        ("contact", &["traction (", "cylinder Ωa"]),
+        ("energy", &["power (", "stored energy"]),
+    ];
+    assert_eq!(figures.len(), expected.len());
+    for (figure, (name, labels)) in figures.iter().zip(expected) {
+        assert_eq!(figure.name, name);
+        check(&format!("run-{name}"), &figure.svg, labels);
+    }
+    let again = draw_run(&data, &DrawingOptions::default()).unwrap();
+    assert_eq!(figures, again);
+}

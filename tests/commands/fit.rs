@@ -1,0 +1,294 @@
+//! Parameters fitted to measured modes.
+//!
+//! Independent checks: the eigenvalues of Table 1 of the paper, and spectra of known parameters with noise.
+
+use crate::msh;
+use crate::table_1;
+use assert_cmd::Command;
+use frictionsim::case::Case;
+use frictionsim::linalg::GaussianNoise;
+use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind};
+use frictionsim::signal::reader::MeasuredMode;
+use frictionsim::study::eigenvalues::modes_below;
+use frictionsim::study::fit::fit_case;
+use serde_json::Value;
+use std::path::Path;
+
+fn path(name: &str) -> std::path::PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("cases")
+        .join(name)
+}
+
+fn case(name: &str, set: &[&str]) -> Case {
+    let path = path(name);
+    let set: Vec<String> = set.iter().map(|text| (*text).to_owned()).collect();
+    Case::parse(path.to_str().unwrap(), &std::fs::read(&path).unwrap(), &set).unwrap()
+}
+
+/// Runs `frictionsim fit` on a table; exit code, the summary, what it said.
+fn run(name: &str, table: &str, set: &[&str]) -> (i32, Value, String) {
+    let folder = tempfile::tempdir().unwrap();
+    let modes = folder.path().join("modes.csv");
+    std::fs::write(&modes, table).unwrap();
+    let mut command = Command::cargo_bin("frictionsim").unwrap();
+    command
+        .arg("fit")
+        .arg(path(name))
+        .arg(&modes)
+        .args(["--json", "--no-figures", "--out"]);
+    command.arg(folder.path().join("out"));
+    for text in set {
+        command.args(["--set", text]);
+    }
+    let output = command.output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    let object = serde_json::from_slice(&output.stdout).unwrap_or(Value::Null);
+    (output.status.code().unwrap(), object, said)
+}
+
+const COARSE_DISC: [&str; 2] = ["mesh.circumferential_elements=40", "mesh.radial_elements=8"];
+
+fn disc_table() -> String {
+    let rows = table_1::TABLE_1
+        .iter()
+        .map(|(real, frequency, ..)| format!("{real},{frequency}\n"));
+    "real_hz,frequency_hz\n".to_owned() + &rows.collect::<String>()
+}
+
+#[test]
+fn table_1_gives_back_the_three_values_that_the_paper_leaves_out() {
+    let set = [
+        "mesh.circumferential_elements=60",
+        "mesh.radial_elements=12",
+        "fit.starts=4",
+    ];
+    let (code, found, said) = run("fit-table-1.toml", &disc_table(), &set);
+    assert_eq!(code, 0, "{said}");
+    let value = |key: &str| found["parameters"][key]["value"].as_f64().unwrap();
+    assert!((value("material.poisson_ratio") - 0.3805).abs() < 0.001);
+    let ratio = value("material.young_modulus") / 1228.0;
+    assert!((ratio / 2.036e6 - 1.0).abs() < 0.002, "{ratio}");
+    let stiffness = value("contact.normal_stiffness");
+    assert!((stiffness / 7.4e12 - 1.0).abs() < 0.15, "{stiffness:e}");
+    assert!(found["worst_percent"].as_f64().unwrap() < 0.2);
+    // Every row is the mode that the exact continuum model says it is.
+    for (row, wanted) in found["residuals"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .zip(table_1::TABLE_1)
+    {
+        assert_eq!(row["mode"]["harmonic"], wanted.2, "{row}");
+        assert_eq!(row["mode"]["branch"], wanted.3, "{row}");
+    }
+}
+
+#[test]
+fn one_support_stiffness_explains_the_four_frequencies_heard() {
+    let table = std::fs::read_to_string(path("squeal.csv")).unwrap();
+    let set = [
+        "mesh.circumferential_elements=60",
+        "mesh.radial_elements=16",
+    ];
+    let (code, found, said) = run("fit-test-bench.toml", &table, &set);
+    assert_eq!(code, 0, "{said}");
+    assert!(found["worst_percent"].as_f64().unwrap() < 5.0, "{found:#}");
+    let stiffness = found["parameters"]["boundaries.outer.normal_stiffness"].clone();
+    // The prototype of another discretisation fits between these two.
+    let value = stiffness["value"].as_f64().unwrap();
+    assert!(value > 1.3e11 && value < 2.2e11, "{value:e}");
+    assert!(stiffness["low"].as_f64().unwrap() < value);
+    let heard = found["residuals"].as_array().unwrap().iter();
+    assert!(
+        heard
+            .clone()
+            .all(|row| row["mode"]["real_hz"].as_f64().unwrap() > 0.0)
+    );
+}
+
+/// In how many of `seeds` noisy spectra of a case the interval of each fitted parameter holds the value of the case.
+fn coverage(case: &Case, limit_hz: f64, noise: [f64; 2], seeds: u64) -> Vec<usize> {
+    let (modes, _) = modes_below(case, limit_hz, false).unwrap();
+    let keys = &case.require_fit().unwrap().parameters;
+    let truth: Vec<f64> = keys
+        .iter()
+        .map(|p| case.number(&p.parameter.key).unwrap())
+        .collect();
+    let mut hits = vec![0; truth.len()];
+    for seed in 0..seeds {
+        let mut stream = GaussianNoise::new(seed);
+        let lines = modes.iter().enumerate().map(|(k, mode)| {
+            let error = stream.draw();
+            MeasuredMode {
+                line: k + 1,
+                frequency_hz: mode.frequency_hz() * (1.0 + noise[0] * error.re),
+                real_hz: Some(mode.real_hz() + noise[1] * mode.frequency_hz() * error.im),
+                harmonic: None,
+                sigma_hz: None,
+                is_unstable: false,
+            }
+        });
+        let fitted = fit_case(case, &lines.collect::<Vec<_>>()).unwrap();
+        for ((hit, estimate), truth) in hits.iter_mut().zip(&fitted.parameters).zip(&truth) {
+            let [low, high] = estimate.interval.unwrap();
+            *hit += usize::from(low <= *truth && *truth <= high);
+        }
+    }
+    hits
+}
+
+#[test]
+fn intervals_of_three_parameters_hold_the_truth_in_95_of_100_noisy_spectra() {
+    let truth = [
+        "material.young_modulus=2.5e9",
+        "material.poisson_ratio=0.38",
+        "contact.normal_stiffness=7e12",
+        "fit.starts=1",
+    ];
+    let set = [
+        ["mesh.circumferential_elements=30", "mesh.radial_elements=4"].as_slice(),
+        &truth,
+    ]
+    .concat();
+    let case = case("fit-table-1.toml", &set);
+    // Real parts are known ten times worse than frequencies: the weight between them is found.
+    let hits = coverage(&case, 15_000.0, [1e-4, 1e-3], 100);
+    assert!(hits.iter().all(|hits| (90..=99).contains(hits)), "{hits:?}");
+}
+
+#[test]
+fn intervals_hold_on_an_imported_mesh() {
+    let folder = tempfile::tempdir().unwrap();
+    let specification = AnnulusSpecification {
+        inner_radius: 0.0205,
+        outer_radius: 0.0905,
+        circumferential_elements: 12,
+        radial_elements: 3,
+        radial_grading: 1.0,
+        element: ElementKind::Quad8,
+        outer: BoundaryCondition::Clamped,
+        shaft: None,
+    };
+    let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
+    let numbers: Vec<usize> = (1..=mesh.node_count()).collect();
+    let bytes = msh::write_msh(&mesh, msh::FORMS[0], &numbers, |p| p);
+    std::fs::write(folder.path().join("disc.msh"), bytes).unwrap();
+    let text = "[mesh]\nfile = \"disc.msh\"\n[boundaries.outer]\ncondition = \"clamped\"\n\
+        [material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0\n\
+        [damping]\nmass_coefficient = 40.0\nstiffness_coefficient = 4.5e-7\n\
+        [contact]\nfriction_coefficient = 0.3\ninterference = 25e-6\nrotation_speed_rpm = 610.0\n\
+        [fit]\nstarts = 1\n[fit.parameters]\n\"material.young_modulus\" = [1e9, 4e9]\n\
+        \"material.poisson_ratio\" = [0.2, 0.45]\n";
+    let name = folder.path().join("case.toml");
+    let case = Case::parse(name.to_str().unwrap(), text.as_bytes(), &[]).unwrap();
+    let hits = coverage(&case, 12_000.0, [1e-3, 1e-3], 20);
+    // 19 of 20 on the mean; fewer than 16 in one of four hundred trials.
+    assert!(hits.iter().all(|hits| *hits >= 16), "{hits:?}");
+}
+
+#[test]
+fn what_the_data_cannot_tell_apart_is_named() {
+    let set = [
+        "fit.parameters.\"material.density\"=[1000, 1500]",
+        "fit.starts=2",
+    ];
+    let set = [COARSE_DISC.as_slice(), &set].concat();
+    let (code, _, said) = run("fit-table-1.toml", &disc_table(), &set);
+    assert_eq!(code, 1, "{said}");
+    for part in [
+        "cannot tell",
+        "material.young_modulus",
+        "material.density",
+        "contact.normal_stiffness",
+    ] {
+        assert!(said.contains(part), "{part}: {said}");
+    }
+}
+
+#[test]
+fn a_line_that_no_mode_can_be_is_named() {
+    let table = "frequency_hz,harmonic,unstable\n7660,1,1\n9900,2,1\n10500,1,1\n9000,0,1\n";
+    let (code, _, said) = run("fit-table-1.toml", table, &COARSE_DISC);
+    assert_eq!(code, 1, "{said}");
+    assert!(
+        said.contains("line 5") && said.contains("n = 0, unstable"),
+        "{said}"
+    );
+}
+
+#[test]
+fn more_parameters_than_data_and_bad_tables_are_refused_before_anything_runs() {
+    let (code, _, said) = run(
+        "fit-table-1.toml",
+        "frequency_hz\n5857\n7655\n",
+        &COARSE_DISC,
+    );
+    assert_eq!(code, 2, "{said}");
+    assert!(
+        said.contains("3 parameters") && said.contains("2 measured"),
+        "{said}"
+    );
+    let (code, _, said) = run("fit-table-1.toml", "frequency_hz\nabc\n", &COARSE_DISC);
+    assert_eq!(code, 2, "{said}");
+    assert!(said.contains("modes.csv:2:1"), "{said}");
+}
+
+#[test]
+fn a_fit_on_its_bound_says_so() {
+    let set = ["fit.parameters={ \"material.young_modulus\" = [1.5e9, 2.2e9] }"];
+    let set = [COARSE_DISC.as_slice(), &set].concat();
+    // The disc's lowest torsion and the lowest waves around it.
+    let table = "frequency_hz,harmonic\n5857,0\n7655,1\n9884,2\n11258,3\n";
+    let (code, found, said) = run("fit-table-1.toml", table, &set);
+    assert_eq!(code, 0, "{said}");
+    assert_eq!(
+        found["parameters"]["material.young_modulus"]["at_bound"],
+        2.2e9
+    );
+    assert!(said.contains("lies on its bound"), "{said}");
+}
+
+#[test]
+fn bad_parameters_are_errors_of_the_case() {
+    let file = std::fs::read_to_string(path("fit-table-1.toml")).unwrap();
+    for (text, part) in [
+        (
+            "fit.parameters.\"material.poisson_ratio\"=[0.45, 0.3]",
+            "must rise",
+        ),
+        (
+            "fit.parameters.\"material.poisson_ratio\"=[0.3, 0.5]",
+            "must lie strictly between",
+        ),
+        (
+            "fit.parameters.\"material.poisson_ratio\"=0.3",
+            "not bounds",
+        ),
+        (
+            "fit.parameters.\"material.formulation\"=[0, 1]",
+            "must be a number",
+        ),
+        ("fit.parameters.\"material.poisson\"=[0, 1]", "did you mean"),
+        (
+            "fit.parameters.\"transient.duration\"=[0, 1]",
+            "no parameter of the model",
+        ),
+        (
+            "fit.parameters.\"contact.interference\"={ from = 0, to = 1, scale = \"log\" }",
+            "positive bounds",
+        ),
+        (
+            "fit.parameters.\"contact.interference\"={ from = 1e-6, to = 1e-4, scales = \"log\" }",
+            "unknown key `scales`",
+        ),
+        (
+            "fit.parameters.\"contact.interference\"={ from = 1e-6, to = 1e-4, also = \"mesh.element\" }",
+            "also sets",
+        ),
+        ("fit.parameters={}", "empty"),
+    ] {
+        let error = Case::parse("case.toml", file.as_bytes(), &[text.to_owned()]).unwrap_err();
+        assert!(error.to_string().contains(part), "{text}: {error}");
+    }
+}

@@ -1,0 +1,27 @@
+//! The commands, their case files, figures and results as a user meets them; the structure of the source.
+
+#[path = "../common/disc.rs"]
+mod disc;
+#[path = "../common/msh.rs"]
+mod msh;
+#[path = "../common/table_1.rs"]
+mod table_1;
+
+mod architecture;
+mod basin;
+mod case_files;
+mod cli;
+mod convergence_command;
+mod cycle_command;
+mod examples;
+mod figures;
+mod fit;
+mod golden;
+mod identify;
+mod plot;
+mod results;
+mod signal_command;
+mod survival;
+mod sweep;
+mod transient_command;
+mod uncertainty;

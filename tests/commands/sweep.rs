@@ -1,0 +1,268 @@
+//! Consistency checks of parameter studies: the bookkeeping of points, with a made-up analysis in
+//! place of a solver, so that the checks are about who runs what and what is kept of it.
+
+use frictionsim::app::Failure;
+use frictionsim::app::sweep::{
+    PointRunner, Shard, SweepPlan, SweepProgress, SweepRun, finished_points, gather,
+};
+use frictionsim::case::Case;
+use frictionsim::results::sweep::{Start, SweepFolder, SweepReport};
+use frictionsim::results::{FolderError, Manifest, OutputFolder, Replace};
+use serde_json::{Map, Value, json};
+use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+const GRID: &str = "\n[sweep]\n\"contact.friction_coefficient\" = [0.2, 0.3, 0.4]\n\
+    \"contact.rotation_speed_rpm\" = { from = 10, to = 6000, count = 5, spacing = \"log\" }\n";
+
+fn study(sweep: &str) -> Case {
+    let file = include_str!("../../cases/polycarbonate-disc.toml");
+    let text = format!("{file}{sweep}");
+    Case::parse("study.toml", text.as_bytes(), &[]).unwrap()
+}
+
+fn manifest(case: &Case) -> Manifest {
+    Manifest {
+        case_text: case.raw.text.clone(),
+        case_hash: case.raw.hash(),
+        ..Manifest::new("sweep")
+    }
+}
+
+/// An analysis that is a formula of the case, and whose clock is never the same.
+fn formula(case: &Case) -> Result<Map<String, Value>, Failure> {
+    static CLOCK: AtomicUsize = AtomicUsize::new(0);
+    let contact = &case.contact.sliding;
+    let summary = json!({
+        "main_frequency_hz": contact.friction_coefficient.sqrt() * 1e4 / contact.rotation_speed,
+        "status": { "stick": contact.friction_coefficient / 3.0 },
+        "wall_s": CLOCK.fetch_add(1, Ordering::Relaxed),
+    });
+    Ok(Map::from_iter([("transient".to_owned(), summary)]))
+}
+
+/// Runs a sweep as the command does, and returns the number of points run.
+fn sweep(
+    case: &Case,
+    folder: &Path,
+    shard: Option<&str>,
+    threads: usize,
+    start: Start,
+    runner: &PointRunner<'_>,
+) -> Result<usize, FolderError> {
+    let plan = SweepPlan::new(case).unwrap();
+    let shard: Option<Shard> = shard.map(|text| text.parse().unwrap());
+    let (points, manifest) = (plan.points(shard), manifest(case));
+    let folder = SweepFolder::open(folder, &manifest, plan.count(), &points, start)?;
+    let run = SweepRun {
+        plan: &plan,
+        folder: &folder,
+        manifest: &manifest,
+        progress: &SweepProgress::new(true, points.len()),
+        runner,
+    };
+    let ran = run.run(&points, threads).unwrap();
+    write_table(case, &folder);
+    Ok(ran)
+}
+
+fn write_table(case: &Case, folder: &SweepFolder) {
+    let plan = SweepPlan::new(case).unwrap();
+    let records = finished_points(folder, plan.count()).unwrap();
+    let report = SweepReport {
+        title: &case.title,
+        friction_coefficient: case.contact.sliding.friction_coefficient,
+        keys: &plan.keys(),
+        analyses: &plan.analysis_names(),
+        count: plan.count(),
+        records: &records,
+        ran: None,
+        core_s: 0.0,
+        wall_s: 0.0,
+    };
+    gather(folder, &report, &manifest(case), None).unwrap();
+}
+
+fn table(folder: &Path) -> String {
+    std::fs::read_to_string(folder.join("points.csv")).unwrap()
+}
+
+#[test]
+fn the_table_is_the_same_bytes_for_any_threads_shards_and_restarts() {
+    let case = study(GRID);
+    let root = tempfile::tempdir().unwrap();
+    let whole = root.path().join("whole");
+    assert_eq!(
+        sweep(&case, &whole, None, 1, Start::Fresh, &formula).unwrap(),
+        15
+    );
+    let expected = table(&whole);
+    assert_eq!(expected.lines().count(), 16);
+    assert!(expected.starts_with(
+        "contact.friction_coefficient,contact.rotation_speed_rpm,main_frequency_hz,status.stick,\
+         point,error\n0.2,10,"
+    ));
+
+    for threads in [2, 7, 40] {
+        let folder = root.path().join(format!("{threads}-threads"));
+        sweep(&case, &folder, None, threads, Start::Fresh, &formula).unwrap();
+        assert_eq!(table(&folder), expected, "{threads} threads");
+    }
+    let shared = root.path().join("shards");
+    for shard in ["3/4", "1/4", "2/4"] {
+        sweep(&case, &shared, Some(shard), 2, Start::Fresh, &formula).unwrap();
+    }
+    assert_ne!(table(&shared), expected);
+    let ran = sweep(&case, &shared, None, 2, Start::Resume, &formula).unwrap();
+    assert_eq!(ran, 3, "the points of the fourth shard");
+    assert_eq!(table(&shared), expected);
+}
+
+#[test]
+fn a_failed_point_is_a_row_and_the_others_go_on() {
+    let case = study(GRID);
+    let folder = tempfile::tempdir().unwrap();
+    let calls = AtomicUsize::new(0);
+    let runner = |point: &Case| {
+        calls.fetch_add(1, Ordering::Relaxed);
+        let contact = &point.contact.sliding;
+        if contact.rotation_speed < 2.0 {
+            assert!(contact.friction_coefficient < 0.35, "made to panic");
+            return Err(Failure::run("made to fail,\nin two lines"));
+        }
+        formula(point)
+    };
+    sweep(&case, folder.path(), None, 3, Start::Fresh, &runner).unwrap();
+    let text = table(folder.path());
+    let failed: Vec<&str> = text.lines().filter(|row| row.contains("made to")).collect();
+    assert_eq!(text.lines().count(), 16);
+    assert_eq!(
+        failed,
+        [
+            "0.2,10,,,1,\"made to fail, in two lines\"",
+            "0.3,10,,,6,\"made to fail, in two lines\"",
+            "0.4,10,,,11,panic: made to panic",
+        ]
+    );
+    // A failure is a result: it is not tried again.
+    sweep(&case, folder.path(), None, 3, Start::Resume, &runner).unwrap();
+    assert_eq!(calls.into_inner(), 15);
+    assert_eq!(table(folder.path()), text);
+}
+
+#[test]
+fn values_that_do_not_go_together_fail_their_point_alone() {
+    let sweep_text = "\n[sweep]\n\"geometry.inner_radius\" = [0.01, 0.05]\n\
+        \"geometry.outer_radius\" = [0.04, 0.0905]\nanalyses = [\"cea\"]\n";
+    let case = study(sweep_text);
+    let folder = tempfile::tempdir().unwrap();
+    sweep(&case, folder.path(), None, 2, Start::Fresh, &formula).unwrap();
+    let text = table(folder.path());
+    let errors: Vec<bool> = text.lines().map(|row| row.contains("radius =")).collect();
+    assert_eq!(errors, [false, false, false, true, false], "{text}");
+}
+
+#[test]
+fn finished_points_are_kept_unless_asked_otherwise() {
+    let case = study(GRID);
+    let folder = tempfile::tempdir().unwrap();
+    let run = |shard, start| sweep(&case, folder.path(), shard, 2, start, &formula);
+    assert_eq!(run(Some("1/3"), Start::Fresh).unwrap(), 5);
+    // Another shard is not in its way; the same one, or the whole, is.
+    assert_eq!(run(Some("2/3"), Start::Fresh).unwrap(), 5);
+    let refused = run(Some("1/3"), Start::Fresh).unwrap_err();
+    assert!(refused.is_usage());
+    assert!(refused.to_string().contains("--resume"), "{refused}");
+    assert!(run(None, Start::Fresh).is_err());
+    assert_eq!(run(None, Start::Resume).unwrap(), 5);
+    assert_eq!(run(None, Start::Resume).unwrap(), 0);
+    assert_eq!(run(Some("3/3"), Start::Over).unwrap(), 5);
+    assert_eq!(run(None, Start::Over).unwrap(), 15);
+}
+
+#[test]
+fn a_damaged_point_is_run_again() {
+    let case = study(GRID);
+    let folder = tempfile::tempdir().unwrap();
+    sweep(&case, folder.path(), None, 2, Start::Fresh, &formula).unwrap();
+    let expected = table(folder.path());
+    let path = |point: usize| folder.path().join(format!("points/point-{point:06}.json"));
+    let whole = std::fs::read_to_string(path(4)).unwrap();
+    std::fs::write(path(4), &whole[..whole.len() / 2]).unwrap();
+    std::fs::copy(path(7), path(8)).unwrap();
+    let ran = sweep(&case, folder.path(), None, 2, Start::Resume, &formula).unwrap();
+    assert_eq!(ran, 2);
+    assert_eq!(table(folder.path()), expected);
+}
+
+#[test]
+fn points_of_another_case_are_refused_and_replaced_only_by_force() {
+    let (case, other) = (study(GRID), study(&GRID.replace("0.4", "0.5")));
+    let folder = tempfile::tempdir().unwrap();
+    sweep(&case, folder.path(), None, 2, Start::Fresh, &formula).unwrap();
+    let expected = table(folder.path());
+    for start in [Start::Fresh, Start::Resume] {
+        let refused = sweep(&other, folder.path(), None, 2, start, &formula).unwrap_err();
+        assert!(matches!(refused, FolderError::OtherCase { .. }));
+    }
+    assert_eq!(table(folder.path()), expected);
+    let ran = sweep(&other, folder.path(), None, 2, Start::Over, &formula).unwrap();
+    assert_eq!(ran, 15);
+    assert!(table(folder.path()).contains("\n0.5,"));
+}
+
+#[test]
+fn two_runs_on_one_folder_share_the_points() {
+    let case = study(GRID);
+    let folder = tempfile::tempdir().unwrap();
+    let calls = AtomicUsize::new(0);
+    let runner = |point: &Case| {
+        calls.fetch_add(1, Ordering::Relaxed);
+        std::thread::sleep(std::time::Duration::from_millis(5));
+        formula(point)
+    };
+    std::thread::scope(|scope| {
+        for _ in 0..4 {
+            scope.spawn(|| sweep(&case, folder.path(), None, 2, Start::Resume, &runner).unwrap());
+        }
+    });
+    assert_eq!(calls.into_inner(), 15, "each point once");
+    sweep(&case, folder.path(), None, 2, Start::Resume, &formula).unwrap();
+    let alone = tempfile::tempdir().unwrap();
+    sweep(&case, alone.path(), None, 2, Start::Fresh, &formula).unwrap();
+    assert_eq!(table(folder.path()), table(alone.path()));
+}
+
+#[test]
+fn sweeps_and_other_commands_keep_out_of_each_others_folder() {
+    let case = study(GRID);
+    let plan = SweepPlan::new(&case).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let manifest = manifest(&case);
+    let open = |start| SweepFolder::open(folder.path(), &manifest, plan.count(), &[1], start);
+    let other = Manifest::new("cea");
+    {
+        let _sweep = open(Start::Fresh).unwrap();
+        let second = OutputFolder::open(folder.path(), &other, Replace::Anything).unwrap_err();
+        assert!(matches!(second, FolderError::Busy { .. }));
+        // Starting over would take the points from under the other process.
+        assert!(matches!(open(Start::Over), Err(FolderError::Busy { .. })));
+    }
+    let _cea = OutputFolder::open(folder.path(), &other, Replace::Anything).unwrap();
+    assert!(matches!(open(Start::Resume), Err(FolderError::Busy { .. })));
+    assert!(SweepFolder::find(folder.path()).is_err());
+}
+
+#[test]
+fn keys_zip_value_by_value() {
+    let case = study(
+        "\n[sweep]\ncombine = \"zip\"\n\"contact.friction_coefficient\" = [0.2, 0.3]\n\
+         \"mesh.element\" = [\"quad4\", \"quad8\"]\n",
+    );
+    let plan = SweepPlan::new(&case).unwrap();
+    assert_eq!(plan.count(), 2);
+    assert_eq!(
+        Value::Object(plan.swept(2)),
+        json!({ "contact.friction_coefficient": 0.3, "mesh.element": "quad8" })
+    );
+}

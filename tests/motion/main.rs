@@ -1,0 +1,9 @@
+//! Transients and limit cycles against theory, each other and themselves.
+
+#[path = "../common/disc.rs"]
+mod disc;
+
+mod cycle;
+mod cycle_discs;
+mod cycle_transient;
+mod transient;

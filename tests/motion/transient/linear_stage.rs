@@ -1,0 +1,128 @@
+//! The linear stage against the complex eigenvalues of the same model.
+
+use crate::transient::model::{disc, model, settings};
+use faer::linalg::solvers::Solve;
+use faer::{Mat, c64};
+use frictionsim::contact::ContactStiffness;
+use frictionsim::fem::operator::SimdLevel;
+use frictionsim::fem::{MassKind, assemble_stiffness};
+use frictionsim::linalg::MatrixPolynomial;
+use frictionsim::mesh::AnnulusMesh;
+use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
+use frictionsim::transient::{
+    CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
+    TransientAnalysis, TransientModel, build_operator,
+};
+use std::f64::consts::TAU;
+
+/// The matrix that acts on `U exp(i n theta_j)`, from the rows of one sector.
+fn harmonic(
+    polynomial: &MatrixPolynomial,
+    tangent: &SlidingTangent,
+    annulus: &AnnulusMesh,
+    n: usize,
+) -> Mat<c64> {
+    let (per_sector, sectors) = (annulus.sector_node_count(), annulus.sector_count());
+    // Unknowns of one sector, numbered by their dof within it.
+    let local: Vec<usize> = tangent
+        .unknowns
+        .dofs
+        .iter()
+        .copied()
+        .filter(|dof| dof / 2 / per_sector == 1)
+        .map(|dof| dof - 2 * per_sector)
+        .collect();
+    let place = |dof: usize| {
+        let sector = dof / 2 / per_sector;
+        let within = local
+            .binary_search(&(dof - 2 * per_sector * sector))
+            .unwrap();
+        (sector, within)
+    };
+    let values = polynomial.evaluate(0.3);
+    let pattern = polynomial.pattern();
+    let mut matrix = Mat::<c64>::zeros(local.len(), local.len());
+    for column in 0..pattern.dimension() {
+        let range = pattern.column_pointers()[column]..pattern.column_pointers()[column + 1];
+        let (column_sector, j) = place(tangent.unknowns.dofs[column]);
+        for k in range {
+            let (row_sector, i) = place(tangent.unknowns.dofs[pattern.row_indices()[k]]);
+            if row_sector == 1 {
+                let angle = TAU * n as f64 * (column_sector as f64 - 1.0) / sectors as f64;
+                matrix[(i, j)] += values[k] * c64::new(angle.cos(), angle.sin());
+            }
+        }
+    }
+    matrix
+}
+
+/// Eigenvalue with the largest real part for harmonic `n`, rigid contact, lumped mass, no geometric stiffness.
+fn least_stable(model: &TransientModel<'_>, n: usize) -> c64 {
+    let mesh = model.mesh;
+    let stiffness = assemble_stiffness(mesh, model.material);
+    let base = SteadySliding::solve(mesh, &stiffness, &model.contact).unwrap();
+    let options = TangentOptions {
+        mass: MassKind::Lumped,
+        geometric_stiffness: false,
+        damping: model.damping,
+        damping_model: DampingModel::WholeTangent,
+        contact: ContactStiffness::default(),
+    };
+    let tangent = SlidingTangent::linearize(mesh, model.material, &stiffness, &base, &options);
+    let mass = harmonic(&tangent.mass, &tangent, model.annulus.unwrap(), n);
+    let stiffness = harmonic(&tangent.stiffness, &tangent, model.annulus.unwrap(), n);
+    let reduced = mass.partial_piv_lu().solve(&stiffness);
+    let (alpha, beta) = (
+        model.damping.mass_coefficient,
+        model.damping.stiffness_coefficient,
+    );
+    let roots = reduced
+        .eigenvalues()
+        .unwrap()
+        .into_iter()
+        .flat_map(|kappa| {
+            // lambda^2 + (alpha + beta kappa) lambda + kappa = 0
+            let half = (kappa * beta + alpha) * 0.5;
+            let root = (half * half - kappa).sqrt();
+            [root - half, -root - half]
+        });
+    roots.max_by(|a, b| a.re.total_cmp(&b.re)).unwrap()
+}
+
+/// Cross-method: the strongest check that the two halves of the program agree.
+#[test]
+fn seeded_harmonics_grow_as_the_complex_eigenvalues_predict() {
+    compare(&disc(60, 12), 0.012);
+}
+
+fn compare(annulus: &AnnulusMesh, duration: f64) {
+    let model = model(annulus, 610.0);
+    let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
+    for n in [1, 2, 3] {
+        let mut settings = settings(duration, &[n]);
+        settings.initial = InitialState::SteadySliding;
+        // Small enough to stay linear over the whole run.
+        settings.perturbation = Perturbation::of(&[n], 1e-8);
+        let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
+        let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
+        run.run(&mut record).unwrap();
+        let analysis = TransientAnalysis::of(&record, &[n]);
+        assert_eq!(analysis.first_nonlinearity, None);
+        let growth = &analysis.growth[0];
+        let stage = growth.stage.as_ref().unwrap();
+        let (rate, frequency_hz) = (stage.rate_per_s, stage.frequency_hz.value.abs());
+        let exact = least_stable(&model, n);
+        println!(
+            "n = {n}: rate {:.3} 1/s, predicted {:.3}; frequency {:.3} Hz, predicted {:.3}; direction {}",
+            rate.value,
+            exact.re,
+            frequency_hz,
+            exact.im.abs() / TAU,
+            growth.direction(),
+        );
+        assert!((rate.value / exact.re - 1.0).abs() < 0.01);
+        assert!((frequency_hz * TAU / exact.im.abs() - 1.0).abs() < 1e-3);
+        // The unstable member of a pair travels against the rotor.
+        assert_eq!(growth.direction(), -1);
+    }
+}

@@ -1,0 +1,128 @@
+//! Saved and restored states.
+
+use crate::transient::model::{Watch, disc, model, settings};
+use frictionsim::contact::{ContactStiffness, FrictionDecay};
+use frictionsim::fem::operator::SimdLevel;
+use frictionsim::transient::{
+    CentralDifference, Observer, OperatorChoice, Perturbation, Recorder, RecorderSettings, RunEnd,
+    Sample, TransientError, TransientState, build_operator,
+};
+use std::ops::ControlFlow;
+
+/// Records, and stops at a sample with the state there.
+struct StopAt {
+    record: Recorder,
+    index: u64,
+    saved: Option<Vec<u8>>,
+}
+
+impl Observer for StopAt {
+    fn observe(&mut self, sample: &Sample<'_>) -> ControlFlow<()> {
+        let _ = self.record.observe(sample);
+        if sample.index == self.index {
+            let saved = postcard::to_stdvec(&(sample.state(), &self.record)).unwrap();
+            self.saved = Some(saved);
+            return ControlFlow::Break(());
+        }
+        ControlFlow::Continue(())
+    }
+}
+
+#[test]
+fn restarted_run_equals_uninterrupted_run_bitwise() {
+    let annulus = disc(45, 9);
+    let rigid = model(&annulus, 610.0);
+    // Friction that remembers nothing and springs that are where their nodes are.
+    let mut compliant = rigid;
+    compliant.contact.decay = Some(FrictionDecay {
+        static_ratio: 1.4,
+        decay_speed: 0.5,
+    });
+    compliant.stiffness = ContactStiffness {
+        normal_stiffness: Some(2e12),
+        normal_damping: 1e5,
+        tangential_damping: 1e4,
+        ..ContactStiffness::default()
+    };
+    for (model, choice) in [
+        (rigid, OperatorChoice::Cyclic),
+        (rigid, OperatorChoice::Sparse),
+        (compliant, OperatorChoice::Cyclic),
+    ] {
+        let operator = build_operator(&model, choice, SimdLevel::detect()).unwrap();
+        let mut settings = settings(4e-3, &[1, 2]);
+        settings.perturbation = Perturbation::of(&[1, 2], 2.0);
+        let wanted = RecorderSettings {
+            probes: vec![1, 17],
+            snapshots: vec![1e-3, 3e-3],
+            ..RecorderSettings::default()
+        };
+        let start = || CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
+
+        let mut run = start();
+        let mut whole = Recorder::new(&run, &wanted).unwrap();
+        assert_eq!(run.run(&mut whole).unwrap(), RunEnd::Finished);
+        let end = run.state();
+
+        let mut first = start();
+        let mut stop = StopAt {
+            record: Recorder::new(&first, &wanted).unwrap(),
+            index: 617,
+            saved: None,
+        };
+        assert_eq!(first.run(&mut stop).unwrap(), RunEnd::Stopped);
+        let (state, mut record): (TransientState, Recorder) =
+            postcard::from_bytes(&stop.saved.unwrap()).unwrap();
+        let mut second =
+            CentralDifference::resume(model, operator.as_ref(), &settings, &state).unwrap();
+        assert_eq!(second.run(&mut record).unwrap(), RunEnd::Finished);
+
+        assert_eq!(second.state(), end);
+        assert_eq!(record, whole);
+    }
+}
+
+#[test]
+fn runs_are_bitwise_equal_inside_thread_pools_of_any_size() {
+    let annulus = disc(30, 6);
+    let end = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
+        pool.install(|| {
+            let model = model(&annulus, 610.0);
+            let operator =
+                build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
+            let mut run =
+                CentralDifference::start(model, operator.as_ref(), &settings(1e-3, &[1])).unwrap();
+            run.run(&mut Watch(|_: &Sample<'_>| {})).unwrap();
+            run.state()
+        })
+    };
+    assert_eq!(end(1), end(2));
+}
+
+#[test]
+fn a_state_of_another_mesh_is_refused() {
+    let (small, large) = (disc(12, 3), disc(15, 3));
+    let saved = {
+        let model = model(&small, 600.0);
+        let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
+        CentralDifference::start(model, operator.as_ref(), &settings(1e-3, &[1]))
+            .unwrap()
+            .state()
+    };
+    let model = model(&large, 600.0);
+    let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
+    let error = CentralDifference::resume(model, operator.as_ref(), &settings(1e-3, &[1]), &saved)
+        .err()
+        .unwrap();
+    assert_eq!(
+        error,
+        TransientError::ForeignState {
+            found: 96,
+            expected: 120
+        }
+    );
+}

@@ -1,0 +1,153 @@
+//! When a run has settled, and what is kept of it.
+
+use crate::transient::model::{disc, model, settings};
+use frictionsim::fem::operator::SimdLevel;
+use frictionsim::transient::{
+    CentralDifference, EndState, OperatorChoice, Perturbation, Recorder, RecorderSettings, RunEnd,
+    TransientAnalysis, TransientSettings, Unsettled, build_operator,
+};
+
+/// A run of the coarse disc at some speed, with its record and how it ended.
+fn run(rpm: f64, settings: &TransientSettings, wanted: &RecorderSettings) -> (Recorder, RunEnd) {
+    let annulus = disc(45, 9);
+    let model = model(&annulus, rpm);
+    let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
+    let mut run = CentralDifference::start(model, operator.as_ref(), settings).unwrap();
+    let mut record = Recorder::new(&run, wanted).unwrap();
+    let end = run.run(&mut record).unwrap();
+    (record, end)
+}
+
+fn seeded(duration: f64, velocity: f64) -> TransientSettings {
+    let mut settings = settings(duration, &[2]);
+    settings.perturbation = Perturbation::of(&[2], velocity);
+    settings
+}
+
+#[test]
+fn a_growing_vibration_is_no_limit_cycle_and_a_saturated_one_is() {
+    let (record, _) = run(610.0, &seeded(0.006, 1e-3), &RecorderSettings::default());
+    let growing = TransientAnalysis::of(&record, &[2]).settling;
+    assert_eq!(growing.state, EndState::Unsettled, "{growing:?}");
+    assert!(growing.from.is_none() && growing.reason.is_some());
+    let (record, _) = run(610.0, &seeded(0.05, 0.5), &RecorderSettings::default());
+    let analysis = TransientAnalysis::of(&record, &[2]);
+    let settled = &analysis.settling;
+    assert_eq!(settled.state, EndState::LimitCycle, "{settled:?}");
+    let drift = settled.drift.unwrap();
+    assert!(drift.amplitude.max(drift.frequency).max(drift.status) < 0.01);
+    // The stretch that it has settled for begins after the linear stage and before the last fifth.
+    let from = settled.from.unwrap();
+    assert!(from > analysis.first_nonlinearity.unwrap() && from < 0.04);
+}
+
+#[test]
+fn a_run_that_stops_where_it_has_settled_is_the_beginning_of_the_longer_one() {
+    let settings = seeded(0.05, 0.5);
+    let (whole, _) = run(610.0, &settings, &RecorderSettings::default());
+    let wanted = RecorderSettings {
+        stop_when_settled: true,
+        ..RecorderSettings::default()
+    };
+    let (stopped, end) = run(610.0, &settings, &wanted);
+    assert_eq!(end, RunEnd::Stopped);
+    assert!(stopped.has_stopped);
+    let count = stopped.rows.len();
+    assert!(count > 1000 && count < whole.rows.len());
+    assert_eq!(stopped.rows, whole.rows[..count]);
+    assert_eq!(
+        TransientAnalysis::of(&stopped, &[]).settling.state,
+        EndState::LimitCycle
+    );
+}
+
+#[test]
+fn steady_sliding_rest_and_separation_are_ends_of_their_own() {
+    let quiet = settings(0.07, &[]);
+    let state = |rpm: f64| {
+        let (record, _) = run(rpm, &quiet, &RecorderSettings::default());
+        let analysis = TransientAnalysis::of(&record, &[]);
+        assert_eq!(analysis.last_fifth.main_frequency_hz, None);
+        analysis.settling.state
+    };
+    // What the expansion excites is symmetric, 5.9 kHz, and decays at 325 1/s: 1e-7 of it is left after 50 ms.
+    assert_eq!(state(610.0), EndState::SteadySliding);
+    assert_eq!(state(0.0), EndState::AtRest);
+    // One that is too short to tell.
+    let (record, _) = run(610.0, &settings(2e-4, &[2]), &RecorderSettings::default());
+    let short = TransientAnalysis::of(&record, &[2]);
+    assert!(matches!(
+        short.settling.reason,
+        Some(Unsettled::TooShort { .. } | Unsettled::Starting { .. })
+    ));
+    assert!(short.growth[0].stage.is_err());
+}
+
+#[test]
+fn a_snapshot_has_the_contact_of_its_own_step() {
+    let wanted = RecorderSettings {
+        snapshots: vec![0.0101],
+        contact_interval: Some(1e-4),
+        ..RecorderSettings::default()
+    };
+    let (record, _) = run(610.0, &seeded(0.0102, 0.5), &wanted);
+    let surface = record.surface_speed;
+    let snapshot = &record.snapshots[0];
+    assert_eq!(record.frames.len(), 103);
+    assert!((record.frames[1].time - 1e-4).abs() < 1e-12);
+    let annulus = disc(45, 9);
+    let mut stuck = 0;
+    for (i, &node) in annulus.mesh.contact_edge().nodes.iter().enumerate() {
+        let node = node as usize;
+        match snapshot.contact.status[i] {
+            0 => assert_eq!(snapshot.contact.pressure[i], 0.0),
+            // A node that has stuck for a step has the speed of the cylinder before and after.
+            1 if (snapshot.velocity[2 * node + 1] / surface - 1.0).abs() < 1e-9 => stuck += 1,
+            _ => assert!(snapshot.contact.pressure[i] > 0.0),
+        }
+        // A node in contact is where the cylinder holds it, 25 um out, up to the step that brings it there.
+        if snapshot.contact.status[i] == 0 {
+            assert!(snapshot.gap[i] > -1e-9);
+        }
+    }
+    assert!(stuck > 3, "{stuck}");
+}
+
+/// `contact.npz` of a longer run keeps what that of a run of its length would: a run can be extended.
+#[test]
+fn frames_of_a_run_are_those_of_a_longer_one_up_to_its_end() {
+    let mut long = settings(0.05, &[]);
+    long.sample_interval = 2e-6;
+    let (record, _) = run(610.0, &long, &RecorderSettings::default());
+    assert_eq!(record.rows.len(), 25_001);
+    assert_eq!(record.frame_stride, 4);
+    let times = record.frames.iter().map(|frame| frame.time);
+    let expected = record.rows.iter().step_by(4).map(|row| row.time);
+    assert!(times.eq(expected));
+}
+
+#[test]
+fn the_acceleration_of_a_probe_is_the_change_of_its_velocity_over_the_interval() {
+    let wanted = RecorderSettings {
+        probes: vec![1, 17],
+        raw_acceleration: true,
+        ..RecorderSettings::default()
+    };
+    let (record, _) = run(610.0, &seeded(0.01, 0.5), &wanted);
+    for rows in &record.probe_rows {
+        for pair in rows.windows(2) {
+            for c in 0..2 {
+                assert_eq!(pair[1][4 + c], (pair[1][2 + c] - pair[0][2 + c]) / 4e-6);
+            }
+        }
+    }
+    // A contact node lands within one step: by chance that step is sampled, and its acceleration is many times the mean.
+    let peak = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |m: f64, v| m.max(v.abs()));
+    let mean = peak(&mut record.probe_rows[0].iter().map(|row| row[4]));
+    let step = peak(
+        &mut record.raw_accelerations.as_ref().unwrap()[0]
+            .iter()
+            .map(|a| a[0]),
+    );
+    assert!(step > 1.5 * mean, "{step} {mean}");
+}

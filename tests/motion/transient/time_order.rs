@@ -1,0 +1,46 @@
+//! Order of the time integration.
+
+use crate::transient::model::{Watch, disc, largest_difference, model, settings};
+use frictionsim::fem::RayleighDamping;
+use frictionsim::fem::operator::SimdLevel;
+use frictionsim::transient::{CentralDifference, OperatorChoice, Sample, TimeStep, build_operator};
+
+/// Displacement and velocity of free undamped vibration after 0.2 ms with this many steps.
+fn end(steps: u32) -> (Vec<f64>, Vec<f64>) {
+    let annulus = disc(24, 5);
+    let mut model = model(&annulus, 0.0);
+    model.damping = RayleighDamping::default();
+    model.contact.interference = -1.0;
+    let operator = build_operator(&model, OperatorChoice::Cyclic, SimdLevel::detect()).unwrap();
+    let mut settings = settings(2e-4, &[2]);
+    settings.expansion_time = 0.0;
+    settings.sample_interval = 2e-4;
+    settings.time_step = TimeStep::Seconds(2e-4 / f64::from(steps));
+    let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
+    let mut last = None;
+    run.run(&mut Watch(|sample: &Sample<'_>| {
+        last = Some((sample.displacement(), sample.velocity()));
+    }))
+    .unwrap();
+    last.unwrap()
+}
+
+/// Theory: errors fall with the square of the step.
+#[test]
+fn smooth_linear_motion_converges_with_order_two_in_time() {
+    let reference = end(51_200);
+    let errors = [400, 800, 1600].map(|steps| {
+        let (displacement, velocity) = end(steps);
+        [
+            largest_difference(&displacement, &reference.0),
+            largest_difference(&velocity, &reference.1),
+        ]
+    });
+    for quantity in 0..2 {
+        for pair in errors.windows(2) {
+            let slope = (pair[0][quantity] / pair[1][quantity]).log2();
+            println!("order {slope:.4}");
+            assert!((slope - 2.0).abs() < 0.1, "{slope} {errors:?}");
+        }
+    }
+}

@@ -1,0 +1,576 @@
+//! Bodies of any plane shape: mesh files, supports, partial contact, transients (independent checks, unless a test
+//! says otherwise).
+
+use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact};
+use crate::msh::{FORMS, Form, write_msh};
+use frictionsim::cea::cyclic;
+use frictionsim::cea::sparse::sweep;
+use frictionsim::cea::{ComplexMode, ModeLimit, SweepRequest};
+use frictionsim::contact::{ContactStiffness, SlidingContact};
+use frictionsim::fem::operator::SimdLevel;
+use frictionsim::fem::{
+    ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping, assemble_stiffness,
+};
+use frictionsim::mesh::{
+    AnnulusMesh, BodySpecification, BoundaryCondition, CounterfaceSpecification, ElasticSupport,
+    ElementKind, GmshFile, Mesh2d,
+};
+use frictionsim::prestress::{
+    DampingModel, SlidingRange, SlidingTangent, SteadySliding, TangentOptions,
+};
+use frictionsim::transient::{
+    CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
+    TimeStep, TransientAnalysis, TransientModel, TransientSettings, build_operator,
+};
+
+const CYLINDER: CounterfaceSpecification = CounterfaceSpecification::Cylinder {
+    center: [0.0; 2],
+    radius: None,
+};
+
+fn options(mass: MassKind, geometric_stiffness: bool) -> TangentOptions {
+    TangentOptions {
+        mass,
+        geometric_stiffness,
+        damping: DAMPING,
+        damping_model: DampingModel::WholeTangent,
+        contact: ContactStiffness::default(),
+    }
+}
+
+/// The disc as the body of a file: hole `inner`, rim `outer` clamped.
+fn disc_body(bytes: &[u8], scale: f64) -> Mesh2d {
+    let specification = BodySpecification {
+        scale,
+        contact: "inner".to_owned(),
+        counterface: CYLINDER,
+        opposite: None,
+        conditions: vec![("outer".to_owned(), BoundaryCondition::Clamped)],
+    };
+    Mesh2d::from_gmsh(&GmshFile::read(bytes).unwrap(), &specification).unwrap()
+}
+
+fn modes(mesh: &Mesh2d, options: &TangentOptions, contact: &SlidingContact) -> Vec<ComplexMode> {
+    let stiffness = assemble_stiffness(mesh, &POLYCARBONATE);
+    let base = SteadySliding::solve(mesh, &stiffness, contact).unwrap();
+    let tangent = SlidingTangent::linearize(mesh, &POLYCARBONATE, &stiffness, &base, options);
+    let request = SweepRequest {
+        friction_coefficients: &[contact.friction_coefficient],
+        limit: ModeLimit::Lowest(8),
+        shapes_at: &[],
+    };
+    let found = sweep(&tangent, &request, &|_| {}).unwrap();
+    found.points.into_iter().next().unwrap().modes
+}
+
+fn assert_one_spectrum(found: &[ComplexMode], expected: &[ComplexMode], tolerance: f64) {
+    assert_eq!(found.len(), expected.len());
+    for (a, b) in found.iter().zip(expected) {
+        let error = (a.eigenvalue - b.eigenvalue).norm() / b.eigenvalue.norm();
+        assert!(
+            error < tolerance,
+            "{} {} {error:e}",
+            a.eigenvalue,
+            b.eigenvalue
+        );
+    }
+}
+
+#[test]
+fn every_form_of_the_file_reads_to_one_mesh() {
+    for element in [ElementKind::Quad4, ElementKind::Quad8] {
+        let mesh = AnnulusMesh::generate(&annulus(element, 12, 3))
+            .unwrap()
+            .mesh;
+        let numbers: Vec<usize> = (1..=mesh.node_count()).collect();
+        let read =
+            FORMS.map(|form| GmshFile::read(&write_msh(&mesh, form, &numbers, |p| p)).unwrap());
+        for file in &read {
+            // Labels of elements differ between text and groups of bytes in nothing.
+            assert_eq!(*file, read[0], "{element:?}");
+        }
+        let body = disc_body(&write_msh(&mesh, FORMS[0], &numbers, |p| p), 1.0);
+        assert_eq!(
+            (body.node_count(), body.element_count()),
+            (mesh.node_count(), mesh.element_count())
+        );
+        let length: f64 = body.contact_edge().tributary_lengths.iter().sum();
+        let expected: f64 = mesh.contact_edge().tributary_lengths.iter().sum();
+        assert!((length / expected - 1.0).abs() < 1e-5);
+    }
+}
+
+/// The imported disc has the spectrum of the generated one, also turned, renumbered and in millimetres.
+#[test]
+fn turned_renumbered_and_scaled_meshes_have_one_spectrum() {
+    let mesh = AnnulusMesh::generate(&annulus(ElementKind::Quad8, 24, 4))
+        .unwrap()
+        .mesh;
+    let contact = contact(610.0);
+    let options = options(MassKind::Consistent, true);
+    let expected = modes(&mesh, &options, &contact);
+    let plain: Vec<usize> = (1..=mesh.node_count()).collect();
+    let reversed: Vec<usize> = plain.iter().rev().copied().collect();
+    let (sin, cos) = 0.3_f64.sin_cos();
+    let turn = |[x, y]: [f64; 2]| [1e3 * (cos * x - sin * y), 1e3 * (sin * x + cos * y)];
+    let same = disc_body(&write_msh(&mesh, FORMS[2], &plain, |p| p), 1.0);
+    assert_one_spectrum(&modes(&same, &options, &contact), &expected, 1e-9);
+    let other = disc_body(&write_msh(&mesh, FORMS[1], &reversed, turn), 1e-3);
+    assert_one_spectrum(&modes(&other, &options, &contact), &expected, 1e-9);
+}
+
+fn supported(stiffness: f64) -> BoundaryCondition {
+    BoundaryCondition::Support(ElasticSupport {
+        normal_stiffness: stiffness,
+        tangential_stiffness: stiffness,
+        ..ElasticSupport::default()
+    })
+}
+
+/// Unstable modes of the disc on an elastic rim, from a prototype with quadratic elements in the radius and exact
+/// waves around it (rigid contact, friction 0.3, no prestress): harmonic, Hz, growth / 2 pi.
+#[test]
+fn a_supported_rim_gives_the_sounds_of_the_prototype() {
+    type Row = (usize, f64, f64);
+    let rows: [(BoundaryCondition, &[Row]); 3] = [
+        (
+            BoundaryCondition::Clamped,
+            &[(1, 6883.0, 110.0), (2, 8761.0, 93.0), (1, 10314.0, 173.0)],
+        ),
+        (
+            supported(2.0e11),
+            &[
+                (1, 6143.0, 146.0),
+                (2, 7474.0, 96.0),
+                (1, 9534.0, 125.0),
+                (1, 15740.0, 63.0),
+                (2, 16142.0, 63.0),
+            ],
+        ),
+        (
+            supported(1.5e11),
+            &[
+                (1, 5942.0, 151.0),
+                (2, 7168.0, 95.0),
+                (1, 9305.0, 114.0),
+                (2, 10359.0, 4.0),
+                (1, 15468.0, 82.0),
+                (2, 15841.0, 67.0),
+            ],
+        ),
+    ];
+    let material = ElasticMaterial {
+        formulation: PlaneFormulation::PlaneStress,
+        ..POLYCARBONATE
+    };
+    for (outer, expected) in rows {
+        let mut specification = annulus(ElementKind::Quad8, 96, 20);
+        specification.outer = outer;
+        let request = SweepRequest {
+            friction_coefficients: &[0.3],
+            limit: ModeLimit::MaxFrequency(17000.0),
+            shapes_at: &[],
+        };
+        let options = options(MassKind::Consistent, false);
+        let found = cyclic::sweep(
+            &specification,
+            &material,
+            &options,
+            &contact(610.0),
+            &request,
+        )
+        .unwrap();
+        let modes = &found.sweep.points[0].modes;
+        for &(harmonic, frequency, growth) in expected {
+            let near = modes.iter().find(|mode| {
+                mode.harmonic == harmonic
+                    && (mode.frequency_hz() / frequency - 1.0).abs() < 2e-3
+                    && (mode.real_hz() - growth).abs() < 3.0
+            });
+            assert!(
+                near.is_some(),
+                "{outer:?}: n = {harmonic}, {frequency} Hz, {growth}"
+            );
+        }
+    }
+}
+
+/// Both eigenvalue paths and the damping that a support has of its own.
+#[test]
+fn a_supported_rim_has_one_spectrum_by_sectors_and_as_a_whole() {
+    let mut specification = annulus(ElementKind::Quad4, 36, 8);
+    specification.outer = BoundaryCondition::Support(ElasticSupport {
+        normal_stiffness: 3e11,
+        tangential_stiffness: 1e11,
+        axial_stiffness: 0.0,
+        normal_damping: 2e5,
+        tangential_damping: 1e5,
+    });
+    let options = options(MassKind::Lumped, true);
+    let whole = AnnulusMesh::generate(&specification).unwrap();
+    let sparse = modes(&whole.mesh, &options, &contact(610.0));
+    let request = SweepRequest {
+        friction_coefficients: &[0.3],
+        limit: ModeLimit::Lowest(8),
+        shapes_at: &[],
+    };
+    let found = cyclic::sweep(
+        &specification,
+        &POLYCARBONATE,
+        &options,
+        &contact(610.0),
+        &request,
+    )
+    .unwrap();
+    assert_one_spectrum(&sparse, &found.sweep.points[0].modes, 1e-8);
+}
+
+/// A rectangle of `nx` by `ny` four-node elements, its corner at the origin, with boundaries bottom, right, top, left.
+fn rectangle(width: f64, height: f64, nx: usize, ny: usize) -> Vec<u8> {
+    let node = |i: usize, j: usize| 1 + i + j * (nx + 1);
+    let mut text = String::from("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n5\n");
+    for (tag, name) in ["bottom", "right", "top", "left"].iter().enumerate() {
+        text += &format!("1 {} \"{name}\"\n", tag + 1);
+    }
+    text += "2 5 \"block\"\n$EndPhysicalNames\n$Nodes\n";
+    text += &format!("{}\n", (nx + 1) * (ny + 1));
+    for j in 0..=ny {
+        for i in 0..=nx {
+            let (x, y) = (width * i as f64 / nx as f64, height * j as f64 / ny as f64);
+            text += &format!("{} {x:?} {y:?} 0\n", node(i, j));
+        }
+    }
+    let mut elements = Vec::new();
+    for i in 0..nx {
+        elements.push(format!("1 2 1 1 {} {}", node(i, 0), node(i + 1, 0)));
+        elements.push(format!("1 2 3 3 {} {}", node(i, ny), node(i + 1, ny)));
+    }
+    for j in 0..ny {
+        elements.push(format!("1 2 4 4 {} {}", node(0, j), node(0, j + 1)));
+        elements.push(format!("1 2 2 2 {} {}", node(nx, j), node(nx, j + 1)));
+        for i in 0..nx {
+            let corners = [
+                node(i, j),
+                node(i + 1, j),
+                node(i + 1, j + 1),
+                node(i, j + 1),
+            ];
+            let corners = corners.map(|n| n.to_string()).join(" ");
+            elements.push(format!("3 2 5 5 {corners}"));
+        }
+    }
+    text += &format!("$EndNodes\n$Elements\n{}\n", elements.len());
+    for (i, element) in elements.iter().enumerate() {
+        text += &format!("{} {element}\n", i + 1);
+    }
+    text += "$EndElements\n";
+    text.into_bytes()
+}
+
+fn block_specification() -> BodySpecification {
+    BodySpecification {
+        scale: 1.0,
+        contact: "bottom".to_owned(),
+        counterface: CounterfaceSpecification::Plane {
+            direction: Some([1.0, 0.0]),
+        },
+        opposite: None,
+        conditions: vec![
+            ("right".to_owned(), BoundaryCondition::Guide),
+            ("top".to_owned(), BoundaryCondition::Pressure(1e6)),
+        ],
+    }
+}
+
+fn plane(friction_coefficient: f64) -> SlidingContact {
+    SlidingContact {
+        decay: None,
+        friction_coefficient,
+        interference: 0.0,
+        rotation_speed: 1.5,
+    }
+}
+
+/// A block that a pressure presses on a moving plane and a smooth stop holds: forces balance, no node is pulled, no
+/// node penetrates.
+#[test]
+fn a_pressed_block_is_in_balance() {
+    let (width, height) = (0.04, 0.06);
+    let file = GmshFile::read(&rectangle(width, height, 20, 30)).unwrap();
+    let mesh = Mesh2d::from_gmsh(&file, &block_specification()).unwrap();
+    let stiffness = assemble_stiffness(&mesh, &POLYCARBONATE);
+    let frictions = [0.0, 0.1, 0.3, 0.6];
+    let range = SlidingRange::solve(&mesh, &stiffness, &plane(0.3), &frictions).unwrap();
+    for (friction, &k) in frictions.iter().zip(&range.state_of) {
+        let state = &range.states[k];
+        let forces = state.normal_forces(*friction);
+        let total: f64 = forces.iter().sum();
+        assert!(
+            (total / (1e6 * width) - 1.0).abs() < 1e-8,
+            "{friction} {total}"
+        );
+        let displacement = state.displacement(*friction);
+        for (i, force) in forces.iter().enumerate() {
+            let gap = displacement[state.interface.normal_dof(i)];
+            assert!(
+                *force >= -1e-9 * total && gap >= -1e-15,
+                "{friction} {i} {force} {gap}"
+            );
+        }
+        // The plane drags the block along its direction with the friction of the whole force.
+        assert!((state.torque(*friction) - friction * total).abs() < 1e-9 * total);
+    }
+    assert!(
+        range
+            .states
+            .iter()
+            .all(|state| state.is_pressed.iter().all(|is| *is))
+    );
+}
+
+/// On an elastic mounting the drag tilts the block: nodes open one by one as friction rises.
+#[test]
+fn a_block_on_an_elastic_mounting_lifts_a_corner_as_friction_rises() {
+    let file = GmshFile::read(&rectangle(0.04, 0.06, 20, 30)).unwrap();
+    let mut specification = block_specification();
+    let mounting = ElasticSupport {
+        normal_stiffness: 1e12,
+        tangential_stiffness: 1e12,
+        ..ElasticSupport::default()
+    };
+    specification.conditions = vec![("top".to_owned(), BoundaryCondition::Support(mounting))];
+    let mesh = Mesh2d::from_gmsh(&file, &specification).unwrap();
+    let stiffness = assemble_stiffness(&mesh, &POLYCARBONATE);
+    let contact = SlidingContact {
+        interference: 1e-5,
+        ..plane(0.5)
+    };
+    let frictions = [0.1, 0.3, 0.5];
+    let range = SlidingRange::solve(&mesh, &stiffness, &contact, &frictions).unwrap();
+    let mut open = Vec::new();
+    for (friction, &k) in frictions.iter().zip(&range.state_of) {
+        let state = &range.states[k];
+        let (forces, displacement) = (
+            state.normal_forces(*friction),
+            state.displacement(*friction),
+        );
+        let total: f64 = forces.iter().sum();
+        for (i, force) in forces.iter().enumerate() {
+            let gap = displacement[state.interface.normal_dof(i)] - 1e-5;
+            // Round-off of the interpolation in the friction coefficient.
+            assert!(
+                *force >= -1e-6 * total && gap >= -1e-11,
+                "{friction} {i} {force} {gap}"
+            );
+            assert!(
+                *force <= 1e-6 * total || gap.abs() < 1e-11,
+                "{friction} {i} {force} {gap}"
+            );
+        }
+        open.push(state.is_pressed.iter().filter(|is| !**is).count());
+    }
+    assert!(open[0] == 0 && open[1] > 0 && open[2] > open[1], "{open:?}");
+    assert_eq!(range.changes.len(), 2);
+    assert!(range.changes.iter().all(|mu| (0.1..0.5).contains(mu)));
+}
+
+/// The eigenvalue's growth and frequency in the linear stage of a transient, on a disc whose hole is off centre.
+#[test]
+fn a_body_without_symmetry_grows_in_time_as_its_eigenvalue_says() {
+    let mesh = AnnulusMesh::generate(&annulus(ElementKind::Quad4, 60, 12))
+        .unwrap()
+        .mesh;
+    let numbers: Vec<usize> = (1..=mesh.node_count()).collect();
+    // The rim moves by 5 mm, the hole stays.
+    let shift = |[x, y]: [f64; 2]| {
+        let depth = (x.hypot(y) - 0.0205) / 0.07;
+        [x - 5e-3 * depth, y]
+    };
+    let body = disc_body(&write_msh(&mesh, FORMS[0], &numbers, shift), 1.0);
+    let contact = contact(610.0);
+    let found = modes(&body, &options(MassKind::Lumped, false), &contact);
+    let exact = found
+        .iter()
+        .max_by(|a, b| a.growth_rate().total_cmp(&b.growth_rate()))
+        .unwrap();
+    let model = TransientModel {
+        mesh: &body,
+        annulus: None,
+        material: &POLYCARBONATE,
+        damping: DAMPING,
+        contact,
+        stiffness: ContactStiffness::default(),
+    };
+    let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
+    let settings = TransientSettings {
+        duration: 0.03,
+        time_step: TimeStep::Auto,
+        sample_interval: 4e-6,
+        expansion_time: 0.0,
+        initial: InitialState::SteadySliding,
+        perturbation: Perturbation::of(&[1, 2], 1e-12),
+    };
+    let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
+    let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
+    run.run(&mut record).unwrap();
+    assert!(run.largest_residual() < 1e-10);
+    // The second half of the linear stage, where the fastest mode is alone.
+    record.rows.drain(..record.rows.len() / 2);
+    let analysis = TransientAnalysis::of(&record, &[2]);
+    let growth = analysis.growth[0].stage.as_ref().unwrap();
+    let (rate, frequency) = (growth.rate_per_s.value, growth.frequency_hz.value.abs());
+    println!(
+        "{} {} {} {}",
+        rate,
+        exact.growth_rate(),
+        frequency,
+        exact.frequency_hz()
+    );
+    assert!((rate / exact.growth_rate() - 1.0).abs() < 0.01);
+    assert!((frequency / exact.frequency_hz() - 1.0).abs() < 1e-3);
+}
+
+/// Energy closes to round-off with supports, dashpots, pressure and a contact that opens.
+#[test]
+fn energy_closes_with_supports_pressure_and_partial_contact() {
+    let file = GmshFile::read(&rectangle(0.04, 0.06, 8, 12)).unwrap();
+    let mut specification = block_specification();
+    specification.conditions[0].1 = BoundaryCondition::Support(ElasticSupport {
+        normal_stiffness: 1e11,
+        tangential_stiffness: 1e10,
+        axial_stiffness: 0.0,
+        normal_damping: 3e4,
+        tangential_damping: 1e4,
+    });
+    let mesh = Mesh2d::from_gmsh(&file, &specification).unwrap();
+    let model = TransientModel {
+        mesh: &mesh,
+        annulus: None,
+        material: &POLYCARBONATE,
+        damping: RayleighDamping {
+            mass_coefficient: 40.0,
+            stiffness_coefficient: 1e-7,
+        },
+        contact: plane(0.5),
+        stiffness: ContactStiffness::default(),
+    };
+    let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
+    let settings = TransientSettings {
+        duration: 2e-3,
+        time_step: TimeStep::Auto,
+        sample_interval: 5e-6,
+        expansion_time: 1e-4,
+        initial: InitialState::Rest,
+        perturbation: Perturbation::default(),
+    };
+    let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
+    let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
+    run.run(&mut record).unwrap();
+    assert!(run.largest_residual() < 1e-10, "{}", run.largest_residual());
+    assert!(record.rows.iter().any(|row| row.counts.open > 0));
+}
+
+/// Each message names what is wrong and what to do.
+#[test]
+fn bad_files_and_names_are_refused_with_a_remedy() {
+    let good = String::from_utf8(rectangle(0.04, 0.03, 4, 3)).unwrap();
+    let body = |text: &str, specification: &BodySpecification| {
+        let file = GmshFile::read(text.as_bytes()).map_err(|e| e.to_string())?;
+        Mesh2d::from_gmsh(&file, specification).map_err(|e| e.to_string())
+    };
+    let plain = block_specification();
+    assert!(body(&good, &plain).is_ok());
+    let with = |change: &dyn Fn(&mut BodySpecification)| {
+        let mut changed = plain.clone();
+        change(&mut changed);
+        changed
+    };
+    let round = with(&|s| s.counterface = CYLINDER);
+    let misspelt = with(&|s| s.contact = "botom".to_owned());
+    let loose = with(&|s| s.conditions.clear());
+    let away = with(&|s| {
+        s.counterface = CounterfaceSpecification::Plane {
+            direction: Some([-1.0, 0.0]),
+        };
+    });
+    let half = &good[..good.len() / 2];
+    let inverted = good.replacen("3 2 5 5 1 2 7 6", "3 2 5 5 1 6 7 2", 1);
+    let folded = good.replacen("3 2 5 5 1 2 7 6", "3 2 5 5 1 2 6 7", 1);
+    let dangling = good.replacen("$Nodes\n20\n", "$Nodes\n21\n99 1.0 1.0 0\n", 1);
+    let nine = good.replacen("3 2 5 5 1 2 7 6", "10 2 5 5 1 2 7 6 3 4 5 8 9", 1);
+    let solid = good.replacen("3 2 5 5 1 2 7 6", "4 2 5 5 1 2 7 6", 1);
+    let broken = good.replacen("1 2 1 1 2 3", "15 2 0 0 2", 1);
+    let unknown = good.replacen("3 2 5 5 1 2 7 6", "3 2 5 5 1 2 7 77", 1);
+    for (text, specification, words) in [
+        (half, &plain, "truncated"),
+        ("ABAQUS", &plain, "no Gmsh mesh"),
+        ("", &plain, "empty"),
+        ("$MeshFormat\n1.0 0 8\n", &plain, "4.1 or 2.2"),
+        (&good, &misspelt, "did you mean \"bottom\""),
+        (&good, &loose, "nothing holds the body"),
+        (&good, &away, "does not face"),
+        (&good, &round, "no circle"),
+        (&inverted, &plain, "inverted"),
+        (&folded, &plain, "inverted"),
+        (&dangling, &plain, "dangling"),
+        (&nine, &plain, "SecondOrderIncomplete"),
+        (&solid, &plain, "solid"),
+        (&broken, &plain, "is open"),
+        (&unknown, &plain, "node 77"),
+    ] {
+        let message = body(text, specification).expect_err(words);
+        assert!(message.contains(words), "{words}: {message}");
+    }
+}
+
+/// Consistency check: mutated files never panic, and what is read of them stays small.
+#[test]
+fn mutated_files_are_read_or_refused() {
+    let mesh = AnnulusMesh::generate(&annulus(ElementKind::Quad8, 6, 2))
+        .unwrap()
+        .mesh;
+    let numbers: Vec<usize> = (1..=mesh.node_count()).collect();
+    let seeds: Vec<Vec<u8>> = FORMS
+        .map(|form: Form| write_msh(&mesh, form, &numbers, |p| p))
+        .into();
+    let specification = BodySpecification {
+        scale: 1.0,
+        contact: "inner".to_owned(),
+        counterface: CYLINDER,
+        opposite: None,
+        conditions: vec![("outer".to_owned(), BoundaryCondition::Clamped)],
+    };
+    let mut state = 1_u64;
+    let mut draw = |below: usize| {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as usize % below
+    };
+    for round in 0..4000 {
+        let mut bytes = seeds[round % 4].clone();
+        for _ in 0..1 + draw(4) {
+            let at = draw(bytes.len());
+            match draw(5) {
+                0 => bytes[at] = draw(256) as u8,
+                1 => bytes.truncate(at + 1),
+                2 => bytes[at] ^= 1 << draw(8),
+                3 => {
+                    let (from, length) = (draw(bytes.len()), draw(16));
+                    let piece: Vec<u8> = bytes[from..].iter().take(length).copied().collect();
+                    bytes.splice(at..at, piece);
+                }
+                _ => {
+                    bytes.drain(at..(at + draw(9)).min(bytes.len()));
+                }
+            }
+            if bytes.is_empty() {
+                break;
+            }
+        }
+        if let Ok(file) = GmshFile::read(&bytes) {
+            assert!(file.points.len() <= bytes.len() && file.elements.len() <= bytes.len());
+            let _ = Mesh2d::from_gmsh(&file, &specification);
+        }
+    }
+}

@@ -1,0 +1,154 @@
+//! Independent check: sensitivities against finite differences of the whole analysis.
+
+use crate::cea_cyclic::model::paper_options;
+use crate::disc::{POLYCARBONATE, annulus, contact};
+use faer::c64;
+use frictionsim::cea::cyclic::{CyclicModel, Sensitivity, sensitivities, sweep};
+use frictionsim::cea::{ModeBranch, ModeLimit, SweepRequest};
+use frictionsim::fem::{ElasticMaterial, PlaneFormulation};
+use frictionsim::mesh::ElementKind;
+use frictionsim::prestress::DampingModel;
+
+/// One eigenvalue of a changed model, by following its branch.
+fn eigenvalue_of(model: &CyclicModel, like: &Sensitivity, friction: f64) -> c64 {
+    let request = SweepRequest {
+        friction_coefficients: &[friction],
+        limit: ModeLimit::MaxFrequency(17600.0),
+        shapes_at: &[],
+    };
+    let found = sweep(
+        &model.specification,
+        &model.material,
+        &model.options,
+        &model.contact,
+        &request,
+    )
+    .unwrap();
+    let is_same = |b: &&ModeBranch| {
+        (b.harmonic, b.branch, b.direction) == (like.harmonic, like.branch, like.direction)
+    };
+    found
+        .branches
+        .iter()
+        .find(is_same)
+        .unwrap()
+        .interpolate(friction)
+        .unwrap()
+}
+
+/// Independent check: central differences of the whole analysis, prestress included.
+#[test]
+fn sensitivities_equal_finite_differences() {
+    let mut rigid = paper_options();
+    rigid.contact.normal_stiffness = None;
+    let mut dashpots = paper_options();
+    dashpots.damping_model = DampingModel::BodyOnly;
+    dashpots.contact.normal_damping = 1e5;
+    for (options, formulation, element) in [
+        (
+            paper_options(),
+            PlaneFormulation::PlaneStrain,
+            ElementKind::Quad4,
+        ),
+        (rigid, PlaneFormulation::PlaneStress, ElementKind::Quad8),
+        (dashpots, PlaneFormulation::PlaneStrain, ElementKind::Quad4),
+    ] {
+        let mut contact = contact(610.0);
+        // A strong prestress, so that its share cannot hide.
+        contact.interference = 3e-4;
+        let material = ElasticMaterial {
+            formulation,
+            ..POLYCARBONATE
+        };
+        let model = CyclicModel {
+            specification: annulus(element, 24, 6),
+            material: material.into(),
+            options,
+            contact,
+        };
+        let friction = 0.35;
+        let request = SweepRequest {
+            friction_coefficients: &[0.0, friction],
+            limit: ModeLimit::MaxFrequency(12000.0),
+            shapes_at: &[],
+        };
+        let found = sweep(
+            &model.specification,
+            &model.material,
+            &model.options,
+            &model.contact,
+            &request,
+        )
+        .unwrap();
+        for s in sensitivities(&found, friction).unwrap() {
+            let difference = |step: f64, change: &dyn Fn(&mut CyclicModel, f64)| {
+                let at = |offset: f64| {
+                    let mut changed = model;
+                    change(&mut changed, offset);
+                    eigenvalue_of(&changed, &s, friction)
+                };
+                // Fourth order, so that the step may stay far above round-off.
+                ((at(step) - at(-step)) * 8.0 - (at(2.0 * step) - at(-2.0 * step))) / (12.0 * step)
+            };
+            let k_n = options.contact.normal_stiffness.unwrap_or(1.0);
+            let checks = [
+                (
+                    "nu",
+                    1.0,
+                    s.poisson_ratio,
+                    difference(1e-3, &|m, h| m.material.annulus.poisson_ratio += h),
+                ),
+                (
+                    "E",
+                    2.5e9,
+                    s.young_modulus,
+                    difference(2e7, &|m, h| m.material.annulus.young_modulus += h),
+                ),
+                (
+                    "rho",
+                    1228.0,
+                    s.density,
+                    difference(10.0, &|m, h| m.material.annulus.density += h),
+                ),
+                (
+                    "alpha",
+                    40.0,
+                    s.mass_coefficient,
+                    difference(1.0, &|m, h| m.options.damping.mass_coefficient += h),
+                ),
+                (
+                    "beta",
+                    4.5e-7,
+                    s.stiffness_coefficient,
+                    difference(1e-8, &|m, h| m.options.damping.stiffness_coefficient += h),
+                ),
+                (
+                    "k_n",
+                    k_n,
+                    s.normal_stiffness.unwrap_or(c64::new(0.0, 0.0)),
+                    difference(k_n * 0.01, &|m, h| {
+                        if let Some(k) = &mut m.options.contact.normal_stiffness {
+                            *k += h;
+                        }
+                    }),
+                ),
+            ];
+            for (name, scale, analytic, numeric) in checks {
+                // Relative to the change over the parameter's own size, and to |lambda| where that is tiny.
+                let error = (analytic - numeric).norm() * scale;
+                let size = (numeric * scale).norm() + 1e-3 * s.eigenvalue.norm();
+                assert!(
+                    error < 2e-7 * size,
+                    "{element:?} {name} {s:?} {numeric} {:e}",
+                    error / size
+                );
+            }
+            let at = |mu: f64| eigenvalue_of(&model, &s, mu);
+            let h = 1e-3;
+            let numeric = ((at(friction + h) - at(friction - h)) * 8.0
+                - (at(friction + 2.0 * h) - at(friction - 2.0 * h)))
+                / (12.0 * h);
+            assert!((numeric - s.friction).norm() < 1e-9 * s.eigenvalue.norm());
+        }
+    }
+}

@@ -1,0 +1,241 @@
+//! Onsets, intervals, completeness and maps, against the paper, the continuum and each other.
+
+use crate::cea_cyclic::model::{paper_options, run};
+use crate::disc::{POLYCARBONATE, annulus, contact};
+use crate::table_1::TABLE_1;
+use frictionsim::cea::cyclic::{CyclicModel, stability_map, sweep};
+use frictionsim::cea::{ModeBranch, ModeLimit, SweepRequest, UnstableInterval};
+use frictionsim::fem::ElasticMaterial;
+use frictionsim::mesh::ElementKind;
+
+#[test]
+fn eigenvalues_equal_table_1_of_the_paper() {
+    let specification = annulus(ElementKind::Quad8, 180, 35);
+    let found = run(
+        &specification,
+        &paper_options(),
+        &[0.3],
+        ModeLimit::Lowest(28),
+    );
+    for ((real, frequency, harmonic, _), mode) in TABLE_1.iter().zip(&found.sweep.points[0].modes) {
+        assert_eq!(mode.harmonic, *harmonic, "{mode:?}");
+        assert!(
+            (mode.frequency_hz() / frequency - 1.0).abs() < 3e-3,
+            "{mode:?}"
+        );
+        // The paper's mesh is its own; 10 Hz is a tenth of a percent of the frequencies.
+        assert!((mode.real_hz() - real).abs() < 10.0, "{real} {mode:?}");
+        if mode.is_unstable() {
+            assert_eq!(
+                mode.direction, -1,
+                "unstable waves travel against the rotor: {mode:?}"
+            );
+        }
+    }
+}
+
+/// Onsets of the exact continuum model with the paper's data: 0.1224 (n = 1), 0.1382 (n = 2), 0.2121 (n = 1).
+#[test]
+fn critical_frictions_equal_those_of_the_continuum() {
+    let specification = annulus(ElementKind::Quad8, 120, 24);
+    let found = run(
+        &specification,
+        &paper_options(),
+        &[0.0, 0.5, 1.0],
+        ModeLimit::Lowest(28),
+    );
+    let onsets = [(0.1224, 1, 1), (0.1382, 2, 0), (0.2121, 1, 0)];
+    for ((critical, harmonic, branch), interval) in onsets.iter().zip(&found.sweep.intervals) {
+        assert_eq!(
+            (interval.harmonic, interval.branch, interval.direction),
+            (*harmonic, *branch, -1)
+        );
+        // Four digits are given; the continuum model has no geometric stiffness.
+        assert!(
+            (interval.critical_friction - critical).abs() < 1e-3,
+            "{interval:?}"
+        );
+    }
+}
+
+/// One sweep straight to friction 5 and one in 1250 steps find the same intervals, also one that lies
+/// between 0.0077 and 0.0142, and at each end the branch neither grows nor decays.
+#[test]
+fn unstable_intervals_do_not_depend_on_the_grid() {
+    let mut options = paper_options();
+    options.contact.normal_stiffness = Some(1e11);
+    options.damping.stiffness_coefficient = 0.0;
+    let material = ElasticMaterial {
+        poisson_ratio: 0.45,
+        ..POLYCARBONATE
+    };
+    let solve = |frictions: &[f64]| {
+        let request = SweepRequest {
+            friction_coefficients: frictions,
+            limit: ModeLimit::MaxFrequency(20000.0),
+            shapes_at: &[],
+        };
+        let specification = annulus(ElementKind::Quad4, 40, 10);
+        sweep(
+            &specification,
+            &material,
+            &options,
+            &contact(610.0),
+            &request,
+        )
+        .unwrap()
+    };
+    let steps: Vec<f64> = (0..=1250).map(|i| 0.004 * f64::from(i)).collect();
+    let (fine, coarse) = (solve(&steps).sweep.intervals, solve(&[5.0]));
+    let narrow = |i: &&UnstableInterval| i.restabilized.is_some_and(|(end, _)| end < 0.02);
+    assert_eq!(fine.iter().filter(narrow).count(), 1);
+    let mut compared = 0;
+    for a in &coarse.sweep.intervals {
+        let is_same = |b: &&UnstableInterval| {
+            (b.harmonic, b.branch, b.direction) == (a.harmonic, a.branch, a.direction)
+                && (b.critical_friction - a.critical_friction).abs() < 1e-10
+        };
+        let b = fine.iter().find(is_same).unwrap();
+        assert_eq!(a.restabilized.is_some(), b.restabilized.is_some());
+        let ends = [Some(a.critical_friction), a.restabilized.map(|r| r.0)];
+        for end in ends.into_iter().flatten() {
+            let is_branch = |b: &&ModeBranch| {
+                (b.harmonic, b.branch, b.direction) == (a.harmonic, a.branch, a.direction)
+            };
+            let at = solve(&[end]);
+            let lambda = at
+                .branches
+                .iter()
+                .find(is_branch)
+                .map(|b| b.interpolate(end).unwrap());
+            let lambda = lambda.unwrap();
+            assert!(lambda.re.abs() < 1e-10 * lambda.norm(), "{lambda}");
+            compared += 1;
+        }
+    }
+    assert!(compared > 8);
+}
+
+#[test]
+fn every_other_harmonic_is_proven_to_hold_no_mode_of_the_range() {
+    let mut rigid = paper_options();
+    rigid.contact.normal_stiffness = None;
+    for options in [paper_options(), rigid] {
+        let found = run(
+            &annulus(ElementKind::Quad4, 180, 35),
+            &options,
+            &[0.0, 1.0],
+            ModeLimit::Lowest(30),
+        );
+        let coverage = found.coverage;
+        assert_eq!(coverage.followed, (0..=8).collect::<Vec<_>>());
+        assert_eq!(coverage.proven_empty, (9..=90).collect::<Vec<_>>());
+        assert!(coverage.counted_empty.is_empty());
+    }
+}
+
+#[test]
+fn results_are_the_same_to_the_last_bit_on_any_number_of_threads() {
+    let solve = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
+        let specification = annulus(ElementKind::Quad4, 40, 8);
+        let frictions = [0.0, 0.3, 0.7];
+        pool.install(|| {
+            run(
+                &specification,
+                &paper_options(),
+                &frictions,
+                ModeLimit::Lowest(30),
+            )
+        })
+    };
+    let (one, four) = (solve(1), solve(4));
+    assert_eq!(one.sweep, four.sweep);
+    assert_eq!(one.branches, four.branches);
+}
+
+/// A point of a map that has no sliding state is reported, the others are computed.
+#[test]
+fn stability_map_equals_single_sweeps_and_survives_failing_points() {
+    let model = CyclicModel {
+        specification: annulus(ElementKind::Quad4, 40, 10),
+        material: POLYCARBONATE.into(),
+        options: paper_options(),
+        contact: contact(610.0),
+    };
+    let limit = ModeLimit::Lowest(12);
+    let models = [-1e-5, 2e-5, 2e-4].map(|interference| {
+        let mut changed = model;
+        changed.contact.interference = interference;
+        (interference, changed)
+    });
+    let map = stability_map(&models, limit, 1.0);
+    assert!(
+        map[0]
+            .outcome
+            .as_ref()
+            .unwrap_err()
+            .to_string()
+            .contains("contact.interference")
+    );
+    for point in &map[1..] {
+        let mut contact = model.contact;
+        contact.interference = point.value;
+        let request = SweepRequest {
+            friction_coefficients: &[1.0],
+            limit,
+            shapes_at: &[],
+        };
+        let single = sweep(
+            &model.specification,
+            &model.material,
+            &model.options,
+            &contact,
+            &request,
+        )
+        .unwrap();
+        let onset = point.lowest_onset().unwrap();
+        let first = &single.sweep.intervals[0];
+        assert!((onset.critical_friction - first.critical_friction).abs() < 1e-10);
+        let of_branch = point.critical_friction(first.harmonic, first.branch, first.direction);
+        assert_eq!(of_branch, Some(onset.critical_friction));
+    }
+}
+
+#[test]
+fn impossible_requests_name_their_key() {
+    let specification = annulus(ElementKind::Quad4, 12, 2);
+    for (frictions, limit, key) in [
+        (vec![], ModeLimit::Lowest(3), "cea.friction_coefficients"),
+        (
+            vec![-0.1],
+            ModeLimit::Lowest(3),
+            "cea.friction_coefficients",
+        ),
+        (vec![0.1], ModeLimit::Lowest(0), "cea.modes"),
+        (vec![0.1], ModeLimit::Lowest(1000), "cea.modes"),
+        (
+            vec![0.1],
+            ModeLimit::MaxFrequency(-5.0),
+            "cea.max_frequency_hz",
+        ),
+    ] {
+        let request = SweepRequest {
+            friction_coefficients: &frictions,
+            limit,
+            shapes_at: &[],
+        };
+        let (material, options) = (POLYCARBONATE, paper_options());
+        let outcome = sweep(
+            &specification,
+            &material,
+            &options,
+            &contact(610.0),
+            &request,
+        );
+        assert!(outcome.unwrap_err().to_string().contains(key));
+    }
+}

@@ -1,0 +1,437 @@
+//! The sparse eigenvalue sweep against closed forms, dense decompositions, other linearisations and the
+//! paper's Table 1 (independent checks, unless a test says otherwise).
+
+use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact};
+use crate::table_1::TABLE_1;
+use faer::{Mat, c64};
+use frictionsim::cea::sparse::{
+    FrictionlessModes, Linearization, ShiftInverted, StiffnessFactors, StructureMatrices, sweep,
+};
+use frictionsim::cea::{CeaError, ComplexMode, FrictionSweep, ModeLimit, SweepRequest};
+use frictionsim::contact::ContactStiffness;
+use frictionsim::fem::{DofMap, MassKind, RayleighDamping, assemble_stiffness};
+use frictionsim::linalg::dense::random_columns;
+use frictionsim::linalg::dense_eigen::real_eigen;
+use frictionsim::linalg::{DenseLu, KrylovSchurSettings, MatrixPolynomial, Wanted, krylov_schur};
+use frictionsim::mesh::{AnnulusMesh, ElementKind};
+use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
+use std::f64::consts::TAU;
+use std::sync::OnceLock;
+
+type Entries = Vec<(usize, usize, f64)>;
+
+/// A problem without a contact edge from the entries of `M`, `C` and `K` by power of `mu`.
+fn problem(
+    size: usize,
+    [mass, damping, stiffness]: [Vec<Entries>; 3],
+    proportional: Option<RayleighDamping>,
+) -> SlidingTangent {
+    let mut all = stiffness.concat();
+    all.extend(mass.concat());
+    all.extend(damping.concat());
+    let pattern = MatrixPolynomial::from_triplets(size, &[all]);
+    let on = |terms: &[Entries]| MatrixPolynomial::on_pattern(pattern.pattern(), terms);
+    let (mass, stiffness) = (on(&mass), on(&stiffness));
+    let damping = match proportional {
+        Some(c) => MatrixPolynomial::combination(
+            c.mass_coefficient,
+            &mass,
+            c.stiffness_coefficient,
+            &stiffness,
+        ),
+        None => on(&damping),
+    };
+    SlidingTangent {
+        mass,
+        damping,
+        stiffness,
+        proportional,
+        unknowns: DofMap::excluding(size, []),
+        contact_tangential: Vec::new(),
+        contact_normal: Vec::new(),
+        contact_opposite: Vec::new(),
+        distances: Vec::new(),
+        contact_angles: Vec::new(),
+        sliding_direction: 1.0,
+    }
+}
+
+struct Disc {
+    element: ElementKind,
+    circumferential: usize,
+    radial: usize,
+    geometric_stiffness: bool,
+    normal_stiffness: Option<f64>,
+    damping_model: DampingModel,
+}
+
+impl Disc {
+    fn coarse() -> Self {
+        Self {
+            element: ElementKind::Quad4,
+            circumferential: 48,
+            radial: 10,
+            geometric_stiffness: true,
+            normal_stiffness: Some(7.4e12),
+            damping_model: DampingModel::WholeTangent,
+        }
+    }
+
+    /// The paper's disc; `nu`, `rho` and `k_n` from a fit of the exact continuum to its Table 1.
+    fn tangent(&self) -> SlidingTangent {
+        let specification = annulus(self.element, self.circumferential, self.radial);
+        let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
+        let material = POLYCARBONATE;
+        let elastic = assemble_stiffness(&mesh, &material);
+        let contact = contact(610.0);
+        let base = SteadySliding::solve(&mesh, &elastic, &contact).unwrap();
+        let options = TangentOptions {
+            mass: MassKind::Consistent,
+            geometric_stiffness: self.geometric_stiffness,
+            damping: DAMPING,
+            damping_model: self.damping_model,
+            contact: ContactStiffness {
+                normal_stiffness: self.normal_stiffness,
+                ..Default::default()
+            },
+        };
+        SlidingTangent::linearize(&mesh, &material, &elastic, &base, &options)
+    }
+}
+
+fn run(tangent: &SlidingTangent, values: &[f64], limit: ModeLimit) -> FrictionSweep {
+    let request = SweepRequest {
+        friction_coefficients: values,
+        limit,
+        shapes_at: &[],
+    };
+    sweep(tangent, &request, &|_| {}).unwrap()
+}
+
+/// `mu_c = (c^2 + ((A - B)/2)^2) / (c d)`: where the two eigenvalues of `K` meet.
+#[test]
+fn two_degrees_of_freedom_flutter_at_the_closed_form_friction() {
+    for (a, b, c, d) in [
+        (4.0, 3.0, 0.5, 2.0),
+        (9.0, 4.0, 1.0, 10.0),
+        (2.0, 2.0, 0.3, 1.0),
+    ] {
+        let critical = (c * c + 0.25_f64 * (a - b) * (a - b)) / (c * d);
+        let stiffness = vec![
+            vec![(0, 0, a), (0, 1, c), (1, 0, c), (1, 1, b)],
+            vec![(0, 1, -d)],
+        ];
+        let mass = vec![vec![(0, 0, 1.0), (1, 1, 1.0)]];
+        let undamped = Some(RayleighDamping::default());
+        let tangent = problem(2, [mass, Vec::new(), stiffness], undamped);
+        let values: Vec<f64> = (0..12).map(|i| f64::from(i) * critical / 7.3).collect();
+        let result = run(&tangent, &values, ModeLimit::Lowest(2));
+        assert_eq!(result.intervals.len(), 1, "{:?}", result.intervals);
+        let found = &result.intervals[0];
+        // At the double root the growth rate rises like the square root of the distance: 1e-6 in mu.
+        assert!(
+            (found.critical_friction - critical).abs() < 1e-6 * critical,
+            "{found:?} {critical}"
+        );
+        let frequency = (0.5 * (a + b)).sqrt() / TAU;
+        assert!((found.frequency_hz - frequency).abs() < 1e-3 * frequency);
+        assert!(!found.unstable_from_start && found.restabilized.is_none());
+    }
+}
+
+/// Every eigenvalue of a small unsymmetric problem with general damping, against the dense companion
+/// matrix at each friction coefficient.
+#[test]
+fn sweep_of_a_general_quadratic_problem_equals_a_dense_decomposition() {
+    let size = 14;
+    let (r, s, t) = (
+        random_columns(size, size, 1),
+        random_columns(size, size, 2),
+        random_columns(size, size, 3),
+    );
+    let entries = |value: &dyn Fn(usize, usize) -> f64| -> Entries {
+        (0..size)
+            .flat_map(|i| (0..size).map(move |j| (i, j)))
+            .map(|(i, j)| (i, j, value(i, j)))
+            .collect()
+    };
+    let diagonal = |i: usize, j: usize, v: f64| if i == j { v } else { 0.0 };
+    let stiffness = vec![
+        entries(&|i, j| diagonal(i, j, 4.0 + 3.0 * i as f64) + 0.5 * (r[(i, j)] + r[(j, i)])),
+        entries(&|i, j| if i % 3 == 0 { s[(i, j)] } else { 0.0 }),
+        entries(&|i, j| if i % 3 == 0 { 0.1 * t[(i, j)] } else { 0.0 }),
+    ];
+    let mass = vec![
+        entries(&|i, j| diagonal(i, j, 1.0) + 0.05 * (t[(i, j)] + t[(j, i)])),
+        entries(&|i, j| if i % 3 == 0 { 0.05 * r[(i, j)] } else { 0.0 }),
+    ];
+    let damping = vec![
+        entries(&|i, j| diagonal(i, j, 0.02 * (i + 1) as f64) + 0.01 * (s[(i, j)] + s[(j, i)])),
+        entries(&|i, j| if i % 3 == 0 { 0.1 * r[(i, j)] } else { 0.0 }),
+    ];
+    let tangent = problem(size, [mass, damping, stiffness], None);
+    let values = [0.0, 0.2, 0.45, 0.8];
+    let result = run(&tangent, &values, ModeLimit::Lowest(8));
+    for point in &result.points {
+        let dense = dense_eigenvalues(&tangent, point.friction_coefficient);
+        assert_eq!(point.modes.len(), 8);
+        for (mode, exact) in point.modes.iter().zip(&dense) {
+            assert!(
+                (mode.eigenvalue - exact).norm() < 1e-9 * exact.norm(),
+                "{} {exact}",
+                mode.eigenvalue
+            );
+        }
+    }
+}
+
+/// Eigenvalues with `Im > 0` by rising frequency from the dense companion matrix.
+fn dense_eigenvalues(tangent: &SlidingTangent, mu: f64) -> Vec<c64> {
+    let size = tangent.mass.dimension();
+    let dense = |p: &MatrixPolynomial| {
+        p.pattern()
+            .multiply(&p.evaluate(mu), Mat::<f64>::identity(size, size).as_ref())
+    };
+    let lu = DenseLu::factorize(dense(&tangent.mass));
+    let (mut stiff, mut damped) = (dense(&tangent.stiffness), dense(&tangent.damping));
+    lu.solve_in_place(stiff.as_mut());
+    lu.solve_in_place(damped.as_mut());
+    let companion = Mat::from_fn(2 * size, 2 * size, |i, j| match (i < size, j < size) {
+        (true, true) => 0.0,
+        (true, false) => f64::from(i == j - size),
+        (false, true) => -stiff[(i - size, j)],
+        (false, false) => -damped[(i - size, j - size)],
+    });
+    let mut values: Vec<c64> = real_eigen(companion.as_ref(), false, 0).unwrap().values;
+    values.retain(|v| v.im > 0.0);
+    values.sort_by(|a, b| a.im.total_cmp(&b.im));
+    values
+}
+
+#[test]
+fn quadratic_and_reduced_problem_have_one_spectrum() {
+    for normal_stiffness in [None, Some(7.4e12)] {
+        let mut disc = Disc::coarse();
+        disc.normal_stiffness = normal_stiffness;
+        let reduced = disc.tangent();
+        let mut quadratic = reduced.clone();
+        quadratic.proportional = None;
+        let values = [0.0, 0.3, 0.7];
+        let limit = ModeLimit::Lowest(20);
+        let (a, b) = (
+            run(&reduced, &values, limit),
+            run(&quadratic, &values, limit),
+        );
+        for (p, q) in a.points.iter().zip(&b.points) {
+            for (m, n) in p.modes.iter().zip(&q.modes) {
+                let difference = (m.eigenvalue - n.eigenvalue).norm();
+                assert!(difference < 1e-9 * m.eigenvalue.norm(), "{m:?} {n:?}");
+                assert_eq!(
+                    (m.harmonic, m.branch, m.direction),
+                    (n.harmonic, n.branch, n.direction)
+                );
+            }
+        }
+        for (i, j) in a.intervals.iter().zip(&b.intervals) {
+            assert!((i.critical_friction - j.critical_friction).abs() < 1e-6);
+        }
+    }
+}
+
+/// The sweep's common basis against a Krylov-Schur iteration with the factors of `K(mu)` itself.
+#[test]
+fn sweep_agrees_with_krylov_schur_at_the_same_friction() {
+    let tangent = Disc::coarse().tangent();
+    let mu = 0.6;
+    let result = run(&tangent, &[mu], ModeLimit::Lowest(24));
+    let linearization = Linearization::of(&tangent, 1e5);
+    let operator = ShiftInverted {
+        matrices: &StructureMatrices::at(&tangent, linearization, mu),
+        factors: &StiffnessFactors::general(&tangent, &OnceLock::new(), mu).unwrap(),
+    };
+    let settings = KrylovSchurSettings {
+        wanted: Wanted::Largest(30),
+        tolerance: 1e-12,
+        block: 3,
+        max_applications: 5000,
+    };
+    let pairs = krylov_schur(&operator, None, &settings).unwrap();
+    let mut exact: Vec<c64> = pairs
+        .values
+        .iter()
+        .filter_map(|&s| linearization.eigenvalue(s))
+        .collect();
+    exact.sort_by(|a, b| a.im.total_cmp(&b.im));
+    for (mode, exact) in result.points[0].modes.iter().zip(&exact) {
+        assert!((mode.eigenvalue - exact).norm() < 1e-9 * exact.norm());
+        assert!(mode.residual < 1e-12);
+    }
+}
+
+/// Consistency check.
+#[test]
+fn sweep_is_bitwise_equal_on_one_and_two_threads() {
+    let tangent = Disc::coarse().tangent();
+    let values: Vec<f64> = (0..9).map(|i| f64::from(i) * 0.1).collect();
+    let request = SweepRequest {
+        friction_coefficients: &values,
+        limit: ModeLimit::MaxFrequency(15_000.0),
+        shapes_at: &[values[3]],
+    };
+    let on_threads = |count| {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(count)
+            .build()
+            .unwrap();
+        pool.install(|| sweep(&tangent, &request, &|_| {}).unwrap())
+    };
+    let (one, two) = (on_threads(1), on_threads(2));
+    assert!(one == two);
+    assert!(one.points[3].modes.iter().all(|m| m.shape.is_some()));
+    assert!(one.points[2].modes.iter().all(|m| m.shape.is_none()));
+}
+
+#[test]
+fn inertia_count_equals_the_number_of_modes_below_the_limit() {
+    let tangent = Disc::coarse().tangent();
+    for hz in [8_000.0, 12_000.0, 17_000.0] {
+        let result = run(&tangent, &[0.0], ModeLimit::MaxFrequency(hz));
+        let modes = FrictionlessModes::compute(&tangent, ModeLimit::Lowest(60)).unwrap();
+        let below = modes.frequencies.iter().filter(|&&w| w < TAU * hz).count();
+        // Damping lowers frequencies by parts in 1e4 only.
+        assert_eq!(result.points[0].modes.len(), below);
+        assert!(
+            result.points[0]
+                .modes
+                .iter()
+                .all(|m| m.frequency_hz() < hz && m.direction == 0)
+        );
+    }
+}
+
+#[test]
+fn reversed_rotation_mirrors_the_modes() {
+    let forward = Disc::coarse().tangent();
+    // The same friction acting the other way is the mirror image of the disc.
+    let mut backward = forward.clone();
+    for polynomial in [
+        &mut backward.mass,
+        &mut backward.damping,
+        &mut backward.stiffness,
+    ] {
+        let mut coefficients = polynomial.coefficients().to_vec();
+        coefficients
+            .iter_mut()
+            .skip(1)
+            .step_by(2)
+            .flatten()
+            .for_each(|v| *v = -*v);
+        *polynomial = MatrixPolynomial::from_coefficients(polynomial.pattern(), coefficients);
+    }
+    backward.sliding_direction = -forward.sliding_direction;
+    let limit = ModeLimit::Lowest(16);
+    let (a, b) = (
+        run(&forward, &[0.0, 0.4], limit),
+        run(&backward, &[0.0, 0.4], limit),
+    );
+    for (m, n) in a.points[1].modes.iter().zip(&b.points[1].modes) {
+        assert!((m.eigenvalue - n.eigenvalue).norm() < 1e-9 * m.eigenvalue.norm());
+        // Directions are told against the rotor, which is mirrored too.
+        assert_eq!(m.direction, n.direction);
+    }
+    assert!(a.intervals.iter().take(3).all(|i| i.direction == -1));
+}
+
+#[test]
+fn bad_requests_are_refused_with_the_bound() {
+    let tangent = Disc::coarse().tangent();
+    let ask = |values: &[f64], limit| {
+        let request = SweepRequest {
+            friction_coefficients: values,
+            limit,
+            shapes_at: &[],
+        };
+        sweep(&tangent, &request, &|_| {}).unwrap_err()
+    };
+    let none = ask(&[0.1], ModeLimit::MaxFrequency(1000.0));
+    assert!(
+        matches!(none, CeaError::NoModes { lowest_hz, .. } if (lowest_hz - 5900.0).abs() < 200.0)
+    );
+    assert!(none.to_string().contains("cea.max_frequency_hz"));
+    let many = ask(&[0.1], ModeLimit::Lowest(1_000_000));
+    assert!(matches!(many, CeaError::TooManyModes { .. }));
+    let negative = ask(&[0.1, -0.2], ModeLimit::Lowest(4));
+    assert_eq!(negative, CeaError::Friction { value: -0.2 });
+    assert!(matches!(
+        ask(&[], ModeLimit::Lowest(4)),
+        CeaError::NoFriction
+    ));
+}
+
+#[test]
+fn paper_disc_reproduces_table_1_and_the_critical_friction_coefficients() {
+    let disc = Disc {
+        element: ElementKind::Quad8,
+        circumferential: 150,
+        radial: 20,
+        geometric_stiffness: false,
+        ..Disc::coarse()
+    };
+    let tangent = disc.tangent();
+    let values = [0.0, 0.1, 0.2, 0.3, 0.4];
+    let result = run(&tangent, &values, ModeLimit::MaxFrequency(17_500.0));
+    let modes = &result.points[3].modes;
+    assert_eq!(modes.len(), TABLE_1.len());
+    for (i, (mode, row)) in modes.iter().zip(&TABLE_1).enumerate() {
+        let relative = (mode.frequency_hz() / row.1 - 1.0).abs();
+        let real = (mode.real_hz() - row.0).abs();
+        println!(
+            "{} {:.1} {:.1} {relative:.2e} {real:.2}",
+            i + 1,
+            mode.real_hz(),
+            mode.frequency_hz()
+        );
+        assert!(
+            relative < 3e-3,
+            "mode {}: {} Hz",
+            i + 1,
+            mode.frequency_hz()
+        );
+        assert!(real < 10.0, "mode {}: {} Hz", i + 1, mode.real_hz());
+        assert_eq!(
+            (mode.harmonic, mode.branch),
+            (row.2, row.3),
+            "mode {}",
+            i + 1
+        );
+        let is_unstable = [3, 5, 7].contains(&(i + 1));
+        // Mode 26 sits on the stability boundary.
+        assert!(
+            i + 1 == 26 || mode.is_unstable() == is_unstable,
+            "mode {}",
+            i + 1
+        );
+        let expected = match (mode.harmonic, mode.real_hz() > rayleigh(mode)) {
+            (0, _) => 0,
+            (_, true) => -1,
+            (_, false) => 1,
+        };
+        assert_eq!(mode.direction, expected, "mode {}", i + 1);
+    }
+    // Onsets of the exact continuum; modes 7, 5, 3.
+    for (harmonic, branch, critical) in [(1, 1, 0.1224), (2, 0, 0.1382), (1, 0, 0.2121)] {
+        let interval = result
+            .intervals
+            .iter()
+            .find(|i| (i.harmonic, i.branch) == (harmonic, branch))
+            .unwrap();
+        println!("{interval:?}");
+        assert!((interval.critical_friction - critical).abs() < 3e-3);
+        assert_eq!(interval.direction, -1);
+    }
+}
+
+/// Real part of a mode of this frequency without friction, Hz: `-(alpha + beta omega^2) / 2`.
+fn rayleigh(mode: &ComplexMode) -> f64 {
+    -(40.0 + 4.5e-7 * mode.eigenvalue.norm_sqr()) / 2.0 / TAU
+}

@@ -1,0 +1,371 @@
+//! The finite elements converge to the exact continuum at their theoretical rate: slope 2 for Quad4,
+//! 4 for Quad8, fitted by least squares over three meshes.
+//!
+//! Independent check: the reference (`continuum`) shares no discretisation with the program, and the
+//! eigenvalues here come from a dense solve of one circumferential harmonic at a time, folded out of
+//! the assembled sparse matrices, not from the program's own eigenvalue solvers.
+
+mod folded;
+mod rates;
+
+use crate::continuum::prestress::SteadyState;
+use crate::continuum::{Annulus, Contact, Eigenvalue, Rayleigh};
+use faer::c64;
+use folded::{Discretisation, FORWARD, INTERFERENCE, base_state, material};
+use frictionsim::fem::{MassKind, nodal_stress};
+use frictionsim::mesh::{AnnulusMesh, ElementKind};
+use rates::{DISC, assert_rate, rate, refinements};
+use std::f64::consts::TAU;
+
+const NORMAL_STIFFNESS: f64 = 7.4e12;
+const RAYLEIGH: Rayleigh = (40.0, 4.5e-7);
+const UNDAMPED: Rayleigh = (0.0, 0.0);
+
+/// What one convergence study covers: the two lowest branches of harmonics 0 to 4, both directions.
+struct Study {
+    annulus: Annulus,
+    contact: Contact,
+    mass: MassKind,
+    rayleigh: Rayleigh,
+}
+
+impl Study {
+    fn of(contact: Contact, rayleigh: Rayleigh) -> Self {
+        Self {
+            annulus: DISC,
+            contact,
+            mass: MassKind::Consistent,
+            rayleigh,
+        }
+    }
+
+    fn assert_rates(&self, element: ElementKind) {
+        let meshes = refinements(element).map(|specification| {
+            Discretisation::new(
+                &specification,
+                &self.annulus,
+                &self.contact,
+                self.mass,
+                self.rayleigh,
+            )
+        });
+        let mut cancelled = 0;
+        for harmonic in 0..=4 {
+            let exact = self
+                .annulus
+                .eigenvalues(harmonic, &self.contact, self.rayleigh);
+            let computed = [0, 1, 2].map(|level| meshes[level].eigenvalues(harmonic));
+            let directions: &[i8] = if harmonic == 0 { &[0] } else { &[1, -1] };
+            for (direction, branch) in directions.iter().flat_map(|&d| [(d, 0), (d, 1)]) {
+                let pick = |modes: &[Eigenvalue]| {
+                    let mut same = modes.iter().filter(|mode| mode.direction == direction);
+                    same.nth(branch).expect("enough branches").lambda
+                };
+                let what = format!("n = {harmonic}, branch {branch}, direction {direction:+}");
+                let errors = [0, 1, 2].map(|level| pick(&computed[level]) - pick(&exact));
+                cancelled += self.assert_rates_of_one(element, &what, errors);
+            }
+        }
+        // Of 36 parts; more would mean that the study asserts little.
+        assert!(cancelled <= 2, "{cancelled} parts cancelled");
+    }
+
+    /// Asserts the rate of `|lambda_h - lambda|`, of the frequency and, with damping, of the real
+    /// part.
+    ///
+    /// Where a branch's contributions to one part cancel to less than a hundredth of the whole error
+    /// on each mesh, the rate of the whole bounds that part, and its own would be that of the next
+    /// order. Returns the number of such parts.
+    fn assert_rates_of_one(&self, element: ElementKind, what: &str, errors: [c64; 3]) -> usize {
+        let whole = errors.map(|error| error.norm());
+        assert_rate(element, &format!("eigenvalue, {what}"), whole);
+        let mut parts = vec![("frequency", errors.map(|error| error.im))];
+        if self.rayleigh != UNDAMPED {
+            parts.push(("real part", errors.map(|error| error.re)));
+        }
+        let mut cancelled = 0;
+        for (part, errors) in parts {
+            if errors.iter().zip(&whole).all(|(e, w)| e.abs() < 0.01 * w) {
+                println!("{element:?} {part}, {what}: cancels, errors {errors:.3?}");
+                cancelled += 1;
+            } else {
+                assert_rate(element, &format!("{part}, {what}"), errors);
+            }
+        }
+        cancelled
+    }
+}
+
+fn with_prestress(contact: Contact) -> Contact {
+    Contact {
+        prestress_interference: Some(INTERFERENCE),
+        ..contact
+    }
+}
+
+#[test]
+fn frictionless_frequencies_of_quad4_converge_with_the_square_of_the_mesh_size() {
+    for contact in [Contact::rigid(0.0), Contact::penalty(0.0, 0.0)] {
+        Study::of(contact, UNDAMPED).assert_rates(ElementKind::Quad4);
+    }
+}
+
+#[test]
+fn frictionless_frequencies_of_quad8_converge_with_the_fourth_power_of_the_mesh_size() {
+    for contact in [Contact::rigid(0.0), Contact::penalty(0.0, 0.0)] {
+        Study::of(contact, UNDAMPED).assert_rates(ElementKind::Quad8);
+    }
+}
+
+#[test]
+fn sliding_eigenvalues_of_quad4_converge_for_rigid_contact() {
+    Study::of(Contact::rigid(0.3), RAYLEIGH).assert_rates(ElementKind::Quad4);
+}
+
+#[test]
+fn sliding_eigenvalues_of_quad8_converge_for_rigid_contact() {
+    Study::of(Contact::rigid(0.3), RAYLEIGH).assert_rates(ElementKind::Quad8);
+}
+
+#[test]
+fn sliding_eigenvalues_of_quad4_converge_for_penalty_contact() {
+    Study::of(Contact::penalty(0.3, NORMAL_STIFFNESS), RAYLEIGH).assert_rates(ElementKind::Quad4);
+}
+
+#[test]
+fn sliding_eigenvalues_of_quad8_converge_for_penalty_contact() {
+    Study::of(Contact::penalty(0.3, NORMAL_STIFFNESS), RAYLEIGH).assert_rates(ElementKind::Quad8);
+}
+
+#[test]
+fn prestressed_eigenvalues_of_quad4_converge_to_the_prestressed_continuum() {
+    for contact in [Contact::rigid(0.3), Contact::penalty(0.3, NORMAL_STIFFNESS)] {
+        Study::of(with_prestress(contact), RAYLEIGH).assert_rates(ElementKind::Quad4);
+    }
+}
+
+#[test]
+fn prestressed_eigenvalues_of_quad8_converge_to_the_prestressed_continuum() {
+    for contact in [Contact::rigid(0.3), Contact::penalty(0.3, NORMAL_STIFFNESS)] {
+        Study::of(with_prestress(contact), RAYLEIGH).assert_rates(ElementKind::Quad8);
+    }
+}
+
+#[test]
+fn plane_stress_eigenvalues_converge_like_plane_strain() {
+    let annulus = Annulus {
+        plane_strain: false,
+        ..DISC
+    };
+    for element in [ElementKind::Quad4, ElementKind::Quad8] {
+        Study {
+            annulus,
+            ..Study::of(Contact::penalty(0.3, NORMAL_STIFFNESS), RAYLEIGH)
+        }
+        .assert_rates(element);
+    }
+}
+
+#[test]
+fn lumped_mass_keeps_the_rate_of_quad4() {
+    Study {
+        mass: MassKind::Lumped,
+        ..Study::of(Contact::rigid(0.3), RAYLEIGH)
+    }
+    .assert_rates(ElementKind::Quad4);
+}
+
+#[test]
+fn the_discrete_model_turns_unstable_where_the_continuum_does() {
+    // Modes 7, 5 and 3 of the paper. Quad8, 64 x 16: frequencies are right to 1e-4, so the critical
+    // friction is to about ten times that.
+    let [specification, ..] = refinements(ElementKind::Quad8);
+    for contact in [
+        Contact::penalty(0.0, NORMAL_STIFFNESS),
+        with_prestress(Contact::penalty(0.0, NORMAL_STIFFNESS)),
+        with_prestress(Contact::rigid(0.0)),
+    ] {
+        let mut discrete = Discretisation::new(
+            &specification,
+            &DISC,
+            &contact,
+            MassKind::Consistent,
+            RAYLEIGH,
+        );
+        for (harmonic, branch) in [(1, 1), (2, 0), (1, 0)] {
+            let critical = DISC
+                .critical_friction(harmonic, branch, &contact, RAYLEIGH, 1.0)
+                .expect("an unstable branch");
+            let [before, after] = [0.999, 1.001].map(|factor| {
+                discrete.friction_coefficient = factor * critical;
+                let modes = discrete.eigenvalues(harmonic);
+                let mut backward = modes.iter().filter(|mode| mode.direction == -1);
+                backward.nth(branch).expect("enough branches").lambda.re
+            });
+            assert!(
+                before < 0.0 && after > 0.0,
+                "n = {harmonic}, branch {branch}, mu_c = {critical}: {before} {after}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_reversed_rotor_mirrors_the_spectrum() {
+    let [specification, ..] = refinements(ElementKind::Quad8);
+    for contact in [Contact::rigid(0.3), Contact::penalty(0.3, NORMAL_STIFFNESS)] {
+        let contact = with_prestress(contact);
+        let spectra = [FORWARD, -FORWARD].map(|rotation_speed| {
+            Discretisation::turning(
+                rotation_speed,
+                &specification,
+                &DISC,
+                &contact,
+                MassKind::Consistent,
+                RAYLEIGH,
+            )
+            .eigenvalues(2)
+        });
+        for (forward, reversed) in spectra[0].iter().zip(&spectra[1]).take(8) {
+            // Directions are relative to +e_theta here, whichever way the rotor turns.
+            assert_eq!(forward.direction, -reversed.direction);
+            let change = (forward.lambda - reversed.lambda).norm() / forward.lambda.norm();
+            // Round-off of two different factorizations.
+            assert!(change < 1e-9, "{forward:?} {reversed:?}");
+        }
+    }
+}
+
+#[test]
+fn folded_blocks_act_like_the_full_matrices_on_a_rotating_wave() {
+    let [specification, ..] = refinements(ElementKind::Quad8);
+    let contact = with_prestress(Contact::rigid(0.3));
+    let discrete = Discretisation::new(
+        &specification,
+        &DISC,
+        &contact,
+        MassKind::Consistent,
+        RAYLEIGH,
+    );
+    let matrix = &discrete.tangent.stiffness;
+    let harmonic = 3;
+    let folded = discrete.fold(matrix, harmonic);
+    let size = folded.nrows();
+    let phase =
+        |sector: usize| c64::cis(TAU * (harmonic * sector) as f64 / discrete.sectors as f64);
+    // An arbitrary shape without symmetry.
+    let shape = |i: usize| c64::new((1.0 + i as f64).sin(), (2.0 + 0.7 * i as f64).cos());
+    let mut full = vec![c64::new(0.0, 0.0); matrix.dimension()];
+    let pattern = matrix.pattern();
+    let values = matrix.evaluate(contact.friction_coefficient);
+    for column in 0..matrix.dimension() {
+        let wave = shape(column % size) * phase(column / size);
+        for place in pattern.column_pointers()[column]..pattern.column_pointers()[column + 1] {
+            full[pattern.row_indices()[place]] += wave * values[place];
+        }
+    }
+    let largest = full.iter().fold(0.0_f64, |m, value| m.max(value.norm()));
+    for (row, value) in full.iter().enumerate() {
+        let block: c64 = (0..size)
+            .map(|column| folded[(row % size, column)] * shape(column))
+            .sum();
+        let error = (value - block * phase(row / size)).norm();
+        assert!(error < 1e-11 * largest, "row {row}: {error:e}");
+    }
+}
+
+#[test]
+fn steady_sliding_converges_to_lame_and_the_shear_field() {
+    let exact = DISC.prestress(INTERFERENCE, 0.3);
+    const NAMES: [&str; 4] = [
+        "radial displacement",
+        "tangential displacement",
+        "mean pressure",
+        "torque",
+    ];
+    for element in [ElementKind::Quad4, ElementKind::Quad8] {
+        let errors = refinements(element).map(|specification| {
+            let mesh = AnnulusMesh::generate(&specification).expect("a valid mesh");
+            let base = base_state(&mesh, &DISC, FORWARD);
+            let [radial, tangential] = displacement_errors(&mesh, &base.displacement(0.3), &exact);
+            let force: f64 = base.normal_forces(0.3).iter().sum();
+            let length: f64 = base.interface.tributary_lengths.iter().sum();
+            let torque = base.torque(0.3) / exact.torque - 1.0;
+            [
+                radial / INTERFERENCE,
+                tangential / INTERFERENCE,
+                force / length / exact.pressure - 1.0,
+                torque,
+            ]
+        });
+        for (i, what) in NAMES.iter().enumerate() {
+            assert_rate(element, what, errors.map(|values| 1e6 * values[i]));
+        }
+    }
+}
+
+/// Root mean square of the nodal errors `[radial, tangential]`; one sector stands for all.
+fn displacement_errors(mesh: &AnnulusMesh, displacement: &[f64], exact: &SteadyState) -> [f64; 2] {
+    let count = mesh.sector_node_count();
+    let mut squares = [0.0; 2];
+    for node in 0..count {
+        let [x, y] = mesh.mesh.nodes[node];
+        let field = exact.displacement(x.hypot(y));
+        for (axis, square) in squares.iter_mut().enumerate() {
+            *square += (displacement[2 * node + axis] - field[axis]).powi(2);
+        }
+    }
+    squares.map(|sum| (sum / count as f64).sqrt())
+}
+
+#[test]
+fn nodal_pressure_converges_at_second_order_or_faster() {
+    // Corner and mid-side nodes of a Quad8 edge differ in their error, so it falls more slowly than that
+    // of the mean, which converges with the fourth power.
+    let exact = DISC.prestress(INTERFERENCE, 0.3).pressure;
+    // Quad4: of the order of the squared angle of an element, (2 pi / 120)^2 = 2.7e-3.
+    for (element, slope, bound) in [
+        (ElementKind::Quad4, 1.9, 2.7e-3),
+        (ElementKind::Quad8, 2.5, 1e-4),
+    ] {
+        let errors = refinements(element).map(|specification| {
+            let mesh = AnnulusMesh::generate(&specification).expect("a valid mesh");
+            let pressures = base_state(&mesh, &DISC, FORWARD).pressures(0.3);
+            let errors = pressures.iter().map(|p| (p / exact - 1.0).abs());
+            errors.fold(0.0, f64::max)
+        });
+        println!("{element:?}: slope {:.3}, errors {errors:?}", rate(errors));
+        assert!(rate(errors) > slope && errors[0] < bound, "{errors:?}");
+    }
+}
+
+#[test]
+fn recovered_stress_converges_at_second_order_up_to_the_edges() {
+    // The largest error over all nodes, the contact edge included.
+    let exact = DISC.prestress(INTERFERENCE, 0.3);
+    for element in [ElementKind::Quad4, ElementKind::Quad8] {
+        let errors = refinements(element).map(|specification| {
+            let mesh = AnnulusMesh::generate(&specification).expect("a valid mesh");
+            let displacement = base_state(&mesh, &DISC, FORWARD).displacement(0.3);
+            let recovered = nodal_stress(&mesh.mesh, &material(&DISC), &displacement);
+            let mut largest = [0.0_f64; 3];
+            for (node, stress) in recovered.iter().enumerate().take(mesh.sector_node_count()) {
+                let [x, y] = mesh.mesh.nodes[node];
+                let state = exact.stress(x.hypot(y));
+                for (worst, error) in largest.iter_mut().zip([
+                    stress.radial - state.radial,
+                    stress.hoop - state.circumferential,
+                    stress.shear - state.shear,
+                ]) {
+                    *worst = worst.max(error.abs() / exact.pressure);
+                }
+            }
+            largest
+        });
+        for (i, what) in ["radial", "hoop", "shear"].iter().enumerate() {
+            let slope = rate(errors.map(|values| values[i]));
+            println!("{element:?} {what} stress: slope {slope:.3}, errors {errors:?}");
+            assert!((slope - 2.0).abs() < 0.1, "{element:?} {what}: {slope:.3}");
+        }
+    }
+}

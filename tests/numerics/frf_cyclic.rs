@@ -1,0 +1,182 @@
+//! Frequency responses harmonic by harmonic against sparse solutions of the whole mesh (another
+//! assembly, another factorization: independent checks).
+
+use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact};
+use frictionsim::contact::ContactStiffness;
+use frictionsim::fem::{MassKind, assemble_stiffness};
+use frictionsim::frf::{
+    CyclicSystem, Direction, FrfError, FrfSystem, Terminal, cyclic_response, direct_response,
+};
+use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind, SectorMesh};
+use frictionsim::prestress::{
+    DampingModel, SectorTangent, SlidingTangent, SteadySliding, TangentOptions,
+};
+
+/// Even and odd numbers of sectors differ in their last harmonic.
+fn meshes() -> [AnnulusSpecification; 3] {
+    [
+        (24, ElementKind::Quad4),
+        (25, ElementKind::Quad4),
+        (16, ElementKind::Quad8),
+    ]
+    .map(|(circumferential, element)| AnnulusSpecification {
+        radial_grading: 1.1,
+        ..annulus(element, circumferential, 6)
+    })
+}
+
+fn terminals(specification: &AnnulusSpecification, is_sliding: bool) -> Vec<[Terminal; 2]> {
+    let mesh = AnnulusMesh::generate(specification).unwrap().mesh;
+    let per_sector = mesh.node_count() / specification.circumferential_elements;
+    let at = |sector: usize, position: usize, is_tangential: bool| Terminal {
+        node: sector * per_sector + position,
+        direction: if is_tangential {
+            Direction::Tangential
+        } else {
+            Direction::Radial
+        },
+    };
+    // On the contact edge, inside, and (Quad8) on the middle ray of a sector.
+    let middle = if specification.element.is_quadratic() {
+        per_sector - 4
+    } else {
+        2
+    };
+    vec![
+        [at(0, 0, true), at(0, 0, true)],
+        [at(3, 0, true), at(9, 4, false)],
+        [at(7, middle, false), at(2, 3, true)],
+        [at(11, 3, true), at(1, middle, true)],
+        [at(0, usize::from(is_sliding), false), at(5, 2, false)],
+    ]
+}
+
+const FREQUENCIES: [f64; 11] = [
+    100.0, 777.0, 1500.0, 2345.0, 2800.0, 3456.0, 4321.0, 5678.0, 7000.0, 8765.0, 10_000.0,
+];
+
+fn assert_agreement(
+    whole: &FrfSystem,
+    cyclic: &CyclicSystem,
+    terminals: &[[Terminal; 2]],
+    what: &str,
+) {
+    assert_eq!(whole.dimension(), cyclic.dimension());
+    for [force, response] in terminals {
+        let unknowns = [force, response].map(|t| whole.unknown(*t, "node").unwrap());
+        let direct = direct_response(whole, unknowns[0], unknowns[1], &FREQUENCIES)
+            .unwrap()
+            .receptance;
+        let solved = cyclic_response(cyclic, *force, *response, &FREQUENCIES).unwrap();
+        assert!(solved.backward_error <= 1e-14);
+        let top = direct.iter().map(|h| h.norm()).fold(0.0, f64::max);
+        for ((f, x), y) in FREQUENCIES.iter().zip(&solved.receptance).zip(&direct) {
+            // Backward errors of at most 1e-14 and condition numbers up to 1e5, that of the rigid motion
+            // of the free body at 100 Hz; far from the force relative to a thousandth of the largest
+            // response.
+            let scale = y.norm().max(1e-3 * top);
+            assert!(
+                (x - y).norm() < 1e-9 * scale,
+                "{what}, {force:?} to {response:?}, {f} Hz: {x} {y}"
+            );
+        }
+    }
+}
+
+#[test]
+fn harmonics_of_a_free_and_a_clamped_body_sum_to_the_response_of_the_whole_mesh() {
+    for specification in &meshes() {
+        let mesh = AnnulusMesh::generate(specification).unwrap().mesh;
+        let sector = SectorMesh::generate(specification).unwrap();
+        for is_clamped in [false, true] {
+            for mass in [MassKind::Consistent, MassKind::Lumped] {
+                let whole = FrfSystem::body(&mesh, &POLYCARBONATE, mass, DAMPING, is_clamped);
+                let cyclic = CyclicSystem::body(&sector, &POLYCARBONATE, mass, DAMPING, is_clamped);
+                let what = format!(
+                    "{:?}, clamped {is_clamped}, {mass:?}",
+                    specification.element
+                );
+                assert_agreement(&whole, &cyclic, &terminals(specification, false), &what);
+            }
+        }
+    }
+}
+
+#[test]
+fn harmonics_in_sliding_contact_sum_to_the_response_of_the_whole_mesh() {
+    for specification in &meshes() {
+        let mesh = AnnulusMesh::generate(specification).unwrap().mesh;
+        let sector = SectorMesh::generate(specification).unwrap();
+        let stiffness = assemble_stiffness(&mesh, &POLYCARBONATE);
+        let base = SteadySliding::solve(&mesh, &stiffness, &contact(610.0)).unwrap();
+        for damping_model in [DampingModel::WholeTangent, DampingModel::BodyOnly] {
+            for normal_stiffness in [None, Some(7.4e12)] {
+                let options = TangentOptions {
+                    mass: MassKind::Consistent,
+                    geometric_stiffness: true,
+                    damping: DAMPING,
+                    damping_model,
+                    contact: ContactStiffness {
+                        normal_stiffness,
+                        ..ContactStiffness::default()
+                    },
+                };
+                let whole =
+                    SlidingTangent::linearize(&mesh, &POLYCARBONATE, &stiffness, &base, &options);
+                let cyclic =
+                    SectorTangent::linearize(&sector, &POLYCARBONATE, &options, &contact(610.0))
+                        .unwrap();
+                let what = format!(
+                    "{:?}, {damping_model:?}, {normal_stiffness:?}",
+                    specification.element
+                );
+                assert_agreement(
+                    &FrfSystem::sliding(&whole, 0.3),
+                    &CyclicSystem::sliding(&cyclic, 0.3),
+                    &terminals(specification, true),
+                    &what,
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn held_and_missing_nodes_and_negative_frequencies_are_refused_with_their_key() {
+    let [specification, ..] = meshes();
+    let sector = SectorMesh::generate(&specification).unwrap();
+    let mass = MassKind::Consistent;
+    let system = CyclicSystem::body(&sector, &POLYCARBONATE, mass, DAMPING, true);
+    let at = |node| Terminal {
+        node,
+        direction: Direction::Radial,
+    };
+    let error = system.check(at(6), "force_node").unwrap_err();
+    assert!(
+        matches!(error, FrfError::Constrained { node: 7, .. }),
+        "{error}"
+    );
+    let error = system.check(at(7 * 24), "response_node").unwrap_err();
+    assert!(
+        error.to_string().contains("frf.response_node = 169"),
+        "{error}"
+    );
+    let error = cyclic_response(&system, at(0), at(0), &[-1.0]).unwrap_err();
+    assert!(matches!(error, FrfError::Frequency { value: -1.0 }));
+}
+
+#[test]
+fn response_has_the_same_bits_for_any_number_of_threads() {
+    let [specification, ..] = meshes();
+    let sector = SectorMesh::generate(&specification).unwrap();
+    let mass = MassKind::Consistent;
+    let system = CyclicSystem::body(&sector, &POLYCARBONATE, mass, DAMPING, false);
+    let f: Vec<f64> = (1..=77).map(|line| 100.0 * f64::from(line)).collect();
+    let [force, response] = terminals(&specification, false)[1];
+    let on = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        let work = || cyclic_response(&system, force, response, &f).unwrap();
+        pool.unwrap().install(work)
+    };
+    assert_eq!(on(1), on(3));
+}

@@ -1,0 +1,247 @@
+//! Frequency responses in sliding contact against eigenvalues and eigenvectors: of a dense
+//! decomposition, and of the eigenvalue analysis (other equations, other solvers: independent checks).
+
+use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact};
+use faer::{Mat, c64};
+use frictionsim::cea::sparse::sweep;
+use frictionsim::cea::{ModeLimit, SweepRequest};
+use frictionsim::contact::ContactStiffness;
+use frictionsim::fem::{MassKind, assemble_stiffness};
+use frictionsim::frf::{
+    CyclicSystem, Direction, FrfSystem, Terminal, cyclic_response, direct_response,
+};
+use frictionsim::linalg::{DenseLu, MatrixPolynomial};
+use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind, SectorMesh};
+use frictionsim::prestress::{
+    DampingModel, SectorTangent, SlidingTangent, SteadySliding, TangentOptions,
+};
+use std::f64::consts::TAU;
+
+const RADIAL: usize = 5;
+/// Scale between displacement and velocity in the state, rad/s: balances the companion matrix.
+const OMEGA: f64 = TAU * 1e5;
+
+fn specification() -> AnnulusSpecification {
+    AnnulusSpecification {
+        radial_grading: 1.1,
+        ..annulus(ElementKind::Quad4, 18, RADIAL)
+    }
+}
+
+fn options(damping_model: DampingModel, contact: ContactStiffness) -> TangentOptions {
+    TangentOptions {
+        mass: MassKind::Consistent,
+        geometric_stiffness: true,
+        damping: DAMPING,
+        damping_model,
+        contact,
+    }
+}
+
+fn tangent(options: &TangentOptions) -> SlidingTangent {
+    let mesh = AnnulusMesh::generate(&specification()).unwrap().mesh;
+    let stiffness = assemble_stiffness(&mesh, &POLYCARBONATE);
+    let base = SteadySliding::solve(&mesh, &stiffness, &contact(610.0)).unwrap();
+    SlidingTangent::linearize(&mesh, &POLYCARBONATE, &stiffness, &base, options)
+}
+
+fn cyclic(options: &TangentOptions, friction_coefficient: f64) -> CyclicSystem {
+    let sector = SectorMesh::generate(&specification()).unwrap();
+    let tangent =
+        SectorTangent::linearize(&sector, &POLYCARBONATE, options, &contact(610.0)).unwrap();
+    CyclicSystem::sliding(&tangent, friction_coefficient)
+}
+
+fn at(sector: usize, ring: usize, is_tangential: bool) -> Terminal {
+    Terminal {
+        node: sector * (RADIAL + 1) + ring,
+        direction: if is_tangential {
+            Direction::Tangential
+        } else {
+            Direction::Radial
+        },
+    }
+}
+
+/// Poles, right vectors, left vectors and defect of the first-order form
+/// `z' = A z + b f`, `z = (OMEGA u, u')`.
+struct ModalForm {
+    poles: Vec<c64>,
+    right: Mat<c64>,
+    /// Rows are left vectors scaled to `left right = 1`.
+    left: Mat<c64>,
+    mass: DenseLu,
+    /// `|right diag(poles) left - A|`, Frobenius.
+    defect: f64,
+}
+
+impl ModalForm {
+    fn of(tangent: &SlidingTangent, friction_coefficient: f64) -> Self {
+        let size = tangent.mass.dimension();
+        let dense = |p: &MatrixPolynomial| {
+            let unit = Mat::<f64>::identity(size, size);
+            let values = p.evaluate(friction_coefficient);
+            p.pattern().multiply(&values, unit.as_ref())
+        };
+        let mass = DenseLu::factorize(dense(&tangent.mass));
+        let (mut stiffness, mut damping) = (dense(&tangent.stiffness), dense(&tangent.damping));
+        mass.solve_in_place(stiffness.as_mut());
+        mass.solve_in_place(damping.as_mut());
+        let companion = Mat::from_fn(2 * size, 2 * size, |i, j| match (i < size, j < size) {
+            (true, true) => 0.0,
+            (true, false) => OMEGA * f64::from(i == j - size),
+            (false, true) => -stiffness[(i - size, j)] / OMEGA,
+            (false, false) => -damping[(i - size, j - size)],
+        });
+        let decomposition = companion.eigen().unwrap();
+        let right = decomposition.U().to_owned();
+        let poles: Vec<c64> = decomposition.S().column_vector().iter().copied().collect();
+        let unit = Mat::<c64>::identity(2 * size, 2 * size);
+        let left = faer::linalg::solvers::Solve::solve(&right.partial_piv_lu(), &unit);
+        let scaled = Mat::from_fn(2 * size, 2 * size, |i, k| right[(i, k)] * poles[k]);
+        let again = &scaled * &left;
+        let mut square = 0.0;
+        for j in 0..2 * size {
+            for i in 0..2 * size {
+                square += (again[(i, j)] - companion[(i, j)]).norm_sqr();
+            }
+        }
+        Self {
+            poles,
+            right,
+            left,
+            mass,
+            defect: square.sqrt(),
+        }
+    }
+
+    /// `sum_k r_k l_k^T b / (i omega - lambda_k)` of the response, and a bound of its error.
+    ///
+    /// The sum is exact for `A + E`, `|E|` the defect; to first order its error is
+    /// `c R E R b`, `R = (i omega - A)^{-1}`, at most `|c R| |E| |R b|`.
+    fn response(&self, frequency_hz: f64, force: usize, response: usize) -> (c64, f64) {
+        let size = self.poles.len() / 2;
+        let mut input = Mat::<f64>::zeros(size, 1);
+        input[(force, 0)] = 1.0;
+        self.mass.solve_in_place(input.as_mut());
+        let s = c64::new(0.0, TAU * frequency_hz);
+        let amplitude: Vec<c64> = (0..2 * size)
+            .map(|k| {
+                let sum: c64 = (0..size)
+                    .map(|i| self.left[(k, size + i)] * input[(i, 0)])
+                    .sum();
+                sum / (s - self.poles[k])
+            })
+            .collect();
+        let state: Vec<c64> = (0..2 * size)
+            .map(|i| {
+                (0..2 * size)
+                    .map(|k| self.right[(i, k)] * amplitude[k])
+                    .sum()
+            })
+            .collect();
+        let row: Vec<c64> = (0..2 * size)
+            .map(|j| {
+                (0..2 * size)
+                    .map(|k| self.right[(response, k)] / (s - self.poles[k]) * self.left[(k, j)])
+                    .sum()
+            })
+            .collect();
+        let norm = |v: &[c64]| v.iter().map(|z| z.norm_sqr()).sum::<f64>().sqrt();
+        let bound = norm(&row) * self.defect * norm(&state) / OMEGA;
+        (state[response] / OMEGA, bound)
+    }
+}
+
+#[test]
+fn responses_in_sliding_contact_are_the_sums_over_right_and_left_eigenvectors() {
+    let rigid = ContactStiffness::default();
+    let penalty = ContactStiffness {
+        normal_stiffness: Some(7.4e12),
+        normal_damping: 3e5,
+        tangential_damping: 2e5,
+        ..ContactStiffness::default()
+    };
+    // Unstable modes included: the response is that of the equations, not of a steady state.
+    let frequencies: Vec<f64> = (1..=40).map(|k| 431.7 * f64::from(k)).collect();
+    for (damping_model, contact) in [
+        (DampingModel::WholeTangent, rigid),
+        (DampingModel::BodyOnly, rigid),
+        (DampingModel::BodyOnly, penalty),
+    ] {
+        let options = options(damping_model, contact);
+        let tangent = tangent(&options);
+        let modal = ModalForm::of(&tangent, 0.3);
+        let unstable = modal.poles.iter().filter(|p| p.re > 0.0).count();
+        assert!(unstable >= 2, "{unstable}");
+        let whole = FrfSystem::sliding(&tangent, 0.3);
+        let cyclic = cyclic(&options, 0.3);
+        for [force, response] in [
+            [at(0, 0, true), at(0, 0, true)],
+            [at(3, 0, true), at(11, 2, false)],
+            [at(7, 3, false), at(2, 0, true)],
+        ] {
+            let unknowns = [force, response].map(|t| whole.unknown(t, "node").unwrap());
+            let direct = direct_response(&whole, unknowns[0], unknowns[1], &frequencies).unwrap();
+            let waves = cyclic_response(&cyclic, force, response, &frequencies).unwrap();
+            let mut worst = (0.0f64, 0.0f64);
+            let top = direct
+                .receptance
+                .iter()
+                .map(|h| h.norm())
+                .fold(0.0, f64::max);
+            for (k, f) in frequencies.iter().enumerate() {
+                let (sum, bound) = modal.response(*f, unknowns[0], unknowns[1]);
+                // The bound must itself be small, or it would say nothing.
+                assert!(bound < 1e-6 * top, "{f} Hz: {bound:e} {top:e}");
+                for found in [direct.receptance[k], waves.receptance[k]] {
+                    worst.0 = worst.0.max((found - sum).norm() / top);
+                    worst.1 = worst.1.max(bound / top);
+                    // Both other solutions are exact to 1e-9 (their own tests).
+                    let tolerance = bound + 1e-9 * found.norm().max(1e-3 * top);
+                    assert!(
+                        (found - sum).norm() < tolerance,
+                        "{damping_model:?} {f} Hz: {found} {sum} {tolerance:e}"
+                    );
+                }
+            }
+            println!(
+                "largest difference {:.1e} of the largest response, bound {:.1e}",
+                worst.0, worst.1
+            );
+        }
+    }
+}
+
+#[test]
+fn at_a_critical_friction_of_the_eigenvalue_analysis_the_response_grows_as_one_over_the_distance() {
+    let options = options(DampingModel::WholeTangent, ContactStiffness::default());
+    let tangent = tangent(&options);
+    let values: Vec<f64> = (0..=10).map(|k| 0.05 * f64::from(k)).collect();
+    let request = SweepRequest {
+        friction_coefficients: &values,
+        limit: ModeLimit::MaxFrequency(17_500.0),
+        shapes_at: &[],
+    };
+    let found = sweep(&tangent, &request, &|_| {}).unwrap();
+    let onsets: Vec<_> = found
+        .intervals
+        .iter()
+        .filter(|interval| !interval.unstable_from_start)
+        .collect();
+    assert!(onsets.len() >= 2, "{onsets:?}");
+    for onset in onsets {
+        // There one pole lies on the imaginary axis: beside it h = r / (2 pi i distance) + the rest.
+        let distances = [-0.2, -0.1, 0.1, 0.2];
+        let frequencies = distances.map(|d| onset.frequency_hz + d);
+        let node = at(4, 0, true);
+        let system = cyclic(&options, onset.critical_friction);
+        let h = cyclic_response(&system, node, node, &frequencies).unwrap();
+        let scaled: Vec<c64> = (0..4).map(|k| h.receptance[k] * distances[k]).collect();
+        for z in &scaled {
+            // The rest: modes at least 30 Hz away, 0.2 / 30 of this one, and as much for unequal
+            // residues. A pole off the axis by 1 % of the distance would show as much.
+            assert!((z / scaled[1] - 1.0).norm() < 0.02, "{onset:?}: {scaled:?}");
+        }
+    }
+}

@@ -1,0 +1,29 @@
+//! Discretisation, spectra and responses against theory, other methods and themselves.
+
+#[path = "../common/disc.rs"]
+mod disc;
+#[path = "../common/msh.rs"]
+mod msh;
+#[path = "../common/table_1.rs"]
+mod table_1;
+#[path = "../common/triangles.rs"]
+mod triangles;
+
+mod body;
+mod cea_cyclic;
+mod cea_sparse;
+mod continuum;
+mod continuum_reference;
+mod convergence;
+mod eigen_linear_algebra;
+mod fem_statics;
+mod frf;
+mod frf_cyclic;
+mod frf_sliding;
+mod friction_law;
+mod half_space;
+mod plane_body;
+mod plane_spectrum;
+mod shaft;
+mod solids;
+mod two_bodies;

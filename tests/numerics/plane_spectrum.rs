@@ -1,0 +1,139 @@
+//! Eigenvalues on unstructured meshes against Table 1 and the exact continuum (independent checks).
+
+use crate::continuum::{Annulus, Contact};
+use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact};
+use crate::msh::{FORMS, write_msh};
+use crate::table_1::TABLE_1;
+use crate::triangles::{body, triangles};
+use frictionsim::cea::sparse::sweep;
+use frictionsim::cea::{ComplexMode, ModeLimit, SweepRequest};
+use frictionsim::contact::ContactStiffness;
+use frictionsim::fem::{MassKind, assemble_stiffness};
+use frictionsim::mesh::{AnnulusMesh, ElementKind, GmshFile, Mesh2d};
+use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
+
+const NORMAL_STIFFNESS: f64 = 7.4e12;
+
+/// Harmonic, branch and direction of the lowest modes at friction 0.3.
+const EXACT: [(usize, usize, i8); 7] = [
+    (0, 0, 0),
+    (1, 0, 1),
+    (1, 0, -1),
+    (2, 0, 1),
+    (2, 0, -1),
+    (1, 1, 1),
+    (1, 1, -1),
+];
+
+fn modes(mesh: &Mesh2d, count: usize) -> Vec<ComplexMode> {
+    let options = TangentOptions {
+        mass: MassKind::Consistent,
+        geometric_stiffness: false,
+        damping: DAMPING,
+        damping_model: DampingModel::WholeTangent,
+        contact: ContactStiffness {
+            normal_stiffness: Some(NORMAL_STIFFNESS),
+            ..ContactStiffness::default()
+        },
+    };
+    let contact = contact(610.0);
+    let stiffness = assemble_stiffness(mesh, &POLYCARBONATE);
+    let base = SteadySliding::solve(mesh, &stiffness, &contact).unwrap();
+    let tangent = SlidingTangent::linearize(mesh, &POLYCARBONATE, &stiffness, &base, &options);
+    let request = SweepRequest {
+        friction_coefficients: &[contact.friction_coefficient],
+        limit: ModeLimit::Lowest(count),
+        shapes_at: &[],
+    };
+    let found = sweep(&tangent, &request, &|_| {}).unwrap();
+    found.points.into_iter().next().unwrap().modes
+}
+
+/// Eigenvalues of the continuum, rad/s.
+fn exact(names: &[(usize, usize, i8)]) -> Vec<faer::c64> {
+    let disc = Annulus {
+        inner_radius: 0.0205,
+        outer_radius: 0.0905,
+        young_modulus: 2.5e9,
+        poisson_ratio: 0.3805,
+        density: 1228.0,
+        plane_strain: true,
+    };
+    let contact = Contact::penalty(0.3, NORMAL_STIFFNESS);
+    let rayleigh = (DAMPING.mass_coefficient, DAMPING.stiffness_coefficient);
+    let all = names.iter();
+    all.map(|&(n, branch, direction)| disc.branch(n, branch, direction, &contact, rayleigh).lambda)
+        .collect()
+}
+
+/// Mean relative error of some eigenvalues, each that of the nearest mode.
+fn error_of(mesh: &Mesh2d, names: &[(usize, usize, i8)]) -> f64 {
+    let found = modes(mesh, names.len() + 2);
+    let errors = exact(names).into_iter().map(|lambda| {
+        let distance = |mode: &ComplexMode| (mode.eigenvalue - lambda).norm() / lambda.norm();
+        found.iter().map(distance).fold(f64::INFINITY, f64::min)
+    });
+    errors.sum::<f64>() / names.len() as f64
+}
+
+fn import(mesh: &Mesh2d) -> Mesh2d {
+    let numbers: Vec<usize> = (1..=mesh.node_count()).collect();
+    body(&GmshFile::read(&write_msh(mesh, FORMS[3], &numbers, |p| p)).unwrap())
+}
+
+#[test]
+fn five_thousand_imported_elements_give_table_1_and_the_continuum() {
+    let triangles = triangles(&annulus(ElementKind::Quad4, 120, 21), true);
+    let quads = AnnulusMesh::generate(&annulus(ElementKind::Quad8, 160, 31))
+        .unwrap()
+        .mesh;
+    for mesh in [triangles, quads] {
+        let mesh = import(&mesh);
+        assert!((4900..5100).contains(&mesh.element_count()));
+        let found = modes(&mesh, TABLE_1.len());
+        for (i, (mode, row)) in found.iter().zip(&TABLE_1).enumerate() {
+            let relative = (mode.frequency_hz() / row.1 - 1.0).abs();
+            // What the fit of the material to the table leaves.
+            assert!(relative < 3e-3, "mode {}: {relative}", i + 1);
+            let real = (mode.real_hz() - row.0).abs();
+            assert!(real < 10.0, "mode {}: {real} Hz", i + 1);
+        }
+        for lambda in exact(&EXACT) {
+            let distance = |mode: &ComplexMode| (mode.eigenvalue - lambda).norm() / lambda.norm();
+            let error = found.iter().map(distance).fold(f64::INFINITY, f64::min);
+            println!("{error:.1e}");
+            assert!(error < 1e-4, "{lambda}: {error}");
+        }
+    }
+}
+
+/// Slopes of the mean error of the lowest eigenvalues over three meshes, each split from the one before.
+#[test]
+fn eigenvalues_on_unstructured_meshes_converge_with_orders_two_and_four() {
+    for (kind, around, radial, order) in [
+        (ElementKind::Tri3, 48, 9, 2.0),
+        (ElementKind::Tri6, 24, 4, 4.0),
+    ] {
+        let mesh = triangles(
+            &annulus(ElementKind::Quad4, around, radial),
+            kind.is_quadratic(),
+        );
+        let numbers: Vec<usize> = (1..=mesh.node_count()).collect();
+        let bytes = write_msh(&mesh, FORMS[3], &numbers, |p| p);
+        let mut file = GmshFile::read(&bytes).unwrap();
+        let mut errors = Vec::new();
+        for level in 0..3 {
+            if level > 0 {
+                file = file.refined().unwrap();
+            }
+            errors.push(error_of(&body(&file), &EXACT[..5]));
+        }
+        let slope = (errors[1] / errors[2]).log2();
+        println!("{kind:?} {errors:?} {slope}");
+        // A family of three meshes shows its order within a tenth of it.
+        assert!(
+            (slope - order).abs() < 0.1 * order,
+            "{kind:?} {errors:?} {slope}"
+        );
+    }
+}

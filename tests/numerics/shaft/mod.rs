@@ -1,0 +1,7 @@
+//! A deformable shaft in the disc: eigenvalues and transient against theory, a rigid shaft and each other.
+
+mod case;
+mod eigenvalues;
+mod model;
+mod statics;
+mod transient;

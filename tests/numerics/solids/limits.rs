@@ -1,0 +1,99 @@
+//! Three dimensions where the plane program knows the answer.
+
+use crate::solids::model::{disc, modes};
+use frictionsim::cea::cyclic::{solid_sweep, sweep};
+use frictionsim::cea::{ComplexMode, ModeLimit, SweepRequest};
+use frictionsim::fem::PlaneFormulation;
+use frictionsim::mesh::{BoundaryCondition, ElementKind};
+
+fn plane(
+    model: &frictionsim::cea::cyclic::SolidModel,
+    formulation: PlaneFormulation,
+    limit_hz: f64,
+) -> Vec<ComplexMode> {
+    let request = SweepRequest {
+        friction_coefficients: &[0.3],
+        limit: ModeLimit::MaxFrequency(limit_hz),
+        shapes_at: &[],
+    };
+    let mut material = model.material;
+    material.formulation = formulation;
+    let found = sweep(
+        &model.specification.annulus,
+        &material,
+        &model.options,
+        &model.contact,
+        &request,
+    );
+    found.unwrap().sweep.points.remove(0).modes
+}
+
+/// Eigenvalue of the given modes nearest to one of the plane.
+fn nearest<'a>(modes: &'a [ComplexMode], wanted: &ComplexMode) -> &'a ComplexMode {
+    let distance = |mode: &&ComplexMode| (mode.eigenvalue - wanted.eigenvalue).norm();
+    let same = modes.iter().filter(|mode| mode.harmonic == wanted.harmonic);
+    same.min_by(|a, b| distance(a).total_cmp(&distance(b)))
+        .unwrap()
+}
+
+#[test]
+fn guided_faces_give_plane_strain() {
+    for geometric_stiffness in [false, true] {
+        let mut model = disc(ElementKind::Quad8, [24, 5, 1]);
+        model.options.geometric_stiffness = geometric_stiffness;
+        model.specification.conditions[2] = BoundaryCondition::Guide;
+        model.specification.conditions[3] = BoundaryCondition::Guide;
+        let solid = modes(&model, 0.3, 11_500.0);
+        for mode in plane(&model, PlaneFormulation::PlaneStrain, 11_000.0) {
+            let found = nearest(&solid, &mode);
+            // A 20-node brick has no node at mid-thickness between its sides, a plane quadrilateral has: 0.3 Hz at 11 kHz.
+            let error = (found.eigenvalue - mode.eigenvalue).norm() / mode.eigenvalue.norm();
+            assert!(
+                error < 3e-5,
+                "{geometric_stiffness} n = {}: {error:e}",
+                mode.harmonic
+            );
+        }
+    }
+}
+
+/// Self-consistency: the space of a limit twice as high leaves out next to nothing.
+#[test]
+fn the_estimate_of_what_the_small_space_of_a_harmonic_leaves_out_is_what_it_leaves_out() {
+    let model = disc(ElementKind::Quad8, [24, 5, 1]);
+    let up_to = |limit_hz: f64| {
+        let request = SweepRequest {
+            friction_coefficients: &[0.3],
+            limit: ModeLimit::MaxFrequency(limit_hz),
+            shapes_at: &[],
+        };
+        solid_sweep(&model, &request).unwrap()
+    };
+    let (small, large) = (up_to(9000.0), up_to(18_000.0));
+    let left_out = small.sweep.points[0].modes.iter().map(|mode| {
+        let better = nearest(&large.sweep.points[0].modes, mode);
+        (better.eigenvalue - mode.eigenvalue).norm() / mode.eigenvalue.norm()
+    });
+    let largest = left_out.fold(0.0, f64::max);
+    let ratio = small.reduction_error / largest;
+    assert!((0.5..2.0).contains(&ratio), "{ratio}");
+}
+
+#[test]
+fn a_thin_disc_has_the_modes_of_plane_stress() {
+    let mut model = disc(ElementKind::Quad8, [24, 8, 1]);
+    model.specification.thickness = 2e-4;
+    let solid = modes(&model, 0.3, 9000.0);
+    let in_plane: Vec<ComplexMode> = solid
+        .into_iter()
+        .filter(|mode| mode.axial_share.unwrap() < 0.1)
+        .collect();
+    let reference = plane(&model, PlaneFormulation::PlaneStress, 8900.0);
+    assert!(reference.len() > 3);
+    for mode in reference {
+        let error = (nearest(&in_plane, &mode).eigenvalue - mode.eigenvalue).norm()
+            / mode.eigenvalue.norm();
+        // The elements at the clamp cannot thin as they are stretched.
+        assert!(error < 1e-2, "n = {}: {error:e}", mode.harmonic);
+    }
+}

@@ -1,0 +1,144 @@
+//! The transient of a guided body, `u_z = 0` at every node, beside that of plane strain.
+
+use crate::solids::model::disc;
+use frictionsim::contact::ContactStatus;
+use frictionsim::fem::PlaneFormulation;
+use frictionsim::fem::operator::SimdLevel;
+use frictionsim::mesh::{AnnulusMesh, BoundaryCondition, ElementKind, SolidSector};
+use frictionsim::transient::{
+    CentralDifference, InitialState, Observer, OperatorChoice, Perturbation, Sample,
+    SolidTransientModel, TimeStep, TransientModel, TransientSettings, build_operator,
+};
+use std::ops::ControlFlow;
+
+/// Statuses, tangential displacements and normal forces of the contact nodes at every sample.
+#[derive(Default)]
+struct Course {
+    status: Vec<Vec<ContactStatus>>,
+    displacement: Vec<Vec<f64>>,
+    force: Vec<f64>,
+    kinetic: Vec<f64>,
+    largest_axial: f64,
+    is_solid: bool,
+}
+
+impl Observer for Course {
+    fn observe(&mut self, sample: &Sample<'_>) -> ControlFlow<()> {
+        let nodes = sample.status().len();
+        self.status.push(sample.status().to_vec());
+        let tangential = |i| sample.contact_tangential_displacement(i);
+        self.displacement.push((0..nodes).map(tangential).collect());
+        self.force.push(sample.normal_force().iter().sum());
+        self.kinetic.push(sample.kinetic_energy);
+        if self.is_solid {
+            let axial = sample.displacement().into_iter().skip(2).step_by(3);
+            self.largest_axial = axial.fold(self.largest_axial, |m, u| m.max(u.abs()));
+        }
+        ControlFlow::Continue(())
+    }
+}
+
+/// Three periods of a wave strong enough that nodes stick and lift.
+fn settings() -> TransientSettings {
+    TransientSettings {
+        duration: 3e-4,
+        time_step: TimeStep::Seconds(1e-7),
+        sample_interval: 5e-6,
+        expansion_time: 0.0,
+        initial: InitialState::SteadySliding,
+        perturbation: Perturbation::of(&[2], 8.0),
+    }
+}
+
+fn thick(divisions: [usize; 2]) -> Course {
+    let mut model = disc(ElementKind::Quad4, [divisions[0], divisions[1], 1]);
+    model.specification.conditions[2] = BoundaryCondition::Guide;
+    model.specification.conditions[3] = BoundaryCondition::Guide;
+    let sector = SolidSector::generate(&model.specification).unwrap();
+    let body = SolidTransientModel {
+        sector: &sector,
+        material: &model.material,
+        damping: model.options.damping,
+        contact: model.contact,
+        stiffness: model.options.contact,
+    };
+    let operator = body.operator(OperatorChoice::Auto, SimdLevel::Scalar);
+    let operator = operator.unwrap();
+    let mut run = CentralDifference::start(body, operator.as_ref(), &settings()).unwrap();
+    let mut course = Course {
+        is_solid: true,
+        ..Course::default()
+    };
+    run.run(&mut course).unwrap();
+    course
+}
+
+fn flat(divisions: [usize; 2]) -> Course {
+    let model = disc(ElementKind::Quad4, [divisions[0], divisions[1], 1]);
+    let annulus = AnnulusMesh::generate(&model.specification.annulus).unwrap();
+    let mut material = model.material;
+    material.formulation = PlaneFormulation::PlaneStrain;
+    let damping = model.options.damping;
+    let body = TransientModel::of_annulus(&annulus, &material, damping, model.contact);
+    let operator = build_operator(&body, OperatorChoice::Auto, SimdLevel::Scalar).unwrap();
+    let mut run = CentralDifference::start(body, operator.as_ref(), &settings()).unwrap();
+    let mut course = Course::default();
+    run.run(&mut course).unwrap();
+    course
+}
+
+/// Share of statuses that differ, and the largest differences of displacement, normal force and kinetic energy, relative to the
+/// largest values.
+fn differences(divisions: [usize; 2]) -> [f64; 4] {
+    let (thick, flat) = (thick(divisions), flat(divisions));
+    assert_eq!(thick.largest_axial, 0.0);
+    assert_eq!(thick.status.len(), flat.status.len());
+    let thickness = 0.009;
+    let (mut other, mut total, mut seen) = (0, 0, [false; 3]);
+    let (mut apart, mut largest) = (0.0_f64, 0.0_f64);
+    for (k, statuses) in flat.status.iter().enumerate() {
+        // At each angle the node of the bottom, then that of the top.
+        for (i, status) in statuses.iter().enumerate() {
+            seen[*status as usize] = true;
+            for layer in [2 * i, 2 * i + 1] {
+                total += 1;
+                other += usize::from(thick.status[k][layer] != *status);
+                let u = flat.displacement[k][i];
+                apart = apart.max((thick.displacement[k][layer] - u).abs());
+                largest = largest.max(u.abs());
+            }
+        }
+    }
+    assert_eq!(seen, [true; 3]);
+    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+    let relative = |of: fn(&Course) -> &[f64]| {
+        let pairs = of(&thick).iter().zip(of(&flat));
+        let apart: Vec<f64> = pairs.map(|(a, b)| a / thickness - b).collect();
+        // Impacts are pulses of a step: forces in the mean.
+        mean(&apart).abs() / mean(of(&flat))
+    };
+    [
+        other as f64 / total as f64,
+        apart / largest,
+        relative(|course| &course.force),
+        relative(|course| &course.kinetic),
+    ]
+}
+
+/// Cross-method. Mass, contact and time steps are the same; in the plane the brick is a quadrilateral with incompatible modes,
+/// the plane element one of full integration. Both are of second order, so that what is left between them falls with the
+/// square of the element; impacts, which begin a sample earlier or later, take a part of that order.
+#[test]
+fn a_guided_body_moves_sticks_slips_and_opens_as_in_plane_strain_the_more_so_the_finer_the_mesh() {
+    let coarse = differences([40, 8]);
+    let fine = differences([80, 16]);
+    println!("{coarse:?} {fine:?}");
+    // Statuses, displacement, mean normal force, mean kinetic energy; the last is within 0.2 % on both meshes.
+    for (k, bound) in [0.04, 0.06, 0.01, 0.002].into_iter().enumerate() {
+        assert!(fine[k] < bound, "{k}: {fine:?}");
+        assert!(
+            k == 3 || fine[k] < 0.4 * coarse[k],
+            "{k}: {coarse:?} {fine:?}"
+        );
+    }
+}

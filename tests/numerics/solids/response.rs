@@ -1,0 +1,300 @@
+//! Frequency responses of bodies of revolution.
+
+use crate::solids::model::disc;
+use crate::solids::whole_ring::WholeRing;
+use faer::c64;
+use frictionsim::cea::cyclic::SolidModel;
+use frictionsim::contact::ContactStiffness;
+use frictionsim::fem::{MassKind, PlaneFormulation};
+use frictionsim::frf::{CyclicSystem, Direction, FrfError, Terminal, cyclic_response};
+use frictionsim::mesh::{
+    BoundaryCondition, ElasticSupport, ElementKind, SectorMesh, SolidContact, SolidSector,
+};
+use frictionsim::prestress::{DampingModel, SolidTangent};
+
+use Direction::{Axial, Radial, Tangential};
+
+pub fn body(model: &SolidModel, is_clamped: bool) -> CyclicSystem {
+    let sector = SolidSector::generate(&model.specification).unwrap();
+    let options = &model.options;
+    CyclicSystem::solid_body(
+        &sector,
+        &model.material,
+        options.mass,
+        options.damping,
+        is_clamped,
+    )
+}
+
+pub fn sliding(model: &SolidModel, friction: f64) -> CyclicSystem {
+    let sector = SolidSector::generate(&model.specification).unwrap();
+    let tangent = SolidTangent::linearize(&sector, &model.material, &model.options, &model.contact);
+    CyclicSystem::solid_sliding(&tangent.unwrap(), friction)
+}
+
+fn small(element: ElementKind) -> SolidModel {
+    let mut model = match element {
+        ElementKind::Quad4 => disc(element, [11, 3, 2]),
+        _ => disc(element, [8, 2, 1]),
+    };
+    if element == ElementKind::Quad4 {
+        model.options.mass = MassKind::Lumped;
+    }
+    model.specification.annulus.radial_grading = 1.2;
+    model
+}
+
+/// The terminal at a place of a sheet, in halves of an element, `half_step` halves of a sector ahead.
+pub fn at(
+    sector: &SolidSector,
+    s: usize,
+    place: [usize; 2],
+    half_step: usize,
+    direction: Direction,
+) -> Terminal {
+    let found = sector.nodes.iter();
+    let node = found
+        .clone()
+        .position(|node| node.place == place && node.half_step == half_step);
+    Terminal {
+        node: s * sector.node_count() + node.unwrap(),
+        direction,
+    }
+}
+
+pub const FREQUENCIES: [f64; 6] = [700.0, 1999.0, 4321.0, 7000.0, 9100.0, 15_000.0];
+
+/// One force and several motions by harmonics and by a dense solution of the whole ring.
+fn agrees(cyclic: &CyclicSystem, whole: &WholeRing, force: Terminal, what: &str) {
+    let sector = &whole.sector;
+    let quadratic = usize::from(sector.is_quadratic());
+    let [_, nz] = sector.divisions();
+    let responses = [
+        force,
+        at(sector, 3, [0, 2 * nz], 0, Axial),
+        at(sector, 5, [2, 0], quadratic, Radial),
+        at(sector, 2, [2 - quadratic, 2 * nz], 0, Axial),
+        at(sector, 1, [2, 2 * nz], quadratic, Tangential),
+        at(sector, 6, [0, 0], 0, Tangential),
+    ];
+    let dof = |t: &Terminal| 3 * t.node + t.direction.component();
+    let dense: Vec<Vec<c64>> = FREQUENCIES
+        .iter()
+        .map(|f| whole.respond(*f, dof(&force), &responses.each_ref().map(dof)))
+        .collect();
+    let mut worst = 0.0_f64;
+    for (k, response) in responses.into_iter().enumerate() {
+        let found = cyclic_response(cyclic, force, response, &FREQUENCIES).unwrap();
+        assert!(found.backward_error <= 1e-14);
+        for (h, dense) in found.receptance.iter().zip(&dense) {
+            let top = dense.iter().fold(0.0_f64, |m, h| m.max(h.norm()));
+            worst = worst.max((h - dense[k]).norm() / top);
+        }
+    }
+    println!("{what}: {worst:.1e} of the largest response");
+    // Backward errors of 1e-14 or less, condition numbers below 1e4 from 700 Hz up.
+    assert!(worst < 1e-10, "{what}: {worst:e}");
+}
+
+/// Independent check: no harmonics, other elements or another operator, dense factorization.
+#[test]
+fn harmonics_of_a_free_and_a_held_body_sum_to_the_response_of_a_whole_ring_of_bricks() {
+    for element in [ElementKind::Quad4, ElementKind::Quad8] {
+        let model = small(element);
+        for is_free in [true, false] {
+            let whole = WholeRing::new(&model, is_free);
+            let system = body(&model, !is_free);
+            for direction in [Radial, Tangential, Axial] {
+                let force = at(&whole.sector, 1, [0, 0], 0, direction);
+                let what = format!("{element:?}, free {is_free}, {direction:?}");
+                agrees(&system, &whole, force, &what);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_body_on_springs_responds_like_the_whole_ring() {
+    let mut model = small(ElementKind::Quad4);
+    model.specification.conditions = [
+        BoundaryCondition::Free,
+        BoundaryCondition::Support(ElasticSupport {
+            normal_stiffness: 1e11,
+            tangential_stiffness: 3e10,
+            axial_stiffness: 2e10,
+            normal_damping: 0.0,
+            tangential_damping: 0.0,
+        }),
+        BoundaryCondition::Free,
+        BoundaryCondition::Guide,
+    ];
+    // The operator's stiffness has the springs in it, on which beta_R does not act.
+    model.options.damping.stiffness_coefficient = 0.0;
+    let whole = WholeRing::new(&model, false);
+    let force = at(&whole.sector, 1, [6, 4], 0, Axial);
+    let mut differences = 0.0_f64;
+    let system = body(&model, true);
+    for response in [force, at(&whole.sector, 4, [0, 2], 0, Tangential)] {
+        let found = cyclic_response(&system, force, response, &FREQUENCIES).unwrap();
+        for (f, h) in FREQUENCIES.iter().zip(&found.receptance) {
+            let dofs = [force, response].map(|t| 3 * t.node + t.direction.component());
+            let dense = whole.respond(*f, dofs[0], &dofs);
+            differences = differences.max((h - dense[1]).norm() / dense[0].norm());
+        }
+    }
+    assert!(differences < 1e-10, "{differences:e}");
+}
+
+/// Independent check: contact conditions put in by hand, rigid and with springs, on the inner edge and under a ring.
+#[test]
+fn harmonics_in_sliding_contact_sum_to_the_response_of_a_whole_ring_of_bricks() {
+    let rigid = ContactStiffness::default();
+    let springs = ContactStiffness {
+        normal_stiffness: Some(1e12),
+        normal_damping: 3e4,
+        tangential_damping: 2e4,
+        ..ContactStiffness::default()
+    };
+    let ring = SolidContact::Ring {
+        inner_radius: 0.03,
+        outer_radius: 0.06,
+    };
+    let (hex8, hex20) = (ElementKind::Quad4, ElementKind::Quad8);
+    for (element, contact, place) in [
+        (hex8, rigid, SolidContact::Inner),
+        (hex20, rigid, SolidContact::Inner),
+        (hex8, springs, SolidContact::Inner),
+        (hex8, rigid, ring),
+        (hex8, springs, ring),
+    ] {
+        let mut model = small(element);
+        model.options.contact = contact;
+        model.options.damping_model = DampingModel::BodyOnly;
+        model.specification.contact = place;
+        if place != SolidContact::Inner {
+            model.specification.conditions[3] = BoundaryCondition::Guide;
+        }
+        let whole = WholeRing::sliding(&model, 0.3);
+        let system = sliding(&model, 0.3);
+        for direction in [Tangential, Axial] {
+            let force = match place {
+                SolidContact::Inner => at(&whole.sector, 1, [0, 0], 0, direction),
+                // Inside the thickness: the ring holds the top.
+                _ => at(&whole.sector, 1, [2, 2], 0, direction),
+            };
+            let what = format!("{element:?}, {contact:?}, {place:?}, {direction:?}");
+            agrees_in_contact(&system, &whole, force, &what);
+        }
+    }
+}
+
+/// As [`agrees`], with motions that contact leaves free.
+fn agrees_in_contact(cyclic: &CyclicSystem, whole: &WholeRing, force: Terminal, what: &str) {
+    let sector = &whole.sector;
+    let quadratic = usize::from(sector.is_quadratic());
+    let responses = [
+        force,
+        at(sector, 5, [2, 0], quadratic, Radial),
+        at(sector, 2, [2 - quadratic, 2], 0, Axial),
+        at(sector, 6, [0, 0], 0, Tangential),
+    ];
+    let dof = |t: &Terminal| 3 * t.node + t.direction.component();
+    for f in FREQUENCIES {
+        let dense = whole.respond(f, dof(&force), &responses.each_ref().map(dof));
+        let top = dense.iter().fold(0.0_f64, |m, h| m.max(h.norm()));
+        for (response, h) in responses.iter().zip(&dense) {
+            let found = cyclic_response(cyclic, force, *response, &[f]).unwrap();
+            let error = (found.receptance[0] - h).norm() / top;
+            assert!(error < 1e-10, "{what}, {response:?}, {f} Hz: {error:e}");
+        }
+    }
+}
+
+#[test]
+fn excitation_and_response_can_be_exchanged_without_friction() {
+    let mut model = disc(ElementKind::Quad8, [12, 3, 1]);
+    model.options.geometric_stiffness = true;
+    let sector = SolidSector::generate(&model.specification).unwrap();
+    let (a, b) = (
+        at(&sector, 1, [0, 2], 0, Axial),
+        at(&sector, 5, [2, 0], 1, Tangential),
+    );
+    for system in [
+        body(&model, false),
+        body(&model, true),
+        sliding(&model, 0.0),
+    ] {
+        let there = cyclic_response(&system, a, b, &FREQUENCIES).unwrap();
+        let back = cyclic_response(&system, b, a, &FREQUENCIES).unwrap();
+        for (x, y) in there.receptance.iter().zip(&back.receptance) {
+            assert!((x - y).norm() < 1e-9 * x.norm(), "{x} {y}");
+        }
+    }
+    let there = cyclic_response(&sliding(&model, 0.3), a, b, &FREQUENCIES).unwrap();
+    let back = cyclic_response(&sliding(&model, 0.3), b, a, &FREQUENCIES).unwrap();
+    let differs = |(x, y): (&c64, &c64)| (x - y).norm() > 1e-2 * x.norm();
+    assert!(there.receptance.iter().zip(&back.receptance).any(differs));
+}
+
+#[test]
+fn the_response_has_the_same_bits_on_any_number_of_threads() {
+    let model = disc(ElementKind::Quad4, [12, 3, 2]);
+    let system = sliding(&model, 0.3);
+    let sector = SolidSector::generate(&model.specification).unwrap();
+    let (a, b) = (
+        at(&sector, 1, [0, 0], 0, Axial),
+        at(&sector, 5, [2, 4], 0, Radial),
+    );
+    let f: Vec<f64> = (1..=77).map(|line| 100.0 * f64::from(line)).collect();
+    let on = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        let work = || cyclic_response(&system, a, b, &f).unwrap();
+        pool.unwrap().install(work)
+    };
+    assert_eq!(on(1), on(3));
+}
+
+#[test]
+fn held_directions_missing_nodes_and_axial_motion_in_the_plane_are_refused_with_their_key() {
+    let model = disc(ElementKind::Quad4, [12, 3, 2]);
+    let sector = SolidSector::generate(&model.specification).unwrap();
+    let system = sliding(&model, 0.3);
+    let held = at(&sector, 0, [0, 2], 0, Radial);
+    let error = system.check(held, "force_node").unwrap_err();
+    assert!(matches!(
+        error,
+        FrfError::Constrained {
+            direction: "radial",
+            ..
+        }
+    ));
+    assert!(
+        system
+            .check(at(&sector, 0, [0, 2], 0, Axial), "force_node")
+            .is_ok()
+    );
+    let clamped = at(&sector, 0, [6, 2], 0, Axial);
+    let error = system.check(clamped, "response_node").unwrap_err();
+    assert!(error.to_string().contains("cannot move in axial direction"));
+    let missing = Terminal {
+        node: 12 * sector.node_count(),
+        direction: Axial,
+    };
+    let error = system.check(missing, "response_node").unwrap_err();
+    assert!(
+        error.to_string().contains("frf.response_node = 145"),
+        "{error}"
+    );
+
+    let plane = SectorMesh::generate(&model.specification.annulus).unwrap();
+    let mut material = model.material;
+    material.formulation = PlaneFormulation::PlaneStrain;
+    let damping = model.options.damping;
+    let flat = CyclicSystem::body(&plane, &material, MassKind::Consistent, damping, true);
+    let axial = Terminal {
+        node: 0,
+        direction: Axial,
+    };
+    let error = flat.check(axial, "force_node").unwrap_err();
+    assert!(matches!(error, FrfError::InPlane { node: 1, .. }));
+}

@@ -1,0 +1,174 @@
+//! A flat ring that presses on the face of a disc.
+
+use crate::solids::model::{disc, modes};
+use frictionsim::cea::cyclic::SolidModel;
+use frictionsim::fem::solid;
+use frictionsim::mesh::{BoundaryCondition, ElementKind, SolidContact, SolidSector};
+use frictionsim::prestress::{PrestressError, SolidSliding};
+use std::f64::consts::TAU;
+
+/// A ring on the outer half of the top face.
+fn ringed(element: ElementKind, divisions: [usize; 3]) -> SolidModel {
+    let mut model = disc(element, divisions);
+    model.specification.contact = SolidContact::Ring {
+        inner_radius: 0.05,
+        outer_radius: 0.08,
+    };
+    model.contact.interference = 5e-6;
+    model
+}
+
+fn base(model: &SolidModel) -> Result<(SolidSector, SolidSliding), PrestressError> {
+    let sector = SolidSector::generate(&model.specification).unwrap();
+    let elastic = solid::stiffness(&sector, &model.material);
+    let stiffness = model.options.contact.base_stiffness();
+    let base = SolidSliding::solve_with(&sector, &elastic, &model.contact, stiffness)?;
+    Ok((sector, base))
+}
+
+/// A ring on the whole face of a layer whose bottom cannot move, guided at its sides.
+fn layer(element: ElementKind) -> SolidModel {
+    let mut model = ringed(element, [24, 4, 2]);
+    model.specification.contact = SolidContact::Ring {
+        inner_radius: 0.0205,
+        outer_radius: 0.0905,
+    };
+    model.specification.conditions = [
+        BoundaryCondition::Guide,
+        BoundaryCondition::Guide,
+        BoundaryCondition::Free,
+        BoundaryCondition::Clamped,
+    ];
+    model
+}
+
+/// Independent check: a squeezed layer is in uniaxial strain.
+#[test]
+fn a_guided_layer_under_a_ring_has_the_pressure_of_uniaxial_strain() {
+    let model = layer(ElementKind::Quad8);
+    let (_, base) = base(&model).unwrap();
+    let [lambda, shear] = model.material.solid_lame_constants();
+    let exact = (lambda + 2.0 * shear) * 5e-6 / 0.009;
+    assert!(base.is_pressed.iter().all(|pressed| *pressed));
+    for pressure in &base.pressures {
+        // Sides of elements are parabolas, not arcs.
+        assert!((pressure / exact - 1.0).abs() < 1e-4, "{pressure} {exact}");
+    }
+}
+
+/// Independent check: layer and springs in series. Of the edge of an 8-node brick the body has the chord, of a
+/// 20-node one a parabola, the springs the arc.
+#[test]
+fn springs_that_carry_the_base_state_stand_in_series_with_a_layer() {
+    let angle: f64 = TAU / 24.0;
+    let (chord, parabola) = (angle.powi(2) / 6.0, angle.powi(4) / 2.0);
+    for (element, tolerance) in [(ElementKind::Quad4, chord), (ElementKind::Quad8, parabola)] {
+        let mut model = layer(element);
+        compliant(&mut model, 3e11);
+        let (sector, base) = base(&model).unwrap();
+        let [lambda, shear] = model.material.solid_lame_constants();
+        let exact = 5e-6 / (0.009 / (lambda + 2.0 * shear) + 1.0 / 3e11);
+        let nodal: f64 = base.normal_forces.iter().map(|(_, force)| force).sum();
+        let area: f64 = sector.rings.iter().map(|ring| ring.area).sum();
+        for pressure in base.pressures.iter().chain(&[nodal / area]) {
+            assert!(
+                (pressure / exact - 1.0).abs() < tolerance,
+                "{pressure} {exact}"
+            );
+        }
+    }
+}
+
+fn compliant(model: &mut SolidModel, stiffness: f64) {
+    model.options.contact.normal_stiffness = Some(stiffness);
+    model.options.contact.is_base_compliant = true;
+}
+
+/// Under rigid contact the ring of a bending plate touches a line, and springs on it are as many as the mesh is wide.
+#[test]
+fn springs_that_carry_the_base_state_give_a_contact_that_opens_a_width_of_its_own() {
+    let found = [14, 28, 56].map(|radial| {
+        let mut model = ringed(ElementKind::Quad8, [24, radial, 2]);
+        compliant(&mut model, 3e11);
+        let (sector, base) = base(&model).unwrap();
+        assert!(base.is_pressed.contains(&true) && base.is_pressed.contains(&false));
+        let force: f64 = base.normal_forces.iter().map(|(_, force)| force).sum();
+        let modes = modes(&model, 0.5, 4000.0);
+        let rate = modes.iter().map(|mode| mode.growth_rate());
+        [
+            force * sector.sector_count() as f64,
+            rate.fold(f64::MIN, f64::max),
+        ]
+    });
+    for quantity in 0..2 {
+        let [coarse, middle, fine] = found.map(|values| values[quantity]);
+        let errors = [coarse, middle].map(|value| (value / fine - 1.0).abs());
+        assert!(errors[0] < 0.04 && errors[1] < 0.01, "{errors:?}");
+    }
+}
+
+#[test]
+fn a_ring_on_a_bending_plate_opens_and_keeps_the_contact_conditions() {
+    for element in [ElementKind::Quad4, ElementKind::Quad8] {
+        let (sector, base) = base(&ringed(element, [24, 14, 2])).unwrap();
+        assert!(base.is_pressed.contains(&true) && base.is_pressed.contains(&false));
+        for ((ring, &pressed), pressure) in sector
+            .rings
+            .iter()
+            .zip(&base.is_pressed)
+            .zip(&base.pressures)
+        {
+            let depth = -base.pressed_displacement[3 * ring.nodes[0] + 2];
+            match pressed {
+                true => assert!(*pressure > 0.0 && (depth - 5e-6).abs() < 1e-18),
+                false => assert!(*pressure == 0.0 && depth >= 5e-6),
+            }
+        }
+    }
+}
+
+/// Independent check: the torque of friction is that of the ground.
+#[test]
+fn reaction_of_the_ground_balances_the_friction_of_the_ring() {
+    let (sector, base) = base(&ringed(ElementKind::Quad8, [24, 14, 2])).unwrap();
+    let torque = base.torque(&sector, 0.3);
+    let forces = base
+        .normal_forces
+        .iter()
+        .map(|(node, n)| 0.3 * n * sector.nodes[*node].radius);
+    assert!((torque / (24.0 * forces.sum::<f64>()) - 1.0).abs() < 1e-12);
+    assert!(torque > 0.0);
+}
+
+#[test]
+fn a_pressure_that_lifts_the_disc_off_leaves_no_contact() {
+    let mut model = ringed(ElementKind::Quad4, [24, 8, 2]);
+    model.contact.interference = 0.0;
+    model.specification.conditions[3] = BoundaryCondition::Pressure(-1e5);
+    let error = base(&model).unwrap_err();
+    assert!(
+        matches!(error, PrestressError::GapEverywhere { .. }),
+        "{error}"
+    );
+}
+
+/// Both bricks see the same squeal: 8 nodes on a finer mesh.
+#[test]
+fn bricks_of_8_and_20_nodes_agree_on_a_disc_under_a_ring() {
+    let unstable = |model: &SolidModel| {
+        let found = modes(model, 0.5, 9000.0);
+        let mut found: Vec<[f64; 2]> = found
+            .iter()
+            .filter(|m| m.harmonic < 4)
+            .map(|m| [m.frequency_hz(), m.real_hz()])
+            .collect();
+        found.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        found
+    };
+    let fine = unstable(&ringed(ElementKind::Quad8, [36, 14, 2]));
+    let other = unstable(&ringed(ElementKind::Quad4, [72, 28, 4]));
+    assert_eq!(fine.len(), other.len());
+    for (a, b) in fine.iter().zip(&other) {
+        assert!((a[0] / b[0] - 1.0).abs() < 0.01, "{a:?} {b:?}");
+    }
+}

@@ -1,0 +1,276 @@
+//! Independent check: sensitivities of bodies of revolution against central differences of the whole analysis, base state included.
+
+use crate::solids::model::disc;
+use faer::c64;
+use frictionsim::cea::cyclic::{Sensitivity, SolidModel, solid_sensitivities, solid_sweep};
+use frictionsim::cea::{ModeBranch, ModeLimit, SweepRequest};
+use frictionsim::contact::{ContactStiffness, FrictionDecay};
+use frictionsim::mesh::{
+    BoundaryCondition, ElasticSupport, ElementKind, SolidContact, SolidSector,
+};
+use frictionsim::prestress::{DampingModel, SolidTangent};
+use std::collections::BTreeMap;
+
+const FRICTION: f64 = 0.35;
+
+/// Branch by harmonic, rank and direction.
+type Name = (usize, usize, i8);
+
+fn request() -> SweepRequest<'static> {
+    SweepRequest {
+        friction_coefficients: &[0.0, 0.4],
+        limit: ModeLimit::MaxFrequency(9e3),
+        shapes_at: &[],
+    }
+}
+
+/// Eigenvalues of all branches at a friction coefficient, of the whole harmonics: what a small space leaves out of them, up to 1e-5 on
+/// meshes as coarse as these, changes with the parameters.
+fn eigenvalues(model: &SolidModel, friction: f64) -> BTreeMap<Name, c64> {
+    let found = solid_sweep(model, &request()).unwrap();
+    let own = solid_sensitivities(&found, friction).unwrap();
+    let own = own.iter();
+    own.map(|s| ((s.harmonic, s.branch, s.direction), s.eigenvalue))
+        .collect()
+}
+
+/// Fourth order, so that the step may stay far above round-off.
+fn differences(step: f64, at: &dyn Fn(f64) -> BTreeMap<Name, c64>) -> BTreeMap<Name, c64> {
+    let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(|k| at(k * step));
+    let all = b.keys().filter_map(|name| {
+        let [a, b, c, d] = [a.get(name)?, b.get(name)?, c.get(name)?, d.get(name)?];
+        Some((*name, ((c - b) * 8.0 - (d - a)) / (12.0 * step)))
+    });
+    all.collect()
+}
+
+/// Compares every derivative of every branch; returns the largest error relative to the change over the parameter's own size, or to
+/// a thousandth of `|lambda|` where that is less.
+fn compare(model: &SolidModel, what: &str) {
+    let found = solid_sweep(model, &request()).unwrap();
+    let all = solid_sensitivities(&found, FRICTION).unwrap();
+    let oscillates = |branch: &&ModeBranch| branch.interpolate(FRICTION).is_some();
+    assert_eq!(all.len(), found.branches.iter().filter(oscillates).count());
+    assert!(all.len() >= 5, "{what}: {}", all.len());
+    let changed = |change: fn(&mut SolidModel, f64)| {
+        move |offset: f64| {
+            let mut changed = *model;
+            change(&mut changed, offset);
+            eigenvalues(&changed, FRICTION)
+        }
+    };
+    let k_n = model.options.contact.normal_stiffness;
+    let decay = model.contact.decay;
+    type Of = fn(&Sensitivity) -> Option<c64>;
+    type Change = fn(&mut SolidModel, f64);
+    let checks: [(&str, Option<f64>, f64, Of, Change); 8] = [
+        (
+            "nu",
+            Some(1.0),
+            2.5e-4,
+            |s| Some(s.poisson_ratio),
+            |m, h| m.material.poisson_ratio += h,
+        ),
+        (
+            "E",
+            Some(2.5e9),
+            1e7,
+            |s| Some(s.young_modulus),
+            |m, h| m.material.young_modulus += h,
+        ),
+        (
+            "rho",
+            Some(1228.0),
+            5.0,
+            |s| Some(s.density),
+            |m, h| m.material.density += h,
+        ),
+        (
+            "alpha",
+            Some(40.0),
+            1.0,
+            |s| Some(s.mass_coefficient),
+            |m, h| m.options.damping.mass_coefficient += h,
+        ),
+        (
+            "beta",
+            Some(4.5e-7),
+            1e-8,
+            |s| Some(s.stiffness_coefficient),
+            |m, h| m.options.damping.stiffness_coefficient += h,
+        ),
+        (
+            "k_n",
+            k_n,
+            0.004 * k_n.unwrap_or(0.0),
+            |s| s.normal_stiffness,
+            |m, h| {
+                if let Some(k) = &mut m.options.contact.normal_stiffness {
+                    *k += h;
+                }
+            },
+        ),
+        (
+            "q",
+            decay.map(|d| d.static_ratio),
+            5e-3,
+            |s| s.static_friction_ratio,
+            |m, h| {
+                if let Some(decay) = &mut m.contact.decay {
+                    decay.static_ratio += h;
+                }
+            },
+        ),
+        (
+            "v_c",
+            decay.map(|d| d.decay_speed),
+            5e-3,
+            |s| s.decay_speed,
+            |m, h| {
+                if let Some(decay) = &mut m.contact.decay {
+                    decay.decay_speed += h;
+                }
+            },
+        ),
+    ];
+    let mut errors = Vec::new();
+    let mut check = |name: &str, scale: f64, numeric: &BTreeMap<Name, c64>, of: Of| {
+        assert!(numeric.len() + 2 >= all.len(), "{what}, {name}");
+        let mut worst = (0.0, c64::new(0.0, 0.0), c64::new(0.0, 0.0), (0, 0, 0));
+        for s in &all {
+            let branch = (s.harmonic, s.branch, s.direction);
+            // At the limit of frequency.
+            let Some(numeric) = numeric.get(&branch) else {
+                continue;
+            };
+            let analytic = of(s).unwrap();
+            let size = (numeric * scale).norm() + 1e-3 * s.eigenvalue.norm();
+            let error = (analytic - numeric).norm() * scale / size;
+            if error.is_nan() || error > worst.0 {
+                worst = (error, analytic * scale, numeric * scale, branch);
+            }
+        }
+        println!(
+            "{what}, {name}: {:.1e} {:.6e} {:.6e} {:?}",
+            worst.0, worst.1, worst.2, worst.3
+        );
+        errors.push(worst.0);
+    };
+    for (name, scale, step, of, change) in checks {
+        match scale {
+            Some(scale) => check(name, scale, &differences(step, &changed(change)), of),
+            None => assert!(all.iter().all(|s| of(s).is_none()), "{what}, {name}"),
+        }
+    }
+    let by_friction = differences(2e-3, &|offset| eigenvalues(model, FRICTION + offset));
+    check("mu", FRICTION, &by_friction, |s| Some(s.friction));
+    assert!(
+        errors.iter().all(|error| *error < 1e-7),
+        "{what}: {errors:?}"
+    );
+}
+
+const SPRINGS: ContactStiffness = ContactStiffness {
+    normal_stiffness: Some(2e12),
+    normal_damping: 3e4,
+    tangential_damping: 2e4,
+    is_base_compliant: false,
+};
+
+const COMPLIANT: ContactStiffness = ContactStiffness {
+    normal_stiffness: Some(4e11),
+    normal_damping: 3e4,
+    tangential_damping: 0.0,
+    is_base_compliant: true,
+};
+
+/// A strong prestress, so that its share cannot hide, and friction that falls with the speed.
+fn strained(element: ElementKind, contact: ContactStiffness) -> SolidModel {
+    let divisions = match element {
+        ElementKind::Quad4 => [8, 3, 2],
+        _ => [6, 2, 1],
+    };
+    let mut model = disc(element, divisions);
+    model.options.contact = contact;
+    model.options.geometric_stiffness = true;
+    model.contact.interference = 2e-4;
+    model.contact.decay = Some(FrictionDecay {
+        static_ratio: 1.3,
+        decay_speed: 1.2,
+    });
+    model
+}
+
+#[test]
+fn sensitivities_in_rigid_contact_equal_finite_differences() {
+    for element in [ElementKind::Quad4, ElementKind::Quad8] {
+        compare(
+            &strained(element, ContactStiffness::default()),
+            &format!("rigid, {element:?}"),
+        );
+    }
+}
+
+/// The slip speed and the drag change along the face.
+#[test]
+fn sensitivities_under_a_ring_in_rigid_contact_equal_finite_differences() {
+    let mut model = strained(ElementKind::Quad8, ContactStiffness::default());
+    model.specification.contact = SolidContact::Ring {
+        inner_radius: 0.03,
+        outer_radius: 0.06,
+    };
+    model.specification.conditions[3] = BoundaryCondition::Guide;
+    model.contact.interference = 2e-5;
+    compare(&model, "ring");
+}
+
+#[test]
+fn sensitivities_on_springs_equal_finite_differences() {
+    for element in [ElementKind::Quad4, ElementKind::Quad8] {
+        let mut model = strained(element, SPRINGS);
+        model.contact.decay = None;
+        // The base state of a body on springs changes with its stiffness even where it is pressed by a distance.
+        model.specification.conditions[1] = BoundaryCondition::Support(ElasticSupport {
+            normal_stiffness: 2e11,
+            tangential_stiffness: 1e11,
+            axial_stiffness: 1e11,
+            normal_damping: 1e4,
+            tangential_damping: 1e4,
+        });
+        model.options.damping_model = DampingModel::BodyOnly;
+        compare(&model, &format!("springs, {element:?}"));
+    }
+}
+
+#[test]
+fn sensitivities_with_a_base_state_on_springs_equal_finite_differences() {
+    for element in [ElementKind::Quad4, ElementKind::Quad8] {
+        compare(
+            &strained(element, COMPLIANT),
+            &format!("compliant, {element:?}"),
+        );
+    }
+}
+
+/// A plate bends away under the ring that presses it: the end of the pressed part moves with every parameter.
+#[test]
+fn sensitivities_follow_the_end_of_what_is_pressed() {
+    for element in [ElementKind::Quad4, ElementKind::Quad8] {
+        let mut model = strained(element, COMPLIANT);
+        model.specification.annulus.radial_elements = 5;
+        model.specification.contact = SolidContact::Ring {
+            inner_radius: 0.03,
+            outer_radius: 0.07,
+        };
+        model.contact.interference = 4e-5;
+        // Soft, so that more than the last ring is pressed.
+        model.options.contact.normal_stiffness = Some(2e9);
+        let sector = SolidSector::generate(&model.specification).unwrap();
+        let contact = model.contact;
+        let tangent = SolidTangent::linearize(&sector, &model.material, &model.options, &contact);
+        let tangent = tangent.unwrap();
+        let pressed = &tangent.base().is_pressed;
+        assert!(pressed.contains(&true) && pressed.contains(&false));
+        compare(&model, &format!("partly open, {element:?}"));
+    }
+}

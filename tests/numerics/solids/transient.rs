@@ -1,0 +1,295 @@
+//! The transient of a body of revolution against its eigenvalue analysis and against itself.
+
+use crate::solids::model::{disc, modes};
+use frictionsim::cea::cyclic::SolidModel;
+use frictionsim::contact::ContactStatus;
+use frictionsim::fem::operator::{OperatorError, SimdLevel, StiffnessOperator};
+use frictionsim::fem::{MassKind, RayleighDamping};
+use frictionsim::mesh::{
+    BoundaryCondition, ElasticSupport, ElementKind, SolidContact, SolidSector,
+};
+use frictionsim::prestress::{DampingModel, PrestressError};
+use frictionsim::transient::{
+    CentralDifference, InitialState, Observer, OperatorChoice, Perturbation, Recorder,
+    RecorderSettings, Sample, SolidTransientModel, TimeStep, TransientAnalysis, TransientError,
+    TransientSettings,
+};
+use std::f64::consts::TAU;
+use std::ops::ControlFlow;
+
+fn body<'a>(model: &'a SolidModel, sector: &'a SolidSector) -> SolidTransientModel<'a> {
+    SolidTransientModel {
+        sector,
+        material: &model.material,
+        damping: model.options.damping,
+        contact: model.contact,
+        stiffness: model.options.contact,
+    }
+}
+
+fn operator(body: &SolidTransientModel<'_>) -> Box<dyn StiffnessOperator> {
+    body.operator(OperatorChoice::Auto, SimdLevel::detect())
+        .unwrap()
+}
+
+/// A run of a model, recorded.
+fn run(model: &SolidModel, settings: &TransientSettings) -> Recorder {
+    let sector = SolidSector::generate(&model.specification).unwrap();
+    let body = body(model, &sector);
+    let operator = operator(&body);
+    let mut run = CentralDifference::start(body, operator.as_ref(), settings).unwrap();
+    let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
+    run.run(&mut record).unwrap();
+    record
+}
+
+fn seeded(harmonic: usize, velocity: f64, duration: f64) -> TransientSettings {
+    TransientSettings {
+        duration,
+        time_step: TimeStep::Auto,
+        sample_interval: 1e-5,
+        expansion_time: 0.0,
+        initial: InitialState::SteadySliding,
+        perturbation: Perturbation::of(&[harmonic], velocity),
+    }
+}
+
+fn lumped(element: ElementKind, divisions: [usize; 3]) -> SolidModel {
+    let mut model = disc(element, divisions);
+    model.options.mass = MassKind::Lumped;
+    model
+}
+
+/// A ring on a layer whose bottom slides on the ground: all of it is pressed.
+fn ringed(divisions: [usize; 3]) -> SolidModel {
+    let mut model = lumped(ElementKind::Quad4, divisions);
+    model.specification.contact = SolidContact::Ring {
+        inner_radius: 0.03,
+        outer_radius: 0.07,
+    };
+    model.specification.conditions[3] = BoundaryCondition::Guide;
+    model.contact.interference = 5e-6;
+    model
+}
+
+/// Cross-method: the seeded wave grows at the rate, and with the frequency, of the eigenvalue analysis of the same mesh and mass.
+/// The time step shortens the period by `(omega dt)^2 / 24`.
+fn grows_as_predicted(model: &SolidModel, harmonic: usize, limit_hz: f64, duration: f64) {
+    let all = modes(model, model.contact.friction_coefficient, limit_hz);
+    let own = all.iter().filter(|mode| mode.harmonic == harmonic);
+    let mode = own
+        .max_by(|a, b| a.growth_rate().total_cmp(&b.growth_rate()))
+        .unwrap();
+    assert!(mode.is_unstable(), "{:?}", mode.growth_rate());
+    let record = run(model, &seeded(harmonic, 1e-6, duration));
+    let analysis = TransientAnalysis::of(&record, &[harmonic]);
+    let stage = analysis.growth[0].stage.as_ref().unwrap();
+    let (rate, frequency) = (stage.rate_per_s.value, stage.frequency_hz.value.abs());
+    println!(
+        "n = {harmonic}: {rate} / {} 1/s, {frequency} / {} Hz, residual {:e}",
+        mode.growth_rate(),
+        mode.frequency_hz(),
+        analysis.largest_residual
+    );
+    assert!(analysis.largest_residual < 1e-10);
+    assert!((rate / mode.growth_rate() - 1.0).abs() < 0.01);
+    assert!((frequency / mode.frequency_hz() - 1.0).abs() < 2e-3);
+}
+
+#[test]
+fn a_wave_on_the_inner_edge_grows_at_the_rate_of_the_eigenvalue_analysis() {
+    let model = lumped(ElementKind::Quad4, [32, 6, 2]);
+    grows_as_predicted(&model, 2, 12e3, 0.02);
+}
+
+/// Springs in the face, friction along and across the sliding.
+#[test]
+fn a_wave_under_a_ring_grows_at_the_rate_of_the_eigenvalue_analysis() {
+    let mut model = ringed([24, 7, 2]);
+    model.contact.friction_coefficient = 0.1;
+    model.contact.rotation_speed = 6000.0 * TAU / 60.0;
+    model.options.contact.normal_stiffness = Some(1e12);
+    model.options.damping_model = DampingModel::BodyOnly;
+    grows_as_predicted(&model, 1, 7e3, 0.01);
+}
+
+/// A steel disc clamped at its bore, under a ring with a lining from which it bends away.
+#[test]
+fn a_wave_under_a_ring_that_opens_in_part_grows_at_the_rate_of_the_eigenvalue_analysis() {
+    let mut model = lumped(ElementKind::Quad4, [24, 8, 2]);
+    let specification = &mut model.specification;
+    specification.annulus.inner_radius = 0.045;
+    specification.annulus.outer_radius = 0.12;
+    specification.thickness = 0.008;
+    specification.contact = SolidContact::Ring {
+        inner_radius: 0.075,
+        outer_radius: 0.11,
+    };
+    specification.conditions = [
+        BoundaryCondition::Clamped,
+        BoundaryCondition::Free,
+        BoundaryCondition::Free,
+        BoundaryCondition::Free,
+    ];
+    model.material.young_modulus = 2.1e11;
+    model.material.poisson_ratio = 0.3;
+    model.material.density = 7850.0;
+    model.options.damping = RayleighDamping {
+        mass_coefficient: 20.0,
+        stiffness_coefficient: 1.5e-7,
+    };
+    model.options.damping_model = DampingModel::BodyOnly;
+    model.options.contact.normal_stiffness = Some(1e11);
+    model.options.contact.is_base_compliant = true;
+    model.contact.friction_coefficient = 0.4;
+    model.contact.interference = 1e-5;
+    let sector = SolidSector::generate(&model.specification).unwrap();
+    let base = body(&model, &sector).base().unwrap();
+    assert!(base.is_pressed.contains(&true) && base.is_pressed.contains(&false));
+    grows_as_predicted(&model, 3, 4e3, 0.03);
+}
+
+/// Watches the disc of Coulomb's law at every contact node.
+struct Cone {
+    seen: [bool; 3],
+    largest_residual: f64,
+    /// Share of friction that acts across the sliding.
+    largest_across: f64,
+}
+
+impl Observer for Cone {
+    fn observe(&mut self, sample: &Sample<'_>) -> ControlFlow<()> {
+        let forces = sample.normal_force().iter().zip(sample.tangential_force());
+        let forces = forces.zip(sample.across_force());
+        for (((normal, tangential), across), status) in forces.zip(sample.status()) {
+            let friction = tangential.hypot(*across);
+            assert!(*normal >= 0.0 && friction <= 0.3 * normal * (1.0 + 1e-12));
+            // A slipping node stands on the rim of the disc.
+            let is_slipping = *status == ContactStatus::Slip;
+            assert!(!is_slipping || friction >= 0.3 * normal * (1.0 - 1e-12));
+            self.largest_across = self.largest_across.max(across.abs() / friction.max(1e-300));
+            assert_eq!(*normal == 0.0, *status == ContactStatus::Open);
+            self.seen[*status as usize] = true;
+        }
+        self.largest_residual = self.largest_residual.max(sample.balance_residual);
+        ControlFlow::Continue(())
+    }
+}
+
+#[test]
+fn energy_is_balanced_through_stick_slip_and_separation() {
+    for contact in [
+        SolidContact::Inner,
+        ringed([24, 4, 2]).specification.contact,
+    ] {
+        let mut model = lumped(ElementKind::Quad4, [24, 4, 2]);
+        model.specification.contact = contact;
+        if contact != SolidContact::Inner {
+            model.specification.conditions[3] = BoundaryCondition::Guide;
+        }
+        let sector = SolidSector::generate(&model.specification).unwrap();
+        let body = body(&model, &sector);
+        let operator = operator(&body);
+        // Faster than the rotor, so that nodes stick and lift.
+        let settings = seeded(2, 8.0, 1e-3);
+        let mut run = CentralDifference::start(body, operator.as_ref(), &settings).unwrap();
+        let mut cone = Cone {
+            seen: [false; 3],
+            largest_residual: 0.0,
+            largest_across: 0.0,
+        };
+        run.run(&mut cone).unwrap();
+        // Only a body that is free across the face lifts off it.
+        let lifts = contact == SolidContact::Inner;
+        assert_eq!(cone.seen, [lifts, true, true]);
+        assert!(cone.largest_residual < 1e-10, "{}", cone.largest_residual);
+        assert!(cone.largest_across > 0.1, "{}", cone.largest_across);
+    }
+}
+
+/// Nodes stick, slip and lift in every period.
+#[test]
+fn energy_is_balanced_over_half_a_million_steps_of_squeal() {
+    let model = lumped(ElementKind::Quad4, [24, 4, 2]);
+    let mut settings = seeded(1, 1.0, 0.5);
+    settings.time_step = TimeStep::Seconds(1e-6);
+    settings.sample_interval = 1e-4;
+    let analysis = TransientAnalysis::of(&run(&model, &settings), &[1]);
+    let status = analysis.last_fifth.status;
+    println!("{status:?}, residual {:e}", analysis.largest_residual);
+    assert!(status[0] > 0.01 && status[2] > 0.1, "{status:?}");
+    assert!(analysis.largest_residual < 1e-10);
+}
+
+#[test]
+fn a_compliant_ring_with_dashpots_on_supports_of_its_own_keeps_the_balance() {
+    let mut model = ringed([24, 4, 2]);
+    model.options.contact.normal_stiffness = Some(1e12);
+    model.options.contact.normal_damping = 1e4;
+    model.options.contact.tangential_damping = 1e4;
+    model.specification.conditions[1] = BoundaryCondition::Support(ElasticSupport {
+        normal_stiffness: 1e11,
+        tangential_stiffness: 1e11,
+        axial_stiffness: 1e10,
+        normal_damping: 1e4,
+        tangential_damping: 1e4,
+    });
+    let record = run(&model, &seeded(2, 0.5, 1e-3));
+    let analysis = TransientAnalysis::of(&record, &[2]);
+    assert!(analysis.largest_residual < 1e-10);
+    assert!(record.has_contact_springs());
+}
+
+#[test]
+fn a_resumed_run_has_the_bits_of_one_that_was_never_stopped() {
+    let model = ringed([24, 4, 2]);
+    let sector = SolidSector::generate(&model.specification).unwrap();
+    let body = body(&model, &sector);
+    let operator = operator(&body);
+    let whole = seeded(2, 1.0, 4e-4);
+    let half = TransientSettings {
+        duration: 2e-4,
+        ..whole.clone()
+    };
+    let mut one = CentralDifference::start(body, operator.as_ref(), &whole).unwrap();
+    let mut record = Recorder::new(&one, &RecorderSettings::default()).unwrap();
+    one.run(&mut record).unwrap();
+    let mut first = CentralDifference::start(body, operator.as_ref(), &half).unwrap();
+    let mut earlier = Recorder::new(&first, &RecorderSettings::default()).unwrap();
+    first.run(&mut earlier).unwrap();
+    let mut second =
+        CentralDifference::resume(body, operator.as_ref(), &whole, &first.state()).unwrap();
+    let mut later = earlier
+        .resume(&second, &RecorderSettings::default())
+        .unwrap();
+    second.run(&mut later).unwrap();
+    assert_eq!(one.state(), second.state());
+    assert_eq!(record.rows, later.rows);
+}
+
+#[test]
+fn what_a_transient_cannot_take_is_said_with_its_key_and_its_remedy() {
+    let quadratic = lumped(ElementKind::Quad8, [24, 4, 2]);
+    let sector = SolidSector::generate(&quadratic.specification).unwrap();
+    let refused = |choice| {
+        let found = body(&quadratic, &sector).operator(choice, SimdLevel::Scalar);
+        found.err().unwrap()
+    };
+    let error = refused(OperatorChoice::Auto);
+    assert_eq!(error, TransientError::Operator(OperatorError::NotBrick8));
+    assert!(error.to_string().contains("mesh.element = \"quad4\""));
+    let error = refused(OperatorChoice::Sparse);
+    assert_eq!(error, TransientError::Operator(OperatorError::NotPlane));
+
+    let mut lifted = ringed([24, 4, 2]);
+    lifted.contact.interference = 0.0;
+    lifted.specification.conditions[3] = BoundaryCondition::Pressure(-1e5);
+    let sector = SolidSector::generate(&lifted.specification).unwrap();
+    let lifted = body(&lifted, &sector);
+    let operator = operator(&lifted);
+    let error = CentralDifference::start(lifted, operator.as_ref(), &seeded(2, 0.0, 1e-3));
+    assert!(matches!(
+        error.err().unwrap(),
+        TransientError::Prestress(PrestressError::GapEverywhere { .. })
+    ));
+}

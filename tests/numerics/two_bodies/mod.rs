@@ -1,0 +1,269 @@
+//! Two deformable bodies of a mesh file against the built-in shaft, theory, and their own transient.
+
+mod glued;
+mod growth;
+mod model;
+mod refusals;
+mod sweeps;
+
+use crate::disc::{DAMPING, POLYCARBONATE, annulus};
+use faer::c64;
+use frictionsim::cea::cyclic;
+use frictionsim::cea::{ComplexMode, ModeLimit, SweepRequest};
+use frictionsim::contact::{ContactInterface, ContactStiffness, SlidingContact};
+use frictionsim::fem::operator::SimdLevel;
+use frictionsim::fem::{ElasticMaterial, MassKind, assemble_stiffness};
+use frictionsim::mesh::{
+    AnnulusSpecification, BodySpecification, BoundaryCondition, CounterfaceSpecification,
+    ElasticSupport, ElementKind, GmshFile, Mesh2d, MeshFileError, ShaftSpecification,
+};
+use frictionsim::prestress::SteadySliding;
+use frictionsim::transient::{
+    CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
+    TimeStep, TransientModel, TransientSettings, build_operator,
+};
+use model::{Part, contact, file_of, modes, one_material, options, rectangle, rings};
+use std::collections::BTreeMap;
+
+/// Disc and shaft as built in, by sectors.
+fn built_in(
+    element: ElementKind,
+    around: usize,
+    radial: [usize; 2],
+    geometric_stiffness: bool,
+    count: usize,
+) -> Vec<ComplexMode> {
+    let specification = AnnulusSpecification {
+        shaft: Some(ShaftSpecification {
+            inner_radius: 0.006,
+            radial_elements: radial[0],
+            bore: BoundaryCondition::Clamped,
+        }),
+        ..annulus(element, around, radial[1])
+    };
+    let request = SweepRequest {
+        friction_coefficients: &[0.3],
+        limit: ModeLimit::Lowest(count),
+        shapes_at: &[],
+    };
+    let options = options(MassKind::Consistent, geometric_stiffness);
+    let material = one_material();
+    let found = cyclic::sweep(&specification, material, &options, &contact(), &request).unwrap();
+    found.sweep.points.into_iter().next().unwrap().modes
+}
+
+fn largest_error(found: &[ComplexMode], expected: &[ComplexMode]) -> f64 {
+    let error = |a: c64| {
+        let distances = expected
+            .iter()
+            .map(|b| (a - b.eigenvalue).norm() / a.norm());
+        distances.fold(f64::MAX, f64::min)
+    };
+    found
+        .iter()
+        .map(|mode| error(mode.eigenvalue))
+        .fold(0.0, f64::max)
+}
+
+/// Cross-method check: pairs of nodes in polar frames, and mortar weights in global axes.
+#[test]
+fn matching_bodies_of_a_file_have_the_spectrum_of_the_built_in_shaft() {
+    let mesh = rings([24, 24], [2, 5], 0.0);
+    for (geometric_stiffness, tolerance) in [(false, 1e-9), (true, 3e-4)] {
+        let found = modes(
+            &mesh,
+            one_material(),
+            &options(MassKind::Consistent, geometric_stiffness),
+            8,
+        );
+        let expected = built_in(ElementKind::Quad4, 24, [2, 5], geometric_stiffness, 10);
+        let error = largest_error(&found, &expected);
+        // Slopes of the edge are those of its chords, not of its polar components.
+        assert!(error < tolerance, "{geometric_stiffness} {error:e}");
+    }
+}
+
+/// Order of convergence: that of the elements, whether nodes lie opposite or not, and errors of one size.
+#[test]
+fn non_matching_meshes_keep_the_order_of_convergence() {
+    let exact = built_in(ElementKind::Quad8, 120, [10, 24], false, 10);
+    let error = |around: [usize; 2], k: usize| {
+        let mesh = rings(around.map(|count| count * k), [k, 2 * k], 0.03);
+        let options = options(MassKind::Consistent, false);
+        largest_error(&modes(&mesh, one_material(), &options, 6), &exact)
+    };
+    let levels = [2, 3, 4];
+    let apart = levels.map(|k| error([10, 12], k));
+    let matching = levels.map(|k| error([12, 12], k));
+    let order = |errors: [f64; 3]| (errors[0] / errors[2]).log2();
+    let (found, wanted) = (order(apart), order(matching));
+    println!("{apart:?} order {found:.3}; matching {matching:?} order {wanted:.3}");
+    // Second order on finer meshes than these.
+    assert!(found > wanted - 0.1, "{apart:?} {matching:?}");
+    for (a, b) in apart.iter().zip(&matching) {
+        // Of the shaft's elements there are a sixth fewer.
+        assert!(a / b < 1.44, "{apart:?} {matching:?}");
+    }
+}
+
+/// Springs on the top of the upper block.
+fn mounting() -> ElasticSupport {
+    ElasticSupport {
+        normal_stiffness: 1e11,
+        tangential_stiffness: 1e10,
+        ..ElasticSupport::default()
+    }
+}
+
+/// A block pressed on another by the springs on its top; the lower one, wider on both sides, is clamped below.
+fn blocks(along: [usize; 2]) -> Result<Mesh2d, MeshFileError> {
+    let lower = rectangle([-0.01, -0.02], [0.06, 0.02], [along[0], 3]);
+    let upper = rectangle([0.0, 0.0], [0.04, 0.03], [along[1], 4]);
+    let parts = [
+        Part {
+            mesh: lower,
+            region: "lower",
+            names: ["floor", "track"],
+            turn: 0.0,
+        },
+        Part {
+            mesh: upper,
+            region: "upper",
+            names: ["sole", "top"],
+            turn: 0.0,
+        },
+    ];
+    let specification = BodySpecification {
+        scale: 1.0,
+        contact: "sole".to_owned(),
+        counterface: CounterfaceSpecification::Plane { direction: None },
+        opposite: Some("track".to_owned()),
+        conditions: vec![
+            ("floor".to_owned(), BoundaryCondition::Clamped),
+            ("top".to_owned(), BoundaryCondition::Support(mounting())),
+        ],
+    };
+    Mesh2d::from_gmsh(&GmshFile::read(&file_of(&parts)).unwrap(), &specification)
+}
+
+/// Patch test: through meshes of any two fineness a constant pressure passes as it is.
+#[test]
+fn a_constant_pressure_passes_between_meshes_that_do_not_match() {
+    for along in [[6, 4], [7, 5], [13, 4], [5, 11]] {
+        let mesh = blocks(along).unwrap();
+        let interface = ContactInterface::of(&mesh);
+        let mut forces: BTreeMap<usize, [f64; 2]> = BTreeMap::new();
+        for i in 0..interface.len() {
+            let force = 2e6 * interface.tributary_lengths[i];
+            for share in interface.opposite_of(i) {
+                let (node, component) = (share.dof / 2, share.dof % 2);
+                let (sin, cos) = mesh.frame_angles[node].sin_cos();
+                let axis = [[cos, sin], [-sin, cos]][component];
+                let sum = forces.entry(node).or_insert([0.0; 2]);
+                (0..2).for_each(|c| sum[c] += force * share.normal * axis[c]);
+            }
+        }
+        // What unit pressure over the covered part of the lower edge gives to its nodes.
+        let size = 0.06 / along[0] as f64;
+        for (node, force) in forces {
+            let x = mesh.nodes[node][0];
+            let hat = |at: f64| (1.0 - ((at - x) / size).abs()).max(0.0);
+            let steps = 4000;
+            let width = 0.04 / f64::from(steps);
+            let points = (0..steps).map(|k| (f64::from(k) + 0.5) * width);
+            let exact: f64 = points.map(|at| 2e6 * width * hat(at)).sum();
+            // The midpoint rule on hats.
+            let tolerance = 1e-5 * 2e6 * size;
+            assert!(
+                (force[1] - exact).abs() < tolerance,
+                "{along:?} {x} {force:?} {exact}"
+            );
+            assert!(force[0].abs() < tolerance);
+        }
+    }
+}
+
+/// Theory: without Poisson's effect and friction springs and the upper block give way in a row, whatever the meshes.
+#[test]
+fn a_block_on_a_block_of_another_mesh_is_pressed_alike_everywhere() {
+    let material = ElasticMaterial {
+        poisson_ratio: 0.0,
+        ..POLYCARBONATE
+    };
+    let mesh = blocks([13, 5]).unwrap();
+    // The lower block as stiff as nothing deforms.
+    let stiff = ElasticMaterial {
+        young_modulus: 1e9 * material.young_modulus,
+        ..material
+    };
+    let region = |elastic| frictionsim::fem::RegionMaterial {
+        elastic,
+        damping: None,
+    };
+    let materials = vec![region(stiff), region(material)];
+    assert_eq!(mesh.regions, ["lower", "upper"]);
+    let stiffness = assemble_stiffness(&mesh, &materials);
+    let sliding = SlidingContact {
+        decay: None,
+        friction_coefficient: 0.0,
+        interference: 1e-5,
+        rotation_speed: 1.0,
+    };
+    let base = SteadySliding::solve(&mesh, &stiffness, &sliding).unwrap();
+    // Springs and block in a row: `delta = p (1 / k + h / E)`.
+    let expected = 1e-5 / (1.0 / mounting().normal_stiffness + 0.03 / material.young_modulus);
+    for pressure in base.pressures(0.0) {
+        assert!((pressure / expected - 1.0).abs() < 1e-6, "{pressure}");
+    }
+}
+
+/// Theory: the discrete energy identity holds whatever the sweeps over the contact leave.
+#[test]
+fn energy_closes_through_stick_and_opening_between_meshes_that_do_not_match() {
+    let mesh = rings([20, 27], [2, 5], 0.1);
+    let compliant = ContactStiffness {
+        normal_stiffness: Some(2e12),
+        normal_damping: 1e4,
+        tangential_damping: 1e3,
+        ..ContactStiffness::default()
+    };
+    for stiffness in [ContactStiffness::default(), compliant] {
+        let record = run(&mesh, stiffness, InitialState::Rest, 2e-3, 4.0);
+        let opens: u64 = record.rows.iter().map(|row| row.counts.open).sum();
+        let sticks: u64 = record.rows.iter().map(|row| row.counts.stick).sum();
+        assert!(opens > 0 && sticks > 0, "{opens} {sticks}");
+        for row in &record.rows {
+            assert!(row.balance_residual < 1e-11, "{:e}", row.balance_residual);
+        }
+    }
+}
+
+fn run(
+    mesh: &Mesh2d,
+    stiffness: ContactStiffness,
+    initial: InitialState,
+    duration: f64,
+    velocity: f64,
+) -> Recorder {
+    let model = TransientModel {
+        mesh,
+        annulus: None,
+        material: one_material(),
+        damping: DAMPING,
+        contact: contact(),
+        stiffness,
+    };
+    let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
+    let settings = TransientSettings {
+        duration,
+        time_step: TimeStep::Auto,
+        sample_interval: 4e-6,
+        expansion_time: 1e-4,
+        initial,
+        perturbation: Perturbation::of(&[1, 2], velocity),
+    };
+    let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
+    let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
+    run.run(&mut record).unwrap();
+    record
+}

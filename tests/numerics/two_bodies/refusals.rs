@@ -1,0 +1,78 @@
+//! Cases of two bodies that are refused.
+
+use crate::two_bodies::model::{Part, file_of, rectangle};
+
+/// Each message names what is wrong and what to do.
+#[test]
+fn bodies_that_do_not_meet_are_refused_with_a_remedy() {
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("two_bodies");
+    std::fs::create_dir_all(&folder).unwrap();
+    let block = |y: f64, x: f64| {
+        let parts = [
+            Part {
+                mesh: rectangle([-0.01, -0.02], [0.06, 0.02], [6, 2]),
+                region: "lower",
+                names: ["floor", "track"],
+                turn: 0.0,
+            },
+            Part {
+                mesh: rectangle([x, y], [0.04, 0.03], [4, 3]),
+                region: "upper",
+                names: ["sole", "top"],
+                turn: 0.0,
+            },
+        ];
+        file_of(&parts)
+    };
+    std::fs::write(folder.join("good.msh"), block(0.0, 0.0)).unwrap();
+    std::fs::write(folder.join("deep.msh"), block(-1e-4, 0.0)).unwrap();
+    std::fs::write(folder.join("apart.msh"), block(0.0, 0.5)).unwrap();
+    let read = |mesh: &str, contact: &str| {
+        let text = format!(
+            "[mesh]\nfile = \"{mesh}\"\n[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.3\ndensity = 1228.0\n\
+             [boundaries.floor]\ncondition = \"clamped\"\n[boundaries.top]\ncondition = \"support\"\n\
+             normal_stiffness = 1e11\ntangential_stiffness = 1e11\n[contact]\nboundary = \"sole\"\n\
+             friction_coefficient = 0.3\ninterference = 1e-5\nspeed = 1.0\n{contact}\n"
+        );
+        let name = folder.join("case.toml");
+        let case = frictionsim::case::Case::parse(name.to_str().unwrap(), text.as_bytes(), &[]);
+        case.map(|_| ()).map_err(|error| error.to_string())
+    };
+    let body = "counterface = \"body\"\ncounter_boundary = \"track\"";
+    read("good.msh", body).unwrap();
+    for (mesh, contact, message, remedy) in [
+        (
+            "deep.msh",
+            body,
+            "the bodies overlap",
+            "contact.interference",
+        ),
+        (
+            "apart.msh",
+            body,
+            "no point of \"sole\"",
+            "correct the curves",
+        ),
+        (
+            "good.msh",
+            "counterface = \"body\"\ncounter_boundary = \"sole\"",
+            "are both \"sole\"",
+            "name the curve of the other body",
+        ),
+        (
+            "good.msh",
+            "counterface = \"body\"",
+            "needs contact.counter_boundary",
+            "name the physical curve",
+        ),
+        (
+            "good.msh",
+            "counterface = \"plane\"\ncounter_boundary = \"track\"",
+            "contact.counter_boundary is for two bodies",
+            "set contact.counterface = \"body\"",
+        ),
+    ] {
+        let error = read(mesh, contact).unwrap_err();
+        assert!(error.contains(message) && error.contains(remedy), "{error}");
+    }
+}

@@ -1,0 +1,62 @@
+//! Mesh files of both versions, as texts and in binary.
+
+use crate::fuzz::hold;
+use crate::fuzz::mutation::{Random, binary, text};
+use crate::msh::{FORMS, write_msh};
+use frictionsim::mesh::{
+    AnnulusMesh, AnnulusSpecification, BodySpecification, BoundaryCondition,
+    CounterfaceSpecification, ElementKind, GmshFile, Mesh2d,
+};
+
+fn ring(element: ElementKind) -> Mesh2d {
+    let specification = AnnulusSpecification {
+        inner_radius: 0.02,
+        outer_radius: 0.09,
+        circumferential_elements: 5,
+        radial_elements: 2,
+        radial_grading: 1.0,
+        element,
+        outer: BoundaryCondition::Clamped,
+        shaft: None,
+    };
+    AnnulusMesh::generate(&specification).unwrap().mesh
+}
+
+#[test]
+fn no_mesh_file_makes_its_reader_panic() {
+    let meshes = [ElementKind::Quad4, ElementKind::Quad8].map(ring);
+    let files = meshes.iter().flat_map(|mesh| {
+        let numbers: Vec<usize> = (1..=mesh.node_count()).collect();
+        FORMS.map(|form| (form, write_msh(mesh, form, &numbers, |point| point)))
+    });
+    let (binaries, texts): (Vec<_>, Vec<_>) = files.partition(|(form, _)| form.is_binary);
+    let [binaries, texts] =
+        [binaries, texts].map(|files| files.into_iter().map(|file| file.1).collect::<Vec<_>>());
+    let specification = BodySpecification {
+        scale: 1.0,
+        contact: "inner".to_owned(),
+        counterface: CounterfaceSpecification::Cylinder {
+            center: [0.0; 2],
+            radius: None,
+        },
+        opposite: None,
+        conditions: vec![("outer".to_owned(), BoundaryCondition::Clamped)],
+    };
+    hold(
+        "mesh",
+        |random: &mut Random| match random.below(2) {
+            0 => text(random, &texts),
+            _ => {
+                let file = random.below(binaries.len());
+                binary(random, &binaries[file])
+            }
+        },
+        |bytes| {
+            if let Ok(file) = GmshFile::read(bytes) {
+                // Counts that a file only claims take no room.
+                assert!(file.points.len() <= bytes.len() && file.elements.len() <= bytes.len());
+                drop(Mesh2d::from_gmsh(&file, &specification));
+            }
+        },
+    );
+}

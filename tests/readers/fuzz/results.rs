@@ -1,0 +1,262 @@
+//! What the program writes and reads again: manifests, summaries, records, points, checkpoints.
+
+use crate::fuzz::hold;
+use crate::fuzz::mutation::{Random, binary, text};
+use assert_cmd::Command;
+use frictionsim::app::plot::redraw;
+use frictionsim::results::transient::{CHECKPOINT, read_checkpoint, write_checkpoint};
+use frictionsim::results::{DrawingOptions, Format, Manifest, OutputFolder, Replace, read_record};
+use frictionsim::transient::{Recorder, TransientAnalysis, TransientState};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// A mesh and times so small that each run takes moments.
+const SMALL: [&str; 6] = [
+    "--set",
+    "mesh.circumferential_elements=24",
+    "--set",
+    "mesh.radial_elements=4",
+    "--no-figures",
+    "-qq",
+];
+
+fn frictionsim(folder: &Path, arguments: &[&str]) {
+    let mut command = Command::cargo_bin("frictionsim").unwrap();
+    command.current_dir(folder).args(arguments).assert().code(0);
+}
+
+fn case(name: &str) -> String {
+    let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
+    cases.join(name).display().to_string()
+}
+
+/// One finished folder of a command with the files that `plot` reads.
+fn finished(folder: &Path, command: &str) -> PathBuf {
+    let (disc, run) = (
+        case("polycarbonate-disc.toml"),
+        case("polycarbonate-610rpm.toml"),
+    );
+    let (cycle, hammer) = (case("limit-cycle.toml"), case("hammer-test.toml"));
+    // Without the transient, which takes seconds.
+    let convergence = folder.join("convergence.toml").display().to_string();
+    let text = fs::read_to_string(case("convergence.toml")).unwrap();
+    let lines = text
+        .lines()
+        .filter(|line| !line.starts_with("time_step_factors"));
+    fs::write(&convergence, lines.collect::<Vec<&str>>().join("\n")).unwrap();
+    let with = |first: &[&str], more: &[&str]| {
+        let all = [first, &SMALL, &["--out", command], more].concat();
+        frictionsim(folder, &all);
+    };
+    match command {
+        "mesh" => with(&["mesh", &disc], &[]),
+        "cea" => with(
+            &["cea", &disc],
+            &["--set", "cea.friction_coefficients=[0.0, 0.3]"],
+        ),
+        "transient" => with(
+            &["transient", &run],
+            &[
+                "--set",
+                "transient.duration=1e-3",
+                "--set",
+                "output.snapshots=[5e-4, 1e-3]",
+                "--set",
+                "output.probes=[1, 3]",
+            ],
+        ),
+        "cycle" => with(
+            &["cycle", &cycle],
+            &[
+                "--set",
+                "cycle.harmonics=[2]",
+                "--set",
+                "cycle.stability=\"none\"",
+                "--set",
+                "cycle.confirmation_periods=0",
+                "--set",
+                "cycle.continuation.count=2",
+                "--set",
+                "mesh.circumferential_elements=36",
+                "--set",
+                "mesh.radial_elements=8",
+            ],
+        ),
+        "convergence" => with(
+            &["convergence", &convergence],
+            &["--set", "convergence.analyses=[\"cea\"]"],
+        ),
+        "frf" => with(
+            &["frf", &hammer],
+            &["--set", "frf.force_node=5", "--set", "frf.response_node=5"],
+        ),
+        "sweep" => with(
+            &["sweep", &disc],
+            &["--set", "sweep.\"contact.interference\"=[2e-5, 3e-5]"],
+        ),
+        other => panic!("{other}"),
+    }
+    folder.join(command)
+}
+
+/// Gives a framed file the checksum and length of its changed contents, so that only what they say can refuse it.
+fn with_right_checksum(mut bytes: Vec<u8>) -> Vec<u8> {
+    if bytes.len() >= 24 {
+        let checksum = crc32fast::hash(&bytes[24..]);
+        let length = (bytes.len() - 24) as u64;
+        bytes[12..16].copy_from_slice(&checksum.to_le_bytes());
+        bytes[16..24].copy_from_slice(&length.to_le_bytes());
+    }
+    bytes
+}
+
+/// A changed record: header whole, and checksum right three times out of four.
+fn record_of(random: &mut Random, original: &[u8]) -> Vec<u8> {
+    let (header, payload) = original.split_at(24);
+    let changed = [header, &binary(random, payload)].concat();
+    match random.below(4) {
+        0 => changed,
+        _ => with_right_checksum(changed),
+    }
+}
+
+/// Draws a folder as `plot` does.
+fn plot(folder: &Path) -> bool {
+    let manifest = frictionsim::results::read_manifest(folder);
+    let coarse = DrawingOptions {
+        dots_per_inch: 20.0,
+        width_mm: None,
+        formats: vec![Format::Svg],
+    };
+    manifest.is_ok_and(|manifest| redraw(folder, &manifest, &coarse).is_ok())
+}
+
+/// Holds `plot` to changed records of a command. The manifest's checksum of the record is made to fit, too.
+fn hold_records(command: &str) {
+    let scratch = tempfile::tempdir().unwrap();
+    let folder = finished(scratch.path(), command);
+    let original = fs::read(folder.join("record.bin")).unwrap();
+    assert!(plot(&folder), "{command}: the folder as it was written");
+    hold(
+        &format!("record-{command}"),
+        |random| record_of(random, &original),
+        |bytes| {
+            fs::write(folder.join("record.bin"), bytes).unwrap();
+            plot(&folder);
+        },
+    );
+}
+
+#[test]
+fn no_record_of_a_transient_makes_plot_panic() {
+    hold_records("transient");
+}
+
+#[test]
+fn no_record_of_limit_cycles_makes_plot_panic() {
+    hold_records("cycle");
+}
+
+#[test]
+fn no_record_of_a_convergence_study_makes_plot_panic() {
+    hold_records("convergence");
+}
+
+#[test]
+fn no_checkpoint_makes_its_reader_panic() {
+    let scratch = tempfile::tempdir().unwrap();
+    let (folder, file) = (scratch.path(), scratch.path().join(CHECKPOINT));
+    let manifest = Manifest::new("transient");
+    // What stands in it is a record of a run; a state without fields is enough for the reader.
+    let run = finished(folder, "transient");
+    let record: Recorder = read_record(&run).unwrap();
+    let state = TransientState {
+        step: 1,
+        displacement: vec![0.0; 4],
+        velocity: vec![0.0; 4],
+        elastic: vec![0.0; 4],
+        elastic_rate: vec![0.0; 4],
+        initial_energy: 0.0,
+        net_work: 0.0,
+        largest_energy: 0.0,
+        largest_residual: 0.0,
+    };
+    let output = OutputFolder::open(folder, &manifest, Replace::Anything).unwrap();
+    write_checkpoint(&output, "hash", &state, Some(&record)).unwrap();
+    let read = || read_checkpoint(folder, "hash", &manifest.simd);
+    let original = fs::read(&file).unwrap();
+    assert!(read().is_ok());
+    hold(
+        "checkpoint",
+        |random| record_of(random, &original),
+        |bytes| {
+            fs::write(&file, bytes).unwrap();
+            if let Some(record) = read().ok().and_then(|checkpoint| checkpoint.record) {
+                drop(TransientAnalysis::of(&record, &[2]));
+            }
+        },
+    );
+}
+
+#[test]
+fn a_damaged_table_of_a_response_is_never_drawn() {
+    let scratch = tempfile::tempdir().unwrap();
+    let folder = finished(scratch.path(), "frf");
+    let original = fs::read(folder.join("frf.csv")).unwrap();
+    assert!(plot(&folder), "the folder as it was written");
+    hold(
+        "frf.csv",
+        |random| text(random, std::slice::from_ref(&original)),
+        |bytes| {
+            fs::write(folder.join("frf.csv"), bytes).unwrap();
+            assert!(
+                bytes == original || !plot(&folder),
+                "drawn although it was changed"
+            );
+        },
+    );
+}
+
+#[test]
+fn a_damaged_manifest_or_summary_is_never_used() {
+    let scratch = tempfile::tempdir().unwrap();
+    let folder = finished(scratch.path(), "mesh");
+    for name in ["manifest.json", "summary.json"] {
+        let original = fs::read(folder.join(name)).unwrap();
+        let value: serde_json::Value = serde_json::from_slice(&original).unwrap();
+        hold(
+            name,
+            |random| text(random, std::slice::from_ref(&original)),
+            |bytes| {
+                fs::write(folder.join(name), bytes).unwrap();
+                let same: Option<serde_json::Value> = serde_json::from_slice(bytes).ok();
+                if same.as_ref() != Some(&value) {
+                    assert!(!plot(&folder), "used although it was changed");
+                }
+            },
+        );
+        fs::write(folder.join(name), &original).unwrap();
+        assert!(plot(&folder));
+    }
+}
+
+#[test]
+fn a_damaged_point_counts_as_missing() {
+    let scratch = tempfile::tempdir().unwrap();
+    let path = finished(scratch.path(), "sweep");
+    let (folder, _) = frictionsim::results::sweep::SweepFolder::find(&path).unwrap();
+    let file = folder.point_path(1);
+    let original = fs::read(&file).unwrap();
+    let value: serde_json::Value = serde_json::from_slice(&original).unwrap();
+    hold(
+        "point",
+        |random| text(random, std::slice::from_ref(&original)),
+        |bytes| {
+            use frictionsim::results::sweep::Found;
+            fs::write(&file, bytes).unwrap();
+            let is_used = matches!(folder.read(1).unwrap(), Found::Point(_));
+            let same: Option<serde_json::Value> = serde_json::from_slice(bytes).ok();
+            assert!(!is_used || same.as_ref() == Some(&value));
+        },
+    );
+}
