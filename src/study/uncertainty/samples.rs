@@ -118,7 +118,7 @@ impl<'a> Sampler<'a> {
     /// Harmonics to look at beside a sample that holds modes in `followed`.
     pub fn harmonics(&self, followed: &[usize]) -> Option<Vec<usize>> {
         let highest = followed.iter().max()?;
-        let most = self.case.annulus.circumferential_elements / 2;
+        let most = self.case.body.sector_count()? / 2;
         Some((0..=(highest + FURTHER_HARMONICS).min(most)).collect())
     }
 
