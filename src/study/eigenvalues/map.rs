@@ -39,6 +39,7 @@ pub fn map(case: &Case, cea: &Cea, map: &CeaMap) -> Result<MapReport, StudyError
     );
     Ok(MapReport {
         key: map.key.clone(),
+        has_harmonics: case.has_sectors(),
         largest_friction,
         points,
     })

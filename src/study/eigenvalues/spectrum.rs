@@ -7,6 +7,7 @@ use crate::cea::cyclic::Sensitivity;
 use crate::cea::{CeaError, ComplexMode, ModeLimit, SweepRequest, UnstableInterval};
 use crate::fem::MassKind;
 use crate::prestress::TangentOptions;
+use crate::study::tangent_options;
 
 /// What `[cea]` says of a case, or its defaults, for these friction coefficients and modes up to a frequency.
 fn analysis(case: &Case, frictions: &[f64], limit_hz: f64) -> Cea {
@@ -97,12 +98,21 @@ pub fn unstable_intervals(
         modes: own.modes,
         ..analysis(case, frictions, f64::INFINITY)
     };
+    let solver = Solver::of(case, cea.method)?;
+    let mut frictions = frictions.to_vec();
+    if solver == Solver::WholeMesh {
+        // Harmonics are followed from no friction on; the branches of a whole mesh over the values that it is given.
+        frictions.push(0.0);
+        frictions.sort_by(f64::total_cmp);
+        frictions.dedup();
+    }
     let request = SweepRequest {
-        friction_coefficients: frictions,
+        friction_coefficients: &frictions,
         limit: mode_limit(&cea),
         shapes_at: &[],
     };
-    let model = Model::new(case, &cea)?;
+    let options = tangent_options(case, cea.mass);
+    let model = Model::with_solver(case, solver, options, &frictions)?;
     if let Some(harmonics) = harmonics
         && let Some(found) = model.intervals_in(harmonics, case, &request)
     {

@@ -76,9 +76,10 @@ impl<'a> Sampler<'a> {
         let found = eigenvalues::unstable_intervals(&case, &frictions, harmonics);
         let (intervals, followed) = found.map_err(|failure| failure.messages().join("; "))?;
         let onset = |interval: &UnstableInterval| Onset {
-            harmonic: interval.harmonic,
+            harmonic: case.has_sectors().then_some(interval.harmonic),
             branch: interval.branch,
-            direction: interval.direction,
+            // Which way a wave turns is for harmonics.
+            direction: if case.has_sectors() { interval.direction } else { 0 },
             critical_friction: interval.critical_friction,
             restabilized: interval.restabilized.map(|end| end.0),
             frequency_hz: interval.frequency_hz,
@@ -139,7 +140,7 @@ impl<'a> Sampler<'a> {
     /// Solves the further points of the indices, in the harmonics in which some sample of the block has an onset.
     fn mix(&self, samples: &mut [Sample]) {
         let onsets = samples.iter().flat_map(|sample| &sample.onsets);
-        let mut harmonics: Vec<usize> = onsets.map(|onset| onset.harmonic).collect();
+        let mut harmonics: Vec<usize> = onsets.filter_map(|onset| onset.harmonic).collect();
         harmonics.sort_unstable();
         harmonics.dedup();
         let harmonics = (!harmonics.is_empty()).then_some(harmonics);
