@@ -1,4 +1,4 @@
-//! The body of a case: one of three kinds, each with what that kind truly has.
+//! Kinds of body that a case can have, each with its own data.
 
 use super::imported::ImportedBody;
 use crate::fem::{AnnulusMaterials, ElasticMaterial, MaterialField};

@@ -1,4 +1,4 @@
-//! The sizes that costs depend on.
+//! Size of a mesh, as the cost estimates need it.
 
 use crate::case::{Body, Case, Revolution};
 use crate::fem::ElasticMaterial;

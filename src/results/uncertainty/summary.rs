@@ -142,7 +142,9 @@ impl FamilySummary {
             0 => "",
             ..0 => " ↻",
         };
-        let harmonic = self.harmonic.map_or(String::new(), |n| format!("n = {n}, "));
+        let harmonic = self
+            .harmonic
+            .map_or(String::new(), |n| format!("n = {n}, "));
         format!("{harmonic}branch {}{way}", self.branch)
     }
 }

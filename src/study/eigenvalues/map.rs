@@ -1,4 +1,4 @@
-//! The stability map of a case over a second parameter.
+//! Stability map of a case over a second parameter.
 
 use super::StudyError;
 use super::model::{Model, Solver, mode_limit};

@@ -1,4 +1,4 @@
-//! The models that the eigenvalue solvers take; this file alone decides which solver a body gets.
+//! Models of the eigenvalue solvers, and the choice of the solver for a body.
 
 use super::states::WholeMesh;
 use super::{Progress, StudyError};

@@ -1,4 +1,4 @@
-//! The steady sliding that an eigenvalue analysis reports beside its modes.
+//! Steady sliding, reported beside the modes of an eigenvalue analysis.
 
 use super::StudyError;
 use super::model::Model;

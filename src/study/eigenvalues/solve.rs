@@ -1,4 +1,4 @@
-//! The spectrum of a case with what there is to say of it.
+//! Solution of the eigenvalue analysis of a case, and the notes on its results.
 
 use super::model::{Model, mode_limit};
 use super::sliding::SteadyState;

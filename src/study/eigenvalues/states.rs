@@ -1,4 +1,4 @@
-//! A whole mesh over friction coefficients between which contact nodes open or close.
+//! Friction sweep of a whole mesh whose contact nodes open or close within the range.
 
 use super::Progress;
 use crate::case::Case;

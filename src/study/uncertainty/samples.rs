@@ -79,7 +79,11 @@ impl<'a> Sampler<'a> {
             harmonic: case.has_sectors().then_some(interval.harmonic),
             branch: interval.branch,
             // Which way a wave turns is for harmonics.
-            direction: if case.has_sectors() { interval.direction } else { 0 },
+            direction: if case.has_sectors() {
+                interval.direction
+            } else {
+                0
+            },
             critical_friction: interval.critical_friction,
             restabilized: interval.restabilized.map(|end| end.0),
             frequency_hz: interval.frequency_hz,

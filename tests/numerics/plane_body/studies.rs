@@ -1,4 +1,4 @@
-//! Studies of imported bodies concern those bodies.
+//! Studies of imported bodies solve those bodies.
 //!
 //! A consistency check against the generated disc of the same mesh, and against the eigenvalue analysis of a body without
 //! symmetry: its hub is round, its outer edge an oval about another centre.
@@ -66,7 +66,9 @@ fn case(folder: &TempDir, mesh: &str, set: &[&str]) -> Case {
 fn onsets(case: &Case) -> Vec<[f64; 2]> {
     let found = modes_and_onsets(case).unwrap().intervals;
     let onsets = found.iter();
-    onsets.map(|i| [i.critical_friction, i.frequency_hz]).collect()
+    onsets
+        .map(|i| [i.critical_friction, i.frequency_hz])
+        .collect()
 }
 
 fn line(number: usize, frequency_hz: f64) -> MeasuredMode {
@@ -196,7 +198,10 @@ fn no_study_solves_an_imported_body_by_sectors() {
     let body = case(&folder, "oval.msh", &["cea.method=cyclic"]);
     let cea = body.cea.clone().unwrap();
     let refusal = |text: String| {
-        assert!(text.contains("needs the symmetry of the built-in annulus"), "{text}");
+        assert!(
+            text.contains("needs the symmetry of the built-in annulus"),
+            "{text}"
+        );
     };
     let found = map(&body, &cea, cea.map.as_ref().unwrap());
     refusal(found.unwrap_err().messages().join("; "));
@@ -204,7 +209,12 @@ fn no_study_solves_an_imported_body_by_sectors() {
     let samples = Sampler::new(&body).unwrap().block(1);
     assert!(samples.iter().all(|sample| sample.onsets.is_empty()));
     refusal(samples[0].error.clone().expect("refused"));
-    refusal(fit_case(&body, &[line(2, 1e4)]).unwrap_err().messages().join("; "));
+    refusal(
+        fit_case(&body, &[line(2, 1e4)])
+            .unwrap_err()
+            .messages()
+            .join("; "),
+    );
 }
 
 #[test]
@@ -223,7 +233,10 @@ fn rotating_waves_are_sought_in_no_imported_body() {
     ];
     for error in errors {
         let text = error.to_string();
-        assert!(text.contains("rotational symmetry of the built-in annulus"), "{text}");
+        assert!(
+            text.contains("rotational symmetry of the built-in annulus"),
+            "{text}"
+        );
     }
 }
 
@@ -233,8 +246,16 @@ fn warnings_name_no_radius_that_an_imported_body_does_not_have() {
     let folder = folder();
     let body = case(&folder, "oval.msh", &["contact.interference=0.02"]);
     let said: Vec<String> = body.warnings.iter().map(ToString::to_string).collect();
-    assert!(said.iter().any(|text| text.contains("contact.interference")), "{said:?}");
-    let large = case(&folder, "oval.msh", &["mesh.scale=1000", "contact.interference=0.1"]);
+    assert!(
+        said.iter()
+            .any(|text| text.contains("contact.interference")),
+        "{said:?}"
+    );
+    let large = case(
+        &folder,
+        "oval.msh",
+        &["mesh.scale=1000", "contact.interference=0.1"],
+    );
     let wide: Vec<String> = large.warnings.iter().map(ToString::to_string).collect();
     assert!(wide.iter().any(|text| text.contains("m wide")), "{wide:?}");
     for text in said.iter().chain(&wide) {
