@@ -192,10 +192,12 @@ impl Case {
             raw,
         };
         let errors = rules::infeasible(&case);
+        let implausible = plausibility::implausible(&case);
         if !errors.is_empty() {
-            return Err(case.raw.errors(errors));
+            // A slip of units comes first: what cannot run is mostly its consequence.
+            return Err(case.raw.errors([implausible, errors].concat()));
         }
-        case.warnings.extend(plausibility::implausible(&case));
+        case.warnings.extend(implausible);
         Ok(case)
     }
 

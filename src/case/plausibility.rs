@@ -14,10 +14,16 @@ const LARGEST_FRICTION: f64 = 2.0;
 const LARGEST_PRESSURE: f64 = 0.1;
 /// Speeds of bar waves, m/s: soft rubber to ceramics.
 const WAVE_SPEEDS: [f64; 2] = [100.0, 10_000.0];
+/// Densities of solids, kg/m3: foams to heavy metals.
+const DENSITIES: std::ops::RangeInclusive<f64> = 20.0..=25_000.0;
 /// Lengths that a case has, m.
 const LENGTHS: [f64; 2] = [1e-5, 10.0];
-/// Poisson's ratio beyond which plane-strain elements lock.
+/// Poisson's ratio beyond which elements lock, but those of plane stress.
 const LARGEST_POISSON_RATIO: f64 = 0.49;
+/// Thickness beyond which no disc is, m; the default, 1 m, is for results per metre.
+const LARGEST_THICKNESS: f64 = 1.0;
+/// Share of the speed of bar waves beyond which a seeded velocity is no small strain.
+const LARGEST_SEED: f64 = 0.01;
 /// Times the modulus over the radius beyond which a contact stiffness drowns the body in round-off.
 const LARGEST_STIFFNESS_RATIO: f64 = 1e8;
 
@@ -25,7 +31,9 @@ const LARGEST_STIFFNESS_RATIO: f64 = 1e8;
 pub(super) fn implausible(case: &Case) -> Vec<Diagnostic> {
     [
         lengths(case),
+        thickness(case),
         wave_speed(case),
+        seeds(case),
         poisson_ratio(case),
         friction(case),
         interference(case),
@@ -70,30 +78,83 @@ fn lengths(case: &Case) -> Option<Diagnostic> {
     Some(warning(case, key, message, "metres?", help))
 }
 
+fn thickness(case: &Case) -> Option<Diagnostic> {
+    let (key, thickness) = ("geometry.thickness", case.thickness);
+    let is_slip = thickness > LARGEST_THICKNESS && thickness <= LENGTHS[1];
+    is_slip.then(|| {
+        warning(
+            case,
+            key,
+            format!("{key} = {thickness} m is thicker than {LARGEST_THICKNESS} m"),
+            "metres?",
+            "9 mm are 0.009; leave it out for results per metre of thickness",
+        )
+    })
+}
+
+/// Seeded velocities whose strain, `v / c`, is not small.
+fn seeds(case: &Case) -> Option<Diagnostic> {
+    let perturbation = &case.transient.as_ref()?.perturbation;
+    let waves = perturbation.waves.iter().map(|wave| wave.velocity.abs());
+    let wave = waves.fold(0.0, f64::max);
+    let (key, largest) = match wave >= perturbation.noise {
+        true => ("transient.perturbation.velocity", wave),
+        false => ("transient.perturbation.noise", perturbation.noise),
+    };
+    let speed = bar_wave_speed(case);
+    (largest > LARGEST_SEED * speed).then(|| {
+        warning(
+            case,
+            key,
+            format!(
+                "{key}: a seed of {largest:e} m/s is {:.3} of the speed of waves in the material, {speed:.0} m/s: its strains \
+                 are not small",
+                largest / speed
+            ),
+            "metres per second?",
+            "seeds of a linear stage are about 1e-3 m/s, or with relative = true a small share of the slip speed",
+        )
+    })
+}
+
+/// `sqrt(E / rho)`, m/s.
+pub(super) fn bar_wave_speed(case: &Case) -> f64 {
+    (case.material.young_modulus / case.material.density).sqrt()
+}
+
 /// Speed of waves in a bar, `sqrt(E / rho)`.
 fn wave_speed(case: &Case) -> Option<Diagnostic> {
     let (modulus, density) = (case.material.young_modulus, case.material.density);
-    let speed = (modulus / density).sqrt();
+    let speed = bar_wave_speed(case);
     let [least, most] = WAVE_SPEEDS;
     if (least..=most).contains(&speed) {
         return None;
     }
+    // The one that no solid has; rigid ones are within a factor of ten.
+    let key = match DENSITIES.contains(&density) {
+        true => "material.young_modulus",
+        false => "material.density",
+    };
     Some(warning(
         case,
-        "material.young_modulus",
+        key,
         format!(
             "material.young_modulus = {modulus:e} Pa and material.density = {density:e} kg/m3 give \
              waves of {speed:.3e} m/s, outside {least} to {most} m/s"
         ),
-        "pascals?",
+        if key == "material.density" {
+            "kg/m3?"
+        } else {
+            "pascals?"
+        },
         "a case is in SI: Pa, not MPa or GPa; kg/m3, not g/cm3 or t/mm3",
     ))
 }
 
 fn poisson_ratio(case: &Case) -> Option<Diagnostic> {
     let ratio = case.material.poisson_ratio;
-    let is_plane_strain = case.material.formulation == PlaneFormulation::PlaneStrain;
-    if ratio <= LARGEST_POISSON_RATIO || !is_plane_strain {
+    let is_plane_stress = case.material.formulation == PlaneFormulation::PlaneStress;
+    if ratio <= LARGEST_POISSON_RATIO || is_plane_stress {
         return None;
     }
     Some(warning(
@@ -238,10 +299,12 @@ fn contact_stiffness(case: &Case) -> Option<Diagnostic> {
     })
 }
 
-/// `zeta = (alpha / omega + beta omega) / 2` at the highest frequency asked for.
+/// `zeta = (alpha / omega + beta omega) / 2` at the highest frequency asked for, else where a bar as long as the body has its
+/// first mode.
 fn overdamping(case: &Case) -> Option<Diagnostic> {
-    let Some(super::ModeSelection::BelowHz(limit)) = case.cea.as_ref().map(|cea| cea.modes) else {
-        return None;
+    let limit = match case.cea.as_ref().map(|cea| cea.modes) {
+        Some(super::ModeSelection::BelowHz(limit)) => limit,
+        _ => (bar_wave_speed(case) / (4.0 * case.body.size())).round(),
     };
     let zeta = case
         .damping

@@ -240,6 +240,22 @@ impl<'a> TransientStudy<'a> {
         Ok(*fresh.plan())
     }
 
+    /// [`Self::preflight`] without the base state that the run starts from.
+    ///
+    /// # Errors
+    /// As [`Self::preflight`], without those of steady sliding.
+    pub fn preflight_from_rest(&self) -> Result<StepPlan, StudyError> {
+        let settings = TransientSettings {
+            initial: InitialState::Rest,
+            ..self.settings.clone()
+        };
+        let operator = self.operator()?;
+        let started = CentralDifference::start(self.body(), operator.as_ref(), &settings);
+        let fresh = started.map_err(|error| self.error(error))?;
+        self.recorder(&fresh)?;
+        Ok(*fresh.plan())
+    }
+
     /// What there is to report of a run by its record; what it took is left zero.
     pub fn report<'b>(
         &'b self,
