@@ -8,7 +8,7 @@ use super::suggestion;
 use super::words::CounterfaceWord;
 use crate::fem::{ElasticMaterial, RayleighDamping, RegionMaterial};
 use crate::mesh::{
-    BodySpecification, CounterfaceSpecification, GmshFile, Mesh2d, MeshFileError, SolidContact,
+    BodySpecification, CounterfaceSpecification, GmshFile, Mesh, MeshFileError, SolidContact,
 };
 use std::path::Path;
 use std::sync::Arc;
@@ -17,7 +17,7 @@ use std::sync::Arc;
 #[derive(Clone, Debug, PartialEq)]
 pub struct ImportedBody {
     /// Its mesh with boundaries and what holds them.
-    pub mesh: Arc<Mesh2d>,
+    pub mesh: Arc<Mesh>,
     /// The material of each of its regions.
     pub materials: Vec<RegionMaterial>,
     /// What the mesh was made of, for its refinements.
@@ -189,7 +189,7 @@ pub(super) fn import(
         opposite: parts.place.opposite.clone(),
         conditions: parts.boundaries.clone(),
     };
-    let mesh = Mesh2d::from_gmsh(&read, &specification).map_err(unusable)?;
+    let mesh = Mesh::from_gmsh(&read, &specification).map_err(unusable)?;
     check_meeting(&mesh, &specification, parts.interference)
         .map_err(|message| (message, "bodies apart".to_owned()))?;
     for (name, _) in &parts.materials {
@@ -243,7 +243,7 @@ impl ImportedBody {
             fine = fine.refined()?;
         }
         Ok(Self {
-            mesh: Arc::new(Mesh2d::from_gmsh(&fine, specification)?),
+            mesh: Arc::new(Mesh::from_gmsh(&fine, specification)?),
             materials: self.materials.clone(),
             source: Arc::new((fine, specification.clone())),
         })

@@ -64,7 +64,7 @@ pub use value::{RawEntry, RawItem, RawTable, RawValue};
 pub use words::{Analysis, CeaMethod, Combination, FrfMethod, OnsetChoice, StabilityChoice};
 
 use crate::fem::{ElasticMaterial, MaterialField};
-use crate::mesh::{Mesh2d, MeshError};
+use crate::mesh::{Mesh, MeshError};
 use reader::{Findings, Section};
 use std::sync::Arc;
 
@@ -360,7 +360,7 @@ impl Case {
     ///
     /// # Errors
     /// [`MeshError`] of a mesh that cannot be generated.
-    pub fn mesh(&self) -> Result<Arc<Mesh2d>, MeshError> {
+    pub fn mesh(&self) -> Result<Arc<Mesh>, MeshError> {
         self.body.mesh()
     }
 

@@ -6,7 +6,7 @@ use crate::contact::{ContactInterface, SlidingContact};
 use crate::fem::{DofMap, Triplets};
 use crate::linalg::DenseLu;
 use crate::linalg::Mat;
-use crate::mesh::Mesh2d;
+use crate::mesh::Mesh;
 use std::collections::BTreeMap;
 
 /// Contact dofs whose columns are condensed together.
@@ -62,7 +62,7 @@ pub(super) struct ContactState {
 impl<'a> CondensedContact<'a> {
     /// Condenses `stiffness` (all dofs, supports included) onto the nodes of `interface`.
     pub fn new(
-        mesh: &Mesh2d,
+        mesh: &Mesh,
         stiffness: &Triplets,
         interface: &'a ContactInterface,
         contact: &SlidingContact,

@@ -7,7 +7,7 @@ use super::condensed::CondensedContact;
 use super::friction_polynomial::{evaluate, interpolated};
 use crate::contact::{ContactInterface, SlidingContact, SteadyFriction};
 use crate::fem::{DofMap, Triplets, assemble_supports};
-use crate::mesh::{AnnulusMesh, Mesh2d, SectorMesh};
+use crate::mesh::{AnnulusMesh, Mesh, SectorMesh};
 
 /// Degree in the friction coefficient of the polynomial that stands for a state which is not affine in it.
 const DEGREE: usize = 6;
@@ -57,7 +57,7 @@ impl SteadySliding {
     /// # Errors
     /// [`PrestressError::Separation`] where a node of an annulus would open; see there for the rest.
     pub fn solve(
-        mesh: &Mesh2d,
+        mesh: &Mesh,
         stiffness: &Triplets,
         contact: &SlidingContact,
     ) -> Result<Self, PrestressError> {
@@ -71,7 +71,7 @@ impl SteadySliding {
 
     /// Full sliding on the annulus, whose normal forces do not depend on friction.
     fn solve_annulus(
-        mesh: &Mesh2d,
+        mesh: &Mesh,
         stiffness: &Triplets,
         contact: &SlidingContact,
     ) -> Result<Self, PrestressError> {
@@ -184,7 +184,7 @@ impl SlidingRange {
     /// # Errors
     /// As [`SteadySliding::solve`]; the first friction coefficient without a state.
     pub fn solve(
-        mesh: &Mesh2d,
+        mesh: &Mesh,
         stiffness: &Triplets,
         contact: &SlidingContact,
         friction_coefficients: &[f64],

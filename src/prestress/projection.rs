@@ -3,7 +3,7 @@
 use super::SteadySliding;
 use crate::contact::ContactInterface;
 use crate::fem::{DofMap, Triplets};
-use crate::mesh::Mesh2d;
+use crate::mesh::Mesh;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Entries `(row, column, value)` over the unknowns, by power of `mu`.
@@ -23,7 +23,7 @@ pub(super) struct Projection<'a> {
 }
 
 impl<'a> Projection<'a> {
-    pub fn new(mesh: &Mesh2d, base: &'a SteadySliding, is_penalty: bool) -> Self {
+    pub fn new(mesh: &Mesh, base: &'a SteadySliding, is_penalty: bool) -> Self {
         let interface = &base.interface;
         let total = 2 * mesh.node_count();
         let is_rigid = |i: &usize| !is_penalty && base.is_pressed[*i];

@@ -9,7 +9,7 @@ use crate::fem::{
     assemble_geometric_stiffness, assemble_mass, assemble_supports,
 };
 use crate::linalg::{MatrixPolynomial, SparsityPattern, c64};
-use crate::mesh::Mesh2d;
+use crate::mesh::Mesh;
 use std::sync::Arc;
 
 /// Mass, damping and stiffness of small motions around steady sliding, polynomials in `mu`.
@@ -81,7 +81,7 @@ type FullPolynomial = Vec<Triplets>;
 impl SlidingTangent {
     /// Linearises around `base`, whose stiffness `K_e` over all dofs is `elastic`.
     pub fn linearize(
-        mesh: &Mesh2d,
+        mesh: &Mesh,
         material: &dyn MaterialField,
         elastic: &Triplets,
         base: &SteadySliding,
@@ -170,7 +170,7 @@ impl SlidingTangent {
 /// Geometric stiffness of the base state's stress, and the contact forces that turn with the edge.
 fn add_prestress(
     stiffness: &mut FullPolynomial,
-    mesh: &Mesh2d,
+    mesh: &Mesh,
     material: &dyn MaterialField,
     base: &SteadySliding,
 ) {
@@ -272,7 +272,7 @@ mod tests {
         }
     }
 
-    fn disc(element: ElementKind) -> (Mesh2d, ElasticMaterial) {
+    fn disc(element: ElementKind) -> (Mesh, ElasticMaterial) {
         let mesh = AnnulusMesh::generate(&AnnulusSpecification {
             inner_radius: 0.0205,
             outer_radius: 0.0905,

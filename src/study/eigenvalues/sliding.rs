@@ -5,7 +5,7 @@ use super::model::Model;
 use super::solid::SolidBody;
 use crate::case::{Case, Cea};
 use crate::fem::nodal_stress;
-use crate::mesh::{AnnulusMesh, Counterface, Mesh2d, SectorMesh};
+use crate::mesh::{AnnulusMesh, Counterface, Mesh, SectorMesh};
 use crate::prestress::{SectorTangent, SteadySliding};
 use crate::results::cea::{BaseField, BaseState};
 use std::sync::Arc;
@@ -21,7 +21,7 @@ pub enum SteadyState {
 /// A model with its mesh and its steady sliding.
 pub struct SlidingModel {
     /// The mesh, of a body in three dimensions that of its section across the axis.
-    pub mesh: Arc<Mesh2d>,
+    pub mesh: Arc<Mesh>,
     /// What the solver takes.
     pub model: Model,
     /// Its base state.
