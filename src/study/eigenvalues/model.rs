@@ -77,7 +77,7 @@ impl SlidingModel {
         let annulus = AnnulusMesh::generate(&case.annulus)?;
         let sector = SectorMesh::generate(&case.annulus)?;
         let tangent = SectorTangent::linearize(&sector, case.materials(), &options, sliding)?;
-        let base = SteadySliding::from_sector(&annulus, &sector, tangent.base());
+        let base = SteadySliding::from_sector(&annulus, &sector, tangent.base(), sliding);
         Ok(Self {
             mesh: Arc::new(annulus.mesh),
             range: SlidingRange {
