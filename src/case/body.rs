@@ -9,7 +9,7 @@ use super::words::CounterfaceWord;
 use crate::fem::{ElasticMaterial, MaterialField, RayleighDamping, RegionMaterial};
 use crate::mesh::{
     AnnulusSpecification, BodySpecification, BoundaryCondition, Counterface,
-    CounterfaceSpecification, ElementKind, GmshFile, Mesh2d, MeshFileError, SolidContact,
+    CounterfaceSpecification, ElementKind, GmshFile, Mesh, MeshFileError, SolidContact,
 };
 use std::path::Path;
 use std::sync::Arc;
@@ -18,7 +18,7 @@ use std::sync::Arc;
 #[derive(Clone, Debug, PartialEq)]
 pub struct ImportedBody {
     /// Its mesh with boundaries and what holds them.
-    pub mesh: Arc<Mesh2d>,
+    pub mesh: Arc<Mesh>,
     /// The material of each of its regions.
     pub materials: Vec<RegionMaterial>,
     /// What the mesh was made of, for its refinements.
@@ -190,7 +190,7 @@ pub(super) fn import(
         opposite: parts.place.opposite.clone(),
         conditions: parts.boundaries.clone(),
     };
-    let mesh = Mesh2d::from_gmsh(&read, &specification).map_err(unusable)?;
+    let mesh = Mesh::from_gmsh(&read, &specification).map_err(unusable)?;
     check_meeting(&mesh, &specification, parts.interference)
         .map_err(|message| (message, "bodies apart".to_owned()))?;
     for (name, _) in &parts.materials {
@@ -244,7 +244,7 @@ impl ImportedBody {
             fine = fine.refined()?;
         }
         Ok(Self {
-            mesh: Arc::new(Mesh2d::from_gmsh(&fine, specification)?),
+            mesh: Arc::new(Mesh::from_gmsh(&fine, specification)?),
             materials: self.materials.clone(),
             source: Arc::new((fine, specification.clone())),
         })
@@ -300,7 +300,7 @@ impl super::Case {
     ///
     /// # Errors
     /// [`crate::mesh::MeshError`] of the generated annulus.
-    pub fn mesh(&self) -> Result<Arc<Mesh2d>, crate::mesh::MeshError> {
+    pub fn mesh(&self) -> Result<Arc<Mesh>, crate::mesh::MeshError> {
         match &self.body {
             Some(body) => Ok(Arc::clone(&body.mesh)),
             None => Ok(Arc::new(

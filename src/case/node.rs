@@ -153,7 +153,7 @@ impl Nodes<'_> {
     fn nearest(&self, point: [f64; 2]) -> Option<(usize, [f64; 2])> {
         if let Some(body) = self.body {
             let (node, _) = body.mesh.nearest_node(point)?;
-            return Some((node, body.mesh.nodes[node]));
+            return Some((node, body.mesh.plane_node(node)));
         }
         if let Some(solid) = self.solid {
             return nearest_on_top(solid, point);
@@ -163,7 +163,7 @@ impl Nodes<'_> {
         let (per_sector, sectors) = (sector.node_count(), sector.sector_count());
         let step = TAU / sectors as f64;
         let candidates = sector.strip.nodes[..per_sector].iter().enumerate();
-        let around = candidates.map(|(position, &[x, y])| {
+        let around = candidates.map(|(position, &[x, y, _])| {
             let (radius, start) = (x.hypot(y), y.atan2(x));
             let turns = ((point[1].atan2(point[0]) - start) / step).round() as i64;
             let turned = turns.rem_euclid(sectors as i64) as usize;

@@ -2,7 +2,7 @@
 
 use super::opposite::{OppositeShare, meetings};
 use super::{SlidingContact, SteadyFriction};
-use crate::mesh::{BoundaryCondition, Counterface, Mesh2d};
+use crate::mesh::{BoundaryCondition, Counterface, Mesh};
 
 /// Contact nodes with their geometry, in order along the edge (of rising angle on the annulus).
 #[derive(Clone, Debug, PartialEq)]
@@ -24,7 +24,7 @@ pub struct ContactInterface {
 impl ContactInterface {
     /// The contact edge of `mesh`; nodes that a boundary condition clamps, or that have no other body before them, have no
     /// part in it.
-    pub fn of(mesh: &Mesh2d) -> Self {
+    pub fn of(mesh: &Mesh) -> Self {
         let edge = mesh.contact_edge();
         let mut is_clamped = vec![false; mesh.node_count()];
         for boundary in &mesh.boundaries {
@@ -41,11 +41,11 @@ impl ContactInterface {
             .filter(|&i| !is_clamped[edge.nodes[i] as usize] && meets(i))
             .collect();
         let nodes: Vec<u32> = kept.iter().map(|&i| edge.nodes[i]).collect();
-        let point = |node: &u32| mesh.nodes[*node as usize];
+        let point = |node: &u32| mesh.plane_node(*node as usize);
         let counterface = mesh.counterface;
         let (angles, mut gaps) = if mesh.is_cyclic {
             // Exact as generated: a contact circle without gaps.
-            let frames = nodes.iter().map(|&node| mesh.frame_angles[node as usize]);
+            let frames = nodes.iter().map(|&node| mesh.frame_angles()[node as usize]);
             (frames.collect(), vec![0.0; nodes.len()])
         } else {
             let places = nodes.iter().map(|node| counterface.place(point(node)));

@@ -8,7 +8,7 @@ use super::elimination::Elimination;
 use super::friction_polynomial::evaluate;
 use crate::contact::{ContactInterface, Point, SlidingContact, SteadyFriction};
 use crate::fem::{Triplets, assemble_supports};
-use crate::mesh::{AnnulusMesh, Mesh2d, SectorMesh};
+use crate::mesh::{AnnulusMesh, Mesh, SectorMesh};
 
 /// The state of steady sliding: counterface pushed in by `delta`, every pressed contact node slipping.
 ///
@@ -54,7 +54,7 @@ impl SteadySliding {
     /// # Errors
     /// [`PrestressError::Separation`] where a node of an annulus would open; see there for the rest.
     pub fn solve(
-        mesh: &Mesh2d,
+        mesh: &Mesh,
         stiffness: &Triplets,
         contact: &SlidingContact,
     ) -> Result<Self, PrestressError> {
@@ -68,7 +68,7 @@ impl SteadySliding {
 
     /// Full sliding on the annulus, whose normal forces do not depend on friction.
     fn solve_annulus(
-        mesh: &Mesh2d,
+        mesh: &Mesh,
         stiffness: &Triplets,
         contact: &SlidingContact,
     ) -> Result<Self, PrestressError> {
@@ -76,7 +76,7 @@ impl SteadySliding {
         let points = interface.points(contact);
 
         // Separations in place of normal displacements, all of them pushed in by the interference.
-        let mut basis = Elimination::holding(2 * mesh.node_count(), mesh.held_dofs());
+        let mut basis = Elimination::holding(mesh.dof_count(), mesh.held_dofs());
         let separations: Result<Vec<usize>, PrestressError> = points
             .iter()
             .map(|point| basis.require(&point.normal, "contact"))
@@ -88,7 +88,7 @@ impl SteadySliding {
         }
         let unknowns = basis.unknowns();
         let solver = CholeskySolver::new(&stiffness, &unknowns)?;
-        let mut pressed = vec![0.0; 2 * mesh.node_count()];
+        let mut pressed = vec![0.0; mesh.dof_count()];
         for &dof in &separations {
             pressed[dof] = contact.interference;
         }
@@ -195,7 +195,7 @@ impl SlidingRange {
     /// # Errors
     /// As [`SteadySliding::solve`]; the first friction coefficient without a state.
     pub fn solve(
-        mesh: &Mesh2d,
+        mesh: &Mesh,
         stiffness: &Triplets,
         contact: &SlidingContact,
         friction_coefficients: &[f64],
@@ -212,7 +212,7 @@ impl SlidingRange {
         }
         let interface = ContactInterface::of(mesh);
         let points = interface.points(contact);
-        let total = 2 * mesh.node_count();
+        let total = mesh.dof_count();
         let pressing = Pressing {
             stiffness: &supported,
             load: mesh.pressure_forces().unwrap_or_else(|| vec![0.0; total]),

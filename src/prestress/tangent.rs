@@ -8,7 +8,7 @@ use crate::fem::{
     assemble_geometric_stiffness, assemble_mass, assemble_supports,
 };
 use crate::linalg::{MatrixPolynomial, SparsityPattern, c64};
-use crate::mesh::Mesh2d;
+use crate::mesh::Mesh;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -121,7 +121,7 @@ pub struct ContactDofs {
 impl SlidingTangent {
     /// Linearises around `base`, whose stiffness `K_e` over all dofs is `elastic`.
     pub fn linearize(
-        mesh: &Mesh2d,
+        mesh: &Mesh,
         material: &dyn MaterialField,
         elastic: &Triplets,
         base: &SteadySliding,
@@ -162,7 +162,7 @@ impl SlidingTangent {
             },
             sliding_direction: base.sliding_direction,
         };
-        let basis = Elimination::holding(2 * mesh.node_count(), mesh.held_dofs());
+        let basis = Elimination::holding(mesh.dof_count(), mesh.held_dofs());
         Self::assemble(&body, &[part], basis, &dofs, options)
             .expect("each node of a plane contact edge has a free normal displacement")
     }
@@ -304,7 +304,7 @@ mod tests {
         }
     }
 
-    fn disc(element: ElementKind) -> (Mesh2d, ElasticMaterial) {
+    fn disc(element: ElementKind) -> (Mesh, ElasticMaterial) {
         let mesh = AnnulusMesh::generate(&AnnulusSpecification {
             inner_radius: 0.0205,
             outer_radius: 0.0905,
@@ -342,7 +342,7 @@ mod tests {
                 let stress = assemble_geometric_stiffness(&mesh, &material, displacement);
                 terms.entries.extend(stress.entries);
             }
-            let total = 2 * mesh.node_count();
+            let total = mesh.dof_count();
             let rotation: Vec<f64> = (0..mesh.node_count())
                 .flat_map(|node| [0.0, mesh.nodes[node][0].hypot(mesh.nodes[node][1])])
                 .collect();

@@ -9,7 +9,7 @@ use super::vtu::{EncodedMesh, Field, write_vtu};
 use crate::chart::{
     Axis, Field as Window, Figure, INK, Label, Line, Marker, Panel, Points, SERIES,
 };
-use crate::mesh::{AnnulusMesh, Boundary, BoundaryCondition, Mesh2d, SolidContact, SolidSector};
+use crate::mesh::{AnnulusMesh, Boundary, BoundaryCondition, Mesh, SolidContact, SolidSector};
 use serde::{Deserialize, Serialize};
 use std::fmt::Write as _;
 
@@ -189,7 +189,7 @@ impl MeshStatistics {
 
     /// Measures a mesh between its corner nodes; areas follow curved edges. `wavelength` is the shortest that the case
     /// is about, m.
-    pub fn new(mesh: &Mesh2d, annulus: Option<&AnnulusMesh>, wavelength: Option<f64>) -> Self {
+    pub fn new(mesh: &Mesh, annulus: Option<&AnnulusMesh>, wavelength: Option<f64>) -> Self {
         let quality = mesh.quality();
         let mut regions: Vec<RegionStatistics> = mesh
             .regions
@@ -256,22 +256,23 @@ fn condition_name(condition: BoundaryCondition) -> &'static str {
         BoundaryCondition::Clamped => "clamped",
         BoundaryCondition::Support(_) => "support",
         BoundaryCondition::Guide => "guide",
+        BoundaryCondition::Fixed(_) => "fixed",
         BoundaryCondition::Pressure(_) => "pressure",
         BoundaryCondition::Free => "free",
     }
 }
 
 /// Nodes around an element, mid-side nodes between their corners.
-fn outline(mesh: &Mesh2d, element: usize) -> Vec<[f64; 2]> {
+fn outline(mesh: &Mesh, element: usize) -> Vec<[f64; 2]> {
     let nodes = mesh.element_outline(element).into_iter();
-    nodes.map(|node| mesh.nodes[node as usize]).collect()
+    nodes.map(|node| mesh.plane_node(node as usize)).collect()
 }
 
 /// Writes `mesh.vtu` with node ids (from 1) and the contact edge marked.
 ///
 /// # Errors
 /// Those of the folder.
-pub fn write_mesh(folder: &OutputFolder, mesh: &Mesh2d) -> Result<(), FolderError> {
+pub fn write_mesh(folder: &OutputFolder, mesh: &Mesh) -> Result<(), FolderError> {
     let ids = (0..mesh.node_count())
         .map(|node| mesh.node_label(node) as i64)
         .collect();
@@ -320,7 +321,7 @@ pub fn write_solid_mesh(folder: &OutputFolder, sector: &SolidSector) -> Result<(
 /// Those of the folder.
 pub fn write_mesh_picture(
     folder: &OutputFolder,
-    mesh: &Mesh2d,
+    mesh: &Mesh,
     (title, probes): (&str, &[usize]),
     options: &DrawingOptions,
 ) -> Result<(), DrawingError> {
@@ -331,7 +332,7 @@ pub fn write_mesh_picture(
     write_figures(folder, &figures, options)
 }
 
-fn mesh_figure(mesh: &Mesh2d, title: &str, probes: &[usize]) -> Figure {
+fn mesh_figure(mesh: &Mesh, title: &str, probes: &[usize]) -> Figure {
     let place = |node: u32| (mesh.nodes[node as usize][0], mesh.nodes[node as usize][1]);
     let gap = (f64::NAN, f64::NAN);
     let longest = mesh.quality().largest_edge;
@@ -346,7 +347,7 @@ fn mesh_figure(mesh: &Mesh2d, title: &str, probes: &[usize]) -> Figure {
             _ if b == mesh.contact => (SERIES[1], "contact edge"),
             BoundaryCondition::Clamped => (SERIES[0], "clamped edge"),
             BoundaryCondition::Support(_) => (SERIES[2], "supported edge"),
-            BoundaryCondition::Guide => (SERIES[3], "guided edge"),
+            BoundaryCondition::Guide | BoundaryCondition::Fixed(_) => (SERIES[3], "guided edge"),
             BoundaryCondition::Pressure(_) => (SERIES[4], "pressed edge"),
             BoundaryCondition::Free => return None,
         };
@@ -376,7 +377,7 @@ fn mesh_figure(mesh: &Mesh2d, title: &str, probes: &[usize]) -> Figure {
     let labels = known.iter().map(|(probe, at)| {
         Label::new(*at, mesh.node_label(probe - 1).to_string()).moved(4.0, -4.0)
     });
-    let [low, high] = Window::window(&mesh.nodes, 0.06);
+    let [low, high] = Window::window(&mesh.plane_nodes(), 0.06);
     let axis = |name: &str, i: usize| Axis::new(name, "mm").times(1e3).between(low[i], high[i]);
     let panel = Panel::new(axis("*x*", 0), axis("*y*", 1))
         .equal()

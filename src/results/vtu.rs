@@ -1,8 +1,9 @@
 //! Fields on the mesh for ParaView: VTK XML unstructured grids, appended raw, zlib-compressed.
 
 use crate::fem::NodalStress;
-use crate::mesh::{Mesh2d, SolidSector};
+use crate::mesh::{Mesh, SolidSector};
 use flate2::{Compression, write::ZlibEncoder};
+use nalgebra::Vector3;
 use std::io::{self, Write};
 
 /// Bytes of one compressed block.
@@ -98,8 +99,8 @@ impl Field {
         ]
     }
 
-    /// A plane vector of each node from its nodal frame, as Cartesian `(x, y, 0)`.
-    pub fn vectors(name: &str, mesh: &Mesh2d, nodal: &[f64]) -> Self {
+    /// A vector of each node from its nodal frame, as Cartesian `(x, y, z)`; `z` is zero in the plane.
+    pub fn vectors(name: &str, mesh: &Mesh, nodal: &[f64]) -> Self {
         Self {
             name: name.to_owned(),
             components: 3,
@@ -127,9 +128,16 @@ pub fn solid_vectors(name: &str, sector: &SolidSector, nodal: &[f64]) -> Field {
     }
 }
 
-/// Turns nodal-frame vectors (`2 * node_count` values) into Cartesian `(x, y, 0)` triples.
-pub fn cartesian_vectors(mesh: &Mesh2d, nodal: &[f64]) -> Vec<f64> {
-    let pairs = nodal.chunks_exact(2).zip(&mesh.frame_angles);
+/// Turns nodal-frame vectors (`dimension * node_count` values) into Cartesian `(x, y, z)` triples.
+pub fn cartesian_vectors(mesh: &Mesh, nodal: &[f64]) -> Vec<f64> {
+    if mesh.dimension == 3 {
+        let nodes = nodal.chunks_exact(3).enumerate();
+        let turned = nodes.map(|(node, u)| mesh.frame(node) * Vector3::from_column_slice(u));
+        return turned
+            .flat_map(|vector| [vector.x, vector.y, vector.z])
+            .collect();
+    }
+    let pairs = nodal.chunks_exact(2).zip(mesh.frame_angles());
     pairs
         .flat_map(|(pair, angle)| {
             let (sine, cosine) = angle.sin_cos();
@@ -158,8 +166,8 @@ impl EncodedMesh {
     ///
     /// # Errors
     /// Those of the compressor (out of memory).
-    pub fn new(mesh: &Mesh2d) -> io::Result<Self> {
-        let points = mesh.nodes.iter().flat_map(|node| [node[0], node[1], 0.0]);
+    pub fn new(mesh: &Mesh) -> io::Result<Self> {
+        let points = mesh.nodes.iter().flatten().copied();
         let ends = mesh.element_starts[1..].iter().map(|&end| i64::from(end));
         let types: Vec<u8> = mesh
             .element_kinds

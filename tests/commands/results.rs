@@ -48,7 +48,7 @@ fn mode(real_hz: f64, frequency_hz: f64, harmonic: usize, direction: i8) -> Comp
 fn sweep(mesh: &AnnulusMesh) -> FrictionSweep {
     let mut shaped = mode(12.5, 9900.0, 2, -1);
     // One travelling wave: cos and sin parts a quarter period apart.
-    let angles = &mesh.mesh.frame_angles;
+    let angles = mesh.mesh.frame_angles();
     let wave = angles.iter().flat_map(|angle| {
         let (sine, cosine) = (2.0 * angle).sin_cos();
         [c64::new(cosine, sine), c64::new(-sine, cosine)]
@@ -298,7 +298,7 @@ fn a_field_of_the_wrong_length_is_not_written() {
 fn a_rigid_translation_is_one_cartesian_vector_at_every_node() {
     let mesh = annulus(ElementKind::Quad8).mesh;
     let polar: Vec<f64> = mesh
-        .frame_angles
+        .frame_angles()
         .iter()
         .flat_map(|angle| {
             [

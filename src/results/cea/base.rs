@@ -2,7 +2,7 @@
 
 use crate::contact::ContactStatus;
 use crate::fem::NodalStress;
-use crate::mesh::Mesh2d;
+use crate::mesh::Mesh;
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::table::{Column, write_rows};
 use crate::results::vtu::{EncodedMesh, Field, write_vtu};
@@ -67,18 +67,14 @@ pub struct BaseField {
 ///
 /// # Errors
 /// Those of the folder.
-pub fn write_base(
-    folder: &OutputFolder,
-    mesh: &Mesh2d,
-    base: &BaseField,
-) -> Result<(), FolderError> {
+pub fn write_base(folder: &OutputFolder, mesh: &Mesh, base: &BaseField) -> Result<(), FolderError> {
     folder.write("prestress.csv", |out| {
         let status = |i: usize| {
             let is_pressed = base.is_pressed.as_ref()?[i];
             let status = [ContactStatus::Open, ContactStatus::Slip][usize::from(is_pressed)];
             Some(status.name())
         };
-        let place = |i: usize| mesh.nodes[base.nodes[i] as usize];
+        let place = |i: usize| mesh.plane_node(base.nodes[i] as usize);
         let columns: &[Column<'_, usize>] = &[
             ("node", &|i| mesh.node_label(base.nodes[*i] as usize).into()),
             ("angle_degrees", &|i| base.angles[*i].to_degrees().into()),

@@ -24,7 +24,7 @@ pub use solid::SolidReport;
 pub use summary::{CeaSummary, CriticalFriction, ModeSummary, UnstableCount, summary};
 
 use crate::cea::{ComplexMode, FrictionPoint, FrictionSweep, UnstableInterval};
-use crate::mesh::Mesh2d;
+use crate::mesh::Mesh;
 
 /// Everything a complex eigenvalue analysis reports.
 #[derive(Clone, Debug)]
@@ -32,7 +32,7 @@ pub struct CeaReport<'a> {
     /// Title of the case.
     pub title: &'a str,
     /// The mesh, for the shapes.
-    pub mesh: &'a Mesh2d,
+    pub mesh: &'a Mesh,
     /// Whether modes have a circumferential harmonic and a direction; else they are named by rank.
     pub has_harmonics: bool,
     /// Unknowns of the eigenproblem.

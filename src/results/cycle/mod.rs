@@ -17,7 +17,7 @@ use crate::cycle::{
     Confirmation, CycleBranch, CyclePowers, CycleStability, Family, LimitCycle, Onset, PhasePoint,
     StabilityChange,
 };
-use crate::mesh::Mesh2d;
+use crate::mesh::Mesh;
 use crate::results::cycle_figures::CycleRecord;
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::record::write_record;
@@ -104,7 +104,7 @@ pub struct CycleReport<'a> {
     /// Title of the case.
     pub title: &'a str,
     /// The mesh.
-    pub mesh: &'a Mesh2d,
+    pub mesh: &'a Mesh,
     /// Radius of the contact edge, m.
     pub inner_radius: f64,
     /// Thickness, m: scales powers.

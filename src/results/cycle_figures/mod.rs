@@ -22,7 +22,7 @@ use crate::chart::{
 use crate::contact::{ContactStatus, SlidingContact};
 use crate::cycle::Family;
 use crate::fem::ElasticMaterial;
-use crate::mesh::Mesh2d;
+use crate::mesh::Mesh;
 use std::f64::consts::TAU;
 
 /// Whole-field pictures of one kind, at most.
@@ -36,7 +36,7 @@ pub struct CycleFigures<'a> {
     /// The record.
     pub record: &'a CycleRecord,
     /// The mesh.
-    pub mesh: &'a Mesh2d,
+    pub mesh: &'a Mesh,
     /// The material, for the stress fields.
     pub material: &'a ElasticMaterial,
     /// The contact at the case's own operating point.

@@ -25,7 +25,7 @@ pub use run::RunFigures;
 pub use summary::{TransientSummary, summary};
 
 use crate::fem::MaterialField;
-use crate::mesh::{Mesh2d, SolidSector};
+use crate::mesh::{Mesh, SolidSector};
 use crate::transient::{Perturbation, Recorder, StepPlan, TransientAnalysis};
 
 /// Everything a transient reports. Forces, powers and energies of the record are for one metre of thickness;
@@ -35,7 +35,7 @@ pub struct TransientReport<'a> {
     /// Title of the case.
     pub title: &'a str,
     /// The mesh, for the snapshots.
-    pub mesh: &'a Mesh2d,
+    pub mesh: &'a Mesh,
     /// One sector of a body in three dimensions, of which `mesh` is the section across the axis.
     pub solid: Option<&'a SolidSector>,
     /// Its material, for the stresses.
@@ -81,7 +81,7 @@ impl TransientReport<'_> {
     /// Where a node is in the plane across the axis, m.
     fn place(&self, node: usize) -> [f64; 2] {
         let Some(sector) = self.solid else {
-            return self.mesh.nodes[node];
+            return self.mesh.plane_node(node);
         };
         let per_sector = sector.node_count();
         let (radius, angle) = (

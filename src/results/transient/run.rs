@@ -1,7 +1,7 @@
 //! A recorded run as its figures see it.
 
 use crate::fem::MaterialField;
-use crate::mesh::{Mesh2d, SolidSector};
+use crate::mesh::{Mesh, SolidSector};
 use crate::results::charts::ModeLine;
 use crate::transient::{Recorder, TransientAnalysis};
 
@@ -13,7 +13,7 @@ pub struct RunFigures<'a> {
     /// What was read from it.
     pub analysis: &'a TransientAnalysis,
     /// The mesh.
-    pub mesh: &'a Mesh2d,
+    pub mesh: &'a Mesh,
     /// One sector of a body in three dimensions, of which `mesh` is the section across the axis.
     pub solid: Option<&'a SolidSector>,
     /// The material, for the stress fields.

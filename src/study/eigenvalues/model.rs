@@ -5,7 +5,7 @@ use super::solid::SolidBody;
 use crate::case::{Case, Cea, CeaMethod, ModeSelection};
 use crate::cea::ModeLimit;
 use crate::fem::{assemble_stiffness, nodal_stress};
-use crate::mesh::{AnnulusMesh, Counterface, Mesh2d, SectorMesh};
+use crate::mesh::{AnnulusMesh, Counterface, Mesh, SectorMesh};
 use crate::prestress::{
     SectorTangent, SlidingRange, SlidingTangent, SteadySliding, TangentOptions,
 };
@@ -25,7 +25,7 @@ pub fn method_of(case: &Case, cea: &Cea) -> CeaMethod {
 /// The model that the solvers take: mesh, base states, and what their tangents are made of.
 pub struct SlidingModel {
     /// The mesh.
-    pub mesh: Arc<Mesh2d>,
+    pub mesh: Arc<Mesh>,
     /// Steady sliding at the friction coefficients that are solved, and last at the case's own.
     pub range: SlidingRange,
     /// How the tangent is taken.

@@ -23,7 +23,7 @@ use super::cycle::limit_cycle;
 use crate::case::{Case, Transient};
 use crate::cycle::Family;
 use crate::fem::operator::{SimdLevel, StiffnessOperator};
-use crate::mesh::{AnnulusMesh, Mesh2d, SolidSector};
+use crate::mesh::{AnnulusMesh, Mesh, SolidSector};
 use crate::results::transient::TransientReport;
 use crate::transient::{
     CentralDifference, InitialState, Recorder, RecorderSettings, StepPlan, TransientAnalysis,
@@ -37,7 +37,7 @@ pub struct TransientStudy<'a> {
     /// The case.
     pub case: &'a Case,
     /// Its mesh; of a body in three dimensions the section across the axis.
-    pub mesh: Arc<Mesh2d>,
+    pub mesh: Arc<Mesh>,
     /// One sector of a body in three dimensions.
     pub sector: Option<SolidSector>,
     transient: &'a Transient,

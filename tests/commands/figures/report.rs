@@ -20,7 +20,7 @@ fn report_of_an_eigenvalue_analysis_holds_every_figure_table_and_the_case() {
         nodes: contact.clone(),
         angles: contact
             .iter()
-            .map(|&node| mesh.frame_angles[node as usize])
+            .map(|&node| mesh.frame_angles()[node as usize])
             .collect(),
         pressures: vec![2.827e6; contact.len()],
         shears: vec![0.848e6; contact.len()],
