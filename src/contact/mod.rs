@@ -8,12 +8,18 @@
 //! normal into the body and the direction a quarter turn ahead, `(e_r, e_theta)` around a shaft: the contact
 //! pushes the body along `+n` with the nodal force `N >= 0`, and drags it along `s t` with `s` the sense of
 //! sliding while it slips: `T = s mu(v) N`, with a coefficient that may fall with the slip speed `v`.
+//!
+//! Solid bodies touch where faces of two of their surfaces lie over each other ([`SurfacePair`]): [`ContactSurface`] has the
+//! points, from the quadrature of the common segments or from dual mortar weights of nodes, and slides as a [`Motion`] says.
 
 mod interface;
 mod law;
 mod linearized;
+mod mortar;
 mod opposite;
+mod pairing;
 mod point;
+mod surface;
 mod surface_law;
 
 pub use interface::ContactInterface;
@@ -21,8 +27,11 @@ pub use law::{
     ContactStatus, CoulombFriction, FrictionDecay, NodeFriction, SlippingNode, SteadyFriction,
 };
 pub use linearized::{ContactTerms, PressedPoints, linearized};
+pub use mortar::{MortarNode, mortar_nodes};
 pub use opposite::OppositeShare;
+pub use pairing::{ContactSite, ContactSurface, Motion, PairFriction, PointKind};
 pub use point::{Point, Row, value_of};
+pub use surface::{PairError, SegmentPoint, SurfacePair, row_along};
 pub use surface_law::{PointFriction, SlippingPoint};
 
 /// The rigid moving counterface and its friction law.

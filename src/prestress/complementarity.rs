@@ -116,7 +116,8 @@ impl<'a> CondensedContact<'a> {
         let normals: Vec<Row> = points.clone().map(|p| over_unknowns(&p.normal)).collect();
         let drags = points.map(|point| {
             let slip = over_unknowns(&point.slip).into_iter();
-            slip.map(|(dof, a)| (dof, point.friction.drag * a)).collect()
+            slip.map(|(dof, a)| (dof, point.friction.drag * a))
+                .collect()
         });
         let drags: Vec<Row> = drags.collect();
 
@@ -171,7 +172,10 @@ impl<'a> CondensedContact<'a> {
                 }
             }
         }
-        let load = self.pressing.elimination.transposed_forces(&self.pressing.load);
+        let load = self
+            .pressing
+            .elimination
+            .transposed_forces(&self.pressing.load);
         let resting = self.solver.solve(self.unknowns.restrict(&load));
         self.unpressed = self.normals.iter().map(|row| form(row, &resting)).collect();
     }
@@ -336,7 +340,9 @@ impl<'a> CondensedContact<'a> {
         PrestressError::GapEverywhere {
             total: self.normals.len(),
             distance: distances.fold(f64::INFINITY, f64::min).max(0.0),
-            interference: gaps.map(|(point, pushed)| pushed + point.gap).fold(0.0, f64::max),
+            interference: gaps
+                .map(|(point, pushed)| pushed + point.gap)
+                .fold(0.0, f64::max),
         }
     }
 

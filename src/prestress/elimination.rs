@@ -61,9 +61,8 @@ impl Elimination {
         let is_large = |value: f64| value.abs() >= SMALLEST_PIVOT * largest;
         let firsts = row.iter().map(|entry| entry.0);
         let mut candidates = firsts.chain(free().map(|(dof, _)| *dof));
-        let pivot = candidates.find(|dof| {
-            is_free(*dof) && own.get(dof).is_some_and(|value| is_large(*value))
-        })?;
+        let pivot = candidates
+            .find(|dof| is_free(*dof) && own.get(dof).is_some_and(|value| is_large(*value)))?;
         // u[pivot] = (y[pivot] - sum of the others) / coefficient.
         let coefficient = own[&pivot];
         let others = own.iter().filter(|(dof, _)| **dof != pivot);
@@ -207,7 +206,9 @@ impl Elimination {
                 if let Some(row) = unknowns.unknown_of[row] {
                     projected[power].push((row, unknown, value));
                 } else if let Some(slip) = slips.get(&row) {
-                    let moved = slip.iter().map(|&(row, along)| (row, unknown, -along * value));
+                    let moved = slip
+                        .iter()
+                        .map(|&(row, along)| (row, unknown, -along * value));
                     projected[power + 1].extend(moved);
                 }
             }
@@ -220,8 +221,9 @@ impl Elimination {
     /// # Errors
     /// [`PrestressError::Overconstrained`].
     pub fn require(&mut self, row: &Row, name: &str) -> Result<usize, PrestressError> {
-        self.take(row).ok_or_else(|| PrestressError::Overconstrained {
-            name: name.to_owned(),
-        })
+        self.take(row)
+            .ok_or_else(|| PrestressError::Overconstrained {
+                name: name.to_owned(),
+            })
     }
 }

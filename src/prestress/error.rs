@@ -46,10 +46,20 @@ pub enum PrestressError {
         friction_coefficient: f64,
     },
     /// A form that is to be eliminated has no free dof.
-    #[error("{name} holds nodes that are already held or tied: leave one of the conditions out there")]
+    #[error(
+        "{name} holds nodes that are already held or tied: leave one of the conditions out there"
+    )]
     Overconstrained {
         /// The tie or contact.
         name: String,
+    },
+    /// Two surfaces that make no contact or tie.
+    #[error("{name}: {error}")]
+    Pair {
+        /// Section and name of the tie or contact.
+        name: String,
+        /// Why not.
+        error: crate::contact::PairError,
     },
     /// A rotor at rest under Coulomb's law as a vector.
     #[error(

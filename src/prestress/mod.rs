@@ -5,6 +5,7 @@
 //! `M(mu) q'' + C(mu) q' + K_t(mu) q = 0`, as polynomials in the friction coefficient.
 //! [`SectorSliding`] and [`SectorTangent`] are the same for a uniform annulus, from one of its sectors.
 
+mod assembly;
 mod cholesky;
 mod complementarity;
 mod elimination;
@@ -27,6 +28,7 @@ mod solid_rate;
 mod solid_tangent;
 mod tangent;
 
+pub use assembly::{Assembly, BaseChoice, SlidingSurfaces, TiedSurfaces};
 pub use complementarity::{CondensedContact, PressedRange, PressedState, Pressing};
 pub use elimination::Elimination;
 pub use equilibrium::{SlidingRange, SteadySliding};

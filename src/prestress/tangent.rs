@@ -127,9 +127,8 @@ impl SlidingTangent {
         base: &SteadySliding,
         options: &TangentOptions,
     ) -> Self {
-        let stressed = |displacement: &Vec<f64>| {
-            assemble_geometric_stiffness(mesh, material, displacement)
-        };
+        let stressed =
+            |displacement: &Vec<f64>| assemble_geometric_stiffness(mesh, material, displacement);
         let body = BodyTerms {
             mass: assemble_mass(mesh, material, options.mass),
             elastic: elastic.clone(),
@@ -196,8 +195,9 @@ impl SlidingTangent {
             }
         }
         let unknowns = basis.unknowns();
-        let projected =
-            |terms: &[Triplets]| -> ProjectedPolynomial { basis.project(terms, &unknowns, &friction) };
+        let projected = |terms: &[Triplets]| -> ProjectedPolynomial {
+            basis.project(terms, &unknowns, &friction)
+        };
 
         // What beta_R multiplies: body, prestress, contact.
         let mut stiffness = vec![body.elastic.clone()];
