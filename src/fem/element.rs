@@ -128,10 +128,23 @@ impl ElementGeometry {
         points.map(|point| self.at(point)).collect()
     }
 
-    /// Every point of the rule of the stiffness.
+    /// Every point of the rule of the stiffness; elements with curved edges take the full rule, which keeps constant strains.
     pub fn stiffness_points(&self) -> Vec<IntegrationPoint> {
-        let points = self.kind.stiffness_quadrature().into_iter();
-        points.map(|point| self.at(point)).collect()
+        let rule = match self.has_straight_edges() {
+            true => self.kind.stiffness_quadrature(),
+            false => self.kind.quadrature(),
+        };
+        rule.into_iter().map(|point| self.at(point)).collect()
+    }
+
+    /// Whether mid-side nodes lie at the middle of their edges, to 1e-9 of their length.
+    fn has_straight_edges(&self) -> bool {
+        let middles = self.points[self.kind.corner_count()..].iter();
+        self.kind.edges().iter().zip(middles).all(|(ends, middle)| {
+            let [p, q] = ends.map(|end| Vector3::from(self.points[end]));
+            let off = (p + q) * 0.5 - Vector3::from(*middle);
+            off.norm() <= 1e-9 * (p - q).norm()
+        })
     }
 
     /// Where a point is, m.

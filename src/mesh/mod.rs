@@ -26,7 +26,7 @@ pub use boundary::{Boundary, BoundaryCondition, BoundaryFace, ElasticSupport, No
 pub use counterface::Counterface;
 pub use element::{ElementKind, FaceKind, FacePoint, QuadraturePoint, Shape};
 pub use frames::NodalFrames;
-pub use gmsh::{GmshFile, MeshFileError};
+pub use gmsh::{CurveEdge, FileElement, GmshFile, MeshFileError, SurfaceFace};
 pub use quality::MeshQuality;
 pub use sector::SectorMesh;
 pub use solid::{
