@@ -224,15 +224,6 @@ impl Plane {
     }
 }
 
-/// What was seen where a face was looked at from another that it makes no segment with.
-#[derive(Default)]
-struct Misses {
-    /// Smallest distance of faces over each other that are too far.
-    distance: Option<f64>,
-    /// Faces over each other whose normals point the same way.
-    is_turned: bool,
-}
-
 impl SurfacePair {
     /// Cuts the faces of `surface` into segments with those of `counter` before them.
     ///
@@ -263,58 +254,61 @@ impl SurfacePair {
             covered: 0.0,
             reach,
         };
-        let mut misses = Misses::default();
         for (f, facet) in own.iter().enumerate() {
             let plane = Plane::of(facet);
             for other in grid.near(facet, reach) {
-                pair.add_segment((f, facet), &others[other], &plane, &mut misses);
+                pair.add_segment((f, facet), &others[other], &plane);
             }
         }
         if pair.points.is_empty() {
-            return Err(pair.why_not(surface, counter, &misses));
+            let names = [surface, counter].map(|boundary| boundary.name.clone());
+            return Err(pair.why_not(names, &own, &others));
         }
         Ok(pair)
     }
 
-    fn why_not(&self, surface: &Boundary, counter: &Boundary, misses: &Misses) -> PairError {
-        let (surface, counter) = (surface.name.clone(), counter.name.clone());
-        match misses.distance {
-            Some(distance) => PairError::Apart {
+    /// Why no face has a segment with another: what lies over what, however far.
+    fn why_not(
+        &self,
+        [surface, counter]: [String; 2],
+        own: &[Facet<'_>],
+        others: &[Facet<'_>],
+    ) -> PairError {
+        let (mut distance, mut is_turned) = (f64::INFINITY, false);
+        for facet in own {
+            let plane = Plane::of(facet);
+            for other in others {
+                if shared_polygon(facet, other, &plane).is_none() {
+                    continue;
+                }
+                let apart = (other.center - facet.center).dot(&facet.normal).abs();
+                match facet.normal.dot(&other.normal) > FACING {
+                    true => is_turned = true,
+                    false => distance = distance.min(apart),
+                }
+            }
+        }
+        if distance.is_finite() {
+            return PairError::Apart {
                 surface,
                 counter,
                 distance,
                 reach: self.reach,
-            },
-            None if misses.is_turned => PairError::FacesAway { surface, counter },
-            None => PairError::NeverMeets { surface, counter },
+            };
+        }
+        match is_turned {
+            true => PairError::FacesAway { surface, counter },
+            false => PairError::NeverMeets { surface, counter },
         }
     }
 
-    fn add_segment(
-        &mut self,
-        (f, facet): (usize, &Facet<'_>),
-        other: &Facet<'_>,
-        plane: &Plane,
-        misses: &mut Misses,
-    ) {
-        let flat = |corners: &[Vector3<f64>]| -> Vec<Vector2<f64>> {
-            corners.iter().map(|corner| plane.flat(corner)).collect()
-        };
-        let mut shadow = flat(other.corners());
-        if signed_area(&shadow) < 0.0 {
-            shadow.reverse();
-        }
-        let polygon = clipped(flat(facet.corners()), &shadow);
-        let area = signed_area(&polygon);
-        if polygon.len() < 3 || area <= SLIVER * facet.area.min(other.area) {
-            return;
-        }
-        let distance = (other.center - facet.center).dot(&facet.normal).abs();
-        let is_near = distance <= self.reach + facet.radius.min(other.radius);
+    fn add_segment(&mut self, (f, facet): (usize, &Facet<'_>), other: &Facet<'_>, plane: &Plane) {
         if facet.normal.dot(&other.normal) > FACING {
-            misses.is_turned |= is_near;
             return;
         }
+        let Some(polygon) = shared_polygon(facet, other, plane) else {
+            return;
+        };
         let middle = polygon.iter().sum::<Vector2<f64>>() / polygon.len() as f64;
         for i in 0..polygon.len() {
             let corners = [middle, polygon[i], polygon[(i + 1) % polygon.len()]];
@@ -329,8 +323,6 @@ impl SurfacePair {
                 let (shares, opposite, _) = other.at(plane, target);
                 let gap = (opposite - position).dot(&outward);
                 if gap.abs() > self.reach {
-                    let nearest = misses.distance.get_or_insert(f64::INFINITY);
-                    *nearest = nearest.min(gap.abs());
                     continue;
                 }
                 let nodes = |face: &BoundaryFace, values: Vec<f64>| -> Vec<(u32, f64)> {
@@ -369,7 +361,25 @@ pub fn row_along(mesh: &Mesh, nodes: &[(u32, f64)], direction: [f64; 3], sign: f
     row
 }
 
-/// Twice the area would be the sum of cross products; positive counter-clockwise.
+/// The part of a face in its plane that another lies over; `None` where there is nothing but round-off.
+fn shared_polygon(
+    facet: &Facet<'_>,
+    other: &Facet<'_>,
+    plane: &Plane,
+) -> Option<Vec<Vector2<f64>>> {
+    let flat = |corners: &[Vector3<f64>]| -> Vec<Vector2<f64>> {
+        corners.iter().map(|corner| plane.flat(corner)).collect()
+    };
+    let mut shadow = flat(other.corners());
+    if signed_area(&shadow) < 0.0 {
+        shadow.reverse();
+    }
+    let polygon = clipped(flat(facet.corners()), &shadow);
+    let smallest = SLIVER * facet.area.min(other.area);
+    (polygon.len() > 2 && signed_area(&polygon) > smallest).then_some(polygon)
+}
+
+/// Area of a polygon, positive where it runs counter-clockwise.
 fn signed_area(polygon: &[Vector2<f64>]) -> f64 {
     let count = polygon.len();
     let cross = (0..count).map(|i| polygon[i].perp(&polygon[(i + 1) % count]));
