@@ -1,15 +1,13 @@
 //! Solid elements of every kind against theory and against each other.
 
 use crate::block::{SOLIDS, block, block_mesh};
-use faer::Mat;
 use frictionsim::fem::{
     DofMap, ElasticMaterial, MassKind, PlaneFormulation, Triplets, assemble_geometric_stiffness,
     assemble_mass, assemble_pressures, assemble_stiffness, assemble_supports, lumped_masses,
     solid_stress,
 };
-use frictionsim::linalg::dense_eigen::symmetric_eigen;
 use frictionsim::mesh::{BoundaryCondition, ElasticSupport, ElementKind, GmshFile, Mesh};
-use nalgebra::{DMatrix, Matrix3, Rotation3, Vector3};
+use nalgebra::{DMatrix, Matrix3, Rotation3, SymmetricEigen, Vector3};
 use std::f64::consts::PI;
 
 const STEEL: ElasticMaterial = ElasticMaterial {
@@ -127,11 +125,15 @@ fn modes(mesh: &Mesh) -> (Vec<f64>, DMatrix<f64>) {
         .solve_lower_triangular(&dense(&stiffness, &unknowns))
         .unwrap();
     let whole = factor.solve_lower_triangular(&half.transpose()).unwrap();
-    let size = unknowns.len();
-    let (values, vectors) = symmetric_eigen(&Mat::from_fn(size, size, |i, j| {
-        0.5 * (whole[(i, j)] + whole[(j, i)])
-    }));
-    let vectors = DMatrix::from_fn(size, size, |i, j| vectors[(i, j)]);
+    let eigen = SymmetricEigen::new((&whole + whole.transpose()) * 0.5);
+    let mut order: Vec<usize> = (0..unknowns.len()).collect();
+    order.sort_by(|&a, &b| eigen.eigenvalues[a].total_cmp(&eigen.eigenvalues[b]));
+    let values = order.iter().map(|&k| eigen.eigenvalues[k]).collect();
+    let columns: Vec<_> = order
+        .iter()
+        .map(|&k| eigen.eigenvectors.column(k))
+        .collect();
+    let vectors = DMatrix::from_columns(&columns);
     let shapes = factor.transpose().solve_upper_triangular(&vectors).unwrap();
     (values, shapes)
 }
