@@ -164,7 +164,7 @@ fn nearest(body: &Body, point: [f64; 2]) -> Option<(usize, [f64; 2])> {
         Body::Revolution(revolution) => nearest_on_top(&revolution.specification, point),
         Body::Imported(imported) => {
             let (node, _) = imported.mesh.nearest_node(point)?;
-            Some((node, imported.mesh.nodes[node]))
+            Some((node, imported.mesh.plane_node(node)))
         }
     }
 }

@@ -109,7 +109,7 @@ fn shaft_frequency(grid: &AnnulusSpecification, material: Option<&ElasticMateria
 fn element_frequency(mesh: &Mesh, element: usize, speed: f64) -> f64 {
     let kind = mesh.element_kind(element);
     let corners = &mesh.element_nodes(element)[..kind.corner_count()];
-    let place = |corner: usize| mesh.nodes[corners[corner % corners.len()] as usize];
+    let place = |corner: usize| mesh.plane_node(corners[corner % corners.len()] as usize);
     let side = |corner: usize| {
         let ([x, y], [to_x, to_y]) = (place(corner), place(corner + 1));
         (to_x - x).hypot(to_y - y)
