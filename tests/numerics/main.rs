@@ -11,6 +11,7 @@ mod table_1;
 #[path = "../common/triangles.rs"]
 mod triangles;
 
+mod assemblies;
 mod body;
 mod cea_cyclic;
 mod cea_sparse;

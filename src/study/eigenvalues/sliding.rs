@@ -52,7 +52,7 @@ impl SlidingModel {
                 let sector = SectorMesh::generate(&annulus.specification)?;
                 let materials = &annulus.materials;
                 let tangent = SectorTangent::linearize(&sector, materials, options, sliding)?;
-                let base = SteadySliding::from_sector(&mesh, &sector, tangent.base());
+                let base = SteadySliding::from_sector(&mesh, &sector, tangent.base(), sliding);
                 (Arc::new(mesh.mesh), SteadyState::Plane(base))
             }
         };
