@@ -35,6 +35,7 @@ pub fn html_report(
 ) -> Report {
     let heading = match state {
         EndState::LimitCycle => "Limit cycle",
+        EndState::TwoFrequency(_) => "Vibration of two frequencies",
         EndState::SteadySliding => "Steady sliding",
         EndState::AtRest | EndState::Separated => "Rest",
         EndState::Unsettled => "End of the run, not settled",
@@ -43,10 +44,12 @@ pub fn html_report(
         "{}. The numbers are means over the last fifth of the run.",
         capitalized(&ending(summary, state))
     );
+    let mut paragraphs = vec![end];
+    paragraphs.extend(summary.notes.iter().map(|note| capitalized(note)));
     Report {
         title: summary.title.clone(),
         sections: vec![
-            ReportSection::results(vec![end], results(summary)),
+            ReportSection::results(paragraphs, results(summary)),
             ReportSection {
                 heading: "Course of the run".into(),
                 paragraphs: vec![course(summary)],
@@ -114,9 +117,12 @@ fn results(summary: &TransientSummary) -> Vec<(String, String)> {
         (false, _) => "no".to_owned(),
     };
     let harmonic = summary.main_harmonic.map(|n| n as f64);
+    let second = summary.frequencies_hz.map(|frequencies| frequencies[1]);
     let rows = [
         entry("main_frequency_hz", summary.main_frequency_hz),
         entry("main_harmonic", harmonic),
+        entry("second_frequency_hz", second),
+        entry("envelope_ratio", summary.envelope_ratio),
         Some(("settled".to_owned(), settled)),
         share("contact nodes that stick", status.stick),
         share("contact nodes that slip", status.slip),
@@ -172,19 +178,21 @@ fn growth_table(summary: &TransientSummary, predicted: &[(usize, f64)]) -> Repor
     };
     let fitted = summary.growth.iter().map(|growth| {
         vec![
-            growth.harmonic.to_string(),
+            growth
+                .harmonic
+                .map_or("strongest".into(), |n| n.to_string()),
             fixed(growth.rate_per_s, 2),
             format!(
                 "{} to {}",
                 fixed(growth.rate_low_per_s, 2),
                 fixed(growth.rate_high_per_s, 2)
             ),
-            own(growth.harmonic),
+            growth.harmonic.map_or(String::new(), own),
             fixed(growth.frequency_hz, 1),
         ]
     });
-    let others = summary.no_growth.iter().map(|(harmonic, reason)| {
-        let harmonic = &harmonic[1..];
+    let others = summary.no_growth.iter().map(|(vibration, reason)| {
+        let harmonic = vibration.strip_prefix('n').unwrap_or(vibration);
         let own = harmonic.parse().map_or(String::new(), own);
         vec![
             harmonic.to_owned(),
@@ -195,7 +203,7 @@ fn growth_table(summary: &TransientSummary, predicted: &[(usize, f64)]) -> Repor
         ]
     });
     ReportTable {
-        caption: "Growth of the perturbed harmonics in the linear stage".into(),
+        caption: "Growth in the linear stage".into(),
         columns: [
             "harmonic n",
             "rate (1/s)",

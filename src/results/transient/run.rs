@@ -16,6 +16,8 @@ pub struct RunFigures<'a> {
     pub mesh: &'a Mesh2d,
     /// One sector of a body in three dimensions, of which `mesh` is the section across the axis.
     pub solid: Option<&'a SolidSector>,
+    /// Whether its vibrations have circumferential harmonics.
+    pub has_harmonics: bool,
     /// The material, for the stress fields.
     pub material: &'a dyn MaterialField,
     /// Thickness, m: the record is for each metre.
