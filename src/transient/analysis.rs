@@ -340,3 +340,40 @@ fn growth(record: &Recorder, stage: Range<usize>, harmonic: usize) -> Option<Gro
         rotation_direction: record.rotation_direction,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::signal::Estimate;
+
+    #[test]
+    fn the_square_of_a_growing_wave_is_no_stage_of_twice_its_harmonic() {
+        let exactly = |value: f64| Estimate {
+            value,
+            low: value,
+            high: value,
+        };
+        let growth = |harmonic: usize, rate: f64, frequency: f64| Growth {
+            vibration: Vibration::Harmonic(harmonic),
+            stage: Ok(ExponentialStage {
+                start: 0.0,
+                end: 1.0,
+                rate_per_s: exactly(rate),
+                frequency_hz: exactly(frequency),
+                initial_amplitude: 1e-9,
+                deviation: 0.0,
+            }),
+            rotation_direction: 1.0,
+        };
+        let mut growths = [
+            growth(1, 1480.0, -10_500.0),
+            growth(2, 2962.0, -21_001.0),
+            growth(3, 4440.0, -31_500.0),
+            growth(4, 2960.0, -21_000.0),
+            growth(2, 950.0, -9930.0),
+        ];
+        refuse_powers(&mut growths);
+        let is_own = growths.map(|growth| growth.stage.is_ok());
+        assert_eq!(is_own, [true, false, false, true, true]);
+    }
+}

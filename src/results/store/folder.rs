@@ -55,6 +55,7 @@ impl OutputFolder {
         let (mut earlier, mut is_same) = (BTreeMap::new(), true);
         match contents {
             Some(contents) => {
+                let replace = allowed(path, &contents, replace);
                 is_same = check_owner(path, &contents.manifest, manifest, replace)?;
                 let is_sealed = contents.is_sealed;
                 earlier = contents.into_files();
@@ -101,7 +102,10 @@ impl OutputFolder {
     /// Those of [`OutputFolder::open`] that the folder's contents decide.
     pub fn may_open(path: &Path, manifest: &Manifest, replace: Replace) -> Result<(), FolderError> {
         match read_contents(path)? {
-            Some(found) => check_owner(path, &found.manifest, manifest, replace).map(|_| ()),
+            Some(found) => {
+                let replace = allowed(path, &found, replace);
+                check_owner(path, &found.manifest, manifest, replace).map(|_| ())
+            }
             None if replace != Replace::Anything && path.exists() => refuse_foreign(path),
             None => Ok(()),
         }
@@ -263,6 +267,15 @@ fn remove_temporaries(path: &Path) {
         } else if entry.file_name().to_string_lossy().starts_with(TEMPORARY) {
             let _ = fs::remove_file(entry.path());
         }
+    }
+}
+
+/// What may be replaced: anything in a folder whose run was interrupted before it had written a file.
+fn allowed(path: &Path, contents: &Contents, replace: Replace) -> Replace {
+    let unfinished = fs::read_to_string(path.join(JOURNAL)).unwrap_or_default();
+    match contents.files.is_empty() && unfinished.is_empty() {
+        true if replace == Replace::SameCase => Replace::Anything,
+        _ => replace,
     }
 }
 
