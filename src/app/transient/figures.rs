@@ -47,6 +47,7 @@ pub(super) fn draw_record(
         peripheral_speed: study.shown_speed(),
         references: stage.references,
         growth_rates: stage.growth_rates,
+        mode_rates: stage.mode_rates,
     };
     draw(folder, &run, summary, options)?;
     Ok(())

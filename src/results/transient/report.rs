@@ -21,17 +21,18 @@ pub fn draw(
     options: &DrawingOptions,
 ) -> Result<(), DrawingError> {
     let state = run.analysis.settling.state;
-    let mut report = html_report(summary, state, run.growth_rates.as_slice());
+    let mut report = html_report(summary, state, &run.growth_rates, run.growing_mode());
     report.sections[1].figures = draw_run(run, options)?;
     write_report(folder, &report, options)
 }
 
 /// The report without figures, from the summary of the run; `predicted` are harmonics and growth rates
-/// (1/s) of the eigenvalue analysis.
+/// (1/s) of the eigenvalue analysis, `growing_mode` frequency (Hz) and rate of the mode of a body without symmetry that grows.
 pub fn html_report(
     summary: &TransientSummary,
     state: EndState,
     predicted: &[(usize, f64)],
+    growing_mode: Option<(f64, f64)>,
 ) -> Report {
     let heading = match state {
         EndState::LimitCycle => "Limit cycle",
@@ -59,7 +60,10 @@ pub fn html_report(
             ReportSection {
                 heading: heading.into(),
                 paragraphs: Vec::new(),
-                tables: vec![motion_table(summary), growth_table(summary, predicted)],
+                tables: vec![
+                    motion_table(summary),
+                    growth_table(summary, predicted, growing_mode),
+                ],
                 figures: Vec::new(),
             },
         ],
@@ -171,7 +175,11 @@ fn motion_table(summary: &TransientSummary) -> ReportTable {
     }
 }
 
-fn growth_table(summary: &TransientSummary, predicted: &[(usize, f64)]) -> ReportTable {
+fn growth_table(
+    summary: &TransientSummary,
+    predicted: &[(usize, f64)],
+    growing_mode: Option<(f64, f64)>,
+) -> ReportTable {
     let own = |harmonic: usize| {
         let found = predicted.iter().find(|(n, _)| *n == harmonic);
         found.map_or(String::new(), |(_, rate)| fixed(*rate, 2))
@@ -187,7 +195,10 @@ fn growth_table(summary: &TransientSummary, predicted: &[(usize, f64)]) -> Repor
                 fixed(growth.rate_low_per_s, 2),
                 fixed(growth.rate_high_per_s, 2)
             ),
-            growth.harmonic.map_or(String::new(), own),
+            match growth.harmonic {
+                Some(harmonic) => own(harmonic),
+                None => growing_mode.map_or(String::new(), |(_, rate)| fixed(rate, 2)),
+            },
             fixed(growth.frequency_hz, 1),
         ]
     });

@@ -63,6 +63,7 @@ fn a_run_gets_every_figure_of_its_record() {
             label: "mode 5, *n* = 2".into(),
         }],
         growth_rates: growth.collect(),
+        mode_rates: Vec::new(),
     };
     let started = std::time::Instant::now();
     let figures = draw_run(&data, &DrawingOptions::default()).unwrap();
