@@ -413,6 +413,20 @@ fn what_a_killed_run_left_does_not_survive_another_case() {
 }
 
 #[test]
+fn a_run_interrupted_before_its_first_file_leaves_its_folder_to_any_case() {
+    let folder = tempfile::tempdir().unwrap();
+    drop(open(folder.path(), "a", Replace::SameCase).unwrap());
+    assert!(folder.path().join("manifest.json").exists());
+    OutputFolder::may_open(folder.path(), &manifest("b"), Replace::SameCase).unwrap();
+    let second = open(folder.path(), "b", Replace::SameCase).unwrap();
+    second.write("a.csv", |out| out.write_all(b"1")).unwrap();
+    drop(second);
+    // One that has written a file keeps its folder.
+    let refused = open(folder.path(), "c", Replace::SameCase).unwrap_err();
+    assert!(matches!(refused, FolderError::OtherCase { .. }));
+}
+
+#[test]
 fn a_folder_has_one_writer_at_a_time() {
     let folder = tempfile::tempdir().unwrap();
     let first = open(folder.path(), "a", Replace::SameCase).unwrap();

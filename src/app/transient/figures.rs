@@ -41,11 +41,13 @@ pub(super) fn draw_record(
         analysis: &study.analyse(record),
         mesh: &study.mesh,
         solid: study.sector.as_ref(),
+        has_harmonics: case.is_annulus(),
         material: case.materials(),
         thickness: study.thickness(),
         peripheral_speed: study.shown_speed(),
         references: stage.references,
         growth_rates: stage.growth_rates,
+        mode_rates: stage.mode_rates,
     };
     draw(folder, &run, summary, options)?;
     Ok(())

@@ -223,10 +223,10 @@ fn multiples(
             } else {
                 format!("{multiple}*f*")
             };
-            let name = if multiple == 1 {
-                format!("{name} = {:.2} kHz", frequencies[peak] * 1e-3)
-            } else {
-                name
+            let name = match (multiple, main_hz) {
+                (1, Some(hertz)) => format!("{name} = {:.2} kHz", hertz * 1e-3),
+                (1, None) => format!("{name} = {:.2} kHz", frequencies[peak] * 1e-3),
+                _ => name,
             };
             labels.push(Label::new((frequencies[peak], amplitudes[peak]), name).above());
         }

@@ -4,6 +4,7 @@ use super::confirmation::confirmation_text;
 use super::stability::print_stability;
 use super::{CycleReport, CycleResult};
 use crate::cycle::{CycleBranch, Family, LimitCycle};
+use crate::results::quantity::significant;
 use std::fmt::Write as _;
 
 /// The report as text.
@@ -89,15 +90,23 @@ fn branch_line(out: &mut String, family: Family, branch: &CycleBranch) {
             branch.parameter.in_key_units(value)
         })
     };
+    let folds = branch.folds.iter();
+    let folds: Vec<String> = folds
+        .map(|&fold| significant(branch.parameter.in_key_units(fold), 5))
+        .collect();
+    let folds = match folds.as_slice() {
+        [] => "no fold".to_owned(),
+        [one] => format!("a fold at {one}"),
+        several => format!("{} folds at {}", several.len(), several.join(", ")),
+    };
     let _ = writeln!(
         out,
-        "{family}: {} cycles over {} from {} ({}) to {} ({}), {} folds",
+        "{family}: {} cycles over {} from {} ({}) to {} ({}), {folds}",
         branch.cycles.len(),
         branch.parameter.key(),
         value(branch.cycles.first()),
         branch.ends[0].describe(),
         value(branch.cycles.last()),
         branch.ends[1].describe(),
-        branch.folds.len(),
     );
 }

@@ -1,6 +1,6 @@
 // Motion, sound, and points that move with a parameter.
 const ramp = ["#440154", "#482878", "#3e4989", "#31688e", "#26828e", "#1f9e89", "#35b779", "#6ece58", "#b5de2b", "#fde725"];
-const statusColours = ["#bfbfbf", "#d55e00", "#0072b2"], statusNames = ["open", "stick", "slip"];
+const statusColours = ["#8c8c8c", "#0072b2", "#e69f00"], statusNames = ["open", "stick", "slip"];
 const slider = (name, attributes, oninput) => {
   const input = make("input", { type: "range", ...attributes });
   input.addEventListener("input", () => oninput(Number(input.value)));

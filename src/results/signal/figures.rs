@@ -7,9 +7,12 @@ use crate::results::charts::{
 };
 use crate::results::drawing::{Declaration, DrawingOptions, draw_all};
 use crate::results::report::NamedFigure;
-use crate::signal::{SpectrogramOptions, spectrogram};
+use crate::signal::{SpectralResolution, SpectrogramOptions, spectral_lines, spectrogram};
 use serde::{Deserialize, Serialize};
 use std::sync::Mutex;
+
+/// Lines among which the fundamental is looked for.
+const MOST_LINES: usize = 20;
 
 /// Everything that the figures show.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -142,11 +145,23 @@ fn spectrum(record: &SignalRecord, channel: &ChannelRecord, number: usize) -> Fi
     let name = literal(&channel.name);
     let spectra: [(&str, &[f64], &[f64]); 1] =
         [(&name, &channel.frequencies_hz, &channel.amplitudes)];
+    // The fundamental where its superharmonics are stronger, located between the lines as in the summary.
+    let sample = |time: f64| {
+        ((time - record.start) * record.sampling_rate)
+            .round()
+            .max(0.0) as usize
+    };
+    let end = sample(to).saturating_add(1).min(channel.samples.len());
+    let part = &channel.samples[sample(from).min(end)..end];
+    let lines = SpectralResolution::of(part.len(), record.sampling_rate, None)
+        .and_then(|fine| spectral_lines(part, record.sampling_rate, fine, MOST_LINES));
+    let lines = lines.unwrap_or_default();
+    let main = lines.iter().find(|line| line.superharmonic_of.is_none());
     let caption = format!("Spectrum of {} from {from:.4} to {to:.4} s.", channel.name);
     Figure::new(format!("spectrum-{number}"), caption).panel(spectrum_panel(
         &spectra,
         "",
-        (highest(record), None),
+        (highest(record), main.map(|line| line.frequency_hz)),
         &modes(record),
     ))
 }

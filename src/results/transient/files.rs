@@ -31,7 +31,9 @@ pub fn write(
     }
     folder.write("energy.csv", |out| write_energy(out, report))?;
     folder.write("contact.csv", |out| write_contact(out, &report.record.rows))?;
-    folder.write("harmonics.csv", |out| write_harmonics(out, report.record))?;
+    if report.has_harmonics {
+        folder.write("harmonics.csv", |out| write_harmonics(out, report.record))?;
+    }
     folder.write("contact.npz", |out| {
         out.write_all(&encode_contact(report.record)?)
     })?;

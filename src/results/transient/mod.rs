@@ -40,6 +40,8 @@ pub struct TransientReport<'a> {
     pub solid: Option<&'a SolidSector>,
     /// Its material, for the stresses.
     pub material: &'a dyn MaterialField,
+    /// Whether its vibrations have circumferential harmonics: it has the symmetry of the built-in annulus.
+    pub has_harmonics: bool,
     /// Thickness, m; 1 in three dimensions, where records are of the whole body.
     pub thickness: f64,
     /// Friction coefficient, for the snapshots.
@@ -68,6 +70,8 @@ pub struct TransientReport<'a> {
     pub wall_s: f64,
     /// Whether the run reached its end.
     pub is_finished: bool,
+    /// What to know before its numbers are used.
+    pub notes: Vec<String>,
 }
 
 impl TransientReport<'_> {

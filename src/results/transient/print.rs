@@ -32,12 +32,12 @@ pub fn print(summary: &TransientSummary, state: EndState) -> String {
         .growth
         .iter()
         .for_each(|stage| growth(&mut out, stage));
-    for (harmonic, reason) in &summary.no_growth {
-        let _ = writeln!(
-            out,
-            "linear stage: no growth rate of harmonic {}: {reason}",
-            &harmonic[1..]
-        );
+    for (vibration, reason) in &summary.no_growth {
+        let of = match vibration.strip_prefix('n') {
+            Some(harmonic) => format!(" of harmonic {harmonic}"),
+            None => String::new(),
+        };
+        let _ = writeln!(out, "linear stage: no growth rate{of}: {reason}");
     }
     if let Some(time) = summary.first_nonlinearity_s {
         let _ = writeln!(out, "first node that sticks or opens at {time:.6} s");
@@ -45,15 +45,16 @@ pub fn print(summary: &TransientSummary, state: EndState) -> String {
     let _ = writeln!(out, "{}", ending(summary, state));
     let _ = writeln!(out, "over the last fifth of the run:");
     match (summary.main_frequency_hz, summary.main_harmonic) {
-        (Some(frequency), Some(harmonic)) => {
-            let _ = writeln!(
-                out,
-                "  main frequency {} Hz, {harmonic} nodal diameter{}",
-                fixed(frequency, 1),
-                if harmonic == 1 { "" } else { "s" }
-            );
+        (Some(frequency), harmonic) => {
+            let diameters = match harmonic {
+                None => String::new(),
+                Some(1) => ", 1 nodal diameter".to_owned(),
+                Some(n) => format!(", {n} nodal diameters"),
+            };
+            let frequency = fixed(frequency, 1);
+            let _ = writeln!(out, "  main frequency {frequency} Hz{diameters}");
         }
-        _ => out.push_str("  no vibration\n"),
+        (None, _) => out.push_str("  no vibration\n"),
     }
     let status = &summary.status;
     let _ = writeln!(
@@ -101,12 +102,24 @@ pub fn print(summary: &TransientSummary, state: EndState) -> String {
             summary.contact_interval_s
         );
     }
+    for note in &summary.notes {
+        let _ = writeln!(out, "note: {note}");
+    }
     out
 }
 
 /// Where the run has come to, as a sentence.
 pub fn ending(summary: &TransientSummary, state: EndState) -> String {
     let end = format!("the run ends {}", state.phrase());
+    let end = match (summary.frequencies_hz, summary.envelope_ratio) {
+        (Some([first, second]), Some(ratio)) => format!(
+            "{end}: {} and {} Hz, its envelope swings by a factor of {}",
+            fixed(first, 1),
+            fixed(second, 1),
+            fixed(ratio, 2)
+        ),
+        _ => end,
+    };
     match (summary.settled_from_s, &summary.unsettled_because) {
         (Some(from), _) => format!("{end}, settled from {from:.6} s on"),
         (None, Some(reason)) => format!("{end}: {reason}"),
@@ -121,19 +134,22 @@ fn growth(out: &mut String, stage: &GrowthSummary) {
         rate if rate > 0.0 => "grows at",
         _ => "decays at",
     };
+    let vibration = match stage.harmonic {
+        Some(harmonic) => format!("harmonic {harmonic}"),
+        None => "the strongest vibration".to_owned(),
+    };
+    let way = match stage.direction {
+        None => "",
+        Some(1..) => ", travelling with the rotor",
+        Some(_) => ", travelling against the rotor",
+    };
     let _ = writeln!(
         out,
-        "linear stage: harmonic {} {verb} {} 1/s ({} to {}), {} Hz, travelling {} the rotor",
-        stage.harmonic,
+        "linear stage: {vibration} {verb} {} 1/s ({} to {}), {} Hz{way}",
         fixed(stage.rate_per_s, 1),
         fixed(low, 1),
         fixed(high, 1),
         fixed(stage.frequency_hz, 1),
-        if stage.direction > 0 {
-            "with"
-        } else {
-            "against"
-        },
     );
 }
 

@@ -16,6 +16,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod notes;
 mod settings;
 
 use super::StudyError;
@@ -189,12 +190,16 @@ impl<'a> TransientStudy<'a> {
     /// Reads a record.
     pub fn analyse(&self, record: &Recorder) -> TransientAnalysis {
         let perturbation = &self.settings.perturbation;
-        // Noise seeds every harmonic.
-        let seeded = match perturbation.noise {
-            0.0 => perturbation.harmonics(),
-            _ => record.significant_harmonics(),
+        let analysis = match (self.case.is_annulus(), perturbation.noise) {
+            (false, _) => TransientAnalysis::without_symmetry(record),
+            (true, 0.0) => TransientAnalysis::of(record, &perturbation.harmonics()),
+            // Noise seeds every harmonic.
+            (true, _) => TransientAnalysis::of(record, &record.significant_harmonics()),
         };
-        TransientAnalysis::of(record, &seeded)
+        match self.settings.initial {
+            InitialState::LimitCycle { .. } => analysis.from_limit_cycle(),
+            InitialState::Rest | InitialState::SteadySliding => analysis,
+        }
     }
 
     /// Runs to the end, or to where it settles if the case says so, and keeps the samples alone.
@@ -271,6 +276,7 @@ impl<'a> TransientStudy<'a> {
             mesh: &self.mesh,
             solid: self.sector.as_ref(),
             material: case.materials(),
+            has_harmonics: case.is_annulus(),
             thickness: self.thickness(),
             friction_coefficient: case.contact.sliding.friction_coefficient,
             initial: settings.initial.name(),
@@ -285,6 +291,7 @@ impl<'a> TransientStudy<'a> {
             stepping_s: 0.0,
             wall_s: 0.0,
             is_finished: true,
+            notes: self.notes(record, analysis, plan.time_step),
         }
     }
 

@@ -47,13 +47,14 @@ fn a_run_gets_every_figure_of_its_record() {
     let analysis = TransientAnalysis::of(&record, &[2]);
     let growth = analysis.growth.iter().filter_map(|g| {
         let stage = g.stage.as_ref().ok()?;
-        Some((g.harmonic, stage.rate_per_s.value))
+        Some((g.harmonic()?, stage.rate_per_s.value))
     });
     let data = RunFigures {
         record: &record,
         analysis: &analysis,
         mesh: &annulus.mesh,
         solid: None,
+        has_harmonics: true,
         material: model.material,
         thickness: 0.009,
         peripheral_speed: rotation_speed * 0.0205,
@@ -62,6 +63,7 @@ fn a_run_gets_every_figure_of_its_record() {
             label: "mode 5, *n* = 2".into(),
         }],
         growth_rates: growth.collect(),
+        mode_rates: Vec::new(),
     };
     let started = std::time::Instant::now();
     let figures = draw_run(&data, &DrawingOptions::default()).unwrap();
