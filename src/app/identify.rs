@@ -1,7 +1,7 @@
 //! `frictionsim identify`: Rayleigh coefficients from a measured frequency response.
 
 use super::Failure;
-use super::measurement::{Measurement, write_aside};
+use super::measurement::{Copy, Measurement};
 use super::options::OutputOptions;
 use super::profile::{Profile, Redraw};
 use crate::results::identification::{
@@ -96,6 +96,10 @@ pub const PROFILE: Profile = Profile {
 /// that cannot be written.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let options = identification_options(arguments)?;
+    let uff = arguments.uff.as_deref();
+    let copy = uff
+        .map(|path| Copy::prepare("--uff", path, &arguments.response, arguments.output.force))
+        .transpose()?;
     let measurement = Measurement::start(
         "identify",
         &arguments.response,
@@ -130,9 +134,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let object = write(&folder, &summary, &file.responses, &found.fit)?;
     let record = IdentificationRecord::of(&responses[0], &found);
     write_record(&folder, &record)?;
-    if let Some(path) = &arguments.uff {
+    if let Some(copy) = copy {
         let text: String = file.responses.iter().map(write_response).collect();
-        write_aside(path, text.as_bytes())?;
+        copy.write(text.as_bytes())?;
     }
     if let Some(drawing) = arguments.output.drawing() {
         draw_all(&folder, &record, &summary, &drawing)?;

@@ -1,6 +1,6 @@
 //! `frictionsim signal`: what vibrates in a measured or computed time signal.
 
-use super::measurement::{Measurement, write_aside};
+use super::measurement::{Copy, Measurement};
 use super::options::OutputOptions;
 use super::profile::{Profile, Redraw};
 use super::session::read_case;
@@ -107,6 +107,7 @@ pub const PROFILE: Profile = Profile {
 /// # Errors
 /// A table or case that cannot be read (exit code 2), or an analysis that fails (1).
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let copies = prepare_copies(arguments)?;
     let case = match &arguments.case {
         Some(path) => Some(read_case(path, &arguments.set)?),
         None => None,
@@ -175,7 +176,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     if let Some(drawing) = arguments.output.drawing() {
         draw_all(&folder, &record, &summary, &drawing)?;
     }
-    let aside = write_copies(arguments, &file)?;
+    let aside = write_copies(arguments, &copies, &file)?;
     arguments
         .output
         .finish(folder, &(summary.print() + &aside), &object)
@@ -212,13 +213,27 @@ fn check_drawing(arguments: &Arguments, file: &SignalFile) -> Result<(), Failure
     Ok(())
 }
 
+/// The sound and the universal file that are asked for.
+fn prepare_copies(arguments: &Arguments) -> Result<[Option<Copy<'_>>; 2], Failure> {
+    let (signal, force) = (&arguments.signal, arguments.output.force);
+    let wav = arguments.wav.as_deref();
+    let wav = wav.map(|path| Copy::prepare("--wav", path, signal, force));
+    let uff = arguments.uff.as_deref();
+    let uff = uff.map(|path| Copy::prepare("--uff", path, signal, force));
+    Ok([wav.transpose()?, uff.transpose()?])
+}
+
 /// Writes the channels as sound and as universal file, where asked for; what was written, in words.
-fn write_copies(arguments: &Arguments, file: &SignalFile) -> Result<String, Failure> {
+fn write_copies(
+    arguments: &Arguments,
+    [wav, uff]: &[Option<Copy<'_>>; 2],
+    file: &SignalFile,
+) -> Result<String, Failure> {
     let mut text = String::new();
-    if let Some(path) = &arguments.wav {
+    if let (Some(path), Some(copy)) = (&arguments.wav, wav) {
         let slower = arguments.slower.unwrap_or(slowdown(file.sampling_rate));
         let bytes = write_wav(file, slower).map_err(Failure::usage)?;
-        write_aside(path, &bytes)?;
+        copy.write(&bytes)?;
         let factor = f64::from(slower);
         text = format!(
             "sound in {}: played {slower} times slower, 10 kHz is heard as {} kHz; {:.2} s\n",
@@ -227,8 +242,8 @@ fn write_copies(arguments: &Arguments, file: &SignalFile) -> Result<String, Fail
             file.channels[0].samples.len() as f64 / file.sampling_rate * factor,
         );
     }
-    if let Some(path) = &arguments.uff {
-        write_aside(path, write_signal(file).as_bytes())?;
+    if let (Some(path), Some(copy)) = (&arguments.uff, uff) {
+        copy.write(write_signal(file).as_bytes())?;
         text += &format!("universal file in {}\n", path.display());
     }
     Ok(text)

@@ -121,8 +121,11 @@ pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &ElasticMateria
     let reject = |(message, label): (String, String)| mesh.reject("file", message, label, None);
     let bytes = body::mesh_bytes(raw, &file).map_err(&reject).ok();
     let body = bytes.as_ref().and_then(|bytes| {
-        let body = body::import(bytes, &parts);
-        body.map_err(&reject).ok()
+        let refuse = |error: body::ImportError| {
+            let at = raw.place(&error.key);
+            mesh.reject_placed(&at, error.message, error.label, error.help);
+        };
+        body::import(bytes, &parts).map_err(refuse).ok()
     });
     mesh.close();
     // Without a body there is an error already; what follows needs some numbers.

@@ -4,7 +4,10 @@ use super::Case;
 use super::diagnostic::Diagnostic;
 use super::key::CaseKey;
 use super::keys::KEYS;
+use super::shown::first_of;
 use crate::fem::PlaneFormulation;
+use crate::mesh::Mesh2d;
+use std::ops::RangeInclusive;
 
 /// Share of the radius beyond which an interference is no small displacement.
 const LARGEST_INTERFERENCE: f64 = 0.05;
@@ -16,6 +19,10 @@ const LARGEST_PRESSURE: f64 = 0.1;
 const WAVE_SPEEDS: [f64; 2] = [100.0, 10_000.0];
 /// Lengths that a case has, m.
 const LENGTHS: [f64; 2] = [1e-5, 10.0];
+/// Thickness beyond which a plane body is hardly meant, m: 1 m is the default, a value for each metre.
+const LARGEST_THICKNESS: f64 = 1.0;
+/// Jacobian of an element, smallest over largest, below which it is badly shaped.
+const SMALLEST_JACOBIAN: f64 = 0.1;
 /// Poisson's ratio beyond which plane-strain elements lock.
 const LARGEST_POISSON_RATIO: f64 = 0.49;
 /// Times the modulus over the radius beyond which a contact stiffness drowns the body in round-off.
@@ -25,6 +32,9 @@ const LARGEST_STIFFNESS_RATIO: f64 = 1e8;
 pub(super) fn implausible(case: &Case) -> Vec<Diagnostic> {
     [
         lengths(case),
+        mesh_size(case),
+        unmerged_nodes(case),
+        element_shape(case),
         wave_speed(case),
         poisson_ratio(case),
         friction(case),
@@ -45,21 +55,116 @@ fn warning(case: &Case, key: &str, message: String, label: &str, help: &str) -> 
 }
 
 fn lengths(case: &Case) -> Option<Diagnostic> {
-    let [least, most] = LENGTHS;
-    let named = [
+    let radii = [
         ("geometry.inner_radius", case.annulus.inner_radius),
         ("geometry.outer_radius", case.annulus.outer_radius),
-        ("geometry.thickness", case.thickness),
     ];
-    let (key, value) = named
-        .into_iter()
-        .find(|(_, value)| *value < least || *value > most)?;
+    let radii = radii.into_iter().filter(|_| case.body.is_none());
+    let (key, value) = radii
+        .chain([("geometry.thickness", case.thickness)])
+        .find(|(key, value)| !length_range(key).contains(value))?;
+    let [least, most] =
+        [length_range(key).start(), length_range(key).end()].map(|end| metres(*end));
     Some(warning(
         case,
         key,
-        format!("{key} = {value} m is a length outside {least} to {most} m"),
+        format!("{key} = {value} m is outside the plausible range of {least} to {most}"),
         "metres?",
         "a case is in SI: are these millimetres or micrometres?",
+    ))
+}
+
+/// Lengths that a key of a case has, m.
+fn length_range(key: &str) -> RangeInclusive<f64> {
+    let [least, most] = LENGTHS;
+    match key {
+        "geometry.thickness" => least..=LARGEST_THICKNESS,
+        _ => least..=most,
+    }
+}
+
+/// A length with the unit that suits its size.
+fn metres(length: f64) -> String {
+    match length {
+        l if l < 1e-3 => format!("{} um", (l * 1e9).round() / 1e3),
+        l if l < 1.0 => format!("{} mm", (l * 1e6).round() / 1e3),
+        l => format!("{l} m"),
+    }
+}
+
+/// Size of a body from a mesh file, the larger side of the box around it.
+fn mesh_size(case: &Case) -> Option<Diagnostic> {
+    let size = extent(&case.body.as_ref()?.mesh);
+    let [least, most] = LENGTHS;
+    if (least..=most).contains(&size) {
+        return None;
+    }
+    Some(warning(
+        case,
+        "mesh.scale",
+        format!(
+            "the mesh is {size:.4} m wide, outside the plausible range of {} to {}: mesh.scale, the factor on its coordinates",
+            metres(least),
+            metres(most)
+        ),
+        "metres?",
+        "a mesh in millimetres needs mesh.scale = 0.001",
+    ))
+}
+
+/// The larger side of the box around a mesh, m.
+fn extent(mesh: &Mesh2d) -> f64 {
+    let side = |axis: usize| {
+        let values = mesh.nodes.iter().map(|node| node[axis]);
+        let ends = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| {
+            [low.min(value), high.max(value)]
+        });
+        ends[1] - ends[0]
+    };
+    side(0).max(side(1))
+}
+
+/// Nodes of an imported mesh that lie on each other without being one.
+fn unmerged_nodes(case: &Case) -> Option<Diagnostic> {
+    let found = case.body.as_ref()?.mesh.unmerged_nodes()?;
+    Some(warning(
+        case,
+        "mesh.file",
+        format!("{found}: the parts are not connected there"),
+        "parts that were not merged?",
+        "join the parts (BooleanFragments or Coherence in the Gmsh geometry, or Coherence Mesh;), unless this is a crack",
+    ))
+}
+
+/// The worst element of an imported mesh.
+fn element_shape(case: &Case) -> Option<Diagnostic> {
+    let mesh = &case.body.as_ref()?.mesh;
+    let quality = mesh.quality();
+    if quality.worst_jacobian >= SMALLEST_JACOBIAN {
+        return None;
+    }
+    let nodes = mesh.element_nodes(quality.worst_element);
+    let count = nodes.len() as f64;
+    let sum = |axis: usize| {
+        nodes
+            .iter()
+            .map(|&n| mesh.nodes[n as usize][axis])
+            .sum::<f64>()
+    };
+    let labels = nodes.iter().map(|&node| mesh.node_label(node as usize));
+    Some(warning(
+        case,
+        "mesh.file",
+        format!(
+            "the Jacobian of an element varies by a factor {:.3} (smallest over largest; below {SMALLEST_JACOBIAN} the \
+             element is badly shaped): that of nodes {} at ({:.6}, {:.6}) m",
+            quality.worst_jacobian,
+            first_of(labels, 9),
+            sum(0) / count,
+            sum(1) / count
+        ),
+        "a badly shaped element",
+        "mesh the surface again, finer where it curves, or with Mesh.Optimize = 1; stresses near it are not reliable",
     ))
 }
 
@@ -189,6 +294,17 @@ fn interference(case: &Case) -> Option<Diagnostic> {
     let a = case.annulus.inner_radius;
     let delta = case.contact.sliding.interference;
     let help = "is it in metres? 25 micrometres are 25e-6";
+    if let Some(body) = &case.body {
+        let size = extent(&body.mesh);
+        return (delta > LARGEST_INTERFERENCE * size).then(|| {
+            let message = format!(
+                "{key} = {delta} m is {:.3} of the size of the body, {size:.4} m: a model of small displacements holds \
+                 below {LARGEST_INTERFERENCE}",
+                delta / size
+            );
+            warning(case, key, message, "above 5 % of the size", help)
+        });
+    }
     if delta > LARGEST_INTERFERENCE * a {
         let share = format!(
             "{key} = {delta} m is {:.3} of geometry.inner_radius = {a} m: a model of small \

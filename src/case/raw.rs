@@ -4,6 +4,7 @@ use super::diagnostic::{CaseErrors, Diagnostic, Location, Source};
 use super::overrides;
 use super::value::{RawItem, RawTable, RawValue, convert_table, quote};
 use sha2::{Digest, Sha256};
+use std::collections::HashSet;
 use std::fmt::Write as _;
 use std::sync::Arc;
 use toml::de::DeTable;
@@ -149,9 +150,10 @@ impl RawCase {
     /// The first key that has another value in `other`, in words: `section.key is 1 here, 2`.
     pub fn difference(&self, other: &Self) -> Option<String> {
         let (ours, theirs) = (self.canonical(), other.canonical());
-        let differing = |line: &&str, text: &str| !text.lines().any(|other| other == *line);
-        let of_ours = ours.lines().find(|line| differing(line, &theirs));
-        let of_theirs = theirs.lines().find(|line| differing(line, &ours));
+        let lines_of = |text| str::lines(text).collect::<HashSet<&str>>();
+        let [our_lines, their_lines] = [&*ours, &*theirs].map(lines_of);
+        let of_ours = ours.lines().find(|line| !their_lines.contains(line));
+        let of_theirs = theirs.lines().find(|line| !our_lines.contains(line));
         let (key, _) = of_ours.or(of_theirs)?.split_once(" = ")?;
         let value = |text: &str| {
             let mut assignments = text.lines().filter_map(|line| line.split_once(" = "));

@@ -68,6 +68,11 @@ pub(super) fn nearest<'a>(
     candidates: impl Iterator<Item = &'a str>,
 ) -> Option<&'a str> {
     candidates
+        // The distance is at least the difference of the lengths, and takes their product to find.
+        .filter(|candidate| {
+            let longest = word.len().max(candidate.len());
+            3 * word.len().abs_diff(candidate.len()) <= longest + 2
+        })
         .map(|candidate| (strsim::damerau_levenshtein(word, candidate), candidate))
         .filter(|(distance, candidate)| 3 * distance <= word.len().max(candidate.len()) + 2)
         .min_by_key(|(distance, _)| *distance)

@@ -4,6 +4,7 @@
 mod annulus;
 mod body;
 mod boundary;
+mod coincidence;
 mod counterface;
 mod curve;
 mod element;
@@ -20,9 +21,10 @@ mod specification;
 pub use annulus::AnnulusMesh;
 pub use body::{BodySpecification, CounterfaceSpecification};
 pub use boundary::{Boundary, BoundaryCondition, ElasticSupport, NodalSupport};
+pub use coincidence::{UnmergedNodes, coincident_nodes};
 pub use counterface::Counterface;
 pub use element::{ElementKind, QuadraturePoint, Shape};
-pub use gmsh::{GmshFile, MeshFileError};
+pub use gmsh::{BodyPart, GmshFile, MeshFileError};
 pub use quality::MeshQuality;
 pub use sector::SectorMesh;
 pub use solid::{

@@ -86,7 +86,7 @@ fn positions(wanted: &[String], names: &[&str]) -> Result<Vec<usize>, ReadProble
             .or_else(|| number.filter(|n| *n < names.len()))
             .ok_or_else(|| ReadProblem::NoChannel {
                 wanted: wanted.clone(),
-                found: names.join(", "),
+                found: text::first_of(names),
             })
     };
     wanted.iter().map(position).collect()
