@@ -36,7 +36,7 @@ pub struct CaseChanges {
     /// Override a case key, for example contact.friction_coefficient=0.4 (repeatable)
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub set: Vec<String>,
-    /// Take a case key or section away, before --set (repeatable)
+    /// Remove a key or section of the case (repeatable; applied before --set)
     #[arg(long = "unset", value_name = "KEY")]
     pub unset: Vec<String>,
     /// Treat warnings about the case as errors
@@ -58,10 +58,10 @@ pub struct OutputOptions {
     /// Output folder; the command line says each command's default.
     #[arg(long, short, help = "Output folder", value_name = "DIR", value_hint = ValueHint::DirPath)]
     pub out: Option<PathBuf>,
-    /// Replace the results of another case or table in the output folder
+    /// Replace results of another case or table in the output folder, and existing files of other options
     #[arg(long)]
     pub force: bool,
-    /// Check everything and say where results would go, but compute and write nothing
+    /// Check everything and print where results would go, without computing or writing anything
     #[arg(long)]
     pub dry_run: bool,
     /// Draw no figures
@@ -73,10 +73,10 @@ pub struct OutputOptions {
     /// Print the summary object, alone, on stdout
     #[arg(long)]
     pub json: bool,
-    /// No progress and no information; twice: errors only, and no table
+    /// No progress bar and no information messages; twice: errors only, and no table
     #[arg(long, short, action = ArgAction::Count)]
     pub quiet: u8,
-    /// Whole tables, and what goes on
+    /// Full tables and progress messages
     #[arg(long, short, action = ArgAction::Count, conflicts_with = "quiet")]
     pub verbose: u8,
 }
@@ -120,7 +120,11 @@ impl OutputOptions {
         if is_continued && !own.exists() {
             return (plain, replace);
         }
-        tracing::info!("{} holds other results, which stay", plain.display());
+        tracing::info!(
+            "{} keeps the results of an earlier run; writing to {} instead",
+            plain.display(),
+            own.display()
+        );
         (own, replace)
     }
 

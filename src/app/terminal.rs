@@ -2,6 +2,7 @@
 
 use super::Failure;
 use crate::case::{shown, shown_json};
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use std::io::{self, IsTerminal, Write};
 use std::process::ExitCode;
@@ -46,8 +47,56 @@ pub fn report(failure: &Failure) -> ExitCode {
     ExitCode::from(code)
 }
 
+/// Says a warning on stderr, for commands that keep no log.
+pub fn warn(warning: &impl std::fmt::Display) {
+    // Nobody is left to tell if stderr is closed.
+    let _ = writeln!(
+        io::stderr().lock(),
+        "warning: {}",
+        shown(&warning.to_string())
+    );
+}
+
+/// Commands of other programs and what they are called here.
+const OTHER_NAMES: &[(&str, &str)] = &[
+    ("damping", "identify"),
+    ("dynamic", "transient"),
+    ("eigen", "cea"),
+    ("eigenvalues", "cea"),
+    ("harmonic", "frf"),
+    ("modal", "cea"),
+    ("modes", "cea"),
+    ("new", "init"),
+    ("report", "plot"),
+    ("response", "frf"),
+    ("run", "transient"),
+    ("spectrum", "signal"),
+    ("template", "init"),
+    ("validate", "check"),
+];
+
+/// The command that is meant by one that does not exist.
+fn meant_command(error: &clap::Error) -> Option<&'static str> {
+    if error.kind() != ErrorKind::InvalidSubcommand {
+        return None;
+    }
+    let Some(ContextValue::String(given)) = error.get(ContextKind::InvalidSubcommand) else {
+        return None;
+    };
+    let found = OTHER_NAMES.iter().find(|pair| pair.0 == given);
+    found.map(|pair| pair.1)
+}
+
 /// Prints what the command line's parser says (help and version too), and gives the exit code.
 pub fn report_usage(error: &clap::Error) -> ExitCode {
+    if let Some(meant) = meant_command(error) {
+        let _ = writeln!(
+            io::stderr().lock(),
+            "{} no such command; `frictionsim {meant}` does that\n\nFor more information, try '--help'.",
+            error_word()
+        );
+        return ExitCode::from(2);
+    }
     let plain = error.render().to_string();
     let safe = shown(&plain);
     let printed = match safe == plain {

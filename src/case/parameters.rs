@@ -93,7 +93,10 @@ fn collect<'a>(
         }
         (_, Err(reason)) => section.reject_there(
             &entry.key_at,
-            format!("{} = \"{name}\" cannot be varied", section.name("")),
+            format!(
+                "\"{name}\" in {} cannot be varied",
+                section.name("").trim_end_matches('.')
+            ),
             "no continuous parameter".to_owned(),
             &reason,
         ),

@@ -232,7 +232,7 @@ fn readable_text(bytes: &[u8]) -> Result<&str, (Diagnostic, String)> {
     }
     if bytes.contains(&0) {
         return refuse(
-            "the case file is no text: it holds zero bytes",
+            "the case file is not a text file: it holds zero bytes",
             0..0,
             String::new(),
         );
@@ -247,13 +247,55 @@ fn readable_text(bytes: &[u8]) -> Result<&str, (Diagnostic, String)> {
 /// Parses a whole document; syntax errors are added to `diagnostics`.
 fn parse_document(text: &str, source: usize, diagnostics: &mut Vec<Diagnostic>) -> RawTable {
     let (table, errors) = DeTable::parse_recoverable(text);
+    if let (false, Some(other)) = (errors.is_empty(), foreign(text)) {
+        diagnostics.push(Diagnostic::error(
+            format!("this is {other}, not a case"),
+            "expected a section such as [geometry], or a key".to_owned(),
+            Location::new(source, 0..text.find('\n').unwrap_or(text.len())),
+            Some("`frictionsim init` writes a case to start from".to_owned()),
+        ));
+        return RawTable::new();
+    }
     for error in &errors {
+        let span = error.span().unwrap_or(0..0);
         diagnostics.push(Diagnostic::error(
             error.message().to_owned(),
             String::new(),
-            Location::new(source, error.span().unwrap_or(0..0)),
-            None,
+            Location::new(source, span.clone()),
+            decimal_comma(text, span.start),
         ));
     }
     convert_table(table.get_ref(), source, diagnostics)
+}
+
+/// What a text is that is no TOML at all.
+fn foreign(text: &str) -> Option<&'static str> {
+    let begin = text.trim_start();
+    if begin.starts_with("$MeshFormat") {
+        return Some("a Gmsh mesh (a case names it as mesh.file)");
+    }
+    if begin.starts_with('{') {
+        return Some("a JSON file");
+    }
+    if begin.starts_with('<') {
+        return Some("an XML or HTML file");
+    }
+    let mut rows = text.lines().map(str::trim).filter(|line| !line.is_empty());
+    let is_row = |line: &str| {
+        let has_columns = line.contains([',', ';', '\t']);
+        has_columns && !line.contains('=') && !line.starts_with(['[', '#'])
+    };
+    // The first rows tell: a case has an assignment or a section among them.
+    let (first, second) = (rows.next()?, rows.next()?);
+    (is_row(first) && is_row(second)).then_some("a table of values")
+}
+
+/// A hint where the line of a syntax error gives a number with a decimal comma.
+fn decimal_comma(text: &str, at: usize) -> Option<String> {
+    let begin = text.get(..at)?.rfind('\n').map_or(0, |newline| newline + 1);
+    let line = text[begin..].lines().next()?;
+    let value = line.split_once('=')?.1.trim();
+    let number = value.replace(',', ".");
+    let is_number = value.matches(',').count() == 1 && number.parse::<f64>().is_ok();
+    is_number.then(|| format!("write the number with a decimal point, not a comma: {number}"))
 }

@@ -239,7 +239,13 @@ impl<'a> Section<'a> {
                 format!("unknown key `{}`", cut(self.name(key))),
                 place.clone(),
                 entry.key_at.clone(),
-                suggestion::suggest(&self.path, key, &names),
+                match self.declarations {
+                    Some(own) => {
+                        let parts: Vec<&str> = own.iter().map(|part| part.name).collect();
+                        suggestion::suggest_part(key, &parts)
+                    }
+                    None => suggestion::suggest(&self.path, key, &names),
+                },
             );
         }
         if let Some((_, first)) = unknown.next() {

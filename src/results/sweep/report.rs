@@ -116,7 +116,7 @@ impl SweepReport<'_> {
         let unsettled = self.unsettled();
         if !unsettled.is_empty() {
             notes.push(format!(
-                "the transient ends before it has settled at {} of {} points ({}): their numbers are of no limit cycle; \
+                "the transient ends before it has settled at {} of {} points ({}): these are not limit cycles; \
                  raise transient.duration",
                 unsettled.len(),
                 self.records.len(),

@@ -216,7 +216,7 @@ fn solve_solid(
         coverage.margin_hz,
     )];
     notes.push(format!(
-        "each harmonic is solved in a small space (residuals are those there), which leaves out up to {:.1e} of an eigenvalue, \
+        "each harmonic is solved in a small space (residuals are those there): relative error of an eigenvalue up to {:.1e}, \
          estimated at friction {}",
         found.reduction_error,
         friction_coefficients.iter().fold(0.0_f64, |m, &mu| m.max(mu)),
