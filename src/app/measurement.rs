@@ -1,4 +1,4 @@
-//! What the commands on measured tables share: options, reading the file, the output folder.
+//! Options, input and output folder that the commands on measured tables share.
 
 use super::limits::{LARGEST_MEASUREMENT, input_name, read_input};
 use super::options::OutputOptions;

@@ -1,4 +1,4 @@
-//! What a case costs, estimated without running it.
+//! Cost of a case, estimated without running it.
 //!
 //! Memory and time come from operation counts and typical rates of one modern core, to within a
 //! factor of about two; the run itself measures the real ones.

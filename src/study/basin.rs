@@ -1,4 +1,4 @@
-//! Which of two waves of a case wins.
+//! Search of a case for the basin boundary of two waves.
 //!
 //! ```no_run
 //! use frictionsim::case::Case;

@@ -1,4 +1,4 @@
-//! What is compared between the levels of a convergence study.
+//! Quantities compared between the levels of a convergence study.
 
 use crate::case::Case;
 use crate::cea::{ComplexMode, FrictionSweep, UnstableInterval};

@@ -1,4 +1,4 @@
-//! Which limit cycles a case asks for, and what they are followed over.
+//! Limit cycles that a case asks for, and the parameter over which they are followed.
 
 use crate::case::{Case, Cycle, OnsetChoice};
 use crate::cea::ModeLimit;

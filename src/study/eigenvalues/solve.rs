@@ -1,4 +1,4 @@
-//! Which eigenvalue solver runs, and what it has to say.
+//! Choice of the eigenvalue solver, and the notes on its results.
 
 use super::model::{method_of, mode_limit};
 use super::solid::{SolidBody, solid_model};
