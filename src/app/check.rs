@@ -11,6 +11,9 @@ use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
+/// Time beyond which a run is hardly meant, s: 30 days.
+const LONGEST_RUN: f64 = 30.0 * 86_400.0;
+
 /// Validate without running, and estimate the cost (unknowns, time step, steps, memory, time)
 #[derive(Args)]
 pub struct Arguments {
@@ -103,8 +106,10 @@ fn describe(name: &str, case: &Case, found: &Preflight) -> String {
         "\n  mesh: {nodes} nodes, {elements} elements, {dofs} unknowns, about {}",
         size(found.cost.mesh_memory_bytes)
     );
+    let mut longest: f64 = 0.0;
     let mut line = |what: &str, text: String, bytes: f64, seconds: f64| {
         let (size, time) = (size(bytes), duration(seconds));
+        longest = longest.max(seconds);
         let _ = writeln!(out, "  {what}: {text}, {size}, {time} on one thread");
     };
     let cost = &found.cost;
@@ -154,6 +159,13 @@ fn describe(name: &str, case: &Case, found: &Preflight) -> String {
     if let Some(study) = &found.uncertainty {
         let text = plural(study.runs, "run");
         line("uncertainty", text, study.memory_bytes, study.seconds);
+    }
+    if longest > LONGEST_RUN {
+        let _ = writeln!(
+            out,
+            "  warning: a run of {} is hardly meant: use fewer elements, or a shorter duration",
+            duration(longest)
+        );
     }
     for warning in case.warnings.iter().chain(&found.warnings) {
         let _ = writeln!(out, "  warning: {warning}");

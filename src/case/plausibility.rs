@@ -211,15 +211,21 @@ fn poisson_ratio(case: &Case) -> Option<Diagnostic> {
 fn friction(case: &Case) -> Option<Diagnostic> {
     let largest = |values: &[f64]| values.iter().fold(0.0, |a: f64, b| a.max(*b));
     let own = case.contact.sliding.friction_coefficient;
-    let swept = case.cea.as_ref();
-    let swept = swept.map_or(0.0, |cea| largest(&cea.solved_friction_coefficients()));
-    let (key, value) = if own > LARGEST_FRICTION {
-        ("contact.friction_coefficient", own)
-    } else if swept > LARGEST_FRICTION {
-        ("cea.friction_coefficients", swept)
-    } else {
-        return None;
-    };
+    let cea = case.cea.as_ref();
+    let keys = [
+        ("contact.friction_coefficient", own),
+        (
+            "cea.friction_coefficients",
+            cea.map_or(0.0, |cea| largest(&cea.friction_coefficients)),
+        ),
+        (
+            "cea.shapes_at",
+            cea.map_or(0.0, |cea| largest(&cea.shapes_at)),
+        ),
+    ];
+    let (key, value) = keys
+        .into_iter()
+        .find(|(_, value)| *value > LARGEST_FRICTION)?;
     Some(warning(
         case,
         key,
