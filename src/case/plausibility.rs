@@ -1,13 +1,11 @@
 //! Values that are possible but that hardly anybody means: warnings, each with its reason.
 
-use super::Case;
 use super::diagnostic::Diagnostic;
 use super::key::CaseKey;
 use super::keys::KEYS;
 use super::shown::first_of;
+use super::{Body, Case};
 use crate::fem::PlaneFormulation;
-use crate::mesh::Mesh2d;
-use std::ops::RangeInclusive;
 
 /// Share of the radius beyond which an interference is no small displacement.
 const LARGEST_INTERFERENCE: f64 = 0.05;
@@ -32,7 +30,6 @@ const LARGEST_STIFFNESS_RATIO: f64 = 1e8;
 pub(super) fn implausible(case: &Case) -> Vec<Diagnostic> {
     [
         lengths(case),
-        mesh_size(case),
         unmerged_nodes(case),
         element_shape(case),
         wave_speed(case),
@@ -55,32 +52,38 @@ fn warning(case: &Case, key: &str, message: String, label: &str, help: &str) -> 
 }
 
 fn lengths(case: &Case) -> Option<Diagnostic> {
-    let radii = [
-        ("geometry.inner_radius", case.annulus.inner_radius),
-        ("geometry.outer_radius", case.annulus.outer_radius),
-    ];
-    let radii = radii.into_iter().filter(|_| case.body.is_none());
-    let (key, value) = radii
-        .chain([("geometry.thickness", case.thickness)])
-        .find(|(key, value)| !length_range(key).contains(value))?;
-    let [least, most] =
-        [length_range(key).start(), length_range(key).end()].map(|end| metres(*end));
-    Some(warning(
-        case,
-        key,
-        format!("{key} = {value} m is outside the plausible range of {least} to {most}"),
-        "metres?",
-        "a case is in SI: are these millimetres or micrometres?",
-    ))
-}
-
-/// Lengths that a key of a case has, m.
-fn length_range(key: &str) -> RangeInclusive<f64> {
     let [least, most] = LENGTHS;
-    match key {
-        "geometry.thickness" => least..=LARGEST_THICKNESS,
-        _ => least..=most,
+    let [shortest, longest] = LENGTHS.map(metres);
+    let range = format!("outside the plausible range of {shortest} to {longest}");
+    let is_outside = |value: f64| value < least || value > most;
+    let help = "a case is in SI: are these millimetres or micrometres?";
+    if let Body::Imported(imported) = &case.body {
+        let width = 2.0 * imported.size();
+        if is_outside(width) {
+            let message = format!("the mesh is {width:.4} m wide, {range} (mesh.scale)");
+            let help =
+                "coordinates are taken as metres: for a mesh in millimetres set mesh.scale = 0.001";
+            return Some(warning(case, "mesh.scale", message, "metres?", help));
+        }
     }
+    let radii = case.body.grid().into_iter().flat_map(|grid| {
+        [
+            ("geometry.inner_radius", grid.inner_radius),
+            ("geometry.outer_radius", grid.outer_radius),
+        ]
+    });
+    if let Some((key, value)) = { radii }.find(|(_, value)| is_outside(*value)) {
+        let message = format!("{key} = {value} m is {range}");
+        return Some(warning(case, key, message, "metres?", help));
+    }
+    let (key, value) = ("geometry.thickness", case.thickness);
+    (value < least || value > LARGEST_THICKNESS).then(|| {
+        let message = format!(
+            "{key} = {value} m is outside the plausible range of {shortest} to {}",
+            metres(LARGEST_THICKNESS)
+        );
+        warning(case, key, message, "metres?", help)
+    })
 }
 
 /// A length with the unit that suits its size.
@@ -92,41 +95,9 @@ fn metres(length: f64) -> String {
     }
 }
 
-/// Size of a body from a mesh file, the larger side of the box around it.
-fn mesh_size(case: &Case) -> Option<Diagnostic> {
-    let size = extent(&case.body.as_ref()?.mesh);
-    let [least, most] = LENGTHS;
-    if (least..=most).contains(&size) {
-        return None;
-    }
-    Some(warning(
-        case,
-        "mesh.scale",
-        format!(
-            "the mesh is {size:.4} m wide, outside the plausible range of {} to {}: mesh.scale, the factor on its coordinates",
-            metres(least),
-            metres(most)
-        ),
-        "metres?",
-        "a mesh in millimetres needs mesh.scale = 0.001",
-    ))
-}
-
-/// The larger side of the box around a mesh, m.
-fn extent(mesh: &Mesh2d) -> f64 {
-    let side = |axis: usize| {
-        let values = mesh.nodes.iter().map(|node| node[axis]);
-        let ends = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| {
-            [low.min(value), high.max(value)]
-        });
-        ends[1] - ends[0]
-    };
-    side(0).max(side(1))
-}
-
 /// Nodes of an imported mesh that lie on each other without being one.
 fn unmerged_nodes(case: &Case) -> Option<Diagnostic> {
-    let found = case.body.as_ref()?.mesh.unmerged_nodes()?;
+    let found = case.body.imported()?.mesh.unmerged_nodes()?;
     Some(warning(
         case,
         "mesh.file",
@@ -138,7 +109,7 @@ fn unmerged_nodes(case: &Case) -> Option<Diagnostic> {
 
 /// The worst element of an imported mesh.
 fn element_shape(case: &Case) -> Option<Diagnostic> {
-    let mesh = &case.body.as_ref()?.mesh;
+    let mesh = &case.body.imported()?.mesh;
     let quality = mesh.quality();
     if quality.worst_jacobian >= SMALLEST_JACOBIAN {
         return None;
@@ -235,13 +206,13 @@ fn friction(case: &Case) -> Option<Diagnostic> {
     ))
 }
 
-/// Half the mass of a contact element for each unit of edge (kg/m2), and the time step of the transient of an annulus.
+/// Half the mass of a contact element for each unit of edge (kg/m2), and the time step of the transient of a generated body.
 fn edge_inertia(case: &Case) -> Option<[f64; 2]> {
+    let grid = case.body.grid()?;
     let step = case.cost().transient?.time_step;
-    let annulus = &case.annulus;
-    let depth = (annulus.outer_radius - annulus.inner_radius) / annulus.radial_elements as f64;
+    let depth = (grid.outer_radius - grid.inner_radius) / grid.radial_elements as f64;
     let mass = 0.5 * case.material.density * depth;
-    case.is_annulus().then_some([mass, step])
+    Some([mass, step])
 }
 
 /// Springs whose own motion of the contact nodes the time step does not resolve, `k dt^2 > 4 m`.
@@ -269,7 +240,7 @@ fn steep_friction(case: &Case) -> Option<Diagnostic> {
     let decay = contact.decay?;
     let [mass, step] = edge_inertia(case)?;
     let fall = -contact.friction_coefficient * decay.slope(0.0);
-    let most = mass / (lame_pressure(case) * fall);
+    let most = mass / (lame_pressure(case)? * fall);
     (step > most).then(|| {
         warning(
             case,
@@ -286,40 +257,33 @@ fn steep_friction(case: &Case) -> Option<Diagnostic> {
 }
 
 /// Pressure of an annulus clamped at `b` and widened by `delta` at `a`, after Lame:
-/// `p = 2 B ((lambda + mu) / b^2 + mu / a^2)` with `B = delta a b^2 / (b^2 - a^2)`.
-fn lame_pressure(case: &Case) -> f64 {
-    let (a, b) = (case.annulus.inner_radius, case.annulus.outer_radius);
+/// `p = 2 B ((lambda + mu) / b^2 + mu / a^2)` with `B = delta a b^2 / (b^2 - a^2)`. None for a body of no known pressure.
+fn lame_pressure(case: &Case) -> Option<f64> {
+    let grid = case.body.grid()?;
+    let (a, b) = (grid.inner_radius, grid.outer_radius);
     let [lambda, shear] = case.material.lame_constants();
     let widening = case.contact.sliding.interference * a * b * b / (b * b - a * a);
-    2.0 * widening * ((lambda + shear) / (b * b) + shear / (a * a))
+    Some(2.0 * widening * ((lambda + shear) / (b * b) + shear / (a * a)))
 }
 
 /// Interference against the radius, else the contact pressure against the modulus.
 fn interference(case: &Case) -> Option<Diagnostic> {
     let key = "contact.interference";
-    let a = case.annulus.inner_radius;
+    let (name, a) = match case.body.grid() {
+        Some(grid) => ("geometry.inner_radius", grid.inner_radius),
+        None => ("half the width of the mesh", case.body.size()),
+    };
     let delta = case.contact.sliding.interference;
     let help = "is it in metres? 25 micrometres are 25e-6";
-    if let Some(body) = &case.body {
-        let size = extent(&body.mesh);
-        return (delta > LARGEST_INTERFERENCE * size).then(|| {
-            let message = format!(
-                "{key} = {delta} m is {:.3} of the size of the body, {size:.4} m: a model of small displacements holds \
-                 below {LARGEST_INTERFERENCE}",
-                delta / size
-            );
-            warning(case, key, message, "above 5 % of the size", help)
-        });
-    }
     if delta > LARGEST_INTERFERENCE * a {
         let share = format!(
-            "{key} = {delta} m is {:.3} of geometry.inner_radius = {a} m: a model of small \
+            "{key} = {delta} m is {:.3} of {name} = {a} m: a model of small \
              displacements holds below {LARGEST_INTERFERENCE}",
             delta / a
         );
-        return Some(warning(case, key, share, "above 5 % of the radius", help));
+        return Some(warning(case, key, share, "more than 5 %", help));
     }
-    let pressure = lame_pressure(case);
+    let pressure = lame_pressure(case)?;
     let modulus = case.material.young_modulus;
     (pressure > LARGEST_PRESSURE * modulus).then(|| {
         let message = format!(
@@ -333,7 +297,7 @@ fn interference(case: &Case) -> Option<Diagnostic> {
 
 fn contact_stiffness(case: &Case) -> Option<Diagnostic> {
     let stiffness = case.contact.stiffness.normal_stiffness?;
-    let scale = case.material.young_modulus / case.annulus.inner_radius;
+    let scale = case.material.young_modulus / case.body.contact_length();
     (stiffness > LARGEST_STIFFNESS_RATIO * scale).then(|| {
         warning(
             case,

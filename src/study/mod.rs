@@ -22,10 +22,11 @@ mod tangent;
 pub mod transient;
 pub mod uncertainty;
 
+pub use eigenvalues::modes_at_own_friction;
 pub use error::StudyError;
 pub use linear_stage::{LinearStage, LinearStageError};
 pub use plan::{Shard, SweepPlan, analysis_name, one_line};
 pub use preflight::{Preflight, preflight, refuse_memory};
 pub use sobol::ScrambledSobol;
 pub use summary::summarize;
-pub use tangent::{modes_at_own_friction, tangent_options};
+pub use tangent::tangent_options;
