@@ -9,7 +9,8 @@ use super::suggestion;
 use super::words::CounterfaceWord;
 use crate::fem::{ElasticMaterial, RayleighDamping, RegionMaterial};
 use crate::mesh::{
-    BodyPart, BodySpecification, CounterfaceSpecification, GmshFile, Mesh2d, MeshFileError, SolidContact,
+    BodyPart, BodySpecification, CounterfaceSpecification, GmshFile, Mesh2d, MeshFileError,
+    SolidContact,
 };
 use std::io::Read as _;
 use std::path::Path;
