@@ -23,10 +23,10 @@ pub struct Arguments {
     /// Table of one or more frequency responses, UFF or MATLAB file
     #[arg(value_name = "FRF.csv", value_hint = ValueHint::FilePath)]
     response: PathBuf,
-    /// What the table holds, if its header does not say it (else accelerance)
+    /// Quantity in the table, if its header does not name it [default: accelerance]
     #[arg(long, value_enum, value_name = "QUANTITY")]
     quantity: Option<Quantity>,
-    /// Names of the columns where the header lacks or fails: f, f_khz, omega, re, im, mag, db, phase, phase_rad,
+    /// Column names, if the header is missing or misread: f, f_khz, omega, re, im, mag, db, phase, phase_rad,
     /// coherence, - to skip
     #[arg(
         long,
@@ -169,7 +169,7 @@ fn identification_options(arguments: &Arguments) -> Result<IdentificationOptions
     let high = arguments.to.unwrap_or(f64::INFINITY);
     if !(low >= 0.0 && low < high) {
         return Err(Failure::usage(format!(
-            "--from {low} --to {high}: the range must begin at 0 Hz or above and end above its begin"
+            "--from {low} --to {high}: the range must start at 0 Hz or higher and end above its start"
         )));
     }
     let is_given = arguments.from.is_some() || arguments.to.is_some();

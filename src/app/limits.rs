@@ -37,7 +37,7 @@ pub fn read_input(path: &Path, most: u64) -> Result<Vec<u8>, Failure> {
     match read {
         Ok(Some(bytes)) => Ok(bytes),
         Ok(None) => Err(Failure::usage(format!(
-            "{name} is larger than the {} MiB that are read of such a file",
+            "{name} is larger than {} MiB, the limit for such files",
             most >> 20
         ))),
         Err(error) => Err(Failure::usage(format!("cannot read {name}: {error}"))),

@@ -43,7 +43,7 @@ use std::process::ExitCode;
 
 /// Stability and transient analysis of frictional contact by finite elements.
 ///
-/// A deformable body, at first a disc on a rotating cylinder, is pressed against a moving counterface.
+/// A deformable body, by default a disc on a rotating cylinder, is pressed against a moving counterface.
 /// `frictionsim init` writes a case to start from.
 #[derive(Parser)]
 #[command(

@@ -45,13 +45,13 @@ pub struct Arguments {
     /// Override a key of that case (repeatable)
     #[arg(long = "set", value_name = "KEY=VALUE", requires = "case")]
     set: Vec<String>,
-    /// Sampling rate, where the table has no time column or one that is rounded
+    /// Sampling rate, if the table has no time column or a rounded one
     #[arg(long, value_name = "HZ")]
     rate: Option<f64>,
     /// Channels by name or number [default: all]
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     channel: Vec<String>,
-    /// Names of the columns where the header lacks or fails: t, t_ms, t_us, a channel's name, - to skip
+    /// Column names, if the header is missing or misread: t, t_ms, t_us, a channel's name, - to skip
     #[arg(
         long,
         value_name = "NAMES",
@@ -59,13 +59,13 @@ pub struct Arguments {
         allow_hyphen_values = true
     )]
     columns: Vec<String>,
-    /// Begin of the interval for the peaks, s after the first sample
+    /// Start of the interval for the peaks, s after the first sample
     #[arg(long, value_name = "S")]
     from: Option<f64>,
     /// End of the interval for the peaks, s after the first sample
     #[arg(long, value_name = "S")]
     to: Option<f64>,
-    /// Smallest distance of two peaks: the spectrum is averaged over blocks of 4/HZ seconds [default: 2 Hz,
+    /// Smallest spacing between two peaks: the spectrum is averaged over blocks of 4/HZ seconds [default: 2 Hz,
     /// or what a shorter interval gives]
     #[arg(long, value_name = "HZ")]
     resolution: Option<f64>,

@@ -80,7 +80,7 @@ pub(super) fn contact_place(section: &Section<'_>) -> ContactPlace {
             if direction == [0.0; 2] {
                 section.reject(
                     "direction",
-                    "contact.direction = [0, 0] points nowhere".to_owned(),
+                    "contact.direction = [0, 0] has no direction".to_owned(),
                     "must not be zero".to_owned(),
                     None,
                 );

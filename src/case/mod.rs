@@ -266,7 +266,7 @@ impl Case {
                     value.unwrap_or_default()
                 ),
                 "must be positive here".to_owned(),
-                Some("a cylinder that turns backwards makes the mirror image".to_owned()),
+                Some("a cylinder turning backwards gives the mirror image".to_owned()),
             ));
         }
         Ok(cycle)
@@ -279,7 +279,7 @@ impl Case {
         }
         Err(self.error_at(
             "contact.static_friction_ratio",
-            "limit cycles are sought under a constant friction coefficient only".to_owned(),
+            "limit cycles are computed for a constant friction coefficient only".to_owned(),
             "friction falls with speed here".to_owned(),
             Some(
                 "follow the transient to its limit cycle instead ([transient] with \

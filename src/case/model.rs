@@ -94,7 +94,7 @@ pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &ElasticMateria
     if is_solid {
         mesh.reject(
             "file",
-            "mesh.file describes a plane body: three-dimensional ones are generated".to_owned(),
+            "mesh.file describes a plane body; three-dimensional bodies are generated".to_owned(),
             "material.formulation is \"three-dimensional\"".to_owned(),
             Some("give radii and element counts, or a plane formulation".to_owned()),
         );

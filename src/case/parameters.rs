@@ -123,7 +123,7 @@ fn also(section: &Section<'_>, name: &str, entry: &RawEntry) -> Vec<String> {
             },
             other => refuse(
                 format!("`also` of {name} is {}", other.kind()),
-                "name one key or a list of keys that take the same value",
+                "give one key, or a list of keys, that take the same value",
             ),
         }
     }

@@ -169,7 +169,7 @@ fn poisson_ratio(case: &Case) -> Option<Diagnostic> {
         case,
         "material.poisson_ratio",
         format!(
-            "material.poisson_ratio = {ratio} is all but incompressible: the elements lock, and the \
+            "material.poisson_ratio = {ratio} is nearly incompressible: the elements lock, and the \
              time step of a transient shrinks by {:.3} against 0.45",
             // c_p grows with sqrt((1 - nu) / ((1 + nu) (1 - 2 nu))).
             (0.55 / (1.45 * 0.1) / ((1.0 - ratio) / ((1.0 + ratio) * (1.0 - 2.0 * ratio)))).sqrt()
@@ -200,7 +200,9 @@ fn friction(case: &Case) -> Option<Diagnostic> {
     Some(warning(
         case,
         key,
-        format!("{key} = {value} is above {LARGEST_FRICTION}, beyond dry pairs of materials"),
+        format!(
+            "{key} = {value} is above {LARGEST_FRICTION}, higher than that of any dry pair of materials"
+        ),
         "above 2",
         "a friction coefficient is a ratio, not a percentage",
     ))
@@ -228,7 +230,7 @@ fn unresolved_springs(case: &Case) -> Option<Diagnostic> {
                 "contact.normal_stiffness = {stiffness:e} Pa/m is more than the time step of the transient, {step:.2e} s, \
                  resolves on this mesh, about {most:.1e} Pa/m: the status of contact nodes would flicker"
             ),
-            "all but rigid",
+            "nearly rigid",
             "use \"rigid\" for the transient, or a smaller transient.time_step",
         )
     })
@@ -247,7 +249,7 @@ fn steep_friction(case: &Case) -> Option<Diagnostic> {
             "contact.decay_speed",
             format!(
                 "contact.decay_speed = {} m/s lets friction fall faster than the inertia of a contact node allows within \
-                 the time step of the transient, {step:.2e} s: nodes may stick and slip alike, and jump",
+                 the time step of the transient, {step:.2e} s: nodes may jump between sticking and slipping",
                 decay.decay_speed
             ),
             "a steep law",
@@ -304,10 +306,10 @@ fn contact_stiffness(case: &Case) -> Option<Diagnostic> {
             "contact.normal_stiffness",
             format!(
                 "contact.normal_stiffness = {stiffness:e} Pa/m is {:.1e} times the modulus over the \
-                 radius: eigenvalues lose as many digits",
+                 radius: the eigenvalues lose that many digits",
                 stiffness / scale
             ),
-            "all but rigid",
+            "nearly rigid",
             "use \"rigid\", which is exact",
         )
     })

@@ -216,7 +216,7 @@ fn readable_text(bytes: &[u8]) -> Result<&str, (Diagnostic, String)> {
         let label = if at.is_empty() {
             ""
         } else {
-            "the first byte that is not"
+            "the first invalid byte"
         };
         let (message, label) = (message.to_owned(), label.to_owned());
         let help = Some("save the file as UTF-8 text".to_owned());

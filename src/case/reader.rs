@@ -188,7 +188,7 @@ impl<'a> Section<'a> {
         if self.is_given() {
             self.findings.push(
                 format!("missing key `{}`", self.name(key)),
-                format!("`{key}` belongs in this section"),
+                format!("`{key}` is required in this section"),
                 self.at.clone(),
                 suggestion::usage(&self.name(key)),
             );

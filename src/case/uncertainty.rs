@@ -70,7 +70,7 @@ pub(super) fn uncertainty(root: &Section<'_>) -> Option<Uncertainty> {
             "distributions",
             format!("{} parameters are uncertain", found.len()),
             format!("at most {MOST}"),
-            Some("leave out those that hardly matter".to_owned()),
+            Some("leave out those with little influence".to_owned()),
         );
     }
     for (key, count) in [("samples", Some(samples)), ("index_samples", index_samples)] {
@@ -202,7 +202,7 @@ fn uncertain(
                 100.0 * beyond
             ),
             "reaches forbidden values",
-            "narrow it; a log_normal distribution stays positive",
+            "make it narrower, or use log_normal, which stays positive",
         );
         return none;
     }

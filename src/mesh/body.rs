@@ -247,7 +247,7 @@ fn counterface(
                 && (d - mean).abs() > ROUND * mean
             {
                 let message = format!(
-                    "the contact curve \"{}\" is no circle about contact.center = [{}, {}]: node {} lies {d:.6e} m from \
+                    "the contact curve \"{}\" is not a circle about contact.center = [{}, {}]: node {} lies {d:.6e} m from \
                      it, the mean is {mean:.6e} m; correct contact.center, or give the cylinder's contact.radius",
                     specification.contact,
                     center[0],

@@ -68,7 +68,7 @@ pub(super) fn plane_body(file: &GmshFile, scale: f64) -> Result<Mesh2d, MeshFile
     let names: Vec<&str> = names.into_iter().collect();
     if names.len() > usize::from(u16::MAX) {
         return Err(MeshFileError::Body(format!(
-            "{} physical surfaces are more than can be told apart",
+            "{} physical surfaces are too many",
             names.len()
         )));
     }

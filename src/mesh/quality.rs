@@ -191,8 +191,8 @@ impl Mesh2d {
                     _ => String::new(),
                 };
                 return Err(MeshFileError::Body(format!(
-                    "nothing holds {} (with node {} at {x:.4e}, {y:.4e} m): it can move as a rigid body, and sliding \
-                     friction holds nothing; give one of its boundaries ({}) condition = \"clamped\", \"support\" or \
+                    "nothing holds {} (with node {} at {x:.4e}, {y:.4e} m): it can move as a rigid body (sliding \
+                     friction holds nothing); give one of its boundaries ({}) condition = \"clamped\", \"support\" or \
                      \"guide\" under [boundaries.NAME]{unmerged}",
                     if parts > 1 {
                         "a part of the body that touches no other"

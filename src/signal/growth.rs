@@ -89,7 +89,7 @@ pub enum NoGrowth {
         frequency_hz: f64,
     },
     /// No vibration stands out of the noise.
-    #[error("no line stands out of the noise")]
+    #[error("no line stands out from the noise")]
     NoLine,
     /// A signal that cannot be analysed.
     #[error(transparent)]

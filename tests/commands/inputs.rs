@@ -214,7 +214,7 @@ fn errors_of_names_stand_at_the_key_that_is_wrong() {
             "counterface = \"plane\"\ndirection = [1.0, 0.0]\nspeed = 1.0\n",
             round,
             "center = [0.0, -0.1]",
-            "is no circle",
+            "is not a circle",
         ),
     ] {
         let text = CASE.replace(from, to);
@@ -556,5 +556,5 @@ fn a_small_file_that_inflates_to_a_huge_one_is_refused() {
     .assert()
     .code(2)
     .stderr(contains("MATLAB file"))
-    .stderr(contains("are read of a file"));
+    .stderr(contains("million numbers, the limit"));
 }

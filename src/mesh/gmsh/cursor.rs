@@ -59,7 +59,7 @@ impl<'a> Cursor<'a> {
         let count = self.size(what)?;
         if count > self.remaining() / smallest.max(1) {
             return Err(self.error(format!(
-                "{count} {what} are announced, more than the rest of the file can hold: the file is truncated or damaged"
+                "{count} {what} are announced, which the rest of the file cannot hold: the file is truncated or damaged"
             )));
         }
         Ok(count)

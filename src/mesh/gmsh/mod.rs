@@ -106,7 +106,7 @@ impl GmshFile {
             ["2.2" | "2" | "4.1", kind @ ("0" | "1"), "8"] => kind == "1",
             [number, ..] if !["2.2", "2", "4.1"].contains(&number) => {
                 return Err(cursor.error(format!(
-                    "MSH version {number} is not read: save the mesh as version 4.1 or 2.2 (Mesh.MshFileVersion)"
+                    "MSH version {number} is not supported: save the mesh as version 4.1 or 2.2 (Mesh.MshFileVersion)"
                 )));
             }
             _ => return Err(cursor.error("format line expected, such as \"4.1 0 8\"")),
@@ -116,7 +116,11 @@ impl GmshFile {
             cursor.is_swapped = match cursor.int("byte order")? {
                 1 => false,
                 0x0100_0000 => true,
-                _ => return Err(cursor.error("the number 1 expected that tells the byte order")),
+                _ => {
+                    return Err(
+                        cursor.error("the number 1, which gives the byte order, was expected")
+                    );
+                }
             };
         }
         cursor.end("MeshFormat")?;

@@ -344,7 +344,7 @@ impl SignalSummary {
                 }
             );
             if channel.peaks.is_empty() {
-                text.push_str("  no peak stands out of the noise\n");
+                text.push_str("  no peak stands out from the noise\n");
             } else {
                 text.push_str("  peak  frequency_hz     amplitude  \n");
             }

@@ -68,7 +68,7 @@ pub enum ReadProblem {
     )]
     NoNumbers,
     /// A field is not a number.
-    #[error("`{field}` in column {name} is not a number; remove the row or repair the value")]
+    #[error("`{field}` in column {name} is not a number; remove the row or correct the value")]
     NotANumber {
         /// The field as written, shortened.
         field: String,
@@ -86,7 +86,7 @@ pub enum ReadProblem {
         name: String,
     },
     /// A number that the column cannot hold.
-    #[error("`{field}` is no value of column {name}; repair it, or leave the cell empty")]
+    #[error("`{field}` is not a valid value of column {name}; correct it, or leave the cell empty")]
     Impossible {
         /// The field as written.
         field: String,
@@ -200,7 +200,7 @@ pub enum ReadProblem {
     },
     /// One frequency, two values.
     #[error(
-        "frequency {value} Hz stands already in line {first_line} with another value; keep one of \
+        "frequency {value} Hz is already in line {first_line} with another value; keep one of \
          the rows"
     )]
     DuplicateFrequency {

@@ -61,7 +61,7 @@ pub(super) fn read_table(
         is_big,
     };
     let too_large = format!(
-        "it holds more than the {} million numbers that are read of a file; save the channels that are needed alone",
+        "it holds more than {} million numbers, the limit; save only the channels that are needed",
         MOST_VALUES / 1_000_000
     );
     let mut inflated = 0;

@@ -269,7 +269,7 @@ fn quantity(
     match (given, stated_quantity(table)) {
         (Some(given), Some(found)) if given != found => {
             notes.push(format!(
-                "the table says {}, the option {}: the option holds",
+                "the table says {}, the option {}: the option is used",
                 found.name(),
                 given.name()
             ));
