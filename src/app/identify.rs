@@ -1,7 +1,7 @@
 //! `frictionsim identify`: Rayleigh coefficients from a measured frequency response.
 
 use super::Failure;
-use super::measurement::{Copy, Measurement};
+use super::measurement::{Measurement, SideFile};
 use super::options::OutputOptions;
 use super::profile::{Profile, Redraw};
 use crate::results::identification::{
@@ -98,7 +98,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let options = identification_options(arguments)?;
     let uff = arguments.uff.as_deref();
     let copy = uff
-        .map(|path| Copy::prepare("--uff", path, &arguments.response, arguments.output.force))
+        .map(|path| SideFile::prepare("--uff", path, &arguments.response, arguments.output.force))
         .transpose()?;
     let measurement = Measurement::start(
         "identify",

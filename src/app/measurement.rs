@@ -79,12 +79,12 @@ impl Measurement {
 }
 
 /// A file that a command writes outside the output folder.
-pub struct Copy<'a> {
+pub struct SideFile<'a> {
     path: &'a Path,
     force: bool,
 }
 
-impl<'a> Copy<'a> {
+impl<'a> SideFile<'a> {
     /// Asks before any work whether the file may be written: nothing is replaced without `--force`, the measurement
     /// itself never.
     ///

@@ -1,6 +1,6 @@
 //! `frictionsim signal`: what vibrates in a measured or computed time signal.
 
-use super::measurement::{Copy, Measurement};
+use super::measurement::{Measurement, SideFile};
 use super::options::OutputOptions;
 use super::profile::{Profile, Redraw};
 use super::session::read_case;
@@ -214,19 +214,19 @@ fn check_drawing(arguments: &Arguments, file: &SignalFile) -> Result<(), Failure
 }
 
 /// The sound and the universal file that are asked for.
-fn prepare_copies(arguments: &Arguments) -> Result<[Option<Copy<'_>>; 2], Failure> {
+fn prepare_copies(arguments: &Arguments) -> Result<[Option<SideFile<'_>>; 2], Failure> {
     let (signal, force) = (&arguments.signal, arguments.output.force);
     let wav = arguments.wav.as_deref();
-    let wav = wav.map(|path| Copy::prepare("--wav", path, signal, force));
+    let wav = wav.map(|path| SideFile::prepare("--wav", path, signal, force));
     let uff = arguments.uff.as_deref();
-    let uff = uff.map(|path| Copy::prepare("--uff", path, signal, force));
+    let uff = uff.map(|path| SideFile::prepare("--uff", path, signal, force));
     Ok([wav.transpose()?, uff.transpose()?])
 }
 
 /// Writes the channels as sound and as universal file, where asked for; what was written, in words.
 fn write_copies(
     arguments: &Arguments,
-    [wav, uff]: &[Option<Copy<'_>>; 2],
+    [wav, uff]: &[Option<SideFile<'_>>; 2],
     file: &SignalFile,
 ) -> Result<String, Failure> {
     let mut text = String::new();
