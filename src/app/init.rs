@@ -178,17 +178,19 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         Some(path) => path.clone(),
         None => PathBuf::from(format!("{name}.toml")),
     };
-    let shown = path
-        .file_name()
-        .map(|name| name.to_string_lossy().into_owned());
+    let is_stdout = path == Path::new("-");
+    let shown = match path.file_name() {
+        Some(name) if !is_stdout => name.to_string_lossy().into_owned(),
+        _ => format!("{name}.toml"),
+    };
     let text = match template {
-        Some(template) => template.case_named(shown.as_deref().unwrap_or("case.toml")),
+        Some(template) => template.case_named(&shown),
         None => reference::template(),
     };
-    if path == Path::new("-") {
+    if is_stdout {
         return terminal::print(&text);
     }
-    let folder = path.parent().unwrap_or(Path::new(""));
+    let folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
     let beside = template.map_or(&[][..], |template| template.files);
     let beside = beside
         .iter()

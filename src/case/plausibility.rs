@@ -66,13 +66,13 @@ fn lengths(case: &Case) -> Option<Diagnostic> {
             return Some(warning(case, "mesh.scale", message, "metres?", help));
         }
     }
-    let radii = case.body.grid().into_iter().flat_map(|grid| {
+    let mut radii = case.body.grid().into_iter().flat_map(|grid| {
         [
             ("geometry.inner_radius", grid.inner_radius),
             ("geometry.outer_radius", grid.outer_radius),
         ]
     });
-    if let Some((key, value)) = { radii }.find(|(_, value)| is_outside(*value)) {
+    if let Some((key, value)) = radii.find(|(_, value)| is_outside(*value)) {
         let message = format!("{key} = {value} m is {range}");
         return Some(warning(case, key, message, "metres?", help));
     }

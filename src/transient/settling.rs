@@ -83,7 +83,7 @@ impl Drift {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum Unsettled {
     /// Too few periods to compare.
-    #[error("the last fifth of the run is too short to judge: it must last {needed:.3e} s, the run {:.3e} s", 5.0 * needed)]
+    #[error("the last fifth of the run is too short to tell: it needs {needed:.3e} s")]
     TooShort {
         /// Length that it needs, s.
         needed: f64,
