@@ -15,6 +15,7 @@ mod frf;
 mod identify;
 mod init;
 mod keys;
+mod limits;
 mod man;
 mod measurement;
 mod mesh;
@@ -42,7 +43,7 @@ use std::process::ExitCode;
 
 /// Stability and transient analysis of frictional contact by finite elements.
 ///
-/// A deformable body, at first a disc on a rotating cylinder, is pressed against a moving counterface.
+/// A deformable body, by default a disc on a rotating cylinder, is pressed against a moving counterface.
 /// `frictionsim init` writes a case to start from.
 #[derive(Parser)]
 #[command(
@@ -169,8 +170,13 @@ fn options_behind_subcommand(command: &clap::Command, mut given: Vec<OsString>) 
 pub fn main() -> ExitCode {
     let command = command_line();
     let given = options_behind_subcommand(&command, std::env::args_os().collect());
-    let parsed = CommandLine::from_arg_matches(&command.get_matches_from(given));
-    let parsed = parsed.unwrap_or_else(|error| error.exit());
+    let matches = command.clone().try_get_matches_from(given);
+    let parsed = matches.and_then(|found| CommandLine::from_arg_matches(&found));
+    let parsed = match parsed {
+        Ok(parsed) => parsed,
+        Err(error) => return terminal::report_usage(&error),
+    };
+    limits::refuse_writes_beyond_limit();
     match parsed.command.run() {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => terminal::report(&failure),

@@ -124,7 +124,7 @@ fn mode_selection(section: &Section<'_>, body: Option<&Body>) -> ModeSelection {
             section.reject(
                 "modes",
                 "cea.modes and cea.max_frequency_hz exclude each other".to_owned(),
-                "a second way to say which modes".to_owned(),
+                "give one of the two".to_owned(),
                 Some("keep one of the two".to_owned()),
             );
             ModeSelection::BelowHz(limit)
@@ -154,7 +154,7 @@ fn cea_map(cea: &Section<'_>) -> Option<CeaMap> {
     if section.has("key") && key == "contact.friction_coefficient" {
         section.reject(
             "key",
-            "cea.map.key = \"contact.friction_coefficient\" is the map's first parameter already"
+            "cea.map.key = \"contact.friction_coefficient\" is already the first parameter of the map"
                 .to_owned(),
             "another parameter".to_owned(),
             None,

@@ -30,6 +30,7 @@ mod reader;
 pub mod reference;
 mod rules;
 mod shaft;
+mod shown;
 mod solid;
 mod suggestion;
 mod sweep;
@@ -57,6 +58,7 @@ pub use overrides::unset;
 pub use parameters::ModelParameter;
 pub use range::{Spacing, range_values};
 pub use raw::{MeshBytes, RawCase};
+pub use shown::{first_of, shown, shown_json};
 pub use sweep::{Sweep, SweptKey};
 pub use transient::{Output, Transient};
 pub use uncertainty::{UncertainParameter, Uncertainty};
@@ -266,7 +268,7 @@ impl Case {
                     value.unwrap_or_default()
                 ),
                 "must be positive here".to_owned(),
-                Some("a cylinder that turns backwards makes the mirror image".to_owned()),
+                Some("a cylinder turning backwards gives the mirror image".to_owned()),
             ));
         }
         Ok(cycle)
@@ -279,7 +281,7 @@ impl Case {
         }
         Err(self.error_at(
             "contact.static_friction_ratio",
-            "limit cycles are sought under a constant friction coefficient only".to_owned(),
+            "limit cycles are computed for a constant friction coefficient only".to_owned(),
             "friction falls with speed here".to_owned(),
             Some(
                 "follow the transient to its limit cycle instead ([transient] with \

@@ -97,6 +97,13 @@ pub fn print(summary: &MeshSummary) -> String {
             boundary.name, boundary.nodes, boundary.length_m, boundary.condition
         );
     }
+    match mesh.unnamed_free_edges {
+        None | Some(0) => {}
+        Some(1) => out.push_str("1 free edge is in no physical curve\n"),
+        Some(count) => {
+            let _ = writeln!(out, "{count} free edges are in no physical curve");
+        }
+    }
     out
 }
 
@@ -126,6 +133,9 @@ pub struct MeshStatistics {
     pub largest_aspect_ratio: f64,
     /// Smallest Jacobian determinant of an element over its largest.
     pub worst_jacobian: f64,
+    /// Edges of one element alone that belong to no named boundary, of a mesh file.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub unnamed_free_edges: Option<usize>,
     /// Area of the mesh, m2.
     pub area_m2: f64,
     /// Its relative difference to the annulus.
@@ -227,6 +237,7 @@ impl MeshStatistics {
             largest_edge_m: quality.largest_edge,
             largest_aspect_ratio: quality.largest_aspect_ratio,
             worst_jacobian: quality.worst_jacobian,
+            unnamed_free_edges: (!mesh.labels.is_empty()).then(|| mesh.unnamed_edge_count()),
             area_m2: area,
             area_error: annulus.map(|annulus| (area / exact(annulus) - 1.0).abs()),
             elements_per_wavelength: wavelength.map(|length| length / quality.largest_edge),

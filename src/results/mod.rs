@@ -36,7 +36,7 @@ pub use response::{
     RESPONSE_TABLE, ResponseSummary, draw_response_report, read_response_table, write_response,
 };
 pub use store::{
-    FolderError, Manifest, OutputFolder, Record, Replace, read_manifest, read_record,
+    FolderError, Manifest, OutputFolder, Record, Replace, is_result, read_manifest, read_record,
     refuse_misfit, write_record,
 };
 pub use summary::{Summary, object, read_summary, write_summary};

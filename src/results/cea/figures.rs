@@ -130,7 +130,9 @@ fn prestress(report: &CeaReport<'_>) -> Figure {
         angles().fold(f64::NEG_INFINITY, f64::max) - angles().fold(f64::INFINITY, f64::min);
     let place = match report.mesh.counterface {
         // The angles of a straight edge stand for shares of its length.
-        Counterface::Plane { .. } => Axis::new("place along the contact", "%").times(100.0 / TAU),
+        Counterface::Plane { .. } => {
+            Axis::new("position along the contact", "%").times(100.0 / TAU)
+        }
         // A pad is looked at from end to end.
         Counterface::Cylinder { .. } if spread < 0.5 * TAU => Axis::degrees(),
         Counterface::Cylinder { .. } => Axis::angle(),

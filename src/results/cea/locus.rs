@@ -125,7 +125,10 @@ fn steps(report: &CeaReport<'_>) -> Steps {
         let (frequency, rate) = (mode.frequency_hz(), TAU * mode.real_hz());
         Mark {
             place: (mode.real_hz(), frequency),
-            name: format!("{branch}{frequency:.1} Hz, grows at {rate:.1} 1/s"),
+            name: match rate > 0.0 {
+                true => format!("{branch}{frequency:.1} Hz, grows at {rate:.1} 1/s"),
+                false => format!("{branch}{frequency:.1} Hz, decays at {:.1} 1/s", rate.abs()),
+            },
             is_listed: mode.is_unstable(),
         }
     };

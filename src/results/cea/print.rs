@@ -174,6 +174,14 @@ fn critical_frictions(out: &mut String, report: &CeaReport<'_>) {
     }
 }
 
+/// So many friction values, in words.
+pub(super) fn friction_values(count: usize) -> String {
+    match count {
+        1 => "1 friction value".to_owned(),
+        count => format!("{count} friction values"),
+    }
+}
+
 fn totals(out: &mut String, report: &CeaReport<'_>) {
     let (fewest, most) = report.mode_counts();
     let modes = if fewest == most {
@@ -183,9 +191,9 @@ fn totals(out: &mut String, report: &CeaReport<'_>) {
     };
     let _ = writeln!(
         out,
-        "\n{modes} modes {} at {} friction values, largest residual {:.1e}",
+        "\n{modes} modes ({}) at {}, largest residual {:.1e}",
         report.selection,
-        report.friction_coefficients.len(),
+        friction_values(report.friction_coefficients.len()),
         report.largest_residual(),
     );
     let base = &report.base;

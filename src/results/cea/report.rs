@@ -17,7 +17,7 @@ pub fn html_report(
     let base = &report.base;
     let mut paragraphs = vec![
         format!(
-            "Complex eigenvalues {}: {} modes at {} friction values, {} unknowns, {} method; largest \
+            "Complex eigenvalues ({}): {} modes at {}, {} unknowns, {} method; largest \
              relative residual {:.1e}; {:.2} s.",
             report.selection,
             if fewest == most {
@@ -25,7 +25,7 @@ pub fn html_report(
             } else {
                 format!("{fewest} to {most}")
             },
-            report.friction_coefficients.len(),
+            super::print::friction_values(report.friction_coefficients.len()),
             report.dofs,
             report.method,
             report.largest_residual(),

@@ -129,8 +129,16 @@ impl SensitivityReport {
             return String::new();
         };
         let mut text = format!(
-            "at friction {} mode n = {}, branch {} grows at {:.1} 1/s; one per cent more of",
-            branch.friction_coefficient, branch.harmonic, branch.branch, branch.eigenvalue.re,
+            "at friction {} mode n = {}, branch {} {} at {:.1} 1/s; change of the growth rate when a parameter rises by 1 %:",
+            branch.friction_coefficient,
+            branch.harmonic,
+            branch.branch,
+            if branch.eigenvalue.re > 0.0 {
+                "grows"
+            } else {
+                "decays"
+            },
+            branch.eigenvalue.re.abs(),
         );
         for (index, (name, change)) in self.per_cent(branch).into_iter().enumerate() {
             let separator = if index == 0 { "" } else { "," };

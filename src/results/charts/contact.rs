@@ -111,7 +111,7 @@ fn strobe_stride(nodes: usize, codes: &[u8], finest: usize) -> usize {
 pub fn place_axis(is_round: bool) -> Axis {
     match is_round {
         true => Axis::angle(),
-        false => Axis::new("place along the contact", "%")
+        false => Axis::new("position along the contact", "%")
             .times(100.0 / TAU)
             .between(0.0, TAU),
     }

@@ -316,7 +316,7 @@ pub fn html_report(
         std::iter::once(&run.name).chain(own).cloned().collect()
     });
     let made = ReportTable {
-        caption: "What the runs were made from".into(),
+        caption: "Inputs".into(),
         columns: [
             "run",
             "command",
@@ -329,7 +329,7 @@ pub fn html_report(
         .to_vec(),
         rows: made.collect(),
     };
-    let first = table_of(runs, "What decides".into(), &first_of(quantities));
+    let first = table_of(runs, "Key results".into(), &first_of(quantities));
     let section = |heading: &str, tables: Vec<ReportTable>| ReportSection {
         heading: heading.into(),
         tables,

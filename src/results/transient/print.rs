@@ -160,7 +160,7 @@ fn optional(value: Option<f64>, decimals: usize) -> String {
 
 fn powers(out: &mut String, powers: &MeanPowers) {
     match powers.external.filter(|power| *power != 0.0) {
-        None => out.push_str("  no external power: the cylinder drags nothing\n"),
+        None => out.push_str("  no external power: nothing slides\n"),
         Some(external) => {
             let share = |power: Option<f64>| optional(power.map(|p| 100.0 * p / external), 1);
             let _ = writeln!(

@@ -126,7 +126,7 @@ pub fn report<'a>(
         method: solution.method,
         selection: match cea.modes {
             ModeSelection::BelowHz(limit) => format!("below {limit} Hz"),
-            ModeSelection::Lowest(count) => format!("the lowest {count}"),
+            ModeSelection::Lowest(count) => format!("the {count} lowest"),
         },
         friction_coefficients: &cea.friction_coefficients,
         sweep: &solution.sweep,
