@@ -38,6 +38,22 @@ pub(super) fn branches(sweep: &FrictionSweep) -> BTreeMap<Branch, Vec<(f64, &Com
     out
 }
 
+/// The points of a branch in pieces: it does not go on smoothly across a friction coefficient at which the contact set
+/// changes, nor over a solved value at which it has no mode.
+pub(super) fn pieces<'p, 'm>(
+    points: &'p [(f64, &'m ComplexMode)],
+    sweep: &FrictionSweep,
+    changes: &[f64],
+) -> Vec<&'p [(f64, &'m ComplexMode)]> {
+    let goes_on = |a: &(f64, &ComplexMode), b: &(f64, &ComplexMode)| {
+        let is_between = |mu: f64| a.0 < mu && mu < b.0;
+        let mut solved = sweep.points.iter().map(|point| point.friction_coefficient);
+        let is_change = |mu: &f64| a.0 <= *mu && *mu < b.0;
+        !solved.any(is_between) && !changes.iter().any(is_change)
+    };
+    points.chunk_by(goes_on).collect()
+}
+
 /// Unstable intervals by branch, lowest frequency first, as the frequency axis has it.
 pub(super) fn interval_rows(sweep: &FrictionSweep) -> Vec<(Branch, Vec<&UnstableInterval>)> {
     let mut rows: BTreeMap<Branch, Vec<&UnstableInterval>> = BTreeMap::new();

@@ -1,5 +1,6 @@
 //! The figures of an analysed time signal, and what is kept to draw them again.
 
+use super::summary::SignalSummary;
 use crate::chart::{ChartError, Figure, literal};
 use crate::results::Record;
 use crate::results::charts::{
@@ -71,6 +72,7 @@ pub struct ChannelRecord {
 /// That of a figure that cannot be drawn although there is something to draw.
 pub fn draw(
     record: &SignalRecord,
+    summary: &SignalSummary,
     options: &DrawingOptions,
 ) -> Result<(Vec<NamedFigure>, Vec<String>), ChartError> {
     let left_out = Mutex::new(Vec::new());
@@ -86,7 +88,11 @@ pub fn draw(
         }));
     }
     for (index, channel) in record.channels.iter().enumerate() {
-        figures.push(Box::new(move || Ok(spectrum(record, channel, index + 1))));
+        let found = summary.channels.get(index);
+        let main_hz = found.and_then(|channel| channel.main_frequency_hz);
+        figures.push(Box::new(move || {
+            Ok(spectrum(record, channel, index + 1, main_hz))
+        }));
     }
     let figures = draw_all(figures, options)?;
     let mut left_out = left_out
@@ -137,7 +143,12 @@ fn course(
 }
 
 /// The spectrum that the peaks are taken from.
-fn spectrum(record: &SignalRecord, channel: &ChannelRecord, number: usize) -> Figure {
+fn spectrum(
+    record: &SignalRecord,
+    channel: &ChannelRecord,
+    number: usize,
+    main_hz: Option<f64>,
+) -> Figure {
     let (from, to) = channel.interval_s;
     let name = literal(&channel.name);
     let spectra: [(&str, &[f64], &[f64]); 1] =
@@ -146,7 +157,7 @@ fn spectrum(record: &SignalRecord, channel: &ChannelRecord, number: usize) -> Fi
     Figure::new(format!("spectrum-{number}"), caption).panel(spectrum_panel(
         &spectra,
         "",
-        (highest(record), None),
+        (highest(record), main_hz),
         &modes(record),
     ))
 }

@@ -12,12 +12,14 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod dampings;
 mod model;
 mod solid;
 mod solve;
 mod spectrum;
 mod states;
 
+pub use dampings::dampings;
 pub use model::{SlidingModel, asked_modes, mode_limit};
 pub use solid::SolidBody;
 pub use solve::{map, solve, solve_modes};
@@ -129,6 +131,7 @@ pub fn report<'a>(
         },
         friction_coefficients: &cea.friction_coefficients,
         sweep: &solution.sweep,
+        contact_changes: &model.range.changes,
         base: model.base_state(case),
         field,
         solid: model.solid.as_ref().map(|body| &body.report),

@@ -10,7 +10,7 @@ use crate::prestress::{
     SectorTangent, SlidingRange, SlidingTangent, SteadySliding, TangentOptions,
 };
 use crate::results::cea::{BaseField, BaseState};
-use crate::study::tangent_options;
+use crate::study::{extent_of, tangent_options};
 use std::sync::Arc;
 
 /// The eigenvalue solver that a case gets: `auto` uses the rotational symmetry where the body has it.
@@ -131,6 +131,7 @@ impl SlidingModel {
             torque_n_m: (!is_plane).then_some(torque),
             drag_n: is_plane.then_some(torque),
             power_w: torque * case.contact.sliding.rotation_speed,
+            extent: extent_of(case),
         }
     }
 

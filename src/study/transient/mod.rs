@@ -18,8 +18,8 @@
 
 mod settings;
 
-use super::StudyError;
 use super::cycle::limit_cycle;
+use super::{StudyError, extent_of};
 use crate::case::{Case, Transient};
 use crate::cycle::Family;
 use crate::fem::operator::{SimdLevel, StiffnessOperator};
@@ -249,6 +249,7 @@ impl<'a> TransientStudy<'a> {
             solid: self.sector.as_ref(),
             material: case.materials(),
             thickness: self.thickness(),
+            extent: extent_of(case),
             friction_coefficient: case.contact.sliding.friction_coefficient,
             initial: settings.initial.name(),
             perturbation: &settings.perturbation,
