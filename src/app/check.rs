@@ -160,11 +160,11 @@ fn meshes(case: &Case) -> String {
         return String::new();
     };
     let meshes = study.factors.iter().map(|factor| {
-        if let Some(body) = &case.body {
-            let elements = body.mesh.element_count() as f64 * factor * factor;
+        let Some(grid) = case.body.grid() else {
+            let elements = case.body.element_count() as f64 * factor * factor;
             return format!("{elements:.0} elements");
-        }
-        let mesh = Convergence::refined(&case.annulus, *factor);
+        };
+        let mesh = Convergence::refined(grid, *factor);
         format!(
             "{} x {}",
             mesh.circumferential_elements, mesh.radial_elements

@@ -1,4 +1,4 @@
-//! What the commands on measured tables share: options, reading the file, the output folder.
+//! Options, input and output folder that the commands on measured tables share.
 
 use super::options::{OutputOptions, input_name, read_input};
 use super::{Failure, terminal};

@@ -33,12 +33,14 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let case = &session.case;
     session.check_memory(case.cost().mesh_memory_bytes)?;
     let folder = session.open_folder()?;
-    let generate = || AnnulusMesh::generate(&case.annulus).map_err(Failure::usage);
-    let annulus = case.is_annulus().then(generate).transpose()?;
+    let generate = |grid| AnnulusMesh::generate(grid).map_err(Failure::usage);
+    let annulus = case.body.grid().map(generate).transpose()?;
     let mesh = case.mesh().map_err(Failure::usage)?;
     let generate =
         |solid: &SolidSpecification| SolidSector::generate(solid).map_err(Failure::usage);
-    let solid = case.solid.as_ref().map(generate).transpose()?;
+    let revolution = case.body.revolution();
+    let solid = revolution.map(|body| generate(&body.specification));
+    let solid = solid.transpose()?;
     match &solid {
         Some(sector) => write_solid_mesh(&folder, sector)?,
         None => write_mesh(&folder, &mesh)?,
@@ -86,7 +88,8 @@ fn shortest_wave(case: &Case) -> Option<f64> {
         let material = case.materials().of(region);
         (material.lame_constants()[1] / material.density).sqrt()
     };
-    let regions = case.body.as_ref().map_or(1, |body| body.materials.len());
-    let slowest = (0..regions).map(speed).fold(f64::INFINITY, f64::min);
+    let slowest = (0..case.body.region_count())
+        .map(speed)
+        .fold(f64::INFINITY, f64::min);
     Some(slowest / frequency)
 }

@@ -1,5 +1,4 @@
-//! What every run does before and after its analysis: read the case, take the output folder, say
-//! what came out.
+//! Steps of every run before and after its analysis: read the case, take the output folder, report the results.
 
 use super::options::{input_name, read_input};
 use super::terminal;

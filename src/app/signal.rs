@@ -148,7 +148,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let highest = main.fold(0.0, f64::max);
     let modes = match &case {
         Some(case) if highest > 0.0 => {
-            ModeSummary::all(&modes_below(case, 1.3 * highest)?, case.is_annulus())
+            ModeSummary::all(&modes_below(case, 1.3 * highest)?, case.has_sectors())
         }
         _ => Vec::new(),
     };

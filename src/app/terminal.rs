@@ -1,4 +1,4 @@
-//! What goes to the terminal: results on stdout, log and progress on stderr.
+//! Terminal output: results on stdout, log and progress on stderr.
 
 use super::Failure;
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};

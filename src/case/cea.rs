@@ -1,10 +1,9 @@
 //! `[cea]`: the complex eigenvalue analysis.
 
-use super::model::node_count;
+use super::body::Body;
 use super::reader::Section;
 use super::words::CeaMethod;
 use crate::fem::MassKind;
-use crate::mesh::AnnulusSpecification;
 
 /// Which modes are found.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,7 +59,7 @@ pub struct CeaMap {
 
 pub(super) fn cea(
     root: &Section<'_>,
-    annulus: &AnnulusSpecification,
+    body: Option<&Body>,
     friction_coefficient: f64,
 ) -> Option<Cea> {
     let section = root.section("cea", false);
@@ -79,7 +78,7 @@ pub(super) fn cea(
         );
     }
     let cea = Cea {
-        modes: mode_selection(&section, annulus),
+        modes: mode_selection(&section, body),
         method: section.choice("method"),
         mass: section.choice("mass"),
         geometric_stiffness: section.flag("geometric_stiffness"),
@@ -93,10 +92,12 @@ pub(super) fn cea(
     Some(cea)
 }
 
-fn mode_selection(section: &Section<'_>, annulus: &AnnulusSpecification) -> ModeSelection {
+fn mode_selection(section: &Section<'_>, body: Option<&Body>) -> ModeSelection {
     let limit = section.optional_number("max_frequency_hz");
     let modes = section.optional_count("modes");
-    let unknowns = node_count(annulus).saturating_mul(2);
+    let unknowns = body.map_or(0, |body| {
+        body.node_count().saturating_mul(body.dimension() as u128)
+    });
     if let Some(modes) = modes.filter(|modes| *modes as u128 > unknowns && unknowns > 0) {
         section.reject(
             "modes",

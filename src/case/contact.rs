@@ -1,6 +1,6 @@
 //! The section `[contact]`.
 
-use super::body::{self, ContactPlace};
+use super::imported::{self, ContactPlace};
 use super::reader::Section;
 use super::solid;
 use super::words::BaseContact;
@@ -23,7 +23,7 @@ pub(super) fn contact(
     annulus: Option<(&AnnulusSpecification, bool)>,
 ) -> (Contact, ContactPlace) {
     let section = root.section("contact", true);
-    let mut place = body::contact_place(&section);
+    let mut place = imported::contact_place(&section);
     let (is_annulus, is_solid) = (annulus.is_some(), annulus.is_some_and(|given| given.1));
     if let Some((annulus, is_solid)) = annulus {
         place.solid = solid::contact(&section, annulus, is_solid);

@@ -1,11 +1,11 @@
 //! `[cycle]`: limit cycles found directly.
 
+use super::body::Body;
 use super::keys;
 use super::range::{Spacing, range_values};
 use super::reader::Section;
 use super::words::{OnsetChoice, StabilityChoice};
 use crate::cycle::Parameter;
-use crate::mesh::AnnulusSpecification;
 
 /// Shortest transient that puts a cycle to the test: its last fifth has the four periods that a frequency is read from,
 /// and a wave that is no motion of the disc is gone by then.
@@ -52,9 +52,9 @@ impl Continuation {
     }
 }
 
-pub(super) fn cycle(root: &Section<'_>, annulus: &AnnulusSpecification) -> Option<Cycle> {
+pub(super) fn cycle(root: &Section<'_>, body: Option<&Body>) -> Option<Cycle> {
     let section = root.section("cycle", false);
-    let harmonics = section.harmonics(annulus.circumferential_elements);
+    let harmonics = section.harmonics(body.and_then(Body::sector_count));
     let onsets = section.choice("onsets");
     let phases = section.optional_count("phases");
     let frames = section.count("frames");

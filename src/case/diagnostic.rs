@@ -1,4 +1,4 @@
-//! What is wrong with a case, where, and what to do about it.
+//! Diagnostics of a case: what is wrong, where, and the remedy.
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use std::ops::Range;

@@ -1,13 +1,14 @@
 //! The sections that describe the model: geometry, mesh, material, damping, contact.
 
-use super::body::{self, BodyParts, ImportedBody};
+use super::body::{Annulus, Body, Revolution, node_count};
 use super::boundaries::{self, NamedCondition};
 use super::contact::{Contact, contact};
+use super::imported::{self, BodyParts};
 use super::raw::{MeshBytes, RawCase};
 use super::reader::Section;
 use super::shaft;
 use super::solid;
-use crate::fem::{ElasticMaterial, RayleighDamping, RegionMaterial};
+use crate::fem::{AnnulusMaterials, ElasticMaterial, RayleighDamping, RegionMaterial};
 use crate::mesh::{AnnulusSpecification, BoundaryCondition, ElementKind, SolidSpecification};
 
 /// `[damping]`.
@@ -20,36 +21,16 @@ pub struct Damping {
     pub include_contact: bool,
 }
 
-/// Nodes of a mesh, in a width that no input overflows.
-pub(super) fn node_count(annulus: &AnnulusSpecification) -> u128 {
-    let around = annulus.circumferential_elements as u128;
-    annulus.nodes_per_sector().saturating_mul(around)
-}
-
-/// Nodes of a body of revolution with so many elements over its thickness.
-pub(super) fn solid_node_count(annulus: &AnnulusSpecification, layers: u128) -> u128 {
-    let radial = annulus.radial_elements as u128;
-    let corners = (radial + 1).saturating_mul(layers + 1);
-    let per_sector = if annulus.element.is_quadratic() {
-        2 * corners + radial * (layers + 1) + (radial + 1) * layers
-    } else {
-        corners
-    };
-    per_sector.saturating_mul(annulus.circumferential_elements as u128)
-}
-
 /// Geometry, mesh and contact of a case.
 pub(super) struct Model {
-    pub annulus: AnnulusSpecification,
-    pub shaft_material: Option<RegionMaterial>,
+    /// None where a mesh file makes no body, which is an error already.
+    pub body: Option<Body>,
     pub thickness: f64,
-    pub body: Option<ImportedBody>,
     pub mesh: Option<MeshBytes>,
-    pub solid: Option<SolidSpecification>,
     pub contact: Contact,
 }
 
-/// The annulus, or the body of a mesh file.
+/// The generated body, or that of a mesh file.
 pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &ElasticMaterial) -> Model {
     let conditions = boundaries::all(root);
     let mesh = root.section("mesh", true);
@@ -68,23 +49,32 @@ pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &ElasticMateria
         geometry.close();
         mesh.close();
         let (contact, place) = contact(root, Some((&annulus, is_solid)));
-        let solid = axial.map(|axial| {
-            let conditions = solid::conditions(root, &conditions, place.solid);
-            annulus.outer = conditions[1];
-            SolidSpecification {
-                annulus,
-                thickness,
-                axial_elements: axial,
-                contact: place.solid,
-                conditions,
+        let body = match axial {
+            None => Body::Annulus(Annulus {
+                specification: annulus,
+                materials: AnnulusMaterials {
+                    annulus: *material,
+                    shaft: shaft_material,
+                },
+            }),
+            Some(axial_elements) => {
+                let conditions = solid::conditions(root, &conditions, place.solid);
+                annulus.outer = conditions[1];
+                Body::Revolution(Revolution {
+                    specification: SolidSpecification {
+                        annulus,
+                        thickness,
+                        axial_elements,
+                        contact: place.solid,
+                        conditions,
+                    },
+                    material: *material,
+                })
             }
-        });
+        };
         return Model {
-            solid,
-            annulus,
-            shaft_material,
+            body: Some(body),
             thickness,
-            body: None,
             mesh: None,
             contact,
         };
@@ -115,35 +105,19 @@ pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &ElasticMateria
         place,
         interference: contact.sliding.interference,
         boundaries: conditions,
-        materials: body::materials(root, material),
+        materials: imported::materials(root, material),
         common: *material,
     };
     let reject = |(message, label): (String, String)| mesh.reject("file", message, label, None);
-    let bytes = body::mesh_bytes(raw, &file).map_err(&reject).ok();
+    let bytes = imported::mesh_bytes(raw, &file).map_err(&reject).ok();
     let body = bytes.as_ref().and_then(|bytes| {
-        let body = body::import(bytes, &parts);
+        let body = imported::import(bytes, &parts);
         body.map_err(&reject).ok()
     });
     mesh.close();
-    // Without a body there is an error already; what follows needs some numbers.
-    let nothing = AnnulusSpecification {
-        inner_radius: 1.0,
-        outer_radius: 2.0,
-        circumferential_elements: 1 << 20,
-        radial_elements: 1,
-        radial_grading: 1.0,
-        element: ElementKind::Quad4,
-        outer: BoundaryCondition::Clamped,
-        shaft: None,
-    };
     Model {
-        annulus: body
-            .as_ref()
-            .map_or(nothing, ImportedBody::equivalent_annulus),
-        shaft_material: None,
-        solid: None,
+        body: body.map(Body::Imported),
         thickness,
-        body,
         mesh: bytes,
         contact,
     }

@@ -1,9 +1,9 @@
 //! Values that are possible but that hardly anybody means: warnings, each with its reason.
 
-use super::Case;
 use super::diagnostic::Diagnostic;
 use super::key::CaseKey;
 use super::keys::KEYS;
+use super::{Body, Case};
 use crate::fem::PlaneFormulation;
 
 /// Share of the radius beyond which an interference is no small displacement.
@@ -46,21 +46,28 @@ fn warning(case: &Case, key: &str, message: String, label: &str, help: &str) -> 
 
 fn lengths(case: &Case) -> Option<Diagnostic> {
     let [least, most] = LENGTHS;
-    let named = [
-        ("geometry.inner_radius", case.annulus.inner_radius),
-        ("geometry.outer_radius", case.annulus.outer_radius),
-        ("geometry.thickness", case.thickness),
-    ];
-    let (key, value) = named
-        .into_iter()
-        .find(|(_, value)| *value < least || *value > most)?;
-    Some(warning(
-        case,
-        key,
-        format!("{key} = {value} m is a length outside {least} to {most} m"),
-        "metres?",
-        "a case is in SI: are these millimetres or micrometres?",
-    ))
+    let is_outside = |value: f64| value < least || value > most;
+    let help = "a case is in SI: are these millimetres or micrometres?";
+    if let Body::Imported(imported) = &case.body {
+        let width = 2.0 * imported.size();
+        if is_outside(width) {
+            let message =
+                format!("the mesh is {width} m wide, a length outside {least} to {most} m");
+            let help =
+                "coordinates are taken as metres: for a mesh in millimetres set mesh.scale = 0.001";
+            return Some(warning(case, "mesh.file", message, "metres?", help));
+        }
+    }
+    let radii = case.body.grid().into_iter().flat_map(|grid| {
+        [
+            ("geometry.inner_radius", grid.inner_radius),
+            ("geometry.outer_radius", grid.outer_radius),
+        ]
+    });
+    let mut named = radii.chain([("geometry.thickness", case.thickness)]);
+    let (key, value) = named.find(|(_, value)| is_outside(*value))?;
+    let message = format!("{key} = {value} m is a length outside {least} to {most} m");
+    Some(warning(case, key, message, "metres?", help))
 }
 
 /// Speed of waves in a bar, `sqrt(E / rho)`.
@@ -124,13 +131,13 @@ fn friction(case: &Case) -> Option<Diagnostic> {
     ))
 }
 
-/// Half the mass of a contact element for each unit of edge (kg/m2), and the time step of the transient of an annulus.
+/// Half the mass of a contact element for each unit of edge (kg/m2), and the time step of the transient of a generated body.
 fn edge_inertia(case: &Case) -> Option<[f64; 2]> {
+    let grid = case.body.grid()?;
     let step = case.cost().transient?.time_step;
-    let annulus = &case.annulus;
-    let depth = (annulus.outer_radius - annulus.inner_radius) / annulus.radial_elements as f64;
+    let depth = (grid.outer_radius - grid.inner_radius) / grid.radial_elements as f64;
     let mass = 0.5 * case.material.density * depth;
-    case.is_annulus().then_some([mass, step])
+    Some([mass, step])
 }
 
 /// Springs whose own motion of the contact nodes the time step does not resolve, `k dt^2 > 4 m`.
@@ -158,7 +165,7 @@ fn steep_friction(case: &Case) -> Option<Diagnostic> {
     let decay = contact.decay?;
     let [mass, step] = edge_inertia(case)?;
     let fall = -contact.friction_coefficient * decay.slope(0.0);
-    let most = mass / (lame_pressure(case) * fall);
+    let most = mass / (lame_pressure(case)? * fall);
     (step > most).then(|| {
         warning(
             case,
@@ -175,29 +182,33 @@ fn steep_friction(case: &Case) -> Option<Diagnostic> {
 }
 
 /// Pressure of an annulus clamped at `b` and widened by `delta` at `a`, after Lame:
-/// `p = 2 B ((lambda + mu) / b^2 + mu / a^2)` with `B = delta a b^2 / (b^2 - a^2)`.
-fn lame_pressure(case: &Case) -> f64 {
-    let (a, b) = (case.annulus.inner_radius, case.annulus.outer_radius);
+/// `p = 2 B ((lambda + mu) / b^2 + mu / a^2)` with `B = delta a b^2 / (b^2 - a^2)`. None for a body of no known pressure.
+fn lame_pressure(case: &Case) -> Option<f64> {
+    let grid = case.body.grid()?;
+    let (a, b) = (grid.inner_radius, grid.outer_radius);
     let [lambda, shear] = case.material.lame_constants();
     let widening = case.contact.sliding.interference * a * b * b / (b * b - a * a);
-    2.0 * widening * ((lambda + shear) / (b * b) + shear / (a * a))
+    Some(2.0 * widening * ((lambda + shear) / (b * b) + shear / (a * a)))
 }
 
 /// Interference against the radius, else the contact pressure against the modulus.
 fn interference(case: &Case) -> Option<Diagnostic> {
     let key = "contact.interference";
-    let a = case.annulus.inner_radius;
+    let (name, a) = match case.body.grid() {
+        Some(grid) => ("geometry.inner_radius", grid.inner_radius),
+        None => ("half the width of the mesh", case.body.size()),
+    };
     let delta = case.contact.sliding.interference;
     let help = "is it in metres? 25 micrometres are 25e-6";
     if delta > LARGEST_INTERFERENCE * a {
         let share = format!(
-            "{key} = {delta} m is {:.3} of geometry.inner_radius = {a} m: a model of small \
+            "{key} = {delta} m is {:.3} of {name} = {a} m: a model of small \
              displacements holds below {LARGEST_INTERFERENCE}",
             delta / a
         );
-        return Some(warning(case, key, share, "above 5 % of the radius", help));
+        return Some(warning(case, key, share, "more than 5 %", help));
     }
-    let pressure = lame_pressure(case);
+    let pressure = lame_pressure(case)?;
     let modulus = case.material.young_modulus;
     (pressure > LARGEST_PRESSURE * modulus).then(|| {
         let message = format!(
@@ -211,7 +222,7 @@ fn interference(case: &Case) -> Option<Diagnostic> {
 
 fn contact_stiffness(case: &Case) -> Option<Diagnostic> {
     let stiffness = case.contact.stiffness.normal_stiffness?;
-    let scale = case.material.young_modulus / case.annulus.inner_radius;
+    let scale = case.material.young_modulus / case.body.contact_length();
     (stiffness > LARGEST_STIFFNESS_RATIO * scale).then(|| {
         warning(
             case,

@@ -1,4 +1,4 @@
-//! What the declarations of the keys say, in the forms that people and editors read.
+//! Reference of the case keys, in the forms that people and editors read.
 
 use super::key::{Bound, CaseKey, Default, Kind};
 use super::keys::KEYS;

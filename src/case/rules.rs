@@ -66,7 +66,7 @@ pub(super) fn infeasible(case: &Case) -> Vec<Diagnostic> {
             "use initial = \"steady-sliding\", or set contact.static_friction_ratio = 1.0",
         );
     }
-    let scale = case.material.young_modulus / case.annulus.inner_radius;
+    let scale = case.material.young_modulus / case.body.contact_length();
     if let Some(stiffness) = case.contact.stiffness.normal_stiffness
         && stiffness > LARGEST_STIFFNESS * scale
     {

@@ -1,4 +1,4 @@
-//! What to write instead: near misses, other people's names, the meaning of a key.
+//! Suggestions for unknown keys: near misses, synonyms, the meaning of a key.
 
 use super::key::CaseKey;
 use super::keys::{KEYS, find};

@@ -1,4 +1,4 @@
-//! What can go wrong in an eigenvalue analysis.
+//! Errors of an eigenvalue analysis.
 
 use crate::linalg::LinalgError;
 use crate::mesh::MeshError;

@@ -1,4 +1,4 @@
-//! Where the data of a panel lie, and the axes around them.
+//! Frame of a panel: the area of the data and the axes around it.
 
 use super::colour::{GRID, INK};
 use super::path::Path;

@@ -1,4 +1,4 @@
-//! What is drawn between two axes.
+//! Layers drawn between two axes.
 
 use super::colour_bar::Colours;
 use super::data::{LabelData, RuleData, Series};

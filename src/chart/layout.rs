@@ -1,4 +1,4 @@
-//! Where the panels of a figure stand: a grid whose data areas line up.
+//! Layout of the panels of a figure: a grid whose data areas line up.
 
 use super::colour::MUTED;
 use super::colour_bar::Colours;

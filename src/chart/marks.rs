@@ -1,4 +1,4 @@
-//! What data are compared with or named by: rules and labels.
+//! Rules and labels that data are compared with.
 
 use super::colour::{INK, MUTED};
 use super::data::{LabelData, RuleData};

@@ -1,4 +1,4 @@
-//! How the nodes of a contact edge meet the edge of another body, whose mesh need not match.
+//! Coupling of a contact edge to the edge of another body, whose mesh need not match.
 
 use crate::mesh::{Counterface, Mesh2d};
 use std::collections::BTreeMap;

@@ -1,4 +1,4 @@
-//! Whether the elements of a mesh are sound, and whether its body is held.
+//! Checks of element shape and of supports that hold the body.
 
 use super::gmsh::MeshFileError;
 use super::{BoundaryCondition, Mesh2d};

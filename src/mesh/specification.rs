@@ -1,4 +1,4 @@
-//! What an annulus is to be, and what makes no mesh.
+//! Specification of an annulus, and the errors of one that makes no mesh.
 
 use super::{BoundaryCondition, ElementKind};
 

@@ -1,4 +1,4 @@
-//! Where there is no steady sliding.
+//! Errors of the steady-sliding equilibrium.
 
 /// A sliding equilibrium that does not exist or cannot be computed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

@@ -1,4 +1,4 @@
-//! What a mesh looks like: statistics, VTU, outline picture.
+//! Results of `mesh`: statistics, VTU, picture.
 
 use super::drawing::{DrawingError, DrawingOptions, draw_all, write_report};
 use super::folder::{FolderError, OutputFolder};

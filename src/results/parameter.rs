@@ -1,4 +1,4 @@
-//! How case keys are named on the axes of figures.
+//! Names of case keys on the axes of figures.
 
 use crate::chart::{Axis, literal};
 

@@ -1,4 +1,4 @@
-//! What the program reports: key, caption, unit and format of every quantity, declared once.
+//! Every reported quantity: key, caption, unit and format, declared once.
 //!
 //! The key is the name in JSON, CSV and the columns of a study. Printed lines, rows of reports and titles of axes
 //! take caption, unit and digits from here. A key that is not in the table is shown as it reads, with the unit that its

@@ -342,14 +342,14 @@ fn critical(records: &[PointRecord], highest_friction: f64) -> Result<Figure, Ch
         return Err(nothing());
     }
     let branch_of = |entry: &Value| {
-        let part = |name: &str| entry.get(name).and_then(Value::as_i64).unwrap_or(0);
+        let part = |name: &str| entry.get(name).and_then(Value::as_i64);
         (
-            part("harmonic") as usize,
-            part("branch") as usize,
-            part("direction") as i8,
+            part("harmonic").map(|n| n as usize),
+            part("branch").unwrap_or(0) as usize,
+            part("direction").unwrap_or(0) as i8,
         )
     };
-    let mut names: Vec<(usize, usize, i8)> = points
+    let mut names: Vec<(Option<usize>, usize, i8)> = points
         .iter()
         .flat_map(|point| point.1)
         .map(branch_of)

@@ -1,4 +1,4 @@
-//! What can be wrong with a signal or a frequency response.
+//! Errors of a signal or a frequency response.
 
 /// A signal or frequency response that cannot be analysed as asked.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

@@ -23,6 +23,7 @@ mod tangent;
 pub mod transient;
 pub mod uncertainty;
 
+pub use eigenvalues::modes_at_own_friction;
 pub use error::StudyError;
 pub use extent::extent_of;
 pub use linear_stage::{LinearStage, LinearStageError};
@@ -30,4 +31,4 @@ pub use plan::{Shard, SweepPlan, analysis_name, one_line};
 pub use preflight::{Preflight, preflight, refuse_memory};
 pub use sobol::ScrambledSobol;
 pub use summary::summarize;
-pub use tangent::{modes_at_own_friction, tangent_options};
+pub use tangent::tangent_options;

@@ -6,7 +6,6 @@ use super::transient::TransientStudy;
 use super::{StudyError, eigenvalues};
 use crate::case::{Case, CaseErrors, Cost, Diagnostic, Location, StudyCost};
 use crate::fem::operator::SimdLevel;
-use crate::mesh::ElementKind;
 use crate::transient::StepPlan;
 
 /// Nodes up to which matrices are set up to find out.
@@ -59,7 +58,7 @@ pub fn preflight(case: &Case, available: f64) -> Result<Preflight, StudyError> {
             }
         }
     }
-    if case.cycle.is_some() && case.annulus.element == ElementKind::Quad4 {
+    if commands.contains(&"cycle") {
         case.require_cycle()?;
     }
     let is_small = found.cost.nodes <= MOST_NODES;
@@ -77,7 +76,8 @@ pub fn preflight(case: &Case, available: f64) -> Result<Preflight, StudyError> {
         && is_small
     {
         let modes = found.cost.cea.map_or(0, |cost| cost.modes);
-        let sector = found.cost.dofs as usize / case.annulus.circumferential_elements.max(1);
+        let sectors = case.body.sector_count().unwrap_or(1).max(1);
+        let sector = found.cost.dofs as usize / sectors;
         if sector.saturating_mul(modes) <= MOST_EIGENVALUE_WORK {
             let tried = eigenvalues::preflight(case, cea);
             found.tolerate("cea", tried)?;
@@ -113,7 +113,7 @@ impl Preflight {
 
 /// Commands that a case has sections for, and whose elements can run.
 fn commands(case: &Case) -> Vec<&'static str> {
-    let is_linear = case.annulus.element == ElementKind::Quad4;
+    let is_linear = case.body.suits_transient();
     let has = [
         ("mesh", true),
         ("cea", case.cea.is_some()),

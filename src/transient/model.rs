@@ -1,4 +1,4 @@
-//! What a transient of a plane body is made of.
+//! Model of a transient of a plane body.
 
 use super::settings::{check_times, stable_step_limit};
 use super::{OperatorChoice, Perturbation, StepPlan, TransientError, TransientSettings};

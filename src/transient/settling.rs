@@ -1,4 +1,4 @@
-//! Whether a run has settled, and on what.
+//! End state of a run, and the time from which it holds.
 
 use super::StatusCounts;
 use super::recorder::{Recorder, SampleRow};

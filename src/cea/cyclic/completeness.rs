@@ -1,4 +1,4 @@
-//! Whether any mode of the range was left out.
+//! Proofs that no mode of the range is missing.
 
 use super::definite::{self, Region};
 use super::path::Waves;

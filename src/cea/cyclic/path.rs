@@ -1,4 +1,4 @@
-//! What is known of one branch: its points.
+//! Known points of one branch.
 
 use crate::linalg::c64;
 

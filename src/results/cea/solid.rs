@@ -1,4 +1,4 @@
-//! What a body of revolution in three dimensions shows: base state along the contact, bricks, shapes.
+//! Results of a body of revolution in three dimensions: base state along the contact, bricks, shapes.
 
 use super::BaseState;
 use crate::chart::{

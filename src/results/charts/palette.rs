@@ -1,4 +1,4 @@
-//! What each colour means, in every figure.
+//! Meaning of each colour, the same in every figure.
 
 use crate::chart::{Anchor, Key, Shapes, TextStyle};
 use crate::contact::ContactStatus;

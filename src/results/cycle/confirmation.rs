@@ -1,4 +1,4 @@
-//! Whether a transient that starts on a limit cycle stays there: words and summary.
+//! Confirmation of a limit cycle by a transient: words and summary.
 
 use super::stability::known;
 use super::{CycleReport, CycleResult};

@@ -1,4 +1,4 @@
-//! What is printed of a search for limit cycles.
+//! Printed result of a search for limit cycles.
 
 use super::confirmation::confirmation_text;
 use super::stability::print_stability;

@@ -1,4 +1,4 @@
-//! What the page's scripts work on: the numbers of every figure as JSON and one packed block.
+//! Data of the report's scripts: the numbers of every figure as JSON and one packed block.
 
 use super::NamedFigure;
 use super::numbers::Numbers;

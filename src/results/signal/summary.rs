@@ -1,4 +1,4 @@
-//! What `signal` found, as it is written, printed and reported.
+//! Summary of `signal`, as it is written, printed and reported.
 
 use crate::cea::ComplexMode;
 use crate::results::Manifest;

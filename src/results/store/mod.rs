@@ -1,4 +1,4 @@
-//! What is kept on disk and knows whether it is whole: folder, manifest, records.
+//! Results on disk that know whether they are whole: folder, manifest, records.
 
 mod error;
 pub(crate) mod folder;

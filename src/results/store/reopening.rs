@@ -1,4 +1,4 @@
-//! What a results folder says of the run that it holds, if it is whole.
+//! Reopening of a results folder: the run that it holds, if it is whole.
 
 use super::error::FolderError;
 use super::framed::{Defect, Sealed, read_sealed};

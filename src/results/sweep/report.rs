@@ -1,4 +1,4 @@
-//! What a sweep says of itself: its summary and the table that a person reads.
+//! Summary of a sweep and the table that it prints.
 
 use super::super::Manifest;
 use super::super::quantity::quantity;

@@ -15,9 +15,9 @@ use serde::{Deserialize, Serialize};
 /// A branch that turns unstable in a sample.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Onset {
-    /// Circumferential harmonic.
-    pub harmonic: usize,
-    /// Branch within the harmonic.
+    /// Circumferential harmonic, of a body that has them.
+    pub harmonic: Option<usize>,
+    /// Branch within the harmonic, else among all.
     pub branch: usize,
     /// +1 with the rotor, -1 against it, 0 standing.
     pub direction: i8,

@@ -45,7 +45,9 @@ pub fn write_samples(
                 Some(_) => String::new(),
             });
             row.push(text(&|onset| format_number(onset.critical_friction)));
-            row.push(text(&|onset| onset.harmonic.to_string()));
+            row.push(text(&|onset| {
+                onset.harmonic.map_or(String::new(), |n| n.to_string())
+            }));
             row.push(text(&|onset| onset.branch.to_string()));
             row.push(text(&|onset| onset.direction.to_string()));
             row.push(text(&|onset| format_number(onset.frequency_hz)));

@@ -79,9 +79,9 @@ pub struct CriticalFriction {
 /// A mode that turns unstable in some sample.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct FamilySummary {
-    /// Circumferential harmonic.
-    pub harmonic: usize,
-    /// Branch within the harmonic.
+    /// Circumferential harmonic, of a body that has them.
+    pub harmonic: Option<usize>,
+    /// Branch within the harmonic, else among all.
     pub branch: usize,
     /// +1 with the rotor, -1 against it, 0 standing.
     pub direction: i8,
@@ -142,7 +142,10 @@ impl FamilySummary {
             0 => "",
             ..0 => " ↻",
         };
-        format!("n = {}, branch {}{way}", self.harmonic, self.branch)
+        let harmonic = self
+            .harmonic
+            .map_or(String::new(), |n| format!("n = {n}, "));
+        format!("{harmonic}branch {}{way}", self.branch)
     }
 }
 

@@ -1,4 +1,4 @@
-//! Where and why a table cannot be read.
+//! Errors of reading a table, with line and column.
 
 use super::super::SignalError;
 

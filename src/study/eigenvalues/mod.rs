@@ -13,21 +13,26 @@
 //! ```
 
 mod dampings;
+mod map;
 mod model;
+mod sliding;
 mod solid;
 mod solve;
 mod spectrum;
 mod states;
 
 pub use dampings::dampings;
-pub use model::{SlidingModel, asked_modes, mode_limit};
+pub use map::map;
+pub use model::{Model, Solver, Spectrum, asked_modes, mode_limit};
+pub use sliding::{SlidingModel, SteadyState};
 pub use solid::SolidBody;
-pub use solve::{map, solve, solve_modes};
-pub use spectrum::{modes_below, unstable_intervals};
+pub use solve::{solve, solve_modes};
+pub use spectrum::{modes_at_own_friction, modes_below, unstable_intervals};
+pub use states::WholeMesh;
 
-use super::{StudyError, tangent_options};
+use super::StudyError;
 use crate::case::{Case, Cea, ModeSelection};
-use crate::cea::{FrictionSweep, SweepProgress, SweepRequest, cyclic};
+use crate::cea::{FrictionSweep, SweepProgress, SweepRequest};
 use crate::results::cea::{BaseField, CeaReport, SensitivityReport};
 
 /// Hears of every friction value that is solved.
@@ -47,8 +52,7 @@ pub struct Solution {
     pub notes: Vec<String>,
 }
 
-/// Modes at the case's own friction coefficient and the onsets over its sweep, by the cyclic method where the body is an
-/// annulus; mode shapes are not computed there.
+/// Modes at the case's own friction coefficient and the onsets over its sweep; mode shapes are not computed.
 ///
 /// # Errors
 /// Those of the mesh, of steady sliding and of the solver; a frequency limit below the first mode.
@@ -58,19 +62,13 @@ pub fn modes_and_onsets(case: &Case) -> Result<FrictionSweep, StudyError> {
         shapes_at: vec![case.contact.sliding.friction_coefficient],
         ..case.require_cea()?.clone()
     };
-    let sweep = if case.is_annulus() && case.solid.is_none() {
-        let request = SweepRequest {
-            friction_coefficients: &cea.solved_friction_coefficients(),
-            limit: mode_limit(&cea),
-            shapes_at: &[],
-        };
-        let options = tangent_options(case, cea.mass);
-        let sliding = &case.contact.sliding;
-        cyclic::sweep(&case.annulus, case.materials(), &options, sliding, &request)?.sweep
-    } else {
-        let model = SlidingModel::new(case, &cea)?;
-        solve_modes(case, &cea, &model)?.sweep
+    let request = SweepRequest {
+        friction_coefficients: &cea.solved_friction_coefficients(),
+        limit: mode_limit(&cea),
+        shapes_at: &[],
     };
+    let model = Model::new(case, &cea)?;
+    let sweep = model.spectrum(case, &request, false, &|_| {})?.sweep;
     refuse_no_modes(case, &cea, &sweep)?;
     Ok(sweep)
 }
@@ -122,7 +120,7 @@ pub fn report<'a>(
     CeaReport {
         title: &case.title,
         mesh: &model.mesh,
-        has_harmonics: case.is_annulus(),
+        has_harmonics: case.has_sectors(),
         dofs: solution.dofs,
         method: solution.method,
         selection: match cea.modes {
@@ -131,10 +129,10 @@ pub fn report<'a>(
         },
         friction_coefficients: &cea.friction_coefficients,
         sweep: &solution.sweep,
-        contact_changes: &model.range.changes,
+        contact_changes: model.contact_changes(),
         base: model.base_state(case),
         field,
-        solid: model.solid.as_ref().map(|body| &body.report),
+        solid: model.solid().map(|body| &body.report),
         sensitivities: solution.sensitivities.as_ref(),
         map: None,
         notes: solution.notes.clone(),

@@ -110,7 +110,7 @@ fn modes(
     let case = case.with_parameters(parameters.clone().zip(values.iter().copied()))?;
     let solved = eigenvalues::modes_below(&case, limit_hz, with_rates);
     let (modes, sensitivities) = solved.map_err(|failure| failure.messages().join("; "))?;
-    let has_harmonics = case.is_annulus();
+    let has_harmonics = case.has_sectors();
     let of = |mode: &ComplexMode| {
         let is_it = |s: &&Sensitivity| {
             (s.harmonic, s.branch, s.direction) == (mode.harmonic, mode.branch, mode.direction)

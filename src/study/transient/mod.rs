@@ -20,7 +20,7 @@ mod settings;
 
 use super::cycle::limit_cycle;
 use super::{StudyError, extent_of};
-use crate::case::{Case, Transient};
+use crate::case::{Annulus, Body, Case, Revolution, Transient};
 use crate::cycle::Family;
 use crate::fem::operator::{SimdLevel, StiffnessOperator};
 use crate::mesh::{AnnulusMesh, Mesh2d, SolidSector};
@@ -69,14 +69,21 @@ impl<'a> TransientStudy<'a> {
     /// [`StudyError::Case`] for a case without `[transient]`; a mesh that cannot be built.
     pub fn new(case: &'a Case, simd: SimdLevel) -> Result<Self, StudyError> {
         let transient = case.require_transient()?;
-        let generate = || AnnulusMesh::generate(&case.annulus);
-        let is_plane = case.is_annulus() && case.solid.is_none();
-        let annulus = is_plane.then(generate).transpose()?;
-        let sector = case.solid.as_ref().map(SolidSector::generate).transpose()?;
-        let mesh = match (&sector, &annulus, &case.body) {
-            (Some(sector), ..) => Arc::new(sector.section()?),
-            (_, None, Some(body)) => Arc::clone(&body.mesh),
-            _ => case.mesh()?,
+        let (mut annulus, mut sector) = (None, None);
+        let mesh = match &case.body {
+            Body::Annulus(Annulus { specification, .. }) => {
+                let generated = AnnulusMesh::generate(specification)?;
+                let mesh = Arc::new(generated.mesh.clone());
+                annulus = Some(generated);
+                mesh
+            }
+            Body::Revolution(Revolution { specification, .. }) => {
+                let generated = SolidSector::generate(specification)?;
+                let mesh = Arc::new(generated.section()?);
+                sector = Some(generated);
+                mesh
+            }
+            Body::Imported(imported) => Arc::clone(&imported.mesh),
         };
         Ok(Self {
             case,

@@ -1,4 +1,4 @@
-//! How likely is squeal, and which parameter decides it: onsets of samples drawn from the distributions of a case.
+//! Probability of squeal and the parameters that decide it: onsets of samples drawn from the distributions of a case.
 //!
 //! ```no_run
 //! use frictionsim::case::Case;

@@ -76,9 +76,14 @@ impl<'a> Sampler<'a> {
         let found = eigenvalues::unstable_intervals(&case, &frictions, harmonics);
         let (intervals, followed) = found.map_err(|failure| failure.messages().join("; "))?;
         let onset = |interval: &UnstableInterval| Onset {
-            harmonic: interval.harmonic,
+            harmonic: case.has_sectors().then_some(interval.harmonic),
             branch: interval.branch,
-            direction: interval.direction,
+            // Which way a wave turns is for harmonics.
+            direction: if case.has_sectors() {
+                interval.direction
+            } else {
+                0
+            },
             critical_friction: interval.critical_friction,
             restabilized: interval.restabilized.map(|end| end.0),
             frequency_hz: interval.frequency_hz,
@@ -118,7 +123,7 @@ impl<'a> Sampler<'a> {
     /// Harmonics to look at beside a sample that holds modes in `followed`.
     pub fn harmonics(&self, followed: &[usize]) -> Option<Vec<usize>> {
         let highest = followed.iter().max()?;
-        let most = self.case.annulus.circumferential_elements / 2;
+        let most = self.case.body.sector_count()? / 2;
         Some((0..=(highest + FURTHER_HARMONICS).min(most)).collect())
     }
 
@@ -139,7 +144,7 @@ impl<'a> Sampler<'a> {
     /// Solves the further points of the indices, in the harmonics in which some sample of the block has an onset.
     fn mix(&self, samples: &mut [Sample]) {
         let onsets = samples.iter().flat_map(|sample| &sample.onsets);
-        let mut harmonics: Vec<usize> = onsets.map(|onset| onset.harmonic).collect();
+        let mut harmonics: Vec<usize> = onsets.filter_map(|onset| onset.harmonic).collect();
         harmonics.sort_unstable();
         harmonics.dedup();
         let harmonics = (!harmonics.is_empty()).then_some(harmonics);

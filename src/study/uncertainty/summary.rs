@@ -189,7 +189,7 @@ fn critical_friction(solved: &[&Sample], most: f64) -> CriticalFriction {
 
 /// Modes followed across samples by harmonic, rank and direction.
 fn families(solved: &[&Sample], most: f64) -> Vec<FamilySummary> {
-    let mut names: Vec<(usize, usize, i8)> = Vec::new();
+    let mut names: Vec<(Option<usize>, usize, i8)> = Vec::new();
     for onset in solved.iter().flat_map(|sample| &sample.onsets) {
         let name = (onset.harmonic, onset.branch, onset.direction);
         if onset.critical_friction <= most && !names.contains(&name) {
