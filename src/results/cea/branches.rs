@@ -64,3 +64,46 @@ pub(super) fn interval_rows(sweep: &FrictionSweep) -> Vec<(Branch, Vec<&Unstable
     rows.sort_by(|a, b| a.1[0].frequency_hz.total_cmp(&b.1[0].frequency_hz));
     rows
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cea::FrictionPoint;
+    use crate::linalg::c64;
+
+    #[test]
+    fn a_branch_breaks_where_the_contact_set_changes_and_where_it_has_no_mode() {
+        let mode = |branch: usize| ComplexMode {
+            eigenvalue: c64::new(-1.0, 1e4),
+            harmonic: 0,
+            branch,
+            direction: 0,
+            residual: 0.0,
+            uncertainty: 0.0,
+            contact_share: 0.0,
+            axial_share: None,
+            shape: None,
+        };
+        let point = |friction_coefficient: f64, own: &[usize]| FrictionPoint {
+            friction_coefficient,
+            modes: own.iter().map(|&branch| mode(branch)).collect(),
+        };
+        let sweep = FrictionSweep {
+            points: vec![
+                point(0.1, &[0, 1]),
+                point(0.2, &[0, 1]),
+                point(0.3, &[0]),
+                point(0.4, &[0, 1]),
+            ],
+            intervals: Vec::new(),
+        };
+        let all = branches(&sweep);
+        let lengths = |branch: usize, changes: &[f64]| -> Vec<usize> {
+            let pieces = pieces(&all[&(0, branch, 0)], &sweep, changes);
+            pieces.iter().map(|piece| piece.len()).collect()
+        };
+        assert_eq!(lengths(0, &[]), [4]);
+        assert_eq!(lengths(0, &[0.25]), [2, 2]);
+        assert_eq!(lengths(1, &[]), [2, 1]);
+    }
+}

@@ -302,6 +302,7 @@ impl<'a> Picture<'a> {
             axis,
             ColourMap::Viridis,
         );
-        Panel::plane(ColourField::window(&at_rest, 0.04)).layer(field)
+        let room = 0.04 + 2.0 * DEFLECTION;
+        Panel::plane(ColourField::window(&at_rest, room)).layer(field)
     }
 }

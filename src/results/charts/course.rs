@@ -49,7 +49,7 @@ pub fn signal_panel(
     width: f64,
 ) -> Panel {
     // "km/s²" is no unit anyone uses: accelerations stay in m/s² and let the axis take the power.
-    let y = Axis::new(symbol, unit).symmetric();
+    let y = Axis::new(symbol, unit).including(0.0).room(0.06);
     Panel::new(time, y)
         .height(78.0)
         .layer(Line::new(times, signal).solid(SERIES[0], width).whole())

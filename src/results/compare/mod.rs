@@ -398,6 +398,24 @@ mod tests {
     }
 
     #[test]
+    fn the_printed_table_has_the_numbers_that_differ_and_no_other() {
+        let of = |name, frequency: f64, wall_s: f64| {
+            run(
+                name,
+                json!({ "main_frequency_hz": 9433.0, "wall_s": wall_s, "dofs": 10,
+                        "modes": [{ "branch": 1, "frequency_hz": frequency }, { "branch": 2, "frequency_hz": 5e3 }] }),
+            )
+        };
+        let runs = [of("a", 7e3, 1.0), of("b", 7.7e3, 2.0)];
+        let text = print(&runs, &shared(&runs));
+        assert!(text.contains("modes.[branch=1].frequency_hz"), "{text}");
+        for equal in ["main_frequency_hz", "branch=2", "wall_s", "dofs"] {
+            assert!(!text.contains(equal), "{equal}: {text}");
+        }
+        assert!(text.contains("1 of 6 shared numbers differ"), "{text}");
+    }
+
+    #[test]
     fn entries_of_lists_are_compared_by_what_they_are_of() {
         let entry = |n: usize, critical: f64| json!({ "harmonic": n, "direction": -1, "critical_friction": critical });
         let runs = [

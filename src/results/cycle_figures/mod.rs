@@ -97,7 +97,12 @@ impl CycleFigures<'_> {
             &around(&wave.shear),
             &around(&wave.velocity[1]),
         ];
-        contact_figure(names, (0.0, &status), values, self.peripheral_speed())
+        contact_figure(
+            (names, "cylinder *Ωa*"),
+            (0.0, &status),
+            values,
+            self.peripheral_speed(),
+        )
     }
 
     /// What a contact node goes through in two periods, on a ground coloured by its status.

@@ -38,6 +38,12 @@ async function unpack(entries, block) {
 
 // Tables.
 function equipTable(table) {
+  // A point of a study has a file with everything that was found there.
+  if (table.tHead?.rows[0].cells[0].textContent === "point")
+    for (const row of table.tBodies[0].rows) {
+      const cell = row.cells[0], number = cell.textContent.trim();
+      cell.replaceChildren(make("a", { href: `points/point-${number.padStart(6, "0")}.json` }, number));
+    }
   const body = table.tBodies[0], rows = [...body.rows];
   if (!table.tHead || rows.length < 3) return;
   [...table.tHead.rows[0].cells].forEach((head, column) => {

@@ -181,3 +181,33 @@ fn of_motion(motion: &Motion, numbers: &mut Numbers) -> Value {
     let states: Vec<Value> = states.collect();
     json!({ "positions": positions, "sizes": sizes, "cells": cells, "edge": edge, "states": states })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::chart::INK;
+
+    /// A signal of so many samples, 2 µs apart.
+    fn signal(count: usize) -> Value {
+        let series = Series {
+            name: "acceleration".into(),
+            kind: SeriesKind::Line,
+            colour: INK,
+            xs: (0..count).map(|i| 2e-6 * i as f64).collect(),
+            ys: (0..count).map(|i| (0.1 * i as f64).sin()).collect(),
+            values: None,
+            rows: Vec::new(),
+            tips: Vec::new(),
+            is_whole: true,
+        };
+        of_series(&series, &mut Numbers::default())
+    }
+
+    #[test]
+    fn signals_of_every_length_can_be_heard() {
+        // The length of the shipped transients, and that of a second of a measurement.
+        assert_eq!(signal(25_001)["even"], true);
+        let long = signal(500_000);
+        assert!(long.get("even").is_none() && long["heard"].is_u64());
+    }
+}
