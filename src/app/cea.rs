@@ -107,7 +107,12 @@ fn run_with(
     };
     let summary = write(&folder, &report)?;
     if let Some(drawing) = session.options.output.drawing() {
-        draw(&folder, &report, case.damping.rayleigh, &drawing)?;
+        draw(
+            &folder,
+            &report,
+            &eigenvalues::dampings(case, &model),
+            &drawing,
+        )?;
     }
     let table = print(&report, session.options.output.verbose > 0);
     session.options.output.finish(folder, &table, &summary)
@@ -133,7 +138,12 @@ pub fn redraw(folder: &OutputFolder, case: &Case, options: &DrawingOptions) -> R
         map: map.as_ref(),
         ..eigenvalues::report(case, cea, &model, &solution, &field, wall_s)
     };
-    draw(folder, &report, case.damping.rayleigh, options)?;
+    draw(
+        folder,
+        &report,
+        &eigenvalues::dampings(case, &model),
+        options,
+    )?;
     Ok(())
 }
 

@@ -96,7 +96,12 @@ impl CycleFigures<'_> {
         let tractions = [&around(&wave.pressure)[..], &around(&wave.shear)];
         let velocity = around(&wave.velocity[1]);
         let velocity = ContactVelocity::Absolute(&velocity, self.peripheral_speed());
-        contact_figure(names, (0.0, &status), tractions, velocity)
+        contact_figure(
+            (names, "cylinder *Ωa*"),
+            (0.0, &status),
+            tractions,
+            velocity,
+        )
     }
 
     /// What a contact node goes through in two periods, on a ground coloured by its status.

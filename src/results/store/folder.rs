@@ -372,7 +372,6 @@ fn remove_temporaries(path: &Path) {
     }
 }
 
-/// Whether the results there are of the same effective case; refuses those that must stay.
 /// Whose results may be replaced, seen what there is: a run that ended before its first result left nobody's.
 fn replaceable(path: &Path, contents: &Contents, replace: Replace) -> Replace {
     let is_there = |name: &str| is_inside(name) && path.join(name).exists();
@@ -384,6 +383,7 @@ fn replaceable(path: &Path, contents: &Contents, replace: Replace) -> Replace {
     Replace::Anything
 }
 
+/// Whether the results there are of the same effective case; refuses those that must stay.
 pub(crate) fn check_owner(
     path: &Path,
     found: &Manifest,

@@ -3,6 +3,7 @@
 use crate::fem::MaterialField;
 use crate::mesh::{Mesh, SolidSector};
 use crate::results::charts::ModeLine;
+use crate::results::extent::Extent;
 use crate::transient::{Recorder, TransientAnalysis};
 
 /// A run and what its figures show besides.
@@ -22,6 +23,8 @@ pub struct RunFigures<'a> {
     pub material: &'a dyn MaterialField,
     /// Thickness, m: the record is for each metre.
     pub thickness: f64,
+    /// What powers and energies are of.
+    pub extent: Extent,
     /// Peripheral speed of the cylinder, m/s.
     pub peripheral_speed: f64,
     /// Modes of the eigenvalue analysis drawn across spectrograms and spectra.

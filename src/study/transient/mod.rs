@@ -19,8 +19,8 @@
 mod notes;
 mod settings;
 
-use super::StudyError;
 use super::cycle::limit_cycle;
+use super::{StudyError, extent_of};
 use crate::case::{Annulus, Body, Case, Revolution, Transient};
 use crate::cycle::Family;
 use crate::fem::operator::{SimdLevel, StiffnessOperator};
@@ -278,6 +278,7 @@ impl<'a> TransientStudy<'a> {
             material: case.materials(),
             has_harmonics: case.is_annulus(),
             thickness: self.thickness(),
+            extent: extent_of(case),
             friction_coefficient: case.contact.sliding.friction_coefficient,
             initial: settings.initial.name(),
             perturbation: &settings.perturbation,
