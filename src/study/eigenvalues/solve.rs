@@ -5,11 +5,12 @@ use super::solid::{SolidBody, solid_model};
 use super::states::solve_sparse;
 use super::{Progress, SlidingModel, Solution, StudyError};
 use crate::case::{Case, Cea, CeaMap, CeaMethod};
-use crate::cea::cyclic::{self, Coverage, CyclicModel, Sensitivity, SolidModel};
+use crate::cea::cyclic::{self, Coverage, CyclicModel, Sensitivity, SolidModel, SolidSweep};
 use crate::cea::{FrictionSweep, SweepRequest};
 use crate::fem::RegionMaterial;
 use crate::results::cea::{MapReport, SensitivityReport};
 use crate::study::tangent_options;
+use std::f64::consts::TAU;
 
 /// Solves the case's eigenproblems with its method; `progress` hears of every friction value solved.
 ///
@@ -96,13 +97,39 @@ fn damping_note(case: &Case, sweep: &FrictionSweep) -> Option<String> {
         .damping
         .rayleigh
         .damping_factor(size.max(f64::MIN_POSITIVE));
-    (largest.max(at_limit) > 0.5).then(|| {
-        format!(
-            "a mode is damped by a factor of {:.2}: motions beyond critical damping (1) do not oscillate and are \
-             not listed; damping.mass_coefficient and damping.stiffness_coefficient set it",
-            largest.max(at_limit)
-        )
-    })
+    if largest.max(at_limit) <= 0.5 {
+        return None;
+    }
+    let (factor, cause) = match case.solid {
+        Some(_) if at_limit <= 0.5 => (
+            largest,
+            "the dashpot of friction across the sliding, mu p / V, does: it grows as the sliding slows down",
+        ),
+        _ => (
+            largest.max(at_limit),
+            "damping.mass_coefficient and damping.stiffness_coefficient set it",
+        ),
+    };
+    Some(format!(
+        "a mode is damped by a factor of {factor:.2}: motions beyond critical damping (1) do not oscillate and are \
+         not listed; {cause}"
+    ))
+}
+
+/// The motions that friction across the sliding keeps from oscillating, and those that it damps.
+fn overdamped_note(case: &Case, model: &SlidingModel, found: &SolidSweep) -> Option<String> {
+    let most = found.overdamped.iter().max_by_key(|own| own.count);
+    let (most, solid) = (most.filter(|own| own.count > 0)?, model.solid.as_ref()?);
+    let [slowest, fastest] = most.decay;
+    let friction = most.friction_coefficient;
+    Some(format!(
+        "at friction {friction} {} motions (each wave of a pair counted) decay without oscillating, at {slowest:.3e} to \
+         {fastest:.3e} 1/s, and are not listed: the dashpot of friction across the sliding, mu p / V = {:.3e} Pa s/m at the mean \
+         pressure and radius, overdamps them; it grows as contact.rotation_speed_rpm = {} falls, and holds that motion in the limit",
+        most.count,
+        solid.dashpot_across(friction),
+        case.contact.sliding.rotation_speed * 60.0 / TAU,
+    ))
 }
 
 /// What a friction law does at the speed of sliding.
@@ -221,6 +248,7 @@ fn solve_solid(
         found.reduction_error,
         friction_coefficients.iter().fold(0.0_f64, |m, &mu| m.max(mu)),
     ));
+    notes.extend(overdamped_note(case, model, &found));
     notes.extend(model.solid.as_ref().and_then(SolidBody::note));
     let friction = case.contact.sliding.friction_coefficient;
     let sensitivities = match with_rates {
