@@ -16,6 +16,7 @@ mod identify;
 mod init;
 mod keys;
 mod man;
+mod matrices;
 mod measurement;
 mod mesh;
 mod options;
@@ -90,6 +91,7 @@ commands! {
     Basin: basin,
     Convergence: convergence,
     Mesh: mesh,
+    Matrices: matrices,
     Check: check,
     Init: init,
     Keys: keys,

@@ -64,6 +64,37 @@ pub fn complex_eigenvalues(matrix: MatRef<'_, c64>) -> Result<Vec<c64>, LinalgEr
     Ok(values.column_vector().iter().copied().collect())
 }
 
+/// Eigenvalues of a real square matrix, in no particular order, without vectors.
+///
+/// # Errors
+/// As [`complex_eigenvalues`].
+pub fn real_eigenvalues(matrix: MatRef<'_, f64>) -> Result<Vec<c64>, LinalgError> {
+    let n = matrix.nrows();
+    let failure = LinalgError::DenseEigen { dimension: n };
+    if !matrix.is_all_finite() {
+        return Err(failure);
+    }
+    let (mut real, mut imaginary) = (Diag::<f64>::zeros(n), Diag::<f64>::zeros(n));
+    let none = ComputeEigenvectors::No;
+    let scratch = evd_scratch::<f64>(n, none, none, Par::Seq, Default::default());
+    evd_real(
+        matrix,
+        real.as_mut(),
+        imaginary.as_mut(),
+        None,
+        None,
+        Par::Seq,
+        MemStack::new(&mut MemBuffer::new(scratch)),
+        Default::default(),
+    )
+    .map_err(|_| failure)?;
+    let parts = real
+        .column_vector()
+        .iter()
+        .zip(imaginary.column_vector().iter());
+    Ok(parts.map(|(re, im)| c64::new(*re, *im)).collect())
+}
+
 /// Eigenvalue decomposition of a real square matrix.
 ///
 /// The vectors of the `leading` eigenvalues of largest modulus are held to their equation and computed

@@ -10,6 +10,7 @@ pub mod cycle_figures;
 mod drawing;
 pub mod fit;
 pub mod identification;
+pub mod matrices;
 pub mod mesh;
 mod npz;
 mod parameter;
