@@ -103,7 +103,7 @@ fn damping_note(case: &Case, sweep: &FrictionSweep) -> Option<String> {
     let (factor, cause) = match case.solid {
         Some(_) if at_limit <= 0.5 => (
             largest,
-            "the dashpot of friction across the sliding, mu p / V, does: it grows as the sliding slows down",
+            "the dashpot of friction across the sliding, mu p / V, causes it, and grows as the sliding slows down",
         ),
         _ => (
             largest.max(at_limit),

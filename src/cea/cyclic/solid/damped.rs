@@ -19,7 +19,7 @@ use std::rc::Rc;
 const SAME: f64 = 1e-6;
 
 /// The shortest step of a branch over the step of friction: a branch that turns faster begins or ends there.
-const SHORTEST: f64 = 1e-3;
+const SHORTEST: f64 = 5e-3;
 
 /// Motions that decay without oscillating, at one friction coefficient.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -168,14 +168,10 @@ impl Course<'_> {
         for tracked in self.paths.iter_mut().filter(|tracked| tracked.is_open) {
             tracked.reached = tracked.path.points.len();
             let points = &mut tracked.path.points;
-            let has_come = [StepControl::NORMAL, StepControl::FINE]
-                .into_iter()
-                .any(|control| {
-                    let control = shortened(control, [before, friction]);
-                    points.truncate(tracked.reached);
-                    self.follower
-                        .advance(points, friction, control, &mut matrices)
-                });
+            let control = shortened([before, friction]);
+            let has_come = self
+                .follower
+                .advance(points, friction, control, &mut matrices);
             tracked.is_open = has_come && !problem.is_ending(tracked.last().theta);
         }
     }
@@ -204,7 +200,7 @@ impl Course<'_> {
         };
         let mut back = vec![found];
         let mut matrices = |value: f64| Rc::new(problem.at(value));
-        let control = shortened(StepControl::NORMAL, [before, friction]);
+        let control = shortened([before, friction]);
         self.follower
             .walk(&mut back, before, control, &mut matrices);
         back.reverse();
@@ -263,10 +259,10 @@ impl Course<'_> {
 }
 
 /// Steps no shorter than a share of the step of friction.
-fn shortened(control: StepControl, [before, friction]: [f64; 2]) -> StepControl {
+fn shortened([before, friction]: [f64; 2]) -> StepControl {
     StepControl {
         shortest: SHORTEST * (friction - before),
-        ..control
+        ..StepControl::NORMAL
     }
 }
 
