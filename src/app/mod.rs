@@ -26,6 +26,7 @@ mod recorded_case;
 mod session;
 mod share;
 mod signal;
+mod superelement;
 pub mod sweep;
 pub mod terminal;
 pub mod transient;

@@ -79,7 +79,7 @@ pub(super) fn cea(
         );
     }
     let cea = Cea {
-        modes: mode_selection(&section, annulus),
+        modes: mode_selection(&section, node_count(annulus).saturating_mul(2)),
         method: section.choice("method"),
         mass: section.choice("mass"),
         geometric_stiffness: section.flag("geometric_stiffness"),
@@ -93,10 +93,10 @@ pub(super) fn cea(
     Some(cea)
 }
 
-fn mode_selection(section: &Section<'_>, annulus: &AnnulusSpecification) -> ModeSelection {
+/// Which modes are wanted of so many unknowns.
+pub(super) fn mode_selection(section: &Section<'_>, unknowns: u128) -> ModeSelection {
     let limit = section.optional_number("max_frequency_hz");
     let modes = section.optional_count("modes");
-    let unknowns = node_count(annulus).saturating_mul(2);
     if let Some(modes) = modes.filter(|modes| *modes as u128 > unknowns && unknowns > 0) {
         section.reject(
             "modes",

@@ -116,6 +116,15 @@ pub enum CeaError {
         /// Friction value of the grid that was not reached.
         friction: f64,
     },
+    /// Matrices that leave a motion undetermined.
+    #[error(
+        "the mass, damping and stiffness matrices of {dimension} unknowns are singular together: some motion has neither mass nor \
+         stiffness; remove unknowns that depend on each other"
+    )]
+    SingularTogether {
+        /// Number of unknowns.
+        dimension: usize,
+    },
     /// An eigenvalue of a body of revolution whose vectors do not settle.
     #[error(
         "the eigenvalue at {frequency_hz:.1} Hz of harmonic {harmonic} has no vectors of its own at friction {friction}: two \

@@ -39,7 +39,7 @@ pub struct QuadraticMode {
 /// sizes that lie many orders apart cost more windows, not digits. Zero and infinite eigenvalues are left out.
 ///
 /// # Errors
-/// [`CeaError::Linalg`] where an entry is not finite, the three matrices are singular together, or a decomposition fails.
+/// [`CeaError::Linalg`] where an entry is not finite or a decomposition fails, [`CeaError::SingularTogether`].
 ///
 /// # Panics
 /// If the matrices are not square and of one size.
@@ -97,11 +97,7 @@ impl Problem<'_> {
         factors.solve_in_place(x.as_mut());
         factors.solve_in_place(y.as_mut());
         if !(x.is_all_finite() && y.is_all_finite()) {
-            return Err(CeaError::Linalg(LinalgError::Singular {
-                dimension: n,
-                backward_error: f64::NAN,
-                bound: f64::EPSILON,
-            }));
+            return Err(CeaError::SingularTogether { dimension: n });
         }
         // Of `sigma / (lambda - sigma)`, with `sigma^2 M` and `sigma C` in place of `M` and `C`.
         let one = |i: usize, j: usize| f64::from(u8::from(i == j));

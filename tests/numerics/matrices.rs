@@ -221,3 +221,75 @@ fn matrices_of_a_body_of_revolution_are_refused_with_the_reason() {
     let text = String::from_utf8_lossy(&output.stderr).into_owned();
     assert!(text.contains("one set for each harmonic"), "{text}");
 }
+
+/// A case of the public problem in a folder of its own.
+fn brake(folder: &TempDir, stiffness: &str) {
+    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/numerics/nlevp");
+    for name in ["M", "C", "K"] {
+        let to = folder.path().join(format!("{name}.mtx"));
+        fs::copy(data.join(format!("disk_brake100_{name}.mtx")), to).unwrap();
+    }
+    let case = format!(
+        "[superelements.brake]\nmass = \"M.mtx\"\ndamping = \"C.mtx\"\nstiffness = \"{stiffness}\"\n[cea]\nmodes = 100\n"
+    );
+    fs::write(folder.path().join("block.toml"), case).unwrap();
+}
+
+#[test]
+fn cea_of_a_superelement_lists_the_oscillating_modes_of_its_matrices() {
+    let folder = tempfile::tempdir().unwrap();
+    brake(&folder, "K.mtx");
+    let output = run(&folder, "cea", &[]);
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/numerics/nlevp");
+    let text = fs::read_to_string(data.join("disk_brake100_eigenvalues.csv")).unwrap();
+    let exact: Vec<f64> = text
+        .lines()
+        .skip(1)
+        .map(|line| line.split_once(',').unwrap().1.parse::<f64>().unwrap())
+        .filter(|imaginary| *imaginary > 0.0)
+        .collect();
+    let table = fs::read_to_string(folder.path().join("cea/eigenvalues.csv")).unwrap();
+    let found: Vec<f64> = table
+        .lines()
+        .skip(1)
+        .map(|line| TAU * line.split(',').nth(3).unwrap().parse::<f64>().unwrap())
+        .collect();
+    assert_eq!(found.len(), exact.len());
+    for exact in exact {
+        let nearest = found
+            .iter()
+            .map(|own| (own / exact - 1.0).abs())
+            .fold(f64::INFINITY, f64::min);
+        // Some decay a hundred times faster than they oscillate: digits of the frequency are those of the whole over that.
+        assert!(nearest < 1e-9, "{exact}: {nearest:e}");
+    }
+}
+
+#[test]
+fn superelements_that_cannot_be_solved_are_refused_with_matrix_and_reason() {
+    let folder = tempfile::tempdir().unwrap();
+    for (matrix, words) in [
+        ("2 2 1\n1 1 1.0\n", "superelements.brake.stiffness is 2 x 2"),
+        ("100 100 1\n1 1 inf\n", "line 3: inf is not finite"),
+        (
+            "100 100 1\n101 1 1.0\n",
+            "lies outside a matrix of 100 x 100",
+        ),
+    ] {
+        brake(&folder, "other.mtx");
+        let text = format!("%%MatrixMarket matrix coordinate real general\n{matrix}");
+        fs::write(folder.path().join("other.mtx"), text).unwrap();
+        let output = run(&folder, "cea", &[]);
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert!(said.contains(words), "{said}");
+    }
+    brake(&folder, "nowhere.mtx");
+    let said = run(&folder, "cea", &[]).stderr;
+    assert!(String::from_utf8_lossy(&said).contains("superelements.brake.stiffness: nowhere.mtx"));
+}

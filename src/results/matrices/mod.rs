@@ -1,5 +1,9 @@
 //! The matrices of small motions as files: Matrix Market, NPZ, and what multiplies what.
 
+mod spectrum;
+
+pub use spectrum::{FreeSpectrum, FreeSpectrumSummary};
+
 use super::folder::{FolderError, OutputFolder};
 use super::manifest::Manifest;
 use super::npz::NpzArchive;
