@@ -289,7 +289,9 @@ pub fn write_matrices(
     folder.write(DESCRIPTION, |out| {
         let mut description = object(summary)?;
         if let Some(fields) = description.as_object_mut() {
-            ["wall_s", "manifest", "command"].map(|key| fields.remove(key));
+            for key in ["wall_s", "manifest", "command"] {
+                fields.remove(key);
+            }
         }
         serde_json::to_writer_pretty(&mut *out, &description)?;
         writeln!(out)
