@@ -165,34 +165,39 @@ fn superelement(
         );
         return None;
     }
-    // An unknown that no equation has is one that nothing determines.
-    let mut is_met = vec![false; size];
-    let entries = [&mass, &damping, &stiffness]
-        .into_iter()
-        .flat_map(|own| &own.entries);
-    entries
-        .filter(|entry| entry.2 != 0.0)
-        .for_each(|entry| is_met[entry.1] = true);
-    if let Some(unknown) = is_met.iter().position(|met| !met) {
-        let message = format!(
-            "unknown {} of superelement {name} has no entry in any of its matrices: nothing holds it and it has no mass",
-            unknown + 1
-        );
-        let help = "remove its row and column from every matrix".to_owned();
-        section.reject(
-            "stiffness",
-            message,
-            "an empty column".to_owned(),
-            Some(help),
-        );
-        return None;
-    }
-    Some(Superelement {
+    let own = Superelement {
         name: name.to_owned(),
         mass,
         damping,
         stiffness,
-    })
+    };
+    is_determined(section, &own).then_some(own)
+}
+
+/// Whether every unknown is part of some equation; the first that is not is reported.
+fn is_determined(section: &Section<'_>, own: &Superelement) -> bool {
+    let matrices = [&own.mass, &own.damping, &own.stiffness];
+    let mut is_met = vec![false; own.mass.rows];
+    let entries = matrices.into_iter().flat_map(|matrix| &matrix.entries);
+    for &(_, column, value) in entries {
+        is_met[column] |= value != 0.0;
+    }
+    let Some(unknown) = is_met.iter().position(|met| !met) else {
+        return true;
+    };
+    let message = format!(
+        "unknown {} of superelement {} has no entry in any of its matrices: nothing holds it and it has no mass",
+        unknown + 1,
+        own.name
+    );
+    let help = "remove its row and column from every matrix".to_owned();
+    section.reject(
+        "stiffness",
+        message,
+        "an empty column".to_owned(),
+        Some(help),
+    );
+    false
 }
 
 /// The matrix of a file.

@@ -236,6 +236,23 @@ pub fn write_matrices(
             out.write_all(&compressed_rows(&own.matrix)?)
         })?;
     }
+    write_unknowns(folder, system)?;
+    write_contact(folder, system)?;
+    folder.write(DESCRIPTION, |out| {
+        let mut description = object(summary)?;
+        if let Some(fields) = description.as_object_mut() {
+            for key in ["wall_s", "manifest", "command"] {
+                fields.remove(key);
+            }
+        }
+        serde_json::to_writer_pretty(&mut *out, &description)?;
+        writeln!(out)
+    })?;
+    Ok(())
+}
+
+/// Writes node, direction and place of every unknown.
+fn write_unknowns(folder: &OutputFolder, system: &ExportedSystem) -> Result<(), FolderError> {
     folder.write(UNKNOWNS, |out| {
         let columns = [
             "unknown",
@@ -263,6 +280,11 @@ pub fn write_matrices(
         }
         table.finish()
     })?;
+    Ok(())
+}
+
+/// Writes the contact points.
+fn write_contact(folder: &OutputFolder, system: &ExportedSystem) -> Result<(), FolderError> {
     folder.write(CONTACT, |out| {
         let columns = [
             "point",
@@ -285,16 +307,6 @@ pub fn write_matrices(
             ])?;
         }
         table.finish()
-    })?;
-    folder.write(DESCRIPTION, |out| {
-        let mut description = object(summary)?;
-        if let Some(fields) = description.as_object_mut() {
-            for key in ["wall_s", "manifest", "command"] {
-                fields.remove(key);
-            }
-        }
-        serde_json::to_writer_pretty(&mut *out, &description)?;
-        writeln!(out)
     })?;
     Ok(())
 }
