@@ -11,6 +11,7 @@ mod table_1;
 #[path = "../common/triangles.rs"]
 mod triangles;
 
+mod assemblies;
 mod body;
 mod cea_cyclic;
 mod cea_sparse;
@@ -24,6 +25,7 @@ mod frf_cyclic;
 mod frf_sliding;
 mod friction_law;
 mod half_space;
+mod matrices;
 mod plane_body;
 mod plane_spectrum;
 mod shaft;
