@@ -10,6 +10,7 @@ mod gaussian_noise;
 pub mod gram;
 mod krylov_schur;
 mod polynomial;
+mod quadratic_krylov;
 mod sparse_cholesky;
 mod sparse_ldl;
 mod sparse_lu;
@@ -23,6 +24,9 @@ pub use error::LinalgError;
 pub use gaussian_noise::GaussianNoise;
 pub use krylov_schur::{BlockOperator, KrylovSchurSettings, RealPairs, Wanted, krylov_schur};
 pub use polynomial::{MatrixPolynomial, SparsityPattern};
+pub use quadratic_krylov::{
+    QuadraticKrylovSettings, QuadraticOperator, QuadraticPairs, quadratic_krylov,
+};
 pub use sparse_cholesky::SparseCholesky;
 pub use sparse_ldl::{LdlAnalysis, SparseLdl};
 pub use sparse_lu::{ComplexSparseLu, LuAnalysis, SparseLu};
