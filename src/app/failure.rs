@@ -1,4 +1,4 @@
-//! How a command fails, and the exit code that says so.
+//! Failures of a command and their exit codes.
 
 use crate::case::CaseErrors;
 use crate::cea::CeaError;

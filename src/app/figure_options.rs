@@ -1,4 +1,4 @@
-//! How figures are drawn: options of every command that draws.
+//! Options of every command that draws figures.
 
 use crate::results::{DOTS_PER_INCH, DrawingOptions, Format};
 use clap::{Args, ValueEnum};

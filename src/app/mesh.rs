@@ -5,9 +5,9 @@ use super::{Failure, RunOptions, Session};
 use crate::case::{Case, ModeSelection};
 use crate::mesh::{AnnulusMesh, SolidSector, SolidSpecification};
 use crate::results::mesh::{
-    MeshStatistics, MeshSummary, print, write_mesh, write_mesh_picture, write_solid_mesh,
+    MeshStatistics, MeshSummary, draw_mesh, print, write_mesh, write_solid_mesh,
 };
-use crate::results::{DrawingOptions, OutputFolder, write_summary};
+use crate::results::{DrawingOptions, OutputFolder, read_summary, write_summary};
 use clap::Args;
 
 /// Mesh only: statistics, VTU, picture
@@ -33,12 +33,14 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let case = &session.case;
     session.check_memory(case.cost().mesh_memory_bytes)?;
     let folder = session.open_folder()?;
-    let generate = || AnnulusMesh::generate(&case.annulus).map_err(Failure::usage);
-    let annulus = case.is_annulus().then(generate).transpose()?;
+    let generate = |grid| AnnulusMesh::generate(grid).map_err(Failure::usage);
+    let annulus = case.body.grid().map(generate).transpose()?;
     let mesh = case.mesh().map_err(Failure::usage)?;
     let generate =
         |solid: &SolidSpecification| SolidSector::generate(solid).map_err(Failure::usage);
-    let solid = case.solid.as_ref().map(generate).transpose()?;
+    let revolution = case.body.revolution();
+    let solid = revolution.map(|body| generate(&body.specification));
+    let solid = solid.transpose()?;
     match &solid {
         Some(sector) => write_solid_mesh(&folder, sector)?,
         None => write_mesh(&folder, &mesh)?,
@@ -48,7 +50,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         statistics.turn(sector);
     }
     if let Some(drawing) = session.options.output.drawing() {
-        redraw(&folder, case, &drawing)?;
+        let probes = &case.output.probes;
+        draw_mesh(&folder, &mesh, (&case.title, probes), &statistics, &drawing)?;
     }
     let summary = MeshSummary {
         command: "mesh".to_owned(),
@@ -70,7 +73,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 /// Those of the drawing and of the folder.
 pub fn redraw(folder: &OutputFolder, case: &Case, options: &DrawingOptions) -> Result<(), Failure> {
     let mesh = case.mesh().map_err(Failure::usage)?;
-    write_mesh_picture(folder, &mesh, (&case.title, &case.output.probes), options)?;
+    let summary: MeshSummary = read_summary(folder.path())?;
+    let probes = &case.output.probes;
+    draw_mesh(folder, &mesh, (&case.title, probes), &summary.mesh, options)?;
     Ok(())
 }
 
@@ -83,7 +88,8 @@ fn shortest_wave(case: &Case) -> Option<f64> {
         let material = case.materials().of(region);
         (material.lame_constants()[1] / material.density).sqrt()
     };
-    let regions = case.body.as_ref().map_or(1, |body| body.materials.len());
-    let slowest = (0..regions).map(speed).fold(f64::INFINITY, f64::min);
+    let slowest = (0..case.body.region_count())
+        .map(speed)
+        .fold(f64::INFINITY, f64::min);
     Some(slowest / frequency)
 }

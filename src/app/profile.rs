@@ -1,4 +1,4 @@
-//! What the rest of the program asks of a subcommand, besides its arguments and its run.
+//! Description of a subcommand: what it writes, its examples, how its figures are drawn again.
 
 use super::Failure;
 use crate::case::Case;

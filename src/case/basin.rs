@@ -1,14 +1,14 @@
 //! `[basin]`: which of two waves wins.
 
+use super::body::Body;
 use super::reader::Section;
 use crate::cycle::BasinRequest;
-use crate::mesh::AnnulusSpecification;
 
-pub(super) fn basin(root: &Section<'_>, annulus: &AnnulusSpecification) -> Option<BasinRequest> {
+pub(super) fn basin(root: &Section<'_>, body: Option<&Body>) -> Option<BasinRequest> {
     let section = root.section("basin", false);
     let given = section.is_given();
     let pair = section
-        .harmonics(annulus.circumferential_elements)
+        .harmonics(body.and_then(Body::sector_count))
         .unwrap_or_else(|| vec![1, 2]);
     let request = BasinRequest {
         harmonics: [pair.first(), pair.last()].map(|n| n.copied().unwrap_or(1)),

@@ -1,319 +1,251 @@
-//! Bodies from mesh files: `mesh.file`, `[materials.*]`, and where the counterface is.
+//! Kinds of body that a case can have, each with its own data.
 
-use super::boundaries::NamedCondition;
-use super::opposite::{check_meeting, opposite_curve};
-use super::raw::{MeshBytes, RawCase};
-use super::reader::Section;
-use super::suggestion;
-use super::words::CounterfaceWord;
-use crate::fem::{ElasticMaterial, MaterialField, RayleighDamping, RegionMaterial};
+use super::imported::ImportedBody;
+use crate::fem::{AnnulusMaterials, ElasticMaterial, MaterialField};
 use crate::mesh::{
-    AnnulusSpecification, BodySpecification, BoundaryCondition, Counterface,
-    CounterfaceSpecification, ElementKind, GmshFile, Mesh2d, MeshFileError, SolidContact,
+    AnnulusMesh, AnnulusSpecification, Counterface, Mesh, MeshError, SolidContact,
+    SolidSpecification,
 };
-use std::path::Path;
+use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// A body that a mesh file describes.
+/// A plane annulus that is generated from radii and element counts, with or without a deformable shaft in it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Annulus {
+    /// Radii, element counts, and what holds the outer edge.
+    pub specification: AnnulusSpecification,
+    /// The materials of disc and shaft.
+    pub materials: AnnulusMaterials,
+}
+
+/// A body of revolution in three dimensions that is generated from radii, thickness and element counts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Revolution {
+    /// Radii, thickness, element counts, contact, and what holds each face.
+    pub specification: SolidSpecification,
+    /// Its material.
+    pub material: ElasticMaterial,
+}
+
+/// The body of a case.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ImportedBody {
-    /// Its mesh with boundaries and what holds them.
-    pub mesh: Arc<Mesh2d>,
-    /// The material of each of its regions.
-    pub materials: Vec<RegionMaterial>,
-    /// What the mesh was made of, for its refinements.
-    source: Arc<(GmshFile, BodySpecification)>,
+pub enum Body {
+    /// A plane annulus.
+    Annulus(Annulus),
+    /// A body of revolution in three dimensions.
+    Revolution(Revolution),
+    /// A plane body from a mesh file.
+    Imported(ImportedBody),
 }
 
-/// Where the counterface is, as `[contact]` says.
-pub(super) struct ContactPlace {
-    pub boundary: String,
-    pub counterface: CounterfaceSpecification,
-    /// Physical curve of the other body that it slides on.
-    pub opposite: Option<String>,
-    /// Speed of a plane, m/s.
-    pub plane_speed: Option<f64>,
-    /// Where a rotor touches a three-dimensional body.
-    pub solid: SolidContact,
-}
+impl Body {
+    /// The plane annulus, if it is one.
+    pub fn annulus(&self) -> Option<&Annulus> {
+        match self {
+            Self::Annulus(annulus) => Some(annulus),
+            Self::Revolution(_) | Self::Imported(_) => None,
+        }
+    }
 
-/// Reads the keys of `[contact]` that only an imported body has.
-pub(super) fn contact_place(section: &Section<'_>) -> ContactPlace {
-    let pair = |key: &str, default: [f64; 2]| match section.numbers(key).as_deref() {
-        None => default,
-        Some(&[x, y]) => [x, y],
-        Some(_) => {
-            section.reject(
-                key,
-                format!("{} needs two numbers", section.name(key)),
-                "must be [x, y]".to_owned(),
-                None,
-            );
-            default
+    /// The body of revolution in three dimensions, if it is one.
+    pub fn revolution(&self) -> Option<&Revolution> {
+        match self {
+            Self::Revolution(revolution) => Some(revolution),
+            Self::Annulus(_) | Self::Imported(_) => None,
         }
-    };
-    let boundary = section
-        .optional_text("boundary")
-        .unwrap_or_else(|| "inner".to_owned());
-    let (center, radius) = (pair("center", [0.0; 2]), section.optional_number("radius"));
-    let direction = pair("direction", [1.0, 0.0]);
-    let speed = section.optional_number("speed");
-    let word: CounterfaceWord = section.choice("counterface");
-    let opposite = opposite_curve(section, word);
-    let (counterface, plane_speed) = match word {
-        CounterfaceWord::Body if speed.is_some() => {
-            let along = section.has("direction").then_some(direction);
-            let plane = CounterfaceSpecification::Plane { direction: along };
-            (plane, speed)
+    }
+
+    /// The body from a mesh file, if it is one.
+    pub fn imported(&self) -> Option<&ImportedBody> {
+        match self {
+            Self::Imported(imported) => Some(imported),
+            Self::Annulus(_) | Self::Revolution(_) => None,
         }
-        CounterfaceWord::Cylinder | CounterfaceWord::Body => {
-            (CounterfaceSpecification::Cylinder { center, radius }, None)
+    }
+
+    /// Radii and element counts across the axis, of a generated body.
+    pub fn grid(&self) -> Option<&AnnulusSpecification> {
+        match self {
+            Self::Annulus(annulus) => Some(&annulus.specification),
+            Self::Revolution(revolution) => Some(&revolution.specification.annulus),
+            Self::Imported(_) => None,
         }
-        CounterfaceWord::Plane => {
-            if direction == [0.0; 2] {
-                section.reject(
-                    "direction",
-                    "contact.direction = [0, 0] points nowhere".to_owned(),
-                    "must not be zero".to_owned(),
-                    None,
-                );
+    }
+
+    /// Whether the body consists of equal sectors, so that its motions have harmonics.
+    pub fn has_sectors(&self) -> bool {
+        self.grid().is_some()
+    }
+
+    /// Number of equal sectors, if the body has them.
+    pub fn sector_count(&self) -> Option<usize> {
+        self.grid().map(|grid| grid.circumferential_elements)
+    }
+
+    /// Components of a displacement.
+    pub fn dimension(&self) -> usize {
+        match self {
+            Self::Revolution(_) => 3,
+            Self::Annulus(_) | Self::Imported(_) => 2,
+        }
+    }
+
+    /// Nodes, in a width that no input overflows.
+    pub fn node_count(&self) -> u128 {
+        match self {
+            Self::Annulus(annulus) => node_count(&annulus.specification),
+            Self::Revolution(revolution) => solid_node_count(&revolution.specification),
+            Self::Imported(imported) => imported.mesh.node_count() as u128,
+        }
+    }
+
+    /// Elements, in a width that no input overflows.
+    pub fn element_count(&self) -> u128 {
+        let around = |grid: &AnnulusSpecification| {
+            grid.circumferential_elements as u128 * grid.elements_per_sector() as u128
+        };
+        match self {
+            Self::Annulus(annulus) => around(&annulus.specification),
+            Self::Revolution(Revolution { specification, .. }) => {
+                around(&specification.annulus) * specification.axial_elements as u128
             }
-            let plane = CounterfaceSpecification::Plane {
-                direction: Some(direction),
-            };
-            (
-                plane,
-                Some(speed.unwrap_or_else(|| section.number("speed"))),
-            )
-        }
-    };
-    let is_plane = plane_speed.is_some();
-    let idle: &[&str] = if is_plane {
-        &["center", "radius", "rotation_speed_rpm"]
-    } else {
-        &["direction", "speed"]
-    };
-    for key in idle.iter().filter(|key| section.has(key)) {
-        section.warn(
-            key,
-            format!(
-                "{} is not used: the counterface is a {}",
-                section.name(key),
-                if is_plane { "plane" } else { "cylinder" }
-            ),
-            "no effect",
-        );
-    }
-    ContactPlace {
-        solid: SolidContact::Inner,
-        boundary,
-        counterface,
-        opposite,
-        plane_speed,
-    }
-}
-
-/// `[materials.*]`: elasticity in place of the common one, and damping of its own.
-pub(super) fn materials(
-    root: &Section<'_>,
-    common: &ElasticMaterial,
-) -> Vec<(String, RegionMaterial)> {
-    let all = root.section("materials", false);
-    let names: Vec<&str> = all.remaining().into_iter().map(|(name, _)| name).collect();
-    let read = names.into_iter().map(|name| {
-        let section = all.section(name, false);
-        let coefficients = [
-            section.optional_number("mass_coefficient"),
-            section.optional_number("stiffness_coefficient"),
-        ];
-        let elastic = ElasticMaterial {
-            young_modulus: section.number("young_modulus"),
-            poisson_ratio: section.number("poisson_ratio"),
-            density: section.number("density"),
-            formulation: common.formulation,
-        };
-        let damping = match coefficients {
-            [None, None] => None,
-            [mass, stiffness] => Some(RayleighDamping {
-                mass_coefficient: mass.unwrap_or(0.0),
-                stiffness_coefficient: stiffness.unwrap_or(0.0),
-            }),
-        };
-        section.close();
-        (name.to_owned(), RegionMaterial { elastic, damping })
-    });
-    let read = read.collect();
-    all.close();
-    read
-}
-
-/// Everything that makes a body of a mesh file but the file.
-pub(super) struct BodyParts {
-    pub scale: f64,
-    pub place: ContactPlace,
-    /// How far the bodies are pushed into each other, m.
-    pub interference: f64,
-    pub boundaries: Vec<NamedCondition>,
-    pub materials: Vec<(String, RegionMaterial)>,
-    pub common: ElasticMaterial,
-}
-
-/// The mesh file that `mesh.file` names, relative to the case; read once. An error is a message and a label.
-pub(super) fn mesh_bytes(raw: &RawCase, file: &str) -> Result<MeshBytes, (String, String)> {
-    if let Some(known) = raw.mesh.as_ref().filter(|known| known.file == file) {
-        return Ok(known.clone());
-    }
-    let folder = Path::new(&raw.name).parent().unwrap_or(Path::new(""));
-    let path = folder.join(file);
-    let bytes = std::fs::read(&path).map_err(|error| {
-        let message = format!("cannot read the mesh file {}: {error}", path.display());
-        (message, "not readable".to_owned())
-    })?;
-    Ok(MeshBytes {
-        file: file.to_owned(),
-        bytes: bytes.into(),
-    })
-}
-
-/// The body that a mesh file describes. An error is a message and a label.
-pub(super) fn import(
-    mesh: &MeshBytes,
-    parts: &BodyParts,
-) -> Result<ImportedBody, (String, String)> {
-    let shown = &mesh.file;
-    let unusable = |error: MeshFileError| (format!("{shown}: {error}"), "makes no body".to_owned());
-    let read = GmshFile::read(&mesh.bytes).map_err(unusable)?;
-    let specification = BodySpecification {
-        scale: parts.scale,
-        contact: parts.place.boundary.clone(),
-        counterface: parts.place.counterface,
-        opposite: parts.place.opposite.clone(),
-        conditions: parts.boundaries.clone(),
-    };
-    let mesh = Mesh2d::from_gmsh(&read, &specification).map_err(unusable)?;
-    check_meeting(&mesh, &specification, parts.interference)
-        .map_err(|message| (message, "bodies apart".to_owned()))?;
-    for (name, _) in &parts.materials {
-        if !mesh.regions.contains(name) {
-            let known = mesh.regions.iter().map(String::as_str);
-            let hint = suggestion::nearest(name, known)
-                .map_or_else(String::new, |near| format!("; did you mean \"{near}\"?"));
-            let list: Vec<String> = mesh
-                .regions
-                .iter()
-                .map(|region| format!("\"{region}\""))
-                .collect();
-            return Err((
-                format!(
-                    "[materials.{name}]: {shown} has no physical surface \"{name}\"; it has {}{hint}",
-                    list.join(", ")
-                ),
-                "its surfaces are others".to_owned(),
-            ));
+            Self::Imported(imported) => imported.mesh.element_count() as u128,
         }
     }
-    let material = |region: &String| {
-        let own = parts.materials.iter().find(|(name, _)| name == region);
-        own.map_or(
-            RegionMaterial {
-                elastic: parts.common,
-                damping: None,
+
+    /// Contact nodes, under a ring at most those of the whole face.
+    pub fn contact_node_count(&self) -> usize {
+        let around = |grid: &AnnulusSpecification| {
+            let per_element = if grid.element.is_quadratic() { 2 } else { 1 };
+            per_element * grid.circumferential_elements
+        };
+        match self {
+            Self::Annulus(annulus) => around(&annulus.specification),
+            Self::Revolution(Revolution { specification, .. }) => {
+                let rings = match specification.contact {
+                    SolidContact::Inner => specification.axial_elements + 1,
+                    SolidContact::Ring { .. } => specification.annulus.radial_elements + 1,
+                };
+                rings * around(&specification.annulus)
+            }
+            Self::Imported(imported) => imported.mesh.contact_edge().nodes.len(),
+        }
+    }
+
+    /// Whether an element has nodes between its corners.
+    pub fn is_quadratic(&self) -> bool {
+        match self {
+            Self::Annulus(annulus) => annulus.specification.element.is_quadratic(),
+            Self::Revolution(revolution) => revolution.specification.annulus.element.is_quadratic(),
+            Self::Imported(imported) => {
+                let mut kinds = imported.mesh.element_kinds.iter();
+                kinds.any(|kind| kind.is_quadratic())
+            }
+        }
+    }
+
+    /// Whether the elements are those that the explicit transient of this body takes.
+    pub fn suits_transient(&self) -> bool {
+        self.imported().is_some() || !self.is_quadratic()
+    }
+
+    /// Area of the body across the axis, m2.
+    pub fn area(&self) -> f64 {
+        let ring = |grid: &AnnulusSpecification| {
+            PI * (grid.outer_radius.powi(2) - grid.inner_radius.powi(2))
+        };
+        match self {
+            Self::Annulus(annulus) => ring(&annulus.specification),
+            Self::Revolution(revolution) => ring(&revolution.specification.annulus),
+            Self::Imported(imported) => imported.mesh.area(),
+        }
+    }
+
+    /// Half the largest extent of the body across the axis, m.
+    pub fn size(&self) -> f64 {
+        match self {
+            Self::Annulus(annulus) => annulus.specification.outer_radius,
+            Self::Revolution(revolution) => revolution.specification.annulus.outer_radius,
+            Self::Imported(imported) => imported.size(),
+        }
+    }
+
+    /// The length that curvatures of the contact are compared with, m: the radius of a cylinder that turns in the body,
+    /// else half the body's largest extent.
+    pub fn contact_length(&self) -> f64 {
+        match self {
+            Self::Annulus(annulus) => annulus.specification.inner_radius,
+            Self::Revolution(revolution) => revolution.specification.annulus.inner_radius,
+            Self::Imported(imported) => match imported.mesh.counterface {
+                Counterface::Cylinder {
+                    radius,
+                    is_inside: true,
+                    ..
+                } => radius,
+                _ => imported.size(),
             },
-            |(_, material)| *material,
-        )
-    };
-    Ok(ImportedBody {
-        materials: mesh.regions.iter().map(material).collect(),
-        mesh: Arc::new(mesh),
-        source: Arc::new((read, specification)),
-    })
-}
+        }
+    }
 
-impl ImportedBody {
-    /// The same body with every element split into four, `times` over.
+    /// The mesh of the body, of one in three dimensions that of its section across the axis.
     ///
     /// # Errors
-    /// A mesh that would be too large, or that folds where it is refined.
-    pub fn refined(&self, times: u32) -> Result<Self, MeshFileError> {
-        if times == 0 {
-            return Ok(self.clone());
-        }
-        let (file, specification) = &*self.source;
-        let mut fine = file.refined()?;
-        for _ in 1..times {
-            fine = fine.refined()?;
-        }
-        Ok(Self {
-            mesh: Arc::new(Mesh2d::from_gmsh(&fine, specification)?),
-            materials: self.materials.clone(),
-            source: Arc::new((fine, specification.clone())),
-        })
-    }
-
-    /// An annulus of about its size and fineness: what estimates of cost and plausibility need to know.
-    pub(super) fn equivalent_annulus(&self) -> AnnulusSpecification {
-        let mesh = &self.mesh;
-        let (low, high) = mesh.nodes.iter().fold(
-            ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]),
-            |(low, high), p| {
-                let pick = |f: fn(f64, f64) -> f64, a: [f64; 2]| [f(a[0], p[0]), f(a[1], p[1])];
-                (pick(f64::min, low), pick(f64::max, high))
-            },
-        );
-        let size = 0.5 * (high[0] - low[0]).max(high[1] - low[1]);
-        let inner = match mesh.counterface {
-            Counterface::Cylinder {
-                radius,
-                is_inside: true,
-                ..
-            } => radius.min(0.9 * size),
-            _ => 0.1 * size,
-        };
-        let contact = mesh.contact_edge().nodes.len();
-        let is_quadratic = mesh.element_kinds.iter().any(|kind| kind.is_quadratic());
-        let per_contact = if is_quadratic { 2 } else { 1 };
-        let around = (contact / per_contact).max(3);
-        AnnulusSpecification {
-            inner_radius: inner,
-            outer_radius: size,
-            circumferential_elements: around,
-            radial_elements: mesh.element_count().div_ceil(around).max(1),
-            radial_grading: 1.0,
-            element: if is_quadratic {
-                ElementKind::Quad8
-            } else {
-                ElementKind::Quad4
-            },
-            outer: BoundaryCondition::Clamped,
-            shaft: None,
-        }
-    }
-}
-
-impl super::Case {
-    /// Whether the body is the built-in annulus, whose symmetry the cyclic methods need.
-    pub fn is_annulus(&self) -> bool {
-        self.body.is_none()
-    }
-
-    /// The body's mesh.
-    ///
-    /// # Errors
-    /// [`crate::mesh::MeshError`] of the generated annulus.
-    pub fn mesh(&self) -> Result<Arc<Mesh2d>, crate::mesh::MeshError> {
-        match &self.body {
-            Some(body) => Ok(Arc::clone(&body.mesh)),
-            None => Ok(Arc::new(
-                crate::mesh::AnnulusMesh::generate(&self.annulus)?.mesh,
-            )),
+    /// [`MeshError`] of a mesh that cannot be generated.
+    pub fn mesh(&self) -> Result<Arc<Mesh>, MeshError> {
+        let generate =
+            |grid: &AnnulusSpecification| Ok(Arc::new(AnnulusMesh::generate(grid)?.mesh));
+        match self {
+            Self::Annulus(annulus) => generate(&annulus.specification),
+            Self::Revolution(revolution) => generate(&revolution.specification.annulus),
+            Self::Imported(imported) => Ok(Arc::clone(&imported.mesh)),
         }
     }
 
     /// The material of each region of the mesh.
     pub fn materials(&self) -> &dyn MaterialField {
-        match &self.body {
-            Some(body) => &body.materials,
-            None => &self.annulus_materials,
+        match self {
+            Self::Annulus(annulus) => &annulus.materials,
+            Self::Revolution(revolution) => &revolution.material,
+            Self::Imported(imported) => &imported.materials,
         }
     }
+
+    /// Number of materials.
+    pub fn region_count(&self) -> usize {
+        match self {
+            Self::Annulus(annulus) => 1 + usize::from(annulus.materials.shaft.is_some()),
+            Self::Revolution(_) => 1,
+            Self::Imported(imported) => imported.materials.len(),
+        }
+    }
+
+    /// Number of a node, counted from 0, as the user knows it: that of the mesh file, or counted from 1.
+    pub fn node_label(&self, node: usize) -> usize {
+        match self {
+            Self::Imported(imported) => imported.mesh.node_label(node),
+            Self::Annulus(_) | Self::Revolution(_) => node + 1,
+        }
+    }
+}
+
+/// Nodes of a mesh, in a width that no input overflows.
+pub(super) fn node_count(annulus: &AnnulusSpecification) -> u128 {
+    let around = annulus.circumferential_elements as u128;
+    annulus.nodes_per_sector().saturating_mul(around)
+}
+
+/// Nodes of a body of revolution, in a width that no input overflows.
+pub(super) fn solid_node_count(solid: &SolidSpecification) -> u128 {
+    let annulus = &solid.annulus;
+    let (radial, layers) = (
+        annulus.radial_elements as u128,
+        solid.axial_elements as u128,
+    );
+    let corners = (radial + 1).saturating_mul(layers + 1);
+    let per_sector = if annulus.element.is_quadratic() {
+        2 * corners + radial * (layers + 1) + (radial + 1) * layers
+    } else {
+        corners
+    };
+    per_sector.saturating_mul(annulus.circumferential_elements as u128)
 }

@@ -1,10 +1,10 @@
 //! `[convergence]`: the same case on several meshes and with several time steps.
 
-use super::body::ImportedBody;
-use super::model::node_count;
+use super::body::{Body, Revolution, node_count};
+use super::imported::ImportedBody;
 use super::reader::Section;
 use super::words::Analysis;
-use crate::mesh::{AnnulusSpecification, ElementKind, ShaftSpecification, SolidSpecification};
+use crate::mesh::{AnnulusSpecification, ShaftSpecification, SolidSpecification};
 
 /// Fewest refinements that an order can be observed from.
 const FEWEST: usize = 3;
@@ -47,36 +47,31 @@ impl Convergence {
 }
 
 impl super::Case {
-    /// The case on the built-in mesh with `factor` times as many elements in every direction.
-    pub(super) fn divided(&self, factor: f64) -> Self {
-        let annulus = Convergence::refined(&self.annulus, factor);
-        let solid = self.solid.map(|solid| SolidSpecification {
-            annulus: Convergence::refined(&solid.annulus, factor),
-            axial_elements: (solid.axial_elements as f64 * factor).round() as usize,
-            ..solid
-        });
-        Self {
-            annulus,
-            solid,
-            ..self.clone()
-        }
-    }
-
-    /// The case on a mesh whose elements are `factor` times as fine.
+    /// The case on a mesh whose elements are `factor` times as fine: a generated mesh has so many times as many elements in
+    /// every direction, an imported one is split.
     ///
     /// # Errors
     /// An imported mesh that cannot be refined.
     pub fn refined(&self, factor: f64) -> Result<Self, super::CaseErrors> {
-        let Some(body) = &self.body else {
-            return Ok(self.divided(factor));
-        };
-        let fine = body.refined(factor.log2() as u32).map_err(|error| {
-            let (key, label) = ("convergence.factors", "makes no body".to_owned());
-            self.error_at(key, format!("{key} = {factor}: {error}"), label, None)
-        })?;
+        let mut body = self.body.clone();
+        match &mut body {
+            Body::Annulus(annulus) => {
+                annulus.specification = Convergence::refined(&annulus.specification, factor);
+            }
+            Body::Revolution(Revolution { specification, .. }) => {
+                specification.annulus = Convergence::refined(&specification.annulus, factor);
+                specification.axial_elements =
+                    (specification.axial_elements as f64 * factor).round() as usize;
+            }
+            Body::Imported(imported) => {
+                *imported = imported.refined(factor.log2() as u32).map_err(|error| {
+                    let (key, label) = ("convergence.factors", "makes no body".to_owned());
+                    self.error_at(key, format!("{key} = {factor}: {error}"), label, None)
+                })?;
+            }
+        }
         Ok(Self {
-            annulus: fine.equivalent_annulus(),
-            body: Some(fine),
+            body,
             ..self.clone()
         })
     }
@@ -86,24 +81,32 @@ impl super::Case {
 const SPLITS: [f64; 3] = [1.0, 2.0, 4.0];
 
 /// Reads the section of a case that `has` a `[cea]`, a `[transient]` and a `[cycle]`.
-pub(super) fn read(
-    root: &Section<'_>,
-    annulus: &AnnulusSpecification,
-    (body, solid): (Option<&ImportedBody>, Option<&SolidSpecification>),
-    has: [bool; 3],
-) -> Option<Convergence> {
+pub(super) fn read(root: &Section<'_>, body: Option<&Body>, has: [bool; 3]) -> Option<Convergence> {
     let section = root.section("convergence", false);
     if !section.is_given() {
         return None;
     }
     let factors = match section.numbers("factors") {
-        _ if body.is_some() && !section.has("factors") => SPLITS.to_vec(),
+        _ if body.is_some_and(|body| !body.has_sectors()) && !section.has("factors") => {
+            SPLITS.to_vec()
+        }
         given => given.unwrap_or_default(),
     };
     if has_enough(&section, "factors", &factors) && is_ordered(&section, "factors", &factors, 1.0) {
         match body {
-            Some(body) => check_splits(&section, body, &factors),
-            None => check_meshes(&section, annulus, solid, &factors),
+            Some(Body::Imported(imported)) => check_splits(&section, imported, &factors),
+            Some(Body::Annulus(annulus)) => {
+                check_meshes(&section, &annulus.specification, None, &factors);
+            }
+            Some(Body::Revolution(Revolution { specification, .. })) => {
+                check_meshes(
+                    &section,
+                    &specification.annulus,
+                    Some(specification),
+                    &factors,
+                );
+            }
+            None => {}
         }
     }
     let steps = section.numbers("time_step_factors");
@@ -113,13 +116,13 @@ pub(super) fn read(
     {
         is_ordered(&section, "time_step_factors", &time_step_factors, -1.0);
     }
-    let is_linear = body.is_some() || annulus.element == ElementKind::Quad4;
+    let is_linear = body.is_none_or(Body::suits_transient);
     let analyses = analyses(&section, is_linear, has);
     if !time_step_factors.is_empty() && !analyses.contains(&Analysis::Transient) {
         section.reject(
             "time_step_factors",
-            "convergence.time_step_factors has no transient to act on".to_owned(),
-            "only a transient has a time step".to_owned(),
+            "convergence.time_step_factors needs a [transient]".to_owned(),
+            "there is no transient in this case".to_owned(),
             Some(
                 "add a [transient] section of quad4 elements, or leave time_step_factors out"
                     .to_owned(),
@@ -141,7 +144,7 @@ fn has_enough(section: &Section<'_>, key: &'static str, values: &[f64]) -> bool 
         section.reject(
             key,
             format!(
-                "{} has {} values, an order is observed from {FEWEST} or more",
+                "{} has {} values; observing an order takes {FEWEST} or more",
                 section.name(key),
                 values.len()
             ),
@@ -243,7 +246,7 @@ fn check_meshes(
         {
             return reject(
                 format!(
-                    "{name}, is no refinement of that of {other}, {} x {}, in both directions",
+                    "{name}, does not refine that of {other}, {} x {}, in both directions",
                     coarser.circumferential_elements, coarser.radial_elements
                 ),
                 "factors further apart, or a finer mesh to start from",

@@ -1,14 +1,14 @@
-//! What a case costs, estimated without running it.
+//! Cost of a case, estimated without running it.
 //!
 //! Memory and time come from operation counts and typical rates of one modern core, to within a
 //! factor of about two; the run itself measures the real ones.
 
 mod estimate;
 mod memory;
+mod size;
 
-use super::model::{node_count, solid_node_count};
-use super::{Analysis, Case};
-use crate::mesh::AnnulusSpecification;
+use super::{Analysis, Body, Case};
+use size::Size;
 
 /// Points of a study whose cost is looked at.
 const TRIED_POINTS: usize = 24;
@@ -126,39 +126,41 @@ impl Cost {
 impl Case {
     /// Estimates what the analyses of the case cost, each once.
     pub fn cost(&self) -> Cost {
-        let annulus = &self.annulus;
-        let count = |mesh: &AnnulusSpecification| {
-            mesh.circumferential_elements as u128 * mesh.elements_per_sector() as u128
-        };
-        let (mut nodes, mut elements) = (node_count(annulus), count(annulus));
-        if let Some(body) = &self.body {
-            // The annulus stands for the body, refined as often as a study asks for.
-            let times = elements / count(&body.equivalent_annulus()).max(1);
-            nodes = times * body.mesh.node_count() as u128;
-            elements = times * body.mesh.element_count() as u128;
-        }
-        if let Some(solid) = &self.solid {
-            let layers = solid.axial_elements as u128;
-            nodes = solid_node_count(annulus, layers);
-            elements *= layers;
-        }
+        self.cost_of(&Size::of(self))
+    }
+
+    /// Estimates what the analyses would cost on a mesh of such a size.
+    fn cost_of(&self, size: &Size) -> Cost {
+        let transient = self.transient.as_ref();
         Cost {
-            nodes,
-            elements,
-            dofs: if self.solid.is_some() { 3 } else { 2 } * nodes,
+            nodes: size.nodes,
+            elements: size.elements,
+            dofs: self.body.dimension() as u128 * size.nodes,
             // Coordinates, frame, connectivity and result vectors of a node and its element.
-            mesh_memory_bytes: 160.0 * nodes as f64,
-            cea: self.cea.as_ref().map(|cea| self.cea_cost(cea, nodes)),
-            transient: self
-                .transient
+            mesh_memory_bytes: 160.0 * size.nodes as f64,
+            cea: self.cea.as_ref().map(|cea| self.cea_cost(cea, size)),
+            transient: transient.map(|transient| self.transient_cost(transient, size)),
+            cycle: self
+                .cycle
                 .as_ref()
-                .map(|transient| self.transient_cost(transient, nodes, elements)),
-            cycle: self.cycle.as_ref().map(|cycle| self.cycle_cost(cycle)),
-            frf: self.frf.as_ref().map(|frf| self.frf_cost(frf, nodes)),
+                .map(|cycle| self.cycle_cost(cycle, size)),
+            frf: self.frf.as_ref().map(|frf| self.frf_cost(frf, size)),
             // Some eight transients of 800 steps to a period, each at its longest.
             basin_seconds: self.basin.as_ref().map_or(0.0, |basin| {
-                8.0 * 2e-9 * elements as f64 * 800.0 * basin.periods as f64
+                8.0 * 2e-9 * size.elements as f64 * 800.0 * basin.periods as f64
             }),
+        }
+    }
+
+    /// Estimates what the analyses cost on a mesh `factor` times as fine.
+    fn refined_cost(&self, factor: f64) -> Cost {
+        match &self.body {
+            // Its elements are split for a run, not for an estimate.
+            Body::Imported(_) => self.cost_of(&Size::of(self).refined(factor)),
+            Body::Annulus(_) | Body::Revolution(_) => {
+                let refined = self.refined(factor);
+                refined.map_or_else(|_| self.cost(), |case| case.cost())
+            }
         }
     }
 
@@ -204,7 +206,7 @@ impl Case {
     pub fn convergence_cost(&self) -> Option<StudyCost> {
         let study = self.convergence.as_ref()?;
         let meshes = study.factors.iter().map(|factor| {
-            let cost = self.divided(*factor).cost();
+            let cost = self.refined_cost(*factor);
             (cost, study.analyses.clone(), 1.0)
         });
         let steps = study.time_step_factors.iter();

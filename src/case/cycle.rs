@@ -1,11 +1,11 @@
 //! `[cycle]`: limit cycles found directly.
 
+use super::body::Body;
 use super::keys;
 use super::range::{Spacing, range_values};
 use super::reader::Section;
 use super::words::{OnsetChoice, StabilityChoice};
 use crate::cycle::Parameter;
-use crate::mesh::AnnulusSpecification;
 
 /// Shortest transient that puts a cycle to the test: its last fifth has the four periods that a frequency is read from,
 /// and a wave that is no motion of the disc is gone by then.
@@ -52,9 +52,9 @@ impl Continuation {
     }
 }
 
-pub(super) fn cycle(root: &Section<'_>, annulus: &AnnulusSpecification) -> Option<Cycle> {
+pub(super) fn cycle(root: &Section<'_>, body: Option<&Body>) -> Option<Cycle> {
     let section = root.section("cycle", false);
-    let harmonics = section.harmonics(annulus.circumferential_elements);
+    let harmonics = section.harmonics(body.and_then(Body::sector_count));
     let onsets = section.choice("onsets");
     let phases = section.optional_count("phases");
     let frames = section.count("frames");
@@ -82,7 +82,7 @@ pub(super) fn cycle(root: &Section<'_>, annulus: &AnnulusSpecification) -> Optio
     if stability == StabilityChoice::Branch && continuation.is_none() {
         section.reject(
             "stability",
-            "cycle.stability = \"branch\" has no branch to follow".to_owned(),
+            "cycle.stability = \"branch\" needs [cycle.continuation]".to_owned(),
             "needs [cycle.continuation]".to_owned(),
             Some("add that table, or use \"point\"".to_owned()),
         );
@@ -132,7 +132,7 @@ fn check_continuation(section: &Section<'_>, continuation: &Continuation) {
             format!(
                 "cycle.continuation.spacing = \"log\" needs two positive ends, not {from} and {to}"
             ),
-            "logarithms of positive numbers only".to_owned(),
+            "both ends must be positive".to_owned(),
             Some("use \"linear\"".to_owned()),
         );
     }

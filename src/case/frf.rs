@@ -57,7 +57,7 @@ pub(super) fn read(root: &Section<'_>, nodes: &Nodes<'_>) -> Option<Frf> {
     frequencies_hz.dedup();
     let direction = |key| {
         let direction: Direction = section.choice(key);
-        if direction == Direction::Axial && nodes.solid.is_none() {
+        if direction == Direction::Axial && nodes.body.is_some_and(|body| body.dimension() == 2) {
             section.reject(
                 key,
                 format!("frf.{key} = \"axial\": a plane body does not move along its axis"),

@@ -1,4 +1,4 @@
-//! What a key of the case file is: the kind of its value, bound, unit, default, meaning.
+//! Declaration of a case key: kind of value, bound, unit, default, meaning.
 
 use super::value::RawValue;
 

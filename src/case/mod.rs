@@ -15,6 +15,7 @@ mod cycle;
 mod diagnostic;
 mod fit;
 mod frf;
+mod imported;
 mod key;
 mod keys;
 mod model;
@@ -29,8 +30,10 @@ mod reader;
 pub mod reference;
 mod rules;
 mod shaft;
+mod shown;
 mod solid;
 mod suggestion;
+mod superelements;
 mod sweep;
 mod transient;
 mod uncertainty;
@@ -38,7 +41,7 @@ mod value;
 mod words;
 
 pub use crate::transient::{InitialState, OperatorChoice, Perturbation, TimeStep};
-pub use body::ImportedBody;
+pub use body::{Annulus, Body, Revolution};
 pub use cea::{Cea, CeaMap, ModeSelection};
 pub use contact::Contact;
 pub use convergence::Convergence;
@@ -47,6 +50,7 @@ pub use cycle::{Continuation, Cycle};
 pub use diagnostic::{CaseErrors, Diagnostic, Location, Source};
 pub use fit::{Fit, FitParameter};
 pub use frf::Frf;
+pub use imported::ImportedBody;
 pub use key::{Bound, CaseKey, Default, Kind};
 pub use keys::{KEYS, find as find_key};
 pub use model::Damping;
@@ -55,15 +59,18 @@ pub use overrides::unset;
 pub use parameters::ModelParameter;
 pub use range::{Spacing, range_values};
 pub use raw::{MeshBytes, RawCase};
+pub use shown::{first_of, shown, shown_json};
+pub use superelements::{FreeSystem, Superelement};
 pub use sweep::{Sweep, SweptKey};
 pub use transient::{Output, Transient};
 pub use uncertainty::{UncertainParameter, Uncertainty};
 pub use value::{RawEntry, RawItem, RawTable, RawValue};
 pub use words::{Analysis, CeaMethod, Combination, FrfMethod, OnsetChoice, StabilityChoice};
 
-use crate::fem::{AnnulusMaterials, ElasticMaterial};
-use crate::mesh::{AnnulusSpecification, ElementKind, SolidSpecification};
+use crate::fem::{ElasticMaterial, MaterialField};
+use crate::mesh::{Mesh, MeshError};
 use reader::{Findings, Section};
+use std::sync::Arc;
 
 /// A validated case, in SI units (the rotation speed in rad/s).
 #[derive(Clone, Debug, PartialEq)]
@@ -74,17 +81,11 @@ pub struct Case {
     pub title: String,
     /// Thickness of the disc, m: scales reported forces, torque, power and energy.
     pub thickness: f64,
-    /// The annulus and its mesh.
-    pub annulus: AnnulusSpecification,
-    /// The body, where a mesh file describes it; `annulus` then tells its size and fineness roughly.
-    pub body: Option<ImportedBody>,
-    /// The body of revolution, where it is three-dimensional; `annulus` is its mesh in the plane.
-    pub solid: Option<SolidSpecification>,
-    /// The disc's material.
+    /// The body with its mesh and its materials.
+    pub body: Body,
+    /// The common material, `[material]`: of every region that has none of its own.
     pub material: ElasticMaterial,
-    /// The materials of the annulus and its shaft.
-    pub annulus_materials: AnnulusMaterials,
-    /// The disc's damping.
+    /// The common damping.
     pub damping: Damping,
     /// The cylinder and its contact.
     pub contact: Contact,
@@ -139,25 +140,19 @@ impl Case {
         let title = title(&raw, root.optional_text("title").unwrap_or_default());
         let material = model::material(&root);
         let model::Model {
-            annulus,
-            shaft_material,
-            thickness,
             body,
+            thickness,
             mesh,
-            solid,
             contact,
         } = model::model(&root, &raw, &material);
         let damping = model::damping(&root);
-        let cea = cea::cea(&root, &annulus, contact.sliding.friction_coefficient);
-        let transient = transient::transient(&root, &annulus, solid.as_ref(), &contact.sliding);
+        let cea = cea::cea(&root, body.as_ref(), contact.sliding.friction_coefficient);
+        let transient = transient::transient(&root, body.as_ref(), &contact.sliding);
         let nodes = node::Nodes {
-            annulus: &annulus,
             body: body.as_ref(),
-            solid: solid.as_ref(),
-            is_unknown: body.is_none() && root.section("mesh", false).has("file"),
         };
         let output = transient::output(&root, &nodes, transient.as_ref());
-        if transient.is_some() && body.is_none() && annulus.element == ElementKind::Quad8 {
+        if transient.is_some() && body.as_ref().is_some_and(|body| !body.suits_transient()) {
             root.section("mesh", false).warn(
                 "element",
                 "mesh.element = \"quad8\" is for the complex eigenvalue analysis only: the \
@@ -166,31 +161,26 @@ impl Case {
                 "no transient",
             );
         }
-        let cycle = cycle::cycle(&root, &annulus);
-        let basin = basin::basin(&root, &annulus);
+        let cycle = cycle::cycle(&root, body.as_ref());
+        let basin = basin::basin(&root, body.as_ref());
         let frf = frf::read(&root, &nodes);
         let has = [cea.is_some(), transient.is_some(), cycle.is_some()];
-        let convergence = convergence::read(&root, &annulus, (body.as_ref(), solid.as_ref()), has);
+        let convergence = convergence::read(&root, body.as_ref(), has);
         let fit = fit::fit(&root);
         let uncertainty = uncertainty::uncertainty(&root);
         let sweep = sweep::read(&root);
+        superelements::refuse_attached(&root);
         root.close();
         let (errors, warnings) = findings.into_parts();
         raw.mesh = mesh;
-        if !errors.is_empty() {
+        let Some(body) = body.filter(|_| errors.is_empty()) else {
             return Err(raw.errors(errors));
-        }
+        };
         let mut case = Self {
             title,
             thickness,
-            annulus,
             body,
-            solid,
             material,
-            annulus_materials: AnnulusMaterials {
-                annulus: material,
-                shaft: shaft_material,
-            },
             damping,
             contact,
             cea,
@@ -207,10 +197,12 @@ impl Case {
             raw,
         };
         let errors = rules::infeasible(&case);
+        let implausible = plausibility::implausible(&case);
         if !errors.is_empty() {
-            return Err(case.raw.errors(errors));
+            // A slip of units comes first: what cannot run is mostly its consequence.
+            return Err(case.raw.errors([implausible, errors].concat()));
         }
-        case.warnings.extend(plausibility::implausible(&case));
+        case.warnings.extend(implausible);
         Ok(case)
     }
 
@@ -245,7 +237,10 @@ impl Case {
         self.require_rigid_shaft("the search for a basin")?;
         let found = self.basin.as_ref();
         let found = found.ok_or_else(|| self.lacks("basin", "search for a basin", remedy))?;
-        self.require_plane("the search for basins takes")?;
+        self.require_annulus(
+            "limit cycles are rotating waves, which",
+            "the search for basins takes",
+        )?;
         self.require_constant_friction()?;
         Ok(found)
     }
@@ -259,11 +254,11 @@ impl Case {
         let remedy = "[cycle]\nharmonics = [1, 2]";
         let cycle = self.cycle.as_ref();
         let cycle = cycle.ok_or_else(|| self.lacks("cycle", "limit cycle", remedy))?;
-        if !self.is_annulus() {
-            return Err(self.no_symmetry("limit cycles are rotating waves, which"));
-        }
         self.require_rigid_shaft("the search for limit cycles")?;
-        self.require_plane("the search for limit cycles takes")?;
+        self.require_annulus(
+            "limit cycles are rotating waves, which",
+            "the search for limit cycles takes",
+        )?;
         self.require_quad4("limit cycles need \"quad4\"")?;
         self.require_constant_friction()?;
         let key = "contact.rotation_speed_rpm";
@@ -276,7 +271,7 @@ impl Case {
                     value.unwrap_or_default()
                 ),
                 "must be positive here".to_owned(),
-                Some("a cylinder that turns backwards makes the mirror image".to_owned()),
+                Some("a cylinder turning backwards gives the mirror image".to_owned()),
             ));
         }
         Ok(cycle)
@@ -289,7 +284,7 @@ impl Case {
         }
         Err(self.error_at(
             "contact.static_friction_ratio",
-            "limit cycles are sought under a constant friction coefficient only".to_owned(),
+            "limit cycles are computed for a constant friction coefficient only".to_owned(),
             "friction falls with speed here".to_owned(),
             Some(
                 "follow the transient to its limit cycle instead ([transient] with \
@@ -300,7 +295,7 @@ impl Case {
     }
 
     fn require_quad4(&self, label: &str) -> Result<(), CaseErrors> {
-        if self.annulus.element == ElementKind::Quad4 {
+        if !self.body.is_quadratic() {
             return Ok(());
         }
         Err(self.error_at(
@@ -345,17 +340,48 @@ impl Case {
         study.ok_or_else(|| self.lacks("convergence", "convergence study", remedy))
     }
 
-    /// An analysis of the built-in annulus that an imported body cannot have.
-    fn no_symmetry(&self, what: &str) -> CaseErrors {
-        self.error_at(
-            "mesh.file",
-            format!("{what} need the rotational symmetry of the built-in annulus"),
-            "an imported mesh has no sectors".to_owned(),
-            Some(
-                "describe the disc by [geometry] and element counts instead of mesh.file"
-                    .to_owned(),
-            ),
-        )
+    /// The plane annulus of an analysis that no other body has; `waves` says what needs its sectors, `search` what takes
+    /// plane bodies only.
+    ///
+    /// # Errors
+    /// A body from a mesh file, and one in three dimensions.
+    pub fn require_annulus(&self, waves: &str, search: &str) -> Result<&Annulus, CaseErrors> {
+        match &self.body {
+            Body::Annulus(annulus) => Ok(annulus),
+            Body::Revolution(_) => Err(self.not_plane(search)),
+            Body::Imported(_) => Err(self.error_at(
+                "mesh.file",
+                format!("{waves} need the rotational symmetry of the built-in annulus"),
+                "an imported mesh has no sectors".to_owned(),
+                Some(
+                    "describe the disc by [geometry] and element counts instead of mesh.file"
+                        .to_owned(),
+                ),
+            )),
+        }
+    }
+
+    /// The body's mesh, of one in three dimensions that of its section across the axis.
+    ///
+    /// # Errors
+    /// [`MeshError`] of a mesh that cannot be generated.
+    pub fn mesh(&self) -> Result<Arc<Mesh>, MeshError> {
+        self.body.mesh()
+    }
+
+    /// The material of each region of the mesh.
+    pub fn materials(&self) -> &dyn MaterialField {
+        self.body.materials()
+    }
+
+    /// Whether the body consists of equal sectors, so that its motions have harmonics.
+    pub fn has_sectors(&self) -> bool {
+        self.body.has_sectors()
+    }
+
+    /// Number of a node, counted from 0, as the user knows it.
+    pub fn node_label(&self, node: usize) -> usize {
+        self.body.node_label(node)
     }
 
     fn lacks(&self, section: &str, analysis: &str, remedy: &str) -> CaseErrors {

@@ -1,13 +1,14 @@
 //! The sections that describe the model: geometry, mesh, material, damping, contact.
 
-use super::body::{self, BodyParts, ImportedBody};
+use super::body::{Annulus, Body, Revolution, node_count};
 use super::boundaries::{self, NamedCondition};
 use super::contact::{Contact, contact};
+use super::imported::{self, BodyParts};
 use super::raw::{MeshBytes, RawCase};
 use super::reader::Section;
 use super::shaft;
 use super::solid;
-use crate::fem::{ElasticMaterial, RayleighDamping, RegionMaterial};
+use crate::fem::{AnnulusMaterials, ElasticMaterial, RayleighDamping, RegionMaterial};
 use crate::mesh::{AnnulusSpecification, BoundaryCondition, ElementKind, SolidSpecification};
 
 /// `[damping]`.
@@ -20,38 +21,21 @@ pub struct Damping {
     pub include_contact: bool,
 }
 
-/// Nodes of a mesh, in a width that no input overflows.
-pub(super) fn node_count(annulus: &AnnulusSpecification) -> u128 {
-    let around = annulus.circumferential_elements as u128;
-    annulus.nodes_per_sector().saturating_mul(around)
-}
-
-/// Nodes of a body of revolution with so many elements over its thickness.
-pub(super) fn solid_node_count(annulus: &AnnulusSpecification, layers: u128) -> u128 {
-    let radial = annulus.radial_elements as u128;
-    let corners = (radial + 1).saturating_mul(layers + 1);
-    let per_sector = if annulus.element.is_quadratic() {
-        2 * corners + radial * (layers + 1) + (radial + 1) * layers
-    } else {
-        corners
-    };
-    per_sector.saturating_mul(annulus.circumferential_elements as u128)
-}
-
 /// Geometry, mesh and contact of a case.
 pub(super) struct Model {
-    pub annulus: AnnulusSpecification,
-    pub shaft_material: Option<RegionMaterial>,
+    /// None where a mesh file makes no body, which is an error already.
+    pub body: Option<Body>,
     pub thickness: f64,
-    pub body: Option<ImportedBody>,
     pub mesh: Option<MeshBytes>,
-    pub solid: Option<SolidSpecification>,
     pub contact: Contact,
 }
 
-/// The annulus, or the body of a mesh file.
+/// The generated body, or that of a mesh file.
 pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &ElasticMaterial) -> Model {
     let conditions = boundaries::all(root);
+    let is_pressed = conditions
+        .iter()
+        .any(|(_, condition)| matches!(condition, BoundaryCondition::Pressure(_)));
     let mesh = root.section("mesh", true);
     let file = mesh.optional_text("file");
     let scale = mesh.number("scale");
@@ -67,85 +51,98 @@ pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &ElasticMateria
             annulus(root, &geometry, &mesh, (&conditions, is_solid), material);
         geometry.close();
         mesh.close();
-        let (contact, place) = contact(root, Some((&annulus, is_solid)));
-        let solid = axial.map(|axial| {
-            let conditions = solid::conditions(root, &conditions, place.solid);
-            annulus.outer = conditions[1];
-            SolidSpecification {
-                annulus,
-                thickness,
-                axial_elements: axial,
-                contact: place.solid,
-                conditions,
+        let (contact, place) = contact(root, Some((&annulus, is_solid)), is_pressed);
+        let body = match axial {
+            None => Body::Annulus(Annulus {
+                specification: annulus,
+                materials: AnnulusMaterials {
+                    annulus: *material,
+                    shaft: shaft_material,
+                },
+            }),
+            Some(axial_elements) => {
+                let conditions = solid::conditions(root, &conditions, place.solid);
+                annulus.outer = conditions[1];
+                Body::Revolution(Revolution {
+                    specification: SolidSpecification {
+                        annulus,
+                        thickness,
+                        axial_elements,
+                        contact: place.solid,
+                        conditions,
+                    },
+                    material: *material,
+                })
             }
-        });
+        };
         return Model {
-            solid,
-            annulus,
-            shaft_material,
+            body: Some(body),
             thickness,
-            body: None,
             mesh: None,
             contact,
         };
     };
-    // What describes an annulus has no effect here.
-    let radii = ["inner_radius", "outer_radius", "shaft_inner_radius"];
-    let _ = radii.map(|key| geometry.optional_number(key));
-    let counts = [
-        "circumferential_elements",
-        "radial_elements",
-        "shaft_radial_elements",
-    ];
-    let _ = counts.map(|key| mesh.optional_count(key));
-    let (_, _): (_, ElementKind) = (mesh.number("radial_grading"), mesh.choice("element"));
+    ignore_generated(&geometry, &mesh);
     geometry.close();
-    let (contact, place) = contact(root, None);
+    let (contact, place) = contact(root, None, is_pressed);
     if is_solid {
         mesh.reject(
             "file",
-            "mesh.file describes a plane body: three-dimensional ones are generated".to_owned(),
+            "mesh.file describes a plane body; three-dimensional bodies are generated".to_owned(),
             "material.formulation is \"three-dimensional\"".to_owned(),
             Some("give radii and element counts, or a plane formulation".to_owned()),
         );
     }
-    let _ = mesh.optional_count("axial_elements");
     let parts = BodyParts {
         scale,
         place,
         interference: contact.sliding.interference,
         boundaries: conditions,
-        materials: body::materials(root, material),
+        materials: imported::materials(root, material),
         common: *material,
     };
     let reject = |(message, label): (String, String)| mesh.reject("file", message, label, None);
-    let bytes = body::mesh_bytes(raw, &file).map_err(&reject).ok();
+    let bytes = imported::mesh_bytes(raw, &file).map_err(&reject).ok();
     let body = bytes.as_ref().and_then(|bytes| {
-        let body = body::import(bytes, &parts);
-        body.map_err(&reject).ok()
+        let refuse = |error: imported::ImportError| {
+            let at = raw.place(&error.key);
+            mesh.reject_placed(&at, error.message, error.label, error.help);
+        };
+        imported::import(bytes, &parts).map_err(refuse).ok()
     });
     mesh.close();
-    // Without a body there is an error already; what follows needs some numbers.
-    let nothing = AnnulusSpecification {
-        inner_radius: 1.0,
-        outer_radius: 2.0,
-        circumferential_elements: 1 << 20,
-        radial_elements: 1,
-        radial_grading: 1.0,
-        element: ElementKind::Quad4,
-        outer: BoundaryCondition::Clamped,
-        shaft: None,
-    };
     Model {
-        annulus: body
-            .as_ref()
-            .map_or(nothing, ImportedBody::equivalent_annulus),
-        shaft_material: None,
-        solid: None,
+        body: body.map(Body::Imported),
         thickness,
-        body,
         mesh: bytes,
         contact,
+    }
+}
+
+/// Reads what describes a generated body, which has no effect beside `mesh.file`, and says so.
+fn ignore_generated(geometry: &Section<'_>, mesh: &Section<'_>) {
+    let radii = ["inner_radius", "outer_radius", "shaft_inner_radius"];
+    let _ = radii.map(|key| geometry.optional_number(key));
+    let counts = [
+        "circumferential_elements",
+        "radial_elements",
+        "axial_elements",
+        "shaft_radial_elements",
+    ];
+    let _ = counts.map(|key| mesh.optional_count(key));
+    let (_, _): (_, ElementKind) = (mesh.number("radial_grading"), mesh.choice("element"));
+    let shape = ["radial_grading", "element"];
+    let given = radii.iter().map(|key| (geometry, key));
+    let given = given.chain(counts.iter().chain(&shape).map(|key| (mesh, key)));
+    for (section, key) in given.filter(|(section, key)| section.has(key)) {
+        section.warn(
+            key,
+            format!(
+                "{} is not used: mesh.file describes the body",
+                section.name(key)
+            ),
+            "no effect",
+        );
     }
 }
 

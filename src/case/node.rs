@@ -1,8 +1,7 @@
 //! Nodes of the mesh as a case names them: by number, or by a place whose nearest node is meant.
 
-use super::body::ImportedBody;
+use super::body::{Body, solid_node_count};
 use super::diagnostic::Location;
-use super::model::{node_count, solid_node_count};
 use super::reader::{NodePlace, Section};
 use crate::mesh::{AnnulusSpecification, Counterface, SectorMesh, SolidSpecification};
 use std::f64::consts::TAU;
@@ -31,17 +30,19 @@ impl PlacedNode {
 /// The nodes of the case's mesh.
 #[derive(Clone, Copy)]
 pub(super) struct Nodes<'a> {
-    pub annulus: &'a AnnulusSpecification,
-    pub body: Option<&'a ImportedBody>,
-    pub solid: Option<&'a SolidSpecification>,
-    /// Whether a mesh file is named that makes no body: nothing is known of its nodes.
-    pub is_unknown: bool,
+    /// None where a mesh file makes no body: nothing is known of its nodes.
+    pub body: Option<&'a Body>,
 }
 
 /// A node of the case, counted from 0, with its place where it was asked for by that.
 type Found = (usize, Option<PlacedNode>);
 
 impl Nodes<'_> {
+    /// Number of a node as the user knows it.
+    pub fn label(&self, node: usize) -> usize {
+        self.body.map_or(node + 1, |body| body.node_label(node))
+    }
+
     /// The node that `named` means; what is wrong with it is reported at `key`.
     pub fn find(
         &self,
@@ -49,26 +50,24 @@ impl Nodes<'_> {
         key: &'static str,
         (named, at): &(NodePlace, Location),
     ) -> Option<Found> {
-        if self.is_unknown {
-            return None;
-        }
+        let body = self.body?;
         let asked = match *named {
             NodePlace::Number(number) => {
-                return self.numbered(section, key, number, at).map(|n| (n, None));
+                return numbered(body, section, key, number, at).map(|n| (n, None));
             }
             NodePlace::Point(point) => point,
             NodePlace::Polar { radius, angle } => {
-                let [x, y] = self.axis();
+                let [x, y] = axis(body);
                 [x + radius * angle.cos(), y + radius * angle.sin()]
             }
         };
-        let (node, point) = self.nearest(asked)?;
+        let (node, point) = nearest(body, asked)?;
         let placed = PlacedNode {
             node,
             asked,
             at: point,
         };
-        if placed.distance() > FAR * self.annulus.outer_radius {
+        if placed.distance() > FAR * body.size() {
             section.warn(
                 key,
                 format!(
@@ -76,7 +75,7 @@ impl Nodes<'_> {
                     section.name(key),
                     asked[0],
                     asked[1],
-                    self.label(node),
+                    body.node_label(node),
                     point[0],
                     point[1],
                     placed.distance()
@@ -86,101 +85,114 @@ impl Nodes<'_> {
         }
         Some((node, Some(placed)))
     }
+}
 
-    fn numbered(
-        &self,
-        section: &Section<'_>,
-        key: &'static str,
-        number: usize,
-        at: &Location,
-    ) -> Option<usize> {
-        let what = match key {
-            "probes" => format!("probe {number}"),
-            _ => format!("{} = {number}", section.name(key)),
-        };
-        let Some(body) = self.body else {
-            let nodes = self.solid.map_or(node_count(self.annulus), |solid| {
-                solid_node_count(self.annulus, solid.axial_elements as u128)
-            });
-            if number as u128 > nodes && nodes > 0 {
-                section.reject_there(
-                    at,
-                    format!("{what} does not exist: the mesh has nodes 1 to {nodes}"),
-                    format!("must be at most {nodes}"),
-                    match self.solid {
-                        None => "node ids count radially outwards first: 1 + j (radial_elements + 1) + i",
-                        Some(_) => "node ids count the sheet of a sector first; name nodes by their place instead",
-                    },
-                );
-                return None;
-            }
-            return Some(number.saturating_sub(1));
-        };
-        // Labels rise: nodes stand in the order of their numbers.
-        let labels = &body.mesh.labels;
-        let found = labels.binary_search(&number).ok();
-        if found.is_none() {
-            let ends = [labels.first(), labels.last()].map(|label| label.map_or(0, |&n| n));
-            section.reject_there(
-                at,
-                format!(
-                    "{what} does not exist: the elements of the mesh file have {} nodes, numbered {} to {}",
-                    labels.len(),
-                    ends[0],
-                    ends[1]
-                ),
-                "no node of the body".to_owned(),
-                "name it by its place instead, { x = .., y = .. } in metres",
-            );
+/// The node of a number, counted from 0; one that does not exist is an error.
+fn numbered(
+    body: &Body,
+    section: &Section<'_>,
+    key: &'static str,
+    number: usize,
+    at: &Location,
+) -> Option<usize> {
+    let what = match key {
+        "probes" => format!("probe {number}"),
+        _ => format!("{} = {number}", section.name(key)),
+    };
+    let help = match body {
+        Body::Imported(imported) => {
+            return labelled(&imported.mesh.labels, section, &what, number, at);
         }
-        found
+        Body::Annulus(_) => {
+            "node ids count radially outwards first: 1 + j (radial_elements + 1) + i"
+        }
+        Body::Revolution(_) => "node ids number one sector first; give nodes by position instead",
+    };
+    let nodes = body.node_count();
+    if number as u128 > nodes && nodes > 0 {
+        section.reject_there(
+            at,
+            format!("{what} does not exist: the mesh has nodes 1 to {nodes}"),
+            format!("must be at most {nodes}"),
+            help,
+        );
+        return None;
     }
+    Some(number.saturating_sub(1))
+}
 
-    /// Number of a node as the user knows it.
-    pub fn label(&self, node: usize) -> usize {
-        self.body
-            .map_or(node + 1, |body| body.mesh.node_label(node))
+/// The node of a number of the mesh file; labels rise, as nodes stand in the order of their numbers.
+fn labelled(
+    labels: &[usize],
+    section: &Section<'_>,
+    what: &str,
+    number: usize,
+    at: &Location,
+) -> Option<usize> {
+    let found = labels.binary_search(&number).ok();
+    if found.is_none() {
+        let ends = [labels.first(), labels.last()].map(|label| label.map_or(0, |&n| n));
+        section.reject_there(
+            at,
+            format!(
+                "{what} does not exist: the elements of the mesh file have {} nodes, numbered {} to {}",
+                labels.len(),
+                ends[0],
+                ends[1]
+            ),
+            "no node of the body".to_owned(),
+            "give its position instead, { x = .., y = .. } in metres",
+        );
     }
+    found
+}
 
-    fn axis(&self) -> [f64; 2] {
-        match self.body.map(|body| body.mesh.counterface) {
-            Some(Counterface::Cylinder { center, .. }) => center,
-            _ => [0.0; 2],
-        }
+/// The centre that polar places are about, m.
+fn axis(body: &Body) -> [f64; 2] {
+    match body.imported().map(|imported| imported.mesh.counterface) {
+        Some(Counterface::Cylinder { center, .. }) => center,
+        _ => [0.0; 2],
     }
+}
 
-    /// The node nearest to a point, and where it is; none where the mesh makes none.
-    fn nearest(&self, point: [f64; 2]) -> Option<(usize, [f64; 2])> {
-        if let Some(body) = self.body {
-            let (node, _) = body.mesh.nearest_node(point)?;
-            return Some((node, body.mesh.nodes[node]));
+/// The node nearest to a point, and where it is; none where the mesh makes none.
+fn nearest(body: &Body, point: [f64; 2]) -> Option<(usize, [f64; 2])> {
+    match body {
+        Body::Annulus(annulus) => nearest_in_sectors(&annulus.specification, point),
+        Body::Revolution(revolution) => nearest_on_top(&revolution.specification, point),
+        Body::Imported(imported) => {
+            let (node, _) = imported.mesh.nearest_node(point)?;
+            Some((node, imported.mesh.plane_node(node)))
         }
-        if let Some(solid) = self.solid {
-            return nearest_on_top(solid, point);
-        }
-        // Only the first sector is built: on each ring of its nodes the nearest is that of the nearest angle.
-        let sector = SectorMesh::generate(self.annulus).ok()?;
-        let (per_sector, sectors) = (sector.node_count(), sector.sector_count());
-        let step = TAU / sectors as f64;
-        let candidates = sector.strip.nodes[..per_sector].iter().enumerate();
-        let around = candidates.map(|(position, &[x, y])| {
-            let (radius, start) = (x.hypot(y), y.atan2(x));
-            let turns = ((point[1].atan2(point[0]) - start) / step).round() as i64;
-            let turned = turns.rem_euclid(sectors as i64) as usize;
-            let angle = start + step * turned as f64;
-            let at = [radius * angle.cos(), radius * angle.sin()];
-            let distance = (at[0] - point[0]).hypot(at[1] - point[1]);
-            (distance, turned * per_sector + position, at)
-        });
-        let (_, node, at) = around.min_by(|a, b| a.0.total_cmp(&b.0))?;
-        Some((node, at))
     }
+}
+
+/// Only the first sector is built: on each ring of its nodes the nearest is that of the nearest angle.
+fn nearest_in_sectors(
+    annulus: &AnnulusSpecification,
+    point: [f64; 2],
+) -> Option<(usize, [f64; 2])> {
+    let sector = SectorMesh::generate(annulus).ok()?;
+    let (per_sector, sectors) = (sector.node_count(), sector.sector_count());
+    let step = TAU / sectors as f64;
+    let candidates = sector.strip.nodes[..per_sector].iter().enumerate();
+    let around = candidates.map(|(position, &[x, y, _])| {
+        let (radius, start) = (x.hypot(y), y.atan2(x));
+        let turns = ((point[1].atan2(point[0]) - start) / step).round() as i64;
+        let turned = turns.rem_euclid(sectors as i64) as usize;
+        let angle = start + step * turned as f64;
+        let at = [radius * angle.cos(), radius * angle.sin()];
+        let distance = (at[0] - point[0]).hypot(at[1] - point[1]);
+        (distance, turned * per_sector + position, at)
+    });
+    let (_, node, at) = around.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    Some((node, at))
 }
 
 /// The node of the top face that lies nearest to a point, and where it is.
 fn nearest_on_top(solid: &SolidSpecification, [x, y]: [f64; 2]) -> Option<(usize, [f64; 2])> {
     let count = solid.annulus.circumferential_elements;
-    let nodes = solid_node_count(&solid.annulus, solid.axial_elements as u128);
+    let nodes = solid_node_count(solid);
     let per_sector = usize::try_from(nodes / count.max(1) as u128).ok()?;
     let sectors = count as f64;
     let turn = (y.atan2(x) / TAU * sectors).round().rem_euclid(sectors);
@@ -195,13 +207,4 @@ fn nearest_on_top(solid: &SolidSpecification, [x, y]: [f64; 2]) -> Option<(usize
         (turn as usize).checked_mul(per_sector)?.checked_add(node)?,
         place,
     ))
-}
-
-impl super::Case {
-    /// Number of a node, counted from 0, as the user knows it: that of the mesh file, or counted from 1.
-    pub fn node_label(&self, node: usize) -> usize {
-        self.body
-            .as_ref()
-            .map_or(node + 1, |body| body.mesh.node_label(node))
-    }
 }

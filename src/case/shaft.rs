@@ -1,8 +1,8 @@
 //! A deformable shaft in the annulus: `geometry.shaft_inner_radius`, `mesh.shaft_radial_elements`, `[materials.shaft]`,
 //! `[boundaries.bore]`.
 
-use super::body;
 use super::boundaries::NamedCondition;
+use super::imported;
 use super::reader::Section;
 use super::{Case, CaseErrors};
 use crate::fem::{ElasticMaterial, RegionMaterial};
@@ -84,7 +84,7 @@ fn materials(
         let label = "the annulus has one material".to_owned();
         all.reject(name, message, label, Some(help.to_owned()));
     }
-    let read = body::materials(root, material);
+    let read = imported::materials(root, material);
     let mut shafts = read.into_iter().filter(|(name, _)| name == "shaft");
     shafts.next().map(|(_, material)| material)
 }
@@ -120,7 +120,8 @@ impl Case {
     /// # Errors
     /// A case with a shaft.
     pub(super) fn require_rigid_shaft(&self, what: &str) -> Result<(), CaseErrors> {
-        if self.annulus.shaft.is_none() {
+        let grid = self.body.grid();
+        if grid.is_none_or(|grid| grid.shaft.is_none()) {
             return Ok(());
         }
         let key = "geometry.shaft_inner_radius";

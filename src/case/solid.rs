@@ -166,14 +166,19 @@ impl Case {
     /// # Errors
     /// A case of a three-dimensional body.
     pub fn require_plane(&self, what: &str) -> Result<(), CaseErrors> {
-        if self.solid.is_none() {
-            return Ok(());
+        match self.body.revolution() {
+            None => Ok(()),
+            Some(_) => Err(self.not_plane(what)),
         }
-        Err(self.error_at(
+    }
+
+    /// The error of an analysis that takes plane bodies only.
+    pub(super) fn not_plane(&self, what: &str) -> CaseErrors {
+        self.error_at(
             "material.formulation",
             format!("material.formulation = \"three-dimensional\": {what} plane bodies only"),
             "a three-dimensional body".to_owned(),
             Some("`cea`, `transient`, `frf`, `sweep` and `convergence` take it; else use \"plane-stress\" or \"plane-strain\"".to_owned()),
-        ))
+        )
     }
 }

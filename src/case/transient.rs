@@ -1,11 +1,12 @@
 //! `[transient]` and `[output]`: the explicit transient and what it writes.
 
 use super::Case;
+use super::body::{Body, Revolution};
 use super::diagnostic::CaseErrors;
 use super::node::{Nodes, PlacedNode};
 use super::reader::Section;
 use crate::contact::SlidingContact;
-use crate::mesh::{AnnulusSpecification, SolidContact, SolidSpecification};
+use crate::mesh::{Counterface, SolidContact};
 use crate::transient::{
     InitialState, OperatorChoice, Perturbation, StandingWave, TimeStep, whole_intervals,
 };
@@ -62,13 +63,17 @@ impl Case {
         let transient = transient.ok_or_else(|| self.lacks("transient", "transient", remedy))?;
         let cycle = matches!(transient.initial, InitialState::LimitCycle { .. });
         if cycle {
-            self.require_plane("limit cycles are sought in")?;
+            self.require_annulus(
+                "limit cycles are rotating waves, which",
+                "limit cycles are sought in",
+            )?;
         }
-        if self.is_annulus() {
-            self.require_quad4(match self.solid {
-                None => "the transient needs \"quad4\"",
-                Some(_) => "the transient needs bricks of 8 nodes, \"quad4\": it lumps the mass",
-            })?;
+        match &self.body {
+            Body::Annulus(_) => self.require_quad4("the transient needs \"quad4\"")?,
+            Body::Revolution(_) => self.require_quad4(
+                "the transient needs bricks of 8 nodes, \"quad4\": it lumps the mass",
+            )?,
+            Body::Imported(_) => {}
         }
         Ok(transient)
     }
@@ -76,8 +81,7 @@ impl Case {
 
 pub(super) fn transient(
     root: &Section<'_>,
-    annulus: &AnnulusSpecification,
-    solid: Option<&SolidSpecification>,
+    body: Option<&Body>,
     sliding: &SlidingContact,
 ) -> Option<Transient> {
     let section = root.section("transient", false);
@@ -101,7 +105,7 @@ pub(super) fn transient(
             None,
         );
     }
-    let initial = initial(&section, annulus);
+    let initial = initial(&section, body);
     let expansion_time = section.number("expansion_time");
     if initial == InitialState::Rest && expansion_time > duration {
         let default = if section.has("expansion_time") {
@@ -134,19 +138,14 @@ pub(super) fn transient(
         initial,
         operator: section.choice("operator"),
         stop_when_settled: section.flag("stop_when_settled"),
-        perturbation: perturbation(
-            &section,
-            annulus,
-            slip_speed(annulus, solid, sliding),
-            duration,
-        ),
+        perturbation: perturbation(&section, body, sliding, duration),
     };
     section.close();
     Some(transient)
 }
 
 /// `initial`, with the harmonic that a limit cycle needs.
-fn initial(section: &Section<'_>, annulus: &AnnulusSpecification) -> InitialState {
+fn initial(section: &Section<'_>, body: Option<&Body>) -> InitialState {
     let initial = section.choice("initial");
     let keys = ["limit_cycle_harmonic", "limit_cycle_onset"];
     let [given, onset] = keys.map(|key| section.optional_count(key));
@@ -166,17 +165,15 @@ fn initial(section: &Section<'_>, annulus: &AnnulusSpecification) -> InitialStat
         return initial;
     };
     let harmonic = section.count("limit_cycle_harmonic");
-    let highest = annulus.circumferential_elements / 2;
-    if harmonic > highest {
+    let sectors = body.and_then(Body::sector_count);
+    if let Some(sectors) = sectors.filter(|sectors| harmonic > sectors / 2) {
+        let highest = sectors / 2;
         section.reject(
             "limit_cycle_harmonic",
             format!(
                 "transient.limit_cycle_harmonic = {harmonic} is above the mesh's highest, {highest}"
             ),
-            format!(
-                "at most half of {} elements",
-                annulus.circumferential_elements
-            ),
+            format!("at most half of {sectors} elements"),
             None,
         );
     }
@@ -189,15 +186,15 @@ fn initial(section: &Section<'_>, annulus: &AnnulusSpecification) -> InitialStat
 /// `[transient.perturbation]`: the velocity that is added to the body's.
 fn perturbation(
     transient: &Section<'_>,
-    annulus: &AnnulusSpecification,
-    slip_speed: f64,
+    body: Option<&Body>,
+    sliding: &SlidingContact,
     duration: f64,
 ) -> Perturbation {
     let section = transient.section("perturbation", false);
     let harmonics = section
-        .harmonics(annulus.circumferential_elements)
+        .harmonics(body.and_then(Body::sector_count))
         .unwrap_or_default();
-    let unit = velocity_unit(&section, slip_speed);
+    let unit = velocity_unit(&section, body.map_or(1.0, |body| slip_speed(body, sliding)));
     let velocities = one_for_each(&section, "velocity", &harmonics);
     let phases = one_for_each(&section, "phase_deg", &harmonics);
     if harmonics.is_empty() && section.has("phase_deg") {
@@ -258,18 +255,22 @@ fn reject(section: &Section<'_>, key: &'static str, what: String, label: &str) {
     section.reject(key, message, label.to_owned(), None);
 }
 
-/// `|Omega| a`, under a ring `|Omega|` times its mean radius, m/s.
-fn slip_speed(
-    annulus: &AnnulusSpecification,
-    solid: Option<&SolidSpecification>,
-    sliding: &SlidingContact,
-) -> f64 {
-    let radius = match solid.map(|solid| solid.contact) {
-        Some(SolidContact::Ring {
-            inner_radius,
-            outer_radius,
-        }) => 0.5 * (inner_radius + outer_radius),
-        _ => annulus.inner_radius,
+/// `|Omega| a`, under a ring `|Omega|` times its mean radius, on a plane its speed, m/s.
+fn slip_speed(body: &Body, sliding: &SlidingContact) -> f64 {
+    let radius = match body {
+        Body::Annulus(annulus) => annulus.specification.inner_radius,
+        Body::Revolution(Revolution { specification, .. }) => match specification.contact {
+            SolidContact::Ring {
+                inner_radius,
+                outer_radius,
+            } => 0.5 * (inner_radius + outer_radius),
+            SolidContact::Inner => specification.annulus.inner_radius,
+        },
+        Body::Imported(imported) => match imported.mesh.counterface {
+            Counterface::Cylinder { radius, .. } => radius,
+            // What turns is a speed, m/s, there.
+            Counterface::Plane { .. } => 1.0,
+        },
     };
     sliding.rotation_speed.abs() * radius
 }

@@ -1,4 +1,4 @@
-//! What can go wrong in an eigenvalue analysis.
+//! Errors of an eigenvalue analysis.
 
 use crate::linalg::LinalgError;
 use crate::mesh::MeshError;
@@ -115,6 +115,28 @@ pub enum CeaError {
         harmonic: usize,
         /// Friction value of the grid that was not reached.
         friction: f64,
+    },
+    /// Matrices that leave a motion undetermined.
+    #[error(
+        "the mass, damping and stiffness matrices of {dimension} unknowns are singular together: some motion has neither mass nor \
+         stiffness; remove unknowns that depend on each other"
+    )]
+    SingularTogether {
+        /// Number of unknowns.
+        dimension: usize,
+    },
+    /// An eigenvalue of a body of revolution whose vectors do not settle.
+    #[error(
+        "the eigenvalue at {frequency_hz:.1} Hz of harmonic {harmonic} has no vectors of its own at friction {friction}: two \
+         branches meet there; change that friction coefficient a little"
+    )]
+    Unrefined {
+        /// Circumferential harmonic.
+        harmonic: usize,
+        /// Friction coefficient.
+        friction: f64,
+        /// Its frequency, Hz.
+        frequency_hz: f64,
     },
     /// A branch that could not be continued, after a search for it.
     #[error(

@@ -1,4 +1,4 @@
-//! Where a branch turns unstable and stable again: `Re lambda(mu) = 0`, by root finding on the branch.
+//! Critical friction coefficients: roots of `Re lambda(mu) = 0` on a branch.
 
 use super::UnstableInterval;
 use super::branch::{BranchPoint, Cubic};

@@ -1,4 +1,4 @@
-//! What a sweep is asked for.
+//! Request of a sweep: friction coefficients, modes, shapes.
 
 use super::CeaError;
 

@@ -1,4 +1,4 @@
-//! What a complex eigenvalue analysis returns, whichever solver made it.
+//! Results of a complex eigenvalue analysis, the same for every solver.
 
 use crate::linalg::c64;
 use std::f64::consts::TAU;

@@ -1,4 +1,4 @@
-//! What an axis shows, before the data are known.
+//! Specification of an axis, before the data are known.
 
 use super::numbers::prefixed;
 use super::ruler::{Ruler, Tick};

@@ -1,4 +1,4 @@
-//! Which of two waves wins: the amplitude ratio at saturation that separates their basins.
+//! Basin boundary of two waves: the amplitude ratio at saturation that separates them.
 
 use super::onset::DiscModel;
 use super::{CycleError, OperatingPoint};

@@ -1,4 +1,4 @@
-//! What can go wrong on the way to a limit cycle.
+//! Errors of the search for a limit cycle.
 
 use super::Family;
 use crate::mesh::MeshError;

@@ -1,4 +1,4 @@
-//! Which limit cycle of a disc: by the loss of stability that it is born at.
+//! Families of limit cycles, told apart by the loss of stability at which they are born.
 
 use std::fmt;
 

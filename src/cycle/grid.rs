@@ -1,4 +1,4 @@
-//! How many phases a wave is sampled at.
+//! Number of phases at which a wave is sampled.
 
 use std::f64::consts::TAU;
 

@@ -1,4 +1,4 @@
-//! What a limit cycle is like: motion along its phase, statuses, powers, harmonics.
+//! A limit cycle: motion along its phase, statuses, powers, harmonics.
 
 use super::body::DynamicCoefficients;
 use super::state::WaveState;

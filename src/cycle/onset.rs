@@ -1,4 +1,4 @@
-//! Where limit cycles are born: steady sliding that neither damps nor feeds a wave.
+//! Onsets of limit cycles: steady sliding that neither damps nor feeds a wave.
 
 use super::body::DynamicCoefficients;
 use super::parameter::OperatingPoint;

@@ -1,4 +1,4 @@
-//! What a limit cycle depends on, and which of it a branch can be followed over.
+//! Parameters of a limit cycle, and those over which a branch can be followed.
 
 use crate::contact::SlidingContact;
 use crate::fem::RayleighDamping;

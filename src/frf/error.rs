@@ -1,4 +1,4 @@
-//! What can go wrong with a computed frequency response.
+//! Errors of a computed frequency response.
 
 use super::Terminal;
 use crate::linalg::LinalgError;

@@ -1,4 +1,4 @@
-//! Where a body is excited and observed, and how it is held meanwhile.
+//! Excitation and response degrees of freedom, and the support during the test.
 
 /// How the body is held while it is excited.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

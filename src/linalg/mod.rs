@@ -9,6 +9,7 @@ mod error;
 mod gaussian_noise;
 pub mod gram;
 mod krylov_schur;
+mod matrix_market;
 mod polynomial;
 mod quadratic_krylov;
 mod sparse_cholesky;
@@ -23,6 +24,7 @@ pub use distribution::Distribution;
 pub use error::LinalgError;
 pub use gaussian_noise::GaussianNoise;
 pub use krylov_schur::{BlockOperator, KrylovSchurSettings, RealPairs, Wanted, krylov_schur};
+pub use matrix_market::{MarketMatrix, MatrixMarketError};
 pub use polynomial::{MatrixPolynomial, SparsityPattern};
 pub use quadratic_krylov::{
     QuadraticKrylovSettings, QuadraticOperator, QuadraticPairs, quadratic_krylov,

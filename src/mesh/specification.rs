@@ -1,4 +1,4 @@
-//! What an annulus is to be, and what makes no mesh.
+//! Specification of an annulus, and the errors of one that makes no mesh.
 
 use super::{BoundaryCondition, ElementKind};
 
@@ -56,6 +56,17 @@ pub enum MeshError {
         /// Given count.
         count: usize,
         /// Smallest valid count.
+        minimum: usize,
+    },
+    /// A ring that no element of its face lies under.
+    #[error(
+        "{count} elements in mesh.radial_elements: none of them lies under the ring alone, and the contact would have no \
+         area; with these radii of the ring at least {minimum} are needed"
+    )]
+    NothingUnderRing {
+        /// Given count.
+        count: usize,
+        /// Smallest count with an element under the ring.
         minimum: usize,
     },
     /// The node count does not fit 32-bit node indices.

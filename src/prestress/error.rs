@@ -1,4 +1,4 @@
-//! Where there is no steady sliding.
+//! Errors of the steady-sliding equilibrium.
 
 /// A sliding equilibrium that does not exist or cannot be computed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -44,6 +44,22 @@ pub enum PrestressError {
     NoState {
         /// Friction coefficient.
         friction_coefficient: f64,
+    },
+    /// A form that is to be eliminated has no free dof.
+    #[error(
+        "{name} holds nodes that are already held or tied: leave one of the conditions out there"
+    )]
+    Overconstrained {
+        /// The tie or contact.
+        name: String,
+    },
+    /// Two surfaces that make no contact or tie.
+    #[error("{name}: {error}")]
+    Pair {
+        /// Section and name of the tie or contact.
+        name: String,
+        /// Why not.
+        error: crate::contact::PairError,
     },
     /// A rotor at rest under Coulomb's law as a vector.
     #[error(

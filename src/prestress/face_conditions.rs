@@ -1,4 +1,4 @@
-//! What the conditions of the faces of a body of revolution add: springs, dashpots, pressures.
+//! Springs, dashpots and pressures on the faces of a body of revolution.
 
 use crate::fem::solid::{FaceTerm, SolidMatrix, face_load, face_matrix, whole_element};
 use crate::mesh::{BoundaryCondition, SolidFace, SolidSector};

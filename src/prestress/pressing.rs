@@ -1,4 +1,4 @@
-//! How a body of revolution is pressed in steady sliding: rigid contact ring by ring, or springs all over the face.
+//! Pressed equilibrium of a body of revolution in steady sliding: rigid contact ring by ring, or springs over the face.
 
 use super::PrestressError;
 use super::face_conditions::pressure_load;

@@ -1,4 +1,4 @@
-//! How the steady sliding of a body of revolution answers to a change of its stiffness, its springs or its friction law.
+//! Derivative of the steady sliding of a body of revolution by its stiffness, its springs and its friction law.
 
 use super::face_conditions::supports;
 use super::pressing::{

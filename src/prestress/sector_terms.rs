@@ -1,4 +1,4 @@
-//! What the matrices of an annulus's tangent are made of.
+//! Terms of the tangent matrices of an annulus.
 
 use super::{SectorSliding, TangentOptions};
 use crate::fem::MaterialField;

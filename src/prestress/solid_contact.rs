@@ -1,4 +1,4 @@
-//! What the contact of a body of revolution adds to its tangent, and how that answers to a change of the state of sliding.
+//! Contact terms in the tangent of a body of revolution, and their derivative by the state of sliding.
 
 use super::SolidSliding;
 use super::pressing::{along_element, pressed_span_rate, slope_along};

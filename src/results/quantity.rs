@@ -1,4 +1,4 @@
-//! What the program reports: key, caption, unit and format of every quantity, declared once.
+//! Every reported quantity: key, caption, unit and format, declared once.
 //!
 //! The key is the name in JSON, CSV and the columns of a study. Printed lines, rows of reports and titles of axes
 //! take caption, unit and digits from here. A key that is not in the table is shown as it reads, with the unit that its
@@ -112,6 +112,13 @@ const QUANTITIES: &[Quantity<'static>] = &[
     quantity_of("time_step_s", "time step", "s", Scientific(4)),
     quantity_of("main_frequency_hz", "main frequency", "Hz", Fixed(1)),
     quantity_of("main_harmonic", "nodal diameters", "", Count),
+    quantity_of("second_frequency_hz", "second frequency", "Hz", Fixed(1)),
+    quantity_of(
+        "envelope_ratio",
+        "largest over smallest envelope",
+        "",
+        Fixed(2),
+    ),
     quantity_of("rate_per_s", "growth rate", "1/s", Fixed(1)),
     quantity_of(
         "first_nonlinearity_s",

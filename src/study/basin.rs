@@ -1,4 +1,4 @@
-//! Which of two waves of a case wins.
+//! Search of a case for the basin boundary of two waves.
 //!
 //! ```no_run
 //! use frictionsim::case::Case;
@@ -26,7 +26,7 @@ use std::time::Instant;
 /// [`StudyError::Case`] for a case without `[basin]`; steady sliding that is stable; a transient that cannot start.
 pub fn boundary(case: &Case, simd: SimdLevel) -> Result<BasinBoundary, StudyError> {
     let request = case.require_basin()?;
-    Ok(disc_model(case).basin(&operating_point(case), request, simd)?)
+    Ok(disc_model(case)?.basin(&operating_point(case), request, simd)?)
 }
 
 /// As [`boundary`], in the words of its results.

@@ -1,7 +1,6 @@
 //! The modes that a transient has in its linear stage.
 
-use super::eigenvalues::asked_modes;
-use super::modes_at_own_friction;
+use super::eigenvalues::{asked_modes, modes_at_own_friction};
 use crate::case::Case;
 use crate::cea::{CeaError, ComplexMode};
 use crate::fem::MassKind;
@@ -31,8 +30,10 @@ pub enum LinearStageError {
 pub struct LinearStage {
     /// Frequencies, numbered among all modes by frequency.
     pub references: Vec<ModeLine>,
-    /// Largest growth rate of each unstable harmonic, 1/s, harmonics rising.
+    /// Largest growth rate of each unstable harmonic, 1/s, harmonics rising; none for a body without symmetry.
     pub growth_rates: Vec<(usize, f64)>,
+    /// Frequency (Hz) and growth rate (1/s) of each unstable mode.
+    pub mode_rates: Vec<(f64, f64)>,
 }
 
 impl LinearStage {
@@ -41,15 +42,15 @@ impl LinearStage {
     /// # Errors
     /// [`LinearStageError::TooManyNodes`]; those of steady sliding, which would open, say, and of the solver.
     pub fn of(case: &Case) -> Result<Self, LinearStageError> {
-        let nodes = case.body.as_ref().map_or(0, |body| body.mesh.node_count());
-        if nodes > MOST_NODES {
+        let imported = case.body.imported();
+        if imported.is_some_and(|imported| imported.mesh.node_count() > MOST_NODES) {
             return Err(LinearStageError::TooManyNodes);
         }
         let modes = modes(case)?;
         let unstable = || modes.iter().enumerate().filter(|(_, m)| m.is_unstable());
         let mut growth_rates: Vec<(usize, f64)> = Vec::new();
         // A body without symmetry has no harmonics that its waves belong to.
-        for (_, mode) in unstable().filter(|_| case.is_annulus()) {
+        for (_, mode) in unstable().filter(|_| case.has_sectors()) {
             let rate = mode.growth_rate();
             match growth_rates.iter_mut().find(|(n, _)| *n == mode.harmonic) {
                 Some((_, known)) => *known = known.max(rate),
@@ -61,13 +62,16 @@ impl LinearStage {
             references: unstable()
                 .map(|(index, mode)| ModeLine {
                     frequency_hz: mode.frequency_hz(),
-                    label: match case.is_annulus() {
+                    label: match case.has_sectors() {
                         true => format!("mode {}, *n* = {}", index + 1, mode.harmonic),
                         false => format!("mode {}", index + 1),
                     },
                 })
                 .collect(),
             growth_rates,
+            mode_rates: unstable()
+                .map(|(_, mode)| (mode.frequency_hz(), mode.growth_rate()))
+                .collect(),
         })
     }
 }

@@ -12,14 +12,14 @@
 //! ```
 
 use super::{StudyError, tangent_options};
-use crate::case::{Case, CaseErrors, Frf, FrfMethod};
+use crate::case::{Body, Case, CaseErrors, Frf, FrfMethod};
 use crate::fem::assemble_stiffness;
 use crate::frf::{
     CyclicSystem, FrfBoundary, FrfError, FrfSystem, ReductionSettings, cyclic_response,
     direct_response_with, reduced_response,
 };
 use crate::linalg::{GaussianNoise, c64};
-use crate::mesh::{SectorMesh, SolidSector, SolidSpecification};
+use crate::mesh::{AnnulusSpecification, SectorMesh, SolidSector, SolidSpecification};
 use crate::prestress::{SectorTangent, SlidingTangent, SolidTangent, SteadySliding};
 use std::f64::consts::TAU;
 
@@ -77,7 +77,7 @@ impl<'a> FrequencyStudy<'a> {
     pub fn new(case: &'a Case) -> Result<Self, StudyError> {
         let frf = case.require_frf()?;
         let system = match frf.method {
-            FrfMethod::Auto if case.is_annulus() => cyclic(case, frf)?,
+            FrfMethod::Auto if case.has_sectors() => cyclic(case, frf)?,
             FrfMethod::Cyclic => cyclic(case, frf)?,
             FrfMethod::Auto | FrfMethod::Reduced => whole(case, frf, true)?,
             FrfMethod::Direct => whole(case, frf, false)?,
@@ -99,9 +99,9 @@ impl<'a> FrequencyStudy<'a> {
             vectors: None,
             backward_error: None,
             solved: Vec::new(),
-            thickness: match self.case.solid {
-                Some(_) => 1.0,
-                None => self.case.thickness,
+            thickness: match self.case.body.dimension() {
+                3 => 1.0,
+                _ => self.case.thickness,
             },
         };
         match &self.system {
@@ -164,17 +164,17 @@ impl Response {
 
 /// The harmonics of an annulus, or of a body of revolution in three dimensions.
 fn cyclic(case: &Case, frf: &Frf) -> Result<System, StudyError> {
-    if !case.is_annulus() {
-        return Err(StudyError::Case(case.error_at(
-            "frf.method",
-            "frf.method = \"cyclic\" needs the symmetry of the built-in annulus".to_owned(),
-            "an imported mesh has no sectors".to_owned(),
-            Some("use \"auto\", \"direct\" or \"reduced\"".to_owned()),
-        )));
-    }
-    let system = match &case.solid {
-        Some(specification) => solid(case, frf, specification)?,
-        None => annulus(case, frf)?,
+    let system = match &case.body {
+        Body::Annulus(body) => annulus(case, frf, &body.specification)?,
+        Body::Revolution(body) => solid(case, frf, &body.specification)?,
+        Body::Imported(_) => {
+            return Err(StudyError::Case(case.error_at(
+                "frf.method",
+                "frf.method = \"cyclic\" needs the symmetry of the built-in annulus".to_owned(),
+                "an imported mesh has no sectors".to_owned(),
+                Some("use \"auto\", \"direct\" or \"reduced\"".to_owned()),
+            )));
+        }
     };
     for (terminal, key) in [(frf.force, "force_node"), (frf.response, "response_node")] {
         let checked = system.check(terminal, key);
@@ -183,8 +183,12 @@ fn cyclic(case: &Case, frf: &Frf) -> Result<System, StudyError> {
     Ok(System::Cyclic(Box::new(system)))
 }
 
-fn annulus(case: &Case, frf: &Frf) -> Result<CyclicSystem, StudyError> {
-    let sector = SectorMesh::generate(&case.annulus)?;
+fn annulus(
+    case: &Case,
+    frf: &Frf,
+    specification: &AnnulusSpecification,
+) -> Result<CyclicSystem, StudyError> {
+    let sector = SectorMesh::generate(specification)?;
     let contact = &case.contact.sliding;
     if frf.boundary == FrfBoundary::Sliding {
         let options = tangent_options(case, frf.mass);
@@ -233,7 +237,7 @@ fn solid(
 
 /// Matrices of the body as it is held, and the unknowns of force and response.
 fn whole(case: &Case, frf: &Frf, is_reduced: bool) -> Result<System, StudyError> {
-    if case.solid.is_some() {
+    if case.body.revolution().is_some() {
         let name = if is_reduced { "reduced" } else { "direct" };
         return Err(StudyError::Case(case.error_at(
             "frf.method",

@@ -1,4 +1,4 @@
-//! What keeps a transient from starting or from going on.
+//! Errors that keep a transient from starting or from going on.
 
 use crate::fem::operator::OperatorError;
 use crate::prestress::PrestressError;

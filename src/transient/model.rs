@@ -1,4 +1,4 @@
-//! What a transient of a plane body is made of.
+//! Model of a transient of a plane body.
 
 use super::settings::{check_times, stable_step_limit};
 use super::{OperatorChoice, Perturbation, StepPlan, TransientError, TransientSettings};
@@ -8,13 +8,13 @@ use crate::fem::operator::{
     largest_frequency_of,
 };
 use crate::fem::{MaterialField, RayleighDamping, lumped_masses};
-use crate::mesh::{AnnulusMesh, Mesh2d};
+use crate::mesh::{AnnulusMesh, Mesh};
 
 /// The body and its contact.
 #[derive(Clone, Copy, Debug)]
 pub struct TransientModel<'a> {
     /// Mesh of the disc.
-    pub mesh: &'a Mesh2d,
+    pub mesh: &'a Mesh,
     /// The annulus that the mesh belongs to, if it is one.
     pub annulus: Option<&'a AnnulusMesh>,
     /// Its material.

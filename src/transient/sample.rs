@@ -1,4 +1,4 @@
-//! What the time loop shows to an observer.
+//! State of the time loop as an observer sees it.
 
 use super::{CentralDifference, ContactPowers, StatusCounts, TransientState};
 use crate::contact::ContactStatus;

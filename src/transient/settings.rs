@@ -1,4 +1,4 @@
-//! What a transient needs to know, checked before it runs.
+//! Settings of a transient, checked before it runs.
 
 use super::{Perturbation, TransientError};
 use crate::fem::RayleighDamping;

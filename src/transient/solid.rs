@@ -1,4 +1,4 @@
-//! What a transient of a body of revolution in three dimensions is made of.
+//! Model of a transient of a body of revolution in three dimensions.
 
 use super::boundary::BoundaryForces;
 use super::perturbation::Place;

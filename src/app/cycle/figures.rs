@@ -26,7 +26,12 @@ pub fn draw_record(
     options: &DrawingOptions,
 ) -> Result<(), Failure> {
     let record: CycleRecord = read_record(folder.path())?;
-    let annulus = AnnulusMesh::generate(&case.annulus).map_err(Failure::usage)?;
+    let (waves, search) = (
+        "limit cycles are rotating waves, which",
+        "limit cycles are sought in",
+    );
+    let specification = &case.require_annulus(waves, search)?.specification;
+    let annulus = AnnulusMesh::generate(specification).map_err(Failure::usage)?;
     let waves = record
         .families
         .iter()
@@ -39,7 +44,7 @@ pub fn draw_record(
         mesh: &annulus.mesh,
         material: &case.material,
         contact: case.contact.sliding,
-        inner_radius: case.annulus.inner_radius,
+        inner_radius: specification.inner_radius,
     };
     draw(folder, &data, summary, options)?;
     Ok(())

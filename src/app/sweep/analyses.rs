@@ -1,4 +1,4 @@
-//! What runs at a point of a sweep.
+//! Analyses at a point of a sweep.
 
 use crate::app::{Failure, cycle};
 use crate::case::{Analysis, Case};

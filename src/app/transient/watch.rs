@@ -1,4 +1,4 @@
-//! What happens beside the time loop: progress, checkpoints, signals.
+//! Progress, checkpoints and signals beside the time loop.
 
 use crate::app::{Failure, terminal};
 use crate::results::transient::write_checkpoint;

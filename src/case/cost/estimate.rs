@@ -1,18 +1,41 @@
 //! Operation counts and typical rates behind the cost of each analysis.
 
+use super::size::Size;
 use super::{CeaCost, CycleCost, FrfCost, TransientCost};
-use crate::case::model::{node_count, solid_node_count};
 use crate::case::{
-    Case, Cea, CeaMethod, Cycle, Frf, FrfMethod, ModeSelection, StabilityChoice, TimeStep,
-    Transient,
+    Body, Case, Cea, CeaMethod, Cycle, Frf, FrfMethod, ModeSelection, Revolution, StabilityChoice,
+    TimeStep, Transient,
 };
 use crate::frf::FrfBoundary;
-use crate::mesh::{ElementKind, SolidContact, SolidSpecification};
+use crate::mesh::SolidSpecification;
 use crate::transient::stable_step_limit;
 use std::f64::consts::TAU;
 
 /// Time of a complex multiplication and subtraction in the elimination of eight bands side by side, s.
 const SOLID_LINE: f64 = 7e-10;
+
+/// Friction steps of each value of a stability map.
+const MAP_STEPS: usize = 9;
+
+// Costs of eigenvalue analyses, fitted to the processor time of the shipped cases and of coarser and finer meshes of them.
+
+/// Time of one eigenvalue of a plane annulus, s: at all, and for each unknown of a sector.
+const CYCLIC_PAIR: [f64; 2] = [4.5e-4, 3e-7];
+
+/// Time of one eigenvalue of a body of revolution, s: at all, and for each unknown of a sheet times its half bandwidth squared.
+const SOLID_PAIR: [f64; 2] = [8e-4, 5e-9];
+
+/// Memory of each harmonic of a body of revolution, bytes for each entry of its band.
+const SOLID_BYTES: f64 = 600.0;
+
+/// Time of the basis of a whole mesh, s: at all, and for each unknown and mode.
+const SPARSE_BASIS: [f64; 2] = [0.2, 2e-6];
+
+/// Time of each friction value in it, s: at all, and for each unknown and mode.
+const SPARSE_VALUE: [f64; 2] = [0.2, 3e-6];
+
+/// Memory of a whole mesh, bytes: at all, and for each unknown and vector of its basis.
+const SPARSE_BYTES: [f64; 2] = [2e7, 100.0];
 
 /// Phases of a limit cycle where the mesh decides.
 const LIKELY_PHASES: usize = 169;
@@ -35,73 +58,65 @@ impl Case {
             Some(interval) => duration / interval,
             None => self.samples().min(10_000.0),
         };
-        let per_element = if self.annulus.element == ElementKind::Quad4 {
-            1
-        } else {
-            2
-        };
-        // Under a ring at most a whole face.
-        let rings = self.solid.map_or(1, |solid| match solid.contact {
-            SolidContact::Inner => solid.axial_elements + 1,
-            SolidContact::Ring { .. } => self.annulus.radial_elements + 1,
-        });
-        let contact_nodes = rings * per_element * self.annulus.circumferential_elements;
-        let each = if self.solid.is_some() { 13.0 } else { 9.0 };
-        frames * (100.0 + each * contact_nodes as f64)
+        // A status, and a normal stress and those along the contact in single precision.
+        let each = 4.0 * self.body.dimension() as f64 + 1.0;
+        frames * (100.0 + each * self.body.contact_node_count() as f64)
     }
 
     /// Displacements and velocities of all nodes at each snapshot.
     pub(super) fn snapshot_bytes(&self) -> f64 {
-        let bytes = match &self.solid {
-            None => 32.0 * node_count(&self.annulus) as f64,
-            Some(solid) => {
-                48.0 * solid_node_count(&self.annulus, solid.axial_elements as u128) as f64
-            }
-        };
+        let bytes = 16.0 * self.body.dimension() as f64 * self.body.node_count() as f64;
         bytes * self.output.snapshots.len() as f64
     }
 
-    pub(super) fn cea_cost(&self, cea: &Cea, nodes: u128) -> CeaCost {
-        let dofs = 2.0 * nodes as f64;
+    pub(super) fn cea_cost(&self, cea: &Cea, size: &Size) -> CeaCost {
         let friction_values = cea.solved_friction_coefficients().len();
         let modes = match cea.modes {
             ModeSelection::Lowest(modes) => modes,
-            ModeSelection::BelowHz(limit) => self.modes_below(limit),
+            ModeSelection::BelowHz(limit) => self.modes_below(limit, size),
         };
-        let maps = 1.0 + cea.map.as_ref().map_or(0.0, |map| map.values.len() as f64);
-        let (memory_bytes, seconds) = if self.solid.is_some() {
-            // An estimate, not measured on its own: bands of a tenth of the sheet, 1 ms for an eigenvalue of a harmonic.
-            let sheet = 1.5 * dofs / self.annulus.circumferential_elements as f64;
-            let waves = (modes as f64 / 4.0).max(3.0);
-            let width = 0.1 * sheet;
-            (
-                60.0 * waves * sheet * width,
-                waves * 1e-9 * sheet * width * width + 1e-3 * (modes * friction_values) as f64,
-            )
-        } else if cea.method == CeaMethod::Sparse {
-            let fill = sparse_fill(dofs);
-            let basis = 8.0 * dofs * (2.0 * modes as f64 + 40.0);
-            let solve = 2e-9 * fill * (3.0 * modes as f64 + 20.0);
-            (
-                12.0 * fill + 24.0 * 18.0 * dofs + basis,
-                solve * friction_values as f64,
-            )
-        } else {
-            let radial = dofs / self.annulus.circumferential_elements as f64;
-            (
-                100.0 * radial * radial.min(200.0),
-                1e-6 * radial * modes as f64 * friction_values as f64,
-            )
+        // Every value of a map has friction steps of its own.
+        let map_values = cea.map.as_ref().map_or(0, |map| map.values.len());
+        let values = (friction_values + map_values * MAP_STEPS) as f64;
+        let pairs = values * modes as f64;
+        let (memory_bytes, seconds) = match (&self.body, cea.method) {
+            (Body::Revolution(Revolution { specification, .. }), _) => {
+                let sectors = specification.annulus.circumferential_elements.max(1);
+                let unknowns = 3.0 * size.nodes as f64 / sectors as f64;
+                let band = solid_half_bandwidth(specification);
+                let waves = (modes as f64 / 4.0).max(3.0);
+                (
+                    SOLID_BYTES * waves * unknowns * band,
+                    pairs * (SOLID_PAIR[0] + SOLID_PAIR[1] * unknowns * band * band),
+                )
+            }
+            (Body::Annulus(annulus), CeaMethod::Auto | CeaMethod::Cyclic) => {
+                let sectors = annulus.specification.circumferential_elements.max(1);
+                let unknowns = 2.0 * size.nodes as f64 / sectors as f64;
+                (
+                    100.0 * unknowns * unknowns.min(200.0),
+                    pairs * (CYCLIC_PAIR[0] + CYCLIC_PAIR[1] * unknowns),
+                )
+            }
+            (Body::Annulus(_) | Body::Imported(_), _) => {
+                let unknowns = 2.0 * size.nodes as f64;
+                (
+                    SPARSE_BYTES[0] + SPARSE_BYTES[1] * unknowns * (2.0 * modes as f64 + 40.0),
+                    SPARSE_BASIS[0]
+                        + SPARSE_BASIS[1] * unknowns * modes as f64
+                        + values * (SPARSE_VALUE[0] + SPARSE_VALUE[1] * unknowns * modes as f64),
+                )
+            }
         };
         CeaCost {
             friction_values,
             modes,
             memory_bytes,
-            seconds: seconds * maps,
+            seconds,
         }
     }
 
-    pub(super) fn cycle_cost(&self, cycle: &Cycle) -> CycleCost {
+    pub(super) fn cycle_cost(&self, cycle: &Cycle, size: &Size) -> CycleCost {
         let phases = cycle.phases.unwrap_or(LIKELY_PHASES) as f64;
         let families = cycle.harmonics.as_ref().map_or(2, Vec::len);
         let followed = cycle.continuation.as_ref().map_or(0, |range| range.count);
@@ -113,8 +128,7 @@ impl Case {
         // Measured with 169 phases: 0.25 s from birth, 6 ms to a neighbour, 0.4 s for the exponents; dense factorizations.
         let factorization = (phases / 169.0).powi(3);
         let steps = cycle.confirmation_periods as f64 * 800.0;
-        let elements =
-            self.annulus.circumferential_elements as f64 * self.annulus.radial_elements as f64;
+        let elements = size.elements as f64;
         let each = factorization * (0.25 + 0.006 * followed as f64 + 0.4 * stable as f64);
         CycleCost {
             families,
@@ -125,21 +139,22 @@ impl Case {
         }
     }
 
-    pub(super) fn frf_cost(&self, frf: &Frf, nodes: u128) -> FrfCost {
-        let dofs = 2.0 * nodes as f64;
+    pub(super) fn frf_cost(&self, frf: &Frf, size: &Size) -> FrfCost {
+        let dofs = 2.0 * size.nodes as f64;
         let lines = frf.frequencies_hz.len();
-        if let Some(solid) = &self.solid {
-            return self.solid_frf_cost(frf, solid, nodes);
+        if let Body::Revolution(Revolution { specification, .. }) = &self.body {
+            return self.solid_frf_cost(frf, specification, size.nodes);
         }
-        let (bytes, each) = match frf.method {
+        let (bytes, each) = match (frf.method, self.body.sector_count()) {
             // One block band of a sector for each harmonic.
-            FrfMethod::Auto | FrfMethod::Cyclic => (
-                100.0 * dofs / self.annulus.circumferential_elements.max(1) as f64,
-                2e-8 * dofs,
-            ),
+            (FrfMethod::Auto | FrfMethod::Cyclic, Some(sectors)) => {
+                (100.0 * dofs / sectors.max(1) as f64, 2e-8 * dofs)
+            }
+            (FrfMethod::Reduced, _) => (24.0 * sparse_fill(dofs), 1e-5),
             // Measured: a complex factorization takes 4 ns for each entry and its rows.
-            FrfMethod::Direct => (24.0 * sparse_fill(dofs), 3.5e-8 * sparse_fill(dofs)),
-            FrfMethod::Reduced => (24.0 * sparse_fill(dofs), 1e-5),
+            (FrfMethod::Auto | FrfMethod::Cyclic | FrfMethod::Direct, _) => {
+                (24.0 * sparse_fill(dofs), 3.5e-8 * sparse_fill(dofs))
+            }
         };
         FrfCost {
             lines,
@@ -153,13 +168,7 @@ impl Case {
     fn solid_frf_cost(&self, frf: &Frf, solid: &SolidSpecification, nodes: u128) -> FrfCost {
         let sectors = solid.annulus.circumferential_elements.max(1) as f64;
         let unknowns = 3.0 * nodes as f64 / sectors;
-        let short = solid.annulus.radial_elements.min(solid.axial_elements) as f64;
-        // Neighbours in the numbering of a sheet: along its shorter side, with 20 nodes in four rows.
-        let half_bandwidth = 3.0
-            * match solid.annulus.element.is_quadratic() {
-                false => short + 3.0,
-                true => 4.0 * short + 5.0,
-            };
+        let half_bandwidth = solid_half_bandwidth(solid);
         let waves = match frf.boundary {
             FrfBoundary::Sliding => sectors,
             FrfBoundary::Free | FrfBoundary::Clamped => 0.5 * sectors + 1.0,
@@ -175,80 +184,47 @@ impl Case {
         }
     }
 
-    /// Weyl's estimate of the number of modes of the plane body below a frequency:
-    /// `A omega^2 / 4 pi (1 / c_p^2 + 1 / c_s^2)`.
-    fn modes_below(&self, limit_hz: f64) -> usize {
-        let annulus = &self.annulus;
-        let area = TAU / 2.0 * (annulus.outer_radius.powi(2) - annulus.inner_radius.powi(2));
+    /// Weyl's estimate of the number of modes below a frequency: of motions in the plane
+    /// `A omega^2 / 4 pi (1 / c_p^2 + 1 / c_s^2)`, and of the bending of a body of revolution, a plate,
+    /// `A omega / 4 pi sqrt(rho h / D)` with `D = E h^3 / 12 (1 - nu^2)`.
+    fn modes_below(&self, limit_hz: f64, size: &Size) -> usize {
+        let omega = TAU * limit_hz;
         let [lambda, shear] = self.material.lame_constants();
-        let density = self.material.density;
+        let (density, ratio) = (self.material.density, self.material.poisson_ratio);
         let slowness = density / (lambda + 2.0 * shear) + density / shear;
-        let count = area * (TAU * limit_hz).powi(2) / (2.0 * TAU) * slowness;
-        (count as usize).clamp(1, 2 * usize::try_from(node_count(annulus)).unwrap_or(1))
+        let area = self.body.area() / (2.0 * TAU);
+        let in_plane = area * omega * omega * slowness;
+        let bending = self.body.revolution().map_or(0.0, |body| {
+            let thickness = body.specification.thickness;
+            let stiffness = self.material.young_modulus * thickness.powi(3);
+            let stiffness = stiffness / (12.0 * (1.0 - ratio * ratio));
+            area * omega * (density * thickness / stiffness).sqrt()
+        });
+        let most = usize::try_from(2 * size.nodes).unwrap_or(usize::MAX);
+        ((in_plane + bending) as usize).clamp(1, most.max(1))
     }
 
-    /// Highest frequency that the mesh can hold, rad/s, from the pressure-wave speed and the
-    /// smallest element: `omega = 2 c_p sqrt(1 / h_r^2 + 1 / h_theta^2)`.
-    fn highest_frequency(&self) -> f64 {
-        let annulus = &self.annulus;
-        let [lambda, shear] = self.material.lame_constants();
-        let speed = ((lambda + 2.0 * shear) / self.material.density).sqrt();
-        let count = annulus.radial_elements as f64;
-        let width = annulus.outer_radius - annulus.inner_radius;
-        let log = annulus.radial_grading.ln();
-        let first = if log == 0.0 {
-            width / count
-        } else {
-            width * log.exp_m1() / (count * log).exp_m1()
-        };
-        let last = first * ((count - 1.0) * log).exp();
-        let around = |radius: f64| TAU * radius / annulus.circumferential_elements as f64;
-        let inner = (1.0 / first).hypot(1.0 / around(annulus.inner_radius + 0.5 * first));
-        let outer = (1.0 / last).hypot(1.0 / around(annulus.outer_radius - 0.5 * last));
-        let through = self
-            .solid
-            .map_or(0.0, |solid| solid.axial_elements as f64 / solid.thickness);
-        2.0 * (speed * inner.max(outer).hypot(through)).max(self.highest_in_shaft())
-    }
-
-    /// The same of the shaft, half of it.
-    fn highest_in_shaft(&self) -> f64 {
-        let annulus = &self.annulus;
-        let pair = annulus.shaft.zip(self.annulus_materials.shaft);
-        pair.map_or(0.0, |(shaft, material)| {
-            let [lambda, shear] = material.elastic.lame_constants();
-            let speed = ((lambda + 2.0 * shear) / material.elastic.density).sqrt();
-            let width = annulus.inner_radius - shaft.inner_radius;
-            let radial = shaft.radial_elements as f64 / width;
-            let radius = shaft.inner_radius + 0.5 / radial;
-            let around = annulus.circumferential_elements as f64 / (TAU * radius);
-            speed * radial.hypot(around)
-        })
-    }
-
-    pub(super) fn transient_cost(
-        &self,
-        transient: &Transient,
-        nodes: u128,
-        elements: u128,
-    ) -> TransientCost {
-        let stable_step = stable_step_limit(self.highest_frequency(), &self.damping.rayleigh);
+    pub(super) fn transient_cost(&self, transient: &Transient, size: &Size) -> TransientCost {
+        let stable_step = stable_step_limit(size.highest_frequency, &self.damping.rayleigh);
         let time_step = match transient.time_step {
             TimeStep::Seconds(step) => step,
             TimeStep::Auto => stable_step,
         };
         let steps = (transient.duration / time_step).ceil();
         // Measured: a brick of 180 x 35 x 4 takes 43 ns, a plane element of 180 x 35 2 ns.
-        let each = if self.solid.is_some() { 4.3e-8 } else { 2e-9 };
+        let each = match self.body.dimension() {
+            3 => 4.3e-8,
+            _ => 2e-9,
+        };
         TransientCost {
             time_step,
             stable_step,
             steps,
             // Ten nodal vectors and the record, which a checkpoint holds once more.
-            memory_bytes: 160.0 * nodes as f64
+            memory_bytes: 160.0 * size.nodes as f64
                 + self.snapshot_bytes()
                 + 2.0 * (self.sample_bytes() + self.frame_bytes()),
-            seconds: each * elements as f64 * steps,
+            seconds: each * size.elements as f64 * steps,
         }
     }
 }
@@ -257,4 +233,14 @@ impl Case {
 /// `9 n log2 n` of 12 bytes.
 fn sparse_fill(dofs: f64) -> f64 {
     9.0 * dofs * dofs.max(2.0).log2()
+}
+
+/// Half the bandwidth of a harmonic of a body of revolution: neighbours in the numbering of a sheet, along its shorter side,
+/// with 20 nodes in four rows.
+fn solid_half_bandwidth(solid: &SolidSpecification) -> f64 {
+    let short = solid.annulus.radial_elements.min(solid.axial_elements) as f64;
+    3.0 * match solid.annulus.element.is_quadratic() {
+        false => short + 3.0,
+        true => 4.0 * short + 5.0,
+    }
 }

@@ -1,6 +1,5 @@
 //! Memory of each command, and which key asks for it.
 
-use crate::case::model::node_count;
 use crate::case::{Case, CaseErrors};
 
 impl Case {
@@ -48,6 +47,7 @@ impl Case {
             "transient.duration" => "lower it, or raise output.sample_interval",
             "output.snapshots" | "cycle.phases" => "lower it",
             "convergence.factors" => "lower the factors, or start from a coarser mesh",
+            "mesh.file" => "mesh the body more coarsely",
             _ => "lower mesh.circumferential_elements or mesh.radial_elements",
         };
         self.error_at(
@@ -63,13 +63,14 @@ impl Case {
         )
     }
 
-    /// The element count that is further from a usual one.
+    /// What the size of the mesh comes from: the element count that is further from a usual one, or the file.
     fn larger_count(&self) -> &'static str {
-        let annulus = &self.annulus;
-        if annulus.radial_elements > annulus.circumferential_elements {
-            "mesh.radial_elements"
-        } else {
-            "mesh.circumferential_elements"
+        match self.body.grid() {
+            None => "mesh.file",
+            Some(grid) if grid.radial_elements > grid.circumferential_elements => {
+                "mesh.radial_elements"
+            }
+            Some(_) => "mesh.circumferential_elements",
         }
     }
 
@@ -80,7 +81,7 @@ impl Case {
         let density = 2e-6 / self.output.sample_interval;
         let samples = self.sample_bytes() + self.frame_bytes();
         let snapshots = self.snapshot_bytes();
-        let body = 320.0 * node_count(&self.annulus) as f64;
+        let body = 320.0 * self.body.node_count() as f64;
         if snapshots > samples.max(body) {
             "output.snapshots"
         } else if self.output.contact_interval.is_some() && self.frame_bytes() > self.sample_bytes()

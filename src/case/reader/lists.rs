@@ -30,8 +30,10 @@ impl<'a> Section<'a> {
     }
 
     /// The key `harmonics`: those that a mesh of so many elements around can hold.
-    pub fn harmonics(&self, elements: usize) -> Option<Vec<usize>> {
-        let (values, highest) = (self.counts("harmonics")?, elements / 2);
+    pub fn harmonics(&self, sectors: Option<usize>) -> Option<Vec<usize>> {
+        let values = self.counts("harmonics")?;
+        let elements = sectors.unwrap_or(0);
+        let highest = elements / 2;
         for (value, at) in &values {
             if *value > highest && elements > 0 {
                 self.reject_there(

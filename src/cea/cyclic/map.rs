@@ -84,7 +84,8 @@ pub fn solid_stability_map(
     map_of(models, limit, largest_friction, solve)
 }
 
-fn map_of<M: Sync>(
+/// [`stability_map`] of models of any kind by the function that solves one.
+pub fn map_of<M: Sync>(
     models: &[(f64, M)],
     limit: ModeLimit,
     largest_friction: f64,

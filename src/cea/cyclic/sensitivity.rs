@@ -1,4 +1,4 @@
-//! How each eigenvalue responds to the parameters of the model.
+//! Derivatives of the eigenvalues by the parameters of the model.
 
 use super::CyclicSweep;
 use super::branch::path_theta;

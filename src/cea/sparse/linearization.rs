@@ -1,4 +1,4 @@
-//! How the quadratic eigenproblem becomes a linear one.
+//! Linearization of the quadratic eigenproblem.
 
 use crate::fem::RayleighDamping;
 use crate::linalg::c64;

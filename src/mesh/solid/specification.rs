@@ -1,4 +1,4 @@
-//! What a body of revolution is made from.
+//! Specification of a body of revolution.
 
 use crate::mesh::{AnnulusSpecification, BoundaryCondition};
 

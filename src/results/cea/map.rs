@@ -13,6 +13,8 @@ use std::io::{self, Write};
 pub struct MapReport {
     /// Case key of the second parameter.
     pub key: String,
+    /// Whether the body has the symmetry that harmonics belong to.
+    pub has_harmonics: bool,
     /// Largest friction coefficient studied.
     pub largest_friction: f64,
     /// Outcome at each value of the second parameter.
@@ -29,9 +31,15 @@ impl MapReport {
         type Row<'a> = (f64, Option<&'a UnstableInterval>, Option<String>);
         let columns: &[Column<'_, Row<'_>>] = &[
             (&self.key, &|row| row.0.into()),
-            ("harmonic", &|row| row.1.map(|i| i.harmonic).into()),
+            ("harmonic", &|row| {
+                let harmonic = row.1.map(|i| i.harmonic);
+                harmonic.filter(|_| self.has_harmonics).into()
+            }),
             ("branch", &|row| row.1.map(|i| i.branch).into()),
-            ("direction", &|row| row.1.map(|i| i.direction).into()),
+            ("direction", &|row| {
+                let direction = row.1.map(|i| i.direction);
+                direction.filter(|_| self.has_harmonics).into()
+            }),
             ("critical_friction", &|row| {
                 row.1.map(|i| i.critical_friction).into()
             }),
@@ -76,7 +84,10 @@ impl MapReport {
                 .iter()
                 .map(|point| critical(point).unwrap_or(f64::NAN));
             CriticalBranch {
-                branch: (n, branch, direction),
+                branch: match self.has_harmonics {
+                    true => (Some(n), branch, direction),
+                    false => (None, branch, 0),
+                },
                 critical: critical.collect(),
             }
         };

@@ -7,8 +7,8 @@ use crate::results::parameter::parameter_axis;
 /// A branch that turns unstable, and its critical friction at each value of a parameter; `NaN` where it stays stable.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CriticalBranch {
-    /// Harmonic, branch, direction.
-    pub branch: (usize, usize, i8),
+    /// Harmonic, of a body that has them; branch; direction.
+    pub branch: (Option<usize>, usize, i8),
     /// Critical friction.
     pub critical: Vec<f64>,
 }
@@ -37,7 +37,8 @@ pub fn critical_friction(
         let line = Line::new(values, &branch.critical)
             .nth(index)
             .marked(look(index).1, 1.8);
-        line.name(format!("*n* = {n}, branch {number}{way}"))
+        let harmonic = n.map_or(String::new(), |n| format!("*n* = {n}, "));
+        line.name(format!("{harmonic}branch {number}{way}"))
     });
     let corner = values.first().map(|&first| (first, 0.0));
     let panel = Panel::new(x, Axis::friction().between(0.0, highest))

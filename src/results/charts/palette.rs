@@ -1,4 +1,4 @@
-//! What each colour means, in every figure.
+//! Meaning of each colour, the same in every figure.
 
 use crate::chart::{Anchor, Key, Shapes, TextStyle};
 use crate::contact::ContactStatus;
@@ -124,4 +124,17 @@ fn named(shapes: Shapes, status: &[ContactStatus], colour: fn(&Entry) -> &'stati
 /// Small centred text over data.
 pub fn centred(size: f64) -> TextStyle {
     TextStyle::new(size).anchored(Anchor::Middle).with_halo()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn animations_colour_statuses_as_figures_do() {
+        let script = include_str!("../report/motion.js");
+        let colours = [0, 1, 2].map(|code| format!("\"{}\"", line_colour(status_of_code(code))));
+        let declared = format!("statusColours = [{}]", colours.join(", "));
+        assert!(script.contains(&declared), "{declared}");
+    }
 }

@@ -1,4 +1,4 @@
-//! What a search for limit cycles keeps to draw its figures again.
+//! Record of a search for limit cycles, from which its figures are drawn again.
 
 use crate::contact::ContactStatus;
 use crate::cycle::{CycleBranch, CycleStability, Family, LimitCycle, Verdict};

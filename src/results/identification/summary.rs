@@ -1,4 +1,4 @@
-//! What `identify` found, as it is written, printed and reported.
+//! Summary of `identify`, as it is written, printed and reported.
 
 use crate::results::Manifest;
 use crate::signal::reader::NamedResponse;

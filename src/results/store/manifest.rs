@@ -1,4 +1,4 @@
-//! What a result was made from.
+//! Manifest of a result: program, case and inputs.
 
 use serde::{Deserialize, Serialize};
 

@@ -1,4 +1,4 @@
-//! What is kept of one point.
+//! Record of one point of a sweep.
 
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};

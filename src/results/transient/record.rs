@@ -1,4 +1,4 @@
-//! What a transient keeps to draw its figures again: all that it recorded.
+//! Record of a transient, from which its figures are drawn again.
 
 use crate::results::record::Record;
 use crate::transient::Recorder;

@@ -1,4 +1,4 @@
-//! What a transient shows of a body of revolution in three dimensions.
+//! Results of the transient of a body of revolution in three dimensions.
 
 use crate::mesh::{SolidFace, SolidSector};
 

@@ -1,4 +1,4 @@
-//! How much of a frequency response is noise.
+//! Noise level of a frequency response.
 
 use faer::c64;
 

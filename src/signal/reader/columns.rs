@@ -1,4 +1,4 @@
-//! Which columns of a table make a frequency response.
+//! The columns of a table that make a frequency response.
 
 use super::error::{ReadError, ReadProblem};
 use super::table::Table;

@@ -1,4 +1,4 @@
-//! What a file of measurements holds.
+//! Contents of a file of measurements.
 
 use super::super::FrequencyResponse;
 

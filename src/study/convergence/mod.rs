@@ -18,15 +18,15 @@ mod quantities;
 
 use super::transient::TransientStudy;
 use super::{StudyError, eigenvalues, summarize, summary};
-use crate::case::{Analysis, Case, CaseErrors, StabilityChoice, TimeStep};
+use crate::case::{Analysis, Body, Case, CaseErrors, Revolution, StabilityChoice, TimeStep};
 use crate::cea::FrictionSweep;
 use crate::fem::operator::SimdLevel;
+use crate::mesh::AnnulusSpecification;
 use crate::results::Manifest;
 use crate::results::convergence::{Quantity, Refinement, Series};
 use crate::results::summary::PointSummary;
 use rayon::prelude::*;
 use serde_json::Value;
-use std::f64::consts::TAU;
 use std::time::Instant;
 
 /// Levels of one series: the same case refined.
@@ -254,22 +254,22 @@ fn series(case: &Case, study: &Levels, outcomes: Vec<Timed>) -> Result<Vec<Serie
 
 /// Element size and name of a mesh: the size is the side of a square of the mean element area, m.
 fn mesh_level(case: &Case) -> (f64, String) {
-    if let Some(body) = &case.body {
-        let (mesh, count) = (&body.mesh, body.mesh.element_count());
-        return (
-            (mesh.area() / count as f64).sqrt(),
-            format!("{count} elements"),
-        );
+    let of = |grid: &AnnulusSpecification| {
+        let (around, radial) = (grid.circumferential_elements, grid.radial_elements);
+        let area = case.body.area();
+        let size = (area / (around as f64 * radial as f64)).sqrt();
+        (size, format!("{around} x {radial}"))
+    };
+    match &case.body {
+        Body::Annulus(annulus) => of(&annulus.specification),
+        Body::Revolution(Revolution { specification, .. }) => {
+            let (size, name) = of(&specification.annulus);
+            (size, format!("{name} x {}", specification.axial_elements))
+        }
+        Body::Imported(imported) => {
+            let count = imported.mesh.element_count();
+            let size = (imported.mesh.area() / count as f64).sqrt();
+            (size, format!("{count} elements"))
+        }
     }
-    let annulus = &case.annulus;
-    let area = 0.5 * TAU * (annulus.outer_radius.powi(2) - annulus.inner_radius.powi(2));
-    let (around, radial) = (annulus.circumferential_elements, annulus.radial_elements);
-    let size = (area / (around as f64 * radial as f64)).sqrt();
-    let layers = case
-        .solid
-        .map(|solid| format!(" x {}", solid.axial_elements));
-    (
-        size,
-        format!("{around} x {radial}{}", layers.unwrap_or_default()),
-    )
 }

@@ -1,4 +1,4 @@
-//! What is compared between the levels of a convergence study.
+//! Quantities compared between the levels of a convergence study.
 
 use crate::case::Case;
 use crate::cea::{ComplexMode, FrictionSweep, UnstableInterval};
@@ -43,7 +43,7 @@ pub fn of_sweeps(
 ) -> (Vec<Quantity>, Vec<String>) {
     let friction = case.contact.sliding.friction_coefficient;
     let mut named = Vec::new();
-    let sweeps = match case.is_annulus() {
+    let sweeps = match case.has_sectors() {
         true => sweeps,
         false => {
             named.extend_from_slice(sweeps);
@@ -77,12 +77,12 @@ pub fn of_sweeps(
     ];
     for (part, value) in parts {
         for levels in &everywhere {
-            let name = format!("{part}, {}", name_of(key_of(levels[0]), case.is_annulus()));
+            let name = format!("{part}, {}", name_of(key_of(levels[0]), case.has_sectors()));
             let values = levels.iter().map(|mode| value(mode)).collect();
             quantities.push(Quantity::new(name, "Hz", sizes, values));
         }
     }
-    quantities.extend(onsets(sizes, sweeps, case.is_annulus()));
+    quantities.extend(onsets(sizes, sweeps, case.has_sectors()));
     let mut notes = vec![format!(
         "{} modes at friction coefficient {friction}",
         everywhere.len()

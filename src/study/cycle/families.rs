@@ -1,6 +1,6 @@
-//! Which limit cycles a case asks for, and what they are followed over.
+//! Limit cycles that a case asks for, and the parameter over which they are followed.
 
-use crate::case::{Case, Cycle, OnsetChoice};
+use crate::case::{Case, CaseErrors, Cycle, OnsetChoice};
 use crate::cea::ModeLimit;
 use crate::cycle::{CycleError, CycleSolver, DiscModel, Family, MODES, Onset, Parameter};
 use crate::study::StudyError;
@@ -41,9 +41,10 @@ pub fn continuation(
 
 /// The first onset above a friction coefficient, for the sentence that steady sliding is stable there.
 pub fn next_onset(case: &Case, friction: f64) -> Option<Onset> {
+    let model = disc_model(case).ok()?;
     let mut highest = 2.0 * friction;
     while highest <= 2.0 {
-        let found = disc_model(case).onsets(highest, mode_limit(case)).ok()?;
+        let found = model.onsets(highest, mode_limit(case)).ok()?;
         if let Some(first) = found.into_iter().next() {
             return Some(first);
         }
@@ -53,12 +54,17 @@ pub fn next_onset(case: &Case, friction: f64) -> Option<Onset> {
 }
 
 /// The disc of a case as its limit cycles see it.
-pub fn disc_model(case: &Case) -> DiscModel {
-    DiscModel {
-        specification: case.annulus,
-        material: case.material,
+///
+/// # Errors
+/// A body that is no plane annulus.
+pub fn disc_model(case: &Case) -> Result<DiscModel, CaseErrors> {
+    let search = "limit cycles are sought in";
+    let annulus = case.require_annulus("limit cycles are rotating waves, which", search)?;
+    Ok(DiscModel {
+        specification: annulus.specification,
+        material: annulus.materials.annulus,
         damping: case.damping.rayleigh,
-    }
+    })
 }
 
 /// The modes whose onsets are looked for: those of the case's own eigenvalue analysis, else the lowest.
@@ -69,7 +75,7 @@ pub fn mode_limit(case: &Case) -> ModeLimit {
 /// One solver for each family asked for; where no harmonic is named, for every wave that is unstable at the case's
 /// friction. A harmonic that is named is sought even where steady sliding is stable: its cycles may outlive their birth.
 pub fn solvers(case: &Case, cycle: &Cycle, onsets: &[Onset]) -> Result<Vec<Sought>, StudyError> {
-    let (model, limit) = (disc_model(case), mode_limit(case));
+    let (model, limit) = (disc_model(case)?, mode_limit(case));
     let mut harmonics: Vec<usize> = match &cycle.harmonics {
         Some(harmonics) => harmonics.clone(),
         None => onsets.iter().map(|onset| onset.harmonic).collect(),

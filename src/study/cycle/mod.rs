@@ -18,7 +18,7 @@ mod families;
 
 pub use families::{disc_model, mode_limit};
 
-use super::StudyError;
+use super::{StudyError, extent_of};
 use crate::case::{Case, Cycle, StabilityChoice};
 use crate::cycle::{
     CycleError, CycleSolver, CycleStability, Family, LimitCycle, MeshStepping, Onset,
@@ -53,9 +53,10 @@ impl<'a> CycleStudy<'a> {
     /// A bad case; steady sliding that is stable against every harmonic, where the case names none.
     pub fn new(case: &'a Case, simd: SimdLevel) -> Result<Self, StudyError> {
         let choices = case.require_cycle()?;
+        let model = disc_model(case)?;
         let point = operating_point(case);
         let friction = point.contact.friction_coefficient;
-        let mut onsets = disc_model(case).onsets(friction, mode_limit(case))?;
+        let mut onsets = model.onsets(friction, mode_limit(case))?;
         let solvers = solvers(case, choices, &onsets)?;
         if onsets.is_empty() {
             onsets = solvers.iter().flatten().map(|s| *s.onset()).collect();
@@ -65,7 +66,7 @@ impl<'a> CycleStudy<'a> {
         Ok(Self {
             case,
             choices,
-            annulus: AnnulusMesh::generate(&case.annulus)?,
+            annulus: AnnulusMesh::generate(&model.specification)?,
             simd,
             point,
             continuation: continuation(case, choices)?,
@@ -98,8 +99,9 @@ impl<'a> CycleStudy<'a> {
         CycleReport {
             title: &self.case.title,
             mesh: &self.annulus.mesh,
-            inner_radius: self.case.annulus.inner_radius,
+            inner_radius: self.annulus.specification.inner_radius,
             thickness: self.case.thickness,
+            extent: extent_of(self.case),
             friction_coefficient: self.point.contact.friction_coefficient,
             lowest_onset: self.onsets.first().copied(),
             results,
@@ -228,7 +230,7 @@ impl<'a> CycleStudy<'a> {
 /// No such cycle, or elements that a cycle cannot be sought on.
 pub fn limit_cycle(case: &Case, family: Family) -> Result<(CycleSolver, LimitCycle), StudyError> {
     let phases = case.cycle.as_ref().and_then(|cycle| cycle.phases);
-    let model = disc_model(case);
+    let model = disc_model(case)?;
     let onset = model.onset_of(family, mode_limit(case))?;
     let solver = CycleSolver::born_at(&model, family, &onset, phases)?;
     let cycle = solver.find(&operating_point(case))?;

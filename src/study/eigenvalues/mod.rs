@@ -12,20 +12,27 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod dampings;
+mod map;
 mod model;
+mod sliding;
 mod solid;
 mod solve;
 mod spectrum;
 mod states;
 
-pub use model::{SlidingModel, asked_modes, mode_limit};
+pub use dampings::dampings;
+pub use map::map;
+pub use model::{Model, Solver, Spectrum, asked_modes, mode_limit};
+pub use sliding::{SlidingModel, SteadyState};
 pub use solid::SolidBody;
-pub use solve::{map, solve, solve_modes};
-pub use spectrum::{modes_below, unstable_intervals};
+pub use solve::{solve, solve_modes};
+pub use spectrum::{OnsetSearch, modes_at_own_friction, modes_below, unstable_intervals};
+pub use states::WholeMesh;
 
-use super::{StudyError, tangent_options};
-use crate::case::{Case, Cea, ModeSelection};
-use crate::cea::{FrictionSweep, SweepProgress, SweepRequest, cyclic};
+use super::StudyError;
+use crate::case::{Case, Cea, Diagnostic, ModeSelection};
+use crate::cea::{FrictionSweep, SweepProgress, SweepRequest};
 use crate::results::cea::{BaseField, CeaReport, SensitivityReport};
 
 /// Hears of every friction value that is solved.
@@ -45,8 +52,7 @@ pub struct Solution {
     pub notes: Vec<String>,
 }
 
-/// Modes at the case's own friction coefficient and the onsets over its sweep, by the cyclic method where the body is an
-/// annulus; mode shapes are not computed there.
+/// Modes at the case's own friction coefficient and the onsets over its sweep; mode shapes are not computed.
 ///
 /// # Errors
 /// Those of the mesh, of steady sliding and of the solver; a frequency limit below the first mode.
@@ -56,19 +62,13 @@ pub fn modes_and_onsets(case: &Case) -> Result<FrictionSweep, StudyError> {
         shapes_at: vec![case.contact.sliding.friction_coefficient],
         ..case.require_cea()?.clone()
     };
-    let sweep = if case.is_annulus() && case.solid.is_none() {
-        let request = SweepRequest {
-            friction_coefficients: &cea.solved_friction_coefficients(),
-            limit: mode_limit(&cea),
-            shapes_at: &[],
-        };
-        let options = tangent_options(case, cea.mass);
-        let sliding = &case.contact.sliding;
-        cyclic::sweep(&case.annulus, case.materials(), &options, sliding, &request)?.sweep
-    } else {
-        let model = SlidingModel::new(case, &cea)?;
-        solve_modes(case, &cea, &model)?.sweep
+    let request = SweepRequest {
+        friction_coefficients: &cea.solved_friction_coefficients(),
+        limit: mode_limit(&cea),
+        shapes_at: &[],
     };
+    let model = Model::new(case, &cea)?;
+    let sweep = model.spectrum(case, &request, false, &|_| {})?.sweep;
     refuse_no_modes(case, &cea, &sweep)?;
     Ok(sweep)
 }
@@ -100,12 +100,15 @@ pub fn refuse_no_modes(case: &Case, cea: &Cea, sweep: &FrictionSweep) -> Result<
     if sweep.points.iter().any(|point| !point.modes.is_empty()) {
         return Ok(());
     }
-    Err(StudyError::Case(case.error_at(
-        "cea.max_frequency_hz",
+    let error = Diagnostic::error(
         format!("cea.max_frequency_hz = {limit}: there are no modes below it"),
         "below the first mode".to_owned(),
+        case.raw.place("cea.max_frequency_hz"),
         Some("raise it, or ask for the lowest ones with `modes = 10` instead".to_owned()),
-    )))
+    );
+    // A slip of units comes first: the missing modes are its consequence.
+    let all = [case.warnings.as_slice(), &[error]].concat();
+    Err(StudyError::Case(case.raw.errors(all)))
 }
 
 /// What there is to report of a solution; the map is left out.
@@ -120,18 +123,19 @@ pub fn report<'a>(
     CeaReport {
         title: &case.title,
         mesh: &model.mesh,
-        has_harmonics: case.is_annulus(),
+        has_harmonics: case.has_sectors(),
         dofs: solution.dofs,
         method: solution.method,
         selection: match cea.modes {
             ModeSelection::BelowHz(limit) => format!("below {limit} Hz"),
-            ModeSelection::Lowest(count) => format!("the lowest {count}"),
+            ModeSelection::Lowest(count) => format!("the {count} lowest"),
         },
         friction_coefficients: &cea.friction_coefficients,
         sweep: &solution.sweep,
+        contact_changes: model.contact_changes(),
         base: model.base_state(case),
         field,
-        solid: model.solid.as_ref().map(|body| &body.report),
+        solid: model.solid().map(|body| &body.report),
         sensitivities: solution.sensitivities.as_ref(),
         map: None,
         notes: solution.notes.clone(),

@@ -1,161 +1,238 @@
-//! The model that the eigenvalue solvers take.
+//! Models of the eigenvalue solvers, and the choice of the solver for a body.
 
-use super::StudyError;
-use super::solid::SolidBody;
-use crate::case::{Case, Cea, CeaMethod, ModeSelection};
-use crate::cea::ModeLimit;
-use crate::fem::{assemble_stiffness, nodal_stress};
-use crate::mesh::{AnnulusMesh, Counterface, Mesh2d, SectorMesh};
-use crate::prestress::{
-    SectorTangent, SlidingRange, SlidingTangent, SteadySliding, TangentOptions,
-};
-use crate::results::cea::{BaseField, BaseState};
+use super::states::WholeMesh;
+use super::{Progress, StudyError};
+use crate::case::{Annulus, Body, Case, CaseErrors, Cea, CeaMethod, ModeSelection, Revolution};
+use crate::cea::cyclic::{self, Coverage, Overdamped, Sensitivity, SolidModel, SolidSweep};
+use crate::cea::{CeaError, FrictionSweep, ModeLimit, SweepRequest};
+use crate::prestress::TangentOptions;
 use crate::study::tangent_options;
-use std::sync::Arc;
 
-/// The eigenvalue solver that a case gets: `auto` uses the rotational symmetry where the body has it.
-pub fn method_of(case: &Case, cea: &Cea) -> CeaMethod {
-    match cea.method {
-        CeaMethod::Auto if case.is_annulus() => CeaMethod::Cyclic,
-        CeaMethod::Auto => CeaMethod::Sparse,
-        chosen => chosen,
-    }
+/// The eigenvalue solver that a body gets.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Solver {
+    /// The harmonics of a plane annulus.
+    Sectors(Annulus),
+    /// The harmonics of a body of revolution in three dimensions.
+    SolidSectors(Revolution),
+    /// The whole mesh of a plane body.
+    WholeMesh,
 }
 
-/// The model that the solvers take: mesh, base states, and what their tangents are made of.
-pub struct SlidingModel {
-    /// The mesh.
-    pub mesh: Arc<Mesh2d>,
-    /// Steady sliding at the friction coefficients that are solved, and last at the case's own.
-    pub range: SlidingRange,
-    /// How the tangent is taken.
-    pub options: TangentOptions,
-    /// The body and its base state where it is three-dimensional; there are no plane ones then.
-    pub solid: Option<SolidBody>,
-}
-
-impl SlidingModel {
-    /// Builds the model of a case up to its base states.
+impl Solver {
+    /// The solver that `method` means for the body of a case: `auto` uses the rotational symmetry where the body has it.
     ///
     /// # Errors
-    /// A mesh that cannot be built; contact that would open on an annulus; no state of sliding; a method that needs a
-    /// symmetry which is not there.
-    pub fn new(case: &Case, cea: &Cea) -> Result<Self, StudyError> {
-        let options = tangent_options(case, cea.mass);
-        let sliding = &case.contact.sliding;
-        if cea.method == CeaMethod::Cyclic && !case.is_annulus() {
-            return Err(StudyError::Case(case.error_at(
+    /// A method that the body does not have; a counterface at rest, on which the body sticks.
+    pub fn of(case: &Case, method: CeaMethod) -> Result<Self, CaseErrors> {
+        refuse_rest(case)?;
+        match (&case.body, method) {
+            (Body::Imported(_), CeaMethod::Cyclic) => Err(case.error_at(
                 "cea.method",
                 "cea.method = \"cyclic\" needs the symmetry of the built-in annulus".to_owned(),
                 "an imported mesh has no sectors".to_owned(),
                 Some("use \"auto\" or \"sparse\"".to_owned()),
-            )));
+            )),
+            (Body::Revolution(_), CeaMethod::Sparse) => Err(case.error_at(
+                "cea.method",
+                "cea.method = \"sparse\" is for plane bodies".to_owned(),
+                "the body is three-dimensional".to_owned(),
+                Some("use \"auto\" or \"cyclic\"".to_owned()),
+            )),
+            (Body::Annulus(_), CeaMethod::Sparse) => Ok(Self::WholeMesh),
+            (body, _) => Ok(Self::by_symmetry(body)),
         }
-        if let Some(specification) = &case.solid {
-            let solid = SolidBody::new(case, cea, specification)?;
-            let annulus = AnnulusMesh::generate(&solid.plane)?;
-            return Ok(Self {
-                mesh: Arc::new(annulus.mesh),
-                range: SlidingRange::default(),
+    }
+
+    /// The solver that uses all the symmetry of a body.
+    pub fn by_symmetry(body: &Body) -> Self {
+        match body {
+            Body::Annulus(annulus) => Self::Sectors(*annulus),
+            Body::Revolution(revolution) => Self::SolidSectors(*revolution),
+            Body::Imported(_) => Self::WholeMesh,
+        }
+    }
+}
+
+/// Refuses a counterface at rest: a contact that sticks has no modes of sliding.
+fn refuse_rest(case: &Case) -> Result<(), CaseErrors> {
+    if case.contact.sliding.rotation_speed != 0.0 {
+        return Ok(());
+    }
+    let key = match case.raw.find("contact.speed") {
+        Some(_) => "contact.speed",
+        None => "contact.rotation_speed_rpm",
+    };
+    Err(case.error_at(
+        key,
+        format!(
+            "{key} = 0: the contact sticks at rest, and there is no steady sliding whose eigenvalues could be solved"
+        ),
+        "must not be zero for an eigenvalue analysis".to_owned(),
+        Some("give a speed, however small; its sign is the sense of the sliding".to_owned()),
+    ))
+}
+
+/// A model whose spectrum can be asked for.
+pub enum Model {
+    /// The harmonics of a plane annulus.
+    Sectors(Annulus, TangentOptions),
+    /// The harmonics of a body of revolution in three dimensions.
+    SolidSectors(SolidModel),
+    /// The whole mesh of a plane body.
+    Whole(WholeMesh),
+}
+
+/// The spectrum of a model over friction coefficients.
+pub struct Spectrum {
+    /// Modes at each of them, and where branches turn unstable.
+    pub sweep: FrictionSweep,
+    /// Unknowns of the eigenproblem.
+    pub dofs: usize,
+    /// Sensitivities at the case's own friction coefficient, where they were asked for and the solver has them.
+    pub sensitivities: Option<Vec<Sensitivity>>,
+    /// Branches at that friction coefficient whose sensitivities could not be found.
+    pub without_sensitivities: usize,
+    /// What the solver has to say of the spectrum.
+    pub notes: Vec<String>,
+    /// Which harmonics were solved, of a body that has them.
+    pub coverage: Option<Coverage>,
+    /// Motions of a body of revolution that decay without oscillating, at each friction coefficient; none elsewhere.
+    pub overdamped: Vec<Overdamped>,
+}
+
+impl Model {
+    /// The model of a case for its eigenvalue analysis.
+    ///
+    /// # Errors
+    /// A method that the body does not have; those of [`Self::with_solver`].
+    pub fn new(case: &Case, cea: &Cea) -> Result<Self, StudyError> {
+        let solver = Solver::of(case, cea.method)?;
+        let options = tangent_options(case, cea.mass);
+        let frictions = cea.solved_friction_coefficients();
+        Ok(Self::with_solver(case, solver, options, &frictions)?)
+    }
+
+    /// The model of a case for a solver, at some friction coefficients and its own.
+    ///
+    /// # Errors
+    /// No state of steady sliding of a whole mesh; sectors say so when they are solved.
+    pub fn with_solver(
+        case: &Case,
+        solver: Solver,
+        options: TangentOptions,
+        frictions: &[f64],
+    ) -> Result<Self, CeaError> {
+        let sliding = &case.contact.sliding;
+        Ok(match solver {
+            Solver::Sectors(annulus) => Self::Sectors(annulus, options),
+            Solver::SolidSectors(Revolution {
+                specification,
+                material,
+            }) => Self::SolidSectors(SolidModel {
+                specification,
+                material,
                 options,
-                solid: Some(solid),
-            });
-        }
-        if method_of(case, cea) == CeaMethod::Sparse {
-            let mesh = case.mesh()?;
-            let stiffness = assemble_stiffness(&mesh, case.materials());
-            let mut frictions = cea.solved_friction_coefficients();
-            frictions.push(sliding.friction_coefficient);
-            let range = SlidingRange::solve(&mesh, &stiffness, sliding, &frictions)?;
-            return Ok(Self {
-                mesh,
-                range,
-                options,
-                solid: None,
-            });
-        }
-        let annulus = AnnulusMesh::generate(&case.annulus)?;
-        let sector = SectorMesh::generate(&case.annulus)?;
-        let tangent = SectorTangent::linearize(&sector, case.materials(), &options, sliding)?;
-        let base = SteadySliding::from_sector(&annulus, &sector, tangent.base());
-        Ok(Self {
-            mesh: Arc::new(annulus.mesh),
-            range: SlidingRange {
-                states: vec![base],
-                state_of: Vec::new(),
-                changes: Vec::new(),
-            },
-            options,
-            solid: None,
+                contact: *sliding,
+            }),
+            Solver::WholeMesh => Self::Whole(WholeMesh::solve(case, options, frictions)?),
         })
     }
 
-    /// The state at the case's own friction coefficient.
-    pub fn base(&self) -> &SteadySliding {
-        let own = self.range.state_of.last().copied().unwrap_or(0);
-        &self.range.states[own]
-    }
-
-    /// The tangent of one state over the whole mesh, for the sparse solver.
-    pub fn tangent(&self, case: &Case, state: &SteadySliding) -> SlidingTangent {
-        let stiffness = assemble_stiffness(&self.mesh, case.materials());
-        let options = &self.options;
-        SlidingTangent::linearize(&self.mesh, case.materials(), &stiffness, state, options)
-    }
-
-    /// What the report says of the base state, scaled to the case's thickness.
-    pub fn base_state(&self, case: &Case) -> BaseState {
-        if let Some(solid) = &self.solid {
-            return solid.base_state(case);
-        }
-        let (base, friction) = (self.base(), case.contact.sliding.friction_coefficient);
-        let pressures = base.pressures(friction);
-        let smallest = pressures.iter().copied().fold(f64::INFINITY, f64::min);
-        let largest = pressures.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let traction = base.friction.drag * friction;
-        let torque = case.thickness * base.torque(friction);
-        let shear = [traction * smallest, traction * largest];
-        let open = base
-            .is_pressed
-            .iter()
-            .filter(|is_pressed| !**is_pressed)
-            .count();
-        let is_plane = matches!(self.mesh.counterface, Counterface::Plane { .. });
-        BaseState {
-            friction_coefficient: friction,
-            slipping: pressures.len() - open,
-            sticking: 0,
-            open,
-            pressure_pa: [smallest, largest],
-            shear_pa: [shear[0].min(shear[1]), shear[0].max(shear[1])],
-            torque_n_m: (!is_plane).then_some(torque),
-            drag_n: is_plane.then_some(torque),
-            power_w: torque * case.contact.sliding.rotation_speed,
+    /// Name of the solver.
+    pub fn method(&self) -> &'static str {
+        match self {
+            Self::Sectors(..) | Self::SolidSectors(_) => "cyclic",
+            Self::Whole(_) => "sparse",
         }
     }
 
-    /// The base state node by node.
-    pub fn base_field(&self, case: &Case) -> BaseField {
-        if self.solid.is_some() {
-            return BaseField::default();
-        }
-        let (base, friction) = (self.base(), case.contact.sliding.friction_coefficient);
-        let displacement = base.displacement(friction);
-        let pressures = base.pressures(friction);
-        let traction = base.friction.drag * friction;
-        BaseField {
-            nodes: base.interface.nodes.clone(),
-            angles: base.interface.angles.clone(),
-            shears: pressures
-                .iter()
-                .map(|pressure| traction * pressure)
-                .collect(),
-            pressures,
-            is_pressed: (!case.is_annulus()).then(|| base.is_pressed.clone()),
-            stress: nodal_stress(&self.mesh, case.materials(), &displacement),
-            displacement,
+    /// The spectrum at the friction coefficients that the model was made for; `progress` hears of every one that is solved.
+    ///
+    /// # Errors
+    /// Those of the solver.
+    pub fn spectrum(
+        &self,
+        case: &Case,
+        request: &SweepRequest<'_>,
+        with_rates: bool,
+        progress: &Progress<'_>,
+    ) -> Result<Spectrum, CeaError> {
+        let friction = case.contact.sliding.friction_coefficient;
+        match self {
+            Self::Sectors(annulus, options) => {
+                let (grid, materials) = (&annulus.specification, &annulus.materials);
+                let sliding = &case.contact.sliding;
+                let found = cyclic::sweep(grid, materials, options, sliding, request)?;
+                let rates = with_rates.then(|| cyclic::sensitivities(&found, friction));
+                Ok(Spectrum {
+                    dofs: found.tangent.dimension() * found.tangent.sector().sector_count(),
+                    sensitivities: rates.transpose()?,
+                    without_sensitivities: 0,
+                    notes: Vec::new(),
+                    coverage: Some(found.coverage),
+                    overdamped: Vec::new(),
+                    sweep: found.sweep,
+                })
+            }
+            Self::SolidSectors(model) => {
+                let found = cyclic::solid_sweep(model, request)?;
+                let rates = with_rates.then(|| cyclic::solid_sensitivities(&found, friction));
+                let sensitivities = rates.transpose()?;
+                let branches = found.branches.iter();
+                let there = branches.filter(|branch| branch.interpolate(friction).is_some());
+                let own = sensitivities.as_ref().map(Vec::len);
+                Ok(Spectrum {
+                    dofs: found.dofs,
+                    without_sensitivities: own.map_or(0, |own| there.count() - own),
+                    sensitivities,
+                    notes: vec![reduction_note(&found, request)],
+                    coverage: Some(found.coverage),
+                    overdamped: found.overdamped,
+                    sweep: found.sweep,
+                })
+            }
+            Self::Whole(whole) => {
+                let (sweep, dofs) = whole.sweep(case, request, progress)?;
+                Ok(Spectrum {
+                    dofs,
+                    sensitivities: None,
+                    without_sensitivities: 0,
+                    notes: whole.changes_note().into_iter().collect(),
+                    coverage: None,
+                    overdamped: Vec::new(),
+                    sweep,
+                })
+            }
         }
     }
+
+    /// The spectrum of some harmonics of a plane annulus, without a proof that none is missed; `None` for another body, and
+    /// where a branch meets one that only the whole spectrum has.
+    pub fn sweep_in(
+        &self,
+        harmonics: &[usize],
+        case: &Case,
+        request: &SweepRequest<'_>,
+    ) -> Option<FrictionSweep> {
+        let Self::Sectors(annulus, options) = self else {
+            return None;
+        };
+        let (grid, materials) = (&annulus.specification, &annulus.materials);
+        let sliding = &case.contact.sliding;
+        cyclic::onsets(grid, materials, options, sliding, request, harmonics).ok()
+    }
+}
+
+/// What the reduction of the harmonics leaves out.
+fn reduction_note(found: &SolidSweep, request: &SweepRequest<'_>) -> String {
+    let frictions = request.friction_coefficients.iter();
+    format!(
+        "each harmonic is solved in a small space (residuals are those there): relative error of an eigenvalue up to {:.1e}, \
+         estimated at friction {}",
+        found.reduction_error,
+        frictions.fold(0.0_f64, |m, &mu| m.max(mu)),
+    )
 }
 
 /// The modes that a case asks for.

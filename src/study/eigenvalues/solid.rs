@@ -1,8 +1,7 @@
 //! Eigenvalues of a body of revolution in three dimensions.
 
 use super::StudyError;
-use crate::case::{Case, Cea, CeaMethod};
-use crate::cea::cyclic::SolidModel;
+use crate::case::Case;
 use crate::contact::SteadyFriction;
 use crate::fem::solid;
 use crate::mesh::{
@@ -10,7 +9,7 @@ use crate::mesh::{
 };
 use crate::prestress::SolidSliding;
 use crate::results::cea::{BaseState, SolidReport};
-use crate::study::tangent_options;
+use crate::study::extent_of;
 
 /// The body with its steady sliding state.
 pub struct SolidBody {
@@ -24,20 +23,8 @@ impl SolidBody {
     /// Generates the body and solves its base state.
     ///
     /// # Errors
-    /// A mesh that cannot be built, no state of sliding, a method for plane bodies.
-    pub fn new(
-        case: &Case,
-        cea: &Cea,
-        specification: &SolidSpecification,
-    ) -> Result<Self, StudyError> {
-        if cea.method == CeaMethod::Sparse {
-            return Err(StudyError::Case(case.error_at(
-                "cea.method",
-                "cea.method = \"sparse\" is for plane bodies".to_owned(),
-                "the body is three-dimensional".to_owned(),
-                Some("use \"auto\" or \"cyclic\"".to_owned()),
-            )));
-        }
+    /// A mesh that cannot be built, no state of sliding.
+    pub fn new(case: &Case, specification: &SolidSpecification) -> Result<Self, StudyError> {
         let sector = SolidSector::generate(specification)?;
         let elastic = solid::stiffness(&sector, &case.material);
         let stiffness = case.contact.stiffness.base_stiffness();
@@ -84,19 +71,30 @@ impl SolidBody {
             torque_n_m: Some(torque),
             drag_n: None,
             power_w: torque * case.contact.sliding.rotation_speed,
+            extent: extent_of(case),
         }
     }
 
     /// Friction at the mean radius of the contact, and the mean pressure there, Pa.
     pub fn mean_friction(&self) -> (SteadyFriction, f64) {
         let SolidReport { sector, base, .. } = &self.report;
-        let area: f64 = sector.rings.iter().map(|ring| ring.area).sum();
-        let moment: f64 = sector
-            .rings
-            .iter()
-            .map(|ring| ring.area * ring.radius)
-            .sum();
-        (base.friction(moment / area).1, base.mean_pressure(sector))
+        let friction = base.friction(self.mean_radius()).1;
+        (friction, base.mean_pressure(sector))
+    }
+
+    /// The dashpot `mu p / V` of friction across the sliding, Pa s/m, at the mean radius and pressure.
+    pub fn dashpot_across(&self, friction_coefficient: f64) -> f64 {
+        let SolidReport { sector, base, .. } = &self.report;
+        let (speed, friction) = base.friction(self.mean_radius());
+        friction_coefficient * friction.drag.abs() * base.mean_pressure(sector) / speed
+    }
+
+    /// Mean radius of the contact, m.
+    fn mean_radius(&self) -> f64 {
+        let rings = || self.report.sector.rings.iter();
+        let area: f64 = rings().map(|ring| ring.area).sum();
+        let moment: f64 = rings().map(|ring| ring.area * ring.radius).sum();
+        moment / area
     }
 
     /// What an open part of the contact means.
@@ -126,25 +124,4 @@ impl SolidBody {
             )),
         }
     }
-}
-
-/// Everything that the eigenvalue solver needs.
-///
-/// # Errors
-/// A case without `[cea]`.
-pub fn solid_model(case: &Case, cea: &Cea) -> Result<SolidModel, StudyError> {
-    let specification = case.solid.ok_or_else(|| {
-        StudyError::Case(case.error_at(
-            "material.formulation",
-            "the case has no three-dimensional body".to_owned(),
-            "a plane body".to_owned(),
-            Some("set it to \"three-dimensional\", with mesh.axial_elements".to_owned()),
-        ))
-    })?;
-    Ok(SolidModel {
-        specification,
-        material: case.material,
-        options: tangent_options(case, cea.mass),
-        contact: case.contact.sliding,
-    })
 }

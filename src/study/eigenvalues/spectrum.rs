@@ -1,12 +1,12 @@
 //! The spectrum of a case for those who study it: no files, no base fields, no shapes.
 
-use super::model::mode_limit;
-use super::solve::{solve, solve_modes};
-use super::{SlidingModel, StudyError};
+use super::StudyError;
+use super::model::{Model, Solver, mode_limit};
 use crate::case::{Case, Cea, CeaMethod, ModeSelection};
-use crate::cea::cyclic::{self, Sensitivity};
-use crate::cea::{ComplexMode, SweepRequest, UnstableInterval};
+use crate::cea::cyclic::Sensitivity;
+use crate::cea::{CeaError, ComplexMode, FrictionSweep, ModeLimit, SweepRequest, UnstableInterval};
 use crate::fem::MassKind;
+use crate::prestress::TangentOptions;
 use crate::study::tangent_options;
 
 /// What `[cea]` says of a case, or its defaults, for these friction coefficients and modes up to a frequency.
@@ -33,8 +33,8 @@ fn analysis(case: &Case, frictions: &[f64], limit_hz: f64) -> Cea {
     }
 }
 
-/// The modes of a case below `limit_hz` at its own friction coefficient, and of bodies of revolution with `with_rates` their
-/// sensitivities.
+/// The modes of a case below `limit_hz` at its own friction coefficient, and with `with_rates` their sensitivities where the
+/// solver has them.
 ///
 /// # Errors
 /// Those of the solver.
@@ -45,47 +45,53 @@ pub fn modes_below(
 ) -> Result<(Vec<ComplexMode>, Vec<Sensitivity>), StudyError> {
     let friction = case.contact.sliding.friction_coefficient;
     let cea = analysis(case, &[friction], limit_hz);
-    let (sweep, sensitivities) = match is_plane_annulus(case, &cea) {
-        false => {
-            let model = SlidingModel::new(case, &cea)?;
-            let found = match with_rates {
-                true => solve(case, &cea, &model, &|_| {})?,
-                false => solve_modes(case, &cea, &model)?,
-            };
-            let rates = found.sensitivities.map(|rates| rates.branches);
-            (found.sweep, rates.unwrap_or_default())
-        }
-        true => {
-            let request = SweepRequest {
-                friction_coefficients: &cea.friction_coefficients,
-                limit: mode_limit(&cea),
-                shapes_at: &[],
-            };
-            let options = tangent_options(case, cea.mass);
-            let sliding = &case.contact.sliding;
-            let found =
-                cyclic::sweep(&case.annulus, case.materials(), &options, sliding, &request)?;
-            let sensitivities = match with_rates {
-                true => cyclic::sensitivities(&found, friction)?,
-                false => Vec::new(),
-            };
-            (found.sweep, sensitivities)
-        }
+    let model = Model::new(case, &cea)?;
+    let request = SweepRequest {
+        friction_coefficients: &cea.friction_coefficients,
+        limit: mode_limit(&cea),
+        shapes_at: &[],
     };
-    let point = sweep.points.into_iter().next();
+    let found = model.spectrum(case, &request, with_rates, &|_| {})?;
+    let point = found.sweep.points.into_iter().next();
     Ok((
         point.map_or_else(Vec::new, |point| point.modes),
-        sensitivities,
+        found.sensitivities.unwrap_or_default(),
     ))
 }
 
-/// Whether the harmonics of a plane annulus are solved; bodies in three dimensions have theirs, all others the whole mesh.
-fn is_plane_annulus(case: &Case, cea: &Cea) -> bool {
-    case.solid.is_none() && super::model::method_of(case, cea) != CeaMethod::Sparse
+/// The modes of a case at its own friction coefficient, by frequency; no shapes. With all the symmetry that the body has.
+///
+/// # Errors
+/// Those of the mesh, of steady sliding, and of the solver.
+pub fn modes_at_own_friction(
+    case: &Case,
+    options: &TangentOptions,
+    limit: ModeLimit,
+) -> Result<Vec<ComplexMode>, CeaError> {
+    let request = SweepRequest {
+        friction_coefficients: &[case.contact.sliding.friction_coefficient],
+        limit,
+        shapes_at: &[],
+    };
+    let solver = Solver::by_symmetry(&case.body);
+    let frictions = request.friction_coefficients;
+    let model = Model::with_solver(case, solver, *options, frictions)?;
+    let found = model.spectrum(case, &request, false, &|_| {})?;
+    let point = found.sweep.points.into_iter().next();
+    Ok(point.map_or_else(Vec::new, |point| point.modes))
 }
 
-/// The ranges of friction over which branches of a case are unstable, from 0 to the largest of `frictions`, and the
-/// harmonics that hold modes.
+/// The onsets of a case.
+pub struct OnsetSearch {
+    /// The ranges of friction over which branches are unstable.
+    pub intervals: Vec<UnstableInterval>,
+    /// The harmonics that hold modes, where all were looked at.
+    pub followed: Vec<usize>,
+    /// Harmonic and branch of the modes within the range of frequencies at some friction coefficient, each once, rising.
+    pub within: Vec<(usize, usize)>,
+}
+
+/// The ranges of friction over which branches of a case are unstable, from 0 to the largest of `frictions`.
 ///
 /// With `harmonics` those alone are looked at, without a proof that none is missed.
 ///
@@ -95,34 +101,53 @@ pub fn unstable_intervals(
     case: &Case,
     frictions: &[f64],
     harmonics: Option<&[usize]>,
-) -> Result<(Vec<UnstableInterval>, Vec<usize>), StudyError> {
+) -> Result<OnsetSearch, StudyError> {
     let own = case.require_cea()?;
     let cea = Cea {
         modes: own.modes,
         ..analysis(case, frictions, f64::INFINITY)
     };
-    if !is_plane_annulus(case, &cea) {
-        let model = SlidingModel::new(case, &cea)?;
-        let sweep = solve_modes(case, &cea, &model)?.sweep;
-        super::refuse_no_modes(case, &cea, &sweep)?;
-        return Ok((sweep.intervals, Vec::new()));
+    let solver = Solver::of(case, cea.method)?;
+    let mut frictions = frictions.to_vec();
+    if solver == Solver::WholeMesh {
+        // Harmonics are followed from no friction on; the branches of a whole mesh over the values that it is given.
+        frictions.push(0.0);
+        frictions.sort_by(f64::total_cmp);
+        frictions.dedup();
     }
     let request = SweepRequest {
-        friction_coefficients: frictions,
+        friction_coefficients: &frictions,
         limit: mode_limit(&cea),
         shapes_at: &[],
     };
     let options = tangent_options(case, cea.mass);
-    let sliding = &case.contact.sliding;
-    if let Some(harmonics) = harmonics {
-        let (annulus, material) = (&case.annulus, case.materials());
-        // A branch that meets another needs the larger margin that the proof has.
-        if let Ok(found) = cyclic::onsets(annulus, material, &options, sliding, &request, harmonics)
-        {
-            return Ok((found, Vec::new()));
-        }
+    let model = Model::with_solver(case, solver, options, &frictions)?;
+    if let Some(harmonics) = harmonics
+        && let Some(found) = model.sweep_in(harmonics, case, &request)
+    {
+        return Ok(OnsetSearch {
+            followed: Vec::new(),
+            within: branches_within(&found),
+            intervals: found.intervals,
+        });
     }
-    let found = cyclic::sweep(&case.annulus, case.materials(), &options, sliding, &request)?;
+    let found = model.spectrum(case, &request, false, &|_| {})?;
     super::refuse_no_modes(case, &cea, &found.sweep)?;
-    Ok((found.sweep.intervals, found.coverage.followed))
+    let followed = match (&model, found.coverage) {
+        (Model::Sectors(..), Some(coverage)) => coverage.followed,
+        _ => Vec::new(),
+    };
+    Ok(OnsetSearch {
+        followed,
+        within: branches_within(&found.sweep),
+        intervals: found.sweep.intervals,
+    })
+}
+
+fn branches_within(sweep: &FrictionSweep) -> Vec<(usize, usize)> {
+    let modes = sweep.points.iter().flat_map(|point| &point.modes);
+    let mut found: Vec<(usize, usize)> = modes.map(|mode| (mode.harmonic, mode.branch)).collect();
+    found.sort_unstable();
+    found.dedup();
+    found
 }

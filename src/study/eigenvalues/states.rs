@@ -1,68 +1,111 @@
-//! A sweep over friction coefficients between which contact nodes open or close.
+//! Friction sweep of a whole mesh whose contact nodes open or close within the range.
 
-use super::model::mode_limit;
-use super::{Progress, SlidingModel, Solution, StudyError};
-use crate::case::{Case, Cea};
+use super::Progress;
+use crate::case::Case;
 use crate::cea::sparse;
-use crate::cea::{FrictionPoint, FrictionSweep, SweepRequest, UnstableInterval};
+use crate::cea::{CeaError, FrictionPoint, FrictionSweep, SweepRequest, UnstableInterval};
+use crate::fem::assemble_stiffness;
+use crate::mesh::Mesh;
+use crate::prestress::{SlidingRange, SlidingTangent, SteadySliding, TangentOptions};
+use std::sync::Arc;
 
-/// Solves the sparse eigenproblems: each base state has a tangent and a sweep of its own, which the friction
-/// coefficients where one state gives way to the next end and begin.
-///
-/// # Errors
-/// Those of the solver.
-pub fn solve_sparse(
-    case: &Case,
-    cea: &Cea,
-    model: &SlidingModel,
-    progress: &Progress<'_>,
-) -> Result<Solution, StudyError> {
-    let frictions = cea.solved_friction_coefficients();
-    let range = &model.range;
-    let (mut parts, mut dofs) = (Vec::new(), 0);
-    for (k, state) in range.states.iter().enumerate() {
-        let own = frictions.iter().zip(&range.state_of);
-        let mut values: Vec<f64> = own.filter(|(_, s)| **s == k).map(|(mu, _)| *mu).collect();
-        if values.is_empty() {
-            continue;
-        }
-        // Branches are followed up to the change on either side.
-        values.extend(
-            k.checked_sub(1)
-                .and_then(|before| range.changes.get(before)),
-        );
-        values.extend(range.changes.get(k));
-        values.sort_by(f64::total_cmp);
-        values.dedup();
-        let tangent = model.tangent(case, state);
-        dofs = dofs.max(tangent.unknowns.len());
-        let request = SweepRequest {
-            friction_coefficients: &values,
-            limit: mode_limit(cea),
-            shapes_at: &cea.shapes_at,
-        };
-        let found = sparse::sweep(&tangent, &request, progress)?;
-        parts.push(found);
-    }
-    let notes = changes_note(&range.changes).into_iter().collect();
-    Ok(Solution {
-        dofs,
-        method: "sparse",
-        sensitivities: None,
-        notes,
-        sweep: joined(parts, &frictions),
-    })
+/// A whole mesh and its steady sliding.
+pub struct WholeMesh {
+    /// The mesh.
+    pub mesh: Arc<Mesh>,
+    /// Steady sliding at the friction coefficients that are solved, and last at the case's own.
+    pub range: SlidingRange,
+    /// How the tangent is taken.
+    pub options: TangentOptions,
 }
 
-fn changes_note(changes: &[f64]) -> Option<String> {
-    let list: Vec<String> = changes.iter().map(|mu| format!("{mu:.6}")).collect();
-    (!list.is_empty()).then(|| {
-        format!(
-            "contact nodes open or close at friction coefficients {}: the tangent changes there, and branches are matched \
-             across by their eigenvalues",
-            list.join(", ")
-        )
-    })
+impl WholeMesh {
+    /// Solves the steady sliding of a case at some friction coefficients and at its own.
+    ///
+    /// # Errors
+    /// A mesh that cannot be built; no state of steady sliding.
+    pub fn solve(
+        case: &Case,
+        options: TangentOptions,
+        frictions: &[f64],
+    ) -> Result<Self, CeaError> {
+        let sliding = &case.contact.sliding;
+        let mesh = case.mesh()?;
+        let stiffness = assemble_stiffness(&mesh, case.materials());
+        let frictions = [frictions, &[sliding.friction_coefficient]].concat();
+        let range = SlidingRange::solve(&mesh, &stiffness, sliding, &frictions)?;
+        Ok(Self {
+            mesh,
+            range,
+            options,
+        })
+    }
+
+    /// The state at the case's own friction coefficient.
+    pub fn base(&self) -> &SteadySliding {
+        let own = self.range.state_of.last();
+        &self.range.states[*own.expect("the case's own friction coefficient comes last")]
+    }
+
+    /// The tangent of one state over the whole mesh.
+    pub fn tangent(&self, case: &Case, state: &SteadySliding) -> SlidingTangent {
+        let (materials, options) = (case.materials(), &self.options);
+        let stiffness = assemble_stiffness(&self.mesh, materials);
+        SlidingTangent::linearize(&self.mesh, materials, &stiffness, state, options)
+    }
+
+    /// Solves the sparse eigenproblems at the friction coefficients that it was made for: each base state has a tangent and a
+    /// sweep of its own, which the friction coefficients where one state gives way to the next end and begin. Gives the number
+    /// of unknowns too.
+    ///
+    /// # Errors
+    /// Those of the solver.
+    pub fn sweep(
+        &self,
+        case: &Case,
+        request: &SweepRequest<'_>,
+        progress: &Progress<'_>,
+    ) -> Result<(FrictionSweep, usize), CeaError> {
+        let frictions = request.friction_coefficients;
+        let range = &self.range;
+        let (mut parts, mut dofs) = (Vec::new(), 0);
+        for (k, state) in range.states.iter().enumerate() {
+            let own = frictions.iter().zip(&range.state_of);
+            let mut values: Vec<f64> = own.filter(|(_, s)| **s == k).map(|(mu, _)| *mu).collect();
+            if values.is_empty() {
+                continue;
+            }
+            // Branches are followed up to the change on either side.
+            values.extend(
+                k.checked_sub(1)
+                    .and_then(|before| range.changes.get(before)),
+            );
+            values.extend(range.changes.get(k));
+            values.sort_by(f64::total_cmp);
+            values.dedup();
+            let tangent = self.tangent(case, state);
+            dofs = dofs.max(tangent.unknowns.len());
+            let part = SweepRequest {
+                friction_coefficients: &values,
+                ..*request
+            };
+            parts.push(sparse::sweep(&tangent, &part, progress)?);
+        }
+        Ok((joined(parts, frictions), dofs))
+    }
+
+    /// Where contact nodes open or close.
+    pub fn changes_note(&self) -> Option<String> {
+        let changes = &self.range.changes;
+        let list: Vec<String> = changes.iter().map(|mu| format!("{mu:.6}")).collect();
+        (!list.is_empty()).then(|| {
+            format!(
+                "contact nodes open or close at friction coefficients {}: the tangent changes there, and branches are matched \
+                 across by their eigenvalues",
+                list.join(", ")
+            )
+        })
+    }
 }
 
 /// One sweep of the parts: each is labelled like the one before by the nearest eigenvalues where they meet.

@@ -1,4 +1,4 @@
-//! Which mode of the model is which line of the measurement.
+//! Matching of modes of the model with lines of the measurement.
 
 use super::{MeasuredMode, ModelMode};
 

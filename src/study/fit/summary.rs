@@ -51,7 +51,7 @@ pub fn of(case: &Case, wanted: &Fit, fitted: &Fitted, before: &[ComplexMode]) ->
         modes_of_case: before
             .iter()
             .map(|mode| ModeSummary {
-                harmonic: case.is_annulus().then_some(mode.harmonic),
+                harmonic: case.has_sectors().then_some(mode.harmonic),
                 branch: mode.branch,
                 direction: mode.direction,
                 frequency_hz: mode.frequency_hz(),
@@ -137,7 +137,7 @@ fn notes(case: &Case, wanted: &Fit, fitted: &Fitted) -> Vec<String> {
         ));
     }
     let has_harmonic = |line: &LineFit| line.measured.harmonic.is_some();
-    if !case.is_annulus() && fitted.lines.iter().any(has_harmonic) {
+    if !case.has_sectors() && fitted.lines.iter().any(has_harmonic) {
         notes.push("modes of an imported body have no harmonic: the column is not used".to_owned());
     }
     let unheard = fitted.modes.iter().filter(|mode| {

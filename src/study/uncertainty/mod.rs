@@ -1,4 +1,4 @@
-//! How likely is squeal, and which parameter decides it: onsets of samples drawn from the distributions of a case.
+//! Probability of squeal and the parameters that decide it: onsets of samples drawn from the distributions of a case.
 //!
 //! ```no_run
 //! use frictionsim::case::Case;
@@ -21,4 +21,4 @@ mod summary;
 pub use plan::SamplePlan;
 pub use robust::{Design, curves};
 pub use samples::{BLOCK, Sampler, largest_friction};
-pub use summary::{indices, summarize, wilson};
+pub use summary::{indices, indices_with_intervals, summarize, wilson};

@@ -1,4 +1,4 @@
-//! How a run begins: at rest, from given fields, or where another one stopped.
+//! Start of a run: from rest, from given fields, or from where another one stopped.
 
 use super::{CentralDifference, Kick, TransientState};
 use crate::fem::operator::{

@@ -1,4 +1,4 @@
-//! What the contact does, summed over its nodes and over steps.
+//! Sums of contact forces and powers over nodes and steps.
 
 use serde::{Deserialize, Serialize};
 use std::ops::AddAssign;

@@ -1,4 +1,4 @@
-//! Whether a record that was read from a file holds together.
+//! Consistency checks of a record that was read from a file.
 
 use super::{ContactFrame, HARMONIC_COUNT, Recorder};
 

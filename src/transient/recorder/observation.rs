@@ -1,4 +1,4 @@
-//! What is kept of a sample.
+//! The part of a sample that is kept.
 
 use super::{ContactFrame, HARMONIC_COUNT, Recorder, SampleRow, Snapshot};
 use crate::transient::{Observer, Sample, Settling};

@@ -56,8 +56,8 @@ fn assert_reports(report: &str, parts: &[&str]) {
 fn the_disc_case_holds_the_model_of_the_paper() {
     let case = valid(DISC, &[]);
     let cea = case.require_cea().unwrap();
-    assert_eq!(case.annulus.element, ElementKind::Quad8);
-    assert_eq!(case.annulus.circumferential_elements, 150);
+    assert_eq!(case.body.grid().unwrap().element, ElementKind::Quad8);
+    assert_eq!(case.body.grid().unwrap().circumferential_elements, 150);
     assert_eq!(cea.friction_coefficients.len(), 51);
     assert!(cea.friction_coefficients.contains(&0.3));
     assert_eq!(cea.shapes_at, [0.3]);
@@ -171,9 +171,9 @@ fn overrides_change_exactly_their_key() {
         ],
     );
     assert_eq!(case.contact.sliding.friction_coefficient, 0.45);
-    assert_eq!(case.annulus.element, ElementKind::Quad4);
-    assert_eq!(case.annulus.radial_elements, 12);
-    assert_eq!(case.annulus.circumferential_elements, 150);
+    assert_eq!(case.body.grid().unwrap().element, ElementKind::Quad4);
+    assert_eq!(case.body.grid().unwrap().radial_elements, 12);
+    assert_eq!(case.body.grid().unwrap().circumferential_elements, 150);
     assert_eq!(case.cea.unwrap().friction_coefficients, [0.0, 0.3, 0.6]);
 }
 
@@ -472,7 +472,10 @@ fn maps_and_cycles_take_numeric_keys_only() {
     let case = valid(DISC, &[&map("contact.normal_stiffness")]);
     assert_eq!(case.cea.unwrap().map.unwrap().values, [1e12, 1e13]);
     for (key, part) in [
-        ("contact.friction_coefficient", "first parameter already"),
+        (
+            "contact.friction_coefficient",
+            "already the first parameter",
+        ),
         ("mesh.element", "not a numeric case key"),
         (
             "contact.normal_stifness",

@@ -1,7 +1,7 @@
 //! Consistency check: every command gives the keys, columns and numbers that version 0.1.0 gave, but for the listed
 //! changes, each with its reason.
 //!
-//! `frozen.json` was written by the 0.1.0 program: `GOLDEN_FREEZE=path/to/frictionsim cargo test --test golden`.
+//! `frozen.json` was written by the 0.1.0 program: `GOLDEN_FREEZE=path/to/frictionsim cargo test --test commands golden`.
 //! Numbers agree to 1e-12 of the largest of their column or list (onsets, whose search ends at a tolerance, to 1e-9).
 //! Keys and columns may be added, never lost. Kernels run without vector instructions, so that the machine does not matter.
 

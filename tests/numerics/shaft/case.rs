@@ -41,7 +41,7 @@ fn parse(from: &str, to: &str) -> Result<Case, String> {
 #[test]
 fn a_case_describes_disc_and_shaft() {
     let case = parse("", "").unwrap();
-    let shaft = case.annulus.shaft.unwrap();
+    let shaft = case.body.grid().unwrap().shaft.unwrap();
     assert_eq!((shaft.inner_radius, shaft.radial_elements), (0.006, 2));
     assert_eq!(case.materials().of(1).young_modulus, 2.1e11);
     assert_eq!(case.mesh().unwrap().regions, ["disc", "shaft"]);

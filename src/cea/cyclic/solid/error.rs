@@ -1,4 +1,4 @@
-//! What the reduction of a harmonic leaves out of an eigenvalue.
+//! Estimated error of the reduction of a harmonic.
 
 use super::reduction::Reduction;
 use super::rest::Pencil;

@@ -1,4 +1,4 @@
-//! How each eigenvalue of a body of revolution responds to the parameters of the model.
+//! Derivatives of the eigenvalues of a body of revolution by the parameters of the model.
 
 use super::SolidSweep;
 use crate::cea::cyclic::sensitivity::{PARAMETERS, Sensitivity, Wave};

@@ -1,0 +1,121 @@
+//! Size of a mesh, as the cost estimates need it.
+
+use crate::case::{Body, Case, Revolution};
+use crate::fem::ElasticMaterial;
+use crate::mesh::{AnnulusSpecification, Mesh};
+use std::f64::consts::TAU;
+
+/// Highest frequency of a quadratic element over that of a linear one of its size, about: its nodes lie half as far apart,
+/// and its lumped mass is uneven.
+const QUADRATIC: f64 = 2.5;
+
+/// Size of a mesh and of its contact.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Size {
+    /// Nodes.
+    pub nodes: u128,
+    /// Elements.
+    pub elements: u128,
+    /// Contact nodes.
+    pub contact_nodes: f64,
+    /// Highest frequency that the mesh can hold, rad/s.
+    pub highest_frequency: f64,
+}
+
+impl Size {
+    /// The size of the case's own mesh.
+    pub fn of(case: &Case) -> Self {
+        let body = &case.body;
+        let highest_frequency = match body {
+            Body::Annulus(annulus) => {
+                let grid = &annulus.specification;
+                let of_disc = grid_frequency(grid, &annulus.materials.annulus, 0.0);
+                let shaft = annulus.materials.shaft.map(|shaft| shaft.elastic);
+                of_disc.max(shaft_frequency(grid, shaft.as_ref()))
+            }
+            Body::Revolution(Revolution {
+                specification,
+                material,
+            }) => {
+                let through = specification.axial_elements as f64 / specification.thickness;
+                grid_frequency(&specification.annulus, material, through)
+            }
+            Body::Imported(imported) => {
+                let mesh = &imported.mesh;
+                let speed = |element: usize| {
+                    pressure_wave_speed(&imported.materials[mesh.region(element)].elastic)
+                };
+                let elements = 0..mesh.element_count();
+                let each = elements.map(|element| element_frequency(mesh, element, speed(element)));
+                each.fold(0.0, f64::max)
+            }
+        };
+        Self {
+            nodes: body.node_count(),
+            elements: body.element_count(),
+            contact_nodes: body.contact_node_count() as f64,
+            highest_frequency,
+        }
+    }
+
+    /// The size of a plane mesh whose elements are split to be `factor` times as fine.
+    pub fn refined(&self, factor: f64) -> Self {
+        let times = |count: u128, factor: f64| (count as f64 * factor) as u128;
+        Self {
+            nodes: times(self.nodes, factor * factor),
+            elements: times(self.elements, factor * factor),
+            contact_nodes: factor * self.contact_nodes,
+            highest_frequency: factor * self.highest_frequency,
+        }
+    }
+}
+
+/// `sqrt((lambda + 2 G) / rho)`, m/s.
+fn pressure_wave_speed(material: &ElasticMaterial) -> f64 {
+    let [lambda, shear] = material.lame_constants();
+    ((lambda + 2.0 * shear) / material.density).sqrt()
+}
+
+/// Highest frequency of a generated disc, rad/s, from the pressure-wave speed and the smallest element:
+/// `omega = 2 c_p sqrt(1 / h_r^2 + 1 / h_theta^2 + 1 / h_z^2)`, with `through = 1 / h_z`.
+fn grid_frequency(grid: &AnnulusSpecification, material: &ElasticMaterial, through: f64) -> f64 {
+    let count = grid.radial_elements as f64;
+    let width = grid.outer_radius - grid.inner_radius;
+    let log = grid.radial_grading.ln();
+    let first = if log == 0.0 {
+        width / count
+    } else {
+        width * log.exp_m1() / (count * log).exp_m1()
+    };
+    let last = first * ((count - 1.0) * log).exp();
+    let around = |radius: f64| TAU * radius / grid.circumferential_elements as f64;
+    let inner = (1.0 / first).hypot(1.0 / around(grid.inner_radius + 0.5 * first));
+    let outer = (1.0 / last).hypot(1.0 / around(grid.outer_radius - 0.5 * last));
+    2.0 * pressure_wave_speed(material) * inner.max(outer).hypot(through)
+}
+
+/// The same of the shaft in it; 0 where there is none.
+fn shaft_frequency(grid: &AnnulusSpecification, material: Option<&ElasticMaterial>) -> f64 {
+    grid.shaft.zip(material).map_or(0.0, |(shaft, material)| {
+        let width = grid.inner_radius - shaft.inner_radius;
+        let radial = shaft.radial_elements as f64 / width;
+        let radius = shaft.inner_radius + 0.5 / radial;
+        let around = grid.circumferential_elements as f64 / (TAU * radius);
+        2.0 * pressure_wave_speed(material) * radial.hypot(around)
+    })
+}
+
+/// The same of one element, whose sides are its longest one and its area over that.
+fn element_frequency(mesh: &Mesh, element: usize, speed: f64) -> f64 {
+    let kind = mesh.element_kind(element);
+    let corners = &mesh.element_nodes(element)[..kind.corner_count()];
+    let place = |corner: usize| mesh.plane_node(corners[corner % corners.len()] as usize);
+    let side = |corner: usize| {
+        let ([x, y], [to_x, to_y]) = (place(corner), place(corner + 1));
+        (to_x - x).hypot(to_y - y)
+    };
+    let long = (0..corners.len()).map(side).fold(0.0, f64::max);
+    let short = mesh.element_area(element) / long;
+    let order = if kind.is_quadratic() { QUADRATIC } else { 1.0 };
+    2.0 * order * speed * (1.0 / short).hypot(1.0 / long)
+}

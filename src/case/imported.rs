@@ -1,0 +1,316 @@
+//! Bodies from mesh files: `mesh.file`, `[materials.*]`, and where the counterface is.
+
+use super::boundaries::NamedCondition;
+use super::opposite::{check_meeting, opposite_curve};
+use super::raw::{MeshBytes, RawCase};
+use super::reader::Section;
+use super::shown::first_of;
+use super::suggestion;
+use super::words::CounterfaceWord;
+use crate::fem::{ElasticMaterial, RayleighDamping, RegionMaterial};
+use crate::mesh::{
+    BodyPart, BodySpecification, CounterfaceSpecification, GmshFile, Mesh, MeshFileError,
+    SolidContact,
+};
+use std::io::Read as _;
+use std::path::Path;
+use std::sync::Arc;
+
+/// Names that a message lists.
+const MOST_NAMES: usize = 10;
+/// Largest mesh file, bytes.
+const LARGEST_MESH: u64 = 4 << 30;
+
+/// A body that a mesh file describes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ImportedBody {
+    /// Its mesh with boundaries and what holds them.
+    pub mesh: Arc<Mesh>,
+    /// The material of each of its regions.
+    pub materials: Vec<RegionMaterial>,
+    /// What the mesh was made of, for its refinements.
+    source: Arc<(GmshFile, BodySpecification)>,
+}
+
+/// Where the counterface is, as `[contact]` says.
+pub(super) struct ContactPlace {
+    pub boundary: String,
+    pub counterface: CounterfaceSpecification,
+    /// Physical curve of the other body that it slides on.
+    pub opposite: Option<String>,
+    /// Speed of a plane, m/s.
+    pub plane_speed: Option<f64>,
+    /// Where a rotor touches a three-dimensional body.
+    pub solid: SolidContact,
+}
+
+/// Reads the keys of `[contact]` that only an imported body has.
+pub(super) fn contact_place(section: &Section<'_>) -> ContactPlace {
+    let pair = |key: &str, default: [f64; 2]| match section.numbers(key).as_deref() {
+        None => default,
+        Some(&[x, y]) => [x, y],
+        Some(_) => {
+            section.reject(
+                key,
+                format!("{} needs two numbers", section.name(key)),
+                "must be [x, y]".to_owned(),
+                None,
+            );
+            default
+        }
+    };
+    let boundary = section
+        .optional_text("boundary")
+        .unwrap_or_else(|| "inner".to_owned());
+    let (center, radius) = (pair("center", [0.0; 2]), section.optional_number("radius"));
+    let direction = pair("direction", [1.0, 0.0]);
+    let speed = section.optional_number("speed");
+    let word: CounterfaceWord = section.choice("counterface");
+    let opposite = opposite_curve(section, word);
+    let (counterface, plane_speed) = match word {
+        CounterfaceWord::Body if speed.is_some() => {
+            let along = section.has("direction").then_some(direction);
+            let plane = CounterfaceSpecification::Plane { direction: along };
+            (plane, speed)
+        }
+        CounterfaceWord::Cylinder | CounterfaceWord::Body => {
+            (CounterfaceSpecification::Cylinder { center, radius }, None)
+        }
+        CounterfaceWord::Plane => {
+            if direction == [0.0; 2] {
+                section.reject(
+                    "direction",
+                    "contact.direction = [0, 0] has no direction".to_owned(),
+                    "must not be zero".to_owned(),
+                    None,
+                );
+            }
+            let plane = CounterfaceSpecification::Plane {
+                direction: Some(direction),
+            };
+            (
+                plane,
+                Some(speed.unwrap_or_else(|| section.number("speed"))),
+            )
+        }
+    };
+    let is_plane = plane_speed.is_some();
+    let idle: &[&str] = if is_plane {
+        &["center", "radius", "rotation_speed_rpm"]
+    } else {
+        &["direction", "speed"]
+    };
+    for key in idle.iter().filter(|key| section.has(key)) {
+        section.warn(
+            key,
+            format!(
+                "{} is not used: the counterface is a {}",
+                section.name(key),
+                if is_plane { "plane" } else { "cylinder" }
+            ),
+            "no effect",
+        );
+    }
+    ContactPlace {
+        solid: SolidContact::Inner,
+        boundary,
+        counterface,
+        opposite,
+        plane_speed,
+    }
+}
+
+/// `[materials.*]`: elasticity in place of the common one, and damping of its own.
+pub(super) fn materials(
+    root: &Section<'_>,
+    common: &ElasticMaterial,
+) -> Vec<(String, RegionMaterial)> {
+    let all = root.section("materials", false);
+    let names: Vec<&str> = all.remaining().into_iter().map(|(name, _)| name).collect();
+    let read = names.into_iter().map(|name| {
+        let section = all.section(name, false);
+        let coefficients = [
+            section.optional_number("mass_coefficient"),
+            section.optional_number("stiffness_coefficient"),
+        ];
+        let elastic = ElasticMaterial {
+            young_modulus: section.number("young_modulus"),
+            poisson_ratio: section.number("poisson_ratio"),
+            density: section.number("density"),
+            formulation: common.formulation,
+        };
+        let damping = match coefficients {
+            [None, None] => None,
+            [mass, stiffness] => Some(RayleighDamping {
+                mass_coefficient: mass.unwrap_or(0.0),
+                stiffness_coefficient: stiffness.unwrap_or(0.0),
+            }),
+        };
+        section.close();
+        (name.to_owned(), RegionMaterial { elastic, damping })
+    });
+    let read = read.collect();
+    all.close();
+    read
+}
+
+/// Everything that makes a body of a mesh file but the file.
+pub(super) struct BodyParts {
+    pub scale: f64,
+    pub place: ContactPlace,
+    /// How far the bodies are pushed into each other, m.
+    pub interference: f64,
+    pub boundaries: Vec<NamedCondition>,
+    pub materials: Vec<(String, RegionMaterial)>,
+    pub common: ElasticMaterial,
+}
+
+/// The mesh file that `mesh.file` names, relative to the case; read once. An error is a message and a label.
+pub(super) fn mesh_bytes(raw: &RawCase, file: &str) -> Result<MeshBytes, (String, String)> {
+    if let Some(known) = raw.mesh.as_ref().filter(|known| known.file == file) {
+        return Ok(known.clone());
+    }
+    let folder = Path::new(&raw.name).parent().unwrap_or(Path::new(""));
+    let path = folder.join(file);
+    let unreadable = |reason: &dyn std::fmt::Display| {
+        let message = format!("cannot read the mesh file {}: {reason}", path.display());
+        (message, "not readable".to_owned())
+    };
+    let mut bytes = Vec::new();
+    let file_size = std::fs::File::open(&path)
+        .and_then(|source| source.take(LARGEST_MESH + 1).read_to_end(&mut bytes))
+        .map_err(|error| unreadable(&error))?;
+    if file_size as u64 > LARGEST_MESH {
+        let reason = format!("it is larger than {} MiB", LARGEST_MESH >> 20);
+        return Err(unreadable(&reason));
+    }
+    Ok(MeshBytes {
+        file: file.to_owned(),
+        bytes: bytes.into(),
+    })
+}
+
+/// Why a mesh file does not describe the body, and the key of the case to blame.
+pub(super) struct ImportError {
+    pub key: String,
+    pub message: String,
+    pub label: String,
+    pub help: Option<String>,
+}
+
+impl ImportError {
+    fn new(key: &str, message: String, label: &str) -> Self {
+        Self {
+            key: key.to_owned(),
+            message,
+            label: label.to_owned(),
+            help: suggestion::usage(key),
+        }
+    }
+
+    /// An error of the mesh file `file`, at the key that asked for what the mesh does not have.
+    fn of(error: MeshFileError, file: &str) -> Self {
+        let message = format!("{file}: {error}");
+        let MeshFileError::Request { part, .. } = error else {
+            return Self::new("mesh.file", message, "cannot be used");
+        };
+        let (key, label) = match part {
+            BodyPart::Contact => ("contact.boundary".to_owned(), "the contact curve"),
+            BodyPart::Opposite => (
+                "contact.counter_boundary".to_owned(),
+                "the curve of the other body",
+            ),
+            BodyPart::Boundary(name) => (format!("boundaries.{name}"), "a boundary of the mesh"),
+            BodyPart::Direction => ("contact.direction".to_owned(), "must lie along the face"),
+            BodyPart::Center => ("contact.center".to_owned(), "not the centre of the curve"),
+            BodyPart::Material(name) => (format!("materials.{name}"), "no such surface"),
+            BodyPart::Scale => ("mesh.scale".to_owned(), "metres?"),
+        };
+        Self::new(&key, message, label)
+    }
+}
+
+/// The body that a mesh file describes.
+pub(super) fn import(mesh: &MeshBytes, parts: &BodyParts) -> Result<ImportedBody, ImportError> {
+    let shown = &mesh.file;
+    let unusable = |error: MeshFileError| ImportError::of(error, shown);
+    let read = GmshFile::read(&mesh.bytes).map_err(unusable)?;
+    let specification = BodySpecification {
+        scale: parts.scale,
+        contact: parts.place.boundary.clone(),
+        counterface: parts.place.counterface,
+        opposite: parts.place.opposite.clone(),
+        conditions: parts.boundaries.clone(),
+    };
+    let mesh = Mesh::from_gmsh(&read, &specification).map_err(unusable)?;
+    check_meeting(&mesh, &specification, parts.interference).map_err(|message| {
+        ImportError::new(
+            "contact.counter_boundary",
+            message,
+            "the bodies do not meet",
+        )
+    })?;
+    let unknown = parts.materials.iter().map(|(name, _)| name);
+    if let Some(name) = unknown
+        .into_iter()
+        .find(|&name| !mesh.regions.contains(name))
+    {
+        let known = mesh.regions.iter().map(String::as_str);
+        let hint = suggestion::nearest(name, known)
+            .map_or_else(String::new, |near| format!("; did you mean \"{near}\"?"));
+        let regions = mesh.regions.iter().map(|region| format!("\"{region}\""));
+        let message = format!(
+            "no physical surface is called \"{name}\"; the file has {}{hint}",
+            first_of(regions, MOST_NAMES)
+        );
+        let part = BodyPart::Material(name.clone());
+        return Err(unusable(MeshFileError::Request { part, message }));
+    }
+    let material = |region: &String| {
+        let own = parts.materials.iter().find(|(name, _)| name == region);
+        own.map_or(
+            RegionMaterial {
+                elastic: parts.common,
+                damping: None,
+            },
+            |(_, material)| *material,
+        )
+    };
+    Ok(ImportedBody {
+        materials: mesh.regions.iter().map(material).collect(),
+        mesh: Arc::new(mesh),
+        source: Arc::new((read, specification)),
+    })
+}
+
+impl ImportedBody {
+    /// The same body with every element split into four, `times` over.
+    ///
+    /// # Errors
+    /// A mesh that would be too large, or that folds where it is refined.
+    pub fn refined(&self, times: u32) -> Result<Self, MeshFileError> {
+        if times == 0 {
+            return Ok(self.clone());
+        }
+        let (file, specification) = &*self.source;
+        let mut fine = file.refined()?;
+        for _ in 1..times {
+            fine = fine.refined()?;
+        }
+        Ok(Self {
+            mesh: Arc::new(Mesh::from_gmsh(&fine, specification)?),
+            materials: self.materials.clone(),
+            source: Arc::new((fine, specification.clone())),
+        })
+    }
+
+    /// Half the largest extent of the body, m.
+    pub fn size(&self) -> f64 {
+        let extent = |axis: usize| {
+            let coordinates = || self.mesh.nodes.iter().map(|point| point[axis]);
+            coordinates().fold(f64::NEG_INFINITY, f64::max)
+                - coordinates().fold(f64::INFINITY, f64::min)
+        };
+        0.5 * extent(0).max(extent(1))
+    }
+}

@@ -1,0 +1,134 @@
+//! Steady sliding, reported beside the modes of an eigenvalue analysis.
+
+use super::StudyError;
+use super::model::Model;
+use super::solid::SolidBody;
+use crate::case::{Case, Cea};
+use crate::fem::nodal_stress;
+use crate::mesh::{AnnulusMesh, Counterface, Mesh, SectorMesh};
+use crate::prestress::{SectorTangent, SteadySliding};
+use crate::results::cea::{BaseField, BaseState};
+use crate::study::extent_of;
+use std::sync::Arc;
+
+/// Steady sliding at the case's own friction coefficient.
+pub enum SteadyState {
+    /// Of a plane body.
+    Plane(SteadySliding),
+    /// Of a body of revolution in three dimensions.
+    Solid(Box<SolidBody>),
+}
+
+/// A model with its mesh and its steady sliding.
+pub struct SlidingModel {
+    /// The mesh, of a body in three dimensions that of its section across the axis.
+    pub mesh: Arc<Mesh>,
+    /// What the solver takes.
+    pub model: Model,
+    /// Its base state.
+    pub state: SteadyState,
+}
+
+impl SlidingModel {
+    /// Builds the model of a case up to its base states.
+    ///
+    /// # Errors
+    /// A mesh that cannot be built; contact that would open on an annulus; no state of sliding; a method that needs a
+    /// symmetry which is not there.
+    pub fn new(case: &Case, cea: &Cea) -> Result<Self, StudyError> {
+        let model = Model::new(case, cea)?;
+        let sliding = &case.contact.sliding;
+        let (mesh, state) = match &model {
+            Model::SolidSectors(revolution) => {
+                let solid = SolidBody::new(case, &revolution.specification)?;
+                let mesh = Arc::new(AnnulusMesh::generate(&solid.plane)?.mesh);
+                (mesh, SteadyState::Solid(Box::new(solid)))
+            }
+            Model::Whole(whole) => {
+                let state = SteadyState::Plane(whole.base().clone());
+                (Arc::clone(&whole.mesh), state)
+            }
+            Model::Sectors(annulus, options) => {
+                let mesh = AnnulusMesh::generate(&annulus.specification)?;
+                let sector = SectorMesh::generate(&annulus.specification)?;
+                let materials = &annulus.materials;
+                let tangent = SectorTangent::linearize(&sector, materials, options, sliding)?;
+                let base = SteadySliding::from_sector(&mesh, &sector, tangent.base(), sliding);
+                (Arc::new(mesh.mesh), SteadyState::Plane(base))
+            }
+        };
+        Ok(Self { mesh, model, state })
+    }
+
+    /// The body in three dimensions and its base state, if it is one.
+    pub fn solid(&self) -> Option<&SolidBody> {
+        match &self.state {
+            SteadyState::Solid(solid) => Some(solid),
+            SteadyState::Plane(_) => None,
+        }
+    }
+
+    /// Friction coefficients at which contact nodes open or close, rising.
+    pub fn contact_changes(&self) -> &[f64] {
+        match &self.model {
+            Model::Whole(whole) => &whole.range.changes,
+            Model::Sectors(..) | Model::SolidSectors(_) => &[],
+        }
+    }
+
+    /// What the report says of the base state, scaled to the case's thickness.
+    pub fn base_state(&self, case: &Case) -> BaseState {
+        let base = match &self.state {
+            SteadyState::Solid(solid) => return solid.base_state(case),
+            SteadyState::Plane(base) => base,
+        };
+        let friction = case.contact.sliding.friction_coefficient;
+        let pressures = base.pressures(friction);
+        let smallest = pressures.iter().copied().fold(f64::INFINITY, f64::min);
+        let largest = pressures.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let traction = base.friction.drag * friction;
+        let torque = case.thickness * base.torque(friction);
+        let shear = [traction * smallest, traction * largest];
+        let open = base
+            .is_pressed
+            .iter()
+            .filter(|is_pressed| !**is_pressed)
+            .count();
+        let is_plane = matches!(self.mesh.counterface, Counterface::Plane { .. });
+        BaseState {
+            friction_coefficient: friction,
+            slipping: pressures.len() - open,
+            sticking: 0,
+            open,
+            pressure_pa: [smallest, largest],
+            shear_pa: [shear[0].min(shear[1]), shear[0].max(shear[1])],
+            torque_n_m: (!is_plane).then_some(torque),
+            drag_n: is_plane.then_some(torque),
+            power_w: torque * case.contact.sliding.rotation_speed,
+            extent: extent_of(case),
+        }
+    }
+
+    /// The base state node by node.
+    pub fn base_field(&self, case: &Case) -> BaseField {
+        let SteadyState::Plane(base) = &self.state else {
+            return BaseField::default();
+        };
+        let friction = case.contact.sliding.friction_coefficient;
+        let displacement = base.displacement(friction);
+        let pressures = base.pressures(friction);
+        let traction = base.friction.drag * friction;
+        BaseField {
+            nodes: base.interface.nodes.clone(),
+            angles: base.interface.angles.clone(),
+            shears: pressures
+                .iter()
+                .map(|pressure| traction * pressure)
+                .collect(),
+            pressures,
+            is_pressed: (!case.has_sectors()).then(|| base.is_pressed.clone()),
+            stress: nodal_stress(&self.mesh, case.materials(), &displacement),
+            displacement,
+        }
+    }
+}

@@ -1,0 +1,339 @@
+//! Studies of imported bodies solve those bodies.
+//!
+//! A consistency check against the generated disc of the same mesh, and against the eigenvalue analysis of a body without
+//! symmetry: its hub is round, its outer edge an oval about another centre.
+
+use crate::disc::annulus;
+use crate::msh::{FORMS, write_msh};
+use frictionsim::case::Case;
+use frictionsim::mesh::{AnnulusMesh, ElementKind};
+use frictionsim::study::eigenvalues::{map, modes_and_onsets, modes_at_own_friction};
+use frictionsim::study::fit::{MeasuredMode, fit_case, refuse_too_few};
+use frictionsim::study::tangent_options;
+use frictionsim::study::uncertainty::{Sampler, summarize};
+use std::fs;
+use tempfile::TempDir;
+
+const MODEL: &str = "[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.3805\ndensity = 1228.0\n\
+    [damping]\nmass_coefficient = 40.0\nstiffness_coefficient = 4.5e-7\n\
+    [contact]\nfriction_coefficient = 0.3\ninterference = 25e-6\nrotation_speed_rpm = 610.0\n";
+const STUDIES: &str = "[cea]\nmodes = 6\nfriction_coefficients = [0.0, 0.5]\ngeometric_stiffness = false\n\
+    [cea.map]\nkey = \"material.density\"\nvalues = [1000.0, 1600.0]\n\
+    [uncertainty]\nsamples = 2\nindex_samples = 0\n\
+    [uncertainty.distributions]\n\"material.young_modulus\" = { uniform = [2.4e9, 2.6e9] }\n\
+    [fit]\nstarts = 1\n[fit.parameters]\n\"material.density\" = [800.0, 2000.0]\n";
+const GENERATED: &str = "[geometry]\ninner_radius = 0.0205\nouter_radius = 0.0905\n\
+    [mesh]\ncircumferential_elements = 18\nradial_elements = 3\n";
+
+/// A folder with the meshes of the disc and of the oval.
+fn folder() -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let mesh = AnnulusMesh::generate(&annulus(ElementKind::Quad4, 18, 3))
+        .unwrap()
+        .mesh;
+    let numbers: Vec<usize> = (1..=mesh.node_count()).collect();
+    let oval = |[x, y]: [f64; 2]| {
+        let outwards = (x.hypot(y) - 0.0205) / 0.07;
+        [
+            x * (1.0 + 0.3 * outwards) + 0.006 * outwards,
+            y * (1.0 - 0.1 * outwards),
+        ]
+    };
+    let disc = write_msh(&mesh, FORMS[2], &numbers, |point| point);
+    fs::write(folder.path().join("disc.msh"), disc).unwrap();
+    let oval = write_msh(&mesh, FORMS[2], &numbers, oval);
+    fs::write(folder.path().join("oval.msh"), oval).unwrap();
+    folder
+}
+
+fn read(folder: &TempDir, mesh: &str, set: &[&str]) -> Result<Case, String> {
+    let name = folder.path().join("case.toml").display().to_string();
+    let text = match mesh {
+        "" => format!("{GENERATED}{MODEL}{STUDIES}"),
+        file => format!(
+            "[mesh]\nfile = \"{file}\"\n[boundaries.outer]\ncondition = \"clamped\"\n{MODEL}{STUDIES}"
+        ),
+    };
+    let set: Vec<String> = set.iter().map(|text| (*text).to_owned()).collect();
+    Case::parse(&name, text.as_bytes(), &set).map_err(|errors| errors.to_string())
+}
+
+fn case(folder: &TempDir, mesh: &str, set: &[&str]) -> Case {
+    read(folder, mesh, set).unwrap()
+}
+
+/// Critical friction and frequency of every onset that the eigenvalue analysis of a case has.
+fn onsets(case: &Case) -> Vec<[f64; 2]> {
+    let found = modes_and_onsets(case).unwrap().intervals;
+    let onsets = found.iter();
+    onsets
+        .map(|i| [i.critical_friction, i.frequency_hz])
+        .collect()
+}
+
+fn line(number: usize, frequency_hz: f64) -> MeasuredMode {
+    MeasuredMode {
+        line: number,
+        frequency_hz,
+        real_hz: None,
+        harmonic: None,
+        sigma_hz: None,
+        is_unstable: false,
+    }
+}
+
+fn assert_same(found: &[[f64; 2]], expected: &[[f64; 2]], tolerance: f64) {
+    assert_eq!(found.len(), expected.len(), "{found:?} {expected:?}");
+    for (a, b) in found.iter().flatten().zip(expected.iter().flatten()) {
+        assert!((a / b - 1.0).abs() < tolerance, "{found:?} {expected:?}");
+    }
+}
+
+/// Onsets are located to 1e-8 by either solver.
+#[test]
+fn the_map_of_a_body_without_symmetry_has_the_onsets_of_its_eigenvalue_analysis() {
+    let folder = folder();
+    let body = case(&folder, "oval.msh", &[]);
+    let cea = body.cea.clone().unwrap();
+    let found = map(&body, &cea, cea.map.as_ref().unwrap()).unwrap();
+    let mut seen = 0;
+    for point in &found.points {
+        let set = format!("material.density={}", point.value);
+        let expected = onsets(&case(&folder, "oval.msh", &[&set]));
+        let outcome = point.outcome.as_ref().unwrap().iter();
+        let own: Vec<[f64; 2]> = outcome
+            .map(|i| [i.critical_friction, i.frequency_hz])
+            .collect();
+        assert_same(&own, &expected, 1e-6);
+        seen += own.len();
+    }
+    assert!(seen > 0, "no onset to compare");
+    let mut table = Vec::new();
+    found.write(&mut table).unwrap();
+    let table = String::from_utf8(table).unwrap();
+    assert!(table.starts_with("material.density,harmonic,"), "{table}");
+    // A body without symmetry has no harmonics.
+    let mut rows = table.lines().skip(1).map(|row| row.split(',').nth(1));
+    assert!(rows.all(|harmonic| harmonic == Some("")), "{table}");
+}
+
+#[test]
+fn imported_disc_has_the_map_of_the_generated_one() {
+    let folder = folder();
+    let of = |mesh: &str| {
+        let case = case(&folder, mesh, &[]);
+        let cea = case.cea.clone().unwrap();
+        let found = map(&case, &cea, cea.map.as_ref().unwrap()).unwrap().points;
+        let lowest = found.iter().map(|point| {
+            let onset = point.lowest_onset().expect("an onset");
+            [onset.critical_friction, onset.frequency_hz]
+        });
+        lowest.collect::<Vec<_>>()
+    };
+    assert_same(&of("disc.msh"), &of(""), 1e-6);
+}
+
+/// The case's own friction coefficient, 0.3, lies above the onset; it used to be given in its place.
+#[test]
+fn uncertainty_finds_the_lowest_critical_friction_of_an_imported_body() {
+    let folder = folder();
+    for mesh in ["disc.msh", "oval.msh"] {
+        let body = case(&folder, mesh, &[]);
+        let samples = Sampler::new(&body).unwrap().block(1);
+        for sample in &samples {
+            assert_eq!(sample.error, None);
+            let set = format!("material.young_modulus={:?}", sample.values[0]);
+            let expected = onsets(&case(&folder, mesh, &[&set]));
+            let own = sample.onsets.iter();
+            let own: Vec<[f64; 2]> = own
+                .map(|onset| [onset.critical_friction, onset.frequency_hz])
+                .collect();
+            assert_same(&own, &expected, 1e-6);
+            assert!(own[0][0] < 0.3, "{own:?}");
+            assert!(sample.onsets.iter().all(|onset| onset.harmonic.is_none()));
+        }
+        let summary = summarize(&body, &samples);
+        let median = summary.critical_friction.median.unwrap();
+        assert!(median < 0.29, "{median}");
+        assert!(!summary.text().contains("n ="), "{}", summary.text());
+    }
+}
+
+#[test]
+fn imported_disc_has_the_critical_friction_of_the_generated_one() {
+    let folder = folder();
+    let lowest = |mesh: &str| {
+        let case = case(&folder, mesh, &[]);
+        let samples = Sampler::new(&case).unwrap().block(1);
+        let lowest = samples.iter().map(|sample| {
+            let onset = sample.lowest(0.5).expect("an onset");
+            [onset.critical_friction, onset.frequency_hz]
+        });
+        lowest.collect::<Vec<_>>()
+    };
+    assert_same(&lowest("disc.msh"), &lowest(""), 1e-6);
+}
+
+/// The modes of the body at a density are fitted back to it.
+#[test]
+fn a_fit_of_an_imported_body_is_of_that_body() {
+    let folder = folder();
+    let truth = case(&folder, "oval.msh", &["material.density=1500"]);
+    let options = tangent_options(&truth, frictionsim::fem::MassKind::Consistent);
+    let limit = frictionsim::cea::ModeLimit::Lowest(3);
+    let modes = modes_at_own_friction(&truth, &options, limit).unwrap();
+    let lines: Vec<MeasuredMode> = modes
+        .iter()
+        .enumerate()
+        .map(|(index, mode)| line(index + 2, mode.frequency_hz()))
+        .collect();
+    let fitted = fit_case(&case(&folder, "oval.msh", &[]), &lines).unwrap();
+    let found = fitted.parameters[0].value;
+    assert!((found / 1500.0 - 1.0).abs() < 1e-6, "{found}");
+}
+
+#[test]
+fn no_study_solves_an_imported_body_by_sectors() {
+    let folder = folder();
+    let body = case(&folder, "oval.msh", &["cea.method=cyclic"]);
+    let cea = body.cea.clone().unwrap();
+    let refusal = |text: String| {
+        assert!(
+            text.contains("needs the symmetry of the built-in annulus"),
+            "{text}"
+        );
+    };
+    let found = map(&body, &cea, cea.map.as_ref().unwrap());
+    refusal(found.unwrap_err().messages().join("; "));
+    refusal(modes_and_onsets(&body).unwrap_err().messages().join("; "));
+    let sampler = Sampler::new(&body).map(|_| ());
+    refusal(sampler.unwrap_err().messages().join("; "));
+    refusal(
+        fit_case(&body, &[line(2, 1e4)])
+            .unwrap_err()
+            .messages()
+            .join("; "),
+    );
+}
+
+#[test]
+fn rotating_waves_are_sought_in_no_imported_body() {
+    let folder = folder();
+    let set = [
+        "basin={ harmonics = [1, 2] }",
+        "cycle={ harmonics = [1] }",
+        "transient={ duration = 1e-4, initial = \"limit-cycle\", limit_cycle_harmonic = 1 }",
+    ];
+    let body = case(&folder, "disc.msh", &set);
+    let errors = [
+        body.require_basin().unwrap_err(),
+        body.require_cycle().unwrap_err(),
+        body.require_transient().unwrap_err(),
+    ];
+    for error in errors {
+        let text = error.to_string();
+        assert!(
+            text.contains("rotational symmetry of the built-in annulus"),
+            "{text}"
+        );
+    }
+}
+
+/// Warnings and limits compare an imported body with its own size, and name keys that the case has.
+#[test]
+fn warnings_name_no_radius_that_an_imported_body_does_not_have() {
+    let folder = folder();
+    let body = case(&folder, "oval.msh", &["contact.interference=0.02"]);
+    let said: Vec<String> = body.warnings.iter().map(ToString::to_string).collect();
+    assert!(
+        said.iter()
+            .any(|text| text.contains("contact.interference")),
+        "{said:?}"
+    );
+    let large = case(
+        &folder,
+        "oval.msh",
+        &["mesh.scale=1000", "contact.interference=0.1"],
+    );
+    let wide: Vec<String> = large.warnings.iter().map(ToString::to_string).collect();
+    assert!(wide.iter().any(|text| text.contains("m wide")), "{wide:?}");
+    for text in said.iter().chain(&wide) {
+        assert!(!text.contains("geometry.inner_radius"), "{text}");
+        assert!(!text.contains("geometry.outer_radius"), "{text}");
+    }
+}
+
+/// On a cylinder outside the body, and on a plane, the slip speed is not that of a cylinder within.
+#[test]
+fn relative_seeds_of_an_imported_body_are_shares_of_its_own_slip_speed() {
+    let folder = folder();
+    let set = [
+        "transient={ duration = 1e-4, perturbation = { harmonics = [1], velocity = 0.5, relative = true } }",
+        "contact.boundary=outer",
+        "boundaries={ inner = { condition = \"clamped\" } }",
+    ];
+    let body = case(&folder, "disc.msh", &set);
+    let perturbation = &body.transient.as_ref().unwrap().perturbation;
+    let expected = 0.5 * body.contact.sliding.rotation_speed * 0.0905;
+    let found = perturbation.waves[0].velocity;
+    assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
+}
+
+#[test]
+fn keys_that_have_no_effect_beside_a_mesh_file_are_said() {
+    let folder = folder();
+    let set = [
+        "mesh.circumferential_elements=10",
+        "geometry.inner_radius=0.02",
+    ];
+    let body = case(&folder, "disc.msh", &set);
+    let said: Vec<String> = body.warnings.iter().map(ToString::to_string).collect();
+    for key in ["mesh.circumferential_elements", "geometry.inner_radius"] {
+        let expected = format!("{key} is not used: mesh.file describes the body");
+        assert!(said.iter().any(|text| text.contains(&expected)), "{said:?}");
+    }
+}
+
+/// A contact at rest sticks: no study takes it for one that slides.
+#[test]
+fn no_study_takes_a_contact_at_rest_for_one_that_slides() {
+    let folder = folder();
+    for mesh in ["", "disc.msh"] {
+        let still = case(&folder, mesh, &["contact.rotation_speed_rpm=0"]);
+        let text = modes_and_onsets(&still).unwrap_err().messages().join("; ");
+        assert!(text.contains("the contact sticks at rest"), "{text}");
+        let error = Sampler::new(&still).map(|_| ()).unwrap_err();
+        let text = error.messages().join("; ");
+        assert!(text.contains("the contact sticks at rest"), "{text}");
+    }
+}
+
+/// A check solves no base state: it says what it knows at once.
+#[test]
+fn a_check_of_an_imported_body_estimates_its_own_size() {
+    let folder = folder();
+    let [disc, body] = ["", "disc.msh"].map(|mesh| case(&folder, mesh, &[]).cost());
+    assert_eq!(body.nodes, disc.nodes);
+    assert_eq!(body.elements, disc.elements);
+    assert_eq!(body.dofs, disc.dofs);
+    // The whole mesh costs more than its harmonics.
+    let [cyclic, sparse] = [disc, body].map(|cost| cost.cea.unwrap().seconds);
+    assert!(sparse > 3.0 * cyclic, "{sparse} {cyclic}");
+    let forced = case(&folder, "", &["cea.method=sparse"]).cost();
+    assert_eq!(forced.cea.unwrap().seconds, sparse);
+}
+
+#[test]
+fn a_table_of_more_modes_than_anybody_measures_is_refused_at_once() {
+    let folder = folder();
+    let body = case(&folder, "disc.msh", &[]);
+    let many: Vec<MeasuredMode> = (0..20_000).map(|k| line(k + 2, 1e3 + k as f64)).collect();
+    let text = refuse_too_few(&body, &many).unwrap_err().to_string();
+    assert!(text.contains("20000 lines, at most 1000"), "{text}");
+    let text = refuse_too_few(&body, &[line(2, 1e-320)]).unwrap_err();
+    assert!(
+        text.to_string().contains("no frequency of a mode"),
+        "{text}"
+    );
+    assert!(text.is_usage());
+}
