@@ -10,7 +10,8 @@ use frictionsim::cea::sparse::sweep;
 use frictionsim::cea::{FrictionSweep, ModeLimit, SweepRequest};
 use frictionsim::linalg::{MatrixPolynomial, factorize_on_one_thread};
 use frictionsim::prestress::SlidingTangent;
-use frictionsim::study::eigenvalues::{SlidingModel, mode_limit};
+use frictionsim::study::eigenvalues::{WholeMesh, mode_limit};
+use frictionsim::study::tangent_options;
 use std::fmt::Write;
 use std::path::Path;
 
@@ -24,12 +25,12 @@ fn main() {
         return println!("run benches/against_slepc.py");
     };
     factorize_on_one_thread();
-    let overrides = [overrides, &["cea.method=\"sparse\"".to_owned()]].concat();
     let bytes = std::fs::read(file).expect("a case file");
-    let case = Case::parse(file, &bytes, &overrides).expect("a valid case");
+    let case = Case::parse(file, &bytes, overrides).expect("a valid case");
     let cea = case.require_cea().expect("a section [cea]").clone();
-    let model = SlidingModel::new(&case, &cea).expect("steady sliding");
     let frictions = cea.solved_friction_coefficients();
+    let options = tangent_options(&case, cea.mass);
+    let model = WholeMesh::solve(&case, options, &frictions).expect("steady sliding");
     let (mut seconds, mut residual, mut count, mut unknowns) = (0.0, 0.0_f64, 0, 0);
     for (k, state) in model.range.states.iter().enumerate() {
         let own = frictions.iter().zip(&model.range.state_of);

@@ -91,10 +91,10 @@ impl<'a> BasisBuilder<'a> {
     }
 
     /// Refines at `values` (friction coefficients, ascending) in a spread-out order until corrections
-    /// vanish.
+    /// vanish; of the quadratic problem, takes up the modes at the ends and in the middle.
     ///
     /// # Errors
-    /// If a dense decomposition fails.
+    /// If a dense decomposition or an iteration fails.
     pub fn cover(&mut self, values: &[f64]) -> Result<(), CeaError> {
         if let Linearization::Companion { .. } = self.linearization {
             for mu in [values[values.len() - 1], values[0], values[values.len() / 2]] {
