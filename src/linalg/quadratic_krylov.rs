@@ -212,7 +212,8 @@ impl<'a> TwoLevelArnoldi<'a> {
             rows.map(|row| overflow(j, row).powi(2)).sum()
         };
         let residual = |&j: &usize| {
-            let length = eigen.right.col(j).squared_norm_l2() + eigen.right.col(j + 1).squared_norm_l2();
+            let length =
+                eigen.right.col(j).squared_norm_l2() + eigen.right.col(j + 1).squared_norm_l2();
             ((square(j) + square(j + 1)) / length).sqrt() / eigen.values[j].norm()
         };
         columns.iter().map(residual).collect()
@@ -257,7 +258,9 @@ mod tests {
         let (r, s) = (random_columns(size, size, 3), random_columns(size, size, 4));
         let inertia = |i: usize, j: usize| -f64::from(i == j) / ((1 + i) as f64).powi(2);
         Dense([
-            Mat::from_fn(size, size, |i, j| -2e-3 * r[(i, j)] / ((1 + i) * (1 + j)) as f64),
+            Mat::from_fn(size, size, |i, j| {
+                -2e-3 * r[(i, j)] / ((1 + i) * (1 + j)) as f64
+            }),
             Mat::from_fn(size, size, |i, j| {
                 inertia(i, j) + 1e-2 * s[(i, j)] / ((1 + i) * (1 + j)) as f64
             }),

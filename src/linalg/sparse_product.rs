@@ -54,11 +54,7 @@ impl SparsityPattern {
 
     /// `A x + B y` for each pair of columns, with `A` and `B` given by their nonzero values; for few columns, of which
     /// [`Self::multiply`] would interleave empty ones.
-    pub fn multiply_sum(
-        &self,
-        [a, b]: [&[f64]; 2],
-        [x, y]: [MatRef<'_, f64>; 2],
-    ) -> Mat<f64> {
+    pub fn multiply_sum(&self, [a, b]: [&[f64]; 2], [x, y]: [MatRef<'_, f64>; 2]) -> Mat<f64> {
         let n = self.dimension();
         let mut sum = Mat::zeros(n, x.ncols());
         for j in 0..x.ncols() {
@@ -155,7 +151,9 @@ mod tests {
         let y = p.pattern().multiply(&values, x.as_ref());
         assert!((y - product(a.as_ref(), x.as_ref())).norm_max() < 1e-14);
         let halves: Vec<f64> = values.iter().map(|v| 0.5 * v).collect();
-        let sum = p.pattern().multiply_sum([&halves, &halves], [x.as_ref(), x.as_ref()]);
+        let sum = p
+            .pattern()
+            .multiply_sum([&halves, &halves], [x.as_ref(), x.as_ref()]);
         assert!((sum - product(a.as_ref(), x.as_ref())).norm_max() < 1e-14);
         let yt = p.pattern().multiply_transpose(&values, x.as_ref());
         assert!((yt - product(a.transpose(), x.as_ref())).norm_max() < 1e-14);

@@ -299,7 +299,11 @@ fn sweep_with_general_damping_agrees_with_krylov_schur_at_every_friction() {
         assert_eq!(point.modes.len(), 8);
         for (mode, exact) in point.modes.iter().zip(&exact) {
             let error = (mode.eigenvalue - exact).norm() / exact.norm();
-            assert!(error < 1e-9, "{mu}: {} {exact} {error:.1e}", mode.eigenvalue);
+            assert!(
+                error < 1e-9,
+                "{mu}: {} {exact} {error:.1e}",
+                mode.eigenvalue
+            );
             assert!(mode.residual < 1e-9);
         }
     }

@@ -97,7 +97,11 @@ impl<'a> BasisBuilder<'a> {
     /// If a dense decomposition or an iteration fails.
     pub fn cover(&mut self, values: &[f64]) -> Result<(), CeaError> {
         if let Linearization::Companion { .. } = self.linearization {
-            for mu in [values[values.len() - 1], values[0], values[values.len() / 2]] {
+            for mu in [
+                values[values.len() - 1],
+                values[0],
+                values[values.len() / 2],
+            ] {
                 self.improve_at(mu)?;
             }
             return Ok(());
@@ -259,7 +263,8 @@ impl<'a> BasisBuilder<'a> {
         let unknowns = self.tangent.stiffness.dimension();
         let wanted = (self.count + extra).min(unknowns);
         if let Linearization::Companion { frequency_scale } = self.linearization {
-            let start = [3, 4].map(|seed| random_columns(unknowns, SEARCH_WIDTH.min(unknowns), seed));
+            let start =
+                [3, 4].map(|seed| random_columns(unknowns, SEARCH_WIDTH.min(unknowns), seed));
             self.sample(mu, frequency_scale, &start, wanted)?;
             return Ok(());
         }

@@ -109,7 +109,9 @@ impl OnsetFinder<'_> {
             let sum = modes[i].eigenvalue + modes[j].eigenvalue;
             sum * mass.dot(&modes[i].left, j) + damping.dot(&modes[i].left, j)
         };
-        let is_same = [0, 2].iter().all(|&end| (along(1, end) * along(end, 1)).norm() > SAME);
+        let is_same = [0, 2]
+            .iter()
+            .all(|&end| (along(1, end) * along(end, 1)).norm() > SAME);
         is_same.then_some(mode)
     }
 }

@@ -49,7 +49,14 @@ impl ProjectedMatrices {
 
 /// `columns` times complex coordinates; nothing of no coordinates.
 fn combined(columns: &Mat<f64>, coordinates: &[c64]) -> Vec<c64> {
-    let mut sum = vec![c64::new(0.0, 0.0); if coordinates.is_empty() { 0 } else { columns.nrows() }];
+    let mut sum = vec![
+        c64::new(0.0, 0.0);
+        if coordinates.is_empty() {
+            0
+        } else {
+            columns.nrows()
+        }
+    ];
     for (j, factor) in coordinates.iter().enumerate() {
         for (s, v) in sum.iter_mut().zip(column(columns.as_ref(), j)) {
             *s += factor * *v;
@@ -223,7 +230,11 @@ impl ReducedModel {
         let mut columns = Mat::zeros(m, 0);
         for (_, coordinates) in nearest {
             let own = Mat::from_fn(m, coordinates.ncols(), |i, j| {
-                if i < coordinates.nrows() { coordinates[(i, j)] } else { 0.0 }
+                if i < coordinates.nrows() {
+                    coordinates[(i, j)]
+                } else {
+                    0.0
+                }
             });
             let new = orthonormal_complement(columns.as_ref(), own, SAME_SPACE);
             columns = join_columns(columns.as_ref(), new.as_ref());
