@@ -12,6 +12,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod assembly;
 mod map;
 mod model;
 mod sliding;
@@ -20,6 +21,7 @@ mod solve;
 mod spectrum;
 mod states;
 
+pub use assembly::AssemblyModel;
 pub use map::map;
 pub use model::{Model, Solver, Spectrum, asked_modes, mode_limit};
 pub use sliding::{SlidingModel, SteadyState};
@@ -130,6 +132,7 @@ pub fn report<'a>(
         base: model.base_state(case),
         field,
         solid: model.solid().map(|body| &body.report),
+        assembly: model.assembly(),
         sensitivities: solution.sensitivities.as_ref(),
         map: None,
         notes: solution.notes.clone(),
