@@ -109,9 +109,7 @@ fn numbered(
         Body::Annulus(_) => {
             "node ids count radially outwards first: 1 + j (radial_elements + 1) + i"
         }
-        Body::Revolution(_) => {
-            "node ids count the sheet of a sector first; name nodes by their place instead"
-        }
+        Body::Revolution(_) => "node ids number one sector first; give nodes by position instead",
     };
     let nodes = body.node_count();
     if number as u128 > nodes && nodes > 0 {
@@ -146,7 +144,7 @@ fn labelled(
                 ends[1]
             ),
             "no node of the body".to_owned(),
-            "name it by its place instead, { x = .., y = .. } in metres",
+            "give its position instead, { x = .., y = .. } in metres",
         );
     }
     found

@@ -38,8 +38,8 @@ pub(super) fn check_meeting(
     let name = &body.contact;
     if interface.is_empty() {
         return Err(format!(
-            "no point of \"{name}\" (contact.boundary) has \"{other}\" (contact.counter_boundary) before it: correct the \
-             curves, or contact.center, speed and direction, which say how they lie"
+            "no point of \"{name}\" (contact.boundary) has \"{other}\" (contact.counter_boundary) facing it: check the \
+             curves, and contact.center, speed and direction"
         ));
     }
     let deepest =
@@ -51,7 +51,7 @@ pub(super) fn check_meeting(
     if depth > interference + 1e-3 * size {
         return Err(format!(
             "the bodies overlap: node {} of \"{name}\" lies {depth:.3e} m inside the other body, more than \
-             contact.interference = {interference:e} m; mesh them touching, and let contact.interference press them",
+             contact.interference = {interference:e} m; mesh them just touching, and let contact.interference press them together",
             mesh.node_label(interface.nodes[i] as usize)
         ));
     }

@@ -4,6 +4,7 @@
 mod annulus;
 mod body;
 mod boundary;
+mod coincidence;
 mod counterface;
 mod curve;
 mod element;
@@ -23,10 +24,11 @@ mod specification;
 pub use annulus::AnnulusMesh;
 pub use body::{BodySpecification, CounterfaceSpecification};
 pub use boundary::{Boundary, BoundaryCondition, BoundaryFace, ElasticSupport, NodalSupport};
+pub use coincidence::{UnmergedNodes, coincident_nodes};
 pub use counterface::Counterface;
 pub use element::{ElementKind, FaceKind, FacePoint, QuadraturePoint, Shape};
 pub use frames::NodalFrames;
-pub use gmsh::{CurveEdge, FileElement, GmshFile, MeshFileError, SurfaceFace};
+pub use gmsh::{BodyPart, CurveEdge, FileElement, GmshFile, MeshFileError, SurfaceFace};
 pub use quality::MeshQuality;
 pub use sector::SectorMesh;
 pub use solid::{

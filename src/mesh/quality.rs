@@ -12,6 +12,8 @@ pub struct MeshQuality {
     pub worst_jacobian: f64,
     /// Largest ratio of an element's longest edge to its shortest.
     pub largest_aspect_ratio: f64,
+    /// The element that has it.
+    pub worst_element: usize,
     /// Shortest edge, m.
     pub smallest_edge: f64,
     /// Longest edge, m.
@@ -107,13 +109,16 @@ impl Mesh {
     pub fn quality(&self) -> MeshQuality {
         let mut quality = MeshQuality {
             worst_jacobian: 1.0,
+            worst_element: 0,
             largest_aspect_ratio: 1.0,
             smallest_edge: f64::INFINITY,
             largest_edge: 0.0,
         };
         for element in 0..self.element_count() {
             let ratio = self.jacobian_ratio(element);
-            quality.worst_jacobian = quality.worst_jacobian.min(ratio);
+            if ratio < quality.worst_jacobian {
+                (quality.worst_jacobian, quality.worst_element) = (ratio, element);
+            }
             let (kind, nodes) = (self.element_kind(element), self.element_nodes(element));
             let lengths = kind.edges().iter().map(|ends| {
                 let [p, q] = ends.map(|local| self.nodes[nodes[local] as usize]);
@@ -175,62 +180,60 @@ impl Mesh {
             .nodes
             .iter()
             .fold(0.0_f64, |m, p| m.max(p[0].abs()).max(p[1].abs()));
-        for k in 0..parts {
-            let mut held = Matrix3::<f64>::zeros();
-            let mut hold = |node: u32, angle: f64| {
-                if part[node as usize] == k {
+        let mut held = vec![Matrix3::<f64>::zeros(); parts];
+        for (b, boundary) in self.boundaries.iter().enumerate() {
+            let (along, across) = match boundary.condition {
+                _ if b == self.contact => (true, false),
+                BoundaryCondition::Clamped => (true, true),
+                BoundaryCondition::Support(support) => (
+                    support.normal_stiffness > 0.0,
+                    support.tangential_stiffness > 0.0,
+                ),
+                BoundaryCondition::Guide => (true, false),
+                // Held along x, along y.
+                BoundaryCondition::Fixed([x, y, _]) => (x, y),
+                BoundaryCondition::Pressure(_) | BoundaryCondition::Free => (false, false),
+            };
+            for (&node, &normal) in boundary.nodes.iter().zip(&boundary.normal_angles) {
+                let mut hold = |angle: f64| {
                     let (sin, cos) = angle.sin_cos();
                     let [x, y] = self.plane_node(node as usize);
                     let row = Vector3::new(cos, sin, (x * sin - y * cos) / size);
-                    held += row * row.transpose();
+                    held[part[node as usize]] += row * row.transpose();
+                };
+                let normal = match boundary.condition {
+                    _ if b == self.contact => self.frame_angles()[node as usize],
+                    BoundaryCondition::Fixed(_) => 0.0,
+                    _ => normal,
+                };
+                if along {
+                    hold(normal);
                 }
-            };
-            for (b, boundary) in self.boundaries.iter().enumerate() {
-                for (&node, &normal) in boundary.nodes.iter().zip(&boundary.normal_angles) {
-                    if let BoundaryCondition::Fixed([x, y, _]) = boundary.condition {
-                        if x {
-                            hold(node, 0.0);
-                        }
-                        if y {
-                            hold(node, std::f64::consts::FRAC_PI_2);
-                        }
-                        continue;
-                    }
-                    let (along, across) = match boundary.condition {
-                        _ if b == self.contact => (true, false),
-                        BoundaryCondition::Clamped => (true, true),
-                        BoundaryCondition::Support(support) => (
-                            support.normal_stiffness > 0.0,
-                            support.tangential_stiffness > 0.0,
-                        ),
-                        BoundaryCondition::Guide => (true, false),
-                        BoundaryCondition::Fixed(_)
-                        | BoundaryCondition::Pressure(_)
-                        | BoundaryCondition::Free => (false, false),
-                    };
-                    let normal = if b == self.contact {
-                        self.frame_angles()[node as usize]
-                    } else {
-                        normal
-                    };
-                    if along {
-                        hold(node, normal);
-                    }
-                    if across {
-                        hold(node, normal + std::f64::consts::FRAC_PI_2);
-                    }
+                if across {
+                    hold(normal + std::f64::consts::FRAC_PI_2);
                 }
             }
+        }
+        for (k, held) in held.into_iter().enumerate() {
             let eigen = SymmetricEigen::new(held);
             let (low, high) = (eigen.eigenvalues.min(), eigen.eigenvalues.max());
             if !(low > 1e-9 * high && high > 0.0) {
-                let node = part.iter().position(|&p| p == k).unwrap_or(0);
+                let node = part.iter().position(|&p| p == k);
+                let node = node.expect("every part has a node");
                 let [x, y] = self.plane_node(node);
                 let names: Vec<&str> = self.boundaries.iter().map(|b| b.name.as_str()).collect();
+                let unmerged = match self.unmerged_nodes() {
+                    Some(found) if parts > 1 => {
+                        format!(
+                            "; {found}: merge the parts (Coherence Mesh; in Gmsh) if they are one body"
+                        )
+                    }
+                    _ => String::new(),
+                };
                 return Err(MeshFileError::Body(format!(
-                    "nothing holds {} (with node {} at {x:.4e}, {y:.4e} m): it can move as a rigid body, and sliding \
-                     friction holds nothing; give one of its boundaries ({}) condition = \"clamped\", \"support\" or \
-                     \"guide\" under [boundaries.NAME]",
+                    "nothing holds {} (with node {} at {x:.4e}, {y:.4e} m): it can move as a rigid body (sliding \
+                     friction holds nothing); give one of its boundaries ({}) condition = \"clamped\", \"support\" or \
+                     \"guide\" under [boundaries.NAME]{unmerged}",
                     if parts > 1 {
                         "a part of the body that touches no other"
                     } else {

@@ -248,7 +248,7 @@ impl SolidSpecification {
             outer_radius,
         } = self.contact
         {
-            fit(&mut radii, inner_radius, outer_radius);
+            fit(&mut radii, inner_radius, outer_radius)?;
         }
         Ok(radii)
     }
@@ -270,7 +270,10 @@ impl SolidSpecification {
 }
 
 /// Moves the corner radii so that both radii of a ring are among them, where they are not.
-fn fit(radii: &mut [f64], inner: f64, outer: f64) {
+///
+/// # Errors
+/// [`MeshError::NothingUnderRing`] for fewer elements than the ring and what is left of the face on either side.
+fn fit(radii: &mut [f64], inner: f64, outer: f64) -> Result<(), MeshError> {
     let last = radii.len() - 1;
     let (low, high) = (radii[0], radii[last]);
     let nearest = |radii: &[f64], wanted: f64| {
@@ -280,12 +283,20 @@ fn fit(radii: &mut [f64], inner: f64, outer: f64) {
             .unwrap_or(0)
     };
     let slack = 1e-9 * high;
+    let beside = [inner > low + slack, outer < high - slack];
+    let minimum = 1 + beside.into_iter().map(usize::from).sum::<usize>();
+    if last < minimum {
+        return Err(MeshError::NothingUnderRing {
+            count: last,
+            minimum,
+        });
+    }
     let place = |wanted: f64, radii: &[f64]| match wanted {
         w if w <= low + slack => 0,
         w if w >= high - slack => last,
         w => nearest(radii, w).clamp(1, last.max(2) - 1),
     };
-    let first = place(inner, radii);
+    let first = place(inner, radii).min(last - 1 - usize::from(beside[1]));
     let second = place(outer, radii).max(first + 1).min(last);
     let old = radii.to_vec();
     let ends = [
@@ -306,6 +317,7 @@ fn fit(radii: &mut [f64], inner: f64, outer: f64) {
         }
         radii[to] = b;
     }
+    Ok(())
 }
 
 /// Nodes in the order of the band, and their index by place and half step.

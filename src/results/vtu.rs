@@ -1,5 +1,6 @@
 //! Fields on the mesh for ParaView: VTK XML unstructured grids, appended raw, zlib-compressed.
 
+use crate::contact::ContactStatus;
 use crate::fem::NodalStress;
 use crate::mesh::{Mesh, SolidSector};
 use flate2::{Compression, write::ZlibEncoder};
@@ -99,7 +100,56 @@ impl Field {
         ]
     }
 
-    /// A vector of each node from its nodal frame, as Cartesian `(x, y, z)`; `z` is zero in the plane.
+    /// The stress components along `x` and `y` of a body that is no annulus about the origin, where polar ones say little.
+    pub fn cartesian_stresses(mesh: &Mesh, stresses: &[NodalStress]) -> Vec<Self> {
+        if mesh.is_cyclic {
+            return Vec::new();
+        }
+        // sigma_xy = T^T sigma_rt T with the turn T by the angle of the node's axes.
+        let turned = |(node, stress): (usize, &NodalStress)| {
+            let (sin, cos) = mesh.reported_angle(node).sin_cos();
+            let (rr, tt, rt) = (stress.radial, stress.hoop, stress.shear);
+            let twice = 2.0 * sin * cos * rt;
+            [
+                cos * cos * rr + sin * sin * tt - twice,
+                sin * sin * rr + cos * cos * tt + twice,
+                sin * cos * (rr - tt) + (cos * cos - sin * sin) * rt,
+            ]
+        };
+        let turned: Vec<[f64; 3]> = stresses.iter().enumerate().map(turned).collect();
+        let field = |name: &str, k: usize| {
+            Self::scalars(name, turned.iter().map(|stress| stress[k]).collect())
+        };
+        vec![
+            field("stress_xx_pa", 0),
+            field("stress_yy_pa", 1),
+            field("stress_xy_pa", 2),
+        ]
+    }
+
+    /// Contact status of all `count` nodes: 0 open, 1 stick, 2 slip at the nodes of the contact edge, -1 off it.
+    pub fn status(
+        count: usize,
+        edge: &[u32],
+        statuses: impl IntoIterator<Item = ContactStatus>,
+    ) -> Self {
+        let mut codes = vec![-1; count];
+        for (&node, status) in edge.iter().zip(statuses) {
+            codes[node as usize] = status as i64;
+        }
+        Self::integers("status", codes)
+    }
+
+    /// Values at the nodes of the contact edge among `count` nodes, zero off it.
+    pub fn on_edge(name: &str, count: usize, edge: &[u32], values: &[f64]) -> Self {
+        let mut all = vec![0.0; count];
+        for (&node, value) in edge.iter().zip(values) {
+            all[node as usize] = *value;
+        }
+        Self::scalars(name, all)
+    }
+
+    /// A plane vector of each node from its nodal frame, as Cartesian `(x, y, 0)`.
     pub fn vectors(name: &str, mesh: &Mesh, nodal: &[f64]) -> Self {
         Self {
             name: name.to_owned(),

@@ -9,6 +9,7 @@ mod version4;
 use super::{ElementKind, FaceKind};
 use cursor::Cursor;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// A mesh file that cannot be used.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -21,9 +22,36 @@ pub enum MeshFileError {
         /// What is wrong, and what to do.
         message: String,
     },
-    /// A mesh that is read but makes no body.
+    /// A mesh that is read but cannot be used as a body.
     #[error("{0}")]
     Body(String),
+    /// What was asked of the mesh does not fit it.
+    #[error("{message}")]
+    Request {
+        /// Which part of the request.
+        part: BodyPart,
+        /// What is wrong, and what to do.
+        message: String,
+    },
+}
+
+/// Part of what makes a body of a mesh file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum BodyPart {
+    /// The contact curve.
+    Contact,
+    /// The curve of the other body.
+    Opposite,
+    /// The condition of a boundary.
+    Boundary(String),
+    /// The way a plane slides.
+    Direction,
+    /// The axis of a cylinder.
+    Center,
+    /// The material of a region.
+    Material(String),
+    /// The scale of the coordinates.
+    Scale,
 }
 
 /// Edge of a physical curve, as indices into the nodes: its ends and, where quadratic, its middle.
@@ -58,9 +86,9 @@ pub struct FileElement {
     pub label: usize,
     /// Its shape.
     pub kind: ElementKind,
-    /// Name of its physical surface, of a solid element its physical volume.
-    pub region: String,
-    /// The surface or volume it belongs to.
+    /// Name of its physical surface, one text for all its elements.
+    pub region: Arc<str>,
+    /// The surface it belongs to.
     pub entity: i64,
     /// Its nodes in the order of [`ElementKind`].
     pub nodes: Vec<u32>,
@@ -85,7 +113,7 @@ impl GmshFile {
             ["2.2" | "2" | "4.1", kind @ ("0" | "1"), "8"] => kind == "1",
             [number, ..] if !["2.2", "2", "4.1"].contains(&number) => {
                 return Err(cursor.error(format!(
-                    "MSH version {number} is not read: save the mesh as version 4.1 or 2.2 (Mesh.MshFileVersion)"
+                    "MSH version {number} is not supported: save the mesh as version 4.1 or 2.2 (Mesh.MshFileVersion)"
                 )));
             }
             _ => return Err(cursor.error("format line expected, such as \"4.1 0 8\"")),
@@ -95,13 +123,18 @@ impl GmshFile {
             cursor.is_swapped = match cursor.int("byte order")? {
                 1 => false,
                 0x0100_0000 => true,
-                _ => return Err(cursor.error("the number 1 expected that tells the byte order")),
+                _ => {
+                    return Err(
+                        cursor.error("the number 1, which gives the byte order, was expected")
+                    );
+                }
             };
         }
         cursor.end("MeshFormat")?;
         let mut reader = Reader::default();
         let is_new = words[0] == "4.1";
         while let Some(section) = cursor.section() {
+            cursor.refuse_end()?;
             match section.as_str() {
                 "PhysicalNames" => reader.physical_names(&mut cursor)?,
                 "Entities" if is_new => reader.entities(&mut cursor)?,
@@ -130,34 +163,62 @@ impl GmshFile {
     }
 }
 
-/// What a file is that does not begin like one of ours.
+/// What a file is that does not begin like one of ours, and how it becomes one.
 fn foreign(bytes: &[u8]) -> String {
-    let start = String::from_utf8_lossy(&bytes[..bytes.len().min(64)]).into_owned();
-    let what = if bytes.is_empty() {
-        "the file is empty"
-    } else if start.trim_start().starts_with("**")
-        || start.starts_with("*Heading")
-        || start.starts_with("*HEADING")
+    /// For formats that Gmsh does not open with the names of their sets.
+    const MESHIO: &str = "convert it with Python's meshio: cell sets become the cell data \"gmsh:physical\" with names in \
+                          field_data, then mesh.write(\"part.msh\", file_format=\"gmsh22\", binary=False)";
+    const GMSH: &str = "save the mesh as MSH 4.1 or 2.2 (gmsh -2 -format msh41)";
+    let start = String::from_utf8_lossy(&bytes[..bytes.len().min(4096)]).into_owned();
+    let trimmed = start.trim_start();
+    let upper = trimmed.to_uppercase();
+    let (what, remedy) = if bytes.is_empty() {
+        ("the file is empty", GMSH)
+    } else if ["**", "*HEADING", "*NODE", "*PART", "*INCLUDE"]
+        .iter()
+        .any(|mark| upper.starts_with(mark))
     {
-        "this looks like an Abaqus input file"
+        (
+            "this looks like an Abaqus or CalculiX input file, which Gmsh does not open",
+            MESHIO,
+        )
+    } else if upper.starts_with("BEGIN BULK")
+        || upper.starts_with("SOL ")
+        || upper.contains("\nGRID")
+    {
+        ("this looks like a Nastran file", MESHIO)
+    } else if trimmed.starts_with("-1") {
+        (
+            "this looks like a universal file (UNV)",
+            "open it in Gmsh, which keeps its groups, and save it as MSH: \
+          gmsh part.unv -save -format msh41 -o part.msh",
+        )
     } else if start.contains("VTK") || start.contains("vtk") {
-        "this looks like a VTK file"
+        ("this looks like a VTK file", MESHIO)
     } else if start.starts_with("solid") || start.starts_with("ISO-10303") {
-        "this is a geometry, not a mesh"
+        ("this is a geometry, not a mesh", GMSH)
     } else if start.contains("Point(") || start.contains("//") || start.contains("SetFactory") {
-        "this looks like a Gmsh geometry (.geo), not a mesh: run gmsh -2 on it"
+        (
+            "this looks like a Gmsh geometry (.geo), not a mesh",
+            "run gmsh -2 on it",
+        )
     } else {
-        "this is no Gmsh mesh, which begins with $MeshFormat"
+        ("this is no Gmsh mesh, which begins with $MeshFormat", GMSH)
     };
-    format!("{what}; save the mesh as MSH 4.1 or 2.2 (gmsh -2 -format msh41)")
+    format!("{what}; {remedy}")
 }
+
+/// Stands for the physical tag of an element without one.
+const NO_GROUP: i64 = i64::MIN;
+/// Longest name of a physical group, bytes.
+const LONGEST_NAME: usize = 4096;
 
 /// What is gathered on the way through the file.
 #[derive(Default)]
 struct Reader {
     file: GmshFile,
     /// Names by dimension and tag.
-    names: BTreeMap<(i64, i64), String>,
+    names: BTreeMap<(i64, i64), Arc<str>>,
     /// Physical tags of each entity, by dimension and tag.
     physical: BTreeMap<(i64, i64), Vec<i64>>,
     /// Index of each node number.
@@ -222,7 +283,13 @@ impl Reader {
                     cursor.error("dimension, tag and \"name\" of a physical group expected")
                 );
             };
-            self.names.insert((dimension, tag), name);
+            if name.len() > LONGEST_NAME {
+                return Err(cursor.error(format!(
+                    "the name of a physical group has {} bytes, more than {LONGEST_NAME}",
+                    name.len()
+                )));
+            }
+            self.names.insert((dimension, tag), name.into());
         }
         cursor.is_binary = is_binary;
         Ok(())
@@ -242,6 +309,17 @@ impl Reader {
         self.file.points.push(point);
         self.file.is_used.push(false);
         Ok(())
+    }
+
+    /// Name of a physical group; one without gets its number for a name.
+    fn name(&mut self, dimension: i64, tag: i64) -> Arc<str> {
+        let plain = || match (dimension, tag) {
+            (1, tag) => format!("curve {tag}").into(),
+            (_, NO_GROUP) => "body".into(),
+            (_, tag) => format!("surface {tag}").into(),
+        };
+        let known = self.names.entry((dimension, tag)).or_insert_with(plain);
+        Arc::clone(known)
     }
 
     /// Takes one element in; `groups` are its physical tags.
@@ -265,26 +343,20 @@ impl Reader {
             self.file.is_used[index as usize] = true;
             nodes.push(index);
         }
-        let name = |tag: i64| {
-            let sort = ["point", "curve", "surface", "volume"][dimension as usize];
-            let plain = || format!("{sort} {tag}");
-            self.names
-                .get(&(dimension, tag))
-                .cloned()
-                .unwrap_or_else(plain)
-        };
         match (dimension, kind) {
             (_, Some(kind)) => {
                 // A face of a solid belongs to every physical surface that names it, an element to its first group.
                 if let Some(face) = kind.as_face() {
-                    for name in groups.iter().map(|&tag| name(tag)) {
+                    for &tag in groups {
+                        let name = self.name(dimension, tag).to_string();
                         let faces = self.surfaces.entry(name).or_default();
                         faces.push((face, nodes.clone()));
                     }
                 }
-                let region = groups
-                    .first()
-                    .map_or_else(|| "body".to_owned(), |&tag| name(tag));
+                let region = match groups.first() {
+                    Some(&tag) => self.name(dimension, tag),
+                    None => self.name(dimension, NO_GROUP),
+                };
                 let order = kind.gmsh_order().into_iter();
                 let element = FileElement {
                     label,
@@ -301,9 +373,14 @@ impl Reader {
             }
             (1, _) => {
                 let edge = (nodes[0], nodes[1], nodes.get(2).copied());
-                let names: Vec<String> = groups.iter().map(|&tag| name(tag)).collect();
-                for name in names {
-                    self.file.curves.entry(name).or_default().push(edge);
+                for &tag in groups {
+                    let name = self.name(dimension, tag);
+                    match self.file.curves.get_mut(&*name) {
+                        Some(edges) => edges.push(edge),
+                        None => {
+                            self.file.curves.insert(name.to_string(), vec![edge]);
+                        }
+                    }
                 }
             }
             _ => {}

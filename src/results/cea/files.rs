@@ -27,9 +27,9 @@ pub fn write(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<Value, Fol
         folder.write("map.csv", |out| map.write(out))?;
     }
     match (report.solid, report.assembly) {
-        (Some(solid), _) => solid.write_base(folder)?,
+        (Some(solid), _) => solid.write_base(folder, &report.base)?,
         (None, Some(assembly)) => assembly.write_base(folder, report.mesh)?,
-        (None, None) => write_base(folder, report.mesh, report.field)?,
+        (None, None) => write_base(folder, report.mesh, (&report.base, report.field))?,
     }
     write_shapes(folder, report)?;
     write_summary(folder, &summary(report, folder.manifest()))

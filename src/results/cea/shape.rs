@@ -107,7 +107,13 @@ fn shape_panel(disc: &Disc<'_>, mesh: &Mesh, shape: &ModeShape<'_>, lines: &[Str
         dash: &[1.5, 1.2],
         ..Stroke::solid(MUTED, 0.45)
     };
-    let panel = lines.iter().fold(disc.panel(0.02), |panel, line| {
+    // What is free at its rim leaves the place that it has at rest.
+    let room = if mesh.is_cyclic {
+        0.02
+    } else {
+        0.04 + 2.0 * DEFLECTION
+    };
+    let panel = lines.iter().fold(disc.panel(room), |panel, line| {
         panel.heading_in(colour, line)
     });
     panel

@@ -19,6 +19,7 @@ use crate::cycle::{
 };
 use crate::mesh::Mesh;
 use crate::results::cycle_figures::CycleRecord;
+use crate::results::extent::Extent;
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::record::write_record;
 use crate::results::summary::write_summary;
@@ -109,6 +110,8 @@ pub struct CycleReport<'a> {
     pub inner_radius: f64,
     /// Thickness, m: scales powers.
     pub thickness: f64,
+    /// What powers are of.
+    pub extent: Extent,
     /// Friction coefficient of the case.
     pub friction_coefficient: f64,
     /// The onset of lowest friction among those looked for, where there is one.

@@ -11,7 +11,8 @@ pub use report::draw;
 
 use super::charts::palette::{status_ground, status_of_code};
 use super::charts::{
-    Disc, FieldFrame, MovingBody, contact_figure, field_figure, shear_stress_figure, status_curves,
+    ContactVelocity, Disc, FieldFrame, MovingBody, contact_figure, field_figure,
+    shear_stress_figure, status_curves,
 };
 use super::drawing::{Declaration, DrawingOptions, draw_all};
 use super::report::NamedFigure;
@@ -92,12 +93,15 @@ impl CycleFigures<'_> {
             caption,
             format!("{}, wave ↻", heading(n, wave)),
         );
-        let values = [
-            &around(&wave.pressure)[..],
-            &around(&wave.shear),
-            &around(&wave.velocity[1]),
-        ];
-        contact_figure(names, (0.0, &status), values, self.peripheral_speed())
+        let tractions = [&around(&wave.pressure)[..], &around(&wave.shear)];
+        let velocity = around(&wave.velocity[1]);
+        let velocity = ContactVelocity::Absolute(&velocity, self.peripheral_speed());
+        contact_figure(
+            (names, "cylinder *Ωa*"),
+            (0.0, &status),
+            tractions,
+            velocity,
+        )
     }
 
     /// What a contact node goes through in two periods, on a ground coloured by its status.

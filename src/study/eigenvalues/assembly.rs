@@ -7,6 +7,7 @@ use crate::cea::{CeaError, FrictionSweep, SweepRequest};
 use crate::prestress::{
     Assembly, BaseChoice, PressedRange, PressedState, PrestressError, TangentOptions,
 };
+use crate::results::Extent;
 use crate::results::cea::{AssemblyPoint, AssemblyReport, BaseState};
 
 /// An assembly and its base states.
@@ -128,6 +129,7 @@ pub fn base_state(case: &Case, report: &AssemblyReport) -> BaseState {
         torque_n_m: Some(if speed == 0.0 { 0.0 } else { power / speed }),
         drag_n: None,
         power_w: power,
+        extent: Extent::WholeBody,
     }
 }
 

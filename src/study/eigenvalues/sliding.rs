@@ -9,6 +9,7 @@ use crate::fem::nodal_stress;
 use crate::mesh::{AnnulusMesh, Counterface, Mesh, SectorMesh};
 use crate::prestress::{SectorTangent, SteadySliding};
 use crate::results::cea::{AssemblyReport, BaseField, BaseState};
+use crate::study::extent_of;
 use std::sync::Arc;
 
 /// Steady sliding at the case's own friction coefficient.
@@ -83,6 +84,14 @@ impl SlidingModel {
         }
     }
 
+    /// Friction coefficients at which contact nodes open or close, rising.
+    pub fn contact_changes(&self) -> &[f64] {
+        match &self.model {
+            Model::Whole(whole) => &whole.range.changes,
+            Model::Sectors(..) | Model::SolidSectors(_) => &[],
+        }
+    }
+
     /// What the report says of the base state, scaled to the case's thickness.
     pub fn base_state(&self, case: &Case) -> BaseState {
         let base = match &self.state {
@@ -113,6 +122,7 @@ impl SlidingModel {
             torque_n_m: (!is_plane).then_some(torque),
             drag_n: is_plane.then_some(torque),
             power_w: torque * case.contact.sliding.rotation_speed,
+            extent: extent_of(case),
         }
     }
 
