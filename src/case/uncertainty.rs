@@ -44,7 +44,6 @@ pub struct Uncertainty {
     pub parameters: Vec<UncertainParameter>,
 }
 
-/// Standard deviation of a logarithm beyond which a scatter is hardly meant: a factor of 20 either way.
 
 pub(super) fn uncertainty(root: &Section<'_>) -> Option<Uncertainty> {
     let section = root.section("uncertainty", false);
