@@ -44,6 +44,7 @@ pub struct Uncertainty {
     pub parameters: Vec<UncertainParameter>,
 }
 
+
 pub(super) fn uncertainty(root: &Section<'_>) -> Option<Uncertainty> {
     let section = root.section("uncertainty", false);
     let samples = section.count("samples");
