@@ -55,7 +55,6 @@ impl OutputFolder {
         let (mut earlier, mut is_same) = (BTreeMap::new(), true);
         match contents {
             Some(contents) => {
-                let replace = replaceable(path, &contents, replace);
                 is_same = check_owner(path, &contents.manifest, manifest, replace)?;
                 let is_sealed = contents.is_sealed;
                 earlier = contents.into_files();
@@ -102,10 +101,7 @@ impl OutputFolder {
     /// Those of [`OutputFolder::open`] that the folder's contents decide.
     pub fn may_open(path: &Path, manifest: &Manifest, replace: Replace) -> Result<(), FolderError> {
         match read_contents(path)? {
-            Some(found) => {
-                let replace = replaceable(path, &found, replace);
-                check_owner(path, &found.manifest, manifest, replace).map(|_| ())
-            }
+            Some(found) => check_owner(path, &found.manifest, manifest, replace).map(|_| ()),
             None if replace != Replace::Anything && path.exists() => refuse_foreign(path),
             None => Ok(()),
         }
@@ -271,17 +267,6 @@ fn remove_temporaries(path: &Path) {
 }
 
 /// Whether the results there are of the same effective case; refuses those that must stay.
-/// Whose results may be replaced, seen what there is: a run that ended before its first result left nobody's.
-fn replaceable(path: &Path, contents: &Contents, replace: Replace) -> Replace {
-    let is_there = |name: &str| is_inside(name) && path.join(name).exists();
-    let unfinished = fs::read_to_string(path.join(JOURNAL)).unwrap_or_default();
-    let mut names = contents.files.iter().map(String::as_str);
-    if names.any(is_there) || unfinished.lines().any(is_there) {
-        return replace;
-    }
-    Replace::Anything
-}
-
 pub(crate) fn check_owner(
     path: &Path,
     found: &Manifest,
