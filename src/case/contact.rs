@@ -49,7 +49,7 @@ pub(super) fn contact(
                 section.reject(
                     key,
                     format!("contact.{key} is for a body from a mesh file (mesh.file)"),
-                    "the annulus turns about its own shaft".to_owned(),
+                    "not used by the built-in annulus".to_owned(),
                     Some("leave it out".to_owned()),
                 );
             }
@@ -80,7 +80,7 @@ pub(super) fn contact(
              an infinite dashpot (mu p / V): there is no steady sliding"
                 .to_owned(),
             "must not be zero in three dimensions".to_owned(),
-            Some("give a speed; a very small one all but sticks across the sliding".to_owned()),
+            Some("give a small positive speed instead".to_owned()),
         );
     }
     let contact = Contact {
@@ -119,7 +119,7 @@ pub(super) fn contact(
             ],
             false => [
                 "is for three-dimensional bodies",
-                "a plane body is pressed by rigid contact",
+                "plane bodies have a rigid base state",
             ],
         };
         let message = format!("contact.base_state = \"compliant\" {label}");

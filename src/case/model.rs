@@ -88,7 +88,7 @@ pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &ElasticMateria
     if is_solid {
         mesh.reject(
             "file",
-            "mesh.file describes a plane body: three-dimensional ones are generated".to_owned(),
+            "mesh.file describes a plane body; three-dimensional bodies are generated".to_owned(),
             "material.formulation is \"three-dimensional\"".to_owned(),
             Some("give radii and element counts, or a plane formulation".to_owned()),
         );
@@ -104,8 +104,11 @@ pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &ElasticMateria
     let reject = |(message, label): (String, String)| mesh.reject("file", message, label, None);
     let bytes = imported::mesh_bytes(raw, &file).map_err(&reject).ok();
     let body = bytes.as_ref().and_then(|bytes| {
-        let body = imported::import(bytes, &parts);
-        body.map_err(&reject).ok()
+        let refuse = |error: imported::ImportError| {
+            let at = raw.place(&error.key);
+            mesh.reject_placed(&at, error.message, error.label, error.help);
+        };
+        imported::import(bytes, &parts).map_err(refuse).ok()
     });
     mesh.close();
     Model {

@@ -3,6 +3,7 @@
 use super::diagnostic::Diagnostic;
 use super::key::CaseKey;
 use super::keys::KEYS;
+use super::shown::first_of;
 use super::{Body, Case};
 use crate::fem::PlaneFormulation;
 
@@ -18,10 +19,12 @@ const WAVE_SPEEDS: [f64; 2] = [100.0, 10_000.0];
 const DENSITIES: std::ops::RangeInclusive<f64> = 20.0..=25_000.0;
 /// Lengths that a case has, m.
 const LENGTHS: [f64; 2] = [1e-5, 10.0];
+/// Thickness beyond which a plane body is hardly meant, m: 1 m is the default, a value for each metre.
+const LARGEST_THICKNESS: f64 = 1.0;
+/// Jacobian of an element, smallest over largest, below which it is badly shaped.
+const SMALLEST_JACOBIAN: f64 = 0.1;
 /// Poisson's ratio beyond which elements lock, but those of plane stress.
 const LARGEST_POISSON_RATIO: f64 = 0.49;
-/// Thickness beyond which no disc is, m; the default, 1 m, is for results per metre.
-const LARGEST_THICKNESS: f64 = 1.0;
 /// Share of the speed of bar waves beyond which a seeded velocity is no small strain.
 const LARGEST_SEED: f64 = 0.01;
 /// Times the modulus over the radius beyond which a contact stiffness drowns the body in round-off.
@@ -31,7 +34,8 @@ const LARGEST_STIFFNESS_RATIO: f64 = 1e8;
 pub(super) fn implausible(case: &Case) -> Vec<Diagnostic> {
     [
         lengths(case),
-        thickness(case),
+        unmerged_nodes(case),
+        element_shape(case),
         wave_speed(case),
         seeds(case),
         poisson_ratio(case),
@@ -54,42 +58,90 @@ fn warning(case: &Case, key: &str, message: String, label: &str, help: &str) -> 
 
 fn lengths(case: &Case) -> Option<Diagnostic> {
     let [least, most] = LENGTHS;
+    let [shortest, longest] = LENGTHS.map(metres);
+    let range = format!("outside the plausible range of {shortest} to {longest}");
     let is_outside = |value: f64| value < least || value > most;
     let help = "a case is in SI: are these millimetres or micrometres?";
     if let Body::Imported(imported) = &case.body {
         let width = 2.0 * imported.size();
         if is_outside(width) {
-            let message =
-                format!("the mesh is {width} m wide, a length outside {least} to {most} m");
+            let message = format!("the mesh is {width:.4} m wide, {range} (mesh.scale)");
             let help =
                 "coordinates are taken as metres: for a mesh in millimetres set mesh.scale = 0.001";
-            return Some(warning(case, "mesh.file", message, "metres?", help));
+            return Some(warning(case, "mesh.scale", message, "metres?", help));
         }
     }
-    let radii = case.body.grid().into_iter().flat_map(|grid| {
+    let mut radii = case.body.grid().into_iter().flat_map(|grid| {
         [
             ("geometry.inner_radius", grid.inner_radius),
             ("geometry.outer_radius", grid.outer_radius),
         ]
     });
-    let mut named = radii.chain([("geometry.thickness", case.thickness)]);
-    let (key, value) = named.find(|(_, value)| is_outside(*value))?;
-    let message = format!("{key} = {value} m is a length outside {least} to {most} m");
-    Some(warning(case, key, message, "metres?", help))
+    if let Some((key, value)) = radii.find(|(_, value)| is_outside(*value)) {
+        let message = format!("{key} = {value} m is {range}");
+        return Some(warning(case, key, message, "metres?", help));
+    }
+    let (key, value) = ("geometry.thickness", case.thickness);
+    (value < least || value > LARGEST_THICKNESS).then(|| {
+        let message = format!(
+            "{key} = {value} m is outside the plausible range of {shortest} to {}",
+            metres(LARGEST_THICKNESS)
+        );
+        warning(case, key, message, "metres?", help)
+    })
 }
 
-fn thickness(case: &Case) -> Option<Diagnostic> {
-    let (key, thickness) = ("geometry.thickness", case.thickness);
-    let is_slip = thickness > LARGEST_THICKNESS && thickness <= LENGTHS[1];
-    is_slip.then(|| {
-        warning(
-            case,
-            key,
-            format!("{key} = {thickness} m is thicker than {LARGEST_THICKNESS} m"),
-            "metres?",
-            "9 mm are 0.009; leave it out for results per metre of thickness",
-        )
-    })
+/// A length with the unit that suits its size.
+fn metres(length: f64) -> String {
+    match length {
+        l if l < 1e-3 => format!("{} um", (l * 1e9).round() / 1e3),
+        l if l < 1.0 => format!("{} mm", (l * 1e6).round() / 1e3),
+        l => format!("{l} m"),
+    }
+}
+
+/// Nodes of an imported mesh that lie on each other without being one.
+fn unmerged_nodes(case: &Case) -> Option<Diagnostic> {
+    let found = case.body.imported()?.mesh.unmerged_nodes()?;
+    Some(warning(
+        case,
+        "mesh.file",
+        format!("{found}: the parts are not connected there"),
+        "parts that were not merged?",
+        "join the parts (BooleanFragments or Coherence in the Gmsh geometry, or Coherence Mesh;), unless this is a crack",
+    ))
+}
+
+/// The worst element of an imported mesh.
+fn element_shape(case: &Case) -> Option<Diagnostic> {
+    let mesh = &case.body.imported()?.mesh;
+    let quality = mesh.quality();
+    if quality.worst_jacobian >= SMALLEST_JACOBIAN {
+        return None;
+    }
+    let nodes = mesh.element_nodes(quality.worst_element);
+    let count = nodes.len() as f64;
+    let sum = |axis: usize| {
+        nodes
+            .iter()
+            .map(|&n| mesh.nodes[n as usize][axis])
+            .sum::<f64>()
+    };
+    let labels = nodes.iter().map(|&node| mesh.node_label(node as usize));
+    Some(warning(
+        case,
+        "mesh.file",
+        format!(
+            "the Jacobian of an element varies by a factor {:.3} (smallest over largest; below {SMALLEST_JACOBIAN} the \
+             element is badly shaped): that of nodes {} at ({:.6}, {:.6}) m",
+            quality.worst_jacobian,
+            first_of(labels, 9),
+            sum(0) / count,
+            sum(1) / count
+        ),
+        "a badly shaped element",
+        "mesh the surface again, finer where it curves, or with Mesh.Optimize = 1; stresses near it are not reliable",
+    ))
 }
 
 /// Seeded velocities whose strain, `v / c`, is not small.
@@ -161,7 +213,7 @@ fn poisson_ratio(case: &Case) -> Option<Diagnostic> {
         case,
         "material.poisson_ratio",
         format!(
-            "material.poisson_ratio = {ratio} is all but incompressible: the elements lock, and the \
+            "material.poisson_ratio = {ratio} is nearly incompressible: the elements lock, and the \
              time step of a transient shrinks by {:.3} against 0.45",
             // c_p grows with sqrt((1 - nu) / ((1 + nu) (1 - 2 nu))).
             (0.55 / (1.45 * 0.1) / ((1.0 - ratio) / ((1.0 + ratio) * (1.0 - 2.0 * ratio)))).sqrt()
@@ -174,19 +226,27 @@ fn poisson_ratio(case: &Case) -> Option<Diagnostic> {
 fn friction(case: &Case) -> Option<Diagnostic> {
     let largest = |values: &[f64]| values.iter().fold(0.0, |a: f64, b| a.max(*b));
     let own = case.contact.sliding.friction_coefficient;
-    let swept = case.cea.as_ref();
-    let swept = swept.map_or(0.0, |cea| largest(&cea.solved_friction_coefficients()));
-    let (key, value) = if own > LARGEST_FRICTION {
-        ("contact.friction_coefficient", own)
-    } else if swept > LARGEST_FRICTION {
-        ("cea.friction_coefficients", swept)
-    } else {
-        return None;
-    };
+    let cea = case.cea.as_ref();
+    let keys = [
+        ("contact.friction_coefficient", own),
+        (
+            "cea.friction_coefficients",
+            cea.map_or(0.0, |cea| largest(&cea.friction_coefficients)),
+        ),
+        (
+            "cea.shapes_at",
+            cea.map_or(0.0, |cea| largest(&cea.shapes_at)),
+        ),
+    ];
+    let (key, value) = keys
+        .into_iter()
+        .find(|(_, value)| *value > LARGEST_FRICTION)?;
     Some(warning(
         case,
         key,
-        format!("{key} = {value} is above {LARGEST_FRICTION}, beyond dry pairs of materials"),
+        format!(
+            "{key} = {value} is above {LARGEST_FRICTION}, higher than that of any dry pair of materials"
+        ),
         "above 2",
         "a friction coefficient is a ratio, not a percentage",
     ))
@@ -214,7 +274,7 @@ fn unresolved_springs(case: &Case) -> Option<Diagnostic> {
                 "contact.normal_stiffness = {stiffness:e} Pa/m is more than the time step of the transient, {step:.2e} s, \
                  resolves on this mesh, about {most:.1e} Pa/m: the status of contact nodes would flicker"
             ),
-            "all but rigid",
+            "nearly rigid",
             "use \"rigid\" for the transient, or a smaller transient.time_step",
         )
     })
@@ -233,7 +293,7 @@ fn steep_friction(case: &Case) -> Option<Diagnostic> {
             "contact.decay_speed",
             format!(
                 "contact.decay_speed = {} m/s lets friction fall faster than the inertia of a contact node allows within \
-                 the time step of the transient, {step:.2e} s: nodes may stick and slip alike, and jump",
+                 the time step of the transient, {step:.2e} s: nodes may jump between sticking and slipping",
                 decay.decay_speed
             ),
             "a steep law",
@@ -290,10 +350,10 @@ fn contact_stiffness(case: &Case) -> Option<Diagnostic> {
             "contact.normal_stiffness",
             format!(
                 "contact.normal_stiffness = {stiffness:e} Pa/m is {:.1e} times the modulus over the \
-                 radius: eigenvalues lose as many digits",
+                 radius: the eigenvalues lose that many digits",
                 stiffness / scale
             ),
-            "all but rigid",
+            "nearly rigid",
             "use \"rigid\", which is exact",
         )
     })

@@ -9,6 +9,9 @@ use crate::linalg::Distribution;
 /// Share of a distribution beyond what its key can take from which on it is refused.
 const MOST_BEYOND: f64 = 0.05;
 
+/// Standard deviation of the logarithm beyond which a log-normal distribution is hardly meant: a factor of 20 either way.
+const LARGEST_LOG_DEVIATION: f64 = 3.0;
+
 /// A parameter and what is known of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UncertainParameter {
@@ -70,7 +73,7 @@ pub(super) fn uncertainty(root: &Section<'_>) -> Option<Uncertainty> {
             "distributions",
             format!("{} parameters are uncertain", found.len()),
             format!("at most {MOST}"),
-            Some("leave out those that hardly matter".to_owned()),
+            Some("leave out those with little influence".to_owned()),
         );
     }
     for (key, count) in [("samples", Some(samples)), ("index_samples", index_samples)] {
@@ -165,11 +168,18 @@ fn uncertain(
         }
         "log_normal" => {
             let (median, deviation) = (a, b);
-            let is_valid = a > 0.0 && b > 0.0;
+            let is_narrow = b <= LARGEST_LOG_DEVIATION;
+            let needs = match is_narrow || a <= 0.0 {
+                true => "two positive numbers",
+                false => {
+                    "the second number is the standard deviation of the logarithm, at most 3: 0.1 is about 10 %"
+                }
+            };
+            let is_valid = a > 0.0 && b > 0.0 && is_narrow;
             (
                 Distribution::LogNormal { median, deviation },
                 is_valid,
-                "two positive numbers",
+                needs,
             )
         }
         _ => {
@@ -207,7 +217,7 @@ fn uncertain(
                 100.0 * beyond
             ),
             "reaches forbidden values",
-            "narrow it; a log_normal distribution stays positive",
+            "make it narrower, or use log_normal, which stays positive",
         );
         return none;
     }

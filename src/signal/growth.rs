@@ -82,15 +82,20 @@ pub enum NoGrowth {
     },
     /// An envelope that is no exponential.
     #[error(
-        "not exponential: the envelope at {frequency_hz:.1} Hz nowhere rises or falls by a factor e with \
-         constant rate"
+        "the envelope at {frequency_hz:.1} Hz has no exponential stretch over which it changes by a factor e"
     )]
     NotExponential {
         /// Frequency at which the signal was demodulated, Hz.
         frequency_hz: f64,
     },
+    /// A power of another wave, which grows so many times as fast at so many times its frequency.
+    #[error("it holds a power of the growing wave of harmonic {harmonic}, and no mode of its own")]
+    Power {
+        /// Harmonic of that wave.
+        harmonic: usize,
+    },
     /// No vibration stands out of the noise.
-    #[error("no line stands out of the noise")]
+    #[error("no line stands out from the noise")]
     NoLine,
     /// A signal that cannot be analysed.
     #[error(transparent)]

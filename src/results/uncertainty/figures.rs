@@ -4,11 +4,11 @@ use super::summary::{DesignCurve, RobustSummary, UncertaintySummary};
 use crate::chart::{
     Axis, Bars, Figure, Fill, INK, Label, Line, Marker, Panel, Rule, SERIES, Stroke, look,
 };
-use crate::results::parameter::parameter_axis;
+use crate::results::parameter::{parameter_axis, parameter_name};
 
 /// Distribution of critical friction, probability of squeal over friction, indices.
 pub fn uncertainty(summary: &UncertaintySummary) -> Figure {
-    let largest = summary.largest_friction;
+    let largest = shown_friction(summary);
     let friction = || Axis::friction().between(0.0, largest);
     let share = |name: &str| Axis::new(name, "–").between(0.0, 1.0);
     let families = summary
@@ -61,6 +61,19 @@ pub fn uncertainty(summary: &UncertaintySummary) -> Figure {
     .panel(probability)
 }
 
+/// The friction coefficient up to which something happens, with a little room: onsets of families, changes of the probability,
+/// the case's own friction.
+fn shown_friction(summary: &UncertaintySummary) -> f64 {
+    let families = summary.families.iter();
+    let onsets = families.flat_map(|family| &family.critical_friction_percentiles);
+    let over = &summary.probability_over_friction;
+    let last = over.last().map_or(0.0, |row| row[1]);
+    let changes = over.iter().filter(|row| row[1] != last).map(|row| row[0]);
+    let happens = onsets.filter_map(|onset| *onset).chain(changes);
+    let reach = happens.fold(summary.friction_coefficient, f64::max);
+    (1.15 * reach).min(summary.largest_friction)
+}
+
 /// Sobol's indices of the lowest critical friction.
 pub fn indices(summary: &UncertaintySummary) -> Figure {
     // The largest above.
@@ -84,7 +97,7 @@ pub fn indices(summary: &UncertaintySummary) -> Figure {
     let names = rows
         .iter()
         .enumerate()
-        .map(|(k, (key, _))| (place(k), key.replace('_', " ")));
+        .map(|(k, (key, _))| (place(k), parameter_name(key)));
     let largest = rows
         .iter()
         .map(|row| {

@@ -200,11 +200,11 @@ impl UncertaintySummary {
         for family in &self.families {
             let _ = writeln!(
                 out,
-                "  {:<22} unstable with {:.4}, turns unstable below {} with {:.4}; median {:.4}, {:.0} Hz{}",
+                "  {:<22} probability of being unstable {:.4}; becomes unstable below friction {} in {:.1} % of the samples, median {:.4}, {:.0} Hz{}",
                 family.name(),
                 family.probability,
                 self.largest_friction,
-                family.probability_in_range,
+                100.0 * family.probability_in_range,
                 family.critical_friction_median,
                 family.frequency_hz,
                 match family.beyond_limit {
@@ -216,7 +216,7 @@ impl UncertaintySummary {
         for (key, index) in &self.sobol {
             let _ = writeln!(
                 out,
-                "  {key}: first {}, total {}",
+                "  {key}: Sobol index first-order {}, total {}",
                 with_interval(index.first, index.first_interval),
                 with_interval(index.total, index.total_interval),
             );

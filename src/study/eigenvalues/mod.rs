@@ -12,6 +12,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod dampings;
 mod map;
 mod model;
 mod sliding;
@@ -20,6 +21,7 @@ mod solve;
 mod spectrum;
 mod states;
 
+pub use dampings::dampings;
 pub use map::map;
 pub use model::{Model, Solver, Spectrum, asked_modes, mode_limit};
 pub use sliding::{SlidingModel, SteadyState};
@@ -126,10 +128,11 @@ pub fn report<'a>(
         method: solution.method,
         selection: match cea.modes {
             ModeSelection::BelowHz(limit) => format!("below {limit} Hz"),
-            ModeSelection::Lowest(count) => format!("the lowest {count}"),
+            ModeSelection::Lowest(count) => format!("the {count} lowest"),
         },
         friction_coefficients: &cea.friction_coefficients,
         sweep: &solution.sweep,
+        contact_changes: model.contact_changes(),
         base: model.base_state(case),
         field,
         solid: model.solid().map(|body| &body.report),

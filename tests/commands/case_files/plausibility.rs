@@ -16,7 +16,7 @@ fn slips_of_units_are_said() {
         ),
         (
             vec!["cea.shapes_at=[0.3, 3]"],
-            ["cea.friction_coefficients = 3", "above 2"],
+            ["cea.shapes_at = 3", "above 2"],
         ),
         (
             vec!["geometry.inner_radius=20.5", "geometry.outer_radius=90.5"],

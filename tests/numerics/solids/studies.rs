@@ -82,7 +82,7 @@ fn friction_that_falls_with_the_speed_is_said_and_destabilizes_a_body_with_thick
     ]);
     assert!(said.contains("friction falls with speed"), "{said}");
     assert!(
-        said.contains("one per cent more of") && said.contains("decay_speed"),
+        said.contains("rises by 1 %") && said.contains("decay_speed"),
         "{said}"
     );
     let (said, constant) = lowest(&[]);
