@@ -1,6 +1,6 @@
 //! `frictionsim cea` of a superelement that stands free.
 
-use super::limits::{STANDARD_INPUT, input_name, read_input};
+use super::limits::{LARGEST_CASE, STANDARD_INPUT, input_name, read_input};
 use super::session::start_threads;
 use super::{Failure, RunOptions, terminal};
 use crate::case::{FreeSystem, RawCase};

@@ -44,7 +44,6 @@ pub struct Uncertainty {
     pub parameters: Vec<UncertainParameter>,
 }
 
-
 pub(super) fn uncertainty(root: &Section<'_>) -> Option<Uncertainty> {
     let section = root.section("uncertainty", false);
     let samples = section.count("samples");
@@ -166,9 +165,10 @@ fn uncertain(
         }
         "log_normal" => {
             let (median, deviation) = (a, b);
+            let is_valid = a > 0.0 && b > 0.0;
             (
                 Distribution::LogNormal { median, deviation },
-                a > 0.0 && b > 0.0,
+                is_valid,
                 "two positive numbers",
             )
         }

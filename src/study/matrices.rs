@@ -1,9 +1,9 @@
 //! The matrices that the eigenvalue analysis of a case solves, by power of the friction coefficient.
 
 use super::StudyError;
-use super::eigenvalues::WholeMesh;
+use super::eigenvalues::{Solver, WholeMesh};
 use super::tangent_options;
-use crate::case::Case;
+use crate::case::{Case, CeaMethod};
 use crate::linalg::{MarketMatrix, MatrixPolynomial};
 use crate::prestress::SlidingTangent;
 use crate::results::matrices::{
@@ -27,8 +27,10 @@ pub fn matrices(case: &Case) -> Result<ExportedSystem, StudyError> {
             Some("use a plane formulation, or an imported mesh".to_owned()),
         )));
     }
-    let options = tangent_options(case, cea.mass);
-    let model = WholeMesh::solve(case, options, &cea.solved_friction_coefficients())?;
+    // The whole mesh, whatever the case's own method; what no method solves is refused.
+    Solver::of(case, CeaMethod::Auto)?;
+    let frictions = cea.solved_friction_coefficients();
+    let model = WholeMesh::solve(case, tangent_options(case, cea.mass), &frictions)?;
     let state = model.base();
     let tangent = model.tangent(case, state);
     let friction = case.contact.sliding.friction_coefficient;
