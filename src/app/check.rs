@@ -11,7 +11,10 @@ use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-/// Validate without running; say cost (unknowns, step, steps, memory, estimated time)
+/// Time beyond which a run is hardly meant, s: 30 days.
+const LONGEST_RUN: f64 = 30.0 * 86_400.0;
+
+/// Validate without running, and estimate the cost (unknowns, time step, steps, memory, time)
 #[derive(Args)]
 pub struct Arguments {
     /// Case files
@@ -73,7 +76,14 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 
 fn check(path: &std::path::Path, arguments: &Arguments) -> Result<(Case, Preflight), Failure> {
     let case = read_case(path, &arguments.changes.overrides())?;
-    let found = preflight(&case, machine_memory())?;
+    let found = preflight(&case, machine_memory());
+    if found.is_err() {
+        // An implausible value is often the cause of what cannot run.
+        for warning in &case.warnings {
+            terminal::warn(warning);
+        }
+    }
+    let found = found?;
     if arguments.changes.deny_warnings {
         case.deny_warnings(&found.warnings)?;
     }
@@ -96,8 +106,10 @@ fn describe(name: &str, case: &Case, found: &Preflight) -> String {
         "\n  mesh: {nodes} nodes, {elements} elements, {dofs} unknowns, about {}",
         size(found.cost.mesh_memory_bytes)
     );
+    let mut longest: f64 = 0.0;
     let mut line = |what: &str, text: String, bytes: f64, seconds: f64| {
         let (size, time) = (size(bytes), duration(seconds));
+        longest = longest.max(seconds);
         let _ = writeln!(out, "  {what}: {text}, {size}, {time} on one thread");
     };
     let cost = &found.cost;
@@ -147,6 +159,13 @@ fn describe(name: &str, case: &Case, found: &Preflight) -> String {
     if let Some(study) = &found.uncertainty {
         let text = plural(study.runs, "run");
         line("uncertainty", text, study.memory_bytes, study.seconds);
+    }
+    if longest > LONGEST_RUN {
+        let _ = writeln!(
+            out,
+            "  warning: a run of {} is hardly meant: use fewer elements, or a shorter duration",
+            duration(longest)
+        );
     }
     for warning in case.warnings.iter().chain(&found.warnings) {
         let _ = writeln!(out, "  warning: {warning}");
@@ -239,10 +258,15 @@ fn size(bytes: f64) -> String {
 }
 
 fn duration(seconds: f64) -> String {
+    const DAY: f64 = 86_400.0;
+    const YEAR: f64 = 365.25 * DAY;
     match seconds {
         s if s < 1.0 => "under 1 s".to_owned(),
         s if s < 120.0 => format!("{s:.0} s"),
         s if s < 7200.0 => format!("{:.0} min", s / 60.0),
-        s => format!("{:.1} h", s / 3600.0),
+        s if s < 2.0 * DAY => format!("{:.1} h", s / 3600.0),
+        s if s < 2.0 * YEAR => format!("{:.0} days", s / DAY),
+        s if s < 1000.0 * YEAR => format!("{:.0} years", s / YEAR),
+        _ => "over 1000 years".to_owned(),
     }
 }

@@ -27,7 +27,7 @@ pub struct Arguments {
     no_figures: bool,
     #[command(flatten)]
     figures: FigureOptions,
-    /// No information; twice: errors only, and no table
+    /// No information messages; twice: errors only, and no table
     #[arg(long, short, action = ArgAction::Count)]
     quiet: u8,
 }

@@ -1,6 +1,6 @@
 //! `frictionsim fit`: parameters of a case from measured modes.
 
-use super::options::{input_name, read_input};
+use super::limits::{LARGEST_MEASUREMENT, input_name, read_input};
 use super::profile::{Profile, Redraw};
 use super::{Failure, RunOptions, Session, terminal};
 use crate::results::fit::{FitSummary, draw_report, write};
@@ -52,7 +52,7 @@ pub const PROFILE: Profile = Profile {
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let mut session = Session::start("fit", &arguments.options)?;
     session.case.require_fit()?;
-    let bytes = read_input(&arguments.modes)?;
+    let bytes = read_input(&arguments.modes, LARGEST_MEASUREMENT)?;
     let lines = read_modes(&bytes, &input_name(&arguments.modes))?;
     session.manifest.case_hash = joint_hash(&session.manifest.case_hash, &bytes);
     session.check_memory(session.case.cost().mesh_memory_bytes)?;

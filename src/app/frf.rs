@@ -78,7 +78,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             &session.options.output.figures.drawing(),
         )?;
     }
-    let path = folder.path().to_owned();
+    let path = folder.destination().to_owned();
     folder.finish()?;
     session.print(&format!("{}\n", summary.description), &object, &path)
 }

@@ -1,7 +1,7 @@
 //! `frictionsim identify`: Rayleigh coefficients from a measured frequency response.
 
 use super::Failure;
-use super::measurement::{Measurement, write_aside};
+use super::measurement::{Measurement, SideFile};
 use super::options::OutputOptions;
 use super::profile::{Profile, Redraw};
 use crate::results::identification::{
@@ -23,10 +23,10 @@ pub struct Arguments {
     /// Table of one or more frequency responses, UFF or MATLAB file
     #[arg(value_name = "FRF.csv", value_hint = ValueHint::FilePath)]
     response: PathBuf,
-    /// What the table holds, if its header does not say it (else accelerance)
+    /// Quantity in the table, if its header does not name it [default: accelerance]
     #[arg(long, value_enum, value_name = "QUANTITY")]
     quantity: Option<Quantity>,
-    /// Names of the columns where the header lacks or fails: f, f_khz, omega, re, im, mag, db, phase, phase_rad,
+    /// Column names, if the header is missing or misread: f, f_khz, omega, re, im, mag, db, phase, phase_rad,
     /// coherence, - to skip
     #[arg(
         long,
@@ -96,6 +96,10 @@ pub const PROFILE: Profile = Profile {
 /// that cannot be written.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let options = identification_options(arguments)?;
+    let uff = arguments.uff.as_deref();
+    let copy = uff
+        .map(|path| SideFile::prepare("--uff", path, &arguments.response, arguments.output.force))
+        .transpose()?;
     let measurement = Measurement::start(
         "identify",
         &arguments.response,
@@ -130,9 +134,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let object = write(&folder, &summary, &file.responses, &found.fit)?;
     let record = IdentificationRecord::of(&responses[0], &found);
     write_record(&folder, &record)?;
-    if let Some(path) = &arguments.uff {
+    if let Some(copy) = copy {
         let text: String = file.responses.iter().map(write_response).collect();
-        write_aside(path, text.as_bytes())?;
+        copy.write(text.as_bytes())?;
     }
     if let Some(drawing) = arguments.output.drawing() {
         draw_all(&folder, &record, &summary, &drawing)?;
@@ -165,7 +169,7 @@ fn identification_options(arguments: &Arguments) -> Result<IdentificationOptions
     let high = arguments.to.unwrap_or(f64::INFINITY);
     if !(low >= 0.0 && low < high) {
         return Err(Failure::usage(format!(
-            "--from {low} --to {high}: the range must begin at 0 Hz or above and end above its begin"
+            "--from {low} --to {high}: the range must start at 0 Hz or higher and end above its start"
         )));
     }
     let is_given = arguments.from.is_some() || arguments.to.is_some();

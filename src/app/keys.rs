@@ -44,7 +44,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let keys: Vec<&CaseKey> = KEYS.iter().filter(holds).collect();
     if keys.is_empty() {
         return Err(Failure::usage(format!(
-            "no key of a case has \"{word}\" in its name or its meaning"
+            "no case key has \"{word}\" in its name or meaning"
         )));
     }
     if arguments.json {

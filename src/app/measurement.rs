@@ -1,6 +1,7 @@
 //! Options, input and output folder that the commands on measured tables share.
 
-use super::options::{OutputOptions, input_name, read_input};
+use super::limits::{LARGEST_MEASUREMENT, input_name, read_input};
+use super::options::OutputOptions;
 use super::{Failure, terminal};
 use crate::results::{Manifest, OutputFolder};
 use crate::signal::reader::ReadError;
@@ -38,7 +39,7 @@ impl Measurement {
         terminal::start_log(options.quiet, options.verbose);
         // The matrices here are small, and the bytes must not depend on the number of threads.
         crate::linalg::factorize_on_one_thread();
-        let bytes = read_input(path)?;
+        let bytes = read_input(path, LARGEST_MEASUREMENT)?;
         let mut hash = Sha256::new();
         hash.update(&bytes);
         for choice in &choices {
@@ -77,18 +78,63 @@ impl Measurement {
     }
 }
 
-/// Writes a file outside the output folder, whole or not at all.
-///
-/// # Errors
-/// A place that cannot be written.
-pub fn write_aside(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    let fail = |error| Failure::run(format!("cannot write {}: {error}", path.display()));
-    let parent = path.parent().filter(|p| !p.as_os_str().is_empty());
-    let folder = parent.unwrap_or(Path::new("."));
-    let mut file = tempfile::NamedTempFile::new_in(folder).map_err(fail)?;
-    file.write_all(bytes).map_err(fail)?;
-    file.persist(path).map_err(|error| fail(error.error))?;
-    Ok(())
+/// A file that a command writes outside the output folder.
+pub struct SideFile<'a> {
+    path: &'a Path,
+    force: bool,
+}
+
+impl<'a> SideFile<'a> {
+    /// Asks before any work whether the file may be written: nothing is replaced without `--force`, the measurement
+    /// itself never.
+    ///
+    /// # Errors
+    /// [`Failure::Usage`] naming `option`.
+    pub fn prepare(
+        option: &str,
+        path: &'a Path,
+        measurement: &Path,
+        force: bool,
+    ) -> Result<Self, Failure> {
+        let shown = path.display();
+        let same = |a: &Path, b: &Path| Some(a.canonicalize().ok()? == b.canonicalize().ok()?);
+        if same(path, measurement) == Some(true) {
+            return Err(Failure::usage(format!(
+                "{option} {shown}: this is the measurement itself; name another file"
+            )));
+        }
+        if path.symlink_metadata().is_ok() && !force {
+            return Err(Failure::usage(format!(
+                "{option} {shown}: the file exists; name another one, or replace it with --force"
+            )));
+        }
+        Ok(Self { path, force })
+    }
+
+    /// Writes the file, whole or not at all.
+    ///
+    /// # Errors
+    /// A place that cannot be written; a file that has come into being meanwhile.
+    pub fn write(&self, bytes: &[u8]) -> Result<(), Failure> {
+        let fail = |error| Failure::run(format!("cannot write {}: {error}", self.path.display()));
+        let parent = self.path.parent().filter(|p| !p.as_os_str().is_empty());
+        let mut builder = tempfile::Builder::new();
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::PermissionsExt;
+            // As any file that a program creates, under the user's umask.
+            builder.permissions(std::fs::Permissions::from_mode(0o666));
+        }
+        let file = builder.tempfile_in(parent.unwrap_or(Path::new(".")));
+        let mut file = file.map_err(fail)?;
+        file.write_all(bytes).map_err(fail)?;
+        let kept = match self.force {
+            true => file.persist(self.path),
+            false => file.persist_noclobber(self.path),
+        };
+        kept.map_err(|error| fail(error.error))?;
+        Ok(())
+    }
 }
 
 impl From<ReadError> for Failure {

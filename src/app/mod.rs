@@ -15,7 +15,9 @@ mod frf;
 mod identify;
 mod init;
 mod keys;
+mod limits;
 mod man;
+mod matrices;
 mod measurement;
 mod mesh;
 mod options;
@@ -25,6 +27,7 @@ mod recorded_case;
 mod session;
 mod share;
 mod signal;
+mod superelement;
 pub mod sweep;
 pub mod terminal;
 pub mod transient;
@@ -42,7 +45,7 @@ use std::process::ExitCode;
 
 /// Stability and transient analysis of frictional contact by finite elements.
 ///
-/// A deformable body, at first a disc on a rotating cylinder, is pressed against a moving counterface.
+/// A deformable body, by default a disc on a rotating cylinder, is pressed against a moving counterface.
 /// `frictionsim init` writes a case to start from.
 #[derive(Parser)]
 #[command(
@@ -90,6 +93,7 @@ commands! {
     Basin: basin,
     Convergence: convergence,
     Mesh: mesh,
+    Matrices: matrices,
     Check: check,
     Init: init,
     Keys: keys,
@@ -169,8 +173,13 @@ fn options_behind_subcommand(command: &clap::Command, mut given: Vec<OsString>) 
 pub fn main() -> ExitCode {
     let command = command_line();
     let given = options_behind_subcommand(&command, std::env::args_os().collect());
-    let parsed = CommandLine::from_arg_matches(&command.get_matches_from(given));
-    let parsed = parsed.unwrap_or_else(|error| error.exit());
+    let matches = command.clone().try_get_matches_from(given);
+    let parsed = matches.and_then(|found| CommandLine::from_arg_matches(&found));
+    let parsed = match parsed {
+        Ok(parsed) => parsed,
+        Err(error) => return terminal::report_usage(&error),
+    };
+    limits::refuse_writes_beyond_limit();
     match parsed.command.run() {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => terminal::report(&failure),

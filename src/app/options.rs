@@ -1,10 +1,11 @@
 //! Options that subcommands share, and the folder that results go to by default.
 
 use super::figure_options::FigureOptions;
+use super::limits::STANDARD_INPUT;
 use super::{Failure, terminal};
 use crate::case::unset;
 use crate::fem::operator::SimdLevel;
-use crate::results::{DrawingOptions, Manifest, OutputFolder, Replace, read_manifest};
+use crate::results::{DrawingOptions, Manifest, OutputFolder, Replace, is_result, read_manifest};
 use clap::{ArgAction, Args, ValueEnum, ValueHint};
 use serde_json::{Value, json};
 use std::path::{Component, Path, PathBuf};
@@ -35,7 +36,7 @@ pub struct CaseChanges {
     /// Override a case key, for example contact.friction_coefficient=0.4 (repeatable)
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub set: Vec<String>,
-    /// Take a case key or section away, before --set (repeatable)
+    /// Remove a key or section of the case (repeatable; applied before --set)
     #[arg(long = "unset", value_name = "KEY")]
     pub unset: Vec<String>,
     /// Treat warnings about the case as errors
@@ -57,10 +58,10 @@ pub struct OutputOptions {
     /// Output folder; the command line says each command's default.
     #[arg(long, short, help = "Output folder", value_name = "DIR", value_hint = ValueHint::DirPath)]
     pub out: Option<PathBuf>,
-    /// Replace the results of another case or table in the output folder
+    /// Replace results of another case or table in the output folder, and existing files of other options
     #[arg(long)]
     pub force: bool,
-    /// Check everything and say where results would go, but compute and write nothing
+    /// Check everything and print where results would go, without computing or writing anything
     #[arg(long)]
     pub dry_run: bool,
     /// Draw no figures
@@ -72,10 +73,10 @@ pub struct OutputOptions {
     /// Print the summary object, alone, on stdout
     #[arg(long)]
     pub json: bool,
-    /// No progress and no information; twice: errors only, and no table
+    /// No progress bar and no information messages; twice: errors only, and no table
     #[arg(long, short, action = ArgAction::Count)]
     pub quiet: u8,
-    /// Whole tables, and what goes on
+    /// Full tables and progress messages
     #[arg(long, short, action = ArgAction::Count, conflicts_with = "quiet")]
     pub verbose: u8,
 }
@@ -119,7 +120,11 @@ impl OutputOptions {
         if is_continued && !own.exists() {
             return (plain, replace);
         }
-        tracing::info!("{} holds other results, which stay", plain.display());
+        tracing::info!(
+            "{} keeps the results of an earlier run; writing to {} instead",
+            plain.display(),
+            own.display()
+        );
         (own, replace)
     }
 
@@ -133,6 +138,9 @@ impl OutputOptions {
         is_continued: bool,
     ) -> Result<OutputFolder, Failure> {
         let (path, replace) = self.destination(manifest, is_continued);
+        if replace == Replace::Anything {
+            refuse_input_inside(&path, Path::new(&manifest.case_file))?;
+        }
         if self.dry_run {
             OutputFolder::may_open(&path, manifest, replace)?;
             return Err(self.dry_run_at(&path, manifest));
@@ -169,7 +177,7 @@ impl OutputOptions {
         table: &str,
         summary: &Value,
     ) -> Result<(), Failure> {
-        let path = folder.path().to_owned();
+        let path = folder.destination().to_owned();
         folder.finish()?;
         self.print(table, summary, &path)
     }
@@ -199,30 +207,24 @@ impl OutputOptions {
     }
 }
 
-/// The name that stands for standard input.
-pub const STANDARD_INPUT: &str = "-";
-
-/// Reads a case or a table.
-///
-/// # Errors
-/// [`Failure::Usage`] with the file's name.
-pub fn read_input(path: &Path) -> Result<Vec<u8>, Failure> {
-    let bytes = if path == Path::new(STANDARD_INPUT) {
-        let mut bytes = Vec::new();
-        std::io::Read::read_to_end(&mut std::io::stdin().lock(), &mut bytes).map(|_| bytes)
-    } else {
-        std::fs::read(path)
+/// Refuses to replace what lies in a folder where that might be the input itself: all there but cases that no run wrote.
+fn refuse_input_inside(folder: &Path, input: &Path) -> Result<(), Failure> {
+    let (Ok(folder), Ok(input)) = (folder.canonicalize(), input.canonicalize()) else {
+        return Ok(());
     };
-    bytes.map_err(|error| Failure::usage(format!("cannot read {}: {error}", input_name(path))))
-}
-
-/// What an input is called in messages.
-pub fn input_name(path: &Path) -> String {
-    if path == Path::new(STANDARD_INPUT) {
-        "standard input".to_owned()
-    } else {
-        path.display().to_string()
+    let Ok(name) = input.strip_prefix(&folder) else {
+        return Ok(());
+    };
+    let is_case = name
+        .extension()
+        .is_some_and(|extension| extension == "toml");
+    if is_case && !is_result(&folder, name) {
+        return Ok(());
     }
+    Err(Failure::usage(format!(
+        "--force would replace {}, which is the input: choose another folder with --out, or move the file out of this one",
+        input.display()
+    )))
 }
 
 /// What tells a run from the one whose results are there, fit for a folder's name.

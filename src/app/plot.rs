@@ -80,7 +80,7 @@ pub fn redraw(path: &Path, manifest: &Manifest, options: &DrawingOptions) -> Res
     match redraw {
         Redraw::Nothing => {
             let reason =
-                format!("it belongs to frictionsim {command}, which draws no figures to repeat");
+                format!("it belongs to frictionsim {command}, which has no figures to draw again");
             let path = path.to_owned();
             return Err(FolderError::NotResults { path, reason }.into());
         }

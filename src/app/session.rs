@@ -1,6 +1,6 @@
 //! Steps of every run before and after its analysis: read the case, take the output folder, report the results.
 
-use super::options::{input_name, read_input};
+use super::limits::{LARGEST_CASE, input_name, read_input};
 use super::terminal;
 use super::{Failure, RunOptions};
 use crate::case::{Case, RawCase};
@@ -129,7 +129,7 @@ impl Session {
 /// # Errors
 /// [`Failure::Usage`] if it cannot be read, [`Failure::Case`] if it is not valid.
 pub fn read_case(path: &Path, overrides: &[String]) -> Result<Case, Failure> {
-    let bytes = read_input(path)?;
+    let bytes = read_input(path, LARGEST_CASE)?;
     let raw = RawCase::parse(&input_name(path), &bytes, overrides)?;
     Ok(Case::from_raw(raw)?)
 }

@@ -1,6 +1,6 @@
 //! `frictionsim signal`: what vibrates in a measured or computed time signal.
 
-use super::measurement::{Measurement, write_aside};
+use super::measurement::{Measurement, SideFile};
 use super::options::OutputOptions;
 use super::profile::{Profile, Redraw};
 use super::session::read_case;
@@ -45,13 +45,13 @@ pub struct Arguments {
     /// Override a key of that case (repeatable)
     #[arg(long = "set", value_name = "KEY=VALUE", requires = "case")]
     set: Vec<String>,
-    /// Sampling rate, where the table has no time column or one that is rounded
+    /// Sampling rate, if the table has no time column or a rounded one
     #[arg(long, value_name = "HZ")]
     rate: Option<f64>,
     /// Channels by name or number [default: all]
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     channel: Vec<String>,
-    /// Names of the columns where the header lacks or fails: t, t_ms, t_us, a channel's name, - to skip
+    /// Column names, if the header is missing or misread: t, t_ms, t_us, a channel's name, - to skip
     #[arg(
         long,
         value_name = "NAMES",
@@ -59,13 +59,13 @@ pub struct Arguments {
         allow_hyphen_values = true
     )]
     columns: Vec<String>,
-    /// Begin of the interval for the peaks, s after the first sample
+    /// Start of the interval for the peaks, s after the first sample
     #[arg(long, value_name = "S")]
     from: Option<f64>,
     /// End of the interval for the peaks, s after the first sample
     #[arg(long, value_name = "S")]
     to: Option<f64>,
-    /// Smallest distance of two peaks: the spectrum is averaged over blocks of 4/HZ seconds [default: 2 Hz,
+    /// Smallest spacing between two peaks: the spectrum is averaged over blocks of 4/HZ seconds [default: 2 Hz,
     /// or what a shorter interval gives]
     #[arg(long, value_name = "HZ")]
     resolution: Option<f64>,
@@ -107,6 +107,7 @@ pub const PROFILE: Profile = Profile {
 /// # Errors
 /// A table or case that cannot be read (exit code 2), or an analysis that fails (1).
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let copies = prepare_copies(arguments)?;
     let case = match &arguments.case {
         Some(path) => Some(read_case(path, &arguments.set)?),
         None => None,
@@ -175,7 +176,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     if let Some(drawing) = arguments.output.drawing() {
         draw_all(&folder, &record, &summary, &drawing)?;
     }
-    let aside = write_copies(arguments, &file)?;
+    let aside = write_copies(arguments, &copies, &file)?;
     arguments
         .output
         .finish(folder, &(summary.print() + &aside), &object)
@@ -212,13 +213,27 @@ fn check_drawing(arguments: &Arguments, file: &SignalFile) -> Result<(), Failure
     Ok(())
 }
 
+/// The sound and the universal file that are asked for.
+fn prepare_copies(arguments: &Arguments) -> Result<[Option<SideFile<'_>>; 2], Failure> {
+    let (signal, force) = (&arguments.signal, arguments.output.force);
+    let wav = arguments.wav.as_deref();
+    let wav = wav.map(|path| SideFile::prepare("--wav", path, signal, force));
+    let uff = arguments.uff.as_deref();
+    let uff = uff.map(|path| SideFile::prepare("--uff", path, signal, force));
+    Ok([wav.transpose()?, uff.transpose()?])
+}
+
 /// Writes the channels as sound and as universal file, where asked for; what was written, in words.
-fn write_copies(arguments: &Arguments, file: &SignalFile) -> Result<String, Failure> {
+fn write_copies(
+    arguments: &Arguments,
+    [wav, uff]: &[Option<SideFile<'_>>; 2],
+    file: &SignalFile,
+) -> Result<String, Failure> {
     let mut text = String::new();
-    if let Some(path) = &arguments.wav {
+    if let (Some(path), Some(copy)) = (&arguments.wav, wav) {
         let slower = arguments.slower.unwrap_or(slowdown(file.sampling_rate));
         let bytes = write_wav(file, slower).map_err(Failure::usage)?;
-        write_aside(path, &bytes)?;
+        copy.write(&bytes)?;
         let factor = f64::from(slower);
         text = format!(
             "sound in {}: played {slower} times slower, 10 kHz is heard as {} kHz; {:.2} s\n",
@@ -227,8 +242,8 @@ fn write_copies(arguments: &Arguments, file: &SignalFile) -> Result<String, Fail
             file.channels[0].samples.len() as f64 / file.sampling_rate * factor,
         );
     }
-    if let Some(path) = &arguments.uff {
-        write_aside(path, write_signal(file).as_bytes())?;
+    if let (Some(path), Some(copy)) = (&arguments.uff, uff) {
+        copy.write(write_signal(file).as_bytes())?;
         text += &format!("universal file in {}\n", path.display());
     }
     Ok(text)

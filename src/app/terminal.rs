@@ -1,17 +1,26 @@
 //! Terminal output: results on stdout, log and progress on stderr.
 
 use super::Failure;
+use crate::case::{shown, shown_json};
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use std::io::{self, IsTerminal, Write};
 use std::process::ExitCode;
+use tracing_subscriber::fmt::format::Writer;
+use tracing_subscriber::fmt::{FmtContext, FormatEvent, FormatFields};
+use tracing_subscriber::registry::LookupSpan;
 
-/// Writes a result to stdout.
+/// Writes a result to stdout, control characters in it escaped.
 ///
 /// # Errors
 /// [`Failure::BrokenPipe`] if nobody reads it any more.
 pub fn print(text: &str) -> Result<(), Failure> {
+    print_bytes(shown(text).as_bytes())
+}
+
+fn print_bytes(bytes: &[u8]) -> Result<(), Failure> {
     let mut stdout = io::stdout().lock();
-    stdout.write_all(text.as_bytes())?;
+    stdout.write_all(bytes)?;
     Ok(stdout.flush()?)
 }
 
@@ -20,7 +29,7 @@ pub fn print(text: &str) -> Result<(), Failure> {
 /// # Errors
 /// As [`print()`].
 pub fn print_json(value: &serde_json::Value) -> Result<(), Failure> {
-    print(&format!("{value:#}\n"))
+    print_bytes(shown_json(&format!("{value:#}\n")).as_bytes())
 }
 
 /// Says on stderr what went wrong (every error names its cause itself), and gives the exit code.
@@ -28,14 +37,76 @@ pub fn report(failure: &Failure) -> ExitCode {
     let word = error_word();
     let (text, code) = match failure {
         Failure::Case(errors) => (errors.render(is_coloured()), 2),
-        Failure::Usage(error) => (format!("{word} {error}"), 2),
-        Failure::Run(error) => (format!("{word} {error}"), 1),
-        Failure::Interrupted(message) => (format!("{word} {message}"), INTERRUPTED),
+        Failure::Usage(error) => (format!("{word} {}", shown(&error.to_string())), 2),
+        Failure::Run(error) => (format!("{word} {}", shown(&error.to_string())), 1),
+        Failure::Interrupted(message) => (format!("{word} {}", shown(message)), INTERRUPTED),
         Failure::BrokenPipe | Failure::DryRun => return ExitCode::SUCCESS,
     };
     // Nobody is left to tell if stderr is closed.
     let _ = writeln!(io::stderr().lock(), "{text}");
     ExitCode::from(code)
+}
+
+/// Says a warning on stderr, for commands that keep no log.
+pub fn warn(warning: &impl std::fmt::Display) {
+    // Nobody is left to tell if stderr is closed.
+    let _ = writeln!(
+        io::stderr().lock(),
+        "warning: {}",
+        shown(&warning.to_string())
+    );
+}
+
+/// Commands of other programs and what they are called here.
+const OTHER_NAMES: &[(&str, &str)] = &[
+    ("damping", "identify"),
+    ("dynamic", "transient"),
+    ("eigen", "cea"),
+    ("eigenvalues", "cea"),
+    ("harmonic", "frf"),
+    ("modal", "cea"),
+    ("modes", "cea"),
+    ("new", "init"),
+    ("report", "plot"),
+    ("response", "frf"),
+    ("run", "transient"),
+    ("spectrum", "signal"),
+    ("template", "init"),
+    ("validate", "check"),
+];
+
+/// The command that is meant by one that does not exist.
+fn meant_command(error: &clap::Error) -> Option<&'static str> {
+    if error.kind() != ErrorKind::InvalidSubcommand {
+        return None;
+    }
+    let Some(ContextValue::String(given)) = error.get(ContextKind::InvalidSubcommand) else {
+        return None;
+    };
+    let found = OTHER_NAMES.iter().find(|pair| pair.0 == given);
+    found.map(|pair| pair.1)
+}
+
+/// Prints what the command line's parser says (help and version too), and gives the exit code.
+pub fn report_usage(error: &clap::Error) -> ExitCode {
+    if let Some(meant) = meant_command(error) {
+        let _ = writeln!(
+            io::stderr().lock(),
+            "{} no such command; `frictionsim {meant}` does that\n\nFor more information, try '--help'.",
+            error_word()
+        );
+        return ExitCode::from(2);
+    }
+    let plain = error.render().to_string();
+    let safe = shown(&plain);
+    let printed = match safe == plain {
+        true => error.print(),
+        // Arguments with control characters are quoted without colours.
+        false => write!(io::stderr().lock(), "{safe}"),
+    };
+    // Nobody is left to tell if the stream is closed.
+    drop(printed);
+    u8::try_from(error.exit_code()).map_or(ExitCode::FAILURE, ExitCode::from)
 }
 
 /// Advice for a run that keeps nothing before its end.
@@ -80,10 +151,41 @@ pub fn start_log(quiet: u8, verbose: u8) {
         .with_writer(io::stderr)
         .with_ansi(is_coloured())
         .with_max_level(level)
-        .without_time()
-        .with_target(false);
+        .event_format(Line);
     // A second call, as tests make, finds the log started.
     let _ = subscriber.try_init();
+}
+
+/// A line of the log: its level, coloured where stderr takes colours, and its text with control characters escaped.
+struct Line;
+
+impl<S, N> FormatEvent<S, N> for Line
+where
+    S: tracing::Subscriber + for<'a> LookupSpan<'a>,
+    N: for<'a> FormatFields<'a> + 'static,
+{
+    fn format_event(
+        &self,
+        context: &FmtContext<'_, S, N>,
+        mut out: Writer<'_>,
+        event: &tracing::Event<'_>,
+    ) -> std::fmt::Result {
+        let level = event.metadata().level();
+        let colour = match *level {
+            tracing::Level::ERROR => 31,
+            tracing::Level::WARN => 33,
+            tracing::Level::INFO => 32,
+            tracing::Level::DEBUG => 34,
+            tracing::Level::TRACE => 35,
+        };
+        match out.has_ansi_escapes() {
+            true => write!(out, "\x1b[{colour}m{level:>5}\x1b[0m ")?,
+            false => write!(out, "{level:>5} ")?,
+        }
+        let mut text = String::new();
+        context.format_fields(Writer::new(&mut text), event)?;
+        writeln!(out, "{}", shown(&text))
+    }
 }
 
 /// A progress bar on a terminal, nothing in a pipe or with `quiet`. `length` is 0 while it is not known.

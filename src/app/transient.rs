@@ -209,10 +209,10 @@ fn open(session: &Session, resume: bool) -> Result<OutputFolder, Failure> {
 
 /// Ends a run that a signal stopped: what there is stays, and the message says how to go on.
 fn stopped(folder: OutputFolder, run: &CentralDifference<'_>) -> Failure {
-    let path = folder.path().to_owned();
-    if let Err(error) = folder.finish() {
-        return error.into();
-    }
+    let path = match folder.suspend() {
+        Ok(path) => path,
+        Err(error) => return error.into(),
+    };
     let time = run
         .plan()
         .sample_time((run.steps_done() - 1) / run.plan().steps_per_sample);

@@ -17,10 +17,12 @@ pub struct Contact {
     pub stiffness: ContactStiffness,
 }
 
-/// `annulus` is that of a generated body, with whether it is three-dimensional.
+/// `annulus` is that of a generated body, with whether it is three-dimensional; `is_pressed` says whether a boundary has a
+/// pressure of its own.
 pub(super) fn contact(
     root: &Section<'_>,
     annulus: Option<(&AnnulusSpecification, bool)>,
+    is_pressed: bool,
 ) -> (Contact, ContactPlace) {
     let section = root.section("contact", true);
     let mut place = imported::contact_place(&section);
@@ -47,7 +49,7 @@ pub(super) fn contact(
                 section.reject(
                     key,
                     format!("contact.{key} is for a body from a mesh file (mesh.file)"),
-                    "the annulus turns about its own shaft".to_owned(),
+                    "not used by the built-in annulus".to_owned(),
                     Some("leave it out".to_owned()),
                 );
             }
@@ -55,8 +57,8 @@ pub(super) fn contact(
         place.plane_speed = None;
     }
     let interference = section.number("interference");
-    // A pressure on a face may press a three-dimensional body.
-    if is_annulus && !is_solid && interference == 0.0 {
+    // A pressure on a face may press a three-dimensional body; on a plane annulus it is an error of its own.
+    if is_annulus && !is_solid && interference == 0.0 && !is_pressed {
         section.reject(
             "interference",
             "contact.interference = 0.0 must be positive and finite".to_owned(),
@@ -78,7 +80,7 @@ pub(super) fn contact(
              an infinite dashpot (mu p / V): there is no steady sliding"
                 .to_owned(),
             "must not be zero in three dimensions".to_owned(),
-            Some("give a speed; a very small one all but sticks across the sliding".to_owned()),
+            Some("give a small positive speed instead".to_owned()),
         );
     }
     let contact = Contact {
@@ -117,7 +119,7 @@ pub(super) fn contact(
             ],
             false => [
                 "is for three-dimensional bodies",
-                "a plane body is pressed by rigid contact",
+                "plane bodies have a rigid base state",
             ],
         };
         let message = format!("contact.base_state = \"compliant\" {label}");

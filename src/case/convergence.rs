@@ -121,8 +121,8 @@ pub(super) fn read(root: &Section<'_>, body: Option<&Body>, has: [bool; 3]) -> O
     if !time_step_factors.is_empty() && !analyses.contains(&Analysis::Transient) {
         section.reject(
             "time_step_factors",
-            "convergence.time_step_factors has no transient to act on".to_owned(),
-            "only a transient has a time step".to_owned(),
+            "convergence.time_step_factors needs a [transient]".to_owned(),
+            "there is no transient in this case".to_owned(),
             Some(
                 "add a [transient] section of quad4 elements, or leave time_step_factors out"
                     .to_owned(),
@@ -144,7 +144,7 @@ fn has_enough(section: &Section<'_>, key: &'static str, values: &[f64]) -> bool 
         section.reject(
             key,
             format!(
-                "{} has {} values, an order is observed from {FEWEST} or more",
+                "{} has {} values; observing an order takes {FEWEST} or more",
                 section.name(key),
                 values.len()
             ),
@@ -246,7 +246,7 @@ fn check_meshes(
         {
             return reject(
                 format!(
-                    "{name}, is no refinement of that of {other}, {} x {}, in both directions",
+                    "{name}, does not refine that of {other}, {} x {}, in both directions",
                     coarser.circumferential_elements, coarser.radial_elements
                 ),
                 "factors further apart, or a finer mesh to start from",

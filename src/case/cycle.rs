@@ -82,7 +82,7 @@ pub(super) fn cycle(root: &Section<'_>, body: Option<&Body>) -> Option<Cycle> {
     if stability == StabilityChoice::Branch && continuation.is_none() {
         section.reject(
             "stability",
-            "cycle.stability = \"branch\" has no branch to follow".to_owned(),
+            "cycle.stability = \"branch\" needs [cycle.continuation]".to_owned(),
             "needs [cycle.continuation]".to_owned(),
             Some("add that table, or use \"point\"".to_owned()),
         );
@@ -132,7 +132,7 @@ fn check_continuation(section: &Section<'_>, continuation: &Continuation) {
             format!(
                 "cycle.continuation.spacing = \"log\" needs two positive ends, not {from} and {to}"
             ),
-            "logarithms of positive numbers only".to_owned(),
+            "both ends must be positive".to_owned(),
             Some("use \"linear\"".to_owned()),
         );
     }

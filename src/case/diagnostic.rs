@@ -1,7 +1,14 @@
 //! Diagnostics of a case: what is wrong, where, and the remedy.
 
+use super::shown::{shown, shown_in_place};
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
+use std::fmt::Write as _;
 use std::ops::Range;
+
+/// Errors of a case that are shown; the others are counted.
+const MOST_ERRORS: usize = 10;
+/// Longest message, in characters: keys and words of a case have any length.
+const LONGEST_MESSAGE: usize = 2000;
 
 /// A place in the case file (source 0) or in an override (source 1, 2, ...).
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -88,14 +95,42 @@ impl CaseErrors {
         } else {
             Renderer::plain()
         };
+        let safe = self.shown();
         let mut out = String::new();
-        for (index, diagnostic) in self.diagnostics.iter().enumerate() {
+        for (index, diagnostic) in safe.diagnostics.iter().enumerate() {
             if index > 0 {
                 out.push_str("\n\n");
             }
-            out.push_str(&renderer.render(&self.groups(diagnostic)));
+            out.push_str(&renderer.render(&safe.groups(diagnostic)));
+        }
+        let hidden = self.diagnostics.len() - safe.diagnostics.len();
+        if hidden > 0 {
+            let _ = write!(out, "\n\n... and {hidden} more errors");
         }
         out
+    }
+
+    /// The first errors, with texts that a terminal shows as they are.
+    fn shown(&self) -> Self {
+        let source = |source: &Source| Source {
+            name: shown(&source.name).into_owned(),
+            text: shown_in_place(&source.text).into_owned(),
+        };
+        let diagnostic = |found: &Diagnostic| Diagnostic {
+            message: cut(&shown(&found.message)),
+            label: cut(&shown(&found.label)),
+            at: found.at.clone(),
+            help: found.help.as_deref().map(|help| cut(&shown(help))),
+        };
+        Self {
+            sources: self.sources.iter().map(source).collect(),
+            diagnostics: self
+                .diagnostics
+                .iter()
+                .take(MOST_ERRORS)
+                .map(diagnostic)
+                .collect(),
+        }
     }
 
     fn groups<'a>(&'a self, diagnostic: &'a Diagnostic) -> [Group<'a>; 1] {
@@ -136,5 +171,13 @@ fn clamp(span: &Range<usize>, text: &str) -> Range<usize> {
     match text[start..end].find('\n') {
         Some(newline) => start..start + newline,
         None => start..end,
+    }
+}
+
+/// A text cut at [`LONGEST_MESSAGE`].
+fn cut(text: &str) -> String {
+    match text.char_indices().nth(LONGEST_MESSAGE) {
+        Some((end, _)) => format!("{} ...", &text[..end]),
+        None => text.to_owned(),
     }
 }

@@ -99,7 +99,7 @@ fn bounds(section: &Section<'_>, parameter: ModelParameter, entry: &RawEntry) ->
             let message = format!("{key} = {value} {}", parameter.bound.text());
             reject(
                 message,
-                "a bound that the key does not take",
+                "a bound outside what the key allows",
                 "choose narrower bounds",
             );
         }

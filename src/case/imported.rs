@@ -4,20 +4,28 @@ use super::boundaries::NamedCondition;
 use super::opposite::{check_meeting, opposite_curve};
 use super::raw::{MeshBytes, RawCase};
 use super::reader::Section;
+use super::shown::first_of;
 use super::suggestion;
 use super::words::CounterfaceWord;
 use crate::fem::{ElasticMaterial, RayleighDamping, RegionMaterial};
 use crate::mesh::{
-    BodySpecification, CounterfaceSpecification, GmshFile, Mesh2d, MeshFileError, SolidContact,
+    BodyPart, BodySpecification, CounterfaceSpecification, GmshFile, Mesh, MeshFileError,
+    SolidContact,
 };
+use std::io::Read as _;
 use std::path::Path;
 use std::sync::Arc;
+
+/// Names that a message lists.
+const MOST_NAMES: usize = 10;
+/// Largest mesh file, bytes.
+const LARGEST_MESH: u64 = 4 << 30;
 
 /// A body that a mesh file describes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ImportedBody {
     /// Its mesh with boundaries and what holds them.
-    pub mesh: Arc<Mesh2d>,
+    pub mesh: Arc<Mesh>,
     /// The material of each of its regions.
     pub materials: Vec<RegionMaterial>,
     /// What the mesh was made of, for its refinements.
@@ -72,7 +80,7 @@ pub(super) fn contact_place(section: &Section<'_>) -> ContactPlace {
             if direction == [0.0; 2] {
                 section.reject(
                     "direction",
-                    "contact.direction = [0, 0] points nowhere".to_owned(),
+                    "contact.direction = [0, 0] has no direction".to_owned(),
                     "must not be zero".to_owned(),
                     None,
                 );
@@ -164,23 +172,68 @@ pub(super) fn mesh_bytes(raw: &RawCase, file: &str) -> Result<MeshBytes, (String
     }
     let folder = Path::new(&raw.name).parent().unwrap_or(Path::new(""));
     let path = folder.join(file);
-    let bytes = std::fs::read(&path).map_err(|error| {
-        let message = format!("cannot read the mesh file {}: {error}", path.display());
+    let unreadable = |reason: &dyn std::fmt::Display| {
+        let message = format!("cannot read the mesh file {}: {reason}", path.display());
         (message, "not readable".to_owned())
-    })?;
+    };
+    let mut bytes = Vec::new();
+    let file_size = std::fs::File::open(&path)
+        .and_then(|source| source.take(LARGEST_MESH + 1).read_to_end(&mut bytes))
+        .map_err(|error| unreadable(&error))?;
+    if file_size as u64 > LARGEST_MESH {
+        let reason = format!("it is larger than {} MiB", LARGEST_MESH >> 20);
+        return Err(unreadable(&reason));
+    }
     Ok(MeshBytes {
         file: file.to_owned(),
         bytes: bytes.into(),
     })
 }
 
-/// The body that a mesh file describes. An error is a message and a label.
-pub(super) fn import(
-    mesh: &MeshBytes,
-    parts: &BodyParts,
-) -> Result<ImportedBody, (String, String)> {
+/// Why a mesh file does not describe the body, and the key of the case to blame.
+pub(super) struct ImportError {
+    pub key: String,
+    pub message: String,
+    pub label: String,
+    pub help: Option<String>,
+}
+
+impl ImportError {
+    fn new(key: &str, message: String, label: &str) -> Self {
+        Self {
+            key: key.to_owned(),
+            message,
+            label: label.to_owned(),
+            help: suggestion::usage(key),
+        }
+    }
+
+    /// An error of the mesh file `file`, at the key that asked for what the mesh does not have.
+    fn of(error: MeshFileError, file: &str) -> Self {
+        let message = format!("{file}: {error}");
+        let MeshFileError::Request { part, .. } = error else {
+            return Self::new("mesh.file", message, "cannot be used");
+        };
+        let (key, label) = match part {
+            BodyPart::Contact => ("contact.boundary".to_owned(), "the contact curve"),
+            BodyPart::Opposite => (
+                "contact.counter_boundary".to_owned(),
+                "the curve of the other body",
+            ),
+            BodyPart::Boundary(name) => (format!("boundaries.{name}"), "a boundary of the mesh"),
+            BodyPart::Direction => ("contact.direction".to_owned(), "must lie along the face"),
+            BodyPart::Center => ("contact.center".to_owned(), "not the centre of the curve"),
+            BodyPart::Material(name) => (format!("materials.{name}"), "no such surface"),
+            BodyPart::Scale => ("mesh.scale".to_owned(), "metres?"),
+        };
+        Self::new(&key, message, label)
+    }
+}
+
+/// The body that a mesh file describes.
+pub(super) fn import(mesh: &MeshBytes, parts: &BodyParts) -> Result<ImportedBody, ImportError> {
     let shown = &mesh.file;
-    let unusable = |error: MeshFileError| (format!("{shown}: {error}"), "makes no body".to_owned());
+    let unusable = |error: MeshFileError| ImportError::of(error, shown);
     let read = GmshFile::read(&mesh.bytes).map_err(unusable)?;
     let specification = BodySpecification {
         scale: parts.scale,
@@ -189,27 +242,29 @@ pub(super) fn import(
         opposite: parts.place.opposite.clone(),
         conditions: parts.boundaries.clone(),
     };
-    let mesh = Mesh2d::from_gmsh(&read, &specification).map_err(unusable)?;
-    check_meeting(&mesh, &specification, parts.interference)
-        .map_err(|message| (message, "bodies apart".to_owned()))?;
-    for (name, _) in &parts.materials {
-        if !mesh.regions.contains(name) {
-            let known = mesh.regions.iter().map(String::as_str);
-            let hint = suggestion::nearest(name, known)
-                .map_or_else(String::new, |near| format!("; did you mean \"{near}\"?"));
-            let list: Vec<String> = mesh
-                .regions
-                .iter()
-                .map(|region| format!("\"{region}\""))
-                .collect();
-            return Err((
-                format!(
-                    "[materials.{name}]: {shown} has no physical surface \"{name}\"; it has {}{hint}",
-                    list.join(", ")
-                ),
-                "its surfaces are others".to_owned(),
-            ));
-        }
+    let mesh = Mesh::from_gmsh(&read, &specification).map_err(unusable)?;
+    check_meeting(&mesh, &specification, parts.interference).map_err(|message| {
+        ImportError::new(
+            "contact.counter_boundary",
+            message,
+            "the bodies do not meet",
+        )
+    })?;
+    let unknown = parts.materials.iter().map(|(name, _)| name);
+    if let Some(name) = unknown
+        .into_iter()
+        .find(|&name| !mesh.regions.contains(name))
+    {
+        let known = mesh.regions.iter().map(String::as_str);
+        let hint = suggestion::nearest(name, known)
+            .map_or_else(String::new, |near| format!("; did you mean \"{near}\"?"));
+        let regions = mesh.regions.iter().map(|region| format!("\"{region}\""));
+        let message = format!(
+            "no physical surface is called \"{name}\"; the file has {}{hint}",
+            first_of(regions, MOST_NAMES)
+        );
+        let part = BodyPart::Material(name.clone());
+        return Err(unusable(MeshFileError::Request { part, message }));
     }
     let material = |region: &String| {
         let own = parts.materials.iter().find(|(name, _)| name == region);
@@ -243,7 +298,7 @@ impl ImportedBody {
             fine = fine.refined()?;
         }
         Ok(Self {
-            mesh: Arc::new(Mesh2d::from_gmsh(&fine, specification)?),
+            mesh: Arc::new(Mesh::from_gmsh(&fine, specification)?),
             materials: self.materials.clone(),
             source: Arc::new((fine, specification.clone())),
         })

@@ -30,8 +30,10 @@ mod reader;
 pub mod reference;
 mod rules;
 mod shaft;
+mod shown;
 mod solid;
 mod suggestion;
+mod superelements;
 mod sweep;
 mod transient;
 mod uncertainty;
@@ -57,6 +59,8 @@ pub use overrides::unset;
 pub use parameters::ModelParameter;
 pub use range::{Spacing, range_values};
 pub use raw::{MeshBytes, RawCase};
+pub use shown::{first_of, shown, shown_json};
+pub use superelements::{FreeSystem, Superelement};
 pub use sweep::{Sweep, SweptKey};
 pub use transient::{Output, Transient};
 pub use uncertainty::{UncertainParameter, Uncertainty};
@@ -64,7 +68,7 @@ pub use value::{RawEntry, RawItem, RawTable, RawValue};
 pub use words::{Analysis, CeaMethod, Combination, FrfMethod, OnsetChoice, StabilityChoice};
 
 use crate::fem::{ElasticMaterial, MaterialField};
-use crate::mesh::{Mesh2d, MeshError};
+use crate::mesh::{Mesh, MeshError};
 use reader::{Findings, Section};
 use std::sync::Arc;
 
@@ -165,6 +169,7 @@ impl Case {
         let fit = fit::fit(&root);
         let uncertainty = uncertainty::uncertainty(&root);
         let sweep = sweep::read(&root);
+        superelements::refuse_attached(&root);
         root.close();
         let (errors, warnings) = findings.into_parts();
         raw.mesh = mesh;
@@ -192,10 +197,12 @@ impl Case {
             raw,
         };
         let errors = rules::infeasible(&case);
+        let implausible = plausibility::implausible(&case);
         if !errors.is_empty() {
-            return Err(case.raw.errors(errors));
+            // A slip of units comes first: what cannot run is mostly its consequence.
+            return Err(case.raw.errors([implausible, errors].concat()));
         }
-        case.warnings.extend(plausibility::implausible(&case));
+        case.warnings.extend(implausible);
         Ok(case)
     }
 
@@ -264,7 +271,7 @@ impl Case {
                     value.unwrap_or_default()
                 ),
                 "must be positive here".to_owned(),
-                Some("a cylinder that turns backwards makes the mirror image".to_owned()),
+                Some("a cylinder turning backwards gives the mirror image".to_owned()),
             ));
         }
         Ok(cycle)
@@ -277,7 +284,7 @@ impl Case {
         }
         Err(self.error_at(
             "contact.static_friction_ratio",
-            "limit cycles are sought under a constant friction coefficient only".to_owned(),
+            "limit cycles are computed for a constant friction coefficient only".to_owned(),
             "friction falls with speed here".to_owned(),
             Some(
                 "follow the transient to its limit cycle instead ([transient] with \
@@ -358,7 +365,7 @@ impl Case {
     ///
     /// # Errors
     /// [`MeshError`] of a mesh that cannot be generated.
-    pub fn mesh(&self) -> Result<Arc<Mesh2d>, MeshError> {
+    pub fn mesh(&self) -> Result<Arc<Mesh>, MeshError> {
         self.body.mesh()
     }
 

@@ -33,6 +33,9 @@ pub(super) struct Model {
 /// The generated body, or that of a mesh file.
 pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &ElasticMaterial) -> Model {
     let conditions = boundaries::all(root);
+    let is_pressed = conditions
+        .iter()
+        .any(|(_, condition)| matches!(condition, BoundaryCondition::Pressure(_)));
     let mesh = root.section("mesh", true);
     let file = mesh.optional_text("file");
     let scale = mesh.number("scale");
@@ -48,7 +51,7 @@ pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &ElasticMateria
             annulus(root, &geometry, &mesh, (&conditions, is_solid), material);
         geometry.close();
         mesh.close();
-        let (contact, place) = contact(root, Some((&annulus, is_solid)));
+        let (contact, place) = contact(root, Some((&annulus, is_solid)), is_pressed);
         let body = match axial {
             None => Body::Annulus(Annulus {
                 specification: annulus,
@@ -79,27 +82,17 @@ pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &ElasticMateria
             contact,
         };
     };
-    // What describes an annulus has no effect here.
-    let radii = ["inner_radius", "outer_radius", "shaft_inner_radius"];
-    let _ = radii.map(|key| geometry.optional_number(key));
-    let counts = [
-        "circumferential_elements",
-        "radial_elements",
-        "shaft_radial_elements",
-    ];
-    let _ = counts.map(|key| mesh.optional_count(key));
-    let (_, _): (_, ElementKind) = (mesh.number("radial_grading"), mesh.choice("element"));
+    ignore_generated(&geometry, &mesh);
     geometry.close();
-    let (contact, place) = contact(root, None);
+    let (contact, place) = contact(root, None, is_pressed);
     if is_solid {
         mesh.reject(
             "file",
-            "mesh.file describes a plane body: three-dimensional ones are generated".to_owned(),
+            "mesh.file describes a plane body; three-dimensional bodies are generated".to_owned(),
             "material.formulation is \"three-dimensional\"".to_owned(),
             Some("give radii and element counts, or a plane formulation".to_owned()),
         );
     }
-    let _ = mesh.optional_count("axial_elements");
     let parts = BodyParts {
         scale,
         place,
@@ -111,8 +104,11 @@ pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &ElasticMateria
     let reject = |(message, label): (String, String)| mesh.reject("file", message, label, None);
     let bytes = imported::mesh_bytes(raw, &file).map_err(&reject).ok();
     let body = bytes.as_ref().and_then(|bytes| {
-        let body = imported::import(bytes, &parts);
-        body.map_err(&reject).ok()
+        let refuse = |error: imported::ImportError| {
+            let at = raw.place(&error.key);
+            mesh.reject_placed(&at, error.message, error.label, error.help);
+        };
+        imported::import(bytes, &parts).map_err(refuse).ok()
     });
     mesh.close();
     Model {
@@ -120,6 +116,33 @@ pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &ElasticMateria
         thickness,
         mesh: bytes,
         contact,
+    }
+}
+
+/// Reads what describes a generated body, which has no effect beside `mesh.file`, and says so.
+fn ignore_generated(geometry: &Section<'_>, mesh: &Section<'_>) {
+    let radii = ["inner_radius", "outer_radius", "shaft_inner_radius"];
+    let _ = radii.map(|key| geometry.optional_number(key));
+    let counts = [
+        "circumferential_elements",
+        "radial_elements",
+        "axial_elements",
+        "shaft_radial_elements",
+    ];
+    let _ = counts.map(|key| mesh.optional_count(key));
+    let (_, _): (_, ElementKind) = (mesh.number("radial_grading"), mesh.choice("element"));
+    let shape = ["radial_grading", "element"];
+    let given = radii.iter().map(|key| (geometry, key));
+    let given = given.chain(counts.iter().chain(&shape).map(|key| (mesh, key)));
+    for (section, key) in given.filter(|(section, key)| section.has(key)) {
+        section.warn(
+            key,
+            format!(
+                "{} is not used: mesh.file describes the body",
+                section.name(key)
+            ),
+            "no effect",
+        );
     }
 }
 

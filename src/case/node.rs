@@ -106,9 +106,7 @@ fn numbered(
         Body::Annulus(_) => {
             "node ids count radially outwards first: 1 + j (radial_elements + 1) + i"
         }
-        Body::Revolution(_) => {
-            "node ids count the sheet of a sector first; name nodes by their place instead"
-        }
+        Body::Revolution(_) => "node ids number one sector first; give nodes by position instead",
     };
     let nodes = body.node_count();
     if number as u128 > nodes && nodes > 0 {
@@ -143,7 +141,7 @@ fn labelled(
                 ends[1]
             ),
             "no node of the body".to_owned(),
-            "name it by its place instead, { x = .., y = .. } in metres",
+            "give its position instead, { x = .., y = .. } in metres",
         );
     }
     found
@@ -164,7 +162,7 @@ fn nearest(body: &Body, point: [f64; 2]) -> Option<(usize, [f64; 2])> {
         Body::Revolution(revolution) => nearest_on_top(&revolution.specification, point),
         Body::Imported(imported) => {
             let (node, _) = imported.mesh.nearest_node(point)?;
-            Some((node, imported.mesh.nodes[node]))
+            Some((node, imported.mesh.plane_node(node)))
         }
     }
 }
@@ -178,7 +176,7 @@ fn nearest_in_sectors(
     let (per_sector, sectors) = (sector.node_count(), sector.sector_count());
     let step = TAU / sectors as f64;
     let candidates = sector.strip.nodes[..per_sector].iter().enumerate();
-    let around = candidates.map(|(position, &[x, y])| {
+    let around = candidates.map(|(position, &[x, y, _])| {
         let (radius, start) = (x.hypot(y), y.atan2(x));
         let turns = ((point[1].atan2(point[0]) - start) / step).round() as i64;
         let turned = turns.rem_euclid(sectors as i64) as usize;

@@ -3,7 +3,7 @@
 use super::reader::Section;
 use super::words::CounterfaceWord;
 use crate::contact::ContactInterface;
-use crate::mesh::{BodySpecification, Mesh2d};
+use crate::mesh::{BodySpecification, Mesh};
 
 /// `contact.counter_boundary`, which only two bodies have.
 pub(super) fn opposite_curve(section: &Section<'_>, word: CounterfaceWord) -> Option<String> {
@@ -27,7 +27,7 @@ pub(super) fn opposite_curve(section: &Section<'_>, word: CounterfaceWord) -> Op
 
 /// Two bodies must have their curves before each other, at most as far into each other as the interference.
 pub(super) fn check_meeting(
-    mesh: &Mesh2d,
+    mesh: &Mesh,
     body: &BodySpecification,
     interference: f64,
 ) -> Result<(), String> {
@@ -38,8 +38,8 @@ pub(super) fn check_meeting(
     let name = &body.contact;
     if interface.is_empty() {
         return Err(format!(
-            "no point of \"{name}\" (contact.boundary) has \"{other}\" (contact.counter_boundary) before it: correct the \
-             curves, or contact.center, speed and direction, which say how they lie"
+            "no point of \"{name}\" (contact.boundary) has \"{other}\" (contact.counter_boundary) facing it: check the \
+             curves, and contact.center, speed and direction"
         ));
     }
     let deepest =
@@ -51,7 +51,7 @@ pub(super) fn check_meeting(
     if depth > interference + 1e-3 * size {
         return Err(format!(
             "the bodies overlap: node {} of \"{name}\" lies {depth:.3e} m inside the other body, more than \
-             contact.interference = {interference:e} m; mesh them touching, and let contact.interference press them",
+             contact.interference = {interference:e} m; mesh them just touching, and let contact.interference press them together",
             mesh.node_label(interface.nodes[i] as usize)
         ));
     }

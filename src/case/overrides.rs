@@ -45,7 +45,7 @@ pub(super) fn lay(
     diagnostics: &mut Vec<Diagnostic>,
 ) {
     if let Some(key) = text.strip_prefix(UNSET) {
-        if let Some(path) = path(key, source, "--unset takes a dotted key", diagnostics) {
+        if let Some(path) = path(key, source, "--unset needs a dotted key", diagnostics) {
             remove(root, &path, source, diagnostics);
         }
     } else if let Some((path, item)) = parse(text, source, diagnostics) {
@@ -95,7 +95,7 @@ fn remove(
     if taken.is_none() && !keys::is_key_or_section(&name) {
         diagnostics.push(Diagnostic::error(
             format!("unknown key `{name}`"),
-            "nothing to take away".to_owned(),
+            "nothing to remove".to_owned(),
             Location::new(source, 0..name.len()),
             suggestion::nearest_key(&name).map(|near| format!("did you mean `{near}`?")),
         ));

@@ -93,7 +93,10 @@ fn collect<'a>(
         }
         (_, Err(reason)) => section.reject_there(
             &entry.key_at,
-            format!("{} = \"{name}\" cannot be varied", section.name("")),
+            format!(
+                "\"{name}\" in {} cannot be varied",
+                section.name("").trim_end_matches('.')
+            ),
             "no continuous parameter".to_owned(),
             &reason,
         ),
@@ -120,7 +123,7 @@ fn also(section: &Section<'_>, name: &str, entry: &RawEntry) -> Vec<String> {
             },
             other => refuse(
                 format!("`also` of {name} is {}", other.kind()),
-                "name one key or a list of keys that take the same value",
+                "give one key, or a list of keys, that take the same value",
             ),
         }
     }

@@ -3,6 +3,7 @@
 use super::diagnostic::Diagnostic;
 use super::key::CaseKey;
 use super::keys::KEYS;
+use super::shown::first_of;
 use super::{Body, Case};
 use crate::fem::PlaneFormulation;
 
@@ -14,10 +15,18 @@ const LARGEST_FRICTION: f64 = 2.0;
 const LARGEST_PRESSURE: f64 = 0.1;
 /// Speeds of bar waves, m/s: soft rubber to ceramics.
 const WAVE_SPEEDS: [f64; 2] = [100.0, 10_000.0];
+/// Densities of solids, kg/m3: foams to heavy metals.
+const DENSITIES: std::ops::RangeInclusive<f64> = 20.0..=25_000.0;
 /// Lengths that a case has, m.
 const LENGTHS: [f64; 2] = [1e-5, 10.0];
-/// Poisson's ratio beyond which plane-strain elements lock.
+/// Thickness beyond which a plane body is hardly meant, m: 1 m is the default, a value for each metre.
+const LARGEST_THICKNESS: f64 = 1.0;
+/// Jacobian of an element, smallest over largest, below which it is badly shaped.
+const SMALLEST_JACOBIAN: f64 = 0.1;
+/// Poisson's ratio beyond which elements lock, but those of plane stress.
 const LARGEST_POISSON_RATIO: f64 = 0.49;
+/// Share of the speed of bar waves beyond which a seeded velocity is no small strain.
+const LARGEST_SEED: f64 = 0.01;
 /// Times the modulus over the radius beyond which a contact stiffness drowns the body in round-off.
 const LARGEST_STIFFNESS_RATIO: f64 = 1e8;
 
@@ -25,7 +34,10 @@ const LARGEST_STIFFNESS_RATIO: f64 = 1e8;
 pub(super) fn implausible(case: &Case) -> Vec<Diagnostic> {
     [
         lengths(case),
+        unmerged_nodes(case),
+        element_shape(case),
         wave_speed(case),
+        seeds(case),
         poisson_ratio(case),
         friction(case),
         interference(case),
@@ -46,61 +58,162 @@ fn warning(case: &Case, key: &str, message: String, label: &str, help: &str) -> 
 
 fn lengths(case: &Case) -> Option<Diagnostic> {
     let [least, most] = LENGTHS;
+    let [shortest, longest] = LENGTHS.map(metres);
+    let range = format!("outside the plausible range of {shortest} to {longest}");
     let is_outside = |value: f64| value < least || value > most;
     let help = "a case is in SI: are these millimetres or micrometres?";
     if let Body::Imported(imported) = &case.body {
         let width = 2.0 * imported.size();
         if is_outside(width) {
-            let message =
-                format!("the mesh is {width} m wide, a length outside {least} to {most} m");
+            let message = format!("the mesh is {width:.4} m wide, {range} (mesh.scale)");
             let help =
                 "coordinates are taken as metres: for a mesh in millimetres set mesh.scale = 0.001";
-            return Some(warning(case, "mesh.file", message, "metres?", help));
+            return Some(warning(case, "mesh.scale", message, "metres?", help));
         }
     }
-    let radii = case.body.grid().into_iter().flat_map(|grid| {
+    let mut radii = case.body.grid().into_iter().flat_map(|grid| {
         [
             ("geometry.inner_radius", grid.inner_radius),
             ("geometry.outer_radius", grid.outer_radius),
         ]
     });
-    let mut named = radii.chain([("geometry.thickness", case.thickness)]);
-    let (key, value) = named.find(|(_, value)| is_outside(*value))?;
-    let message = format!("{key} = {value} m is a length outside {least} to {most} m");
-    Some(warning(case, key, message, "metres?", help))
+    if let Some((key, value)) = radii.find(|(_, value)| is_outside(*value)) {
+        let message = format!("{key} = {value} m is {range}");
+        return Some(warning(case, key, message, "metres?", help));
+    }
+    let (key, value) = ("geometry.thickness", case.thickness);
+    (value < least || value > LARGEST_THICKNESS).then(|| {
+        let message = format!(
+            "{key} = {value} m is outside the plausible range of {shortest} to {}",
+            metres(LARGEST_THICKNESS)
+        );
+        warning(case, key, message, "metres?", help)
+    })
+}
+
+/// A length with the unit that suits its size.
+fn metres(length: f64) -> String {
+    match length {
+        l if l < 1e-3 => format!("{} um", (l * 1e9).round() / 1e3),
+        l if l < 1.0 => format!("{} mm", (l * 1e6).round() / 1e3),
+        l => format!("{l} m"),
+    }
+}
+
+/// Nodes of an imported mesh that lie on each other without being one.
+fn unmerged_nodes(case: &Case) -> Option<Diagnostic> {
+    let found = case.body.imported()?.mesh.unmerged_nodes()?;
+    Some(warning(
+        case,
+        "mesh.file",
+        format!("{found}: the parts are not connected there"),
+        "parts that were not merged?",
+        "join the parts (BooleanFragments or Coherence in the Gmsh geometry, or Coherence Mesh;), unless this is a crack",
+    ))
+}
+
+/// The worst element of an imported mesh.
+fn element_shape(case: &Case) -> Option<Diagnostic> {
+    let mesh = &case.body.imported()?.mesh;
+    let quality = mesh.quality();
+    if quality.worst_jacobian >= SMALLEST_JACOBIAN {
+        return None;
+    }
+    let nodes = mesh.element_nodes(quality.worst_element);
+    let count = nodes.len() as f64;
+    let sum = |axis: usize| {
+        nodes
+            .iter()
+            .map(|&n| mesh.nodes[n as usize][axis])
+            .sum::<f64>()
+    };
+    let labels = nodes.iter().map(|&node| mesh.node_label(node as usize));
+    Some(warning(
+        case,
+        "mesh.file",
+        format!(
+            "the Jacobian of an element varies by a factor {:.3} (smallest over largest; below {SMALLEST_JACOBIAN} the \
+             element is badly shaped): that of nodes {} at ({:.6}, {:.6}) m",
+            quality.worst_jacobian,
+            first_of(labels, 9),
+            sum(0) / count,
+            sum(1) / count
+        ),
+        "a badly shaped element",
+        "mesh the surface again, finer where it curves, or with Mesh.Optimize = 1; stresses near it are not reliable",
+    ))
+}
+
+/// Seeded velocities whose strain, `v / c`, is not small.
+fn seeds(case: &Case) -> Option<Diagnostic> {
+    let perturbation = &case.transient.as_ref()?.perturbation;
+    let waves = perturbation.waves.iter().map(|wave| wave.velocity.abs());
+    let wave = waves.fold(0.0, f64::max);
+    let (key, largest) = match wave >= perturbation.noise {
+        true => ("transient.perturbation.velocity", wave),
+        false => ("transient.perturbation.noise", perturbation.noise),
+    };
+    let speed = bar_wave_speed(case);
+    (largest > LARGEST_SEED * speed).then(|| {
+        warning(
+            case,
+            key,
+            format!(
+                "{key}: a seed of {largest:e} m/s is {:.3} of the speed of waves in the material, {speed:.0} m/s: its strains \
+                 are not small",
+                largest / speed
+            ),
+            "metres per second?",
+            "seeds of a linear stage are about 1e-3 m/s, or with relative = true a small share of the slip speed",
+        )
+    })
+}
+
+/// `sqrt(E / rho)`, m/s.
+pub(super) fn bar_wave_speed(case: &Case) -> f64 {
+    (case.material.young_modulus / case.material.density).sqrt()
 }
 
 /// Speed of waves in a bar, `sqrt(E / rho)`.
 fn wave_speed(case: &Case) -> Option<Diagnostic> {
     let (modulus, density) = (case.material.young_modulus, case.material.density);
-    let speed = (modulus / density).sqrt();
+    let speed = bar_wave_speed(case);
     let [least, most] = WAVE_SPEEDS;
     if (least..=most).contains(&speed) {
         return None;
     }
+    // The one that no solid has; rigid ones are within a factor of ten.
+    let key = match DENSITIES.contains(&density) {
+        true => "material.young_modulus",
+        false => "material.density",
+    };
     Some(warning(
         case,
-        "material.young_modulus",
+        key,
         format!(
             "material.young_modulus = {modulus:e} Pa and material.density = {density:e} kg/m3 give \
              waves of {speed:.3e} m/s, outside {least} to {most} m/s"
         ),
-        "pascals?",
+        if key == "material.density" {
+            "kg/m3?"
+        } else {
+            "pascals?"
+        },
         "a case is in SI: Pa, not MPa or GPa; kg/m3, not g/cm3 or t/mm3",
     ))
 }
 
 fn poisson_ratio(case: &Case) -> Option<Diagnostic> {
     let ratio = case.material.poisson_ratio;
-    let is_plane_strain = case.material.formulation == PlaneFormulation::PlaneStrain;
-    if ratio <= LARGEST_POISSON_RATIO || !is_plane_strain {
+    let is_plane_stress = case.material.formulation == PlaneFormulation::PlaneStress;
+    if ratio <= LARGEST_POISSON_RATIO || is_plane_stress {
         return None;
     }
     Some(warning(
         case,
         "material.poisson_ratio",
         format!(
-            "material.poisson_ratio = {ratio} is all but incompressible: the elements lock, and the \
+            "material.poisson_ratio = {ratio} is nearly incompressible: the elements lock, and the \
              time step of a transient shrinks by {:.3} against 0.45",
             // c_p grows with sqrt((1 - nu) / ((1 + nu) (1 - 2 nu))).
             (0.55 / (1.45 * 0.1) / ((1.0 - ratio) / ((1.0 + ratio) * (1.0 - 2.0 * ratio)))).sqrt()
@@ -113,19 +226,27 @@ fn poisson_ratio(case: &Case) -> Option<Diagnostic> {
 fn friction(case: &Case) -> Option<Diagnostic> {
     let largest = |values: &[f64]| values.iter().fold(0.0, |a: f64, b| a.max(*b));
     let own = case.contact.sliding.friction_coefficient;
-    let swept = case.cea.as_ref();
-    let swept = swept.map_or(0.0, |cea| largest(&cea.solved_friction_coefficients()));
-    let (key, value) = if own > LARGEST_FRICTION {
-        ("contact.friction_coefficient", own)
-    } else if swept > LARGEST_FRICTION {
-        ("cea.friction_coefficients", swept)
-    } else {
-        return None;
-    };
+    let cea = case.cea.as_ref();
+    let keys = [
+        ("contact.friction_coefficient", own),
+        (
+            "cea.friction_coefficients",
+            cea.map_or(0.0, |cea| largest(&cea.friction_coefficients)),
+        ),
+        (
+            "cea.shapes_at",
+            cea.map_or(0.0, |cea| largest(&cea.shapes_at)),
+        ),
+    ];
+    let (key, value) = keys
+        .into_iter()
+        .find(|(_, value)| *value > LARGEST_FRICTION)?;
     Some(warning(
         case,
         key,
-        format!("{key} = {value} is above {LARGEST_FRICTION}, beyond dry pairs of materials"),
+        format!(
+            "{key} = {value} is above {LARGEST_FRICTION}, higher than that of any dry pair of materials"
+        ),
         "above 2",
         "a friction coefficient is a ratio, not a percentage",
     ))
@@ -153,7 +274,7 @@ fn unresolved_springs(case: &Case) -> Option<Diagnostic> {
                 "contact.normal_stiffness = {stiffness:e} Pa/m is more than the time step of the transient, {step:.2e} s, \
                  resolves on this mesh, about {most:.1e} Pa/m: the status of contact nodes would flicker"
             ),
-            "all but rigid",
+            "nearly rigid",
             "use \"rigid\" for the transient, or a smaller transient.time_step",
         )
     })
@@ -172,7 +293,7 @@ fn steep_friction(case: &Case) -> Option<Diagnostic> {
             "contact.decay_speed",
             format!(
                 "contact.decay_speed = {} m/s lets friction fall faster than the inertia of a contact node allows within \
-                 the time step of the transient, {step:.2e} s: nodes may stick and slip alike, and jump",
+                 the time step of the transient, {step:.2e} s: nodes may jump between sticking and slipping",
                 decay.decay_speed
             ),
             "a steep law",
@@ -229,19 +350,21 @@ fn contact_stiffness(case: &Case) -> Option<Diagnostic> {
             "contact.normal_stiffness",
             format!(
                 "contact.normal_stiffness = {stiffness:e} Pa/m is {:.1e} times the modulus over the \
-                 radius: eigenvalues lose as many digits",
+                 radius: the eigenvalues lose that many digits",
                 stiffness / scale
             ),
-            "all but rigid",
+            "nearly rigid",
             "use \"rigid\", which is exact",
         )
     })
 }
 
-/// `zeta = (alpha / omega + beta omega) / 2` at the highest frequency asked for.
+/// `zeta = (alpha / omega + beta omega) / 2` at the highest frequency asked for, else where a bar as long as the body has its
+/// first mode.
 fn overdamping(case: &Case) -> Option<Diagnostic> {
-    let Some(super::ModeSelection::BelowHz(limit)) = case.cea.as_ref().map(|cea| cea.modes) else {
-        return None;
+    let limit = match case.cea.as_ref().map(|cea| cea.modes) {
+        Some(super::ModeSelection::BelowHz(limit)) => limit,
+        _ => (bar_wave_speed(case) / (4.0 * case.body.size())).round(),
     };
     let zeta = case
         .damping

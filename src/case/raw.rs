@@ -4,6 +4,7 @@ use super::diagnostic::{CaseErrors, Diagnostic, Location, Source};
 use super::overrides;
 use super::value::{RawItem, RawTable, RawValue, convert_table, quote};
 use sha2::{Digest, Sha256};
+use std::collections::HashSet;
 use std::fmt::Write as _;
 use std::sync::Arc;
 use toml::de::DeTable;
@@ -149,9 +150,10 @@ impl RawCase {
     /// The first key that has another value in `other`, in words: `section.key is 1 here, 2`.
     pub fn difference(&self, other: &Self) -> Option<String> {
         let (ours, theirs) = (self.canonical(), other.canonical());
-        let differing = |line: &&str, text: &str| !text.lines().any(|other| other == *line);
-        let of_ours = ours.lines().find(|line| differing(line, &theirs));
-        let of_theirs = theirs.lines().find(|line| differing(line, &ours));
+        let lines_of = |text| str::lines(text).collect::<HashSet<&str>>();
+        let [our_lines, their_lines] = [&*ours, &*theirs].map(lines_of);
+        let of_ours = ours.lines().find(|line| !their_lines.contains(line));
+        let of_theirs = theirs.lines().find(|line| !our_lines.contains(line));
         let (key, _) = of_ours.or(of_theirs)?.split_once(" = ")?;
         let value = |text: &str| {
             let mut assignments = text.lines().filter_map(|line| line.split_once(" = "));
@@ -214,7 +216,7 @@ fn readable_text(bytes: &[u8]) -> Result<&str, (Diagnostic, String)> {
         let label = if at.is_empty() {
             ""
         } else {
-            "the first byte that is not"
+            "the first invalid byte"
         };
         let (message, label) = (message.to_owned(), label.to_owned());
         let help = Some("save the file as UTF-8 text".to_owned());
@@ -230,7 +232,7 @@ fn readable_text(bytes: &[u8]) -> Result<&str, (Diagnostic, String)> {
     }
     if bytes.contains(&0) {
         return refuse(
-            "the case file is no text: it holds zero bytes",
+            "the case file is not a text file: it holds zero bytes",
             0..0,
             String::new(),
         );
@@ -245,13 +247,55 @@ fn readable_text(bytes: &[u8]) -> Result<&str, (Diagnostic, String)> {
 /// Parses a whole document; syntax errors are added to `diagnostics`.
 fn parse_document(text: &str, source: usize, diagnostics: &mut Vec<Diagnostic>) -> RawTable {
     let (table, errors) = DeTable::parse_recoverable(text);
+    if let (false, Some(other)) = (errors.is_empty(), foreign(text)) {
+        diagnostics.push(Diagnostic::error(
+            format!("this is {other}, not a case"),
+            "expected a section such as [geometry], or a key".to_owned(),
+            Location::new(source, 0..text.find('\n').unwrap_or(text.len())),
+            Some("`frictionsim init` writes a case to start from".to_owned()),
+        ));
+        return RawTable::new();
+    }
     for error in &errors {
+        let span = error.span().unwrap_or(0..0);
         diagnostics.push(Diagnostic::error(
             error.message().to_owned(),
             String::new(),
-            Location::new(source, error.span().unwrap_or(0..0)),
-            None,
+            Location::new(source, span.clone()),
+            decimal_comma(text, span.start),
         ));
     }
     convert_table(table.get_ref(), source, diagnostics)
+}
+
+/// What a text is that is no TOML at all.
+fn foreign(text: &str) -> Option<&'static str> {
+    let begin = text.trim_start();
+    if begin.starts_with("$MeshFormat") {
+        return Some("a Gmsh mesh (a case names it as mesh.file)");
+    }
+    if begin.starts_with('{') {
+        return Some("a JSON file");
+    }
+    if begin.starts_with('<') {
+        return Some("an XML or HTML file");
+    }
+    let mut rows = text.lines().map(str::trim).filter(|line| !line.is_empty());
+    let is_row = |line: &str| {
+        let has_columns = line.contains([',', ';', '\t']);
+        has_columns && !line.contains('=') && !line.starts_with(['[', '#'])
+    };
+    // The first rows tell: a case has an assignment or a section among them.
+    let (first, second) = (rows.next()?, rows.next()?);
+    (is_row(first) && is_row(second)).then_some("a table of values")
+}
+
+/// A hint where the line of a syntax error gives a number with a decimal comma.
+fn decimal_comma(text: &str, at: usize) -> Option<String> {
+    let begin = text.get(..at)?.rfind('\n').map_or(0, |newline| newline + 1);
+    let line = text[begin..].lines().next()?;
+    let value = line.split_once('=')?.1.trim();
+    let number = value.replace(',', ".");
+    let is_number = value.matches(',').count() == 1 && number.parse::<f64>().is_ok();
+    is_number.then(|| format!("write the number with a decimal point, not a comma: {number}"))
 }

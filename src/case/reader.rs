@@ -7,10 +7,14 @@ mod places;
 
 use super::diagnostic::{Diagnostic, Location};
 use super::key::{Bound, CaseKey, Default, Kind};
-use super::value::{RawEntry, RawItem, RawTable, RawValue};
+use super::value::{RawEntry, RawItem, RawTable, RawValue, cut};
 use super::{keys, suggestion};
 pub(super) use places::NodePlace;
 use std::cell::RefCell;
+use std::collections::BTreeSet;
+
+/// Unknown keys of one section that are named; the others are counted.
+const MOST_UNKNOWN: usize = 10;
 
 /// Errors and warnings found so far.
 #[derive(Debug, Default)]
@@ -42,7 +46,7 @@ pub(super) struct Section<'a> {
     at: Location,
     /// Declarations of its keys, where they are not those of the case.
     declarations: Option<&'static [CaseKey]>,
-    asked: RefCell<Vec<String>>,
+    asked: RefCell<BTreeSet<String>>,
 }
 
 impl<'a> Section<'a> {
@@ -92,7 +96,7 @@ impl<'a> Section<'a> {
     }
 
     fn item(&self, key: &str) -> Option<&'a RawItem> {
-        self.asked.borrow_mut().push(key.to_owned());
+        self.asked.borrow_mut().insert(key.to_owned());
         self.table?.get(key).map(|entry| &entry.item)
     }
 
@@ -121,8 +125,18 @@ impl<'a> Section<'a> {
 
     /// Reports an error at a place of its own.
     pub fn reject_there(&self, at: &Location, message: String, label: String, help: &str) {
-        self.findings
-            .push(message, label, at.clone(), Some(help.to_owned()));
+        self.reject_placed(at, message, label, Some(help.to_owned()));
+    }
+
+    /// As [`Self::reject_there`], where there may be no remedy to name.
+    pub fn reject_placed(
+        &self,
+        at: &Location,
+        message: String,
+        label: String,
+        help: Option<String>,
+    ) {
+        self.findings.push(message, label, at.clone(), help);
     }
 
     /// Says at a key what is no error but what the user should hear of.
@@ -174,7 +188,7 @@ impl<'a> Section<'a> {
         if self.is_given() {
             self.findings.push(
                 format!("missing key `{}`", self.name(key)),
-                format!("`{key}` belongs in this section"),
+                format!("`{key}` is required in this section"),
                 self.at.clone(),
                 suggestion::usage(&self.name(key)),
             );
@@ -183,7 +197,7 @@ impl<'a> Section<'a> {
 
     /// A subsection; `required` ones are reported where absent.
     pub fn section(&self, key: &str, required: bool) -> Section<'a> {
-        self.asked.borrow_mut().push(key.to_owned());
+        self.asked.borrow_mut().insert(key.to_owned());
         let entry = self.table.and_then(|table| table.get(key));
         let mut section = Self::new(self.findings, self.name(key), None, self.at.clone());
         match entry {
@@ -210,24 +224,37 @@ impl<'a> Section<'a> {
         section
     }
 
-    /// Reports every key that nobody asked for.
+    /// Reports every key that nobody asked for: the first ones by name, then how many more.
     pub fn close(self) {
         let asked = self.asked.borrow();
-        let asked: Vec<&str> = asked.iter().map(String::as_str).collect();
-        for (key, entry) in self.table.into_iter().flatten() {
-            if asked.contains(&key.as_str()) {
-                continue;
-            }
-            let place = if self.path.is_empty() {
-                "the case has no such section or key".to_owned()
-            } else {
-                format!("not a key of [{}]", self.path)
-            };
+        let names: Vec<&str> = asked.iter().map(String::as_str).collect();
+        let entries = self.table.into_iter().flatten();
+        let mut unknown = entries.filter(|(key, _)| !asked.contains(key.as_str()));
+        let place = match self.path.is_empty() {
+            true => "the case has no such section or key".to_owned(),
+            false => format!("not a key of [{}]", self.path),
+        };
+        for (key, entry) in unknown.by_ref().take(MOST_UNKNOWN) {
             self.findings.push(
-                format!("unknown key `{}`", self.name(key)),
-                place,
+                format!("unknown key `{}`", cut(self.name(key))),
+                place.clone(),
                 entry.key_at.clone(),
-                suggestion::suggest(&self.path, key, &asked),
+                match self.declarations {
+                    Some(own) => {
+                        let parts: Vec<&str> = own.iter().map(|part| part.name).collect();
+                        suggestion::suggest_part(key, &parts)
+                    }
+                    None => suggestion::suggest(&self.path, key, &names),
+                },
+            );
+        }
+        if let Some((_, first)) = unknown.next() {
+            let count = 1 + unknown.count();
+            self.findings.push(
+                format!("{count} more unknown keys, of which this is the first"),
+                place,
+                first.key_at.clone(),
+                None,
             );
         }
     }
@@ -237,7 +264,7 @@ impl<'a> Section<'a> {
         let asked = self.asked.borrow();
         let entries = self.table.into_iter().flatten();
         entries
-            .filter(|(key, _)| !asked.contains(key))
+            .filter(|(key, _)| !asked.contains(key.as_str()))
             .map(|(key, entry)| (key.as_str(), entry))
             .collect()
     }

@@ -54,7 +54,7 @@ pub fn markdown() -> String {
 /// their default, or an example where they have none.
 pub fn template() -> String {
     let mut out =
-        "# Every key of a case. Lines that are not commented out are needed.\n".to_owned();
+        "# Every key of a case. Lines that are not commented out are required.\n".to_owned();
     for section in sections() {
         let needed = section.is_empty() || REQUIRED_SECTIONS.contains(&section);
         if !section.is_empty() {

@@ -36,6 +36,42 @@ const SYNONYMS: &[(&str, &str)] = &[
     ("youngs_modulus", "material.young_modulus"),
 ];
 
+/// What other people call the parts of a range and of a place.
+const PART_SYNONYMS: &[(&str, &str)] = &[
+    ("angle", "angle_deg"),
+    ("begin", "from"),
+    ("end", "to"),
+    ("number", "count"),
+    ("num", "count"),
+    ("n", "count"),
+    ("phi", "angle_deg"),
+    ("points", "count"),
+    ("r", "radius"),
+    ("scale", "spacing"),
+    ("start", "from"),
+    ("step", "count"),
+    ("steps", "count"),
+    ("stop", "to"),
+    ("theta", "angle_deg"),
+    ("x1", "x"),
+    ("x2", "y"),
+];
+
+/// A hint for an unknown part of a range or of a place, which have the parts `known`.
+pub(super) fn suggest_part(word: &str, known: &[&str]) -> Option<String> {
+    let plain = word.to_lowercase();
+    let synonym = PART_SYNONYMS.iter().find(|pair| pair.0 == plain);
+    let synonym = synonym
+        .map(|pair| pair.1)
+        .filter(|meant| known.contains(meant));
+    let far = |near: &&str| near.len() > 1 || plain.len() > 1 && plain.starts_with(*near);
+    let near = synonym.or_else(|| nearest(&plain, known.iter().copied()).filter(far));
+    Some(match near {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => format!("it takes {}", known.join(", ")),
+    })
+}
+
 /// Other words for the values of choices.
 const WORD_SYNONYMS: &[(&str, &str)] = &[
     ("compliance", "receptance"),
@@ -68,6 +104,11 @@ pub(super) fn nearest<'a>(
     candidates: impl Iterator<Item = &'a str>,
 ) -> Option<&'a str> {
     candidates
+        // The distance is at least the difference of the lengths, and takes their product to find.
+        .filter(|candidate| {
+            let longest = word.len().max(candidate.len());
+            3 * word.len().abs_diff(candidate.len()) <= longest + 2
+        })
         .map(|candidate| (strsim::damerau_levenshtein(word, candidate), candidate))
         .filter(|(distance, candidate)| 3 * distance <= word.len().max(candidate.len()) + 2)
         .min_by_key(|(distance, _)| *distance)

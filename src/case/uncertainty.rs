@@ -9,6 +9,9 @@ use crate::linalg::Distribution;
 /// Share of a distribution beyond what its key can take from which on it is refused.
 const MOST_BEYOND: f64 = 0.05;
 
+/// Standard deviation of the logarithm beyond which a log-normal distribution is hardly meant: a factor of 20 either way.
+const LARGEST_LOG_DEVIATION: f64 = 3.0;
+
 /// A parameter and what is known of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UncertainParameter {
@@ -41,6 +44,9 @@ pub struct Uncertainty {
     pub parameters: Vec<UncertainParameter>,
 }
 
+/// Standard deviation of a logarithm beyond which a scatter is hardly meant: a factor of 20 either way.
+const LARGEST_LOG_DEVIATION: f64 = 3.0;
+
 pub(super) fn uncertainty(root: &Section<'_>) -> Option<Uncertainty> {
     let section = root.section("uncertainty", false);
     let samples = section.count("samples");
@@ -67,7 +73,7 @@ pub(super) fn uncertainty(root: &Section<'_>) -> Option<Uncertainty> {
             "distributions",
             format!("{} parameters are uncertain", found.len()),
             format!("at most {MOST}"),
-            Some("leave out those that hardly matter".to_owned()),
+            Some("leave out those with little influence".to_owned()),
         );
     }
     for (key, count) in [("samples", Some(samples)), ("index_samples", index_samples)] {
@@ -162,11 +168,18 @@ fn uncertain(
         }
         "log_normal" => {
             let (median, deviation) = (a, b);
-            let is_valid = a > 0.0 && b > 0.0;
+            let is_narrow = b <= LARGEST_LOG_DEVIATION;
+            let needs = match is_narrow || a <= 0.0 {
+                true => "two positive numbers",
+                false => {
+                    "the second number is the standard deviation of the logarithm, at most 3: 0.1 is about 10 %"
+                }
+            };
+            let is_valid = a > 0.0 && b > 0.0 && is_narrow;
             (
                 Distribution::LogNormal { median, deviation },
                 is_valid,
-                "two positive numbers",
+                needs,
             )
         }
         _ => {
@@ -181,6 +194,18 @@ fn uncertain(
         }
         return none;
     }
+    if word == "log_normal" && b > LARGEST_LOG_DEVIATION {
+        reject(
+            format!(
+                "log_normal = [{a}, {b}] of {key}: the second number is the standard deviation of the natural logarithm, and \
+                 {b} spans {:.0} powers of ten within one deviation",
+                b / std::f64::consts::LN_10
+            ),
+            "at most 3",
+            "a scatter of 10 % is { log_normal = [median, 0.1] }; for a deviation in the unit of the key use normal",
+        );
+        return none;
+    }
     let [least, most] = parameter.bound.ends();
     let range = [distribution.below(least), distribution.below(most)];
     let beyond = 1.0 - (range[1] - range[0]);
@@ -192,7 +217,7 @@ fn uncertain(
                 100.0 * beyond
             ),
             "reaches forbidden values",
-            "narrow it; a log_normal distribution stays positive",
+            "make it narrower, or use log_normal, which stays positive",
         );
         return none;
     }

@@ -1,13 +1,18 @@
 //! From a mesh file to a body: regions, boundaries with what holds them, and the contact edge.
 
 use super::curve::{Curve, EdgeWeights};
-use super::gmsh::{GmshFile, MeshFileError};
+use super::gmsh::{BodyPart, GmshFile, MeshFileError};
 use super::plane_body::{plane_body, used_nodes};
-use super::{Boundary, BoundaryCondition, Counterface, Mesh2d};
+use super::{Boundary, BoundaryCondition, Counterface, Mesh, NodalFrames};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Relative distance from a circle up to which nodes lie on it.
 const ROUND: f64 = 1e-4;
+/// Largest angle between a plane and the contact curve from its first node to its last, degrees: a face that is tilted
+/// more touches at a corner alone.
+const LARGEST_TILT: f64 = 10.0;
+/// Names that a message lists.
+const NAMED: usize = 10;
 
 /// What makes a body of a mesh file.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,7 +46,7 @@ pub enum CounterfaceSpecification {
     },
 }
 
-impl Mesh2d {
+impl Mesh {
     /// The body that `specification` makes of a mesh file.
     ///
     /// Frames are those of the counterface, but along guides, where they are those of the boundary's normal.
@@ -52,6 +57,13 @@ impl Mesh2d {
         file: &GmshFile,
         specification: &BodySpecification,
     ) -> Result<Self, MeshFileError> {
+        if file.dimension == 3 {
+            return Err(MeshFileError::Body(
+                "the mesh is of solid elements; a body on a rigid counterface must be plane: mesh its surface alone (gmsh -2), \
+                 or name the contacts of solid bodies under [contacts.NAME]"
+                    .to_owned(),
+            ));
+        }
         let mut mesh = plane_body(file, specification.scale)?;
         let index_of = used_nodes(file)?;
         let outline: BTreeMap<(u32, u32), (u32, u32, Option<u32>)> = mesh
@@ -72,34 +84,36 @@ impl Mesh2d {
                 curves.insert(name, Curve::chain(edges.into_iter().collect()));
             }
         }
-        let find = |name: &str, key: &str| match curves.get(name) {
+        let find = |name: &str, part: BodyPart| match curves.get(name) {
             Some(curve) => Ok(curve),
-            None => Err(no_curve(file, name, key)),
+            None => Err(no_curve(file, name, part)),
         };
 
         // The contact edge first: its frames are those of the counterface.
-        let contact = find(&specification.contact, "contact.boundary")?;
+        let contact = find(&specification.contact, BodyPart::Contact)?;
         contact.check_single(&specification.contact, &labels)?;
         mesh.counterface = counterface(&mesh, contact, specification)?;
         let counterface = mesh.counterface;
         let angles = mesh
-            .nodes
-            .iter()
-            .map(|&point| counterface.normal_angle(point));
-        mesh.frame_angles = angles.collect();
+            .plane_nodes()
+            .into_iter()
+            .map(|point| counterface.normal_angle(point));
+        mesh.frames = NodalFrames::Plane(angles.collect());
         let mut edge = contact_boundary(&mesh, contact, &specification.contact)?;
         edge.order_along(&mesh);
         let mut boundaries = vec![edge];
         for (name, condition) in &specification.conditions {
             if *name == specification.contact {
                 if *condition != BoundaryCondition::Free {
-                    return Err(MeshFileError::Body(format!(
+                    let message = format!(
                         "boundaries.{name} is the contact curve (contact.boundary): it can have no condition of its own"
-                    )));
+                    );
+                    let part = BodyPart::Boundary(name.clone());
+                    return Err(MeshFileError::Request { part, message });
                 }
                 continue;
             }
-            let curve = find(name, "boundaries")?;
+            let curve = find(name, BodyPart::Boundary(name.clone()))?;
             boundaries.push(held_boundary(
                 &mut mesh,
                 curve,
@@ -109,16 +123,18 @@ impl Mesh2d {
             ));
         }
         if let Some(name) = &specification.opposite {
-            let curve = find(name, "contact.counter_boundary")?;
+            let curve = find(name, BodyPart::Opposite)?;
             Curve::check_apart([contact, curve], [&specification.contact, name], &labels)?;
             let place = boundaries
                 .iter()
                 .position(|boundary| boundary.name == *name);
             if place.is_some_and(|b| boundaries[b].condition != BoundaryCondition::Free) {
-                return Err(MeshFileError::Body(format!(
+                let message = format!(
                     "boundaries.{name} is the contact curve of the other body (contact.counter_boundary): it can have no \
                      condition of its own"
-                )));
+                );
+                let part = BodyPart::Boundary(name.clone());
+                return Err(MeshFileError::Request { part, message });
             }
             let free = BoundaryCondition::Free;
             mesh.opposite = Some(place.unwrap_or(boundaries.len()));
@@ -138,20 +154,16 @@ impl Mesh2d {
     }
 }
 
-fn no_curve(file: &GmshFile, name: &str, key: &str) -> MeshFileError {
+fn no_curve(file: &GmshFile, name: &str, part: BodyPart) -> MeshFileError {
+    let refuse = |message: String| MeshFileError::Request { part, message };
     if file.curves.contains_key(name) {
-        return MeshFileError::Body(format!(
-            "physical curve \"{name}\" ({key}) is not on the rim of the body: its edges are not edges of one element each"
+        return refuse(format!(
+            "physical curve \"{name}\" is not on the rim of the body: its edges are not edges of one element each"
         ));
     }
-    let names: Vec<String> = file
-        .curves
-        .keys()
-        .map(|name| format!("\"{name}\""))
-        .collect();
-    let nearest = file
-        .curves
-        .keys()
+    let known = || file.curves.keys();
+    let nearest = known()
+        .filter(|known| known.len().abs_diff(name.len()) <= 1 + name.len() / 3)
         .map(|known| (strsim::damerau_levenshtein(known, name), known))
         .min();
     let hint = match nearest {
@@ -160,33 +172,68 @@ fn no_curve(file: &GmshFile, name: &str, key: &str) -> MeshFileError {
         }
         _ => String::new(),
     };
+    let mut names: Vec<String> = known()
+        .take(NAMED)
+        .map(|name| format!("\"{name}\""))
+        .collect();
+    match known().count().saturating_sub(NAMED) {
+        0 => {}
+        more => names.push(format!("{more} more")),
+    }
     let list = if names.is_empty() {
         "the file has none: put the curve in a physical group (Physical Curve in Gmsh)".to_owned()
     } else {
         format!("the file has {}", names.join(", "))
     };
-    MeshFileError::Body(format!(
-        "{key}: no physical curve is called \"{name}\"; {list}{hint}"
+    refuse(format!(
+        "no physical curve is called \"{name}\"; {list}{hint}"
     ))
+}
+
+/// Refuses a plane whose way does not lie along the contact curve: it would slide into the body or away from it.
+fn check_along(
+    [x, y]: [f64; 2],
+    chord: [f64; 2],
+    specification: &BodySpecification,
+) -> Result<(), MeshFileError> {
+    let length = chord[0].hypot(chord[1]);
+    let off = (x * chord[1] - y * chord[0]).abs() / length;
+    if length == 0.0 || off <= LARGEST_TILT.to_radians().sin() {
+        return Ok(());
+    }
+    // Of the two ways along the curve the one with the body on its left-hand side: the chord runs so.
+    // Rounded, and no minus sign before a zero.
+    let [along_x, along_y] = chord.map(|part| (1e3 * part / length).round() / 1e3 + 0.0);
+    Err(MeshFileError::Request {
+        part: BodyPart::Direction,
+        message: format!(
+            "contact.direction = [{x}, {y}] makes {:.0} degrees with the contact curve \"{}\": the plane would slide into \
+             the body; the direction must lie along the face, here [{}, {}]",
+            off.clamp(0.0, 1.0).asin().to_degrees(),
+            specification.contact,
+            along_x,
+            along_y,
+        ),
+    })
 }
 
 /// The counterface where the contact curve puts it.
 fn counterface(
-    mesh: &Mesh2d,
+    mesh: &Mesh,
     contact: &Curve,
     specification: &BodySpecification,
 ) -> Result<Counterface, MeshFileError> {
-    let points = contact.nodes.iter().map(|&node| mesh.nodes[node as usize]);
+    let nodes = contact.nodes.iter();
+    let points = nodes.map(|&node| mesh.plane_node(node as usize));
     match specification.counterface {
         CounterfaceSpecification::Plane { direction } => {
-            let [x, y] = direction.unwrap_or_else(|| {
-                let last = contact.edges.len() - 1;
-                let ends = [contact.edges[0].0, contact.edges[last].1];
-                let [from, to] = ends.map(|node| mesh.nodes[node as usize]);
-                [to[0] - from[0], to[1] - from[1]]
-            });
+            let last = contact.edges.len() - 1;
+            let ends = [contact.edges[0].0, contact.edges[last].1];
+            let [from, to] = ends.map(|node| mesh.plane_node(node as usize));
+            let [x, y] = direction.unwrap_or([to[0] - from[0], to[1] - from[1]]);
             let length = x.hypot(y);
             let direction = [x / length, y / length];
+            check_along(direction, [to[0] - from[0], to[1] - from[1]], specification)?;
             let height = |p: &[f64; 2]| direction[0] * p[1] - direction[1] * p[0];
             let lowest = points.min_by(|a, b| height(a).total_cmp(&height(b)));
             Ok(Counterface::Plane {
@@ -207,21 +254,23 @@ fn counterface(
             if let (None, Some((i, d))) = (radius, worst)
                 && (d - mean).abs() > ROUND * mean
             {
-                return Err(MeshFileError::Body(format!(
-                    "the contact curve \"{}\" is no circle about contact.center = [{}, {}]: node {} lies {d:.6e} m from \
+                let message = format!(
+                    "the contact curve \"{}\" is not a circle about contact.center = [{}, {}]: node {} lies {d:.6e} m from \
                      it, the mean is {mean:.6e} m; correct contact.center, or give the cylinder's contact.radius",
                     specification.contact,
                     center[0],
                     center[1],
                     mesh.labels[contact.nodes[i] as usize]
-                )));
+                );
+                let part = BodyPart::Center;
+                return Err(MeshFileError::Request { part, message });
             }
             // Inside where the body's outward normals point towards the axis.
             let inward: f64 = contact
                 .edges
                 .iter()
                 .map(|&(p, q, _)| {
-                    let [p, q] = [p, q].map(|node| mesh.nodes[node as usize]);
+                    let [p, q] = [p, q].map(|node| mesh.plane_node(node as usize));
                     let middle = [
                         0.5 * (p[0] + q[0]) - center[0],
                         0.5 * (p[1] + q[1]) - center[1],
@@ -239,25 +288,32 @@ fn counterface(
 }
 
 /// The contact edge with its weights along the counterface's normal.
-fn contact_boundary(mesh: &Mesh2d, curve: &Curve, name: &str) -> Result<Boundary, MeshFileError> {
+fn contact_boundary(mesh: &Mesh, curve: &Curve, name: &str) -> Result<Boundary, MeshFileError> {
     let weights = EdgeWeights::of(mesh, curve);
     let mut lengths = Vec::new();
     for (&node, vector) in curve.nodes.iter().zip(&weights.normals) {
-        let (sin, cos) = mesh.frame_angles[node as usize].sin_cos();
+        let (sin, cos) = mesh.frame_angles()[node as usize].sin_cos();
         let length = -(vector[0] * cos + vector[1] * sin);
-        if length <= 0.0 {
-            let [x, y] = mesh.nodes[node as usize];
-            return Err(MeshFileError::Body(format!(
+        // A face along the normal leaves round-off of either sign.
+        if length <= 1e-6 * vector[0].hypot(vector[1]) {
+            let [x, y] = mesh.plane_node(node as usize);
+            let part = match mesh.counterface {
+                Counterface::Plane { .. } => BodyPart::Direction,
+                Counterface::Cylinder { .. } => BodyPart::Contact,
+            };
+            let message = format!(
                 "the contact curve \"{name}\" does not face the counterface at node {} ({x:.6e}, {y:.6e}) m: leave that \
                  part out of the physical curve, or correct contact.counterface, center or direction",
                 mesh.labels[node as usize]
-            )));
+            );
+            return Err(MeshFileError::Request { part, message });
         }
         lengths.push(length);
     }
     Ok(Boundary {
         name: name.to_owned(),
         nodes: curve.nodes.clone(),
+        faces: mesh.edge_faces(&curve.edges),
         tributary_lengths: lengths,
         normal_angles: weights.normal_angles(),
         is_closed: curve.is_closed,
@@ -265,9 +321,9 @@ fn contact_boundary(mesh: &Mesh2d, curve: &Curve, name: &str) -> Result<Boundary
     })
 }
 
-/// A boundary with its condition; a guide turns the frames of its nodes, but for those of the contact.
+/// A boundary with its condition; a guide or a fixed direction turns the frames of its nodes, but for those of the contact.
 fn held_boundary(
-    mesh: &mut Mesh2d,
+    mesh: &mut Mesh,
     curve: &Curve,
     name: &str,
     condition: BoundaryCondition,
@@ -275,16 +331,26 @@ fn held_boundary(
 ) -> Boundary {
     let weights = EdgeWeights::of(mesh, curve);
     let normal_angles = weights.normal_angles();
-    if condition == BoundaryCondition::Guide {
+    if matches!(
+        condition,
+        BoundaryCondition::Guide | BoundaryCondition::Fixed(_)
+    ) {
+        let mut angles = mesh.frame_angles().to_vec();
+        let contact: BTreeSet<u32> = contact.iter().copied().collect();
         for (&node, &angle) in curve.nodes.iter().zip(&normal_angles) {
             if !contact.contains(&node) {
-                mesh.frame_angles[node as usize] = angle;
+                angles[node as usize] = match condition {
+                    BoundaryCondition::Fixed(_) => 0.0,
+                    _ => angle,
+                };
             }
         }
+        mesh.frames = NodalFrames::Plane(angles);
     }
     Boundary {
         name: name.to_owned(),
         nodes: curve.nodes.clone(),
+        faces: mesh.edge_faces(&curve.edges),
         tributary_lengths: weights.lengths,
         normal_angles,
         is_closed: curve.is_closed,

@@ -1,8 +1,13 @@
 //! Nodes and elements of a mesh file as a plane body.
 
-use super::Mesh2d;
-use super::gmsh::{GmshFile, MeshFileError, PlaneElement};
+use super::coincidence::refuse_doubled_elements;
+use super::gmsh::{BodyPart, FileElement, GmshFile, MeshFileError};
+use super::{Mesh, NodalFrames};
 use std::collections::{BTreeMap, BTreeSet};
+
+/// Distances of the farthest node from the origin within which a body lies, m.
+const SMALLEST: f64 = 1e-9;
+const LARGEST: f64 = 1e6;
 
 /// Position among the nodes of plane elements of each node of the file.
 pub(super) fn used_nodes(file: &GmshFile) -> Result<Vec<Option<u32>>, MeshFileError> {
@@ -31,21 +36,23 @@ pub(super) fn used_nodes(file: &GmshFile) -> Result<Vec<Option<u32>>, MeshFileEr
 }
 
 /// Nodes and elements, counter-clockwise, without boundaries.
-pub(super) fn plane_body(file: &GmshFile, scale: f64) -> Result<Mesh2d, MeshFileError> {
+pub(super) fn plane_body(file: &GmshFile, scale: f64) -> Result<Mesh, MeshFileError> {
     let index_of = used_nodes(file)?;
     let count = index_of.iter().flatten().count();
-    let mut mesh = Mesh2d {
-        nodes: vec![[0.0; 2]; count],
-        frame_angles: vec![0.0; count],
+    let mut mesh = Mesh {
+        nodes: vec![[0.0; 3]; count],
+        frames: NodalFrames::global(2, count),
         element_starts: vec![0],
         labels: vec![0; count],
-        ..Mesh2d::default()
+        ..Mesh::default()
     };
     let depth = file.points[file.elements[0].nodes[0] as usize][2];
     let size = file
         .points
         .iter()
         .fold(0.0_f64, |m, p| m.max(p[0].abs()).max(p[1].abs()));
+    check_size(file, size, scale)?;
+    refuse_doubled_elements(file)?;
     for (node, (&[x, y, z], index)) in file.points.iter().zip(&index_of).enumerate() {
         let Some(index) = *index else { continue };
         if (z - depth).abs() > 1e-9 * size {
@@ -54,14 +61,14 @@ pub(super) fn plane_body(file: &GmshFile, scale: f64) -> Result<Mesh2d, MeshFile
                 file.labels[node]
             )));
         }
-        mesh.nodes[index as usize] = [scale * x, scale * y];
+        mesh.nodes[index as usize] = [scale * x, scale * y, 0.0];
         mesh.labels[index as usize] = file.labels[node];
     }
-    let names: BTreeSet<&str> = file.elements.iter().map(|e| e.region.as_str()).collect();
+    let names: BTreeSet<&str> = file.elements.iter().map(|e| &*e.region).collect();
     let names: Vec<&str> = names.into_iter().collect();
     if names.len() > usize::from(u16::MAX) {
         return Err(MeshFileError::Body(format!(
-            "{} physical surfaces are more than can be told apart",
+            "{} physical surfaces are too many",
             names.len()
         )));
     }
@@ -86,16 +93,36 @@ pub(super) fn plane_body(file: &GmshFile, scale: f64) -> Result<Mesh2d, MeshFile
         mesh.element_starts.push(mesh.elements.len() as u32);
         mesh.element_kinds.push(element.kind);
         mesh.congruent_to.push(e as u32);
-        let region = names.binary_search(&element.region.as_str()).unwrap_or(0);
+        let region = names
+            .binary_search(&&*element.region)
+            .expect("the names are those of all elements");
         mesh.element_regions.push(region as u16);
     }
     mesh.check_elements(|e| file.elements[e].label)?;
     Ok(mesh)
 }
 
+/// Refuses coordinates of which no length can be computed with: squares and products of them must be finite.
+fn check_size(file: &GmshFile, size: f64, scale: f64) -> Result<(), MeshFileError> {
+    let length = size * scale;
+    if (SMALLEST..=LARGEST).contains(&length) {
+        return Ok(());
+    }
+    let reaches = |p: &[f64; 3]| p[0].abs().max(p[1].abs()) == size;
+    let node = file.points.iter().position(reaches);
+    let label = node.map_or(0, |node| file.labels[node]);
+    Err(MeshFileError::Request {
+        part: BodyPart::Scale,
+        message: format!(
+            "node {label} lies at {length:e} m, and no other one farther from the origin: a body of {SMALLEST:e} to \
+             {LARGEST:e} m is expected; is the file damaged, or mesh.scale = {scale:e} wrong?"
+        ),
+    })
+}
+
 /// Surfaces whose elements run clockwise, all of them: the surface is turned over, its elements are sound.
 fn reversed_surfaces(file: &GmshFile) -> Result<BTreeSet<i64>, MeshFileError> {
-    let area = |element: &PlaneElement| {
+    let area = |element: &FileElement| {
         let corners = element.kind.corner_count();
         let at = |i: usize| file.points[element.nodes[i % corners] as usize];
         let cross = |p: [f64; 3], q: [f64; 3]| p[0] * q[1] - p[1] * q[0];

@@ -8,8 +8,10 @@ pub mod convergence;
 pub mod cycle;
 pub mod cycle_figures;
 mod drawing;
+mod extent;
 pub mod fit;
 pub mod identification;
+pub mod matrices;
 pub mod mesh;
 mod npz;
 mod parameter;
@@ -32,11 +34,12 @@ pub use drawing::{
     DOTS_PER_INCH, DrawingError, DrawingOptions, FigureFile, Format, REPORT, draw_all,
     figure_files, write_figures, write_report,
 };
+pub use extent::Extent;
 pub use response::{
     RESPONSE_TABLE, ResponseSummary, draw_response_report, read_response_table, write_response,
 };
 pub use store::{
-    FolderError, Manifest, OutputFolder, Record, Replace, read_manifest, read_record,
+    FolderError, Manifest, OutputFolder, Record, Replace, is_result, read_manifest, read_record,
     refuse_misfit, write_record,
 };
 pub use summary::{Summary, object, read_summary, write_summary};

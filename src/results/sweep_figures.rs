@@ -5,7 +5,7 @@ use super::charts::palette::{OPEN, SLIP, STICK};
 use super::charts::{CriticalBranch, ModeLine, critical_friction};
 use super::cycle_figures::{FamilyRecord, NamedFamily, draw_branches};
 use super::drawing::{Declaration, DrawingOptions, draw_all};
-use super::parameter::parameter_axis;
+use super::parameter::{parameter_axis, parameter_name};
 use super::report::NamedFigure;
 use super::sweep::{PointRecord, TWO_FREQUENCY, UNSETTLED, swept_text};
 use crate::chart::{
@@ -354,7 +354,15 @@ fn swept_label(swept: &Map<String, Value>) -> String {
     match (swept.len(), swept.get(FRICTION)) {
         (0, _) => "limit cycle".into(),
         (1, Some(friction)) => format!("*μ* = {friction}"),
-        _ => literal(&swept_text(swept)),
+        _ => {
+            let parts = swept.iter().map(|(key, value)| {
+                let one = Map::from_iter([(key.clone(), value.clone())]);
+                let text = swept_text(&one);
+                let value = text.rsplit(" = ").next().unwrap_or_default();
+                format!("{} = {}", parameter_name(key), literal(value))
+            });
+            parts.collect::<Vec<_>>().join(", ")
+        }
     }
 }
 

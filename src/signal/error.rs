@@ -4,7 +4,7 @@
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SignalError {
     /// Fewer samples than the analysis needs.
-    #[error("{what} has {count} samples; {needed} are needed at least: {remedy}")]
+    #[error("{what} has {count} samples; {needed} or more are needed: {remedy}")]
     TooShort {
         /// What is short.
         what: &'static str,
@@ -53,7 +53,7 @@ pub enum SignalError {
     },
     /// No resonance stands out of the noise.
     #[error(
-        "no resonance found between {low_hz} and {high_hz} Hz: no peak stands out of the noise; \
+        "no resonance found between {low_hz} and {high_hz} Hz: no peak stands out from the noise; \
          widen the frequency range or average more measurements"
     )]
     NoResonance {

@@ -82,8 +82,7 @@ pub enum NoGrowth {
     },
     /// An envelope that is no exponential.
     #[error(
-        "not exponential: the envelope at {frequency_hz:.1} Hz nowhere rises or falls by a factor e with \
-         constant rate"
+        "the envelope at {frequency_hz:.1} Hz has no exponential stretch over which it changes by a factor e"
     )]
     NotExponential {
         /// Frequency at which the signal was demodulated, Hz.
@@ -96,7 +95,7 @@ pub enum NoGrowth {
         harmonic: usize,
     },
     /// No vibration stands out of the noise.
-    #[error("no line stands out of the noise")]
+    #[error("no line stands out from the noise")]
     NoLine,
     /// A signal that cannot be analysed.
     #[error(transparent)]

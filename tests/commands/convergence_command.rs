@@ -197,7 +197,7 @@ fn bad_factors_are_refused_with_file_line_and_key() {
         ("factors = [1, 2, 1e9]", "above the limit"),
         (
             "time_step_factors = [1, 0.5, 0.25]",
-            "convergence.time_step_factors has no transient",
+            "convergence.time_step_factors needs a [transient]",
         ),
         (
             "analyses = [\"transient\"]",

@@ -18,6 +18,7 @@ mod figures;
 mod fit;
 mod golden;
 mod identify;
+mod inputs;
 mod plot;
 mod results;
 mod signal_command;

@@ -1,5 +1,7 @@
 //! What one core of this processor can do at most.
 
+#![allow(unsafe_code)]
+
 use frictionsim::fem::operator::SimdLevel;
 use std::hint::black_box;
 use std::time::Instant;

@@ -39,12 +39,13 @@ impl Section<'_> {
     pub fn parameter(&self, key: &str) -> String {
         let name = self.text(key);
         if self.is_some_text(key) && keys::find(&name).is_none_or(|known| !known.is_numeric()) {
-            let numeric = keys::KEYS.iter().filter(|known| known.is_numeric());
+            let is_numeric = |known: &str| keys::find(known).is_some_and(|key| key.is_numeric());
             self.reject(
                 key,
                 format!("{} = \"{name}\" is not a numeric case key", self.name(key)),
                 "must name a key whose value is a number".to_owned(),
-                suggestion::nearest(&name, numeric.map(|known| known.name))
+                suggestion::nearest_key(&name)
+                    .filter(|near| is_numeric(near))
                     .map(|near| format!("did you mean \"{near}\"?")),
             );
         }

@@ -15,16 +15,20 @@ pub(super) struct StepControl {
     /// Largest `|theta_1 - theta_0 - h (theta_0' + theta_1') / 2| / |theta_1|`: what a cubic through both
     /// points and slopes could hide.
     pub largest_defect: f64,
+    /// Steps below this length of the parameter are given up.
+    pub shortest: f64,
 }
 
 impl StepControl {
     pub const NORMAL: Self = Self {
         least_overlap: 0.8,
         largest_defect: 1e-4,
+        shortest: 1e-6,
     };
     pub const FINE: Self = Self {
         least_overlap: 0.97,
         largest_defect: 1e-7,
+        shortest: 1e-6,
     };
 }
 
@@ -40,8 +44,8 @@ pub(super) struct Follower<'a> {
 /// Largest number of Rayleigh quotient iterations for one point.
 const ITERATIONS: usize = 8;
 
-/// Steps below this length of the parameter are given up.
-const SHORTEST_STEP: f64 = 1e-6;
+/// How far a shift is moved off an eigenvalue, relative to it: well within the reach of the iteration.
+const MOVED: f64 = 1e-9;
 
 impl<'a> Follower<'a> {
     pub fn new(problem: &'a HarmonicProblem) -> Self {
@@ -64,7 +68,9 @@ impl<'a> Follower<'a> {
         y: &[c64],
     ) -> Option<Eigenpair> {
         let (mut x, mut y, mut theta) = (x.to_vec(), y.to_vec(), guess);
+        let mut is_moved = false;
         for _ in 0..ITERATIONS {
+            let before = [x.clone(), y.clone()];
             self.factorize(at, theta);
             // The second pair of solves costs a third of a factorization and saves most of one.
             for _ in 0..2 {
@@ -77,7 +83,14 @@ impl<'a> Follower<'a> {
             }
             let (next, slope) = self.problem.rayleigh_quotient(at, theta, &x, &y);
             if !(next.re.is_finite() && next.im.is_finite()) {
-                return None;
+                if is_moved {
+                    return None;
+                }
+                // A shift that is an eigenvalue to the last bit makes the factor singular: a shift beside it does not.
+                is_moved = true;
+                theta += theta * MOVED;
+                [x, y] = before;
+                continue;
             }
             let change = (next - theta).norm();
             theta = next;
@@ -151,8 +164,8 @@ impl<'a> Follower<'a> {
         }
     }
 
-    /// Follows `path` (its last point) to `target`, appending every accepted point; `matrices` gives
-    /// the problem along the way. `false` where the eigenpair is lost.
+    /// Follows `path` (its last point) up to `target`, appending every accepted point; `matrices` gives
+    /// the problem along the way. `false` where the eigenpair is lost. A path beyond `target` stays as it is.
     pub fn advance(
         &mut self,
         path: &mut Vec<Eigenpair>,
@@ -160,23 +173,38 @@ impl<'a> Follower<'a> {
         control: StepControl,
         matrices: &mut impl FnMut(f64) -> Rc<Matrices>,
     ) -> bool {
+        let is_there = path.last().is_none_or(|last| last.parameter >= target);
+        is_there || self.walk(path, target, control, matrices)
+    }
+
+    /// [`Self::advance`] in either sense of the parameter: appends points from the last one of `path` to `target`.
+    pub fn walk(
+        &mut self,
+        path: &mut Vec<Eigenpair>,
+        target: f64,
+        control: StepControl,
+        matrices: &mut impl FnMut(f64) -> Rc<Matrices>,
+    ) -> bool {
         let mut step = f64::INFINITY;
-        while let Some(last) = path.last().filter(|last| last.parameter < target) {
+        while let Some(last) = path.last().filter(|last| last.parameter != target) {
             if self.problem.is_ending(last.theta) {
                 return false;
             }
-            let goal = (last.parameter + step).min(target);
+            let goal = match target > last.parameter {
+                true => (last.parameter + step).min(target),
+                false => (last.parameter - step).max(target),
+            };
             let guess = extrapolate(path, goal);
             let at = matrices(goal);
             let found = self.refine(&at, goal, guess, &last.x, &last.y);
             match found.filter(|next| is_continuation(last, next, control)) {
                 Some(next) => {
-                    step = 2.0 * (goal - last.parameter);
+                    step = 2.0 * (goal - last.parameter).abs();
                     path.push(next);
                 }
                 None => {
-                    step = 0.5 * (goal - last.parameter);
-                    if step < SHORTEST_STEP {
+                    step = 0.5 * (goal - last.parameter).abs();
+                    if step < control.shortest {
                         return false;
                     }
                 }

@@ -291,6 +291,8 @@ pub(super) fn add_up(sums: &[f64; SUMS]) -> f64 {
 /// Compiles a body for every instruction set and picks one at run time.
 macro_rules! dispatched {
     ($name:ident, $body:ident, ($($argument:ident: $kind:ty),*) -> $result:ty) => {
+        // The only unsafe code of the program: instructions that not every processor has.
+        #[allow(unsafe_code)]
         pub(in crate::fem::operator) fn $name(level: SimdLevel, $($argument: $kind),*) -> $result {
             #[cfg(target_arch = "x86_64")]
             {

@@ -42,13 +42,24 @@ impl<'a> Cursor<'a> {
         self.bytes.len() - self.at
     }
 
+    /// Refuses a file that ends here.
+    pub fn refuse_end(&self) -> Result<(), MeshFileError> {
+        match self.bytes[self.at..].iter().all(u8::is_ascii_whitespace) {
+            false => Ok(()),
+            true => Err(self.error(
+                "the file ends here: it is truncated. meshio leaves such files when it cannot write MSH 4.1 for want of \
+                 entities: use file_format=\"gmsh22\"",
+            )),
+        }
+    }
+
     /// A count of things that take at least `smallest` bytes each: more than the file can hold is an error, so
     /// that nothing is reserved for what is not there.
     pub fn count(&mut self, what: &str, smallest: usize) -> Result<usize, MeshFileError> {
         let count = self.size(what)?;
         if count > self.remaining() / smallest.max(1) {
             return Err(self.error(format!(
-                "{count} {what} are announced, more than the rest of the file can hold: the file is truncated or damaged"
+                "{count} {what} are announced, which the rest of the file cannot hold: the file is truncated or damaged"
             )));
         }
         Ok(count)

@@ -6,9 +6,10 @@ mod cursor;
 mod version2;
 mod version4;
 
-use super::ElementKind;
+use super::{ElementKind, FaceKind};
 use cursor::Cursor;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// A mesh file that cannot be used.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -21,38 +22,72 @@ pub enum MeshFileError {
         /// What is wrong, and what to do.
         message: String,
     },
-    /// A mesh that is read but makes no body.
+    /// A mesh that is read but cannot be used as a body.
     #[error("{0}")]
     Body(String),
+    /// What was asked of the mesh does not fit it.
+    #[error("{message}")]
+    Request {
+        /// Which part of the request.
+        part: BodyPart,
+        /// What is wrong, and what to do.
+        message: String,
+    },
+}
+
+/// Part of what makes a body of a mesh file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum BodyPart {
+    /// The contact curve.
+    Contact,
+    /// The curve of the other body.
+    Opposite,
+    /// The condition of a boundary.
+    Boundary(String),
+    /// The way a plane slides.
+    Direction,
+    /// The axis of a cylinder.
+    Center,
+    /// The material of a region.
+    Material(String),
+    /// The scale of the coordinates.
+    Scale,
 }
 
 /// Edge of a physical curve, as indices into the nodes: its ends and, where quadratic, its middle.
 pub type CurveEdge = (u32, u32, Option<u32>);
 
-/// What a mesh file holds of a plane body.
+/// Face of a physical surface of a solid body: its kind and its nodes.
+pub type SurfaceFace = (FaceKind, Vec<u32>);
+
+/// What a mesh file holds of a body, plane or solid.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct GmshFile {
     /// Number of each node in the file.
     pub labels: Vec<usize>,
     /// Coordinates as in the file.
     pub points: Vec<[f64; 3]>,
-    /// Shape, physical surface, surface entity and nodes (indices) of each plane element.
-    pub elements: Vec<PlaneElement>,
+    /// 3 where the file has solid elements, else 2.
+    pub dimension: usize,
+    /// The elements of the body: solid ones where the file has any, else plane ones.
+    pub elements: Vec<FileElement>,
     /// Edges of each physical curve.
     pub curves: BTreeMap<String, Vec<CurveEdge>>,
+    /// Faces of each physical surface of a solid body.
+    pub surfaces: BTreeMap<String, Vec<SurfaceFace>>,
     /// Whether each node has some element, a point included.
     pub is_used: Vec<bool>,
 }
 
-/// One plane element of a file.
+/// One element of a file.
 #[derive(Clone, Debug, PartialEq)]
-pub struct PlaneElement {
+pub struct FileElement {
     /// Its number in the file.
     pub label: usize,
     /// Its shape.
     pub kind: ElementKind,
-    /// Name of its physical surface.
-    pub region: String,
+    /// Name of its physical surface, one text for all its elements.
+    pub region: Arc<str>,
     /// The surface it belongs to.
     pub entity: i64,
     /// Its nodes in the order of [`ElementKind`].
@@ -78,7 +113,7 @@ impl GmshFile {
             ["2.2" | "2" | "4.1", kind @ ("0" | "1"), "8"] => kind == "1",
             [number, ..] if !["2.2", "2", "4.1"].contains(&number) => {
                 return Err(cursor.error(format!(
-                    "MSH version {number} is not read: save the mesh as version 4.1 or 2.2 (Mesh.MshFileVersion)"
+                    "MSH version {number} is not supported: save the mesh as version 4.1 or 2.2 (Mesh.MshFileVersion)"
                 )));
             }
             _ => return Err(cursor.error("format line expected, such as \"4.1 0 8\"")),
@@ -88,13 +123,18 @@ impl GmshFile {
             cursor.is_swapped = match cursor.int("byte order")? {
                 1 => false,
                 0x0100_0000 => true,
-                _ => return Err(cursor.error("the number 1 expected that tells the byte order")),
+                _ => {
+                    return Err(
+                        cursor.error("the number 1, which gives the byte order, was expected")
+                    );
+                }
             };
         }
         cursor.end("MeshFormat")?;
         let mut reader = Reader::default();
         let is_new = words[0] == "4.1";
         while let Some(section) = cursor.section() {
+            cursor.refuse_end()?;
             match section.as_str() {
                 "PhysicalNames" => reader.physical_names(&mut cursor)?,
                 "Entities" if is_new => reader.entities(&mut cursor)?,
@@ -112,74 +152,119 @@ impl GmshFile {
         if reader.file.points.is_empty() {
             return Err(cursor.error("the file has no $Nodes"));
         }
-        if reader.file.elements.is_empty() {
+        let file = reader.finished();
+        if file.elements.is_empty() {
             return Err(cursor.error(
                 "the file has no triangles or quadrilaterals: mesh the surfaces (gmsh -2), and put them in a physical \
                  group if the file has any",
             ));
         }
-        Ok(reader.file)
+        Ok(file)
     }
 }
 
-/// What a file is that does not begin like one of ours.
+/// What a file is that does not begin like one of ours, and how it becomes one.
 fn foreign(bytes: &[u8]) -> String {
-    let start = String::from_utf8_lossy(&bytes[..bytes.len().min(64)]).into_owned();
-    let what = if bytes.is_empty() {
-        "the file is empty"
-    } else if start.trim_start().starts_with("**")
-        || start.starts_with("*Heading")
-        || start.starts_with("*HEADING")
+    /// For formats that Gmsh does not open with the names of their sets.
+    const MESHIO: &str = "convert it with Python's meshio: cell sets become the cell data \"gmsh:physical\" with names in \
+                          field_data, then mesh.write(\"part.msh\", file_format=\"gmsh22\", binary=False)";
+    const GMSH: &str = "save the mesh as MSH 4.1 or 2.2 (gmsh -2 -format msh41)";
+    let start = String::from_utf8_lossy(&bytes[..bytes.len().min(4096)]).into_owned();
+    let trimmed = start.trim_start();
+    let upper = trimmed.to_uppercase();
+    let (what, remedy) = if bytes.is_empty() {
+        ("the file is empty", GMSH)
+    } else if ["**", "*HEADING", "*NODE", "*PART", "*INCLUDE"]
+        .iter()
+        .any(|mark| upper.starts_with(mark))
     {
-        "this looks like an Abaqus input file"
+        (
+            "this looks like an Abaqus or CalculiX input file, which Gmsh does not open",
+            MESHIO,
+        )
+    } else if upper.starts_with("BEGIN BULK")
+        || upper.starts_with("SOL ")
+        || upper.contains("\nGRID")
+    {
+        ("this looks like a Nastran file", MESHIO)
+    } else if trimmed.starts_with("-1") {
+        (
+            "this looks like a universal file (UNV)",
+            "open it in Gmsh, which keeps its groups, and save it as MSH: \
+          gmsh part.unv -save -format msh41 -o part.msh",
+        )
     } else if start.contains("VTK") || start.contains("vtk") {
-        "this looks like a VTK file"
+        ("this looks like a VTK file", MESHIO)
     } else if start.starts_with("solid") || start.starts_with("ISO-10303") {
-        "this is a geometry, not a mesh"
+        ("this is a geometry, not a mesh", GMSH)
     } else if start.contains("Point(") || start.contains("//") || start.contains("SetFactory") {
-        "this looks like a Gmsh geometry (.geo), not a mesh: run gmsh -2 on it"
+        (
+            "this looks like a Gmsh geometry (.geo), not a mesh",
+            "run gmsh -2 on it",
+        )
     } else {
-        "this is no Gmsh mesh, which begins with $MeshFormat"
+        ("this is no Gmsh mesh, which begins with $MeshFormat", GMSH)
     };
-    format!("{what}; save the mesh as MSH 4.1 or 2.2 (gmsh -2 -format msh41)")
+    format!("{what}; {remedy}")
 }
+
+/// Stands for the physical tag of an element without one.
+const NO_GROUP: i64 = i64::MIN;
+/// Longest name of a physical group, bytes.
+const LONGEST_NAME: usize = 4096;
 
 /// What is gathered on the way through the file.
 #[derive(Default)]
 struct Reader {
     file: GmshFile,
     /// Names by dimension and tag.
-    names: BTreeMap<(i64, i64), String>,
+    names: BTreeMap<(i64, i64), Arc<str>>,
     /// Physical tags of each entity, by dimension and tag.
     physical: BTreeMap<(i64, i64), Vec<i64>>,
     /// Index of each node number.
     index_of: BTreeMap<usize, u32>,
+    /// Solid elements.
+    solids: Vec<FileElement>,
+    /// Plane elements and the physical surfaces that each belongs to: faces of a body if there are solid elements.
+    surfaces: BTreeMap<String, Vec<SurfaceFace>>,
 }
 
-/// Dimension, node count and, for plane elements, the shape of Gmsh's element types.
+/// Dimension, node count and, for plane and solid elements, the kind of Gmsh's element types.
 fn element_type(number: i64) -> Option<(i64, usize, Option<ElementKind>)> {
-    let plane = ElementKind::ALL
+    let known = ElementKind::ALL
         .into_iter()
         .find(|kind| i64::from(kind.gmsh_type()) == number);
-    if let Some(kind) = plane {
-        return Some((2, kind.node_count(), Some(kind)));
+    if let Some(kind) = known {
+        return Some((kind.dimension() as i64, kind.node_count(), Some(kind)));
     }
     let (dimension, nodes) = match number {
         1 => (1, 2),
         8 => (1, 3),
         15 => (0, 1),
-        4 => (3, 4),
-        5 | 17 => (3, if number == 5 { 8 } else { 20 }),
-        6 => (3, 6),
         7 => (3, 5),
-        11 => (3, 10),
         10 => (2, 9),
+        12 => (3, 27),
+        13 => (3, 18),
+        14 => (3, 14),
+        19 => (3, 13),
         _ => return None,
     };
     Some((dimension, nodes, None))
 }
 
 impl Reader {
+    /// The file, of solid elements where there are any: plane ones are then faces of its physical surfaces.
+    fn finished(self) -> GmshFile {
+        let mut file = self.file;
+        file.dimension = 2;
+        if !self.solids.is_empty() {
+            file.dimension = 3;
+            file.elements = self.solids;
+            file.surfaces = self.surfaces;
+        }
+        file
+    }
+
     fn physical_names(&mut self, cursor: &mut Cursor<'_>) -> Result<(), MeshFileError> {
         // Text in binary files too.
         let is_binary = std::mem::replace(&mut cursor.is_binary, false);
@@ -198,7 +283,13 @@ impl Reader {
                     cursor.error("dimension, tag and \"name\" of a physical group expected")
                 );
             };
-            self.names.insert((dimension, tag), name);
+            if name.len() > LONGEST_NAME {
+                return Err(cursor.error(format!(
+                    "the name of a physical group has {} bytes, more than {LONGEST_NAME}",
+                    name.len()
+                )));
+            }
+            self.names.insert((dimension, tag), name.into());
         }
         cursor.is_binary = is_binary;
         Ok(())
@@ -218,6 +309,17 @@ impl Reader {
         self.file.points.push(point);
         self.file.is_used.push(false);
         Ok(())
+    }
+
+    /// Name of a physical group; one without gets its number for a name.
+    fn name(&mut self, dimension: i64, tag: i64) -> Arc<str> {
+        let plain = || match (dimension, tag) {
+            (1, tag) => format!("curve {tag}").into(),
+            (_, NO_GROUP) => "body".into(),
+            (_, tag) => format!("surface {tag}").into(),
+        };
+        let known = self.names.entry((dimension, tag)).or_insert_with(plain);
+        Arc::clone(known)
     }
 
     /// Takes one element in; `groups` are its physical tags.
@@ -241,31 +343,44 @@ impl Reader {
             self.file.is_used[index as usize] = true;
             nodes.push(index);
         }
-        let name = |tag: i64| {
-            let plain = || format!("{} {tag}", if dimension == 1 { "curve" } else { "surface" });
-            self.names
-                .get(&(dimension, tag))
-                .cloned()
-                .unwrap_or_else(plain)
-        };
         match (dimension, kind) {
-            (2, Some(kind)) => {
-                let region = groups
-                    .first()
-                    .map_or_else(|| "body".to_owned(), |&tag| name(tag));
-                self.file.elements.push(PlaneElement {
+            (_, Some(kind)) => {
+                // A face of a solid belongs to every physical surface that names it, an element to its first group.
+                if let Some(face) = kind.as_face() {
+                    for &tag in groups {
+                        let name = self.name(dimension, tag).to_string();
+                        let faces = self.surfaces.entry(name).or_default();
+                        faces.push((face, nodes.clone()));
+                    }
+                }
+                let region = match groups.first() {
+                    Some(&tag) => self.name(dimension, tag),
+                    None => self.name(dimension, NO_GROUP),
+                };
+                let order = kind.gmsh_order().into_iter();
+                let element = FileElement {
                     label,
                     kind,
                     region,
                     entity,
-                    nodes,
-                });
+                    nodes: order.map(|place| nodes[place]).collect(),
+                };
+                if kind.dimension() == 3 {
+                    self.solids.push(element);
+                } else {
+                    self.file.elements.push(element);
+                }
             }
             (1, _) => {
                 let edge = (nodes[0], nodes[1], nodes.get(2).copied());
-                let names: Vec<String> = groups.iter().map(|&tag| name(tag)).collect();
-                for name in names {
-                    self.file.curves.entry(name).or_default().push(edge);
+                for &tag in groups {
+                    let name = self.name(dimension, tag);
+                    match self.file.curves.get_mut(&*name) {
+                        Some(edges) => edges.push(edge),
+                        None => {
+                            self.file.curves.insert(name.to_string(), vec![edge]);
+                        }
+                    }
                 }
             }
             _ => {}
@@ -274,7 +389,7 @@ impl Reader {
     }
 }
 
-/// Dimension, node count and shape of an element type that can be used.
+/// Dimension, node count and kind of an element type that can be used.
 fn shape_of(
     cursor: &Cursor<'_>,
     number: i64,
@@ -285,13 +400,18 @@ fn shape_of(
             "element {label} is a quadrilateral of nine nodes (type 10), which is not supported: set \
              Mesh.SecondOrderIncomplete = 1 for eight"
         ))),
-        Some((3, ..)) => Err(cursor.error(format!(
-            "element {label} is a solid (type {number}); this body must be plane: mesh its surface alone (gmsh -2)"
+        Some((3, _, None)) if [12, 13].contains(&number) => Err(cursor.error(format!(
+            "element {label} has nodes inside its faces (type {number}), which is not supported: set \
+             Mesh.SecondOrderIncomplete = 1 for bricks of 20 and wedges of 15 nodes"
+        ))),
+        Some((3, _, None)) => Err(cursor.error(format!(
+            "element {label} is a pyramid (type {number}), which is not supported: mesh the volume with tetrahedra, bricks or \
+             wedges"
         ))),
         Some(known) => Ok(known),
         None => Err(cursor.error(format!(
-            "element {label} has type {number}, which is not supported: use triangles or quadrilaterals of first or \
-             second order"
+            "element {label} has type {number}, which is not supported: use triangles, quadrilaterals, tetrahedra, bricks or \
+             wedges of first or second order"
         ))),
     }
 }

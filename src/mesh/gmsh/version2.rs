@@ -31,7 +31,7 @@ impl Reader {
             };
             if group < 1 || group > (count - read) as i64 || !(0..=64).contains(&tags) {
                 return Err(cursor.error(format!(
-                    "a group of {group} elements with {tags} tags makes no sense here"
+                    "a group of {group} elements with {tags} tags is not valid here"
                 )));
             }
             for _ in 0..group {

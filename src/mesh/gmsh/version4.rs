@@ -24,7 +24,7 @@ impl Reader {
                 let groups = cursor.count("physical tags", 2)?;
                 if groups > MOST_GROUPS {
                     return Err(cursor.error(format!(
-                        "an entity in {groups} physical groups makes no sense"
+                        "an entity in {groups} physical groups is not valid"
                     )));
                 }
                 let groups: Result<Vec<i64>, _> =

@@ -111,7 +111,7 @@ fn strobe_stride(nodes: usize, codes: &[u8], finest: usize) -> usize {
 pub fn place_axis(is_round: bool) -> Axis {
     match is_round {
         true => Axis::angle(),
-        false => Axis::new("place along the contact", "%")
+        false => Axis::new("position along the contact", "%")
             .times(100.0 / TAU)
             .between(0.0, TAU),
     }
@@ -198,7 +198,7 @@ pub fn open_contact_figure(
 /// The contact at one instant: arcs of stick, slip and separation around the circle, and over the angle the tractions (Pa) and
 /// the tangential velocity (m/s) of nodes evenly spaced from an angle (rad), on a ground coloured by status.
 pub fn contact_figure(
-    (name, caption, instant): (String, String, String),
+    ((name, caption, instant), counterface): ((String, String, String), &str),
     (first_angle, status): (f64, &[ContactStatus]),
     [pressure, shear]: [&[f64]; 2],
     velocity: ContactVelocity<'_>,
@@ -260,7 +260,7 @@ pub fn contact_figure(
         )
         .panel(
             over_angle(Axis::new("velocity", "m/s").including(0.0))
-                .layer(velocity.sticking("counterface *Ωa*"))
+                .layer(velocity.sticking(counterface))
                 .layer(
                     Line::through(closed(velocity.values()))
                         .solid(SERIES[0], 1.1)
@@ -301,9 +301,10 @@ pub fn field_figure(
     if frames.is_empty() {
         return Err(ChartError::empty(name));
     }
+    let is_single = frames.len() == 1;
     let columns = match frames.len() {
         5 | 6 => 3,
-        count => count.clamp(2, 4),
+        count => count.clamp(1, 4),
     };
     let (radius, first_angle) = disc.contact_place();
     // Beside an edge that is no whole hole there is no place for a ring.
@@ -318,6 +319,7 @@ pub fn field_figure(
         panel.layers(ring).colour_bar(Side::Below)
     });
     let figure = Figure::new(name, caption).columns(columns).panels(panels);
+    let figure = if is_single { figure.narrow() } else { figure };
     Ok(if has_status {
         figure.note("ring inside the hole: contact status")
     } else {

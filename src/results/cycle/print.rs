@@ -54,6 +54,9 @@ pub fn print(report: &CycleReport<'_>) -> String {
             branch_line(&mut out, result.family, branch);
         }
     }
+    if let Some(note) = report.extent.note() {
+        let _ = writeln!(out, "{note}");
+    }
     let _ = writeln!(out, "{:.3} s", report.wall_s);
     out
 }
@@ -71,9 +74,10 @@ fn result_line(out: &mut String, report: &CycleReport<'_>, result: &CycleResult)
             let share = |power: f64| power / powers.external;
             writeln!(
                 out,
-                "{:>9.2} Hz {stick:>7.3} {slip:>7.3} {open:>7.3} {:>10.2} W {:>7.3} {:>7.3} {:>9.3}",
+                "{:>9.2} Hz {stick:>7.3} {slip:>7.3} {open:>7.3} {:>10.2} {} {:>7.3} {:>7.3} {:>9.3}",
                 cycle.frequency_hz(),
                 powers.external,
+                report.extent.unit("W"),
                 share(powers.stick),
                 share(powers.slide),
                 share(powers.contact_dissipated),

@@ -23,7 +23,7 @@ use crate::chart::{
 use crate::contact::{ContactStatus, SlidingContact};
 use crate::cycle::Family;
 use crate::fem::ElasticMaterial;
-use crate::mesh::Mesh2d;
+use crate::mesh::Mesh;
 use std::f64::consts::TAU;
 
 /// Whole-field pictures of one kind, at most.
@@ -37,7 +37,7 @@ pub struct CycleFigures<'a> {
     /// The record.
     pub record: &'a CycleRecord,
     /// The mesh.
-    pub mesh: &'a Mesh2d,
+    pub mesh: &'a Mesh,
     /// The material, for the stress fields.
     pub material: &'a ElasticMaterial,
     /// The contact at the case's own operating point.
@@ -96,7 +96,12 @@ impl CycleFigures<'_> {
         let tractions = [&around(&wave.pressure)[..], &around(&wave.shear)];
         let velocity = around(&wave.velocity[1]);
         let velocity = ContactVelocity::Absolute(&velocity, self.peripheral_speed());
-        contact_figure(names, (0.0, &status), tractions, velocity)
+        contact_figure(
+            (names, "cylinder *Ωa*"),
+            (0.0, &status),
+            tractions,
+            velocity,
+        )
     }
 
     /// What a contact node goes through in two periods, on a ground coloured by its status.

@@ -1,5 +1,6 @@
 //! The figures of an analysed time signal, and what is kept to draw them again.
 
+use super::summary::SignalSummary;
 use crate::chart::{ChartError, Figure, literal};
 use crate::results::Record;
 use crate::results::charts::{
@@ -74,6 +75,7 @@ pub struct ChannelRecord {
 /// That of a figure that cannot be drawn although there is something to draw.
 pub fn draw(
     record: &SignalRecord,
+    summary: &SignalSummary,
     options: &DrawingOptions,
 ) -> Result<(Vec<NamedFigure>, Vec<String>), ChartError> {
     let left_out = Mutex::new(Vec::new());
@@ -89,7 +91,11 @@ pub fn draw(
         }));
     }
     for (index, channel) in record.channels.iter().enumerate() {
-        figures.push(Box::new(move || Ok(spectrum(record, channel, index + 1))));
+        let found = summary.channels.get(index);
+        let main_hz = found.and_then(|channel| channel.main_frequency_hz);
+        figures.push(Box::new(move || {
+            Ok(spectrum(record, channel, index + 1, main_hz))
+        }));
     }
     let figures = draw_all(figures, options)?;
     let mut left_out = left_out
@@ -140,28 +146,21 @@ fn course(
 }
 
 /// The spectrum that the peaks are taken from.
-fn spectrum(record: &SignalRecord, channel: &ChannelRecord, number: usize) -> Figure {
+fn spectrum(
+    record: &SignalRecord,
+    channel: &ChannelRecord,
+    number: usize,
+    main_hz: Option<f64>,
+) -> Figure {
     let (from, to) = channel.interval_s;
     let name = literal(&channel.name);
     let spectra: [(&str, &[f64], &[f64]); 1] =
         [(&name, &channel.frequencies_hz, &channel.amplitudes)];
-    // The fundamental where its superharmonics are stronger, located between the lines as in the summary.
-    let sample = |time: f64| {
-        ((time - record.start) * record.sampling_rate)
-            .round()
-            .max(0.0) as usize
-    };
-    let end = sample(to).saturating_add(1).min(channel.samples.len());
-    let part = &channel.samples[sample(from).min(end)..end];
-    let lines = SpectralResolution::of(part.len(), record.sampling_rate, None)
-        .and_then(|fine| spectral_lines(part, record.sampling_rate, fine, MOST_LINES));
-    let lines = lines.unwrap_or_default();
-    let main = lines.iter().find(|line| line.superharmonic_of.is_none());
     let caption = format!("Spectrum of {} from {from:.4} to {to:.4} s.", channel.name);
     Figure::new(format!("spectrum-{number}"), caption).panel(spectrum_panel(
         &spectra,
         "",
-        (highest(record), main.map(|line| line.frequency_hz)),
+        (highest(record), main_hz),
         &modes(record),
     ))
 }

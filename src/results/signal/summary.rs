@@ -2,6 +2,7 @@
 
 use crate::cea::ComplexMode;
 use crate::results::Manifest;
+use crate::results::quantity::significant;
 use crate::signal::{Estimate, ExponentialStage, NoGrowth, SpectralLine, SpectralResolution};
 use serde::{Deserialize, Serialize};
 use std::fmt::Write as _;
@@ -326,14 +327,15 @@ impl SignalSummary {
             "{}: {} samples at {} Hz ({:.4} s)\n",
             self.source,
             self.samples,
-            self.sampling_rate_hz,
+            // A rate from the rounded times of a table has a few true digits.
+            significant(self.sampling_rate_hz, 9),
             self.samples as f64 / self.sampling_rate_hz
         );
         for channel in &self.channels {
             let [from, to] = channel.interval_s;
             let _ = writeln!(
                 text,
-                "\n{}, peaks between {from:.4} and {to:.4} s, told apart from {:.4} Hz on ({})",
+                "\n{}, peaks between {from:.4} and {to:.4} s, resolution {:.4} Hz ({})",
                 channel.name,
                 channel.resolution_hz,
                 match channel.averages {
@@ -342,7 +344,7 @@ impl SignalSummary {
                 }
             );
             if channel.peaks.is_empty() {
-                text.push_str("  no peak stands out of the noise\n");
+                text.push_str("  no peak stands out from the noise\n");
             } else {
                 text.push_str("  peak  frequency_hz     amplitude  \n");
             }

@@ -14,6 +14,10 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 pub(crate) const LOCK: &str = ".lock";
 /// How the name of a file that is still being written begins.
 pub(crate) const TEMPORARY: &str = ".writing-";
+/// Random characters that follow.
+const RANDOM: usize = 6;
+/// Folder in which results are built that replace others.
+const STAGING: &str = ".replacing";
 
 /// Whose results a run may replace.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,10 +33,14 @@ pub enum Replace {
 /// An output folder that this process alone writes.
 ///
 /// Every file appears under its final name only when complete. The lock goes with the process: a
-/// killed run leaves none behind.
+/// killed run leaves none behind. A run that replaces the results of another case is built in a folder
+/// beside them, [`STAGING`], and takes their place when it is complete.
 #[derive(Debug)]
 pub struct OutputFolder {
+    /// Where files are written.
     path: PathBuf,
+    /// Where they belong.
+    destination: PathBuf,
     manifest: Manifest,
     /// Files of earlier runs, and their checksums where they are known.
     earlier: BTreeMap<String, Option<u32>>,
@@ -49,32 +57,43 @@ impl OutputFolder {
     /// [`FolderError`] if it belongs to another case and `replace` does not allow that, if another
     /// process holds it, or if it cannot be written.
     pub fn open(path: &Path, manifest: &Manifest, replace: Replace) -> Result<Self, FolderError> {
-        fs::create_dir_all(path).map_err(|e| FolderError::io("create folder", path, e))?;
+        // A folder that is refused stays as it is, without a lock file.
+        Self::may_open(path, manifest, replace)?;
+        let create = |path: &Path| {
+            fs::create_dir_all(path).map_err(|e| FolderError::io("create folder", path, e))
+        };
+        create(path)?;
         let lock = lock(path)?;
+        let destination = path;
+        let staging = path.join(STAGING);
+        let is_staged = replaces_others(path, manifest, replace)?;
+        if !is_owned(&staging, manifest)? || !is_staged {
+            // What an earlier run has left there is no result yet.
+            let _ = fs::remove_dir_all(&staging);
+        }
+        let path = if is_staged { &staging } else { destination };
+        create(path)?;
+
+        let mut earlier = BTreeMap::new();
+        let journal_path = path.join(JOURNAL);
         let contents = read_contents(path)?;
-        let (mut earlier, mut is_same) = (BTreeMap::new(), true);
-        match contents {
-            Some(contents) => {
-                let replace = allowed(path, &contents, replace);
-                is_same = check_owner(path, &contents.manifest, manifest, replace)?;
-                let is_sealed = contents.is_sealed;
-                earlier = contents.into_files();
-                if !is_sealed {
-                    // Folders of versions without checksums get them now.
-                    for (name, checksum) in &mut earlier {
-                        let bytes = fs::read(path.join(name));
-                        *checksum = bytes.ok().map(|bytes| crc32fast::hash(&bytes));
-                    }
+        if contents.is_some() || journal_path.exists() {
+            remove_temporaries(path);
+        }
+        if let Some(contents) = contents {
+            let is_sealed = contents.is_sealed;
+            earlier = contents.into_files();
+            if !is_sealed {
+                // Folders of versions without checksums get them now.
+                for (name, checksum) in &mut earlier {
+                    let bytes = fs::read(path.join(name));
+                    *checksum = bytes.ok().map(|bytes| crc32fast::hash(&bytes));
                 }
             }
-            None if replace != Replace::Anything => refuse_foreign(path)?,
-            None => {}
         }
         // What a killed run left is known from its journal.
-        let journal_path = path.join(JOURNAL);
         let unfinished = fs::read_to_string(&journal_path).unwrap_or_default();
         earlier.extend(unfinished.lines().map(|name| (name.to_owned(), None)));
-        remove_temporaries(path);
         let journal = OpenOptions::new()
             .create(true)
             .append(true)
@@ -82,16 +101,13 @@ impl OutputFolder {
             .map_err(|e| FolderError::io("open", &journal_path, e))?;
         let folder = Self {
             path: path.to_owned(),
+            destination: destination.to_owned(),
             journal,
             manifest: manifest.clone(),
             earlier,
             written: Mutex::default(),
             _lock: lock,
         };
-        if !is_same {
-            // Files of another case must not lie beside those of this one.
-            folder.remove(folder.earlier.keys());
-        }
         folder.write_manifest(&folder.earlier)?;
         Ok(folder)
     }
@@ -101,13 +117,9 @@ impl OutputFolder {
     /// # Errors
     /// Those of [`OutputFolder::open`] that the folder's contents decide.
     pub fn may_open(path: &Path, manifest: &Manifest, replace: Replace) -> Result<(), FolderError> {
-        match read_contents(path)? {
-            Some(found) => {
-                let replace = allowed(path, &found, replace);
-                check_owner(path, &found.manifest, manifest, replace).map(|_| ())
-            }
-            None if replace != Replace::Anything && path.exists() => refuse_foreign(path),
-            None => Ok(()),
+        match path.exists() {
+            true => replaces_others(path, manifest, replace).map(|_| ()),
+            false => Ok(()),
         }
     }
 
@@ -126,9 +138,14 @@ impl OutputFolder {
         Ok(folder)
     }
 
-    /// The folder's path.
+    /// Where the files of this run are while it goes on.
     pub fn path(&self) -> &Path {
         &self.path
+    }
+
+    /// Where they are when it has ended.
+    pub fn destination(&self) -> &Path {
+        &self.destination
     }
 
     /// The manifest of the run.
@@ -190,11 +207,30 @@ impl OutputFolder {
     }
 
     /// Ends a complete run: removes what an earlier run of the same case left and this one did not
-    /// write again.
+    /// write again, and takes the place of the results that it replaces.
     ///
     /// # Errors
     /// As [`OutputFolder::write`].
     pub fn finish(self) -> Result<(), FolderError> {
+        self.seal()?;
+        match self.path == self.destination {
+            true => Ok(()),
+            false => self.move_into_place(),
+        }
+    }
+
+    /// Ends a run before its time: its files stay where they are, and so do results that it was to replace. Gives that
+    /// place.
+    ///
+    /// # Errors
+    /// As [`OutputFolder::write`].
+    pub fn suspend(self) -> Result<PathBuf, FolderError> {
+        self.seal()?;
+        Ok(self.path)
+    }
+
+    /// Makes the files of this run, and no others, those of the folder that it is written in.
+    fn seal(&self) -> Result<(), FolderError> {
         let written = self.written();
         let stale = self
             .earlier
@@ -204,6 +240,32 @@ impl OutputFolder {
         self.write_manifest(&written)?;
         let journal = self.path.join(JOURNAL);
         fs::remove_file(&journal).map_err(|e| FolderError::io("remove", &journal, e))
+    }
+
+    /// Moves the files of this run to their destination, and removes those of the run that it replaces.
+    fn move_into_place(&self) -> Result<(), FolderError> {
+        let written = self.written();
+        let destination = &self.destination;
+        let replaced = read_contents(destination)?.map(Contents::into_files);
+        let replaced = replaced.unwrap_or_default();
+        // A process that is killed from here on leaves a run of this case that has not ended.
+        let journal_path = destination.join(JOURNAL);
+        let names: String = written.keys().map(|name| format!("{name}\n")).collect();
+        fs::write(&journal_path, names).map_err(|e| FolderError::io("write", &journal_path, e))?;
+        let both = replaced.keys().chain(written.keys());
+        let both = both.map(|name| (name.clone(), None)).collect();
+        write_contents(destination, &Contents::new(&self.manifest, &both))?;
+        for name in written.keys() {
+            let (from, to) = (self.path.join(name), destination.join(name));
+            let parent = to.parent().unwrap_or(destination);
+            fs::create_dir_all(parent).map_err(|e| FolderError::io("create folder", parent, e))?;
+            fs::rename(&from, &to).map_err(|e| FolderError::io("write", &to, e))?;
+        }
+        let stale = replaced.keys().filter(|name| !written.contains_key(*name));
+        remove_files(destination, stale);
+        write_contents(destination, &Contents::new(&self.manifest, &written))?;
+        let _ = fs::remove_dir_all(&self.path);
+        fs::remove_file(&journal_path).map_err(|e| FolderError::io("remove", &journal_path, e))
     }
 
     fn write_manifest(&self, files: &BTreeMap<String, Option<u32>>) -> Result<(), FolderError> {
@@ -256,6 +318,46 @@ fn lock(path: &Path) -> Result<File, FolderError> {
     }
 }
 
+/// Whether a file has a name as half-written ones have.
+pub(crate) fn is_temporary(name: &str) -> bool {
+    let random = name.strip_prefix(TEMPORARY);
+    random.is_some_and(|rest| {
+        rest.len() == RANDOM && rest.bytes().all(|byte| byte.is_ascii_alphanumeric())
+    })
+}
+
+/// Whether a run of this case and command has been built in a folder.
+fn is_owned(path: &Path, manifest: &Manifest) -> Result<bool, FolderError> {
+    let found = read_contents(path)?.map(|contents| contents.manifest);
+    Ok(found.is_some_and(|found| {
+        found.case_hash == manifest.case_hash && found.command == manifest.command
+    }))
+}
+
+/// Whether a run is to replace what lies in an existing folder, results of another case or foreign files; refuses what
+/// must stay. A run that was begun so goes on without being allowed again.
+fn replaces_others(
+    path: &Path,
+    manifest: &Manifest,
+    replace: Replace,
+) -> Result<bool, FolderError> {
+    let replaces = match read_contents(path)? {
+        Some(found) => {
+            let replace = replaceable(path, &found, replace);
+            check_owner(path, &found.manifest, manifest, replace).map(|same| !same)
+        }
+        None => match refuse_foreign(path) {
+            Ok(()) => Ok(false),
+            Err(_) if replace == Replace::Anything => Ok(true),
+            Err(error) => Err(error),
+        },
+    };
+    match replaces {
+        Err(_) if is_owned(&path.join(STAGING), manifest)? => Ok(true),
+        decided => decided,
+    }
+}
+
 /// Removes half-written files of a killed run; this process holds the lock, so nobody writes them.
 fn remove_temporaries(path: &Path) {
     for entry in fs::read_dir(path).into_iter().flatten().flatten() {
@@ -264,19 +366,21 @@ fn remove_temporaries(path: &Path) {
         };
         if kind.is_dir() {
             remove_temporaries(&entry.path());
-        } else if entry.file_name().to_string_lossy().starts_with(TEMPORARY) {
+        } else if is_temporary(&entry.file_name().to_string_lossy()) {
             let _ = fs::remove_file(entry.path());
         }
     }
 }
 
-/// What may be replaced: anything in a folder whose run was interrupted before it had written a file.
-fn allowed(path: &Path, contents: &Contents, replace: Replace) -> Replace {
+/// Whose results may be replaced, seen what there is: a run that ended before its first result left nobody's.
+fn replaceable(path: &Path, contents: &Contents, replace: Replace) -> Replace {
+    let is_there = |name: &str| is_inside(name) && path.join(name).exists();
     let unfinished = fs::read_to_string(path.join(JOURNAL)).unwrap_or_default();
-    match contents.files.is_empty() && unfinished.is_empty() {
-        true if replace == Replace::SameCase => Replace::Anything,
-        _ => replace,
+    let mut names = contents.files.iter().map(String::as_str);
+    if names.any(is_there) || unfinished.lines().any(is_there) {
+        return replace;
     }
+    Replace::Anything
 }
 
 /// Whether the results there are of the same effective case; refuses those that must stay.
@@ -358,7 +462,7 @@ pub(crate) fn write_whole(
     let parent = path.parent().unwrap_or(Path::new("."));
     fs::create_dir_all(parent)?;
     let mut builder = tempfile::Builder::new();
-    builder.prefix(TEMPORARY);
+    builder.prefix(TEMPORARY).rand_bytes(RANDOM);
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;

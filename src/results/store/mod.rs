@@ -11,4 +11,4 @@ pub use error::FolderError;
 pub use folder::{OutputFolder, Replace};
 pub use manifest::Manifest;
 pub use record::{Record, read_record, refuse_misfit, write_record};
-pub use reopening::read_manifest;
+pub use reopening::{is_result, read_manifest};

@@ -81,6 +81,17 @@ pub(crate) fn read_contents(path: &Path) -> Result<Option<Contents>, FolderError
     }
 }
 
+/// Whether a file, named from the folder on, is among the results that lie there, or could be: of a run, or of one that
+/// `--force` puts there.
+pub fn is_result(folder: &Path, name: &Path) -> bool {
+    /// Cases that runs write.
+    const WRITTEN: [&str; 2] = ["fitted.toml", "damping.toml"];
+    let contents = read_contents(folder).ok().flatten();
+    let is_listed =
+        contents.is_some_and(|found| found.files.iter().any(|file| Path::new(file) == name));
+    is_listed || WRITTEN.iter().any(|written| Path::new(written) == name)
+}
+
 fn contents_of(bytes: &[u8]) -> Result<Contents, Defect> {
     let (object, is_sealed) = match read_sealed(bytes)? {
         Sealed::Whole(object) => (object, true),

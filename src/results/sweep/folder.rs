@@ -2,8 +2,8 @@
 
 use super::super::Manifest;
 use super::super::folder::{
-    FolderError, Replace, TEMPORARY, check_owner, refuse_foreign, remove_files, write_contents,
-    write_whole,
+    FolderError, OutputFolder, Replace, check_owner, is_temporary, refuse_foreign, remove_files,
+    write_contents, write_whole,
 };
 use super::super::framed::write_sealed;
 use super::super::reopening::{Contents, MANIFEST, own_value, read_contents};
@@ -48,6 +48,16 @@ pub enum Start {
     Resume,
     /// They go, and so do the results of another case.
     Over,
+}
+
+impl Start {
+    /// Whose results may go.
+    fn replace(self) -> Replace {
+        match self {
+            Self::Over => Replace::Anything,
+            Self::Fresh | Self::Resume => Replace::SameCase,
+        }
+    }
 }
 
 /// The results folder of one sweep.
@@ -112,6 +122,8 @@ impl SweepFolder {
         points: &[usize],
         start: Start,
     ) -> Result<Self, FolderError> {
+        // A folder that is refused stays as it is, without lock files.
+        OutputFolder::may_open(path, manifest, start.replace())?;
         fs::create_dir_all(path).map_err(|e| FolderError::io("create folder", path, e))?;
         let lock = share(path, |company| {
             take_over(path, manifest, count, start, company)?;
@@ -317,12 +329,8 @@ fn take_over(
     company: Company,
 ) -> Result<(), FolderError> {
     let contents = read_contents(path)?;
-    let replace = match start {
-        Start::Over => Replace::Anything,
-        Start::Fresh | Start::Resume => Replace::SameCase,
-    };
     match &contents {
-        Some(contents) if check_owner(path, &contents.manifest, manifest, replace)? => {
+        Some(contents) if check_owner(path, &contents.manifest, manifest, start.replace())? => {
             return Ok(());
         }
         None if start != Start::Over => refuse_foreign(path)?,
@@ -366,7 +374,7 @@ fn clear_remnants(folder: &Path) {
     for entry in entries.flatten() {
         let name = entry.file_name();
         let name = name.to_string_lossy();
-        if name.starts_with(TEMPORARY) || name.starts_with(CLAIM) {
+        if is_temporary(&name) || name.starts_with(CLAIM) {
             let _ = fs::remove_file(entry.path());
         }
     }

@@ -130,7 +130,7 @@ impl SweepReport<'_> {
         let unsettled = self.ending_in(|end| end == UNSETTLED);
         if !unsettled.is_empty() {
             notes.push(format!(
-                "the transient ends before it has settled at {} of {} points ({}): their numbers are of no limit cycle; \
+                "the transient ends before it has settled at {} of {} points ({}): these are not limit cycles; \
                  raise transient.duration",
                 unsettled.len(),
                 self.records.len(),

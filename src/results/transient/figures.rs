@@ -126,7 +126,7 @@ impl RunFigures<'_> {
         let start = path.len() - path.len().div_ceil(5);
         let approach = |points: &[(f64, f64)]| {
             Line::through(points[..start].iter().copied())
-                .solid("#9a9a9a", 0.3)
+                .solid("#d0d0d0", 0.3)
                 .name("before")
         };
         let status = self.traced_status(edge, start);
@@ -241,8 +241,12 @@ impl RunFigures<'_> {
         let caption = "Contact at the last snapshot: status around the circle (a), tractions (b), velocity (c).";
         let first = self.record.contact_angles.first().copied().unwrap_or(0.0);
         let names = ("contact".into(), caption.into(), instant);
+        let counterface = match self.solid {
+            Some(sector) if sector.specification.contact.face() != SolidFace::Inner => "ring",
+            _ => "cylinder *Ωa*",
+        };
         Ok(contact_figure(
-            names,
+            (names, counterface),
             (first, &statuses(&codes)),
             tractions,
             velocity,

@@ -1,6 +1,7 @@
 //! The table for people.
 
 use super::summary::{GrowthSummary, TransientSummary};
+use crate::results::extent::Extent;
 use crate::results::quantity::fixed;
 use crate::results::summary::MeanPowers;
 use crate::transient::EndState;
@@ -64,7 +65,7 @@ pub fn print(summary: &TransientSummary, state: EndState) -> String {
         optional(status.slip, 3),
         optional(status.open, 3)
     );
-    powers(&mut out, &summary.power_w);
+    powers(&mut out, &summary.power_w, summary.extent);
     if let Some(share) = summary.ambiguous_friction {
         let _ = writeln!(
             out,
@@ -158,14 +159,15 @@ fn optional(value: Option<f64>, decimals: usize) -> String {
     fixed(value.unwrap_or(f64::NAN), decimals)
 }
 
-fn powers(out: &mut String, powers: &MeanPowers) {
+fn powers(out: &mut String, powers: &MeanPowers, extent: Extent) {
+    let unit = extent.unit("W");
     match powers.external.filter(|power| *power != 0.0) {
-        None => out.push_str("  no external power: the cylinder drags nothing\n"),
+        None => out.push_str("  no external power: nothing slides\n"),
         Some(external) => {
             let share = |power: Option<f64>| optional(power.map(|p| 100.0 * p / external), 1);
             let _ = writeln!(
                 out,
-                "  external power {} W: stick {} %, slide {} %, dissipated in the contact {} %",
+                "  external power {} {unit}: stick {} %, slide {} %, dissipated in the contact {} %",
                 fixed(external, 2),
                 share(powers.stick),
                 share(powers.slide),
@@ -175,15 +177,18 @@ fn powers(out: &mut String, powers: &MeanPowers) {
     }
     let _ = writeln!(
         out,
-        "  dissipated in the body {} W, normal contact {} W",
+        "  dissipated in the body {} {unit}, normal contact {} {unit}",
         optional(powers.material_damping, 2),
         optional(powers.normal_contact, 2),
     );
     if let Some(power) = powers.contact_damping {
         let _ = writeln!(
             out,
-            "  dissipated in dashpots of the contact {} W",
+            "  dissipated in dashpots of the contact {} {unit}",
             fixed(power, 2)
         );
+    }
+    if let Some(note) = extent.note() {
+        let _ = writeln!(out, "  {note}");
     }
 }

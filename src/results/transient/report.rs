@@ -46,6 +46,7 @@ pub fn html_report(
         capitalized(&ending(summary, state))
     );
     let mut paragraphs = vec![end];
+    paragraphs.extend(summary.extent.note().map(|note| format!("{note}.")));
     paragraphs.extend(summary.notes.iter().map(|note| capitalized(note)));
     Report {
         title: summary.title.clone(),
@@ -93,14 +94,13 @@ fn course(summary: &TransientSummary) -> String {
         None => "there is no linear stage that ends in stick or separation".into(),
     };
     format!(
-        "{} ms in {} steps of {} µs ({end}), from {}, {} operator, {} s; {first}; the energy \
+        "{} ms in {} steps of {} µs ({end}), from {}, {} operator; {first}; the energy \
          balance closes to {:.1e}.",
         fixed(1e3 * summary.end_time_s, 3),
         summary.steps,
         fixed(1e6 * summary.time_step_s, 4),
         summary.initial,
         summary.operator,
-        fixed(summary.wall_s, 1),
         summary.max_balance_residual,
     )
 }
@@ -111,6 +111,11 @@ fn results(summary: &TransientSummary) -> Vec<(String, String)> {
     let entry = |key: &str, value: Option<f64>| {
         let quantity = quantity(key);
         Some((quantity.caption.to_owned(), quantity.text(value?)))
+    };
+    let watts = |key: &str, value: Option<f64>| {
+        let quantity = quantity(key);
+        let text = format!("{} {}", quantity.number(value?), summary.extent.unit("W"));
+        Some((quantity.caption.to_owned(), text))
     };
     let share = |name: &str, value: Option<f64>| {
         Some((name.to_owned(), format!("{} %", fixed(100.0 * value?, 2))))
@@ -131,12 +136,12 @@ fn results(summary: &TransientSummary) -> Vec<(String, String)> {
         share("contact nodes that stick", status.stick),
         share("contact nodes that slip", status.slip),
         share("contact nodes that are open", status.open),
-        entry("power_w.external", power.external),
-        entry("power_w.stick", power.stick),
-        entry("power_w.slide", power.slide),
-        entry("power_w.contact_dissipated", power.contact_dissipated),
-        entry("power_w.material_damping", power.material_damping),
-        entry("power_w.normal_contact", power.normal_contact),
+        watts("power_w.external", power.external),
+        watts("power_w.stick", power.stick),
+        watts("power_w.slide", power.slide),
+        watts("power_w.contact_dissipated", power.contact_dissipated),
+        watts("power_w.material_damping", power.material_damping),
+        watts("power_w.normal_contact", power.normal_contact),
     ];
     rows.into_iter().flatten().collect()
 }

@@ -1,8 +1,9 @@
 //! A recorded run as its figures see it.
 
 use crate::fem::MaterialField;
-use crate::mesh::{Mesh2d, SolidSector};
+use crate::mesh::{Mesh, SolidSector};
 use crate::results::charts::ModeLine;
+use crate::results::extent::Extent;
 use crate::transient::{Recorder, TransientAnalysis};
 
 /// A run and what its figures show besides.
@@ -13,7 +14,7 @@ pub struct RunFigures<'a> {
     /// What was read from it.
     pub analysis: &'a TransientAnalysis,
     /// The mesh.
-    pub mesh: &'a Mesh2d,
+    pub mesh: &'a Mesh,
     /// One sector of a body in three dimensions, of which `mesh` is the section across the axis.
     pub solid: Option<&'a SolidSector>,
     /// Whether its vibrations have circumferential harmonics.
@@ -22,6 +23,8 @@ pub struct RunFigures<'a> {
     pub material: &'a dyn MaterialField,
     /// Thickness, m: the record is for each metre.
     pub thickness: f64,
+    /// What powers and energies are of.
+    pub extent: Extent,
     /// Peripheral speed of the cylinder, m/s.
     pub peripheral_speed: f64,
     /// Modes of the eigenvalue analysis drawn across spectrograms and spectra.

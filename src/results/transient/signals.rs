@@ -6,7 +6,8 @@ use crate::chart::{
     Axis, Figure, INK, Line, MUTED, Panel, Rule, SERIES, Stroke, extremes, look, significant,
 };
 use crate::results::charts::{
-    place_axis, run_axis, signal_panel, spectrogram_panels, spectrum_panel, status_map, with_stages,
+    Stage, place_axis, run_axis, signal_panel, spectrogram_panels, spectrum_panel, status_map,
+    with_stages,
 };
 use crate::signal::{SpectrogramOptions, Window, amplitude_spectrum, spectrogram};
 use std::collections::BTreeMap;
@@ -17,6 +18,17 @@ const GROWTH_DECADES: f64 = 7.0;
 const SMALL_HARMONIC: f64 = 1e-3;
 /// Lengths of the linear stage over which growth is shown: behind it nothing grows for long.
 const SHOWN_STAGES: f64 = 3.0;
+
+/// What the letters of stages stand for.
+fn meaning(stages: &[Stage]) -> String {
+    let words = |stage: &Stage| match stage.name {
+        "A" => "A: vibrations of the start die out",
+        "B" => "B: exponential growth",
+        "C" => "C: stick and separation set in",
+        _ => "D: limit cycle",
+    };
+    stages.iter().map(words).collect::<Vec<_>>().join("; ")
+}
 
 impl RunFigures<'_> {
     /// Acceleration, spectrograms and contact status on one time axis, with the end of the run enlarged at the right.
@@ -39,7 +51,7 @@ impl RunFigures<'_> {
         let top = self.highest_frequency();
         let unit = ("*a*_{θ}", "m/s²");
         let stages = stages(self.record, self.analysis);
-        let largest = extremes(signal.iter().map(|v| v.abs())).1;
+        let largest = extremes(signal.iter().copied()).1;
         let whole = signal_panel(axis.clone(), &times, &signal, unit, 0.45);
         let whole = with_stages(
             whole.caption(format!("tangential acceleration, node {node}")),
@@ -71,6 +83,9 @@ impl RunFigures<'_> {
             .shared_x()
             .shared_y();
         figure = figure.panel(whole).panel_or_gap(detail);
+        if !stages.is_empty() {
+            figure = figure.note(meaning(&stages));
+        }
         for panel in spectrograms {
             figure = figure.panel(panel).panel_or_gap(None);
         }
@@ -83,7 +98,7 @@ impl RunFigures<'_> {
                         "end of the run".into(),
                     )
                 });
-                figure.panel(whole.legend()).panel_or_gap(detail)
+                figure.panel(whole).panel_or_gap(detail)
             }
             None => figure,
         }

@@ -1,6 +1,7 @@
 //! `summary.json` of a transient.
 
 use super::TransientReport;
+use crate::results::extent::Extent;
 use crate::results::manifest::Manifest;
 use crate::results::summary::{Entry, MeanPowers, StatusFractions, Summary, present};
 use crate::transient::{
@@ -66,6 +67,9 @@ pub struct TransientSummary {
     pub status: StatusFractions,
     /// Mean powers over the last fifth.
     pub power_w: MeanPowers,
+    /// What powers, energies and forces are of, in the tables too.
+    #[serde(default)]
+    pub extent: Extent,
     /// Share of the steps of contact nodes that could have ended in stick and in slip alike; absent where there is none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ambiguous_friction: Option<f64>,
@@ -258,6 +262,7 @@ pub fn summary(report: &TransientReport<'_>, manifest: &Manifest) -> TransientSu
                 .has_contact_springs()
                 .then_some(report.thickness * end.powers.damping),
         },
+        extent: report.extent,
         ambiguous_friction: report.record.ambiguous_share(),
         unconverged_steps: Some(report.record.unconverged_steps).filter(|steps| *steps > 0),
         harmonics: match report.has_harmonics {

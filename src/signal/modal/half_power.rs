@@ -47,7 +47,7 @@ pub struct HalfPowerBand {
 /// [`fit_modes`](super::fit_modes)); overlapping bands are marked.
 ///
 /// # Errors
-/// [`SignalError::NoResonance`] if no peak stands out of the noise.
+/// [`SignalError::NoResonance`] if no peak stands out from the noise.
 ///
 /// Source: D. J. Ewins, "Modal Testing", 2nd ed. (2000), section 4.2.
 pub fn half_power(response: &FrequencyResponse) -> Result<Vec<HalfPowerBand>, SignalError> {

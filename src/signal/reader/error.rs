@@ -63,12 +63,12 @@ pub enum ReadProblem {
     /// No line consists of numbers.
     #[error(
         "no row of numbers found; rows of numbers separated by comma, semicolon, tab or blanks \
-         are needed, or another format: read are {formats}",
+         are needed, or another supported format: {formats}",
         formats = FORMATS
     )]
     NoNumbers,
     /// A field is not a number.
-    #[error("`{field}` in column {name} is not a number; remove the row or repair the value")]
+    #[error("`{field}` in column {name} is not a number; remove the row or correct the value")]
     NotANumber {
         /// The field as written, shortened.
         field: String,
@@ -86,7 +86,7 @@ pub enum ReadProblem {
         name: String,
     },
     /// A number that the column cannot hold.
-    #[error("`{field}` is no value of column {name}; repair it, or leave the cell empty")]
+    #[error("`{field}` is not a valid value of column {name}; correct it, or leave the cell empty")]
     Impossible {
         /// The field as written.
         field: String,
@@ -131,6 +131,15 @@ pub enum ReadProblem {
         /// What to do.
         remedy: &'static str,
     },
+    /// Not a list of modes.
+    #[error(
+        "{count} rows, one for each mode, are too many; is this a frequency response? `frictionsim identify` finds its \
+         modes"
+    )]
+    TooManyModes {
+        /// Number of rows.
+        count: usize,
+    },
     /// Columns without names that could mean several things.
     #[error(
         "{count} columns without names could mean several things; add a first line such as \
@@ -159,7 +168,7 @@ pub enum ReadProblem {
         found: String,
     },
     /// A file of a format that is recognised but not read.
-    #[error("this is {found}; read are {formats}", formats = FORMATS)]
+    #[error("this is {found}; supported formats: {formats}", formats = FORMATS)]
     Format {
         /// What the file seems to be.
         found: &'static str,
@@ -191,7 +200,7 @@ pub enum ReadProblem {
     },
     /// One frequency, two values.
     #[error(
-        "frequency {value} Hz stands already in line {first_line} with another value; keep one of \
+        "frequency {value} Hz is already in line {first_line} with another value; keep one of \
          the rows"
     )]
     DuplicateFrequency {

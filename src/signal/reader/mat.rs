@@ -8,8 +8,12 @@ use super::table::Table;
 use flate2::read::ZlibDecoder;
 use std::io::Read;
 
-/// Most bytes of one compressed variable.
+/// Most bytes that the compressed variables of a file inflate to.
 const MOST_BYTES: u64 = 1 << 30;
+/// Most numbers that are kept of a file: 512 MiB.
+const MOST_VALUES: usize = 1 << 26;
+/// Most characters of a text that may be a remark.
+const LONGEST_TEXT: usize = 4096;
 /// Most structures within structures.
 const DEEPEST: usize = 8;
 /// Fewest values of what is called a column.
@@ -32,6 +36,10 @@ struct Array {
 struct Content {
     arrays: Vec<Array>,
     remarks: String,
+    /// Numbers in the arrays.
+    values: usize,
+    /// Whether there are more than [`MOST_VALUES`].
+    is_too_large: bool,
 }
 
 /// Reads the arrays of one length, the longest, as the columns of a table; `columns` are names that take the
@@ -52,13 +60,22 @@ pub(super) fn read_table(
         rest: bytes.get(128..).unwrap_or_default(),
         is_big,
     };
+    let too_large = format!(
+        "it holds more than {} million numbers, the limit; save only the channels that are needed",
+        MOST_VALUES / 1_000_000
+    );
+    let mut inflated = 0;
     while let Some((kind, data)) = elements.next() {
         if kind == COMPRESSED {
             let mut plain = Vec::new();
             let limited = ZlibDecoder::new(data)
-                .take(MOST_BYTES)
+                .take(MOST_BYTES - inflated + 1)
                 .read_to_end(&mut plain);
             limited.map_err(|_| damaged("a compressed variable is damaged; save it again"))?;
+            inflated += plain.len() as u64;
+            if inflated > MOST_BYTES {
+                return Err(damaged(&too_large));
+            }
             let mut inner = Elements {
                 rest: &plain,
                 is_big,
@@ -68,6 +85,9 @@ pub(super) fn read_table(
             }
         } else if kind == MATRIX {
             content.matrix(data, is_big, "", 0);
+        }
+        if content.is_too_large {
+            return Err(damaged(&too_large));
         }
     }
     let table = content.into_table().map_err(damaged)?;
@@ -123,15 +143,15 @@ impl<'a> Elements<'a> {
         Some((kind, data))
     }
 
-    /// The numbers of the next element.
-    fn numbers(&mut self) -> Option<Vec<f64>> {
+    /// The numbers of the next element, which has few.
+    fn few_numbers(&mut self) -> Option<Vec<f64>> {
         let (kind, data) = self.next()?;
-        numbers(kind, data, self.is_big)
+        numbers(kind, &data[..data.len().min(8 * LONGEST_TEXT)], self.is_big)
     }
 
     /// The characters of the next element.
     fn text(&mut self) -> Option<String> {
-        let characters = self.numbers()?;
+        let characters = self.few_numbers()?;
         Some(
             characters
                 .iter()
@@ -140,6 +160,17 @@ impl<'a> Elements<'a> {
                 .collect(),
         )
     }
+}
+
+/// Bytes of a number of a numeric type.
+fn bytes_of(kind: u32) -> Option<usize> {
+    Some(match kind {
+        1 | 2 | 16 => 1,
+        3 | 4 | 17 => 2,
+        5 | 6 | 7 | 18 => 4,
+        9 | 12 | 13 => 8,
+        _ => return None,
+    })
 }
 
 /// Numbers of an element of any numeric type.
@@ -176,9 +207,9 @@ impl Content {
     /// One variable, or a member of one named `parent`; what is not understood is passed over.
     fn matrix(&mut self, data: &[u8], is_big: bool, parent: &str, depth: usize) -> Option<()> {
         let mut parts = Elements { rest: data, is_big };
-        let flags = *parts.numbers()?.first()? as u32;
+        let flags = *parts.few_numbers()?.first()? as u32;
         let (class, is_complex) = (flags & 0xff, flags & 0x800 != 0);
-        let sizes = parts.numbers()?;
+        let sizes = parts.few_numbers()?;
         let own = parts.text()?;
         let name = match (parent.is_empty(), own.is_empty()) {
             (true, _) => own,
@@ -197,7 +228,7 @@ impl Content {
             }
             // Structures: the length of a name, the names, a matrix for each.
             2 => {
-                let length = *parts.numbers()?.first()? as usize;
+                let length = *parts.few_numbers()?.first()? as usize;
                 let (_, names) = parts.next()?;
                 let field = |bytes: &[u8]| -> String {
                     bytes
@@ -220,9 +251,9 @@ impl Content {
                     .push_str(&format!("{name}: {text}\n").to_lowercase());
             }
             6..=15 => {
-                let real = parts.numbers()?;
+                let real = self.numbers(&mut parts)?;
                 let imaginary = if is_complex {
-                    Some(parts.numbers()?)
+                    Some(self.numbers(&mut parts)?)
                 } else {
                     None
                 };
@@ -231,6 +262,17 @@ impl Content {
             _ => {}
         }
         Some(())
+    }
+
+    /// The numbers of the next element, if there is room for them.
+    fn numbers(&mut self, parts: &mut Elements<'_>) -> Option<Vec<f64>> {
+        let (kind, data) = parts.next()?;
+        self.values += data.len() / bytes_of(kind)?;
+        self.is_too_large |= self.values > MOST_VALUES;
+        if self.is_too_large {
+            return None;
+        }
+        numbers(kind, data, parts.is_big)
     }
 
     fn array(&mut self, name: String, sizes: &[f64], real: Vec<f64>, imaginary: Option<Vec<f64>>) {
@@ -269,9 +311,20 @@ impl Content {
         let count = self.arrays.iter().map(longest).max();
         let count =
             count.ok_or("no numeric array of 8 values or more in it; save vectors, with -v7")?;
-        let fitting: Vec<&Array> = self.arrays.iter().filter(|a| longest(a) == count).collect();
+        let mut fitting = self.arrays;
+        fitting.retain(|array| longest(array) == count);
+        let arrays = fitting.len();
         let (mut titles, mut columns) = (Vec::new(), Vec::new());
-        for array in &fitting {
+        for array in fitting {
+            if array.real.len() == count {
+                titles.push(array.name);
+                columns.push(Column {
+                    real: array.real,
+                    imaginary: array.imaginary,
+                    is_time: false,
+                });
+                continue;
+            }
             let width = array.real.len() / count;
             for k in 0..width {
                 // A matrix stands column by column; a lying one is turned.
@@ -288,10 +341,7 @@ impl Content {
                     imaginary: array.imaginary.as_ref().map(|values| part(values)),
                     is_time: false,
                 });
-                titles.push(match width {
-                    1 => array.name.clone(),
-                    _ => format!("{} {}", array.name, k + 1),
-                });
+                titles.push(format!("{} {}", array.name, k + 1));
             }
         }
         let finite = |c: &Column| {
@@ -304,7 +354,7 @@ impl Content {
             return Err("it holds NaN or infinite values; remove them before saving");
         }
         // One matrix alone is a table without names.
-        if fitting.len() == 1 && columns.len() > 1 {
+        if arrays == 1 && columns.len() > 1 {
             titles.clear();
         }
         Ok(Table::of_columns(titles, columns, self.remarks))

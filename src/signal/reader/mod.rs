@@ -66,6 +66,8 @@ impl Format {
             Format::Foreign("a PDF document")
         } else if begins(b"\x93NUMPY") {
             Format::Foreign("a NumPy array (numpy.savetxt writes text)")
+        } else if begins(b"$MeshFormat") {
+            Format::Foreign("a Gmsh mesh, not a measurement")
         } else if begins(b"TDSm") {
             Format::Foreign("a LabVIEW TDMS file")
         } else if dash.starts_with(b"-1") && uff::is_universal(dash) {
@@ -86,7 +88,7 @@ fn positions(wanted: &[String], names: &[&str]) -> Result<Vec<usize>, ReadProble
             .or_else(|| number.filter(|n| *n < names.len()))
             .ok_or_else(|| ReadProblem::NoChannel {
                 wanted: wanted.clone(),
-                found: names.join(", "),
+                found: text::first_of(names),
             })
     };
     wanted.iter().map(position).collect()

@@ -3,7 +3,7 @@
 use super::error::{ReadError, ReadProblem};
 use super::field::number;
 use super::separator::{Separator, character, fields};
-use super::text::{comment, decode, lines, shortened};
+use super::text::{comment, decode, first_of, lines, shortened};
 
 /// A measured mode, or a line of a squeal.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,11 +59,7 @@ pub fn read_modes(bytes: &[u8], source: &str) -> Result<Vec<MeasuredMode>, ReadE
     if places[0].is_none() && places[1].is_none() {
         let problem = ReadProblem::MissingColumn {
             wanted: "frequencies",
-            columns: names
-                .iter()
-                .map(|name| shortened(name))
-                .collect::<Vec<_>>()
-                .join(", "),
+            columns: first_of(&names),
             remedy: "the first line names the columns: frequency_hz, and where known real_hz, damping_factor, \
                      harmonic, sigma_hz, unstable",
         };
@@ -85,8 +81,21 @@ pub fn read_modes(bytes: &[u8], source: &str) -> Result<Vec<MeasuredMode>, ReadE
     if modes.is_empty() {
         return Err(ReadError::whole(source, ReadProblem::NoNumbers));
     }
+    if modes.len() > MOST_MODES {
+        let count = modes.len();
+        return Err(ReadError::whole(
+            source,
+            ReadProblem::TooManyModes { count },
+        ));
+    }
     Ok(modes)
 }
+
+/// Most lines of a list of modes: every one is compared with every mode of the model in each step of a fit.
+const MOST_MODES: usize = 1000;
+/// Frequencies that a mode has, Hz.
+const LOWEST_HZ: f64 = 1e-3;
+const HIGHEST_HZ: f64 = 1e9;
 
 /// One row of the table.
 struct Row<'a> {
@@ -135,8 +144,9 @@ impl Row<'_> {
 
     fn mode(&self, places: &[Option<usize>; 7]) -> Result<MeasuredMode, ReadError> {
         let positive = |value: f64| value > 0.0 && value.is_finite();
-        let hertz = self.cell(places, 0, positive)?;
-        let kilohertz = self.cell(places, 1, positive)?;
+        let plausible = |value: f64| (LOWEST_HZ..=HIGHEST_HZ).contains(&value);
+        let hertz = self.cell(places, 0, plausible)?;
+        let kilohertz = self.cell(places, 1, plausible)?;
         let Some(frequency_hz) = hertz.or(kilohertz.map(|value| 1e3 * value)) else {
             let (field, name) = (String::new(), "`frequency_hz`".to_owned());
             let problem = ReadProblem::NotANumber { field, name };
@@ -180,11 +190,20 @@ mod tests {
     }
 
     #[test]
+    fn a_response_in_place_of_a_list_of_modes_is_refused_by_its_length() {
+        let rows: String = (1..=1001).map(|i| format!("{i},0.1\n")).collect();
+        let error = read_modes(format!("f,real_hz\n{rows}").as_bytes(), "frf.csv").unwrap_err();
+        assert_eq!(error.problem, ReadProblem::TooManyModes { count: 1001 });
+        assert!(error.to_string().contains("frictionsim identify"));
+    }
+
+    #[test]
     fn bad_cells_are_named_with_their_place() {
         for (text, parts) in [
             ("f,real_hz\n1000,x\n", ["modes.csv:2:6", "`x`"]),
             ("f,harmonic\n1000,1.5\n", ["modes.csv:2:6", "`1.5`"]),
             ("f,sigma_hz\n-5,1\n", ["modes.csv:2:1", "`-5`"]),
+            ("f\n1e-320\n", ["modes.csv:2:1", "`1e-320`"]),
             ("hertz\n5\n", ["modes.csv: ", "frequency_hz"]),
             ("f\n", ["modes.csv", "no row of numbers"]),
             ("# nothing\n", ["modes.csv", "empty"]),

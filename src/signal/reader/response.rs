@@ -5,6 +5,7 @@ use super::columns::{Layout, Part, layouts, part};
 use super::contents::{NamedResponse, ResponseFile};
 use super::error::{ReadError, ReadProblem};
 use super::table::{Table, read_table};
+use super::text::first_of;
 use super::units::{hertz, words};
 use super::{Format, mat, uff};
 use faer::c64;
@@ -90,7 +91,7 @@ impl ResponseFile {
         if !turned.is_empty() {
             self.notes.push(format!(
                 "the phase rises through the resonances, as under exp(-i omega t): conjugated ({})",
-                turned.join(", ")
+                first_of(&turned)
             ));
         }
     }
@@ -268,7 +269,7 @@ fn quantity(
     match (given, stated_quantity(table)) {
         (Some(given), Some(found)) if given != found => {
             notes.push(format!(
-                "the table says {}, the option {}: the option holds",
+                "the table says {}, the option {}: the option is used",
                 found.name(),
                 given.name()
             ));

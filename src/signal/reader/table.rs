@@ -4,7 +4,7 @@ use super::column::Column;
 use super::error::{ReadError, ReadProblem};
 use super::field::{Value, number, parse, time_stamp};
 use super::separator::{Line, Separator, character, fields, numeric_fields, separator_of};
-use super::text::{comment, decode, lines, shortened};
+use super::text::{comment, decode, first_of, lines, shortened};
 
 /// Numbers in named columns.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -66,8 +66,7 @@ impl Table {
         if self.titles.is_empty() {
             return format!("{} without names", self.columns.len());
         }
-        let titles: Vec<String> = self.titles.iter().map(|t| shortened(t)).collect();
-        titles.join(", ")
+        first_of(&self.titles)
     }
 }
 

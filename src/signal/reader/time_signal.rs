@@ -66,7 +66,7 @@ pub fn read_signal(
     if let Some(rate) = options.rate.filter(|rate| *rate != file.sampling_rate) {
         let stated = file.sampling_rate;
         file.notes.push(format!(
-            "the file states {stated} Hz, the option {rate} Hz holds"
+            "the file states {stated} Hz; {rate} Hz, from the option, is used"
         ));
         file.sampling_rate = rate;
     }
@@ -135,7 +135,7 @@ fn from_table(
         return Err(whole(ReadProblem::MissingColumn {
             wanted: "signal",
             columns: table.described(),
-            remedy: "only times were found; export the samples beside them",
+            remedy: "only times were found; export the samples too",
         }));
     }
     if table
@@ -143,7 +143,7 @@ fn from_table(
         .iter()
         .any(|column| column.imaginary.is_some())
     {
-        notes.push("of complex numbers the real part is taken".to_string());
+        notes.push("complex numbers: the real part is used".to_string());
     }
     Ok(SignalFile {
         sampling_rate: rate,
@@ -244,9 +244,7 @@ fn agreed_rate(
         .enumerate()
         .all(|(i, t_i)| (t_i - t[0] - i as f64 / option).abs() <= 1.01 * rounded + JITTER / option);
     if fits {
-        notes.push(format!(
-            "the rate of {option} Hz takes the place of the time column"
-        ));
+        notes.push(format!("the rate of {option} Hz replaces the time column"));
         return Ok(option);
     }
     if (option / found - 1.0).abs() > 1e-2 || !found.is_finite() {

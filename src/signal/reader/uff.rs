@@ -6,7 +6,9 @@
 use super::super::{FrequencyResponse, ResponseQuantity};
 use super::contents::{Channel, NamedResponse, ResponseFile, SignalFile};
 use super::error::{ReadError, ReadProblem};
+use super::text::first_of;
 use faer::c64;
+use std::collections::BTreeSet;
 
 /// Function types: time response, frequency response, coherence.
 pub(super) const TIME: u32 = 1;
@@ -330,8 +332,7 @@ pub(super) fn read_signals(bytes: &[u8], source: &str) -> Result<SignalFile, Rea
         .partition(|f| f.values.len() == count && (f.step - first.step).abs() <= 1e-6 * step);
     let mut notes = Vec::new();
     if !others.is_empty() {
-        let names: Vec<&str> = others.iter().map(|f| f.name.as_str()).collect();
-        let names = names.join(", ");
+        let names = first_of(others.iter().map(|f| &f.name));
         notes.push(format!(
             "left out, for another length or rate than the first: {names}"
         ));
@@ -359,10 +360,11 @@ pub(super) fn read_signals(bytes: &[u8], source: &str) -> Result<SignalFile, Rea
 }
 
 fn without(source: &str, wanted: &str, all: &[Function]) -> ReadError {
-    let kinds: Vec<String> = all.iter().map(|f| f.kind.to_string()).collect();
+    let kinds: BTreeSet<u32> = all.iter().map(|f| f.kind).collect();
+    let kinds = first_of(kinds.iter().map(ToString::to_string));
     let problem = ReadProblem::Damaged {
         format: "universal file",
-        reason: format!("no {wanted} in it (function types: {})", kinds.join(", ")),
+        reason: format!("no {wanted} in it (function types: {kinds})"),
     };
     ReadError::whole(source, problem)
 }

@@ -17,8 +17,11 @@ pub(super) fn read_wav(bytes: &[u8], source: &str) -> Result<SignalFile, ReadErr
         let format = "WAV";
         ReadError::whole(source, ReadProblem::Damaged { format, reason })
     };
-    let mut reader = WavReader::new(Cursor::new(bytes))
-        .map_err(|error| damaged(format!("{error}; PCM and floating-point files are read")))?;
+    let mut reader = WavReader::new(Cursor::new(bytes)).map_err(|error| {
+        damaged(format!(
+            "{error}; PCM and floating-point files are supported"
+        ))
+    })?;
     let spec = reader.spec();
     if spec.channels == 0 || spec.sample_rate == 0 || spec.bits_per_sample == 0 {
         return Err(damaged("no channels, or a sampling rate of 0".into()));

@@ -3,8 +3,8 @@
 use super::states::WholeMesh;
 use super::{Progress, StudyError};
 use crate::case::{Annulus, Body, Case, CaseErrors, Cea, CeaMethod, ModeSelection, Revolution};
-use crate::cea::cyclic::{self, Coverage, Sensitivity, SolidModel, SolidSweep};
-use crate::cea::{CeaError, FrictionSweep, ModeLimit, SweepRequest, UnstableInterval};
+use crate::cea::cyclic::{self, Coverage, Overdamped, Sensitivity, SolidModel, SolidSweep};
+use crate::cea::{CeaError, FrictionSweep, ModeLimit, SweepRequest};
 use crate::prestress::TangentOptions;
 use crate::study::tangent_options;
 
@@ -23,8 +23,9 @@ impl Solver {
     /// The solver that `method` means for the body of a case: `auto` uses the rotational symmetry where the body has it.
     ///
     /// # Errors
-    /// A method that the body does not have.
+    /// A method that the body does not have; a counterface at rest, on which the body sticks.
     pub fn of(case: &Case, method: CeaMethod) -> Result<Self, CaseErrors> {
+        refuse_rest(case)?;
         match (&case.body, method) {
             (Body::Imported(_), CeaMethod::Cyclic) => Err(case.error_at(
                 "cea.method",
@@ -53,6 +54,25 @@ impl Solver {
     }
 }
 
+/// Refuses a counterface at rest: a contact that sticks has no modes of sliding.
+fn refuse_rest(case: &Case) -> Result<(), CaseErrors> {
+    if case.contact.sliding.rotation_speed != 0.0 {
+        return Ok(());
+    }
+    let key = match case.raw.find("contact.speed") {
+        Some(_) => "contact.speed",
+        None => "contact.rotation_speed_rpm",
+    };
+    Err(case.error_at(
+        key,
+        format!(
+            "{key} = 0: the contact sticks at rest, and there is no steady sliding whose eigenvalues could be solved"
+        ),
+        "must not be zero for an eigenvalue analysis".to_owned(),
+        Some("give a speed, however small; its sign is the sense of the sliding".to_owned()),
+    ))
+}
+
 /// A model whose spectrum can be asked for.
 pub enum Model {
     /// The harmonics of a plane annulus.
@@ -77,6 +97,8 @@ pub struct Spectrum {
     pub notes: Vec<String>,
     /// Which harmonics were solved, of a body that has them.
     pub coverage: Option<Coverage>,
+    /// Motions of a body of revolution that decay without oscillating, at each friction coefficient; none elsewhere.
+    pub overdamped: Vec<Overdamped>,
 }
 
 impl Model {
@@ -149,6 +171,7 @@ impl Model {
                     without_sensitivities: 0,
                     notes: Vec::new(),
                     coverage: Some(found.coverage),
+                    overdamped: Vec::new(),
                     sweep: found.sweep,
                 })
             }
@@ -165,6 +188,7 @@ impl Model {
                     sensitivities,
                     notes: vec![reduction_note(&found, request)],
                     coverage: Some(found.coverage),
+                    overdamped: found.overdamped,
                     sweep: found.sweep,
                 })
             }
@@ -176,20 +200,21 @@ impl Model {
                     without_sensitivities: 0,
                     notes: whole.changes_note().into_iter().collect(),
                     coverage: None,
+                    overdamped: Vec::new(),
                     sweep,
                 })
             }
         }
     }
 
-    /// The unstable intervals of some harmonics of a plane annulus, without a proof that none is missed; `None` for another
-    /// body, and where a branch meets one that only the whole spectrum has.
-    pub fn intervals_in(
+    /// The spectrum of some harmonics of a plane annulus, without a proof that none is missed; `None` for another body, and
+    /// where a branch meets one that only the whole spectrum has.
+    pub fn sweep_in(
         &self,
         harmonics: &[usize],
         case: &Case,
         request: &SweepRequest<'_>,
-    ) -> Option<Vec<UnstableInterval>> {
+    ) -> Option<FrictionSweep> {
         let Self::Sectors(annulus, options) = self else {
             return None;
         };
@@ -203,7 +228,7 @@ impl Model {
 fn reduction_note(found: &SolidSweep, request: &SweepRequest<'_>) -> String {
     let frictions = request.friction_coefficients.iter();
     format!(
-        "each harmonic is solved in a small space (residuals are those there), which leaves out up to {:.1e} of an eigenvalue, \
+        "each harmonic is solved in a small space (residuals are those there): relative error of an eigenvalue up to {:.1e}, \
          estimated at friction {}",
         found.reduction_error,
         frictions.fold(0.0_f64, |m, &mu| m.max(mu)),

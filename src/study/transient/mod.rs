@@ -19,12 +19,12 @@
 mod notes;
 mod settings;
 
-use super::StudyError;
 use super::cycle::limit_cycle;
+use super::{StudyError, extent_of};
 use crate::case::{Annulus, Body, Case, Revolution, Transient};
 use crate::cycle::Family;
 use crate::fem::operator::{SimdLevel, StiffnessOperator};
-use crate::mesh::{AnnulusMesh, Mesh2d, SolidSector};
+use crate::mesh::{AnnulusMesh, Mesh, SolidSector};
 use crate::results::transient::TransientReport;
 use crate::transient::{
     CentralDifference, InitialState, Recorder, RecorderSettings, StepPlan, TransientAnalysis,
@@ -38,7 +38,7 @@ pub struct TransientStudy<'a> {
     /// The case.
     pub case: &'a Case,
     /// Its mesh; of a body in three dimensions the section across the axis.
-    pub mesh: Arc<Mesh2d>,
+    pub mesh: Arc<Mesh>,
     /// One sector of a body in three dimensions.
     pub sector: Option<SolidSector>,
     transient: &'a Transient,
@@ -245,6 +245,22 @@ impl<'a> TransientStudy<'a> {
         Ok(*fresh.plan())
     }
 
+    /// [`Self::preflight`] without the base state that the run starts from.
+    ///
+    /// # Errors
+    /// As [`Self::preflight`], without those of steady sliding.
+    pub fn preflight_from_rest(&self) -> Result<StepPlan, StudyError> {
+        let settings = TransientSettings {
+            initial: InitialState::Rest,
+            ..self.settings.clone()
+        };
+        let operator = self.operator()?;
+        let started = CentralDifference::start(self.body(), operator.as_ref(), &settings);
+        let fresh = started.map_err(|error| self.error(error))?;
+        self.recorder(&fresh)?;
+        Ok(*fresh.plan())
+    }
+
     /// What there is to report of a run by its record; what it took is left zero.
     pub fn report<'b>(
         &'b self,
@@ -262,6 +278,7 @@ impl<'a> TransientStudy<'a> {
             material: case.materials(),
             has_harmonics: case.has_sectors(),
             thickness: self.thickness(),
+            extent: extent_of(case),
             friction_coefficient: case.contact.sliding.friction_coefficient,
             initial: settings.initial.name(),
             perturbation: &settings.perturbation,

@@ -472,7 +472,10 @@ fn maps_and_cycles_take_numeric_keys_only() {
     let case = valid(DISC, &[&map("contact.normal_stiffness")]);
     assert_eq!(case.cea.unwrap().map.unwrap().values, [1e12, 1e13]);
     for (key, part) in [
-        ("contact.friction_coefficient", "first parameter already"),
+        (
+            "contact.friction_coefficient",
+            "already the first parameter",
+        ),
         ("mesh.element", "not a numeric case key"),
         (
             "contact.normal_stifness",

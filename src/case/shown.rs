@@ -1,0 +1,112 @@
+//! Text from files and options, made safe to show on a terminal.
+
+use std::borrow::Cow;
+use std::fmt::Write as _;
+
+/// Whether a terminal or a reader would act on a character instead of showing it: control characters of both sets
+/// and the marks that turn the direction of writing. Tab and newline are text.
+fn is_hidden(c: char) -> bool {
+    let is_control = c.is_control() && c != '\n' && c != '\t';
+    is_control
+        || matches!(
+            c,
+            '\u{061c}' | '\u{200e}' | '\u{200f}' | '\u{2028}' | '\u{2029}'
+        )
+        || matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{fff9}'..='\u{fffb}')
+}
+
+/// `text` with every control character and every mark of the writing direction escaped, as `\u{1b}`.
+pub fn shown(text: &str) -> Cow<'_, str> {
+    if !text.chars().any(is_hidden) {
+        return Cow::Borrowed(text);
+    }
+    let mut out = String::with_capacity(text.len() + 16);
+    for c in text.chars() {
+        match is_hidden(c) {
+            true => out.extend(c.escape_default()),
+            false => out.push(c),
+        }
+    }
+    Cow::Owned(out)
+}
+
+/// JSON text with such characters as escapes of JSON, `\u009b`: they can only stand within its strings.
+pub fn shown_json(text: &str) -> Cow<'_, str> {
+    if !text.chars().any(is_hidden) {
+        return Cow::Borrowed(text);
+    }
+    let mut out = String::with_capacity(text.len() + 16);
+    for c in text.chars() {
+        if !is_hidden(c) {
+            out.push(c);
+            continue;
+        }
+        let mut units = [0; 2];
+        for unit in c.encode_utf16(&mut units) {
+            // Writing to a string cannot fail.
+            let _ = write!(out, "\\u{unit:04x}");
+        }
+    }
+    Cow::Owned(out)
+}
+
+/// `text` with such characters replaced by others of the same length in bytes: places in it stay places.
+pub(super) fn shown_in_place(text: &str) -> Cow<'_, str> {
+    if !text.chars().any(is_hidden) {
+        return Cow::Borrowed(text);
+    }
+    let replaced = text.chars().map(|c| match (is_hidden(c), c.len_utf8()) {
+        (false, _) => c,
+        (true, 1) => '?',
+        (true, 2) => '\u{b7}',
+        (true, 3) => '\u{fffd}',
+        // A replacement of four bytes, for completeness: no such character is hidden today.
+        (true, _) => '\u{1f6ab}',
+    });
+    Cow::Owned(replaced.collect())
+}
+
+/// The first `most` of `all`, and how many more there are: `a, b and 3 more`.
+pub fn first_of<T: std::fmt::Display>(all: impl IntoIterator<Item = T>, most: usize) -> String {
+    let mut rest = all.into_iter();
+    let mut out = String::new();
+    for item in rest.by_ref().take(most) {
+        let separator = if out.is_empty() { "" } else { ", " };
+        // Writing to a string cannot fail.
+        let _ = write!(out, "{separator}{item}");
+    }
+    match rest.count() {
+        0 => out,
+        more => format!("{out} and {more} more"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn control_characters_and_direction_marks_are_escaped_and_text_is_not() {
+        let plain = "Scheibe \u{b5} = 0,3\tÄ\n日本";
+        assert!(matches!(shown(plain), Cow::Borrowed(text) if text == plain));
+        let evil = "a\u{1b}]0;b\u{7}\u{9b}31m\u{202e}c\r\u{7f}";
+        assert_eq!(
+            shown(evil),
+            "a\\u{1b}]0;b\\u{7}\\u{9b}31m\\u{202e}c\\r\\u{7f}"
+        );
+        let json = serde_json::to_string(&evil).unwrap();
+        let safe = shown_json(&json);
+        assert!(!safe.chars().any(is_hidden), "{safe}");
+        assert_eq!(serde_json::from_str::<String>(&safe).unwrap(), evil);
+        assert_eq!(shown_in_place(evil).len(), evil.len());
+    }
+
+    #[test]
+    fn long_lists_show_the_first_and_count_the_rest() {
+        assert_eq!(first_of(["a", "b"], 2), "a, b");
+        assert_eq!(
+            first_of(1..=12, 10),
+            "1, 2, 3, 4, 5, 6, 7, 8, 9, 10 and 2 more"
+        );
+    }
+}
