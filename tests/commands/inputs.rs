@@ -558,3 +558,46 @@ fn a_small_file_that_inflates_to_a_huge_one_is_refused() {
     .stderr(contains("MATLAB file"))
     .stderr(contains("million numbers, the limit"));
 }
+
+#[test]
+fn a_run_that_was_interrupted_while_it_replaces_others_goes_on_where_it_was() {
+    use frictionsim::results::{Manifest, OutputFolder, Replace};
+    let manifest = |command: &str| Manifest {
+        case_hash: command.to_owned(),
+        ..Manifest::new(command)
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let open = |command, replace| OutputFolder::open(folder.path(), &manifest(command), replace);
+    let old = open("cea", Replace::SameCase).unwrap();
+    old.write("table.csv", |out| out.write_all(b"old")).unwrap();
+    old.finish().unwrap();
+    assert!(open("transient", Replace::SameCase).is_err());
+
+    let begun = open("transient", Replace::Anything).unwrap();
+    begun
+        .write("checkpoint.bin", |out| out.write_all(b"state"))
+        .unwrap();
+    begun.suspend().unwrap();
+    assert_eq!(fs::read(at("table.csv")).unwrap(), b"old");
+    assert!(OutputFolder::is_begun(
+        folder.path(),
+        &manifest("transient")
+    ));
+    // Killed before its end once more.
+    drop(open("transient", Replace::SameCase).unwrap());
+
+    let again = open("transient", Replace::SameCase).unwrap();
+    assert_eq!(
+        fs::read(again.path().join("checkpoint.bin")).unwrap(),
+        b"state"
+    );
+    again
+        .write("energy.csv", |out| out.write_all(b"new"))
+        .unwrap();
+    again.finish().unwrap();
+    assert!(
+        !at("table.csv").exists() && !at(".replacing").exists() && !at("checkpoint.bin").exists()
+    );
+    assert_eq!(fs::read(at("energy.csv")).unwrap(), b"new");
+}
