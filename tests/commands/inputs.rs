@@ -601,3 +601,98 @@ fn a_run_that_was_interrupted_while_it_replaces_others_goes_on_where_it_was() {
     );
     assert_eq!(fs::read(at("energy.csv")).unwrap(), b"new");
 }
+
+#[test]
+fn answers_to_common_slips_name_what_was_meant() {
+    let mesh = Block::new(SIDE + 1).text("block");
+    let folder = folder(&mesh, CASE);
+    fs::write(
+        folder.path().join("table.toml"),
+        "frequency_hz,real\n1,2\n3,4\n",
+    )
+    .unwrap();
+    fs::write(folder.path().join("mesh.toml"), &mesh).unwrap();
+    fs::write(
+        folder.path().join("comma.toml"),
+        "[contact]\nfriction_coefficient = 0,3\n",
+    )
+    .unwrap();
+    fs::write(folder.path().join("disc.csv"), &mesh).unwrap();
+    let frf = "frf.frequencies_hz={from=1,to=10,step=1}";
+    let continuation = "cycle.continuation={key=\"contact.friction\",from=0.1,to=0.2}";
+    for (arguments, said) in [
+        (
+            &["check", "table.toml"][..],
+            "this is a table of values, not a case",
+        ),
+        (&["check", "mesh.toml"], "this is a Gmsh mesh"),
+        (&["check", "comma.toml"], "decimal point, not a comma: 0.3"),
+        (
+            &["signal", "disc.csv"],
+            "this is a Gmsh mesh, not a measurement",
+        ),
+        (
+            &[
+                "check",
+                "block.toml",
+                "--set",
+                "output.probes=[{r=0.02,angle=90}]",
+            ],
+            "did you mean `radius`?",
+        ),
+        (
+            &[
+                "check",
+                "block.toml",
+                "--set",
+                "output.probes=[{r=0.02,angle=90}]",
+            ],
+            "did you mean `angle_deg`?",
+        ),
+        (
+            &[
+                "check",
+                "block.toml",
+                "--set",
+                frf,
+                "--set",
+                "frf.force_node=1",
+            ],
+            "did you mean `count`?",
+        ),
+        (
+            &["check", "block.toml", "--set", continuation],
+            "did you mean \"contact.friction_coefficient\"?",
+        ),
+        (
+            &[
+                "check",
+                "block.toml",
+                "--set",
+                "uncertainty.distributions={\"material.youngs_modulus\"={uniform=[1,2]}}",
+            ],
+            "\"material.youngs_modulus\" in uncertainty.distributions cannot be varied",
+        ),
+        (&["eigen", "block.toml"], "`frictionsim cea`"),
+    ] {
+        frictionsim(&folder, arguments)
+            .assert()
+            .code(2)
+            .stderr(contains(said));
+    }
+    let ranges = frictionsim(
+        &folder,
+        &[
+            "check",
+            "block.toml",
+            "--set",
+            frf,
+            "--set",
+            "frf.force_node=1",
+        ],
+    );
+    { ranges }
+        .assert()
+        .code(2)
+        .stderr(contains("missing or empty").not());
+}
