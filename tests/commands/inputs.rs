@@ -680,18 +680,15 @@ fn answers_to_common_slips_name_what_was_meant() {
             .code(2)
             .stderr(contains(said));
     }
-    let ranges = frictionsim(
-        &folder,
-        &[
-            "check",
-            "block.toml",
-            "--set",
-            frf,
-            "--set",
-            "frf.force_node=1",
-        ],
-    );
-    { ranges }
+    let range = [
+        "check",
+        "block.toml",
+        "--set",
+        frf,
+        "--set",
+        "frf.force_node=1",
+    ];
+    frictionsim(&folder, &range)
         .assert()
         .code(2)
         .stderr(contains("missing or empty").not());
