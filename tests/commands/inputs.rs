@@ -516,7 +516,7 @@ fn a_case_without_end_is_refused_at_the_limit() {
     frictionsim(&folder, &["check", "/dev/zero"])
         .assert()
         .code(2)
-        .stderr(contains("larger than the 16 MiB"));
+        .stderr(contains("larger than 16 MiB"));
 }
 
 /// A MATLAB file of one compressed variable: `count` bytes that are all zero.
