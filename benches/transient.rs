@@ -17,7 +17,7 @@ use disc::{DAMPING, POLYCARBONATE, annulus, contact};
 use fma_peak::fma_peak;
 use frictionsim::contact::ContactStiffness;
 use frictionsim::fem::operator::SimdLevel;
-use frictionsim::mesh::{AnnulusMesh, BoundaryCondition, ElementKind, Mesh2d, ShaftSpecification};
+use frictionsim::mesh::{AnnulusMesh, BoundaryCondition, ElementKind, Mesh, ShaftSpecification};
 use frictionsim::transient::{
     CentralDifference, InitialState, Observer, OperatorChoice, Perturbation, Sample, TimeStep,
     TransientModel, TransientSettings, build_operator,
@@ -125,7 +125,7 @@ fn mesh(circumferential: usize, radial: usize) -> AnnulusMesh {
 }
 
 /// The annulus with its inner nodes moved by up to a tenth of an element at random.
-fn irregular(annulus: &AnnulusMesh) -> Mesh2d {
+fn irregular(annulus: &AnnulusMesh) -> Mesh {
     let mut mesh = annulus.mesh.clone();
     let specification = &annulus.specification;
     let width = specification.outer_radius - specification.inner_radius;
@@ -146,7 +146,7 @@ fn irregular(annulus: &AnnulusMesh) -> Mesh2d {
     mesh
 }
 
-fn of_mesh(mesh: &Mesh2d) -> TransientModel<'_> {
+fn of_mesh(mesh: &Mesh) -> TransientModel<'_> {
     TransientModel {
         mesh,
         annulus: None,

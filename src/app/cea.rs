@@ -107,7 +107,12 @@ fn run_with(
     };
     let summary = write(&folder, &report)?;
     if let Some(drawing) = session.options.output.drawing() {
-        draw(&folder, &report, case.damping.rayleigh, &drawing)?;
+        draw(
+            &folder,
+            &report,
+            &eigenvalues::dampings(case, &model),
+            &drawing,
+        )?;
     }
     let table = print(&report, session.options.output.verbose > 0);
     session.options.output.finish(folder, &table, &summary)
@@ -133,7 +138,12 @@ pub fn redraw(folder: &OutputFolder, case: &Case, options: &DrawingOptions) -> R
         map: map.as_ref(),
         ..eigenvalues::report(case, cea, &model, &solution, &field, wall_s)
     };
-    draw(folder, &report, case.damping.rayleigh, options)?;
+    draw(
+        folder,
+        &report,
+        &eigenvalues::dampings(case, &model),
+        options,
+    )?;
     Ok(())
 }
 
@@ -144,6 +154,7 @@ mod tests {
     use crate::app::{OutputOptions, SimdChoice};
     use crate::cea::{ComplexMode, FrictionPoint, FrictionSweep};
     use crate::linalg::c64;
+    use crate::study::eigenvalues::SteadyState;
     use std::f64::consts::TAU;
     use std::path::Path;
 
@@ -242,7 +253,10 @@ mod tests {
             let (case, base) = (&session.case, model.base_state(&session.case));
             let field = model.base_field(case);
             // Torque = thickness * radius * sum of traction times tributary length.
-            let lengths = &model.base().interface.tributary_lengths;
+            let SteadyState::Plane(steady) = &model.state else {
+                panic!("a plane annulus");
+            };
+            let lengths = &steady.interface.tributary_lengths;
             let force: f64 = field.shears.iter().zip(lengths).map(|(t, w)| t * w).sum();
             let torque = 0.009 * 0.0205 * force;
             assert!((base.torque_n_m.unwrap() / torque - 1.0).abs() < 1e-12);

@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 /// Finished runs side by side: every number they share, curve over curve
 ///
 /// Reads summary.json and report.html of each results folder; nothing is computed again. The first folder is what the others
-/// are compared with.
+/// are compared with. Without --out the results are in results/compare, in a folder named after the runs.
 #[derive(Args)]
 pub struct Arguments {
     /// Results folders, the first of which the others are compared with
@@ -69,7 +69,14 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         );
     }
     let manifest = manifest_of(&arguments.folders, &runs);
-    let folder = arguments.output.open_folder(&manifest, false)?;
+    let output = match arguments.output.out {
+        Some(_) => arguments.output.clone(),
+        None => OutputOptions {
+            out: Some(default_folder(&runs, &manifest, arguments.output.force)),
+            ..arguments.output.clone()
+        },
+    };
+    let folder = output.open_folder(&manifest, false)?;
     write_comparison(&folder, &runs, &quantities)?;
     if let Some(drawing) = arguments.output.drawing() {
         let figures = overlaid(&runs, &drawing).map_err(DrawingError::from)?;
@@ -87,8 +94,31 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         manifest,
     };
     let summary = write_summary(&folder, &summary)?;
-    arguments.output.finish(folder, &table, &summary)
+    output.finish(folder, &table, &summary)
 }
+
+/// `results/compare/A-B`, after the names of the runs; where that holds another comparison, with the beginning of its own hash.
+fn default_folder(runs: &[ComparedRun], manifest: &Manifest, is_forced: bool) -> PathBuf {
+    let is_plain = |c: char| c.is_alphanumeric() || matches!(c, '.' | '_');
+    let names = runs.iter().map(|run| {
+        let parts = run.name.split(|c| !is_plain(c));
+        let parts: Vec<&str> = parts.filter(|part| !part.is_empty()).collect();
+        parts.join("-")
+    });
+    let name = names.collect::<Vec<_>>().join("-and-");
+    let name: String = name.chars().take(LONGEST_NAME).collect();
+    let folder = Path::new("results").join("compare");
+    let plain = folder.join(&name);
+    let found = read_manifest(&plain).ok();
+    let is_other = found.is_some_and(|found| found.case_hash != manifest.case_hash);
+    match is_other && !is_forced {
+        true => folder.join(format!("{name}-{}", &manifest.case_hash[..8])),
+        false => plain,
+    }
+}
+
+/// Longest name of a folder that is made of the names of runs, characters.
+const LONGEST_NAME: usize = 100;
 
 /// What the comparison is made from: the folders and the cases of their results.
 fn manifest_of(folders: &[PathBuf], runs: &[ComparedRun]) -> Manifest {

@@ -5,9 +5,9 @@ use super::{Failure, RunOptions, Session};
 use crate::case::{Case, ModeSelection};
 use crate::mesh::{AnnulusMesh, SolidSector, SolidSpecification};
 use crate::results::mesh::{
-    MeshStatistics, MeshSummary, print, write_mesh, write_mesh_picture, write_solid_mesh,
+    MeshStatistics, MeshSummary, draw_mesh, print, write_mesh, write_solid_mesh,
 };
-use crate::results::{DrawingOptions, OutputFolder, write_summary};
+use crate::results::{DrawingOptions, OutputFolder, read_summary, write_summary};
 use clap::Args;
 
 /// Mesh only: statistics, VTU, picture
@@ -50,7 +50,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         statistics.turn(sector);
     }
     if let Some(drawing) = session.options.output.drawing() {
-        redraw(&folder, case, &drawing)?;
+        let probes = &case.output.probes;
+        draw_mesh(&folder, &mesh, (&case.title, probes), &statistics, &drawing)?;
     }
     let summary = MeshSummary {
         command: "mesh".to_owned(),
@@ -72,7 +73,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 /// Those of the drawing and of the folder.
 pub fn redraw(folder: &OutputFolder, case: &Case, options: &DrawingOptions) -> Result<(), Failure> {
     let mesh = case.mesh().map_err(Failure::usage)?;
-    write_mesh_picture(folder, &mesh, (&case.title, &case.output.probes), options)?;
+    let summary: MeshSummary = read_summary(folder.path())?;
+    let probes = &case.output.probes;
+    draw_mesh(folder, &mesh, (&case.title, probes), &summary.mesh, options)?;
     Ok(())
 }
 

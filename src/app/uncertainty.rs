@@ -51,7 +51,7 @@ pub const PROFILE: Profile = Profile {
             "how likely is squeal, and which parameter decides it?",
         ),
         (
-            "frictionsim uncertainty disc.toml --robust contact.interference=1e-5:4e-5 --bound 0.05",
+            "frictionsim uncertainty disc.toml --robust damping.mass_coefficient=40:2000 --bound 0.05",
             "which design is silent with 95 % probability?",
         ),
     ],

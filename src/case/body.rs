@@ -3,7 +3,7 @@
 use super::imported::ImportedBody;
 use crate::fem::{AnnulusMaterials, ElasticMaterial, MaterialField};
 use crate::mesh::{
-    AnnulusMesh, AnnulusSpecification, Counterface, Mesh2d, MeshError, SolidContact,
+    AnnulusMesh, AnnulusSpecification, Counterface, Mesh, MeshError, SolidContact,
     SolidSpecification,
 };
 use std::f64::consts::PI;
@@ -191,7 +191,7 @@ impl Body {
     ///
     /// # Errors
     /// [`MeshError`] of a mesh that cannot be generated.
-    pub fn mesh(&self) -> Result<Arc<Mesh2d>, MeshError> {
+    pub fn mesh(&self) -> Result<Arc<Mesh>, MeshError> {
         let generate =
             |grid: &AnnulusSpecification| Ok(Arc::new(AnnulusMesh::generate(grid)?.mesh));
         match self {

@@ -17,10 +17,12 @@ pub struct Contact {
     pub stiffness: ContactStiffness,
 }
 
-/// `annulus` is that of a generated body, with whether it is three-dimensional.
+/// `annulus` is that of a generated body, with whether it is three-dimensional; `is_pressed` says whether a boundary has a
+/// pressure of its own.
 pub(super) fn contact(
     root: &Section<'_>,
     annulus: Option<(&AnnulusSpecification, bool)>,
+    is_pressed: bool,
 ) -> (Contact, ContactPlace) {
     let section = root.section("contact", true);
     let mut place = imported::contact_place(&section);
@@ -55,8 +57,8 @@ pub(super) fn contact(
         place.plane_speed = None;
     }
     let interference = section.number("interference");
-    // A pressure on a face may press a three-dimensional body.
-    if is_annulus && !is_solid && interference == 0.0 {
+    // A pressure on a face may press a three-dimensional body; on a plane annulus it is an error of its own.
+    if is_annulus && !is_solid && interference == 0.0 && !is_pressed {
         section.reject(
             "interference",
             "contact.interference = 0.0 must be positive and finite".to_owned(),

@@ -9,7 +9,7 @@ use super::suggestion;
 use super::words::CounterfaceWord;
 use crate::fem::{ElasticMaterial, RayleighDamping, RegionMaterial};
 use crate::mesh::{
-    BodyPart, BodySpecification, CounterfaceSpecification, GmshFile, Mesh2d, MeshFileError,
+    BodyPart, BodySpecification, CounterfaceSpecification, GmshFile, Mesh, MeshFileError,
     SolidContact,
 };
 use std::io::Read as _;
@@ -25,7 +25,7 @@ const LARGEST_MESH: u64 = 4 << 30;
 #[derive(Clone, Debug, PartialEq)]
 pub struct ImportedBody {
     /// Its mesh with boundaries and what holds them.
-    pub mesh: Arc<Mesh2d>,
+    pub mesh: Arc<Mesh>,
     /// The material of each of its regions.
     pub materials: Vec<RegionMaterial>,
     /// What the mesh was made of, for its refinements.
@@ -242,7 +242,7 @@ pub(super) fn import(mesh: &MeshBytes, parts: &BodyParts) -> Result<ImportedBody
         opposite: parts.place.opposite.clone(),
         conditions: parts.boundaries.clone(),
     };
-    let mesh = Mesh2d::from_gmsh(&read, &specification).map_err(unusable)?;
+    let mesh = Mesh::from_gmsh(&read, &specification).map_err(unusable)?;
     check_meeting(&mesh, &specification, parts.interference).map_err(|message| {
         ImportError::new(
             "contact.counter_boundary",
@@ -298,7 +298,7 @@ impl ImportedBody {
             fine = fine.refined()?;
         }
         Ok(Self {
-            mesh: Arc::new(Mesh2d::from_gmsh(&fine, specification)?),
+            mesh: Arc::new(Mesh::from_gmsh(&fine, specification)?),
             materials: self.materials.clone(),
             source: Arc::new((fine, specification.clone())),
         })

@@ -66,7 +66,7 @@ pub use value::{RawEntry, RawItem, RawTable, RawValue};
 pub use words::{Analysis, CeaMethod, Combination, FrfMethod, OnsetChoice, StabilityChoice};
 
 use crate::fem::{ElasticMaterial, MaterialField};
-use crate::mesh::{Mesh2d, MeshError};
+use crate::mesh::{Mesh, MeshError};
 use reader::{Findings, Section};
 use std::sync::Arc;
 
@@ -194,10 +194,12 @@ impl Case {
             raw,
         };
         let errors = rules::infeasible(&case);
+        let implausible = plausibility::implausible(&case);
         if !errors.is_empty() {
-            return Err(case.raw.errors(errors));
+            // A slip of units comes first: what cannot run is mostly its consequence.
+            return Err(case.raw.errors([implausible, errors].concat()));
         }
-        case.warnings.extend(plausibility::implausible(&case));
+        case.warnings.extend(implausible);
         Ok(case)
     }
 
@@ -360,7 +362,7 @@ impl Case {
     ///
     /// # Errors
     /// [`MeshError`] of a mesh that cannot be generated.
-    pub fn mesh(&self) -> Result<Arc<Mesh2d>, MeshError> {
+    pub fn mesh(&self) -> Result<Arc<Mesh>, MeshError> {
         self.body.mesh()
     }
 

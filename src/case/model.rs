@@ -33,6 +33,9 @@ pub(super) struct Model {
 /// The generated body, or that of a mesh file.
 pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &ElasticMaterial) -> Model {
     let conditions = boundaries::all(root);
+    let is_pressed = conditions
+        .iter()
+        .any(|(_, condition)| matches!(condition, BoundaryCondition::Pressure(_)));
     let mesh = root.section("mesh", true);
     let file = mesh.optional_text("file");
     let scale = mesh.number("scale");
@@ -48,7 +51,7 @@ pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &ElasticMateria
             annulus(root, &geometry, &mesh, (&conditions, is_solid), material);
         geometry.close();
         mesh.close();
-        let (contact, place) = contact(root, Some((&annulus, is_solid)));
+        let (contact, place) = contact(root, Some((&annulus, is_solid)), is_pressed);
         let body = match axial {
             None => Body::Annulus(Annulus {
                 specification: annulus,
@@ -79,18 +82,9 @@ pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &ElasticMateria
             contact,
         };
     };
-    // What describes an annulus has no effect here.
-    let radii = ["inner_radius", "outer_radius", "shaft_inner_radius"];
-    let _ = radii.map(|key| geometry.optional_number(key));
-    let counts = [
-        "circumferential_elements",
-        "radial_elements",
-        "shaft_radial_elements",
-    ];
-    let _ = counts.map(|key| mesh.optional_count(key));
-    let (_, _): (_, ElementKind) = (mesh.number("radial_grading"), mesh.choice("element"));
+    ignore_generated(&geometry, &mesh);
     geometry.close();
-    let (contact, place) = contact(root, None);
+    let (contact, place) = contact(root, None, is_pressed);
     if is_solid {
         mesh.reject(
             "file",
@@ -99,7 +93,6 @@ pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &ElasticMateria
             Some("give radii and element counts, or a plane formulation".to_owned()),
         );
     }
-    let _ = mesh.optional_count("axial_elements");
     let parts = BodyParts {
         scale,
         place,
@@ -123,6 +116,33 @@ pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &ElasticMateria
         thickness,
         mesh: bytes,
         contact,
+    }
+}
+
+/// Reads what describes a generated body, which has no effect beside `mesh.file`, and says so.
+fn ignore_generated(geometry: &Section<'_>, mesh: &Section<'_>) {
+    let radii = ["inner_radius", "outer_radius", "shaft_inner_radius"];
+    let _ = radii.map(|key| geometry.optional_number(key));
+    let counts = [
+        "circumferential_elements",
+        "radial_elements",
+        "axial_elements",
+        "shaft_radial_elements",
+    ];
+    let _ = counts.map(|key| mesh.optional_count(key));
+    let (_, _): (_, ElementKind) = (mesh.number("radial_grading"), mesh.choice("element"));
+    let shape = ["radial_grading", "element"];
+    let given = radii.iter().map(|key| (geometry, key));
+    let given = given.chain(counts.iter().chain(&shape).map(|key| (mesh, key)));
+    for (section, key) in given.filter(|(section, key)| section.has(key)) {
+        section.warn(
+            key,
+            format!(
+                "{} is not used: mesh.file describes the body",
+                section.name(key)
+            ),
+            "no effect",
+        );
     }
 }
 

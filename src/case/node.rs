@@ -162,7 +162,7 @@ fn nearest(body: &Body, point: [f64; 2]) -> Option<(usize, [f64; 2])> {
         Body::Revolution(revolution) => nearest_on_top(&revolution.specification, point),
         Body::Imported(imported) => {
             let (node, _) = imported.mesh.nearest_node(point)?;
-            Some((node, imported.mesh.nodes[node]))
+            Some((node, imported.mesh.plane_node(node)))
         }
     }
 }
@@ -176,7 +176,7 @@ fn nearest_in_sectors(
     let (per_sector, sectors) = (sector.node_count(), sector.sector_count());
     let step = TAU / sectors as f64;
     let candidates = sector.strip.nodes[..per_sector].iter().enumerate();
-    let around = candidates.map(|(position, &[x, y])| {
+    let around = candidates.map(|(position, &[x, y, _])| {
         let (radius, start) = (x.hypot(y), y.atan2(x));
         let turns = ((point[1].atan2(point[0]) - start) / step).round() as i64;
         let turned = turns.rem_euclid(sectors as i64) as usize;

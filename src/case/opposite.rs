@@ -3,7 +3,7 @@
 use super::reader::Section;
 use super::words::CounterfaceWord;
 use crate::contact::ContactInterface;
-use crate::mesh::{BodySpecification, Mesh2d};
+use crate::mesh::{BodySpecification, Mesh};
 
 /// `contact.counter_boundary`, which only two bodies have.
 pub(super) fn opposite_curve(section: &Section<'_>, word: CounterfaceWord) -> Option<String> {
@@ -27,7 +27,7 @@ pub(super) fn opposite_curve(section: &Section<'_>, word: CounterfaceWord) -> Op
 
 /// Two bodies must have their curves before each other, at most as far into each other as the interference.
 pub(super) fn check_meeting(
-    mesh: &Mesh2d,
+    mesh: &Mesh,
     body: &BodySpecification,
     interference: f64,
 ) -> Result<(), String> {

@@ -15,14 +15,18 @@ const LARGEST_FRICTION: f64 = 2.0;
 const LARGEST_PRESSURE: f64 = 0.1;
 /// Speeds of bar waves, m/s: soft rubber to ceramics.
 const WAVE_SPEEDS: [f64; 2] = [100.0, 10_000.0];
+/// Densities of solids, kg/m3: foams to heavy metals.
+const DENSITIES: std::ops::RangeInclusive<f64> = 20.0..=25_000.0;
 /// Lengths that a case has, m.
 const LENGTHS: [f64; 2] = [1e-5, 10.0];
 /// Thickness beyond which a plane body is hardly meant, m: 1 m is the default, a value for each metre.
 const LARGEST_THICKNESS: f64 = 1.0;
 /// Jacobian of an element, smallest over largest, below which it is badly shaped.
 const SMALLEST_JACOBIAN: f64 = 0.1;
-/// Poisson's ratio beyond which plane-strain elements lock.
+/// Poisson's ratio beyond which elements lock, but those of plane stress.
 const LARGEST_POISSON_RATIO: f64 = 0.49;
+/// Share of the speed of bar waves beyond which a seeded velocity is no small strain.
+const LARGEST_SEED: f64 = 0.01;
 /// Times the modulus over the radius beyond which a contact stiffness drowns the body in round-off.
 const LARGEST_STIFFNESS_RATIO: f64 = 1e8;
 
@@ -33,6 +37,7 @@ pub(super) fn implausible(case: &Case) -> Vec<Diagnostic> {
         unmerged_nodes(case),
         element_shape(case),
         wave_speed(case),
+        seeds(case),
         poisson_ratio(case),
         friction(case),
         interference(case),
@@ -139,30 +144,69 @@ fn element_shape(case: &Case) -> Option<Diagnostic> {
     ))
 }
 
+/// Seeded velocities whose strain, `v / c`, is not small.
+fn seeds(case: &Case) -> Option<Diagnostic> {
+    let perturbation = &case.transient.as_ref()?.perturbation;
+    let waves = perturbation.waves.iter().map(|wave| wave.velocity.abs());
+    let wave = waves.fold(0.0, f64::max);
+    let (key, largest) = match wave >= perturbation.noise {
+        true => ("transient.perturbation.velocity", wave),
+        false => ("transient.perturbation.noise", perturbation.noise),
+    };
+    let speed = bar_wave_speed(case);
+    (largest > LARGEST_SEED * speed).then(|| {
+        warning(
+            case,
+            key,
+            format!(
+                "{key}: a seed of {largest:e} m/s is {:.3} of the speed of waves in the material, {speed:.0} m/s: its strains \
+                 are not small",
+                largest / speed
+            ),
+            "metres per second?",
+            "seeds of a linear stage are about 1e-3 m/s, or with relative = true a small share of the slip speed",
+        )
+    })
+}
+
+/// `sqrt(E / rho)`, m/s.
+pub(super) fn bar_wave_speed(case: &Case) -> f64 {
+    (case.material.young_modulus / case.material.density).sqrt()
+}
+
 /// Speed of waves in a bar, `sqrt(E / rho)`.
 fn wave_speed(case: &Case) -> Option<Diagnostic> {
     let (modulus, density) = (case.material.young_modulus, case.material.density);
-    let speed = (modulus / density).sqrt();
+    let speed = bar_wave_speed(case);
     let [least, most] = WAVE_SPEEDS;
     if (least..=most).contains(&speed) {
         return None;
     }
+    // The one that no solid has; rigid ones are within a factor of ten.
+    let key = match DENSITIES.contains(&density) {
+        true => "material.young_modulus",
+        false => "material.density",
+    };
     Some(warning(
         case,
-        "material.young_modulus",
+        key,
         format!(
             "material.young_modulus = {modulus:e} Pa and material.density = {density:e} kg/m3 give \
              waves of {speed:.3e} m/s, outside {least} to {most} m/s"
         ),
-        "pascals?",
+        if key == "material.density" {
+            "kg/m3?"
+        } else {
+            "pascals?"
+        },
         "a case is in SI: Pa, not MPa or GPa; kg/m3, not g/cm3 or t/mm3",
     ))
 }
 
 fn poisson_ratio(case: &Case) -> Option<Diagnostic> {
     let ratio = case.material.poisson_ratio;
-    let is_plane_strain = case.material.formulation == PlaneFormulation::PlaneStrain;
-    if ratio <= LARGEST_POISSON_RATIO || !is_plane_strain {
+    let is_plane_stress = case.material.formulation == PlaneFormulation::PlaneStress;
+    if ratio <= LARGEST_POISSON_RATIO || is_plane_stress {
         return None;
     }
     Some(warning(
@@ -315,10 +359,12 @@ fn contact_stiffness(case: &Case) -> Option<Diagnostic> {
     })
 }
 
-/// `zeta = (alpha / omega + beta omega) / 2` at the highest frequency asked for.
+/// `zeta = (alpha / omega + beta omega) / 2` at the highest frequency asked for, else where a bar as long as the body has its
+/// first mode.
 fn overdamping(case: &Case) -> Option<Diagnostic> {
-    let Some(super::ModeSelection::BelowHz(limit)) = case.cea.as_ref().map(|cea| cea.modes) else {
-        return None;
+    let limit = match case.cea.as_ref().map(|cea| cea.modes) {
+        Some(super::ModeSelection::BelowHz(limit)) => limit,
+        _ => (bar_wave_speed(case) / (4.0 * case.body.size())).round(),
     };
     let zeta = case
         .damping

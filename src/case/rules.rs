@@ -1,6 +1,7 @@
 //! Rules between sections.
 
 use super::diagnostic::Diagnostic;
+use super::plausibility::bar_wave_speed;
 use super::{Case, InitialState, TimeStep};
 
 /// Steps beyond which no machine finishes a transient.
@@ -12,6 +13,33 @@ const UNSTABLE: f64 = 4.0;
 
 /// Contact stiffness, in units of the modulus over the radius, that leaves no digit of the body's own.
 const LARGEST_STIFFNESS: f64 = 1e14;
+
+/// Friction coefficient beyond which nothing slides.
+const LARGEST_FRICTION: f64 = 1000.0;
+
+/// Speeds of waves in a bar that no material has, m/s.
+const SLOWEST_WAVES: f64 = 1e-3;
+const FASTEST_WAVES: f64 = 1e6;
+
+/// The first friction coefficient that is none, with its key.
+fn absurd_friction(case: &Case) -> Option<(&'static str, f64)> {
+    let own = (
+        "contact.friction_coefficient",
+        case.contact.sliding.friction_coefficient,
+    );
+    let cea = case.cea.iter();
+    let swept = cea.flat_map(|cea| {
+        let named = |key: &'static str, values: &[f64]| -> Vec<(&'static str, f64)> {
+            values.iter().map(|value| (key, *value)).collect()
+        };
+        let swept = named("cea.friction_coefficients", &cea.friction_coefficients);
+        swept
+            .into_iter()
+            .chain(named("cea.shapes_at", &cea.shapes_at))
+    });
+    let mut all = std::iter::once(own).chain(swept);
+    all.find(|(_, value)| *value > LARGEST_FRICTION)
+}
 
 /// What a case that is right key by key asks for in vain.
 pub(super) fn infeasible(case: &Case) -> Vec<Diagnostic> {
@@ -53,6 +81,43 @@ pub(super) fn infeasible(case: &Case) -> Vec<Diagnostic> {
                 "lower it, or coarsen the mesh",
             );
         }
+    }
+    if let Some((key, value)) = absurd_friction(case) {
+        refuse(
+            key,
+            format!("{key} = {value:e} is beyond any friction coefficient"),
+            format!("at most {LARGEST_FRICTION}"),
+            "a friction coefficient is the ratio of tangential and normal force",
+        );
+    }
+    let speed = bar_wave_speed(case);
+    if !(SLOWEST_WAVES..=FASTEST_WAVES).contains(&speed) {
+        refuse(
+            "material.young_modulus",
+            format!(
+                "material.young_modulus = {:e} Pa and material.density = {:e} kg/m3 give waves of {speed:.1e} m/s, as no \
+                 material has them",
+                case.material.young_modulus, case.material.density
+            ),
+            format!("waves of {SLOWEST_WAVES:e} to {FASTEST_WAVES:e} m/s"),
+            "a case is in SI: Pa and kg/m3",
+        );
+    }
+    let perturbation = case.transient.as_ref().map(|run| &run.perturbation);
+    let seeds = perturbation.iter().flat_map(|seeds| {
+        let waves = seeds.waves.iter().map(|wave| wave.velocity.abs());
+        waves.chain([seeds.noise])
+    });
+    let fastest = seeds.fold(0.0, f64::max);
+    if fastest > speed {
+        refuse(
+            "transient.perturbation.velocity",
+            format!(
+                "transient.perturbation: a seed of {fastest:e} m/s is faster than waves in the material, {speed:.0} m/s"
+            ),
+            format!("below {speed:.0} m/s"),
+            "give metres per second, about 1e-3 for a linear stage",
+        );
     }
     let starts_on_cycle = case
         .transient

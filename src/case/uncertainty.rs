@@ -44,6 +44,9 @@ pub struct Uncertainty {
     pub parameters: Vec<UncertainParameter>,
 }
 
+/// Standard deviation of a logarithm beyond which a scatter is hardly meant: a factor of 20 either way.
+const LARGEST_LOG_DEVIATION: f64 = 3.0;
+
 pub(super) fn uncertainty(root: &Section<'_>) -> Option<Uncertainty> {
     let section = root.section("uncertainty", false);
     let samples = section.count("samples");
@@ -189,6 +192,18 @@ fn uncertain(
         if a.is_finite() && b.is_finite() {
             reject(format!("{word} = [{a}, {b}] of {key}"), needs, help);
         }
+        return none;
+    }
+    if word == "log_normal" && b > LARGEST_LOG_DEVIATION {
+        reject(
+            format!(
+                "log_normal = [{a}, {b}] of {key}: the second number is the standard deviation of the natural logarithm, and \
+                 {b} spans {:.0} powers of ten within one deviation",
+                b / std::f64::consts::LN_10
+            ),
+            "at most 3",
+            "a scatter of 10 % is { log_normal = [median, 0.1] }; for a deviation in the unit of the key use normal",
+        );
         return none;
     }
     let [least, most] = parameter.bound.ends();

@@ -2,7 +2,7 @@
 
 use super::axis::Axis;
 use super::colour::{ColourMap, INK};
-use super::frame::{LABEL_SIZE, TITLE_SIZE, vertical_count};
+use super::frame::{LABEL_SIZE, TITLE_SIZE, on_sheet, vertical_count};
 use super::image::{IndexedImage, Palette};
 use super::ruler::{Ruler, widest};
 use super::scale::extremes;
@@ -117,11 +117,8 @@ impl Colours {
         }
         let baseline = bar.bottom() + LABEL_SIZE + TITLE_SIZE + 6.0;
         let style = TextStyle::new(TITLE_SIZE).anchored(Anchor::Middle);
-        svg.text(
-            bar.x + 0.5 * bar.width,
-            baseline,
-            &ruler.full_title(),
-            &style,
-        );
+        let title = ruler.full_title();
+        let middle = on_sheet(svg, bar.x + 0.5 * bar.width, &title, TITLE_SIZE);
+        svg.text(middle, baseline, &title, &style);
     }
 }

@@ -24,6 +24,28 @@ pub struct PanelData {
     pub axes: [AxisData; 2],
     /// Curves, points, fields in the order of their layers.
     pub series: Vec<Series>,
+    /// Lines across the panel.
+    pub rules: Vec<RuleData>,
+    /// Texts at places.
+    pub labels: Vec<LabelData>,
+}
+
+/// A line across a panel at one value of an axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RuleData {
+    /// Whether it lies at an ordinate, else at an abscissa.
+    pub is_horizontal: bool,
+    /// Where.
+    pub value: f64,
+}
+
+/// A text at a place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LabelData {
+    /// Where.
+    pub place: (f64, f64),
+    /// Plain text.
+    pub text: String,
 }
 
 /// An axis as it is drawn.
@@ -77,6 +99,8 @@ pub struct Series {
     pub values: Option<(String, Vec<f64>)>,
     /// Number of the row of a table that each point stands for.
     pub rows: Vec<usize>,
+    /// What each point is, in plain text; empty where its coordinates say all.
+    pub tips: Vec<String>,
     /// Whether no sample may be left out, as of a signal that is listened to.
     pub is_whole: bool,
 }
@@ -91,7 +115,7 @@ impl PartialEq for Series {
                 (series.name.clone(), series.kind, series.colour),
                 [bits(&series.xs), bits(&series.ys)],
                 values.map(|(name, values)| (name.clone(), bits(values))),
-                (series.rows.clone(), series.is_whole),
+                (series.rows.clone(), series.tips.clone(), series.is_whole),
             )
         };
         words(self) == words(other)

@@ -231,6 +231,7 @@ impl Layer for Field {
                     .collect(),
             )),
             rows: Vec::new(),
+            tips: Vec::new(),
             is_whole: true,
         }]
     }

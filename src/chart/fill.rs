@@ -128,6 +128,7 @@ impl Layer for Fill {
                 .collect(),
             values: None,
             rows: Vec::new(),
+            tips: Vec::new(),
             is_whole: false,
         }]
     }

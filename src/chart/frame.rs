@@ -4,7 +4,7 @@ use super::colour::{GRID, INK};
 use super::path::Path;
 use super::ruler::{Ruler, Tick};
 use super::svg::{Rect, Stroke, Svg};
-use super::text::{Anchor, TextStyle};
+use super::text::{self, Anchor, TextStyle};
 
 /// Size of axis titles, points.
 pub const TITLE_SIZE: f64 = 7.5;
@@ -108,21 +108,20 @@ pub(super) fn draw_x_axis(svg: &mut Svg, frame: &Frame, ticks: &[Tick], labels: 
     }
     let style = TextStyle::new(LABEL_SIZE).anchored(Anchor::Middle);
     for tick in ticks {
-        svg.text(
-            at(tick.value),
-            bottom + TICK + LABEL_SIZE + 1.0,
-            &tick.label,
-            &style,
-        );
+        let place = on_sheet(svg, at(tick.value), &tick.label, LABEL_SIZE);
+        svg.text(place, bottom + TICK + LABEL_SIZE + 1.0, &tick.label, &style);
     }
     let baseline = bottom + TICK + LABEL_SIZE + TITLE_SIZE + 4.0;
     let style = TextStyle::new(TITLE_SIZE).anchored(Anchor::Middle);
-    svg.text(
-        area.x + 0.5 * area.width,
-        baseline,
-        &frame.x.full_title(),
-        &style,
-    );
+    let title = frame.x.full_title();
+    let middle = on_sheet(svg, area.x + 0.5 * area.width, &title, TITLE_SIZE);
+    svg.text(middle, baseline, &title, &style);
+}
+
+/// The middle of a text, moved as little as keeps the text on the sheet.
+pub(super) fn on_sheet(svg: &Svg, middle: f64, markup: &str, size: f64) -> f64 {
+    let half = 0.5 * text::width(markup, size, false) + 1.0;
+    middle.min(svg.width() - half).max(half)
 }
 
 /// Draws the vertical axis, with labels where its title has a distance.

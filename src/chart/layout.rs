@@ -2,7 +2,7 @@
 
 use super::colour::MUTED;
 use super::colour_bar::Colours;
-use super::frame::{Frame, LABEL_SIZE, TITLE_SIZE};
+use super::frame::{Frame, LABEL_SIZE, TITLE_SIZE, on_sheet};
 use super::legend::{LINE_HEIGHT, Legend};
 use super::panel::Panel;
 use super::ruler::Ruler;
@@ -13,6 +13,10 @@ use super::text::{self, Anchor, TextStyle};
 const RIM: f64 = 4.0;
 /// Distance between columns and between rows, points.
 const GAP: f64 = 6.0;
+/// Size of remarks, points.
+const NOTE_SIZE: f64 = 6.25;
+/// Height of a line of caption, points.
+const CAPTION_STEP: f64 = 8.5;
 /// Size of headings, points.
 const HEADING_SIZE: f64 = 7.5;
 
@@ -66,7 +70,16 @@ struct Placed<'a> {
     labels: [bool; 2],
     frame: Frame,
     legend: Legend,
+    /// Left end and width of its part of the row, points: room for texts above it.
+    part: (f64, f64),
+    /// Room left of its data area, points.
+    left: f64,
+    /// Whether names at its right stand inside it, for want of room.
+    are_names_inside: bool,
 }
+
+/// Largest part of a page that names at the right of a panel may take.
+const MOST_FOR_NAMES: f64 = 0.22;
 
 /// Letter of the `index`-th panel.
 pub(super) fn letter(index: usize) -> char {
@@ -77,7 +90,8 @@ pub(super) fn letter(index: usize) -> char {
 pub(super) struct Layout<'a> {
     grid: &'a Grid,
     placed: Vec<Placed<'a>>,
-    left: Vec<f64>,
+    /// Whether panels stand one below the other that were meant to stand side by side.
+    is_stacked: bool,
     legend: Legend,
     legend_place: (f64, f64),
     bottom: f64,
@@ -99,7 +113,7 @@ impl<'a> Layout<'a> {
         let mut layout = Self {
             grid,
             placed,
-            left: Vec::new(),
+            is_stacked: is_narrow && columns == 1 && !grid.shares[0],
             legend: Legend::default(),
             legend_place: (RIM, RIM),
             bottom: 0.0,
@@ -111,12 +125,17 @@ impl<'a> Layout<'a> {
         layout
     }
 
-    /// Widths: margins of each column are those of its neediest panel, the rest is shared.
+    /// Widths: margins of each column are those of its neediest panel, the rest is shared; of panels in a stack each has its own.
     fn place_columns(&mut self, columns: usize) {
+        let width = self.width;
+        for cell in &mut self.placed {
+            cell.left = cell.panel.left_need(&cell.frame.y, cell.labels[1]);
+            cell.are_names_inside =
+                columns == 1 && cell.panel.names_width() > MOST_FOR_NAMES * width;
+        }
         let (mut left, mut right) = (vec![0.0f64; columns], vec![0.0f64; columns]);
         for cell in &self.placed {
-            let need = cell.panel.left_need(&cell.frame.y, cell.labels[1]);
-            left[cell.column] = left[cell.column].max(need);
+            left[cell.column] = left[cell.column].max(cell.left);
             // What stands at the right may reach into a free cell.
             let is_free = |column: usize| {
                 column < columns
@@ -126,11 +145,22 @@ impl<'a> Layout<'a> {
                     })
             };
             if !is_free(cell.column + 1) {
-                right[cell.column] = right[cell.column].max(cell.panel.right_need());
+                let need = cell.panel.right_need(cell.are_names_inside);
+                right[cell.column] = right[cell.column].max(need);
             }
         }
+        if self.is_stacked {
+            for cell in &mut self.placed {
+                let x = RIM + cell.left;
+                let need = cell.panel.right_need(cell.are_names_inside);
+                let free = (width - RIM - need - x).max(20.0);
+                (cell.frame.area.x, cell.frame.area.width) = (x, free);
+                cell.part = (x, width - RIM - x);
+            }
+            return;
+        }
         let margins: f64 = left.iter().chain(&right).sum();
-        let free = self.width - 2.0 * RIM - GAP * (columns - 1) as f64 - margins;
+        let free = width - 2.0 * RIM - GAP * (columns - 1) as f64 - margins;
         let weights = match self.grid.weights.len() == columns {
             true => self.grid.weights.clone(),
             false => vec![1.0; columns],
@@ -142,10 +172,11 @@ impl<'a> Layout<'a> {
             x += left[column];
             for cell in self.placed.iter_mut().filter(|cell| cell.column == column) {
                 (cell.frame.area.x, cell.frame.area.width) = (x, width);
+                cell.part = (x, width + right[column]);
+                cell.left = left[column];
             }
             x += width + right[column] + GAP;
         }
-        self.left = left;
     }
 
     fn collect_legends(&mut self) {
@@ -156,7 +187,9 @@ impl<'a> Layout<'a> {
             };
             cell.panel.add_keys(&cell.frame, legend);
         }
-        self.legend_place.0 = RIM + self.left.first().copied().unwrap_or(0.0);
+        let left = self.placed.iter().filter(|cell| cell.column == 0);
+        let left = left.map(|cell| cell.left).reduce(f64::min);
+        self.legend_place.0 = RIM + left.unwrap_or(0.0);
     }
 
     /// Heights: as the columns, with captions and legends above each panel.
@@ -204,24 +237,38 @@ impl<'a> Layout<'a> {
         let room = self.width - self.legend_place.0 - RIM;
         self.legend.draw(svg, self.legend_place, room);
         for (index, cell) in self.placed.iter().enumerate() {
-            let distance = self.left[cell.column] - TITLE_SIZE;
-            cell.panel.draw(svg, &cell.frame, cell.labels, distance);
+            let names = (cell.left - TITLE_SIZE, cell.are_names_inside);
+            cell.panel.draw(svg, &cell.frame, cell.labels, names);
             cell.draw_head(svg, self.has_letters().then(|| letter(index)));
         }
-        let mut y = self.bottom;
+        let y = self.draw_foot(svg);
+        svg.set_height(y + RIM);
+    }
+
+    /// Draws the scale of colours and the remarks, side by side where there is room, and gives the lower end.
+    fn draw_foot(&self, svg: &mut Svg) -> f64 {
+        let style = TextStyle::new(NOTE_SIZE).coloured(MUTED);
+        let most = self.width - 2.0 * RIM - 2.0;
+        let notes = self.grid.notes.iter();
+        let notes = notes.flat_map(|note| text::wrapped(note, (NOTE_SIZE, false), most));
+        let notes: Vec<String> = notes.collect();
+        let widths = notes.iter().map(|note| text::width(note, NOTE_SIZE, false));
+        let widest = widths.fold(0.0, f64::max);
+        let (mut first, mut foot) = (self.bottom, self.bottom);
         if let Some(colours) = &self.grid.foot {
             let width = 160f64.min(0.5 * self.width);
-            colours.draw_flat_bar(svg, (self.width - width - 16.0, y + 3.0), width);
+            let left = self.width - width - 16.0;
+            colours.draw_flat_bar(svg, (left, self.bottom + 3.0), width);
+            foot += Colours::flat_bar_height();
+            // Its title may be wider than the bar.
+            if RIM + 2.0 + widest > left - 24.0 {
+                first = foot;
+            }
         }
-        let style = TextStyle::new(6.25).coloured(MUTED);
-        for note in &self.grid.notes {
-            y += 9.0;
-            svg.text(RIM + 2.0, y, note, &style);
+        for (row, note) in notes.iter().enumerate() {
+            svg.text(RIM + 2.0, first + 9.0 * (row + 1) as f64, note, &style);
         }
-        if self.grid.foot.is_some() {
-            y = y.max(self.bottom + Colours::flat_bar_height());
-        }
-        svg.set_height(y + RIM);
+        foot.max(first + 9.0 * notes.len() as f64)
     }
 }
 
@@ -252,6 +299,9 @@ fn place_cells(grid: &Grid, columns: usize, is_narrow: bool) -> Vec<Placed<'_>> 
                     labels: [true; 2],
                     frame,
                     legend: Legend::default(),
+                    part: (0.0, 0.0),
+                    left: 0.0,
+                    are_names_inside: false,
                 });
             }
             None if is_narrow => continue,
@@ -319,21 +369,49 @@ impl Placed<'_> {
         }
     }
 
+    /// Lines of its caption, beside a letter.
+    fn caption_lines(&self) -> Vec<String> {
+        match self.panel.caption.as_str() {
+            "" => Vec::new(),
+            caption => text::wrapped(caption, (LABEL_SIZE, false), self.part.1 - LETTER_WIDTH),
+        }
+    }
+
+    /// Lines of its headings with their colours.
+    fn heading_lines(&self) -> Vec<(String, &'static str)> {
+        let wrapped = |(line, colour): &(String, &'static str)| {
+            let lines = text::wrapped(line, (HEADING_SIZE, false), self.part.1);
+            lines
+                .into_iter()
+                .map(|line| (line, *colour))
+                .collect::<Vec<_>>()
+        };
+        self.panel.headings.iter().flat_map(wrapped).collect()
+    }
+
     /// Room right of the caption for a legend in the same line, points.
     fn legend_room(&self) -> f64 {
         let caption = text::width(&self.panel.caption, LABEL_SIZE, false);
         self.frame.area.width - caption - 24.0
     }
 
+    /// Width of a legend that has lines of its own, points.
+    fn legend_width(&self) -> f64 {
+        self.part.1
+    }
+
     /// Room needed above the data area, points.
     fn top_need(&self, letters: bool) -> f64 {
-        let headings = self.panel.headings.len() as f64 * 1.25 * HEADING_SIZE;
-        let has_line = letters || !self.panel.caption.is_empty();
-        let line = if has_line { 9.5 } else { 0.0 };
+        let headings = self.heading_lines().len() as f64 * 1.25 * HEADING_SIZE;
+        let lines = self.caption_lines().len().max(usize::from(letters));
+        let line = match lines {
+            0 => 0.0,
+            lines => 9.5 + CAPTION_STEP * (lines - 1) as f64,
+        };
         let legend = match self.legend.width() {
             _ if self.legend.is_empty() => 0.0,
             width if width <= self.legend_room() => LINE_HEIGHT,
-            _ => line + self.legend.height(self.frame.area.width),
+            _ => line + self.legend.height(self.legend_width()),
         };
         let head = headings.max(line).max(legend);
         head + self.panel.rim_height() + if head > 0.0 { 3.0 } else { 0.0 }
@@ -342,6 +420,8 @@ impl Placed<'_> {
     /// Draws letter, caption, headings and the panel's own legend.
     fn draw_head(&self, svg: &mut Svg, letter: Option<char>) {
         let (area, panel) = (&self.frame.area, self.panel);
+        // Texts begin where the part of the row does, which of a picture of the plane is left of its area.
+        let left = if panel.is_plane { self.part.0 } else { area.x };
         let mut baseline = area.y - 3.5 - panel.rim_height();
         if !self.legend.is_empty() {
             if self.legend.width() <= self.legend_room() {
@@ -349,27 +429,35 @@ impl Placed<'_> {
                 self.legend
                     .draw(svg, (x, baseline - 7.5), self.legend.width());
             } else {
-                let height = self.legend.height(area.width);
-                self.legend
-                    .draw(svg, (area.x, baseline + 1.5 - height), area.width);
+                let height = self.legend.height(self.legend_width());
+                let place = (left, baseline + 1.5 - height);
+                self.legend.draw(svg, place, self.legend_width());
                 baseline -= height;
             }
         }
-        let lines = panel.headings.len();
-        for (row, (line, colour)) in panel.headings.iter().enumerate() {
+        let headings = self.heading_lines();
+        let lines = headings.len();
+        for (row, (line, colour)) in headings.iter().enumerate() {
             let y = baseline - (lines - 1 - row) as f64 * 1.25 * HEADING_SIZE;
             let style = TextStyle::new(HEADING_SIZE)
                 .anchored(Anchor::Middle)
                 .coloured(colour);
-            svg.text(area.x + 0.5 * area.width, y, line, &style);
+            let middle = on_sheet(svg, area.x + 0.5 * area.width, line, HEADING_SIZE);
+            svg.text(middle, y, line, &style);
         }
+        let captions = self.caption_lines();
+        let first = baseline - CAPTION_STEP * captions.len().saturating_sub(1) as f64;
         if let Some(letter) = letter {
             let style = TextStyle::new(8.0).bold();
-            svg.text(area.x, baseline, &format!("({letter})"), &style);
+            svg.text(left, first, &format!("({letter})"), &style);
         }
-        let x = area.x + if letter.is_some() { 18.0 } else { 0.0 };
-        if !panel.caption.is_empty() {
-            svg.text(x, baseline, &panel.caption, &TextStyle::new(LABEL_SIZE));
+        let x = left + if letter.is_some() { LETTER_WIDTH } else { 0.0 };
+        for (row, line) in captions.iter().enumerate() {
+            let y = first + CAPTION_STEP * row as f64;
+            svg.text(x, y, line, &TextStyle::new(LABEL_SIZE));
         }
     }
 }
+
+/// Room that the letter of a panel takes, points.
+const LETTER_WIDTH: f64 = 18.0;

@@ -58,6 +58,10 @@ impl Key {
 
 /// Width of a key, points.
 const KEY_WIDTH: f64 = 12.0;
+/// Room behind an entry, points.
+const SPACE: f64 = 9.0;
+/// Height of a further line of one entry, points.
+const LINE_STEP: f64 = 8.2;
 /// Height of a line of legend, points.
 pub(super) const LINE_HEIGHT: f64 = 10.0;
 
@@ -84,41 +88,61 @@ impl Legend {
 
     /// Height set into lines of `width`, points.
     pub fn height(&self, width: f64) -> f64 {
-        self.lines(width).len() as f64 * LINE_HEIGHT
+        self.rows(width).iter().map(Row::height).sum()
     }
 
-    fn lines(&self, width: f64) -> Vec<Vec<&(Key, String)>> {
-        let mut lines: Vec<Vec<&(Key, String)>> = Vec::new();
+    /// Entries side by side in rows no wider than `width`; a name that is wider by itself is broken into lines.
+    fn rows(&self, width: f64) -> Vec<Row<'_>> {
+        let mut rows: Vec<Row<'_>> = Vec::new();
         let mut used = 0.0;
-        for entry in &self.0 {
-            let need = entry_width(&entry.1);
-            match lines.last_mut() {
-                Some(line) if used + need - 9.0 <= width => line.push(entry),
+        for (key, name) in &self.0 {
+            let most = (width - KEY_WIDTH - 3.0).max(20.0);
+            let lines = text::wrapped(name, (LABEL_SIZE, false), most);
+            let need = lines
+                .iter()
+                .map(|line| entry_width(line))
+                .fold(0.0, f64::max);
+            match rows.last_mut() {
+                Some(row) if used + need - SPACE <= width => row.0.push((key, lines, need)),
                 _ => {
-                    lines.push(vec![entry]);
+                    rows.push(Row(vec![(key, lines, need)]));
                     used = 0.0;
                 }
             }
             used += need;
         }
-        lines
+        rows
     }
 
     /// Draws the entries side by side from the upper left corner, wrapped to `width`.
     pub fn draw(&self, svg: &mut Svg, (x, y): (f64, f64), width: f64) {
-        for (row, line) in self.lines(width).into_iter().enumerate() {
-            let middle = y + (row as f64 + 0.5) * LINE_HEIGHT;
+        let mut top = y;
+        for row in self.rows(width) {
             let mut left = x;
-            for (key, name) in line {
-                key.draw(svg, left, middle);
-                let place = (left + KEY_WIDTH + 3.0, middle + 0.36 * LABEL_SIZE);
-                svg.text(place.0, place.1, name, &TextStyle::new(LABEL_SIZE));
-                left += entry_width(name);
+            for (key, lines, need) in &row.0 {
+                key.draw(svg, left, top + 0.5 * LINE_HEIGHT);
+                for (number, line) in lines.iter().enumerate() {
+                    let middle = top + 0.5 * LINE_HEIGHT + number as f64 * LINE_STEP;
+                    let place = (left + KEY_WIDTH + 3.0, middle + 0.36 * LABEL_SIZE);
+                    svg.text(place.0, place.1, line, &TextStyle::new(LABEL_SIZE));
+                }
+                left += need;
             }
+            top += row.height();
         }
     }
 }
 
+/// Entries side by side: key, lines of its name, width.
+struct Row<'a>(Vec<(&'a Key, Vec<String>, f64)>);
+
+impl Row<'_> {
+    fn height(&self) -> f64 {
+        let lines = self.0.iter().map(|entry| entry.1.len()).max();
+        LINE_HEIGHT + LINE_STEP * lines.map_or(0.0, |lines| lines.saturating_sub(1) as f64)
+    }
+}
+
 fn entry_width(name: &str) -> f64 {
-    KEY_WIDTH + 3.0 + text::width(name, LABEL_SIZE, false) + 9.0
+    KEY_WIDTH + 3.0 + text::width(name, LABEL_SIZE, false) + SPACE
 }

@@ -169,6 +169,7 @@ impl Layer for Line {
             ys: self.ys.clone(),
             values: None,
             rows: Vec::new(),
+            tips: Vec::new(),
             is_whole: self.is_whole,
         };
         is_shown.then_some(series).into_iter().collect()
@@ -180,6 +181,11 @@ fn arrow_heads(path: &mut Path, points: &[(f64, f64)], count: usize) {
     let steps: Vec<_> = points.windows(2).map(|pair| (pair[0], pair[1])).collect();
     let length = |((ax, ay), (bx, by)): ((f64, f64), (f64, f64))| (bx - ax).hypot(by - ay);
     for part in steps.chunks(steps.len().div_ceil(count).max(1)) {
+        // A head is never longer than the part of the curve that it stands on.
+        let size = (part.iter().copied().map(length).sum::<f64>() / 14.0).min(1.0);
+        if size < 0.35 {
+            continue;
+        }
         let longest = part
             .iter()
             .copied()
@@ -190,8 +196,10 @@ fn arrow_heads(path: &mut Path, points: &[(f64, f64)], count: usize) {
         let ((ax, ay), (bx, by)) = step;
         let (dx, dy) = ((bx - ax) / length(step), (by - ay) / length(step));
         let (x, y) = (0.5 * (ax + bx), 0.5 * (ay + by));
-        let corner =
-            |along: f64, across: f64| (x + along * dx - across * dy, y + along * dy + across * dx);
+        let corner = |along: f64, across: f64| {
+            let (along, across) = (size * along, size * across);
+            (x + along * dx - across * dy, y + along * dy + across * dx)
+        };
         path.extend([corner(3.2, 0.0), corner(-2.4, 2.1), corner(-2.4, -2.1)]);
         path.close();
     }
@@ -206,6 +214,8 @@ pub struct Points {
     colour: &'static str,
     name: Option<String>,
     rows: Vec<usize>,
+    tips: Vec<String>,
+    key: Option<Stroke>,
 }
 
 impl Points {
@@ -219,7 +229,22 @@ impl Points {
             colour: SERIES[0],
             name: None,
             rows: Vec::new(),
+            tips: Vec::new(),
+            key: None,
         }
+    }
+
+    /// The same with a line in place of the marker in the legend.
+    pub fn keyed(self, stroke: Stroke) -> Self {
+        Self {
+            key: Some(stroke),
+            ..self
+        }
+    }
+
+    /// The same with what each point is, in plain text, for readers who point at it.
+    pub fn tips(self, tips: Vec<String>) -> Self {
+        Self { tips, ..self }
     }
 
     /// The same with a marker of this radius, points, and colour.
@@ -259,10 +284,13 @@ impl Layer for Points {
     }
 
     fn keys(&self) -> Vec<(Key, String)> {
-        let key = Key {
-            stroke: None,
-            marker: Some((self.marker, self.colour)),
-            patch: None,
+        let key = match self.key {
+            Some(stroke) => Key::line(stroke),
+            None => Key {
+                stroke: None,
+                marker: Some((self.marker, self.colour)),
+                patch: None,
+            },
         };
         self.name.iter().map(|name| (key, name.clone())).collect()
     }
@@ -277,6 +305,7 @@ impl Layer for Points {
             ys,
             values: None,
             rows: self.rows.clone(),
+            tips: self.tips.clone(),
             is_whole: true,
         };
         // Points too small to see stand in legends only.

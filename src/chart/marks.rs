@@ -1,11 +1,12 @@
 //! Rules and labels that data are compared with.
 
 use super::colour::{INK, MUTED};
-use super::frame::{Frame, LABEL_SIZE};
+use super::data::{LabelData, RuleData};
+use super::frame::{Frame, LABEL_SIZE, on_sheet};
 use super::layer::{Layer, Side};
 use super::legend::Key;
 use super::svg::{Stroke, Svg};
-use super::text::{self, Anchor, TextStyle};
+use super::text::{self, Anchor, TextStyle, plain};
 
 /// A line across the panel at one value.
 #[derive(Clone, Debug)]
@@ -130,6 +131,13 @@ impl Layer for Rule {
         self.stretches
     }
 
+    fn rule(&self) -> Option<RuleData> {
+        Some(RuleData {
+            is_horizontal: self.is_horizontal,
+            value: self.value,
+        })
+    }
+
     fn rim_label(&self) -> Option<(Side, f64, &str)> {
         let side = if self.is_horizontal {
             Side::Right
@@ -181,22 +189,53 @@ impl Label {
     }
 }
 
+impl Label {
+    /// The baseline point, moved as little as keeps the text off the frame; a text that starts at its point and passes the
+    /// right end stands on the other side of it.
+    fn inside(&self, frame: &Frame, (x, y): (f64, f64)) -> (f64, f64) {
+        let (area, style) = (&frame.area, &self.style);
+        let width = text::width(&self.text, style.size, style.bold);
+        let left = match style.anchor {
+            Anchor::Start => 0.0,
+            Anchor::Middle => 0.5 * width,
+            Anchor::End => width,
+        };
+        let (lowest, highest) = (area.x + 2.0 + left, area.right() - 2.0 - width + left);
+        let x = match style.anchor {
+            Anchor::Start if x > highest => x - width - 2.0 * self.offset.0.abs(),
+            _ => x,
+        };
+        let (top, bottom) = (area.y + 1.0 + 0.76 * style.size, area.bottom() - 2.0);
+        let within = |value: f64, low: f64, high: f64| {
+            if low <= high {
+                value.clamp(low, high)
+            } else {
+                value
+            }
+        };
+        (within(x, lowest, highest), within(y, top, bottom))
+    }
+}
+
 impl Layer for Label {
     fn draw(&self, _svg: &mut Svg, _frame: &Frame) {}
 
     fn draw_over(&self, svg: &mut Svg, frame: &Frame) {
         for (x, y) in frame.inside([self.place]) {
-            svg.text(
-                x + self.offset.0,
-                y + self.offset.1,
-                &self.text,
-                &self.style,
-            );
+            let (x, y) = self.inside(frame, (x + self.offset.0, y + self.offset.1));
+            svg.text(x, y, &self.text, &self.style);
         }
     }
 
     fn is_data(&self) -> bool {
         false
+    }
+
+    fn label(&self) -> Option<LabelData> {
+        Some(LabelData {
+            place: self.place,
+            text: plain(&self.text),
+        })
     }
 }
 
@@ -223,8 +262,13 @@ pub(super) fn spread(wanted: &[f64], gap: f64, low: f64, high: f64) -> Vec<f64> 
     places.collect()
 }
 
-/// Names the places of rules beyond the frame, without overlap.
-pub(super) fn draw_rim_labels(svg: &mut Svg, frame: &Frame, labels: &[(Side, f64, &str)]) {
+/// Names the places of rules beyond the frame, without overlap; those at the right inside it where `is_inside`.
+pub(super) fn draw_rim_labels(
+    svg: &mut Svg,
+    frame: &Frame,
+    labels: &[(Side, f64, &str)],
+    is_inside: bool,
+) {
     let leader = Stroke::solid(MUTED, 0.4);
     let area = &frame.area;
     for side in [Side::Right, Side::Above] {
@@ -235,21 +279,29 @@ pub(super) fn draw_rim_labels(svg: &mut Svg, frame: &Frame, labels: &[(Side, f64
         let own = labels.iter().filter(|label| label.0 == side);
         let mut own: Vec<(f64, &str)> = own.map(|label| (at(label.1), label.2)).collect();
         own.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let wanted: Vec<f64> = own.iter().map(|label| label.0).collect();
         let style = TextStyle::new(RIM_SIZE);
         if side == Side::Right {
+            let wanted: Vec<f64> = own.iter().map(|label| label.0).collect();
             let places = spread(&wanted, RIM_SIZE + 1.5, area.y + 3.0, area.bottom() - 2.0);
             for ((y, text), place) in own.into_iter().zip(places) {
+                if is_inside {
+                    let style = style.anchored(Anchor::End).with_halo();
+                    svg.text(area.right() - 3.0, place - 1.0, text, &style);
+                    continue;
+                }
                 svg.line((area.right(), y), (area.right() + 6.0, place), &leader);
                 svg.text(area.right() + 7.5, place + 0.36 * RIM_SIZE, text, &style);
             }
         } else {
-            let widest = own
-                .iter()
-                .map(|label| text::width(label.1, RIM_SIZE, false));
+            let width = |text: &str| text::width(text, RIM_SIZE, false);
+            let widest = own.iter().map(|label| width(label.1));
             let gap = widest.fold(4.0, f64::max) + 5.0;
+            // More names than have room are left out, the last ones first.
+            own.truncate(((area.width / gap) as usize + 1).max(1));
+            let wanted: Vec<f64> = own.iter().map(|label| label.0).collect();
             let places = spread(&wanted, gap, area.x, area.right());
             for ((x, text), place) in own.into_iter().zip(places) {
+                let place = on_sheet(svg, place, text, RIM_SIZE);
                 svg.line((x, area.y), (place, area.y - 4.5), &leader);
                 svg.text(place, area.y - 6.0, text, &style.anchored(Anchor::Middle));
             }

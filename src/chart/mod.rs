@@ -46,7 +46,9 @@ mod text;
 
 pub use axis::Axis;
 pub use colour::{ColourMap, GRID, INK, MUTED, SERIES, channels};
-pub use data::{AxisData, FigureData, Mark, PanelData, Series, SeriesKind, Steps};
+pub use data::{
+    AxisData, FigureData, LabelData, Mark, PanelData, RuleData, Series, SeriesKind, Steps,
+};
 pub use decimation::keep_extremes;
 pub use field::{Cell, Field, Mesh};
 pub use figure::Figure;

@@ -3,7 +3,7 @@
 use super::axis::Axis;
 use super::colour::{INK, MUTED};
 use super::colour_bar::Colours;
-use super::data::{AxisData, PanelData, Series};
+use super::data::{AxisData, LabelData, PanelData, RuleData, Series};
 use super::frame::{
     Frame, LABEL_SIZE, TICK, TITLE_SIZE, draw_grid, draw_x_axis, draw_y_axis, vertical_count,
 };
@@ -193,7 +193,19 @@ impl Panel {
             "" => headings.map(|heading| plain(heading)).collect(),
             caption => vec![plain(caption)],
         };
+        let rule = |mut rule: RuleData| {
+            let ruler = if rule.is_horizontal { &y } else { &x };
+            rule.value = ruler.shown(rule.value);
+            rule
+        };
+        let label = |mut label: LabelData| {
+            label.place = (x.shown(label.place.0), y.shown(label.place.1));
+            label
+        };
+        let layers = || self.layers.iter();
         PanelData {
+            rules: layers().filter_map(|l| l.rule()).map(rule).collect(),
+            labels: layers().filter_map(|l| l.label()).map(label).collect(),
             caption: title.join(", "),
             axes: [AxisData::of(&x), AxisData::of(&y)],
             series: self
@@ -250,14 +262,22 @@ impl Panel {
         }
     }
 
-    /// Room needed right of the data area, points.
-    pub(super) fn right_need(&self) -> f64 {
+    /// Room that names at the right of the frame take, points.
+    pub(super) fn names_width(&self) -> f64 {
         let names = self
             .rim_labels(None)
             .into_iter()
             .filter(|label| label.0 == Side::Right);
         let widths = names.map(|label| text::width(label.2, RIM_SIZE, false) + 8.0);
-        let names = widths.fold(0.0, f64::max);
+        widths.fold(0.0, f64::max)
+    }
+
+    /// Room needed right of the data area, points; names may stand inside it.
+    pub(super) fn right_need(&self, are_names_inside: bool) -> f64 {
+        let names = match are_names_inside {
+            true => 0.0,
+            false => self.names_width(),
+        };
         let bar = match (self.bar, self.colours()) {
             (Some(Side::Right), Some(colours)) => colours.bar_width(self.height.min(150.0)),
             _ => 0.0,
@@ -295,7 +315,7 @@ impl Panel {
         svg: &mut Svg,
         frame: &Frame,
         labels: [bool; 2],
-        title_distance: f64,
+        (title_distance, are_names_inside): (f64, bool),
     ) {
         let ticks = [
             self.x_ticks(frame),
@@ -321,15 +341,17 @@ impl Panel {
             let style = style.anchored(Anchor::Middle).coloured(MUTED);
             svg.text(x, y, "no data", &style);
         }
-        draw_rim_labels(svg, frame, &self.rim_labels(Some(frame)));
-        self.draw_bar(svg, frame);
+        let names = self.rim_labels(Some(frame));
+        draw_rim_labels(svg, frame, &names, are_names_inside);
+        self.draw_bar(svg, frame, are_names_inside);
     }
 
-    fn draw_bar(&self, svg: &mut Svg, frame: &Frame) {
+    fn draw_bar(&self, svg: &mut Svg, frame: &Frame, are_names_inside: bool) {
         let area = &frame.area;
         match (self.bar, self.colours()) {
             (Some(Side::Right), Some(colours)) => {
-                let width = self.right_need() - colours.bar_width(self.height.min(150.0));
+                let width =
+                    self.right_need(are_names_inside) - colours.bar_width(self.height.min(150.0));
                 colours.draw_bar(svg, area.right() + width.max(0.0) + 7.0, area);
             }
             (Some(_), Some(colours)) => {

@@ -145,6 +145,8 @@ pub fn escape(text: &str) -> String {
             '\'' => out.push_str("&#39;"),
             // XML 1.0 forbids the other control characters even as references.
             c if c.is_control() && c != '\n' && c != '\t' => out.push(' '),
+            // Nor has it these two, which are no characters.
+            '\u{fffe}' | '\u{ffff}' => out.push('\u{fffd}'),
             c => out.push(c),
         }
     }
@@ -178,6 +180,11 @@ impl Svg {
             body: String::new(),
             ids: 0,
         }
+    }
+
+    /// Its width, points.
+    pub fn width(&self) -> f64 {
+        self.width
     }
 
     /// Sets the height once the contents are known.

@@ -156,6 +156,55 @@ pub fn plain(markup: &str) -> String {
     parse(markup).into_iter().map(|run| run.text).collect()
 }
 
+/// Mark-up in lines of at most `width` points, broken at spaces; a word that is longer has a line of its own.
+pub(super) fn wrapped(markup: &str, (size, bold): (f64, bool), most: f64) -> Vec<String> {
+    if width(markup, size, bold) <= most {
+        return vec![markup.to_owned()];
+    }
+    let mut lines: Vec<String> = Vec::new();
+    for word in words(markup) {
+        match lines.last_mut() {
+            Some(line) if width(&format!("{line} {word}"), size, bold) <= most => {
+                line.push(' ');
+                line.push_str(&word);
+            }
+            _ => lines.push(word),
+        }
+    }
+    lines
+}
+
+/// The words of mark-up, each with marks of its own.
+fn words(markup: &str) -> Vec<String> {
+    let mut words = Vec::new();
+    let (mut current, mut italic, mut script) = (String::new(), false, false);
+    let mut chars = markup.chars().peekable();
+    while let Some(c) = chars.next() {
+        match c {
+            ' ' if !script => {
+                // A break amid oblique text ends it here and takes it up again.
+                let mark = if italic { "*" } else { "" };
+                current.push_str(mark);
+                words.push(std::mem::replace(&mut current, mark.to_owned()));
+                continue;
+            }
+            '\\' => {
+                current.push(c);
+                current.extend(chars.next());
+                continue;
+            }
+            '*' => italic = !italic,
+            '_' | '^' if chars.peek() == Some(&'{') => script = true,
+            '}' => script = false,
+            _ => {}
+        }
+        current.push(c);
+    }
+    words.push(current);
+    words.retain(|word| !word.is_empty() && word != "**");
+    words
+}
+
 /// Width of a line of mark-up, points.
 pub fn width(markup: &str, size: f64, bold: bool) -> f64 {
     parse(markup)
@@ -219,6 +268,17 @@ mod tests {
                 ("-3", false, 1)
             ]
         );
+    }
+
+    #[test]
+    fn wrapped_text_keeps_its_words_and_their_marks() {
+        let text = "damping *ζ over ω* = (*α*_{R}/*ω* + *β*_{R}*ω*)/2 of the disc\\*";
+        let lines = wrapped(text, (7.0, false), 60.0);
+        assert!(lines.len() > 2, "{lines:?}");
+        assert!(lines.iter().all(|line| width(line, 7.0, false) <= 60.0));
+        let joined: Vec<String> = lines.iter().map(|line| plain(line)).collect();
+        assert_eq!(joined.join(" "), plain(text));
+        assert_eq!(wrapped(text, (7.0, false), 1e3), [text]);
     }
 
     #[test]

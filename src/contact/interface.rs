@@ -2,9 +2,7 @@
 
 use super::opposite::{OppositeShare, meetings};
 use super::{SlidingContact, SteadyFriction};
-use crate::fem::Triplets;
-use crate::mesh::{BoundaryCondition, Counterface, Mesh2d};
-use std::collections::BTreeMap;
+use crate::mesh::{BoundaryCondition, Counterface, Mesh};
 
 /// Contact nodes with their geometry, in order along the edge (of rising angle on the annulus).
 #[derive(Clone, Debug, PartialEq)]
@@ -26,7 +24,7 @@ pub struct ContactInterface {
 impl ContactInterface {
     /// The contact edge of `mesh`; nodes that a boundary condition clamps, or that have no other body before them, have no
     /// part in it.
-    pub fn of(mesh: &Mesh2d) -> Self {
+    pub fn of(mesh: &Mesh) -> Self {
         let edge = mesh.contact_edge();
         let mut is_clamped = vec![false; mesh.node_count()];
         for boundary in &mesh.boundaries {
@@ -43,11 +41,11 @@ impl ContactInterface {
             .filter(|&i| !is_clamped[edge.nodes[i] as usize] && meets(i))
             .collect();
         let nodes: Vec<u32> = kept.iter().map(|&i| edge.nodes[i]).collect();
-        let point = |node: &u32| mesh.nodes[*node as usize];
+        let point = |node: &u32| mesh.plane_node(*node as usize);
         let counterface = mesh.counterface;
         let (angles, mut gaps) = if mesh.is_cyclic {
             // Exact as generated: a contact circle without gaps.
-            let frames = nodes.iter().map(|&node| mesh.frame_angles[node as usize]);
+            let frames = nodes.iter().map(|&node| mesh.frame_angles()[node as usize]);
             (frames.collect(), vec![0.0; nodes.len()])
         } else {
             let places = nodes.iter().map(|node| counterface.place(point(node)));
@@ -86,63 +84,12 @@ impl ContactInterface {
             .filter(|&(_, along)| along != 0.0)
     }
 
-    /// From displacements to distances: `T^T A T` with `u = T y`, where `y` has in place of each contact node's normal
-    /// displacement how far it moves away from the opposite body, `w_i = u_n,i - sum P u`.
-    ///
-    /// A force along `w_i` then acts on both bodies at once. Nothing changes on a rigid counterface.
-    pub fn to_distances(&self, matrix: &mut Triplets) {
-        if self.opposite.is_empty() {
-            return;
-        }
-        let shares = self.shares_by_normal();
-        let with_shares = |dof: usize| {
-            let opposite = shares.get(&dof).copied().unwrap_or(&[]).iter();
-            std::iter::once((dof, 1.0)).chain(opposite.map(|share| (share.dof, share.normal)))
-        };
-        let entries = matrix.entries.iter().flat_map(|&(row, column, value)| {
-            with_shares(row).flat_map(move |(row, along)| {
-                with_shares(column)
-                    .map(move |(column, across)| (row, column, along * value * across))
-            })
-        });
-        matrix.entries = entries.filter(|entry| entry.2 != 0.0).collect();
-    }
-
-    /// `u = T y`, see [`Self::to_distances`].
-    pub fn to_displacements<T>(&self, values: &mut [T])
-    where
-        T: Copy + std::ops::AddAssign + std::ops::Mul<f64, Output = T>,
-    {
-        for i in 0..self.opposite.len() {
-            for share in self.opposite_of(i) {
-                let moved = values[share.dof] * share.normal;
-                values[self.normal_dof(i)] += moved;
-            }
-        }
-    }
-
-    /// `T^T f` of forces over all dofs, see [`Self::to_distances`].
-    pub fn to_distance_forces(&self, forces: &mut [f64]) {
-        for i in 0..self.opposite.len() {
-            for share in self.opposite_of(i) {
-                forces[share.dof] += share.normal * forces[self.normal_dof(i)];
-            }
-        }
-    }
-
     /// Separation of contact node `i` from what it touches, `u_n - sum P u`, as `(dof, coefficient)`.
     pub fn separation(&self, i: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
         let opposite = self.opposite_of(i).iter();
         std::iter::once((self.normal_dof(i), 1.0))
             .chain(opposite.map(|share| (share.dof, -share.normal)))
             .filter(|&(_, along)| along != 0.0)
-    }
-
-    fn shares_by_normal(&self) -> BTreeMap<usize, &[OppositeShare]> {
-        let nodes = 0..self.opposite.len();
-        nodes
-            .map(|i| (self.normal_dof(i), self.opposite_of(i)))
-            .collect()
     }
 
     /// Full dof of contact node `i`'s normal displacement.

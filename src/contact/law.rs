@@ -65,7 +65,7 @@ impl FrictionDecay {
 }
 
 /// Friction of steady sliding for each unit of friction coefficient and of normal force.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SteadyFriction {
     /// `s mu(V) / mu`: the drag of the counterface, `s` its sense.
     pub drag: f64,

@@ -1,21 +1,37 @@
-//! Interface kinematics, Coulomb's law, node status.
+//! Interface kinematics, Coulomb's law, node status, and contact linearised around steady sliding.
 //!
-//! The counterface is rigid: a cylinder that turns inside the contact edge or around it, or a plane that moves
-//! along itself; `delta` is how far it is pushed into the body. At each contact node the frame is `(n, t)`, its
+//! A contact [`Point`] is rows over the degrees of freedom of one body or two: separation, slip along the sliding and
+//! across it. [`linearized`] makes the terms of small motions of such points, whatever they come from.
+//!
+//! A plane body touches a rigid cylinder that turns inside the contact edge or around it, a rigid plane that moves
+//! along itself, or another body; `delta` is how far it is pushed in. At each contact node the frame is `(n, t)`, its
 //! normal into the body and the direction a quarter turn ahead, `(e_r, e_theta)` around a shaft: the contact
 //! pushes the body along `+n` with the nodal force `N >= 0`, and drags it along `s t` with `s` the sense of
 //! sliding while it slips: `T = s mu(v) N`, with a coefficient that may fall with the slip speed `v`.
+//!
+//! Solid bodies touch where faces of two of their surfaces lie over each other ([`SurfacePair`]): [`ContactSurface`] has the
+//! points, from the quadrature of the common segments or from dual mortar weights of nodes, and slides as a [`Motion`] says.
 
 mod interface;
 mod law;
+mod linearized;
+mod mortar;
 mod opposite;
+mod pairing;
+mod point;
+mod surface;
 mod surface_law;
 
 pub use interface::ContactInterface;
 pub use law::{
     ContactStatus, CoulombFriction, FrictionDecay, NodeFriction, SlippingNode, SteadyFriction,
 };
+pub use linearized::{ContactTerms, PressedPoints, linearized};
+pub use mortar::{MortarNode, mortar_nodes};
 pub use opposite::OppositeShare;
+pub use pairing::{ContactSite, ContactSurface, Motion, PairFriction, PointKind};
+pub use point::{Point, Row, value_of};
+pub use surface::{PairError, SegmentPoint, SurfacePair, row_along};
 pub use surface_law::{PointFriction, SlippingPoint};
 
 /// The rigid moving counterface and its friction law.

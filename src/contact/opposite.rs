@@ -1,6 +1,6 @@
 //! Coupling of a contact edge to the edge of another body, whose mesh need not match.
 
-use crate::mesh::{Counterface, Mesh2d};
+use crate::mesh::{Counterface, Mesh};
 use std::collections::BTreeMap;
 
 /// Part that a dof of the opposite body has in what a contact node meets.
@@ -36,7 +36,7 @@ pub(super) struct Meeting {
 /// places of both are their projections onto the common surface. A constant pressure passes exactly between straight
 /// edges. On the annulus nodes lie in pairs, `P` is the identity, and slopes are those of the nodal field, the mean of both
 /// elements at a corner.
-pub(super) fn meetings(mesh: &Mesh2d) -> Option<Vec<Meeting>> {
+pub(super) fn meetings(mesh: &Mesh) -> Option<Vec<Meeting>> {
     let opposite = mesh.opposite?;
     if mesh.is_cyclic {
         return Some(pairs(mesh, &mesh.boundaries[opposite].nodes));
@@ -46,7 +46,7 @@ pub(super) fn meetings(mesh: &Mesh2d) -> Option<Vec<Meeting>> {
     Some(mortar(mesh, &edges, &others))
 }
 
-fn pairs(mesh: &Mesh2d, nodes: &[u32]) -> Vec<Meeting> {
+fn pairs(mesh: &Mesh, nodes: &[u32]) -> Vec<Meeting> {
     let count = nodes.len();
     let (lengths, curvature) = (
         &mesh.contact_edge().tributary_lengths,
@@ -106,7 +106,7 @@ struct Edge {
 
 impl Edge {
     /// The edges of a boundary.
-    fn of(mesh: &Mesh2d, boundary: usize) -> Vec<Self> {
+    fn of(mesh: &Mesh, boundary: usize) -> Vec<Self> {
         let nodes = &mesh.boundaries[boundary].nodes;
         let is_on: std::collections::BTreeSet<u32> = nodes.iter().copied().collect();
         let is_edge = |&(p, q, middle): &(u32, u32, Option<u32>)| {
@@ -114,7 +114,7 @@ impl Edge {
         };
         let surface = &mesh.counterface;
         let edge = |(p, q, middle): (u32, u32, Option<u32>)| {
-            let arc = |node: u32| arc(surface, mesh.nodes[node as usize]);
+            let arc = |node: u32| arc(surface, mesh.plane_node(node as usize));
             Self {
                 start: arc(p),
                 extent: wrapped(surface, arc(q) - arc(p)),
@@ -205,7 +205,7 @@ struct Sums {
     opposite: BTreeMap<usize, [f64; 2]>,
 }
 
-fn mortar(mesh: &Mesh2d, edges: &[Edge], others: &[Edge]) -> Vec<Meeting> {
+fn mortar(mesh: &Mesh, edges: &[Edge], others: &[Edge]) -> Vec<Meeting> {
     let surface = &mesh.counterface;
     let mut sums: BTreeMap<usize, Sums> = BTreeMap::new();
     for edge in edges {
@@ -273,22 +273,22 @@ fn dual_basis(edge: &Edge, points: &[(&Edge, f64, f64)]) -> Option<Vec<Vec<f64>>
     Some((0..count).map(row).collect())
 }
 
-fn meeting(mesh: &Mesh2d, node: usize, sums: &Sums) -> Meeting {
+fn meeting(mesh: &Mesh, node: usize, sums: &Sums) -> Meeting {
     let is_met = sums.covered > 1e-6 * sums.whole && sums.whole > 0.0;
     if !is_met {
         return Meeting::default();
     }
     let surface = &mesh.counterface;
-    let normal = surface.normal_angle(mesh.nodes[node]);
+    let normal = surface.normal_angle(mesh.plane_node(node));
     let mut meeting = Meeting {
         covered: sums.covered / sums.whole,
         ..Meeting::default()
     };
     for (&opposite, integrals) in &sums.opposite {
         let [share, slope] = integrals.map(|value| value / sums.covered);
-        meeting.height += share * surface.gap(mesh.nodes[opposite]);
+        meeting.height += share * surface.gap(mesh.plane_node(opposite));
         // Axes of the opposite node's frame along the contact node's.
-        let (sin, cos) = (mesh.frame_angles[opposite] - normal).sin_cos();
+        let (sin, cos) = (mesh.frame_angles()[opposite] - normal).sin_cos();
         for (c, [along, across]) in [[cos, sin], [-sin, cos]].into_iter().enumerate() {
             meeting.shares.push(OppositeShare {
                 dof: 2 * opposite + c,

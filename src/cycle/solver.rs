@@ -1,7 +1,7 @@
 //! Limit cycles of one harmonic: from birth to an operating point, and along a parameter.
 
 use super::branch::{Branch, Step};
-use super::cycle_branch::{BranchEnd, CycleBranch};
+use super::cycle_branch::{BranchEnd, CycleBranch, Turning};
 use super::grid::PhaseGrid;
 use super::limit_cycle::LimitCycle;
 use super::onset::{DiscModel, MODES, largest_linear_wave, refined};
@@ -270,26 +270,24 @@ impl CycleSolver {
         direction: f64,
     ) -> CycleBranch {
         let wave = self.wave();
-        let (mut cycles, mut folds) = (Vec::new(), Vec::new());
+        let mut cycles = Vec::new();
         let mut branch = Branch::new(&wave, parameter, cycle.state.clone(), direction, None);
         let (first, last) = (samples[0], samples[samples.len() - 1]);
         let start = branch.value();
-        let mut direction = direction.signum();
+        let mut turning = Turning::new(start, direction.signum(), self.grid().points);
         // A start outside the range has nothing to find on the way out.
         if (start <= first && direction < 0.0) || (start >= last && direction > 0.0) {
             return CycleBranch {
                 parameter,
                 cycles,
-                folds,
+                folds: Vec::new(),
                 ends: [BranchEnd::Range; 2],
                 factorizations: 0,
             };
         }
         let end = run(&mut branch, samples, MOST_STEPS, |branch, step| {
-            if branch.direction() != direction {
-                direction = branch.direction();
-                folds.push(branch.value());
-            }
+            turning.follow(branch.value());
+            let direction = branch.direction();
             let Step::At(value) = step else { return None };
             let cycle = LimitCycle::new(&wave, branch.state.clone());
             if !cycle.is_physical() {
@@ -302,7 +300,7 @@ impl CycleSolver {
         CycleBranch {
             parameter,
             cycles,
-            folds,
+            folds: turning.folds,
             ends: [BranchEnd::Range, end.unwrap_or_else(|reason| reason)],
             factorizations: branch.factorizations,
         }

@@ -22,22 +22,6 @@ pub struct SteppedCycle {
     modes: Vec<f64>,
 }
 
-impl SteppedCycle {
-    /// The same wave scaled: `from` is the cycle that this one was settled from, `to` one of the same contact states and
-    /// frequency.
-    pub fn scaled_to(&self, from: &LimitCycle, to: &LimitCycle) -> Self {
-        let factor = to.powers.external / from.powers.external;
-        Self {
-            cycle: LimitCycle {
-                powers: self.cycle.powers.scaled(factor),
-                fractions: self.cycle.fractions,
-                ..to.clone()
-            },
-            ..self.clone()
-        }
-    }
-}
-
 impl CycleSolver {
     /// Growth of small perturbations of a cycle.
     ///
@@ -64,14 +48,34 @@ impl MeshStepping<'_> {
         let period = self.period(cycle)?;
         let found = LeadingExponents::of(&period, neighbour.map(|n| n.modes.as_slice()))?;
         Ok(SteppedCycle {
-            cycle: LimitCycle {
-                powers: period.powers,
-                fractions: period.fractions,
-                ..cycle.clone()
-            },
+            cycle: period.stepped(cycle),
             stability: found.stability,
             modes: found.modes,
         })
+    }
+
+    /// Settles a cycle of the same wave as `neighbour`, larger or smaller: its powers are its own, since they grow partly
+    /// with the amplitude and partly with its square; its exponents are those of the neighbour.
+    ///
+    /// # Errors
+    /// [`CycleError::Stepping`] if the transient cannot start.
+    pub fn settle_scaled(
+        &self,
+        cycle: &LimitCycle,
+        neighbour: &SteppedCycle,
+    ) -> Result<SteppedCycle, CycleError> {
+        Ok(SteppedCycle {
+            cycle: self.stepped(cycle)?,
+            ..neighbour.clone()
+        })
+    }
+
+    /// A cycle with the powers and fractions that it has in the transient of its mesh.
+    ///
+    /// # Errors
+    /// [`CycleError::Stepping`] if the transient cannot start.
+    pub fn stepped(&self, cycle: &LimitCycle) -> Result<LimitCycle, CycleError> {
+        Ok(self.period(cycle)?.stepped(cycle))
     }
 
     /// Value of `parameter` (SI) at which the branch from one cycle to another, of different stability, changes it.

@@ -227,6 +227,15 @@ impl Period<'_> {
         self.fractions = counts.fractions();
     }
 
+    /// The cycle with the powers and fractions of this period.
+    pub(super) fn stepped(&self, cycle: &LimitCycle) -> LimitCycle {
+        LimitCycle {
+            powers: self.powers,
+            fractions: self.fractions,
+            ..cycle.clone()
+        }
+    }
+
     /// `omega` of the wave, rad/s.
     pub fn frequency(&self) -> f64 {
         TAU / self.duration

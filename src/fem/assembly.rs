@@ -1,7 +1,7 @@
 //! Assembly of element matrices and supports, and the dofs that boundary conditions hold.
 
-use super::{MaterialField, RayleighDamping, element};
-use crate::mesh::Mesh2d;
+use super::{MaterialField, RayleighDamping, element, face};
+use crate::mesh::Mesh;
 use nalgebra::DMatrix;
 
 /// Entries `(row, column, value)` of a sparse matrix; entries at one place add up.
@@ -44,19 +44,18 @@ pub enum MassKind {
     Lumped,
 }
 
-/// Global stiffness `K` over all `2 * node_count` dofs in nodal frames, N/m for each metre of
-/// thickness.
+/// Global stiffness `K` over all dofs in nodal frames, N/m, in the plane for each metre of thickness.
 ///
 /// Elements that are rotated copies of one another share one matrix to the last bit, so that a
 /// rotationally symmetric mesh gives an exactly rotationally symmetric operator.
-pub fn assemble_stiffness(mesh: &Mesh2d, material: &dyn MaterialField) -> Triplets {
+pub fn assemble_stiffness(mesh: &Mesh, material: &dyn MaterialField) -> Triplets {
     assemble_congruent(mesh, |e| {
         element::stiffness(mesh, e, material.of(mesh.region(e)))
     })
 }
 
 /// Global mass `M` over all dofs, kg for each metre of thickness.
-pub fn assemble_mass(mesh: &Mesh2d, material: &dyn MaterialField, kind: MassKind) -> Triplets {
+pub fn assemble_mass(mesh: &Mesh, material: &dyn MaterialField, kind: MassKind) -> Triplets {
     match kind {
         MassKind::Consistent => assemble_congruent(mesh, |e| {
             element::consistent_mass(mesh, e, material.of(mesh.region(e)))
@@ -64,8 +63,10 @@ pub fn assemble_mass(mesh: &Mesh2d, material: &dyn MaterialField, kind: MassKind
         MassKind::Lumped => {
             let mut triplets = Triplets::default();
             for (node, mass) in lumped_masses(mesh, material).into_iter().enumerate() {
-                triplets.push(2 * node, 2 * node, mass);
-                triplets.push(2 * node + 1, 2 * node + 1, mass);
+                for axis in 0..mesh.dimension {
+                    let dof = mesh.dimension * node + axis;
+                    triplets.push(dof, dof, mass);
+                }
             }
             triplets
         }
@@ -73,7 +74,7 @@ pub fn assemble_mass(mesh: &Mesh2d, material: &dyn MaterialField, kind: MassKind
 }
 
 /// Lumped mass of each node, kg for each metre of thickness.
-pub fn lumped_masses(mesh: &Mesh2d, material: &dyn MaterialField) -> Vec<f64> {
+pub fn lumped_masses(mesh: &Mesh, material: &dyn MaterialField) -> Vec<f64> {
     let mut masses = vec![0.0; mesh.node_count()];
     let mut cache: Vec<Option<Vec<f64>>> = vec![None; mesh.element_count()];
     for e in 0..mesh.element_count() {
@@ -89,21 +90,26 @@ pub fn lumped_masses(mesh: &Mesh2d, material: &dyn MaterialField) -> Vec<f64> {
 /// Global geometric stiffness of the stress that `base` (all dofs, nodal frames, m) causes, N/m for
 /// each metre of thickness.
 pub fn assemble_geometric_stiffness(
-    mesh: &Mesh2d,
+    mesh: &Mesh,
     material: &dyn MaterialField,
     base: &[f64],
 ) -> Triplets {
     let mut triplets = Triplets::default();
     for e in 0..mesh.element_count() {
         let matrix = element::geometric_stiffness(mesh, e, material.of(mesh.region(e)), base);
-        scatter(&mut triplets, mesh.element_nodes(e), &matrix);
+        scatter(&mut triplets, mesh, e, &matrix);
     }
     triplets
 }
 
-/// Springs and dashpots of the supports over all dofs, N/m and N s/m for each metre of thickness; empty where
+/// Springs and dashpots of the supports over all dofs, N/m and N s/m, in the plane for each metre of thickness; empty where
 /// nothing is supported.
-pub fn assemble_supports(mesh: &Mesh2d) -> [Triplets; 2] {
+///
+/// In the plane lumped at the nodes; of a solid `∫ N_I N_J (k_n n n^T + k_t (1 - n n^T)) dA`.
+pub fn assemble_supports(mesh: &Mesh) -> [Triplets; 2] {
+    if mesh.dimension == 3 {
+        return face::supports(mesh);
+    }
     let mut both = [Triplets::default(), Triplets::default()];
     for support in mesh.nodal_supports() {
         let matrices = [support.stiffness, support.damping];
@@ -119,6 +125,15 @@ pub fn assemble_supports(mesh: &Mesh2d) -> [Triplets; 2] {
     both
 }
 
+/// Forces of every boundary pressure over all dofs in nodal frames, N, in the plane for each metre of thickness; `None` where
+/// there is none.
+pub fn assemble_pressures(mesh: &Mesh) -> Option<Vec<f64>> {
+    match mesh.dimension {
+        2 => mesh.pressure_forces(),
+        _ => face::pressures(mesh),
+    }
+}
+
 /// What damping coefficients of their own add to `alpha_R M + beta_R K_e` of the whole body, Pa s, over all dofs;
 /// `None` where no region has its own.
 ///
@@ -126,7 +141,7 @@ pub fn assemble_supports(mesh: &Mesh2d) -> [Triplets; 2] {
 /// sum_e (alpha_e - alpha_R) M_e + (beta_e - beta_R) K_e
 /// ```
 pub fn assemble_extra_damping(
-    mesh: &Mesh2d,
+    mesh: &Mesh,
     material: &dyn MaterialField,
     kind: MassKind,
     common: RayleighDamping,
@@ -146,35 +161,37 @@ pub fn assemble_extra_damping(
             MassKind::Consistent => element::consistent_mass(mesh, e, elastic),
             MassKind::Lumped => {
                 let masses = element::lumped_mass(mesh, e, elastic);
-                let size = 2 * masses.len();
-                DMatrix::from_fn(size, size, |i, j| if i == j { masses[i / 2] } else { 0.0 })
+                let d = mesh.dimension;
+                let size = d * masses.len();
+                DMatrix::from_fn(size, size, |i, j| if i == j { masses[i / d] } else { 0.0 })
             }
         };
         let matrix = mass * (damping.mass_coefficient - common.mass_coefficient)
             + element::stiffness(mesh, e, elastic)
                 * (damping.stiffness_coefficient - common.stiffness_coefficient);
-        scatter(&mut triplets, mesh.element_nodes(e), &matrix);
+        scatter(&mut triplets, mesh, e, &matrix);
     }
     Some(triplets)
 }
 
-fn assemble_congruent(mesh: &Mesh2d, compute: impl Fn(usize) -> DMatrix<f64>) -> Triplets {
+fn assemble_congruent(mesh: &Mesh, compute: impl Fn(usize) -> DMatrix<f64>) -> Triplets {
     let mut triplets = Triplets::default();
     let mut cache: Vec<Option<DMatrix<f64>>> = vec![None; mesh.element_count()];
     let sizes = mesh
         .element_kinds
         .iter()
-        .map(|kind| 4 * kind.node_count().pow(2));
+        .map(|kind| (mesh.dimension * kind.node_count()).pow(2));
     triplets.entries.reserve_exact(sizes.sum());
     for e in 0..mesh.element_count() {
         let matrix = cache[mesh.congruent_to[e] as usize].get_or_insert_with(|| compute(e));
-        scatter(&mut triplets, mesh.element_nodes(e), matrix);
+        scatter(&mut triplets, mesh, e, matrix);
     }
     triplets
 }
 
-fn scatter(triplets: &mut Triplets, nodes: &[u32], matrix: &DMatrix<f64>) {
-    let dof = |local: usize| 2 * nodes[local / 2] as usize + local % 2;
+fn scatter(triplets: &mut Triplets, mesh: &Mesh, element: usize, matrix: &DMatrix<f64>) {
+    let (nodes, d) = (mesh.element_nodes(element), mesh.dimension);
+    let dof = |local: usize| d * nodes[local / d] as usize + local % d;
     for column in 0..matrix.ncols() {
         for row in 0..matrix.nrows() {
             triplets.push(dof(row), dof(column), matrix[(row, column)]);
@@ -205,8 +222,8 @@ impl DofMap {
     }
 
     /// All dofs of the mesh but those that its boundary conditions hold.
-    pub fn clamped(mesh: &Mesh2d) -> Self {
-        Self::excluding(2 * mesh.node_count(), mesh.held_dofs())
+    pub fn clamped(mesh: &Mesh) -> Self {
+        Self::excluding(mesh.dof_count(), mesh.held_dofs())
     }
 
     /// Number of unknowns.

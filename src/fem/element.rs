@@ -1,215 +1,541 @@
-//! Element matrices of isoparametric elements in nodal frames.
+//! Element matrices of isoparametric elements in nodal frames, plane and solid alike.
+//!
+//! A plane element is integrated as a solid one of unit thickness whose gradients along z vanish: strains have six components,
+//! and the material says what they mean ([`ElasticMaterial::elasticity`]).
 
-use super::ElasticMaterial;
-use crate::mesh::{ElementKind, Mesh2d};
-use nalgebra::{DMatrix, Matrix2, Matrix3, Vector2, Vector3};
+use super::{ElasticMaterial, PlaneFormulation};
+use crate::mesh::{ElementKind, Mesh, QuadraturePoint};
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+
+/// Strain `(xx, yy, zz, 2 xy, 2 yz, 2 zx)` or stress `(xx, yy, zz, xy, yz, zx)`.
+pub type Voigt = [f64; 6];
+
+/// Components of strain and stress in the plane.
+const IN_PLANE: &[usize] = &[0, 1, 3];
+/// Components in space.
+const IN_SPACE: &[usize] = &[0, 1, 2, 3, 4, 5];
 
 /// One integration point of one element: shape values, Cartesian gradients, and `w det J`.
 pub struct IntegrationPoint {
+    /// Its place in the parent element.
+    pub place: [f64; 3],
     /// `N_I`.
     pub values: Vec<f64>,
     /// `grad N_I` in global Cartesian axes, 1/m.
-    pub gradients: Vec<Vector2<f64>>,
-    /// Quadrature weight times Jacobian determinant, m2.
+    pub gradients: Vec<Vector3<f64>>,
+    /// Quadrature weight times Jacobian determinant, m3, in the plane m2.
     pub measure: f64,
 }
 
-/// One element of a mesh, ready to be integrated over.
-pub struct ElementGeometry<'a> {
-    mesh: &'a Mesh2d,
+/// One element, ready to be integrated over.
+pub struct ElementGeometry {
     kind: ElementKind,
-    nodes: &'a [u32],
+    /// Coordinates of its nodes, m.
+    points: Vec<[f64; 3]>,
+    /// Unit vectors of each node's frame as columns.
+    frames: Vec<Matrix3<f64>>,
 }
 
-impl<'a> ElementGeometry<'a> {
+/// Inverse of the Jacobian and its determinant.
+fn inverse(jacobian: &Matrix3<f64>) -> (Matrix3<f64>, f64) {
+    let j = |row: usize, column: usize| jacobian[(row, column)];
+    let minor = |a: usize, b: usize, c: usize, d: usize| j(a, c) * j(b, d) - j(a, d) * j(b, c);
+    let determinant =
+        j(0, 0) * minor(1, 2, 1, 2) - j(1, 0) * minor(0, 2, 1, 2) + j(2, 0) * minor(0, 1, 1, 2);
+    let adjugate = Matrix3::new(
+        minor(1, 2, 1, 2),
+        -minor(0, 2, 1, 2),
+        minor(0, 1, 1, 2),
+        -minor(1, 2, 0, 2),
+        minor(0, 2, 0, 2),
+        -minor(0, 1, 0, 2),
+        minor(1, 2, 0, 1),
+        -minor(0, 2, 0, 1),
+        minor(0, 1, 0, 1),
+    );
+    (adjugate / determinant, determinant)
+}
+
+impl ElementGeometry {
     /// Element `element` of `mesh`.
-    pub fn new(mesh: &'a Mesh2d, element: usize) -> Self {
+    pub fn new(mesh: &Mesh, element: usize) -> Self {
+        let nodes = mesh.element_nodes(element).iter();
+        let nodes: Vec<usize> = nodes.map(|&node| node as usize).collect();
         Self {
-            mesh,
             kind: mesh.element_kind(element),
-            nodes: mesh.element_nodes(element),
+            points: nodes.iter().map(|&node| mesh.nodes[node]).collect(),
+            frames: nodes.iter().map(|&node| mesh.frame(node)).collect(),
         }
     }
 
-    /// Shape values, gradients and measure at parent point `(xi, eta)` of weight `weight`.
-    pub fn at(&self, xi: f64, eta: f64, weight: f64) -> IntegrationPoint {
-        let shapes = self.kind.shape_functions(xi, eta);
-        let shapes: Vec<_> = shapes
-            .into_iter()
-            .map(|(value, [a, b])| (value, Vector2::new(a, b)))
-            .collect();
-        let mut jacobian = Matrix2::zeros();
-        for (&(_, gradient), &node) in shapes.iter().zip(self.nodes) {
-            let [x, y] = self.mesh.nodes[node as usize];
-            jacobian += gradient * Vector2::new(x, y).transpose();
+    /// An element with nodes at `points` and with their frames.
+    pub fn of_nodes(kind: ElementKind, points: Vec<[f64; 3]>, frames: Vec<Matrix3<f64>>) -> Self {
+        Self {
+            kind,
+            points,
+            frames,
         }
-        let determinant = jacobian.determinant();
-        let inverse = Matrix2::new(
-            jacobian[(1, 1)],
-            -jacobian[(0, 1)],
-            -jacobian[(1, 0)],
-            jacobian[(0, 0)],
-        ) / determinant;
+    }
+
+    /// Number of nodes.
+    pub fn node_count(&self) -> usize {
+        self.points.len()
+    }
+
+    /// Components of a node's displacement.
+    pub fn dimension(&self) -> usize {
+        self.kind.dimension()
+    }
+
+    /// Components of strain that the element has.
+    fn components(&self) -> &'static [usize] {
+        match self.dimension() {
+            2 => IN_PLANE,
+            _ => IN_SPACE,
+        }
+    }
+
+    /// `dx_j / dxi_i` at a point of the parent element, row `i`; in the plane the third parent axis is z.
+    fn jacobian(&self, at: [f64; 3]) -> Matrix3<f64> {
+        let mut jacobian = Matrix3::zeros();
+        if self.dimension() == 2 {
+            jacobian[(2, 2)] = 1.0;
+        }
+        for ((_, slopes), point) in self.kind.shape_functions(at).iter().zip(&self.points) {
+            jacobian += Vector3::from(*slopes) * Vector3::from(*point).transpose();
+        }
+        jacobian
+    }
+
+    /// Shape values, gradients and measure at a point of the parent element with its weight.
+    pub fn at(&self, (place, weight): QuadraturePoint) -> IntegrationPoint {
+        let shapes = self.kind.shape_functions(place);
+        let (inverse, determinant) = inverse(&self.jacobian(place));
         IntegrationPoint {
-            values: shapes.iter().map(|s| s.0).collect(),
-            gradients: shapes.iter().map(|s| inverse * s.1).collect(),
+            place,
+            values: shapes.iter().map(|shape| shape.0).collect(),
+            gradients: shapes
+                .iter()
+                .map(|shape| inverse * Vector3::from(shape.1))
+                .collect(),
             measure: weight * determinant,
         }
     }
 
     /// Every point of the full quadrature rule.
     pub fn integration_points(&self) -> Vec<IntegrationPoint> {
-        self.kind
-            .quadrature()
-            .into_iter()
-            .map(|(xi, eta, weight)| self.at(xi, eta, weight))
-            .collect()
+        let points = self.kind.quadrature().into_iter();
+        points.map(|point| self.at(point)).collect()
     }
 
-    /// Unit vectors of node `local`'s frame as columns, `[e_1 e_2]`.
-    pub fn frame(&self, local: usize) -> Matrix2<f64> {
-        let (sin, cos) = self.mesh.frame_angles[self.nodes[local] as usize].sin_cos();
-        Matrix2::new(cos, -sin, sin, cos)
+    /// Every point of the rule of the stiffness; elements with curved edges take the full rule, which keeps constant strains.
+    pub fn stiffness_points(&self) -> Vec<IntegrationPoint> {
+        let rule = match self.has_straight_edges() {
+            true => self.kind.stiffness_quadrature(),
+            false => self.kind.quadrature(),
+        };
+        rule.into_iter().map(|point| self.at(point)).collect()
     }
 
-    /// Displacement gradient `du_i / dx_j` at a point, from nodal values in nodal frames.
-    pub fn displacement_gradient(
-        &self,
-        point: &IntegrationPoint,
-        displacement: &[f64],
-    ) -> Matrix2<f64> {
-        let mut gradient = Matrix2::zeros();
-        for (local, &node) in self.nodes.iter().enumerate() {
-            let dof = 2 * node as usize;
-            let u = self.frame(local) * Vector2::new(displacement[dof], displacement[dof + 1]);
-            gradient += u * point.gradients[local].transpose();
+    /// Whether mid-side nodes lie at the middle of their edges, to 1e-9 of their length.
+    fn has_straight_edges(&self) -> bool {
+        let middles = self.points[self.kind.corner_count()..].iter();
+        self.kind.edges().iter().zip(middles).all(|(ends, middle)| {
+            let [p, q] = ends.map(|end| Vector3::from(self.points[end]));
+            let off = (p + q) * 0.5 - Vector3::from(*middle);
+            off.norm() <= 1e-9 * (p - q).norm()
+        })
+    }
+
+    /// Where a point is, m.
+    pub fn position(&self, point: &IntegrationPoint) -> [f64; 3] {
+        let mut position = [0.0; 3];
+        for (value, node) in point.values.iter().zip(&self.points) {
+            (0..3).for_each(|axis| position[axis] += value * node[axis]);
+        }
+        position
+    }
+
+    /// Whether the element has incompatible modes.
+    fn has_incompatible_modes(&self) -> bool {
+        self.kind == ElementKind::Hex8
+    }
+
+    /// Gradients of the three incompatible modes `1 - xi_k^2` at each point, scaled so that a constant stress does no work on
+    /// them (Taylor, Beresford and Wilson 1976); none for elements without.
+    fn incompatible_gradients(&self, points: &[IntegrationPoint]) -> Vec<Vec<Vector3<f64>>> {
+        if !self.has_incompatible_modes() {
+            return vec![Vec::new(); points.len()];
+        }
+        let (inverse, determinant) = inverse(&self.jacobian([0.0; 3]));
+        let at_point = |point: &IntegrationPoint| {
+            // All weights of the 2 x 2 x 2 rule are one.
+            let scale = determinant / point.measure;
+            let slope = |k: usize| inverse.column(k) * (-2.0 * point.place[k] * scale);
+            (0..3).map(slope).collect()
+        };
+        points.iter().map(at_point).collect()
+    }
+
+    /// Displacement gradient `du_i / dx_j` at a point, from the values of the element's nodes in their frames.
+    fn nodal_gradient(&self, point: &IntegrationPoint, values: &[f64]) -> Matrix3<f64> {
+        let dimension = self.dimension();
+        let mut gradient = Matrix3::zeros();
+        for (local, frame) in self.frames.iter().enumerate() {
+            let mut components = Vector3::zeros();
+            for axis in 0..dimension {
+                components[axis] = values[dimension * local + axis];
+            }
+            gradient += (frame * components) * point.gradients[local].transpose();
         }
         gradient
     }
-}
 
-/// In-plane Cauchy stress of a displacement gradient, Pa.
-pub fn stress_of(material: &ElasticMaterial, gradient: &Matrix2<f64>) -> Matrix2<f64> {
-    let [lambda, shear_modulus] = material.lame_constants();
-    let strain = 0.5 * (gradient + gradient.transpose());
-    Matrix2::identity() * (lambda * strain.trace()) + 2.0 * shear_modulus * strain
-}
+    /// Displacement gradients at some points, incompatible modes of amplitudes `internal` included.
+    fn displacement_gradients(
+        &self,
+        points: &[IntegrationPoint],
+        values: &[f64],
+        internal: Option<&DVector<f64>>,
+    ) -> Vec<Matrix3<f64>> {
+        let modes = self.incompatible_gradients(points);
+        let at_point = |(point, modes): (&IntegrationPoint, Vec<Vector3<f64>>)| {
+            let mut gradient = self.nodal_gradient(point, values);
+            if let Some(internal) = internal {
+                for (k, mode) in modes.iter().enumerate() {
+                    let amplitude = Vector3::from_fn(|axis, _| internal[3 * k + axis]);
+                    gradient += amplitude * mode.transpose();
+                }
+            }
+            gradient
+        };
+        points.iter().zip(modes).map(at_point).collect()
+    }
 
-/// Element stiffness `K_e = ∫ B^T D B dA` in nodal frames, N/m for each metre of thickness.
-///
-/// Shape `(2 m, 2 m)` for `m` nodes, dof order `(node 1: e_1, e_2, node 2: ...)`.
-pub fn stiffness(mesh: &Mesh2d, element: usize, material: &ElasticMaterial) -> DMatrix<f64> {
-    let geometry = ElementGeometry::new(mesh, element);
-    let elasticity = material.elasticity();
-    let elasticity = Matrix3::from_fn(|i, j| elasticity[i][j]);
-    let count = geometry.nodes.len();
-    let mut matrix = DMatrix::zeros(2 * count, 2 * count);
-    for point in geometry.integration_points() {
-        let strains: Vec<[Vector3<f64>; 2]> = (0..count)
-            .map(|local| {
-                let (gradient, frame) = (point.gradients[local], geometry.frame(local));
-                [0, 1].map(|axis| {
-                    let e = frame.column(axis);
-                    Vector3::new(
-                        gradient.x * e.x,
-                        gradient.y * e.y,
-                        gradient.y * e.x + gradient.x * e.y,
-                    )
-                })
-            })
-            .collect();
-        let strains: Vec<Vector3<f64>> = strains.into_iter().flatten().collect();
-        for column in 0..2 * count {
-            let stress = elasticity * strains[column] * point.measure;
-            for row in 0..=column {
-                matrix[(row, column)] += strains[row].dot(&stress);
+    /// Stress at some points, Pa, from the values of the element's nodes in their frames, m.
+    pub fn stresses(
+        &self,
+        points: &[IntegrationPoint],
+        material: &ElasticMaterial,
+        values: &[f64],
+    ) -> Vec<Voigt> {
+        let internal = self.internal_amplitudes(material, values);
+        let gradients = self.displacement_gradients(points, values, internal.as_ref());
+        let gradients = gradients.iter();
+        gradients
+            .map(|gradient| stress_of(material, gradient))
+            .collect()
+    }
+
+    /// Amplitudes of the incompatible modes that come with nodal values.
+    fn internal_amplitudes(
+        &self,
+        material: &ElasticMaterial,
+        values: &[f64],
+    ) -> Option<DVector<f64>> {
+        if !self.has_incompatible_modes() {
+            return None;
+        }
+        let recovered = self.stiffness(material).recovered?;
+        Some(recovered * DVector::from_column_slice(values))
+    }
+
+    /// Stiffness over the nodes and, where there are incompatible modes, their amplitudes; linear in the elasticity.
+    fn full_stiffness(&self, material: &ElasticMaterial) -> DMatrix<f64> {
+        let dimension = self.dimension();
+        let size =
+            dimension * self.node_count() + if self.has_incompatible_modes() { 9 } else { 0 };
+        let components = self.components();
+        let law = self.solid_aware(material).elasticity();
+        let points = self.stiffness_points();
+        let modes = self.incompatible_gradients(&points);
+        let mut matrix = DMatrix::zeros(size, size);
+        for (point, modes) in points.iter().zip(&modes) {
+            let mut strains: Vec<Voigt> = Vec::with_capacity(size);
+            for (gradient, frame) in point.gradients.iter().zip(&self.frames) {
+                let axes = (0..dimension).map(|axis| frame.column(axis).into_owned());
+                strains.extend(axes.map(|e| strain_along(gradient, &e)));
+            }
+            for gradient in modes {
+                strains.extend((0..3).map(|c| strain_along(gradient, &Vector3::ith(c, 1.0))));
+            }
+            for column in 0..size {
+                let stress = stress_in(components, &law, &strains[column]);
+                let stress = stress.map(|component| component * point.measure);
+                for row in 0..=column {
+                    matrix[(row, column)] += work(components, &strains[row], &stress);
+                }
             }
         }
+        mirror_upper_triangle(&mut matrix);
+        matrix
     }
-    mirror_upper_triangle(&mut matrix);
-    matrix
+
+    /// The material as this element sees it: solid elements take no plane formulation.
+    fn solid_aware(&self, material: &ElasticMaterial) -> ElasticMaterial {
+        match self.dimension() {
+            3 => ElasticMaterial {
+                formulation: PlaneFormulation::ThreeDimensional,
+                ..*material
+            },
+            _ => *material,
+        }
+    }
+
+    /// Element stiffness `K_e = ∫ B^T D B dV` in nodal frames, N/m, in the plane for each metre of thickness; the incompatible
+    /// modes of bricks with 8 nodes condensed.
+    pub fn stiffness(&self, material: &ElasticMaterial) -> Condensed {
+        let full = self.full_stiffness(material);
+        let nodal = self.dimension() * self.node_count();
+        let internal = full.nrows() - nodal;
+        if internal == 0 {
+            return Condensed {
+                stiffness: full,
+                recovered: None,
+            };
+        }
+        let coupling = full.view((nodal, 0), (internal, nodal)).into_owned();
+        let inner = full.view((nodal, nodal), (internal, internal)).into_owned();
+        let factor = inner
+            .cholesky()
+            .expect("incompatible modes of a sound element have positive stiffness");
+        let recovered = -factor.solve(&coupling);
+        let mut condensed = full.view((0, 0), (nodal, nodal)) + coupling.transpose() * &recovered;
+        mirror_upper_triangle(&mut condensed);
+        Condensed {
+            stiffness: condensed,
+            recovered: Some(recovered),
+        }
+    }
+
+    /// Derivative of [`Self::stiffness`] where the elasticity changes at the `rate` of another material's:
+    ///
+    /// ```text
+    /// dK = [1; R]^T dK_full [1; R],   dR = -K_ii^-1 (dK_iu + dK_ii R)
+    /// ```
+    pub fn stiffness_rate(&self, material: &ElasticMaterial, rate: &ElasticMaterial) -> Condensed {
+        let change = self.full_stiffness(rate);
+        let nodal = self.dimension() * self.node_count();
+        let internal = change.nrows() - nodal;
+        let Some(recovered) = self.stiffness(material).recovered else {
+            return Condensed {
+                stiffness: change,
+                recovered: None,
+            };
+        };
+        let mut follows = DMatrix::<f64>::identity(nodal + internal, nodal);
+        follows
+            .view_mut((nodal, 0), (internal, nodal))
+            .copy_from(&recovered);
+        let image = &change * &follows;
+        let mut stiffness = follows.transpose() * &image;
+        mirror_upper_triangle(&mut stiffness);
+        let full = self.full_stiffness(material);
+        let inner = full.view((nodal, nodal), (internal, internal)).into_owned();
+        let load = image.view((nodal, 0), (internal, nodal)).into_owned();
+        let factor = inner
+            .cholesky()
+            .expect("incompatible modes of a sound element have positive stiffness");
+        Condensed {
+            stiffness,
+            recovered: Some(-factor.solve(&load)),
+        }
+    }
+
+    /// Element geometric stiffness `K_sigma = ∫ (grad N_I . sigma . grad N_J) I dV` of a sum of stresses, in nodal frames, N/m,
+    /// in the plane for each metre of thickness.
+    ///
+    /// It is the stress part of the tangent alone: a pressure that follows its surface adds the follower terms of the contact,
+    /// which the caller must include too.
+    pub fn geometric_stiffness(&self, parts: &[StressPart<'_>]) -> DMatrix<f64> {
+        let count = self.node_count();
+        let points = self.stiffness_points();
+        let gradients: Vec<Vec<Matrix3<f64>>> = parts
+            .iter()
+            .map(|part| self.displacement_gradients(&points, part.values, part.internal.as_ref()))
+            .collect();
+        let mut scalar = DMatrix::<f64>::zeros(count, count);
+        for (i, point) in points.iter().enumerate() {
+            let mut stress = Matrix3::zeros();
+            for (part, gradients) in parts.iter().zip(&gradients) {
+                let law = self.solid_aware(part.material);
+                stress += tensor(&stress_of(&law, &gradients[i]));
+            }
+            stress *= point.measure;
+            for column in 0..count {
+                let flux = stress * point.gradients[column];
+                for row in 0..=column {
+                    scalar[(row, column)] += point.gradients[row].dot(&flux);
+                }
+            }
+        }
+        self.rotate_scalar(scalar)
+    }
+
+    /// Element consistent mass `M_e = ∫ rho N_I N_J I dV` in nodal frames, kg, in the plane for each metre of thickness.
+    pub fn consistent_mass(&self, material: &ElasticMaterial) -> DMatrix<f64> {
+        self.rotate_scalar(self.scalar_mass(material))
+    }
+
+    /// Element lumped mass of each node, kg, in the plane for each metre of thickness: row sums for linear kinds; for quadratic
+    /// ones, whose row sums are not positive at the corners, the diagonal scaled to the element's mass (Hinton, Rock and
+    /// Zienkiewicz 1976).
+    pub fn lumped_mass(&self, material: &ElasticMaterial) -> Vec<f64> {
+        let scalar = self.scalar_mass(material);
+        let full = DMatrix::from_fn(scalar.nrows(), scalar.ncols(), |row, column| {
+            scalar[(row.min(column), row.max(column))]
+        });
+        if !self.kind.is_quadratic() {
+            return full.row_iter().map(|row| row.sum()).collect();
+        }
+        let scale = full.sum() / full.diagonal().sum();
+        full.diagonal().iter().map(|value| value * scale).collect()
+    }
+
+    /// Upper triangle of `∫ rho N_I N_J dV`.
+    fn scalar_mass(&self, material: &ElasticMaterial) -> DMatrix<f64> {
+        let count = self.node_count();
+        let mut scalar = DMatrix::zeros(count, count);
+        for point in self.integration_points() {
+            for column in 0..count {
+                let weighted = material.density * point.measure * point.values[column];
+                for row in 0..=column {
+                    scalar[(row, column)] += point.values[row] * weighted;
+                }
+            }
+        }
+        scalar
+    }
+
+    /// Expands the upper triangle of `s_IJ` into `s_IJ F_I^T F_J`, `F_I` node I's frame.
+    pub fn rotate_scalar(&self, scalar: DMatrix<f64>) -> DMatrix<f64> {
+        let (count, dimension) = (scalar.nrows(), self.dimension());
+        let mut matrix = DMatrix::zeros(dimension * count, dimension * count);
+        for column in 0..count {
+            for row in 0..=column {
+                let turn = self.frames[row].transpose() * self.frames[column];
+                let block = turn * scalar[(row, column)];
+                for j in 0..dimension {
+                    for i in 0..dimension {
+                        matrix[(dimension * row + i, dimension * column + j)] = block[(i, j)];
+                    }
+                }
+            }
+        }
+        mirror_upper_triangle(&mut matrix);
+        matrix
+    }
 }
 
-/// Element geometric stiffness `K_sigma = ∫ (grad N_I . sigma . grad N_J) I dA` of the stress that
-/// the nodal displacements `base` cause, in nodal frames, N/m for each metre of thickness.
-///
-/// It is the stress part of the tangent alone: a pressure that follows its edge adds the follower
-/// terms of the contact, which the caller must include too.
+/// An element's stiffness over its nodes, or its derivative.
+pub struct Condensed {
+    /// Over the dofs of its nodes.
+    pub stiffness: DMatrix<f64>,
+    /// What the amplitudes of the incompatible modes are for each nodal displacement, `alpha = R u`, `R = -K_ii^-1 K_iu`;
+    /// `None` for elements without.
+    pub recovered: Option<DMatrix<f64>>,
+}
+
+/// A part of the stress: a material's law on the strain of nodal displacements and of the incompatible modes with them.
+pub struct StressPart<'a> {
+    /// The law.
+    pub material: &'a ElasticMaterial,
+    /// Displacements of the element's nodes in their frames, m.
+    pub values: &'a [f64],
+    /// Amplitudes of the incompatible modes; `None` for elements without.
+    pub internal: Option<DVector<f64>>,
+}
+
+/// Strain of a displacement along `e` with the gradient `g` of its size.
+fn strain_along(g: &Vector3<f64>, e: &Vector3<f64>) -> Voigt {
+    [
+        g.x * e.x,
+        g.y * e.y,
+        g.z * e.z,
+        g.y * e.x + g.x * e.y,
+        g.z * e.y + g.y * e.z,
+        g.z * e.x + g.x * e.z,
+    ]
+}
+
+/// `D epsilon` over some components.
+fn stress_in(components: &[usize], law: &[Voigt; 6], strain: &Voigt) -> Voigt {
+    let mut stress = [0.0; 6];
+    for &row in components {
+        let products = components.iter().map(|&k| law[row][k] * strain[k]);
+        stress[row] = products.reduce(|sum, product| sum + product).unwrap_or(0.0);
+    }
+    stress
+}
+
+/// `epsilon . sigma` over some components.
+fn work(components: &[usize], strain: &Voigt, stress: &Voigt) -> f64 {
+    let products = components.iter().map(|&k| strain[k] * stress[k]);
+    products.reduce(|sum, product| sum + product).unwrap_or(0.0)
+}
+
+/// Cauchy stress of a displacement gradient, Pa.
+pub fn stress_of(material: &ElasticMaterial, gradient: &Matrix3<f64>) -> Voigt {
+    let g = gradient;
+    material.stress(&[
+        g[(0, 0)],
+        g[(1, 1)],
+        g[(2, 2)],
+        g[(0, 1)] + g[(1, 0)],
+        g[(1, 2)] + g[(2, 1)],
+        g[(0, 2)] + g[(2, 0)],
+    ])
+}
+
+/// A stress as a symmetric matrix.
+fn tensor(s: &Voigt) -> Matrix3<f64> {
+    Matrix3::new(s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2])
+}
+
+/// Values of an element's nodes out of those of all nodes.
+pub fn nodal_values(mesh: &Mesh, element: usize, all: &[f64]) -> Vec<f64> {
+    let d = mesh.dimension;
+    let nodes = mesh.element_nodes(element).iter();
+    nodes
+        .flat_map(|&node| {
+            all[d * node as usize..d * (node as usize + 1)]
+                .iter()
+                .copied()
+        })
+        .collect()
+}
+
+/// Element stiffness of a mesh, see [`ElementGeometry::stiffness`].
+pub fn stiffness(mesh: &Mesh, element: usize, material: &ElasticMaterial) -> DMatrix<f64> {
+    let geometry = ElementGeometry::new(mesh, element);
+    geometry.stiffness(material).stiffness
+}
+
+/// Element geometric stiffness of the stress that `base` (all dofs, nodal frames, m) causes, see
+/// [`ElementGeometry::geometric_stiffness`].
 pub fn geometric_stiffness(
-    mesh: &Mesh2d,
+    mesh: &Mesh,
     element: usize,
     material: &ElasticMaterial,
     base: &[f64],
 ) -> DMatrix<f64> {
     let geometry = ElementGeometry::new(mesh, element);
-    let count = geometry.nodes.len();
-    let mut scalar = DMatrix::<f64>::zeros(count, count);
-    for point in geometry.integration_points() {
-        let gradient = geometry.displacement_gradient(&point, base);
-        let stress = stress_of(material, &gradient) * point.measure;
-        for column in 0..count {
-            let flux = stress * point.gradients[column];
-            for row in 0..=column {
-                scalar[(row, column)] += point.gradients[row].dot(&flux);
-            }
-        }
-    }
-    rotate_scalar(&geometry, scalar)
+    let values = nodal_values(mesh, element, base);
+    geometry.geometric_stiffness(&[StressPart {
+        material,
+        internal: geometry.internal_amplitudes(material, &values),
+        values: &values,
+    }])
 }
 
-/// Element consistent mass `M_e = ∫ rho N_I N_J I dA` in nodal frames, kg for each metre of
-/// thickness.
-pub fn consistent_mass(mesh: &Mesh2d, element: usize, material: &ElasticMaterial) -> DMatrix<f64> {
-    let geometry = ElementGeometry::new(mesh, element);
-    rotate_scalar(&geometry, scalar_mass(&geometry, material))
+/// Element consistent mass of a mesh, see [`ElementGeometry::consistent_mass`].
+pub fn consistent_mass(mesh: &Mesh, element: usize, material: &ElasticMaterial) -> DMatrix<f64> {
+    ElementGeometry::new(mesh, element).consistent_mass(material)
 }
 
-/// Element lumped mass of each node, kg for each metre of thickness: row sums for linear
-/// shapes; for quadratic ones, whose row sums are not positive at the corners, the diagonal scaled to the
-/// element's mass (Hinton, Rock and Zienkiewicz 1976).
-pub fn lumped_mass(mesh: &Mesh2d, element: usize, material: &ElasticMaterial) -> Vec<f64> {
-    let geometry = ElementGeometry::new(mesh, element);
-    let scalar = scalar_mass(&geometry, material);
-    let full = DMatrix::from_fn(scalar.nrows(), scalar.ncols(), |row, column| {
-        scalar[(row.min(column), row.max(column))]
-    });
-    if !geometry.kind.is_quadratic() {
-        return full.row_iter().map(|row| row.sum()).collect();
-    }
-    let scale = full.sum() / full.diagonal().sum();
-    full.diagonal().iter().map(|value| value * scale).collect()
-}
-
-/// Upper triangle of `∫ rho N_I N_J dA`.
-fn scalar_mass(geometry: &ElementGeometry<'_>, material: &ElasticMaterial) -> DMatrix<f64> {
-    let count = geometry.nodes.len();
-    let mut scalar = DMatrix::zeros(count, count);
-    for point in geometry.integration_points() {
-        for column in 0..count {
-            let weighted = material.density * point.measure * point.values[column];
-            for row in 0..=column {
-                scalar[(row, column)] += point.values[row] * weighted;
-            }
-        }
-    }
-    scalar
-}
-
-/// Expands the upper triangle of `s_IJ` into `s_IJ F_I^T F_J`, `F_I` node I's frame.
-fn rotate_scalar(geometry: &ElementGeometry<'_>, scalar: DMatrix<f64>) -> DMatrix<f64> {
-    let count = scalar.nrows();
-    let frames: Vec<_> = (0..count).map(|local| geometry.frame(local)).collect();
-    let mut matrix = DMatrix::zeros(2 * count, 2 * count);
-    for column in 0..count {
-        for row in 0..=column {
-            let block = frames[row].transpose() * frames[column] * scalar[(row, column)];
-            matrix
-                .fixed_view_mut::<2, 2>(2 * row, 2 * column)
-                .copy_from(&block);
-        }
-    }
-    mirror_upper_triangle(&mut matrix);
-    matrix
+/// Element lumped mass of a mesh, see [`ElementGeometry::lumped_mass`].
+pub fn lumped_mass(mesh: &Mesh, element: usize, material: &ElasticMaterial) -> Vec<f64> {
+    ElementGeometry::new(mesh, element).lumped_mass(material)
 }
 
 /// Makes a matrix whose upper triangle was filled exactly symmetric.

@@ -108,15 +108,6 @@ impl ElasticMaterial {
         [lambda, e / (2.0 * (1.0 + nu))]
     }
 
-    /// Lamé constants `[lambda, G]` of the solid, Pa.
-    pub fn solid_lame_constants(&self) -> [f64; 2] {
-        let solid = Self {
-            formulation: PlaneFormulation::ThreeDimensional,
-            ..*self
-        };
-        solid.lame_constants()
-    }
-
     /// A material whose Lamé constants are the derivatives of this one's with respect to Poisson's ratio, so that whatever is
     /// linear in the Lamé constants differentiates itself.
     pub fn poisson_rate(&self) -> Self {
@@ -136,12 +127,44 @@ impl ElasticMaterial {
         }
     }
 
-    /// Elasticity matrix `D` in `sigma = D epsilon`, Pa, with
-    /// `sigma = (sigma_xx, sigma_yy, sigma_xy)`, `epsilon = (epsilon_xx, epsilon_yy, 2 epsilon_xy)`.
-    pub fn elasticity(&self) -> [[f64; 3]; 3] {
+    /// Elasticity matrix `D` in `sigma = D epsilon`, Pa, over `(xx, yy, zz, xy, yz, zx)` with engineering shear strains
+    /// `2 epsilon_xy, ...`; what a plane formulation says of the third direction is in it, so that strains of a plane body,
+    /// which have none, give its stresses in the plane.
+    pub fn elasticity(&self) -> [[f64; 6]; 6] {
         let [lambda, g] = self.lame_constants();
         let p = lambda + 2.0 * g;
-        [[p, lambda, 0.0], [lambda, p, 0.0], [0.0, 0.0, g]]
+        let [z, zz] = match self.formulation {
+            PlaneFormulation::PlaneStress => [0.0, 0.0],
+            _ => [lambda, p],
+        };
+        [
+            [p, lambda, z, 0.0, 0.0, 0.0],
+            [lambda, p, z, 0.0, 0.0, 0.0],
+            [z, z, zz, 0.0, 0.0, 0.0],
+            [0.0, 0.0, 0.0, g, 0.0, 0.0],
+            [0.0, 0.0, 0.0, 0.0, g, 0.0],
+            [0.0, 0.0, 0.0, 0.0, 0.0, g],
+        ]
+    }
+
+    /// Stress `(xx, yy, zz, xy, yz, zx)`, Pa, of a strain `(xx, yy, zz, 2 xy, 2 yz, 2 zx)`:
+    /// `sigma = lambda tr(epsilon) I + 2 G epsilon`.
+    pub fn stress(&self, strain: &[f64; 6]) -> [f64; 6] {
+        let [lambda, g] = self.lame_constants();
+        let volume = lambda * (strain[0] + strain[1] + strain[2]);
+        let normal = |k: usize| volume + 2.0 * g * strain[k];
+        let across = match self.formulation {
+            PlaneFormulation::PlaneStress => 0.0,
+            _ => normal(2),
+        };
+        [
+            normal(0),
+            normal(1),
+            across,
+            g * strain[3],
+            g * strain[4],
+            g * strain[5],
+        ]
     }
 
     /// Out-of-plane stress `sigma_zz` for in-plane normal stresses, Pa.

@@ -1,11 +1,12 @@
 //! Elements, assembly, mass, stiffness, damping, stress.
 //!
-//! Every nodal vector and matrix is written in the nodal frames of [`crate::mesh::Mesh2d`]: dof
-//! `2 i` of node `i` along the frame's first axis (radial on the annulus), dof `2 i + 1` along its
-//! second (circumferential). Everything is for one metre of thickness.
+//! Every nodal vector and matrix is written in the nodal frames of [`crate::mesh::Mesh`]: dof `d i + a` of node `i` along axis
+//! `a` of its frame, `d` the dimension. On the annulus dof `2 i` is radial and dof `2 i + 1` circumferential. Everything in the
+//! plane is for one metre of thickness.
 
 mod assembly;
 pub mod element;
+mod face;
 mod material;
 pub mod operator;
 pub mod sector;
@@ -14,10 +15,10 @@ mod stress;
 
 pub use assembly::{
     DofMap, MassKind, Triplets, assemble_extra_damping, assemble_geometric_stiffness,
-    assemble_mass, assemble_stiffness, assemble_supports, lumped_masses,
+    assemble_mass, assemble_pressures, assemble_stiffness, assemble_supports, lumped_masses,
 };
 pub use material::{
     AnnulusMaterials, ElasticMaterial, MaterialField, PlaneFormulation, RayleighDamping,
     RegionMaterial,
 };
-pub use stress::{NodalStress, nodal_stress};
+pub use stress::{NodalStress, SolidStress, nodal_stress, solid_stress};

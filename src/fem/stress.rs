@@ -1,11 +1,11 @@
 //! Stress recovery at the nodes.
 
-use super::element::{ElementGeometry, stress_of};
+use super::element::{ElementGeometry, Voigt, nodal_values};
 use super::{ElasticMaterial, MaterialField};
-use crate::mesh::Mesh2d;
-use nalgebra::{Matrix2, Matrix3, Vector3};
+use crate::mesh::Mesh;
+use nalgebra::{Matrix2, Matrix3, SMatrix, Vector3, Vector4};
 
-/// Stress at one node in the axes of [`Mesh2d::reported_angle`], Pa.
+/// Stress at one node in the axes of [`Mesh::reported_angle`], Pa.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct NodalStress {
     /// Along the first frame axis (radial on the annulus).
@@ -35,7 +35,25 @@ impl NodalStress {
     }
 }
 
-/// Stress at each node by superconvergent patch recovery (Zienkiewicz and Zhu 1992).
+/// Stress `(xx, yy, zz, xy, yz, zx)` at one node of a solid body in global axes, Pa.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SolidStress(pub Voigt);
+
+impl SolidStress {
+    /// Von Mises stress, Pa.
+    pub fn von_mises(&self) -> f64 {
+        let [x, y, z, xy, yz, zx] = self.0;
+        let normal = (x - y).powi(2) + (y - z).powi(2) + (z - x).powi(2);
+        (0.5 * normal + 3.0 * (xy * xy + yz * yz + zx * zx)).sqrt()
+    }
+
+    /// Hydrostatic pressure `-tr(sigma) / 3`, Pa.
+    pub fn pressure(&self) -> f64 {
+        -(self.0[0] + self.0[1] + self.0[2]) / 3.0
+    }
+}
+
+/// Stress at each node of a plane body by superconvergent patch recovery (Zienkiewicz and Zhu 1992).
 ///
 /// At each node the linear polynomial that fits the stress best at the superconvergent points (see
 /// [`crate::mesh::ElementKind::superconvergent_points`]) of the elements around it is evaluated at the
@@ -44,25 +62,55 @@ impl NodalStress {
 ///
 /// `displacement` has `2 * node_count` values in nodal frames, m.
 pub fn nodal_stress(
-    mesh: &Mesh2d,
+    mesh: &Mesh,
     material: &dyn MaterialField,
     displacement: &[f64],
 ) -> Vec<NodalStress> {
+    let recovered = recovered_stress(mesh, material, displacement);
+    let nodes = recovered.into_iter().enumerate();
+    nodes
+        .map(|(node, found)| match found {
+            Some((stress, region)) => {
+                in_frame(stress, mesh.reported_angle(node), material.of(region))
+            }
+            None => NodalStress::default(),
+        })
+        .collect()
+}
+
+/// Stress at each node of a solid body, recovered as [`nodal_stress`] does.
+///
+/// `displacement` has `3 * node_count` values in nodal frames, m.
+pub fn solid_stress(
+    mesh: &Mesh,
+    material: &dyn MaterialField,
+    displacement: &[f64],
+) -> Vec<SolidStress> {
+    let recovered = recovered_stress(mesh, material, displacement).into_iter();
+    recovered
+        .map(|found| found.map_or_else(SolidStress::default, |(stress, _)| SolidStress(stress)))
+        .collect()
+}
+
+/// Recovered stress at each node in global axes and the region whose material it is of; `None` for a node without elements.
+fn recovered_stress(
+    mesh: &Mesh,
+    material: &dyn MaterialField,
+    displacement: &[f64],
+) -> Vec<Option<(Voigt, usize)>> {
     let samples: Vec<Vec<Sample>> = (0..mesh.element_count())
         .map(|e| superconvergent_samples(mesh, e, material.of(mesh.region(e)), displacement))
         .collect();
     let around = elements_around(mesh);
     let mut on_edge = vec![false; mesh.node_count()];
-    for (start, end, middle) in mesh.outline_edges() {
-        for node in [start, end].into_iter().chain(middle) {
+    for face in mesh.outer_faces() {
+        for node in face.nodes {
             on_edge[node as usize] = true;
         }
     }
     (0..mesh.node_count())
         .map(|node| {
-            let Some(&first) = around[node].first() else {
-                return NodalStress::default();
-            };
+            let &first = around[node].first()?;
             // Stress jumps from one material to the next: a node between two shows that of the first.
             let region = mesh.region(first as usize);
             let mut patch = around[node].clone();
@@ -75,48 +123,42 @@ pub fn nodal_stress(
                 patch.dedup();
             }
             patch.retain(|&e| mesh.region(e as usize) == region);
-            let points = patch.iter().flat_map(|&e| &samples[e as usize]);
-            let stress = fit_at(mesh.nodes[node], points);
-            in_frame(stress, mesh.reported_angle(node), material.of(region))
+            let points: Vec<&Sample> = patch.iter().flat_map(|&e| &samples[e as usize]).collect();
+            let stress = match mesh.dimension {
+                2 => fit_in_plane(mesh.nodes[node], &points),
+                _ => fit_in_space(mesh.nodes[node], &points),
+            };
+            Some((stress, region))
         })
         .collect()
 }
 
-/// Stress `(xx, yy, xy)` in global axes at a point, Pa, m.
+/// Stress in global axes at a point, Pa, m.
 struct Sample {
-    position: [f64; 2],
-    stress: Vector3<f64>,
+    position: [f64; 3],
+    stress: Voigt,
 }
 
 fn superconvergent_samples(
-    mesh: &Mesh2d,
+    mesh: &Mesh,
     e: usize,
     material: &ElasticMaterial,
     displacement: &[f64],
 ) -> Vec<Sample> {
     let geometry = ElementGeometry::new(mesh, e);
-    mesh.element_kind(e)
-        .superconvergent_points()
-        .into_iter()
-        .map(|(xi, eta)| {
-            let point = geometry.at(xi, eta, 1.0);
-            let gradient = geometry.displacement_gradient(&point, displacement);
-            let stress = stress_of(material, &gradient);
-            let mut position = [0.0; 2];
-            for (&node, shape) in mesh.element_nodes(e).iter().zip(&point.values) {
-                for (sum, coordinate) in position.iter_mut().zip(mesh.nodes[node as usize]) {
-                    *sum += shape * coordinate;
-                }
-            }
-            Sample {
-                position,
-                stress: Vector3::new(stress[(0, 0)], stress[(1, 1)], stress[(0, 1)]),
-            }
+    let places = mesh.element_kind(e).superconvergent_points().into_iter();
+    let points: Vec<_> = places.map(|place| geometry.at((place, 1.0))).collect();
+    let stresses = geometry.stresses(&points, material, &nodal_values(mesh, e, displacement));
+    let pairs = points.iter().zip(stresses);
+    pairs
+        .map(|(point, stress)| Sample {
+            position: geometry.position(point),
+            stress,
         })
         .collect()
 }
 
-fn elements_around(mesh: &Mesh2d) -> Vec<Vec<u32>> {
+fn elements_around(mesh: &Mesh) -> Vec<Vec<u32>> {
     let mut around = vec![Vec::new(); mesh.node_count()];
     for e in 0..mesh.element_count() {
         for &node in mesh.element_nodes(e) {
@@ -126,40 +168,72 @@ fn elements_around(mesh: &Mesh2d) -> Vec<Vec<u32>> {
     around
 }
 
+/// Largest distance of the samples from a point along an axis.
+fn size_of(origin: [f64; 3], samples: &[&Sample]) -> f64 {
+    let offsets = samples.iter().flat_map(|sample| {
+        let pairs = sample.position.into_iter().zip(origin);
+        pairs.map(|(p, o)| (p - o).abs())
+    });
+    offsets.fold(0.0_f64, f64::max)
+}
+
 /// Value at `origin` of the linear polynomial that fits the samples best, their mean where they do not
 /// determine one (a single row of elements).
-fn fit_at<'a>(origin: [f64; 2], samples: impl Iterator<Item = &'a Sample>) -> Vector3<f64> {
-    let samples: Vec<&Sample> = samples.collect();
-    let offset = |sample: &Sample, axis: usize| sample.position[axis] - origin[axis];
-    let size = samples
-        .iter()
-        .flat_map(|sample| [offset(sample, 0).abs(), offset(sample, 1).abs()])
-        .fold(0.0_f64, f64::max);
-    let (mut normal, mut right) = (Matrix3::zeros(), Matrix3::zeros());
-    for sample in &samples {
-        let basis = Vector3::new(1.0, offset(sample, 0) / size, offset(sample, 1) / size);
+fn fit_in_plane(origin: [f64; 3], samples: &[&Sample]) -> Voigt {
+    let size = size_of(origin, samples);
+    let (mut normal, mut right) = (Matrix3::zeros(), SMatrix::<f64, 3, 6>::zeros());
+    for sample in samples {
+        let offset = |axis: usize| (sample.position[axis] - origin[axis]) / size;
+        let basis = Vector3::new(1.0, offset(0), offset(1));
         normal += basis * basis.transpose();
-        right += basis * sample.stress.transpose();
+        right += basis * SMatrix::<f64, 1, 6>::from(sample.stress);
     }
     // Relative to the sample count the determinant is of order 0.01 for any patch of two rows.
     let count = samples.len() as f64;
     let is_determined = normal.determinant() > 1e-9 * count.powi(3);
     match normal.cholesky().filter(|_| is_determined) {
-        Some(factor) => factor.solve(&right).row(0).transpose(),
-        None => {
-            samples
-                .iter()
-                .map(|sample| sample.stress)
-                .sum::<Vector3<f64>>()
-                / count
+        Some(factor) => {
+            let values = factor.solve(&right);
+            std::array::from_fn(|k| values[(0, k)])
         }
+        None => mean(samples),
     }
 }
 
-fn in_frame(stress: Vector3<f64>, angle: f64, material: &ElasticMaterial) -> NodalStress {
+/// As [`fit_in_plane`], with a polynomial in three coordinates.
+fn fit_in_space(origin: [f64; 3], samples: &[&Sample]) -> Voigt {
+    let size = size_of(origin, samples);
+    let (mut normal, mut right) = (SMatrix::<f64, 4, 4>::zeros(), SMatrix::<f64, 4, 6>::zeros());
+    for sample in samples {
+        let offset = |axis: usize| (sample.position[axis] - origin[axis]) / size;
+        let basis = Vector4::new(1.0, offset(0), offset(1), offset(2));
+        normal += basis * basis.transpose();
+        right += basis * SMatrix::<f64, 1, 6>::from(sample.stress);
+    }
+    // A patch one element thick has samples on a plane: of order 1e-3 for any other.
+    let count = samples.len() as f64;
+    let is_determined = normal.determinant() > 1e-9 * count.powi(4);
+    match normal.cholesky().filter(|_| is_determined) {
+        Some(factor) => {
+            let values = factor.solve(&right);
+            std::array::from_fn(|k| values[(0, k)])
+        }
+        None => mean(samples),
+    }
+}
+
+fn mean(samples: &[&Sample]) -> Voigt {
+    let mut sum = [0.0; 6];
+    for sample in samples {
+        (0..6).for_each(|k| sum[k] += sample.stress[k]);
+    }
+    sum.map(|component| component / samples.len() as f64)
+}
+
+fn in_frame(stress: Voigt, angle: f64, material: &ElasticMaterial) -> NodalStress {
     let (sin, cos) = angle.sin_cos();
     let frame = Matrix2::new(cos, -sin, sin, cos);
-    let global = Matrix2::new(stress[0], stress[2], stress[2], stress[1]);
+    let global = Matrix2::new(stress[0], stress[3], stress[3], stress[1]);
     let local = frame.transpose() * global * frame;
     let (radial, hoop) = (local[(0, 0)], local[(1, 1)]);
     NodalStress {

@@ -7,7 +7,7 @@ use crate::fem::{
 };
 use crate::linalg::c64;
 use crate::linalg::{MatrixPolynomial, SparsityPattern};
-use crate::mesh::Mesh2d;
+use crate::mesh::Mesh;
 use crate::prestress::SlidingTangent;
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -28,7 +28,7 @@ impl FrfSystem {
     /// The body without contact and prestress, free or with its outer edge clamped, `C = alpha_R M +
     /// beta_R K`.
     pub fn body(
-        mesh: &Mesh2d,
+        mesh: &Mesh,
         material: &dyn MaterialField,
         mass: MassKind,
         damping: RayleighDamping,

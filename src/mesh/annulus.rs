@@ -1,6 +1,6 @@
 //! The structured annulus mesh.
 
-use super::Mesh2d;
+use super::Mesh;
 use super::sectors::{build, graded_radii, sector_node_count};
 use super::specification::{AnnulusSpecification, MeshError, validate};
 
@@ -14,7 +14,7 @@ use super::specification::{AnnulusSpecification, MeshError, validate};
 #[derive(Clone, Debug, PartialEq)]
 pub struct AnnulusMesh {
     /// The generated mesh.
-    pub mesh: Mesh2d,
+    pub mesh: Mesh,
     /// What it was generated from.
     pub specification: AnnulusSpecification,
     /// Radii of the corner nodes along a ray, `N_r + 1` values, m.
@@ -71,9 +71,9 @@ mod tests {
     #[test]
     fn node_1621_lies_at_ninety_degrees_and_1641_on_its_ray() {
         let mesh = AnnulusMesh::generate(&paper(ElementKind::Quad4)).unwrap();
-        let [x, y] = mesh.mesh.nodes[1620];
+        let [x, y, _] = mesh.mesh.nodes[1620];
         assert!(x.abs() < 1e-15 && (y - 0.0205).abs() < 1e-15);
-        let [x, y] = mesh.mesh.nodes[1640];
+        let [x, y, _] = mesh.mesh.nodes[1640];
         assert!(x.abs() < 1e-15 && (y - 0.0605).abs() < 1e-15);
         assert_eq!(mesh.mesh.element_count(), 6300);
     }

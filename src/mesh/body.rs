@@ -3,7 +3,7 @@
 use super::curve::{Curve, EdgeWeights};
 use super::gmsh::{BodyPart, GmshFile, MeshFileError};
 use super::plane_body::{plane_body, used_nodes};
-use super::{Boundary, BoundaryCondition, Counterface, Mesh2d};
+use super::{Boundary, BoundaryCondition, Counterface, Mesh, NodalFrames};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Relative distance from a circle up to which nodes lie on it.
@@ -46,7 +46,7 @@ pub enum CounterfaceSpecification {
     },
 }
 
-impl Mesh2d {
+impl Mesh {
     /// The body that `specification` makes of a mesh file.
     ///
     /// Frames are those of the counterface, but along guides, where they are those of the boundary's normal.
@@ -57,6 +57,13 @@ impl Mesh2d {
         file: &GmshFile,
         specification: &BodySpecification,
     ) -> Result<Self, MeshFileError> {
+        if file.dimension == 3 {
+            return Err(MeshFileError::Body(
+                "the mesh is of solid elements; a body on a rigid counterface must be plane: mesh its surface alone (gmsh -2), \
+                 or name the contacts of solid bodies under [contacts.NAME]"
+                    .to_owned(),
+            ));
+        }
         let mut mesh = plane_body(file, specification.scale)?;
         let index_of = used_nodes(file)?;
         let outline: BTreeMap<(u32, u32), (u32, u32, Option<u32>)> = mesh
@@ -88,10 +95,10 @@ impl Mesh2d {
         mesh.counterface = counterface(&mesh, contact, specification)?;
         let counterface = mesh.counterface;
         let angles = mesh
-            .nodes
-            .iter()
-            .map(|&point| counterface.normal_angle(point));
-        mesh.frame_angles = angles.collect();
+            .plane_nodes()
+            .into_iter()
+            .map(|point| counterface.normal_angle(point));
+        mesh.frames = NodalFrames::Plane(angles.collect());
         let mut edge = contact_boundary(&mesh, contact, &specification.contact)?;
         edge.order_along(&mesh);
         let mut boundaries = vec![edge];
@@ -212,16 +219,17 @@ fn check_along(
 
 /// The counterface where the contact curve puts it.
 fn counterface(
-    mesh: &Mesh2d,
+    mesh: &Mesh,
     contact: &Curve,
     specification: &BodySpecification,
 ) -> Result<Counterface, MeshFileError> {
-    let points = contact.nodes.iter().map(|&node| mesh.nodes[node as usize]);
+    let nodes = contact.nodes.iter();
+    let points = nodes.map(|&node| mesh.plane_node(node as usize));
     match specification.counterface {
         CounterfaceSpecification::Plane { direction } => {
             let last = contact.edges.len() - 1;
             let ends = [contact.edges[0].0, contact.edges[last].1];
-            let [from, to] = ends.map(|node| mesh.nodes[node as usize]);
+            let [from, to] = ends.map(|node| mesh.plane_node(node as usize));
             let [x, y] = direction.unwrap_or([to[0] - from[0], to[1] - from[1]]);
             let length = x.hypot(y);
             let direction = [x / length, y / length];
@@ -262,7 +270,7 @@ fn counterface(
                 .edges
                 .iter()
                 .map(|&(p, q, _)| {
-                    let [p, q] = [p, q].map(|node| mesh.nodes[node as usize]);
+                    let [p, q] = [p, q].map(|node| mesh.plane_node(node as usize));
                     let middle = [
                         0.5 * (p[0] + q[0]) - center[0],
                         0.5 * (p[1] + q[1]) - center[1],
@@ -280,15 +288,15 @@ fn counterface(
 }
 
 /// The contact edge with its weights along the counterface's normal.
-fn contact_boundary(mesh: &Mesh2d, curve: &Curve, name: &str) -> Result<Boundary, MeshFileError> {
+fn contact_boundary(mesh: &Mesh, curve: &Curve, name: &str) -> Result<Boundary, MeshFileError> {
     let weights = EdgeWeights::of(mesh, curve);
     let mut lengths = Vec::new();
     for (&node, vector) in curve.nodes.iter().zip(&weights.normals) {
-        let (sin, cos) = mesh.frame_angles[node as usize].sin_cos();
+        let (sin, cos) = mesh.frame_angles()[node as usize].sin_cos();
         let length = -(vector[0] * cos + vector[1] * sin);
         // A face along the normal leaves round-off of either sign.
         if length <= 1e-6 * vector[0].hypot(vector[1]) {
-            let [x, y] = mesh.nodes[node as usize];
+            let [x, y] = mesh.plane_node(node as usize);
             let part = match mesh.counterface {
                 Counterface::Plane { .. } => BodyPart::Direction,
                 Counterface::Cylinder { .. } => BodyPart::Contact,
@@ -305,6 +313,7 @@ fn contact_boundary(mesh: &Mesh2d, curve: &Curve, name: &str) -> Result<Boundary
     Ok(Boundary {
         name: name.to_owned(),
         nodes: curve.nodes.clone(),
+        faces: mesh.edge_faces(&curve.edges),
         tributary_lengths: lengths,
         normal_angles: weights.normal_angles(),
         is_closed: curve.is_closed,
@@ -312,9 +321,9 @@ fn contact_boundary(mesh: &Mesh2d, curve: &Curve, name: &str) -> Result<Boundary
     })
 }
 
-/// A boundary with its condition; a guide turns the frames of its nodes, but for those of the contact.
+/// A boundary with its condition; a guide or a fixed direction turns the frames of its nodes, but for those of the contact.
 fn held_boundary(
-    mesh: &mut Mesh2d,
+    mesh: &mut Mesh,
     curve: &Curve,
     name: &str,
     condition: BoundaryCondition,
@@ -322,17 +331,26 @@ fn held_boundary(
 ) -> Boundary {
     let weights = EdgeWeights::of(mesh, curve);
     let normal_angles = weights.normal_angles();
-    if condition == BoundaryCondition::Guide {
+    if matches!(
+        condition,
+        BoundaryCondition::Guide | BoundaryCondition::Fixed(_)
+    ) {
+        let mut angles = mesh.frame_angles().to_vec();
         let contact: BTreeSet<u32> = contact.iter().copied().collect();
         for (&node, &angle) in curve.nodes.iter().zip(&normal_angles) {
             if !contact.contains(&node) {
-                mesh.frame_angles[node as usize] = angle;
+                angles[node as usize] = match condition {
+                    BoundaryCondition::Fixed(_) => 0.0,
+                    _ => angle,
+                };
             }
         }
+        mesh.frames = NodalFrames::Plane(angles);
     }
     Boundary {
         name: name.to_owned(),
         nodes: curve.nodes.clone(),
+        faces: mesh.edge_faces(&curve.edges),
         tributary_lengths: weights.lengths,
         normal_angles,
         is_closed: curve.is_closed,

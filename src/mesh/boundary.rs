@@ -1,6 +1,7 @@
 //! Named boundaries of a body, and what holds them.
 
-use super::{Counterface, Mesh2d};
+use super::{Counterface, FaceKind, Mesh};
+use std::f64::consts::FRAC_PI_2;
 
 /// Distributed springs and dashpots along a boundary, for each unit of its area.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -26,6 +27,8 @@ pub enum BoundaryCondition {
     Support(ElasticSupport),
     /// No motion along the normal, free tangentially.
     Guide,
+    /// No motion along some of the global axes `(x, y, z)`.
+    Fixed([bool; 3]),
     /// A dead pressure that pushes onto the body, Pa.
     Pressure(f64),
     /// Nothing.
@@ -33,20 +36,35 @@ pub enum BoundaryCondition {
     Free,
 }
 
-/// A named curve of edges, its nodes in order along it.
+/// A face of an element on the surface of a solid body, or an edge on the rim of a plane one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BoundaryFace {
+    /// Its kind.
+    pub kind: FaceKind,
+    /// The element that it belongs to.
+    pub element: u32,
+    /// 0-based nodes in the order of [`FaceKind`], the normal pointing out of the body.
+    pub nodes: Vec<u32>,
+}
+
+/// A named part of the surface of a body: a curve of edges in the plane, faces of a solid.
 ///
 /// On the annulus `inner` and `outer`, in order of rising angle; corner and mid-side nodes alike.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Boundary {
     /// Its name.
     pub name: String,
-    /// 0-based node indices along the boundary.
+    /// 0-based node indices, of a curve in order along it, of a surface ascending.
     pub nodes: Vec<u32>,
-    /// Tributary length of each node, m. Where the node's frame is that of the contact or of a guide,
+    /// Its faces, or edges in the plane.
+    pub faces: Vec<BoundaryFace>,
+    /// Tributary length of each node, m. Of a surface the area `∫ N_i dA`, m2, which is not positive at corners of quadratic
+    /// faces. Where the node's frame is that of the contact or of a guide,
     /// `∫ N_i |n . e_i| ds` with `n` the boundary's normal and `e_i` the node's first axis: the force that unit
     /// pressure exerts along that axis. `∫ N_i ds` elsewhere.
     pub tributary_lengths: Vec<f64>,
-    /// Direction of the outward normal at each node, an angle from +x, rad.
+    /// Direction of the outward normal at each node of a plane curve, an angle from +x, rad; the normals of a surface are
+    /// those of its faces.
     pub normal_angles: Vec<f64>,
     /// Whether the curve closes on itself.
     pub is_closed: bool,
@@ -57,8 +75,8 @@ pub struct Boundary {
 impl Boundary {
     /// Puts the nodes of the contact edge in the order in which their places along the counterface rise; a closed edge
     /// begins at the smallest angle from 0 on.
-    pub(super) fn order_along(&mut self, mesh: &Mesh2d) {
-        let place = |node: u32| mesh.counterface.place(mesh.nodes[node as usize]);
+    pub(super) fn order_along(&mut self, mesh: &Mesh) {
+        let place = |node: u32| mesh.counterface.place(mesh.plane_node(node as usize));
         let turned = |angle: f64| angle.rem_euclid(std::f64::consts::TAU);
         if let (Counterface::Cylinder { .. }, [first, second, ..]) =
             (mesh.counterface, &self.nodes[..])
@@ -92,7 +110,7 @@ pub struct NodalSupport {
     pub damping: [[f64; 2]; 2],
 }
 
-impl Mesh2d {
+impl Mesh {
     /// Springs and dashpots of every support, node by node, `w_i (k_n n n^T + k_t t t^T)`: the integral over the
     /// boundary with its tributary lengths as weights.
     pub fn nodal_supports(&self) -> Vec<NodalSupport> {
@@ -105,7 +123,7 @@ impl Mesh2d {
             for ((&node, &length), &normal) in nodes.zip(&boundary.normal_angles) {
                 let node = node as usize;
                 // A multiple of a quarter turn leaves the matrix exactly diagonal.
-                let turn = normal - self.frame_angles[node];
+                let turn = normal - self.frame_angles()[node];
                 let is_straight = turn.sin().abs() < 1e-12;
                 let (sin, cos) = if is_straight {
                     (0.0, 1.0)
@@ -141,7 +159,7 @@ impl Mesh2d {
             let nodes = boundary.nodes.iter().zip(&boundary.tributary_lengths);
             for ((&node, &length), &normal) in nodes.zip(&boundary.normal_angles) {
                 let node = node as usize;
-                let (sin, cos) = (normal - self.frame_angles[node]).sin_cos();
+                let (sin, cos) = (normal - self.frame_angles()[node]).sin_cos();
                 forces[2 * node] -= pressure * length * cos;
                 forces[2 * node + 1] -= pressure * length * sin;
             }
@@ -151,21 +169,33 @@ impl Mesh2d {
 
     /// Dofs that boundary conditions hold at zero.
     ///
-    /// A guide holds the axis of the node's frame along its normal; both where neither axis is.
-    pub fn held_dofs(&self) -> impl Iterator<Item = usize> + '_ {
-        self.boundaries.iter().flat_map(move |boundary| {
-            let nodes = boundary.nodes.iter().zip(&boundary.normal_angles);
-            nodes.flat_map(move |(&node, normal)| {
+    /// A guide holds the axis of the node's frame along its normal; both where neither axis is. A fixed direction of the plane
+    /// is held as a guide across it.
+    pub fn held_dofs(&self) -> std::vec::IntoIter<usize> {
+        if self.dimension == 3 {
+            return self.held_solid_dofs().into_iter();
+        }
+        let mut held = Vec::new();
+        for boundary in &self.boundaries {
+            for (&node, &normal) in boundary.nodes.iter().zip(&boundary.normal_angles) {
                 let node = node as usize;
-                let (sin, cos) = (normal - self.frame_angles[node]).sin_cos();
-                let (first, second) = match boundary.condition {
-                    BoundaryCondition::Clamped => (true, true),
-                    BoundaryCondition::Guide => (sin.abs() < 0.99, cos.abs() < 0.99),
-                    _ => (false, false),
+                let guide = |normal: f64| {
+                    let (sin, cos) = (normal - self.frame_angles()[node]).sin_cos();
+                    [sin.abs() < 0.99, cos.abs() < 0.99]
                 };
-                let held = [first.then_some(2 * node), second.then_some(2 * node + 1)];
-                held.into_iter().flatten()
-            })
-        })
+                let [first, second] = match boundary.condition {
+                    BoundaryCondition::Clamped => [true; 2],
+                    BoundaryCondition::Guide => guide(normal),
+                    BoundaryCondition::Fixed([x, y, _]) => {
+                        let [along, across] = [guide(0.0), guide(FRAC_PI_2)];
+                        [0, 1].map(|axis| x && along[axis] || y && across[axis])
+                    }
+                    _ => [false; 2],
+                };
+                held.extend(first.then_some(2 * node));
+                held.extend(second.then_some(2 * node + 1));
+            }
+        }
+        held.into_iter()
     }
 }

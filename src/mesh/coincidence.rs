@@ -1,6 +1,6 @@
 //! Nodes in one place that are not one node, elements given twice, and free edges: parts that were not merged.
 
-use super::Mesh2d;
+use super::Mesh;
 use super::gmsh::{GmshFile, MeshFileError};
 use std::collections::{BTreeMap, HashMap};
 
@@ -130,7 +130,7 @@ impl std::fmt::Display for UnmergedNodes {
     }
 }
 
-impl Mesh2d {
+impl Mesh {
     /// Edges of one element alone that belong to no named boundary.
     pub fn unnamed_edge_count(&self) -> usize {
         let mut boundaries_of: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
@@ -169,7 +169,7 @@ impl Mesh2d {
         pairs.retain(|&(p, q)| !slides(p, q));
         let first = pairs.iter().take(NAMED).map(|&(p, q)| {
             let labels = [p, q].map(|node| self.node_label(node as usize));
-            (labels, self.nodes[p as usize])
+            (labels, self.plane_node(p as usize))
         });
         (!pairs.is_empty()).then(|| UnmergedNodes {
             count: pairs.len(),

@@ -1,6 +1,6 @@
 //! Curves of element edges: their order and the lengths that belong to their nodes.
 
-use super::Mesh2d;
+use super::Mesh;
 use super::gmsh::{CurveEdge, MeshFileError};
 use std::collections::BTreeMap;
 
@@ -130,7 +130,7 @@ pub(super) struct EdgeWeights {
 
 impl EdgeWeights {
     /// Exact on straight edges; three Gauss points on parabolas.
-    pub fn of(mesh: &Mesh2d, curve: &Curve) -> Self {
+    pub fn of(mesh: &Mesh, curve: &Curve) -> Self {
         let place: BTreeMap<u32, usize> = curve
             .nodes
             .iter()
@@ -157,7 +157,7 @@ impl EdgeWeights {
                 };
                 let mut tangent = [0.0; 2];
                 for (&node, shape) in nodes.iter().zip(&shapes) {
-                    let [x, y] = mesh.nodes[node as usize];
+                    let [x, y] = mesh.plane_node(node as usize);
                     tangent[0] += shape.1 * x;
                     tangent[1] += shape.1 * y;
                 }

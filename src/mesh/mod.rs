@@ -1,5 +1,5 @@
-//! Nodes, elements, regions and boundaries of a plane body, and where bodies come from: the annulus generator
-//! and the reader of Gmsh files.
+//! Nodes, elements, regions and boundaries of plane and solid bodies, the generator of the annulus, and the reader of Gmsh
+//! files.
 
 mod annulus;
 mod body;
@@ -8,6 +8,8 @@ mod coincidence;
 mod counterface;
 mod curve;
 mod element;
+mod faces;
+mod frames;
 mod gmsh;
 mod plane_body;
 mod quality;
@@ -16,35 +18,40 @@ mod rim;
 mod sector;
 mod sectors;
 mod solid;
+mod solid_body;
 mod specification;
 
 pub use annulus::AnnulusMesh;
 pub use body::{BodySpecification, CounterfaceSpecification};
-pub use boundary::{Boundary, BoundaryCondition, ElasticSupport, NodalSupport};
+pub use boundary::{Boundary, BoundaryCondition, BoundaryFace, ElasticSupport, NodalSupport};
 pub use coincidence::{UnmergedNodes, coincident_nodes};
 pub use counterface::Counterface;
-pub use element::{ElementKind, QuadraturePoint, Shape};
-pub use gmsh::{BodyPart, GmshFile, MeshFileError};
+pub use element::{ElementKind, FaceKind, FacePoint, QuadraturePoint, Shape};
+pub use frames::NodalFrames;
+pub use gmsh::{BodyPart, CurveEdge, FileElement, GmshFile, MeshFileError, SurfaceFace};
 pub use quality::MeshQuality;
 pub use sector::SectorMesh;
 pub use solid::{
-    BrickShape, ContactRing, FaceElement, SheetNode, SolidContact, SolidFace, SolidSector,
-    SolidSpecification, brick_places, brick_quadrature, brick_shapes, face_quadrature, face_shapes,
+    ContactRing, FaceElement, SheetNode, SolidContact, SolidFace, SolidSector, SolidSpecification,
+    face_quadrature, face_shapes,
 };
 pub use specification::{AnnulusSpecification, MeshError, ShaftSpecification};
 
-/// Nodes, elements, regions and named boundaries of a plane body.
+use nalgebra::Matrix3;
+
+/// Nodes, elements, regions and named boundaries of a body of two or three dimensions, or of several bodies.
 ///
-/// Each node carries a local frame `(e_1, e_2)` turned counter-clockwise from the global axes by
-/// `frame_angles[i]`; all nodal displacement vectors and matrices of this crate are written in these
-/// frames. On the annulus the frame is the polar one, `(e_r, e_theta)`.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Mesh2d {
-    /// Cartesian coordinates of each node, m.
-    pub nodes: Vec<[f64; 2]>,
-    /// Angle of each node's local frame, rad.
-    pub frame_angles: Vec<f64>,
-    /// Shape of each element.
+/// Each node carries a local frame (see [`NodalFrames`]); all nodal displacement vectors and matrices of this crate are written
+/// in these frames, dof `dimension * node + axis`. On the annulus the frame is the polar one, `(e_r, e_theta)`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mesh {
+    /// 2 for a plane body, 3 for a solid one: components of a node's displacement.
+    pub dimension: usize,
+    /// Cartesian coordinates of each node, m; `z = 0` in the plane.
+    pub nodes: Vec<[f64; 3]>,
+    /// Local frame of each node.
+    pub frames: NodalFrames,
+    /// Kind of each element.
     pub element_kinds: Vec<ElementKind>,
     /// Where each element's nodes begin in `elements`, and the end of the last.
     pub element_starts: Vec<u32>,
@@ -61,20 +68,76 @@ pub struct Mesh2d {
     pub labels: Vec<usize>,
     /// Named boundaries.
     pub boundaries: Vec<Boundary>,
-    /// Which boundary is the contact edge.
+    /// Which boundary of a plane body is the contact edge.
     pub contact: usize,
-    /// The boundary of the other body that it slides on; `None` for a rigid counterface.
+    /// The boundary of the other plane body that it slides on; `None` for a rigid counterface.
     pub opposite: Option<usize>,
-    /// What slides along it; of two bodies the surface that both bound, as it is undeformed. The frames of its nodes are those of this surface.
+    /// What slides along the contact edge; of two bodies the surface that both bound, as it is undeformed. The frames of its
+    /// nodes are those of this surface.
     pub counterface: Counterface,
     /// Whether the body is a uniform annulus, all of whose sectors are alike.
     pub is_cyclic: bool,
 }
 
-impl Mesh2d {
+/// A plane mesh without nodes.
+impl Default for Mesh {
+    fn default() -> Self {
+        Self {
+            dimension: 2,
+            nodes: Vec::new(),
+            frames: NodalFrames::Plane(Vec::new()),
+            element_kinds: Vec::new(),
+            element_starts: Vec::new(),
+            elements: Vec::new(),
+            congruent_to: Vec::new(),
+            regions: Vec::new(),
+            element_regions: Vec::new(),
+            labels: Vec::new(),
+            boundaries: Vec::new(),
+            contact: 0,
+            opposite: None,
+            counterface: Counterface::default(),
+            is_cyclic: false,
+        }
+    }
+}
+
+impl Mesh {
     /// Number of nodes.
     pub fn node_count(&self) -> usize {
         self.nodes.len()
+    }
+
+    /// Number of degrees of freedom, held ones included.
+    pub fn dof_count(&self) -> usize {
+        self.dimension * self.nodes.len()
+    }
+
+    /// Coordinates `(x, y)` of a node, m.
+    pub fn plane_node(&self, node: usize) -> [f64; 2] {
+        let [x, y, _] = self.nodes[node];
+        [x, y]
+    }
+
+    /// Coordinates `(x, y)` of all nodes, m.
+    pub fn plane_nodes(&self) -> Vec<[f64; 2]> {
+        self.nodes.iter().map(|&[x, y, _]| [x, y]).collect()
+    }
+
+    /// Unit vectors of a node's frame as columns.
+    pub fn frame(&self, node: usize) -> Matrix3<f64> {
+        self.frames.frame(node)
+    }
+
+    /// Angles of the frames of a plane body's nodes, rad.
+    ///
+    /// # Panics
+    /// For a solid body, whose frames are no angles.
+    pub fn frame_angles(&self) -> &[f64] {
+        match &self.frames {
+            NodalFrames::Plane(angles) => angles,
+            NodalFrames::Solid(_) => panic!("the nodal frames of a solid body are no angles"),
+        }
     }
 
     /// Number of elements.
@@ -116,14 +179,14 @@ impl Mesh2d {
     /// counterface, `e_r` about a shaft. It is that of the node's frame but along a guide.
     pub fn reported_angle(&self, node: usize) -> f64 {
         match self.is_cyclic {
-            true => self.frame_angles[node],
-            false => self.counterface.normal_angle(self.nodes[node]),
+            true => self.frame_angles()[node],
+            false => self.counterface.normal_angle(self.plane_node(node)),
         }
     }
 
     /// Index of the node that lies nearest to a point, and its distance, m; the first of several.
     pub fn nearest_node(&self, point: [f64; 2]) -> Option<(usize, f64)> {
-        let distance = |p: &[f64; 2]| (p[0] - point[0]).hypot(p[1] - point[1]);
+        let distance = |p: &[f64; 3]| (p[0] - point[0]).hypot(p[1] - point[1]);
         let nodes = self.nodes.iter().map(distance).enumerate();
         nodes.min_by(|a, b| a.1.total_cmp(&b.1))
     }
@@ -151,7 +214,7 @@ impl Mesh2d {
         is_shaft && self.contact_edge().is_closed
     }
 
-    /// Corner points of an element's outline with mid-side nodes between them where it has any.
+    /// Corner points of a plane element's outline with mid-side nodes between them where it has any.
     pub fn element_outline(&self, element: usize) -> Vec<u32> {
         let nodes = self.element_nodes(element);
         let around = self.element_kind(element).outline().into_iter();
@@ -185,31 +248,5 @@ impl Mesh2d {
         firsts.dedup();
         let number = |first| firsts.partition_point(|other| other < first);
         lowest.iter().map(number).collect()
-    }
-
-    /// Edges that belong to one element only, as `(start, end, middle)` with the body on their left.
-    pub fn outline_edges(&self) -> Vec<(u32, u32, Option<u32>)> {
-        let mut edges: Vec<_> = (0..self.element_count())
-            .flat_map(|element| {
-                let (kind, nodes) = (self.element_kind(element), self.element_nodes(element));
-                (0..kind.corner_count()).map(move |edge| {
-                    let (p, q, m) = kind.edge(edge);
-                    let (p, q) = (nodes[p], nodes[q]);
-                    let middle = m.map(|m| nodes[m]);
-                    ((p.min(q), p.max(q)), element, edge, (p, q, middle))
-                })
-            })
-            .collect();
-        edges.sort_unstable();
-        let is_alone = |i: usize| {
-            let same = |j: usize| edges.get(j).is_some_and(|other| other.0 == edges[i].0);
-            !(same(i + 1) || i > 0 && same(i - 1))
-        };
-        let mut alone: Vec<_> = (0..edges.len())
-            .filter(|&i| is_alone(i))
-            .map(|i| edges[i])
-            .collect();
-        alone.sort_unstable_by_key(|&(_, element, edge, _)| (element, edge));
-        alone.into_iter().map(|(.., nodes)| nodes).collect()
     }
 }

@@ -1,8 +1,8 @@
 //! Nodes and elements of a mesh file as a plane body.
 
-use super::Mesh2d;
 use super::coincidence::refuse_doubled_elements;
-use super::gmsh::{BodyPart, GmshFile, MeshFileError, PlaneElement};
+use super::gmsh::{BodyPart, FileElement, GmshFile, MeshFileError};
+use super::{Mesh, NodalFrames};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Distances of the farthest node from the origin within which a body lies, m.
@@ -36,15 +36,15 @@ pub(super) fn used_nodes(file: &GmshFile) -> Result<Vec<Option<u32>>, MeshFileEr
 }
 
 /// Nodes and elements, counter-clockwise, without boundaries.
-pub(super) fn plane_body(file: &GmshFile, scale: f64) -> Result<Mesh2d, MeshFileError> {
+pub(super) fn plane_body(file: &GmshFile, scale: f64) -> Result<Mesh, MeshFileError> {
     let index_of = used_nodes(file)?;
     let count = index_of.iter().flatten().count();
-    let mut mesh = Mesh2d {
-        nodes: vec![[0.0; 2]; count],
-        frame_angles: vec![0.0; count],
+    let mut mesh = Mesh {
+        nodes: vec![[0.0; 3]; count],
+        frames: NodalFrames::global(2, count),
         element_starts: vec![0],
         labels: vec![0; count],
-        ..Mesh2d::default()
+        ..Mesh::default()
     };
     let depth = file.points[file.elements[0].nodes[0] as usize][2];
     let size = file
@@ -61,7 +61,7 @@ pub(super) fn plane_body(file: &GmshFile, scale: f64) -> Result<Mesh2d, MeshFile
                 file.labels[node]
             )));
         }
-        mesh.nodes[index as usize] = [scale * x, scale * y];
+        mesh.nodes[index as usize] = [scale * x, scale * y, 0.0];
         mesh.labels[index as usize] = file.labels[node];
     }
     let names: BTreeSet<&str> = file.elements.iter().map(|e| &*e.region).collect();
@@ -122,7 +122,7 @@ fn check_size(file: &GmshFile, size: f64, scale: f64) -> Result<(), MeshFileErro
 
 /// Surfaces whose elements run clockwise, all of them: the surface is turned over, its elements are sound.
 fn reversed_surfaces(file: &GmshFile) -> Result<BTreeSet<i64>, MeshFileError> {
-    let area = |element: &PlaneElement| {
+    let area = |element: &FileElement| {
         let corners = element.kind.corner_count();
         let at = |i: usize| file.points[element.nodes[i % corners] as usize];
         let cross = |p: [f64; 3], q: [f64; 3]| p[0] * q[1] - p[1] * q[0];

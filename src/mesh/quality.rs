@@ -1,7 +1,7 @@
 //! Checks of element shape and of supports that hold the body.
 
 use super::gmsh::MeshFileError;
-use super::{BoundaryCondition, Mesh2d};
+use super::{BoundaryCondition, Mesh};
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 
 /// How good the elements of a mesh are.
@@ -20,38 +20,66 @@ pub struct MeshQuality {
     pub largest_edge: f64,
 }
 
-impl Mesh2d {
-    /// Jacobian determinant of an element at a parent point, m2.
-    fn jacobian(&self, element: usize, (xi, eta): (f64, f64)) -> f64 {
-        let shapes = self.element_kind(element).shape_functions(xi, eta);
-        let mut matrix = [[0.0; 2]; 2];
-        for ((_, slope), &node) in shapes.iter().zip(self.element_nodes(element)) {
+impl Mesh {
+    /// Jacobian determinant of an element at a parent point, m2 or m3.
+    fn jacobian(&self, element: usize, at: [f64; 3]) -> f64 {
+        let shapes = self.element_kind(element).shape_functions(at);
+        let mut rows = [[0.0; 3]; 3];
+        if self.dimension == 2 {
+            rows[2][2] = 1.0;
+        }
+        for ((_, slopes), &node) in shapes.iter().zip(self.element_nodes(element)) {
             let point = self.nodes[node as usize];
-            for (row, slope) in matrix.iter_mut().zip(slope) {
-                row[0] += slope * point[0];
-                row[1] += slope * point[1];
+            for (row, slope) in rows.iter_mut().zip(slopes) {
+                (0..3).for_each(|axis| row[axis] += slope * point[axis]);
             }
         }
-        matrix[0][0] * matrix[1][1] - matrix[0][1] * matrix[1][0]
+        let [a, b, c] = rows;
+        let cross = [
+            b[1] * c[2] - b[2] * c[1],
+            b[2] * c[0] - b[0] * c[2],
+            b[0] * c[1] - b[1] * c[0],
+        ];
+        a[0] * cross[0] + a[1] * cross[1] + a[2] * cross[2]
     }
 
     /// Smallest over largest Jacobian determinant of an element.
-    fn jacobian_ratio(&self, element: usize) -> f64 {
+    pub fn jacobian_ratio(&self, element: usize) -> f64 {
         let kind = self.element_kind(element);
-        let quadrature = kind.quadrature().into_iter().map(|(xi, eta, _)| (xi, eta));
-        let values = kind.node_places().into_iter().chain(quadrature);
+        let quadrature = kind.quadrature().into_iter().map(|(place, _)| place);
+        let places = kind.node_places().into_iter().chain(quadrature);
         let (mut low, mut high) = (f64::INFINITY, 0.0_f64);
-        for value in values.map(|point| self.jacobian(element, point)) {
+        for value in places.map(|place| self.jacobian(element, place)) {
             low = low.min(value);
             high = high.max(value.abs());
         }
         if high > 0.0 { low / high } else { 0.0 }
     }
 
+    /// Volume of an element of a solid body, m3; area of a plane element, m2.
+    pub fn element_measure(&self, element: usize) -> f64 {
+        if self.dimension == 2 {
+            return self.element_area(element);
+        }
+        let points = self.element_kind(element).quadrature().into_iter();
+        points
+            .map(|(place, weight)| weight * self.jacobian(element, place))
+            .sum()
+    }
+
+    /// Volume of each region of a solid body, m3; area in the plane, m2.
+    pub fn region_measures(&self) -> Vec<f64> {
+        let mut measures = vec![0.0; self.regions.len()];
+        for element in 0..self.element_count() {
+            measures[self.region(element)] += self.element_measure(element);
+        }
+        measures
+    }
+
     /// Area of an element, m2; quadratic edges are parabolas.
     pub fn element_area(&self, element: usize) -> f64 {
         let outline = self.element_outline(element).into_iter();
-        let points: Vec<[f64; 2]> = outline.map(|node| self.nodes[node as usize]).collect();
+        let points: Vec<[f64; 2]> = outline.map(|node| self.plane_node(node as usize)).collect();
         let cross = |p: [f64; 2], q: [f64; 2]| p[0] * q[1] - p[1] * q[0];
         let count = points.len();
         if !self.element_kind(element).is_quadratic() {
@@ -92,10 +120,12 @@ impl Mesh2d {
                 (quality.worst_jacobian, quality.worst_element) = (ratio, element);
             }
             let (kind, nodes) = (self.element_kind(element), self.element_nodes(element));
-            let lengths = (0..kind.corner_count()).map(|edge| {
-                let (p, q, _) = kind.edge(edge);
-                let [p, q] = [p, q].map(|local| self.nodes[nodes[local] as usize]);
-                (p[0] - q[0]).hypot(p[1] - q[1])
+            let lengths = kind.edges().iter().map(|ends| {
+                let [p, q] = ends.map(|local| self.nodes[nodes[local] as usize]);
+                match self.dimension {
+                    2 => (p[0] - q[0]).hypot(p[1] - q[1]),
+                    _ => (p[0] - q[0]).hypot(p[1] - q[1]).hypot(p[2] - q[2]),
+                }
             });
             let (low, high) = lengths.fold((f64::INFINITY, 0.0_f64), |(low, high), length| {
                 (low.min(length), high.max(length))
@@ -120,10 +150,20 @@ impl Mesh2d {
                     .map(|&node| self.labels[node as usize].to_string())
                     .collect();
                 Err(MeshFileError::Body(format!(
-                    "element {} (nodes {}) is inverted or has no area: its Jacobian is not positive everywhere; mesh the \
-                     surface again, finer where it curves",
+                    "element {} (nodes {}) is inverted or has no {}: its Jacobian is not positive everywhere; mesh the \
+                     {} again, finer where it curves",
                     label(element),
-                    nodes.join(", ")
+                    nodes.join(", "),
+                    if self.dimension == 3 {
+                        "volume"
+                    } else {
+                        "area"
+                    },
+                    if self.dimension == 3 {
+                        "volume"
+                    } else {
+                        "surface"
+                    },
                 )))
             }
             None => Ok(()),
@@ -150,19 +190,21 @@ impl Mesh2d {
                     support.tangential_stiffness > 0.0,
                 ),
                 BoundaryCondition::Guide => (true, false),
+                // Held along x, along y.
+                BoundaryCondition::Fixed([x, y, _]) => (x, y),
                 BoundaryCondition::Pressure(_) | BoundaryCondition::Free => (false, false),
             };
             for (&node, &normal) in boundary.nodes.iter().zip(&boundary.normal_angles) {
                 let mut hold = |angle: f64| {
                     let (sin, cos) = angle.sin_cos();
-                    let [x, y] = self.nodes[node as usize];
+                    let [x, y] = self.plane_node(node as usize);
                     let row = Vector3::new(cos, sin, (x * sin - y * cos) / size);
                     held[part[node as usize]] += row * row.transpose();
                 };
-                let normal = if b == self.contact {
-                    self.frame_angles[node as usize]
-                } else {
-                    normal
+                let normal = match boundary.condition {
+                    _ if b == self.contact => self.frame_angles()[node as usize],
+                    BoundaryCondition::Fixed(_) => 0.0,
+                    _ => normal,
                 };
                 if along {
                     hold(normal);
@@ -176,11 +218,9 @@ impl Mesh2d {
             let eigen = SymmetricEigen::new(held);
             let (low, high) = (eigen.eigenvalues.min(), eigen.eigenvalues.max());
             if !(low > 1e-9 * high && high > 0.0) {
-                let node = part
-                    .iter()
-                    .position(|&p| p == k)
-                    .expect("every part has a node");
-                let [x, y] = self.nodes[node];
+                let node = part.iter().position(|&p| p == k);
+                let node = node.expect("every part has a node");
+                let [x, y] = self.plane_node(node);
                 let names: Vec<&str> = self.boundaries.iter().map(|b| b.name.as_str()).collect();
                 let unmerged = match self.unmerged_nodes() {
                     Some(found) if parts > 1 => {

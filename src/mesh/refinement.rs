@@ -1,6 +1,6 @@
 //! Uniform refinement of a mesh file: every element into four.
 
-use super::gmsh::{CurveEdge, GmshFile, MeshFileError, PlaneElement};
+use super::gmsh::{CurveEdge, FileElement, GmshFile, MeshFileError};
 use super::rim::Rim;
 use std::collections::BTreeMap;
 
@@ -25,8 +25,13 @@ impl GmshFile {
     /// it is quadratic.
     ///
     /// # Errors
-    /// [`MeshFileError::Body`] for a mesh that would have too many nodes.
+    /// [`MeshFileError::Body`] for a mesh that would have too many nodes, or of solid elements.
     pub fn refined(&self) -> Result<Self, MeshFileError> {
+        if self.dimension == 3 {
+            return Err(MeshFileError::Body(
+                "solid elements are not refined here: mesh the volume finer (Mesh.MeshSizeFactor in Gmsh)".to_owned(),
+            ));
+        }
         if self.points.len().saturating_mul(4) > MOST_NODES {
             return Err(MeshFileError::Body(format!(
                 "a refinement of {} nodes has more than {MOST_NODES}: refine less",
@@ -138,7 +143,7 @@ impl<'a> Refinement<'a> {
     }
 
     /// The four parts of an element.
-    fn split(&mut self, element: &PlaneElement) {
+    fn split(&mut self, element: &FileElement) {
         let (kind, nodes) = (element.kind, &element.nodes);
         let corners = kind.corner_count();
         let edges: Vec<SplitEdge> = (0..corners)
@@ -151,7 +156,7 @@ impl<'a> Refinement<'a> {
         // Outline of each part: corners, then mid-side nodes.
         let mut parts: Vec<(Vec<u32>, Vec<u32>)> = Vec::with_capacity(4);
         let at = |refinement: &mut Self, xi: f64, eta: f64| {
-            let shapes = kind.shape_functions(xi, eta).into_iter();
+            let shapes = kind.shape_functions([xi, eta, 0.0]).into_iter();
             let point = refinement.combined(nodes, shapes.map(|shape| shape.0));
             refinement.node(point)
         };
@@ -208,7 +213,7 @@ impl<'a> Refinement<'a> {
             }
         }
         for (around, mids) in parts {
-            self.fine.elements.push(PlaneElement {
+            self.fine.elements.push(FileElement {
                 label: self.fine.elements.len() + 1,
                 nodes: [around, mids].concat(),
                 region: element.region.clone(),

@@ -2,7 +2,7 @@
 
 use super::sectors::{Ray, build, rays};
 use super::specification::{AnnulusSpecification, MeshError, validate};
-use super::{BoundaryCondition, Mesh2d};
+use super::{BoundaryCondition, Mesh};
 
 /// One sector of an annulus mesh, without the others.
 ///
@@ -12,7 +12,7 @@ use super::{BoundaryCondition, Mesh2d};
 #[derive(Clone, Debug, PartialEq)]
 pub struct SectorMesh {
     /// The elements of sector 0; nodes of sectors 0 and 1 numbered as in the full mesh.
-    pub strip: Mesh2d,
+    pub strip: Mesh,
     /// What the full mesh would be generated from.
     pub specification: AnnulusSpecification,
     /// Sector node of each strip node: nodes one sector apart share it.

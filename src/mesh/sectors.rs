@@ -1,6 +1,6 @@
 //! The sectors of an annulus and its shaft: nodes, elements and edges.
 
-use super::{AnnulusSpecification, Boundary, BoundaryCondition, Counterface, Mesh2d};
+use super::{AnnulusSpecification, Boundary, BoundaryCondition, Counterface, Mesh, NodalFrames};
 use std::f64::consts::{PI, TAU};
 
 /// One body along a radius: the shaft or the annulus.
@@ -92,7 +92,7 @@ pub(super) fn graded_radii(spec: &AnnulusSpecification) -> Vec<f64> {
 }
 
 /// The first `built` sectors: all of them, or one with the corner ray that it shares with the next.
-pub(super) fn build(spec: &AnnulusSpecification, built: usize) -> Mesh2d {
+pub(super) fn build(spec: &AnnulusSpecification, built: usize) -> Mesh {
     let sectors = spec.circumferential_elements;
     let rays = rays(spec);
     let node_sectors = if built < sectors { built + 1 } else { sectors };
@@ -100,7 +100,7 @@ pub(super) fn build(spec: &AnnulusSpecification, built: usize) -> Mesh2d {
     let mut nodes = Vec::with_capacity(node_total);
     let mut frame_angles = Vec::with_capacity(node_total);
     let mut push = |radius: f64, angle: f64| {
-        nodes.push([radius * angle.cos(), radius * angle.sin()]);
+        nodes.push([radius * angle.cos(), radius * angle.sin(), 0.0]);
         frame_angles.push(angle);
     };
     for sector in 0..node_sectors {
@@ -123,7 +123,8 @@ pub(super) fn build(spec: &AnnulusSpecification, built: usize) -> Mesh2d {
     mesh.boundaries = boundaries(spec, &rays, built, &frame_angles);
     mesh.opposite = spec.shaft.map(|_| SHAFT_EDGE);
     mesh.nodes = nodes;
-    mesh.frame_angles = frame_angles;
+    mesh.frames = NodalFrames::Plane(frame_angles);
+    mesh.add_edges_of_boundaries();
     mesh.counterface = Counterface::Cylinder {
         center: [0.0; 2],
         radius: spec.inner_radius,
@@ -134,13 +135,13 @@ pub(super) fn build(spec: &AnnulusSpecification, built: usize) -> Mesh2d {
 }
 
 /// Elements and regions, sector by sector from the inside out; each element's representative is in sector 0.
-fn connect(spec: &AnnulusSpecification, rays: &[Ray], built: usize) -> Mesh2d {
+fn connect(spec: &AnnulusSpecification, rays: &[Ray], built: usize) -> Mesh {
     let sectors = spec.circumferential_elements;
     let per_sector = sector_node_count(spec);
-    let mut mesh = Mesh2d {
+    let mut mesh = Mesh {
         element_starts: vec![0],
         regions: vec!["disc".to_owned()],
-        ..Mesh2d::default()
+        ..Mesh::default()
     };
     if spec.shaft.is_some() {
         mesh.regions.push("shaft".to_owned());
@@ -206,6 +207,7 @@ fn boundaries(
         let mut boundary = Boundary {
             name: name.to_owned(),
             nodes,
+            faces: Vec::new(),
             tributary_lengths,
             normal_angles: Vec::new(),
             is_closed: built == spec.circumferential_elements,

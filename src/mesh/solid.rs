@@ -2,14 +2,12 @@
 
 use super::sectors::graded_radii;
 use super::specification::validate;
-use super::{AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind, Mesh2d, MeshError};
+use super::{AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind, Mesh, MeshError};
 use std::f64::consts::{PI, TAU};
 
-mod brick;
 mod faces;
 mod specification;
 
-pub use brick::{BrickShape, brick_places, brick_quadrature, brick_shapes};
 pub use faces::{FaceElement, face_quadrature, face_shapes};
 pub use specification::{SolidContact, SolidFace, SolidSpecification};
 
@@ -84,16 +82,16 @@ impl SolidSector {
     ///
     /// # Errors
     /// [`MeshError`] as in [`Self::generate`].
-    pub fn section(&self) -> Result<Mesh2d, MeshError> {
+    pub fn section(&self) -> Result<Mesh, MeshError> {
         let annulus = AnnulusSpecification {
             outer: BoundaryCondition::Clamped,
             element: ElementKind::Quad4,
             ..self.specification.annulus
         };
         let mut mesh = AnnulusMesh::generate(&annulus)?.mesh;
-        for (node, angle) in mesh.frame_angles.iter().enumerate() {
+        for (node, angle) in mesh.frame_angles().to_vec().into_iter().enumerate() {
             let radius = self.radii[node % self.radii.len()];
-            mesh.nodes[node] = [radius * angle.cos(), radius * angle.sin()];
+            mesh.nodes[node] = [radius * angle.cos(), radius * angle.sin(), 0.0];
         }
         Ok(mesh)
     }
@@ -115,6 +113,11 @@ impl SolidSector {
             specification.annulus.radial_elements,
             specification.axial_elements,
         ]
+    }
+
+    /// Kind of all elements.
+    pub fn element_kind(&self) -> ElementKind {
+        brick_kind(self.is_quadratic())
     }
 
     /// Whether elements have 20 nodes, not 8.
@@ -245,7 +248,7 @@ impl SolidSpecification {
             outer_radius,
         } = self.contact
         {
-            fit(&mut radii, inner_radius, outer_radius);
+            fit(&mut radii, inner_radius, outer_radius)?;
         }
         Ok(radii)
     }
@@ -267,7 +270,10 @@ impl SolidSpecification {
 }
 
 /// Moves the corner radii so that both radii of a ring are among them, where they are not.
-fn fit(radii: &mut [f64], inner: f64, outer: f64) {
+///
+/// # Errors
+/// [`MeshError::NothingUnderRing`] for fewer elements than the ring and what is left of the face on either side.
+fn fit(radii: &mut [f64], inner: f64, outer: f64) -> Result<(), MeshError> {
     let last = radii.len() - 1;
     let (low, high) = (radii[0], radii[last]);
     let nearest = |radii: &[f64], wanted: f64| {
@@ -277,12 +283,20 @@ fn fit(radii: &mut [f64], inner: f64, outer: f64) {
             .unwrap_or(0)
     };
     let slack = 1e-9 * high;
+    let beside = [inner > low + slack, outer < high - slack];
+    let minimum = 1 + beside.into_iter().map(usize::from).sum::<usize>();
+    if last < minimum {
+        return Err(MeshError::NothingUnderRing {
+            count: last,
+            minimum,
+        });
+    }
     let place = |wanted: f64, radii: &[f64]| match wanted {
         w if w <= low + slack => 0,
         w if w >= high - slack => last,
         w => nearest(radii, w).clamp(1, last.max(2) - 1),
     };
-    let first = place(inner, radii);
+    let first = place(inner, radii).min(last - 1 - usize::from(beside[1]));
     let second = place(outer, radii).max(first + 1).min(last);
     let old = radii.to_vec();
     let ends = [
@@ -303,6 +317,7 @@ fn fit(radii: &mut [f64], inner: f64, outer: f64) {
         }
         radii[to] = b;
     }
+    Ok(())
 }
 
 /// Nodes in the order of the band, and their index by place and half step.
@@ -354,12 +369,26 @@ fn sheet_nodes(specification: &SolidSpecification, radii: &[f64]) -> (Vec<SheetN
     )
 }
 
+/// Bricks of 20 or of 8 nodes.
+fn brick_kind(is_quadratic: bool) -> ElementKind {
+    if is_quadratic {
+        ElementKind::Hex20
+    } else {
+        ElementKind::Hex8
+    }
+}
+
 fn elements(specification: &SolidSpecification, index: &SheetIndex) -> Vec<Vec<(usize, usize)>> {
     let (nr, nz) = (
         specification.annulus.radial_elements,
         specification.axial_elements,
     );
-    let places = brick_places(specification.annulus.element.is_quadratic());
+    let places = brick_kind(specification.annulus.element.is_quadratic()).node_places();
+    // Radially, around and axially, in halves of an element.
+    let places: Vec<[isize; 3]> = places
+        .into_iter()
+        .map(|place| place.map(|coordinate| coordinate as isize))
+        .collect();
     let mut elements = Vec::with_capacity(nr * nz);
     for j in 0..nz {
         for i in 0..nr {

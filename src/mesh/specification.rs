@@ -58,6 +58,17 @@ pub enum MeshError {
         /// Smallest valid count.
         minimum: usize,
     },
+    /// A ring that no element of its face lies under.
+    #[error(
+        "{count} elements in mesh.radial_elements: none of them lies under the ring alone, and the contact would have no \
+         area; with these radii of the ring at least {minimum} are needed"
+    )]
+    NothingUnderRing {
+        /// Given count.
+        count: usize,
+        /// Smallest count with an element under the ring.
+        minimum: usize,
+    },
     /// The node count does not fit 32-bit node indices.
     #[error(
         "the mesh would have {nodes} nodes, more than {limit}: lower mesh.circumferential_elements or mesh.radial_elements"

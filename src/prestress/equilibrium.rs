@@ -3,17 +3,12 @@
 use super::PrestressError;
 use super::SectorSliding;
 use super::cholesky::CholeskySolver;
-use super::condensed::CondensedContact;
-use super::friction_polynomial::{evaluate, interpolated};
-use crate::contact::{ContactInterface, SlidingContact, SteadyFriction};
-use crate::fem::{DofMap, Triplets, assemble_supports};
-use crate::mesh::{AnnulusMesh, Mesh2d, SectorMesh};
-
-/// Degree in the friction coefficient of the polynomial that stands for a state which is not affine in it.
-const DEGREE: usize = 6;
-
-/// Width to which a friction coefficient is located at which contact nodes open or close.
-const CHANGE_WIDTH: f64 = 1e-9;
+use super::complementarity::{CondensedContact, PressedState, Pressing};
+use super::elimination::Elimination;
+use super::friction_polynomial::evaluate;
+use crate::contact::{ContactInterface, Point, SlidingContact, SteadyFriction};
+use crate::fem::{Triplets, assemble_supports};
+use crate::mesh::{AnnulusMesh, Mesh, SectorMesh};
 
 /// The state of steady sliding: counterface pushed in by `delta`, every pressed contact node slipping.
 ///
@@ -37,6 +32,8 @@ pub struct SteadySliding {
     pub friction: SteadyFriction,
     /// The contact edge.
     pub interface: ContactInterface,
+    /// Its nodes as contact points.
+    pub points: Vec<Point>,
 }
 
 /// States of steady sliding over a range of friction coefficients.
@@ -57,7 +54,7 @@ impl SteadySliding {
     /// # Errors
     /// [`PrestressError::Separation`] where a node of an annulus would open; see there for the rest.
     pub fn solve(
-        mesh: &Mesh2d,
+        mesh: &Mesh,
         stiffness: &Triplets,
         contact: &SlidingContact,
     ) -> Result<Self, PrestressError> {
@@ -71,59 +68,75 @@ impl SteadySliding {
 
     /// Full sliding on the annulus, whose normal forces do not depend on friction.
     fn solve_annulus(
-        mesh: &Mesh2d,
+        mesh: &Mesh,
         stiffness: &Triplets,
         contact: &SlidingContact,
     ) -> Result<Self, PrestressError> {
         let interface = ContactInterface::of(mesh);
-        let mut stiffness = stiffness.clone();
-        interface.to_distances(&mut stiffness);
-        let stiffness = &stiffness;
-        let total = 2 * mesh.node_count();
-        let contact_range = 0..interface.len();
-        let normal_dofs: Vec<usize> = contact_range
-            .clone()
-            .map(|i| interface.normal_dof(i))
-            .collect();
-        let unknowns =
-            DofMap::excluding(total, mesh.held_dofs().chain(normal_dofs.iter().copied()));
-        let solver = CholeskySolver::new(stiffness, &unknowns)?;
+        let points = interface.points(contact);
 
-        let mut pressed = vec![0.0; total];
-        for &dof in &normal_dofs {
+        // Separations in place of normal displacements, all of them pushed in by the interference.
+        let mut basis = Elimination::holding(mesh.dof_count(), mesh.held_dofs());
+        let separations: Result<Vec<usize>, PrestressError> = points
+            .iter()
+            .map(|point| basis.require(&point.normal, "contact"))
+            .collect();
+        let separations = separations?;
+        let stiffness = basis.congruent(stiffness);
+        for &dof in &separations {
+            basis.drop_unknown(dof);
+        }
+        let unknowns = basis.unknowns();
+        let solver = CholeskySolver::new(&stiffness, &unknowns)?;
+        let mut pressed = vec![0.0; mesh.dof_count()];
+        for &dof in &separations {
             pressed[dof] = contact.interference;
         }
-        let prescribed = unknowns.restrict(&stiffness.multiply(total, &pressed));
+        let prescribed = unknowns.restrict(&stiffness.multiply(pressed.len(), &pressed));
         let response = solver.solve(prescribed.iter().map(|force| -force).collect());
         for (&dof, value) in unknowns.dofs.iter().zip(response) {
             pressed[dof] = value;
         }
-        let reaction = stiffness.multiply(total, &pressed);
-        let normal_forces: Vec<f64> = normal_dofs.iter().map(|&dof| reaction[dof]).collect();
+        let reaction = stiffness.multiply(pressed.len(), &pressed);
+        let normal_forces: Vec<f64> = separations.iter().map(|&dof| reaction[dof]).collect();
         check_pressed(&interface, &normal_forces)?;
 
-        let friction = interface.steady_friction(contact);
-        let mut traction = vec![0.0; total];
-        for (i, force) in contact_range.zip(&normal_forces) {
-            for (dof, along) in interface.slip(i) {
-                traction[dof] += friction.drag * along * force;
+        // Friction shears it.
+        let mut traction = vec![0.0; pressed.len()];
+        for (point, force) in points.iter().zip(&normal_forces) {
+            for &(dof, along) in &point.slip {
+                traction[dof] += point.friction.drag * along * force;
             }
         }
-        let mut sheared = unknowns.expand(&solver.solve(unknowns.restrict(&traction)));
-        interface.to_displacements(&mut pressed);
-        interface.to_displacements(&mut sheared);
-        Ok(Self {
-            displacements: vec![pressed, sheared],
+        let traction = basis.transposed_forces(&traction);
+        let sheared = unknowns.expand(&solver.solve(unknowns.restrict(&traction)));
+        let state = PressedState {
+            displacements: vec![basis.displacement(&pressed), basis.displacement(&sheared)],
             is_pressed: vec![true; normal_forces.len()],
             normal_forces: vec![normal_forces],
+        };
+        Ok(Self::of(state, interface, contact))
+    }
+
+    fn of(state: PressedState, interface: ContactInterface, contact: &SlidingContact) -> Self {
+        Self {
+            displacements: state.displacements,
+            normal_forces: state.normal_forces,
+            is_pressed: state.is_pressed,
             sliding_direction: interface.sliding_direction(contact.rotation_speed),
-            friction,
+            friction: interface.steady_friction(contact),
+            points: interface.points(contact),
             interface,
-        })
+        }
     }
 
     /// The state of a whole annulus from that of its sector: the same in the polar frames of each.
-    pub fn from_sector(annulus: &AnnulusMesh, sector: &SectorMesh, state: &SectorSliding) -> Self {
+    pub fn from_sector(
+        annulus: &AnnulusMesh,
+        sector: &SectorMesh,
+        state: &SectorSliding,
+        contact: &SlidingContact,
+    ) -> Self {
         let per_sector = annulus.sector_node_count();
         let repeat = |free: &[f64]| {
             let mut values = vec![0.0; 2 * annulus.mesh.node_count()];
@@ -139,17 +152,15 @@ impl SteadySliding {
         let normal_forces: Vec<f64> = (0..interface.len())
             .map(|i| state.normal_forces[i % sector.contact_count])
             .collect();
-        Self {
+        let state = PressedState {
             displacements: vec![
                 repeat(&state.pressed_displacement),
                 repeat(&state.sheared_displacement),
             ],
             is_pressed: vec![true; normal_forces.len()],
             normal_forces: vec![normal_forces],
-            sliding_direction: state.sliding_direction,
-            friction: state.friction,
-            interface,
-        }
+        };
+        Self::of(state, interface, contact)
     }
 
     /// Displacement over all dofs at friction coefficient `friction_coefficient`, m.
@@ -184,7 +195,7 @@ impl SlidingRange {
     /// # Errors
     /// As [`SteadySliding::solve`]; the first friction coefficient without a state.
     pub fn solve(
-        mesh: &Mesh2d,
+        mesh: &Mesh,
         stiffness: &Triplets,
         contact: &SlidingContact,
         friction_coefficients: &[f64],
@@ -200,108 +211,28 @@ impl SlidingRange {
             });
         }
         let interface = ContactInterface::of(mesh);
-        let body = CondensedContact::new(mesh, &supported, &interface, contact)?;
-        Self::of_body(&body, &interface, contact, friction_coefficients)
-    }
-
-    fn of_body(
-        body: &CondensedContact<'_>,
-        interface: &ContactInterface,
-        contact: &SlidingContact,
-        friction_coefficients: &[f64],
-    ) -> Result<Self, PrestressError> {
-        // Rising values, each starting from the set of the last.
-        let mut order: Vec<usize> = (0..friction_coefficients.len()).collect();
-        order.sort_by(|&a, &b| friction_coefficients[a].total_cmp(&friction_coefficients[b]));
-        let mut sets: Vec<(Vec<bool>, f64)> = Vec::new();
-        let mut state_of = vec![0; friction_coefficients.len()];
-        let mut changes = Vec::new();
-        let mut start = vec![true; body.len()];
-        for (rank, &i) in order.iter().enumerate() {
-            let friction = friction_coefficients[i];
-            let set = body.pressed_nodes(friction, &start)?;
-            if !set.contains(&true) {
-                let distances = body.pushed().iter().map(|pushed| -pushed);
-                return Err(PrestressError::GapEverywhere {
-                    total: body.len(),
-                    distance: distances.fold(f64::INFINITY, f64::min).max(0.0),
-                    interference: contact.interference,
-                });
-            }
-            if sets.last().is_none_or(|(last, _)| *last != set) {
-                if rank > 0 {
-                    let before = friction_coefficients[order[rank - 1]];
-                    changes.push(change_between(body, &start, before, friction)?);
-                }
-                sets.push((set.clone(), friction));
-            }
-            if let Some(last) = sets.last_mut() {
-                last.1 = friction;
-            }
-            state_of[i] = sets.len() - 1;
-            start = set;
-        }
-        let states = sets.into_iter().enumerate().map(|(k, (set, last))| {
-            let upper = changes.get(k).copied().unwrap_or(last);
-            polynomial_state(body, interface, contact, set, upper)
-        });
+        let points = interface.points(contact);
+        let total = mesh.dof_count();
+        let pressing = Pressing {
+            stiffness: &supported,
+            load: mesh.pressure_forces().unwrap_or_else(|| vec![0.0; total]),
+            elimination: Elimination::holding(total, mesh.held_dofs()),
+            pushed: points
+                .iter()
+                .map(|point| contact.interference - point.gap)
+                .collect(),
+            stiffnesses: vec![None; points.len()],
+            points: &points,
+        };
+        let found = CondensedContact::new(&pressing)?.range(friction_coefficients)?;
+        let states = found.states.into_iter();
         Ok(Self {
-            states: states.collect(),
-            state_of,
-            changes,
+            states: states
+                .map(|state| SteadySliding::of(state, interface.clone(), contact))
+                .collect(),
+            state_of: found.state_of,
+            changes: found.changes,
         })
-    }
-}
-
-/// The friction coefficient up to which the set at `low` holds, by bisection.
-fn change_between(
-    body: &CondensedContact<'_>,
-    set: &[bool],
-    mut low: f64,
-    mut high: f64,
-) -> Result<f64, PrestressError> {
-    while high - low > CHANGE_WIDTH {
-        let middle = 0.5 * (low + high);
-        if body.pressed_nodes(middle, set)? == set {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    Ok(0.5 * (low + high))
-}
-
-/// The state of one set of pressed nodes as a polynomial through Chebyshev points of `[0, upper]`.
-fn polynomial_state(
-    body: &CondensedContact<'_>,
-    interface: &ContactInterface,
-    contact: &SlidingContact,
-    is_pressed: Vec<bool>,
-    upper: f64,
-) -> SteadySliding {
-    // Without friction the state needs no polynomial, but its tangent is followed from there.
-    let upper = upper.max(0.05);
-    let points: Vec<f64> = (0..=DEGREE)
-        .map(|k| {
-            let turn = std::f64::consts::PI * (k as f64 + 0.5) / (DEGREE + 1) as f64;
-            0.5 * upper * (1.0 - turn.cos())
-        })
-        .collect();
-    let solved = points.iter().map(|&mu| {
-        let state = body.state_of(mu, &is_pressed);
-        (
-            body.whole_displacement(&state.displacement),
-            state.normal_forces,
-        )
-    });
-    let (displacements, normal_forces): (Vec<_>, Vec<_>) = solved.unzip();
-    SteadySliding {
-        displacements: interpolated(&points, displacements, upper),
-        normal_forces: interpolated(&points, normal_forces, upper),
-        is_pressed,
-        sliding_direction: interface.sliding_direction(contact.rotation_speed),
-        friction: interface.steady_friction(contact),
-        interface: interface.clone(),
     }
 }
 

@@ -45,6 +45,22 @@ pub enum PrestressError {
         /// Friction coefficient.
         friction_coefficient: f64,
     },
+    /// A form that is to be eliminated has no free dof.
+    #[error(
+        "{name} holds nodes that are already held or tied: leave one of the conditions out there"
+    )]
+    Overconstrained {
+        /// The tie or contact.
+        name: String,
+    },
+    /// Two surfaces that make no contact or tie.
+    #[error("{name}: {error}")]
+    Pair {
+        /// Section and name of the tie or contact.
+        name: String,
+        /// Why not.
+        error: crate::contact::PairError,
+    },
     /// A rotor at rest under Coulomb's law as a vector.
     #[error(
         "contact.rotation_speed_rpm = 0: without sliding, friction holds a three-dimensional body across the sliding as by an \

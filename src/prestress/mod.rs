@@ -5,8 +5,10 @@
 //! `M(mu) q'' + C(mu) q' + K_t(mu) q = 0`, as polynomials in the friction coefficient.
 //! [`SectorSliding`] and [`SectorTangent`] are the same for a uniform annulus, from one of its sectors.
 
+mod assembly;
 mod cholesky;
-mod condensed;
+mod complementarity;
+mod elimination;
 mod equilibrium;
 mod error;
 mod face_conditions;
@@ -14,7 +16,6 @@ mod friction_polynomial;
 mod options;
 mod pressing;
 mod pressing_rate;
-mod projection;
 mod sector;
 mod sector_rate;
 mod sector_tangent;
@@ -26,8 +27,10 @@ mod solid_harmonic;
 mod solid_rate;
 mod solid_tangent;
 mod tangent;
-mod turning;
 
+pub use assembly::{Assembly, BaseChoice, SlidingSurfaces, TiedSurfaces};
+pub use complementarity::{CondensedContact, PressedRange, PressedState, Pressing};
+pub use elimination::Elimination;
 pub use equilibrium::{SlidingRange, SteadySliding};
 pub use error::PrestressError;
 pub use face_conditions::{pressure_load, supports};
@@ -40,4 +43,4 @@ pub use solid::SolidSliding;
 pub use solid_harmonic::{MovingHarmonic, SolidHarmonic, moving_unknowns};
 pub use solid_rate::SolidRate;
 pub use solid_tangent::{SolidTangent, sector_unknowns};
-pub use tangent::SlidingTangent;
+pub use tangent::{BodyTerms, ContactDofs, ContactPart, SlidingTangent};

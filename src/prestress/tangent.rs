@@ -1,15 +1,15 @@
 //! The matrices of small motions around steady sliding.
 
-use super::projection::{ProjectedPolynomial, Projection};
-use super::turning::turning_of;
-use super::{DampingModel, SteadySliding, TangentOptions};
-use crate::contact::{ContactStiffness, OppositeShare};
+use super::elimination::{Elimination, ProjectedPolynomial, RigidFriction};
+use super::{DampingModel, PrestressError, SteadySliding, TangentOptions};
+use crate::contact::{ContactStiffness, Point, PressedPoints, Row, linearized};
 use crate::fem::{
     DofMap, MaterialField, RayleighDamping, Triplets, assemble_extra_damping,
     assemble_geometric_stiffness, assemble_mass, assemble_supports,
 };
 use crate::linalg::{MatrixPolynomial, SparsityPattern, c64};
-use crate::mesh::Mesh2d;
+use crate::mesh::Mesh;
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// Mass, damping and stiffness of small motions around steady sliding, polynomials in `mu`.
@@ -52,8 +52,9 @@ pub struct SlidingTangent {
     /// Unknowns of the opposite body that the contact touches, two for each contact node of an annulus; none on a rigid
     /// counterface.
     pub contact_opposite: Vec<usize>,
-    /// Contact normals whose unknown is a distance, with what the opposite body adds to it.
-    pub distances: Vec<(usize, Vec<OppositeShare>)>,
+    /// Dofs that are combinations of the unknowns (as full dofs): a contact normal whose unknown is the separation there, a
+    /// dof of a tied surface.
+    pub distances: Vec<(usize, Row)>,
     /// Angle of each contact node, rad; empty for a body without rotational symmetry, whose modes have no
     /// circumferential harmonic.
     pub contact_angles: Vec<f64>,
@@ -64,73 +65,178 @@ pub struct SlidingTangent {
 impl SlidingTangent {
     /// Displacement of every dof from a vector over the unknowns.
     pub fn displacement(&self, unknowns: &[c64]) -> Vec<c64> {
-        let mut full = self.unknowns.expand(unknowns);
-        for (normal, shares) in &self.distances {
-            for share in shares {
-                let moved = full[share.dof] * share.normal;
-                full[*normal] += moved;
-            }
+        let free = self.unknowns.expand(unknowns);
+        let mut full = free.clone();
+        for (dof, row) in &self.distances {
+            let parts = row.iter().map(|&(other, share)| free[other] * share);
+            full[*dof] = parts.sum();
         }
         full
     }
 }
 
-/// Coefficients of one matrix over all dofs, by power of `mu`.
-type FullPolynomial = Vec<Triplets>;
+/// The matrices of the bodies of one model without contact, over all dofs.
+#[derive(Clone, Debug)]
+pub struct BodyTerms {
+    /// Mass.
+    pub mass: Triplets,
+    /// Elastic stiffness.
+    pub elastic: Triplets,
+    /// Geometric stiffness of the base state by power of `mu`, with which contact forces turn; `None` without both.
+    pub geometric: Option<Vec<Triplets>>,
+    /// Springs and dashpots of supports.
+    pub supports: [Triplets; 2],
+    /// What regions with damping of their own add.
+    pub extra_damping: Option<Triplets>,
+}
+
+/// The surfaces of one contact and their state.
+#[derive(Clone, Copy, Debug)]
+pub struct ContactPart<'a> {
+    /// Its points.
+    pub points: &'a [Point],
+    /// Which are pressed, with what forces.
+    pub state: PressedPoints<'a>,
+    /// Penalty or rigid, and dashpots.
+    pub stiffness: ContactStiffness,
+    /// Whether each point has a dof of its own, in place of which its separation is an unknown: rigid contact needs it.
+    pub has_own_dofs: bool,
+}
+
+/// Unknowns that the contact touches, for the harmonic of a mode and its share there.
+#[derive(Clone, Debug, Default)]
+pub struct ContactDofs {
+    /// Full dofs along the sliding.
+    pub tangential: Vec<usize>,
+    /// Full dofs along the normals.
+    pub normal: Vec<usize>,
+    /// Those of the opposite body.
+    pub opposite: Vec<usize>,
+    /// Angle of each contact node, rad; empty without rotational symmetry.
+    pub angles: Vec<f64>,
+    /// Sense of the friction force.
+    pub sliding_direction: f64,
+}
 
 impl SlidingTangent {
     /// Linearises around `base`, whose stiffness `K_e` over all dofs is `elastic`.
     pub fn linearize(
-        mesh: &Mesh2d,
+        mesh: &Mesh,
         material: &dyn MaterialField,
         elastic: &Triplets,
         base: &SteadySliding,
         options: &TangentOptions,
     ) -> Self {
-        let projection = Projection::new(mesh, base, options.contact.normal_stiffness.is_some());
-        let to_distances = |mut matrix: Triplets| {
-            base.interface.to_distances(&mut matrix);
-            matrix
+        let stressed =
+            |displacement: &Vec<f64>| assemble_geometric_stiffness(mesh, material, displacement);
+        let body = BodyTerms {
+            mass: assemble_mass(mesh, material, options.mass),
+            elastic: elastic.clone(),
+            geometric: options
+                .geometric_stiffness
+                .then(|| base.displacements.iter().map(stressed).collect()),
+            supports: assemble_supports(mesh),
+            extra_damping: assemble_extra_damping(mesh, material, options.mass, options.damping),
         };
-        let mass = vec![to_distances(assemble_mass(mesh, material, options.mass))];
+        let part = ContactPart {
+            points: &base.points,
+            state: PressedPoints {
+                is_pressed: &base.is_pressed,
+                normal_forces: &base.normal_forces,
+            },
+            stiffness: options.contact,
+            has_own_dofs: true,
+        };
+        let interface = &base.interface;
+        let nodes = 0..interface.len();
+        let shares = interface.opposite.iter().flatten();
+        let touched = shares.filter(|share| share.normal != 0.0 || share.tangential != 0.0);
+        let dofs = ContactDofs {
+            tangential: nodes.clone().map(|i| interface.tangential_dof(i)).collect(),
+            normal: nodes.map(|i| interface.normal_dof(i)).collect(),
+            opposite: touched.map(|share| share.dof).collect(),
+            angles: match mesh.is_cyclic {
+                true => interface.angles.clone(),
+                false => Vec::new(),
+            },
+            sliding_direction: base.sliding_direction,
+        };
+        let basis = Elimination::holding(mesh.dof_count(), mesh.held_dofs());
+        Self::assemble(&body, &[part], basis, &dofs, options)
+            .expect("each node of a plane contact edge has a free normal displacement")
+    }
+
+    /// The matrices of `body` and its contacts over what `basis` (held dofs, ties) and rigid contact leave.
+    ///
+    /// # Errors
+    /// [`PrestressError::Overconstrained`] where a rigid contact has no free dof to hold.
+    pub fn assemble(
+        body: &BodyTerms,
+        contacts: &[ContactPart<'_>],
+        mut basis: Elimination,
+        dofs: &ContactDofs,
+        options: &TangentOptions,
+    ) -> Result<Self, PrestressError> {
+        // Separations as unknowns; those of rigid contact vanish, and their forces follow the slip.
+        let mut friction = Vec::new();
+        for part in contacts.iter().filter(|part| part.has_own_dofs) {
+            let is_rigid = part.stiffness.normal_stiffness.is_none();
+            for (point, &is_pressed) in part.points.iter().zip(part.state.is_pressed) {
+                let pivot = basis.require(&point.normal, "contact")?;
+                if is_rigid && is_pressed {
+                    basis.drop_unknown(pivot);
+                    let drag = point.friction.drag;
+                    let slip = point.slip.iter().map(|&(dof, along)| (dof, drag * along));
+                    friction.push(RigidFriction {
+                        pivot,
+                        slip: slip.collect(),
+                    });
+                }
+            }
+        }
+        let unknowns = basis.unknowns();
+        let projected = |terms: &[Triplets]| -> ProjectedPolynomial {
+            basis.project(terms, &unknowns, &friction)
+        };
 
         // What beta_R multiplies: body, prestress, contact.
-        let mut stiffness = vec![elastic.clone(), Triplets::default()];
-        if options.geometric_stiffness {
-            add_prestress(&mut stiffness, mesh, material, base);
+        let mut stiffness = vec![body.elastic.clone()];
+        let mut dashpots = vec![Triplets::default()];
+        if let Some(geometric) = &body.geometric {
+            add_powers(&mut stiffness, geometric);
         }
-        stiffness = stiffness.into_iter().map(to_distances).collect();
-        let contact = options.contact;
-        if let Some(normal_stiffness) = contact.normal_stiffness {
-            add_normal_law(&mut stiffness, base, normal_stiffness);
+        for part in contacts {
+            let terms = linearized(part.points, &part.state, &part.stiffness);
+            add_powers(&mut stiffness, &terms.stiffness);
+            add_powers(&mut dashpots, &terms.dashpots);
+            if body.geometric.is_some() {
+                add_powers(&mut stiffness, &terms.turning);
+            }
         }
-        let mass = projection.apply(&mass);
+        let mass = projected(std::slice::from_ref(&body.mass));
         let damped = match options.damping_model {
-            DampingModel::WholeTangent => projection.apply(&stiffness),
-            DampingModel::BodyOnly => projection.apply(&[to_distances(elastic.clone())]),
+            DampingModel::WholeTangent => projected(&stiffness),
+            DampingModel::BodyOnly => projected(std::slice::from_ref(&body.elastic)),
         };
 
         // What it does not: supports, dashpots, regions with damping of their own.
-        let [springs, support_dashpots] = assemble_supports(mesh);
+        let [springs, support_dashpots] = &body.supports;
         let has_supports = !springs.entries.is_empty() || !support_dashpots.entries.is_empty();
-        stiffness[0].entries.extend(to_distances(springs).entries);
-        let mut dashpots = contact_dashpots(base, &contact);
-        dashpots[0]
-            .entries
-            .extend(to_distances(support_dashpots).entries);
-        let rayleigh = options.damping;
-        if let Some(own) = assemble_extra_damping(mesh, material, options.mass, rayleigh) {
-            dashpots[0].entries.extend(to_distances(own).entries);
+        add_powers(&mut stiffness, std::slice::from_ref(springs));
+        add_powers(&mut dashpots, std::slice::from_ref(support_dashpots));
+        if let Some(own) = &body.extra_damping {
+            add_powers(&mut dashpots, std::slice::from_ref(own));
         }
         let has_dashpots = dashpots.iter().any(|terms| !terms.entries.is_empty());
-        let stiffness = projection.apply(&stiffness);
+        let stiffness = projected(&stiffness);
 
         // One pattern for all; C = alpha_R M + beta_R K (2) and the rest.
-        let dashpots = projection.apply(&dashpots);
-        let pattern = shared_pattern(projection.unknowns.len(), [&mass, &stiffness, &dashpots]);
+        let dashpots = projected(&dashpots);
+        let pattern = shared_pattern(unknowns.len(), [&mass, &stiffness, &dashpots]);
         let on_pattern =
             |terms: &ProjectedPolynomial| MatrixPolynomial::on_pattern(&pattern, terms);
         let (mass, stiffness) = (on_pattern(&mass), on_pattern(&stiffness));
+        let rayleigh = options.damping;
         let mut damping = MatrixPolynomial::combination(
             rayleigh.mass_coefficient,
             &mass,
@@ -141,112 +247,38 @@ impl SlidingTangent {
             damping = MatrixPolynomial::combination(1.0, &damping, 1.0, &on_pattern(&dashpots));
         }
         let is_whole = options.damping_model == DampingModel::WholeTangent && !has_supports;
-        let contact_angles = if mesh.is_cyclic {
-            base.interface.angles.clone()
-        } else {
-            Vec::new()
+        let touched = |dofs: &[usize]| -> Vec<usize> {
+            let mut seen = BTreeSet::new();
+            let free = dofs.iter().filter_map(|&dof| unknowns.unknown_of[dof]);
+            free.filter(|&unknown| seen.insert(unknown)).collect()
         };
-        Self {
+        Ok(Self {
             mass,
             damping,
             stiffness,
             proportional: (is_whole && !has_dashpots).then_some(rayleigh),
-            contact_tangential: projection.tangential_unknowns(),
-            contact_normal: projection.normal_unknowns(),
-            contact_opposite: projection.opposite_unknowns(),
-            distances: (0..base.interface.opposite.len())
-                .map(|i| {
-                    let shares = base.interface.opposite_of(i).to_vec();
-                    (base.interface.normal_dof(i), shares)
-                })
+            contact_tangential: touched(&dofs.tangential),
+            contact_normal: touched(&dofs.normal),
+            contact_opposite: touched(&dofs.opposite),
+            distances: basis
+                .combinations()
+                .map(|(dof, row)| (dof, row.clone()))
                 .collect(),
-            contact_angles,
-            sliding_direction: base.sliding_direction,
-            unknowns: projection.unknowns,
-        }
+            contact_angles: dofs.angles.clone(),
+            sliding_direction: dofs.sliding_direction,
+            unknowns,
+        })
     }
 }
 
-/// Geometric stiffness of the base state's stress, and the contact forces that turn with the edge.
-fn add_prestress(
-    stiffness: &mut FullPolynomial,
-    mesh: &Mesh2d,
-    material: &dyn MaterialField,
-    base: &SteadySliding,
-) {
-    let degree = base.displacements.len().max(base.normal_forces.len() + 1);
-    stiffness.resize_with(degree.max(stiffness.len()), Triplets::default);
-    for (terms, displacement) in stiffness.iter_mut().zip(&base.displacements) {
-        let stress = assemble_geometric_stiffness(mesh, material, displacement);
-        terms.entries.extend(stress.entries);
+/// Adds the coefficients of one polynomial to those of another.
+fn add_powers(sum: &mut Vec<Triplets>, terms: &[Triplets]) {
+    if sum.len() < terms.len() {
+        sum.resize_with(terms.len(), Triplets::default);
     }
-    for (power, forces) in base.normal_forces.iter().enumerate() {
-        for (i, force) in forces.iter().enumerate() {
-            let [pressed, sheared] = turning_of(&base.interface, i);
-            for (row, column, value) in pressed {
-                stiffness[power].push(row, column, force * value);
-            }
-            for (row, column, value) in sheared {
-                let friction = base.friction.drag * force * value;
-                stiffness[power + 1].push(row, column, friction);
-            }
-        }
+    for (sum, terms) in sum.iter_mut().zip(terms) {
+        sum.entries.extend_from_slice(&terms.entries);
     }
-}
-
-/// `dN = -w coefficient q_n` at pressed nodes and the friction that follows it, moved to the left-hand side.
-fn add_normal_law(terms: &mut FullPolynomial, base: &SteadySliding, coefficient: f64) {
-    for (i, length) in pressed_lengths(base) {
-        let interface = &base.interface;
-        let normal = interface.normal_dof(i);
-        let value = coefficient * length;
-        terms[0].push(normal, normal, value);
-        for (dof, along) in interface.slip(i) {
-            terms[1].push(dof, normal, base.friction.drag * along * value);
-        }
-    }
-}
-
-/// Pressed contact nodes with their tributary lengths, m.
-fn pressed_lengths(base: &SteadySliding) -> impl Iterator<Item = (usize, f64)> + '_ {
-    let lengths = base.interface.tributary_lengths.iter().copied();
-    lengths.enumerate().filter(|&(i, _)| base.is_pressed[i])
-}
-
-/// Normal and tangential dashpots of the contact, and that of friction which depends on the speed; empty where it has
-/// none.
-fn contact_dashpots(base: &SteadySliding, contact: &ContactStiffness) -> FullPolynomial {
-    let mut terms = vec![Triplets::default(), Triplets::default()];
-    if contact.normal_damping != 0.0 {
-        add_normal_law(&mut terms, base, contact.normal_damping);
-    }
-    if contact.tangential_damping != 0.0 {
-        for (i, length) in pressed_lengths(base) {
-            let value = contact.tangential_damping * length;
-            for (row, along) in base.interface.slip(i) {
-                for (column, across) in base.interface.slip(i) {
-                    terms[0].push(row, column, along * value * across);
-                }
-            }
-        }
-    }
-    if base.friction.slope != 0.0 {
-        terms.resize_with(
-            terms.len().max(base.normal_forces.len() + 1),
-            Triplets::default,
-        );
-        for (power, forces) in base.normal_forces.iter().enumerate() {
-            for (i, _) in pressed_lengths(base) {
-                let value = base.friction.slope * forces[i];
-                for (row, along) in base.interface.slip(i) {
-                    for (column, across) in base.interface.slip(i) {
-                        terms[power + 1].push(row, column, along * value * across);
-                    }
-                }
-            }
-        }
-    }
-    terms
 }
 
 /// One pattern that holds all of the given matrices.
@@ -272,7 +304,7 @@ mod tests {
         }
     }
 
-    fn disc(element: ElementKind) -> (Mesh2d, ElasticMaterial) {
+    fn disc(element: ElementKind) -> (Mesh, ElasticMaterial) {
         let mesh = AnnulusMesh::generate(&AnnulusSpecification {
             inner_radius: 0.0205,
             outer_radius: 0.0905,
@@ -300,9 +332,17 @@ mod tests {
             let (mesh, material) = disc(element);
             let elastic = assemble_stiffness(&mesh, &material);
             let base = SteadySliding::solve(&mesh, &elastic, &turning(-60.0)).unwrap();
-            let mut prestress = vec![Triplets::default(); 2];
-            add_prestress(&mut prestress, &mesh, &material, &base);
-            let total = 2 * mesh.node_count();
+            let state = PressedPoints {
+                is_pressed: &base.is_pressed,
+                normal_forces: &base.normal_forces,
+            };
+            let options = ContactStiffness::default();
+            let mut prestress = linearized(&base.points, &state, &options).turning;
+            for (terms, displacement) in prestress.iter_mut().zip(&base.displacements) {
+                let stress = assemble_geometric_stiffness(&mesh, &material, displacement);
+                terms.entries.extend(stress.entries);
+            }
+            let total = mesh.dof_count();
             let rotation: Vec<f64> = (0..mesh.node_count())
                 .flat_map(|node| [0.0, mesh.nodes[node][0].hypot(mesh.nodes[node][1])])
                 .collect();

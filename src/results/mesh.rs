@@ -1,15 +1,17 @@
 //! Results of `mesh`: statistics, VTU, picture.
 
-use super::drawing::{DrawingError, DrawingOptions, draw_all, write_figures};
+use super::drawing::{DrawingError, DrawingOptions, draw_all, write_report};
 use super::folder::{FolderError, OutputFolder};
 use super::manifest::Manifest;
 use super::quantity::quantity;
+use super::report::{Report, ReportSection, ReportTable};
 use super::summary::{Entry, Summary};
 use super::vtu::{EncodedMesh, Field, write_vtu};
 use crate::chart::{
-    Axis, Field as Window, Figure, INK, Label, Line, Marker, Panel, Points, SERIES,
+    Axis, Field as Window, Figure, INK, Label, Line, Marker, Panel, Points, SERIES, TextStyle,
+    literal,
 };
-use crate::mesh::{AnnulusMesh, Boundary, BoundaryCondition, Mesh2d, SolidContact, SolidSector};
+use crate::mesh::{AnnulusMesh, Boundary, BoundaryCondition, Mesh, SolidContact, SolidSector};
 use serde::{Deserialize, Serialize};
 use std::fmt::Write as _;
 
@@ -199,7 +201,7 @@ impl MeshStatistics {
 
     /// Measures a mesh between its corner nodes; areas follow curved edges. `wavelength` is the shortest that the case
     /// is about, m.
-    pub fn new(mesh: &Mesh2d, annulus: Option<&AnnulusMesh>, wavelength: Option<f64>) -> Self {
+    pub fn new(mesh: &Mesh, annulus: Option<&AnnulusMesh>, wavelength: Option<f64>) -> Self {
         let quality = mesh.quality();
         let mut regions: Vec<RegionStatistics> = mesh
             .regions
@@ -251,10 +253,10 @@ impl MeshStatistics {
                     name: boundary.name.clone(),
                     nodes: boundary.nodes.len(),
                     length_m: boundary.tributary_lengths.iter().sum(),
-                    condition: if b == mesh.contact {
-                        "contact".to_owned()
-                    } else {
-                        condition_name(boundary.condition).to_owned()
+                    condition: match b {
+                        b if b == mesh.contact => "contact".to_owned(),
+                        b if Some(b) == mesh.opposite => COUNTERFACE.to_owned(),
+                        _ => condition_name(boundary.condition).to_owned(),
                     },
                 })
                 .collect(),
@@ -262,27 +264,31 @@ impl MeshStatistics {
     }
 }
 
+/// What the boundary of the other body is that the contact slides on.
+const COUNTERFACE: &str = "counterface";
+
 fn condition_name(condition: BoundaryCondition) -> &'static str {
     match condition {
         BoundaryCondition::Clamped => "clamped",
         BoundaryCondition::Support(_) => "support",
         BoundaryCondition::Guide => "guide",
+        BoundaryCondition::Fixed(_) => "fixed",
         BoundaryCondition::Pressure(_) => "pressure",
         BoundaryCondition::Free => "free",
     }
 }
 
 /// Nodes around an element, mid-side nodes between their corners.
-fn outline(mesh: &Mesh2d, element: usize) -> Vec<[f64; 2]> {
+fn outline(mesh: &Mesh, element: usize) -> Vec<[f64; 2]> {
     let nodes = mesh.element_outline(element).into_iter();
-    nodes.map(|node| mesh.nodes[node as usize]).collect()
+    nodes.map(|node| mesh.plane_node(node as usize)).collect()
 }
 
-/// Writes `mesh.vtu` with node ids (from 1) and the contact edge marked.
+/// Writes `mesh.vtu` with node ids (from 1), the contact edge marked, and the region of each element.
 ///
 /// # Errors
 /// Those of the folder.
-pub fn write_mesh(folder: &OutputFolder, mesh: &Mesh2d) -> Result<(), FolderError> {
+pub fn write_mesh(folder: &OutputFolder, mesh: &Mesh) -> Result<(), FolderError> {
     let ids = (0..mesh.node_count())
         .map(|node| mesh.node_label(node) as i64)
         .collect();
@@ -296,8 +302,11 @@ pub fn write_mesh(folder: &OutputFolder, mesh: &Mesh2d) -> Result<(), FolderErro
         // 1 contact, 2 clamped, 0 elsewhere.
         Field::integers("edge", edge),
     ];
+    // Counted from 1 in the order in which the summary lists them.
+    let regions = (0..mesh.element_count()).map(|element| mesh.region(element) as i64 + 1);
+    let regions = [Field::integers("region_id", regions.collect())];
     folder.write("mesh.vtu", |out| {
-        write_vtu(out, &EncodedMesh::new(mesh)?, &[], &fields, &[])
+        write_vtu(out, &EncodedMesh::new(mesh)?, &[], &fields, &regions)
     })?;
     Ok(())
 }
@@ -325,59 +334,106 @@ pub fn write_solid_mesh(folder: &OutputFolder, sector: &SolidSector) -> Result<(
     Ok(())
 }
 
-/// Draws `figures/mesh`: elements with their axes, contact edge, clamped edge and probes (node numbers from 1).
+/// Draws `figures/mesh` and writes `report.html`: elements by region, boundaries with their names, normals of the contact edge,
+/// probes (node numbers from 1); sizes and quality.
 ///
 /// # Errors
-/// Those of the folder.
-pub fn write_mesh_picture(
+/// Those of the drawing and of the folder.
+pub fn draw_mesh(
     folder: &OutputFolder,
-    mesh: &Mesh2d,
+    mesh: &Mesh,
     (title, probes): (&str, &[usize]),
+    statistics: &MeshStatistics,
     options: &DrawingOptions,
 ) -> Result<(), DrawingError> {
     let figures = draw_all(
         vec![Box::new(|| Ok(mesh_figure(mesh, title, probes)))],
         options,
     )?;
-    write_figures(folder, &figures, options)
+    let report = Report {
+        title: title.to_owned(),
+        sections: vec![
+            ReportSection::results(Vec::new(), numbers(statistics))
+                .with_tables([region_table(statistics), boundary_table(statistics)]),
+            ReportSection {
+                heading: "Mesh".into(),
+                figures,
+                ..ReportSection::default()
+            },
+        ],
+        manifest: folder.manifest().clone(),
+    };
+    write_report(folder, &report, options)
 }
 
-fn mesh_figure(mesh: &Mesh2d, title: &str, probes: &[usize]) -> Figure {
-    let place = |node: u32| (mesh.nodes[node as usize][0], mesh.nodes[node as usize][1]);
-    let gap = (f64::NAN, f64::NAN);
-    let longest = mesh.quality().largest_edge;
-    let rings = (0..mesh.element_count()).flat_map(|element| {
-        let ring = outline(mesh, element);
-        let again = ring.first().copied();
-        let points = ring.into_iter().chain(again).map(|[x, y]| (x, y));
-        points.chain([gap]).collect::<Vec<_>>()
-    });
-    let edge = |b: usize, boundary: &Boundary| {
-        let (colour, name) = match boundary.condition {
-            _ if b == mesh.contact => (SERIES[1], "contact edge"),
-            BoundaryCondition::Clamped => (SERIES[0], "clamped edge"),
-            BoundaryCondition::Support(_) => (SERIES[2], "supported edge"),
-            BoundaryCondition::Guide => (SERIES[3], "guided edge"),
-            BoundaryCondition::Pressure(_) => (SERIES[4], "pressed edge"),
-            BoundaryCondition::Free => return None,
-        };
-        // A gap where a curve goes on in another piece.
-        let again = boundary.is_closed.then(|| boundary.nodes[0]);
-        let mut points: Vec<(f64, f64)> = Vec::new();
-        for &node in boundary.nodes.iter().chain(&again) {
-            let (x, y) = place(node);
-            let is_far = points
-                .last()
-                .is_some_and(|last| (x - last.0).hypot(y - last.1) > 2.0 * longest);
-            points.extend(is_far.then_some(gap));
-            points.push((x, y));
-        }
-        Some(Line::through(points).solid(colour, 1.4).name(name))
+/// Sizes and quality, name and value.
+fn numbers(mesh: &MeshStatistics) -> Vec<(String, String)> {
+    let row = |key: &str, value: Option<f64>| {
+        let quantity = quantity(key);
+        Some((quantity.caption.to_owned(), quantity.text(value?)))
     };
-    let boundaries = mesh.boundaries.iter().enumerate();
-    let edges: Vec<Line> = boundaries
-        .filter_map(|(b, boundary)| edge(b, boundary))
-        .collect();
+    let rows = [
+        row("nodes", Some(mesh.nodes as f64)),
+        row("elements", Some(mesh.elements as f64)),
+        row("dofs", Some(mesh.dofs as f64)),
+        row("contact_nodes", Some(mesh.contact_nodes as f64)),
+        row("smallest_edge_m", Some(mesh.smallest_edge_m)),
+        row("largest_edge_m", Some(mesh.largest_edge_m)),
+        row("largest_aspect_ratio", Some(mesh.largest_aspect_ratio)),
+        row("worst_jacobian", Some(mesh.worst_jacobian)),
+        row("area_m2", Some(mesh.area_m2)),
+        row("elements_per_wavelength", mesh.elements_per_wavelength),
+        row("contact_nodes_per_wave", mesh.contact_nodes_per_wave),
+    ];
+    rows.into_iter().flatten().collect()
+}
+
+fn region_table(mesh: &MeshStatistics) -> ReportTable {
+    let row = |region: &RegionStatistics| {
+        let area = format!("{:.6e}", region.area_m2);
+        vec![region.name.clone(), region.elements.to_string(), area]
+    };
+    ReportTable {
+        caption: "Regions".into(),
+        columns: ["region", "elements", "area (m2)"]
+            .map(String::from)
+            .to_vec(),
+        rows: mesh.regions.iter().map(row).collect(),
+    }
+}
+
+fn boundary_table(mesh: &MeshStatistics) -> ReportTable {
+    let row = |boundary: &BoundaryStatistics| {
+        vec![
+            boundary.name.clone(),
+            boundary.nodes.to_string(),
+            format!("{:.6e}", boundary.length_m),
+            boundary.condition.clone(),
+        ]
+    };
+    ReportTable {
+        caption: "Boundaries".into(),
+        columns: ["boundary", "nodes", "length (m)", "condition"]
+            .map(String::from)
+            .to_vec(),
+        rows: mesh.boundaries.iter().map(row).collect(),
+    }
+}
+
+/// Colours of the elements of the regions, which take them in turns.
+const REGION_COLOURS: [&str; 6] = [
+    "#7d7d7d", "#b07d2b", "#4f8f5f", "#7a5c99", "#3f7fa8", "#a85858",
+];
+/// Most normals drawn.
+const MOST_NORMALS: usize = 48;
+
+/// A point of a curve that is none, where the curve breaks.
+const GAP: (f64, f64) = (f64::NAN, f64::NAN);
+
+fn mesh_figure(mesh: &Mesh, title: &str, probes: &[usize]) -> Figure {
+    let place = |node: u32| (mesh.nodes[node as usize][0], mesh.nodes[node as usize][1]);
+    let [low, high] = Window::window(&mesh.plane_nodes(), 0.1);
+    let size = high[0] - low[0];
     let known = probes
         .iter()
         .filter(|&&probe| (1..=mesh.node_count()).contains(&probe));
@@ -387,23 +443,96 @@ fn mesh_figure(mesh: &Mesh2d, title: &str, probes: &[usize]) -> Figure {
     let labels = known.iter().map(|(probe, at)| {
         Label::new(*at, mesh.node_label(probe - 1).to_string()).moved(4.0, -4.0)
     });
-    let [low, high] = Window::window(&mesh.nodes, 0.06);
+    let longest = mesh.quality().largest_edge;
+    let boundaries = || mesh.boundaries.iter().enumerate();
+    let edges = boundaries().filter_map(|(b, boundary)| edge(mesh, (b, boundary), longest));
+    // Names are for the curves of a file; those of the annulus go without saying.
+    let names = boundaries().filter(|_| !mesh.is_cyclic);
+    let names = names.filter_map(|(_, boundary)| {
+        let middle = boundary.nodes.get(boundary.nodes.len() / 2)?;
+        let style = TextStyle::new(6.75).bold().with_halo();
+        Some(Label::new(place(*middle), literal(&boundary.name)).style(style))
+    });
     let axis = |name: &str, i: usize| Axis::new(name, "mm").times(1e3).between(low[i], high[i]);
     let panel = Panel::new(axis("*x*", 0), axis("*y*", 1))
         .equal()
         .plain()
         .height(420.0)
-        .layer(Line::through(rings).solid("#6f6f6f", 0.25).name(format!(
-            "{} elements, {} nodes",
-            mesh.element_count(),
-            mesh.node_count()
-        )))
-        .layers(edges)
+        .layers(elements(mesh))
+        .layers(edges.collect::<Vec<_>>())
+        .layer(normals(mesh, 0.035 * size))
         .layer(
             Points::new(known.iter().map(|probe| probe.1))
                 .marker(Marker::Disc, 2.0, INK)
                 .name("probes"),
         )
-        .layers(labels);
-    Figure::new("mesh", if title.is_empty() { "Mesh" } else { title }).panel(panel)
+        .layers(names.collect::<Vec<_>>())
+        .layers(labels.collect::<Vec<_>>());
+    let caption = match title {
+        "" => "Mesh".to_owned(),
+        title => literal(title),
+    };
+    Figure::new("mesh", caption).panel(panel)
+}
+
+/// The edges of the elements, region by region.
+fn elements(mesh: &Mesh) -> Vec<Line> {
+    let counts = (0..mesh.regions.len().max(1)).map(|region| {
+        let own = (0..mesh.element_count()).filter(move |&element| mesh.region(element) == region);
+        let count = own.clone().count();
+        let rings = own.flat_map(|element| {
+            let ring = outline(mesh, element);
+            let again = ring.first().copied();
+            let points = ring.into_iter().chain(again).map(|[x, y]| (x, y));
+            points.chain([GAP]).collect::<Vec<_>>()
+        });
+        let name = match (mesh.regions.len(), mesh.regions.get(region)) {
+            (2.., Some(name)) => format!("{}: {count} elements", literal(name)),
+            _ => format!("{count} elements, {} nodes", mesh.node_count()),
+        };
+        let colour = REGION_COLOURS[region % REGION_COLOURS.len()];
+        Line::through(rings).solid(colour, 0.25).name(name)
+    });
+    counts.collect()
+}
+
+/// A boundary that is held, loaded or touched.
+fn edge(mesh: &Mesh, (b, boundary): (usize, &Boundary), longest: f64) -> Option<Line> {
+    let (colour, name) = match boundary.condition {
+        _ if b == mesh.contact => (SERIES[1], "contact edge"),
+        _ if Some(b) == mesh.opposite => (SERIES[5], "counterface edge"),
+        BoundaryCondition::Clamped => (SERIES[0], "clamped edge"),
+        BoundaryCondition::Support(_) => (SERIES[2], "supported edge"),
+        BoundaryCondition::Guide | BoundaryCondition::Fixed(_) => (SERIES[3], "guided edge"),
+        BoundaryCondition::Pressure(_) => (SERIES[4], "pressed edge"),
+        BoundaryCondition::Free => return None,
+    };
+    // A gap where a curve goes on in another piece.
+    let again = boundary.nodes.first().filter(|_| boundary.is_closed);
+    let mut points: Vec<(f64, f64)> = Vec::new();
+    for &node in boundary.nodes.iter().chain(again) {
+        let [x, y] = mesh.plane_node(node as usize);
+        let is_far = points
+            .last()
+            .is_some_and(|last| (x - last.0).hypot(y - last.1) > 2.0 * longest);
+        points.extend(is_far.then_some(GAP));
+        points.push((x, y));
+    }
+    Some(Line::through(points).solid(colour, 1.4).name(name))
+}
+
+/// Arrows along the outward normals of the contact edge.
+fn normals(mesh: &Mesh, length: f64) -> Line {
+    let edge = mesh.contact_edge();
+    let all: Vec<_> = edge.nodes.iter().zip(&edge.normal_angles).collect();
+    let step = all.len().div_ceil(MOST_NORMALS).max(1);
+    let arrows = all.into_iter().step_by(step).flat_map(|(&node, angle)| {
+        let [x, y] = mesh.plane_node(node as usize);
+        let (sin, cos) = angle.sin_cos();
+        [(x, y), (x + length * cos, y + length * sin), GAP]
+    });
+    Line::through(arrows)
+        .solid(INK, 0.6)
+        .arrows(1)
+        .name("outward normal of the contact edge")
 }

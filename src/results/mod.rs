@@ -8,6 +8,7 @@ pub mod convergence;
 pub mod cycle;
 pub mod cycle_figures;
 mod drawing;
+mod extent;
 pub mod fit;
 pub mod identification;
 pub mod mesh;
@@ -32,6 +33,7 @@ pub use drawing::{
     DOTS_PER_INCH, DrawingError, DrawingOptions, FigureFile, Format, REPORT, draw_all,
     figure_files, write_figures, write_report,
 };
+pub use extent::Extent;
 pub use response::{
     RESPONSE_TABLE, ResponseSummary, draw_response_report, read_response_table, write_response,
 };

@@ -2,10 +2,23 @@
 
 use crate::chart::{Axis, literal};
 
+/// The mark-up that names a case key in legends and labels: its quantity with the symbol, or the key itself.
+pub fn parameter_name(key: &str) -> String {
+    named(key).map_or_else(|| literal(key), |(quantity, _)| quantity.to_owned())
+}
+
 /// An axis over the values of a case key: quantity, symbol and unit; the key itself where it is not one of those that
 /// studies go over.
 pub fn parameter_axis(key: &str) -> Axis {
-    let (quantity, unit) = match key {
+    match named(key) {
+        Some((quantity, unit)) => Axis::new(quantity, unit),
+        None => Axis::new(&literal(key), ""),
+    }
+}
+
+/// Quantity, symbol and unit of the keys that studies go over.
+fn named(key: &str) -> Option<(&'static str, &'static str)> {
+    Some(match key {
         "geometry.inner_radius" => ("inner radius *a*", "m"),
         "geometry.outer_radius" => ("outer radius", "m"),
         "geometry.thickness" => ("thickness", "m"),
@@ -22,7 +35,6 @@ pub fn parameter_axis(key: &str) -> Axis {
         "contact.normal_stiffness" => ("contact stiffness *k*_{n}", "Pa/m"),
         "contact.normal_damping" => ("normal contact damping", "Pa s/m"),
         "contact.tangential_damping" => ("tangential contact damping", "Pa s/m"),
-        other => return Axis::new(&literal(other), ""),
-    };
-    Axis::new(quantity, unit)
+        _ => return None,
+    })
 }

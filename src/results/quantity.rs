@@ -112,6 +112,13 @@ const QUANTITIES: &[Quantity<'static>] = &[
     quantity_of("time_step_s", "time step", "s", Scientific(4)),
     quantity_of("main_frequency_hz", "main frequency", "Hz", Fixed(1)),
     quantity_of("main_harmonic", "nodal diameters", "", Count),
+    quantity_of("second_frequency_hz", "second frequency", "Hz", Fixed(1)),
+    quantity_of(
+        "envelope_ratio",
+        "largest over smallest envelope",
+        "",
+        Fixed(2),
+    ),
     quantity_of("rate_per_s", "growth rate", "1/s", Fixed(1)),
     quantity_of(
         "first_nonlinearity_s",

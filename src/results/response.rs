@@ -114,24 +114,77 @@ pub fn draw_response_report(
     write_report(folder, &report, options)
 }
 
+/// Degrees beyond half a turn up to which the phase goes on before it is drawn a turn away: noise about half a turn is no jump.
+const PHASE_MARGIN: f64 = 25.0;
+/// Least rise of a maximum over its surroundings, as a natural logarithm (3 dB), and in units of the noise.
+const PROMINENCE: (f64, f64) = (0.345, 12.0);
+/// Most maxima that are marked.
+const MOST_MAXIMA: usize = 40;
+
+/// The phase, degrees, followed from value to value and drawn a whole number of turns away only where it leaves the axis; where
+/// that happens the line breaks.
+fn followed_phase(frequencies: &[f64], values: &[c64]) -> Vec<(f64, f64)> {
+    let limit = 180.0 + PHASE_MARGIN;
+    let mut points: Vec<(f64, f64)> = Vec::with_capacity(values.len());
+    let mut last: Option<f64> = None;
+    for (&frequency, value) in frequencies.iter().zip(values) {
+        let own = value.arg().to_degrees();
+        let near = last.map_or(own, |last| own + 360.0 * ((last - own) / 360.0).round());
+        let shown = if near.abs() > limit { own } else { near };
+        if shown != near {
+            points.push((f64::NAN, f64::NAN));
+        }
+        points.push((frequency, shown));
+        last = Some(shown).filter(|phase| phase.is_finite()).or(last);
+    }
+    points
+}
+
+/// Places of the maxima that rise out of their surroundings by more than the noise does, highest rise first.
+///
+/// The rise of a maximum is the smaller of the two depths to which the logarithm of the magnitude falls on its sides before it
+/// climbs higher again. The noise is the median distance of neighbouring logarithms over 0.95, which of independent normal
+/// values is their standard deviation.
+fn maxima(magnitude: &[f64]) -> Vec<usize> {
+    let logs: Vec<f64> = magnitude.iter().map(|m| m.max(1e-300).ln()).collect();
+    let mut steps: Vec<f64> = logs
+        .windows(2)
+        .map(|pair| (pair[1] - pair[0]).abs())
+        .collect();
+    steps.sort_by(f64::total_cmp);
+    let noise = steps.get(steps.len() / 2).copied().unwrap_or(0.0) / 0.95;
+    let least = PROMINENCE.0.max(PROMINENCE.1 * noise);
+    let depth = |top: f64, side: &mut dyn Iterator<Item = &f64>| {
+        let until = side.take_while(|value| **value <= top);
+        top - until.copied().fold(top, f64::min)
+    };
+    let peaks = (1..logs.len().saturating_sub(1))
+        .filter(|&i| logs[i] > logs[i - 1] && logs[i] >= logs[i + 1]);
+    let rise = |i: usize| {
+        let before = depth(logs[i], &mut logs[..i].iter().rev());
+        before.min(depth(logs[i], &mut logs[i + 1..].iter()))
+    };
+    // A look at the nearest values spares most of the noise the long way.
+    let is_high = |i: &usize| {
+        let near = &logs[i.saturating_sub(3)..(i + 4).min(logs.len())];
+        near.iter().all(|value| *value <= logs[*i])
+    };
+    let mut found: Vec<(f64, usize)> = peaks
+        .filter(is_high)
+        .map(|i| (rise(i), i))
+        .filter(|(rise, _)| *rise > least)
+        .collect();
+    found.sort_by(|a, b| b.0.total_cmp(&a.0));
+    found.truncate(MOST_MAXIMA);
+    found.into_iter().map(|(_, place)| place).collect()
+}
+
 /// Magnitude and phase of a response over the frequency.
 fn response_figure(response: &FrequencyResponse) -> Figure {
     let (frequencies, values) = (response.frequencies_hz(), response.values());
     let magnitude: Vec<f64> = values.iter().map(|h| h.norm()).collect();
-    let turns: Vec<f64> = values.iter().map(|h| h.arg().to_degrees()).collect();
-    // Where the phase jumps by a turn the line breaks; a sample between two jumps would be a speck.
-    let jumps = |i: usize| {
-        turns
-            .get(i + 1)
-            .is_some_and(|next| (next - turns[i]).abs() > 180.0)
-    };
-    let pieces = (0..turns.len()).collect::<Vec<_>>();
-    let pieces = pieces.chunk_by(|&i, _| !jumps(i));
-    let kept = pieces.filter(|piece| piece.len() > 2).flat_map(|piece| {
-        let points = piece.iter().map(|&i| (frequencies[i], turns[i]));
-        points.chain([(f64::NAN, f64::NAN)]).collect::<Vec<_>>()
-    });
-    let phase = Line::through(kept).solid(SERIES[0], 0.8);
+    let limit = 180.0 + PHASE_MARGIN;
+    let phase = Line::through(followed_phase(frequencies, values)).solid(SERIES[0], 0.8);
     let quarters =
         [-180, -90, 0, 90, 180].map(|d: i32| (f64::from(d), d.to_string().replace('-', "−")));
     let over = |y: Axis, height: f64, line: Line| {
@@ -140,13 +193,14 @@ fn response_figure(response: &FrequencyResponse) -> Figure {
             .layer(line)
     };
     let size = Line::new(frequencies, &magnitude).solid(SERIES[0], 0.8);
-    let peaks = (1..magnitude.len().saturating_sub(1))
-        .filter(|&i| magnitude[i] > magnitude[i - 1] && magnitude[i] >= magnitude[i + 1]);
-    let peaks =
-        Points::new(peaks.map(|i| (frequencies[i], magnitude[i]))).marker(Marker::Disc, 1.2, INK);
+    let places = maxima(&magnitude);
+    let tip = |&i: &usize| format!("maximum at {:.1} Hz", frequencies[i]);
+    let tips = places.iter().map(tip).collect();
+    let peaks = Points::new(places.iter().map(|&i| (frequencies[i], magnitude[i])));
+    let peaks = peaks.marker(Marker::Disc, 1.6, INK).tips(tips);
     Figure::new(
         "response",
-        "Frequency response of the model: magnitude (a), its maxima marked, and phase (b).",
+        "Frequency response of the model: magnitude (a), with the maxima that stand out of the noise, and phase (b).",
     )
     .shared_x()
     .panel(
@@ -158,10 +212,44 @@ fn response_figure(response: &FrequencyResponse) -> Figure {
         .layer(peaks.name("maximum")),
     )
     .panel(over(
-        Axis::new("phase", "°")
-            .between(-190.0, 190.0)
-            .ticks(quarters),
+        Axis::new("phase", "°").between(-limit, limit).ticks(quarters),
         72.0,
         phase,
     ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::linalg::GaussianNoise;
+
+    #[test]
+    fn maxima_are_the_resonances_and_none_of_the_noise() {
+        let mut noise = GaussianNoise::new(7);
+        let lines = 20_000;
+        let modes = [2000.0, 5000.0, 11_000.0];
+        let values: Vec<c64> = (0..lines)
+            .map(|i| {
+                let f = i as f64;
+                let one = |f0: f64| c64::new(1.0, 0.0) / c64::new(f0 * f0 - f * f, 0.02 * f0 * f);
+                let sum = modes
+                    .iter()
+                    .map(|&f0| one(f0))
+                    .fold(c64::new(0.0, 0.0), |a, b| a + b);
+                sum * (c64::new(1.0, 0.0) + noise.draw() * 0.07)
+            })
+            .collect();
+        let magnitude: Vec<f64> = values.iter().map(|h| h.norm()).collect();
+        let mut found = maxima(&magnitude);
+        found.sort_unstable();
+        assert_eq!(found.len(), modes.len(), "{found:?}");
+        for (place, mode) in found.iter().zip(modes) {
+            assert!((*place as f64 / mode - 1.0).abs() < 0.02, "{found:?}");
+        }
+        // The phase breaks where it leaves the axis, not at every value of the noise about half a turn.
+        let frequencies: Vec<f64> = (0..lines).map(|i| i as f64).collect();
+        let phase = followed_phase(&frequencies, &values);
+        let breaks = phase.iter().filter(|point| point.0.is_nan()).count();
+        assert!(breaks < 6, "{breaks}");
+    }
 }

@@ -79,6 +79,8 @@ pub struct PointSummary {
     pub critical_frictions: Vec<Crossing>,
     /// Whether a transient has settled.
     pub settled: Option<bool>,
+    /// What a transient ends in, by name.
+    pub end_state: Option<String>,
     /// Growth of the harmonics in the linear stage.
     pub growth: Vec<HarmonicGrowth>,
     /// Time step, s.

@@ -5,9 +5,9 @@ use super::charts::palette::{OPEN, SLIP, STICK};
 use super::charts::{CriticalBranch, ModeLine, critical_friction};
 use super::cycle_figures::{FamilyRecord, NamedFamily, draw_branches};
 use super::drawing::{Declaration, DrawingOptions, draw_all};
-use super::parameter::parameter_axis;
+use super::parameter::{parameter_axis, parameter_name};
 use super::report::NamedFigure;
-use super::sweep::{PointRecord, swept_text};
+use super::sweep::{PointRecord, TWO_FREQUENCY, UNSETTLED, swept_text};
 use crate::chart::{
     Axis, ChartError, Figure, Fill, INK, Line, Marker, Panel, Points, Rule, Scale, Stroke, literal,
     look, plain,
@@ -61,6 +61,8 @@ struct Cycle {
     value: f64,
     frequency_hz: f64,
     harmonic: Option<u64>,
+    /// What the transient ends in.
+    end: String,
     /// Fractions of contact nodes that stick, slip, are open.
     status: [f64; 3],
 }
@@ -111,6 +113,11 @@ impl Study {
                 value: value(record, &key),
                 frequency_hz: quantity("/main_frequency_hz"),
                 harmonic: summary.pointer("/main_harmonic").and_then(Value::as_u64),
+                end: summary
+                    .pointer("/end_state")
+                    .and_then(Value::as_str)
+                    .unwrap_or_default()
+                    .to_owned(),
                 status: ["stick", "slip", "open"]
                     .map(|status| quantity(&format!("/status/{status}"))),
             };
@@ -137,6 +144,22 @@ impl Study {
             .iter()
             .flat_map(|series| series.cycles.iter().map(|cycle| cycle.value));
         parameter_axis(&self.key).scaled(Scale::for_values(values, 10.0))
+    }
+
+    /// What rings mean, where there are any.
+    fn ring_caption(&self) -> String {
+        let ends_in = |end: &str| {
+            let mut cycles = self.series.iter().flat_map(|series| &series.cycles);
+            cycles.any(|cycle| cycle.end == end)
+        };
+        let mut caption = String::new();
+        if ends_in(UNSETTLED) {
+            caption += "; ring: not settled";
+        }
+        if ends_in(TWO_FREQUENCY) {
+            caption += "; double ring: a vibration of two frequencies, no limit cycle";
+        }
+        caption
     }
 
     fn over(&self) -> String {
@@ -183,6 +206,10 @@ impl Study {
                     .name(format!("*ω*\\*, {}", series.name))
             }));
         }
+        let all = || self.series.iter().flat_map(|series| &series.cycles);
+        panel = panel.layers(rings(all(), |cycle| {
+            vec![(cycle.value, cycle.frequency_hz)]
+        }));
         for (harmonic, marker) in (0..).zip(Marker::ALL.iter().cycle()).take(9) {
             for (index, series) in self.series.iter().enumerate() {
                 let own = series
@@ -200,8 +227,9 @@ impl Study {
             }
         }
         let caption = format!(
-            "Main frequency of the limit cycle over {}, with markers for the number of nodal diameters; dashed: unstable modes.",
-            self.over()
+            "Main frequency of the vibration over {}, with markers for the number of nodal diameters; dashed: unstable modes{}.",
+            self.over(),
+            self.ring_caption()
         );
         Ok(Figure::new("frequencies", caption).panel(panel))
     }
@@ -237,6 +265,10 @@ impl Study {
             .layer(Fill::from(0.0, &values, &stick, STICK).name("stick"))
             .layer(Fill::between(&values, &stick, &slip, SLIP).name("slip"))
             .layer(Fill::between(&values, &slip, &all, OPEN).name("open"))
+            .layers(rings(known(), |cycle| {
+                let [stick, slip, _] = cycle.status;
+                vec![(cycle.value, stick), (cycle.value, stick + slip)]
+            }))
             .layer(
                 Points::new(bounds.map(|(x, y)| (*x, *y)))
                     .marker(Marker::Disc, 1.1, INK)
@@ -250,8 +282,9 @@ impl Study {
             }))
         });
         let caption = format!(
-            "Shares of sticking, slipping and open contact nodes over {}.",
-            self.over()
+            "Shares of sticking, slipping and open contact nodes over {}{}.",
+            self.over(),
+            self.ring_caption()
         );
         let columns = self.series.len().clamp(1, 3);
         Ok(Figure::new("status", caption)
@@ -280,6 +313,26 @@ impl Series {
     }
 }
 
+/// Rings around the points that are no limit cycles: one where the run has not settled, two around two frequencies.
+fn rings<'a>(
+    cycles: impl Iterator<Item = &'a Cycle> + Clone,
+    places: impl Fn(&Cycle) -> Vec<(f64, f64)>,
+) -> Vec<Points> {
+    let ring = |end: &str, radius: f64| {
+        let own = cycles.clone().filter(|cycle| cycle.end == end);
+        let own: Vec<(f64, f64)> = own.flat_map(&places).collect();
+        let points = !own.is_empty();
+        points.then(|| Points::new(own).marker(Marker::Circle, radius, INK))
+    };
+    let named = |points: Option<Points>, name: &str| points.map(|points| points.name(name));
+    let rings = [
+        named(ring(UNSETTLED, 3.6), "not settled"),
+        named(ring(TWO_FREQUENCY, 5.0), "two frequencies"),
+        ring(TWO_FREQUENCY, 3.6),
+    ];
+    rings.into_iter().flatten().collect()
+}
+
 /// The branches of limit cycles of all points.
 fn cycle_families(records: &[PointRecord]) -> Vec<(String, FamilyRecord)> {
     let mut families = Vec::new();
@@ -301,7 +354,15 @@ fn swept_label(swept: &Map<String, Value>) -> String {
     match (swept.len(), swept.get(FRICTION)) {
         (0, _) => "limit cycle".into(),
         (1, Some(friction)) => format!("*μ* = {friction}"),
-        _ => literal(&swept_text(swept)),
+        _ => {
+            let parts = swept.iter().map(|(key, value)| {
+                let one = Map::from_iter([(key.clone(), value.clone())]);
+                let text = swept_text(&one);
+                let value = text.rsplit(" = ").next().unwrap_or_default();
+                format!("{} = {}", parameter_name(key), literal(value))
+            });
+            parts.collect::<Vec<_>>().join(", ")
+        }
     }
 }
 

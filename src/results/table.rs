@@ -1,5 +1,6 @@
 //! Comma-separated tables.
 
+use std::borrow::Cow;
 use std::io::{self, Write};
 
 /// A number in the shortest form that reads back as the same bits; empty if it is not finite, 0.0 for -0.0.
@@ -8,6 +9,19 @@ pub fn format_number(value: f64) -> String {
         format!("{:?}", value + 0.0)
     } else {
         String::new()
+    }
+}
+
+/// A cell that no spreadsheet takes for a formula: one that begins like one, and is no number, stands behind an apostrophe.
+fn tamed(cell: &[u8]) -> Cow<'_, [u8]> {
+    let is_formula = match cell {
+        [b'=' | b'@' | b'\t' | b'\r', ..] => true,
+        [b'+' | b'-', next, ..] => !next.is_ascii_digit() && *next != b'.',
+        _ => false,
+    };
+    match is_formula {
+        true => [b"'", cell].concat().into(),
+        false => cell.into(),
     }
 }
 
@@ -24,7 +38,7 @@ impl<W: Write> Table<W> {
     /// Those of the writer.
     pub fn new(out: W, columns: &[&str]) -> io::Result<Self> {
         let mut writer = csv::Writer::from_writer(out);
-        writer.write_record(columns)?;
+        writer.write_record(columns.iter().map(|name| tamed(name.as_bytes())))?;
         Ok(Self {
             writer,
             columns: columns.len(),
@@ -40,7 +54,10 @@ impl<W: Write> Table<W> {
         I: IntoIterator<Item = S>,
         S: AsRef<[u8]>,
     {
-        Ok(self.writer.write_record(cells)?)
+        for cell in cells {
+            self.writer.write_field(tamed(cell.as_ref()))?;
+        }
+        Ok(self.writer.write_record(None::<&[u8]>)?)
     }
 
     /// Writes one row of numbers.
@@ -127,6 +144,17 @@ mod tests {
         }
         assert_eq!(format_number(f64::NAN), "");
         assert_eq!(format_number(-0.0), "0.0");
+    }
+
+    #[test]
+    fn no_cell_is_a_formula_and_every_number_stays_one() {
+        let mut out = Vec::new();
+        let mut table = Table::new(&mut out, &["=cmd|' /C calc'!A0", "b"]).unwrap();
+        table.row(["@SUM(1)", "-1.5"]).unwrap();
+        table.row(["-cmd", "+.5"]).unwrap();
+        table.finish().unwrap();
+        let text = String::from_utf8(out).unwrap();
+        assert_eq!(text, "'=cmd|' /C calc'!A0,b\n'@SUM(1),-1.5\n'-cmd,+.5\n");
     }
 
     #[test]

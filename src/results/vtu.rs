@@ -1,8 +1,10 @@
 //! Fields on the mesh for ParaView: VTK XML unstructured grids, appended raw, zlib-compressed.
 
+use crate::contact::ContactStatus;
 use crate::fem::NodalStress;
-use crate::mesh::{Mesh2d, SolidSector};
+use crate::mesh::{Mesh, SolidSector};
 use flate2::{Compression, write::ZlibEncoder};
+use nalgebra::Vector3;
 use std::io::{self, Write};
 
 /// Bytes of one compressed block.
@@ -98,8 +100,57 @@ impl Field {
         ]
     }
 
+    /// The stress components along `x` and `y` of a body that is no annulus about the origin, where polar ones say little.
+    pub fn cartesian_stresses(mesh: &Mesh, stresses: &[NodalStress]) -> Vec<Self> {
+        if mesh.is_cyclic {
+            return Vec::new();
+        }
+        // sigma_xy = T^T sigma_rt T with the turn T by the angle of the node's axes.
+        let turned = |(node, stress): (usize, &NodalStress)| {
+            let (sin, cos) = mesh.reported_angle(node).sin_cos();
+            let (rr, tt, rt) = (stress.radial, stress.hoop, stress.shear);
+            let twice = 2.0 * sin * cos * rt;
+            [
+                cos * cos * rr + sin * sin * tt - twice,
+                sin * sin * rr + cos * cos * tt + twice,
+                sin * cos * (rr - tt) + (cos * cos - sin * sin) * rt,
+            ]
+        };
+        let turned: Vec<[f64; 3]> = stresses.iter().enumerate().map(turned).collect();
+        let field = |name: &str, k: usize| {
+            Self::scalars(name, turned.iter().map(|stress| stress[k]).collect())
+        };
+        vec![
+            field("stress_xx_pa", 0),
+            field("stress_yy_pa", 1),
+            field("stress_xy_pa", 2),
+        ]
+    }
+
+    /// Contact status of all `count` nodes: 0 open, 1 stick, 2 slip at the nodes of the contact edge, -1 off it.
+    pub fn status(
+        count: usize,
+        edge: &[u32],
+        statuses: impl IntoIterator<Item = ContactStatus>,
+    ) -> Self {
+        let mut codes = vec![-1; count];
+        for (&node, status) in edge.iter().zip(statuses) {
+            codes[node as usize] = status as i64;
+        }
+        Self::integers("status", codes)
+    }
+
+    /// Values at the nodes of the contact edge among `count` nodes, zero off it.
+    pub fn on_edge(name: &str, count: usize, edge: &[u32], values: &[f64]) -> Self {
+        let mut all = vec![0.0; count];
+        for (&node, value) in edge.iter().zip(values) {
+            all[node as usize] = *value;
+        }
+        Self::scalars(name, all)
+    }
+
     /// A plane vector of each node from its nodal frame, as Cartesian `(x, y, 0)`.
-    pub fn vectors(name: &str, mesh: &Mesh2d, nodal: &[f64]) -> Self {
+    pub fn vectors(name: &str, mesh: &Mesh, nodal: &[f64]) -> Self {
         Self {
             name: name.to_owned(),
             components: 3,
@@ -127,9 +178,16 @@ pub fn solid_vectors(name: &str, sector: &SolidSector, nodal: &[f64]) -> Field {
     }
 }
 
-/// Turns nodal-frame vectors (`2 * node_count` values) into Cartesian `(x, y, 0)` triples.
-pub fn cartesian_vectors(mesh: &Mesh2d, nodal: &[f64]) -> Vec<f64> {
-    let pairs = nodal.chunks_exact(2).zip(&mesh.frame_angles);
+/// Turns nodal-frame vectors (`dimension * node_count` values) into Cartesian `(x, y, z)` triples.
+pub fn cartesian_vectors(mesh: &Mesh, nodal: &[f64]) -> Vec<f64> {
+    if mesh.dimension == 3 {
+        let nodes = nodal.chunks_exact(3).enumerate();
+        let turned = nodes.map(|(node, u)| mesh.frame(node) * Vector3::from_column_slice(u));
+        return turned
+            .flat_map(|vector| [vector.x, vector.y, vector.z])
+            .collect();
+    }
+    let pairs = nodal.chunks_exact(2).zip(mesh.frame_angles());
     pairs
         .flat_map(|(pair, angle)| {
             let (sine, cosine) = angle.sin_cos();
@@ -158,8 +216,8 @@ impl EncodedMesh {
     ///
     /// # Errors
     /// Those of the compressor (out of memory).
-    pub fn new(mesh: &Mesh2d) -> io::Result<Self> {
-        let points = mesh.nodes.iter().flat_map(|node| [node[0], node[1], 0.0]);
+    pub fn new(mesh: &Mesh) -> io::Result<Self> {
+        let points = mesh.nodes.iter().flatten().copied();
         let ends = mesh.element_starts[1..].iter().map(|&end| i64::from(end));
         let types: Vec<u8> = mesh
             .element_kinds

@@ -88,6 +88,12 @@ pub enum NoGrowth {
         /// Frequency at which the signal was demodulated, Hz.
         frequency_hz: f64,
     },
+    /// A power of another wave, which grows so many times as fast at so many times its frequency.
+    #[error("it holds a power of the growing wave of harmonic {harmonic}, and no mode of its own")]
+    Power {
+        /// Harmonic of that wave.
+        harmonic: usize,
+    },
     /// No vibration stands out of the noise.
     #[error("no line stands out from the noise")]
     NoLine,

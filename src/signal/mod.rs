@@ -15,6 +15,7 @@ mod lines;
 mod modal;
 pub mod reader;
 mod response;
+mod rotating;
 mod spectrogram;
 mod spectrum;
 mod statistics;
@@ -32,6 +33,7 @@ pub use modal::{
     fit_modes, fit_rayleigh, half_power, identify,
 };
 pub use response::{FrequencyResponse, ResponseQuantity};
+pub use rotating::{RotatingLine, rotating_lines};
 pub use spectrogram::{Spectrogram, SpectrogramOptions, spectrogram};
 pub use spectrum::{AmplitudeSpectrum, amplitude_spectrum, averaged_spectrum};
 pub use statistics::student_95;

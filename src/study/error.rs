@@ -87,6 +87,7 @@ impl StudyError {
             Self::Case(_) | Self::Simd(_) => true,
             Self::Eigenvalues(error) => error.is_usage(),
             Self::Cycle(error) => error.is_usage(),
+            Self::Fit(error) => error.is_usage(),
             _ => false,
         }
     }

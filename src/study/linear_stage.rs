@@ -30,8 +30,10 @@ pub enum LinearStageError {
 pub struct LinearStage {
     /// Frequencies, numbered among all modes by frequency.
     pub references: Vec<ModeLine>,
-    /// Largest growth rate of each unstable harmonic, 1/s, harmonics rising.
+    /// Largest growth rate of each unstable harmonic, 1/s, harmonics rising; none for a body without symmetry.
     pub growth_rates: Vec<(usize, f64)>,
+    /// Frequency (Hz) and growth rate (1/s) of each unstable mode.
+    pub mode_rates: Vec<(f64, f64)>,
 }
 
 impl LinearStage {
@@ -67,6 +69,9 @@ impl LinearStage {
                 })
                 .collect(),
             growth_rates,
+            mode_rates: unstable()
+                .map(|(_, mode)| (mode.frequency_hz(), mode.growth_rate()))
+                .collect(),
         })
     }
 }

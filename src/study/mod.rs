@@ -11,6 +11,7 @@ pub mod convergence;
 pub mod cycle;
 pub mod eigenvalues;
 mod error;
+mod extent;
 pub mod fit;
 mod linear_stage;
 mod plan;
@@ -24,6 +25,7 @@ pub mod uncertainty;
 
 pub use eigenvalues::modes_at_own_friction;
 pub use error::StudyError;
+pub use extent::extent_of;
 pub use linear_stage::{LinearStage, LinearStageError};
 pub use plan::{Shard, SweepPlan, analysis_name, one_line};
 pub use preflight::{Preflight, preflight, refuse_memory};

@@ -1,5 +1,6 @@
 //! Checks of a case without running it, through the code paths of the run.
 
+use super::eigenvalues::Solver;
 use super::response::FrequencyStudy;
 use super::transient::TransientStudy;
 use super::{StudyError, eigenvalues};
@@ -74,15 +75,18 @@ pub fn preflight(case: &Case, available: f64) -> Result<Preflight, StudyError> {
     if let Some(cea) = &case.cea
         && is_small
     {
-        let modes = found.cost.cea.map_or(0, |cost| cost.modes);
-        let sectors = case.body.sector_count().unwrap_or(1).max(1);
-        let sector = found.cost.dofs as usize / sectors;
-        if sector.saturating_mul(modes) <= MOST_EIGENVALUE_WORK {
-            let tried = eigenvalues::preflight(case, cea);
-            found.tolerate("cea", tried)?;
+        // A harmonic of a plane annulus is solved at once; anything else takes the time of the run itself.
+        if let Solver::Sectors(annulus) = Solver::of(case, cea.method)? {
+            let modes = found.cost.cea.map_or(0, |cost| cost.modes);
+            let sectors = annulus.specification.circumferential_elements.max(1);
+            let sector = found.cost.dofs as usize / sectors;
+            if sector.saturating_mul(modes) <= MOST_EIGENVALUE_WORK {
+                let tried = eigenvalues::preflight(case, cea);
+                found.tolerate("cea", tried)?;
+            }
         }
     }
-    if case.frf.is_some() && is_small {
+    if case.frf.is_some() && is_small && case.body.annulus().is_some() {
         let tried = FrequencyStudy::new(case).map(|_| ());
         found.tolerate("frf", tried)?;
     }
@@ -143,6 +147,11 @@ pub fn refuse_memory(
     }
 }
 
+/// The plan of the run. The steady sliding of any body but a plane annulus takes longer than a check is worth.
 fn transient_plan(case: &Case) -> Result<StepPlan, StudyError> {
-    TransientStudy::new(case, SimdLevel::detect())?.preflight()
+    let study = TransientStudy::new(case, SimdLevel::detect())?;
+    match case.body.annulus() {
+        Some(_) => study.preflight(),
+        None => study.preflight_from_rest(),
+    }
 }

@@ -1,17 +1,23 @@
 //! Frequencies, growth rates and mean powers of a recorded run.
 
 use super::recorder::HARMONIC_COUNT;
-use super::settling::Settling;
+use super::settling::{Settling, Unsettled, Vibration};
 use super::vibration::{amplitudes, last_fifth, main_vibration, rms, series};
 use super::{ContactPowers, Recorder, SampleRow, StatusCounts};
-use crate::signal::{ExponentialStage, NoGrowth, harmonic_growth};
+use crate::signal::{ExponentialStage, NoGrowth, harmonic_growth, strongest_vibration};
 use std::ops::Range;
 
-/// Growth (or decay) of one harmonic of the contact edge in the linear stage.
+/// Highest power of a growing wave that is told from a mode of its harmonic.
+const HIGHEST_POWER: usize = 3;
+/// Relative distance of rate and frequency within which a wave is such a power.
+const POWER_RATE: f64 = 0.03;
+const POWER_FREQUENCY: f64 = 1e-3;
+
+/// Growth (or decay) of one vibration of the contact edge in the linear stage.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Growth {
-    /// Circumferential harmonic.
-    pub harmonic: usize,
+    /// What vibrates.
+    pub vibration: Vibration,
     /// Rate (1/s) and signed frequency (Hz) with their 95 % intervals, or why there are none.
     pub stage: Result<ExponentialStage, NoGrowth>,
     /// Sense of rotation of the cylinder, +1 counter-clockwise.
@@ -19,10 +25,19 @@ pub struct Growth {
 }
 
 impl Growth {
-    /// +1 travels with the rotor, -1 against it; 0 without a stage.
+    /// Circumferential harmonic; `None` for a body without symmetry.
+    pub fn harmonic(&self) -> Option<usize> {
+        match self.vibration {
+            Vibration::Harmonic(harmonic) => Some(harmonic),
+            Vibration::Strongest => None,
+        }
+    }
+
+    /// +1 travels with the rotor, -1 against it; 0 without a stage, and on a body without symmetry.
     pub fn direction(&self) -> i8 {
         // exp(i (n theta + omega t)) travels towards negative angles.
         match &self.stage {
+            _ if self.vibration == Vibration::Strongest => 0,
             Ok(stage) if stage.frequency_hz.value * self.rotation_direction > 0.0 => -1,
             Ok(_) => 1,
             Err(_) => 0,
@@ -36,7 +51,7 @@ pub struct LastFifth {
     /// Frequency of the strongest harmonic of the contact edge's tangential displacement, Hz; `None` if it does
     /// not vibrate.
     pub main_frequency_hz: Option<f64>,
-    /// Circumferential harmonic of that vibration.
+    /// Circumferential harmonic of that vibration; a body without symmetry has none.
     pub main_harmonic: Option<usize>,
     /// Its root mean square amplitude, m.
     pub main_amplitude: Option<f64>,
@@ -75,7 +90,7 @@ pub struct TransientAnalysis {
     pub last_fifth: LastFifth,
     /// Whether it has settled, and on what.
     pub settling: Settling,
-    /// Growth of each perturbed harmonic in the linear stage.
+    /// Growth in the linear stage: of each perturbed harmonic, or of the strongest vibration of a body without symmetry.
     pub growth: Vec<Growth>,
     /// End of the linear stage, the longest time with every contact node slipping (but those that steady sliding leaves open):
     /// when the first node sticks or opens, s. `None` if there is no linear stage or it lasts to the end of the run.
@@ -85,24 +100,117 @@ pub struct TransientAnalysis {
 }
 
 impl TransientAnalysis {
-    /// Reads `record`; growth is fitted for those of `harmonics` that it follows.
+    /// Reads the `record` of a body whose motion has circumferential harmonics; growth is fitted for those of `harmonics`
+    /// that it follows.
     pub fn of(record: &Recorder, harmonics: &[usize]) -> Self {
+        let mut analysis = Self::without_growth(record);
+        let stage = grown_samples(record);
+        let fitted = harmonics.iter();
+        analysis.growth = fitted
+            .filter_map(|&n| growth(record, stage.clone(), n))
+            .collect();
+        refuse_powers(&mut analysis.growth);
+        analysis
+    }
+
+    /// Reads the `record` of a body without symmetry, whose vibrations are modes and no harmonics; growth is that of the
+    /// strongest vibration of its contact edge at the end of the linear stage.
+    pub fn without_symmetry(record: &Recorder) -> Self {
+        let mut analysis = Self::without_growth(record);
+        let stage = grown_samples(record);
+        let late = stage.start + 2 * stage.len() / 3..stage.end;
+        let size = |n: usize| {
+            let series = series(record, late.clone(), n)?;
+            Some(strongest_vibration(&series, 1.0 / record.sample_interval)?.1)
+        };
+        let sizes = record
+            .followed_harmonics()
+            .map(|n| (n, size(n).unwrap_or(0.0)));
+        // The edge moves with its modes: its harmonics are so many sensors.
+        let sensor = sizes.max_by(|a, b| a.1.total_cmp(&b.1));
+        let strongest = sensor.and_then(|(n, _)| growth(record, stage, n));
+        analysis.growth = strongest.into_iter().collect();
+        let of_modes = |vibration: &mut Vibration| *vibration = Vibration::Strongest;
+        analysis
+            .growth
+            .iter_mut()
+            .for_each(|growth| of_modes(&mut growth.vibration));
+        if let Some(Unsettled::Growing { vibration, .. }) = &mut analysis.settling.reason {
+            of_modes(vibration);
+        }
+        analysis.last_fifth.main_harmonic = None;
+        analysis.last_fifth.significant = Vec::new();
+        analysis
+    }
+
+    /// Reads a record of which no growth is wanted.
+    fn without_growth(record: &Recorder) -> Self {
         let rows = &record.rows;
         let stage = linear_stage(rows);
         let ended = stage.end < rows.len() && !stage.is_empty();
         let residuals = rows.iter().map(|row| row.balance_residual);
-        // What is seeded later grows from there.
-        let seeded = rows.partition_point(|row| row.time < record.seed_time);
-        let grown = stage.start.max(seeded).min(stage.end)..stage.end;
         Self {
             last_fifth: LastFifth::of(record),
             settling: Settling::of(record),
-            growth: harmonics
-                .iter()
-                .filter_map(|&n| growth(record, grown.clone(), n))
-                .collect(),
+            growth: Vec::new(),
             first_nonlinearity: ended.then(|| rows[stage.end].time),
             largest_residual: residuals.fold(0.0, f64::max),
+        }
+    }
+
+    /// Without a linear stage: that of a run that starts on a limit cycle.
+    #[must_use]
+    pub fn from_limit_cycle(self) -> Self {
+        Self {
+            growth: Vec::new(),
+            first_nonlinearity: None,
+            ..self
+        }
+    }
+}
+
+/// Samples of the linear stage after the perturbation: what is seeded later grows from there.
+fn grown_samples(record: &Recorder) -> Range<usize> {
+    let stage = linear_stage(&record.rows);
+    let seeded = record
+        .rows
+        .partition_point(|row| row.time < record.seed_time);
+    stage.start.max(seeded).min(stage.end)..stage.end
+}
+
+/// Takes the rate from harmonics that only hold the square or the cube of a growing wave: where friction depends on speed,
+/// a wave `e^{i n theta + lambda t}` drives `e^{2 i n theta + 2 lambda t}`, which is no mode of harmonic `2 n`.
+fn refuse_powers(growths: &mut [Growth]) {
+    let waves: Vec<(usize, f64, f64)> = growths
+        .iter()
+        .filter_map(|growth| {
+            let stage = growth.stage.as_ref().ok()?;
+            let (rate, frequency) = (stage.rate_per_s.value, stage.frequency_hz.value);
+            Some((growth.harmonic()?, rate, frequency))
+        })
+        .filter(|wave| wave.1 > 0.0 && wave.0 > 0)
+        .collect();
+    for growth in growths {
+        let (Some(own), Ok(stage)) = (growth.harmonic(), &growth.stage) else {
+            continue;
+        };
+        let is_near = |value: f64, expected: f64, share: f64| {
+            (value - expected).abs() < share * expected.abs()
+        };
+        let power = |&(harmonic, rate, frequency): &(usize, f64, f64)| {
+            let mut powers = 2..=HIGHEST_POWER;
+            powers.any(|k| {
+                own == k * harmonic
+                    && is_near(stage.rate_per_s.value, k as f64 * rate, POWER_RATE)
+                    && is_near(
+                        stage.frequency_hz.value,
+                        k as f64 * frequency,
+                        POWER_FREQUENCY,
+                    )
+            })
+        };
+        if let Some(&(harmonic, ..)) = waves.iter().find(|wave| power(wave)) {
+            growth.stage = Err(NoGrowth::Power { harmonic });
         }
     }
 }
@@ -227,8 +335,45 @@ fn growth(record: &Recorder, stage: Range<usize>, harmonic: usize) -> Option<Gro
     let series = amplitudes(record, stage.clone(), harmonic)?;
     let motion = record.largest_motion(stage);
     Some(Growth {
-        harmonic,
+        vibration: Vibration::Harmonic(harmonic),
         stage: harmonic_growth(&series, 1.0 / record.sample_interval, motion),
         rotation_direction: record.rotation_direction,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::signal::Estimate;
+
+    #[test]
+    fn the_square_of_a_growing_wave_is_no_stage_of_twice_its_harmonic() {
+        let exactly = |value: f64| Estimate {
+            value,
+            low: value,
+            high: value,
+        };
+        let growth = |harmonic: usize, rate: f64, frequency: f64| Growth {
+            vibration: Vibration::Harmonic(harmonic),
+            stage: Ok(ExponentialStage {
+                start: 0.0,
+                end: 1.0,
+                rate_per_s: exactly(rate),
+                frequency_hz: exactly(frequency),
+                initial_amplitude: 1e-9,
+                deviation: 0.0,
+            }),
+            rotation_direction: 1.0,
+        };
+        let mut growths = [
+            growth(1, 1480.0, -10_500.0),
+            growth(2, 2962.0, -21_001.0),
+            growth(3, 4440.0, -31_500.0),
+            growth(4, 2960.0, -21_000.0),
+            growth(2, 950.0, -9930.0),
+        ];
+        refuse_powers(&mut growths);
+        let is_own = growths.map(|growth| growth.stage.is_ok());
+        assert_eq!(is_own, [true, false, false, true, true]);
+    }
 }

@@ -97,8 +97,8 @@ impl TransientBody<'_> {
     pub(super) fn place(&self, node: usize) -> [f64; 2] {
         match self {
             Self::Plane(model) => {
-                let [x, y] = model.mesh.nodes[node];
-                [x.hypot(y), model.mesh.frame_angles[node]]
+                let [x, y] = model.mesh.plane_node(node);
+                [x.hypot(y), model.mesh.frame_angles()[node]]
             }
             Self::Solid(SolidTransientModel { sector, .. }) => {
                 let (local, s) = (node % sector.node_count(), node / sector.node_count());

@@ -13,6 +13,7 @@ mod compliance;
 mod contact;
 mod error;
 mod model;
+mod motion;
 mod perturbation;
 mod recorder;
 mod sample;
@@ -27,6 +28,7 @@ pub use central_difference::{CentralDifference, RunEnd, TransientState};
 pub use contact::{ContactPowers, LagrangeContact, StatusCounts};
 pub use error::{Breakdown, TransientError};
 pub use model::{TransientModel, build_operator};
+pub use motion::TwoFrequencies;
 pub use perturbation::{Perturbation, StandingWave};
 pub use recorder::{ContactFrame, Recorder, RecorderSettings, SampleRow, Snapshot};
 pub use sample::{Observer, Sample};
@@ -34,5 +36,5 @@ pub use settings::{
     InitialState, OperatorChoice, StepPlan, TimeStep, TransientSettings, stable_step_limit,
     whole_intervals,
 };
-pub use settling::{Drift, EndState, Settling, Unsettled};
+pub use settling::{Drift, EndState, Settling, Unsettled, Vibration};
 pub use solid::SolidTransientModel;

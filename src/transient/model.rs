@@ -8,13 +8,13 @@ use crate::fem::operator::{
     largest_frequency_of,
 };
 use crate::fem::{MaterialField, RayleighDamping, lumped_masses};
-use crate::mesh::{AnnulusMesh, Mesh2d};
+use crate::mesh::{AnnulusMesh, Mesh};
 
 /// The body and its contact.
 #[derive(Clone, Copy, Debug)]
 pub struct TransientModel<'a> {
     /// Mesh of the disc.
-    pub mesh: &'a Mesh2d,
+    pub mesh: &'a Mesh,
     /// The annulus that the mesh belongs to, if it is one.
     pub annulus: Option<&'a AnnulusMesh>,
     /// Its material.

@@ -3,7 +3,7 @@
 use super::TransientError;
 use crate::contact::ContactInterface;
 use crate::linalg::GaussianNoise;
-use crate::mesh::{AnnulusMesh, Counterface, Mesh2d};
+use crate::mesh::{AnnulusMesh, Counterface, Mesh};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// One circumferential harmonic of a [`Perturbation`].
@@ -60,7 +60,7 @@ impl Perturbation {
     /// [`Self::field`] over a mesh, which may belong to an annulus.
     pub(super) fn over(
         &self,
-        mesh: &Mesh2d,
+        mesh: &Mesh,
         annulus: Option<&AnnulusMesh>,
     ) -> Result<Vec<f64>, TransientError> {
         let elements = match annulus {
@@ -108,13 +108,13 @@ impl Perturbation {
         largest * (FRAC_PI_2 * place.depth).cos() * sum
     }
 
-    fn add_waves(&self, places: &[Place], mesh: &Mesh2d, velocity: &mut [f64]) {
+    fn add_waves(&self, places: &[Place], mesh: &Mesh, velocity: &mut [f64]) {
         if self.waves.iter().all(|wave| wave.velocity == 0.0) {
             return;
         }
         for (node, place) in places.iter().enumerate() {
             let along = self.along(place);
-            let turn = place.tangent - mesh.frame_angles[node];
+            let turn = place.tangent - mesh.frame_angles()[node];
             // A quarter turn, but for round-off: along the node's second axis exactly.
             if (turn - FRAC_PI_2).abs() < 1e-12 {
                 velocity[2 * node + 1] = along;
@@ -159,8 +159,8 @@ fn places_on(annulus: &AnnulusMesh) -> Vec<Place> {
         .map_or(inner, |shaft| shaft.inner_radius);
     let per_sector = annulus.sector_node_count();
     let first = annulus.mesh.contact_edge().nodes[0] as usize;
-    let nodes = annulus.mesh.nodes.iter().zip(&annulus.mesh.frame_angles);
-    let place = |(node, ([x, y], &angle)): (usize, (&[f64; 2], &f64))| Place {
+    let nodes = annulus.mesh.nodes.iter().zip(annulus.mesh.frame_angles());
+    let place = |(node, ([x, y, _], &angle)): (usize, (&[f64; 3], &f64))| Place {
         depth: if node % per_sector < first {
             (inner - x.hypot(*y)) / (inner - bore)
         } else {
@@ -172,19 +172,19 @@ fn places_on(annulus: &AnnulusMesh) -> Vec<Place> {
     nodes.enumerate().map(place).collect()
 }
 
-fn places(mesh: &Mesh2d) -> Vec<Place> {
+fn places(mesh: &Mesh) -> Vec<Place> {
     let counterface = mesh.counterface;
     let gaps: Vec<f64> = mesh
-        .nodes
-        .iter()
-        .map(|&p| counterface.gap(p).max(0.0))
+        .plane_nodes()
+        .into_iter()
+        .map(|p| counterface.gap(p).max(0.0))
         .collect();
     let deepest = gaps.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
     let along = mesh
         .contact_edge()
         .nodes
         .iter()
-        .map(|&node| counterface.place(mesh.nodes[node as usize]));
+        .map(|&node| counterface.place(mesh.plane_node(node as usize)));
     let (low, high) = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), s| {
         (low.min(s), high.max(s))
     });
@@ -192,8 +192,8 @@ fn places(mesh: &Mesh2d) -> Vec<Place> {
         Counterface::Cylinder { .. } => counterface.place(point),
         Counterface::Plane { .. } => TAU * (counterface.place(point) - low) / (high - low),
     };
-    let pairs = mesh.nodes.iter().zip(gaps);
-    let place = |(&point, gap): (&[f64; 2], f64)| Place {
+    let pairs = mesh.plane_nodes().into_iter().zip(gaps);
+    let place = |(point, gap): ([f64; 2], f64)| Place {
         depth: gap / deepest,
         angle: angle(point),
         tangent: counterface.normal_angle(point) + FRAC_PI_2,

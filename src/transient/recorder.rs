@@ -322,7 +322,10 @@ fn probe_turns(body: &TransientBody<'_>, probes: &[usize]) -> Vec<[f64; 2]> {
         return vec![[1.0, 0.0]; probes.len()];
     };
     let turn = |&probe: &usize| {
-        let (frame, reported) = (mesh.frame_angles[probe - 1], mesh.reported_angle(probe - 1));
+        let (frame, reported) = (
+            mesh.frame_angles()[probe - 1],
+            mesh.reported_angle(probe - 1),
+        );
         let (sin, cos) = (frame - reported).sin_cos();
         [cos, sin]
     };

@@ -1,11 +1,13 @@
 //! End state of a run, and the time from which it holds.
 
 use super::StatusCounts;
+use super::motion::TwoFrequencies;
 use super::recorder::{Recorder, SampleRow};
 use super::vibration::{last_fifth, main_vibration, rms, series};
 use crate::signal::round_off_floor;
 use rustfft::num_complex::Complex64;
 use std::f64::consts::TAU;
+use std::fmt;
 use std::ops::Range;
 
 /// Drift below which a run has settled.
@@ -17,6 +19,9 @@ const PERIODS: f64 = 8.0;
 /// Fewest blocks in the last fifth of a run that can be told to have settled.
 const FEWEST_BLOCKS: usize = 4;
 
+/// Share of a run that its end is.
+const END: f64 = 0.2;
+
 /// Blocks in the last fifth of a run that does not vibrate.
 const QUIET_BLOCKS: usize = 8;
 
@@ -24,10 +29,13 @@ const QUIET_BLOCKS: usize = 8;
 const GROWTH: f64 = 1.2;
 
 /// What a run ends in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum EndState {
     /// A periodic vibration of constant amplitude, frequency and status.
     LimitCycle,
+    /// A stationary vibration of two frequencies without a common fundamental: it never repeats itself, and its envelope
+    /// swings.
+    TwoFrequency(TwoFrequencies),
     /// The cylinder slides, and nothing vibrates.
     SteadySliding,
     /// The cylinder does not turn, and nothing vibrates.
@@ -43,6 +51,7 @@ impl EndState {
     pub fn name(self) -> &'static str {
         match self {
             Self::LimitCycle => "limit-cycle",
+            Self::TwoFrequency(_) => "two-frequency",
             Self::SteadySliding => "steady-sliding",
             Self::AtRest => "at-rest",
             Self::Separated => "separated",
@@ -54,6 +63,7 @@ impl EndState {
     pub fn phrase(self) -> &'static str {
         match self {
             Self::LimitCycle => "on a limit cycle",
+            Self::TwoFrequency(_) => "in a vibration of two frequencies, which is no limit cycle",
             Self::SteadySliding => "in steady sliding",
             Self::AtRest => "at rest",
             Self::Separated => "out of contact, at rest",
@@ -79,20 +89,43 @@ impl Drift {
     }
 }
 
+/// A vibration of the contact edge.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Vibration {
+    /// A circumferential harmonic.
+    Harmonic(usize),
+    /// The strongest one of a body without symmetry, whose modes are no harmonics.
+    Strongest,
+}
+
+impl fmt::Display for Vibration {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Harmonic(harmonic) => write!(out, "harmonic {harmonic}"),
+            Self::Strongest => out.write_str("a vibration"),
+        }
+    }
+}
+
 /// Why a run has not settled.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum Unsettled {
     /// Too few periods to compare.
-    #[error("the last fifth of the run is too short to tell: it needs {needed:.3e} s")]
+    #[error("the run is too short to tell: set transient.duration to {duration:.3e} s or more")]
     TooShort {
-        /// Length that it needs, s.
-        needed: f64,
+        /// Duration of a run whose last fifth is long enough, s.
+        duration: f64,
     },
     /// The cylinder still expands, or the perturbation is still to come, within the last fifth.
-    #[error("the run is still being set up in its last fifth, until {until:.3e} s")]
+    #[error(
+        "the run is still being set up in its last fifth, until {until:.3e} s: set transient.duration to {duration:.3e} s \
+         or more"
+    )]
     Starting {
         /// When that ends, s.
         until: f64,
+        /// Duration of a run whose last fifth comes later, s.
+        duration: f64,
     },
     /// The last fifth is not stationary.
     #[error(
@@ -102,11 +135,11 @@ pub enum Unsettled {
     Drifting(Drift),
     /// A small vibration that will be large.
     #[error(
-        "harmonic {harmonic} still grows, from {from:.1e} to {to:.1e} m over the last fifth of the run"
+        "{vibration} still grows, from {from:.1e} to {to:.1e} m over the last fifth of the run"
     )]
     Growing {
-        /// Circumferential harmonic.
-        harmonic: usize,
+        /// What vibrates.
+        vibration: Vibration,
         /// Its amplitude in the first quarter of that, m.
         from: f64,
         /// In the last quarter, m.
@@ -117,8 +150,8 @@ pub enum Unsettled {
 /// Whether a run has settled: over its last fifth amplitude, frequency and status drift by less than 1 %, and no
 /// small vibration grows.
 ///
-/// Compared are the means of blocks of eight periods. A modulation that is longer than a fifth of the run is not
-/// seen, and neither is growth from below round-off.
+/// Compared are the means of blocks of eight periods, or of whole beats where there are two frequencies. A modulation that is
+/// longer than a fifth of the run is not seen, and neither is growth from below round-off.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settling {
     /// What the run ends in.
@@ -184,50 +217,85 @@ impl Settling {
             None => (fifth.len() / QUIET_BLOCKS, QUIET_BLOCKS),
         };
         let length = length.max(QUIET_BLOCKS);
+        let until = record.start_up_time;
         if fifth.len() < length.saturating_mul(wanted) {
             let needed = wanted as f64 * length as f64 * interval;
-            return Err(Unsettled::TooShort { needed });
+            let duration = rounded_up((needed / END).max(until / (1.0 - END)));
+            return Err(Unsettled::TooShort { duration });
         }
-        let until = record.start_up_time;
         if record.rows[fifth.start].time < until {
-            return Err(Unsettled::Starting { until });
+            let duration = rounded_up(until / (1.0 - END));
+            return Err(Unsettled::Starting { until, duration });
         }
 
-        // Backwards from the end, until something has drifted too far.
-        let mut extremes = Extremes::new(main, interval * length as f64);
-        let mut from = fifth.end;
-        let mut drift = Drift::default();
-        let mut end = fifth.end;
-        while end >= length {
-            let block = Block::of(record, end - length..end, main);
-            if record.rows[block.start].time < until {
-                break;
+        // Two frequencies that beat make every mean swing but those over whole beats.
+        let two = main.and_then(|main| TwoFrequencies::of(record, fifth, main));
+        let (drift, from) = match (stationary(record, fifth, main, length), two) {
+            (Err(drifting), Some(two)) => {
+                let beat = 1.0 / (two.beat_hz() * interval);
+                let beats = (length as f64 / beat).ceil();
+                let whole = (beats * beat).round() as usize;
+                match whole.saturating_mul(wanted) <= fifth.len() {
+                    true => stationary(record, fifth, main, whole)?,
+                    false => return Err(drifting),
+                }
             }
-            let reached = extremes.add(&block, record);
-            let is_inside = block.start >= fifth.start;
-            if is_inside {
-                drift = reached;
-            }
-            if reached.largest() < LARGEST_DRIFT {
-                from = block.start;
-            } else if !is_inside {
-                break;
-            }
-            end = block.start;
-        }
-        if drift.largest() >= LARGEST_DRIFT {
-            return Err(Unsettled::Drifting(drift));
-        }
+            (found, _) => found?,
+        };
         match growing(record, fifth) {
             Some(reason) => Err(reason),
             None => Ok(Self {
-                state: state(record, &record.rows[fifth.clone()], main),
+                state: match two {
+                    Some(two) => EndState::TwoFrequency(two),
+                    None => state(record, &record.rows[fifth.clone()], main),
+                },
                 from: Some(record.rows[from].time),
                 drift: Some(drift),
                 reason: None,
             }),
         }
     }
+}
+
+/// Drift over the last fifth, compared in blocks of `length` samples, and the sample from which on there is no more of it.
+fn stationary(
+    record: &Recorder,
+    fifth: &Range<usize>,
+    main: Option<(usize, f64)>,
+    length: usize,
+) -> Result<(Drift, usize), Unsettled> {
+    // Backwards from the end, until something has drifted too far.
+    let mut extremes = Extremes::new(main, record.sample_interval * length as f64);
+    let mut from = fifth.end;
+    let mut drift = Drift::default();
+    let mut end = fifth.end;
+    while end >= length {
+        let block = Block::of(record, end - length..end, main);
+        if record.rows[block.start].time < record.start_up_time {
+            break;
+        }
+        let reached = extremes.add(&block, record);
+        let is_inside = block.start >= fifth.start;
+        if is_inside {
+            drift = reached;
+        }
+        if reached.largest() < LARGEST_DRIFT {
+            from = block.start;
+        } else if !is_inside {
+            break;
+        }
+        end = block.start;
+    }
+    match drift.largest() < LARGEST_DRIFT {
+        true => Ok((drift, from)),
+        false => Err(Unsettled::Drifting(drift)),
+    }
+}
+
+/// A time to four digits, and not less.
+fn rounded_up(time: f64) -> f64 {
+    let unit = 10.0_f64.powf(time.log10().floor() - 3.0);
+    (time / unit).ceil() * unit
 }
 
 /// What a run that has settled ends in.
@@ -254,7 +322,7 @@ fn growing(record: &Recorder, fifth: &Range<usize>) -> Option<Unsettled> {
         let is_rising = sizes.windows(2).all(|pair| pair[1] > pair[0]);
         (is_rising && sizes[3] > GROWTH * sizes[0] && sizes[3] > floor).then_some(
             Unsettled::Growing {
-                harmonic,
+                vibration: Vibration::Harmonic(harmonic),
                 from: sizes[0],
                 to: sizes[3],
             },

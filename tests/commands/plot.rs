@@ -392,6 +392,32 @@ fn plot_draws_the_picture_of_a_mesh_again_to_the_same_bytes() {
     let folder = tempfile::tempdir().unwrap();
     run(&folder, "mesh", "polycarbonate-disc.toml", &COARSE, &[]);
     let before = files(&folder.path().join("out"));
+    assert!(before.contains_key("report.html"));
     plot(&folder, &[]).assert().code(0);
     assert_eq!(files(&folder.path().join("out")), before);
+}
+
+#[test]
+fn the_picture_of_an_imported_mesh_names_boundaries_regions_and_normals() {
+    let folder = tempfile::tempdir().unwrap();
+    run(&folder, "mesh", "pad-on-disc.toml", &[], &[]);
+    let out = folder.path().join("out");
+    let picture = fs::read_to_string(out.join("figures/mesh.svg")).unwrap();
+    for text in [
+        ">lining<",
+        ">rim<",
+        ">hub<",
+        "pad: ",
+        "counterface edge",
+        "outward normal of the contact edge",
+    ] {
+        assert!(picture.contains(text), "{text}");
+    }
+    let summary = fs::read_to_string(out.join("summary.json")).unwrap();
+    let summary: serde_json::Value = serde_json::from_str(&summary).unwrap();
+    let boundaries = summary["mesh"]["boundaries"].as_array().unwrap();
+    let rim = boundaries.iter().find(|b| b["name"] == "rim").unwrap();
+    assert_eq!(rim["condition"], "counterface");
+    let fields = fs::read(out.join("mesh.vtu")).unwrap();
+    assert!(String::from_utf8_lossy(&fields).contains("Name=\"region_id\""));
 }

@@ -9,7 +9,8 @@ use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, BoundaryCondition, El
 use frictionsim::results::cea::{BaseField, BaseState, CeaReport, print, write};
 use frictionsim::results::mesh::MeshStatistics;
 use frictionsim::results::{
-    EncodedMesh, Field, FolderError, Manifest, OutputFolder, Replace, cartesian_vectors, write_vtu,
+    EncodedMesh, Extent, Field, FolderError, Manifest, OutputFolder, Replace, cartesian_vectors,
+    write_vtu,
 };
 use std::f64::consts::TAU;
 use std::fs;
@@ -48,7 +49,7 @@ fn mode(real_hz: f64, frequency_hz: f64, harmonic: usize, direction: i8) -> Comp
 fn sweep(mesh: &AnnulusMesh) -> FrictionSweep {
     let mut shaped = mode(12.5, 9900.0, 2, -1);
     // One travelling wave: cos and sin parts a quarter period apart.
-    let angles = &mesh.mesh.frame_angles;
+    let angles = mesh.mesh.frame_angles();
     let wave = angles.iter().flat_map(|angle| {
         let (sine, cosine) = (2.0 * angle).sin_cos();
         [c64::new(cosine, sine), c64::new(-sine, cosine)]
@@ -107,6 +108,7 @@ fn report<'a>(
         // 0.25 was solved for its shapes alone.
         friction_coefficients: &[0.0, 0.1, 0.3],
         sweep,
+        contact_changes: &[],
         base: BaseState {
             friction_coefficient: 0.3,
             slipping: 12,
@@ -117,6 +119,7 @@ fn report<'a>(
             torque_n_m: Some(20.15),
             drag_n: None,
             power_w: 1287.0,
+            extent: Extent::WholeBody,
         },
         field,
         solid: None,
@@ -298,7 +301,7 @@ fn a_field_of_the_wrong_length_is_not_written() {
 fn a_rigid_translation_is_one_cartesian_vector_at_every_node() {
     let mesh = annulus(ElementKind::Quad8).mesh;
     let polar: Vec<f64> = mesh
-        .frame_angles
+        .frame_angles()
         .iter()
         .flat_map(|angle| {
             [
@@ -410,6 +413,20 @@ fn what_a_killed_run_left_does_not_survive_another_case() {
         0
     );
     other.finish().unwrap();
+}
+
+#[test]
+fn a_run_interrupted_before_its_first_file_leaves_its_folder_to_any_case() {
+    let folder = tempfile::tempdir().unwrap();
+    drop(open(folder.path(), "a", Replace::SameCase).unwrap());
+    assert!(folder.path().join("manifest.json").exists());
+    OutputFolder::may_open(folder.path(), &manifest("b"), Replace::SameCase).unwrap();
+    let second = open(folder.path(), "b", Replace::SameCase).unwrap();
+    second.write("a.csv", |out| out.write_all(b"1")).unwrap();
+    drop(second);
+    // One that has written a file keeps its folder.
+    let refused = open(folder.path(), "c", Replace::SameCase).unwrap_err();
+    assert!(matches!(refused, FolderError::OtherCase { .. }));
 }
 
 #[test]

@@ -127,6 +127,140 @@ fn every_promised_file_column_and_summary_key_is_there() {
     }
 }
 
+/// At friction 0.2 and 1000 rpm the wave of two nodal diameters lives on beside that of one.
+const TWO_FREQUENCIES: [&str; 6] = [
+    "transient.duration=0.05",
+    "contact.friction_coefficient=0.2",
+    "contact.rotation_speed_rpm=1000.0",
+    "transient.perturbation.harmonics=[1, 2]",
+    "transient.perturbation.velocity=0.3",
+    "cea.max_frequency_hz=9000.0",
+];
+
+#[test]
+fn a_vibration_of_two_frequencies_is_named_with_both_and_its_envelope() {
+    let folder = folder();
+    let out = folder.path().join("out");
+    frictionsim(&arguments(&out, &TWO_FREQUENCIES))
+        .assert()
+        .code(0)
+        .stdout(contains("two frequencies, which is no limit cycle"))
+        .stdout(contains("is above cea.max_frequency_hz = 9000"));
+    let summary = summary(&out);
+    assert_eq!(summary["end_state"], "two-frequency");
+    let [first, second] = [0, 1].map(|k| summary["frequencies_hz"][k].as_f64().unwrap());
+    assert!(first > second + 500.0, "{first} {second}");
+    assert!(summary["envelope_ratio"].as_f64().unwrap() > 1.4);
+}
+
+#[test]
+fn a_sweep_marks_points_that_are_no_limit_cycles_in_table_report_and_figures() {
+    let folder = folder();
+    let out = folder.path().join("out");
+    let mut arguments = arguments(&out, &TWO_FREQUENCIES);
+    arguments[0] = "sweep".to_owned();
+    arguments.retain(|text| text != "--no-figures");
+    let swept = "sweep={\"contact.rotation_speed_rpm\"=[1000.0, 10.0]}";
+    arguments.extend(["--set".to_owned(), swept.to_owned()]);
+    frictionsim(&arguments)
+        .assert()
+        .code(0)
+        .stdout(contains("ends in"))
+        .stdout(contains("two-frequency"))
+        .stdout(contains("at 1 of 2 points (1)"));
+    let read = |name: &str| fs::read_to_string(out.join(name)).unwrap();
+    assert!(read("report.html").contains("two-frequency"));
+    for figure in ["figures/frequencies.svg", "figures/status.svg"] {
+        assert!(read(figure).contains("two frequencies"), "{figure}");
+    }
+}
+
+#[test]
+fn a_ring_without_an_element_under_it_is_refused_with_the_count_that_it_needs() {
+    let folder = folder();
+    for command in ["transient", "cea"] {
+        for elements in [1, 2] {
+            Command::cargo_bin("frictionsim")
+                .unwrap()
+                .args([
+                    command,
+                    &case("ring-on-layer.toml"),
+                    "--no-figures",
+                    "--out",
+                ])
+                .arg(folder.path().join("out"))
+                .args(["--set", &format!("mesh.radial_elements={elements}")])
+                .assert()
+                .code(2)
+                .stderr(contains("mesh.radial_elements"))
+                .stderr(contains("at least 3 are needed"));
+        }
+    }
+}
+
+#[test]
+fn a_jammed_block_is_said_to_jam_and_to_leave_small_displacements() {
+    let folder = folder();
+    let out = folder.path().join("out");
+    let assert = Command::cargo_bin("frictionsim")
+        .unwrap()
+        .args([
+            "transient",
+            &case("sliding-block.toml"),
+            "--no-figures",
+            "--out",
+        ])
+        .arg(&out)
+        .args(["--set", "contact.friction_coefficient=0.9"])
+        .assert()
+        .code(0)
+        .stdout(contains(
+            "the body jams: there is no state of steady sliding",
+        ))
+        .stdout(contains("leaves the theory of small displacements"));
+    // A body without symmetry has no harmonic anywhere.
+    let text = String::from_utf8(assert.get_output().stdout.clone()).unwrap();
+    assert!(
+        !text.contains("harmonic") && !text.contains("nodal"),
+        "{text}"
+    );
+    let summary = summary(&out);
+    assert_eq!(summary["notes"].as_array().unwrap().len(), 2);
+    assert!(summary["main_harmonic"].is_null());
+    assert_eq!(summary["harmonics"].as_array().unwrap().len(), 0);
+    assert_eq!(
+        summary["significant_harmonics_m"]
+            .as_object()
+            .unwrap()
+            .len(),
+        0
+    );
+    assert!(!out.join("harmonics.csv").exists());
+    assert!(
+        summary["growth"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .all(|g| g["harmonic"].is_null())
+    );
+}
+
+#[test]
+fn a_run_from_a_limit_cycle_has_no_linear_stage() {
+    let folder = folder();
+    let out = folder.path().join("out");
+    let start = [
+        "transient.initial=\"limit-cycle\"",
+        "transient.limit_cycle_harmonic=2",
+    ];
+    let assert = frictionsim(&arguments(&out, &start)).assert().code(0);
+    let text = String::from_utf8(assert.get_output().stdout.clone()).unwrap();
+    assert!(!text.contains("linear stage"), "{text}");
+    let summary = summary(&out);
+    assert!(summary["growth"].as_array().unwrap().is_empty());
+    assert!(summary["no_growth"].as_object().unwrap().is_empty());
+}
+
 #[test]
 fn results_scale_with_the_thickness_and_nothing_else_does() {
     let folder = folder();

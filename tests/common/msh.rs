@@ -1,6 +1,6 @@
 //! Meshes written as Gmsh files: what the reader is held to.
 
-use frictionsim::mesh::Mesh2d;
+use frictionsim::mesh::Mesh;
 
 /// How a file is written.
 #[derive(Clone, Copy, Debug)]
@@ -52,7 +52,7 @@ impl Out {
 /// `mesh` with its boundaries and its regions as physical groups; node `i` gets the number `numbers[i]` and the place
 /// `place(x, y)`.
 pub fn write_msh(
-    mesh: &Mesh2d,
+    mesh: &Mesh,
     form: Form,
     numbers: &[usize],
     place: impl Fn([f64; 2]) -> [f64; 2],
@@ -101,7 +101,7 @@ pub fn write_msh(
 
 fn write_nodes(
     out: &mut Out,
-    mesh: &Mesh2d,
+    mesh: &Mesh,
     form: Form,
     numbers: &[usize],
     place: impl Fn([f64; 2]) -> [f64; 2],
@@ -127,14 +127,14 @@ fn write_nodes(
         if !form.is_new {
             out.int(numbers[node] as i32);
         }
-        let [x, y] = place(mesh.nodes[node]);
+        let [x, y] = place(mesh.plane_node(node));
         [x, y, 0.0].into_iter().for_each(|value| out.number(value));
     }
     out.end();
     out.line("$EndNodes");
 }
 
-fn write_elements(out: &mut Out, mesh: &Mesh2d, form: Form, numbers: &[usize]) {
+fn write_elements(out: &mut Out, mesh: &Mesh, form: Form, numbers: &[usize]) {
     let mut all: Vec<(i32, i32, Vec<usize>)> = Vec::new();
     let number = |node: u32| numbers[node as usize];
     let outline = mesh.outline_edges();

@@ -2,13 +2,13 @@
 
 use frictionsim::mesh::{
     AnnulusMesh, AnnulusSpecification, BodySpecification, BoundaryCondition,
-    CounterfaceSpecification, ElementKind, GmshFile, Mesh2d,
+    CounterfaceSpecification, ElementKind, GmshFile, Mesh,
 };
 use std::collections::BTreeMap;
 
 /// The annulus of triangles: every quadrilateral of `specification` is cut along one diagonal or the other, and inner
 /// nodes are moved by up to a quarter of an element, both as a fixed sequence of numbers has it.
-pub fn triangles(specification: &AnnulusSpecification, is_quadratic: bool) -> Mesh2d {
+pub fn triangles(specification: &AnnulusSpecification, is_quadratic: bool) -> Mesh {
     let quads = AnnulusMesh::generate(specification).unwrap();
     let (inner, outer) = (specification.inner_radius, specification.outer_radius);
     let step = (outer - inner) / specification.radial_elements as f64;
@@ -20,7 +20,7 @@ pub fn triangles(specification: &AnnulusSpecification, is_quadratic: bool) -> Me
             .wrapping_add(1_442_695_040_888_963_407);
         (state >> 40) as f64 / (1_u64 << 24) as f64
     };
-    for [x, y] in &mut mesh.nodes {
+    for [x, y, _] in &mut mesh.nodes {
         let radius = x.hypot(*y);
         if radius > inner * 1.000_01 && radius < outer * 0.999_99 {
             let size = step.min(
@@ -47,7 +47,7 @@ pub fn triangles(specification: &AnnulusSpecification, is_quadratic: bool) -> Me
         for i in (0..3).filter(|_| is_quadratic) {
             let (p, q) = (triangle[i], triangle[(i + 1) % 3]);
             let middle = *middles.entry((p.min(q), p.max(q))).or_insert_with(|| {
-                let [a, b] = [p, q].map(|node| mesh.nodes[node as usize]);
+                let [a, b] = [p, q].map(|node| mesh.plane_node(node as usize));
                 let (x, y) = (0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]));
                 let radius = |p: [f64; 2]| p[0].hypot(p[1]);
                 // Edges of the body are arcs.
@@ -55,7 +55,7 @@ pub fn triangles(specification: &AnnulusSpecification, is_quadratic: bool) -> Me
                     (radius(a) / r - 1.0).abs() < 1e-9 && (radius(b) / r - 1.0).abs() < 1e-9
                 });
                 let factor = arc.map_or(1.0, |r| r / radius([x, y]));
-                mesh.nodes.push([factor * x, factor * y]);
+                mesh.nodes.push([factor * x, factor * y, 0.0]);
                 (mesh.nodes.len() - 1) as u32
             });
             elements.push(middle);
@@ -73,7 +73,7 @@ pub fn triangles(specification: &AnnulusSpecification, is_quadratic: bool) -> Me
         false => (ElementKind::Tri3, 3),
     };
     let count = corners.len();
-    Mesh2d {
+    Mesh {
         element_kinds: vec![kind; count],
         element_starts: (0..=count).map(|e| (per_element * e) as u32).collect(),
         elements,
@@ -84,7 +84,7 @@ pub fn triangles(specification: &AnnulusSpecification, is_quadratic: bool) -> Me
 }
 
 /// The disc of a file, clamped at its rim.
-pub fn body(file: &GmshFile) -> Mesh2d {
+pub fn body(file: &GmshFile) -> Mesh {
     let specification = BodySpecification {
         scale: 1.0,
         contact: "inner".to_owned(),
@@ -95,5 +95,5 @@ pub fn body(file: &GmshFile) -> Mesh2d {
         opposite: None,
         conditions: vec![("outer".to_owned(), BoundaryCondition::Clamped)],
     };
-    Mesh2d::from_gmsh(file, &specification).unwrap()
+    Mesh::from_gmsh(file, &specification).unwrap()
 }

@@ -13,7 +13,7 @@ use frictionsim::fem::{
 };
 use frictionsim::mesh::{
     AnnulusMesh, BodySpecification, BoundaryCondition, CounterfaceSpecification, ElasticSupport,
-    ElementKind, GmshFile, Mesh2d,
+    ElementKind, GmshFile, Mesh,
 };
 use frictionsim::prestress::{
     DampingModel, SlidingRange, SlidingTangent, SteadySliding, TangentOptions,
@@ -39,7 +39,7 @@ fn options(mass: MassKind, geometric_stiffness: bool) -> TangentOptions {
 }
 
 /// The disc as the body of a file: hole `inner`, rim `outer` clamped.
-fn disc_body(bytes: &[u8], scale: f64) -> Mesh2d {
+fn disc_body(bytes: &[u8], scale: f64) -> Mesh {
     let specification = BodySpecification {
         scale,
         contact: "inner".to_owned(),
@@ -47,10 +47,10 @@ fn disc_body(bytes: &[u8], scale: f64) -> Mesh2d {
         opposite: None,
         conditions: vec![("outer".to_owned(), BoundaryCondition::Clamped)],
     };
-    Mesh2d::from_gmsh(&GmshFile::read(bytes).unwrap(), &specification).unwrap()
+    Mesh::from_gmsh(&GmshFile::read(bytes).unwrap(), &specification).unwrap()
 }
 
-fn modes(mesh: &Mesh2d, options: &TangentOptions, contact: &SlidingContact) -> Vec<ComplexMode> {
+fn modes(mesh: &Mesh, options: &TangentOptions, contact: &SlidingContact) -> Vec<ComplexMode> {
     let stiffness = assemble_stiffness(mesh, &POLYCARBONATE);
     let base = SteadySliding::solve(mesh, &stiffness, contact).unwrap();
     let tangent = SlidingTangent::linearize(mesh, &POLYCARBONATE, &stiffness, &base, options);
@@ -297,7 +297,7 @@ fn plane(friction_coefficient: f64) -> SlidingContact {
 fn a_pressed_block_is_in_balance() {
     let (width, height) = (0.04, 0.06);
     let file = GmshFile::read(&rectangle(width, height, 20, 30)).unwrap();
-    let mesh = Mesh2d::from_gmsh(&file, &block_specification()).unwrap();
+    let mesh = Mesh::from_gmsh(&file, &block_specification()).unwrap();
     let stiffness = assemble_stiffness(&mesh, &POLYCARBONATE);
     let frictions = [0.0, 0.1, 0.3, 0.6];
     let range = SlidingRange::solve(&mesh, &stiffness, &plane(0.3), &frictions).unwrap();
@@ -339,7 +339,7 @@ fn a_block_on_an_elastic_mounting_lifts_a_corner_as_friction_rises() {
         ..ElasticSupport::default()
     };
     specification.conditions = vec![("top".to_owned(), BoundaryCondition::Support(mounting))];
-    let mesh = Mesh2d::from_gmsh(&file, &specification).unwrap();
+    let mesh = Mesh::from_gmsh(&file, &specification).unwrap();
     let stiffness = assemble_stiffness(&mesh, &POLYCARBONATE);
     let contact = SlidingContact {
         interference: 1e-5,
@@ -442,7 +442,7 @@ fn energy_closes_with_supports_pressure_and_partial_contact() {
         normal_damping: 3e4,
         tangential_damping: 1e4,
     });
-    let mesh = Mesh2d::from_gmsh(&file, &specification).unwrap();
+    let mesh = Mesh::from_gmsh(&file, &specification).unwrap();
     let model = TransientModel {
         mesh: &mesh,
         annulus: None,
@@ -476,7 +476,7 @@ fn bad_files_and_names_are_refused_with_a_remedy() {
     let good = String::from_utf8(rectangle(0.04, 0.03, 4, 3)).unwrap();
     let body = |text: &str, specification: &BodySpecification| {
         let file = GmshFile::read(text.as_bytes()).map_err(|e| e.to_string())?;
-        Mesh2d::from_gmsh(&file, specification).map_err(|e| e.to_string())
+        Mesh::from_gmsh(&file, specification).map_err(|e| e.to_string())
     };
     let plain = block_specification();
     assert!(body(&good, &plain).is_ok());
@@ -570,7 +570,7 @@ fn mutated_files_are_read_or_refused() {
         }
         if let Ok(file) = GmshFile::read(&bytes) {
             assert!(file.points.len() <= bytes.len() && file.elements.len() <= bytes.len());
-            let _ = Mesh2d::from_gmsh(&file, &specification);
+            let _ = Mesh::from_gmsh(&file, &specification);
         }
     }
 }

@@ -309,7 +309,7 @@ fn displacement_errors(mesh: &AnnulusMesh, displacement: &[f64], exact: &SteadyS
     let count = mesh.sector_node_count();
     let mut squares = [0.0; 2];
     for node in 0..count {
-        let [x, y] = mesh.mesh.nodes[node];
+        let [x, y] = mesh.mesh.plane_node(node);
         let field = exact.displacement(x.hypot(y));
         for (axis, square) in squares.iter_mut().enumerate() {
             *square += (displacement[2 * node + axis] - field[axis]).powi(2);
@@ -350,7 +350,7 @@ fn recovered_stress_converges_at_second_order_up_to_the_edges() {
             let recovered = nodal_stress(&mesh.mesh, &material(&DISC), &displacement);
             let mut largest = [0.0_f64; 3];
             for (node, stress) in recovered.iter().enumerate().take(mesh.sector_node_count()) {
-                let [x, y] = mesh.mesh.nodes[node];
+                let [x, y] = mesh.mesh.plane_node(node);
                 let state = exact.stress(x.hypot(y));
                 for (worst, error) in largest.iter_mut().zip([
                     stress.radial - state.radial,

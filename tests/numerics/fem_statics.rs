@@ -5,15 +5,13 @@ use frictionsim::fem::{
     DofMap, ElasticMaterial, MassKind, PlaneFormulation, assemble_mass, assemble_stiffness,
     nodal_stress,
 };
-use frictionsim::mesh::{
-    AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind, Mesh2d,
-};
+use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind, Mesh};
 use frictionsim::prestress::{PrestressError, SteadySliding};
 use std::f64::consts::PI;
 
 const ELEMENTS: [ElementKind; 2] = [ElementKind::Quad4, ElementKind::Quad8];
 
-fn annulus(element: ElementKind, circumferential: usize, radial: usize) -> Mesh2d {
+fn annulus(element: ElementKind, circumferential: usize, radial: usize) -> Mesh {
     let specification = AnnulusSpecification {
         inner_radius: 0.0205,
         outer_radius: 0.0905,
@@ -37,10 +35,10 @@ fn polycarbonate(formulation: PlaneFormulation) -> ElasticMaterial {
 }
 
 /// A Cartesian displacement field sampled in nodal frames.
-fn sample(mesh: &Mesh2d, field: impl Fn(f64, f64) -> [f64; 2]) -> Vec<f64> {
-    let nodes = mesh.nodes.iter().zip(&mesh.frame_angles);
+fn sample(mesh: &Mesh, field: impl Fn(f64, f64) -> [f64; 2]) -> Vec<f64> {
+    let nodes = mesh.nodes.iter().zip(mesh.frame_angles());
     nodes
-        .flat_map(|(&[x, y], angle)| {
+        .flat_map(|(&[x, y, _], angle)| {
             let ([u, v], (sin, cos)) = (field(x, y), angle.sin_cos());
             [u * cos + v * sin, -u * sin + v * cos]
         })
@@ -137,7 +135,7 @@ fn pressed_disc_has_the_pressure_torque_and_shear_of_lame() {
     let [_, shear_modulus] = material.lame_constants();
     let tau = 0.3 * 2.827e6;
     let displacement = base.displacement(0.3);
-    for (node, &[x, y]) in mesh.nodes.iter().enumerate() {
+    for (node, &[x, y, _]) in mesh.nodes.iter().enumerate() {
         let r = x.hypot(y);
         let exact = tau * a * a * r / (2.0 * shear_modulus) * (1.0 / (r * r) - 1.0 / (b * b));
         assert!((displacement[2 * node + 1] - exact).abs() < 1e-3 * tau * a / shear_modulus);

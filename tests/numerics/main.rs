@@ -1,5 +1,7 @@
 //! Discretisation, spectra and responses against theory, other methods and themselves.
 
+#[path = "../common/block.rs"]
+mod block;
 #[path = "../common/disc.rs"]
 mod disc;
 #[path = "../common/msh.rs"]
@@ -9,6 +11,7 @@ mod table_1;
 #[path = "../common/triangles.rs"]
 mod triangles;
 
+mod assemblies;
 mod body;
 mod cea_cyclic;
 mod cea_sparse;
@@ -25,5 +28,6 @@ mod half_space;
 mod plane_body;
 mod plane_spectrum;
 mod shaft;
+mod solid_elements;
 mod solids;
 mod two_bodies;

@@ -9,7 +9,7 @@ use frictionsim::cea::sparse::sweep;
 use frictionsim::cea::{ComplexMode, ModeLimit, SweepRequest};
 use frictionsim::contact::ContactStiffness;
 use frictionsim::fem::{MassKind, assemble_stiffness};
-use frictionsim::mesh::{AnnulusMesh, ElementKind, GmshFile, Mesh2d};
+use frictionsim::mesh::{AnnulusMesh, ElementKind, GmshFile, Mesh};
 use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
 
 const NORMAL_STIFFNESS: f64 = 7.4e12;
@@ -25,7 +25,7 @@ const EXACT: [(usize, usize, i8); 7] = [
     (1, 1, -1),
 ];
 
-fn modes(mesh: &Mesh2d, count: usize) -> Vec<ComplexMode> {
+fn modes(mesh: &Mesh, count: usize) -> Vec<ComplexMode> {
     let options = TangentOptions {
         mass: MassKind::Consistent,
         geometric_stiffness: false,
@@ -67,7 +67,7 @@ fn exact(names: &[(usize, usize, i8)]) -> Vec<faer::c64> {
 }
 
 /// Mean relative error of some eigenvalues, each that of the nearest mode.
-fn error_of(mesh: &Mesh2d, names: &[(usize, usize, i8)]) -> f64 {
+fn error_of(mesh: &Mesh, names: &[(usize, usize, i8)]) -> f64 {
     let found = modes(mesh, names.len() + 2);
     let errors = exact(names).into_iter().map(|lambda| {
         let distance = |mode: &ComplexMode| (mode.eigenvalue - lambda).norm() / lambda.norm();
@@ -76,7 +76,7 @@ fn error_of(mesh: &Mesh2d, names: &[(usize, usize, i8)]) -> f64 {
     errors.sum::<f64>() / names.len() as f64
 }
 
-fn import(mesh: &Mesh2d) -> Mesh2d {
+fn import(mesh: &Mesh) -> Mesh {
     let numbers: Vec<usize> = (1..=mesh.node_count()).collect();
     body(&GmshFile::read(&write_msh(mesh, FORMS[3], &numbers, |p| p)).unwrap())
 }

@@ -8,8 +8,8 @@ use crate::results::{
     DrawingError, DrawingOptions, OutputFolder, draw_all, read_record, read_summary, refuse_misfit,
     write_figures,
 };
-use crate::study::LinearStage;
 use crate::study::transient::TransientStudy;
+use crate::study::{LinearStage, extent_of};
 use crate::transient::Recorder;
 use serde::Deserialize;
 use serde_json::Value;
@@ -41,11 +41,14 @@ pub(super) fn draw_record(
         analysis: &study.analyse(record),
         mesh: &study.mesh,
         solid: study.sector.as_ref(),
+        has_harmonics: case.is_annulus(),
         material: case.materials(),
         thickness: study.thickness(),
+        extent: extent_of(case),
         peripheral_speed: study.shown_speed(),
         references: stage.references,
         growth_rates: stage.growth_rates,
+        mode_rates: stage.mode_rates,
     };
     draw(folder, &run, summary, options)?;
     Ok(())

@@ -14,6 +14,29 @@ use std::f64::consts::TAU;
 /// Time of a complex multiplication and subtraction in the elimination of eight bands side by side, s.
 const SOLID_LINE: f64 = 7e-10;
 
+/// Friction steps of each value of a stability map.
+const MAP_STEPS: usize = 9;
+
+// Costs of eigenvalue analyses, fitted to the processor time of the shipped cases and of coarser and finer meshes of them.
+
+/// Time of one eigenvalue of a plane annulus, s: at all, and for each unknown of a sector.
+const CYCLIC_PAIR: [f64; 2] = [4.5e-4, 3e-7];
+
+/// Time of one eigenvalue of a body of revolution, s: at all, and for each unknown of a sheet times its half bandwidth squared.
+const SOLID_PAIR: [f64; 2] = [8e-4, 5e-9];
+
+/// Memory of each harmonic of a body of revolution, bytes for each entry of its band.
+const SOLID_BYTES: f64 = 600.0;
+
+/// Time of the basis of a whole mesh, s: at all, and for each unknown and mode.
+const SPARSE_BASIS: [f64; 2] = [0.2, 2e-6];
+
+/// Time of each friction value in it, s: at all, and for each unknown and mode.
+const SPARSE_VALUE: [f64; 2] = [0.2, 3e-6];
+
+/// Memory of a whole mesh, bytes: at all, and for each unknown and vector of its basis.
+const SPARSE_BYTES: [f64; 2] = [2e7, 100.0];
+
 /// Phases of a limit cycle where the mesh decides.
 const LIKELY_PHASES: usize = 169;
 
@@ -47,44 +70,49 @@ impl Case {
     }
 
     pub(super) fn cea_cost(&self, cea: &Cea, size: &Size) -> CeaCost {
-        let dofs = 2.0 * size.nodes as f64;
         let friction_values = cea.solved_friction_coefficients().len();
         let modes = match cea.modes {
             ModeSelection::Lowest(modes) => modes,
             ModeSelection::BelowHz(limit) => self.modes_below(limit, size),
         };
-        let maps = 1.0 + cea.map.as_ref().map_or(0.0, |map| map.values.len() as f64);
-        let grid = self.body.grid().filter(|_| cea.method != CeaMethod::Sparse);
-        let (memory_bytes, seconds) =
-            if let Body::Revolution(Revolution { specification, .. }) = &self.body {
-                // An estimate, not measured on its own: bands of a tenth of the sheet, 1 ms for an eigenvalue of a harmonic.
-                let sheet = 1.5 * dofs / specification.annulus.circumferential_elements as f64;
+        // Every value of a map has friction steps of its own.
+        let map_values = cea.map.as_ref().map_or(0, |map| map.values.len());
+        let values = (friction_values + map_values * MAP_STEPS) as f64;
+        let pairs = values * modes as f64;
+        let (memory_bytes, seconds) = match (&self.body, cea.method) {
+            (Body::Revolution(Revolution { specification, .. }), _) => {
+                let sectors = specification.annulus.circumferential_elements.max(1);
+                let unknowns = 3.0 * size.nodes as f64 / sectors as f64;
+                let band = solid_half_bandwidth(specification);
                 let waves = (modes as f64 / 4.0).max(3.0);
-                let width = 0.1 * sheet;
                 (
-                    60.0 * waves * sheet * width,
-                    waves * 1e-9 * sheet * width * width + 1e-3 * (modes * friction_values) as f64,
+                    SOLID_BYTES * waves * unknowns * band,
+                    pairs * (SOLID_PAIR[0] + SOLID_PAIR[1] * unknowns * band * band),
                 )
-            } else if let Some(grid) = grid {
-                let radial = dofs / grid.circumferential_elements as f64;
+            }
+            (Body::Annulus(annulus), CeaMethod::Auto | CeaMethod::Cyclic) => {
+                let sectors = annulus.specification.circumferential_elements.max(1);
+                let unknowns = 2.0 * size.nodes as f64 / sectors as f64;
                 (
-                    100.0 * radial * radial.min(200.0),
-                    1e-6 * radial * modes as f64 * friction_values as f64,
+                    100.0 * unknowns * unknowns.min(200.0),
+                    pairs * (CYCLIC_PAIR[0] + CYCLIC_PAIR[1] * unknowns),
                 )
-            } else {
-                let fill = sparse_fill(dofs);
-                let basis = 8.0 * dofs * (2.0 * modes as f64 + 40.0);
-                let solve = 2e-9 * fill * (3.0 * modes as f64 + 20.0);
+            }
+            (Body::Annulus(_) | Body::Imported(_), _) => {
+                let unknowns = 2.0 * size.nodes as f64;
                 (
-                    12.0 * fill + 24.0 * 18.0 * dofs + basis,
-                    solve * friction_values as f64,
+                    SPARSE_BYTES[0] + SPARSE_BYTES[1] * unknowns * (2.0 * modes as f64 + 40.0),
+                    SPARSE_BASIS[0]
+                        + SPARSE_BASIS[1] * unknowns * modes as f64
+                        + values * (SPARSE_VALUE[0] + SPARSE_VALUE[1] * unknowns * modes as f64),
                 )
-            };
+            }
+        };
         CeaCost {
             friction_values,
             modes,
             memory_bytes,
-            seconds: seconds * maps,
+            seconds,
         }
     }
 
@@ -140,13 +168,7 @@ impl Case {
     fn solid_frf_cost(&self, frf: &Frf, solid: &SolidSpecification, nodes: u128) -> FrfCost {
         let sectors = solid.annulus.circumferential_elements.max(1) as f64;
         let unknowns = 3.0 * nodes as f64 / sectors;
-        let short = solid.annulus.radial_elements.min(solid.axial_elements) as f64;
-        // Neighbours in the numbering of a sheet: along its shorter side, with 20 nodes in four rows.
-        let half_bandwidth = 3.0
-            * match solid.annulus.element.is_quadratic() {
-                false => short + 3.0,
-                true => 4.0 * short + 5.0,
-            };
+        let half_bandwidth = solid_half_bandwidth(solid);
         let waves = match frf.boundary {
             FrfBoundary::Sliding => sectors,
             FrfBoundary::Free | FrfBoundary::Clamped => 0.5 * sectors + 1.0,
@@ -162,17 +184,24 @@ impl Case {
         }
     }
 
-    /// Weyl's estimate of the number of modes of the plane body below a frequency:
-    /// `A omega^2 / 4 pi (1 / c_p^2 + 1 / c_s^2)`.
+    /// Weyl's estimate of the number of modes below a frequency: of motions in the plane
+    /// `A omega^2 / 4 pi (1 / c_p^2 + 1 / c_s^2)`, and of the bending of a body of revolution, a plate,
+    /// `A omega / 4 pi sqrt(rho h / D)` with `D = E h^3 / 12 (1 - nu^2)`.
     fn modes_below(&self, limit_hz: f64, size: &Size) -> usize {
+        let omega = TAU * limit_hz;
         let [lambda, shear] = self.material.lame_constants();
-        let density = self.material.density;
+        let (density, ratio) = (self.material.density, self.material.poisson_ratio);
         let slowness = density / (lambda + 2.0 * shear) + density / shear;
-        let count = self.body.area() * (TAU * limit_hz).powi(2) / (2.0 * TAU) * slowness;
-        (count as usize).clamp(
-            1,
-            usize::try_from(2 * size.nodes).unwrap_or(usize::MAX).max(1),
-        )
+        let area = self.body.area() / (2.0 * TAU);
+        let in_plane = area * omega * omega * slowness;
+        let bending = self.body.revolution().map_or(0.0, |body| {
+            let thickness = body.specification.thickness;
+            let stiffness = self.material.young_modulus * thickness.powi(3);
+            let stiffness = stiffness / (12.0 * (1.0 - ratio * ratio));
+            area * omega * (density * thickness / stiffness).sqrt()
+        });
+        let most = usize::try_from(2 * size.nodes).unwrap_or(usize::MAX);
+        ((in_plane + bending) as usize).clamp(1, most.max(1))
     }
 
     pub(super) fn transient_cost(&self, transient: &Transient, size: &Size) -> TransientCost {
@@ -204,4 +233,14 @@ impl Case {
 /// `9 n log2 n` of 12 bytes.
 fn sparse_fill(dofs: f64) -> f64 {
     9.0 * dofs * dofs.max(2.0).log2()
+}
+
+/// Half the bandwidth of a harmonic of a body of revolution: neighbours in the numbering of a sheet, along its shorter side,
+/// with 20 nodes in four rows.
+fn solid_half_bandwidth(solid: &SolidSpecification) -> f64 {
+    let short = solid.annulus.radial_elements.min(solid.axial_elements) as f64;
+    3.0 * match solid.annulus.element.is_quadratic() {
+        false => short + 3.0,
+        true => 4.0 * short + 5.0,
+    }
 }

@@ -2,7 +2,7 @@
 
 use crate::case::{Body, Case, Revolution};
 use crate::fem::ElasticMaterial;
-use crate::mesh::{AnnulusSpecification, Mesh2d};
+use crate::mesh::{AnnulusSpecification, Mesh};
 use std::f64::consts::TAU;
 
 /// Highest frequency of a quadratic element over that of a linear one of its size, about: its nodes lie half as far apart,
@@ -106,10 +106,10 @@ fn shaft_frequency(grid: &AnnulusSpecification, material: Option<&ElasticMateria
 }
 
 /// The same of one element, whose sides are its longest one and its area over that.
-fn element_frequency(mesh: &Mesh2d, element: usize, speed: f64) -> f64 {
+fn element_frequency(mesh: &Mesh, element: usize, speed: f64) -> f64 {
     let kind = mesh.element_kind(element);
     let corners = &mesh.element_nodes(element)[..kind.corner_count()];
-    let place = |corner: usize| mesh.nodes[corners[corner % corners.len()] as usize];
+    let place = |corner: usize| mesh.plane_node(corners[corner % corners.len()] as usize);
     let side = |corner: usize| {
         let ([x, y], [to_x, to_y]) = (place(corner), place(corner + 1));
         (to_x - x).hypot(to_y - y)

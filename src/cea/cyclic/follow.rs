@@ -40,6 +40,9 @@ pub(super) struct Follower<'a> {
 /// Largest number of Rayleigh quotient iterations for one point.
 const ITERATIONS: usize = 8;
 
+/// How far a shift is moved off an eigenvalue, relative to it: well within the reach of the iteration.
+const MOVED: f64 = 1e-9;
+
 /// Steps below this length of the parameter are given up.
 const SHORTEST_STEP: f64 = 1e-6;
 
@@ -64,7 +67,9 @@ impl<'a> Follower<'a> {
         y: &[c64],
     ) -> Option<Eigenpair> {
         let (mut x, mut y, mut theta) = (x.to_vec(), y.to_vec(), guess);
+        let mut is_moved = false;
         for _ in 0..ITERATIONS {
+            let before = [x.clone(), y.clone()];
             self.factorize(at, theta);
             // The second pair of solves costs a third of a factorization and saves most of one.
             for _ in 0..2 {
@@ -77,7 +82,14 @@ impl<'a> Follower<'a> {
             }
             let (next, slope) = self.problem.rayleigh_quotient(at, theta, &x, &y);
             if !(next.re.is_finite() && next.im.is_finite()) {
-                return None;
+                if is_moved {
+                    return None;
+                }
+                // A shift that is an eigenvalue to the last bit makes the factor singular: a shift beside it does not.
+                is_moved = true;
+                theta += theta * MOVED;
+                [x, y] = before;
+                continue;
             }
             let change = (next - theta).norm();
             theta = next;

@@ -8,7 +8,6 @@ use super::problem::HarmonicProblem;
 use super::rest;
 use crate::cea::{
     CeaError, ComplexMode, FrictionPoint, FrictionSweep, ModeBranch, ModeLimit, SweepRequest,
-    UnstableInterval,
 };
 use crate::contact::SlidingContact;
 use crate::fem::MaterialField;
@@ -95,7 +94,7 @@ pub fn sweep(
     Err(failure.unwrap_or(CeaError::NoFriction))
 }
 
-/// The unstable intervals of [`sweep`] alone, of some harmonics, without a proof that no mode is missed: for the many
+/// [`sweep`] over some harmonics, without a proof that no mode is missed: for the many
 /// samples of a model for some of which [`sweep`] has said which harmonics hold modes.
 ///
 /// # Errors
@@ -107,7 +106,7 @@ pub fn onsets(
     contact: &SlidingContact,
     request: &SweepRequest<'_>,
     harmonics: &[usize],
-) -> Result<Vec<UnstableInterval>, CeaError> {
+) -> Result<FrictionSweep, CeaError> {
     let grid = request.rising_grid()?;
     request.limit.check()?;
     let sector = SectorMesh::generate(specification)?;
@@ -118,7 +117,7 @@ pub fn onsets(
         counted: Vec::new(),
         missed: None,
     };
-    Ok(finish(tangent, found, unproven).sweep.intervals)
+    Ok(finish(tangent, found, unproven).sweep)
 }
 
 /// Friction values, out of a rising grid, at which modes are counted: the quarters of the range.

@@ -4,7 +4,7 @@ use super::block_rows::{self, BlockRows};
 use super::node_order::cuthill_mckee;
 use super::{MotionFields, OperatorError, SimdLevel, StepCoefficients, StiffnessOperator};
 use crate::fem::{MaterialField, assemble_stiffness, assemble_supports, lumped_masses};
-use crate::mesh::{BoundaryCondition, Mesh2d};
+use crate::mesh::{BoundaryCondition, Mesh};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -36,7 +36,7 @@ impl SparseOperator {
     /// [`OperatorError::Massless`] for a node without mass; [`super::SimdLevel::available`] must have
     /// accepted `simd` (a level that the processor lacks falls back to the best it has).
     pub fn assemble(
-        mesh: &Mesh2d,
+        mesh: &Mesh,
         material: &dyn MaterialField,
         simd: SimdLevel,
     ) -> Result<Self, OperatorError> {
@@ -87,7 +87,7 @@ impl SparseOperator {
 /// Blocks `[k_11, k_21, k_12, k_22]` of `K` by row and column node, supports included, N/m for each metre of thickness; a dof
 /// without mass, which is held, neither moves nor pushes.
 fn node_blocks(
-    mesh: &Mesh2d,
+    mesh: &Mesh,
     material: &dyn MaterialField,
     masses: &[f64],
 ) -> Vec<BTreeMap<u32, [f64; 4]>> {
@@ -114,7 +114,7 @@ fn neighbours(blocks: &[BTreeMap<u32, [f64; 4]>]) -> Vec<Vec<u32>> {
 
 /// Lumped mass of each node, zero for clamped ones.
 pub(super) fn free_masses(
-    mesh: &Mesh2d,
+    mesh: &Mesh,
     material: &dyn MaterialField,
 ) -> Result<Vec<f64>, OperatorError> {
     let mut masses = lumped_masses(mesh, material);

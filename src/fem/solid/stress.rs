@@ -1,16 +1,15 @@
 //! Geometric stiffness of bricks.
 
 use super::SolidMatrix;
-use super::element::{
-    Geometry, elasticity, element_stiffness, element_stiffness_rate, rotated, strain,
-};
+use super::element::geometry;
 use crate::fem::ElasticMaterial;
+use crate::fem::element::{ElementGeometry, StressPart};
 use crate::mesh::SolidSector;
-use nalgebra::{DMatrix, DVector, Matrix3, SMatrix, Vector3, Vector6};
+use nalgebra::{DMatrix, DVector};
 
 /// A part of the stress: a law on the strain of nodal displacements and of the incompatible modes that come with them.
 struct Strained<'a> {
-    law: SMatrix<f64, 6, 6>,
+    law: &'a ElasticMaterial,
     displacement: &'a [f64],
     /// Amplitudes of the incompatible modes of each element.
     internal: Vec<Option<DVector<f64>>>,
@@ -23,18 +22,16 @@ pub fn geometric_stiffness(
     material: &ElasticMaterial,
     displacement: &[f64],
 ) -> SolidMatrix {
-    let recovered = recoveries(sector, |geometry| {
-        element_stiffness(geometry, material).recovered
-    });
+    let recovered = recoveries(sector, |geometry| geometry.stiffness(material).recovered);
     let part = Strained {
-        law: elasticity(material),
+        law: material,
         displacement,
         internal: amplitudes(sector, &recovered, displacement),
     };
     of_stress(sector, &[part])
 }
 
-/// Derivative of [`geometric_stiffness`] where the displacement changes at `displacement.1` and Lamé's constants, with
+/// Derivative of [`geometric_stiffness`] where the displacement changes at `displacement.1` and the elasticity, with
 /// `Some(rate)`, at that of another material's.
 pub fn geometric_stiffness_rate(
     sector: &SolidSector,
@@ -42,11 +39,9 @@ pub fn geometric_stiffness_rate(
     rate: Option<&ElasticMaterial>,
     (displacement, displacement_rate): (&[f64], &[f64]),
 ) -> SolidMatrix {
-    let recovered = recoveries(sector, |geometry| {
-        element_stiffness(geometry, material).recovered
-    });
+    let recovered = recoveries(sector, |geometry| geometry.stiffness(material).recovered);
     let mut moved = Strained {
-        law: elasticity(material),
+        law: material,
         displacement: displacement_rate,
         internal: amplitudes(sector, &recovered, displacement_rate),
     };
@@ -54,7 +49,7 @@ pub fn geometric_stiffness_rate(
         return of_stress(sector, &[moved]);
     };
     let changed = recoveries(sector, |geometry| {
-        element_stiffness_rate(geometry, material, rate).recovered
+        geometry.stiffness_rate(material, rate).recovered
     });
     let added = amplitudes(sector, &changed, displacement);
     for (sum, added) in moved.internal.iter_mut().zip(added) {
@@ -63,7 +58,7 @@ pub fn geometric_stiffness_rate(
         }
     }
     let stiffened = Strained {
-        law: elasticity(rate),
+        law: rate,
         displacement,
         internal: amplitudes(sector, &recovered, displacement),
     };
@@ -73,12 +68,12 @@ pub fn geometric_stiffness_rate(
 /// What gives the amplitudes of the incompatible modes, of each element along a radius: layers are alike.
 fn recoveries(
     sector: &SolidSector,
-    of: impl Fn(&Geometry) -> Option<DMatrix<f64>>,
+    of: impl Fn(&ElementGeometry) -> Option<DMatrix<f64>>,
 ) -> Vec<Option<DMatrix<f64>>> {
     let [radial, _] = sector.divisions();
     let own = |e: usize| match sector.is_quadratic() {
         true => None,
-        false => of(&Geometry::new(sector, e)),
+        false => of(&geometry(sector, e)),
     };
     (0..radial).map(own).collect()
 }
@@ -108,42 +103,20 @@ fn amplitudes(
 fn of_stress(sector: &SolidSector, parts: &[Strained<'_>]) -> SolidMatrix {
     let mut matrix = SolidMatrix::default();
     for (e, nodes) in sector.elements.iter().enumerate() {
-        let geometry = Geometry::new(sector, e);
-        let locals: Vec<DVector<f64>> = parts
+        let values: Vec<DVector<f64>> = parts
             .iter()
             .map(|part| local(nodes, part.displacement))
             .collect();
-        let center = geometry.center();
-        let count = geometry.nodes.len();
-        let mut scalar = DMatrix::<f64>::zeros(count, count);
-        for point in geometry.points() {
-            let mut s = Vector6::zeros();
-            for (part, local) in parts.iter().zip(&locals) {
-                let mut total = Vector6::zeros();
-                for (a, (gradient, frame)) in
-                    point.gradients.iter().zip(&geometry.frames).enumerate()
-                {
-                    let u = frame * Vector3::new(local[3 * a], local[3 * a + 1], local[3 * a + 2]);
-                    total += strain(gradient, &u);
-                }
-                if let Some(internal) = &part.internal[e] {
-                    let modes = geometry.incompatible(&point, &center, 1.0);
-                    for (k, gradient) in modes.iter().enumerate() {
-                        let u = Vector3::from_fn(|c, _| internal[3 * k + c]);
-                        total += strain(gradient, &u);
-                    }
-                }
-                s += part.law * total * point.measure;
-            }
-            let stress = Matrix3::new(s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2]);
-            for column in 0..count {
-                let flux = stress * point.gradients[column];
-                for row in 0..count {
-                    scalar[(row, column)] += point.gradients[row].dot(&flux);
-                }
-            }
-        }
-        matrix.matrices.push(rotated(&geometry, &scalar));
+        let pairs = parts.iter().zip(&values);
+        let stresses: Vec<StressPart<'_>> = pairs
+            .map(|(part, values)| StressPart {
+                material: part.law,
+                values: values.as_slice(),
+                internal: part.internal[e].clone(),
+            })
+            .collect();
+        let stiffness = geometry(sector, e).geometric_stiffness(&stresses);
+        matrix.matrices.push(stiffness);
         matrix.places.push((e, nodes.clone()));
     }
     matrix

@@ -6,7 +6,7 @@ mod cursor;
 mod version2;
 mod version4;
 
-use super::ElementKind;
+use super::{ElementKind, FaceKind};
 use cursor::Cursor;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -57,24 +57,31 @@ pub enum BodyPart {
 /// Edge of a physical curve, as indices into the nodes: its ends and, where quadratic, its middle.
 pub type CurveEdge = (u32, u32, Option<u32>);
 
-/// What a mesh file holds of a plane body.
+/// Face of a physical surface of a solid body: its kind and its nodes.
+pub type SurfaceFace = (FaceKind, Vec<u32>);
+
+/// What a mesh file holds of a body, plane or solid.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct GmshFile {
     /// Number of each node in the file.
     pub labels: Vec<usize>,
     /// Coordinates as in the file.
     pub points: Vec<[f64; 3]>,
-    /// Shape, physical surface, surface entity and nodes (indices) of each plane element.
-    pub elements: Vec<PlaneElement>,
+    /// 3 where the file has solid elements, else 2.
+    pub dimension: usize,
+    /// The elements of the body: solid ones where the file has any, else plane ones.
+    pub elements: Vec<FileElement>,
     /// Edges of each physical curve.
     pub curves: BTreeMap<String, Vec<CurveEdge>>,
+    /// Faces of each physical surface of a solid body.
+    pub surfaces: BTreeMap<String, Vec<SurfaceFace>>,
     /// Whether each node has some element, a point included.
     pub is_used: Vec<bool>,
 }
 
-/// One plane element of a file.
+/// One element of a file.
 #[derive(Clone, Debug, PartialEq)]
-pub struct PlaneElement {
+pub struct FileElement {
     /// Its number in the file.
     pub label: usize,
     /// Its shape.
@@ -145,13 +152,14 @@ impl GmshFile {
         if reader.file.points.is_empty() {
             return Err(cursor.error("the file has no $Nodes"));
         }
-        if reader.file.elements.is_empty() {
+        let file = reader.finished();
+        if file.elements.is_empty() {
             return Err(cursor.error(
                 "the file has no triangles or quadrilaterals: mesh the surfaces (gmsh -2), and put them in a physical \
                  group if the file has any",
             ));
         }
-        Ok(reader.file)
+        Ok(file)
     }
 }
 
@@ -215,32 +223,48 @@ struct Reader {
     physical: BTreeMap<(i64, i64), Vec<i64>>,
     /// Index of each node number.
     index_of: BTreeMap<usize, u32>,
+    /// Solid elements.
+    solids: Vec<FileElement>,
+    /// Plane elements and the physical surfaces that each belongs to: faces of a body if there are solid elements.
+    surfaces: BTreeMap<String, Vec<SurfaceFace>>,
 }
 
-/// Dimension, node count and, for plane elements, the shape of Gmsh's element types.
+/// Dimension, node count and, for plane and solid elements, the kind of Gmsh's element types.
 fn element_type(number: i64) -> Option<(i64, usize, Option<ElementKind>)> {
-    let plane = ElementKind::ALL
+    let known = ElementKind::ALL
         .into_iter()
         .find(|kind| i64::from(kind.gmsh_type()) == number);
-    if let Some(kind) = plane {
-        return Some((2, kind.node_count(), Some(kind)));
+    if let Some(kind) = known {
+        return Some((kind.dimension() as i64, kind.node_count(), Some(kind)));
     }
     let (dimension, nodes) = match number {
         1 => (1, 2),
         8 => (1, 3),
         15 => (0, 1),
-        4 => (3, 4),
-        5 | 17 => (3, if number == 5 { 8 } else { 20 }),
-        6 => (3, 6),
         7 => (3, 5),
-        11 => (3, 10),
         10 => (2, 9),
+        12 => (3, 27),
+        13 => (3, 18),
+        14 => (3, 14),
+        19 => (3, 13),
         _ => return None,
     };
     Some((dimension, nodes, None))
 }
 
 impl Reader {
+    /// The file, of solid elements where there are any: plane ones are then faces of its physical surfaces.
+    fn finished(self) -> GmshFile {
+        let mut file = self.file;
+        file.dimension = 2;
+        if !self.solids.is_empty() {
+            file.dimension = 3;
+            file.elements = self.solids;
+            file.surfaces = self.surfaces;
+        }
+        file
+    }
+
     fn physical_names(&mut self, cursor: &mut Cursor<'_>) -> Result<(), MeshFileError> {
         // Text in binary files too.
         let is_binary = std::mem::replace(&mut cursor.is_binary, false);
@@ -320,18 +344,32 @@ impl Reader {
             nodes.push(index);
         }
         match (dimension, kind) {
-            (2, Some(kind)) => {
+            (_, Some(kind)) => {
+                // A face of a solid belongs to every physical surface that names it, an element to its first group.
+                if let Some(face) = kind.as_face() {
+                    for &tag in groups {
+                        let name = self.name(dimension, tag).to_string();
+                        let faces = self.surfaces.entry(name).or_default();
+                        faces.push((face, nodes.clone()));
+                    }
+                }
                 let region = match groups.first() {
                     Some(&tag) => self.name(dimension, tag),
                     None => self.name(dimension, NO_GROUP),
                 };
-                self.file.elements.push(PlaneElement {
+                let order = kind.gmsh_order().into_iter();
+                let element = FileElement {
                     label,
                     kind,
                     region,
                     entity,
-                    nodes,
-                });
+                    nodes: order.map(|place| nodes[place]).collect(),
+                };
+                if kind.dimension() == 3 {
+                    self.solids.push(element);
+                } else {
+                    self.file.elements.push(element);
+                }
             }
             (1, _) => {
                 let edge = (nodes[0], nodes[1], nodes.get(2).copied());
@@ -351,7 +389,7 @@ impl Reader {
     }
 }
 
-/// Dimension, node count and shape of an element type that can be used.
+/// Dimension, node count and kind of an element type that can be used.
 fn shape_of(
     cursor: &Cursor<'_>,
     number: i64,
@@ -362,15 +400,18 @@ fn shape_of(
             "element {label} is a quadrilateral of nine nodes (type 10), which is not supported: set \
              Mesh.SecondOrderIncomplete = 1 for eight"
         ))),
-        Some((3, ..)) => Err(cursor.error(format!(
-            "element {label} is a solid (type {number}), and solids from a mesh file are not supported: mesh the plane \
-             section of the body (gmsh -2), or generate a body of revolution (material.formulation = \
-             \"three-dimensional\", mesh.axial_elements)"
+        Some((3, _, None)) if [12, 13].contains(&number) => Err(cursor.error(format!(
+            "element {label} has nodes inside its faces (type {number}), which is not supported: set \
+             Mesh.SecondOrderIncomplete = 1 for bricks of 20 and wedges of 15 nodes"
+        ))),
+        Some((3, _, None)) => Err(cursor.error(format!(
+            "element {label} is a pyramid (type {number}), which is not supported: mesh the volume with tetrahedra, bricks or \
+             wedges"
         ))),
         Some(known) => Ok(known),
         None => Err(cursor.error(format!(
-            "element {label} has type {number}, which is not supported: use triangles or quadrilaterals of first or \
-             second order"
+            "element {label} has type {number}, which is not supported: use triangles, quadrilaterals, tetrahedra, bricks or \
+             wedges of first or second order"
         ))),
     }
 }

@@ -1,6 +1,6 @@
 //! Elements of the faces of a body of revolution.
 
-use super::brick::line;
+use super::super::FaceKind;
 use super::{SolidContact, SolidFace, SolidSector};
 
 /// Parent coordinates of the nodes of a face element: across the sector, then along the face.
@@ -26,9 +26,13 @@ pub struct FaceElement {
 
 /// Gauss points `(place, weight)` of a face element: 2 x 2, or 3 x 3 for 8 nodes.
 pub fn face_quadrature(is_quadratic: bool) -> impl Iterator<Item = ([f64; 2], f64)> {
-    let line = line(is_quadratic);
-    line.iter()
-        .flat_map(move |&(y, w)| line.iter().map(move |&(x, v)| ([x, y], v * w)))
+    let kind = if is_quadratic {
+        FaceKind::Quad8
+    } else {
+        FaceKind::Quad4
+    };
+    let points = kind.quadrature().into_iter();
+    points.map(|([x, y, _], weight)| ([x, y], weight))
 }
 
 /// Shape functions of a face element, bilinear or serendipity.

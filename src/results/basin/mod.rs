@@ -1,6 +1,7 @@
 //! Results of a search for the boundary between two basins.
 
 mod map;
+mod report;
 
 use super::summary::{Bounds, Entry, Summary};
 use super::table::{Column, write_rows};
@@ -10,6 +11,7 @@ use serde::{Deserialize, Serialize};
 use std::fmt::Write as _;
 
 pub use map::basin_map;
+pub use report::draw_basin;
 
 /// `summary.json` of a basin.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -89,22 +91,24 @@ impl BasinSummary {
         }
     }
 
-    /// As text.
-    pub fn text(&self) -> String {
+    /// What was found, in a sentence.
+    fn answer(&self) -> String {
         let [first, second] = self.harmonics;
-        let mut out = format!("{}\n", self.title);
-        let _ = match (self.winner, self.boundary.low, self.boundary.high) {
-            (Some(winner), Some(ratio), _) | (Some(winner), None, Some(ratio)) => writeln!(
-                out,
+        match (self.winner, self.boundary.low, self.boundary.high) {
+            (Some(winner), Some(ratio), _) | (Some(winner), None, Some(ratio)) => format!(
                 "n = {winner} wins at every ratio looked at, {} {ratio:.3} of n = {second} over n = {first} at saturation",
                 if winner == first { "up to" } else { "down to" }
             ),
-            (None, Some(low), Some(high)) => writeln!(
-                out,
+            (None, Some(low), Some(high)) => format!(
                 "n = {second} wins where its amplitude at saturation is more than {low:.3} to {high:.3} of that of n = {first}"
             ),
-            _ => writeln!(out, "some runs never saturate: no boundary can be named"),
-        };
+            _ => "some runs never saturate: no boundary can be named".to_owned(),
+        }
+    }
+
+    /// As text.
+    pub fn text(&self) -> String {
+        let mut out = format!("{}\n{}\n", self.title, self.answer());
         if self.runs.iter().any(|run| !run.is_settled) {
             out.push_str("some transients end before one wave has gone: raise basin.periods\n");
         }

@@ -2,11 +2,13 @@
 
 use crate::contact::ContactStatus;
 use crate::fem::NodalStress;
-use crate::mesh::Mesh2d;
+use crate::mesh::{Counterface, Mesh};
+use crate::results::extent::Extent;
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::table::{Column, write_rows};
 use crate::results::vtu::{EncodedMesh, Field, write_vtu};
 use serde::{Deserialize, Serialize};
+use std::f64::consts::{PI, TAU};
 
 /// The steady sliding state at one friction coefficient in a few numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -31,23 +33,40 @@ pub struct BaseState {
     pub drag_n: Option<f64>,
     /// Power that the counterface puts in, W.
     pub power_w: f64,
+    /// What torque, force and power are of.
+    #[serde(default)]
+    pub extent: Extent,
 }
 
 impl BaseState {
     /// Torque or drag with its name and unit.
     pub(super) fn drive(&self) -> String {
-        let torque = self
-            .torque_n_m
-            .map(|torque| format!("torque {torque:.4} N m"));
-        let drag = || format!("drag {:.4} N", self.drag_n.unwrap_or(f64::NAN));
-        torque.unwrap_or_else(drag)
+        let [torque_unit, force_unit] = ["N m", "N"].map(|unit| self.extent.unit(unit));
+        let torque = self.torque_n_m;
+        let torque = torque.map(|torque| format!("torque {torque:.4} {torque_unit}"));
+        let drag = self.drag_n;
+        let drag = drag.map(|drag| format!("drag {drag:.4} {force_unit}"));
+        torque.or(drag).unwrap_or_default()
+    }
+
+    /// Its numbers of the whole file.
+    pub(super) fn whole(&self) -> [Field; 2] {
+        [
+            Field::number("friction_coefficient", self.friction_coefficient),
+            Field::number("power_w", self.power_w),
+        ]
+    }
+
+    /// Its power with the unit.
+    pub(super) fn power(&self) -> String {
+        format!("{:.1} {}", self.power_w, self.extent.unit("W"))
     }
 }
 
 /// The same state node by node.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BaseField {
-    /// Contact nodes, 0-based, in order of rising angle.
+    /// Contact nodes, 0-based, in order along the edge.
     pub nodes: Vec<u32>,
     /// Angle of each contact node, rad.
     pub angles: Vec<f64>,
@@ -63,14 +82,42 @@ pub struct BaseField {
     pub stress: Vec<NodalStress>,
 }
 
-/// Writes `prestress.csv` (contact nodes) and `prestress.vtu` (displacement and stress).
+impl BaseField {
+    /// The contact nodes as figures and tables list them: place in the fields of this struct and angle, rad.
+    ///
+    /// Around a whole circle the angles rise from 0 to `2 pi`; along an arc they go on from that of its first node without a
+    /// jump by a turn. Shares of a straight edge stay as they are.
+    pub fn along_contact(&self, mesh: &Mesh) -> Vec<(usize, f64)> {
+        let mut places: Vec<(usize, f64)> = self.angles.iter().copied().enumerate().collect();
+        if matches!(mesh.counterface, Counterface::Plane { .. }) {
+            return places;
+        }
+        if mesh.contact_edge().is_closed {
+            for (_, angle) in &mut places {
+                let turned = angle.rem_euclid(TAU);
+                // The angle of round-off below zero is zero.
+                *angle = if TAU - turned < 1e-9 { 0.0 } else { turned };
+            }
+            places.sort_by(|a, b| a.1.total_cmp(&b.1));
+            return places;
+        }
+        for i in 1..places.len() {
+            let step = places[i].1 - places[i - 1].1;
+            places[i].1 -= TAU * ((step + PI) / TAU).floor();
+        }
+        places
+    }
+}
+
+/// Writes `prestress.csv` (contact nodes) and `prestress.vtu` (displacement and stress of all nodes; status, pressure and
+/// friction traction of the contact edge; friction coefficient and power of the whole).
 ///
 /// # Errors
 /// Those of the folder.
 pub fn write_base(
     folder: &OutputFolder,
-    mesh: &Mesh2d,
-    base: &BaseField,
+    mesh: &Mesh,
+    (state, base): (&BaseState, &BaseField),
 ) -> Result<(), FolderError> {
     folder.write("prestress.csv", |out| {
         let status = |i: usize| {
@@ -78,24 +125,36 @@ pub fn write_base(
             let status = [ContactStatus::Open, ContactStatus::Slip][usize::from(is_pressed)];
             Some(status.name())
         };
-        let place = |i: usize| mesh.nodes[base.nodes[i] as usize];
-        let columns: &[Column<'_, usize>] = &[
-            ("node", &|i| mesh.node_label(base.nodes[*i] as usize).into()),
-            ("angle_degrees", &|i| base.angles[*i].to_degrees().into()),
-            ("pressure_pa", &|i| base.pressures[*i].into()),
-            ("shear_pa", &|i| base.shears[*i].into()),
-            ("status", &|i| status(*i).into()),
-            ("x_m", &|i| place(*i)[0].into()),
-            ("y_m", &|i| place(*i)[1].into()),
+        let place = |i: usize| mesh.plane_node(base.nodes[i] as usize);
+        let columns: &[Column<'_, (usize, f64)>] = &[
+            ("node", &|(i, _)| {
+                mesh.node_label(base.nodes[*i] as usize).into()
+            }),
+            ("angle_degrees", &|(_, angle)| angle.to_degrees().into()),
+            ("pressure_pa", &|(i, _)| base.pressures[*i].into()),
+            ("shear_pa", &|(i, _)| base.shears[*i].into()),
+            ("status", &|(i, _)| status(*i).into()),
+            ("x_m", &|(i, _)| place(*i)[0].into()),
+            ("y_m", &|(i, _)| place(*i)[1].into()),
         ];
         // On an annulus every node slips, at its angle.
         let shown = if base.is_pressed.is_some() { 7 } else { 4 };
-        write_rows(out, &columns[..shown], 0..base.nodes.len())
+        write_rows(out, &columns[..shown], base.along_contact(mesh))
     })?;
     let mut fields = vec![Field::vectors("displacement_m", mesh, &base.displacement)];
     fields.extend(Field::stresses(&base.stress));
+    fields.extend(Field::cartesian_stresses(mesh, &base.stress));
+    let codes = (0..base.nodes.len()).map(|i| {
+        let is_pressed = base.is_pressed.as_ref().is_none_or(|pressed| pressed[i]);
+        [ContactStatus::Open, ContactStatus::Slip][usize::from(is_pressed)]
+    });
+    let count = mesh.node_count();
+    fields.push(Field::status(count, &base.nodes, codes));
+    let on_edge = |name, values: &[f64]| Field::on_edge(name, count, &base.nodes, values);
+    fields.push(on_edge("pressure_pa", &base.pressures));
+    fields.push(on_edge("shear_pa", &base.shears));
     folder.write_bulk("prestress.vtu", |out| {
-        write_vtu(out, &EncodedMesh::new(mesh)?, &[], &fields, &[])
+        write_vtu(out, &EncodedMesh::new(mesh)?, &state.whole(), &fields, &[])
     })?;
     Ok(())
 }

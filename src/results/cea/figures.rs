@@ -1,15 +1,15 @@
 //! The figures of an eigenvalue analysis.
 
-use super::branches::{Branch, branch_of, branches, interval_rows};
-use super::locus::locus;
+use super::branches::{Branch, branch_of, branches, interval_rows, pieces};
+use super::locus::{NamedDamping, locus};
 use super::shape::{Body, ModeShape, moving};
 use super::{CeaReport, direction_name, html_report};
-use crate::cea::{ComplexMode, FrictionSweep};
+use crate::cea::ComplexMode;
 use crate::chart::{
     Axis, ChartError, ColourMap, Figure, INK, Line, Marker, Panel, Points, Rule, SERIES, Side,
     Stroke, signed,
 };
-use crate::fem::{NodalStress, RayleighDamping};
+use crate::fem::NodalStress;
 use crate::mesh::Counterface;
 use crate::results::charts::Disc;
 use crate::results::charts::palette::{STABLE, UNSTABLE};
@@ -22,19 +22,19 @@ const FOLLOWED_BRANCHES: usize = 4;
 
 /// Draws every figure that the report has data for into `figures/`, and writes `report.html`: eigenvalue locus with
 /// stability bars, pairs that turn unstable, base state, mode shapes, the branches that turn unstable at every friction
-/// value that has shapes, map.
+/// value that has shapes, map. `dampings` are those that regions of the body have.
 ///
 /// # Errors
 /// Those of the folder; a figure that cannot be drawn although there is something to draw.
 pub fn draw(
     folder: &OutputFolder,
     report: &CeaReport<'_>,
-    damping: RayleighDamping,
+    dampings: &[NamedDamping],
     options: &DrawingOptions,
 ) -> Result<(), DrawingError> {
     let mut figures: Vec<Declaration<'_>> = vec![
-        Box::new(move || Ok(locus(report, damping))),
-        Box::new(move || pairs(report.sweep)),
+        Box::new(move || Ok(locus(report, dampings))),
+        Box::new(move || pairs(report)),
         Box::new(move || Ok(prestress(report))),
     ];
     for point in &report.sweep.points {
@@ -52,13 +52,14 @@ pub fn draw(
     write_report(folder, &report, options)
 }
 
-/// Frequency and damping factor over friction of each pair that turns unstable, the wave with the rotor and the wave against
-/// it as two lines.
-fn pairs(sweep: &FrictionSweep) -> Result<Figure, ChartError> {
+/// Frequency and damping factor over friction of each pair of waves that turns unstable, that with the rotor and that against
+/// it as two lines; without symmetry of each mode.
+fn pairs(report: &CeaReport<'_>) -> Result<Figure, ChartError> {
+    let sweep = report.sweep;
     if sweep.points.len() < 2 {
         return Err(ChartError::empty("pairs over friction"));
     }
-    let all = branches(sweep);
+    let (all, numbers) = (branches(sweep), report.mode_numbers());
     let mut pairs: Vec<(usize, usize)> = Vec::new();
     for (branch, _) in interval_rows(sweep) {
         if !pairs.contains(&(branch.0, branch.1)) {
@@ -75,25 +76,32 @@ fn pairs(sweep: &FrictionSweep) -> Result<Figure, ChartError> {
         ),
     ];
     let panels = pairs.iter().flat_map(|&(harmonic, branch)| {
+        let caption = match report.has_harmonics {
+            true => format!("*n* = {harmonic}, branch {branch}"),
+            false => report.branch_name((harmonic, branch, 0), &numbers),
+        };
+        let of = |direction: i8| all.get(&(harmonic, branch, direction));
         quantities.clone().map(|(axis, quantity)| {
-            let points = |direction: i8| {
-                let points = all
-                    .get(&(harmonic, branch, direction))
-                    .into_iter()
-                    .flatten();
-                points.map(move |&(mu, mode)| (mu, mode))
+            let line = |direction: i8| {
+                let points = of(direction).map_or(&[][..], Vec::as_slice);
+                let pieces = pieces(points, sweep, report.contact_changes);
+                let gap = [(f64::NAN, f64::NAN)];
+                Line::through(pieces.into_iter().flat_map(move |piece| {
+                    let points = piece.iter().map(move |(mu, mode)| (*mu, quantity(mode)));
+                    points.chain(gap).collect::<Vec<_>>()
+                }))
             };
-            let line =
-                |direction| Line::through(points(direction).map(|(mu, mode)| (mu, quantity(mode))));
-            let growing = [-1, 0, 1]
-                .into_iter()
-                .flat_map(points)
-                .filter(|(_, mode)| mode.is_unstable());
+            let growing = [-1, 0, 1].into_iter().filter_map(of).flatten();
+            let growing = growing.filter(|(_, mode)| mode.is_unstable());
+            let line_of_all = match report.has_harmonics {
+                true => line(0).solid(STABLE, 1.1),
+                false => line(0).solid(STABLE, 1.1).name("mode"),
+            };
             Panel::new(Axis::friction().tight(), axis)
                 .height(height)
-                .caption(format!("*n* = {harmonic}, branch {branch}"))
+                .caption(caption.clone())
                 .layer(Rule::horizontal(0.0).stroke(Stroke::solid(INK, 0.6)))
-                .layer(line(0).solid(STABLE, 1.1))
+                .layer(line_of_all)
                 .layer(line(-1).solid(STABLE, 1.1).name("against the rotor ↻"))
                 .layer(
                     line(1)
@@ -101,19 +109,26 @@ fn pairs(sweep: &FrictionSweep) -> Result<Figure, ChartError> {
                         .name("with the rotor ↺"),
                 )
                 .layer(
-                    Points::new(growing.map(|(mu, mode)| (mu, quantity(mode))))
+                    Points::new(growing.map(|(mu, mode)| (*mu, quantity(mode))))
                         .marker(Marker::Disc, 1.5, UNSTABLE)
                         .name("unstable, *ζ* < 0"),
                 )
         })
     });
-    Ok(Figure::new(
-        "pairs",
-        "Frequency and damping factor over friction of the pairs of waves that turn unstable.",
-    )
-    .columns(2)
-    .shared_x()
-    .panels(panels.collect::<Vec<_>>()))
+    let caption = match report.has_harmonics {
+        true => {
+            "Frequency and damping factor over friction of the pairs of waves that turn unstable."
+        }
+        false => "Frequency and damping factor over friction of the modes that turn unstable.",
+    };
+    let figure = Figure::new("pairs", caption)
+        .columns(2)
+        .shared_x()
+        .panels(panels.collect::<Vec<_>>());
+    Ok(match report.contact_changes {
+        [] => figure,
+        _ => figure.note("curves end where contact nodes open or close"),
+    })
 }
 
 /// Contact pressure and friction traction around the edge, and the von Mises stress field.
@@ -125,35 +140,25 @@ fn prestress(report: &CeaReport<'_>) -> Figure {
     let von_mises = field.stress.iter().map(NodalStress::von_mises).collect();
     let stress = Axis::new("von Mises stress", "Pa").prefixed();
     let is_closed = report.mesh.contact_edge().is_closed;
-    let angles = || field.angles.iter().copied();
-    let spread =
-        angles().fold(f64::NEG_INFINITY, f64::max) - angles().fold(f64::INFINITY, f64::min);
+    let places = field.along_contact(report.mesh);
     let place = match report.mesh.counterface {
         // The angles of a straight edge stand for shares of its length.
         Counterface::Plane { .. } => {
             Axis::new("position along the contact", "%").times(100.0 / TAU)
         }
+        Counterface::Cylinder { .. } if is_closed => Axis::angle(),
         // A pad is looked at from end to end.
-        Counterface::Cylinder { .. } if spread < 0.5 * TAU => Axis::degrees(),
-        Counterface::Cylinder { .. } => Axis::angle(),
+        Counterface::Cylinder { .. } => Axis::degrees(),
     };
     let around = |name: &str, values: &[f64], colour| {
         let axis = Axis::new(name, "Pa").prefixed().including(0.0).room(0.15);
-        let again = field
-            .angles
-            .first()
-            .zip(values.first())
-            .filter(|_| is_closed)
-            .map(|(&angle, &value)| (angle + TAU, value));
-        let points = field
-            .angles
+        let points: Vec<(f64, f64)> = places
             .iter()
-            .copied()
-            .zip(values.iter().copied())
-            .chain(again);
+            .map(|&(i, angle)| (angle, values[i]))
+            .collect();
         Panel::new(place.clone(), axis)
             .height(86.0)
-            .layer(Line::through(points).solid(colour, 1.2))
+            .layer(Line::through(wrapped(points, is_closed)).solid(colour, 1.2))
     };
     Figure::new(
         "prestress",
@@ -164,6 +169,17 @@ fn prestress(report: &CeaReport<'_>) -> Figure {
     .panel(disc.panel(0.01).beside(2).height(190.0).layer(disc.field(von_mises, stress, ColourMap::Viridis)).colour_bar(Side::Right))
     .panel(around("pressure *p*", &field.pressures, SERIES[0]))
     .panel(around("traction *τ*", &field.shears, SERIES[1]))
+}
+
+/// Points over rising angles; around a whole circle the first and the last are repeated a turn away, so that the curve
+/// reaches both ends of its axis.
+fn wrapped(points: Vec<(f64, f64)>, is_closed: bool) -> Vec<(f64, f64)> {
+    let turned = |point: Option<&(f64, f64)>, by: f64| {
+        let point = point.filter(|_| is_closed);
+        point.map(|&(angle, value)| (angle + by, value))
+    };
+    let (before, after) = (turned(points.last(), -TAU), turned(points.first(), TAU));
+    before.into_iter().chain(points).chain(after).collect()
 }
 
 /// Modes of one friction value that carry shapes.
@@ -259,10 +275,21 @@ fn branch_points<'a>(
 /// One branch at every friction value that has shapes.
 fn branch_shapes(report: &CeaReport<'_>, branch: Branch) -> Figure {
     let way = direction_name(branch.2);
-    let caption = format!(
-        "Harmonic {}, branch {}, travelling {way} the rotor, at several friction coefficients.",
-        branch.0, branch.1
-    );
+    let caption = match report.has_harmonics {
+        true => format!(
+            "Harmonic {}, branch {}, travelling {way} the rotor, at several friction coefficients.",
+            branch.0, branch.1
+        ),
+        false => format!(
+            "Branch {} at several friction coefficients: the mode that is number {} by frequency at the lowest.",
+            branch.1,
+            branch.1 + 1
+        ),
+    };
+    let name = match report.has_harmonics {
+        true => format!("branch-n{}-{}-{way}", branch.0, branch.1),
+        false => format!("branch-{}", branch.1),
+    };
     let shapes = branch_points(report, branch);
     let body = Body::new(report, 24);
     let panels = shapes.iter().map(|shape| {
@@ -282,7 +309,7 @@ fn branch_shapes(report: &CeaReport<'_>, branch: Branch) -> Figure {
     let columns = shapes.len().clamp(2, 5);
     let columns = if shapes.len() == 6 { 3 } else { columns };
     multiples(
-        Figure::new(format!("branch-n{}-{}-{way}", branch.0, branch.1), caption).columns(columns),
+        Figure::new(name, caption).columns(columns),
         panels,
         report.has_harmonics,
     )

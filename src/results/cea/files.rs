@@ -27,8 +27,8 @@ pub fn write(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<Value, Fol
         folder.write("map.csv", |out| map.write(out))?;
     }
     match report.solid {
-        Some(solid) => solid.write_base(folder)?,
-        None => write_base(folder, report.mesh, report.field)?,
+        Some(solid) => solid.write_base(folder, &report.base)?,
+        None => write_base(folder, report.mesh, (&report.base, report.field))?,
     }
     write_shapes(folder, report)?;
     write_summary(folder, &summary(report, folder.manifest()))

@@ -1,113 +1,207 @@
 //! The eigenvalues in the complex plane, and where they are unstable.
 
-use super::branches::{Branch, branch_of, branches, interval_rows};
+use super::branches::{Branch, branch_of, branches, interval_rows, pieces};
 use super::{CeaReport, direction_name};
-use crate::cea::{ComplexMode, FrictionSweep};
+use crate::cea::ComplexMode;
 use crate::chart::{
     Axis, Bars, Figure, INK, Label, Line, MUTED, Mark, Marker, Panel, Points, Rule, Steps, Stroke,
-    TextStyle, extremes, signed,
+    TextStyle, extremes, look, signed, significant,
 };
 use crate::fem::RayleighDamping;
 use crate::results::charts::palette::{STABLE, UNSTABLE};
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
-/// Number of each branch's mode in the table at the friction value next to the case's own.
-fn mode_numbers(report: &CeaReport<'_>) -> BTreeMap<Branch, usize> {
-    let distance = |mu: f64| (mu - report.base.friction_coefficient).abs();
-    let nearest = report.sweep.points.iter().min_by(|a, b| {
-        distance(a.friction_coefficient).total_cmp(&distance(b.friction_coefficient))
-    });
-    let modes = nearest
-        .into_iter()
-        .flat_map(|point| &point.modes)
-        .enumerate();
-    let of = |mode: &ComplexMode| (mode.harmonic, mode.branch, mode.direction);
-    modes.map(|(index, mode)| (of(mode), index + 1)).collect()
+/// Damping that regions of a body have, with the mark-up that names it.
+pub type NamedDamping = (String, RayleighDamping);
+
+/// How much further to the left than the right end, or than where nine tenths of the eigenvalues begin, the plane is shown.
+const LEFT_SHARE: f64 = 3.0;
+
+/// The ends of the real axis, Hz, and how many eigenvalues lie left of them: a few strongly damped ones must not push all
+/// others together.
+fn real_ends(reals: &[f64]) -> (f64, f64, usize) {
+    let mut sorted: Vec<f64> = reals.iter().copied().filter(|v| v.is_finite()).collect();
+    sorted.sort_by(f64::total_cmp);
+    let (Some(&low), Some(&high)) = (sorted.first(), sorted.last()) else {
+        return (-1.0, 1.0, 0);
+    };
+    let usual = sorted[sorted.len() / 10];
+    let furthest = -LEFT_SHARE * high.max(-usual).max(f64::MIN_POSITIVE);
+    let left = low.max(furthest).min(0.0);
+    let right = high.max(0.0);
+    let room = 0.06 * (right - left).max(f64::MIN_POSITIVE);
+    let hidden = sorted.partition_point(|&v| v < left - room);
+    (left - room, right + room, hidden)
 }
 
-/// The eigenvalues in the complex plane as friction rises, with the curve of Rayleigh damping on which they start, and beside
+/// The curves on which modes without friction lie, one for each damping: (5) of the paper, with the undamped frequency as
+/// parameter.
+fn damping_curves(dampings: &[NamedDamping], highest_hz: f64) -> Vec<Line> {
+    let curve = |(index, (name, damping)): (usize, &NamedDamping)| {
+        let undamped = (1..=400).map(|step| TAU * 1.05 * highest_hz * f64::from(step) / 400.0);
+        let points = undamped.filter_map(|omega| {
+            let factor = damping.damping_factor(omega);
+            let root = (factor < 1.0).then(|| (1.0 - factor * factor).sqrt())?;
+            Some((-factor * omega / TAU, omega * root / TAU))
+        });
+        let stroke = match index {
+            0 => Stroke::dashed(INK, 0.8),
+            _ => Stroke::dotted(look(index + 1).0, 0.9),
+        };
+        Line::through(points).stroke(stroke).name(name.clone())
+    };
+    dampings.iter().enumerate().map(curve).collect()
+}
+
+/// The eigenvalues in the complex plane as friction rises, with the curves of Rayleigh damping on which they start, and beside
 /// it the friction intervals in which each branch grows.
-pub(super) fn locus(report: &CeaReport<'_>, damping: RayleighDamping) -> Figure {
+pub(super) fn locus(report: &CeaReport<'_>, dampings: &[NamedDamping]) -> Figure {
     let sweep = report.sweep;
     let place = |mode: &ComplexMode| (mode.real_hz(), mode.frequency_hz());
-    let all = || sweep.points.iter().flat_map(|point| &point.modes);
-    let highest = extremes(all().map(ComplexMode::frequency_hz)).1;
-    let first = sweep
-        .points
-        .iter()
-        .map(|p| p.friction_coefficient)
-        .fold(f64::INFINITY, f64::min);
-    let start = sweep
-        .points
-        .iter()
-        .filter(|point| point.friction_coefficient == first);
-    let numbers = mode_numbers(report);
+    let all = || {
+        let points = sweep.points.iter();
+        points.flat_map(|point| {
+            let friction = point.friction_coefficient;
+            point.modes.iter().map(move |mode| (friction, mode))
+        })
+    };
+    let reals: Vec<f64> = all().map(|(_, mode)| mode.real_hz()).collect();
+    let (left, right, hidden) = real_ends(&reals);
+    let frequencies = all().map(|(_, mode)| mode.frequency_hz());
+    let (lowest, highest) = extremes(frequencies);
+    let points = sweep.points.iter();
+    let first = points.map(|p| p.friction_coefficient);
+    let first = first.fold(f64::INFINITY, f64::min);
+
+    // Branches with their numbers at the ends of those that turn unstable.
+    let numbers = report.mode_numbers();
     let unstable: Vec<Branch> = sweep.intervals.iter().map(branch_of).collect();
     let all_branches = branches(sweep);
-    let curves = all_branches.iter().map(|(branch, points)| {
-        let arrows = 2 * usize::from(unstable.contains(branch) && points.len() > 2);
-        let line = Line::through(points.iter().map(|(_, mode)| place(mode))).arrows(arrows);
-        let line = line.solid("#b5b5b5", 0.5);
-        if arrows > 0 {
-            line.name("branch that turns unstable, *μ* rising along the arrow")
-        } else {
-            line
-        }
+    let curves = all_branches.iter().flat_map(|(branch, points)| {
+        let turns = unstable.contains(branch) && points.len() > 2;
+        pieces(points, sweep, report.contact_changes)
+            .into_iter()
+            .map(move |piece| {
+                let line = Line::through(piece.iter().map(|(_, mode)| place(mode)));
+                let line = line.solid("#b5b5b5", 0.5).arrows(2 * usize::from(turns));
+                match turns {
+                    true => line.name("branch that turns unstable, *μ* rising along the arrow"),
+                    false => line,
+                }
+            })
     });
-    let labels = unstable.iter().filter_map(|branch| {
+    let mut labelled: Vec<Branch> = unstable.clone();
+    labelled.sort_unstable();
+    labelled.dedup();
+    let labels = labelled.iter().filter_map(|branch| {
         let (_, mode) = all_branches.get(branch)?.last()?;
         let style = TextStyle::new(7.0).bold().with_halo();
         Some(Label::new(place(mode), numbers.get(branch)?.to_string()).style(style))
     });
-    let undamped = (1..=400).map(|step| TAU * 1.05 * highest * f64::from(step) / 400.0);
-    let rayleigh = undamped.filter_map(|omega| {
-        // (5): the curve through (3) and (4), with the undamped frequency as parameter.
-        let factor = damping.damping_factor(omega);
-        let root = (factor < 1.0).then(|| (1.0 - factor * factor).sqrt())?;
-        Some((-factor * omega / TAU, omega * root / TAU))
-    });
-    let lowest = extremes(all().map(ComplexMode::frequency_hz)).0;
-    let real = Axis::new("Re(*λ*) / 2π", "Hz").room(0.06).including(0.0);
+
+    // The eigenvalues, each with what it is.
+    let marked = |is_own: &dyn Fn(f64, &ComplexMode) -> bool| {
+        let own: Vec<_> = all().filter(|(mu, mode)| is_own(*mu, mode)).collect();
+        let tips = own.iter().map(|(mu, mode)| tip(report, *mu, mode));
+        Points::new(own.iter().map(|(_, mode)| place(mode))).tips(tips.collect())
+    };
     let imaginary = Axis::new("Im(*λ*) / 2π", "kHz").times(1e-3);
     let plane = Panel::new(
-        real,
+        Axis::new("Re(*λ*) / 2π", "Hz").between(left, right),
         imaginary.between(0.85 * lowest.min(0.9 * highest), 1.04 * highest),
     )
     .height(250f64.max(30.0 + 13.0 * interval_rows(sweep).len() as f64))
     .layer(Rule::vertical(0.0).stroke(Stroke::solid(INK, 0.6)))
+    .layers(damping_curves(dampings, highest))
+    .layers(curves.collect::<Vec<_>>())
     .layer(
-        Line::through(rayleigh)
-            .stroke(Stroke::dashed(INK, 0.8))
-            .name("damping *ζ* = (*α*_{R}/*ω* + *β*_{R}*ω*)/2"),
-    )
-    .layers(curves)
-    .layer(
-        Points::new(all().filter(|m| !m.is_unstable()).map(place))
+        marked(&|_, mode| !mode.is_unstable())
             .marker(Marker::Disc, 0.9, STABLE)
             .name("stable"),
     )
     .layer(
-        Points::new(all().filter(|m| m.is_unstable()).map(place))
+        marked(&|_, mode| mode.is_unstable())
             .marker(Marker::Diamond, 1.15, UNSTABLE)
             .name("unstable, Re(*λ*) > 0"),
     )
     .layer(
-        Points::new(start.flat_map(|p| &p.modes).map(place))
+        marked(&|mu, _| mu == first)
             .marker(Marker::Circle, 1.7, MUTED)
             .name(format!("lowest friction, *μ* = {}", signed(first, 2))),
     )
-    .layers(labels);
-    Figure::new(
-        "locus",
-        "Eigenvalues in the complex plane as friction rises (a), branches that turn unstable with the number of their mode, and \
-         the friction interval in which each of them is unstable, with its critical friction (b).",
+    .layers(labels.collect::<Vec<_>>());
+    with_notes(
+        figure_of(report, plane, &numbers).steps(steps(report)),
+        report,
+        hidden,
     )
-    .weighted(&[1.35, 1.0])
-    .panel(plane)
-    .panel(stability_bars(sweep, &numbers))
-    .steps(steps(report))
-    .note(format!("mode numbers: order of frequency at *μ* = {}", signed(report.base.friction_coefficient, 2)))
+}
+
+/// The plane, and beside it the bars of instability where there are any.
+fn figure_of(report: &CeaReport<'_>, plane: Panel, numbers: &BTreeMap<Branch, usize>) -> Figure {
+    if report.sweep.intervals.is_empty() {
+        let caption =
+            "Eigenvalues in the complex plane as friction rises; no branch turns unstable.";
+        return Figure::new("locus", caption).panel(plane);
+    }
+    let caption = "Eigenvalues in the complex plane as friction rises (a), branches that turn unstable with the number of their mode, \
+         and the friction interval in which each of them is unstable, with its critical friction (b).";
+    Figure::new("locus", caption)
+        .weighted(&[1.35, 1.0])
+        .panel(plane)
+        .panel(stability_bars(report, numbers))
+}
+
+fn with_notes(figure: Figure, report: &CeaReport<'_>, hidden: usize) -> Figure {
+    let own = report
+        .own_point()
+        .map_or(f64::NAN, |point| point.friction_coefficient);
+    let mut figure = figure.note(format!(
+        "mode numbers: order of frequency at *μ* = {}",
+        signed(own, 2)
+    ));
+    if !report.contact_changes.is_empty() {
+        figure = figure.note("curves end where contact nodes open or close");
+    }
+    match hidden {
+        0 => figure,
+        count => figure.note(format!(
+            "{count} eigenvalues of strongly damped modes lie further left"
+        )),
+    }
+}
+
+/// A mode in words: its name, friction, stability.
+fn tip(report: &CeaReport<'_>, friction: f64, mode: &ComplexMode) -> String {
+    let name = match report.has_harmonics {
+        true => format!(
+            "n = {}, branch {}, {}",
+            mode.harmonic,
+            mode.branch,
+            way(mode.direction)
+        ),
+        false => format!("branch {}", mode.branch),
+    };
+    let rate = TAU * mode.real_hz();
+    let verb = if mode.is_unstable() {
+        "grows"
+    } else {
+        "decays"
+    };
+    format!(
+        "{name}, friction {}, {verb} at {} 1/s",
+        significant(friction, 4),
+        significant(rate.abs(), 4)
+    )
+}
+
+/// How a wave travels, in words.
+fn way(direction: i8) -> String {
+    match direction {
+        0 => "standing".to_owned(),
+        direction => format!("{} the rotor", direction_name(direction)),
+    }
 }
 
 /// The eigenvalues at each friction value, for a reader who moves it.
@@ -115,10 +209,10 @@ fn steps(report: &CeaReport<'_>) -> Steps {
     let mark = |mode: &ComplexMode| {
         let branch = match report.has_harmonics {
             true => format!(
-                "n = {}, branch {}, {} the rotor, ",
+                "n = {}, branch {}, {}, ",
                 mode.harmonic,
                 mode.branch,
-                direction_name(mode.direction)
+                way(mode.direction)
             ),
             false => String::new(),
         };
@@ -146,7 +240,8 @@ fn steps(report: &CeaReport<'_>) -> Steps {
     }
 }
 
-fn stability_bars(sweep: &FrictionSweep, numbers: &BTreeMap<Branch, usize>) -> Panel {
+fn stability_bars(report: &CeaReport<'_>, numbers: &BTreeMap<Branch, usize>) -> Panel {
+    let sweep = report.sweep;
     let (low, high) = extremes(sweep.points.iter().map(|p| p.friction_coefficient));
     let rows = interval_rows(sweep);
     let names = rows.iter().enumerate().map(|(row, (branch, intervals))| {
@@ -154,9 +249,13 @@ fn stability_bars(sweep: &FrictionSweep, numbers: &BTreeMap<Branch, usize>) -> P
             .get(branch)
             .map_or(String::new(), |number| format!("{number}: "));
         let frequency = signed(intervals[0].frequency_hz * 1e-3, 2);
+        let harmonic = match report.has_harmonics {
+            true => format!(", *n* = {}", branch.0),
+            false => String::new(),
+        };
         (
             row as f64 + 0.5,
-            format!("{number}{frequency} kHz, *n* = {}", branch.0),
+            format!("{number}{frequency} kHz{harmonic}"),
         )
     });
     let y = Axis::new("", "")
@@ -174,12 +273,7 @@ fn stability_bars(sweep: &FrictionSweep, numbers: &BTreeMap<Branch, usize>) -> P
             (interval.critical_friction, end, row as f64 + 0.5, label)
         })
     });
-    let caption = if rows.is_empty() {
-        "no branch turns unstable"
-    } else {
-        "unstable from critical *μ*"
-    };
     Panel::new(Axis::friction().between(low, high), y)
-        .caption(caption)
+        .caption("unstable from critical *μ*")
         .layer(Bars::new(bars.collect(), UNSTABLE))
 }

@@ -2,6 +2,7 @@
 
 mod base;
 mod branches;
+mod coupling;
 mod figures;
 mod files;
 mod locus;
@@ -16,6 +17,7 @@ mod summary;
 pub use base::{BaseField, BaseState, write_base};
 pub use figures::draw;
 pub use files::{write, write_eigenvalues, write_stability};
+pub use locus::NamedDamping;
 pub use map::MapReport;
 pub use print::print;
 pub use report::html_report;
@@ -24,7 +26,9 @@ pub use solid::SolidReport;
 pub use summary::{CeaSummary, CriticalFriction, ModeSummary, UnstableCount, summary};
 
 use crate::cea::{ComplexMode, FrictionPoint, FrictionSweep, UnstableInterval};
-use crate::mesh::Mesh2d;
+use crate::mesh::Mesh;
+use branches::Branch;
+use std::collections::BTreeMap;
 
 /// Everything a complex eigenvalue analysis reports.
 #[derive(Clone, Debug)]
@@ -32,7 +36,7 @@ pub struct CeaReport<'a> {
     /// Title of the case.
     pub title: &'a str,
     /// The mesh, for the shapes.
-    pub mesh: &'a Mesh2d,
+    pub mesh: &'a Mesh,
     /// Whether modes have a circumferential harmonic and a direction; else they are named by rank.
     pub has_harmonics: bool,
     /// Unknowns of the eigenproblem.
@@ -45,6 +49,8 @@ pub struct CeaReport<'a> {
     pub friction_coefficients: &'a [f64],
     /// The modes.
     pub sweep: &'a FrictionSweep,
+    /// Friction coefficients at which contact nodes open or close, rising: no branch goes on smoothly across them.
+    pub contact_changes: &'a [f64],
     /// The state of steady sliding at the case's own friction coefficient.
     pub base: BaseState,
     /// The same node by node.
@@ -62,23 +68,38 @@ pub struct CeaReport<'a> {
 }
 
 impl CeaReport<'_> {
-    /// A harmonic as text; a body without symmetry has none.
-    fn harmonic_name(&self, harmonic: usize) -> String {
-        if self.has_harmonics {
-            harmonic.to_string()
-        } else {
-            "-".to_owned()
-        }
+    /// The modes at the solved friction value nearest to the case's own.
+    fn own_point(&self) -> Option<&FrictionPoint> {
+        let own = self.base.friction_coefficient;
+        let distance = |point: &&FrictionPoint| (point.friction_coefficient - own).abs();
+        let points = self.sweep.points.iter();
+        points.min_by(|a, b| distance(a).total_cmp(&distance(b)))
     }
 
-    /// A direction as a word.
-    fn direction_name(&self, direction: i8) -> String {
-        let name = if self.has_harmonics {
-            direction_name(direction)
-        } else {
-            "-"
-        };
-        name.to_owned()
+    /// Number of each branch's mode at that friction value, by frequency from 1.
+    fn mode_numbers(&self) -> BTreeMap<Branch, usize> {
+        let modes = self.own_point().into_iter().flat_map(|point| &point.modes);
+        let of = |mode: &ComplexMode| (mode.harmonic, mode.branch, mode.direction);
+        let numbered = modes.enumerate();
+        numbered
+            .map(|(index, mode)| (of(mode), index + 1))
+            .collect()
+    }
+
+    /// A branch as figures and tables name it: by harmonic, rank and sense of travel, or without symmetry by the number that
+    /// its mode has at the case's own friction.
+    fn branch_name(&self, branch: Branch, numbers: &BTreeMap<Branch, usize>) -> String {
+        match (self.has_harmonics, numbers.get(&branch)) {
+            (true, _) => {
+                let way = match branch.2 {
+                    0 => String::new(),
+                    direction => format!(", {} the rotor", direction_name(direction)),
+                };
+                format!("n = {}, branch {}{way}", branch.0, branch.1)
+            }
+            (false, Some(number)) => format!("mode {number}"),
+            (false, None) => format!("branch {}", branch.1),
+        }
     }
 
     /// The friction values of the tables.

@@ -1,7 +1,8 @@
 //! The table that a person reads.
 
+use super::branches::branch_of;
 use super::{CeaReport, direction_name};
-use crate::cea::{ComplexMode, FrictionPoint};
+use crate::cea::{ComplexMode, FrictionPoint, UnstableInterval};
 use std::fmt::Write as _;
 
 /// Longest table of the modes at one friction value.
@@ -51,7 +52,7 @@ fn own_modes(out: &mut String, report: &CeaReport<'_>) {
             " (listed; --verbose lists those of every friction value)"
         },
     );
-    head(out, "");
+    head(out, "", report.has_harmonics);
     for (index, mode) in point.modes.iter().enumerate() {
         if is_short || mode.is_unstable() {
             let mark = if mode.is_unstable() { "unstable" } else { "" };
@@ -60,33 +61,41 @@ fn own_modes(out: &mut String, report: &CeaReport<'_>) {
     }
 }
 
-/// The head of a table of modes.
-fn head(out: &mut String, first: &str) {
+/// The head of a table of modes; without symmetry they have neither harmonic nor sense of travel.
+fn head(out: &mut String, first: &str, has_harmonics: bool) {
+    let [names, units] = match has_harmonics {
+        true => [
+            format!("{:>3} {:>6}  {:<8} ", "n", "branch", "travels"),
+            " ".repeat(21),
+        ],
+        false => [format!("{:>6} ", "branch"), " ".repeat(7)],
+    };
     let _ = writeln!(
         out,
-        "{first:>9}  {:>4}  {:>3} {:>6}  {:<8} {:>12} {:>12} {:>11}",
-        "mode", "n", "branch", "travels", "frequency", "growth rate", "damping"
+        "{first:>9}  {:>4}  {names}{:>12} {:>12} {:>11}",
+        "mode", "frequency", "growth rate", "damping"
     );
     let _ = writeln!(
         out,
-        "{:>9}  {:>4}  {:>3} {:>6}  {:<8} {:>12} {:>12} {:>11}",
-        "", "", "", "", "", "Hz", "1/s", "factor"
+        "{:>9}  {:>4}  {units}{:>12} {:>12} {:>11}",
+        "", "", "Hz", "1/s", "factor"
     );
 }
 
 fn mode_line(out: &mut String, first: &str, index: usize, mode: &ComplexMode, has_harmonics: bool) {
-    let (harmonic, travels) = if has_harmonics {
-        (mode.harmonic.to_string(), direction_name(mode.direction))
-    } else {
-        ("-".to_owned(), "-")
+    let name = match has_harmonics {
+        true => format!(
+            "{:>3} {:>6}  {:<8} ",
+            mode.harmonic,
+            mode.branch,
+            direction_name(mode.direction)
+        ),
+        false => format!("{:>6} ", mode.branch),
     };
     let _ = writeln!(
         out,
-        "{first:>9}  {:>4}  {:>3} {:>6}  {:<8} {:>12.2} {:>12.2} {:>11.3e}",
+        "{first:>9}  {:>4}  {name}{:>12.2} {:>12.2} {:>11.3e}",
         index + 1,
-        harmonic,
-        mode.branch,
-        travels,
         mode.frequency_hz(),
         mode.growth_rate(),
         mode.damping_factor(),
@@ -95,7 +104,7 @@ fn mode_line(out: &mut String, first: &str, index: usize, mode: &ComplexMode, ha
 
 /// One block for each friction value; neighbouring values without instability share a line.
 fn unstable_modes(out: &mut String, report: &CeaReport<'_>) {
-    head(out, "friction");
+    head(out, "friction", report.has_harmonics);
     let mut stable: Option<(f64, f64)> = None;
     for point in report.tabulated() {
         if point.modes.iter().any(|mode| mode.is_unstable()) {
@@ -139,11 +148,29 @@ fn critical_frictions(out: &mut String, report: &CeaReport<'_>) {
         );
         return;
     }
+    let numbers = report.mode_numbers();
+    let name = |interval: &UnstableInterval| {
+        let branch = branch_of(interval);
+        match (report.has_harmonics, numbers.get(&branch)) {
+            (true, _) => format!(
+                "{:>3} {:>6}  {:<8}",
+                branch.0,
+                branch.1,
+                direction_name(branch.2)
+            ),
+            (false, Some(number)) => format!("{number:>4} {:>6}", branch.1),
+            (false, None) => format!("{:>4} {:>6}", "-", branch.1),
+        }
+    };
+    let names = match report.has_harmonics {
+        true => format!("{:>3} {:>6}  {:<8}", "n", "branch", "travels"),
+        false => format!("{:>4} {:>6}", "mode", "branch"),
+    };
     let _ = writeln!(out, "\ncritical friction");
     let _ = writeln!(
         out,
-        "{:>10}  {:>3} {:>6}  {:<8} {:>12}  stable again at",
-        "unstable >", "n", "branch", "travels", "frequency Hz"
+        "{:>10}  {names} {:>12}  stable again at",
+        "unstable >", "frequency Hz"
     );
     for interval in intervals {
         let again = match interval.restabilized {
@@ -157,18 +184,8 @@ fn critical_frictions(out: &mut String, report: &CeaReport<'_>) {
         };
         let _ = writeln!(
             out,
-            "{critical:>10}  {:>3} {:>6}  {:<8} {:>12.2}  {again}",
-            if report.has_harmonics {
-                interval.harmonic.to_string()
-            } else {
-                "-".to_owned()
-            },
-            interval.branch,
-            if report.has_harmonics {
-                direction_name(interval.direction)
-            } else {
-                "-"
-            },
+            "{critical:>10}  {} {:>12.2}  {again}",
+            name(interval),
             interval.frequency_hz,
         );
     }
@@ -200,7 +217,7 @@ fn totals(out: &mut String, report: &CeaReport<'_>) {
     let _ = writeln!(
         out,
         "steady sliding at friction {}: {} contact nodes slipping, {} sticking, {} open; \
-         pressure {} to {} MPa; {}, {:.1} W",
+         pressure {} to {} MPa; {}, {}",
         base.friction_coefficient,
         base.slipping,
         base.sticking,
@@ -208,8 +225,11 @@ fn totals(out: &mut String, report: &CeaReport<'_>) {
         megapascal(base.pressure_pa[0]),
         megapascal(base.pressure_pa[1]),
         base.drive(),
-        base.power_w,
+        base.power(),
     );
+    if let Some(note) = base.extent.note() {
+        let _ = writeln!(out, "{note}");
+    }
     if let Some(sensitivities) = report.sensitivities {
         let _ = writeln!(out, "{}", sensitivities.print());
     }

@@ -1,11 +1,16 @@
 //! The report of an eigenvalue analysis: figures, critical frictions, eigenvalues.
 
-use super::CeaReport;
+use super::branches::branch_of;
+use super::coupling::sentences;
+use super::{CeaReport, direction_name};
 use crate::cea::FrictionPoint;
 use crate::results::Manifest;
 use crate::results::quantity::fixed;
 use crate::results::report::{NamedFigure, Report, ReportSection, ReportTable};
 use std::f64::consts::TAU;
+
+/// Modes whose sensitivities a report lists.
+const SENSITIVE_MODES: usize = 4;
 
 /// The report: figures, eigenvalues where shapes were asked for, critical frictions.
 pub fn html_report(
@@ -18,7 +23,7 @@ pub fn html_report(
     let mut paragraphs = vec![
         format!(
             "Complex eigenvalues ({}): {} modes at {}, {} unknowns, {} method; largest \
-             relative residual {:.1e}; {:.2} s.",
+             relative residual {:.1e}.",
             report.selection,
             if fewest == most {
                 most.to_string()
@@ -29,37 +34,59 @@ pub fn html_report(
             report.dofs,
             report.method,
             report.largest_residual(),
-            report.wall_s
         ),
         format!(
             "Steady sliding at friction coefficient {}: contact pressure {:.4} to {:.4} MPa, {}, \
-             power {:.1} W.",
+             power {}.",
             base.friction_coefficient,
             base.pressure_pa[0] * 1e-6,
             base.pressure_pa[1] * 1e-6,
             base.drive(),
-            base.power_w
+            base.power()
         ),
     ];
+    paragraphs.extend(base.extent.note().map(|note| format!("{note}.")));
     paragraphs.extend(report.notes.iter().cloned());
+    let mut sections = vec![
+        ReportSection::results(paragraphs, results(report)).with_tables([critical_table(report)]),
+        ReportSection {
+            heading: "Stability of steady sliding".into(),
+            figures,
+            ..ReportSection::default()
+        },
+    ];
+    sections.extend(decisive(report));
+    sections.push(ReportSection {
+        heading: "Eigenvalues".into(),
+        tables: eigenvalue_tables(report),
+        ..ReportSection::default()
+    });
     Report {
         title: report.title.to_owned(),
-        sections: vec![
-            ReportSection::results(paragraphs, results(report))
-                .with_tables([critical_table(report)]),
-            ReportSection {
-                heading: "Stability of steady sliding".into(),
-                figures,
-                ..ReportSection::default()
-            },
-            ReportSection {
-                heading: "Eigenvalues".into(),
-                tables: eigenvalue_tables(report),
-                ..ReportSection::default()
-            },
-        ],
+        sections,
         manifest: manifest.clone(),
     }
+}
+
+/// Which modes couple and which parameter decides, as far as that is known.
+fn decisive(report: &CeaReport<'_>) -> Option<ReportSection> {
+    let mut paragraphs = sentences(report);
+    let tables = report
+        .sensitivities
+        .map_or(Vec::new(), |all| all.tables(SENSITIVE_MODES));
+    if !tables.is_empty() {
+        paragraphs.push(
+            "Sensitivities: a positive change of the growth rate brings a mode nearer to squeal or makes it grow faster, a \
+             negative one holds it back. They hold for small changes; sensitivities.csv has those of every mode."
+                .to_owned(),
+        );
+    }
+    (!paragraphs.is_empty()).then(|| ReportSection {
+        heading: "What couples, and what decides".into(),
+        paragraphs,
+        tables,
+        figures: Vec::new(),
+    })
 }
 
 /// What decides: where stability ends, and what grows at the case's own friction.
@@ -105,40 +132,48 @@ fn results(report: &CeaReport<'_>) -> Vec<(String, String)> {
     }
     rows.extend(report.base.torque_n_m.map(|torque| {
         let name = "torque of steady sliding".to_owned();
-        (name, format!("{} N m", fixed(torque, 3)))
+        let unit = report.base.extent.unit("N m");
+        (name, format!("{} {unit}", fixed(torque, 3)))
     }));
     rows
 }
 
 fn critical_table(report: &CeaReport<'_>) -> ReportTable {
+    let numbers = report.mode_numbers();
     let rows = report.sweep.intervals.iter().map(|interval| {
-        vec![
-            report.harmonic_name(interval.harmonic),
-            interval.branch.to_string(),
-            report.direction_name(interval.direction),
-            if interval.unstable_from_start {
-                format!("below {}", interval.critical_friction)
-            } else {
-                format!("{:.5}", interval.critical_friction)
-            },
-            format!("{:.1}", interval.frequency_hz),
-            interval
-                .restabilized
-                .map_or(String::new(), |(friction, _)| format!("{friction:.5}")),
-        ]
+        let branch = branch_of(interval);
+        let mut row = match report.has_harmonics {
+            true => vec![
+                branch.0.to_string(),
+                branch.1.to_string(),
+                direction_name(branch.2).to_owned(),
+            ],
+            false => vec![
+                numbers.get(&branch).map_or(String::new(), usize::to_string),
+                branch.1.to_string(),
+            ],
+        };
+        row.push(if interval.unstable_from_start {
+            format!("below {}", interval.critical_friction)
+        } else {
+            format!("{:.5}", interval.critical_friction)
+        });
+        row.push(format!("{:.1}", interval.frequency_hz));
+        let again = interval.restabilized;
+        row.push(again.map_or(String::new(), |(friction, _)| format!("{friction:.5}")));
+        row
     });
+    let own = report.base.friction_coefficient;
+    let names: Vec<String> = match report.has_harmonics {
+        true => ["harmonic n", "branch", "travels"]
+            .map(String::from)
+            .to_vec(),
+        false => vec![format!("mode at friction {own}"), "branch".to_owned()],
+    };
+    let values = ["critical friction", "frequency (Hz)", "stable again at"];
     ReportTable {
         caption: "Critical friction of each branch that turns unstable".into(),
-        columns: [
-            "harmonic n",
-            "branch",
-            "travels",
-            "critical friction",
-            "frequency (Hz)",
-            "stable again at",
-        ]
-        .map(String::from)
-        .to_vec(),
+        columns: names.into_iter().chain(values.map(String::from)).collect(),
         rows: rows.collect(),
     }
 }
@@ -159,34 +194,33 @@ fn eigenvalue_tables(report: &CeaReport<'_>) -> Vec<ReportTable> {
 
 fn eigenvalue_table(report: &CeaReport<'_>, point: &FrictionPoint) -> ReportTable {
     let rows = point.modes.iter().enumerate().map(|(index, mode)| {
-        vec![
+        let mut row = vec![
             (index + 1).to_string(),
             format!("{:.2}", mode.real_hz()),
             format!("{:.2}", mode.frequency_hz()),
             format!("{:.5}", mode.damping_factor()),
-            report.harmonic_name(mode.harmonic),
-            mode.branch.to_string(),
-            report.direction_name(mode.direction),
-            if mode.is_unstable() { "unstable" } else { "" }.to_owned(),
-        ]
+        ];
+        if report.has_harmonics {
+            row.push(mode.harmonic.to_string());
+        }
+        row.push(mode.branch.to_string());
+        if report.has_harmonics {
+            row.push(direction_name(mode.direction).to_owned());
+        }
+        row.push(if mode.is_unstable() { "unstable" } else { "" }.to_owned());
+        row
+    });
+    let mut columns = vec!["mode", "Re λ / 2π (Hz)", "Im λ / 2π (Hz)", "damping factor"];
+    columns.extend(match report.has_harmonics {
+        true => &["harmonic n", "branch", "travels", "stability"][..],
+        false => &["branch", "stability"][..],
     });
     ReportTable {
         caption: format!(
             "Eigenvalues at friction coefficient {}",
             point.friction_coefficient
         ),
-        columns: [
-            "mode",
-            "Re λ / 2π (Hz)",
-            "Im λ / 2π (Hz)",
-            "damping factor",
-            "harmonic n",
-            "branch",
-            "travels",
-            "stability",
-        ]
-        .map(String::from)
-        .to_vec(),
+        columns: columns.into_iter().map(String::from).collect(),
         rows: rows.collect(),
     }
 }

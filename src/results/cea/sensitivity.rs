@@ -1,7 +1,9 @@
 //! `sensitivities.csv`: which parameter decides whether a mode grows.
 
+use super::direction_name;
 use crate::cea::cyclic::Sensitivity;
 use crate::linalg::c64;
+use crate::results::report::ReportTable;
 use crate::results::table::{Table, format_number};
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
@@ -117,6 +119,52 @@ impl SensitivityReport {
             table.row(row)?;
         }
         table.finish()
+    }
+
+    /// Tables of the modes that grow fastest, at most `most`: what one per cent more of each parameter changes, largest first.
+    pub(super) fn tables(&self, most: usize) -> Vec<ReportTable> {
+        let mut branches: Vec<&Sensitivity> = self.branches.iter().collect();
+        branches.sort_by(|a, b| b.eigenvalue.re.total_cmp(&a.eigenvalue.re));
+        branches
+            .into_iter()
+            .take(most)
+            .map(|branch| self.table(branch))
+            .collect()
+    }
+
+    fn table(&self, branch: &Sensitivity) -> ReportTable {
+        let friction = [branch.friction_coefficient];
+        let values = friction.iter().chain(&self.values);
+        let derivatives = derivatives(branch).into_iter().zip(values).zip(NAMES);
+        let mut changes: Vec<(&str, c64)> = derivatives
+            .filter_map(|((derivative, value), name)| Some((name, derivative? * (0.01 * value))))
+            .filter(|(_, change)| change.norm() > 0.0)
+            .collect();
+        changes.sort_by(|a, b| b.1.re.abs().total_cmp(&a.1.re.abs()));
+        let row = |(name, change): (&str, c64)| {
+            vec![
+                name.replace('_', " "),
+                format!("{:+.3}", change.re + 0.0),
+                format!("{:+.3}", change.im / TAU + 0.0),
+            ]
+        };
+        let (rate, frequency) = (branch.eigenvalue.re, branch.eigenvalue.im / TAU);
+        ReportTable {
+            caption: format!(
+                "One per cent more of each parameter changes n = {}, branch {}, {} the rotor ({frequency:.1} Hz, {} at {:.1} 1/s \
+                 at friction {}) by",
+                branch.harmonic,
+                branch.branch,
+                direction_name(branch.direction),
+                if rate > 0.0 { "grows" } else { "decays" },
+                rate.abs(),
+                branch.friction_coefficient,
+            ),
+            columns: ["parameter", "growth rate (1/s)", "frequency (Hz)"]
+                .map(String::from)
+                .to_vec(),
+            rows: changes.into_iter().map(row).collect(),
+        }
     }
 
     /// What decides the growth of the mode that grows fastest, in words.

@@ -7,7 +7,7 @@ use crate::chart::{
     Axis, Field, INK, Line, MUTED, Motion, MotionKind, MotionState, Panel, Stroke, plain, signed,
 };
 use crate::linalg::c64;
-use crate::mesh::Mesh2d;
+use crate::mesh::Mesh;
 use crate::results::charts::palette::UNSTABLE;
 use crate::results::charts::{Disc, MovingBody};
 
@@ -59,7 +59,7 @@ impl ModeShape<'_> {
 /// A body whose shapes are drawn.
 pub(super) enum Body<'a> {
     /// In the plane.
-    Plane(Disc<'a>, &'a Mesh2d),
+    Plane(Disc<'a>, &'a Mesh),
     /// With a thickness.
     Solid(Picture<'a>),
 }
@@ -93,18 +93,13 @@ impl<'a> Body<'a> {
 ///
 /// A travelling wave is shown at the instant that puts its crest at angle zero; every shape is scaled to its own maximum,
 /// which an eigenvector leaves open.
-fn shape_panel(
-    disc: &Disc<'_>,
-    mesh: &Mesh2d,
-    shape: &ModeShape<'_>,
-    lines: &[String; 3],
-) -> Panel {
+fn shape_panel(disc: &Disc<'_>, mesh: &Mesh, shape: &ModeShape<'_>, lines: &[String; 3]) -> Panel {
     let values = shape.mode.shape.as_deref().unwrap_or(&[]);
     let turn = crest_phase(mesh, values, shape.mode.harmonic);
     let real: Vec<f64> = values.iter().map(|u| (u * turn).re).collect();
     let amplitude: Vec<f64> = real.chunks_exact(2).map(|u| u[0].hypot(u[1])).collect();
     let largest = amplitude.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
-    let [low, high] = Field::window(&mesh.nodes, 0.0);
+    let [low, high] = Field::window(&mesh.plane_nodes(), 0.0);
     let magnification = DEFLECTION * 0.5 * (high[0] - low[0]) / largest;
     let axis = Axis::new("", "").between(0.0, largest);
     let colour = shape.colour();
@@ -112,7 +107,13 @@ fn shape_panel(
         dash: &[1.5, 1.2],
         ..Stroke::solid(MUTED, 0.45)
     };
-    let panel = lines.iter().fold(disc.panel(0.02), |panel, line| {
+    // What is free at its rim leaves the place that it has at rest.
+    let room = if mesh.is_cyclic {
+        0.02
+    } else {
+        0.04 + 2.0 * DEFLECTION
+    };
+    let panel = lines.iter().fold(disc.panel(room), |panel, line| {
         panel.heading_in(colour, line)
     });
     panel
@@ -122,7 +123,7 @@ fn shape_panel(
 }
 
 /// The modes as motions to choose from: the unstable ones first, as many as a page carries.
-pub(super) fn moving(mesh: &Mesh2d, shapes: &[ModeShape<'_>]) -> Motion {
+pub(super) fn moving(mesh: &Mesh, shapes: &[ModeShape<'_>]) -> Motion {
     let body = MovingBody::new(mesh);
     let (unstable, stable): (Vec<&ModeShape<'_>>, Vec<_>) =
         shapes.iter().partition(|s| s.mode.is_unstable());
@@ -159,7 +160,7 @@ pub(super) fn moving(mesh: &Mesh2d, shapes: &[ModeShape<'_>]) -> Motion {
 /// A standing wave (`|sum u^2|` near `sum |u|^2`) is turned to its largest real part; a travelling one so that the wave that
 /// carries most of it has its tangential crest at angle zero. Both depend on the shape alone, not on the arbitrary phase a
 /// solver gave it.
-fn crest_phase(mesh: &Mesh2d, shape: &[c64], harmonic: usize) -> c64 {
+fn crest_phase(mesh: &Mesh, shape: &[c64], harmonic: usize) -> c64 {
     let zero = c64::new(0.0, 0.0);
     let square = shape.iter().fold(zero, |sum, u| sum + u * u);
     let total: f64 = shape.iter().map(|u| u.norm_sqr()).sum();
@@ -171,7 +172,7 @@ fn crest_phase(mesh: &Mesh2d, shape: &[c64], harmonic: usize) -> c64 {
         return unit(square.sqrt());
     }
     let wave = |sign: f64| {
-        let nodes = shape.chunks_exact(2).zip(&mesh.frame_angles);
+        let nodes = shape.chunks_exact(2).zip(mesh.frame_angles());
         nodes.fold(zero, |sum, (u, &angle)| {
             let phase = sign * harmonic as f64 * angle;
             sum + u[1] * c64::new(phase.cos(), phase.sin())

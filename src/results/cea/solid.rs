@@ -1,5 +1,6 @@
 //! Results of a body of revolution in three dimensions: base state along the contact, bricks, shapes.
 
+use super::BaseState;
 use crate::chart::{
     Axis, Cell, ColourMap, Field as ColourField, Figure, Line, Marker, Mesh, Panel, SERIES, Side,
 };
@@ -59,7 +60,11 @@ impl SolidReport {
     }
 
     /// Writes `prestress.csv`, one row for each ring of contact nodes, and `prestress.vtu`.
-    pub(super) fn write_base(&self, folder: &OutputFolder) -> Result<(), FolderError> {
+    pub(super) fn write_base(
+        &self,
+        folder: &OutputFolder,
+        state: &BaseState,
+    ) -> Result<(), FolderError> {
         folder.write("prestress.csv", |out| {
             let status = |k: usize| match self.base.is_pressed[k] {
                 true => ContactStatus::Slip,
@@ -76,11 +81,46 @@ impl SolidReport {
             write_rows(out, columns, 0..rings.len())
         })?;
         let displacement = self.base.displacement(self.friction_coefficient);
-        let fields = [self.vectors("displacement_m", &self.repeated(&displacement))];
+        let mut fields = vec![self.vectors("displacement_m", &self.repeated(&displacement))];
+        fields.extend(self.contact_fields());
+        let whole = state.whole();
         folder.write_bulk("prestress.vtu", |out| {
-            write_vtu(out, &EncodedMesh::solid(&self.sector)?, &[], &fields, &[])
+            write_vtu(
+                out,
+                &EncodedMesh::solid(&self.sector)?,
+                &whole,
+                &fields,
+                &[],
+            )
         })?;
         Ok(())
+    }
+
+    /// Status, pressure and friction traction at the contact nodes of all sectors.
+    fn contact_fields(&self) -> [Field; 3] {
+        let (sector, shears) = (&self.sector, self.shears());
+        let (mut edge, mut ring_of) = (Vec::new(), Vec::new());
+        for j in 0..sector.sector_count() {
+            for (k, ring) in sector.rings.iter().enumerate() {
+                let nodes = ring.nodes.iter();
+                edge.extend(nodes.map(|node| (j * sector.node_count() + node) as u32));
+                ring_of.extend(std::iter::repeat_n(k, ring.nodes.len()));
+            }
+        }
+        let count = sector.sector_count() * sector.node_count();
+        let statuses = ring_of.iter().map(|&k| match self.base.is_pressed[k] {
+            true => ContactStatus::Slip,
+            false => ContactStatus::Open,
+        });
+        let of = |name, values: &[f64]| {
+            let values: Vec<f64> = ring_of.iter().map(|&k| values[k]).collect();
+            Field::on_edge(name, count, &edge, &values)
+        };
+        [
+            Field::status(count, &edge, statuses),
+            of("pressure_pa", &self.base.pressures),
+            of("shear_pa", &shears),
+        ]
     }
 
     /// Pressure and traction along the contact, and the section as the rotor deforms it.
@@ -262,6 +302,7 @@ impl<'a> Picture<'a> {
             axis,
             ColourMap::Viridis,
         );
-        Panel::plane(ColourField::window(&at_rest, 0.04)).layer(field)
+        let room = 0.04 + 2.0 * DEFLECTION;
+        Panel::plane(ColourField::window(&at_rest, room)).layer(field)
     }
 }

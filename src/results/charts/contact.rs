@@ -13,6 +13,10 @@ use std::f64::consts::TAU;
 
 /// Columns of a status map: three for each point of a wide panel.
 const FINEST: usize = 900;
+/// Intervals that are tried, best first, for a pattern that drifts the way it travels.
+const TRIED: usize = 12;
+/// Intervals over which its drift is measured.
+const SEVERAL: usize = 8;
 /// Fewest columns that a strobed map keeps.
 const FEWEST: usize = 150;
 
@@ -21,8 +25,8 @@ const FEWEST: usize = 150;
 /// time and around the circle.
 ///
 /// Where there are more samples than the drawing has columns, single instants are shown, an interval apart at which the end of
-/// the run repeats itself best: a travelling pattern then stands nearly still, as under a stroboscope, and keeps its shares of
-/// stick, slip and open.
+/// the run repeats itself best: a travelling pattern then stands nearly still, as under a stroboscope, drifts the way it
+/// travels, and keeps its shares of stick, slip and open.
 pub fn status_map(
     times: &[f64],
     nodes: usize,
@@ -61,7 +65,7 @@ pub fn status_map(
 }
 
 /// Samples between the instants shown: the number from `finest` up, with enough columns left, after which the last fifth of
-/// the run repeats itself best.
+/// the run repeats itself best, among those after which its pattern has not fallen back.
 fn strobe_stride(nodes: usize, codes: &[u8], finest: usize) -> usize {
     let count = codes.len() / nodes;
     let start = count - count / 5;
@@ -77,10 +81,30 @@ fn strobe_stride(nodes: usize, codes: &[u8], finest: usize) -> usize {
             .map(|sample| row(sample).iter().zip(row(sample + lag)));
         pairs.map(|pair| pair.filter(|(a, b)| a == b).count()).sum()
     };
+    // Nodes by which the pattern has moved after `lag` samples: the shortest way of those that fit best.
+    let moved = |lag: usize| -> isize {
+        let reach = (nodes / 4) as isize;
+        let fit = |shift: isize| -> usize {
+            let at = |node: usize| (node as isize + shift).rem_euclid(nodes as isize) as usize;
+            let own = (start..count.saturating_sub(lag)).step_by(((count - start) / 8).max(1));
+            let pairs = own.map(|sample| (row(sample), row(sample + lag)));
+            pairs
+                .map(|(a, b)| (0..nodes).filter(|&node| a[node] == b[at(node)]).count())
+                .sum()
+        };
+        (-reach..=reach)
+            .max_by_key(|&shift| (fit(shift), std::cmp::Reverse(shift.abs())))
+            .unwrap_or(0)
+    };
     // The shortest of equals: a uniform state needs no strobe.
-    let lags = finest..=coarsest;
-    lags.max_by_key(|&lag| (agreement(lag), std::cmp::Reverse(lag)))
-        .unwrap_or(finest)
+    let mut lags: Vec<usize> = (finest..=coarsest).collect();
+    lags.sort_by_key(|&lag| (std::cmp::Reverse(agreement(lag)), lag));
+    let travels = moved(1);
+    // Several intervals on, a drift of less than a node for each shows too.
+    let several = |lag: usize| lag * ((count - start) / (2 * lag)).clamp(1, SEVERAL);
+    let onward = |lag: &&usize| moved(several(**lag)) * travels >= 0;
+    let chosen = lags.iter().take(TRIED).find(onward);
+    chosen.or(lags.first()).copied().unwrap_or(finest)
 }
 
 /// Where nodes stand along the contact: the angle around a whole hole, a share of any other edge.
@@ -93,13 +117,44 @@ pub fn place_axis(is_round: bool) -> Axis {
     }
 }
 
-/// Tractions (Pa) and tangential velocity (m/s) of the nodes of an edge that is no whole hole, evenly spaced, on a ground
+/// Tangential velocity of the nodes of a contact, m/s.
+pub enum ContactVelocity<'a> {
+    /// On a rigid counterface: their own, and the counterface's.
+    Absolute(&'a [f64], f64),
+    /// Between two bodies that both move: that of a node against what it meets, zero where it sticks.
+    Slip(&'a [f64]),
+}
+
+impl ContactVelocity<'_> {
+    fn values(&self) -> &[f64] {
+        match self {
+            Self::Absolute(values, _) | Self::Slip(values) => values,
+        }
+    }
+
+    fn name(&self, absolute: &str) -> String {
+        match self {
+            Self::Absolute(..) => absolute.to_owned(),
+            Self::Slip(_) => "slip velocity".to_owned(),
+        }
+    }
+
+    /// The line at which a node sticks.
+    fn sticking(&self, counterface: &str) -> Rule {
+        match self {
+            Self::Absolute(_, speed) => Rule::horizontal(*speed).stretching().name(counterface),
+            Self::Slip(_) => Rule::horizontal(0.0).name("stick"),
+        }
+    }
+}
+
+/// Tractions (Pa) and tangential velocity of the nodes of an edge that is no whole hole, evenly spaced, on a ground
 /// coloured by status.
 pub fn open_contact_figure(
     (name, caption, instant): (String, String, String),
     status: &[ContactStatus],
-    [pressure, shear, velocity]: [&[f64]; 3],
-    surface_speed: f64,
+    [pressure, shear]: [&[f64]; 2],
+    velocity: ContactVelocity<'_>,
 ) -> Figure {
     let step = TAU / status.len().saturating_sub(1).max(1) as f64;
     let along = |values: &[f64]| {
@@ -131,15 +186,11 @@ pub fn open_contact_figure(
         )
         .panel(
             panel(Axis::new("velocity", "m/s").including(0.0))
+                .layer(velocity.sticking("counterface"))
                 .layer(
-                    Rule::horizontal(surface_speed)
-                        .stretching()
-                        .name("counterface"),
-                )
-                .layer(
-                    along(velocity)
+                    along(velocity.values())
                         .solid(SERIES[0], 1.1)
-                        .name("tangential velocity"),
+                        .name(velocity.name("tangential velocity")),
                 ),
         )
 }
@@ -147,10 +198,10 @@ pub fn open_contact_figure(
 /// The contact at one instant: arcs of stick, slip and separation around the circle, and over the angle the tractions (Pa) and
 /// the tangential velocity (m/s) of nodes evenly spaced from an angle (rad), on a ground coloured by status.
 pub fn contact_figure(
-    (name, caption, instant): (String, String, String),
+    ((name, caption, instant), counterface): ((String, String, String), &str),
     (first_angle, status): (f64, &[ContactStatus]),
-    [pressure, shear, velocity]: [&[f64]; 3],
-    peripheral_speed: f64,
+    [pressure, shear]: [&[f64]; 2],
+    velocity: ContactVelocity<'_>,
 ) -> Figure {
     let step = TAU / status.len().max(1) as f64;
     let closed = |values: &[f64]| -> Vec<(f64, f64)> {
@@ -209,15 +260,11 @@ pub fn contact_figure(
         )
         .panel(
             over_angle(Axis::new("velocity", "m/s").including(0.0))
+                .layer(velocity.sticking(counterface))
                 .layer(
-                    Rule::horizontal(peripheral_speed)
-                        .stretching()
-                        .name("cylinder *Ωa*"),
-                )
-                .layer(
-                    Line::through(closed(velocity))
+                    Line::through(closed(velocity.values()))
                         .solid(SERIES[0], 1.1)
-                        .name("tangential *v*_{θ}"),
+                        .name(velocity.name("tangential *v*_{θ}")),
                 ),
         )
 }
@@ -254,9 +301,10 @@ pub fn field_figure(
     if frames.is_empty() {
         return Err(ChartError::empty(name));
     }
+    let is_single = frames.len() == 1;
     let columns = match frames.len() {
         5 | 6 => 3,
-        count => count.clamp(2, 4),
+        count => count.clamp(1, 4),
     };
     let (radius, first_angle) = disc.contact_place();
     // Beside an edge that is no whole hole there is no place for a ring.
@@ -271,6 +319,7 @@ pub fn field_figure(
         panel.layers(ring).colour_bar(Side::Below)
     });
     let figure = Figure::new(name, caption).columns(columns).panels(panels);
+    let figure = if is_single { figure.narrow() } else { figure };
     Ok(if has_status {
         figure.note("ring inside the hole: contact status")
     } else {
@@ -325,5 +374,32 @@ mod tests {
         let codes: Vec<u8> = cells.map(|cell| if sticks(cell) { 1 } else { 2 }).collect();
         assert_eq!(strobe_stride(nodes, &codes, 20), period);
         assert_eq!(strobe_stride(nodes, &codes, 1), 1);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A pattern of two periods around 180 nodes that travels by `speed` nodes a sample, seen at the strobe's interval.
+    fn drift(speed: f64) -> f64 {
+        let (nodes, count) = (180, 9000);
+        let mut codes = vec![0; nodes * count];
+        for sample in 0..count {
+            for node in 0..nodes {
+                let place = (node as f64 - speed * sample as f64).rem_euclid(90.0);
+                codes[sample * nodes + node] = u8::from(place < 30.0);
+            }
+        }
+        let moved = speed * strobe_stride(nodes, &codes, 10) as f64;
+        moved - 90.0 * (moved / 90.0).round()
+    }
+
+    #[test]
+    fn a_strobed_pattern_drifts_the_way_it_travels() {
+        for speed in [6.8, 7.13, 6.283, 3.371] {
+            assert!(drift(speed) > -0.1, "{speed}: {}", drift(speed));
+            assert!(drift(-speed) < 0.1, "-{speed}: {}", drift(-speed));
+        }
     }
 }

@@ -49,7 +49,7 @@ pub fn signal_panel(
     width: f64,
 ) -> Panel {
     // "km/s²" is no unit anyone uses: accelerations stay in m/s² and let the axis take the power.
-    let y = Axis::new(symbol, unit).symmetric();
+    let y = Axis::new(symbol, unit).including(0.0).room(0.06);
     Panel::new(time, y)
         .height(78.0)
         .layer(Line::new(times, signal).solid(SERIES[0], width).whole())
@@ -183,7 +183,8 @@ pub fn spectrum_panel(
         .layers(peaks.unwrap_or_default())
 }
 
-/// Labels at the largest value and at its whole multiples, where they stand out of what lies around them.
+/// Labels at a main frequency and at its whole multiples, where they stand out of what lies around them: at the tops of the
+/// lines, with the frequency given, or with that of the strongest line between the values of the spectrum.
 fn multiples(
     frequencies: &[f64],
     amplitudes: &[f64],
@@ -193,43 +194,90 @@ fn multiples(
     let count = frequencies
         .partition_point(|&f| f <= highest_hz)
         .min(amplitudes.len());
+    let (frequencies, amplitudes) = (&frequencies[..count], &amplitudes[..count]);
     let largest = |from: usize, to: usize| {
-        (from..to).max_by(|&a, &b| amplitudes[a].total_cmp(&amplitudes[b]))
+        let range = from.min(count)..to.min(count);
+        range.max_by(|&a, &b| amplitudes[a].total_cmp(&amplitudes[b]))
     };
-    let given = main_hz.map(|main| frequencies.partition_point(|&f| f < main));
-    let strongest = || largest(1.min(count), count);
-    let Some(main) = given
-        .or_else(strongest)
-        .filter(|&main| main > 0 && main < count && amplitudes[main] > 0.0)
-    else {
+    let strongest = || {
+        let peak = largest(1, count).filter(|&peak| amplitudes[peak] > 0.0)?;
+        Some(between_lines(frequencies, amplitudes, peak))
+    };
+    let Some(main) = main_hz.or_else(strongest).filter(|main| *main > 0.0) else {
         return Vec::new();
     };
+    let place = |hz: f64| frequencies.partition_point(|&f| f < hz);
     let mut labels = Vec::new();
     for multiple in 1..=6 {
-        let (centre, reach) = (multiple * main, (main / 10).max(1));
-        let Some(peak) = largest((centre - reach).min(count), (centre + reach + 1).min(count))
-        else {
+        let centre = f64::from(multiple) * main;
+        // A line lies within a few values of the spectrum, and within a twentieth of the main frequency, of its place.
+        let (from, to) = (place(centre - 0.05 * main), place(centre + 0.05 * main) + 1);
+        let Some(peak) = largest(from, to).filter(|_| centre <= highest_hz) else {
             break;
         };
-        let mut around: Vec<f64> =
-            amplitudes[(centre - main / 2).min(count)..(centre + main / 2).min(count)].to_vec();
+        let (from, to) = (place(centre - 0.5 * main), place(centre + 0.5 * main));
+        let mut around: Vec<f64> = amplitudes[from..to.max(from)].to_vec();
         around.sort_by(f64::total_cmp);
-        let is_out = around
-            .get(around.len() / 2)
-            .is_some_and(|median| amplitudes[peak] > 5.0 * median);
-        if is_out {
-            let name = if multiple == 1 {
-                "*f*".to_owned()
-            } else {
-                format!("{multiple}*f*")
-            };
-            let name = if multiple == 1 {
-                format!("{name} = {:.2} kHz", frequencies[peak] * 1e-3)
-            } else {
-                name
+        let median = around.get(around.len() / 2);
+        if median.is_some_and(|median| amplitudes[peak] > 5.0 * median) {
+            let name = match multiple {
+                1 => format!("*f* = {:.3} kHz", main * 1e-3),
+                _ => format!("{multiple}*f*"),
             };
             labels.push(Label::new((frequencies[peak], amplitudes[peak]), name).above());
         }
     }
     labels
+}
+
+/// The frequency of a line by the parabola through the logarithms of its largest value and of the two beside it.
+fn between_lines(frequencies: &[f64], amplitudes: &[f64], peak: usize) -> f64 {
+    let near = peak.checked_sub(1).zip(amplitudes.get(peak + 1));
+    let Some((before, &after)) = near else {
+        return frequencies[peak];
+    };
+    let [low, middle, high] = [amplitudes[before], amplitudes[peak], after].map(f64::ln);
+    let bend = low - 2.0 * middle + high;
+    if !(bend < 0.0) {
+        return frequencies[peak];
+    }
+    let shift = 0.5 * (low - high) / bend;
+    frequencies[peak] + shift.clamp(-0.5, 0.5) * (frequencies[peak] - frequencies[before])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::chart::Figure;
+    use crate::signal::{Window, amplitude_spectrum};
+
+    /// Main frequency that a drawn spectrum names, kHz.
+    fn named(samples: &[f64], rate: f64, main_hz: Option<f64>) -> f64 {
+        let spectrum = amplitude_spectrum(samples, rate, Window::Hann, 2).unwrap();
+        let series: [(&str, &[f64], &[f64]); 1] =
+            [("signal", &spectrum.frequencies_hz, &spectrum.amplitudes)];
+        let panel = spectrum_panel(&series, "", (3e4, main_hz), &[]);
+        let svg = Figure::new("spectrum", "Spectrum.")
+            .panel(panel)
+            .to_svg(None);
+        let svg = svg.unwrap();
+        let after = svg.split(" = ").nth(1).unwrap();
+        after.split(' ').next().unwrap().parse().unwrap()
+    }
+
+    #[test]
+    fn a_spectrum_names_the_frequency_and_not_the_value_beside_it() {
+        // Values of the spectrum are 250 Hz apart: 9.5 kHz lies beside 9433 Hz.
+        let (rate, main) = (5e5, 9433.0);
+        let time = |i: usize| i as f64 / rate;
+        let wave = |t: f64, f: f64| (std::f64::consts::TAU * f * t).sin();
+        let tone: Vec<f64> = (0..1000).map(|i| wave(time(i), main)).collect();
+        assert!((named(&tone, rate, None) - 9.433).abs() < 0.002);
+        assert_eq!(named(&tone, rate, Some(main)), 9.433);
+        // The second harmonic is the strongest line; the main frequency is known all the same.
+        let both: Vec<f64> = (0..1000)
+            .map(|i| wave(time(i), main) + 3.0 * wave(time(i), 2.0 * main))
+            .collect();
+        assert_eq!(named(&both, rate, Some(main)), 9.433);
+    }
 }

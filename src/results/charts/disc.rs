@@ -1,31 +1,31 @@
 //! Fields over a body as layers.
 
-use crate::chart::{Axis, Cell, ColourMap, Field, Mesh, Panel};
-use crate::mesh::Mesh2d;
+use crate::chart::{self, Axis, Cell, ColourMap, Field, Panel};
+use crate::mesh::Mesh;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// A body as figures show it.
 #[derive(Clone)]
 pub struct Disc<'a> {
-    mesh: &'a Mesh2d,
-    shown: Arc<Mesh>,
+    mesh: &'a Mesh,
+    shown: Arc<chart::Mesh>,
 }
 
 impl<'a> Disc<'a> {
     /// The elements and edges of a mesh.
-    pub fn new(mesh: &'a Mesh2d) -> Self {
+    pub fn new(mesh: &'a Mesh) -> Self {
         Self::with_lattice(mesh, 0)
     }
 
     /// The same with about so many rays of nodes, and circles to match, as thin lines that show a deformation; a body that is no
     /// uniform annulus shows none.
-    pub fn with_lattice(mesh: &'a Mesh2d, rays: usize) -> Self {
+    pub fn with_lattice(mesh: &'a Mesh, rays: usize) -> Self {
         let cells = (0..mesh.element_count()).map(|element| Cell {
             ring: mesh.element_outline(element),
             is_quadratic: mesh.element_kind(element).is_quadratic(),
         });
-        let shown = Mesh {
+        let shown = chart::Mesh {
             cells: cells.collect(),
             outlines: outlines(mesh),
             lines: if rays > 0 && mesh.is_cyclic {
@@ -42,14 +42,14 @@ impl<'a> Disc<'a> {
 
     /// A panel without axes for fields on the undeformed body, with a little room.
     pub fn panel(&self, room: f64) -> Panel {
-        Panel::plane(Field::window(&self.mesh.nodes, room))
+        Panel::plane(Field::window(&self.mesh.plane_nodes(), room))
     }
 
     /// Values at the nodes, on the undeformed body.
     pub fn field(&self, values: Vec<f64>, axis: Axis, map: ColourMap) -> Field {
         Field::new(
             self.shown.clone(),
-            self.mesh.nodes.clone(),
+            self.mesh.plane_nodes(),
             values,
             axis,
             map,
@@ -64,10 +64,10 @@ impl<'a> Disc<'a> {
         magnification: f64,
         axis: Axis,
     ) -> Field {
-        let frames = self.mesh.nodes.iter().zip(&self.mesh.frame_angles);
+        let frames = self.mesh.nodes.iter().zip(self.mesh.frame_angles());
         let places = frames
             .zip(displacement.chunks_exact(2))
-            .map(|((&[x, y], &angle), u)| {
+            .map(|((&[x, y, _], &angle), u)| {
                 let (sin, cos) = angle.sin_cos();
                 [
                     x + magnification * (cos * u[0] - sin * u[1]),
@@ -92,12 +92,12 @@ impl<'a> Disc<'a> {
             .nodes
             .iter()
             .chain(again)
-            .map(|&node| self.mesh.nodes[node as usize]);
+            .map(|&node| self.mesh.plane_node(node as usize));
         places.map(|[x, y]| (x, y)).collect()
     }
 
     /// The mesh.
-    pub fn mesh(&self) -> &Mesh2d {
+    pub fn mesh(&self) -> &Mesh {
         self.mesh
     }
 
@@ -111,13 +111,13 @@ impl<'a> Disc<'a> {
             .fold(f64::INFINITY, f64::min);
         let first = edge
             .first()
-            .and_then(|&node| self.mesh.frame_angles.get(node as usize));
+            .and_then(|&node| self.mesh.frame_angles().get(node as usize));
         (radius, first.copied().unwrap_or(0.0))
     }
 }
 
 /// The boundaries of the annulus; on any other body its rim, edge by edge: its curves may be in pieces.
-fn outlines(mesh: &Mesh2d) -> Vec<Vec<u32>> {
+fn outlines(mesh: &Mesh) -> Vec<Vec<u32>> {
     if mesh.is_cyclic {
         return mesh
             .boundaries
@@ -132,16 +132,16 @@ fn outlines(mesh: &Mesh2d) -> Vec<Vec<u32>> {
 }
 
 /// Every few rays and circles of nodes, found by their equal angle and radius.
-fn lattice(mesh: &Mesh2d, wanted: usize) -> Vec<Vec<u32>> {
+fn lattice(mesh: &Mesh, wanted: usize) -> Vec<Vec<u32>> {
     let size = mesh
         .nodes
         .iter()
-        .map(|[x, y]| x.hypot(*y))
+        .map(|[x, y, _]| x.hypot(*y))
         .fold(f64::MIN_POSITIVE, f64::max);
     let mut rays: BTreeMap<i64, Vec<u32>> = BTreeMap::new();
     let mut circles: BTreeMap<i64, Vec<u32>> = BTreeMap::new();
-    for (node, &[x, y]) in mesh.nodes.iter().enumerate() {
-        let ray = (mesh.frame_angles[node] * 1e6).round() as i64;
+    for (node, &[x, y, _]) in mesh.nodes.iter().enumerate() {
+        let ray = (mesh.frame_angles()[node] * 1e6).round() as i64;
         let circle = (x.hypot(y) / size * 1e6).round() as i64;
         rays.entry(ray).or_default().push(node as u32);
         circles.entry(circle).or_default().push(node as u32);

@@ -8,8 +8,8 @@ mod motion;
 pub mod palette;
 
 pub use contact::{
-    FieldFrame, contact_figure, field_figure, open_contact_figure, place_axis, shear_stress_figure,
-    status_curves, status_map,
+    ContactVelocity, FieldFrame, contact_figure, field_figure, open_contact_figure, place_axis,
+    shear_stress_figure, status_curves, status_map,
 };
 pub use course::{
     ModeLine, Stage, run_axis, signal_panel, spectrogram_panels, spectrum_panel, with_stages,

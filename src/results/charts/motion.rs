@@ -1,7 +1,7 @@
 //! Bodies that move, for pages that animate them.
 
 use crate::chart::Motion;
-use crate::mesh::Mesh2d;
+use crate::mesh::Mesh;
 use std::collections::BTreeMap;
 
 /// Most displacements of nodes that one page carries.
@@ -9,14 +9,14 @@ const MOST_DISPLACEMENTS: usize = 100_000;
 
 /// A body by the corners of its elements.
 pub struct MovingBody<'a> {
-    mesh: &'a Mesh2d,
+    mesh: &'a Mesh,
     /// Nodes that are corners, ascending.
     corners: Vec<u32>,
 }
 
 impl<'a> MovingBody<'a> {
     /// The corners of a mesh.
-    pub fn new(mesh: &'a Mesh2d) -> Self {
+    pub fn new(mesh: &'a Mesh) -> Self {
         let rings = (0..mesh.element_count()).flat_map(|element| corners_of(mesh, element));
         let mut corners: Vec<u32> = rings.collect();
         corners.sort_unstable();
@@ -38,7 +38,7 @@ impl<'a> MovingBody<'a> {
         });
         let edge = self.mesh.contact_edge().nodes.iter();
         Motion {
-            positions: self.of(&self.mesh.nodes),
+            positions: self.of(&self.mesh.plane_nodes()),
             cells: cells.collect(),
             edge: edge.filter_map(|&node| number(node)).collect(),
             states: Vec::new(),
@@ -48,7 +48,7 @@ impl<'a> MovingBody<'a> {
     /// Displacements along x and y of the corners, from those of all nodes in their frames, two values a node.
     pub fn cartesian(&self, displacement: impl Fn(usize) -> [f64; 2]) -> Vec<[f64; 2]> {
         let place = |&node: &u32| {
-            let (sin, cos) = self.mesh.frame_angles[node as usize].sin_cos();
+            let (sin, cos) = self.mesh.frame_angles()[node as usize].sin_cos();
             let [u, v] = displacement(node as usize);
             [cos * u - sin * v, sin * u + cos * v]
         };
@@ -80,7 +80,7 @@ impl<'a> MovingBody<'a> {
     }
 }
 
-fn corners_of(mesh: &Mesh2d, element: usize) -> Vec<u32> {
+fn corners_of(mesh: &Mesh, element: usize) -> Vec<u32> {
     let ring = mesh.element_outline(element);
     let step = if mesh.element_kind(element).is_quadratic() {
         2

@@ -125,3 +125,16 @@ fn named(shapes: Shapes, status: &[ContactStatus], colour: fn(&Entry) -> &'stati
 pub fn centred(size: f64) -> TextStyle {
     TextStyle::new(size).anchored(Anchor::Middle).with_halo()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn animations_colour_statuses_as_figures_do() {
+        let script = include_str!("../report/motion.js");
+        let colours = [0, 1, 2].map(|code| format!("\"{}\"", line_colour(status_of_code(code))));
+        let declared = format!("statusColours = [{}]", colours.join(", "));
+        assert!(script.contains(&declared), "{declared}");
+    }
+}

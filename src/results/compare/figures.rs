@@ -2,8 +2,8 @@
 
 use super::ComparedRun;
 use crate::chart::{
-    Axis, ChartError, Figure, Line, Marker, Panel, PanelData, Points, Scale, SeriesKind, Stroke,
-    literal, look,
+    Axis, ChartError, Figure, INK, Line, Marker, Panel, PanelData, Points, Scale, SeriesKind,
+    Stroke, literal, look,
 };
 use crate::results::drawing::{Declaration, DrawingOptions, draw_all};
 use crate::results::report::{NamedFigure, ReadFigure, read_figures};
@@ -100,6 +100,18 @@ fn panel_of(panel: &PanelData, runs: &[(usize, &str, &PanelData)]) -> Panel {
     if !panel.caption.is_empty() {
         out = out.caption(literal(&panel.caption));
     }
+    // Colours tell the runs apart; dashes and markers the series of one run, as many of them as have a name.
+    let mut lines: Vec<&str> = Vec::new();
+    let mut points: Vec<&str> = Vec::new();
+    for series in runs.iter().flat_map(|(_, _, own)| &own.series) {
+        let names = match series.kind {
+            SeriesKind::Line | SeriesKind::Dashed => &mut lines,
+            SeriesKind::Points | SeriesKind::Field => &mut points,
+        };
+        if !series.name.is_empty() && !names.contains(&series.name.as_str()) {
+            names.push(&series.name);
+        }
+    }
     for (run, title, own) in runs {
         let colour = look(*run).0;
         // Of many curves those with a name stand for all.
@@ -108,25 +120,75 @@ fn panel_of(panel: &PanelData, runs: &[(usize, &str, &PanelData)]) -> Panel {
             .series
             .iter()
             .filter(|series| !is_crowded || !series.name.is_empty());
+        let mut anchor = None;
         for series in curves {
-            let name = match series.name.as_str() {
-                "" => literal(title),
-                name => literal(&format!("{title}: {name}")),
-            };
-            let line = || Line::new(&series.xs, &series.ys).name(name.clone());
+            let places = || series.xs.iter().copied().zip(series.ys.iter().copied());
+            anchor = anchor.or_else(|| places().find(|(x, y)| (x + y).is_finite()));
+            let number = |names: &[&str]| names.iter().position(|name| *name == series.name);
             out = match series.kind {
-                SeriesKind::Line => out.layer(line().solid(colour, 0.8)),
-                SeriesKind::Dashed => out.layer(line().stroke(Stroke::dashed(colour, 0.8))),
+                SeriesKind::Line | SeriesKind::Dashed => {
+                    let dash = line_dash(series.kind, number(&lines).unwrap_or(0));
+                    let stroke = Stroke {
+                        dash,
+                        ..Stroke::solid(colour, 0.8)
+                    };
+                    out.layer(Line::through(places()).stroke(stroke))
+                }
                 SeriesKind::Points | SeriesKind::Field => {
-                    let points = series.xs.iter().copied().zip(series.ys.iter().copied());
-                    out.layer(
-                        Points::new(points)
-                            .marker(Marker::ALL[run % 5], 1.4, colour)
-                            .name(name),
-                    )
+                    let marker = point_marker(number(&points).unwrap_or(0));
+                    out.layer(Points::new(places()).marker(marker, 1.4, colour))
                 }
             };
         }
+        let anchor = anchor.into_iter().flat_map(|place| [place, place]);
+        let key = Line::through(anchor).solid(colour, 0.0);
+        out = out.layer(key.name(literal(title)));
     }
-    out
+    out.layers(series_keys(runs, &lines, &points))
+}
+
+/// Dashes of the `number`-th named line of a run.
+fn line_dash(kind: SeriesKind, number: usize) -> &'static [f64] {
+    const DASHES: [&[f64]; 4] = [&[], &[1.2, 1.2], &[5.0, 1.5], &[5.0, 1.5, 1.2, 1.5]];
+    match kind {
+        SeriesKind::Dashed => &[3.0, 2.0],
+        _ => DASHES[number % DASHES.len()],
+    }
+}
+
+/// Marker of the `number`-th named set of points of a run: the first is hollow, so that others stand out of it.
+fn point_marker(number: usize) -> Marker {
+    [
+        Marker::Circle,
+        Marker::Diamond,
+        Marker::Triangle,
+        Marker::Square,
+    ][number % 4]
+}
+
+/// Legend entries of the series, in ink: what dashes and markers mean in every run.
+fn series_keys(runs: &[(usize, &str, &PanelData)], lines: &[&str], points: &[&str]) -> Vec<Points> {
+    // Lines of one kind need no entry of their own.
+    let many_lines = lines.len() > 1;
+    let series = || runs.iter().flat_map(|(_, _, own)| &own.series);
+    let key = |name: &&str| {
+        let own = series().find(|series| series.name == **name)?;
+        let mut places = own.xs.iter().copied().zip(own.ys.iter().copied());
+        let place = places.find(|(x, y)| (x + y).is_finite())?;
+        let number = points.iter().position(|known| known == name);
+        let keyed = Points::new([place]).marker(point_marker(number.unwrap_or(0)), 0.01, INK);
+        let keyed = match number {
+            Some(_) => keyed,
+            None => {
+                let number = lines.iter().position(|known| known == name).unwrap_or(0);
+                keyed.keyed(Stroke {
+                    dash: line_dash(own.kind, number),
+                    ..Stroke::solid(INK, 0.8)
+                })
+            }
+        };
+        Some(keyed.name(literal(name)))
+    };
+    let lines = lines.iter().filter(|_| many_lines);
+    points.iter().chain(lines).filter_map(key).collect()
 }

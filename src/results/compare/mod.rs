@@ -231,10 +231,34 @@ fn table_of(runs: &[ComparedRun], caption: String, quantities: &[&SharedQuantity
     }
 }
 
-/// The table for the terminal: what a person asks first, and how much else differs.
+/// Most lines of the table for the terminal.
+const MOST_PRINTED: usize = 30;
+
+/// The numbers that differ, but for costs: what a person asks first, then the others, the largest relative difference first.
+fn differing(quantities: &[SharedQuantity]) -> Vec<&SharedQuantity> {
+    let is_cost = |shared: &SharedQuantity| COSTS.contains(&shared.last_key());
+    let differs = |shared: &&SharedQuantity| !shared.is_equal() && !is_cost(shared);
+    let mut found: Vec<&SharedQuantity> =
+        first_of(quantities).into_iter().filter(differs).collect();
+    let size = |shared: &SharedQuantity| {
+        let relative = shared.relative().flatten().map(f64::abs);
+        relative.fold(0.0, f64::max)
+    };
+    let mut others: Vec<&SharedQuantity> = quantities
+        .iter()
+        .filter(|shared| found.iter().all(|known| known.path != shared.path))
+        .filter(differs)
+        .collect();
+    others.sort_by(|a, b| size(b).total_cmp(&size(a)));
+    found.extend(others);
+    found
+}
+
+/// The table for the terminal: the numbers that differ, what a person asks first above.
 pub fn print(runs: &[ComparedRun], quantities: &[SharedQuantity]) -> String {
-    let first = first_of(quantities);
-    let table = table_of(runs, String::new(), &first);
+    let differing = differing(quantities);
+    let shown = &differing[..differing.len().min(MOST_PRINTED)];
+    let table = table_of(runs, String::new(), shown);
     let rows: Vec<&Vec<String>> = std::iter::once(&table.columns).chain(&table.rows).collect();
     let width = |at: usize| {
         rows.iter()
@@ -252,13 +276,16 @@ pub fn print(runs: &[ComparedRun], quantities: &[SharedQuantity]) -> String {
         out.push_str(cells.collect::<Vec<_>>().join("  ").trim_end());
         out.push('\n');
     }
-    let differing = quantities
-        .iter()
-        .filter(|shared| !shared.is_equal())
-        .count();
+    let costs = quantities.iter();
+    let costs = costs.filter(|shared| COSTS.contains(&shared.last_key()));
+    let total = quantities.len() - costs.count();
+    let beyond = match differing.len() - shown.len() {
+        0 => String::new(),
+        more => format!("; {more} more are in compare.csv"),
+    };
     out.push_str(&format!(
-        "{differing} of {} shared numbers differ\n",
-        quantities.len()
+        "{} of {total} shared numbers differ{beyond}\n",
+        differing.len()
     ));
     out
 }
@@ -368,6 +395,24 @@ mod tests {
             summary,
             page: None,
         }
+    }
+
+    #[test]
+    fn the_printed_table_has_the_numbers_that_differ_and_no_other() {
+        let of = |name, frequency: f64, wall_s: f64| {
+            run(
+                name,
+                json!({ "main_frequency_hz": 9433.0, "wall_s": wall_s, "dofs": 10,
+                        "modes": [{ "branch": 1, "frequency_hz": frequency }, { "branch": 2, "frequency_hz": 5e3 }] }),
+            )
+        };
+        let runs = [of("a", 7e3, 1.0), of("b", 7.7e3, 2.0)];
+        let text = print(&runs, &shared(&runs));
+        assert!(text.contains("modes.[branch=1].frequency_hz"), "{text}");
+        for equal in ["main_frequency_hz", "branch=2", "wall_s", "dofs"] {
+            assert!(!text.contains(equal), "{equal}: {text}");
+        }
+        assert!(text.contains("1 of 6 shared numbers differ"), "{text}");
     }
 
     #[test]

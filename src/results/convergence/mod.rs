@@ -145,13 +145,26 @@ impl Record for ConvergenceReport {
     }
 }
 
+impl ConvergenceReport {
+    /// The same without how long anything took: equal studies have equal records, and times are in the summary alone.
+    fn timeless(&self) -> Self {
+        let mut series = self.series.clone();
+        series.iter_mut().for_each(|own| own.wall_s.fill(0.0));
+        Self {
+            title: self.title.clone(),
+            series,
+            wall_s: 0.0,
+        }
+    }
+}
+
 /// Writes `convergence.csv` and `summary.json`; returns the summary.
 ///
 /// # Errors
 /// Those of the folder.
 pub fn write(folder: &OutputFolder, report: &ConvergenceReport) -> Result<Value, FolderError> {
     folder.write("convergence.csv", |out| write_table(out, report))?;
-    write_record(folder, report)?;
+    write_record(folder, &report.timeless())?;
     let summary = ConvergenceSummary {
         command: "convergence".to_owned(),
         title: report.title.clone(),

@@ -91,10 +91,11 @@ pub fn confirmation_text(report: &CycleReport<'_>, result: &CycleResult) -> Opti
         (false, false) => "NOT CONFIRMED: a transient does not stay on it".to_owned(),
     };
     Some(format!(
-        "{family}: {verdict}: after {} periods {:.2} Hz, stick {stick:.3}, slip {slip:.3}, open {open:.3}, {:.2} W",
+        "{family}: {verdict}: after {} periods {:.2} Hz, stick {stick:.3}, slip {slip:.3}, open {open:.3}, {:.2} {}",
         found.periods,
         found.main_frequency_hz.unwrap_or(0.0),
         found.external_power * report.thickness,
+        report.extent.unit("W"),
     ))
 }
 

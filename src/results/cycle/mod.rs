@@ -17,8 +17,9 @@ use crate::cycle::{
     Confirmation, CycleBranch, CyclePowers, CycleStability, Family, LimitCycle, Onset, PhasePoint,
     StabilityChange,
 };
-use crate::mesh::Mesh2d;
+use crate::mesh::Mesh;
 use crate::results::cycle_figures::CycleRecord;
+use crate::results::extent::Extent;
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::record::write_record;
 use crate::results::summary::write_summary;
@@ -104,11 +105,13 @@ pub struct CycleReport<'a> {
     /// Title of the case.
     pub title: &'a str,
     /// The mesh.
-    pub mesh: &'a Mesh2d,
+    pub mesh: &'a Mesh,
     /// Radius of the contact edge, m.
     pub inner_radius: f64,
     /// Thickness, m: scales powers.
     pub thickness: f64,
+    /// What powers are of.
+    pub extent: Extent,
     /// Friction coefficient of the case.
     pub friction_coefficient: f64,
     /// The onset of lowest friction among those looked for, where there is one.

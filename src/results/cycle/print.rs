@@ -4,6 +4,7 @@ use super::confirmation::confirmation_text;
 use super::stability::print_stability;
 use super::{CycleReport, CycleResult};
 use crate::cycle::{CycleBranch, Family, LimitCycle};
+use crate::results::quantity::significant;
 use std::fmt::Write as _;
 
 /// The report as text.
@@ -53,6 +54,9 @@ pub fn print(report: &CycleReport<'_>) -> String {
             branch_line(&mut out, result.family, branch);
         }
     }
+    if let Some(note) = report.extent.note() {
+        let _ = writeln!(out, "{note}");
+    }
     let _ = writeln!(out, "{:.3} s", report.wall_s);
     out
 }
@@ -70,9 +74,10 @@ fn result_line(out: &mut String, report: &CycleReport<'_>, result: &CycleResult)
             let share = |power: f64| power / powers.external;
             writeln!(
                 out,
-                "{:>9.2} Hz {stick:>7.3} {slip:>7.3} {open:>7.3} {:>10.2} W {:>7.3} {:>7.3} {:>9.3}",
+                "{:>9.2} Hz {stick:>7.3} {slip:>7.3} {open:>7.3} {:>10.2} {} {:>7.3} {:>7.3} {:>9.3}",
                 cycle.frequency_hz(),
                 powers.external,
+                report.extent.unit("W"),
                 share(powers.stick),
                 share(powers.slide),
                 share(powers.contact_dissipated),
@@ -89,15 +94,23 @@ fn branch_line(out: &mut String, family: Family, branch: &CycleBranch) {
             branch.parameter.in_key_units(value)
         })
     };
+    let folds = branch.folds.iter();
+    let folds: Vec<String> = folds
+        .map(|&fold| significant(branch.parameter.in_key_units(fold), 5))
+        .collect();
+    let folds = match folds.as_slice() {
+        [] => "no fold".to_owned(),
+        [one] => format!("a fold at {one}"),
+        several => format!("{} folds at {}", several.len(), several.join(", ")),
+    };
     let _ = writeln!(
         out,
-        "{family}: {} cycles over {} from {} ({}) to {} ({}), {} folds",
+        "{family}: {} cycles over {} from {} ({}) to {} ({}), {folds}",
         branch.cycles.len(),
         branch.parameter.key(),
         value(branch.cycles.first()),
         branch.ends[0].describe(),
         value(branch.cycles.last()),
         branch.ends[1].describe(),
-        branch.folds.len(),
     );
 }

@@ -4,6 +4,7 @@ use super::confirmation::ConfirmationSummary;
 use super::stability::StabilitySummary;
 use super::{CycleReport, CycleResult};
 use crate::cycle::{CycleBranch, LimitCycle, Onset};
+use crate::results::extent::Extent;
 use crate::results::manifest::Manifest;
 use crate::results::summary::{Entry, MeanPowers, StatusFractions, Summary, present};
 use serde::{Deserialize, Serialize};
@@ -23,6 +24,9 @@ pub struct CycleSummary {
     pub steady_sliding_stable: bool,
     /// The lowest onset of all.
     pub lowest_onset: Option<OnsetSummary>,
+    /// What powers are of, in the tables too.
+    #[serde(default)]
+    pub extent: Extent,
     /// The families, each with its cycle or why there is none.
     pub cycles: Vec<FamilySummary>,
     /// What it was made from.
@@ -156,6 +160,7 @@ pub fn summary(report: &CycleReport<'_>, manifest: &Manifest) -> CycleSummary {
         wall_s: report.wall_s,
         steady_sliding_stable: report.stable_sliding().is_some(),
         lowest_onset: report.lowest_onset.as_ref().map(OnsetSummary::from),
+        extent: report.extent,
         cycles: families.collect(),
         manifest: manifest.clone(),
         curves: None,

@@ -11,7 +11,8 @@ pub use report::draw;
 
 use super::charts::palette::{status_ground, status_of_code};
 use super::charts::{
-    Disc, FieldFrame, MovingBody, contact_figure, field_figure, shear_stress_figure, status_curves,
+    ContactVelocity, Disc, FieldFrame, MovingBody, contact_figure, field_figure,
+    shear_stress_figure, status_curves,
 };
 use super::drawing::{Declaration, DrawingOptions, draw_all};
 use super::report::NamedFigure;
@@ -22,7 +23,7 @@ use crate::chart::{
 use crate::contact::{ContactStatus, SlidingContact};
 use crate::cycle::Family;
 use crate::fem::ElasticMaterial;
-use crate::mesh::Mesh2d;
+use crate::mesh::Mesh;
 use std::f64::consts::TAU;
 
 /// Whole-field pictures of one kind, at most.
@@ -36,7 +37,7 @@ pub struct CycleFigures<'a> {
     /// The record.
     pub record: &'a CycleRecord,
     /// The mesh.
-    pub mesh: &'a Mesh2d,
+    pub mesh: &'a Mesh,
     /// The material, for the stress fields.
     pub material: &'a ElasticMaterial,
     /// The contact at the case's own operating point.
@@ -92,12 +93,15 @@ impl CycleFigures<'_> {
             caption,
             format!("{}, wave ↻", heading(n, wave)),
         );
-        let values = [
-            &around(&wave.pressure)[..],
-            &around(&wave.shear),
-            &around(&wave.velocity[1]),
-        ];
-        contact_figure(names, (0.0, &status), values, self.peripheral_speed())
+        let tractions = [&around(&wave.pressure)[..], &around(&wave.shear)];
+        let velocity = around(&wave.velocity[1]);
+        let velocity = ContactVelocity::Absolute(&velocity, self.peripheral_speed());
+        contact_figure(
+            (names, "cylinder *Ωa*"),
+            (0.0, &status),
+            tractions,
+            velocity,
+        )
     }
 
     /// What a contact node goes through in two periods, on a ground coloured by its status.

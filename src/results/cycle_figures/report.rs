@@ -3,10 +3,12 @@
 use super::{CycleFigures, NamedFamily, draw_branches, draw_cycles};
 use crate::chart::extremes;
 use crate::results::drawing::{DrawingError, DrawingOptions, write_report};
+use crate::results::extent::Extent;
 use crate::results::folder::OutputFolder;
 use crate::results::manifest::Manifest;
 use crate::results::quantity::quantity;
 use crate::results::report::{Report, ReportSection, ReportTable, cell, entries, number};
+use serde::Deserialize;
 use serde_json::Value;
 
 /// Draws every figure of the cycles into `figures/`, each as SVG and PNG, and writes `report.html`.
@@ -32,16 +34,17 @@ pub fn draw(
 /// The report without figures: the cycles, and the branches where the summary has any.
 fn html_report(summary: &Value, manifest: &Manifest) -> Report {
     let cycles = entries(summary, "cycles");
-    let paragraphs = vec![format!(
-        "Waves that turn against the rotor without changing their shape; {:.1} s.",
-        number(summary, "/wall_s").unwrap_or(f64::NAN)
-    )];
+    let extent = Extent::deserialize(&summary["extent"]).unwrap_or_default();
+    let mut paragraphs =
+        vec!["Waves that turn against the rotor without changing their shape.".to_owned()];
+    paragraphs.extend(extent.note().map(|note| format!("{note}.")));
     let figures = ReportSection {
         heading: "Limit cycles".into(),
-        tables: vec![cycle_table(cycles)],
+        tables: vec![cycle_table(cycles, extent)],
         ..ReportSection::default()
     };
-    let rows = cycles.iter().flat_map(results).collect();
+    let rows = cycles.iter().flat_map(|cycle| results(cycle, extent));
+    let rows = rows.collect();
     let mut sections = vec![ReportSection::results(paragraphs, rows), figures];
     let branches: Vec<String> = cycles.iter().filter_map(branch_text).collect();
     if !branches.is_empty() {
@@ -59,7 +62,7 @@ fn html_report(summary: &Value, manifest: &Manifest) -> Report {
 }
 
 /// What decides of one cycle.
-fn results(cycle: &Value) -> Vec<(String, String)> {
+fn results(cycle: &Value, extent: Extent) -> Vec<(String, String)> {
     let name = format!("n = {}, onset {}", cycle["harmonic"], cycle["onset"]);
     if let Some(error) = cycle["error"].as_str() {
         return vec![(name, error.to_owned())];
@@ -86,7 +89,10 @@ fn results(cycle: &Value) -> Vec<(String, String)> {
         ("contact", Some(status.join(", "))),
         (
             "power of the rotor",
-            text("power_w.external", "/power_w/external"),
+            number(cycle, "/power_w/external").map(|power| {
+                let number = quantity("power_w.external").number(power);
+                format!("{number} {}", extent.unit("W"))
+            }),
         ),
         ("stability", stable),
     ];
@@ -96,7 +102,7 @@ fn results(cycle: &Value) -> Vec<(String, String)> {
     rows.collect()
 }
 
-fn cycle_table(cycles: &[Value]) -> ReportTable {
+fn cycle_table(cycles: &[Value], extent: Extent) -> ReportTable {
     let quantities: [(&str, &str, f64, usize); 16] = [
         ("harmonic n", "/harmonic", 1.0, 0),
         ("phases", "/phases", 1.0, 0),
@@ -143,12 +149,13 @@ fn cycle_table(cycles: &[Value]) -> ReportTable {
         let error = cycle["error"].as_str().unwrap_or_default().to_owned();
         cells.chain(answers).chain([error]).collect()
     });
-    let names = quantities.iter().map(|quantity| quantity.0);
+    let watts = format!("({})", extent.unit("W"));
+    let names = quantities.iter();
+    let names = names.map(|quantity| quantity.0.replace("(W)", &watts));
     ReportTable {
         caption: "Limit cycles at the case's own operating point".into(),
         columns: names
-            .chain(["stable", "a transient stays on it", "why there is none"])
-            .map(String::from)
+            .chain(["stable", "a transient stays on it", "why there is none"].map(String::from))
             .collect(),
         rows: rows.collect(),
     }

@@ -1,6 +1,6 @@
 // Motion, sound, and points that move with a parameter.
 const ramp = ["#440154", "#482878", "#3e4989", "#31688e", "#26828e", "#1f9e89", "#35b779", "#6ece58", "#b5de2b", "#fde725"];
-const statusColours = ["#bfbfbf", "#d55e00", "#0072b2"], statusNames = ["open", "stick", "slip"];
+const statusColours = ["#8c8c8c", "#0072b2", "#e69f00"], statusNames = ["open", "stick", "slip"];
 const slider = (name, attributes, oninput) => {
   const input = make("input", { type: "range", ...attributes });
   input.addEventListener("input", () => oninput(Number(input.value)));
@@ -202,10 +202,12 @@ function listen(signals, holder) {
 
 // Everything in its place.
 const signalsOf = (figure) => figure.panels.flatMap((panel) => panel.series
-  .filter((series) => series.kind === "line" && series.isWhole && series.xs.length > 1000 && /^time/.test(panel.x.title))
+  .filter((series) => series.kind === "line" && (series.heard || series.isWhole) && series.xs.length > 1000 && /^time/.test(panel.x.title))
   .map((series) => {
     const unit = { s: 1, ms: 1e-3, "µs": 1e-6 }[/\(([^)]*)\)/.exec(panel.x.title)?.[1]] ?? 1;
-    return { name: series.name || panel.caption || panel.y.title, values: series.ys, interval: (unit * (series.xs.at(-1) - series.xs[0])) / (series.xs.length - 1) };
+    // Of a long record the end is kept sample by sample.
+    const length = unit * (series.xs.at(-1) - series.xs[0]), count = series.heard ? series.of : series.xs.length;
+    return { name: series.name || panel.caption || panel.y.title, values: series.heard ?? series.ys, interval: length / (count - 1) };
   }));
 function equipFigure(figure) {
   const place = document.getElementById(figure.name);
@@ -258,9 +260,9 @@ document.querySelectorAll("main section:not(#manifest) table").forEach(equipTabl
   const numbers = await unpack(arrays, document.getElementById("block").textContent);
   for (const figure of figures) {
     for (const { series } of figure.panels) for (const one of series) {
-      Object.assign(one, { xs: numbers[one.x], ys: numbers[one.y], values: numbers[one.value] });
+      Object.assign(one, { xs: numbers[one.x], ys: numbers[one.y], values: numbers[one.value], heard: numbers[one.heard] });
       one.isSorted = one.xs.every((v, i) => !i || one.xs[i - 1] <= v);
-      one.isWhole = one.of === one.xs.length;
+      one.isWhole = one.even || one.of === one.xs.length;
     }
     const { motion } = figure;
     if (motion) {

@@ -51,6 +51,7 @@ fn figures_of(html: &str) -> Option<Vec<ReadFigure>> {
             ys: array(&series["y"])?,
             values: None,
             rows: Vec::new(),
+            tips: Vec::new(),
             is_whole: false,
         })
     };
@@ -63,6 +64,8 @@ fn figures_of(html: &str) -> Option<Vec<ReadFigure>> {
                 .iter()
                 .filter_map(series)
                 .collect(),
+            rules: Vec::new(),
+            labels: Vec::new(),
         })
     };
     let figures = data["figures"].as_array()?.iter().map(|figure| {

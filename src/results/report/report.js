@@ -38,6 +38,12 @@ async function unpack(entries, block) {
 
 // Tables.
 function equipTable(table) {
+  // A point of a study has a file with everything that was found there.
+  if (table.tHead?.rows[0].cells[0].textContent === "point")
+    for (const row of table.tBodies[0].rows) {
+      const cell = row.cells[0], number = cell.textContent.trim();
+      cell.replaceChildren(make("a", { href: `points/point-${number.padStart(6, "0")}.json` }, number));
+    }
   const body = table.tBodies[0], rows = [...body.rows];
   if (!table.tHead || rows.length < 3) return;
   [...table.tHead.rows[0].cells].forEach((head, column) => {
@@ -91,7 +97,9 @@ function csvOf(figure) {
       last = series.x;
     });
   });
-  const quote = (text) => (/[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
+  // No text may become a formula of a spreadsheet.
+  const tame = (text) => (/^[=+\-@\t\r]/.test(text) ? "'" + text : text);
+  const quote = (text) => (/[",\r\n]/.test(text) ? `"${tame(text).replaceAll('"', '""')}"` : tame(text));
   const lines = [columns.map((column) => quote(column.name)).join(",")];
   const length = Math.max(0, ...columns.map((column) => column.values.length));
   for (let row = 0; row < length; row++) {
@@ -139,9 +147,28 @@ function plotPanel(panel, holder, { overlay, pick } = {}) {
     ctx.beginPath();
     ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
     ctx.clip();
+    ctx.lineWidth = devicePixelRatio;
+    ctx.strokeStyle = "#555";
+    ctx.setLineDash([]);
+    for (const [isHorizontal, value] of panel.rules) {
+      const at = u.valToPos(value, isHorizontal ? "y" : "x", true);
+      ctx.beginPath();
+      isHorizontal ? (ctx.moveTo(bbox.left, at), ctx.lineTo(bbox.left + bbox.width, at)) : (ctx.moveTo(at, bbox.top), ctx.lineTo(at, bbox.top + bbox.height));
+      ctx.stroke();
+    }
     ctx.lineWidth = 1.2 * devicePixelRatio;
     ctx.lineJoin = "round";
     curves.filter(isShown).forEach((series) => path(u, series));
+    ctx.font = `bold ${12 * devicePixelRatio}px sans-serif`;
+    ctx.setLineDash([]);
+    for (const [x, y, text] of panel.labels) {
+      const place = [u.valToPos(x, "x", true) + 5 * devicePixelRatio, u.valToPos(y, "y", true) - 4 * devicePixelRatio];
+      ctx.strokeStyle = "#fff";
+      ctx.lineWidth = 3 * devicePixelRatio;
+      ctx.strokeText(text, ...place);
+      ctx.fillStyle = "#222";
+      ctx.fillText(text, ...place);
+    }
     overlay?.draw(u);
     ctx.restore();
   };
@@ -163,8 +190,8 @@ function plotPanel(panel, holder, { overlay, pick } = {}) {
         [from, to] = [Math.max(0, low - 150), Math.min(xs.length, low + 150)];
       }
       for (let i = from; i < to; i++) {
-        // A point that stands for a run comes before the line through it.
-        const distance = Math.hypot(u.valToPos(xs[i], "x") - left, u.valToPos(ys[i], "y") - top) - (series.rows ? 3 : 0);
+        // A point that stands for a run or has a name comes before the line through it.
+        const distance = Math.hypot(u.valToPos(xs[i], "x") - left, u.valToPos(ys[i], "y") - top) - (series.rows || series.tips ? 3 : 0);
         if (distance < best.distance) Object.assign(best, { distance, series, i });
       }
     }
@@ -176,7 +203,7 @@ function plotPanel(panel, holder, { overlay, pick } = {}) {
     if (!point) return;
     const { series, i } = point, [x, y] = [series.xs[i], series.ys[i]];
     dot.style.transform = `translate(${u.valToPos(x, "x")}px,${u.valToPos(y, "y")}px)`;
-    const name = series.name && series.name + ": ";
+    const name = series.tips ? series.tips[i] + "; " : series.name && series.name + ": ";
     readout.textContent = `${name}${panel.x.title} ${digits(x, 6)}, ${panel.y.title} ${digits(y)}`;
   };
   const picked = () => pick && found?.series.rows && pick(found.series.rows[found.i]);

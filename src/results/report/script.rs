@@ -60,7 +60,23 @@ fn of_panel(panel: &PanelData, numbers: &mut Numbers) -> Value {
     let series = panel.series.iter().map(|series| of_series(series, numbers));
     let series: Vec<Value> = series.collect();
     let [x, y] = &panel.axes;
-    json!({ "caption": panel.caption, "x": axis(x), "y": axis(y), "series": series })
+    let rules = panel.rules.iter().filter(|rule| rule.value.is_finite());
+    let rules: Vec<Value> = rules
+        .map(|rule| json!([rule.is_horizontal, rule.value]))
+        .collect();
+    let labels = panel.labels.iter();
+    let labels = labels.filter(|label| (label.place.0 + label.place.1).is_finite());
+    let labels: Vec<Value> = labels
+        .map(|label| json!([label.place.0, label.place.1, label.text]))
+        .collect();
+    json!({
+        "caption": panel.caption,
+        "x": axis(x),
+        "y": axis(y),
+        "series": series,
+        "rules": rules,
+        "labels": labels,
+    })
 }
 
 fn of_series(series: &Series, numbers: &mut Numbers) -> Value {
@@ -75,7 +91,7 @@ fn of_series(series: &Series, numbers: &mut Numbers) -> Value {
         let values = numbers.levels(values);
         return json!({ "name": name, "kind": kind, "x": x, "y": y, "value": values });
     }
-    let (xs, ys) = thinned(series);
+    let ((xs, ys), is_even) = thinned(series);
     let mut out = json!({
         "name": series.name,
         "kind": kind,
@@ -84,29 +100,41 @@ fn of_series(series: &Series, numbers: &mut Numbers) -> Value {
         "y": numbers.floats(&ys),
         "of": series.xs.len(),
     });
+    if is_even {
+        out["even"] = true.into();
+    }
+    // Of a signal too long for a page the end is kept for the ear.
+    if series.is_whole && series.kind == SeriesKind::Line && series.ys.len() > LONGEST_HEARD {
+        let end = &series.ys[series.ys.len() - LONGEST_SIGNAL..];
+        out["heard"] = numbers.floats(end).into();
+    }
     if !series.rows.is_empty() {
         out["rows"] = series.rows.clone().into();
+    }
+    if !series.tips.is_empty() {
+        out["tips"] = series.tips.clone().into();
     }
     out
 }
 
-/// A curve with no more points than a screen shows; a whole one as it is.
-fn thinned(series: &Series) -> (Vec<f64>, Vec<f64>) {
+/// A curve with no more points than a screen shows, and whether these are samples at equal distances; of a signal to be
+/// heard they are.
+fn thinned(series: &Series) -> ((Vec<f64>, Vec<f64>), bool) {
     let (xs, ys) = (&series.xs, &series.ys);
     let count = xs.len().min(ys.len());
     let strided = |stride: usize| (0..count).step_by(stride).map(|i| (xs[i], ys[i])).unzip();
     if count <= 4 * COLUMNS {
-        return strided(1);
+        return (strided(1), series.is_whole);
     }
     if series.is_whole && count <= LONGEST_HEARD {
-        return strided(count.div_ceil(LONGEST_SIGNAL));
+        return (strided(count.div_ceil(LONGEST_SIGNAL)), true);
     }
     if xs.is_sorted() {
         let width = (xs[count - 1] - xs[0]).max(f64::MIN_POSITIVE);
         let column = |x: f64| (x - xs[0]) / width * COLUMNS as f64;
-        return keep_extremes(xs, ys, column).into_iter().unzip();
+        return (keep_extremes(xs, ys, column).into_iter().unzip(), false);
     }
-    strided(count.div_ceil(MOST_POINTS))
+    (strided(count.div_ceil(MOST_POINTS)), false)
 }
 
 fn of_steps(steps: &Steps) -> Value {
@@ -152,4 +180,34 @@ fn of_motion(motion: &Motion, numbers: &mut Numbers) -> Value {
     });
     let states: Vec<Value> = states.collect();
     json!({ "positions": positions, "sizes": sizes, "cells": cells, "edge": edge, "states": states })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::chart::INK;
+
+    /// A signal of so many samples, 2 µs apart.
+    fn signal(count: usize) -> Value {
+        let series = Series {
+            name: "acceleration".into(),
+            kind: SeriesKind::Line,
+            colour: INK,
+            xs: (0..count).map(|i| 2e-6 * i as f64).collect(),
+            ys: (0..count).map(|i| (0.1 * i as f64).sin()).collect(),
+            values: None,
+            rows: Vec::new(),
+            tips: Vec::new(),
+            is_whole: true,
+        };
+        of_series(&series, &mut Numbers::default())
+    }
+
+    #[test]
+    fn signals_of_every_length_can_be_heard() {
+        // The length of the shipped transients, and that of a second of a measurement.
+        assert_eq!(signal(25_001)["even"], true);
+        let long = signal(500_000);
+        assert!(long.get("even").is_none() && long["heard"].is_u64());
+    }
 }

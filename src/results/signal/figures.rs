@@ -1,5 +1,6 @@
 //! The figures of an analysed time signal, and what is kept to draw them again.
 
+use super::summary::SignalSummary;
 use crate::chart::{ChartError, Figure, literal};
 use crate::results::Record;
 use crate::results::charts::{
@@ -7,9 +8,12 @@ use crate::results::charts::{
 };
 use crate::results::drawing::{Declaration, DrawingOptions, draw_all};
 use crate::results::report::NamedFigure;
-use crate::signal::{SpectrogramOptions, spectrogram};
+use crate::signal::{SpectralResolution, SpectrogramOptions, spectral_lines, spectrogram};
 use serde::{Deserialize, Serialize};
 use std::sync::Mutex;
+
+/// Lines among which the fundamental is looked for.
+const MOST_LINES: usize = 20;
 
 /// Everything that the figures show.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -71,6 +75,7 @@ pub struct ChannelRecord {
 /// That of a figure that cannot be drawn although there is something to draw.
 pub fn draw(
     record: &SignalRecord,
+    summary: &SignalSummary,
     options: &DrawingOptions,
 ) -> Result<(Vec<NamedFigure>, Vec<String>), ChartError> {
     let left_out = Mutex::new(Vec::new());
@@ -86,7 +91,11 @@ pub fn draw(
         }));
     }
     for (index, channel) in record.channels.iter().enumerate() {
-        figures.push(Box::new(move || Ok(spectrum(record, channel, index + 1))));
+        let found = summary.channels.get(index);
+        let main_hz = found.and_then(|channel| channel.main_frequency_hz);
+        figures.push(Box::new(move || {
+            Ok(spectrum(record, channel, index + 1, main_hz))
+        }));
     }
     let figures = draw_all(figures, options)?;
     let mut left_out = left_out
@@ -137,7 +146,12 @@ fn course(
 }
 
 /// The spectrum that the peaks are taken from.
-fn spectrum(record: &SignalRecord, channel: &ChannelRecord, number: usize) -> Figure {
+fn spectrum(
+    record: &SignalRecord,
+    channel: &ChannelRecord,
+    number: usize,
+    main_hz: Option<f64>,
+) -> Figure {
     let (from, to) = channel.interval_s;
     let name = literal(&channel.name);
     let spectra: [(&str, &[f64], &[f64]); 1] =
@@ -146,7 +160,7 @@ fn spectrum(record: &SignalRecord, channel: &ChannelRecord, number: usize) -> Fi
     Figure::new(format!("spectrum-{number}"), caption).panel(spectrum_panel(
         &spectra,
         "",
-        (highest(record), None),
+        (highest(record), main_hz),
         &modes(record),
     ))
 }

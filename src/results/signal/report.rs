@@ -17,7 +17,7 @@ pub fn draw_report(
     summary: &SignalSummary,
     options: &DrawingOptions,
 ) -> Result<Vec<String>, DrawingError> {
-    let (figures, left_out) = draw(record, options)?;
+    let (figures, left_out) = draw(record, summary, options)?;
     let mut report = html_report(summary);
     report.sections[0].figures = figures;
     write_report(folder, &report, options)?;

@@ -347,7 +347,10 @@ fn replaces_others(
     replace: Replace,
 ) -> Result<bool, FolderError> {
     let replaces = match read_contents(path)? {
-        Some(found) => check_owner(path, &found.manifest, manifest, replace).map(|same| !same),
+        Some(found) => {
+            let replace = replaceable(path, &found, replace);
+            check_owner(path, &found.manifest, manifest, replace).map(|same| !same)
+        }
         None => match refuse_foreign(path) {
             Ok(()) => Ok(false),
             Err(_) if replace == Replace::Anything => Ok(true),
@@ -372,6 +375,17 @@ fn remove_temporaries(path: &Path) {
             let _ = fs::remove_file(entry.path());
         }
     }
+}
+
+/// Whose results may be replaced, seen what there is: a run that ended before its first result left nobody's.
+fn replaceable(path: &Path, contents: &Contents, replace: Replace) -> Replace {
+    let is_there = |name: &str| is_inside(name) && path.join(name).exists();
+    let unfinished = fs::read_to_string(path.join(JOURNAL)).unwrap_or_default();
+    let mut names = contents.files.iter().map(String::as_str);
+    if names.any(is_there) || unfinished.lines().any(is_there) {
+        return replace;
+    }
+    Replace::Anything
 }
 
 /// Whether the results there are of the same effective case; refuses those that must stay.

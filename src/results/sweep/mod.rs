@@ -14,3 +14,5 @@ pub use long::{LONG_TABLES, LongTable};
 pub use record::{PointClock, PointRecord};
 pub use report::{FailedPoint, SweepReport, SweepSummary, print, swept_text};
 pub use table::write_points;
+
+pub(super) use report::{TWO_FREQUENCY, UNSETTLED};

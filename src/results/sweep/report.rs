@@ -38,6 +38,10 @@ const FIRST_COLUMNS: [(&str, NumberOf); 18] = [
     ("boundary.high", |s| s.boundary.high),
 ];
 
+/// Names of the ends of a transient that are no limit cycle although it vibrates.
+pub(in crate::results) const TWO_FREQUENCY: &str = "two-frequency";
+pub(in crate::results) const UNSETTLED: &str = "unsettled";
+
 /// Longest table that is printed.
 const MOST_ROWS: usize = 200;
 
@@ -113,7 +117,17 @@ impl SweepReport<'_> {
                 makers.join("; ")
             ));
         }
-        let unsettled = self.unsettled();
+        let two = self.ending_in(|end| end == TWO_FREQUENCY);
+        if !two.is_empty() {
+            notes.push(format!(
+                "the transient ends in a vibration of two frequencies at {} of {} points ({}): their numbers are of no \
+                 limit cycle",
+                two.len(),
+                self.records.len(),
+                number_ranges(&two)
+            ));
+        }
+        let unsettled = self.ending_in(|end| end == UNSETTLED);
         if !unsettled.is_empty() {
             notes.push(format!(
                 "the transient ends before it has settled at {} of {} points ({}): these are not limit cycles; \
@@ -126,14 +140,14 @@ impl SweepReport<'_> {
         notes
     }
 
-    /// Points whose transient has not settled.
-    fn unsettled(&self) -> Vec<usize> {
-        let is_unsettled = |record: &&PointRecord| {
+    /// Points whose transient ends in such a state.
+    fn ending_in(&self, is_such: impl Fn(&str) -> bool) -> Vec<usize> {
+        let ends_so = |record: &&PointRecord| {
             let mut summaries = record.summaries.values().map(PointSummary::of);
-            summaries.any(|summary| summary.settled == Some(false))
+            summaries.any(|summary| summary.end_state.as_deref().is_some_and(&is_such))
         };
-        let unsettled = self.records.iter().filter(is_unsettled);
-        unsettled.map(|record| record.point).collect()
+        let points = self.records.iter().filter(ends_so);
+        points.map(|record| record.point).collect()
     }
 }
 
@@ -266,6 +280,11 @@ pub(super) fn rows(report: &SweepReport<'_>) -> Vec<Vec<String>> {
     let mut table = vec![vec!["point".to_owned()]];
     table[0].extend(report.keys.iter().map(|key| short(key).to_owned()));
     table[0].extend(columns.iter().map(|(key, _)| quantity(key).label()));
+    let end_of = |point: &[PointSummary]| point.iter().find_map(|s| s.end_state.clone());
+    let has_ends = summaries.iter().any(|point| end_of(point).is_some());
+    if has_ends {
+        table[0].extend(["ends in".to_owned(), "settled".to_owned()]);
+    }
     for (record, point) in report.records.iter().zip(&summaries) {
         let mut row = vec![record.point.to_string()];
         row.extend(record.swept.values().map(printed));
@@ -273,6 +292,12 @@ pub(super) fn rows(report: &SweepReport<'_>) -> Vec<Vec<String>> {
             Some(_) => "failed".to_owned(),
             None => number(point, *of).map_or_else(String::new, |n| quantity(key).number(n)),
         }));
+        if has_ends {
+            let settled = point.iter().find_map(|summary| summary.settled);
+            let settled = settled.map(|settled| if settled { "yes" } else { "no" });
+            let end = end_of(point).unwrap_or_default();
+            row.extend([end, settled.unwrap_or_default().to_owned()]);
+        }
         table.push(row);
     }
     table

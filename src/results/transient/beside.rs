@@ -2,7 +2,7 @@
 
 use crate::chart::{Axis, ColourMap, Figure, Side, significant};
 use crate::fem::{MaterialField, RayleighDamping, nodal_stress};
-use crate::mesh::Mesh2d;
+use crate::mesh::Mesh;
 use crate::results::charts::Disc;
 use crate::transient::Snapshot;
 
@@ -10,7 +10,7 @@ use crate::transient::Snapshot;
 #[derive(Clone, Debug)]
 pub struct RunEnd<'a> {
     /// The mesh.
-    pub mesh: &'a Mesh2d,
+    pub mesh: &'a Mesh,
     /// The material.
     pub material: &'a dyn MaterialField,
     /// Its damping, which the figure names.

@@ -10,6 +10,7 @@ use crate::results::charts::palette::{
     SLIP, STICK, STICK_POWER,
 };
 use crate::results::charts::run_axis;
+use crate::results::extent::Extent;
 use crate::transient::SampleRow;
 
 /// Time over which powers are averaged for the strong lines, s.
@@ -23,19 +24,17 @@ struct Course {
     name: &'static str,
 }
 
-/// Mean over a window centred on each sample, cut off at the ends.
+/// Mean over a window centred on each sample; within half a window of an end there is none, as half a window would weigh
+/// what happens there twice.
 fn moving_average(values: &[f64], window: usize) -> Vec<f64> {
-    let half = window / 2;
+    let half = (window / 2).min(values.len().saturating_sub(1) / 2);
     let mut sums = vec![0.0];
     for value in values {
         sums.push(sums[sums.len() - 1] + value);
     }
-    let mean = |index: usize| {
-        let (from, to) = (
-            index.saturating_sub(half),
-            (index + half + 1).min(values.len()),
-        );
-        (sums[to] - sums[from]) / (to - from) as f64
+    let mean = |index: usize| match index >= half && index + half < values.len() {
+        true => (sums[index + half + 1] - sums[index - half]) / (2 * half + 1) as f64,
+        false => f64::NAN,
     };
     (0..values.len()).map(mean).collect()
 }
@@ -48,7 +47,7 @@ pub(super) fn energy(run: &RunFigures<'_>) -> Figure {
         / times.len().max(2) as f64;
     let window = (AVERAGING_TIME / step.max(1e-300))
         .round()
-        .clamp(1.0, times.len().max(1) as f64) as usize;
+        .clamp(1.0, (times.len() / 5).max(1) as f64) as usize;
     let course = |name: &'static str, colour: &'static str, of: &dyn Fn(&SampleRow) -> f64| {
         let values: Vec<f64> = rows.iter().map(|row| thickness * of(row)).collect();
         Course {
@@ -100,7 +99,7 @@ pub(super) fn energy(run: &RunFigures<'_>) -> Figure {
         .collect();
     let sum = Panel::new(
         run_axis(&times),
-        power_axis(&[&external, &contact, &material]).0,
+        power_axis(&[&external, &contact, &material], run.extent).0,
     )
     .height(72.0)
     .caption("external power and what is dissipated")
@@ -121,7 +120,7 @@ pub(super) fn energy(run: &RunFigures<'_>) -> Figure {
             .name(external.name),
     );
     let balance = powers(
-        &times,
+        (&times, run.extent),
         "power balance of the body",
         72.0,
         &[&normal, &material, &received],
@@ -134,7 +133,9 @@ pub(super) fn energy(run: &RunFigures<'_>) -> Figure {
     let stored = [&total, &strain, &kinetic].into_iter().fold(
         Panel::new(
             run_axis(&times),
-            Axis::new("energy", "J").prefixed().including(0.0),
+            Axis::new("energy", &run.extent.unit("J"))
+                .prefixed()
+                .including(0.0),
         )
         .height(56.0)
         .caption("stored energy")
@@ -155,7 +156,7 @@ pub(super) fn energy(run: &RunFigures<'_>) -> Figure {
     .shared_x()
     .panels(acceleration)
     .panel(status(rows, &times))
-    .panel(powers(&times, "external power and its parts", 88.0, &[&contact, &slide, &stick, &external]))
+    .panel(powers((&times, run.extent), "external power and its parts", 88.0, &[&contact, &slide, &stick, &external]))
     .panel(balance)
     .panel(sum)
     .panel(stored)
@@ -188,10 +189,11 @@ fn status(rows: &[SampleRow], times: &[f64]) -> Panel {
 
 /// An axis that holds several powers, but for their shortest peaks, and zero: the impact of the expansion lasts a few
 /// hundredths of a run and would flatten the rest.
-fn power_axis(courses: &[&Course]) -> (Axis, f64) {
+fn power_axis(courses: &[&Course], extent: Extent) -> (Axis, f64) {
     let (mut low, mut high) = (0.0f64, 0.0f64);
     for course in courses {
-        let mut mean = course.mean.clone();
+        let mut mean: Vec<f64> = course.mean.clone();
+        mean.retain(|value| value.is_finite());
         mean.sort_by(f64::total_cmp);
         let skipped = mean.len() / 40;
         if let (Some(least), Some(most)) = (
@@ -204,14 +206,21 @@ fn power_axis(courses: &[&Course]) -> (Axis, f64) {
     let room = 0.2 * (high - low);
     let low = if low < -1e-3 * high { low - room } else { 0.0 };
     (
-        Axis::new("power", "W").prefixed().between(low, high + room),
+        Axis::new("power", &extent.unit("W"))
+            .prefixed()
+            .between(low, high + room),
         high + room,
     )
 }
 
 /// Running means over the bands of their samples, with a word on a peak that the axis cuts off.
-fn powers(times: &[f64], caption: &str, height: f64, courses: &[&Course]) -> Panel {
-    let (axis, top) = power_axis(courses);
+fn powers(
+    (times, extent): (&[f64], Extent),
+    caption: &str,
+    height: f64,
+    courses: &[&Course],
+) -> Panel {
+    let (axis, top) = power_axis(courses, extent);
     let panel = Panel::new(run_axis(times), axis)
         .height(height)
         .caption(caption)
@@ -236,8 +245,11 @@ fn powers(times: &[f64], caption: &str, height: f64, courses: &[&Course]) -> Pan
         .max_by(|a, b| a.0.total_cmp(&b.0))
         .filter(|peak| peak.0 > top);
     panel.layers(peak.map(|(peak, &time)| {
-        let (factor, unit) = prefixed(peak, "W");
-        let label = format!("▲ peak {} {unit}", significant(peak * factor, 3));
+        let (factor, unit) = prefixed(peak, &extent.unit("W"));
+        let label = format!(
+            "▲ largest sample {} {unit}, beyond the axis",
+            significant(peak * factor, 3)
+        );
         Label::new((time, top), label)
             .moved(3.0, 8.0)
             .style(TextStyle::new(6.25).coloured(MUTED).with_halo())
@@ -272,6 +284,6 @@ mod tests {
         let line: Vec<f64> = (0..50).map(f64::from).collect();
         let mean = moving_average(&line, 7);
         assert!((3..47).all(|index| (mean[index] - line[index]).abs() < 1e-12));
-        assert_eq!((mean[0], mean[49]), (1.5, 47.5));
+        assert!(mean[2].is_nan() && mean[47].is_nan());
     }
 }

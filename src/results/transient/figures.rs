@@ -6,8 +6,8 @@ use crate::contact::{ContactInterface, ContactStatus};
 use crate::mesh::SolidFace;
 use crate::results::charts::palette::status_of_code;
 use crate::results::charts::{
-    Disc, FieldFrame, contact_figure, field_figure, open_contact_figure, shear_stress_figure,
-    status_curves,
+    ContactVelocity, Disc, FieldFrame, contact_figure, field_figure, open_contact_figure,
+    shear_stress_figure, status_curves,
 };
 use crate::results::drawing::{Declaration, DrawingOptions, draw_all};
 use crate::results::report::NamedFigure;
@@ -126,7 +126,7 @@ impl RunFigures<'_> {
         let start = path.len() - path.len().div_ceil(5);
         let approach = |points: &[(f64, f64)]| {
             Line::through(points[..start].iter().copied())
-                .solid("#9a9a9a", 0.3)
+                .solid("#d0d0d0", 0.3)
                 .name("before")
         };
         let status = self.traced_status(edge, start);
@@ -143,6 +143,7 @@ impl RunFigures<'_> {
                 .solid(SERIES[1], 0.8)
                 .name(match self.analysis.settling.state {
                     EndState::LimitCycle => "limit cycle",
+                    EndState::TwoFrequency(_) => "two frequencies",
                     _ => "last fifth of the run",
                 }),
         );
@@ -162,6 +163,9 @@ impl RunFigures<'_> {
     /// sticks. Finer in time than the contact frames; the node touches the cylinder at its smallest radial displacement.
     fn traced_status(&self, probe: usize, start: usize) -> Vec<ContactStatus> {
         let rows = &self.record.probe_rows[probe][start..];
+        if self.mesh.opposite.is_some() {
+            return self.kept_status(probe, start);
+        }
         let (low, high) = extremes(rows.iter().map(|row| row[0]));
         let distance = 1e-6 * low.abs().max(high.abs());
         let slowness = 1e-6 * self.peripheral_speed.abs().max(f64::MIN_POSITIVE);
@@ -172,6 +176,23 @@ impl RunFigures<'_> {
                 ContactStatus::Stick
             } else {
                 ContactStatus::Slip
+            }
+        });
+        status.collect()
+    }
+
+    /// Status of a contact node from a sample on, as the contact frames keep it: what it touches moves as well.
+    fn kept_status(&self, probe: usize, start: usize) -> Vec<ContactStatus> {
+        let node = self.record.probes[probe] as u32 - 1;
+        let edge = ContactInterface::of(self.mesh).nodes;
+        let place = edge.iter().position(|&other| other == node);
+        let (frames, stride) = (&self.record.frames, self.record.frame_stride as usize);
+        let samples = start..self.record.rows.len();
+        let status = samples.map(|sample| {
+            let frame = frames.get(sample / stride).or(frames.last());
+            match (frame, place) {
+                (Some(frame), Some(place)) => status_of_code(frame.status[place]),
+                _ => ContactStatus::Open,
             }
         });
         status.collect()
@@ -193,38 +214,68 @@ impl RunFigures<'_> {
             let places = (0..values.len()).filter(&one);
             places.map(|i| f64::from(values[i])).collect()
         };
-        let (edge, components) = match self.solid {
-            Some(sector) => (super::solid::contact_nodes(sector), 3),
-            None => (ContactInterface::of(self.mesh).nodes, 2),
-        };
-        let velocity: Vec<f64> = (0..edge.len())
+        let velocity = self.contact_velocity(snapshot);
+        let velocity: Vec<f64> = (0..velocity.len())
             .filter(&one)
-            .map(|i| snapshot.velocity[components * edge[i] as usize + 1])
+            .map(|i| velocity[i])
             .collect();
-        let codes: Vec<u8> = (0..edge.len())
+        let velocity = match self.mesh.opposite {
+            Some(_) => ContactVelocity::Slip(&velocity),
+            None => ContactVelocity::Absolute(&velocity, self.peripheral_speed),
+        };
+        let codes: Vec<u8> = (0..frame.status.len())
             .filter(&one)
             .map(|i| frame.status[i])
             .collect();
-        let values = [&wide(&frame.pressure)[..], &wide(frame.shear()), &velocity];
+        let tractions = [&wide(&frame.pressure)[..], &wide(frame.shear())];
         let instant = format!("*t* = {:.3} ms", snapshot.time * 1e3);
         if !self.mesh.has_round_contact() {
             let caption = "Contact at the last snapshot along the contact edge: tractions (a), velocity (b), on a ground coloured by status.";
             return Ok(open_contact_figure(
                 ("contact".into(), caption.into(), instant),
                 &statuses(&codes),
-                values,
-                self.peripheral_speed,
+                tractions,
+                velocity,
             ));
         }
         let caption = "Contact at the last snapshot: status around the circle (a), tractions (b), velocity (c).";
         let first = self.record.contact_angles.first().copied().unwrap_or(0.0);
         let names = ("contact".into(), caption.into(), instant);
+        let counterface = match self.solid {
+            Some(sector) if sector.specification.contact.face() != SolidFace::Inner => "ring",
+            _ => "cylinder *Ωa*",
+        };
         Ok(contact_figure(
-            names,
+            (names, counterface),
             (first, &statuses(&codes)),
-            values,
-            self.peripheral_speed,
+            tractions,
+            velocity,
         ))
+    }
+
+    /// Tangential velocity of each contact node, m/s: before another body that of what it meets less its own, the slip.
+    fn contact_velocity(&self, snapshot: &Snapshot) -> Vec<f64> {
+        let own = |nodes: &[u32], components: usize| -> Vec<f64> {
+            let place = |&node: &u32| snapshot.velocity[components * node as usize + 1];
+            nodes.iter().map(place).collect()
+        };
+        if let Some(sector) = self.solid {
+            return own(&super::solid::contact_nodes(sector), 3);
+        }
+        let interface = ContactInterface::of(self.mesh);
+        let own = own(&interface.nodes, 2).into_iter().enumerate();
+        let slip = |(i, velocity): (usize, f64)| {
+            let shares = interface.opposite_of(i);
+            if shares.is_empty() {
+                return velocity;
+            }
+            let met = shares.iter();
+            let met: f64 = met
+                .map(|share| share.tangential * snapshot.velocity[share.dof])
+                .sum();
+            self.peripheral_speed + met - velocity
+        };
+        own.map(slip).collect()
     }
 }
 

@@ -26,12 +26,20 @@ pub fn write(
         let probe = report.probe_label(index);
         folder.write(&format!("probe-{probe}.csv"), |out| {
             let axial = report.record.axial_rows.get(index).map(Vec::as_slice);
-            write_probe(out, &report.record.rows, rows, axial, raw(index))
+            let probe = ProbeRows {
+                rows,
+                axial,
+                raw: raw(index),
+                turn: report.turn_of_probe(index),
+            };
+            write_probe(out, &report.record.rows, &probe)
         })?;
     }
     folder.write("energy.csv", |out| write_energy(out, report))?;
     folder.write("contact.csv", |out| write_contact(out, &report.record.rows))?;
-    folder.write("harmonics.csv", |out| write_harmonics(out, report.record))?;
+    if report.has_harmonics {
+        folder.write("harmonics.csv", |out| write_harmonics(out, report.record))?;
+    }
     folder.write("contact.npz", |out| {
         out.write_all(&encode_contact(report.record)?)
     })?;
@@ -42,15 +50,31 @@ pub fn write(
     Ok(summary)
 }
 
-/// Motion of a probe; the accelerations are means since the last sample, those of the sampled step alone come last
-/// where they are kept.
+/// What is recorded of one probe, sample by sample.
+struct ProbeRows<'a> {
+    /// In the axes of its node.
+    rows: &'a [[f64; 6]],
+    /// Along the axis, in three dimensions.
+    axial: Option<&'a [[f64; 4]]>,
+    /// Accelerations of the sampled step alone, where they are kept.
+    raw: Option<&'a [[f64; 2]]>,
+    /// Sine and cosine of the angle of its node's axes, of a body that is no annulus about the origin.
+    turn: Option<(f64, f64)>,
+}
+
+/// Motion of a probe; the accelerations are means since the last sample, those of the sampled step alone come behind them
+/// where they are kept, and motions along `x` and `y` last.
 fn write_probe(
     out: &mut dyn Write,
     samples: &[SampleRow],
-    rows: &[[f64; 6]],
-    axial: Option<&[[f64; 4]]>,
-    raw: Option<&[[f64; 2]]>,
+    probe: &ProbeRows<'_>,
 ) -> io::Result<()> {
+    let ProbeRows {
+        rows,
+        axial,
+        raw,
+        turn,
+    } = *probe;
     let mut columns = vec![
         "time_s",
         "u_r_m",
@@ -67,6 +91,10 @@ fn write_probe(
         columns.extend(["a_r_step_m_per_s2", "a_theta_step_m_per_s2"]);
         columns.extend(axial.map(|_| "a_z_step_m_per_s2"));
     }
+    if turn.is_some() {
+        columns.extend(["u_x_m", "u_y_m", "v_x_m_per_s", "v_y_m_per_s"]);
+        columns.extend(["a_x_m_per_s2", "a_y_m_per_s2"]);
+    }
     let mut table = Table::new(out, &columns)?;
     for (index, (sample, row)) in samples.iter().zip(rows).enumerate() {
         let step = raw.map(|raw| raw[index]);
@@ -75,6 +103,16 @@ fn write_probe(
         let mean = mean.chain(axial.into_iter().flat_map(|row| [row[0], row[1], row[2]]));
         let axial = axial.filter(|_| raw.is_some()).map(|row| row[3]);
         let numbers = mean.chain(step.into_iter().flatten()).chain(axial);
+        let cartesian = turn.map(|(sin, cos)| {
+            let along = |k: usize| {
+                [
+                    cos * row[k] - sin * row[k + 1],
+                    sin * row[k] + cos * row[k + 1],
+                ]
+            };
+            [0, 2, 4].map(along)
+        });
+        let numbers = numbers.chain(cartesian.into_iter().flatten().flatten());
         table.row(numbers.map(format_number))?;
     }
     table.finish()
@@ -208,6 +246,7 @@ fn snapshot_fields(report: &TransientReport<'_>, snapshot: &Snapshot) -> Vec<Fie
     ];
     let stresses = nodal_stress(report.mesh, report.material, &snapshot.displacement);
     fields.extend(Field::stresses(&stresses));
+    fields.extend(Field::cartesian_stresses(report.mesh, &stresses));
     let edge = ContactInterface::of(report.mesh).nodes;
     let count = report.mesh.node_count();
     fields.extend(contact_fields(&edge, count, snapshot));

@@ -25,7 +25,8 @@ pub use run::RunFigures;
 pub use summary::{TransientSummary, summary};
 
 use crate::fem::MaterialField;
-use crate::mesh::{Mesh2d, SolidSector};
+use crate::mesh::{Mesh, SolidSector};
+use crate::results::extent::Extent;
 use crate::transient::{Perturbation, Recorder, StepPlan, TransientAnalysis};
 
 /// Everything a transient reports. Forces, powers and energies of the record are for one metre of thickness;
@@ -35,13 +36,17 @@ pub struct TransientReport<'a> {
     /// Title of the case.
     pub title: &'a str,
     /// The mesh, for the snapshots.
-    pub mesh: &'a Mesh2d,
+    pub mesh: &'a Mesh,
     /// One sector of a body in three dimensions, of which `mesh` is the section across the axis.
     pub solid: Option<&'a SolidSector>,
     /// Its material, for the stresses.
     pub material: &'a dyn MaterialField,
+    /// Whether its vibrations have circumferential harmonics: it has the symmetry of the built-in annulus.
+    pub has_harmonics: bool,
     /// Thickness, m; 1 in three dimensions, where records are of the whole body.
     pub thickness: f64,
+    /// What forces, powers and energies are of.
+    pub extent: Extent,
     /// Friction coefficient, for the snapshots.
     pub friction_coefficient: f64,
     /// State at the start: `"rest"` or `"steady-sliding"`.
@@ -68,6 +73,8 @@ pub struct TransientReport<'a> {
     pub wall_s: f64,
     /// Whether the run reached its end.
     pub is_finished: bool,
+    /// What to know before its numbers are used.
+    pub notes: Vec<String>,
 }
 
 impl TransientReport<'_> {
@@ -81,7 +88,7 @@ impl TransientReport<'_> {
     /// Where a node is in the plane across the axis, m.
     fn place(&self, node: usize) -> [f64; 2] {
         let Some(sector) = self.solid else {
-            return self.mesh.nodes[node];
+            return self.mesh.plane_node(node);
         };
         let per_sector = sector.node_count();
         let (radius, angle) = (
@@ -89,6 +96,13 @@ impl TransientReport<'_> {
             sector.angle(node % per_sector, node / per_sector),
         );
         [radius * angle.cos(), radius * angle.sin()]
+    }
+
+    /// Sine and cosine of the angle of a probe's axes, of a plane body that is no annulus about the origin.
+    fn turn_of_probe(&self, probe: usize) -> Option<(f64, f64)> {
+        let has_axes = self.solid.is_none() && !self.mesh.is_cyclic;
+        let node = self.record.probes[probe] - 1;
+        has_axes.then(|| self.mesh.frame_angles[node].sin_cos())
     }
 
     /// Number of a probe as the user knows it.

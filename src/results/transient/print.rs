@@ -1,6 +1,7 @@
 //! The table for people.
 
 use super::summary::{GrowthSummary, TransientSummary};
+use crate::results::extent::Extent;
 use crate::results::quantity::fixed;
 use crate::results::summary::MeanPowers;
 use crate::transient::EndState;
@@ -32,12 +33,12 @@ pub fn print(summary: &TransientSummary, state: EndState) -> String {
         .growth
         .iter()
         .for_each(|stage| growth(&mut out, stage));
-    for (harmonic, reason) in &summary.no_growth {
-        let _ = writeln!(
-            out,
-            "linear stage: no growth rate of harmonic {}: {reason}",
-            &harmonic[1..]
-        );
+    for (vibration, reason) in &summary.no_growth {
+        let of = match vibration.strip_prefix('n') {
+            Some(harmonic) => format!(" of harmonic {harmonic}"),
+            None => String::new(),
+        };
+        let _ = writeln!(out, "linear stage: no growth rate{of}: {reason}");
     }
     if let Some(time) = summary.first_nonlinearity_s {
         let _ = writeln!(out, "first node that sticks or opens at {time:.6} s");
@@ -45,15 +46,16 @@ pub fn print(summary: &TransientSummary, state: EndState) -> String {
     let _ = writeln!(out, "{}", ending(summary, state));
     let _ = writeln!(out, "over the last fifth of the run:");
     match (summary.main_frequency_hz, summary.main_harmonic) {
-        (Some(frequency), Some(harmonic)) => {
-            let _ = writeln!(
-                out,
-                "  main frequency {} Hz, {harmonic} nodal diameter{}",
-                fixed(frequency, 1),
-                if harmonic == 1 { "" } else { "s" }
-            );
+        (Some(frequency), harmonic) => {
+            let diameters = match harmonic {
+                None => String::new(),
+                Some(1) => ", 1 nodal diameter".to_owned(),
+                Some(n) => format!(", {n} nodal diameters"),
+            };
+            let frequency = fixed(frequency, 1);
+            let _ = writeln!(out, "  main frequency {frequency} Hz{diameters}");
         }
-        _ => out.push_str("  no vibration\n"),
+        (None, _) => out.push_str("  no vibration\n"),
     }
     let status = &summary.status;
     let _ = writeln!(
@@ -63,7 +65,7 @@ pub fn print(summary: &TransientSummary, state: EndState) -> String {
         optional(status.slip, 3),
         optional(status.open, 3)
     );
-    powers(&mut out, &summary.power_w);
+    powers(&mut out, &summary.power_w, summary.extent);
     if let Some(share) = summary.ambiguous_friction {
         let _ = writeln!(
             out,
@@ -101,12 +103,24 @@ pub fn print(summary: &TransientSummary, state: EndState) -> String {
             summary.contact_interval_s
         );
     }
+    for note in &summary.notes {
+        let _ = writeln!(out, "note: {note}");
+    }
     out
 }
 
 /// Where the run has come to, as a sentence.
 pub fn ending(summary: &TransientSummary, state: EndState) -> String {
     let end = format!("the run ends {}", state.phrase());
+    let end = match (summary.frequencies_hz, summary.envelope_ratio) {
+        (Some([first, second]), Some(ratio)) => format!(
+            "{end}: {} and {} Hz, its envelope swings by a factor of {}",
+            fixed(first, 1),
+            fixed(second, 1),
+            fixed(ratio, 2)
+        ),
+        _ => end,
+    };
     match (summary.settled_from_s, &summary.unsettled_because) {
         (Some(from), _) => format!("{end}, settled from {from:.6} s on"),
         (None, Some(reason)) => format!("{end}: {reason}"),
@@ -121,19 +135,22 @@ fn growth(out: &mut String, stage: &GrowthSummary) {
         rate if rate > 0.0 => "grows at",
         _ => "decays at",
     };
+    let vibration = match stage.harmonic {
+        Some(harmonic) => format!("harmonic {harmonic}"),
+        None => "the strongest vibration".to_owned(),
+    };
+    let way = match stage.direction {
+        None => "",
+        Some(1..) => ", travelling with the rotor",
+        Some(_) => ", travelling against the rotor",
+    };
     let _ = writeln!(
         out,
-        "linear stage: harmonic {} {verb} {} 1/s ({} to {}), {} Hz, travelling {} the rotor",
-        stage.harmonic,
+        "linear stage: {vibration} {verb} {} 1/s ({} to {}), {} Hz{way}",
         fixed(stage.rate_per_s, 1),
         fixed(low, 1),
         fixed(high, 1),
         fixed(stage.frequency_hz, 1),
-        if stage.direction > 0 {
-            "with"
-        } else {
-            "against"
-        },
     );
 }
 
@@ -142,14 +159,15 @@ fn optional(value: Option<f64>, decimals: usize) -> String {
     fixed(value.unwrap_or(f64::NAN), decimals)
 }
 
-fn powers(out: &mut String, powers: &MeanPowers) {
+fn powers(out: &mut String, powers: &MeanPowers, extent: Extent) {
+    let unit = extent.unit("W");
     match powers.external.filter(|power| *power != 0.0) {
         None => out.push_str("  no external power: nothing slides\n"),
         Some(external) => {
             let share = |power: Option<f64>| optional(power.map(|p| 100.0 * p / external), 1);
             let _ = writeln!(
                 out,
-                "  external power {} W: stick {} %, slide {} %, dissipated in the contact {} %",
+                "  external power {} {unit}: stick {} %, slide {} %, dissipated in the contact {} %",
                 fixed(external, 2),
                 share(powers.stick),
                 share(powers.slide),
@@ -159,15 +177,18 @@ fn powers(out: &mut String, powers: &MeanPowers) {
     }
     let _ = writeln!(
         out,
-        "  dissipated in the body {} W, normal contact {} W",
+        "  dissipated in the body {} {unit}, normal contact {} {unit}",
         optional(powers.material_damping, 2),
         optional(powers.normal_contact, 2),
     );
     if let Some(power) = powers.contact_damping {
         let _ = writeln!(
             out,
-            "  dissipated in dashpots of the contact {} W",
+            "  dissipated in dashpots of the contact {} {unit}",
             fixed(power, 2)
         );
+    }
+    if let Some(note) = extent.note() {
+        let _ = writeln!(out, "  {note}");
     }
 }

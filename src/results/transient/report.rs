@@ -21,20 +21,22 @@ pub fn draw(
     options: &DrawingOptions,
 ) -> Result<(), DrawingError> {
     let state = run.analysis.settling.state;
-    let mut report = html_report(summary, state, run.growth_rates.as_slice());
+    let mut report = html_report(summary, state, &run.growth_rates, run.growing_mode());
     report.sections[1].figures = draw_run(run, options)?;
     write_report(folder, &report, options)
 }
 
 /// The report without figures, from the summary of the run; `predicted` are harmonics and growth rates
-/// (1/s) of the eigenvalue analysis.
+/// (1/s) of the eigenvalue analysis, `growing_mode` frequency (Hz) and rate of the mode of a body without symmetry that grows.
 pub fn html_report(
     summary: &TransientSummary,
     state: EndState,
     predicted: &[(usize, f64)],
+    growing_mode: Option<(f64, f64)>,
 ) -> Report {
     let heading = match state {
         EndState::LimitCycle => "Limit cycle",
+        EndState::TwoFrequency(_) => "Vibration of two frequencies",
         EndState::SteadySliding => "Steady sliding",
         EndState::AtRest | EndState::Separated => "Rest",
         EndState::Unsettled => "End of the run, not settled",
@@ -43,10 +45,13 @@ pub fn html_report(
         "{}. The numbers are means over the last fifth of the run.",
         capitalized(&ending(summary, state))
     );
+    let mut paragraphs = vec![end];
+    paragraphs.extend(summary.extent.note().map(|note| format!("{note}.")));
+    paragraphs.extend(summary.notes.iter().map(|note| capitalized(note)));
     Report {
         title: summary.title.clone(),
         sections: vec![
-            ReportSection::results(vec![end], results(summary)),
+            ReportSection::results(paragraphs, results(summary)),
             ReportSection {
                 heading: "Course of the run".into(),
                 paragraphs: vec![course(summary)],
@@ -56,7 +61,10 @@ pub fn html_report(
             ReportSection {
                 heading: heading.into(),
                 paragraphs: Vec::new(),
-                tables: vec![motion_table(summary), growth_table(summary, predicted)],
+                tables: vec![
+                    motion_table(summary),
+                    growth_table(summary, predicted, growing_mode),
+                ],
                 figures: Vec::new(),
             },
         ],
@@ -86,14 +94,13 @@ fn course(summary: &TransientSummary) -> String {
         None => "there is no linear stage that ends in stick or separation".into(),
     };
     format!(
-        "{} ms in {} steps of {} µs ({end}), from {}, {} operator, {} s; {first}; the energy \
+        "{} ms in {} steps of {} µs ({end}), from {}, {} operator; {first}; the energy \
          balance closes to {:.1e}.",
         fixed(1e3 * summary.end_time_s, 3),
         summary.steps,
         fixed(1e6 * summary.time_step_s, 4),
         summary.initial,
         summary.operator,
-        fixed(summary.wall_s, 1),
         summary.max_balance_residual,
     )
 }
@@ -105,6 +112,11 @@ fn results(summary: &TransientSummary) -> Vec<(String, String)> {
         let quantity = quantity(key);
         Some((quantity.caption.to_owned(), quantity.text(value?)))
     };
+    let watts = |key: &str, value: Option<f64>| {
+        let quantity = quantity(key);
+        let text = format!("{} {}", quantity.number(value?), summary.extent.unit("W"));
+        Some((quantity.caption.to_owned(), text))
+    };
     let share = |name: &str, value: Option<f64>| {
         Some((name.to_owned(), format!("{} %", fixed(100.0 * value?, 2))))
     };
@@ -114,19 +126,22 @@ fn results(summary: &TransientSummary) -> Vec<(String, String)> {
         (false, _) => "no".to_owned(),
     };
     let harmonic = summary.main_harmonic.map(|n| n as f64);
+    let second = summary.frequencies_hz.map(|frequencies| frequencies[1]);
     let rows = [
         entry("main_frequency_hz", summary.main_frequency_hz),
         entry("main_harmonic", harmonic),
+        entry("second_frequency_hz", second),
+        entry("envelope_ratio", summary.envelope_ratio),
         Some(("settled".to_owned(), settled)),
         share("contact nodes that stick", status.stick),
         share("contact nodes that slip", status.slip),
         share("contact nodes that are open", status.open),
-        entry("power_w.external", power.external),
-        entry("power_w.stick", power.stick),
-        entry("power_w.slide", power.slide),
-        entry("power_w.contact_dissipated", power.contact_dissipated),
-        entry("power_w.material_damping", power.material_damping),
-        entry("power_w.normal_contact", power.normal_contact),
+        watts("power_w.external", power.external),
+        watts("power_w.stick", power.stick),
+        watts("power_w.slide", power.slide),
+        watts("power_w.contact_dissipated", power.contact_dissipated),
+        watts("power_w.material_damping", power.material_damping),
+        watts("power_w.normal_contact", power.normal_contact),
     ];
     rows.into_iter().flatten().collect()
 }
@@ -165,26 +180,35 @@ fn motion_table(summary: &TransientSummary) -> ReportTable {
     }
 }
 
-fn growth_table(summary: &TransientSummary, predicted: &[(usize, f64)]) -> ReportTable {
+fn growth_table(
+    summary: &TransientSummary,
+    predicted: &[(usize, f64)],
+    growing_mode: Option<(f64, f64)>,
+) -> ReportTable {
     let own = |harmonic: usize| {
         let found = predicted.iter().find(|(n, _)| *n == harmonic);
         found.map_or(String::new(), |(_, rate)| fixed(*rate, 2))
     };
     let fitted = summary.growth.iter().map(|growth| {
         vec![
-            growth.harmonic.to_string(),
+            growth
+                .harmonic
+                .map_or("strongest".into(), |n| n.to_string()),
             fixed(growth.rate_per_s, 2),
             format!(
                 "{} to {}",
                 fixed(growth.rate_low_per_s, 2),
                 fixed(growth.rate_high_per_s, 2)
             ),
-            own(growth.harmonic),
+            match growth.harmonic {
+                Some(harmonic) => own(harmonic),
+                None => growing_mode.map_or(String::new(), |(_, rate)| fixed(rate, 2)),
+            },
             fixed(growth.frequency_hz, 1),
         ]
     });
-    let others = summary.no_growth.iter().map(|(harmonic, reason)| {
-        let harmonic = &harmonic[1..];
+    let others = summary.no_growth.iter().map(|(vibration, reason)| {
+        let harmonic = vibration.strip_prefix('n').unwrap_or(vibration);
         let own = harmonic.parse().map_or(String::new(), own);
         vec![
             harmonic.to_owned(),
@@ -195,7 +219,7 @@ fn growth_table(summary: &TransientSummary, predicted: &[(usize, f64)]) -> Repor
         ]
     });
     ReportTable {
-        caption: "Growth of the perturbed harmonics in the linear stage".into(),
+        caption: "Growth in the linear stage".into(),
         columns: [
             "harmonic n",
             "rate (1/s)",

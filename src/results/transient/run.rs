@@ -1,8 +1,9 @@
 //! A recorded run as its figures see it.
 
 use crate::fem::MaterialField;
-use crate::mesh::{Mesh2d, SolidSector};
+use crate::mesh::{Mesh, SolidSector};
 use crate::results::charts::ModeLine;
+use crate::results::extent::Extent;
 use crate::transient::{Recorder, TransientAnalysis};
 
 /// A run and what its figures show besides.
@@ -13,19 +14,25 @@ pub struct RunFigures<'a> {
     /// What was read from it.
     pub analysis: &'a TransientAnalysis,
     /// The mesh.
-    pub mesh: &'a Mesh2d,
+    pub mesh: &'a Mesh,
     /// One sector of a body in three dimensions, of which `mesh` is the section across the axis.
     pub solid: Option<&'a SolidSector>,
+    /// Whether its vibrations have circumferential harmonics.
+    pub has_harmonics: bool,
     /// The material, for the stress fields.
     pub material: &'a dyn MaterialField,
     /// Thickness, m: the record is for each metre.
     pub thickness: f64,
+    /// What powers and energies are of.
+    pub extent: Extent,
     /// Peripheral speed of the cylinder, m/s.
     pub peripheral_speed: f64,
     /// Modes of the eigenvalue analysis drawn across spectrograms and spectra.
     pub references: Vec<ModeLine>,
     /// Harmonic and growth rate (1/s) of its unstable modes.
     pub growth_rates: Vec<(usize, f64)>,
+    /// Frequency (Hz) and growth rate (1/s) of the unstable modes of a body without symmetry.
+    pub mode_rates: Vec<(f64, f64)>,
 }
 
 impl RunFigures<'_> {
@@ -57,6 +64,19 @@ impl RunFigures<'_> {
     /// The tangential acceleration of a probe: the component that friction drives, and the one over which runs are compared.
     pub(super) fn acceleration(&self, probe: usize) -> Vec<f64> {
         self.column(probe, 5)
+    }
+
+    /// Frequency (Hz) and growth rate (1/s) of the unstable mode nearest to the vibration that grows on a body without
+    /// symmetry, if one lies within 3 % of it.
+    pub(super) fn growing_mode(&self) -> Option<(f64, f64)> {
+        let growth = self.analysis.growth.first()?;
+        let frequency = growth.stage.as_ref().ok()?.frequency_hz.value.abs();
+        let distance = |mode: &&(f64, f64)| (mode.0 / frequency - 1.0).abs();
+        let nearest = self
+            .mode_rates
+            .iter()
+            .min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+        (distance(&nearest) < 0.03).then_some(*nearest)
     }
 
     /// Highest frequency shown: three superharmonics, or all modes drawn.

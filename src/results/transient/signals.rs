@@ -3,10 +3,11 @@
 use super::run::RunFigures;
 use super::stages::stages;
 use crate::chart::{
-    Axis, Figure, INK, Line, MUTED, Panel, Rule, Stroke, extremes, look, significant,
+    Axis, Figure, INK, Line, MUTED, Panel, Rule, SERIES, Stroke, extremes, look, significant,
 };
 use crate::results::charts::{
-    place_axis, run_axis, signal_panel, spectrogram_panels, spectrum_panel, status_map, with_stages,
+    Stage, place_axis, run_axis, signal_panel, spectrogram_panels, spectrum_panel, status_map,
+    with_stages,
 };
 use crate::signal::{SpectrogramOptions, Window, amplitude_spectrum, spectrogram};
 use std::collections::BTreeMap;
@@ -17,6 +18,17 @@ const GROWTH_DECADES: f64 = 7.0;
 const SMALL_HARMONIC: f64 = 1e-3;
 /// Lengths of the linear stage over which growth is shown: behind it nothing grows for long.
 const SHOWN_STAGES: f64 = 3.0;
+
+/// What the letters of stages stand for.
+fn meaning(stages: &[Stage]) -> String {
+    let words = |stage: &Stage| match stage.name {
+        "A" => "A: vibrations of the start die out",
+        "B" => "B: exponential growth",
+        "C" => "C: stick and separation set in",
+        _ => "D: limit cycle",
+    };
+    stages.iter().map(words).collect::<Vec<_>>().join("; ")
+}
 
 impl RunFigures<'_> {
     /// Acceleration, spectrograms and contact status on one time axis, with the end of the run enlarged at the right.
@@ -39,7 +51,7 @@ impl RunFigures<'_> {
         let top = self.highest_frequency();
         let unit = ("*a*_{θ}", "m/s²");
         let stages = stages(self.record, self.analysis);
-        let largest = extremes(signal.iter().map(|v| v.abs())).1;
+        let largest = extremes(signal.iter().copied()).1;
         let whole = signal_panel(axis.clone(), &times, &signal, unit, 0.45);
         let whole = with_stages(
             whole.caption(format!("tangential acceleration, node {node}")),
@@ -71,6 +83,9 @@ impl RunFigures<'_> {
             .shared_x()
             .shared_y();
         figure = figure.panel(whole).panel_or_gap(detail);
+        if !stages.is_empty() {
+            figure = figure.note(meaning(&stages));
+        }
         for panel in spectrograms {
             figure = figure.panel(panel).panel_or_gap(None);
         }
@@ -83,7 +98,7 @@ impl RunFigures<'_> {
                         "end of the run".into(),
                     )
                 });
-                figure.panel(whole.legend()).panel_or_gap(detail)
+                figure.panel(whole).panel_or_gap(detail)
             }
             None => figure,
         }
@@ -151,8 +166,73 @@ impl RunFigures<'_> {
             .panel(panel.caption(format!("accelerations of node {node}")))
     }
 
+    /// Growth of the contact edge's vibration, all of it, beside the rate of the mode at its frequency.
+    fn growth_of_edge(&self) -> Figure {
+        let (record, times) = (self.record, self.times());
+        let (start, last) = extremes([times.first(), times.last()].into_iter().flatten().copied());
+        let linear_end = self.analysis.first_nonlinearity;
+        let stage = linear_end.unwrap_or(last);
+        // About the mean over the linear stage, which is steady sliding.
+        let linear = times.partition_point(|&t| t <= stage).max(1);
+        let mut squares = vec![0.0; times.len()];
+        for n in record.followed_harmonics() {
+            let parts: Vec<[f64; 2]> = (0..times.len())
+                .map(|sample| record.amplitude(sample, n).unwrap_or_default())
+                .collect();
+            for c in 0..2 {
+                let mean = parts[..linear].iter().map(|p| p[c]).sum::<f64>() / linear as f64;
+                for (square, part) in squares.iter_mut().zip(&parts) {
+                    *square += (part[c] - mean).powi(2);
+                }
+            }
+        }
+        let sizes: Vec<f64> = squares.into_iter().map(f64::sqrt).collect();
+        let edge = Line::new(&times, &sizes)
+            .solid(SERIES[0], 0.8)
+            .name("contact edge");
+        // What the start leaves behind has died out by a third of the stage.
+        let window = (0.35 * stage, 0.95 * stage);
+        let rate = self.growing_mode().and_then(|(frequency, rate)| {
+            let inside = times.iter().zip(&sizes);
+            let inside = inside.filter(|(t, a)| (window.0..=window.1).contains(*t) && **a > 0.0);
+            let (sum, count) = inside.fold((0.0, 0.0), |(sum, count), (t, a)| {
+                (sum + a.ln() - rate * t, count + 1.0)
+            });
+            let at = |t: f64| (t, (sum / count + rate * t).exp());
+            let name = format!(
+                "rate of the eigenvalue analysis, {} kHz: {} s^{{−1}}",
+                significant(frequency * 1e-3, 4),
+                significant(rate, 4)
+            );
+            (count > 0.0).then(|| {
+                Line::through([at(window.0), at(window.1)])
+                    .stroke(Stroke::dashed(INK, 1.1))
+                    .name(name)
+            })
+        });
+        let nonlinear = linear_end.map(|time| {
+            Rule::vertical(time)
+                .stroke(Stroke::dotted(MUTED, 0.7))
+                .beside("first stick or separation")
+        });
+        let end = linear_end.map_or(last, |end| last.min(start + SHOWN_STAGES * (end - start)));
+        let amplitude = Axis::new("vibration of the contact edge", "m")
+            .decades(GROWTH_DECADES)
+            .room(0.02);
+        let panel = Panel::new(Axis::time().between(start, end), amplitude)
+            .height(190.0)
+            .layer(edge)
+            .layers(rate)
+            .layers(nonlinear);
+        let caption = "Growth of the tangential vibration of the contact edge, with the rate of the eigenvalue analysis.";
+        Figure::new("growth", caption).panel(panel)
+    }
+
     /// Growth of the harmonics of the contact edge, beside the rates of the eigenvalue analysis.
     pub(super) fn growth(&self) -> Figure {
+        if !self.has_harmonics {
+            return self.growth_of_edge();
+        }
         let (rows, times) = (&self.record.rows, self.times());
         let amplitude = |n: usize| -> Vec<f64> {
             let parts = (0..rows.len()).map(|sample| self.record.amplitude(sample, n));

@@ -1,9 +1,12 @@
 //! `summary.json` of a transient.
 
 use super::TransientReport;
+use crate::results::extent::Extent;
 use crate::results::manifest::Manifest;
 use crate::results::summary::{Entry, MeanPowers, StatusFractions, Summary, present};
-use crate::transient::{Drift, Growth, Perturbation, ProbeMotion, TransientAnalysis};
+use crate::transient::{
+    Drift, EndState, Growth, Perturbation, ProbeMotion, TransientAnalysis, Vibration,
+};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -42,8 +45,14 @@ pub struct TransientSummary {
     pub settled: bool,
     /// Since when, s.
     pub settled_from_s: Option<f64>,
-    /// `limit-cycle`, `steady-sliding`, `at-rest`, `separated` or `unsettled`.
+    /// `limit-cycle`, `two-frequency`, `steady-sliding`, `at-rest`, `separated` or `unsettled`.
     pub end_state: String,
+    /// Both frequencies of a motion of two, the stronger first, Hz; absent otherwise.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub frequencies_hz: Option<[f64; 2]>,
+    /// Largest over smallest envelope of a motion of two frequencies over the last fifth; absent otherwise.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub envelope_ratio: Option<f64>,
     /// Why it is unsettled.
     pub unsettled_because: Option<String>,
     /// Drift over the last fifth.
@@ -58,19 +67,24 @@ pub struct TransientSummary {
     pub status: StatusFractions,
     /// Mean powers over the last fifth.
     pub power_w: MeanPowers,
+    /// What powers, energies and forces are of, in the tables too.
+    #[serde(default)]
+    pub extent: Extent,
     /// Share of the steps of contact nodes that could have ended in stick and in slip alike; absent where there is none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ambiguous_friction: Option<f64>,
     /// Steps in which the forces between two bodies had not converged; absent where there is none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unconverged_steps: Option<u64>,
-    /// Mean amplitudes of the harmonics 0 to 8 of the contact edge's tangential displacement, m.
+    /// Mean amplitudes of the harmonics 0 to 8 of the contact edge's tangential displacement, m; empty for a body without
+    /// symmetry.
     pub harmonics: Vec<f64>,
     /// The same of all harmonics `n >= 1` above a thousandth of the largest, by `nN`.
     pub significant_harmonics_m: BTreeMap<String, f64>,
-    /// Rates in the linear stage of the perturbed harmonics that have one.
+    /// Rates in the linear stage of the perturbed harmonics that have one; of a body without symmetry that of its strongest
+    /// vibration.
     pub growth: Vec<GrowthSummary>,
-    /// Why the others have none, by `nN`.
+    /// Why the others have none, by `nN`; `strongest` for a body without symmetry.
     pub no_growth: BTreeMap<String, String>,
     /// When the first node sticks or opens after the linear stage, s.
     pub first_nonlinearity_s: Option<f64>,
@@ -78,6 +92,9 @@ pub struct TransientSummary {
     pub probes: BTreeMap<String, ProbeSummary>,
     /// Time between the frames of `contact.npz`, s.
     pub contact_interval_s: f64,
+    /// What to know before its numbers are used.
+    #[serde(default)]
+    pub notes: Vec<String>,
     /// What it was made from.
     pub manifest: Manifest,
 }
@@ -133,8 +150,9 @@ pub struct DriftSummary {
 /// Growth of one harmonic, with 95 % intervals.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct GrowthSummary {
-    /// Circumferential harmonic.
-    pub harmonic: usize,
+    /// Circumferential harmonic; absent for a body without symmetry.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub harmonic: Option<usize>,
     /// Rate, 1/s.
     pub rate_per_s: f64,
     /// Low end of its interval, 1/s.
@@ -143,8 +161,9 @@ pub struct GrowthSummary {
     pub rate_high_per_s: f64,
     /// Frequency, Hz.
     pub frequency_hz: f64,
-    /// +1 with the rotor, -1 against it.
-    pub direction: i8,
+    /// +1 with the rotor, -1 against it; absent for a body without symmetry.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub direction: Option<i8>,
 }
 
 /// Motion of a probe over the last fifth; accelerations are means over the sample interval.
@@ -201,6 +220,10 @@ pub fn summary(report: &TransientReport<'_>, manifest: &Manifest) -> TransientSu
     let (end, settling) = (&analysis.last_fifth, &analysis.settling);
     let watts = |power: f64| present(power * report.thickness);
     let [stick, slip, open] = end.status.map(present);
+    let two = match settling.state {
+        EndState::TwoFrequency(two) => Some(two),
+        _ => None,
+    };
     TransientSummary {
         command: "transient".to_owned(),
         title: report.title.to_owned(),
@@ -219,6 +242,8 @@ pub fn summary(report: &TransientReport<'_>, manifest: &Manifest) -> TransientSu
         settled: settling.is_settled(),
         settled_from_s: settling.from,
         end_state: settling.state.name().to_owned(),
+        frequencies_hz: two.map(|two| two.frequencies_hz),
+        envelope_ratio: two.and_then(|two| present(two.envelope_ratio)),
         unsettled_because: settling.reason.map(|reason| reason.to_string()),
         drift: settling.drift.map(DriftSummary::from),
         main_frequency_hz: end.main_frequency_hz,
@@ -237,15 +262,20 @@ pub fn summary(report: &TransientReport<'_>, manifest: &Manifest) -> TransientSu
                 .has_contact_springs()
                 .then_some(report.thickness * end.powers.damping),
         },
+        extent: report.extent,
         ambiguous_friction: report.record.ambiguous_share(),
         unconverged_steps: Some(report.record.unconverged_steps).filter(|steps| *steps > 0),
-        harmonics: end.harmonics.to_vec(),
+        harmonics: match report.has_harmonics {
+            true => end.harmonics.to_vec(),
+            false => Vec::new(),
+        },
         significant_harmonics_m: by_harmonic(end.significant.iter().copied()),
         growth: analysis.growth.iter().filter_map(growth).collect(),
         no_growth: no_growth(analysis),
         first_nonlinearity_s: analysis.first_nonlinearity,
         probes: probes(report),
         contact_interval_s: report.record.frame_stride as f64 * plan.sample_interval,
+        notes: report.notes.clone(),
         manifest: manifest.clone(),
     }
 }
@@ -257,21 +287,25 @@ fn by_harmonic<T>(entries: impl Iterator<Item = (usize, T)>) -> BTreeMap<String,
 fn growth(growth: &Growth) -> Option<GrowthSummary> {
     let stage = growth.stage.as_ref().ok()?;
     Some(GrowthSummary {
-        harmonic: growth.harmonic,
+        harmonic: growth.harmonic(),
         rate_per_s: stage.rate_per_s.value,
         rate_low_per_s: stage.rate_per_s.low,
         rate_high_per_s: stage.rate_per_s.high,
         frequency_hz: stage.frequency_hz.value.abs(),
-        direction: growth.direction(),
+        direction: growth.harmonic().map(|_| growth.direction()),
     })
 }
 
 fn no_growth(analysis: &TransientAnalysis) -> BTreeMap<String, String> {
     let reasons = analysis.growth.iter().filter_map(|growth| {
         let reason = growth.stage.as_ref().err()?;
-        Some((growth.harmonic, reason.to_string()))
+        let name = match growth.vibration {
+            Vibration::Harmonic(harmonic) => format!("n{harmonic}"),
+            Vibration::Strongest => "strongest".to_owned(),
+        };
+        Some((name, reason.to_string()))
     });
-    by_harmonic(reasons)
+    reasons.collect()
 }
 
 fn probes(report: &TransientReport<'_>) -> BTreeMap<String, ProbeSummary> {

@@ -4,11 +4,11 @@ use super::summary::{DesignCurve, RobustSummary, UncertaintySummary};
 use crate::chart::{
     Axis, Bars, Figure, Fill, INK, Label, Line, Marker, Panel, Rule, SERIES, Stroke, look,
 };
-use crate::results::parameter::parameter_axis;
+use crate::results::parameter::{parameter_axis, parameter_name};
 
 /// Distribution of critical friction, probability of squeal over friction, indices.
 pub fn uncertainty(summary: &UncertaintySummary) -> Figure {
-    let largest = summary.largest_friction;
+    let largest = shown_friction(summary);
     let friction = || Axis::friction().between(0.0, largest);
     let share = |name: &str| Axis::new(name, "–").between(0.0, 1.0);
     let families = summary
@@ -61,6 +61,19 @@ pub fn uncertainty(summary: &UncertaintySummary) -> Figure {
     .panel(probability)
 }
 
+/// The friction coefficient up to which something happens, with a little room: onsets of families, changes of the probability,
+/// the case's own friction.
+fn shown_friction(summary: &UncertaintySummary) -> f64 {
+    let families = summary.families.iter();
+    let onsets = families.flat_map(|family| &family.critical_friction_percentiles);
+    let over = &summary.probability_over_friction;
+    let last = over.last().map_or(0.0, |row| row[1]);
+    let changes = over.iter().filter(|row| row[1] != last).map(|row| row[0]);
+    let happens = onsets.filter_map(|onset| *onset).chain(changes);
+    let reach = happens.fold(summary.friction_coefficient, f64::max);
+    (1.15 * reach).min(summary.largest_friction)
+}
+
 /// Sobol's indices of the lowest critical friction.
 pub fn indices(summary: &UncertaintySummary) -> Figure {
     // The largest above.
@@ -73,13 +86,25 @@ pub fn indices(summary: &UncertaintySummary) -> Figure {
     let first = rows.iter().enumerate();
     let first =
         first.map(|(k, (_, index))| (0.0, index.first.max(0.0), place(k) - 0.17, String::new()));
+    let whiskers = rows.iter().enumerate().flat_map(|(k, (_, index))| {
+        let ends = [(index.first_interval, -0.17), (index.total_interval, 0.17)];
+        ends.into_iter().filter_map(move |(interval, shift)| {
+            let [low, high] = interval?.map(|end| end.max(0.0));
+            let at = k as f64 + shift;
+            Some(Line::through([(low, at), (high, at)]).solid(INK, 0.7))
+        })
+    });
     let names = rows
         .iter()
         .enumerate()
-        .map(|(k, (key, _))| (place(k), key.replace('_', " ")));
+        .map(|(k, (key, _))| (place(k), parameter_name(key)));
     let largest = rows
         .iter()
-        .map(|row| row.1.total.max(row.1.first))
+        .map(|row| {
+            let ends = [row.1.first_interval, row.1.total_interval];
+            let ends = ends.into_iter().flatten().map(|[_, high]| high);
+            ends.fold(row.1.total.max(row.1.first), f64::max)
+        })
         .fold(1.0, f64::max);
     let y = Axis::new("", "")
         .between(-0.6, rows.len() as f64 - 0.4)
@@ -87,13 +112,14 @@ pub fn indices(summary: &UncertaintySummary) -> Figure {
     let panel = Panel::new(Axis::new("Sobol index", "–").between(0.0, largest), y)
         .height(34.0 * rows.len() as f64 + 12.0)
         .layer(Bars::new(total.collect(), SERIES[5]))
-        .layer(Bars::new(first.collect(), SERIES[0]));
+        .layer(Bars::new(first.collect(), SERIES[0]))
+        .layers(whiskers);
     Figure::new(
         "indices",
         "Sobol's indices of the lowest critical friction: what share of its variance goes if the parameter is known (first \
          order, dark), and what share stays if all others are (total, light).",
     )
-    .note("dark: first order; light: total")
+    .note("dark: first order; light: total; lines: 95 % intervals")
     .panel(panel)
 }
 

@@ -48,6 +48,9 @@ pub struct Sample {
     pub friction_coefficient: f64,
     /// Its onsets, by rising friction.
     pub onsets: Vec<Onset>,
+    /// Harmonic (0 of a body without) and branch of its modes below the frequency limit; absent in points of earlier versions.
+    #[serde(default)]
+    pub within: Vec<(usize, usize)>,
     /// Why it has none, where it could not be solved.
     pub error: Option<String>,
     /// Lowest critical friction with other values: those of a second sample, then its own with the second's value of
@@ -63,6 +66,11 @@ impl Sample {
             .iter()
             .filter(|onset| onset.critical_friction <= most);
         within.min_by(|a, b| a.critical_friction.total_cmp(&b.critical_friction))
+    }
+
+    /// Whether a branch has no mode below the frequency limit, so that nothing is known of it.
+    pub fn is_beyond(&self, harmonic: Option<usize>, branch: usize) -> bool {
+        !self.within.is_empty() && !self.within.contains(&(harmonic.unwrap_or(0), branch))
     }
 
     /// Whether it squeals at a friction coefficient.

@@ -2,9 +2,10 @@
 
 use super::Sample;
 use super::figures::{indices, robust, uncertainty};
-use super::summary::UncertaintySummary;
+use super::summary::{DesignCurve, RobustSummary, UncertaintySummary};
 use crate::results::FolderError;
 use crate::results::drawing::{Declaration, DrawingError, DrawingOptions, draw_all, figure_files};
+use crate::results::quantity::significant;
 use crate::results::report::{Report, ReportSection, ReportTable};
 use crate::results::sweep::SweepFolder;
 use crate::results::table::{Table, format_number};
@@ -81,23 +82,19 @@ pub fn draw_report(
         "" => "Probability of squeal".to_owned(),
         title => title.to_owned(),
     };
-    let lines = summary.text();
+    let mut paragraphs: Vec<String> = summary.notes.clone();
+    paragraphs.extend(summary.robust.as_ref().and_then(cheapest));
     let report = Report {
         title,
         sections: vec![
+            ReportSection::results(paragraphs, results(summary)).with_tables([
+                families(summary),
+                indices_table(summary),
+                designs(summary),
+            ]),
             ReportSection {
                 heading: "Probability of squeal".into(),
-                paragraphs: lines
-                    .lines()
-                    .skip(1)
-                    .map(|line| line.trim().to_owned())
-                    .collect(),
                 figures,
-                ..ReportSection::default()
-            },
-            ReportSection {
-                heading: "Modes that turn unstable".into(),
-                tables: vec![families(summary)],
                 ..ReportSection::default()
             },
         ],
@@ -105,6 +102,79 @@ pub fn draw_report(
     };
     let html = report.to_html();
     Ok(folder.write("report.html", |out| out.write_all(html.as_bytes()))?)
+}
+
+/// What decides, name and value.
+fn results(summary: &UncertaintySummary) -> Vec<(String, String)> {
+    let (p, c) = (summary.probability_unstable, &summary.critical_friction);
+    let text =
+        |value: Option<f64>| value.map_or("beyond the range".to_owned(), |v| format!("{v:.4}"));
+    let rows = [
+        (
+            format!(
+                "probability of squeal at friction {}",
+                summary.friction_coefficient
+            ),
+            format!("{:.4} (95 % {:.4} to {:.4})", p.value, p.low, p.high),
+        ),
+        ("lowest critical friction, median".into(), text(c.median)),
+        ("5 % of the samples below".into(), text(c.p05)),
+        ("5 % of the samples above".into(), text(c.p95)),
+        (
+            "samples".into(),
+            (summary.samples - summary.failed).to_string(),
+        ),
+    ];
+    let decisive = summary.decisive.iter();
+    let decisive = decisive.map(|key| ("decisive parameter".to_owned(), key.clone()));
+    rows.into_iter().chain(decisive).collect()
+}
+
+fn indices_table(summary: &UncertaintySummary) -> ReportTable {
+    let mut rows: Vec<_> = summary.sobol.iter().collect();
+    rows.sort_by(|a, b| b.1.total.total_cmp(&a.1.total));
+    let row = |(key, index): (&String, &super::Index)| {
+        let part = |value: f64| format!("{value:.3}");
+        vec![key.clone(), part(index.first), part(index.total)]
+    };
+    ReportTable {
+        caption: "Sobol's indices of the lowest critical friction: which parameter decides it"
+            .into(),
+        columns: ["parameter", "first order", "total"]
+            .map(String::from)
+            .to_vec(),
+        rows: rows.into_iter().map(row).collect(),
+    }
+}
+
+/// The changes of a design, one row for each parameter; no row where none were asked for.
+fn designs(summary: &UncertaintySummary) -> ReportTable {
+    let robust = summary.robust.iter();
+    let rows = robust.flat_map(|robust| robust.curves.iter().map(|curve| (robust.bound, curve)));
+    let row = |(_, curve): (f64, &DesignCurve)| {
+        let reached = curve
+            .reaches_bound_at
+            .map_or("not reached".to_owned(), |value| significant(value, 4));
+        let change = curve.change_percent;
+        let change = change.map_or(String::new(), |change| format!("{change:+.1}"));
+        vec![curve.key.clone(), reached, change]
+    };
+    let bound = summary.robust.as_ref().map_or(0.0, |robust| robust.bound);
+    ReportTable {
+        caption: format!("Designs: where the probability of squeal falls to {bound}"),
+        columns: ["parameter", "reached at", "change (%)"]
+            .map(String::from)
+            .to_vec(),
+        rows: rows.map(row).collect(),
+    }
+}
+
+fn cheapest(robust: &RobustSummary) -> Option<String> {
+    let key = robust.cheapest.as_ref()?;
+    Some(format!(
+        "The smallest relative change that brings the probability of squeal down to {} is that of {key}.",
+        robust.bound
+    ))
 }
 
 fn families(summary: &UncertaintySummary) -> ReportTable {

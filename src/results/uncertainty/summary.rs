@@ -89,6 +89,9 @@ pub struct FamilySummary {
     pub probability: f64,
     /// Probability that it turns unstable in the range.
     pub probability_in_range: f64,
+    /// Share of the samples in which it lies beyond the frequency limit, where it is not followed.
+    #[serde(default)]
+    pub beyond_limit: f64,
     /// Median of its critical friction, of the samples in which it has one.
     pub critical_friction_median: f64,
     /// Mean frequency at its onset, Hz.
@@ -104,6 +107,12 @@ pub struct Index {
     pub first: f64,
     /// Share that stays if all others are known.
     pub total: f64,
+    /// Ends of the 95 % interval of the first, from resampling; absent in summaries of earlier versions.
+    #[serde(default)]
+    pub first_interval: Option<[f64; 2]>,
+    /// The same of the second.
+    #[serde(default)]
+    pub total_interval: Option<[f64; 2]>,
 }
 
 /// Probability of squeal over designs.
@@ -132,6 +141,14 @@ pub struct DesignCurve {
     pub reaches_bound_at: Option<f64>,
     /// The change that takes, per cent.
     pub change_percent: Option<f64>,
+    /// Whether the onsets of the first sample depend on the parameter at all.
+    #[serde(default = "has_effect")]
+    pub has_effect: bool,
+}
+
+/// Summaries of earlier versions do not say.
+fn has_effect() -> bool {
+    true
 }
 
 impl FamilySummary {
@@ -147,6 +164,12 @@ impl FamilySummary {
             .map_or(String::new(), |n| format!("n = {n}, "));
         format!("{harmonic}branch {}{way}", self.branch)
     }
+}
+
+/// An index with its 95 % interval.
+fn with_interval(value: f64, interval: Option<[f64; 2]>) -> String {
+    let ends = interval.map(|[low, high]| format!(" ({low:.3} to {high:.3})"));
+    format!("{value:.3}{}", ends.unwrap_or_default())
 }
 
 impl UncertaintySummary {
@@ -177,32 +200,41 @@ impl UncertaintySummary {
         for family in &self.families {
             let _ = writeln!(
                 out,
-                "  {:<22} probability of being unstable {:.4}; becomes unstable below friction {} in {:.1} % of the samples, median {:.4}, {:.0} Hz",
+                "  {:<22} probability of being unstable {:.4}; becomes unstable below friction {} in {:.1} % of the samples, median {:.4}, {:.0} Hz{}",
                 family.name(),
                 family.probability,
                 self.largest_friction,
                 100.0 * family.probability_in_range,
                 family.critical_friction_median,
                 family.frequency_hz,
+                match family.beyond_limit {
+                    0.0 => String::new(),
+                    share => format!("; beyond the frequency limit in {share:.4}"),
+                },
             );
         }
         for (key, index) in &self.sobol {
             let _ = writeln!(
                 out,
-                "  {key}: Sobol index first-order {:.3}, total {:.3}",
-                index.first, index.total
+                "  {key}: Sobol index first-order {}, total {}",
+                with_interval(index.first, index.first_interval),
+                with_interval(index.total, index.total_interval),
             );
         }
         if let Some(robust) = &self.robust {
             for curve in &robust.curves {
                 let reached = match (curve.reaches_bound_at, curve.change_percent) {
-                    (Some(value), Some(change)) => {
+                    (Some(value), Some(change)) if curve.has_effect => {
                         format!(
                             "below {} from {} on ({change:+.1} %)",
                             robust.bound,
                             crate::results::quantity::significant(value, 4)
                         )
                     }
+                    _ if !curve.has_effect => format!(
+                        "without effect: the onsets of the first sample are the same at all {} values",
+                        curve.points.len()
+                    ),
                     _ => format!("never below {}", robust.bound),
                 };
                 let _ = writeln!(out, "  over {}: {reached}", curve.key);

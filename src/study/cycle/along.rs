@@ -6,8 +6,8 @@ use rayon::prelude::*;
 /// Cycles whose exponents are found one after the other, each from its neighbour's; the groups run in parallel.
 const GROUP: usize = 8;
 
-/// Every cycle of a branch settled in the transient, with its stability. Where a wave only scales from one cycle to the
-/// next, so do its powers, and its stability is the same.
+/// Every cycle of a branch settled in the transient: powers and fractions are its own there, even where its exponents do not
+/// converge. Where a wave only scales from one cycle to the next, its stability is the same.
 pub fn along(
     stepping: &MeshStepping<'_>,
     cycles: &mut [LimitCycle],
@@ -24,19 +24,24 @@ pub fn along(
             for cycle in group {
                 let found = match &before {
                     Some((own, settled)) if is_scaled(own, cycle) => {
-                        Ok(settled.scaled_to(own, cycle))
+                        stepping.settle_scaled(cycle, settled)
                     }
                     _ => {
                         let neighbour = before.as_ref().map(|(_, settled)| settled);
-                        let settled = stepping.settle(cycle, neighbour);
-                        settled.map_err(|error| error.to_string())
+                        stepping.settle(cycle, neighbour)
                     }
+                };
+                let own = match &found {
+                    Ok(settled) => Ok(settled.cycle.clone()),
+                    Err(_) => stepping.stepped(cycle),
                 };
                 if let Ok(settled) = &found {
                     before = Some((cycle.clone(), settled.clone()));
-                    *cycle = settled.cycle.clone();
                 }
-                done.push(found);
+                if let Ok(own) = own {
+                    *cycle = own;
+                }
+                done.push(found.map_err(|error| error.to_string()));
             }
             done
         })

@@ -18,7 +18,7 @@ mod families;
 
 pub use families::{disc_model, mode_limit};
 
-use super::StudyError;
+use super::{StudyError, extent_of};
 use crate::case::{Case, Cycle, StabilityChoice};
 use crate::cycle::{
     CycleError, CycleSolver, CycleStability, Family, LimitCycle, MeshStepping, Onset,
@@ -101,6 +101,7 @@ impl<'a> CycleStudy<'a> {
             mesh: &self.annulus.mesh,
             inner_radius: self.annulus.specification.inner_radius,
             thickness: self.case.thickness,
+            extent: extent_of(self.case),
             friction_coefficient: self.point.contact.friction_coefficient,
             lowest_onset: self.onsets.first().copied(),
             results,

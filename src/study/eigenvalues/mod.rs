@@ -12,6 +12,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod dampings;
 mod map;
 mod model;
 mod sliding;
@@ -20,16 +21,17 @@ mod solve;
 mod spectrum;
 mod states;
 
+pub use dampings::dampings;
 pub use map::map;
 pub use model::{Model, Solver, Spectrum, asked_modes, mode_limit};
 pub use sliding::{SlidingModel, SteadyState};
 pub use solid::SolidBody;
 pub use solve::{solve, solve_modes};
-pub use spectrum::{modes_at_own_friction, modes_below, unstable_intervals};
+pub use spectrum::{OnsetSearch, modes_at_own_friction, modes_below, unstable_intervals};
 pub use states::WholeMesh;
 
 use super::StudyError;
-use crate::case::{Case, Cea, ModeSelection};
+use crate::case::{Case, Cea, Diagnostic, ModeSelection};
 use crate::cea::{FrictionSweep, SweepProgress, SweepRequest};
 use crate::results::cea::{BaseField, CeaReport, SensitivityReport};
 
@@ -98,12 +100,15 @@ pub fn refuse_no_modes(case: &Case, cea: &Cea, sweep: &FrictionSweep) -> Result<
     if sweep.points.iter().any(|point| !point.modes.is_empty()) {
         return Ok(());
     }
-    Err(StudyError::Case(case.error_at(
-        "cea.max_frequency_hz",
+    let error = Diagnostic::error(
         format!("cea.max_frequency_hz = {limit}: there are no modes below it"),
         "below the first mode".to_owned(),
+        case.raw.place("cea.max_frequency_hz"),
         Some("raise it, or ask for the lowest ones with `modes = 10` instead".to_owned()),
-    )))
+    );
+    // A slip of units comes first: the missing modes are its consequence.
+    let all = [case.warnings.as_slice(), &[error]].concat();
+    Err(StudyError::Case(case.raw.errors(all)))
 }
 
 /// What there is to report of a solution; the map is left out.
@@ -127,6 +132,7 @@ pub fn report<'a>(
         },
         friction_coefficients: &cea.friction_coefficients,
         sweep: &solution.sweep,
+        contact_changes: model.contact_changes(),
         base: model.base_state(case),
         field,
         solid: model.solid().map(|body| &body.report),

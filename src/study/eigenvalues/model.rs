@@ -4,7 +4,7 @@ use super::states::WholeMesh;
 use super::{Progress, StudyError};
 use crate::case::{Annulus, Body, Case, CaseErrors, Cea, CeaMethod, ModeSelection, Revolution};
 use crate::cea::cyclic::{self, Coverage, Sensitivity, SolidModel, SolidSweep};
-use crate::cea::{CeaError, FrictionSweep, ModeLimit, SweepRequest, UnstableInterval};
+use crate::cea::{CeaError, FrictionSweep, ModeLimit, SweepRequest};
 use crate::prestress::TangentOptions;
 use crate::study::tangent_options;
 
@@ -23,8 +23,9 @@ impl Solver {
     /// The solver that `method` means for the body of a case: `auto` uses the rotational symmetry where the body has it.
     ///
     /// # Errors
-    /// A method that the body does not have.
+    /// A method that the body does not have; a counterface at rest, on which the body sticks.
     pub fn of(case: &Case, method: CeaMethod) -> Result<Self, CaseErrors> {
+        refuse_rest(case)?;
         match (&case.body, method) {
             (Body::Imported(_), CeaMethod::Cyclic) => Err(case.error_at(
                 "cea.method",
@@ -51,6 +52,25 @@ impl Solver {
             Body::Imported(_) => Self::WholeMesh,
         }
     }
+}
+
+/// Refuses a counterface at rest: a contact that sticks has no modes of sliding.
+fn refuse_rest(case: &Case) -> Result<(), CaseErrors> {
+    if case.contact.sliding.rotation_speed != 0.0 {
+        return Ok(());
+    }
+    let key = match case.raw.find("contact.speed") {
+        Some(_) => "contact.speed",
+        None => "contact.rotation_speed_rpm",
+    };
+    Err(case.error_at(
+        key,
+        format!(
+            "{key} = 0: the contact sticks at rest, and there is no steady sliding whose eigenvalues could be solved"
+        ),
+        "must not be zero for an eigenvalue analysis".to_owned(),
+        Some("give a speed, however small; its sign is the sense of the sliding".to_owned()),
+    ))
 }
 
 /// A model whose spectrum can be asked for.
@@ -182,14 +202,14 @@ impl Model {
         }
     }
 
-    /// The unstable intervals of some harmonics of a plane annulus, without a proof that none is missed; `None` for another
-    /// body, and where a branch meets one that only the whole spectrum has.
-    pub fn intervals_in(
+    /// The spectrum of some harmonics of a plane annulus, without a proof that none is missed; `None` for another body, and
+    /// where a branch meets one that only the whole spectrum has.
+    pub fn sweep_in(
         &self,
         harmonics: &[usize],
         case: &Case,
         request: &SweepRequest<'_>,
-    ) -> Option<Vec<UnstableInterval>> {
+    ) -> Option<FrictionSweep> {
         let Self::Sectors(annulus, options) = self else {
             return None;
         };

@@ -5,9 +5,10 @@ use super::model::Model;
 use super::solid::SolidBody;
 use crate::case::{Case, Cea};
 use crate::fem::nodal_stress;
-use crate::mesh::{AnnulusMesh, Counterface, Mesh2d, SectorMesh};
+use crate::mesh::{AnnulusMesh, Counterface, Mesh, SectorMesh};
 use crate::prestress::{SectorTangent, SteadySliding};
 use crate::results::cea::{BaseField, BaseState};
+use crate::study::extent_of;
 use std::sync::Arc;
 
 /// Steady sliding at the case's own friction coefficient.
@@ -21,7 +22,7 @@ pub enum SteadyState {
 /// A model with its mesh and its steady sliding.
 pub struct SlidingModel {
     /// The mesh, of a body in three dimensions that of its section across the axis.
-    pub mesh: Arc<Mesh2d>,
+    pub mesh: Arc<Mesh>,
     /// What the solver takes.
     pub model: Model,
     /// Its base state.
@@ -52,7 +53,7 @@ impl SlidingModel {
                 let sector = SectorMesh::generate(&annulus.specification)?;
                 let materials = &annulus.materials;
                 let tangent = SectorTangent::linearize(&sector, materials, options, sliding)?;
-                let base = SteadySliding::from_sector(&mesh, &sector, tangent.base());
+                let base = SteadySliding::from_sector(&mesh, &sector, tangent.base(), sliding);
                 (Arc::new(mesh.mesh), SteadyState::Plane(base))
             }
         };
@@ -64,6 +65,14 @@ impl SlidingModel {
         match &self.state {
             SteadyState::Solid(solid) => Some(solid),
             SteadyState::Plane(_) => None,
+        }
+    }
+
+    /// Friction coefficients at which contact nodes open or close, rising.
+    pub fn contact_changes(&self) -> &[f64] {
+        match &self.model {
+            Model::Whole(whole) => &whole.range.changes,
+            Model::Sectors(..) | Model::SolidSectors(_) => &[],
         }
     }
 
@@ -96,6 +105,7 @@ impl SlidingModel {
             torque_n_m: (!is_plane).then_some(torque),
             drag_n: is_plane.then_some(torque),
             power_w: torque * case.contact.sliding.rotation_speed,
+            extent: extent_of(case),
         }
     }
 

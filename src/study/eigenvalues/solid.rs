@@ -9,6 +9,7 @@ use crate::mesh::{
 };
 use crate::prestress::SolidSliding;
 use crate::results::cea::{BaseState, SolidReport};
+use crate::study::extent_of;
 
 /// The body with its steady sliding state.
 pub struct SolidBody {
@@ -70,6 +71,7 @@ impl SolidBody {
             torque_n_m: Some(torque),
             drag_n: None,
             power_w: torque * case.contact.sliding.rotation_speed,
+            extent: extent_of(case),
         }
     }
 

@@ -4,7 +4,7 @@ use super::StudyError;
 use super::model::{Model, Solver, mode_limit};
 use crate::case::{Case, Cea, CeaMethod, ModeSelection};
 use crate::cea::cyclic::Sensitivity;
-use crate::cea::{CeaError, ComplexMode, ModeLimit, SweepRequest, UnstableInterval};
+use crate::cea::{CeaError, ComplexMode, FrictionSweep, ModeLimit, SweepRequest, UnstableInterval};
 use crate::fem::MassKind;
 use crate::prestress::TangentOptions;
 use crate::study::tangent_options;
@@ -81,8 +81,17 @@ pub fn modes_at_own_friction(
     Ok(point.map_or_else(Vec::new, |point| point.modes))
 }
 
-/// The ranges of friction over which branches of a case are unstable, from 0 to the largest of `frictions`, and the
-/// harmonics that hold modes.
+/// The onsets of a case.
+pub struct OnsetSearch {
+    /// The ranges of friction over which branches are unstable.
+    pub intervals: Vec<UnstableInterval>,
+    /// The harmonics that hold modes, where all were looked at.
+    pub followed: Vec<usize>,
+    /// Harmonic and branch of the modes within the range of frequencies at some friction coefficient, each once, rising.
+    pub within: Vec<(usize, usize)>,
+}
+
+/// The ranges of friction over which branches of a case are unstable, from 0 to the largest of `frictions`.
 ///
 /// With `harmonics` those alone are looked at, without a proof that none is missed.
 ///
@@ -92,7 +101,7 @@ pub fn unstable_intervals(
     case: &Case,
     frictions: &[f64],
     harmonics: Option<&[usize]>,
-) -> Result<(Vec<UnstableInterval>, Vec<usize>), StudyError> {
+) -> Result<OnsetSearch, StudyError> {
     let own = case.require_cea()?;
     let cea = Cea {
         modes: own.modes,
@@ -114,9 +123,13 @@ pub fn unstable_intervals(
     let options = tangent_options(case, cea.mass);
     let model = Model::with_solver(case, solver, options, &frictions)?;
     if let Some(harmonics) = harmonics
-        && let Some(found) = model.intervals_in(harmonics, case, &request)
+        && let Some(found) = model.sweep_in(harmonics, case, &request)
     {
-        return Ok((found, Vec::new()));
+        return Ok(OnsetSearch {
+            followed: Vec::new(),
+            within: branches_within(&found),
+            intervals: found.intervals,
+        });
     }
     let found = model.spectrum(case, &request, false, &|_| {})?;
     super::refuse_no_modes(case, &cea, &found.sweep)?;
@@ -124,5 +137,17 @@ pub fn unstable_intervals(
         (Model::Sectors(..), Some(coverage)) => coverage.followed,
         _ => Vec::new(),
     };
-    Ok((found.sweep.intervals, followed))
+    Ok(OnsetSearch {
+        followed,
+        within: branches_within(&found.sweep),
+        intervals: found.sweep.intervals,
+    })
+}
+
+fn branches_within(sweep: &FrictionSweep) -> Vec<(usize, usize)> {
+    let modes = sweep.points.iter().flat_map(|point| &point.modes);
+    let mut found: Vec<(usize, usize)> = modes.map(|mode| (mode.harmonic, mode.branch)).collect();
+    found.sort_unstable();
+    found.dedup();
+    found
 }

@@ -5,14 +5,14 @@ use crate::case::Case;
 use crate::cea::sparse;
 use crate::cea::{CeaError, FrictionPoint, FrictionSweep, SweepRequest, UnstableInterval};
 use crate::fem::assemble_stiffness;
-use crate::mesh::Mesh2d;
+use crate::mesh::Mesh;
 use crate::prestress::{SlidingRange, SlidingTangent, SteadySliding, TangentOptions};
 use std::sync::Arc;
 
 /// A whole mesh and its steady sliding.
 pub struct WholeMesh {
     /// The mesh.
-    pub mesh: Arc<Mesh2d>,
+    pub mesh: Arc<Mesh>,
     /// Steady sliding at the friction coefficients that are solved, and last at the case's own.
     pub range: SlidingRange,
     /// How the tangent is taken.

@@ -8,6 +8,7 @@ use crate::cea::ComplexMode;
 use crate::cea::cyclic::Sensitivity;
 use crate::linalg::c64;
 use crate::results::fit::FitSummary;
+use crate::study::eigenvalues::Solver;
 use crate::study::{StudyError, eigenvalues};
 
 /// Modes are computed up to this much above the highest line.
@@ -28,6 +29,10 @@ fn limit_hz(lines: &[MeasuredMode]) -> f64 {
 /// A case without `[fit]`; a fit that cannot be made.
 pub fn fit_case(case: &Case, lines: &[MeasuredMode]) -> Result<Fitted, StudyError> {
     let wanted = case.require_fit()?;
+    if let Some(cea) = &case.cea {
+        // What every point would be refused for.
+        Solver::of(case, cea.method)?;
+    }
     let limit_hz = limit_hz(lines);
     let model =
         |values: &[f64], with_rates: bool| modes(case, wanted, values, limit_hz, with_rates);
@@ -57,12 +62,34 @@ pub fn summarize(
     Ok(summary::of(case, case.require_fit()?, fitted, &before))
 }
 
-/// Refuses fewer measured numbers than there are parameters.
+/// Lines of a table of modes beyond which it is hardly one: assigning them to modes grows with the cube of their number.
+const MOST_LINES: usize = 1000;
+
+/// Frequencies that a measured mode has, Hz.
+const FREQUENCIES_HZ: [f64; 2] = [1e-3, 1e9];
+
+/// Refuses fewer measured numbers than there are parameters, more lines than modes that anybody measures, and frequencies
+/// that are none.
 ///
 /// # Errors
-/// [`StudyError::Case`] for a case without `[fit]`, and at `fit.parameters`.
+/// [`StudyError::Case`] for a case without `[fit]`, and at `fit.parameters`; [`StudyError::Fit`] for such a table.
 pub fn refuse_too_few(case: &Case, lines: &[MeasuredMode]) -> Result<(), StudyError> {
     let wanted = case.require_fit()?;
+    if lines.len() > MOST_LINES {
+        let (lines, most) = (lines.len(), MOST_LINES);
+        return Err(FitError::TooManyLines { lines, most }.into());
+    }
+    let [least, most] = FREQUENCIES_HZ;
+    let is_outside = |line: &&MeasuredMode| !(least..=most).contains(&line.frequency_hz);
+    if let Some(line) = lines.iter().find(is_outside) {
+        return Err(FitError::Frequency {
+            line: line.line,
+            frequency_hz: line.frequency_hz,
+            least,
+            most,
+        }
+        .into());
+    }
     let data = lines
         .iter()
         .map(|line| 1 + usize::from(line.real_hz.is_some()))

@@ -112,6 +112,13 @@ pub struct FitProblem<'a> {
     pub own: Option<Vec<f64>>,
 }
 
+impl FitError {
+    /// Whether the table is to blame rather than the run.
+    pub fn is_usage(&self) -> bool {
+        matches!(self, Self::TooManyLines { .. } | Self::Frequency { .. })
+    }
+}
+
 impl FitProblem<'_> {
     /// Real numbers measured.
     pub fn data_count(&self) -> usize {
@@ -133,6 +140,30 @@ pub enum FitError {
         parameters: usize,
         /// Numbers measured.
         data: usize,
+    },
+    /// More lines than modes that anybody measures.
+    #[error(
+        "the table has {lines} lines, at most {most} modes can be fitted: give the modes alone, not a frequency response"
+    )]
+    TooManyLines {
+        /// Lines.
+        lines: usize,
+        /// The limit.
+        most: usize,
+    },
+    /// A frequency that no mode has.
+    #[error(
+        "line {line} of the table: {frequency_hz:e} Hz is no frequency of a mode, which lies between {least:e} and {most:e} Hz"
+    )]
+    Frequency {
+        /// Its line.
+        line: usize,
+        /// What it says, Hz.
+        frequency_hz: f64,
+        /// Lower end, Hz.
+        least: f64,
+        /// Upper end, Hz.
+        most: f64,
     },
     /// The model fails at every point looked at.
     #[error(

@@ -16,14 +16,15 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod notes;
 mod settings;
 
-use super::StudyError;
 use super::cycle::limit_cycle;
+use super::{StudyError, extent_of};
 use crate::case::{Annulus, Body, Case, Revolution, Transient};
 use crate::cycle::Family;
 use crate::fem::operator::{SimdLevel, StiffnessOperator};
-use crate::mesh::{AnnulusMesh, Mesh2d, SolidSector};
+use crate::mesh::{AnnulusMesh, Mesh, SolidSector};
 use crate::results::transient::TransientReport;
 use crate::transient::{
     CentralDifference, InitialState, Recorder, RecorderSettings, StepPlan, TransientAnalysis,
@@ -37,7 +38,7 @@ pub struct TransientStudy<'a> {
     /// The case.
     pub case: &'a Case,
     /// Its mesh; of a body in three dimensions the section across the axis.
-    pub mesh: Arc<Mesh2d>,
+    pub mesh: Arc<Mesh>,
     /// One sector of a body in three dimensions.
     pub sector: Option<SolidSector>,
     transient: &'a Transient,
@@ -189,12 +190,16 @@ impl<'a> TransientStudy<'a> {
     /// Reads a record.
     pub fn analyse(&self, record: &Recorder) -> TransientAnalysis {
         let perturbation = &self.settings.perturbation;
-        // Noise seeds every harmonic.
-        let seeded = match perturbation.noise {
-            0.0 => perturbation.harmonics(),
-            _ => record.significant_harmonics(),
+        let analysis = match (self.case.is_annulus(), perturbation.noise) {
+            (false, _) => TransientAnalysis::without_symmetry(record),
+            (true, 0.0) => TransientAnalysis::of(record, &perturbation.harmonics()),
+            // Noise seeds every harmonic.
+            (true, _) => TransientAnalysis::of(record, &record.significant_harmonics()),
         };
-        TransientAnalysis::of(record, &seeded)
+        match self.settings.initial {
+            InitialState::LimitCycle { .. } => analysis.from_limit_cycle(),
+            InitialState::Rest | InitialState::SteadySliding => analysis,
+        }
     }
 
     /// Runs to the end, or to where it settles if the case says so, and keeps the samples alone.
@@ -240,6 +245,22 @@ impl<'a> TransientStudy<'a> {
         Ok(*fresh.plan())
     }
 
+    /// [`Self::preflight`] without the base state that the run starts from.
+    ///
+    /// # Errors
+    /// As [`Self::preflight`], without those of steady sliding.
+    pub fn preflight_from_rest(&self) -> Result<StepPlan, StudyError> {
+        let settings = TransientSettings {
+            initial: InitialState::Rest,
+            ..self.settings.clone()
+        };
+        let operator = self.operator()?;
+        let started = CentralDifference::start(self.body(), operator.as_ref(), &settings);
+        let fresh = started.map_err(|error| self.error(error))?;
+        self.recorder(&fresh)?;
+        Ok(*fresh.plan())
+    }
+
     /// What there is to report of a run by its record; what it took is left zero.
     pub fn report<'b>(
         &'b self,
@@ -255,7 +276,9 @@ impl<'a> TransientStudy<'a> {
             mesh: &self.mesh,
             solid: self.sector.as_ref(),
             material: case.materials(),
+            has_harmonics: case.is_annulus(),
             thickness: self.thickness(),
+            extent: extent_of(case),
             friction_coefficient: case.contact.sliding.friction_coefficient,
             initial: settings.initial.name(),
             perturbation: &settings.perturbation,
@@ -269,6 +292,7 @@ impl<'a> TransientStudy<'a> {
             stepping_s: 0.0,
             wall_s: 0.0,
             is_finished: true,
+            notes: self.notes(record, analysis, plan.time_step),
         }
     }
 

@@ -1,7 +1,7 @@
 //! From the case's terms to those of the time loop, and its errors back to keys of the case.
 
 use crate::case::{Case, Transient};
-use crate::mesh::{AnnulusMesh, Mesh2d, SolidSector};
+use crate::mesh::{AnnulusMesh, Mesh, SolidSector};
 use crate::study::StudyError;
 use crate::transient::{
     Breakdown, RecorderSettings, SolidTransientModel, TransientBody, TransientError,
@@ -11,7 +11,7 @@ use crate::transient::{
 /// The body of a case; `mesh` and `annulus` are the section of one in three dimensions, `sector`.
 pub fn body<'a>(
     case: &'a Case,
-    mesh: &'a Mesh2d,
+    mesh: &'a Mesh,
     annulus: Option<&'a AnnulusMesh>,
     sector: Option<&'a SolidSector>,
 ) -> TransientBody<'a> {

@@ -21,4 +21,4 @@ mod summary;
 pub use plan::SamplePlan;
 pub use robust::{Design, curves};
 pub use samples::{BLOCK, Sampler, largest_friction};
-pub use summary::{indices, summarize, wilson};
+pub use summary::{indices, indices_with_intervals, summarize, wilson};

@@ -2,7 +2,7 @@
 
 use super::{Sampler, wilson};
 use crate::case::Case;
-use crate::results::uncertainty::{DesignCurve, RobustSummary};
+use crate::results::uncertainty::{DesignCurve, Onset, RobustSummary};
 use crate::study::StudyError;
 use rayon::prelude::*;
 use std::str::FromStr;
@@ -72,13 +72,15 @@ pub fn curves(
 ) -> Result<RobustSummary, StudyError> {
     let samples = case.require_uncertainty()?.samples.min(SAMPLES);
     let curves = designs.iter().map(|design| {
-        let points: Result<Vec<[f64; 4]>, StudyError> = design
+        let solved: Result<Vec<([f64; 4], Vec<Onset>)>, StudyError> = design
             .values
             .iter()
             .map(|&value| probability(case, sampler, design, value, samples))
             .collect();
-        let (points, own) = (points?, case.number(&design.key));
-        let reached = reaches(&points, own, bound);
+        let (points, onsets): (Vec<[f64; 4]>, Vec<Vec<Onset>>) = solved?.into_iter().unzip();
+        let own = case.number(&design.key);
+        let has_effect = onsets.windows(2).any(|pair| !are_same(&pair[0], &pair[1]));
+        let reached = reaches(&points, own, bound).filter(|_| has_effect);
         Ok(DesignCurve {
             key: design.key.clone(),
             own,
@@ -86,6 +88,7 @@ pub fn curves(
             change_percent: reached
                 .zip(own)
                 .map(|(value, own)| 100.0 * (value / own - 1.0)),
+            has_effect,
             points,
         })
     });
@@ -101,14 +104,27 @@ pub fn curves(
     })
 }
 
-/// A design, its probability of squeal and the ends of that probability's interval.
+/// Relative difference of critical frictions and frequencies that is round-off.
+const ROUND_OFF: f64 = 1e-9;
+
+/// Whether two models have the same onsets.
+fn are_same(a: &[Onset], b: &[Onset]) -> bool {
+    let is_near = |a: f64, b: f64| (a - b).abs() <= ROUND_OFF * a.abs();
+    a.len() == b.len()
+        && a.iter().zip(b).all(|(a, b)| {
+            is_near(a.critical_friction, b.critical_friction)
+                && is_near(a.frequency_hz, b.frequency_hz)
+        })
+}
+
+/// A design, its probability of squeal and the ends of that probability's interval; beside it the onsets of the first sample.
 fn probability(
     case: &Case,
     sampler: &Sampler<'_>,
     design: &Design,
     value: f64,
     samples: usize,
-) -> Result<[f64; 4], StudyError> {
+) -> Result<([f64; 4], Vec<Onset>), StudyError> {
     let designed = design.case(case, value)?;
     let (leading, followed) = sampler.sample(&designed, 0, None);
     if let Some(error) = leading.error {
@@ -127,7 +143,7 @@ fn probability(
     let solved = outcomes.iter().flatten().count();
     let hits = outcomes.iter().flatten().filter(|hit| **hit).count();
     let p = wilson(hits, solved);
-    Ok([value, p.value, p.low, p.high])
+    Ok(([value, p.value, p.low, p.high], leading.onsets))
 }
 
 /// The value nearest to the case's own at which the probability is no higher than the bound, by linear interpolation.

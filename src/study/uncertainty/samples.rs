@@ -4,6 +4,7 @@ use super::SamplePlan;
 use crate::case::{Case, Uncertainty};
 use crate::cea::UnstableInterval;
 use crate::results::uncertainty::{Onset, Sample};
+use crate::study::eigenvalues::{OnsetSearch, Solver};
 use crate::study::{StudyError, eigenvalues, one_line};
 use rayon::prelude::*;
 
@@ -35,7 +36,8 @@ impl<'a> Sampler<'a> {
     /// The samples of a case.
     ///
     /// # Errors
-    /// A case without uncertain parameters, or that has no onsets to look for as it is written.
+    /// A case without uncertain parameters, or that has no onsets to look for as it is written: a method that its body does not
+    /// have, a contact at rest.
     pub fn new(case: &'a Case) -> Result<Self, StudyError> {
         let uncertainty = case.require_uncertainty()?;
         let sampler = Self {
@@ -43,7 +45,7 @@ impl<'a> Sampler<'a> {
             uncertainty,
             plan: SamplePlan::new(uncertainty),
         };
-        case.require_cea()?;
+        Solver::of(case, case.require_cea()?.method)?;
         Ok(sampler)
     }
 
@@ -61,20 +63,20 @@ impl<'a> Sampler<'a> {
         case.with_parameters(parameters.zip(values.iter().copied()))
     }
 
-    /// Friction coefficient and onsets at a point, and the harmonics that hold modes where all were looked at.
+    /// Friction coefficient and onsets at a point, and the search that found them.
     fn onsets(
         &self,
         case: &Case,
         values: &[f64],
         harmonics: Option<&[usize]>,
-    ) -> Result<(f64, Vec<Onset>, Vec<usize>), String> {
+    ) -> Result<(f64, Vec<Onset>, OnsetSearch), String> {
         let case = self.case_at(case, values)?;
         let own = case.contact.sliding.friction_coefficient;
         let mut frictions = vec![own, largest_friction(self.case)];
         frictions.sort_by(f64::total_cmp);
         frictions.dedup();
         let found = eigenvalues::unstable_intervals(&case, &frictions, harmonics);
-        let (intervals, followed) = found.map_err(|failure| failure.messages().join("; "))?;
+        let found = found.map_err(|failure| failure.messages().join("; "))?;
         let onset = |interval: &UnstableInterval| Onset {
             harmonic: case.has_sectors().then_some(interval.harmonic),
             branch: interval.branch,
@@ -88,7 +90,7 @@ impl<'a> Sampler<'a> {
             restabilized: interval.restabilized.map(|end| end.0),
             frequency_hz: interval.frequency_hz,
         };
-        Ok((own, intervals.iter().map(onset).collect(), followed))
+        Ok((own, found.intervals.iter().map(onset).collect(), found))
     }
 
     /// One sample without what the indices need of it.
@@ -104,14 +106,16 @@ impl<'a> Sampler<'a> {
             values: values.clone(),
             friction_coefficient: case.contact.sliding.friction_coefficient,
             onsets: Vec::new(),
+            within: Vec::new(),
             error: None,
             mixed: Vec::new(),
         };
         match self.onsets(case, &values, harmonics) {
-            Ok((own, onsets, followed)) => {
+            Ok((own, onsets, found)) => {
                 sample.friction_coefficient = own;
                 sample.onsets = onsets;
-                (sample, followed)
+                sample.within = found.within;
+                (sample, found.followed)
             }
             Err(error) => {
                 sample.error = Some(one_line(&error));

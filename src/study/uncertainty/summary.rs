@@ -39,29 +39,62 @@ pub fn wilson(hits: usize, count: usize) -> Interval {
 ///
 /// A. Saltelli et al., "Variance based sensitivity analysis of model output. Design and estimator for the total
 /// sensitivity index", Comput. Phys. Commun. 181 (2010) 259, with M. J. W. Jansen's estimators. Zero without variance.
-pub fn indices(a: &[f64], b: &[f64], mixed: &[Vec<f64>]) -> Vec<Index> {
+pub fn indices(a: &[f64], b: &[f64], mixed: &[Vec<f64>]) -> Vec<[f64; 2]> {
     let count = a.len().max(1) as f64;
     let both = || a.iter().chain(b);
     let mean = both().sum::<f64>() / (2.0 * count);
     let variance = both().map(|f| (f - mean).powi(2)).sum::<f64>() / (2.0 * count);
     if !(variance > 0.0) {
-        return vec![
-            Index {
-                first: 0.0,
-                total: 0.0
-            };
-            mixed.len()
-        ];
+        return vec![[0.0; 2]; mixed.len()];
     }
     let distance = |x: &[f64], y: &[f64]| {
         let squares = x.iter().zip(y).map(|(x, y)| (x - y).powi(2));
         squares.sum::<f64>() / (2.0 * count * variance)
     };
-    let of = |column: &Vec<f64>| Index {
-        first: 1.0 - distance(b, column),
-        total: distance(a, column),
-    };
+    let of = |column: &Vec<f64>| [1.0 - distance(b, column), distance(a, column)];
     mixed.iter().map(of).collect()
+}
+
+/// Resamples that the intervals of indices rest on.
+const RESAMPLES: usize = 400;
+
+/// First-order and total index of each parameter with 95 % intervals: the percentiles over samples drawn from the given ones
+/// with replacement.
+///
+/// G. E. B. Archer, A. Saltelli, I. M. Sobol, "Sensitivity measures, ANOVA-like techniques and the use of bootstrap", J. Stat.
+/// Comput. Simul. 58 (1997) 99.
+pub fn indices_with_intervals(a: &[f64], b: &[f64], mixed: &[Vec<f64>]) -> Vec<Index> {
+    let count = a.len();
+    // A fixed sequence of numbers: the same samples have the same intervals.
+    let mut state = 0x9e37_79b9_7f4a_7c15_u64;
+    let mut draw = || {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        ((state >> 33) as usize) % count.max(1)
+    };
+    let resampled: Vec<Vec<[f64; 2]>> = (0..RESAMPLES)
+        .map(|_| {
+            let drawn: Vec<usize> = (0..count).map(|_| draw()).collect();
+            let of = |values: &[f64]| -> Vec<f64> { drawn.iter().map(|&i| values[i]).collect() };
+            let columns: Vec<Vec<f64>> = mixed.iter().map(|column| of(column)).collect();
+            indices(&of(a), &of(b), &columns)
+        })
+        .collect();
+    let interval = |k: usize, which: usize| {
+        let mut values: Vec<f64> = resampled.iter().map(|found| found[k][which]).collect();
+        values.sort_by(f64::total_cmp);
+        quantile(&values, 0.025).zip(quantile(&values, 0.975))
+    };
+    let found = indices(a, b, mixed).into_iter().enumerate();
+    found
+        .map(|(k, [first, total])| Index {
+            first,
+            total,
+            first_interval: interval(k, 0).map(<[f64; 2]>::from),
+            total_interval: interval(k, 1).map(<[f64; 2]>::from),
+        })
+        .collect()
 }
 
 /// What the samples of a case say.
@@ -96,6 +129,8 @@ pub fn summarize(case: &Case, samples: &[Sample]) -> UncertaintySummary {
             sample.error.as_deref().unwrap_or_default()
         ));
     }
+    let families = families(&solved, largest_friction);
+    notes.extend(beyond_note(&families));
     UncertaintySummary {
         command: "uncertainty".to_owned(),
         title: case.title.clone(),
@@ -107,7 +142,7 @@ pub fn summarize(case: &Case, samples: &[Sample]) -> UncertaintySummary {
         largest_friction,
         probability_unstable: wilson(hits(&|sample| sample.friction_coefficient), count),
         critical_friction: critical_friction(&solved, largest_friction),
-        families: families(&solved, largest_friction),
+        families,
         decisive: decisive.map(|(key, _)| key.clone()),
         sobol,
         probability_over_friction: over.collect(),
@@ -131,7 +166,7 @@ fn sobol_of(keys: &[String], solved: &[&Sample], most: f64) -> (BTreeMap<String,
     let a: Vec<f64> = used.iter().map(own).collect();
     let column = |k: usize| used.iter().map(|sample| capped(sample.mixed[k])).collect();
     let mixed: Vec<Vec<f64>> = (1..=keys.len()).map(column).collect();
-    let found = indices(&a, &column(0), &mixed);
+    let found = indices_with_intervals(&a, &column(0), &mixed);
     (keys.iter().cloned().zip(found).collect(), used.len())
 }
 
@@ -187,6 +222,18 @@ fn critical_friction(solved: &[&Sample], most: f64) -> CriticalFriction {
     }
 }
 
+/// Families that leave the range of frequencies in some samples.
+fn beyond_note(families: &[FamilySummary]) -> Option<String> {
+    let beyond = families.iter().filter(|family| family.beyond_limit > 0.0);
+    let worst = beyond.max_by(|a, b| a.beyond_limit.total_cmp(&b.beyond_limit))?;
+    Some(format!(
+        "{} lies beyond the modes that [cea] asks for in {:.4} of the samples and counts as stable there: raise \
+         cea.max_frequency_hz (or cea.modes) to follow it in all of them",
+        worst.name(),
+        worst.beyond_limit
+    ))
+}
+
 /// Modes followed across samples by harmonic, rank and direction.
 fn families(solved: &[&Sample], most: f64) -> Vec<FamilySummary> {
     let mut names: Vec<(Option<usize>, usize, i8)> = Vec::new();
@@ -225,6 +272,8 @@ fn families(solved: &[&Sample], most: f64) -> Vec<FamilySummary> {
             let mut sorted: Vec<f64> = firsts.iter().map(|f| f.0).collect();
             sorted.sort_by(f64::total_cmp);
             let within = sorted.partition_point(|value| value.is_finite());
+            let is_beyond = |sample: &&&Sample| sample.is_beyond(harmonic, branch);
+            let beyond = solved.iter().filter(is_beyond).count();
             let frequencies = firsts.iter().map(|f| f.1).filter(|f| f.is_finite());
             FamilySummary {
                 harmonic,
@@ -232,6 +281,7 @@ fn families(solved: &[&Sample], most: f64) -> Vec<FamilySummary> {
                 direction,
                 probability: hits as f64 / count,
                 probability_in_range: within as f64 / count,
+                beyond_limit: beyond as f64 / count,
                 critical_friction_median: quantile(&sorted[..within], 0.5).unwrap_or(most),
                 frequency_hz: frequencies.sum::<f64>() / within.max(1) as f64,
                 critical_friction_percentiles: (1..100)
@@ -284,7 +334,7 @@ mod tests {
                     column.push(ishigami(&x));
                 }
             }
-            for (found, exact) in indices(&a, &b, &mixed).iter().zip(exact) {
+            for (found, exact) in indices_with_intervals(&a, &b, &mixed).iter().zip(exact) {
                 assert!(
                     (found.first - exact[0]).abs() < 0.01,
                     "{seed} {found:?} {exact:?}"
@@ -293,6 +343,15 @@ mod tests {
                     (found.total - exact[1]).abs() < 0.01,
                     "{seed} {found:?} {exact:?}"
                 );
+                // Points of a Sobol sequence scatter less than the random ones that resampling stands for.
+                for (interval, exact) in [
+                    (found.first_interval, exact[0]),
+                    (found.total_interval, exact[1]),
+                ] {
+                    let [low, high] = interval.expect("an interval");
+                    assert!(low <= exact && exact <= high, "{seed} {found:?} {exact}");
+                    assert!(high - low < 0.15, "{seed} {found:?}");
+                }
             }
         }
     }

@@ -1,6 +1,6 @@
 //! Consistency checks of warnings: what is possible but hardly meant is said, with the reason.
 
-use super::{DISC, RUN, STUDY, assert_reports, valid};
+use super::{DISC, RUN, STUDY, assert_reports, report, valid};
 
 #[test]
 fn slips_of_units_are_said() {
@@ -99,4 +99,86 @@ fn keys_that_an_analysis_ignores_are_said() {
         ],
     );
     assert!(rigid.ignored_by("transient").is_empty());
+}
+
+#[test]
+fn slips_of_thickness_and_of_seeds_are_said_by_their_own_key() {
+    let thick = valid(RUN, &["geometry.thickness=9"]);
+    assert_reports(
+        &thick.warnings[0].to_string(),
+        &["geometry.thickness = 9 m is thicker than 1 m", "0.009"],
+    );
+    let seeds = [
+        "transient.perturbation.harmonics=[2]",
+        "transient.perturbation.velocity=1000",
+    ];
+    let fast = valid(RUN, &seeds);
+    assert_reports(
+        &fast.warnings[0].to_string(),
+        &["transient.perturbation.velocity", "strains are not small"],
+    );
+}
+
+/// What cannot run because of a slip of units names the slip before its consequence.
+#[test]
+fn a_slip_of_units_is_named_before_what_it_makes_impossible() {
+    let text = report(RUN, &["damping.stiffness_coefficient=45"]);
+    let [slip, consequence] =
+        ["modes there do not vibrate", "time steps"].map(|part| text.find(part).expect(part));
+    assert!(slip < consequence, "{text}");
+}
+
+#[test]
+fn numbers_beyond_reason_are_refused() {
+    for (overrides, parts) in [
+        (
+            vec!["contact.friction_coefficient=1e18"],
+            ["beyond any friction coefficient", "at most 1000"],
+        ),
+        (
+            vec!["cea.friction_coefficients=[0.1, 1e18]"],
+            ["cea.friction_coefficients = 1e18", "at most 1000"],
+        ),
+        (
+            vec!["material.young_modulus=1e18"],
+            ["as no material has them", "Pa and kg/m3"],
+        ),
+    ] {
+        assert_reports(&report(DISC, &overrides), &parts);
+    }
+    let seeds = [
+        "transient.perturbation.harmonics=[2]",
+        "transient.perturbation.velocity=1e100",
+    ];
+    assert_reports(&report(RUN, &seeds), &["faster than waves in the material"]);
+}
+
+/// A deviation in the unit of the key is the classic slip.
+#[test]
+fn a_log_normal_deviation_in_the_unit_of_the_key_is_refused() {
+    let distributions = "[uncertainty.distributions]\n\"contact.normal_stiffness\" = ";
+    let of = |scatter: &str| format!("{DISC}\n{distributions}{{ log_normal = {scatter} }}\n");
+    let text = report(&of("[7.4e12, 7.4e11]"), &[]);
+    assert_reports(
+        &text,
+        &[
+            "standard deviation of the natural logarithm",
+            "[median, 0.1]",
+        ],
+    );
+    assert!(valid(&of("[7.4e12, 0.3]"), &[]).uncertainty.is_some());
+}
+
+#[test]
+fn an_annulus_under_a_pressure_is_refused_for_the_pressure_alone() {
+    let pressed = [
+        "contact.interference=0",
+        "boundaries={ outer = { condition = \"pressure\", pressure = 1e6 } }",
+    ];
+    let text = report(DISC, &pressed);
+    assert!(text.contains("boundaries.outer"), "{text}");
+    assert!(
+        !text.contains("contact.interference = 0.0 must be positive"),
+        "{text}"
+    );
 }

@@ -2,7 +2,7 @@
 //!
 //! Consistency checks: they look at the drawing, not at the physics.
 
-use crate::figures::{check, is_finite, texts};
+use crate::figures::{check, check_texts, is_finite, texts};
 use frictionsim::chart::{
     Axis, Bars, Cell, ChartError, ColourMap, Drawing, Field, Figure, Fill, Heat, Label, Line,
     Marker, Mesh, Panel, Points, Rule, SERIES, Shapes, Side,
@@ -236,6 +236,45 @@ fn markers_at_the_end_of_an_axis_are_whole() {
         .unwrap()
         .to_owned();
     assert!(!clipped.contains("<path"), "{clipped}");
+}
+
+#[test]
+fn texts_of_any_length_stay_on_the_sheet_at_every_width() {
+    let long = "a *quantity* with a name that is a good deal longer than any column of a page is wide, as users write them";
+    let panel = |name: &str| {
+        Panel::new(
+            Axis::new("time *t* since the beginning of the record", "s").tight(),
+            Axis::new("amplitude", "m"),
+        )
+        .caption(long)
+        .heading(long)
+        .legend()
+        .layer(line(&[1.0, 2.0], long))
+        .layer(line(&[2.0, 1.0], name))
+        .layer(Rule::horizontal(1.5).at_rim("10.51 kHz, mode 5, *n* = 2"))
+        .layer(Rule::vertical(0.98).at_rim("mode 5"))
+        .layer(Label::new((0.99, 1.99), "label at the rim"))
+    };
+    let figure = Figure::new("long", "Long.")
+        .columns(2)
+        .note(long)
+        .panel(panel("one"))
+        .panel(panel("two"));
+    for width in [70.0, 85.0, 120.0, 178.0] {
+        let svg = figure.to_svg(Some(width)).unwrap();
+        check_texts(&format!("long texts at {width} mm"), &svg);
+    }
+}
+
+#[test]
+fn a_character_that_is_none_does_not_stop_a_drawing() {
+    let caption = "title \u{fffe} and \u{ffff}";
+    let panel = plot().caption(caption).layer(line(&[1.0, 2.0], caption));
+    let svg = Figure::new("none", caption)
+        .panel(panel)
+        .to_svg(None)
+        .unwrap();
+    assert!(Drawing::parse(&svg).is_ok());
 }
 
 #[test]

@@ -3,6 +3,7 @@
 //!
 //! Consistency checks: they look at the drawing, not at the physics.
 
+mod bodies;
 mod grammar;
 mod report;
 mod run;
@@ -30,6 +31,62 @@ fn texts(svg: &str) -> Vec<String> {
     words.collect()
 }
 
+/// The boxes of the texts of a drawing, points, as the embedded font sets them, with their words; and the size of the sheet.
+fn text_boxes(svg: &str) -> (Vec<(String, [f64; 4], bool)>, [f64; 2]) {
+    use resvg::usvg::{Group, Node, Options, PaintOrder, Tree};
+    fn visit(group: &Group, out: &mut Vec<(String, [f64; 4], bool)>) {
+        for node in group.children() {
+            match node {
+                Node::Group(group) => visit(group, out),
+                Node::Text(text) => {
+                    let words: String = text.chunks().iter().map(|chunk| chunk.text()).collect();
+                    let spans = text.chunks().iter().flat_map(|chunk| chunk.spans());
+                    let has_halo = spans
+                        .into_iter()
+                        .any(|span| span.paint_order() == PaintOrder::StrokeAndFill);
+                    let place = text.abs_bounding_box();
+                    let ends = [place.left(), place.top(), place.right(), place.bottom()];
+                    out.push((words, ends.map(f64::from), has_halo));
+                }
+                _ => {}
+            }
+        }
+    }
+    let mut options = Options::default();
+    let fonts = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/chart/font");
+    options.fontdb_mut().load_fonts_dir(fonts);
+    let tree = Tree::from_str(svg, &options).unwrap();
+    let mut boxes = Vec::new();
+    visit(tree.root(), &mut boxes);
+    let size = tree.size();
+    (boxes, [size.width(), size.height()].map(f64::from))
+}
+
+/// Holds the texts of a drawing to the sheet, and those without a ground of their own apart from each other.
+fn check_texts(name: &str, svg: &str) {
+    let (boxes, [width, height]) = text_boxes(svg);
+    for (words, [left, top, right, bottom], _) in &boxes {
+        let is_inside =
+            *left > -0.5 && *top > -0.5 && *right < width + 0.5 && *bottom < height + 0.5;
+        assert!(
+            is_inside,
+            "{name}: '{words}' at {left:.1} to {right:.1}, {top:.1} to {bottom:.1} leaves {width:.1} x {height:.1}"
+        );
+    }
+    let plain: Vec<_> = boxes.iter().filter(|text| !text.2).collect();
+    for (at, (words, a, _)) in plain.iter().enumerate() {
+        for (others, b, _) in &plain[at + 1..] {
+            let overlap = |k: usize| a[k + 2].min(b[k + 2]) - a[k].max(b[k]);
+            // Boxes reach from the ascender to the descender: lines that touch there are apart.
+            let is_apart = overlap(0) < 1.0 || overlap(1) < 3.0;
+            assert!(
+                is_apart,
+                "{name}: '{words}' and '{others}' lie on each other"
+            );
+        }
+    }
+}
+
 /// Whether no attribute or text of a drawing holds what is no number; encoded images may spell anything.
 fn is_finite(svg: &str) -> bool {
     let parts = svg.split("base64,").enumerate();
@@ -53,6 +110,7 @@ fn check(name: &str, svg: &str, expected: &[&str]) {
     assert!(svg.contains("<title") && svg.contains("<desc"));
     assert!(is_finite(svg), "{name}");
     assert!(svg.len() < LARGEST_SVG, "{name}: {} bytes", svg.len());
+    check_texts(name, svg);
     let png = Drawing::parse(svg).unwrap().to_png(220.0).unwrap();
     std::fs::write(folder.join(format!("{name}.png")), &png).unwrap();
     assert!(ink_fraction(&png) > 0.005, "{name} is blank");

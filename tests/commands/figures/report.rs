@@ -1,9 +1,9 @@
 //! The report of an analysis, written to a folder.
 
-use crate::figures::synthetic;
+use crate::figures::{check_texts, synthetic};
 use frictionsim::fem::{NodalStress, RayleighDamping};
 use frictionsim::results::cea::{BaseField, BaseState, CeaReport, draw};
-use frictionsim::results::{DrawingOptions, Manifest, OutputFolder, Replace};
+use frictionsim::results::{DrawingOptions, Extent, Format, Manifest, OutputFolder, Replace};
 use std::time::Instant;
 
 #[test]
@@ -20,7 +20,7 @@ fn report_of_an_eigenvalue_analysis_holds_every_figure_table_and_the_case() {
         nodes: contact.clone(),
         angles: contact
             .iter()
-            .map(|&node| mesh.frame_angles[node as usize])
+            .map(|&node| mesh.frame_angles()[node as usize])
             .collect(),
         pressures: vec![2.827e6; contact.len()],
         shears: vec![0.848e6; contact.len()],
@@ -48,6 +48,7 @@ fn report_of_an_eigenvalue_analysis_holds_every_figure_table_and_the_case() {
         selection: "below 17500 Hz".into(),
         friction_coefficients: &frictions,
         sweep: &sweep,
+        contact_changes: &[],
         base: BaseState {
             friction_coefficient: 0.3,
             slipping: 180,
@@ -58,6 +59,7 @@ fn report_of_an_eigenvalue_analysis_holds_every_figure_table_and_the_case() {
             torque_n_m: Some(20.15),
             drag_n: None,
             power_w: 1287.0,
+            extent: Extent::WholeBody,
         },
         field: &field,
         solid: None,
@@ -70,6 +72,7 @@ fn report_of_an_eigenvalue_analysis_holds_every_figure_table_and_the_case() {
         mass_coefficient: synthetic::MASS_COEFFICIENT,
         stiffness_coefficient: synthetic::STIFFNESS_COEFFICIENT,
     };
+    let dampings = [("damping *ζ*".to_owned(), damping)];
     let manifest = Manifest {
         case_text: "[mesh]\ncircumferential_elements = 180\n".into(),
         case_file: "disc.toml".into(),
@@ -78,9 +81,32 @@ fn report_of_an_eigenvalue_analysis_holds_every_figure_table_and_the_case() {
     let path = std::path::PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("report");
     let folder = OutputFolder::open(&path, &manifest, Replace::Anything).unwrap();
     let start = Instant::now();
-    draw(&folder, &report, damping, &DrawingOptions::default()).unwrap();
+    draw(&folder, &report, &dampings, &DrawingOptions::default()).unwrap();
     println!("figures and report in {:?}", start.elapsed());
     folder.finish().unwrap();
+    for width in [85.0, 178.0] {
+        let options = DrawingOptions {
+            width_mm: Some(width),
+            formats: vec![Format::Svg],
+            ..DrawingOptions::default()
+        };
+        let folder = tempfile::tempdir().unwrap();
+        let folder =
+            OutputFolder::open(&folder.path().join("out"), &manifest, Replace::Anything).unwrap();
+        // How long the run took is no matter of its report: the same bytes another day.
+        let slower = CeaReport {
+            wall_s: 77.7,
+            ..report.clone()
+        };
+        draw(&folder, &slower, &dampings, &options).unwrap();
+        let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
+        assert!(!read("report.html").contains("77.7"));
+        for entry in std::fs::read_dir(folder.path().join("figures")).unwrap() {
+            let path = entry.unwrap().path();
+            let name = format!("{} at {width} mm", path.display());
+            check_texts(&name, &std::fs::read_to_string(path).unwrap());
+        }
+    }
     let text = std::fs::read_to_string(path.join("report.html")).unwrap();
     for wanted in [
         "<h1>Polycarbonate disc</h1>",

@@ -5,9 +5,9 @@ use crate::figures::check;
 use frictionsim::contact::SlidingContact;
 use frictionsim::fem::operator::SimdLevel;
 use frictionsim::mesh::{AnnulusMesh, ElementKind};
-use frictionsim::results::DrawingOptions;
 use frictionsim::results::charts::ModeLine;
 use frictionsim::results::transient::{RunFigures, draw_run};
+use frictionsim::results::{DrawingOptions, Extent};
 use frictionsim::transient::{
     CentralDifference, InitialState, OperatorChoice, Perturbation, Recorder, RecorderSettings,
     TimeStep, TransientAnalysis, TransientModel, TransientSettings, build_operator,
@@ -47,21 +47,24 @@ fn a_run_gets_every_figure_of_its_record() {
     let analysis = TransientAnalysis::of(&record, &[2]);
     let growth = analysis.growth.iter().filter_map(|g| {
         let stage = g.stage.as_ref().ok()?;
-        Some((g.harmonic, stage.rate_per_s.value))
+        Some((g.harmonic()?, stage.rate_per_s.value))
     });
     let data = RunFigures {
         record: &record,
         analysis: &analysis,
         mesh: &annulus.mesh,
         solid: None,
+        has_harmonics: true,
         material: model.material,
         thickness: 0.009,
+        extent: Extent::MetreOfThickness,
         peripheral_speed: rotation_speed * 0.0205,
         references: vec![ModeLine {
             frequency_hz: 9901.0,
             label: "mode 5, *n* = 2".into(),
         }],
         growth_rates: growth.collect(),
+        mode_rates: Vec::new(),
     };
     let started = std::time::Instant::now();
     let figures = draw_run(&data, &DrawingOptions::default()).unwrap();
@@ -83,12 +86,20 @@ fn a_run_gets_every_figure_of_its_record() {
         ("shear-stress", &["shear stress τrθ (MPa)"]),
         ("trajectories", &["contact node 196", "radial ur"]),
         ("contact", &["traction (", "cylinder Ωa"]),
-        ("energy", &["power (", "stored energy"]),
+        ("energy", &["power (W/m)", "stored energy", "J/m)"]),
     ];
     assert_eq!(figures.len(), expected.len());
     for (figure, (name, labels)) in figures.iter().zip(expected) {
         assert_eq!(figure.name, name);
         check(&format!("run-{name}"), &figure.svg, labels);
+    }
+    // One column of a page.
+    let narrow = DrawingOptions {
+        width_mm: Some(85.0),
+        ..DrawingOptions::default()
+    };
+    for figure in draw_run(&data, &narrow).unwrap() {
+        check(&format!("run-{}-column", figure.name), &figure.svg, &[]);
     }
     let again = draw_run(&data, &DrawingOptions::default()).unwrap();
     assert_eq!(figures, again);

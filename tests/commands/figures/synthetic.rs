@@ -2,7 +2,7 @@
 
 use faer::c64;
 use frictionsim::cea::{ComplexMode, FrictionPoint, FrictionSweep, UnstableInterval};
-use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind, Mesh2d};
+use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind, Mesh};
 use std::f64::consts::{PI, TAU};
 
 pub const MASS_COEFFICIENT: f64 = 40.0;
@@ -28,7 +28,7 @@ const PAIRS: [(f64, usize, usize, f64); 16] = [
     (17447.0, 2, 2, 66.0),
 ];
 
-pub fn mesh(circumferential_elements: usize, radial_elements: usize) -> Mesh2d {
+pub fn mesh(circumferential_elements: usize, radial_elements: usize) -> Mesh {
     AnnulusMesh::generate(&AnnulusSpecification {
         inner_radius: 0.0205,
         outer_radius: 0.0905,
@@ -48,7 +48,7 @@ fn rayleigh(omega: f64) -> f64 {
 }
 
 /// All modes at one friction value; pairs split symmetrically, the wave against the rotor gains.
-pub fn modes(friction: f64, mesh: Option<&Mesh2d>) -> Vec<ComplexMode> {
+pub fn modes(friction: f64, mesh: Option<&Mesh>) -> Vec<ComplexMode> {
     let mut modes = Vec::new();
     for (frequency, harmonic, branch, split) in PAIRS {
         let directions: &[i8] = if harmonic == 0 { &[0] } else { &[1, -1] };
@@ -105,7 +105,7 @@ pub fn sweep(count: usize) -> FrictionSweep {
 
 /// A wave of one harmonic, clamped outside, with an arbitrary solver phase; friction shears it.
 pub fn shape(
-    mesh: &Mesh2d,
+    mesh: &Mesh,
     harmonic: usize,
     branch: usize,
     direction: i8,
@@ -113,7 +113,7 @@ pub fn shape(
 ) -> Vec<c64> {
     let mut out = Vec::with_capacity(2 * mesh.node_count());
     let phase = c64::new(0.3, 0.9);
-    for (&[x, y], &angle) in mesh.nodes.iter().zip(&mesh.frame_angles) {
+    for (&[x, y, _], &angle) in mesh.nodes.iter().zip(mesh.frame_angles()) {
         let s = ((x.hypot(y) - 0.0205) / 0.07).clamp(0.0, 1.0);
         let profile = (PI * (branch as f64 + 0.5) * s).cos() * (1.0 - s);
         let swirl = if direction == 0 { 0.0 } else { 1.2 * friction };

@@ -39,7 +39,7 @@ fn each_harmonic_has_its_own_velocity_and_its_crest_at_its_phase() {
         let project = |offset: f64| {
             let nodes = nodes.iter().map(|&node| node as usize);
             let terms = nodes.map(|node| {
-                let angle = harmonic as f64 * annulus.mesh.frame_angles[node] - offset;
+                let angle = harmonic as f64 * annulus.mesh.frame_angles()[node] - offset;
                 field[2 * node + 1] * angle.cos()
             });
             terms.sum::<f64>() * 2.0 / 60.0

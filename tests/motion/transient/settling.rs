@@ -18,6 +18,61 @@ fn run(rpm: f64, settings: &TransientSettings, wanted: &RecorderSettings) -> (Re
     (record, end)
 }
 
+/// A run at friction 0.2 and 1000 rpm, where a wave of two nodal diameters grows on the cycle of one.
+fn torus() -> Recorder {
+    let annulus = disc(60, 12);
+    let mut model = model(&annulus, 1000.0);
+    model.contact.friction_coefficient = 0.2;
+    let mut settings = settings(0.05, &[1, 2]);
+    settings.perturbation = Perturbation::of(&[1, 2], 0.3);
+    let operator = build_operator(&model, OperatorChoice::Auto, SimdLevel::detect()).unwrap();
+    let mut run = CentralDifference::start(model, operator.as_ref(), &settings).unwrap();
+    let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
+    run.run(&mut record).unwrap();
+    record
+}
+
+#[test]
+fn a_vibration_of_two_frequencies_is_no_limit_cycle() {
+    let record = torus();
+    for analysis in [
+        TransientAnalysis::of(&record, &[1, 2]),
+        TransientAnalysis::without_symmetry(&record),
+    ] {
+        // Every harmonic keeps its amplitude: only the frequencies tell.
+        assert!(analysis.settling.is_settled());
+        let EndState::TwoFrequency(found) = analysis.settling.state else {
+            panic!("{:?}", analysis.settling);
+        };
+        // The wave of one nodal diameter at 10.4 kHz, that of two at 9.5 kHz and a third of it.
+        let [first, second] = found.frequencies_hz;
+        assert!((first / 10_395.0 - 1.0).abs() < 0.01, "{found:?}");
+        assert!((second / 9500.0 - 1.0).abs() < 0.01, "{found:?}");
+        assert!(
+            (1.4..3.0).contains(&found.envelope_ratio),
+            "{found:?}: (1 + 1/3) / (1 - 1/3) = 2"
+        );
+    }
+}
+
+#[test]
+fn a_run_that_is_too_short_says_the_duration_that_is_enough() {
+    let reason = |duration: f64| {
+        let (record, _) = run(610.0, &seeded(duration, 0.5), &RecorderSettings::default());
+        TransientAnalysis::of(&record, &[2]).settling.reason
+    };
+    let Some(Unsettled::TooShort { duration }) = reason(0.004) else {
+        panic!("{:?}", reason(0.004));
+    };
+    // Five times four blocks of eight periods near 10 kHz.
+    assert!((0.015..0.018).contains(&duration), "{duration}");
+    let then = reason(duration);
+    assert!(
+        !matches!(then, Some(Unsettled::TooShort { .. })),
+        "{then:?}"
+    );
+}
+
 fn seeded(duration: f64, velocity: f64) -> TransientSettings {
     let mut settings = settings(duration, &[2]);
     settings.perturbation = Perturbation::of(&[2], velocity);

@@ -41,7 +41,7 @@ fn fold(
         for place in pattern.column_pointers()[column]..pattern.column_pointers()[column + 1] {
             let row = pattern.row_indices()[place];
             if row < count {
-                let angle = |dof: usize| mesh.mesh.frame_angles[dof / 2];
+                let angle = |dof: usize| mesh.mesh.frame_angles()[dof / 2];
                 let phase = f64::from(n) * (angle(dof) - angle(tangent.unknowns.dofs[row]));
                 folded[(row, home)] += c64::new(phase.cos(), phase.sin()) * values[place];
             }

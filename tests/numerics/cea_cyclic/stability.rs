@@ -5,8 +5,10 @@ use crate::disc::{POLYCARBONATE, annulus, contact};
 use crate::table_1::TABLE_1;
 use frictionsim::cea::cyclic::{CyclicModel, stability_map, sweep};
 use frictionsim::cea::{ModeBranch, ModeLimit, SweepRequest, UnstableInterval};
-use frictionsim::fem::ElasticMaterial;
+use frictionsim::contact::ContactStiffness;
+use frictionsim::fem::{ElasticMaterial, MassKind};
 use frictionsim::mesh::ElementKind;
+use frictionsim::prestress::TangentOptions;
 
 #[test]
 fn eigenvalues_equal_table_1_of_the_paper() {
@@ -237,5 +239,47 @@ fn impossible_requests_name_their_key() {
             &request,
         );
         assert!(outcome.unwrap_err().to_string().contains(key));
+    }
+}
+
+/// Where an eigenvalue is predicted exact to the last bit, `T(theta)` has a pivot of zero: 4 of 1000 random moduli have one.
+#[test]
+fn branches_are_followed_past_an_eigenvalue_predicted_to_the_last_bit() {
+    let specification = annulus(ElementKind::Quad4, 90, 18);
+    let frictions: Vec<f64> = (0..11).map(|k| f64::from(k) / 10.0).collect();
+    let options = TangentOptions {
+        mass: MassKind::Lumped,
+        geometric_stiffness: false,
+        contact: ContactStiffness::default(),
+        ..paper_options()
+    };
+    let intervals = |young_modulus: f64| {
+        let material = ElasticMaterial {
+            young_modulus,
+            ..POLYCARBONATE
+        };
+        let request = SweepRequest {
+            friction_coefficients: &frictions,
+            limit: ModeLimit::MaxFrequency(17_500.0),
+            shapes_at: &[],
+        };
+        let found = sweep(
+            &specification,
+            &material,
+            &options,
+            &contact(1000.0),
+            &request,
+        );
+        found.unwrap().sweep.intervals
+    };
+    let [exact, beside] = [2_540_479_684.482_66, 2_540_479_684.482_67].map(intervals);
+    assert_eq!(exact.len(), beside.len());
+    assert!(!exact.is_empty());
+    for (a, b) in exact.iter().zip(&beside) {
+        // Onsets are located to 1e-9.
+        assert!(
+            (a.critical_friction - b.critical_friction).abs() < 1e-8,
+            "{a:?} {b:?}"
+        );
     }
 }

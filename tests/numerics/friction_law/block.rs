@@ -10,8 +10,7 @@ use frictionsim::fem::{
     ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping, assemble_stiffness,
 };
 use frictionsim::mesh::{
-    BodySpecification, BoundaryCondition, CounterfaceSpecification, ElasticSupport, GmshFile,
-    Mesh2d,
+    BodySpecification, BoundaryCondition, CounterfaceSpecification, ElasticSupport, GmshFile, Mesh,
 };
 use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
 use frictionsim::transient::{
@@ -53,7 +52,7 @@ fn contact(speed: f64) -> SlidingContact {
 }
 
 /// 4 by 3 square elements; the plane below, the spring on the right, the pressure above.
-fn block() -> Mesh2d {
+fn block() -> Mesh {
     let node = |i: usize, j: usize| 1 + i + 5 * j;
     let mut lines = Vec::new();
     for i in 0..4 {
@@ -103,11 +102,11 @@ fn block() -> Mesh2d {
             ("top".to_owned(), BoundaryCondition::Pressure(1e6)),
         ],
     };
-    Mesh2d::from_gmsh(&GmshFile::read(text.as_bytes()).unwrap(), &specification).unwrap()
+    Mesh::from_gmsh(&GmshFile::read(text.as_bytes()).unwrap(), &specification).unwrap()
 }
 
 /// Growth rate of the block on its spring by the eigenvalue analysis, 1/s.
-fn growth_rate(mesh: &Mesh2d, speed: f64) -> f64 {
+fn growth_rate(mesh: &Mesh, speed: f64) -> f64 {
     let stiffness = assemble_stiffness(mesh, &STEEL);
     let base = SteadySliding::solve(mesh, &stiffness, &contact(speed)).unwrap();
     let options = TangentOptions {
@@ -151,7 +150,7 @@ fn a_block_on_a_spring_turns_unstable_at_the_critical_speed_of_the_stick_slip_os
 }
 
 /// Samples of a transient of forty periods that starts from a push.
-fn samples(mesh: &Mesh2d, speed: f64) -> Vec<SampleRow> {
+fn samples(mesh: &Mesh, speed: f64) -> Vec<SampleRow> {
     let model = TransientModel {
         mesh,
         annulus: None,

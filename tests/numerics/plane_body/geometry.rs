@@ -3,7 +3,7 @@
 use crate::disc::annulus;
 use crate::msh::{FORMS, write_msh};
 use crate::triangles::{body, triangles};
-use frictionsim::mesh::{AnnulusMesh, ElementKind, GmshFile, Mesh2d};
+use frictionsim::mesh::{AnnulusMesh, ElementKind, GmshFile, Mesh};
 
 const KINDS: [ElementKind; 4] = [
     ElementKind::Quad4,
@@ -33,14 +33,14 @@ fn refined_arcs_stay_on_their_circles_and_old_nodes_stay_where_they_are() {
         let fine = coarse.refined().unwrap().refined().unwrap();
         assert_eq!(fine.elements.len(), 16 * coarse.elements.len());
         assert_eq!(fine.points[..coarse.points.len()], coarse.points);
-        let mesh: Mesh2d = body(&fine);
+        let mesh: Mesh = body(&fine);
         assert!(mesh.quality().worst_jacobian > 0.3, "{kind:?}");
         for (name, radius) in [("inner", 0.0205), ("outer", 0.0905)] {
             let boundary = mesh.boundary(name).unwrap();
             let per_edge = if kind.is_quadratic() { 2 } else { 1 };
             assert_eq!(boundary.nodes.len(), 4 * 24 * per_edge, "{kind:?} {name}");
             for &node in &boundary.nodes {
-                let [x, y] = mesh.nodes[node as usize];
+                let [x, y] = mesh.plane_node(node as usize);
                 assert!((x.hypot(y) / radius - 1.0).abs() < 1e-12, "{kind:?} {name}");
             }
         }

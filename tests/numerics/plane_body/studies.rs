@@ -8,7 +8,7 @@ use crate::msh::{FORMS, write_msh};
 use frictionsim::case::Case;
 use frictionsim::mesh::{AnnulusMesh, ElementKind};
 use frictionsim::study::eigenvalues::{map, modes_and_onsets, modes_at_own_friction};
-use frictionsim::study::fit::{MeasuredMode, fit_case};
+use frictionsim::study::fit::{MeasuredMode, fit_case, refuse_too_few};
 use frictionsim::study::tangent_options;
 use frictionsim::study::uncertainty::{Sampler, summarize};
 use std::fs;
@@ -188,7 +188,7 @@ fn a_fit_of_an_imported_body_is_of_that_body() {
         .map(|(index, mode)| line(index + 2, mode.frequency_hz()))
         .collect();
     let fitted = fit_case(&case(&folder, "oval.msh", &[]), &lines).unwrap();
-    let found = fitted.estimates[0].value;
+    let found = fitted.parameters[0].value;
     assert!((found / 1500.0 - 1.0).abs() < 1e-6, "{found}");
 }
 
@@ -206,9 +206,8 @@ fn no_study_solves_an_imported_body_by_sectors() {
     let found = map(&body, &cea, cea.map.as_ref().unwrap());
     refusal(found.unwrap_err().messages().join("; "));
     refusal(modes_and_onsets(&body).unwrap_err().messages().join("; "));
-    let samples = Sampler::new(&body).unwrap().block(1);
-    assert!(samples.iter().all(|sample| sample.onsets.is_empty()));
-    refusal(samples[0].error.clone().expect("refused"));
+    let sampler = Sampler::new(&body).map(|_| ());
+    refusal(sampler.unwrap_err().messages().join("; "));
     refusal(
         fit_case(&body, &[line(2, 1e4)])
             .unwrap_err()
@@ -278,4 +277,63 @@ fn relative_seeds_of_an_imported_body_are_shares_of_its_own_slip_speed() {
     let expected = 0.5 * body.contact.sliding.rotation_speed * 0.0905;
     let found = perturbation.waves[0].velocity;
     assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
+}
+
+#[test]
+fn keys_that_have_no_effect_beside_a_mesh_file_are_said() {
+    let folder = folder();
+    let set = [
+        "mesh.circumferential_elements=10",
+        "geometry.inner_radius=0.02",
+    ];
+    let body = case(&folder, "disc.msh", &set);
+    let said: Vec<String> = body.warnings.iter().map(ToString::to_string).collect();
+    for key in ["mesh.circumferential_elements", "geometry.inner_radius"] {
+        let expected = format!("{key} is not used: mesh.file describes the body");
+        assert!(said.iter().any(|text| text.contains(&expected)), "{said:?}");
+    }
+}
+
+/// A contact at rest sticks: no study takes it for one that slides.
+#[test]
+fn no_study_takes_a_contact_at_rest_for_one_that_slides() {
+    let folder = folder();
+    for mesh in ["", "disc.msh"] {
+        let still = case(&folder, mesh, &["contact.rotation_speed_rpm=0"]);
+        let text = modes_and_onsets(&still).unwrap_err().messages().join("; ");
+        assert!(text.contains("the contact sticks at rest"), "{text}");
+        let error = Sampler::new(&still).map(|_| ()).unwrap_err();
+        let text = error.messages().join("; ");
+        assert!(text.contains("the contact sticks at rest"), "{text}");
+    }
+}
+
+/// A check solves no base state: it says what it knows at once.
+#[test]
+fn a_check_of_an_imported_body_estimates_its_own_size() {
+    let folder = folder();
+    let [disc, body] = ["", "disc.msh"].map(|mesh| case(&folder, mesh, &[]).cost());
+    assert_eq!(body.nodes, disc.nodes);
+    assert_eq!(body.elements, disc.elements);
+    assert_eq!(body.dofs, disc.dofs);
+    // The whole mesh costs more than its harmonics.
+    let [cyclic, sparse] = [disc, body].map(|cost| cost.cea.unwrap().seconds);
+    assert!(sparse > 3.0 * cyclic, "{sparse} {cyclic}");
+    let forced = case(&folder, "", &["cea.method=sparse"]).cost();
+    assert_eq!(forced.cea.unwrap().seconds, sparse);
+}
+
+#[test]
+fn a_table_of_more_modes_than_anybody_measures_is_refused_at_once() {
+    let folder = folder();
+    let body = case(&folder, "disc.msh", &[]);
+    let many: Vec<MeasuredMode> = (0..20_000).map(|k| line(k + 2, 1e3 + k as f64)).collect();
+    let text = refuse_too_few(&body, &many).unwrap_err().to_string();
+    assert!(text.contains("20000 lines, at most 1000"), "{text}");
+    let text = refuse_too_few(&body, &[line(2, 1e-320)]).unwrap_err();
+    assert!(
+        text.to_string().contains("no frequency of a mode"),
+        "{text}"
+    );
+    assert!(text.is_usage());
 }

@@ -7,7 +7,7 @@ use frictionsim::fem::{
     AnnulusMaterials, ElasticMaterial, MassKind, MaterialField, Triplets, assemble_mass,
     assemble_stiffness,
 };
-use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind, Mesh2d};
+use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind, Mesh};
 use frictionsim::prestress::SteadySliding;
 use std::collections::BTreeMap;
 
@@ -43,14 +43,14 @@ fn the_interference_is_shared_as_lame_says_at_the_order_of_the_element() {
 }
 
 /// `node of the glued ring, of each node of both bodies`.
-fn glued(mesh: &Mesh2d, interface: &ContactInterface, one: &Mesh2d) -> Vec<usize> {
+fn glued(mesh: &Mesh, interface: &ContactInterface, one: &Mesh) -> Vec<usize> {
     let mut place: Vec<Option<usize>> = vec![None; mesh.node_count()];
     let near = |p: [f64; 2]| {
-        let distance = |q: &[f64; 2]| (p[0] - q[0]).hypot(p[1] - q[1]);
+        let distance = |q: &[f64; 3]| (p[0] - q[0]).hypot(p[1] - q[1]);
         (0..one.node_count()).find(|&k| distance(&one.nodes[k]) < 1e-9)
     };
     for (node, place) in place.iter_mut().enumerate() {
-        *place = near(mesh.nodes[node]);
+        *place = near(mesh.plane_node(node));
     }
     for (i, &node) in interface.nodes.iter().enumerate() {
         let opposite = interface.opposite_of(i)[0].dof / 2;
@@ -88,7 +88,7 @@ fn glued_bodies_of_one_material_have_the_matrices_of_one_body() {
         let place = |dof: usize| 2 * place[dof / 2] + dof % 2;
         let two: AnnulusMaterials = on(POLYCARBONATE);
         let alone = AnnulusMaterials::from(POLYCARBONATE);
-        let matrices = |mesh: &Mesh2d, material: &dyn MaterialField| {
+        let matrices = |mesh: &Mesh, material: &dyn MaterialField| {
             let mass = assemble_mass(mesh, material, MassKind::Consistent);
             [assemble_stiffness(mesh, material), mass]
         };

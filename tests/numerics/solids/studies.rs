@@ -24,7 +24,9 @@ fn modes_for_a_fit_and_onsets_of_a_sample_are_those_of_the_body_with_its_thickne
     let overrides = COARSE.map(str::to_owned);
     let case = Case::parse("disc", &bytes, &overrides).unwrap();
     let known = modes_and_onsets(&case).unwrap();
-    let (intervals, _) = unstable_intervals(&case, &[0.3, 0.6], None).unwrap();
+    let intervals = unstable_intervals(&case, &[0.3, 0.6], None)
+        .unwrap()
+        .intervals;
     assert_eq!(intervals.len(), known.intervals.len());
     for (found, known) in intervals.iter().zip(&known.intervals) {
         // Onsets are located to 1e-9, from other friction values.

@@ -5,9 +5,7 @@ use frictionsim::cea::cyclic::SolidModel;
 use frictionsim::fem::MassKind;
 use frictionsim::fem::operator::SimdLevel;
 use frictionsim::linalg::ComplexDenseLu;
-use frictionsim::mesh::{
-    BoundaryCondition, SolidSector, brick_quadrature, brick_shapes, face_quadrature,
-};
+use frictionsim::mesh::{BoundaryCondition, ElementKind, SolidSector, face_quadrature};
 use frictionsim::prestress::SolidSliding;
 use frictionsim::transient::{OperatorChoice, SolidTransientModel};
 use std::f64::consts::TAU;
@@ -209,8 +207,8 @@ fn assembled(sector: &SolidSector, model: &SolidModel) -> [Mat<f64>; 2] {
                     [[cos, sin, 0.0], [-sin, cos, 0.0], [0.0, 0.0, 1.0]]
                 })
                 .collect();
-            for (at, weight) in brick_quadrature(true) {
-                let shapes = brick_shapes(true, at);
+            for (at, weight) in ElementKind::Hex20.quadrature() {
+                let shapes = ElementKind::Hex20.shape_functions(at);
                 let jacobian = nalgebra::Matrix3::from_fn(|i, j| {
                     let pairs = places.iter().zip(&shapes);
                     pairs.map(|(x, shape)| x[i] * shape.1[j]).sum::<f64>()

@@ -10,7 +10,7 @@ use frictionsim::contact::ContactInterface;
 use frictionsim::fem::{DofMap, MassKind, Triplets, assemble_mass, assemble_stiffness};
 use frictionsim::linalg::{MatrixPolynomial, SparsityPattern};
 use frictionsim::mesh::{
-    BodySpecification, BoundaryCondition, CounterfaceSpecification, ElementKind, GmshFile, Mesh2d,
+    BodySpecification, BoundaryCondition, CounterfaceSpecification, ElementKind, GmshFile, Mesh,
 };
 use frictionsim::prestress::SlidingTangent;
 use std::collections::BTreeMap;
@@ -19,7 +19,7 @@ use std::sync::Arc;
 /// `u = T y`: for each glued dof the dofs that it follows, with their weights.
 type Glue = BTreeMap<usize, Vec<(usize, f64)>>;
 
-fn glue(mesh: &Mesh2d) -> Glue {
+fn glue(mesh: &Mesh) -> Glue {
     let interface = ContactInterface::of(mesh);
     let others = |own: usize, difference: Vec<(usize, f64)>| {
         let masters = difference.into_iter().filter(|&(dof, _)| dof != own);
@@ -50,7 +50,7 @@ fn glued(matrix: &Triplets, glue: &Glue) -> Vec<(usize, usize, f64)> {
 }
 
 /// Angular frequencies of what is glued and held, rad/s, the lowest `count`.
-fn frequencies(mesh: &Mesh2d, glue: &Glue, held: Vec<usize>, count: usize) -> Vec<f64> {
+fn frequencies(mesh: &Mesh, glue: &Glue, held: Vec<usize>, count: usize) -> Vec<f64> {
     let prescribed = held.into_iter().chain(glue.keys().copied());
     let unknowns = DofMap::excluding(2 * mesh.node_count(), prescribed);
     let free = |matrix: &Triplets| -> Vec<(usize, usize, f64)> {
@@ -87,12 +87,12 @@ fn frequencies(mesh: &Mesh2d, glue: &Glue, held: Vec<usize>, count: usize) -> Ve
 }
 
 /// Disc and shaft held at rim and bore, glued between them.
-fn pair(mesh: &Mesh2d, count: usize) -> Vec<f64> {
+fn pair(mesh: &Mesh, count: usize) -> Vec<f64> {
     frequencies(mesh, &glue(mesh), mesh.held_dofs().collect(), count)
 }
 
 /// The ring that they are, held at both edges.
-fn one(mesh: &Mesh2d, count: usize) -> Vec<f64> {
+fn one(mesh: &Mesh, count: usize) -> Vec<f64> {
     let edges = mesh.boundaries.iter().flat_map(|edge| &edge.nodes);
     let held = edges.flat_map(|&node| [2 * node as usize, 2 * node as usize + 1]);
     frequencies(mesh, &Glue::new(), held.collect(), count)
@@ -137,7 +137,7 @@ fn glued_bodies_whose_meshes_do_not_match_converge_to_one_body_at_second_order()
 }
 
 /// A block on a block, one as wide as the other, of `along` elements each (lower, upper).
-fn blocks(along: [usize; 2]) -> Mesh2d {
+fn blocks(along: [usize; 2]) -> Mesh {
     let part = |y: f64, height: f64, count, region, names| Part {
         mesh: rectangle([0.0, y], [0.04, height], count),
         region,
@@ -157,7 +157,7 @@ fn blocks(along: [usize; 2]) -> Mesh2d {
             .map(|name| (name.to_owned(), BoundaryCondition::Clamped))
             .to_vec(),
     };
-    Mesh2d::from_gmsh(&GmshFile::read(&file_of(&parts)).unwrap(), &specification).unwrap()
+    Mesh::from_gmsh(&GmshFile::read(&file_of(&parts)).unwrap(), &specification).unwrap()
 }
 
 /// Patch test: every state of constant strain passes glue between any two meshes: it is continuous, and with what it
@@ -171,13 +171,13 @@ fn every_constant_strain_passes_glue_between_meshes_that_do_not_match() {
         let stiffness = assemble_stiffness(&mesh, &POLYCARBONATE);
         // Into the frame of a node.
         let turned = |node: usize, [u, v]: [f64; 2]| {
-            let (sin, cos) = mesh.frame_angles[node].sin_cos();
+            let (sin, cos) = mesh.frame_angles()[node].sin_cos();
             [cos * u + sin * v, cos * v - sin * u]
         };
         for [xx, yy, xy] in [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] {
             let nodes = mesh.nodes.iter().enumerate();
             let field: Vec<f64> = nodes
-                .flat_map(|(node, &[x, y])| turned(node, [xx * x + xy * y, yy * y]))
+                .flat_map(|(node, &[x, y, _])| turned(node, [xx * x + xy * y, yy * y]))
                 .collect();
             for (&dof, masters) in &glue {
                 let followed: f64 = masters.iter().map(|&(m, part)| part * field[m]).sum();
@@ -188,7 +188,7 @@ fn every_constant_strain_passes_glue_between_meshes_that_do_not_match() {
             let scale = forces.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
             let traction = [(lambda + 2.0 * shear) * xx + lambda * yy, shear * xy];
             for (p, q, _) in mesh.outline_edges() {
-                let [[x, y], [to, end]] = [p, q].map(|node| mesh.nodes[node as usize]);
+                let [[x, y], [to, end]] = [p, q].map(|node| mesh.plane_node(node as usize));
                 let side = if x == to && x == 0.0 { -1.0 } else { 1.0 };
                 if x == to {
                     let pull = traction.map(|t| 0.5 * side * (end - y).abs() * t);
@@ -205,7 +205,7 @@ fn every_constant_strain_passes_glue_between_meshes_that_do_not_match() {
                     .iter()
                     .for_each(|&(m, part)| forces[m] += part * force);
             }
-            for (node, &[_, y]) in mesh.nodes.iter().enumerate() {
+            for (node, &[_, y, _]) in mesh.nodes.iter().enumerate() {
                 if y > -0.02 && y < 0.03 {
                     let force = forces[2 * node].hypot(forces[2 * node + 1]);
                     assert!(force < 1e-12 * scale, "{along:?} {node} {force:e}");

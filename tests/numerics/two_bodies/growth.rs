@@ -68,7 +68,7 @@ fn a_mode_of_two_bodies_whose_meshes_do_not_match_grows_as_its_eigenvalue_says()
 
 /// A transient from steady sliding and `Re(shape e^(lambda t))`, with the harmonic of the edge in which it moves most.
 fn run(
-    mesh: &frictionsim::mesh::Mesh2d,
+    mesh: &frictionsim::mesh::Mesh,
     materials: &Vec<RegionMaterial>,
     eigenvalue: c64,
     shape: &[c64],

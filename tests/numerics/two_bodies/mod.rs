@@ -15,7 +15,7 @@ use frictionsim::fem::operator::SimdLevel;
 use frictionsim::fem::{ElasticMaterial, MassKind, assemble_stiffness};
 use frictionsim::mesh::{
     AnnulusSpecification, BodySpecification, BoundaryCondition, CounterfaceSpecification,
-    ElasticSupport, ElementKind, GmshFile, Mesh2d, MeshFileError, ShaftSpecification,
+    ElasticSupport, ElementKind, GmshFile, Mesh, MeshFileError, ShaftSpecification,
 };
 use frictionsim::prestress::SteadySliding;
 use frictionsim::transient::{
@@ -116,7 +116,7 @@ fn mounting() -> ElasticSupport {
 }
 
 /// A block pressed on another by the springs on its top; the lower one, wider on both sides, is clamped below.
-fn blocks(along: [usize; 2]) -> Result<Mesh2d, MeshFileError> {
+fn blocks(along: [usize; 2]) -> Result<Mesh, MeshFileError> {
     let lower = rectangle([-0.01, -0.02], [0.06, 0.02], [along[0], 3]);
     let upper = rectangle([0.0, 0.0], [0.04, 0.03], [along[1], 4]);
     let parts = [
@@ -143,7 +143,7 @@ fn blocks(along: [usize; 2]) -> Result<Mesh2d, MeshFileError> {
             ("top".to_owned(), BoundaryCondition::Support(mounting())),
         ],
     };
-    Mesh2d::from_gmsh(&GmshFile::read(&file_of(&parts)).unwrap(), &specification)
+    Mesh::from_gmsh(&GmshFile::read(&file_of(&parts)).unwrap(), &specification)
 }
 
 /// Patch test: through meshes of any two fineness a constant pressure passes as it is.
@@ -157,7 +157,7 @@ fn a_constant_pressure_passes_between_meshes_that_do_not_match() {
             let force = 2e6 * interface.tributary_lengths[i];
             for share in interface.opposite_of(i) {
                 let (node, component) = (share.dof / 2, share.dof % 2);
-                let (sin, cos) = mesh.frame_angles[node].sin_cos();
+                let (sin, cos) = mesh.frame_angles()[node].sin_cos();
                 let axis = [[cos, sin], [-sin, cos]][component];
                 let sum = forces.entry(node).or_insert([0.0; 2]);
                 (0..2).for_each(|c| sum[c] += force * share.normal * axis[c]);
@@ -239,7 +239,7 @@ fn energy_closes_through_stick_and_opening_between_meshes_that_do_not_match() {
 }
 
 fn run(
-    mesh: &Mesh2d,
+    mesh: &Mesh,
     stiffness: ContactStiffness,
     initial: InitialState,
     duration: f64,

@@ -7,13 +7,13 @@ use frictionsim::contact::{ContactStiffness, SlidingContact};
 use frictionsim::fem::{MassKind, MaterialField, assemble_stiffness};
 use frictionsim::mesh::{
     AnnulusMesh, AnnulusSpecification, BodySpecification, Boundary, BoundaryCondition,
-    CounterfaceSpecification, ElementKind, GmshFile, Mesh2d,
+    CounterfaceSpecification, ElementKind, GmshFile, Mesh,
 };
 use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
 
 /// A body with the names that its boundaries have in the file.
 pub struct Part<'a> {
-    pub mesh: Mesh2d,
+    pub mesh: Mesh,
     pub region: &'a str,
     pub names: [&'a str; 2],
     /// Angle by which it is turned, rad.
@@ -28,7 +28,7 @@ pub fn file_of(parts: &[Part<'_>]) -> Vec<u8> {
     for part in parts {
         let first = 1 + nodes.len();
         let (sin, cos) = part.turn.sin_cos();
-        for [x, y] in &part.mesh.nodes {
+        for [x, y, _] in &part.mesh.nodes {
             nodes.push([cos * x - sin * y, sin * x + cos * y]);
         }
         tag += 1;
@@ -70,7 +70,7 @@ pub fn file_of(parts: &[Part<'_>]) -> Vec<u8> {
 }
 
 /// Disc and shaft as rings of `around` elements (shaft, disc); the shaft is turned by `turn`.
-pub fn rings(around: [usize; 2], radial: [usize; 2], turn: f64) -> Mesh2d {
+pub fn rings(around: [usize; 2], radial: [usize; 2], turn: f64) -> Mesh {
     rings_of(ElementKind::Quad4, 0.0905, around, radial, turn)
 }
 
@@ -81,7 +81,7 @@ pub fn rings_of(
     around: [usize; 2],
     radial: [usize; 2],
     turn: f64,
-) -> Mesh2d {
+) -> Mesh {
     let shaft = ring(element, [0.006, 0.0205], around[0], radial[0]);
     let disc = ring(element, [0.0205, outer_radius], around[1], radial[1]);
     let parts = [
@@ -109,11 +109,11 @@ pub fn rings_of(
         opposite: Some("journal".to_owned()),
         conditions: vec![clamped("outer"), clamped("bore")],
     };
-    Mesh2d::from_gmsh(&GmshFile::read(&file_of(&parts)).unwrap(), &specification).unwrap()
+    Mesh::from_gmsh(&GmshFile::read(&file_of(&parts)).unwrap(), &specification).unwrap()
 }
 
 /// One ring of even elements.
-pub fn ring(element: ElementKind, radii: [f64; 2], around: usize, radial: usize) -> Mesh2d {
+pub fn ring(element: ElementKind, radii: [f64; 2], around: usize, radial: usize) -> Mesh {
     let specification = AnnulusSpecification {
         inner_radius: radii[0],
         outer_radius: radii[1],
@@ -137,7 +137,7 @@ pub fn contact() -> SlidingContact {
 }
 
 pub fn modes(
-    mesh: &Mesh2d,
+    mesh: &Mesh,
     material: &dyn MaterialField,
     options: &TangentOptions,
     count: usize,
@@ -147,7 +147,7 @@ pub fn modes(
 
 /// Modes at friction 0.3, with their shapes if `shapes_at` asks for them.
 pub fn modes_of(
-    mesh: &Mesh2d,
+    mesh: &Mesh,
     material: &dyn MaterialField,
     options: &TangentOptions,
     limit: ModeLimit,
@@ -170,15 +170,15 @@ pub fn one_material() -> &'static dyn MaterialField {
 }
 
 /// A rectangle of elements with its lower left corner at `corner`.
-pub fn rectangle(corner: [f64; 2], size: [f64; 2], count: [usize; 2]) -> Mesh2d {
+pub fn rectangle(corner: [f64; 2], size: [f64; 2], count: [usize; 2]) -> Mesh {
     let [nx, ny] = count;
     let node = |i: usize, j: usize| (i + j * (nx + 1)) as u32;
-    let mut mesh = Mesh2d::default();
+    let mut mesh = Mesh::default();
     for j in 0..=ny {
         for i in 0..=nx {
             let share = [i as f64 / nx as f64, j as f64 / ny as f64];
-            mesh.nodes
-                .push([0, 1].map(|c| corner[c] + size[c] * share[c]));
+            let [x, y] = [0, 1].map(|c| corner[c] + size[c] * share[c]);
+            mesh.nodes.push([x, y, 0.0]);
         }
     }
     mesh.element_starts.push(0);

@@ -5,10 +5,10 @@ use crate::fuzz::mutation::{Random, binary, text};
 use crate::msh::{FORMS, write_msh};
 use frictionsim::mesh::{
     AnnulusMesh, AnnulusSpecification, BodySpecification, BoundaryCondition,
-    CounterfaceSpecification, ElementKind, GmshFile, Mesh2d,
+    CounterfaceSpecification, ElementKind, GmshFile, Mesh,
 };
 
-fn ring(element: ElementKind) -> Mesh2d {
+fn ring(element: ElementKind) -> Mesh {
     let specification = AnnulusSpecification {
         inner_radius: 0.02,
         outer_radius: 0.09,
@@ -55,7 +55,7 @@ fn no_mesh_file_makes_its_reader_panic() {
             if let Ok(file) = GmshFile::read(bytes) {
                 // Counts that a file only claims take no room.
                 assert!(file.points.len() <= bytes.len() && file.elements.len() <= bytes.len());
-                drop(Mesh2d::from_gmsh(&file, &specification));
+                drop(Mesh::from_gmsh(&file, &specification));
             }
         },
     );

@@ -1,0 +1,131 @@
+//! Small motions of contact points around steady sliding.
+
+use super::{ContactStiffness, Point, Row};
+use crate::fem::Triplets;
+
+/// The pressed points of a base state and their normal forces.
+#[derive(Clone, Copy, Debug)]
+pub struct PressedPoints<'a> {
+    /// Whether each point is pressed; the others are open.
+    pub is_pressed: &'a [bool],
+    /// Normal force `N_i(mu)` by power of `mu`, N (N/m in the plane); nothing where the state is free of stress.
+    pub normal_forces: &'a [Vec<f64>],
+}
+
+/// What contact adds to the matrices of small motions over all dofs, by power of `mu`.
+#[derive(Clone, Debug, Default)]
+pub struct ContactTerms {
+    /// Penalty and the friction that follows it; nothing for rigid contact.
+    pub stiffness: Vec<Triplets>,
+    /// Forces of the base state that turn with the surface; belongs with the geometric stiffness.
+    pub turning: Vec<Triplets>,
+    /// Dashpots of contact and friction.
+    pub dashpots: Vec<Triplets>,
+}
+
+/// Linearises contact and friction at `points` around `state`, moved to the left-hand side:
+///
+/// ```text
+/// dN = -w (k_n n.u + c_n n.u')                                       (rigid contact: unknown, n.u = 0)
+/// dT = drag mu dN - (slope mu N + w c_t) t.u' ,   dD = -(|drag| mu N / V + w c_t) d.u'
+/// ```
+///
+/// along the rows `n`, `t` and `d` of normal, slip and slip across: friction follows the normal force, falls with the slip
+/// speed, and turns with the direction of slip. Shape: sums over all dofs of both bodies, N/m and N s/m.
+pub fn linearized(
+    points: &[Point],
+    state: &PressedPoints<'_>,
+    stiffness: &ContactStiffness,
+) -> ContactTerms {
+    let mut terms = ContactTerms::default();
+    let pressed = || (0..points.len()).filter(|&i| state.is_pressed[i]);
+    for point in pressed().map(|i| &points[i]) {
+        let weight = point.weight;
+        // Springs and dashpots of the contact itself.
+        if let Some(normal) = stiffness.normal_stiffness {
+            add_normal_law(&mut terms.stiffness, point, weight * normal);
+        }
+        if stiffness.normal_damping != 0.0 {
+            add_normal_law(
+                &mut terms.dashpots,
+                point,
+                weight * stiffness.normal_damping,
+            );
+        }
+        if stiffness.tangential_damping != 0.0 {
+            let value = weight * stiffness.tangential_damping;
+            for row in [&point.slip, &point.across] {
+                add_product(power(&mut terms.dashpots, 0), value, row, row);
+            }
+        }
+    }
+    // What the forces of the base state do.
+    for (p, forces) in state.normal_forces.iter().enumerate() {
+        for i in pressed() {
+            let (point, force) = (&points[i], forces[i]);
+            let friction = point.friction;
+            if friction.slope != 0.0 {
+                let falling = power(&mut terms.dashpots, p + 1);
+                add_product(falling, friction.slope * force, &point.slip, &point.slip);
+            }
+            if !point.across.is_empty() {
+                let value = friction.drag.abs() * force / point.speed;
+                let turned = power(&mut terms.dashpots, p + 1);
+                add_product(turned, value, &point.across, &point.across);
+            }
+        }
+        for (point, &force) in points.iter().zip(forces) {
+            add_turning(&mut terms.turning, p, point, force);
+        }
+    }
+    terms
+}
+
+/// `dN = -coefficient n.u` and the friction that follows it.
+fn add_normal_law(terms: &mut Vec<Triplets>, point: &Point, coefficient: f64) {
+    add_product(power(terms, 0), coefficient, &point.normal, &point.normal);
+    let follow = point.friction.drag * coefficient;
+    add_product(power(terms, 1), follow, &point.slip, &point.normal);
+}
+
+/// Normal force and friction of the base state as they turn with the surface.
+///
+/// The normal is that of the surface that the point meets, `theta` its turn there; with `w` and `xi` the separation and the
+/// slip, `eta` and `epsilon` the slopes of the opposite body along normal and tangent, `kappa` the curvature,
+///
+/// ```text
+/// theta = kappa xi - eta,   N: -kappa xi xi + xi eta + eta xi,   T: w theta + epsilon xi
+/// ```
+///
+/// as products of a row and a column. On a rigid counterface both slopes vanish. Plane bodies alone have it.
+fn add_turning(terms: &mut Vec<Triplets>, p: usize, point: &Point, force: f64) {
+    let (curvature, drag) = (point.curvature, point.friction.drag * force);
+    let pressed = power(terms, p);
+    add_product(pressed, -curvature * force, &point.slip, &point.slip);
+    add_product(pressed, force, &point.slip, &point.tilt);
+    add_product(pressed, force, &point.tilt, &point.slip);
+    let sheared = power(terms, p + 1);
+    add_product(sheared, curvature * drag, &point.normal, &point.slip);
+    add_product(sheared, -drag, &point.normal, &point.tilt);
+    add_product(sheared, drag, &point.stretch, &point.slip);
+}
+
+/// The coefficient of `mu^p`, made where it is not yet there.
+fn power(terms: &mut Vec<Triplets>, p: usize) -> &mut Triplets {
+    if terms.len() <= p {
+        terms.resize_with(p + 1, Triplets::default);
+    }
+    &mut terms[p]
+}
+
+/// `A += factor row column^T`.
+fn add_product(terms: &mut Triplets, factor: f64, row: &Row, column: &Row) {
+    if factor == 0.0 {
+        return;
+    }
+    for &(i, along) in row {
+        for &(j, across) in column {
+            terms.push(i, j, factor * along * across);
+        }
+    }
+}

@@ -1,0 +1,165 @@
+//! Surfaces that are tied, or in rigid contact, node by node: dual mortar points of segments.
+
+use super::Row;
+use super::surface::{SegmentPoint, SurfacePair, row_along};
+use crate::mesh::{Boundary, BoundaryFace, Mesh};
+use nalgebra::{DMatrix, Vector3};
+use std::collections::BTreeMap;
+
+/// Share of the corners' displacement in that of a quadratic edge's middle, which makes the integrals of all basis functions
+/// positive (Popp, Wohlmuth, Gee and Wall 2012).
+const CORNER_SHARE: f64 = 0.2;
+
+/// What a node of a surface meets on another surface.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MortarNode {
+    /// The node.
+    pub node: u32,
+    /// Where it is, m.
+    pub position: [f64; 3],
+    /// Unit normal into the own body, the mean over its faces.
+    pub normal: [f64; 3],
+    /// Area that belongs to it, m2.
+    pub area: f64,
+    /// Mean distance from the counter surface along the normal, m.
+    pub gap: f64,
+    /// Nodes of the own surface with the coefficients of their displacements.
+    pub own: Vec<(u32, f64)>,
+    /// Nodes of the counter surface with theirs.
+    pub counter: Vec<(u32, f64)>,
+}
+
+/// Sums over the faces at a node.
+#[derive(Clone, Default)]
+struct Sums {
+    area: f64,
+    gap: f64,
+    normal: Vector3<f64>,
+    counter: BTreeMap<u32, f64>,
+}
+
+/// The nodes of `surface` that have the other surface of `pair` before them.
+///
+/// Dual mortar weights (Wohlmuth 2000): with the basis `psi` that is biorthogonal to the face's shape functions over the part
+/// of it that is covered,
+///
+/// ```text
+/// ∫ psi_i (u_own - u_counter) dA = w_i (own_i . u - counter_i . u)
+/// ```
+///
+/// A constant pressure passes exactly between flat surfaces, each row has one node of its own, and rigid motions cost nothing.
+/// On quadratic faces the basis is dual to functions whose integrals are positive: the middle of an edge takes a fifth of
+/// each of its corners' displacements.
+pub fn mortar_nodes(mesh: &Mesh, surface: &Boundary, pair: &SurfacePair) -> Vec<MortarNode> {
+    let mut sums: BTreeMap<u32, Sums> = BTreeMap::new();
+    let mut corners_of: BTreeMap<u32, [u32; 2]> = BTreeMap::new();
+    let mut by_face: BTreeMap<usize, Vec<&SegmentPoint>> = BTreeMap::new();
+    for point in &pair.points {
+        by_face.entry(point.face).or_default().push(point);
+    }
+    for (f, points) in by_face {
+        let face = &surface.faces[f];
+        add_face(face, &points, &mut sums);
+        if face.kind.is_quadratic() {
+            let count = face.kind.corner_count();
+            for edge in 0..count {
+                let ends = [face.nodes[edge], face.nodes[(edge + 1) % count]];
+                corners_of.insert(face.nodes[count + edge], ends);
+            }
+        }
+    }
+    let largest = sums.values().map(|sum| sum.area).fold(0.0, f64::max);
+    sums.iter()
+        .filter(|(_, sum)| sum.area > 1e-6 * largest)
+        .map(|(&node, sum)| {
+            let own = match corners_of.get(&node) {
+                None => vec![(node, 1.0)],
+                Some(&[p, q]) => {
+                    let whole = 1.0 / (1.0 - 2.0 * CORNER_SHARE);
+                    let corner = -CORNER_SHARE * whole;
+                    vec![(node, whole), (p, corner), (q, corner)]
+                }
+            };
+            let counter = sum.counter.iter();
+            MortarNode {
+                node,
+                position: mesh.nodes[node as usize],
+                normal: sum.normal.normalize().into(),
+                area: sum.area,
+                gap: sum.gap / sum.area,
+                own,
+                counter: counter
+                    .map(|(&other, value)| (other, value / sum.area))
+                    .filter(|entry| entry.1 != 0.0)
+                    .collect(),
+            }
+        })
+        .collect()
+}
+
+/// Adds the integrals of one face.
+fn add_face(face: &BoundaryFace, points: &[&SegmentPoint], sums: &mut BTreeMap<u32, Sums>) {
+    let count = face.nodes.len();
+    let mut mass = DMatrix::<f64>::zeros(count, count);
+    let mut diagonal = vec![0.0; count];
+    let bases: Vec<Vec<f64>> = points
+        .iter()
+        .map(|point| positive_basis(face, point))
+        .collect();
+    for (point, basis) in points.iter().zip(&bases) {
+        for i in 0..count {
+            diagonal[i] += point.area * basis[i];
+            for j in 0..count {
+                mass[(i, j)] += point.area * basis[i] * basis[j];
+            }
+        }
+    }
+    let Some(inverse) = mass.try_inverse() else {
+        return;
+    };
+    for (point, basis) in points.iter().zip(&bases) {
+        for (i, &node) in face.nodes.iter().enumerate() {
+            let row = (0..count).map(|j| inverse[(i, j)] * basis[j]);
+            let psi = point.area * diagonal[i] * row.sum::<f64>();
+            let sum = sums.entry(node).or_default();
+            sum.area += psi;
+            sum.gap += psi * point.gap;
+            sum.normal += Vector3::from(point.normal) * psi;
+            for &(other, value) in &point.counter {
+                *sum.counter.entry(other).or_default() += psi * value;
+            }
+        }
+    }
+}
+
+/// Shape functions with positive integrals: each corner's with a share of those of its edges' middles.
+fn positive_basis(face: &BoundaryFace, point: &SegmentPoint) -> Vec<f64> {
+    let mut basis: Vec<f64> = point.own.iter().map(|entry| entry.1).collect();
+    if !face.kind.is_quadratic() {
+        return basis;
+    }
+    let count = face.kind.corner_count();
+    for edge in 0..count {
+        let middle = point.own[count + edge].1;
+        basis[edge] += CORNER_SHARE * middle;
+        basis[(edge + 1) % count] += CORNER_SHARE * middle;
+        basis[count + edge] *= 1.0 - 2.0 * CORNER_SHARE;
+    }
+    basis
+}
+
+impl MortarNode {
+    /// `direction . (u_own - u_counter)`, over all dofs; the node's own dofs come first, the largest of them ahead.
+    pub fn jump(&self, mesh: &Mesh, direction: [f64; 3]) -> Row {
+        let mut row = row_along(mesh, &self.own, direction, 1.0);
+        let is_own = |dof: usize| dof / mesh.dimension == self.node as usize;
+        row.sort_by(|a, b| {
+            let key = |entry: &(usize, f64)| (!is_own(entry.0), -entry.1.abs());
+            key(a)
+                .partial_cmp(&key(b))
+                .expect("coefficients are finite")
+        });
+        row.extend(row_along(mesh, &self.counter, direction, -1.0));
+        row
+    }
+}

@@ -1,0 +1,209 @@
+//! Contact points of two surfaces of which one slides over the other.
+
+use super::mortar::mortar_nodes;
+use super::surface::{PairError, SurfacePair, row_along};
+use super::{FrictionDecay, Point, Row, SteadyFriction};
+use crate::mesh::{Boundary, Mesh};
+use nalgebra::Vector3;
+
+/// A body that turns about an axis; meshes stay where they are, small motions are about the sliding.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Motion {
+    /// Regions that turn.
+    pub regions: Vec<usize>,
+    /// Unit vector along the axis, right-handed.
+    pub axis: [f64; 3],
+    /// A point of the axis, m.
+    pub center: [f64; 3],
+    /// `Omega`, rad/s.
+    pub rotation_speed: f64,
+}
+
+impl Motion {
+    /// `Omega x r`, m/s.
+    pub fn velocity(&self, position: [f64; 3]) -> [f64; 3] {
+        let arm = Vector3::from(position) - Vector3::from(self.center);
+        (Vector3::from(self.axis).cross(&arm) * self.rotation_speed).into()
+    }
+}
+
+/// Friction of one contact beside the coefficient that a sweep varies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PairFriction {
+    /// Its coefficient over that of the sweep.
+    pub ratio: f64,
+    /// How it falls with the slip speed; `None` is constant.
+    pub decay: Option<FrictionDecay>,
+}
+
+/// Where the points of a contact of two surfaces are taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PointKind {
+    /// Quadrature points of the segments: for penalty contact.
+    Segments,
+    /// Nodes of the own surface with dual mortar weights, each with dofs of its own: for rigid contact.
+    Nodes,
+}
+
+/// Place and directions of a contact point of two surfaces.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactSite {
+    /// Where it is on the own surface, m.
+    pub position: [f64; 3],
+    /// Unit normal into the own body.
+    pub normal: [f64; 3],
+    /// Unit vector along which the counter surface slides over it; zero where it does not.
+    pub direction: [f64; 3],
+}
+
+/// The contact points of two surfaces.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ContactSurface {
+    /// The points.
+    pub points: Vec<Point>,
+    /// Place of each.
+    pub sites: Vec<ContactSite>,
+    /// Nodes of the own surface that have the other before them.
+    pub nodes: Vec<u32>,
+    /// Area of the own surface, and how much of it is covered, m2.
+    pub area: f64,
+    /// The covered part, m2.
+    pub covered: f64,
+}
+
+impl ContactSurface {
+    /// The points of `surface` (A) that have `counter` (B) before them, over which B slides as `motions` say:
+    ///
+    /// ```text
+    /// V = v_B - v_A without its part along n,   t = V / |V|,   d = n x t
+    /// ```
+    ///
+    /// with `v = Omega x r` of the region that a surface belongs to.
+    ///
+    /// # Errors
+    /// [`PairError`] where the surfaces do not meet, or nothing slides.
+    pub fn of(
+        mesh: &Mesh,
+        [surface, counter]: [&Boundary; 2],
+        motions: &[Motion],
+        friction: PairFriction,
+        kind: PointKind,
+    ) -> Result<Self, PairError> {
+        let pair = SurfacePair::of(mesh, surface, counter)?;
+        let moving = [surface, counter].map(|boundary| motion_of(mesh, boundary, motions));
+        let mut found = Self {
+            points: Vec::new(),
+            sites: Vec::new(),
+            nodes: own_nodes(&pair),
+            area: pair.area,
+            covered: pair.covered,
+        };
+        match kind {
+            PointKind::Segments => {
+                for point in &pair.points {
+                    let site = site(point.position, point.normal, moving);
+                    let jump = |direction: [f64; 3]| -> Row {
+                        let mut row = row_along(mesh, &point.own, direction, 1.0);
+                        row.extend(row_along(mesh, &point.counter, direction, -1.0));
+                        row
+                    };
+                    found.add(site, [point.area, point.gap], friction, jump);
+                }
+            }
+            PointKind::Nodes => {
+                for node in mortar_nodes(mesh, surface, &pair) {
+                    let site = site(node.position, node.normal, moving);
+                    let jump = |direction: [f64; 3]| node.jump(mesh, direction);
+                    found.add(site, [node.area, node.gap], friction, jump);
+                }
+            }
+        }
+        if found.points.iter().all(|point| point.speed == 0.0) {
+            return Err(PairError::NoSliding {
+                surface: surface.name.clone(),
+                counter: counter.name.clone(),
+            });
+        }
+        Ok(found)
+    }
+
+    fn add(
+        &mut self,
+        (site, speed): (ContactSite, f64),
+        [weight, gap]: [f64; 2],
+        friction: PairFriction,
+        jump: impl Fn([f64; 3]) -> Row,
+    ) {
+        let law = friction.decay;
+        let share = law.map_or(1.0, |decay| decay.share(speed));
+        let slope = law.map_or(0.0, |decay| decay.slope(speed));
+        let across = Vector3::from(site.normal).cross(&Vector3::from(site.direction));
+        let is_sliding = speed > 0.0;
+        let along = |direction: [f64; 3]| {
+            if is_sliding {
+                jump(direction)
+            } else {
+                Row::new()
+            }
+        };
+        self.points.push(Point {
+            weight,
+            gap,
+            normal: jump(site.normal),
+            slip: along(site.direction),
+            across: along(across.into()),
+            speed,
+            friction: SteadyFriction {
+                drag: friction.ratio * share,
+                slope: friction.ratio * slope,
+            },
+            ..Point::default()
+        });
+        self.sites.push(site);
+    }
+}
+
+/// The motion of the region that a surface's faces belong to.
+fn motion_of<'a>(mesh: &Mesh, boundary: &Boundary, motions: &'a [Motion]) -> Option<&'a Motion> {
+    let region = mesh.region(boundary.faces.first()?.element as usize);
+    motions
+        .iter()
+        .find(|motion| motion.regions.contains(&region))
+}
+
+/// Directions at a point, and the sliding speed there.
+fn site(
+    position: [f64; 3],
+    normal: [f64; 3],
+    [own, counter]: [Option<&Motion>; 2],
+) -> (ContactSite, f64) {
+    let velocity = |motion: Option<&Motion>| {
+        motion.map_or(Vector3::zeros(), |motion| {
+            Vector3::from(motion.velocity(position))
+        })
+    };
+    let n = Vector3::from(normal);
+    let whole = velocity(counter) - velocity(own);
+    let sliding = whole - n * whole.dot(&n);
+    let speed = sliding.norm();
+    // What is left of a velocity along the normal is round-off.
+    let is_sliding = speed > 1e-12 * whole.norm();
+    let site = ContactSite {
+        position,
+        normal,
+        direction: if is_sliding {
+            (sliding / speed).into()
+        } else {
+            [0.0; 3]
+        },
+    };
+    (site, if is_sliding { speed } else { 0.0 })
+}
+
+fn own_nodes(pair: &SurfacePair) -> Vec<u32> {
+    let all = pair.points.iter().flat_map(|point| &point.own);
+    let mut nodes: Vec<u32> = all.map(|entry| entry.0).collect();
+    nodes.sort_unstable();
+    nodes.dedup();
+    nodes
+}

@@ -1,0 +1,75 @@
+//! Contact points as rows over the degrees of freedom of one body or two.
+
+use super::{ContactInterface, SlidingContact, SteadyFriction};
+
+/// Coefficients `(dof, coefficient)` of a linear form of the displacements.
+pub type Row = Vec<(usize, f64)>;
+
+/// A point of contact: a node of an edge, a mortar point, or a quadrature point of a face.
+///
+/// With `u_rel = u_A - u_B` (A has the point's surface, B the counterface; one of them may be rigid), `n` the normal into
+/// A and `t` the direction in which B moves relative to A,
+///
+/// ```text
+/// separation = normal . u = n . u_rel,   slip = slip . u = t . u_rel,   across . u = (n x t) . u_rel
+/// ```
+///
+/// The contact pushes with `N >= 0` along `normal` and drags with `T = drag mu N` along `slip`. In the plane `t` is the
+/// second axis of the node's frame whatever the sense of sliding, `drag` has its sign, and there is no row across.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Point {
+    /// Its share of the surface `w`: m2; m for each metre of thickness in the plane.
+    pub weight: f64,
+    /// Distance before deformation, m.
+    pub gap: f64,
+    /// Row of the separation.
+    pub normal: Row,
+    /// Row of the slip along the sliding.
+    pub slip: Row,
+    /// Row of the slip across the sliding; empty in the plane.
+    pub across: Row,
+    /// Row of the slope of the counterface's displacement along the normal, by the arc, 1/m; empty on a rigid one.
+    pub tilt: Row,
+    /// Row of the slope of its displacement along the tangent, 1/m.
+    pub stretch: Row,
+    /// Rate at which the normal turns as the point moves along `t`, 1/m.
+    pub curvature: f64,
+    /// Sliding speed `V`, m/s.
+    pub speed: f64,
+    /// Friction at that speed for each unit of friction coefficient and normal force.
+    pub friction: SteadyFriction,
+}
+
+impl ContactInterface {
+    /// The contact nodes as points, in order.
+    pub fn points(&self, contact: &SlidingContact) -> Vec<Point> {
+        let friction = self.steady_friction(contact);
+        let speed = self.surface_speed(contact.rotation_speed).abs();
+        let curvature = self.counterface.curvature();
+        let slope = |i: usize, along: fn(&super::OppositeShare) -> f64| -> Row {
+            let shares = self.opposite_of(i).iter();
+            let all = shares.map(|share| (share.dof, along(share)));
+            all.filter(|(_, value)| *value != 0.0).collect()
+        };
+        let point = |i: usize| Point {
+            weight: self.tributary_lengths[i],
+            gap: self.gaps[i],
+            normal: self.separation(i).collect(),
+            slip: self.slip(i).collect(),
+            across: Row::new(),
+            tilt: slope(i, |share| share.normal_slope),
+            stretch: slope(i, |share| share.tangential_slope),
+            curvature,
+            speed,
+            friction,
+        };
+        (0..self.len()).map(point).collect()
+    }
+}
+
+/// `row . u`.
+pub fn value_of(row: &[(usize, f64)], displacement: &[f64]) -> f64 {
+    row.iter()
+        .map(|&(dof, coefficient)| coefficient * displacement[dof])
+        .sum()
+}

@@ -1,0 +1,453 @@
+//! Faces of two surfaces that face each other, cut into the segments that both have.
+
+use super::Row;
+use crate::mesh::{Boundary, BoundaryFace, Mesh};
+use nalgebra::{Matrix2, Vector2, Vector3};
+use std::collections::BTreeMap;
+
+/// A point at which one surface faces another.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SegmentPoint {
+    /// Face of the own surface that it lies on.
+    pub face: usize,
+    /// Where it is on the own surface, m.
+    pub position: [f64; 3],
+    /// Unit normal into the own body.
+    pub normal: [f64; 3],
+    /// Area that belongs to it, m2.
+    pub area: f64,
+    /// Distance from the counter surface along the normal, m; negative where they overlap.
+    pub gap: f64,
+    /// Nodes of the own face with their shape functions there.
+    pub own: Vec<(u32, f64)>,
+    /// Nodes of the face before it with theirs.
+    pub counter: Vec<(u32, f64)>,
+}
+
+/// Two surfaces of a solid mesh that face each other.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SurfacePair {
+    /// Quadrature points of the segments.
+    pub points: Vec<SegmentPoint>,
+    /// Area of the own surface, and how much of it has the counter surface before it, m2.
+    pub area: f64,
+    /// The covered part of it, m2.
+    pub covered: f64,
+    /// Distance beyond which faces do not meet, m.
+    pub reach: f64,
+}
+
+/// Why two surfaces make no pair.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum PairError {
+    /// A surface has no faces.
+    #[error("surface \"{0}\" has no faces on the outside of the bodies")]
+    NoFaces(String),
+    /// They are too far from each other.
+    #[error(
+        "surfaces \"{surface}\" and \"{counter}\" face each other but stand {distance:.3e} m apart, more than half an element \
+         ({reach:.3e} m): move the bodies together in the mesh, or name other surfaces"
+    )]
+    Apart {
+        /// Own surface.
+        surface: String,
+        /// Counter surface.
+        counter: String,
+        /// Smallest distance along the normal, m.
+        distance: f64,
+        /// Largest that is bridged, m.
+        reach: f64,
+    },
+    /// The outward normals point the same way.
+    #[error(
+        "surface \"{surface}\" faces away from \"{counter}\": where they lie over each other their outward normals point the \
+         same way; name the surfaces that touch"
+    )]
+    FacesAway {
+        /// Own surface.
+        surface: String,
+        /// Counter surface.
+        counter: String,
+    },
+    /// Nothing lies over anything.
+    #[error(
+        "surfaces \"{surface}\" and \"{counter}\" never meet: along its normals no face of the one lies over a face of the other; \
+         name the surfaces that touch"
+    )]
+    NeverMeets {
+        /// Own surface.
+        surface: String,
+        /// Counter surface.
+        counter: String,
+    },
+    /// The counter surface does not move relative to the surface.
+    #[error(
+        "nothing slides between surfaces \"{surface}\" and \"{counter}\": the motion given leaves them at rest to each other; \
+         check the axis, the centre and the regions of [motion]"
+    )]
+    NoSliding {
+        /// Own surface.
+        surface: String,
+        /// Counter surface.
+        counter: String,
+    },
+}
+
+/// Degree-4 rule of the triangle (Dunavant 1985): area coordinates and shares of the area.
+const RULE: [([f64; 3], f64); 6] = {
+    const A: f64 = 0.445_948_490_915_965;
+    const B: f64 = 0.091_576_213_509_771;
+    const V: f64 = 0.223_381_589_678_011;
+    const W: f64 = 0.109_951_743_655_322;
+    [
+        ([A, A, 1.0 - 2.0 * A], V),
+        ([A, 1.0 - 2.0 * A, A], V),
+        ([1.0 - 2.0 * A, A, A], V),
+        ([B, B, 1.0 - 2.0 * B], W),
+        ([B, 1.0 - 2.0 * B, B], W),
+        ([1.0 - 2.0 * B, B, B], W),
+    ]
+};
+
+/// Share of a face's area below which a segment is round-off.
+const SLIVER: f64 = 1e-9;
+
+/// Cosine of the angle between normals beyond which faces count as facing each other.
+const FACING: f64 = -0.2;
+
+/// A face with what searching it needs.
+struct Facet<'a> {
+    face: &'a BoundaryFace,
+    points: Vec<Vector3<f64>>,
+    center: Vector3<f64>,
+    /// Unit outward normal of its corners' mean plane.
+    normal: Vector3<f64>,
+    area: f64,
+    radius: f64,
+}
+
+impl<'a> Facet<'a> {
+    fn of(mesh: &Mesh, face: &'a BoundaryFace) -> Self {
+        let points: Vec<Vector3<f64>> = face
+            .nodes
+            .iter()
+            .map(|&node| Vector3::from(mesh.nodes[node as usize]))
+            .collect();
+        let corners = &points[..face.kind.corner_count()];
+        let count = corners.len();
+        let center = corners.iter().sum::<Vector3<f64>>() / count as f64;
+        let fan = (0..count).map(|i| {
+            let [a, b] = [corners[i] - center, corners[(i + 1) % count] - center];
+            a.cross(&b)
+        });
+        let twice = fan.sum::<Vector3<f64>>();
+        let distances = points.iter().map(|point| (point - center).norm());
+        Self {
+            center,
+            normal: twice.normalize(),
+            area: 0.5 * twice.norm(),
+            radius: distances.fold(0.0, f64::max),
+            points,
+            face,
+        }
+    }
+
+    fn corners(&self) -> &[Vector3<f64>] {
+        &self.points[..self.face.kind.corner_count()]
+    }
+
+    /// Shape functions, position and outward normal of the point that projects onto `target` in `plane`.
+    fn at(&self, plane: &Plane, target: Vector2<f64>) -> (Vec<f64>, Vector3<f64>, Vector3<f64>) {
+        let is_triangle = self.face.kind.corner_count() == 3;
+        let mut place = if is_triangle {
+            [1.0 / 3.0; 2]
+        } else {
+            [0.0; 2]
+        };
+        let mut found = None;
+        for _ in 0..NEWTON_STEPS {
+            let shapes = self.face.kind.shape_functions(place);
+            let mut position = Vector3::zeros();
+            let mut tangents = [Vector3::zeros(); 2];
+            for ((value, slopes), point) in shapes.iter().zip(&self.points) {
+                position += point * *value;
+                tangents[0] += point * slopes[0];
+                tangents[1] += point * slopes[1];
+            }
+            let off = target - plane.flat(&position);
+            let [a, b] = tangents.map(|tangent| plane.flat_direction(&tangent));
+            let normal = tangents[0].cross(&tangents[1]).normalize();
+            let values = shapes.iter().map(|shape| shape.0).collect();
+            found = Some((values, position, normal));
+            if off.norm() < 1e-14 * self.radius {
+                break;
+            }
+            let Some(step) = Matrix2::from_columns(&[a, b]).lu().solve(&off) else {
+                break;
+            };
+            place = [place[0] + step[0], place[1] + step[1]];
+        }
+        found.expect("there is at least one step")
+    }
+}
+
+fn facets_of<'a>(mesh: &Mesh, boundary: &'a Boundary) -> Vec<Facet<'a>> {
+    let faces = boundary.faces.iter();
+    faces.map(|face| Facet::of(mesh, face)).collect()
+}
+
+/// Newton steps that find a point on a face at most; plane faces with straight edges take one or two.
+const NEWTON_STEPS: usize = 12;
+
+/// The plane of a face, in which segments are cut.
+struct Plane {
+    origin: Vector3<f64>,
+    axes: [Vector3<f64>; 2],
+}
+
+impl Plane {
+    fn of(facet: &Facet<'_>) -> Self {
+        let edge = facet.points[1] - facet.points[0];
+        let first = (edge - facet.normal * edge.dot(&facet.normal)).normalize();
+        Self {
+            origin: facet.center,
+            axes: [first, facet.normal.cross(&first)],
+        }
+    }
+
+    fn flat(&self, point: &Vector3<f64>) -> Vector2<f64> {
+        self.flat_direction(&(point - self.origin))
+    }
+
+    fn flat_direction(&self, direction: &Vector3<f64>) -> Vector2<f64> {
+        Vector2::new(direction.dot(&self.axes[0]), direction.dot(&self.axes[1]))
+    }
+}
+
+impl SurfacePair {
+    /// Cuts the faces of `surface` into segments with those of `counter` before them.
+    ///
+    /// Each face's corners span a plane; the corners of the faces before it are projected along the plane's normal, the two
+    /// polygons are clipped (Sutherland and Hodgman 1974), and the segment has a quadrature rule of degree 4 on each of its
+    /// triangles (segment to segment, Puso and Laursen 2004): a constant pressure passes exactly between flat surfaces
+    /// whatever their meshes. Points on curved faces are found by Newton's method along the normal. Faces meet within half an
+    /// element's size.
+    ///
+    /// # Errors
+    /// [`PairError`] where no segment is found.
+    pub fn of(mesh: &Mesh, surface: &Boundary, counter: &Boundary) -> Result<Self, PairError> {
+        for boundary in [surface, counter] {
+            if boundary.faces.is_empty() {
+                return Err(PairError::NoFaces(boundary.name.clone()));
+            }
+        }
+        let (own, others) = (facets_of(mesh, surface), facets_of(mesh, counter));
+        let size = |facets: &[Facet<'_>]| {
+            let area: f64 = facets.iter().map(|facet| facet.area).sum();
+            (area / facets.len() as f64).sqrt()
+        };
+        let reach = 0.5 * size(&own).max(size(&others));
+        let grid = Grid::of(&others);
+        let mut pair = Self {
+            points: Vec::new(),
+            area: own.iter().map(|facet| facet.area).sum(),
+            covered: 0.0,
+            reach,
+        };
+        for (f, facet) in own.iter().enumerate() {
+            let plane = Plane::of(facet);
+            for other in grid.near(facet, reach) {
+                pair.add_segment((f, facet), &others[other], &plane);
+            }
+        }
+        if pair.points.is_empty() {
+            let names = [surface, counter].map(|boundary| boundary.name.clone());
+            return Err(pair.why_not(names, &own, &others));
+        }
+        Ok(pair)
+    }
+
+    /// Why no face has a segment with another: what lies over what, however far.
+    fn why_not(
+        &self,
+        [surface, counter]: [String; 2],
+        own: &[Facet<'_>],
+        others: &[Facet<'_>],
+    ) -> PairError {
+        let (mut distance, mut is_turned) = (f64::INFINITY, false);
+        for facet in own {
+            let plane = Plane::of(facet);
+            for other in others {
+                if shared_polygon(facet, other, &plane).is_none() {
+                    continue;
+                }
+                let apart = (other.center - facet.center).dot(&facet.normal).abs();
+                match facet.normal.dot(&other.normal) > FACING {
+                    true => is_turned = true,
+                    false => distance = distance.min(apart),
+                }
+            }
+        }
+        if distance.is_finite() {
+            return PairError::Apart {
+                surface,
+                counter,
+                distance,
+                reach: self.reach,
+            };
+        }
+        match is_turned {
+            true => PairError::FacesAway { surface, counter },
+            false => PairError::NeverMeets { surface, counter },
+        }
+    }
+
+    fn add_segment(&mut self, (f, facet): (usize, &Facet<'_>), other: &Facet<'_>, plane: &Plane) {
+        if facet.normal.dot(&other.normal) > FACING {
+            return;
+        }
+        let Some(polygon) = shared_polygon(facet, other, plane) else {
+            return;
+        };
+        let middle = polygon.iter().sum::<Vector2<f64>>() / polygon.len() as f64;
+        for i in 0..polygon.len() {
+            let corners = [middle, polygon[i], polygon[(i + 1) % polygon.len()]];
+            let triangle = signed_area(&corners);
+            for (shares, weight) in RULE {
+                let parts = corners
+                    .iter()
+                    .zip(shares)
+                    .map(|(corner, share)| corner * share);
+                let target = parts.sum::<Vector2<f64>>();
+                let (values, position, outward) = facet.at(plane, target);
+                let (shares, opposite, _) = other.at(plane, target);
+                let gap = (opposite - position).dot(&outward);
+                if gap.abs() > self.reach {
+                    continue;
+                }
+                let nodes = |face: &BoundaryFace, values: Vec<f64>| -> Vec<(u32, f64)> {
+                    face.nodes.iter().copied().zip(values).collect()
+                };
+                // Area on the surface itself, whose normal leans against the plane's.
+                let area = weight * triangle / outward.dot(&facet.normal);
+                self.covered += area;
+                self.points.push(SegmentPoint {
+                    face: f,
+                    position: position.into(),
+                    normal: (-outward).into(),
+                    area,
+                    gap,
+                    own: nodes(facet.face, values),
+                    counter: nodes(other.face, shares),
+                });
+            }
+        }
+    }
+}
+
+/// `direction . u` at a point of a face, over all dofs.
+pub fn row_along(mesh: &Mesh, nodes: &[(u32, f64)], direction: [f64; 3], sign: f64) -> Row {
+    let direction = Vector3::from(direction);
+    let mut row = Row::new();
+    for &(node, value) in nodes {
+        let frame = mesh.frame(node as usize);
+        for axis in 0..3 {
+            let along = sign * value * frame.column(axis).dot(&direction);
+            if along.abs() > 1e-15 {
+                row.push((mesh.dimension * node as usize + axis, along));
+            }
+        }
+    }
+    row
+}
+
+/// The part of a face in its plane that another lies over; `None` where there is nothing but round-off.
+fn shared_polygon(
+    facet: &Facet<'_>,
+    other: &Facet<'_>,
+    plane: &Plane,
+) -> Option<Vec<Vector2<f64>>> {
+    let flat = |corners: &[Vector3<f64>]| -> Vec<Vector2<f64>> {
+        corners.iter().map(|corner| plane.flat(corner)).collect()
+    };
+    let mut shadow = flat(other.corners());
+    if signed_area(&shadow) < 0.0 {
+        shadow.reverse();
+    }
+    let polygon = clipped(flat(facet.corners()), &shadow);
+    let smallest = SLIVER * facet.area.min(other.area);
+    (polygon.len() > 2 && signed_area(&polygon) > smallest).then_some(polygon)
+}
+
+/// Area of a polygon, positive where it runs counter-clockwise.
+fn signed_area(polygon: &[Vector2<f64>]) -> f64 {
+    let count = polygon.len();
+    let cross = (0..count).map(|i| polygon[i].perp(&polygon[(i + 1) % count]));
+    0.5 * cross.sum::<f64>()
+}
+
+/// The part of a convex polygon within another, both counter-clockwise.
+fn clipped(subject: Vec<Vector2<f64>>, window: &[Vector2<f64>]) -> Vec<Vector2<f64>> {
+    let mut polygon = subject;
+    for i in 0..window.len() {
+        let (from, to) = (window[i], window[(i + 1) % window.len()]);
+        let side = |point: &Vector2<f64>| (to - from).perp(&(point - from));
+        let mut kept = Vec::with_capacity(polygon.len() + 1);
+        for j in 0..polygon.len() {
+            let (p, q) = (polygon[j], polygon[(j + 1) % polygon.len()]);
+            let (a, b) = (side(&p), side(&q));
+            if a >= 0.0 {
+                kept.push(p);
+            }
+            if (a > 0.0 && b < 0.0) || (a < 0.0 && b > 0.0) {
+                kept.push(p + (q - p) * (a / (a - b)));
+            }
+        }
+        polygon = kept;
+    }
+    polygon
+}
+
+/// Faces by the cells of a grid that their bounding spheres touch.
+struct Grid {
+    cell: f64,
+    faces: BTreeMap<[i64; 3], Vec<usize>>,
+}
+
+impl Grid {
+    fn of(facets: &[Facet<'_>]) -> Self {
+        let largest = facets.iter().map(|facet| facet.radius).fold(0.0, f64::max);
+        let mut grid = Self {
+            cell: 2.0 * largest,
+            faces: BTreeMap::new(),
+        };
+        for (f, facet) in facets.iter().enumerate() {
+            for cell in grid.cells(&facet.center, facet.radius) {
+                grid.faces.entry(cell).or_default().push(f);
+            }
+        }
+        grid
+    }
+
+    fn cells(&self, center: &Vector3<f64>, radius: f64) -> Vec<[i64; 3]> {
+        let bound = |axis: usize, sign: f64| ((center[axis] + sign * radius) / self.cell).floor();
+        let range = |axis: usize| bound(axis, -1.0) as i64..=bound(axis, 1.0) as i64;
+        let mut cells = Vec::new();
+        for i in range(0) {
+            for j in range(1) {
+                cells.extend(range(2).map(|k| [i, j, k]));
+            }
+        }
+        cells
+    }
+
+    /// Faces whose cells a face within `reach` touches, ascending.
+    fn near(&self, facet: &Facet<'_>, reach: f64) -> Vec<usize> {
+        let cells = self.cells(&facet.center, facet.radius + 2.0 * reach);
+        let lists = cells.iter().filter_map(|cell| self.faces.get(cell));
+        let mut found: Vec<usize> = lists.flatten().copied().collect();
+        found.sort_unstable();
+        found.dedup();
+        found
+    }
+}

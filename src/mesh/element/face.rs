@@ -1,0 +1,115 @@
+//! Faces of elements: lines in the plane, triangles and quadrilaterals of solids.
+
+use super::rule::{self, QuadraturePoint};
+use super::shapes::{self, Shape};
+
+/// Kind of a face: an edge of a plane element or a face of a solid one.
+///
+/// Nodes are the corners, then the mid-side node after each corner; a line has its ends, then its middle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum FaceKind {
+    /// Straight line, `-1 <= xi <= 1`.
+    Line2,
+    /// Parabola.
+    Line3,
+    /// Linear triangle.
+    Tri3,
+    /// Quadratic triangle.
+    Tri6,
+    /// Bilinear quadrilateral.
+    Quad4,
+    /// Serendipity quadrilateral.
+    Quad8,
+}
+
+/// A point of a face.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FacePoint {
+    /// Shape functions of the face's nodes.
+    pub values: Vec<f64>,
+    /// Where it is, m.
+    pub position: [f64; 3],
+    /// Outward normal times the area that belongs to the point, m2; of a line times its length, m.
+    pub area: [f64; 3],
+}
+
+const TRIANGLE_EDGES: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
+
+impl FaceKind {
+    /// Corners of one face, ends of a line.
+    pub fn corner_count(self) -> usize {
+        match self {
+            Self::Line2 | Self::Line3 => 2,
+            Self::Tri3 | Self::Tri6 => 3,
+            Self::Quad4 | Self::Quad8 => 4,
+        }
+    }
+
+    /// Whether edges have a node at their middle.
+    pub fn is_quadratic(self) -> bool {
+        matches!(self, Self::Line3 | Self::Tri6 | Self::Quad8)
+    }
+
+    /// Nodes of one face.
+    pub fn node_count(self) -> usize {
+        match self {
+            Self::Line2 => 2,
+            Self::Line3 | Self::Tri3 => 3,
+            Self::Quad4 => 4,
+            Self::Tri6 => 6,
+            Self::Quad8 => 8,
+        }
+    }
+
+    /// Shape functions at a point of the face, in the order of its nodes.
+    pub fn shape_functions(self, [xi, eta]: [f64; 2]) -> Vec<Shape> {
+        match self {
+            Self::Line2 => shapes::line(false, xi),
+            Self::Line3 => shapes::line(true, xi),
+            Self::Tri3 => shapes::triangle(xi, eta).to_vec(),
+            Self::Tri6 => shapes::quadratic_simplex(&shapes::triangle(xi, eta), &TRIANGLE_EDGES),
+            Self::Quad4 => shapes::bilinear(xi, eta),
+            Self::Quad8 => shapes::serendipity(xi, eta),
+        }
+    }
+
+    /// Quadrature that is exact for products of two shape functions on a flat, undistorted face.
+    pub fn quadrature(self) -> Vec<QuadraturePoint> {
+        match self {
+            Self::Line2 => rule::line(&rule::TWO),
+            Self::Line3 => rule::line(&rule::THREE),
+            Self::Tri3 => rule::triangle_three(),
+            Self::Tri6 => rule::triangle_six(),
+            Self::Quad4 => rule::square(&rule::TWO),
+            Self::Quad8 => rule::square(&rule::THREE),
+        }
+    }
+
+    /// The point of a face with nodes at `points` that stands at a quadrature point.
+    pub fn at(self, points: &[[f64; 3]], (place, weight): QuadraturePoint) -> FacePoint {
+        let shapes = self.shape_functions([place[0], place[1]]);
+        let mut position = [0.0; 3];
+        let mut tangents = [[0.0; 3]; 2];
+        for ((value, slopes), point) in shapes.iter().zip(points) {
+            for axis in 0..3 {
+                position[axis] += value * point[axis];
+                tangents[0][axis] += slopes[0] * point[axis];
+                tangents[1][axis] += slopes[1] * point[axis];
+            }
+        }
+        // The second tangent of a line points along z: its normal is a quarter turn behind its direction.
+        if self.corner_count() == 2 {
+            tangents[1] = [0.0, 0.0, 1.0];
+        }
+        let [a, b] = tangents;
+        FacePoint {
+            values: shapes.into_iter().map(|shape| shape.0).collect(),
+            position,
+            area: [
+                weight * (a[1] * b[2] - a[2] * b[1]),
+                weight * (a[2] * b[0] - a[0] * b[2]),
+                weight * (a[0] * b[1] - a[1] * b[0]),
+            ],
+        }
+    }
+}

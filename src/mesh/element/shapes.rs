@@ -1,0 +1,223 @@
+//! Shape functions on the parent elements.
+
+/// Value of a shape function and its slopes in the parent element, `N` and `dN / d(xi, eta, zeta)`.
+pub type Shape = (f64, [f64; 3]);
+
+/// Corners of the square.
+pub(super) const SQUARE: [(f64, f64); 4] = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+
+/// Corners of the tetrahedron; its first three are those of the triangle.
+pub(super) const TETRAHEDRON: [[f64; 3]; 4] = [
+    [0.0, 0.0, 0.0],
+    [1.0, 0.0, 0.0],
+    [0.0, 1.0, 0.0],
+    [0.0, 0.0, 1.0],
+];
+
+/// Corners of the wedge.
+pub(super) const WEDGE: [[f64; 3]; 6] = [
+    [0.0, 0.0, -1.0],
+    [1.0, 0.0, -1.0],
+    [0.0, 1.0, -1.0],
+    [0.0, 0.0, 1.0],
+    [1.0, 0.0, 1.0],
+    [0.0, 1.0, 1.0],
+];
+
+const BRICK_CORNERS: [[f64; 3]; 8] = [
+    [-1.0, -1.0, -1.0],
+    [1.0, -1.0, -1.0],
+    [1.0, 1.0, -1.0],
+    [-1.0, 1.0, -1.0],
+    [-1.0, -1.0, 1.0],
+    [1.0, -1.0, 1.0],
+    [1.0, 1.0, 1.0],
+    [-1.0, 1.0, 1.0],
+];
+
+const BRICK_MIDDLES: [[f64; 3]; 12] = [
+    [0.0, -1.0, -1.0],
+    [1.0, 0.0, -1.0],
+    [0.0, 1.0, -1.0],
+    [-1.0, 0.0, -1.0],
+    [0.0, -1.0, 1.0],
+    [1.0, 0.0, 1.0],
+    [0.0, 1.0, 1.0],
+    [-1.0, 0.0, 1.0],
+    [-1.0, -1.0, 0.0],
+    [1.0, -1.0, 0.0],
+    [1.0, 1.0, 0.0],
+    [-1.0, 1.0, 0.0],
+];
+
+/// Linear and quadratic functions of a line, `-1 <= s <= 1`: its ends, then its middle.
+pub(super) fn line(is_quadratic: bool, s: f64) -> Vec<Shape> {
+    let shape = |value: f64, slope: f64| (value, [slope, 0.0, 0.0]);
+    if is_quadratic {
+        return vec![
+            shape(0.5 * s * (s - 1.0), s - 0.5),
+            shape(0.5 * s * (s + 1.0), s + 0.5),
+            shape(1.0 - s * s, -2.0 * s),
+        ];
+    }
+    vec![shape(0.5 * (1.0 - s), -0.5), shape(0.5 * (1.0 + s), 0.5)]
+}
+
+/// Area coordinates.
+pub(super) fn triangle(xi: f64, eta: f64) -> [Shape; 3] {
+    [
+        (1.0 - xi - eta, [-1.0, -1.0, 0.0]),
+        (xi, [1.0, 0.0, 0.0]),
+        (eta, [0.0, 1.0, 0.0]),
+    ]
+}
+
+/// Volume coordinates.
+pub(super) fn tetrahedron([xi, eta, zeta]: [f64; 3]) -> [Shape; 4] {
+    [
+        (1.0 - xi - eta - zeta, [-1.0, -1.0, -1.0]),
+        (xi, [1.0, 0.0, 0.0]),
+        (eta, [0.0, 1.0, 0.0]),
+        (zeta, [0.0, 0.0, 1.0]),
+    ]
+}
+
+/// `L (2 L - 1)` at corners, `4 L_I L_J` at the middle of the edge from I to J, of area or volume coordinates `L`.
+pub(super) fn quadratic_simplex(linear: &[Shape], edges: &[[usize; 2]]) -> Vec<Shape> {
+    let corner = |&(l, d): &Shape| {
+        let slope = 4.0 * l - 1.0;
+        (l * (2.0 * l - 1.0), d.map(|d| slope * d))
+    };
+    let middle = |&[start, end]: &[usize; 2]| {
+        let ((p, dp), (q, dq)) = (linear[start], linear[end]);
+        let slope = |axis: usize| 4.0 * (p * dq[axis] + q * dp[axis]);
+        (4.0 * p * q, std::array::from_fn(slope))
+    };
+    let corners = linear.iter().map(corner);
+    corners.chain(edges.iter().map(middle)).collect()
+}
+
+/// Bilinear functions of the square.
+pub(super) fn bilinear(xi: f64, eta: f64) -> Vec<Shape> {
+    let shape = |(a, b): (f64, f64)| {
+        let (p, q) = (1.0 + a * xi, 1.0 + b * eta);
+        (0.25 * p * q, [0.25 * a * q, 0.25 * b * p, 0.0])
+    };
+    SQUARE.map(shape).to_vec()
+}
+
+/// Serendipity functions of the square.
+pub(super) fn serendipity(xi: f64, eta: f64) -> Vec<Shape> {
+    let corner = SQUARE.iter().map(|&(a, b)| {
+        let (p, q) = (1.0 + a * xi, 1.0 + b * eta);
+        let s = a * xi + b * eta - 1.0;
+        let slopes = [0.25 * a * q * (s + p), 0.25 * b * p * (s + q), 0.0];
+        (0.25 * p * q * s, slopes)
+    });
+    let along_xi = |b: f64| {
+        let (p, q) = (1.0 - xi * xi, 1.0 + b * eta);
+        (0.5 * p * q, [-xi * q, 0.5 * b * p, 0.0])
+    };
+    let along_eta = |a: f64| {
+        let (p, q) = (1.0 + a * xi, 1.0 - eta * eta);
+        (0.5 * p * q, [0.5 * a * q, -eta * p, 0.0])
+    };
+    let middle = [
+        along_xi(-1.0),
+        along_eta(1.0),
+        along_xi(1.0),
+        along_eta(-1.0),
+    ];
+    corner.chain(middle).collect()
+}
+
+/// Parent coordinates of each node of a brick.
+pub(super) fn brick_places(is_quadratic: bool) -> Vec<[f64; 3]> {
+    let middles = if is_quadratic {
+        &BRICK_MIDDLES[..]
+    } else {
+        &[]
+    };
+    BRICK_CORNERS.iter().chain(middles).copied().collect()
+}
+
+/// Trilinear functions of a brick, or the serendipity functions
+/// `N = (1 + xi_I xi)(1 + eta_I eta)(1 + zeta_I zeta)(xi_I xi + eta_I eta + zeta_I zeta - 2) / 8` at corners and
+/// `(1 - xi^2)(1 + eta_I eta)(1 + zeta_I zeta) / 4` at the middle of edges along `xi`.
+pub(super) fn brick(is_quadratic: bool, at: [f64; 3]) -> Vec<Shape> {
+    let shape = |sign: [f64; 3]| {
+        let factor: [f64; 3] = std::array::from_fn(|k| match sign[k] {
+            0.0 => 1.0 - at[k] * at[k],
+            sign => 1.0 + sign * at[k],
+        });
+        let slope: [f64; 3] = std::array::from_fn(|k| match sign[k] {
+            0.0 => -2.0 * at[k],
+            sign => sign,
+        });
+        let product = factor[0] * factor[1] * factor[2];
+        let others = [
+            factor[1] * factor[2],
+            factor[0] * factor[2],
+            factor[0] * factor[1],
+        ];
+        let scaled = |scale: f64| {
+            let slopes = std::array::from_fn(|k| scale * slope[k] * others[k]);
+            (scale * product, slopes)
+        };
+        if !is_quadratic {
+            return scaled(0.125);
+        }
+        if sign.contains(&0.0) {
+            return scaled(0.25);
+        }
+        let s = (0..3).map(|k| sign[k] * at[k]).sum::<f64>() - 2.0;
+        let gradient = |k: usize| 0.125 * sign[k] * (others[k] * s + product);
+        (0.125 * product * s, std::array::from_fn(gradient))
+    };
+    brick_places(is_quadratic).into_iter().map(shape).collect()
+}
+
+/// Linear functions of a wedge, `L_I (1 -+ zeta) / 2`.
+pub(super) fn wedge([xi, eta, zeta]: [f64; 3]) -> Vec<Shape> {
+    let layer = |sign: f64| {
+        let along = 0.5 * (1.0 + sign * zeta);
+        triangle(xi, eta).map(|(l, d)| (l * along, [d[0] * along, d[1] * along, 0.5 * sign * l]))
+    };
+    [layer(-1.0), layer(1.0)].concat()
+}
+
+/// Serendipity functions of a wedge: `L ((2 L - 1)(1 -+ zeta) - (1 - zeta^2)) / 2` at corners, `2 L_I L_J (1 -+ zeta)` at the
+/// middle of edges of the triangles, `L (1 - zeta^2)` at the middle of edges between them.
+pub(super) fn quadratic_wedge([xi, eta, zeta]: [f64; 3]) -> Vec<Shape> {
+    let area = triangle(xi, eta);
+    let bubble = 1.0 - zeta * zeta;
+    let corners = |sign: f64| {
+        let along = 1.0 + sign * zeta;
+        area.map(|(l, d)| {
+            let slope = 0.5 * ((4.0 * l - 1.0) * along - bubble);
+            let axial = 0.5 * l * ((2.0 * l - 1.0) * sign + 2.0 * zeta);
+            let value = 0.5 * l * ((2.0 * l - 1.0) * along - bubble);
+            (value, [slope * d[0], slope * d[1], axial])
+        })
+    };
+    let sides = |sign: f64| {
+        let along = 1.0 + sign * zeta;
+        [[0, 1], [1, 2], [2, 0]].map(|[start, end]: [usize; 2]| {
+            let ((p, dp), (q, dq)) = (area[start], area[end]);
+            let slope = |axis: usize| 2.0 * along * (p * dq[axis] + q * dp[axis]);
+            (
+                2.0 * p * q * along,
+                [slope(0), slope(1), 2.0 * p * q * sign],
+            )
+        })
+    };
+    let between = area.map(|(l, d)| (l * bubble, [d[0] * bubble, d[1] * bubble, -2.0 * zeta * l]));
+    [
+        corners(-1.0),
+        corners(1.0),
+        sides(-1.0),
+        sides(1.0),
+        between,
+    ]
+    .concat()
+}

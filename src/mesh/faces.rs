@@ -1,0 +1,158 @@
+//! Faces on the surface of a body, edges on the rim of a plane one.
+
+use super::gmsh::CurveEdge;
+use super::{BoundaryFace, FaceKind, Mesh};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Corners of a face in ascending order: what names it whichever side it is seen from.
+pub(super) type FaceKey = [u32; 4];
+
+/// The key of a face with the given corners.
+pub(super) fn face_key(corners: &[u32]) -> FaceKey {
+    let mut key = [u32::MAX; 4];
+    key[..corners.len()].copy_from_slice(corners);
+    key.sort_unstable();
+    key
+}
+
+impl Mesh {
+    /// Face `face` of element `element`.
+    pub(super) fn element_face(&self, element: usize, face: usize) -> BoundaryFace {
+        let (kind, locals) = self.element_kind(element).faces()[face];
+        let nodes = self.element_nodes(element);
+        BoundaryFace {
+            kind,
+            element: element as u32,
+            nodes: locals.iter().map(|&local| nodes[local]).collect(),
+        }
+    }
+
+    /// Key, element and number within it of every face of every element, sorted.
+    fn sorted_faces(&self) -> Vec<(FaceKey, u32, u32)> {
+        let mut faces: Vec<(FaceKey, u32, u32)> = (0..self.element_count())
+            .flat_map(|element| {
+                let (kind, nodes) = (self.element_kind(element), self.element_nodes(element));
+                let faces = kind.faces().iter().enumerate();
+                faces.map(move |(face, (kind, locals))| {
+                    let mut corners = [0; 4];
+                    let count = kind.corner_count();
+                    for (corner, &local) in corners.iter_mut().zip(&locals[..count]) {
+                        *corner = nodes[local];
+                    }
+                    (face_key(&corners[..count]), element as u32, face as u32)
+                })
+            })
+            .collect();
+        faces.sort_unstable();
+        faces
+    }
+
+    /// Faces that belong to one element only, in the order of their elements: the surface of the body.
+    pub fn outer_faces(&self) -> Vec<BoundaryFace> {
+        let faces = self.sorted_faces();
+        let is_alone = |i: usize| {
+            let is_same = |j: usize| faces.get(j).is_some_and(|other| other.0 == faces[i].0);
+            !(is_same(i + 1) || i > 0 && is_same(i - 1))
+        };
+        let mut alone: Vec<(u32, u32)> = (0..faces.len())
+            .filter(|&i| is_alone(i))
+            .map(|i| (faces[i].1, faces[i].2))
+            .collect();
+        alone.sort_unstable();
+        let alone = alone.into_iter();
+        alone
+            .map(|(element, face)| self.element_face(element as usize, face as usize))
+            .collect()
+    }
+
+    /// Edges that belong to one element only, as `(start, end, middle)` with the body on their left.
+    pub fn outline_edges(&self) -> Vec<(u32, u32, Option<u32>)> {
+        let faces = self.outer_faces().into_iter();
+        faces
+            .map(|face| (face.nodes[0], face.nodes[1], face.nodes.get(2).copied()))
+            .collect()
+    }
+
+    /// The faces of a plane body along edges of its outline, in their order.
+    pub(super) fn edge_faces(&self, edges: &[CurveEdge]) -> Vec<BoundaryFace> {
+        let outer: BTreeMap<(u32, u32), BoundaryFace> = self
+            .outer_faces()
+            .into_iter()
+            .map(|face| ((face.nodes[0], face.nodes[1]), face))
+            .collect();
+        let edges = edges.iter();
+        edges
+            .filter_map(|&(start, end, _)| outer.get(&(start, end)).cloned())
+            .collect()
+    }
+
+    /// Gives every boundary the outline edges whose nodes are all its own.
+    pub(super) fn add_edges_of_boundaries(&mut self) {
+        let outer = self.outer_faces();
+        for boundary in &mut self.boundaries {
+            let nodes: BTreeSet<u32> = boundary.nodes.iter().copied().collect();
+            let is_own = |face: &&BoundaryFace| face.nodes.iter().all(|node| nodes.contains(node));
+            boundary.faces = outer.iter().filter(is_own).cloned().collect();
+        }
+    }
+
+    /// Coordinates of the nodes of a face, m.
+    pub fn face_points(&self, face: &BoundaryFace) -> Vec<[f64; 3]> {
+        let nodes = face.nodes.iter();
+        nodes.map(|&node| self.nodes[node as usize]).collect()
+    }
+
+    /// Area of faces, m2; length of edges, m.
+    pub fn face_area(&self, faces: &[BoundaryFace]) -> f64 {
+        let area = |face: &BoundaryFace| -> f64 {
+            let points = self.face_points(face);
+            let quadrature = face.kind.quadrature().into_iter();
+            quadrature
+                .map(|point| {
+                    let [x, y, z] = face.kind.at(&points, point).area;
+                    x.hypot(y).hypot(z)
+                })
+                .sum()
+        };
+        faces.iter().map(area).sum()
+    }
+
+    /// Unit normal out of the body at each node of a surface: the mean of its faces there, by area. Nodes ascend.
+    pub fn nodal_normals(&self, faces: &[BoundaryFace]) -> BTreeMap<u32, [f64; 3]> {
+        let mut sums: BTreeMap<u32, [f64; 3]> = BTreeMap::new();
+        for face in faces {
+            let points = self.face_points(face);
+            for (&node, &place) in face.nodes.iter().zip(&node_places(face.kind)) {
+                let area = face.kind.at(&points, (place, 1.0)).area;
+                let sum = sums.entry(node).or_default();
+                (0..3).for_each(|axis| sum[axis] += area[axis]);
+            }
+        }
+        for sum in sums.values_mut() {
+            let length = sum[0].hypot(sum[1]).hypot(sum[2]);
+            sum.iter_mut().for_each(|component| *component /= length);
+        }
+        sums
+    }
+}
+
+/// Parent coordinates of the nodes of a face.
+fn node_places(kind: FaceKind) -> Vec<[f64; 3]> {
+    let corners: &[[f64; 3]] = match kind.corner_count() {
+        2 => &[[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]],
+        3 => &[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+        _ => &[
+            [-1.0, -1.0, 0.0],
+            [1.0, -1.0, 0.0],
+            [1.0, 1.0, 0.0],
+            [-1.0, 1.0, 0.0],
+        ],
+    };
+    let middles = kind.node_count() - corners.len();
+    let middle = |edge: usize| {
+        let (p, q) = (corners[edge], corners[(edge + 1) % corners.len()]);
+        std::array::from_fn(|axis| 0.5 * (p[axis] + q[axis]))
+    };
+    let corners_then_middles = corners.iter().copied().chain((0..middles).map(middle));
+    corners_then_middles.collect()
+}

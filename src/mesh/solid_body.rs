@@ -1,0 +1,236 @@
+//! Solid bodies of a mesh file: regions, named surfaces, and what holds them.
+
+use super::faces::{FaceKey, face_key};
+use super::gmsh::{GmshFile, MeshFileError, SurfaceFace};
+use super::plane_body::used_nodes;
+use super::{Boundary, BoundaryCondition, BoundaryFace, Mesh, NodalFrames};
+use nalgebra::{Matrix3, Vector3};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Sine of the angle between two normals up to which they hold the same direction: surfaces that meet smoothly.
+const SAME_DIRECTION: f64 = 0.14;
+
+impl Mesh {
+    /// The solid bodies of a mesh file: physical volumes are regions, physical surfaces boundaries, both in alphabetical order.
+    ///
+    /// Boundaries without a condition are free. Surfaces inside a body, between two of its regions, bound nothing and are left
+    /// out. Nodal frames are the global axes, but where a guide holds a direction that is none of them. `scale` multiplies the
+    /// coordinates of the file.
+    ///
+    /// # Errors
+    /// [`MeshFileError::Body`] says what is wrong with the mesh or with the names used, and what to do.
+    pub fn from_solids(
+        file: &GmshFile,
+        scale: f64,
+        conditions: &[(String, BoundaryCondition)],
+    ) -> Result<Self, MeshFileError> {
+        let index_of = used_nodes(file)?;
+        let mut mesh = solid_elements(file, scale, &index_of)?;
+        let outer: BTreeMap<FaceKey, BoundaryFace> = mesh
+            .outer_faces()
+            .into_iter()
+            .map(|face| (face_key(&face.nodes[..face.kind.corner_count()]), face))
+            .collect();
+        // Each named surface with its faces on the outside; those that have some inside are no boundaries.
+        for (name, faces) in &file.surfaces {
+            let found: Option<BTreeMap<FaceKey, BoundaryFace>> = faces
+                .iter()
+                .map(|(kind, nodes)| {
+                    let corners = nodes[..kind.corner_count()].iter();
+                    let corners: Option<Vec<u32>> =
+                        corners.map(|&node| index_of[node as usize]).collect();
+                    let key = face_key(&corners?);
+                    outer.get(&key).map(|face| (key, face.clone()))
+                })
+                .collect();
+            if let Some(found) = found {
+                let boundary = mesh.surface(name, found.into_values().collect());
+                mesh.boundaries.push(boundary);
+            }
+        }
+        for (name, condition) in conditions {
+            let place = mesh.boundaries.iter().position(|b| b.name == *name);
+            let place = place.ok_or_else(|| no_surface(&file.surfaces, name))?;
+            mesh.boundaries[place].condition = *condition;
+        }
+        mesh.turn_frames_to_guides();
+        Ok(mesh)
+    }
+
+    /// A named surface of some faces, free.
+    fn surface(&self, name: &str, faces: Vec<BoundaryFace>) -> Boundary {
+        let nodes: BTreeSet<u32> = faces.iter().flat_map(|f| f.nodes.iter().copied()).collect();
+        let nodes: Vec<u32> = nodes.into_iter().collect();
+        let mut areas = vec![0.0; nodes.len()];
+        for face in &faces {
+            let points = self.face_points(face);
+            for point in face.kind.quadrature() {
+                let point = face.kind.at(&points, point);
+                let area = Vector3::from(point.area).norm();
+                for (node, value) in face.nodes.iter().zip(&point.values) {
+                    let place = nodes.binary_search(node);
+                    areas[place.expect("the nodes of a surface are those of its faces")] +=
+                        area * value;
+                }
+            }
+        }
+        Boundary {
+            name: name.to_owned(),
+            nodes,
+            faces,
+            tributary_lengths: areas,
+            ..Boundary::default()
+        }
+    }
+
+    /// Orthonormal directions in which boundary conditions hold each node of a solid body.
+    fn held_directions(&self) -> BTreeMap<u32, Vec<Vector3<f64>>> {
+        let mut held: BTreeMap<u32, Vec<Vector3<f64>>> = BTreeMap::new();
+        let mut hold = |node: u32, direction: Vector3<f64>| {
+            let basis = held.entry(node).or_default();
+            let along = |sum, b: &Vector3<f64>| sum + b * b.dot(&direction);
+            let rest = direction - basis.iter().fold(Vector3::zeros(), along);
+            if rest.norm() > SAME_DIRECTION {
+                basis.push(rest.normalize());
+            }
+        };
+        for boundary in &self.boundaries {
+            let axes = match boundary.condition {
+                BoundaryCondition::Clamped => [true; 3],
+                BoundaryCondition::Fixed(axes) => axes,
+                BoundaryCondition::Guide => {
+                    for (node, normal) in self.nodal_normals(&boundary.faces) {
+                        hold(node, Vector3::from(normal));
+                    }
+                    continue;
+                }
+                BoundaryCondition::Support(_)
+                | BoundaryCondition::Pressure(_)
+                | BoundaryCondition::Free => continue,
+            };
+            for &node in &boundary.nodes {
+                for axis in (0..3).filter(|&axis| axes[axis]) {
+                    hold(node, Vector3::ith(axis, 1.0));
+                }
+            }
+        }
+        held
+    }
+
+    /// Turns the frames of nodes that are held in some, not all, directions such that these are axes.
+    fn turn_frames_to_guides(&mut self) {
+        let mut frames = vec![Matrix3::identity(); self.node_count()];
+        for (node, held) in self.held_directions() {
+            let is_axis = |d: &Vector3<f64>| d.amax() > 1.0 - 1e-12;
+            if held.len() == 3 || held.iter().all(is_axis) {
+                continue;
+            }
+            let mut axes = held;
+            // The global axis that is farthest from those there are begins the next one.
+            while axes.len() < 3 {
+                let rest = |axis: usize| {
+                    let e = Vector3::<f64>::ith(axis, 1.0);
+                    e - axes
+                        .iter()
+                        .fold(Vector3::zeros(), |sum, b| sum + b * b[axis])
+                };
+                let rests = [rest(0), rest(1), rest(2)];
+                let lengths = rests.map(|rest| rest.norm());
+                let best = (0..3).max_by(|&a, &b| lengths[a].total_cmp(&lengths[b]));
+                axes.push(rests[best.expect("there are three axes")].normalize());
+            }
+            frames[node as usize] = Matrix3::from_columns(&axes);
+        }
+        self.frames = NodalFrames::Solid(frames);
+    }
+
+    /// Dofs of a solid body that boundary conditions hold at zero: axes of nodal frames along held directions.
+    pub(super) fn held_solid_dofs(&self) -> Vec<usize> {
+        let mut dofs = Vec::new();
+        for (node, held) in self.held_directions() {
+            let frame = self.frame(node as usize);
+            for axis in 0..3 {
+                let column = frame.column(axis).into_owned();
+                let share: f64 = held.iter().map(|b| b.dot(&column).powi(2)).sum();
+                if share > 0.99 {
+                    dofs.push(3 * node as usize + axis);
+                }
+            }
+        }
+        dofs
+    }
+}
+
+/// Nodes, elements and regions of the solid elements of a file.
+fn solid_elements(
+    file: &GmshFile,
+    scale: f64,
+    index_of: &[Option<u32>],
+) -> Result<Mesh, MeshFileError> {
+    let count = index_of.iter().flatten().count();
+    let names: BTreeSet<&str> = file.elements.iter().map(|e| e.region.as_str()).collect();
+    let names: Vec<&str> = names.into_iter().collect();
+    if names.len() > usize::from(u16::MAX) {
+        return Err(MeshFileError::Body(format!(
+            "{} physical volumes are more than can be told apart",
+            names.len()
+        )));
+    }
+    let mut mesh = Mesh {
+        dimension: 3,
+        nodes: vec![[0.0; 3]; count],
+        frames: NodalFrames::global(3, count),
+        element_starts: vec![0],
+        labels: vec![0; count],
+        regions: names.iter().map(|name| (*name).to_owned()).collect(),
+        ..Mesh::default()
+    };
+    for (node, (point, index)) in file.points.iter().zip(index_of).enumerate() {
+        let Some(index) = *index else { continue };
+        mesh.nodes[index as usize] = point.map(|coordinate| scale * coordinate);
+        mesh.labels[index as usize] = file.labels[node];
+    }
+    for (e, element) in file.elements.iter().enumerate() {
+        let nodes = element.nodes.iter();
+        let nodes = nodes
+            .map(|&node| index_of[node as usize].expect("nodes of elements are among those used"));
+        mesh.elements.extend(nodes);
+        mesh.element_starts.push(mesh.elements.len() as u32);
+        mesh.element_kinds.push(element.kind);
+        mesh.congruent_to.push(e as u32);
+        let region = names.binary_search(&element.region.as_str());
+        let region = region.expect("regions are those of the elements");
+        mesh.element_regions.push(region as u16);
+    }
+    mesh.check_elements(|e| file.elements[e].label)?;
+    Ok(mesh)
+}
+
+fn no_surface(surfaces: &BTreeMap<String, Vec<SurfaceFace>>, name: &str) -> MeshFileError {
+    if surfaces.contains_key(name) {
+        return MeshFileError::Body(format!(
+            "physical surface \"{name}\" does not lie on the outside of the bodies: some of its faces are faces of two elements, \
+             or of none"
+        ));
+    }
+    let nearest = surfaces
+        .keys()
+        .map(|known| (strsim::damerau_levenshtein(known, name), known))
+        .min();
+    let hint = match nearest {
+        Some((distance, known)) if distance <= 1 + name.len() / 3 => {
+            format!("; did you mean \"{known}\"?")
+        }
+        _ => String::new(),
+    };
+    let names: Vec<String> = surfaces.keys().map(|name| format!("\"{name}\"")).collect();
+    let list = if names.is_empty() {
+        "the file has none: put the surface in a physical group (Physical Surface in Gmsh)"
+            .to_owned()
+    } else {
+        format!("the file has {}", names.join(", "))
+    };
+    MeshFileError::Body(format!(
+        "no physical surface is called \"{name}\"; {list}{hint}"
+    ))
+}

@@ -1,0 +1,276 @@
+//! Solid bodies that are tied together and slide on each other.
+
+use super::cholesky::CholeskySolver;
+use super::complementarity::{CondensedContact, PressedRange, PressedState, Pressing};
+use super::elimination::Elimination;
+use super::tangent::{BodyTerms, ContactDofs, ContactPart, SlidingTangent};
+use super::{PrestressError, TangentOptions};
+use crate::contact::{
+    ContactStiffness, ContactSurface, Motion, PairError, PairFriction, PointKind, PressedPoints,
+    SurfacePair, mortar_nodes,
+};
+use crate::fem::{
+    MaterialField, Triplets, assemble_extra_damping, assemble_mass, assemble_pressures,
+    assemble_stiffness, assemble_supports,
+};
+use crate::mesh::Mesh;
+
+/// Two boundaries of a mesh by their indices.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TiedSurfaces {
+    /// What the case calls the tie.
+    pub name: String,
+    /// The surface whose nodes follow: the finer one.
+    pub surface: usize,
+    /// The surface that they follow.
+    pub counter: usize,
+}
+
+/// What the base state of a contact is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum BaseChoice {
+    /// Gap, pressure and opening from the loads.
+    #[default]
+    Solved,
+    /// All facing points touch, free of stress.
+    Closed,
+}
+
+/// Two boundaries of a mesh, by their indices, of which one slides on the other.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SlidingSurfaces {
+    /// What the case calls the contact.
+    pub name: String,
+    /// The surface that has the contact points: the finer, softer one.
+    pub surface: usize,
+    /// The surface that it meets.
+    pub counter: usize,
+    /// Friction beside the coefficient of a sweep.
+    pub friction: PairFriction,
+    /// Penalty or rigid, and dashpots.
+    pub stiffness: ContactStiffness,
+}
+
+/// Solid bodies of one mesh with what ties them and what slides.
+///
+/// Meshes stay where they are; the sliding is imposed as a relative velocity. Small motions are taken about the undeformed
+/// bodies: neither geometric stiffness nor forces that turn with the surface, of which one without the other would not leave
+/// a rigid rotation free.
+#[derive(Debug)]
+pub struct Assembly<'a> {
+    mesh: &'a Mesh,
+    materials: &'a dyn MaterialField,
+    elastic: Triplets,
+    supports: [Triplets; 2],
+    /// Held dofs and ties.
+    basis: Elimination,
+    /// The contacts with their points.
+    contacts: Vec<(SlidingSurfaces, ContactSurface)>,
+    base: BaseChoice,
+}
+
+impl<'a> Assembly<'a> {
+    /// Pairs the surfaces of `ties` and `contacts`, and eliminates the ties.
+    ///
+    /// # Errors
+    /// [`PrestressError::Pair`] names the tie or contact whose surfaces do not meet.
+    pub fn new(
+        mesh: &'a Mesh,
+        materials: &'a dyn MaterialField,
+        ties: &[TiedSurfaces],
+        contacts: &[SlidingSurfaces],
+        motions: &[Motion],
+        base: BaseChoice,
+    ) -> Result<Self, PrestressError> {
+        let mut basis = Elimination::holding(mesh.dof_count(), mesh.held_dofs());
+        for tie in ties {
+            tie_surfaces(mesh, tie, &mut basis)?;
+        }
+        let found: Result<Vec<_>, PrestressError> = contacts
+            .iter()
+            .map(|contact| {
+                let sides = [contact.surface, contact.counter].map(|b| &mesh.boundaries[b]);
+                let kind = match contact.stiffness.normal_stiffness {
+                    Some(_) => PointKind::Segments,
+                    None => PointKind::Nodes,
+                };
+                let surface = ContactSurface::of(mesh, sides, motions, contact.friction, kind);
+                let surface = surface.map_err(|error| named("contacts", &contact.name, error))?;
+                Ok((contact.clone(), surface))
+            })
+            .collect();
+        Ok(Self {
+            elastic: assemble_stiffness(mesh, materials),
+            supports: assemble_supports(mesh),
+            contacts: found?,
+            mesh,
+            materials,
+            basis,
+            base,
+        })
+    }
+
+    /// The contacts with their points.
+    pub fn contacts(&self) -> &[(SlidingSurfaces, ContactSurface)] {
+        &self.contacts
+    }
+
+    /// Base states at every one of `friction_coefficients`, over the points of all contacts in turn.
+    ///
+    /// # Errors
+    /// [`PrestressError::GapEverywhere`], [`PrestressError::NoState`], [`PrestressError::Singular`].
+    pub fn range(&self, friction_coefficients: &[f64]) -> Result<PressedRange, PrestressError> {
+        let points: Vec<_> = self
+            .contacts
+            .iter()
+            .flat_map(|(_, surface)| surface.points.iter().cloned())
+            .collect();
+        if self.base == BaseChoice::Closed {
+            return Ok(PressedRange {
+                states: vec![PressedState {
+                    displacements: vec![vec![0.0; self.mesh.dof_count()]],
+                    normal_forces: Vec::new(),
+                    is_pressed: vec![true; points.len()],
+                }],
+                state_of: vec![0; friction_coefficients.len()],
+                changes: Vec::new(),
+            });
+        }
+        let mut stiffness = self.elastic.clone();
+        stiffness
+            .entries
+            .extend_from_slice(&self.supports[0].entries);
+        let none = || vec![0.0; self.mesh.dof_count()];
+        let load = assemble_pressures(self.mesh).unwrap_or_else(none);
+        if points.is_empty() {
+            let count = friction_coefficients.len();
+            return self.without_contact(&stiffness, &load, count);
+        }
+        let stiffnesses = self.contacts.iter().flat_map(|(contact, surface)| {
+            let normal = contact.stiffness.normal_stiffness;
+            let points = surface.points.iter();
+            points.map(move |point| normal.map(|k| k * point.weight))
+        });
+        let pressing = Pressing {
+            stiffness: &stiffness,
+            load,
+            elimination: self.basis.clone(),
+            pushed: points.iter().map(|point| -point.gap).collect(),
+            stiffnesses: stiffnesses.collect(),
+            points: &points,
+        };
+        CondensedContact::new(&pressing)?.range(friction_coefficients)
+    }
+
+    /// Bodies that are tied at most, under their loads.
+    fn without_contact(
+        &self,
+        stiffness: &Triplets,
+        load: &[f64],
+        count: usize,
+    ) -> Result<PressedRange, PrestressError> {
+        let unknowns = self.basis.unknowns();
+        let solver = CholeskySolver::new(&self.basis.congruent(stiffness), &unknowns)?;
+        let right = unknowns.restrict(&self.basis.transposed_forces(load));
+        let displacement = unknowns.expand(&solver.solve(right));
+        Ok(PressedRange {
+            states: vec![PressedState {
+                displacements: vec![self.basis.displacement(&displacement)],
+                normal_forces: Vec::new(),
+                is_pressed: Vec::new(),
+            }],
+            state_of: vec![0; count],
+            changes: Vec::new(),
+        })
+    }
+
+    /// Mass, damping and stiffness of small motions around `state`.
+    ///
+    /// # Errors
+    /// [`PrestressError::Overconstrained`] where a rigid contact has no free dof to hold.
+    pub fn tangent(
+        &self,
+        state: &PressedState,
+        options: &TangentOptions,
+    ) -> Result<SlidingTangent, PrestressError> {
+        let body = BodyTerms {
+            mass: assemble_mass(self.mesh, self.materials, options.mass),
+            elastic: self.elastic.clone(),
+            geometric: None,
+            supports: self.supports.clone(),
+            extra_damping: assemble_extra_damping(
+                self.mesh,
+                self.materials,
+                options.mass,
+                options.damping,
+            ),
+        };
+        // Each contact has its stretch of the state's points.
+        let mut first = 0;
+        let stretches: Vec<(std::ops::Range<usize>, Vec<Vec<f64>>)> = self
+            .contacts
+            .iter()
+            .map(|(_, surface)| {
+                let range = first..first + surface.points.len();
+                first = range.end;
+                let forces = state
+                    .normal_forces
+                    .iter()
+                    .map(|all| all[range.clone()].to_vec());
+                (range.clone(), forces.collect())
+            })
+            .collect();
+        let parts: Vec<ContactPart<'_>> = self
+            .contacts
+            .iter()
+            .zip(&stretches)
+            .map(|((contact, surface), (range, forces))| ContactPart {
+                points: &surface.points,
+                state: PressedPoints {
+                    is_pressed: &state.is_pressed[range.clone()],
+                    normal_forces: forces,
+                },
+                stiffness: contact.stiffness,
+                has_own_dofs: contact.stiffness.normal_stiffness.is_none(),
+            })
+            .collect();
+        let nodes = self.contacts.iter().flat_map(|(_, surface)| &surface.nodes);
+        let dofs = ContactDofs {
+            tangential: nodes
+                .flat_map(|&node| (0..3).map(move |axis| 3 * node as usize + axis))
+                .collect(),
+            sliding_direction: 1.0,
+            ..ContactDofs::default()
+        };
+        SlidingTangent::assemble(&body, &parts, self.basis.clone(), &dofs, options)
+    }
+}
+
+/// Takes the jumps of a tie's nodes for unknowns, and drops them.
+fn tie_surfaces(
+    mesh: &Mesh,
+    tie: &TiedSurfaces,
+    basis: &mut Elimination,
+) -> Result<(), PrestressError> {
+    let [surface, counter] = [tie.surface, tie.counter].map(|b| &mesh.boundaries[b]);
+    let pair = SurfacePair::of(mesh, surface, counter);
+    let pair = pair.map_err(|error| named("ties", &tie.name, error))?;
+    for node in mortar_nodes(mesh, surface, &pair) {
+        for axis in 0..3 {
+            let mut direction = [0.0; 3];
+            direction[axis] = 1.0;
+            // A jump without a free dof is held on both sides already.
+            if let Some(pivot) = basis.take(&node.jump(mesh, direction)) {
+                basis.drop_unknown(pivot);
+            }
+        }
+    }
+    Ok(())
+}
+
+fn named(section: &str, name: &str, error: PairError) -> PrestressError {
+    PrestressError::Pair {
+        name: format!("{section}.{name}"),
+        error,
+    }
+}

@@ -1,0 +1,229 @@
+//! Unknowns of bodies that are held, tied and in contact.
+
+use super::PrestressError;
+use crate::contact::Row;
+use crate::fem::{DofMap, Triplets};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Entries `(row, column, value)` over the unknowns, by power of `mu`.
+pub(super) type ProjectedPolynomial = Vec<Vec<(usize, usize, f64)>>;
+
+/// Share of a row's largest coefficient that its first free dof must have to be the one that the row replaces.
+const SMALLEST_PIVOT: f64 = 0.3;
+
+/// A change of basis `u = T y` that makes linear forms of the displacements unknowns of their own, and drops some.
+///
+/// Each form `g . u` taken in ([`Self::take`]) stands in `y` in place of one of its dofs, its pivot: the separation of a
+/// contact point, the jump across a tie. What is dropped ([`Self::drop_unknown`]) vanishes: held dofs, jumps of ties,
+/// separations of rigid contact. Forms may share dofs with each other; pivots are substituted as they come.
+#[derive(Clone, Debug)]
+pub struct Elimination {
+    /// `u[pivot]` as a combination of `y`; every other dof is itself.
+    combined: BTreeMap<usize, Row>,
+    /// Pivots whose combination has this dof.
+    used_in: BTreeMap<usize, BTreeSet<usize>>,
+    is_dropped: Vec<bool>,
+}
+
+/// Friction of rigid contact: the force of a dropped separation acts along the slip too.
+#[derive(Clone, Debug)]
+pub(super) struct RigidFriction {
+    /// Pivot of the separation.
+    pub pivot: usize,
+    /// `drag` times the row of the slip, over all dofs.
+    pub slip: Row,
+}
+
+impl Elimination {
+    /// No forms yet; `held` of `total` dofs vanish.
+    pub fn holding(total: usize, held: impl IntoIterator<Item = usize>) -> Self {
+        let mut is_dropped = vec![false; total];
+        held.into_iter().for_each(|dof| is_dropped[dof] = true);
+        Self {
+            combined: BTreeMap::new(),
+            used_in: BTreeMap::new(),
+            is_dropped,
+        }
+    }
+
+    /// Makes `row . u` an entry of `y`, and returns which: that of the row's first dof that is free and not small in it.
+    /// `None` where the row has no free dof left: what it measures is held or follows from forms taken before.
+    pub fn take(&mut self, row: &Row) -> Option<usize> {
+        let row_in_y = self.transposed(row);
+        let own: BTreeMap<usize, f64> = row_in_y.iter().copied().collect();
+        let is_free = |dof: usize| !self.is_dropped[dof] && !self.combined.contains_key(&dof);
+        let free = || own.iter().filter(|(dof, _)| is_free(**dof));
+        let largest = free().fold(0.0_f64, |m, (_, value)| m.max(value.abs()));
+        let size = row.iter().fold(0.0_f64, |m, entry| m.max(entry.1.abs()));
+        if largest <= 1e-9 * size {
+            return None;
+        }
+        let is_large = |value: f64| value.abs() >= SMALLEST_PIVOT * largest;
+        let firsts = row.iter().map(|entry| entry.0);
+        let mut candidates = firsts.chain(free().map(|(dof, _)| *dof));
+        let pivot = candidates
+            .find(|dof| is_free(*dof) && own.get(dof).is_some_and(|value| is_large(*value)))?;
+        // u[pivot] = (y[pivot] - sum of the others) / coefficient.
+        let coefficient = own[&pivot];
+        let others = own.iter().filter(|(dof, _)| **dof != pivot);
+        let others = others.map(|(&dof, value)| (dof, -value / coefficient));
+        let combination: Row = std::iter::once((pivot, 1.0 / coefficient))
+            .chain(others.filter(|entry| entry.1 != 0.0))
+            .collect();
+        self.substitute(pivot, combination);
+        Some(pivot)
+    }
+
+    /// Puts the combination of a new pivot into those that have it.
+    fn substitute(&mut self, pivot: usize, combination: Row) {
+        for earlier in self.used_in.remove(&pivot).unwrap_or_default() {
+            let mut sum: BTreeMap<usize, f64> = BTreeMap::new();
+            for &(dof, value) in &self.combined[&earlier] {
+                if dof == pivot {
+                    for &(other, share) in &combination {
+                        *sum.entry(other).or_default() += value * share;
+                    }
+                } else {
+                    *sum.entry(dof).or_default() += value;
+                }
+            }
+            let row: Row = sum.into_iter().collect();
+            self.record(earlier, &row);
+            self.combined.insert(earlier, row);
+        }
+        self.record(pivot, &combination);
+        self.combined.insert(pivot, combination);
+    }
+
+    fn record(&mut self, pivot: usize, row: &Row) {
+        for &(dof, _) in row {
+            self.used_in.entry(dof).or_default().insert(pivot);
+        }
+    }
+
+    /// An entry of `y` that vanishes.
+    pub fn drop_unknown(&mut self, dof: usize) {
+        self.is_dropped[dof] = true;
+    }
+
+    /// What `y` remains.
+    pub fn unknowns(&self) -> DofMap {
+        let dropped = (0..self.is_dropped.len()).filter(|&dof| self.is_dropped[dof]);
+        DofMap::excluding(self.is_dropped.len(), dropped)
+    }
+
+    /// Dofs that are combinations of `y`, with these.
+    pub fn combinations(&self) -> impl Iterator<Item = (usize, &Row)> {
+        self.combined.iter().map(|(&dof, row)| (dof, row))
+    }
+
+    /// `T^T g`: the form `g . u` over `y`, sorted, those that vanish included.
+    pub fn transposed(&self, row: &[(usize, f64)]) -> Row {
+        let mut sum: BTreeMap<usize, f64> = BTreeMap::new();
+        for &(dof, value) in row {
+            match self.combined.get(&dof) {
+                None => *sum.entry(dof).or_default() += value,
+                Some(combination) => {
+                    for &(other, share) in combination {
+                        *sum.entry(other).or_default() += value * share;
+                    }
+                }
+            }
+        }
+        sum.into_iter().collect()
+    }
+
+    /// `T^T f` of forces over all dofs.
+    pub fn transposed_forces(&self, forces: &[f64]) -> Vec<f64> {
+        let mut result = forces.to_vec();
+        for &pivot in self.combined.keys() {
+            result[pivot] = 0.0;
+        }
+        for (&pivot, row) in &self.combined {
+            for &(dof, share) in row {
+                result[dof] += share * forces[pivot];
+            }
+        }
+        result
+    }
+
+    /// `u = T y`.
+    pub fn displacement(&self, y: &[f64]) -> Vec<f64> {
+        let mut u = y.to_vec();
+        for (&pivot, row) in &self.combined {
+            u[pivot] = row.iter().map(|&(dof, share)| share * y[dof]).sum();
+        }
+        u
+    }
+
+    /// `T^T A T` over `y`.
+    pub fn congruent(&self, matrix: &Triplets) -> Triplets {
+        if self.combined.is_empty() {
+            return matrix.clone();
+        }
+        let mut entries = Vec::with_capacity(matrix.entries.len());
+        for &(row, column, value) in &matrix.entries {
+            let [rows, columns] = [row, column].map(|dof| self.combined.get(&dof));
+            if rows.is_none() && columns.is_none() {
+                entries.push((row, column, value));
+                continue;
+            }
+            let (own_row, own_column) = ([(row, 1.0)], [(column, 1.0)]);
+            let rows = rows.map_or(&own_row[..], Vec::as_slice);
+            let columns = columns.map_or(&own_column[..], Vec::as_slice);
+            for &(row, along) in rows {
+                for &(column, across) in columns {
+                    entries.push((row, column, along * value * across));
+                }
+            }
+        }
+        Triplets { entries }
+    }
+
+    /// The matrices of small motions over the unknowns: `T^T A T` without what vanishes, where `friction` adds `-mu` times the
+    /// row of a dropped separation, the force of rigid contact, to the rows of its slip.
+    pub(super) fn project(
+        &self,
+        full: &[Triplets],
+        unknowns: &DofMap,
+        friction: &[RigidFriction],
+    ) -> ProjectedPolynomial {
+        let slips: BTreeMap<usize, Row> = friction
+            .iter()
+            .map(|rigid| {
+                let slip = self.transposed(&rigid.slip).into_iter();
+                let free = slip.filter_map(|(dof, a)| Some((unknowns.unknown_of[dof]?, a)));
+                (rigid.pivot, free.collect())
+            })
+            .collect();
+        let powers = full.len() + usize::from(!slips.is_empty());
+        let mut projected = vec![Vec::new(); powers];
+        for (power, terms) in full.iter().enumerate() {
+            for (row, column, value) in self.congruent(terms).entries {
+                let Some(unknown) = unknowns.unknown_of[column].filter(|_| value != 0.0) else {
+                    continue;
+                };
+                if let Some(row) = unknowns.unknown_of[row] {
+                    projected[power].push((row, unknown, value));
+                } else if let Some(slip) = slips.get(&row) {
+                    let moved = slip
+                        .iter()
+                        .map(|&(row, along)| (row, unknown, -along * value));
+                    projected[power + 1].extend(moved);
+                }
+            }
+        }
+        projected
+    }
+
+    /// Refuses a tie or a rigid contact whose forms hold a body more than once.
+    ///
+    /// # Errors
+    /// [`PrestressError::Overconstrained`].
+    pub fn require(&mut self, row: &Row, name: &str) -> Result<usize, PrestressError> {
+        self.take(row)
+            .ok_or_else(|| PrestressError::Overconstrained {
+                name: name.to_owned(),
+            })
+    }
+}

@@ -1,0 +1,120 @@
+//! What to know of a run before its numbers are used.
+
+use super::TransientStudy;
+use crate::case::ModeSelection;
+use crate::fem::assemble_stiffness;
+use crate::prestress::{PrestressError, SteadySliding};
+use crate::transient::{InitialState, Recorder, TransientAnalysis};
+
+/// Largest displacement of the contact relative to the size of the body that is small.
+const SMALL_DISPLACEMENT: f64 = 0.02;
+
+/// Largest mean strain that is small.
+const SMALL_STRAIN: f64 = 0.01;
+
+/// Error of the period by the time step above which it is said.
+const STEP_ERROR: f64 = 1e-3;
+
+impl TransientStudy<'_> {
+    /// What leaves the theory, the eigenvalue analysis or the accuracy that numbers are expected to have.
+    pub(super) fn notes(
+        &self,
+        record: &Recorder,
+        analysis: &TransientAnalysis,
+        time_step: f64,
+    ) -> Vec<String> {
+        let found = [
+            self.no_sliding(),
+            self.large_motion(record),
+            self.beyond_modes(analysis),
+            coarse_step(record, analysis, time_step),
+        ];
+        found.into_iter().flatten().collect()
+    }
+
+    /// That the body has no state of steady sliding, so that it jams or jumps.
+    fn no_sliding(&self) -> Option<String> {
+        let case = self.case;
+        let starts_at_rest = self.settings.initial == InitialState::Rest;
+        if !starts_at_rest || case.is_annulus() || case.contact.sliding.rotation_speed == 0.0 {
+            return None;
+        }
+        let stiffness = assemble_stiffness(&self.mesh, case.materials());
+        match SteadySliding::solve(&self.mesh, &stiffness, &case.contact.sliding) {
+            Err(error @ PrestressError::NoState { .. }) => Some(format!("the body jams: {error}")),
+            // A gap closes as the run moves the body, and other faults stop the run itself.
+            Ok(_) | Err(_) => None,
+        }
+    }
+
+    /// That displacements or strains are not small.
+    fn large_motion(&self, record: &Recorder) -> Option<String> {
+        let mesh = &self.mesh;
+        let extent = |axis: usize| {
+            let places = mesh.nodes.iter().map(|node| node[axis]);
+            let [low, high] = places.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| {
+                [low.min(x), high.max(x)]
+            });
+            high - low
+        };
+        let size = extent(0).hypot(extent(1));
+        let displacement = record.largest_motion(0..record.rows.len());
+
+        // From the strain energy U: the uniform strain that the body would store it with, U = 1/2 (sum E A) strain^2.
+        let materials = self.case.materials();
+        let stiffness: f64 = (0..mesh.element_count())
+            .map(|e| mesh.element_area(e) * materials.of(mesh.region(e)).young_modulus)
+            .sum();
+        let depth = self.sector.as_ref().map_or(1.0, |_| self.case.thickness);
+        let energies = record.rows.iter().map(|row| row.strain_energy);
+        let energy = energies.fold(0.0, f64::max);
+        let strain = (2.0 * energy / (stiffness * depth)).sqrt();
+        if displacement < SMALL_DISPLACEMENT * size && strain < SMALL_STRAIN {
+            return None;
+        }
+        Some(format!(
+            "the motion leaves the theory of small displacements: the contact moves by up to {:.3} mm, {:.1} % of the \
+             size of the body, with a mean strain of up to {:.2} %",
+            1e3 * displacement,
+            100.0 * displacement / size,
+            100.0 * strain,
+        ))
+    }
+
+    /// That the run vibrates at a frequency that the eigenvalue analysis of the case does not look at.
+    fn beyond_modes(&self, analysis: &TransientAnalysis) -> Option<String> {
+        let ModeSelection::BelowHz(limit) = self.case.cea.as_ref()?.modes else {
+            return None;
+        };
+        let frequency = analysis.last_fifth.main_frequency_hz?;
+        (frequency > limit).then(|| {
+            format!(
+                "the main frequency of {frequency:.1} Hz is above cea.max_frequency_hz = {limit}: `cea` on this case does \
+                 not find the mode behind it"
+            )
+        })
+    }
+}
+
+/// That the time step costs accuracy.
+///
+/// A node that comes to rest or leaves it does so at a step, half a step late on average. Where the nodes of a wave
+/// do so one after the other that averages out; where all do at once, twice a period, the period is one step longer.
+fn coarse_step(record: &Recorder, analysis: &TransientAnalysis, time_step: f64) -> Option<String> {
+    let frequency = analysis.last_fifth.main_frequency_hz?;
+    let start = record.rows.len() - record.rows.len().div_ceil(5);
+    let shares = record.rows[start..]
+        .iter()
+        .map(|row| row.counts.fractions()[0]);
+    let [low, high] = shares.fold([1.0_f64, 0.0_f64], |[low, high], share| {
+        [low.min(share), high.max(share)]
+    });
+    let error = (high - low) * frequency * time_step;
+    (error > STEP_ERROR).then(|| {
+        format!(
+            "the contact nodes stick and slip together, and the time step makes the period longer by about {:.2} %: a \
+             smaller transient.time_step is more accurate",
+            100.0 * error
+        )
+    })
+}

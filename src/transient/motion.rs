@@ -1,0 +1,119 @@
+//! Whether the vibration at the end of a run has one frequency or two.
+
+use super::Recorder;
+use super::vibration::{rms, series};
+use crate::signal::{RotatingLine, rotating_lines};
+use rustfft::num_complex::Complex64;
+use std::ops::Range;
+
+/// A line weaker than this share of the strongest makes no motion of two frequencies.
+const SECOND: f64 = 0.05;
+
+/// Lines weaker than this share of the strongest are not looked at.
+const WEAKEST: f64 = 0.02;
+
+/// Periods after which a periodic motion repeats itself at the latest: subharmonics of that order are of one frequency.
+const LONGEST_REPETITION: usize = 3;
+
+/// Distance of two frequencies that are one and the same, in lines of the spectrum and relative.
+const LINES_APART: f64 = 0.3;
+const RELATIVELY_APART: f64 = 1e-3;
+
+/// A stationary motion of two frequencies that no common fundamental has.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TwoFrequencies {
+    /// That of the strongest line and that of the strongest one that is neither a multiple of it nor a harmonic of its
+    /// wave, Hz.
+    pub frequencies_hz: [f64; 2],
+    /// Largest over smallest envelope: half the range of the tangential displacement of the first contact node over a period
+    /// of the first frequency.
+    pub envelope_ratio: f64,
+}
+
+impl TwoFrequencies {
+    /// Frequency at which the envelope swings: distance of the second frequency from the nearest multiple of the first, Hz.
+    pub(super) fn beat_hz(&self) -> f64 {
+        let [first, second] = self.frequencies_hz;
+        (second - (second / first).round() * first).abs()
+    }
+
+    /// The two frequencies of a motion whose strongest vibration is `main` (harmonic, signed frequency in Hz); `None` for one
+    /// that is periodic.
+    ///
+    /// A periodic motion has lines at multiples of its frequency `f` alone (or of `f/2`, `f/3`), and a wave of `n_0` periods
+    /// around the contact that turns as a whole moves harmonic `n` at `f n / n_0`. Any other line above a twentieth of the
+    /// strongest is the second frequency. Lines nearer to each other than four over the length of `range` are not told apart.
+    pub(super) fn of(record: &Recorder, range: &Range<usize>, main: (usize, f64)) -> Option<Self> {
+        let rate = 1.0 / record.sample_interval;
+        let (wave, _) = main;
+        let largest = rms(&series(record, range.clone(), wave)?);
+        let lines: Vec<(usize, RotatingLine)> = record
+            .followed_harmonics()
+            .filter_map(|n| Some((n, series(record, range.clone(), n)?)))
+            .flat_map(|(n, series)| {
+                let lines = rotating_lines(&series, rate, WEAKEST * largest);
+                lines.into_iter().map(move |line| (n, line))
+            })
+            .collect();
+        let strongest = |lines: &mut dyn Iterator<Item = &(usize, RotatingLine)>| {
+            lines
+                .max_by(|a, b| a.1.amplitude.total_cmp(&b.1.amplitude))
+                .copied()
+        };
+        let (_, first) = strongest(&mut lines.iter().filter(|(n, _)| *n == wave))?;
+        let frequency = first.frequency_hz;
+        let width = rate / range.len() as f64;
+        let is_at = |line: f64, expected: f64| {
+            (line - expected).abs() < LINES_APART * width + RELATIVELY_APART * expected.abs()
+        };
+
+        // What neither repeats itself with the strongest line nor turns with its wave.
+        let is_foreign = |(n, line): &&(usize, RotatingLine), repetition: usize| {
+            let fundamental = frequency / repetition as f64;
+            let multiple = (line.frequency_hz / fundamental).round();
+            let turning = frequency * *n as f64 / wave as f64;
+            line.amplitude >= SECOND * first.amplitude
+                && !is_at(line.frequency_hz, multiple * fundamental)
+                && !(wave > 0 && is_at(line.frequency_hz, turning))
+        };
+        let foreign = |repetition: usize| {
+            let mut own = lines.iter().filter(|line| is_foreign(line, repetition));
+            strongest(&mut own)
+        };
+        let found: Option<Vec<_>> = (1..=LONGEST_REPETITION).map(foreign).collect();
+        let (_, second) = *found?.first()?;
+        Some(Self {
+            frequencies_hz: [frequency, second.frequency_hz].map(f64::abs),
+            envelope_ratio: envelope_ratio(record, range, frequency.abs()),
+        })
+    }
+}
+
+/// Largest over smallest half range over a period of the tangential displacement of the first contact node.
+fn envelope_ratio(record: &Recorder, range: &Range<usize>, frequency: f64) -> f64 {
+    let angle = record.contact_angles.first().copied().unwrap_or(0.0);
+    let displacement: Vec<f64> = range
+        .clone()
+        .map(|sample| {
+            let parts = record.followed_harmonics().map(|n| {
+                let amplitude = record.amplitude(sample, n).unwrap_or_default();
+                let turned = Complex64::from_polar(1.0, n as f64 * angle);
+                (Complex64::new(amplitude[0], amplitude[1]) * turned).re
+            });
+            parts.sum()
+        })
+        .collect();
+    let period = ((1.0 / (frequency * record.sample_interval)).round() as usize).max(2);
+    let sizes = displacement.windows(period + 1).map(|window| {
+        let [low, high] = window
+            .iter()
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &value| {
+                [low.min(value), high.max(value)]
+            });
+        0.5 * (high - low)
+    });
+    let [smallest, largest] = sizes.fold([f64::INFINITY, 0.0_f64], |[low, high], size| {
+        [low.min(size), high.max(size)]
+    });
+    largest / smallest
+}

@@ -1,0 +1,242 @@
+//! Figures and tables of bodies without symmetry, and of bodies without a thickness.
+//!
+//! Consistency checks: they look at the drawing, not at the physics.
+
+use crate::figures::{check_texts, synthetic, texts};
+use frictionsim::cea::{FrictionSweep, UnstableInterval};
+use frictionsim::fem::{NodalStress, RayleighDamping};
+use frictionsim::mesh::Mesh;
+use frictionsim::results::cea::{BaseField, BaseState, CeaReport, draw, print, write_base};
+use frictionsim::results::{DrawingOptions, Extent, Format, Manifest, OutputFolder, Replace};
+use std::f64::consts::PI;
+use tempfile::TempDir;
+
+/// A body whose mesh is no annulus to the program, though its hole is round.
+fn body() -> Mesh {
+    let mut mesh = synthetic::mesh(40, 3);
+    mesh.is_cyclic = false;
+    mesh
+}
+
+/// Modes of that body at five friction coefficients, two of which couple.
+fn sweep() -> FrictionSweep {
+    let mut sweep = synthetic::sweep(5);
+    for point in &mut sweep.points {
+        for (rank, mode) in point.modes.iter_mut().enumerate() {
+            (mode.harmonic, mode.direction, mode.branch) = (0, 0, rank);
+        }
+    }
+    let interval = |branch, critical_friction| UnstableInterval {
+        harmonic: 0,
+        branch,
+        direction: 0,
+        critical_friction,
+        frequency_hz: 1e4,
+        restabilized: None,
+        unstable_from_start: false,
+    };
+    sweep.intervals = vec![interval(3, 0.3), interval(5, 0.6)];
+    sweep
+}
+
+/// The contact of the hole as an imported edge lists it: angles up to half a turn, then on from minus half a turn.
+fn field(mesh: &Mesh) -> BaseField {
+    let nodes = mesh.contact_edge().nodes.clone();
+    let angle = |node: &u32| {
+        let [x, y] = mesh.nodes[*node as usize];
+        y.atan2(x)
+    };
+    let angles: Vec<f64> = nodes.iter().map(angle).collect();
+    assert!(!angles.is_sorted() && angles.iter().any(|angle| *angle < -0.9 * PI));
+    BaseField {
+        is_pressed: Some(vec![true; nodes.len()]),
+        pressures: angles
+            .iter()
+            .map(|angle| 1e6 * (2.0 + angle.cos()))
+            .collect(),
+        shears: angles
+            .iter()
+            .map(|angle| 3e5 * (2.0 + angle.cos()))
+            .collect(),
+        nodes,
+        angles,
+        displacement: vec![0.0; 2 * mesh.node_count()],
+        stress: vec![
+            NodalStress {
+                radial: -1e6,
+                ..NodalStress::default()
+            };
+            mesh.node_count()
+        ],
+    }
+}
+
+fn report<'a>(
+    mesh: &'a Mesh,
+    sweep: &'a FrictionSweep,
+    field: &'a BaseField,
+    extent: Extent,
+) -> CeaReport<'a> {
+    CeaReport {
+        title: "A body of its own",
+        mesh,
+        has_harmonics: false,
+        dofs: 320,
+        method: "sparse",
+        selection: "the lowest 28".into(),
+        friction_coefficients: &[0.0, 0.25, 0.5, 0.75, 1.0],
+        sweep,
+        contact_changes: &[0.6],
+        base: BaseState {
+            friction_coefficient: 0.5,
+            slipping: 40,
+            sticking: 0,
+            open: 0,
+            pressure_pa: [1e6, 3e6],
+            shear_pa: [3e5, 9e5],
+            torque_n_m: Some(2014.0),
+            drag_n: None,
+            power_w: 9600.0,
+            extent,
+        },
+        field,
+        solid: None,
+        sensitivities: None,
+        map: None,
+        notes: vec![],
+        wall_s: 1.0,
+    }
+}
+
+/// Draws the figures of a report and gives its folder.
+fn drawn(report: &CeaReport<'_>, width_mm: Option<f64>) -> TempDir {
+    let out = tempfile::tempdir().unwrap();
+    let path = out.path().join("out");
+    let folder = OutputFolder::open(&path, &Manifest::new("cea"), Replace::Anything).unwrap();
+    let one = RayleighDamping {
+        mass_coefficient: 40.0,
+        stiffness_coefficient: 4.5e-7,
+    };
+    let other = RayleighDamping {
+        mass_coefficient: 10.0,
+        ..one
+    };
+    let dampings = [
+        ("damping of disc".to_owned(), one),
+        ("damping of pad".to_owned(), other),
+    ];
+    let options = DrawingOptions {
+        width_mm,
+        formats: vec![Format::Svg],
+        ..DrawingOptions::default()
+    };
+    draw(&folder, report, &dampings, &options).unwrap();
+    folder.finish().unwrap();
+    out
+}
+
+fn read(folder: &TempDir, name: &str) -> String {
+    std::fs::read_to_string(folder.path().join("out").join(name)).unwrap()
+}
+
+#[test]
+fn modes_of_a_body_without_symmetry_have_numbers_and_no_harmonic() {
+    let (mesh, sweep) = (body(), sweep());
+    let field = field(&mesh);
+    let report = report(&mesh, &sweep, &field, Extent::WholeBody);
+    for width in [None, Some(85.0)] {
+        let folder = drawn(&report, width);
+        for name in ["locus", "pairs", "prestress"] {
+            let svg = read(&folder, &format!("figures/{name}.svg"));
+            let words = texts(&svg);
+            assert!(
+                !words.iter().any(|word| word.contains("n =")),
+                "{name}: {words:?}"
+            );
+            check_texts(name, &svg);
+        }
+        let pairs = texts(&read(&folder, "figures/pairs.svg"));
+        assert!(pairs.iter().any(|word| word == "mode 4"), "{pairs:?}");
+        assert!(
+            pairs
+                .iter()
+                .any(|word| word.contains("contact nodes open or close"))
+        );
+        let locus = texts(&read(&folder, "figures/locus.svg"));
+        for name in ["damping of disc", "damping of pad"] {
+            assert!(locus.iter().any(|word| word == name), "{locus:?}");
+        }
+        assert!(!read(&folder, "report.html").contains("harmonic n"));
+    }
+    let text = print(&report, false);
+    assert!(
+        text.contains("mode branch") && !text.contains("travels"),
+        "{text}"
+    );
+}
+
+#[test]
+fn contact_around_an_imported_hole_is_drawn_and_listed_over_rising_angles() {
+    let (mesh, sweep) = (body(), sweep());
+    let field = field(&mesh);
+    let places = field.along_contact(&mesh);
+    assert!(places.windows(2).all(|pair| pair[0].1 < pair[1].1));
+    assert!(places[0].1 >= 0.0 && places[39].1 < 2.0 * PI && places[39].1 > 1.9 * PI);
+    let report = report(&mesh, &sweep, &field, Extent::WholeBody);
+    let folder = drawn(&report, None);
+    let data = read(&folder, "report.html");
+    assert!(data.contains("Figure"));
+    // One curve from end to end of its frame: its abscissae rise, and it never crosses the panel backwards.
+    let svg = read(&folder, "figures/prestress.svg");
+    let curve = svg
+        .split("<path d=\"")
+        .find(|path| path.contains("stroke=\"#0072b2\""));
+    let curve = curve.unwrap().split('"').next().unwrap();
+    let numbers = curve.split(|c: char| !(c.is_ascii_digit() || c == '.' || c == '-'));
+    let numbers: Vec<f64> = numbers.filter_map(|text| text.parse().ok()).collect();
+    assert!(numbers.len() > 40, "{curve}");
+    let path = folder.path().join("base");
+    let out = OutputFolder::open(&path, &Manifest::new("cea"), Replace::Anything).unwrap();
+    write_base(&out, &mesh, (&report.base, &field)).unwrap();
+    let table = std::fs::read_to_string(path.join("prestress.csv")).unwrap();
+    let angles = table
+        .lines()
+        .skip(1)
+        .map(|line| line.split(',').nth(1).unwrap());
+    let angles: Vec<f64> = angles.map(|angle| angle.parse().unwrap()).collect();
+    assert!(angles.is_sorted() && angles.len() == 40, "{angles:?}");
+    let fields =
+        String::from_utf8_lossy(&std::fs::read(path.join("prestress.vtu")).unwrap()).into_owned();
+    for name in [
+        "status",
+        "pressure_pa",
+        "shear_pa",
+        "stress_xx_pa",
+        "friction_coefficient",
+        "power_w",
+    ] {
+        assert!(fields.contains(&format!("Name=\"{name}\"")), "{name}");
+    }
+}
+
+#[test]
+fn torque_and_power_of_a_body_without_a_thickness_are_for_each_metre() {
+    let (mesh, sweep) = (body(), sweep());
+    let field = field(&mesh);
+    let of = |extent| report(&mesh, &sweep, &field, extent);
+    let metre = print(&of(Extent::MetreOfThickness), false);
+    for text in [
+        "2014.0000 N m/m",
+        "9600.0 W/m",
+        "for each metre of thickness",
+    ] {
+        assert!(metre.contains(text), "{metre}");
+    }
+    let html = read(&drawn(&of(Extent::MetreOfThickness), None), "report.html");
+    assert!(html.contains("2014.000 N m/m") && html.contains("9600.0 W/m"));
+    let whole = print(&of(Extent::WholeBody), false);
+    assert!(
+        whole.contains("2014.0000 N m,") && !whole.contains("W/m"),
+        "{whole}"
+    );
+}

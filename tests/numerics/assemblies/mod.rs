@@ -1,0 +1,315 @@
+//! Solid bodies that are tied together and slide on each other (independent checks, unless a test says otherwise).
+
+mod bricks;
+
+use bricks::{Block, STEEL, file_of};
+use frictionsim::cea::sparse::sweep;
+use frictionsim::cea::{ModeLimit, SweepRequest};
+use frictionsim::contact::{ContactStiffness, Motion, PairError, PairFriction};
+use frictionsim::fem::{MassKind, RayleighDamping};
+use frictionsim::linalg::c64;
+use frictionsim::mesh::{BoundaryCondition, GmshFile, Mesh};
+use frictionsim::prestress::{
+    Assembly, BaseChoice, DampingModel, PrestressError, SlidingSurfaces, TangentOptions,
+    TiedSurfaces,
+};
+
+const OPTIONS: TangentOptions = TangentOptions {
+    mass: MassKind::Consistent,
+    geometric_stiffness: false,
+    damping: RayleighDamping {
+        mass_coefficient: 0.0,
+        stiffness_coefficient: 0.0,
+    },
+    damping_model: DampingModel::WholeTangent,
+    contact: ContactStiffness {
+        normal_stiffness: None,
+        normal_damping: 0.0,
+        tangential_damping: 0.0,
+        is_base_compliant: false,
+    },
+};
+
+fn mesh_of(bytes: &[u8], conditions: &[(&str, BoundaryCondition)]) -> Mesh {
+    let conditions: Vec<_> = conditions
+        .iter()
+        .map(|&(name, condition)| (name.to_owned(), condition))
+        .collect();
+    Mesh::from_solids(&GmshFile::read(bytes).unwrap(), 1.0, &conditions).unwrap()
+}
+
+fn boundary(mesh: &Mesh, name: &str) -> usize {
+    let place = mesh.boundaries.iter().position(|b| b.name == name);
+    place.unwrap_or_else(|| panic!("no boundary {name}"))
+}
+
+/// The lower side of `upper` slides on the upper side of `lower`.
+fn sliding(mesh: &Mesh, normal_stiffness: Option<f64>) -> SlidingSurfaces {
+    SlidingSurfaces {
+        name: "pad".to_owned(),
+        surface: boundary(mesh, "upper_z0"),
+        counter: boundary(mesh, "lower_z1"),
+        friction: PairFriction {
+            ratio: 1.0,
+            decay: None,
+        },
+        stiffness: ContactStiffness {
+            normal_stiffness,
+            ..ContactStiffness::default()
+        },
+    }
+}
+
+/// The lower block turns about an axis far away.
+fn turning(mesh: &Mesh, axis: [f64; 3], center: [f64; 3]) -> Motion {
+    let region = mesh.regions.iter().position(|name| name == "lower");
+    Motion {
+        regions: vec![region.unwrap()],
+        axis,
+        center,
+        rotation_speed: 10.0,
+    }
+}
+
+fn stacked(gap: f64) -> [Block; 2] {
+    [
+        Block {
+            name: "lower",
+            origin: [0.0; 3],
+            size: [0.05, 0.04, 0.02],
+            counts: [5, 3, 2],
+        },
+        Block {
+            name: "upper",
+            origin: [0.0, 0.0, 0.02 + gap],
+            size: [0.05, 0.04, 0.015],
+            counts: [4, 4, 2],
+        },
+    ]
+}
+
+/// Symmetry planes on three sides leave a stack free to contract; the top is pressed.
+const PRESSED: [(&str, BoundaryCondition); 6] = [
+    ("lower_z0", BoundaryCondition::Fixed([false, false, true])),
+    ("lower_x0", BoundaryCondition::Fixed([true, false, false])),
+    ("upper_x0", BoundaryCondition::Fixed([true, false, false])),
+    ("lower_y0", BoundaryCondition::Fixed([false, true, false])),
+    ("upper_y0", BoundaryCondition::Fixed([false, true, false])),
+    ("upper_z1", BoundaryCondition::Pressure(1e8)),
+];
+
+/// Largest error of the displacement of a bar under the pressure 1e8 Pa along z, m; the upper part moved on by `jump`.
+fn patch_error(mesh: &Mesh, displacement: &[f64], jump: f64) -> f64 {
+    let strain = 1e8 / STEEL.young_modulus;
+    let bodies = mesh.bodies();
+    (0..mesh.node_count())
+        .flat_map(|node| {
+            let [x, y, z] = mesh.nodes[node];
+            let lateral = STEEL.poisson_ratio * strain;
+            let sunk = if bodies[node] == 1 { jump } else { 0.0 };
+            let exact = [lateral * x, lateral * y, -strain * z - sunk];
+            (0..3).map(move |axis| (displacement[3 * node + axis] - exact[axis]).abs())
+        })
+        .fold(0.0, f64::max)
+}
+
+/// Theory: a bar under pressure, through a contact whose meshes do not match, rigid and on springs.
+#[test]
+fn constant_pressure_passes_a_contact_between_meshes_that_do_not_match() {
+    let mesh = mesh_of(&file_of(&stacked(0.0), |point| point), &PRESSED);
+    let motion = turning(&mesh, [0.0, 0.0, 1.0], [1.0, 0.3, 0.0]);
+    for normal_stiffness in [None, Some(1e14)] {
+        let contact = sliding(&mesh, normal_stiffness);
+        let motions = std::slice::from_ref(&motion);
+        let solved = BaseChoice::Solved;
+        let assembly = Assembly::new(&mesh, &STEEL, &[], &[contact], motions, solved).unwrap();
+        let range = assembly.range(&[0.0]).unwrap();
+        let state = &range.states[0];
+        let jump = normal_stiffness.map_or(0.0, |stiffness| 1e8 / stiffness);
+        let error = patch_error(&mesh, &state.displacements[0], jump);
+        let size = 1e8 / STEEL.young_modulus * 0.035;
+        println!("{normal_stiffness:?} {:e}", error / size);
+        assert!(error < 1e-11 * size, "{normal_stiffness:?} {error:e}");
+        // Every point carries the pressure times its area.
+        let points = &assembly.contacts()[0].1.points;
+        for (point, force) in points.iter().zip(&state.normal_forces[0]) {
+            assert!((force / point.weight - 1e8).abs() < 1e-9 * 1e8);
+        }
+        assert!(state.is_pressed.iter().all(|is_pressed| *is_pressed));
+    }
+}
+
+/// Theory: the same bar through a tie.
+#[test]
+fn constant_pressure_passes_a_tie_between_meshes_that_do_not_match() {
+    let mesh = mesh_of(&file_of(&stacked(0.0), |point| point), &PRESSED);
+    let tie = TiedSurfaces {
+        name: "glue".to_owned(),
+        surface: boundary(&mesh, "upper_z0"),
+        counter: boundary(&mesh, "lower_z1"),
+    };
+    let assembly = Assembly::new(&mesh, &STEEL, &[tie], &[], &[], BaseChoice::Solved).unwrap();
+    let range = assembly.range(&[0.0]).unwrap();
+    let error = patch_error(&mesh, &range.states[0].displacements[0], 0.0);
+    let size = 1e8 / STEEL.young_modulus * 0.035;
+    println!("{:e}", error / size);
+    assert!(error < 1e-11 * size, "{error:e}");
+}
+
+fn eigenvalues(assembly: &Assembly<'_>, friction: f64, count: usize) -> Vec<c64> {
+    let range = assembly.range(&[friction]).unwrap();
+    let tangent = assembly.tangent(&range.states[0], &OPTIONS).unwrap();
+    let request = SweepRequest {
+        friction_coefficients: &[friction],
+        limit: ModeLimit::Lowest(count),
+        shapes_at: &[],
+    };
+    let found = sweep(&tangent, &request, &|_| {}).unwrap();
+    let modes = found.points.into_iter().flat_map(|point| point.modes);
+    modes.map(|mode| mode.eigenvalue).collect()
+}
+
+fn largest_difference(a: &[c64], b: &[c64]) -> f64 {
+    assert_eq!(a.len(), b.len());
+    let pairs = a.iter().zip(b);
+    pairs
+        .map(|(a, b)| (a - b).norm() / a.norm())
+        .fold(0.0, f64::max)
+}
+
+#[test]
+fn a_tie_of_two_halves_has_the_spectrum_of_the_whole() {
+    let clamped = [("whole_z0", BoundaryCondition::Clamped)];
+    let whole = [Block {
+        name: "whole",
+        origin: [0.0; 3],
+        size: [0.05, 0.04, 0.04],
+        counts: [4, 3, 4],
+    }];
+    let whole = mesh_of(&file_of(&whole, |point| point), &clamped);
+    let expected = Assembly::new(&whole, &STEEL, &[], &[], &[], BaseChoice::Closed).unwrap();
+    let half = |name: &'static str, height: f64| Block {
+        name,
+        origin: [0.0, 0.0, height],
+        size: [0.05, 0.04, 0.02],
+        counts: [4, 3, 2],
+    };
+    let halves = file_of(&[half("lower", 0.0), half("upper", 0.02)], |point| point);
+    let halves = mesh_of(&halves, &[("lower_z0", BoundaryCondition::Clamped)]);
+    let tie = TiedSurfaces {
+        name: "glue".to_owned(),
+        surface: boundary(&halves, "upper_z0"),
+        counter: boundary(&halves, "lower_z1"),
+    };
+    let tied = Assembly::new(&halves, &STEEL, &[tie], &[], &[], BaseChoice::Closed).unwrap();
+    let error = largest_difference(&eigenvalues(&expected, 0.0, 8), &eigenvalues(&tied, 0.0, 8));
+    println!("{error:e}");
+    assert!(error < 1e-9, "{error:e}");
+}
+
+/// Rodrigues' rotation about an axis of no symmetry.
+fn turned([x, y, z]: [f64; 3]) -> [f64; 3] {
+    let axis = [2.0 / 7.0, 3.0 / 7.0, 6.0 / 7.0];
+    let (sin, cos) = 0.83_f64.sin_cos();
+    let along = axis[0] * x + axis[1] * y + axis[2] * z;
+    let cross = [
+        axis[1] * z - axis[2] * y,
+        axis[2] * x - axis[0] * z,
+        axis[0] * y - axis[1] * x,
+    ];
+    let point = [x, y, z];
+    std::array::from_fn(|c| cos * point[c] + sin * cross[c] + (1.0 - cos) * along * axis[c])
+}
+
+#[test]
+fn an_assembly_turned_in_space_keeps_its_spectrum() {
+    let mut blocks = stacked(0.0);
+    blocks[0].counts = [4, 3, 2];
+    blocks[1].counts = [3, 2, 1];
+    // A pad that covers part of the lower block, held on its top.
+    blocks[1].origin = [0.012, 0.007, 0.02];
+    blocks[1].size = [0.03, 0.025, 0.012];
+    let held = [
+        ("lower_z0", BoundaryCondition::Clamped),
+        ("upper_x0", BoundaryCondition::Clamped),
+    ];
+    let center = [0.3, 0.01, 0.0];
+    for normal_stiffness in [Some(1e14), None] {
+        let spectrum = |place: fn([f64; 3]) -> [f64; 3]| {
+            let mesh = mesh_of(&file_of(&blocks, place), &held);
+            let mut contact = sliding(&mesh, normal_stiffness);
+            // Damping that is not proportional.
+            contact.stiffness.tangential_damping = 1e7;
+            let motion = turning(&mesh, place([0.0, 0.0, 1.0]), place(center));
+            let closed = BaseChoice::Closed;
+            let assembly =
+                Assembly::new(&mesh, &STEEL, &[], &[contact], &[motion], closed).unwrap();
+            eigenvalues(&assembly, 0.4, 8)
+        };
+        let [straight, turned] = [spectrum(|point| point), spectrum(turned)];
+        let error = largest_difference(&straight, &turned);
+        println!("{normal_stiffness:?} {error:e} {:?}", straight[0]);
+        assert!(error < 1e-9, "{normal_stiffness:?} {error:e}");
+        assert!(
+            straight
+                .iter()
+                .any(|lambda| lambda.re.abs() > 1e-6 * lambda.im)
+        );
+    }
+}
+
+fn refusal(blocks: &[Block], sides: [&str; 2]) -> String {
+    let mesh = mesh_of(&file_of(blocks, |point| point), &[]);
+    let contact = SlidingSurfaces {
+        surface: boundary(&mesh, sides[0]),
+        counter: boundary(&mesh, sides[1]),
+        ..sliding(&mesh, Some(1e14))
+    };
+    let motion = turning(&mesh, [0.0, 0.0, 1.0], [1.0, 0.3, 0.0]);
+    let closed = BaseChoice::Closed;
+    let found = Assembly::new(&mesh, &STEEL, &[], &[contact], &[motion], closed);
+    found.unwrap_err().to_string()
+}
+
+#[test]
+fn surfaces_that_make_no_contact_are_named_with_the_remedy() {
+    let near = stacked(0.0);
+    let cases = [
+        (
+            refusal(&stacked(0.03), ["upper_z0", "lower_z1"]),
+            "3.000e-2 m apart",
+        ),
+        (refusal(&near, ["upper_z0", "lower_x1"]), "never meet"),
+        (
+            refusal(&near, ["upper_z1", "lower_z1"]),
+            "point the same way",
+        ),
+    ];
+    for (message, wanted) in &cases {
+        assert!(message.starts_with("contacts.pad: "), "{message}");
+        assert!(message.contains(wanted), "{message}");
+        assert!(
+            message.contains("name") || message.contains("move"),
+            "{message}"
+        );
+    }
+}
+
+#[test]
+fn a_motion_that_leaves_surfaces_at_rest_is_refused() {
+    let mesh = mesh_of(&file_of(&stacked(0.0), |point| point), &[]);
+    let still = Motion {
+        rotation_speed: 0.0,
+        ..turning(&mesh, [0.0, 0.0, 1.0], [1.0, 0.3, 0.0])
+    };
+    let contact = sliding(&mesh, Some(1e14));
+    let closed = BaseChoice::Closed;
+    let found = Assembly::new(&mesh, &STEEL, &[], &[contact], &[still], closed);
+    match found.unwrap_err() {
+        PrestressError::Pair { name, error } => {
+            assert_eq!(name, "contacts.pad");
+            assert!(matches!(error, PairError::NoSliding { .. }));
+        }
+        other => panic!("{other}"),
+    }
+}

@@ -1,0 +1,482 @@
+//! Solid elements of every kind against theory and against each other.
+
+use crate::block::{SOLIDS, block, block_mesh};
+use faer::Mat;
+use faer::linalg::solvers::Solve;
+use faer::sparse::{SparseColMat, Triplet};
+use frictionsim::fem::{
+    DofMap, ElasticMaterial, MassKind, PlaneFormulation, Triplets, assemble_geometric_stiffness,
+    assemble_mass, assemble_pressures, assemble_stiffness, assemble_supports, lumped_masses,
+    solid_stress,
+};
+use frictionsim::mesh::{BoundaryCondition, ElasticSupport, ElementKind, GmshFile, Mesh};
+use nalgebra::{DMatrix, Matrix3, Rotation3, SymmetricEigen, Vector3};
+use std::f64::consts::PI;
+
+const STEEL: ElasticMaterial = ElasticMaterial {
+    young_modulus: 2e11,
+    poisson_ratio: 0.3,
+    density: 7850.0,
+    formulation: PlaneFormulation::ThreeDimensional,
+};
+
+/// Quadratic kinds.
+const QUADRATIC: [ElementKind; 3] = [ElementKind::Tet10, ElementKind::Hex20, ElementKind::Wedge15];
+
+/// A parallelepiped without right angles.
+fn skewed([x, y, z]: [f64; 3]) -> [f64; 3] {
+    [
+        0.10 * x + 0.02 * y - 0.01 * z,
+        0.01 * x + 0.08 * y + 0.02 * z,
+        0.06 * z - 0.01 * y,
+    ]
+}
+
+/// The skewed block with inner nodes out of place; edges stay straight unless `bend` moves the middles of inner edges too.
+fn distorted(kind: ElementKind, bend: f64) -> GmshFile {
+    let mut file = block(kind, [3, 2, 2], |place| place);
+    let is_inner = |p: &[f64; 3]| p.iter().all(|&x| x > 1e-9 && x < 1.0 - 1e-9);
+    let mut state = 2_u64;
+    let mut draw = move || {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (state >> 40) as f64 / (1_u64 << 24) as f64 - 0.5
+    };
+    let before = file.points.clone();
+    let corners = kind.corner_count();
+    let mut is_corner = vec![false; before.len()];
+    for element in &file.elements {
+        element.nodes[..corners]
+            .iter()
+            .for_each(|&node| is_corner[node as usize] = true);
+    }
+    for (node, point) in file.points.iter_mut().enumerate() {
+        if is_corner[node] && is_inner(&before[node]) {
+            point.iter_mut().for_each(|x| *x += 0.1 * draw());
+        }
+    }
+    let mut is_done = vec![false; before.len()];
+    for element in &file.elements {
+        for (edge, ends) in kind.edges().iter().enumerate() {
+            let Some(&middle) = element.nodes.get(corners + edge) else {
+                continue;
+            };
+            if std::mem::replace(&mut is_done[middle as usize], true) {
+                continue;
+            }
+            let [p, q] = ends.map(|end| file.points[element.nodes[end] as usize]);
+            let moved = if is_inner(&before[middle as usize]) {
+                bend
+            } else {
+                0.0
+            };
+            file.points[middle as usize] =
+                [0, 1, 2].map(|axis| 0.5 * (p[axis] + q[axis]) + moved * draw());
+        }
+    }
+    file.points
+        .iter_mut()
+        .for_each(|point| *point = skewed(*point));
+    file
+}
+
+/// A displacement field sampled in nodal frames.
+fn sample(mesh: &Mesh, field: impl Fn(Vector3<f64>) -> Vector3<f64>) -> Vec<f64> {
+    let nodes = mesh.nodes.iter().enumerate();
+    nodes
+        .flat_map(|(node, &place)| {
+            let u = mesh.frame(node).transpose() * field(Vector3::from(place));
+            [u.x, u.y, u.z]
+        })
+        .collect()
+}
+
+/// The six rigid motions about a point inside.
+fn rigid_motions(mesh: &Mesh) -> Vec<Vec<f64>> {
+    let center = Vector3::new(0.05, 0.04, 0.03);
+    let mut motions: Vec<Vec<f64>> = (0..3)
+        .map(|axis| sample(mesh, |_| Vector3::ith(axis, 1.0)))
+        .collect();
+    for axis in 0..3 {
+        let turn = |p: Vector3<f64>| Vector3::ith(axis, 1.0).cross(&(p - center));
+        motions.push(sample(mesh, turn));
+    }
+    motions
+}
+
+/// Stiffness with supports and consistent mass over the free dofs of a mesh.
+struct Pencil {
+    stiffness: Vec<(usize, usize, f64)>,
+    mass: Vec<(usize, usize, f64)>,
+    unknowns: DofMap,
+}
+
+impl Pencil {
+    fn of(mesh: &Mesh) -> Self {
+        let unknowns = DofMap::clamped(mesh);
+        let free = |matrix: &Triplets| {
+            let entries = matrix.entries.iter();
+            let at = |dof: usize| unknowns.unknown_of[dof];
+            entries
+                .filter_map(|&(row, column, value)| Some((at(row)?, at(column)?, value)))
+                .collect()
+        };
+        let mut stiffness = assemble_stiffness(mesh, &STEEL);
+        stiffness
+            .entries
+            .extend(assemble_supports(mesh)[0].entries.iter());
+        Self {
+            stiffness: free(&stiffness),
+            mass: free(&assemble_mass(mesh, &STEEL, MassKind::Consistent)),
+            unknowns,
+        }
+    }
+
+    fn multiply(&self, matrix: &[(usize, usize, f64)], vectors: &DMatrix<f64>) -> DMatrix<f64> {
+        let mut product = DMatrix::zeros(vectors.nrows(), vectors.ncols());
+        for &(row, column, value) in matrix {
+            for k in 0..vectors.ncols() {
+                product[(row, k)] += value * vectors[(column, k)];
+            }
+        }
+        product
+    }
+
+    /// `(K - shift M)^-1` applied to columns.
+    fn solve(&self, shift: f64) -> impl Fn(&DMatrix<f64>) -> DMatrix<f64> + use<> {
+        let shifted = self
+            .mass
+            .iter()
+            .map(|&(i, j, value)| (i, j, -shift * value));
+        let entries = self.stiffness.iter().copied().chain(shifted);
+        let entries: Vec<Triplet<usize, usize, f64>> = entries
+            .map(|(i, j, value)| Triplet::new(i, j, value))
+            .collect();
+        let size = self.unknowns.len();
+        let matrix = SparseColMat::try_new_from_triplets(size, size, &entries).unwrap();
+        let factor = matrix.sp_lu().unwrap();
+        move |columns| {
+            let mut sides = Mat::from_fn(size, columns.ncols(), |i, j| columns[(i, j)]);
+            factor.solve_in_place(&mut sides);
+            DMatrix::from_fn(size, columns.ncols(), |i, j| sides[(i, j)])
+        }
+    }
+
+    /// The lowest frequencies, Hz, by subspace iteration.
+    fn frequencies(&self, count: usize) -> Vec<f64> {
+        let (size, width) = (self.unknowns.len(), count + 8);
+        let mut vectors = DMatrix::from_fn(size, width, |i, j| {
+            ((i * width + j) as f64 * 0.618_033_988_749_895).fract() - 0.5
+        });
+        let solve = self.solve(-(2.0 * PI * 1000.0_f64).powi(2));
+        let mut squares = Vec::new();
+        for _ in 0..40 {
+            let images = solve(&self.multiply(&self.mass, &vectors));
+            let mass = images.transpose() * self.multiply(&self.mass, &images);
+            let stiffness = images.transpose() * self.multiply(&self.stiffness, &images);
+            let factor = mass.cholesky().unwrap().unpack();
+            let half = factor.solve_lower_triangular(&stiffness).unwrap();
+            let whole = factor.solve_lower_triangular(&half.transpose()).unwrap();
+            let eigen = SymmetricEigen::new((&whole + whole.transpose()) * 0.5);
+            let turned = factor
+                .transpose()
+                .solve_upper_triangular(&eigen.eigenvectors)
+                .unwrap();
+            vectors = images * turned;
+            squares = eigen.eigenvalues.iter().copied().collect();
+            squares.sort_by(f64::total_cmp);
+        }
+        let squares = squares[..count].iter();
+        squares
+            .map(|square| square.max(0.0).sqrt() / (2.0 * PI))
+            .collect()
+    }
+
+    /// Square of the angular frequency of the mode next to a shift that is most like a shape.
+    fn like(&self, shape: &[f64], shift: f64) -> f64 {
+        let start = self.unknowns.restrict(shape);
+        let mut vector = DMatrix::from_vec(start.len(), 1, start);
+        let solve = self.solve(shift);
+        for _ in 0..3 {
+            vector = solve(&self.multiply(&self.mass, &vector));
+            vector /= vector.amax();
+        }
+        let mass = vector.dot(&self.multiply(&self.mass, &vector));
+        vector.dot(&self.multiply(&self.stiffness, &vector)) / mass
+    }
+}
+
+fn frequencies(mesh: &Mesh, count: usize) -> Vec<f64> {
+    Pencil::of(mesh).frequencies(count)
+}
+
+/// Independent check: a linear displacement has the constant stress of Hooke's law, and no force acts on inner nodes.
+#[test]
+fn every_kind_passes_the_patch_test_on_a_distorted_block() {
+    let gradient: Matrix3<f64> =
+        Matrix3::new(1e-3, 4e-4, -2e-4, 3e-4, -7e-4, 5e-4, 2e-4, -1e-4, 6e-4);
+    let strain: Matrix3<f64> = 0.5 * (gradient + gradient.transpose());
+    let [lambda, shear] = STEEL.lame_constants();
+    let exact = Matrix3::identity() * (lambda * strain.trace()) + 2.0 * shear * strain;
+    let exact = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)].map(|at| exact[at]);
+    for kind in SOLIDS {
+        // Curved inner edges too where the quadrature is exact on them.
+        let bends = if kind == ElementKind::Tet10 {
+            vec![0.0, 0.03]
+        } else {
+            vec![0.0]
+        };
+        for bend in bends {
+            let mesh = Mesh::from_solids(&distorted(kind, bend), 1.0, &[]).unwrap();
+            let displacement = sample(&mesh, |p| gradient * p);
+            let stiffness = assemble_stiffness(&mesh, &STEEL);
+            let forces = stiffness.multiply(mesh.dof_count(), &displacement);
+            let scale = forces.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
+            let mut is_outer = vec![false; mesh.node_count()];
+            for face in mesh.outer_faces() {
+                face.nodes
+                    .iter()
+                    .for_each(|&node| is_outer[node as usize] = true);
+            }
+            let inner = (0..mesh.dof_count()).filter(|dof| !is_outer[dof / 3]);
+            for dof in inner {
+                assert!(
+                    forces[dof].abs() < 1e-12 * scale,
+                    "{kind:?} {dof} {:e}",
+                    forces[dof]
+                );
+            }
+            for stress in solid_stress(&mesh, &STEEL, &displacement) {
+                for (found, exact) in stress.0.iter().zip(exact) {
+                    assert!(
+                        (found - exact).abs() < 1e-10 * STEEL.young_modulus * 1e-3,
+                        "{kind:?}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// Theory: a free body has six rigid motions, which cost no force, and no other motion without strain.
+#[test]
+fn free_blocks_of_every_kind_have_six_rigid_motions_and_no_other() {
+    for kind in SOLIDS {
+        let mesh = Mesh::from_solids(&distorted(kind, 0.02), 1.0, &[]).unwrap();
+        let stiffness = assemble_stiffness(&mesh, &STEEL);
+        let largest = stiffness
+            .entries
+            .iter()
+            .fold(0.0_f64, |m, e| m.max(e.2.abs()));
+        for motion in rigid_motions(&mesh) {
+            for force in stiffness.multiply(mesh.dof_count(), &motion) {
+                assert!(force.abs() < 1e-13 * largest, "{kind:?} {force:e}");
+            }
+        }
+        let found = frequencies(&mesh, 7);
+        assert!(found[5] < 1e-4 * found[6], "{kind:?} {found:?}");
+    }
+}
+
+/// Theory: mass and moments of inertia of a parallelepiped, from the kinetic energy of rigid motions.
+#[test]
+fn masses_have_the_volume_and_inertia_of_the_block() {
+    // Volume and moments of the unit cube, taken through the linear map.
+    let columns = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(skewed);
+    let map = Matrix3::from_columns(&columns.map(Vector3::from));
+    let volume = map.determinant();
+    let second = map * (Matrix3::identity() / 12.0) * map.transpose();
+    let offset = map * Vector3::repeat(0.5) - Vector3::new(0.05, 0.04, 0.03);
+    let second = (second + offset * offset.transpose()) * volume;
+    let inertia = Matrix3::identity() * second.trace() - second;
+    for kind in SOLIDS {
+        let mesh = Mesh::from_solids(&distorted(kind, 0.0), 1.0, &[]).unwrap();
+        assert!(
+            (mesh.region_measures()[0] / volume - 1.0).abs() < 1e-13,
+            "{kind:?}"
+        );
+        let mass = assemble_mass(&mesh, &STEEL, MassKind::Consistent);
+        let motions = rigid_motions(&mesh);
+        let energy = |i: usize, j: usize| -> f64 {
+            let momentum = mass.multiply(mesh.dof_count(), &motions[j]);
+            motions[i].iter().zip(momentum).map(|(u, p)| u * p).sum()
+        };
+        for axis in 0..3 {
+            let exact = STEEL.density * volume;
+            assert!((energy(axis, axis) / exact - 1.0).abs() < 1e-12, "{kind:?}");
+            for other in 0..3 {
+                let exact = STEEL.density * inertia[(axis, other)];
+                let error = energy(3 + axis, 3 + other) - exact;
+                let scale = STEEL.density * inertia.amax();
+                assert!(error.abs() < 1e-12 * scale, "{kind:?} {axis} {other}");
+            }
+        }
+        let lumped = lumped_masses(&mesh, &STEEL);
+        assert!(lumped.iter().all(|&mass| mass > 0.0), "{kind:?}");
+        let total = lumped.iter().sum::<f64>() / (STEEL.density * volume);
+        assert!((total - 1.0).abs() < 1e-12, "{kind:?}");
+    }
+}
+
+/// Theory: Lamé's mode of a free cube of side `L`, `u = (cos(pi x / L) sin(pi y / L), - sin(pi x / L) cos(pi y / L), 0)`, has
+/// `omega = sqrt(2) pi c_t / L` exactly. Frequencies converge with order 2 on linear kinds, 4 on quadratic ones.
+#[test]
+fn the_lame_mode_of_a_free_cube_converges_with_the_order_of_the_kind() {
+    const SIDE: f64 = 0.1;
+    let [_, shear] = STEEL.lame_constants();
+    let exact = 2.0_f64.sqrt() * PI / SIDE * (shear / STEEL.density).sqrt();
+    let error = |kind: ElementKind, cells: usize| {
+        let mesh = block_mesh(kind, [cells; 3], |p| p.map(|x| SIDE * x));
+        let lame = sample(&mesh, |p| {
+            let (x, y) = (PI * p.x / SIDE, PI * p.y / SIDE);
+            Vector3::new(x.cos() * y.sin(), -x.sin() * y.cos(), 0.0)
+        });
+        let square = Pencil::of(&mesh).like(&lame, exact * exact);
+        (square.sqrt() / exact - 1.0).abs()
+    };
+    for kind in SOLIDS {
+        let cells = if kind.is_quadratic() { [2, 4] } else { [4, 8] };
+        let errors = cells.map(|cells| error(kind, cells));
+        let order = (errors[0] / errors[1]).ln() / (cells[1] as f64 / cells[0] as f64).ln();
+        println!("{kind:?} {errors:?} {order}");
+        let expected = if kind.is_quadratic() { 4.0 } else { 2.0 };
+        assert!(order > expected - 0.3, "{kind:?} {errors:?} order {order}");
+    }
+}
+
+/// Cross-method: bending, torsion and stretching of a clamped beam that is not symmetric.
+#[test]
+fn quadratic_kinds_and_incompatible_bricks_agree_on_a_clamped_beam() {
+    let clamped = [("x0".to_owned(), BoundaryCondition::Clamped)];
+    let beam = |kind: ElementKind, cells: [usize; 3]| {
+        let map = |[x, y, z]: [f64; 3]| {
+            let taper = 1.0 - 0.3 * x;
+            [0.12 * x, 0.02 * taper * y, 0.012 * taper * z + 0.02 * x * x]
+        };
+        let mesh = Mesh::from_solids(&block(kind, cells, map), 1.0, &clamped).unwrap();
+        frequencies(&mesh, 6)
+    };
+    let reference = beam(ElementKind::Hex20, [8, 2, 2]);
+    for (kind, cells, tolerance) in [
+        (ElementKind::Tet10, [10, 2, 2], 0.01),
+        (ElementKind::Wedge15, [8, 2, 2], 0.005),
+        (ElementKind::Hex8, [16, 4, 4], 0.02),
+    ] {
+        let found = beam(kind, cells);
+        println!("{kind:?} {found:?} {reference:?}");
+        for (found, reference) in found.iter().zip(&reference) {
+            assert!(
+                (found / reference - 1.0).abs() < tolerance,
+                "{kind:?} {found} {reference}"
+            );
+        }
+    }
+}
+
+/// Theory: a bar pressed onto springs: stress `-p` along it, the springs give way by `p / k`; turned by any angle, too.
+#[test]
+fn pressure_guides_and_springs_on_faces_hold_a_uniform_stress_at_any_angle() {
+    const PRESSURE: f64 = 3e6;
+    const SPRING: f64 = 2e11;
+    let turn = Rotation3::from_euler_angles(0.3, -0.5, 0.8);
+    let support = ElasticSupport {
+        normal_stiffness: SPRING,
+        ..ElasticSupport::default()
+    };
+    let conditions = [
+        ("x0", BoundaryCondition::Support(support)),
+        ("x1", BoundaryCondition::Pressure(PRESSURE)),
+        ("y0", BoundaryCondition::Guide),
+        ("z0", BoundaryCondition::Guide),
+    ];
+    let conditions = conditions.map(|(name, condition)| (name.to_owned(), condition));
+    for kind in SOLIDS {
+        let map = |[x, y, z]: [f64; 3]| {
+            let place = turn * Vector3::new(0.1 * x, 0.05 * y, 0.04 * z);
+            [place.x, place.y, place.z]
+        };
+        let mesh = Mesh::from_solids(&block(kind, [2, 2, 1], map), 1.0, &conditions).unwrap();
+        let unknowns = DofMap::clamped(&mesh);
+        let load = unknowns.restrict(&assemble_pressures(&mesh).unwrap());
+        let pencil = Pencil::of(&mesh);
+        let load = DMatrix::from_vec(load.len(), 1, load);
+        let found = unknowns.expand(pencil.solve(0.0)(&load).as_slice());
+        let strain = PRESSURE / STEEL.young_modulus;
+        let exact = sample(&mesh, |p| {
+            let q = turn.inverse() * p;
+            let across = STEEL.poisson_ratio * strain;
+            let local = Vector3::new(
+                -strain * q.x - PRESSURE / SPRING,
+                across * q.y,
+                across * q.z,
+            );
+            turn * local
+        });
+        for (found, exact) in found.iter().zip(&exact) {
+            assert!(
+                (found - exact).abs() < 1e-11 * 1e-3,
+                "{kind:?} {found} {exact}"
+            );
+        }
+        for stress in solid_stress(&mesh, &STEEL, &found) {
+            assert!(
+                (stress.von_mises() / PRESSURE - 1.0).abs() < 1e-8,
+                "{kind:?}"
+            );
+            assert!(
+                (stress.pressure() / (PRESSURE / 3.0) - 1.0).abs() < 1e-8,
+                "{kind:?}"
+            );
+        }
+    }
+}
+
+/// Theory: under a uniform stress the geometric stiffness of a translation is zero, and of a rotation about an axis the work
+/// of the stress on the square of the rotation, `V (sigma_yy + sigma_zz)` about x.
+#[test]
+fn geometric_stiffness_of_rigid_rotations_is_the_work_of_the_stress() {
+    let gradient = Matrix3::from_diagonal(&Vector3::new(1e-3, -4e-4, 6e-4));
+    let [lambda, shear] = STEEL.lame_constants();
+    let stress = Matrix3::identity() * (lambda * gradient.trace()) + 2.0 * shear * gradient;
+    for kind in SOLIDS {
+        let mesh = Mesh::from_solids(&distorted(kind, 0.0), 1.0, &[]).unwrap();
+        let base = sample(&mesh, |p| gradient * p);
+        let matrix = assemble_geometric_stiffness(&mesh, &STEEL, &base);
+        let volume = mesh.region_measures()[0];
+        for (k, motion) in rigid_motions(&mesh).iter().enumerate() {
+            let force = matrix.multiply(mesh.dof_count(), motion);
+            let work: f64 = force.iter().zip(motion).map(|(f, u)| f * u).sum();
+            let exact = match k.checked_sub(3) {
+                None => 0.0,
+                Some(axis) => volume * (stress.trace() - stress[(axis, axis)]),
+            };
+            assert!(
+                (work - exact).abs() < 1e-11 * volume * stress.amax(),
+                "{kind:?} {k}"
+            );
+        }
+    }
+}
+
+/// A body turned in space by any angle has the same frequencies.
+#[test]
+fn a_turned_block_has_the_same_frequencies() {
+    let turn = Rotation3::from_euler_angles(1.1, 0.4, -0.7);
+    let clamped = [("z0".to_owned(), BoundaryCondition::Clamped)];
+    for kind in SOLIDS {
+        let plain = Mesh::from_solids(&distorted(kind, 0.02), 1.0, &clamped).unwrap();
+        let mut file = distorted(kind, 0.02);
+        for point in &mut file.points {
+            let place = turn * Vector3::from(*point);
+            *point = [place.x, place.y, place.z];
+        }
+        let turned = Mesh::from_solids(&file, 1.0, &clamped).unwrap();
+        let pairs = frequencies(&plain, 8)
+            .into_iter()
+            .zip(frequencies(&turned, 8));
+        for (a, b) in pairs {
+            assert!((a / b - 1.0).abs() < 1e-10, "{kind:?} {a} {b}");
+        }
+    }
+}
