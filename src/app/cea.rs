@@ -1,7 +1,7 @@
 //! `frictionsim cea`: complex eigenvalues of steady sliding over the friction coefficient.
 
 use super::profile::{Profile, Redraw};
-use super::{Failure, RunOptions, Session, terminal};
+use super::{Failure, RunOptions, Session, superelement, terminal};
 use crate::case::{Case, Cea};
 use crate::results::cea::{CeaReport, draw, print, write};
 use crate::results::{DrawingOptions, OutputFolder, read_summary};
@@ -63,6 +63,9 @@ pub const PROFILE: Profile = Profile {
 /// # Errors
 /// A bad case, contact that opens, a solver that fails, an output folder that cannot be written.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    if let Some(system) = superelement::described(&arguments.options)? {
+        return superelement::run(&arguments.options, &system);
+    }
     run_with(arguments, |session, cea, model| {
         let bar = terminal::progress(session.options.output.is_quiet(), 0, "friction values");
         let solution = eigenvalues::solve(&session.case, cea, model, &|progress| {

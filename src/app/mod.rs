@@ -17,6 +17,7 @@ mod init;
 mod keys;
 mod limits;
 mod man;
+mod matrices;
 mod measurement;
 mod mesh;
 mod options;
@@ -26,6 +27,7 @@ mod recorded_case;
 mod session;
 mod share;
 mod signal;
+mod superelement;
 pub mod sweep;
 pub mod terminal;
 pub mod transient;
@@ -91,6 +93,7 @@ commands! {
     Basin: basin,
     Convergence: convergence,
     Mesh: mesh,
+    Matrices: matrices,
     Check: check,
     Init: init,
     Keys: keys,

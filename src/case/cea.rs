@@ -77,8 +77,11 @@ pub(super) fn cea(
             None,
         );
     }
+    let unknowns = body.map_or(0, |body| {
+        body.node_count().saturating_mul(body.dimension() as u128)
+    });
     let cea = Cea {
-        modes: mode_selection(&section, body),
+        modes: mode_selection(&section, unknowns),
         method: section.choice("method"),
         mass: section.choice("mass"),
         geometric_stiffness: section.flag("geometric_stiffness"),
@@ -92,12 +95,10 @@ pub(super) fn cea(
     Some(cea)
 }
 
-fn mode_selection(section: &Section<'_>, body: Option<&Body>) -> ModeSelection {
+/// Which modes are wanted of so many unknowns.
+pub(super) fn mode_selection(section: &Section<'_>, unknowns: u128) -> ModeSelection {
     let limit = section.optional_number("max_frequency_hz");
     let modes = section.optional_count("modes");
-    let unknowns = body.map_or(0, |body| {
-        body.node_count().saturating_mul(body.dimension() as u128)
-    });
     if let Some(modes) = modes.filter(|modes| *modes as u128 > unknowns && unknowns > 0) {
         section.reject(
             "modes",

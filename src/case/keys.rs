@@ -75,6 +75,9 @@ pub const KEYS: &[CaseKey] = &[
     key("mesh.file", Text, "", Otherwise("an annulus is generated"), "\"rig.msh\"", "a Gmsh mesh (MSH 2.2 or 4.1) of the body, relative to the case, in place of radii and element counts"),
     key("mesh.scale", Number(Positive), "", Value("1.0"), "0.001", "the factor on the coordinates of that file"),
 
+    key("superelements.*.mass", Text, "", Required, "\"M.mtx\"", "the Matrix Market file of a mass matrix that another program made, relative to the case; the case then has no body"),
+    key("superelements.*.damping", Text, "", Otherwise("no damping"), "\"C.mtx\"", "the file of its damping matrix"),
+    key("superelements.*.stiffness", Text, "", Required, "\"K.mtx\"", "the file of its stiffness matrix"),
     key("boundaries.*.condition", Choice(words::<ConditionWord>), "", Required, "\"support\"", "what holds the boundary (left out, `outer` of the annulus and the `bore` of its shaft are clamped, every other one free)"),
     key("boundaries.*.normal_stiffness", Number(NotNegative), "Pa/m", Value("0.0"), "2e11", "the normal stiffness of a support"),
     key("boundaries.*.tangential_stiffness", Number(NotNegative), "Pa/m", Value("0.0"), "2e11", "the tangential stiffness of a support"),

@@ -28,8 +28,8 @@ pub struct ModeBranch {
     pub branch: usize,
     /// Direction of travel: +1 with the rotor, -1 against it, 0 standing.
     pub direction: i8,
-    /// Points of rising friction coefficient from 0: the values asked for and those in between that the
-    /// shape of the branch needed.
+    /// Points of rising friction coefficient from 0, or from where the mode begins to oscillate: the values asked for and those in
+    /// between that the shape of the branch needed.
     pub points: Vec<BranchPoint>,
     /// Where `Re(lambda) > 0`.
     pub intervals: Vec<UnstableInterval>,

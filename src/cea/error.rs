@@ -116,6 +116,28 @@ pub enum CeaError {
         /// Friction value of the grid that was not reached.
         friction: f64,
     },
+    /// Matrices that leave a motion undetermined.
+    #[error(
+        "the mass, damping and stiffness matrices of {dimension} unknowns are singular together: some motion has neither mass nor \
+         stiffness; remove unknowns that depend on each other"
+    )]
+    SingularTogether {
+        /// Number of unknowns.
+        dimension: usize,
+    },
+    /// An eigenvalue of a body of revolution whose vectors do not settle.
+    #[error(
+        "the eigenvalue at {frequency_hz:.1} Hz of harmonic {harmonic} has no vectors of its own at friction {friction}: two \
+         branches meet there; change that friction coefficient a little"
+    )]
+    Unrefined {
+        /// Circumferential harmonic.
+        harmonic: usize,
+        /// Friction coefficient.
+        friction: f64,
+        /// Its frequency, Hz.
+        frequency_hz: f64,
+    },
     /// A branch that could not be continued, after a search for it.
     #[error(
         "the branch at {frequency_hz:.1} Hz (harmonic {harmonic}, branch {branch}) is lost between \

@@ -2,17 +2,19 @@
 //!
 //! One theory: what is asked for, what comes out, branches over the friction coefficient, and where they turn
 //! unstable. Two producers of problems: [`sparse`] for any body, [`cyclic`] harmonic by harmonic for a rotationally
-//! symmetric one.
+//! symmetric one. [`quadratic_modes`] solves small dense matrices whole, wherever they come from.
 
 mod branch;
 pub mod cyclic;
 mod error;
 mod onset;
+mod quadratic;
 mod request;
 pub mod sparse;
 mod spectrum;
 
 pub use branch::{BranchPoint, ModeBranch};
 pub use error::CeaError;
+pub use quadratic::{QuadraticMode, quadratic_modes};
 pub use request::{ModeLimit, SweepProgress, SweepRequest};
 pub use spectrum::{ComplexMode, FrictionPoint, FrictionSweep, UnstableInterval, keeping_ties};

@@ -4,7 +4,7 @@ use super::dense::{column, column_mut, product, random_columns};
 use super::{ComplexDenseLu, LinalgError};
 use faer::diag::Diag;
 use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::evd::{ComputeEigenvectors, evd_real, evd_scratch};
+use faer::linalg::evd::{ComputeEigenvectors, evd_cplx, evd_real, evd_scratch};
 use faer::{Mat, MatRef, Par, c64};
 
 /// Residual, relative to the eigenvalue, above which an eigenvector is computed anew.
@@ -36,6 +36,63 @@ pub fn symmetric_eigen(matrix: &Mat<f64>) -> (Vec<f64>, Mat<f64>) {
         ),
         Err(_) => (Vec::new(), Mat::zeros(matrix.nrows(), 0)),
     }
+}
+
+/// Eigenvalues of a complex square matrix, in no particular order, without vectors.
+///
+/// # Errors
+/// If the QR iteration does not converge, or the matrix is not finite.
+pub fn complex_eigenvalues(matrix: MatRef<'_, c64>) -> Result<Vec<c64>, LinalgError> {
+    let n = matrix.nrows();
+    let failure = LinalgError::DenseEigen { dimension: n };
+    if !matrix.is_all_finite() {
+        return Err(failure);
+    }
+    let mut values = Diag::<c64>::zeros(n);
+    let none = ComputeEigenvectors::No;
+    let scratch = evd_scratch::<c64>(n, none, none, Par::Seq, Default::default());
+    evd_cplx(
+        matrix,
+        values.as_mut(),
+        None,
+        None,
+        Par::Seq,
+        MemStack::new(&mut MemBuffer::new(scratch)),
+        Default::default(),
+    )
+    .map_err(|_| failure)?;
+    Ok(values.column_vector().iter().copied().collect())
+}
+
+/// Eigenvalues of a real square matrix, in no particular order, without vectors.
+///
+/// # Errors
+/// As [`complex_eigenvalues`].
+pub fn real_eigenvalues(matrix: MatRef<'_, f64>) -> Result<Vec<c64>, LinalgError> {
+    let n = matrix.nrows();
+    let failure = LinalgError::DenseEigen { dimension: n };
+    if !matrix.is_all_finite() {
+        return Err(failure);
+    }
+    let (mut real, mut imaginary) = (Diag::<f64>::zeros(n), Diag::<f64>::zeros(n));
+    let none = ComputeEigenvectors::No;
+    let scratch = evd_scratch::<f64>(n, none, none, Par::Seq, Default::default());
+    evd_real(
+        matrix,
+        real.as_mut(),
+        imaginary.as_mut(),
+        None,
+        None,
+        Par::Seq,
+        MemStack::new(&mut MemBuffer::new(scratch)),
+        Default::default(),
+    )
+    .map_err(|_| failure)?;
+    let parts = real
+        .column_vector()
+        .iter()
+        .zip(imaginary.column_vector().iter());
+    Ok(parts.map(|(re, im)| c64::new(*re, *im)).collect())
 }
 
 /// Eigenvalue decomposition of a real square matrix.
@@ -265,6 +322,22 @@ mod tests {
     use super::*;
     use crate::linalg::DenseLu;
     use crate::linalg::dense::transpose_product;
+
+    #[test]
+    fn eigenvalues_of_a_complex_triangle_are_its_diagonal() {
+        let (re, im) = (random_columns(12, 12, 3), random_columns(12, 12, 4));
+        let entry = |i: usize, j: usize| c64::new(re[(i, j)], im[(i, j)]);
+        let triangle = Mat::from_fn(12, 12, |i, j| match i <= j {
+            true => entry(i, j),
+            false => c64::new(0.0, 0.0),
+        });
+        let found = complex_eigenvalues(triangle.as_ref()).unwrap();
+        assert_eq!(found.len(), 12);
+        for i in 0..12 {
+            let distances = found.iter().map(|value| (value - entry(i, i)).norm());
+            assert!(distances.fold(f64::INFINITY, f64::min) < 1e-12);
+        }
+    }
 
     #[test]
     fn eigenvectors_of_a_random_real_matrix_satisfy_both_equations() {

@@ -33,6 +33,13 @@ impl NpyNumber for u8 {
     }
 }
 
+impl NpyNumber for i64 {
+    const DESCRIPTION: &'static str = "<i8";
+    fn append(self, bytes: &mut Vec<u8>) {
+        bytes.extend(self.to_le_bytes());
+    }
+}
+
 /// An archive in memory; the same arrays give the same bytes.
 pub struct NpzArchive {
     zip: ZipWriter<Cursor<Vec<u8>>>,
@@ -57,14 +64,28 @@ impl NpzArchive {
         shape: &[usize],
         values: impl Iterator<Item = T>,
     ) -> io::Result<()> {
+        let mut bytes = header(T::DESCRIPTION, shape);
+        values.for_each(|value| value.append(&mut bytes));
+        self.entry(name, &bytes)
+    }
+
+    /// Adds a word, which NumPy reads as an array of bytes without extents.
+    ///
+    /// # Errors
+    /// Those of the archive.
+    pub fn word(&mut self, name: &str, word: &str) -> io::Result<()> {
+        let mut bytes = header(&format!("|S{}", word.len()), &[]);
+        bytes.extend(word.as_bytes());
+        self.entry(name, &bytes)
+    }
+
+    fn entry(&mut self, name: &str, bytes: &[u8]) -> io::Result<()> {
         // No time of day: the same run writes the same bytes.
         let options = SimpleFileOptions::default()
             .compression_method(CompressionMethod::Deflated)
             .last_modified_time(DateTime::default());
         self.zip.start_file(format!("{name}.npy"), options)?;
-        let mut bytes = header(T::DESCRIPTION, shape);
-        values.for_each(|value| value.append(&mut bytes));
-        self.zip.write_all(&bytes)
+        self.zip.write_all(bytes)
     }
 
     /// The bytes of the whole archive.

@@ -3,7 +3,7 @@
 //! A [`SweepPlan`] deals the points of a parameter study out to shards, each point a case of its own;
 //! [`eigenvalues`] sweeps over friction; [`response`] excites the model at one node; [`transient`] steps through time;
 //! [`cycle`] finds limit cycles directly and [`basin`] which of two wins; [`convergence`] compares the levels of a
-//! refinement; [`fit`] finds parameters from measured modes; [`uncertainty`] draws samples of rough ones;
+//! refinement; [`matrices`] exports what the eigenvalue analysis solves and [`superelement`] solves matrices from elsewhere; [`fit`] finds parameters from measured modes; [`uncertainty`] draws samples of rough ones;
 //! [`tangent_options`] is how a case takes the tangent of steady sliding. Nothing here touches a file or the terminal.
 
 pub mod basin;
@@ -14,11 +14,13 @@ mod error;
 mod extent;
 pub mod fit;
 mod linear_stage;
+pub mod matrices;
 mod plan;
 mod preflight;
 pub mod response;
 mod sobol;
 mod summary;
+pub mod superelement;
 mod tangent;
 pub mod transient;
 pub mod uncertainty;

@@ -25,6 +25,7 @@ mod frf_cyclic;
 mod frf_sliding;
 mod friction_law;
 mod half_space;
+mod matrices;
 mod plane_body;
 mod plane_spectrum;
 mod shaft;

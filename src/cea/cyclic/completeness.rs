@@ -163,14 +163,17 @@ fn known(paths: &HarmonicPaths, mu: f64) -> (Vec<c64>, Vec<c64>) {
     let problem = &paths.problem;
     let (mut at_rest, mut now) = (Vec::new(), Vec::new());
     for path in &paths.paths {
+        let rest = path
+            .rest
+            .expect("branches of the plane annulus start at rest");
         let point = path.points.iter().find(|p| p.parameter == mu);
         let theta = point.map(|p| p.theta);
         if problem.is_proportional() {
-            at_rest.push(path.rest);
+            at_rest.push(rest);
             now.extend(theta);
             continue;
         }
-        let undamped = c64::new(0.0, path.rest.re.max(0.0).sqrt());
+        let undamped = c64::new(0.0, rest.re.max(0.0).sqrt());
         if path.waves != Waves::Backward {
             at_rest.extend([undamped, -undamped]);
         }

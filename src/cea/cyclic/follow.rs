@@ -15,16 +15,20 @@ pub(super) struct StepControl {
     /// Largest `|theta_1 - theta_0 - h (theta_0' + theta_1') / 2| / |theta_1|`: what a cubic through both
     /// points and slopes could hide.
     pub largest_defect: f64,
+    /// Steps below this length of the parameter are given up.
+    pub shortest: f64,
 }
 
 impl StepControl {
     pub const NORMAL: Self = Self {
         least_overlap: 0.8,
         largest_defect: 1e-4,
+        shortest: 1e-6,
     };
     pub const FINE: Self = Self {
         least_overlap: 0.97,
         largest_defect: 1e-7,
+        shortest: 1e-6,
     };
 }
 
@@ -42,9 +46,6 @@ const ITERATIONS: usize = 8;
 
 /// How far a shift is moved off an eigenvalue, relative to it: well within the reach of the iteration.
 const MOVED: f64 = 1e-9;
-
-/// Steps below this length of the parameter are given up.
-const SHORTEST_STEP: f64 = 1e-6;
 
 impl<'a> Follower<'a> {
     pub fn new(problem: &'a HarmonicProblem) -> Self {
@@ -163,8 +164,8 @@ impl<'a> Follower<'a> {
         }
     }
 
-    /// Follows `path` (its last point) to `target`, appending every accepted point; `matrices` gives
-    /// the problem along the way. `false` where the eigenpair is lost.
+    /// Follows `path` (its last point) up to `target`, appending every accepted point; `matrices` gives
+    /// the problem along the way. `false` where the eigenpair is lost. A path beyond `target` stays as it is.
     pub fn advance(
         &mut self,
         path: &mut Vec<Eigenpair>,
@@ -172,23 +173,38 @@ impl<'a> Follower<'a> {
         control: StepControl,
         matrices: &mut impl FnMut(f64) -> Rc<Matrices>,
     ) -> bool {
+        let is_there = path.last().is_none_or(|last| last.parameter >= target);
+        is_there || self.walk(path, target, control, matrices)
+    }
+
+    /// [`Self::advance`] in either sense of the parameter: appends points from the last one of `path` to `target`.
+    pub fn walk(
+        &mut self,
+        path: &mut Vec<Eigenpair>,
+        target: f64,
+        control: StepControl,
+        matrices: &mut impl FnMut(f64) -> Rc<Matrices>,
+    ) -> bool {
         let mut step = f64::INFINITY;
-        while let Some(last) = path.last().filter(|last| last.parameter < target) {
+        while let Some(last) = path.last().filter(|last| last.parameter != target) {
             if self.problem.is_ending(last.theta) {
                 return false;
             }
-            let goal = (last.parameter + step).min(target);
+            let goal = match target > last.parameter {
+                true => (last.parameter + step).min(target),
+                false => (last.parameter - step).max(target),
+            };
             let guess = extrapolate(path, goal);
             let at = matrices(goal);
             let found = self.refine(&at, goal, guess, &last.x, &last.y);
             match found.filter(|next| is_continuation(last, next, control)) {
                 Some(next) => {
-                    step = 2.0 * (goal - last.parameter);
+                    step = 2.0 * (goal - last.parameter).abs();
                     path.push(next);
                 }
                 None => {
-                    step = 0.5 * (goal - last.parameter);
-                    if step < SHORTEST_STEP {
+                    step = 0.5 * (goal - last.parameter).abs();
+                    if step < control.shortest {
                         return false;
                     }
                 }

@@ -79,7 +79,7 @@ fn mode(
     {
         return None;
     }
-    if eigenvalue.im <= 0.0 {
+    if eigenvalue.im <= 0.0 || problem.is_ending(pair.theta) {
         return None;
     }
     let direction = direction_of(problem, waves, producer.sliding_direction);

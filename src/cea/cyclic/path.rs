@@ -36,10 +36,10 @@ pub(super) enum Waves {
 
 /// One branch of one harmonic.
 pub(super) struct Path {
-    /// Rank among the harmonic's modes without friction.
+    /// Rank among the harmonic's modes without friction; those that do not reach back there have the numbers beyond.
     pub branch: usize,
-    /// `kappa` without friction and damping.
-    pub rest: c64,
+    /// `kappa` without friction and damping; `None` of a branch that does not reach back there.
+    pub rest: Option<c64>,
     pub waves: Waves,
     /// Accepted points, rising; vectors are dropped but for the last and those kept on purpose.
     pub points: Vec<Eigenpair>,

@@ -16,6 +16,16 @@ pub(super) struct HarmonicPaths {
     pub factorizations: usize,
 }
 
+impl HarmonicPaths {
+    /// Whether every path oscillates up to the largest friction coefficient.
+    pub fn are_whole(&self) -> bool {
+        let ends = self.paths.iter().filter_map(|path| path.points.last());
+        !ends
+            .into_iter()
+            .any(|end| self.problem.is_ending(end.theta))
+    }
+}
+
 /// Follows every branch with `kappa < limit` at rest through the rising friction values `grid`.
 ///
 /// Points of `kept` keep their vectors.
@@ -117,19 +127,7 @@ fn follow_all(
             }
         }
         for path in &mut paths {
-            let reached = path.points.len() - 1;
-            let (earlier, last) = path.points.split_at_mut(reached);
-            for point in last {
-                point.contact_share = problem.contact_share(&point.x);
-                point.axial_share = problem.axial_share(&point.x);
-                point.uncertainty = problem.uncertainty(&shared, point);
-            }
-            let earlier = earlier.iter_mut().rev();
-            for point in earlier.take_while(|point| !point.x.is_empty()) {
-                if !kept.contains(&point.parameter) {
-                    (point.x, point.y) = (Vec::new(), Vec::new());
-                }
-            }
+            describe(problem, &shared, &mut path.points, kept);
         }
         if !are_distinct(&paths) {
             return Err(lost(friction));
@@ -138,9 +136,32 @@ fn follow_all(
     Ok(paths)
 }
 
+/// Shares and uncertainty of the last point, which has the matrices `at`; the vectors of earlier ones are dropped but for those
+/// kept.
+pub(super) fn describe(
+    problem: &HarmonicProblem,
+    at: &Matrices,
+    points: &mut [Eigenpair],
+    kept: &[f64],
+) {
+    let reached = points.len() - 1;
+    let (earlier, last) = points.split_at_mut(reached);
+    for point in last {
+        point.contact_share = problem.contact_share(&point.x);
+        point.axial_share = problem.axial_share(&point.x);
+        point.uncertainty = problem.uncertainty(at, point);
+    }
+    let earlier = earlier.iter_mut().rev();
+    for point in earlier.take_while(|point| !point.x.is_empty()) {
+        if !kept.contains(&point.parameter) {
+            (point.x, point.y) = (Vec::new(), Vec::new());
+        }
+    }
+}
+
 /// First point of each path of one mode at rest. `None` where damping cannot be switched on
 /// continuously.
-fn start(
+pub(super) fn start(
     follower: &mut Follower<'_>,
     at_rest: &Matrices,
     branch: usize,
@@ -151,7 +172,7 @@ fn start(
     let x: Vec<c64> = shape.iter().map(|v| c64::new(*v, 0.0)).collect();
     let path = |waves: Waves, point: Eigenpair| Path {
         branch,
-        rest: c64::new(kappa, 0.0),
+        rest: Some(c64::new(kappa, 0.0)),
         waves,
         points: vec![point],
     };

@@ -4,7 +4,7 @@ use super::path::Eigenpair;
 use super::vectors::{ZERO, add, dot, largest, product};
 use crate::fem::RayleighDamping;
 use crate::linalg::banded::{BandedLu, BandedMatrix};
-use crate::linalg::c64;
+use crate::linalg::{Mat, c64};
 use crate::prestress::{FrictionPolynomial, HarmonicTangent};
 
 pub(super) const I: c64 = c64::new(0.0, 1.0);
@@ -228,7 +228,8 @@ impl HarmonicProblem {
         } else {
             (theta, 1.0)
         };
-        let [m, c, k] = at.norms;
+        let [m, _, k] = at.norms;
+        let c = self.damping_norm(at, x);
         let size = lambda.norm();
         factor * largest(&force) / ((size * size * m + size * c + k) * largest(x))
     }
@@ -244,10 +245,49 @@ impl HarmonicProblem {
         } else {
             [c64::new(1.0, 0.0); 2]
         };
-        let [m, c, k] = at.norms;
+        let [m, _, k] = at.norms;
+        let c = self.damping_norm(at, &pair.x);
         let size = lambda.norm();
         let scale = size * size * m + size * c + k;
         f64::EPSILON * scale / ((factor * slope / rate).norm() * size)
+    }
+
+    /// Largest row sum of `C`; in three dimensions each column counts as much as the vector has of it: the motion across the sliding
+    /// is small where its dashpot is strong.
+    fn damping_norm(&self, at: &Matrices, x: &[c64]) -> f64 {
+        let Some(damping) = at.damping.as_ref().filter(|_| self.is_reduced()) else {
+            return at.norms[1];
+        };
+        let h = self.half_bandwidth;
+        let sums = damping
+            .chunks_exact(2 * h + 1)
+            .enumerate()
+            .map(|(row, band)| {
+                let (first, last) = (row.saturating_sub(h), (row + h + 1).min(self.dimension));
+                let entries = band[first + h - row..last + h - row].iter();
+                entries
+                    .zip(&x[first..last])
+                    .map(|(c, x)| c.norm() * x.norm())
+                    .sum::<f64>()
+            });
+        sums.fold(0.0, f64::max) / largest(x)
+    }
+
+    /// Dense `M`, `C`, `K`.
+    pub fn dense(&self, at: &Matrices) -> [Mat<c64>; 3] {
+        let (n, h) = (self.dimension, self.half_bandwidth);
+        let full = |values: &[c64]| {
+            Mat::from_fn(n, n, |i, j| match i.abs_diff(j) <= h {
+                true => values[i * (2 * h + 1) + j + h - i],
+                false => ZERO,
+            })
+        };
+        let none = vec![ZERO; at.mass.len()];
+        [
+            full(&at.mass),
+            full(at.damping.as_deref().unwrap_or(&none)),
+            full(&at.stiffness),
+        ]
     }
 
     /// Kinetic energy of the contact edge's nodes over the whole, see [`crate::cea::ComplexMode`].

@@ -2,8 +2,11 @@
 //!
 //! A harmonic has some thousand unknowns, too many to factorize for every mode at every friction coefficient. Friction acts on
 //! the few nodes of the contact, so each harmonic is first reduced to its modes at rest and to what forces and motions of the
-//! contact cause ([`reduction`]); the reduced problem is followed over friction like that of the plane annulus.
+//! contact cause ([`reduction`]); the reduced problem is followed over friction like that of the plane annulus. Where friction damps
+//! the motion across the sliding strongly, all of its eigenvalues are counted at every friction coefficient ([`damped`]).
 
+mod across;
+mod damped;
 mod error;
 mod reduction;
 mod rest;
@@ -11,5 +14,6 @@ mod sensitivity;
 mod shape;
 mod sweep;
 
+pub use damped::Overdamped;
 pub use sensitivity::solid_sensitivities;
 pub use sweep::{SolidModel, SolidSweep, solid_sweep};

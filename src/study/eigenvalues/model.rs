@@ -3,7 +3,7 @@
 use super::states::WholeMesh;
 use super::{Progress, StudyError};
 use crate::case::{Annulus, Body, Case, CaseErrors, Cea, CeaMethod, ModeSelection, Revolution};
-use crate::cea::cyclic::{self, Coverage, Sensitivity, SolidModel, SolidSweep};
+use crate::cea::cyclic::{self, Coverage, Overdamped, Sensitivity, SolidModel, SolidSweep};
 use crate::cea::{CeaError, FrictionSweep, ModeLimit, SweepRequest};
 use crate::prestress::TangentOptions;
 use crate::study::tangent_options;
@@ -97,6 +97,8 @@ pub struct Spectrum {
     pub notes: Vec<String>,
     /// Which harmonics were solved, of a body that has them.
     pub coverage: Option<Coverage>,
+    /// Motions of a body of revolution that decay without oscillating, at each friction coefficient; none elsewhere.
+    pub overdamped: Vec<Overdamped>,
 }
 
 impl Model {
@@ -169,6 +171,7 @@ impl Model {
                     without_sensitivities: 0,
                     notes: Vec::new(),
                     coverage: Some(found.coverage),
+                    overdamped: Vec::new(),
                     sweep: found.sweep,
                 })
             }
@@ -185,6 +188,7 @@ impl Model {
                     sensitivities,
                     notes: vec![reduction_note(&found, request)],
                     coverage: Some(found.coverage),
+                    overdamped: found.overdamped,
                     sweep: found.sweep,
                 })
             }
@@ -196,6 +200,7 @@ impl Model {
                     without_sensitivities: 0,
                     notes: whole.changes_note().into_iter().collect(),
                     coverage: None,
+                    overdamped: Vec::new(),
                     sweep,
                 })
             }

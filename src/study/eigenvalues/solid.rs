@@ -78,13 +78,23 @@ impl SolidBody {
     /// Friction at the mean radius of the contact, and the mean pressure there, Pa.
     pub fn mean_friction(&self) -> (SteadyFriction, f64) {
         let SolidReport { sector, base, .. } = &self.report;
-        let area: f64 = sector.rings.iter().map(|ring| ring.area).sum();
-        let moment: f64 = sector
-            .rings
-            .iter()
-            .map(|ring| ring.area * ring.radius)
-            .sum();
-        (base.friction(moment / area).1, base.mean_pressure(sector))
+        let friction = base.friction(self.mean_radius()).1;
+        (friction, base.mean_pressure(sector))
+    }
+
+    /// The dashpot `mu p / V` of friction across the sliding, Pa s/m, at the mean radius and pressure.
+    pub fn dashpot_across(&self, friction_coefficient: f64) -> f64 {
+        let SolidReport { sector, base, .. } = &self.report;
+        let (speed, friction) = base.friction(self.mean_radius());
+        friction_coefficient * friction.drag.abs() * base.mean_pressure(sector) / speed
+    }
+
+    /// Mean radius of the contact, m.
+    fn mean_radius(&self) -> f64 {
+        let rings = || self.report.sector.rings.iter();
+        let area: f64 = rings().map(|ring| ring.area).sum();
+        let moment: f64 = rings().map(|ring| ring.area * ring.radius).sum();
+        moment / area
     }
 
     /// What an open part of the contact means.

@@ -5,10 +5,11 @@ use super::sliding::SteadyState;
 use super::solid::SolidBody;
 use super::{Progress, SlidingModel, Solution, StudyError};
 use crate::case::{Body, Case, Cea};
-use crate::cea::cyclic::{Coverage, Sensitivity};
+use crate::cea::cyclic::{Coverage, Overdamped, Sensitivity};
 use crate::cea::{FrictionSweep, SweepRequest};
 use crate::fem::RegionMaterial;
 use crate::results::cea::SensitivityReport;
+use std::f64::consts::TAU;
 
 /// Solves the case's eigenproblems with its method; `progress` hears of every friction value solved.
 ///
@@ -54,6 +55,7 @@ fn solve_with(
         .map(|c| coverage_note(&model.model, c))
         .collect();
     notes.extend(found.notes);
+    notes.extend(overdamped_note(case, model, &found.overdamped));
     notes.extend(model.solid().and_then(SolidBody::note));
     if found.without_sensitivities > 0 {
         notes.push(format!(
@@ -119,13 +121,43 @@ fn damping_note(case: &Case, sweep: &FrictionSweep) -> Option<String> {
         .damping
         .rayleigh
         .damping_factor(size.max(f64::MIN_POSITIVE));
-    (largest.max(at_limit) > 0.5).then(|| {
-        format!(
-            "a mode is damped by a factor of {:.2}: motions beyond critical damping (1) do not oscillate and are \
-             not listed; damping.mass_coefficient and damping.stiffness_coefficient set it",
-            largest.max(at_limit)
-        )
-    })
+    if largest.max(at_limit) <= 0.5 {
+        return None;
+    }
+    let (factor, cause) = match case.body {
+        Body::Revolution(_) if at_limit <= 0.5 => (
+            largest,
+            "the dashpot of friction across the sliding, mu p / V, causes it, and grows as the sliding slows down",
+        ),
+        _ => (
+            largest.max(at_limit),
+            "damping.mass_coefficient and damping.stiffness_coefficient set it",
+        ),
+    };
+    Some(format!(
+        "a mode is damped by a factor of {factor:.2}: motions beyond critical damping (1) do not oscillate and are \
+         not listed; {cause}"
+    ))
+}
+
+/// The motions that friction across the sliding keeps from oscillating, and those that it damps.
+fn overdamped_note(
+    case: &Case,
+    model: &SlidingModel,
+    overdamped: &[Overdamped],
+) -> Option<String> {
+    let most = overdamped.iter().max_by_key(|own| own.count);
+    let (most, solid) = (most.filter(|own| own.count > 0)?, model.solid()?);
+    let [slowest, fastest] = most.decay;
+    let friction = most.friction_coefficient;
+    Some(format!(
+        "at friction {friction} {} motions (each wave of a pair counted) decay without oscillating, at {slowest:.3e} to \
+         {fastest:.3e} 1/s, and are not listed: the dashpot of friction across the sliding, mu p / V = {:.3e} Pa s/m at the mean \
+         pressure and radius, overdamps them; it grows as contact.rotation_speed_rpm = {} falls, and holds that motion in the limit",
+        most.count,
+        solid.dashpot_across(friction),
+        case.contact.sliding.rotation_speed * 60.0 / TAU,
+    ))
 }
 
 /// What a friction law does at the speed of sliding.

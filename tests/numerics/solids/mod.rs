@@ -11,6 +11,7 @@ mod response;
 mod response_limits;
 mod ring;
 mod sensitivity;
+mod slow_sliding;
 mod studies;
 mod transient;
 mod whole_ring;

@@ -1,9 +1,10 @@
 //! From the matrices of one harmonic to small dense ones.
 
+use super::across::Across;
 use super::rest::{Modes, Pencil};
 use crate::fem::RayleighDamping;
 use crate::linalg::banded::{BandedMatrix, CompactRows};
-use crate::linalg::dense::{dot, transpose_product};
+use crate::linalg::dense::{column_mut, dot, product, transpose_product};
 use crate::linalg::dense_eigen::symmetric_eigen;
 use crate::linalg::{Mat, c64};
 use crate::prestress::{FrictionPolynomial, HarmonicTangent, SolidHarmonic, moving_unknowns};
@@ -21,6 +22,19 @@ pub(super) struct Reduction {
     pub basis: Mat<f64>,
     /// `kappa` of the modes at rest.
     pub kappas: Vec<f64>,
+    /// Where the dashpots across the sliding are strong: columns that they damp one by one.
+    turned: Option<Turned>,
+}
+
+/// A basis turned so that `A` of the dashpots across the sliding is diagonal in it.
+///
+/// Only the first columns move across the sliding, so the force `mu A q'` of strong dashpots stays in their equations, and what
+/// rounding makes of its size does not reach the others: that is what the force as an unknown of its own would do.
+struct Turned {
+    /// Row `k`: the mode at rest of rank `k` in the columns of the basis.
+    modes: Mat<f64>,
+    /// Damping of the first columns, 1/s; the others have none.
+    strengths: Vec<f64>,
 }
 
 impl Reduction {
@@ -31,7 +45,14 @@ impl Reduction {
     /// `K^-1 b` and `K^-1 M K^-1 b` for forces `b` along and across the sliding and for the columns of `K` and `M` of
     /// the normals. What two terms leave out is estimated by
     /// [`super::error::reduction_error`]: 1.7e-8 of an eigenvalue at 11 kHz on 24 x 5 x 1 bricks.
-    pub fn new(pencil: &Pencil, harmonic: &SolidHarmonic, contact: &[usize], modes: Modes) -> Self {
+    ///
+    /// `held` are modes with the motion across the sliding held, where dashpots are strong enough to do so.
+    pub fn new(
+        pencil: &Pencil,
+        harmonic: &SolidHarmonic,
+        contact: &[usize],
+        (modes, held): (Modes, Modes),
+    ) -> Self {
         let count = harmonic.mass.dimension();
         let moving = moving_unknowns(count, &harmonic.rigid);
         let mut place = vec![None; count];
@@ -75,7 +96,8 @@ impl Reduction {
         let kappas = modes.iter().map(|mode| mode.0).collect();
         let mut columns: Vec<Vec<f64>> = modes.into_iter().map(|mode| mode.1).collect();
         let mut momenta: Vec<Vec<f64>> = columns.iter().map(|x| pencil.mass.multiply(x)).collect();
-        for mut x in first.into_iter().chain(second) {
+        let held = held.into_iter().map(|mode| mode.1);
+        for mut x in held.chain(first).chain(second) {
             let length = |x: &[f64], p: &[f64]| dot(x, p).sqrt();
             let before = length(&x, &pencil.mass.multiply(&x));
             for _ in 0..2 {
@@ -97,16 +119,47 @@ impl Reduction {
                 basis[(unknown, j)] = *value;
             }
         }
-        Self { basis, kappas }
+        Self {
+            basis,
+            kappas,
+            turned: None,
+        }
+    }
+
+    /// The same space with a basis in which the dashpots across the sliding are diagonal, the strongest first.
+    pub fn turned(self, across: &Across) -> Self {
+        let images = self.images(&across.dashpots);
+        let form = transpose_product(self.basis.as_ref(), images.as_ref());
+        let (values, vectors) = symmetric_eigen(&form);
+        let size = values.len();
+        let turn = Mat::from_fn(size, size, |i, j| vectors[(i, size - 1 - j)]);
+        let strengths = values.iter().rev().take(across.rank);
+        Self {
+            basis: product(self.basis.as_ref(), turn.as_ref()),
+            kappas: self.kappas,
+            turned: Some(Turned {
+                strengths: strengths.map(|value| value.max(0.0)).collect(),
+                modes: turn,
+            }),
+        }
+    }
+
+    /// The mode at rest of rank `k` in the columns of the basis.
+    pub fn mode(&self, k: usize) -> Vec<f64> {
+        let size = self.basis.ncols();
+        match &self.turned {
+            Some(turned) => (0..size).map(|j| turned.modes[(k, j)]).collect(),
+            None => (0..size).map(|j| f64::from(u8::from(j == k))).collect(),
+        }
     }
 
     /// The tangent of the harmonic in this space, dense matrices stored as bands.
     ///
-    /// `groups` are the unknowns of the contact's nodes and of the axial motion, of whose kinetic energy modes have a share.
+    /// `across` are the dashpots that are part of `harmonic.across`. `groups` are the unknowns of the contact's nodes and of the axial motion, of whose kinetic energy modes have a share.
     pub fn tangent(
         &self,
         n: usize,
-        harmonic: &SolidHarmonic,
+        (harmonic, across): (&SolidHarmonic, &Across),
         groups: [&[usize]; 2],
         rayleigh: RayleighDamping,
     ) -> HarmonicTangent {
@@ -135,10 +188,37 @@ impl Reduction {
             mass: self.project(std::slice::from_ref(&momenta), &harmonic.rigid),
             stiffness: polynomial(&[k0, k1]),
             damping: Some(polynomial(&[c0, c1])),
-            friction_dashpots: Some(polynomial(&[&harmonic.across])),
+            friction_dashpots: Some(match &self.turned {
+                None => polynomial(&[&harmonic.across]),
+                Some(turned) => self.dashpots(turned, across, &harmonic.rigid),
+            }),
             rayleigh,
             contact: 0..0,
         }
+    }
+
+    /// The dashpots of friction where those across the sliding are diagonal, by power of `i mu`.
+    fn dashpots(
+        &self,
+        turned: &Turned,
+        across: &Across,
+        rigid: &[(usize, Option<usize>, f64)],
+    ) -> FrictionPolynomial {
+        let damped = turned.strengths.len();
+        let mut images = self.images(&across.dashpots);
+        // Columns beyond the damped ones move across the sliding by round-off alone.
+        for j in damped..images.ncols() {
+            column_mut(&mut images, j).fill(0.0);
+        }
+        let mut powers = self.powers(&[images], rigid);
+        powers[0].fill(0.0);
+        for (j, strength) in turned.strengths.iter().enumerate() {
+            powers[0][(j, j)] = *strength;
+        }
+        let along = self.powers(&[self.images(&across.along)], rigid);
+        let sums = powers.iter_mut().zip(&along);
+        sums.for_each(|(sum, along)| *sum += along);
+        powers.iter().map(banded).collect()
     }
 
     /// A shape over all unknowns.
@@ -164,6 +244,15 @@ impl Reduction {
         images: &[Mat<f64>],
         rigid: &[(usize, Option<usize>, f64)],
     ) -> FrictionPolynomial {
+        let mut powers = self.powers(images, rigid);
+        while powers.len() > 1 && powers[powers.len() - 1].norm_max() == 0.0 {
+            powers.pop();
+        }
+        powers.iter().map(banded).collect()
+    }
+
+    /// [`Self::project`] with one power more than images, whether it is zero or not.
+    fn powers(&self, images: &[Mat<f64>], rigid: &[(usize, Option<usize>, f64)]) -> Vec<Mat<f64>> {
         let size = self.basis.ncols();
         let zero = || Mat::<f64>::zeros(size, size);
         let mut powers: Vec<Mat<f64>> = (0..=images.len()).map(|_| zero()).collect();
@@ -189,10 +278,7 @@ impl Reduction {
                 (rest[(i, j)], rest[(j, i)]) = (mean, mean);
             }
         }
-        while powers.len() > 1 && powers[powers.len() - 1].norm_max() == 0.0 {
-            powers.pop();
-        }
-        powers.iter().map(banded).collect()
+        powers
     }
 }
 

@@ -30,6 +30,19 @@ impl Pencil {
         })
     }
 
+    /// `K` over the unknowns that may move, N/m.
+    pub fn stiffness(&self) -> &BandedMatrix {
+        &self.bands[1]
+    }
+
+    /// The pencil with `factor A` as further stiffness; `None` where that is not positive definite.
+    pub fn stiffened(&self, factor: f64, a: &BandedMatrix) -> Option<Self> {
+        let [mass, stiffness] = &self.bands;
+        let mut stiffness = stiffness.clone();
+        stiffness.add_scaled(factor, a);
+        Self::new(mass.clone(), stiffness)
+    }
+
     /// Number of modes below `kappa`.
     pub fn count_below(&self, kappa: f64) -> usize {
         let [mass, stiffness] = &self.bands;

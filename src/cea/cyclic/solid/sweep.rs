@@ -1,5 +1,7 @@
 //! A sweep over the friction coefficient in three dimensions.
 
+use super::across::Across;
+use super::damped::{Overdamped, Range, follow_damped};
 use super::error::{ReducedPair, reduction_error};
 use super::reduction::Reduction;
 use super::rest::{Modes, Pencil};
@@ -49,6 +51,9 @@ pub struct SolidSweep {
     pub reduction_error: f64,
     /// Every branch followed that has one of the modes.
     pub branches: Vec<ModeBranch>,
+    /// At each friction value, rising: motions up to the margin of the coverage that do not oscillate, where friction damps the motion
+    /// across the sliding strongly; each wave of a pair counts singly.
+    pub overdamped: Vec<Overdamped>,
     /// The linearisation, for sensitivities.
     pub tangent: SolidTangent,
 }
@@ -74,10 +79,22 @@ struct AtRest {
 
 /// One harmonic ready to be followed.
 struct Reduced {
+    number: usize,
     reduction: Reduction,
-    problem: HarmonicProblem,
     harmonic: SolidHarmonic,
+    across: Across,
+    /// Whether friction damps the motion across the sliding strongly somewhere in the range.
+    is_damped: bool,
+    /// Answers to what the reduction leaves out.
     pencil: Pencil,
+}
+
+/// What one harmonic has come to.
+struct Solved {
+    paths: HarmonicPaths,
+    reduction: Reduction,
+    error: f64,
+    overdamped: Vec<Overdamped>,
 }
 
 /// Eigenvalues of steady sliding of a body of revolution over a range of friction coefficients.
@@ -98,30 +115,18 @@ pub fn solid_sweep(model: &SolidModel, request: &SweepRequest<'_>) -> Result<Sol
     let wanted = wanted(&tangent, &found, request.limit, bound)?;
     let margin = wanted * MARGIN * MARGIN;
     found.retain(|found| found.modes.iter().any(|mode| mode.0 < margin));
-    let reduced = reduce(&tangent, found);
-    let solved: Result<Vec<(HarmonicPaths, Reduction, f64)>, CeaError> = reduced
+    let reduced = reduce(&tangent, found, &grid, margin);
+    let solved: Result<Vec<Solved>, CeaError> = reduced
         .into_par_iter()
-        .map(|found| {
-            let kappas = found.reduction.kappas.iter().enumerate();
-            let pairs = kappas
-                .take_while(|(_, kappa)| **kappa < margin)
-                .map(|(k, &kappa)| {
-                    let mut x = vec![0.0; found.problem.dimension];
-                    x[k] = 1.0;
-                    (kappa, x)
-                });
-            let pairs: Vec<_> = pairs.collect();
-            let paths = follow_pairs(found.problem, &pairs, &grid, request.shapes_at)?;
-            let whole = (&found.reduction, &found.harmonic, &found.pencil);
-            let error = largest_error(&paths, whole, wanted);
-            Ok((paths, found.reduction, error))
-        })
+        .map(|found| follow(&tangent, found, request, (&grid, wanted)))
         .collect();
     let (mut followed, mut reductions, mut error) = (Vec::new(), Vec::new(), 0.0_f64);
-    for (paths, reduction, own) in solved? {
-        followed.push(paths);
-        reductions.push(reduction);
-        error = error.max(own);
+    let mut overdamped = Vec::new();
+    for solved in solved? {
+        followed.push(solved.paths);
+        reductions.push(solved.reduction);
+        error = error.max(solved.error);
+        overdamped.extend(solved.overdamped);
     }
     let direction = tangent.base().sliding_direction;
     let expand = |n: usize, waves: Waves, x: &[c64]| {
@@ -170,8 +175,79 @@ pub fn solid_sweep(model: &SolidModel, request: &SweepRequest<'_>) -> Result<Sol
         dofs: tangent.unknown_of().iter().flatten().count() * sector.sector_count(),
         reduction_error: error,
         branches,
+        overdamped: together(&grid, &overdamped),
         tangent,
     })
+}
+
+/// The branches of one harmonic with `|lambda|^2` up to a margin above `wanted`.
+fn follow(
+    tangent: &SolidTangent,
+    found: Reduced,
+    request: &SweepRequest<'_>,
+    (grid, wanted): (&[f64], f64),
+) -> Result<Solved, CeaError> {
+    let margin = wanted * MARGIN * MARGIN;
+    let n = found.number;
+    let [contact, axial, _] = &groups(tangent);
+    let problem = || {
+        let matrices = (&found.harmonic, &found.across);
+        let reduced = found
+            .reduction
+            .tangent(n, matrices, [contact, axial], tangent.rayleigh());
+        HarmonicProblem::new(reduced, tangent.is_standing(n))
+    };
+    let kappas = found.reduction.kappas.iter().enumerate();
+    let pairs: Vec<(f64, Vec<f64>)> = kappas
+        .take_while(|(_, kappa)| **kappa < margin)
+        .map(|(k, &kappa)| (kappa, found.reduction.mode(k)))
+        .collect();
+    let damped = || {
+        let range = Range {
+            grid,
+            kept: request.shapes_at,
+            largest: margin.sqrt(),
+        };
+        follow_damped(problem(), &pairs, found.reduction.kappas.len(), &range)
+    };
+    let (paths, overdamped) = match found.is_damped {
+        true => damped()?,
+        // Where a branch stops to oscillate nevertheless, others may begin to.
+        false => match follow_pairs(problem(), &pairs, grid, request.shapes_at) {
+            Ok(paths) if paths.are_whole() => (paths, Vec::new()),
+            _ => damped()?,
+        },
+    };
+    let whole = (&found.reduction, &found.harmonic, &found.pencil);
+    Ok(Solved {
+        error: largest_error(&paths, whole, wanted),
+        reduction: found.reduction,
+        paths,
+        overdamped,
+    })
+}
+
+/// The overdamped motions of all harmonics at each friction value.
+fn together(grid: &[f64], overdamped: &[Overdamped]) -> Vec<Overdamped> {
+    let at = |&friction: &f64| {
+        let own = overdamped
+            .iter()
+            .filter(|own| own.friction_coefficient == friction);
+        let none = Overdamped {
+            friction_coefficient: friction,
+            count: 0,
+            decay: [f64::INFINITY, 0.0],
+        };
+        own.fold(none, |sum, own| Overdamped {
+            count: sum.count + own.count,
+            decay: [
+                sum.decay[0].min(own.decay[0]),
+                sum.decay[1].max(own.decay[1]),
+            ],
+            ..sum
+        })
+    };
+    grid.iter().map(at).collect()
 }
 
 /// The largest [`reduction_error`] of the paths of a harmonic that end below `|lambda|^2 = wanted`.
@@ -188,7 +264,8 @@ fn largest_error(
             right: &end.x,
             left: &end.y,
         };
-        match pair.eigenvalue.norm_sqr() <= wanted {
+        let is_listed = pair.eigenvalue.norm_sqr() <= wanted && !paths.problem.is_ending(end.theta);
+        match is_listed {
             true => reduction_error(reduction, harmonic, pencil, &pair),
             false => 0.0,
         }
@@ -315,22 +392,50 @@ fn modes_below(
     Ok((all, empty))
 }
 
-/// The harmonics on small spaces.
-fn reduce(tangent: &SolidTangent, found: Vec<AtRest>) -> Vec<Reduced> {
-    let [contact, axial, touched] = &groups(tangent);
+/// The harmonics on small spaces, for friction coefficients up to the last of `grid` and `|lambda|^2` up to `margin`.
+fn reduce(tangent: &SolidTangent, found: Vec<AtRest>, grid: &[f64], margin: f64) -> Vec<Reduced> {
+    let [_, _, touched] = &groups(tangent);
+    let sideways = across(tangent);
+    let friction = grid[grid.len() - 1];
     let solve = |found: AtRest| {
-        let n = found.harmonic;
-        let harmonic: SolidHarmonic = tangent.harmonic(n);
-        let reduction = Reduction::new(&found.pencil, &harmonic, touched, found.modes);
-        let reduced = reduction.tangent(n, &harmonic, [contact, axial], tangent.rayleigh());
+        let harmonic: SolidHarmonic = tangent.harmonic(found.harmonic);
+        let (pencil, across) = (found.pencil, Across::new(&harmonic, &sideways));
+        if !across.are_strong(&found.modes, friction) {
+            let modes = (found.modes, Vec::new());
+            return Reduced {
+                number: found.harmonic,
+                reduction: Reduction::new(&pencil, &harmonic, touched, modes),
+                is_damped: false,
+                harmonic,
+                across,
+                pencil,
+            };
+        }
+        let held = across.held_modes(&pencil, margin * SPAN * SPAN);
+        let reduction = Reduction::new(&pencil, &harmonic, touched, (found.modes, held));
+        let answering = across.added_to(&pencil, friction * margin.sqrt());
         Reduced {
-            problem: HarmonicProblem::new(reduced, tangent.is_standing(n)),
-            reduction,
+            number: found.harmonic,
+            reduction: reduction.turned(&across),
+            is_damped: true,
             harmonic,
-            pencil: found.pencil,
+            across,
+            pencil: answering.unwrap_or(pencil),
         }
     };
     found.into_par_iter().map(solve).collect()
+}
+
+/// Unknowns across the sliding of the contact's nodes.
+fn across(tangent: &SolidTangent) -> Vec<usize> {
+    let sector = tangent.sector();
+    let component = sector.specification.contact.face().across_component();
+    let nodes = sector.rings.iter().flat_map(|ring| &ring.nodes);
+    let unknowns = nodes.filter_map(|node| tangent.unknown_of()[3 * node + component]);
+    let mut unknowns: Vec<usize> = unknowns.collect();
+    unknowns.sort_unstable();
+    unknowns.dedup();
+    unknowns
 }
 
 /// Unknowns of the contact's nodes, of axial motion, and along and across the sliding of pressed nodes.

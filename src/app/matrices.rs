@@ -1,0 +1,67 @@
+//! `frictionsim matrices`: the matrices of a case, for other programs.
+
+use super::profile::{Profile, Redraw};
+use super::{Failure, RunOptions, Session};
+use crate::results::matrices::{MatricesSummary, print, write_matrices};
+use crate::results::write_summary;
+use crate::study::matrices::matrices;
+use clap::Args;
+
+/// Mass, damping, stiffness and friction matrices of a case, for other programs
+///
+/// Writes what the eigenvalue analysis solves: M, C and K without friction, the coefficients of the powers of the friction
+/// coefficient, and the contact rows, each as Matrix Market and as NPZ for scipy.sparse.load_npz; matrices.json says what
+/// multiplies what, unknowns.csv which node and direction each unknown is. Needs a [cea] section in the case.
+#[derive(Args)]
+pub struct Arguments {
+    #[command(flatten)]
+    options: RunOptions,
+}
+
+/// What the rest of the program asks of this command.
+pub const PROFILE: Profile = Profile {
+    files: &[
+        (
+            "matrices.json",
+            "what multiplies what, and the files of each matrix",
+        ),
+        (
+            "M.mtx, M.npz",
+            "mass without friction; C, K alike; _mu1, _mu2: coefficients of mu, mu^2",
+        ),
+        (
+            "contact_slip.mtx",
+            "motion of the contact points along the sliding; contact_normal: along the normal",
+        ),
+        ("unknowns.csv", "node, direction and place of each unknown"),
+        (
+            "contact.csv",
+            "node, status, length and normal force of each contact point",
+        ),
+    ],
+    examples: &[(
+        "frictionsim matrices block.toml",
+        "solve the same problem with another program",
+    )],
+    redraw: Redraw::Nothing,
+};
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// A bad case, a body of revolution, or an output folder that cannot be written.
+pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let session = Session::start("matrices", &arguments.options)?;
+    let case = &session.case;
+    session.check_memory(case.cost().mesh_memory_bytes)?;
+    let folder = session.open_folder()?;
+    let system = matrices(case)?;
+    let wall_s = session.wall_seconds();
+    let summary = MatricesSummary::new(&system, &case.title, wall_s, &session.manifest);
+    write_matrices(&folder, &system, &summary)?;
+    let object = write_summary(&folder, &summary)?;
+    session
+        .options
+        .output
+        .finish(folder, &print(&summary), &object)
+}

@@ -1,0 +1,231 @@
+//! `[superelements.*]`: systems that other programs have reduced to matrices.
+
+use super::cea::{ModeSelection, mode_selection};
+use super::diagnostic::{CaseErrors, Location};
+use super::raw::RawCase;
+use super::reader::{Findings, Section};
+use crate::linalg::MarketMatrix;
+use sha2::{Digest, Sha256};
+use std::fmt::Write as _;
+use std::path::Path;
+
+/// The matrices of a superelement, in the order of their keys.
+const MATRICES: [&str; 3] = ["mass", "damping", "stiffness"];
+
+/// Unknowns of a superelement at most: its problem is solved whole, by dense matrices of twice its size.
+const MOST_UNKNOWNS: usize = 2000;
+
+/// The matrices of a reduced system.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Superelement {
+    /// Its name in the case.
+    pub name: String,
+    /// Mass `M`.
+    pub mass: MarketMatrix,
+    /// Damping `C`; zero where the case gives none.
+    pub damping: MarketMatrix,
+    /// Stiffness `K`.
+    pub stiffness: MarketMatrix,
+}
+
+/// A case of one superelement that stands free: `(lambda^2 M + lambda C + K) x = 0`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FreeSystem {
+    /// Title.
+    pub title: String,
+    /// Its matrices.
+    pub superelement: Superelement,
+    /// Modes wanted.
+    pub modes: ModeSelection,
+    /// The case as it is written.
+    pub raw: RawCase,
+    /// SHA-256 of the effective case and of the files of its matrices, in hexadecimal.
+    pub hash: String,
+}
+
+impl FreeSystem {
+    /// Whether a case describes superelements and no body.
+    pub fn is_described_by(raw: &RawCase) -> bool {
+        let has = |section: &str| raw.root.contains_key(section);
+        has("superelements") && !has("geometry") && !has("mesh")
+    }
+
+    /// Reads the matrices of a case, whose files are relative to it.
+    ///
+    /// # Errors
+    /// [`CaseErrors`]: several superelements, a file that is not readable or no matrix, sizes that differ, an unknown without entries,
+    /// a key that means nothing here.
+    pub fn read(raw: RawCase) -> Result<Self, CaseErrors> {
+        let findings = Findings::default();
+        let end = raw.text.trim_end().len();
+        let root = Section::root(&findings, &raw.root, Location::new(0, end..end));
+        let title = root.optional_text("title").unwrap_or_default();
+        let all = root.section("superelements", true);
+        let names: Vec<&str> = all.remaining().into_iter().map(|(name, _)| name).collect();
+        if names.len() > 1 {
+            all.reject(
+                names[1],
+                "several superelements without a body have nothing in common".to_owned(),
+                "the second one".to_owned(),
+                Some("give each a case of its own".to_owned()),
+            );
+        }
+        let mut digest = Sha256::new_with_prefix(raw.canonical());
+        let folder = Path::new(&raw.name).parent().unwrap_or(Path::new(""));
+        let read = names.first().and_then(|name| {
+            let section = all.section(name, true);
+            let found = superelement(&section, name, folder, &mut digest);
+            section.close();
+            found
+        });
+        all.close();
+        let section = root.section("cea", true);
+        let unknowns = read.as_ref().map_or(0, |own| own.mass.rows as u128);
+        let modes = mode_selection(&section, unknowns);
+        section.close();
+        root.close();
+        let (errors, _) = findings.into_parts();
+        match read {
+            Some(superelement) if errors.is_empty() => {
+                let mut hash = String::new();
+                for byte in digest.finalize() {
+                    let _ = write!(hash, "{byte:02x}");
+                }
+                Ok(Self {
+                    title,
+                    superelement,
+                    modes,
+                    hash,
+                    raw,
+                })
+            }
+            _ => Err(raw.errors(errors)),
+        }
+    }
+}
+
+/// Refuses superelements beside a body.
+pub(super) fn refuse_attached(root: &Section<'_>) {
+    let all = root.section("superelements", false);
+    if !all.is_given() {
+        return;
+    }
+    root.reject(
+        "superelements",
+        "superelements are solved free-standing; joining them to a mesh at interface nodes is not supported".to_owned(),
+        "beside a body".to_owned(),
+        Some("leave [geometry] and [mesh] out, or solve the superelement in a case of its own".to_owned()),
+    );
+}
+
+/// One superelement; `None` where something is wrong with it, which is reported.
+fn superelement(
+    section: &Section<'_>,
+    name: &str,
+    folder: &Path,
+    digest: &mut Sha256,
+) -> Option<Superelement> {
+    let read = |key: &str, digest: &mut Sha256| {
+        let file = match key {
+            "damping" => section.optional_text(key),
+            _ => Some(section.text(key)).filter(|_| section.has(key)),
+        };
+        file.map(|file| matrix(section, key, &folder.join(file), digest))
+    };
+    let [mass, damping, stiffness] = MATRICES.map(|key| read(key, digest));
+    let (mass, stiffness) = (mass??, stiffness??);
+    let none = MarketMatrix {
+        entries: Vec::new(),
+        ..mass.clone()
+    };
+    let damping = damping.unwrap_or(Some(none))?;
+    let size = mass.rows;
+    for (key, own) in MATRICES.iter().zip([&mass, &damping, &stiffness]) {
+        if [own.rows, own.columns] != [size, size] {
+            let message = format!(
+                "{} is {} x {}, {} has {size} rows",
+                section.name(key),
+                own.rows,
+                own.columns,
+                section.name("mass"),
+            );
+            let help = "all matrices of a superelement are square and of one size".to_owned();
+            section.reject(key, message, "another size".to_owned(), Some(help));
+            return None;
+        }
+    }
+    if size == 0 || size > MOST_UNKNOWNS {
+        let message = format!("{} has {size} unknowns", section.name("mass"));
+        let label = format!("1 to {MOST_UNKNOWNS} unknowns");
+        section.reject(
+            "mass",
+            message,
+            label,
+            Some("reduce the system further".to_owned()),
+        );
+        return None;
+    }
+    let own = Superelement {
+        name: name.to_owned(),
+        mass,
+        damping,
+        stiffness,
+    };
+    is_determined(section, &own).then_some(own)
+}
+
+/// Whether every unknown is part of some equation; the first that is not is reported.
+fn is_determined(section: &Section<'_>, own: &Superelement) -> bool {
+    let matrices = [&own.mass, &own.damping, &own.stiffness];
+    let mut is_met = vec![false; own.mass.rows];
+    let entries = matrices.into_iter().flat_map(|matrix| &matrix.entries);
+    for &(_, column, value) in entries {
+        is_met[column] |= value != 0.0;
+    }
+    let Some(unknown) = is_met.iter().position(|met| !met) else {
+        return true;
+    };
+    let message = format!(
+        "unknown {} of superelement {} has no entry in any of its matrices: nothing holds it and it has no mass",
+        unknown + 1,
+        own.name
+    );
+    let help = "remove its row and column from every matrix".to_owned();
+    section.reject(
+        "stiffness",
+        message,
+        "an empty column".to_owned(),
+        Some(help),
+    );
+    false
+}
+
+/// The matrix of a file.
+fn matrix(
+    section: &Section<'_>,
+    key: &str,
+    path: &Path,
+    digest: &mut Sha256,
+) -> Option<MarketMatrix> {
+    let reject = |what: String, label: &str| {
+        let message = format!("{}: {}: {what}", section.name(key), path.display());
+        let help =
+            "a real matrix in the Matrix Market format, as scipy.io.mmwrite writes it".to_owned();
+        section.reject(key, message, label.to_owned(), Some(help));
+    };
+    let text = match std::fs::read_to_string(path) {
+        Ok(text) => text,
+        Err(error) => {
+            reject(error.to_string(), "not readable");
+            return None;
+        }
+    };
+    digest.update(&text);
+    match MarketMatrix::read(&text) {
+        Ok(matrix) => Some(matrix),
+        Err(error) => {
+            reject(error.to_string(), "no such matrix");
+            None
+        }
+    }
+}

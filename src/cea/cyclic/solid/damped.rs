@@ -1,0 +1,307 @@
+//! All eigenvalues of a harmonic whose motion across the sliding friction damps strongly.
+//!
+//! On the way from friction 0 such modes stop to oscillate, others begin to, and no branch need lead from one end of the range to
+//! the other. So all eigenvalues of the reduced problem are computed at every friction coefficient; branches are what leads from one
+//! to the next.
+
+use crate::cea::CeaError;
+use crate::cea::cyclic::follow::{Follower, StepControl};
+use crate::cea::cyclic::path::{Eigenpair, Path, Waves};
+use crate::cea::cyclic::paths::{HarmonicPaths, describe, start};
+use crate::cea::cyclic::problem::{HarmonicProblem, Matrices};
+use crate::cea::cyclic::vectors::dot;
+use crate::linalg::dense_eigen::complex_eigenvalues;
+use crate::linalg::{ComplexDenseLu, Mat, c64};
+use std::f64::consts::TAU;
+use std::rc::Rc;
+
+/// Distance of two eigenvalues relative to them up to which they are the same, found in two ways.
+const SAME: f64 = 1e-6;
+
+/// The shortest step of a branch over the step of friction: a branch that turns faster begins or ends there.
+const SHORTEST: f64 = 5e-3;
+
+/// Motions that decay without oscillating, at one friction coefficient.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Overdamped {
+    /// Friction coefficient `mu`.
+    pub friction_coefficient: f64,
+    /// Number of motions: real eigenvalues, and those with a frequency below a tenth of their size.
+    pub count: usize,
+    /// Their slowest and fastest decay, 1/s.
+    pub decay: [f64; 2],
+}
+
+/// What is to be found of a harmonic.
+pub(super) struct Range<'a> {
+    /// Rising friction coefficients.
+    pub grid: &'a [f64],
+    /// Those of them at which vectors are kept.
+    pub kept: &'a [f64],
+    /// Largest modulus of the eigenvalues, rad/s.
+    pub largest: f64,
+}
+
+/// Branches of a harmonic, starting from these `(kappa, x)` at rest, complete at every friction coefficient of the range.
+///
+/// # Errors
+/// [`CeaError::Linalg`] where a decomposition fails, [`CeaError::Unrefined`] where an eigenvalue has no vectors.
+pub(super) fn follow_damped(
+    problem: HarmonicProblem,
+    pairs: &[(f64, Vec<f64>)],
+    first_free: usize,
+    range: &Range<'_>,
+) -> Result<(HarmonicPaths, Vec<Overdamped>), CeaError> {
+    let mut course = Course {
+        problem: &problem,
+        follower: Follower::new(&problem),
+        largest: range.largest,
+        paths: Vec::new(),
+        next_branch: first_free,
+    };
+    let at_rest = problem.at(0.0);
+    for (branch, (kappa, shape)) in pairs.iter().enumerate() {
+        let started = start(&mut course.follower, &at_rest, branch, *kappa, shape);
+        course
+            .paths
+            .extend(started.into_iter().flatten().map(Tracked::new));
+    }
+    let (mut before, mut overdamped) = (0.0, Vec::new());
+    for &friction in range.grid {
+        overdamped.push(course.step(before, friction)?);
+        course.describe(friction, range.kept);
+        before = friction;
+    }
+    let factorizations = course.follower.factorizations;
+    let paths = course
+        .paths
+        .into_iter()
+        .map(|tracked| tracked.path)
+        .collect();
+    let followed = HarmonicPaths {
+        paths,
+        problem,
+        factorizations,
+    };
+    Ok((followed, overdamped))
+}
+
+/// A branch and how far it has come.
+struct Tracked {
+    path: Path,
+    /// Points up to the last friction coefficient of the range.
+    reached: usize,
+    /// Whether it is still followed.
+    is_open: bool,
+}
+
+impl Tracked {
+    fn new(path: Path) -> Self {
+        Self {
+            reached: path.points.len(),
+            path,
+            is_open: true,
+        }
+    }
+
+    fn last(&self) -> &Eigenpair {
+        self.path.points.last().expect("a path has a first point")
+    }
+}
+
+struct Course<'a> {
+    problem: &'a HarmonicProblem,
+    follower: Follower<'a>,
+    largest: f64,
+    paths: Vec<Tracked>,
+    next_branch: usize,
+}
+
+impl Course<'_> {
+    /// Takes every branch to the next friction coefficient, and adds those of the eigenvalues that none has come to.
+    fn step(&mut self, before: f64, friction: f64) -> Result<Overdamped, CeaError> {
+        let shared = Rc::new(self.problem.at(friction));
+        let all = spectrum(self.problem, &shared, self.largest)?;
+        let was_open: Vec<usize> = (0..self.paths.len())
+            .filter(|&index| self.paths[index].is_open)
+            .collect();
+        self.advance(before, friction, &shared);
+        // Every branch claims the eigenvalue that it has come to; two cannot share one.
+        let mut is_claimed = vec![false; all.len()];
+        for tracked in self.paths.iter_mut().filter(|tracked| tracked.is_open) {
+            let theta = tracked.last().theta;
+            let free = (0..all.len()).filter(|&k| !is_claimed[k]);
+            let nearest =
+                free.min_by(|&a, &b| (all[a] - theta).norm().total_cmp(&(all[b] - theta).norm()));
+            match nearest.filter(|&k| (all[k] - theta).norm() <= SAME * theta.norm()) {
+                Some(k) => is_claimed[k] = true,
+                None => {
+                    tracked.path.points.truncate(tracked.reached);
+                    tracked.is_open = false;
+                }
+            }
+        }
+        let is_wanted = |value: &c64| {
+            let is_own = value.im > 0.0 || !self.problem.is_standing;
+            is_own && value.norm() <= self.largest && !self.problem.is_ending(*value)
+        };
+        let mut missing: Vec<c64> = all
+            .iter()
+            .zip(&is_claimed)
+            .filter(|(value, claimed)| !**claimed && is_wanted(value))
+            .map(|(value, _)| *value)
+            .collect();
+        missing.sort_by(|a, b| a.im.total_cmp(&b.im));
+        for value in missing {
+            self.add(value, [before, friction], &was_open, &shared)?;
+        }
+        Ok(self.overdamped(friction, &all))
+    }
+
+    /// Takes the open branches on; those that stop to oscillate, or turn too fast, are closed where they have come to.
+    fn advance(&mut self, before: f64, friction: f64, shared: &Rc<Matrices>) {
+        let problem = self.problem;
+        let mut matrices = |value: f64| match value == friction {
+            true => Rc::clone(shared),
+            false => Rc::new(problem.at(value)),
+        };
+        for tracked in self.paths.iter_mut().filter(|tracked| tracked.is_open) {
+            tracked.reached = tracked.path.points.len();
+            let points = &mut tracked.path.points;
+            let control = shortened([before, friction]);
+            let has_come = self
+                .follower
+                .advance(points, friction, control, &mut matrices);
+            tracked.is_open = has_come && !problem.is_ending(tracked.last().theta);
+        }
+    }
+
+    /// A branch from an eigenvalue that none has come to, followed back as far as it goes: to a branch that was lost on the way,
+    /// else to a beginning of its own.
+    fn add(
+        &mut self,
+        value: c64,
+        [before, friction]: [f64; 2],
+        was_open: &[usize],
+        shared: &Rc<Matrices>,
+    ) -> Result<(), CeaError> {
+        let problem = self.problem;
+        let found = [1.0, 1.0 + 1e-7].into_iter().find_map(|shift| {
+            let found = self.follower.find(shared, friction, value * shift)?;
+            let is_it = (found.theta - value).norm() <= SAME * value.norm();
+            is_it.then_some(found)
+        });
+        let Some(found) = found else {
+            return Err(CeaError::Unrefined {
+                harmonic: problem.harmonic,
+                friction,
+                frequency_hz: value.im.abs() / TAU,
+            });
+        };
+        let mut back = vec![found];
+        let mut matrices = |value: f64| Rc::new(problem.at(value));
+        let control = shortened([before, friction]);
+        self.follower
+            .walk(&mut back, before, control, &mut matrices);
+        back.reverse();
+        let joined = was_open.iter().copied().find(|&index| {
+            let tracked = &self.paths[index];
+            let left = &tracked.path.points[tracked.reached - 1];
+            !tracked.is_open && is_same(left, &back[0])
+        });
+        match joined {
+            Some(index) => {
+                let tracked = &mut self.paths[index];
+                tracked.path.points.truncate(tracked.reached);
+                tracked.path.points.extend(back.into_iter().skip(1));
+                tracked.is_open = true;
+            }
+            None => {
+                let path = Path {
+                    branch: self.next_branch,
+                    rest: None,
+                    waves: match value.im > 0.0 {
+                        true => Waves::Forward,
+                        false => Waves::Backward,
+                    },
+                    points: back,
+                };
+                self.next_branch += 1;
+                self.paths.push(Tracked::new(path));
+            }
+        }
+        Ok(())
+    }
+
+    /// The motions that do not oscillate.
+    fn overdamped(&self, friction: f64, all: &[c64]) -> Overdamped {
+        let slow = all
+            .iter()
+            .filter(|value| value.norm() <= self.largest && self.problem.is_ending(**value));
+        let rates: Vec<f64> = slow.map(|value| -value.re).collect();
+        Overdamped {
+            friction_coefficient: friction,
+            count: rates.len(),
+            decay: [
+                rates.iter().copied().fold(f64::INFINITY, f64::min),
+                rates.iter().copied().fold(0.0, f64::max),
+            ],
+        }
+    }
+
+    /// What is listed at a friction coefficient.
+    fn describe(&mut self, friction: f64, kept: &[f64]) {
+        let at = self.problem.at(friction);
+        for tracked in self.paths.iter_mut().filter(|tracked| tracked.is_open) {
+            describe(self.problem, &at, &mut tracked.path.points, kept);
+        }
+    }
+}
+
+/// Steps no shorter than a share of the step of friction.
+fn shortened([before, friction]: [f64; 2]) -> StepControl {
+    StepControl {
+        shortest: SHORTEST * (friction - before),
+        ..StepControl::NORMAL
+    }
+}
+
+/// Whether two pairs at the same friction coefficient are one.
+fn is_same(a: &Eigenpair, b: &Eigenpair) -> bool {
+    let is_close = (a.theta - b.theta).norm() <= SAME * a.theta.norm();
+    a.parameter == b.parameter && is_close && dot(&a.x, &b.x).norm() > 0.99
+}
+
+/// All eigenvalues of the quadratic problem, from those of `(lambda - sigma)^-1` with `sigma > 0`:
+///
+/// ```text
+/// [ (X - 1) / sigma   - R Y     ]
+/// [ X / R             - sigma Y ],   X = T(sigma)^-1 K,  Y = T(sigma)^-1 M,   unknowns (u, lambda u / R)
+/// ```
+///
+/// `C` enters through `T(sigma)` alone, so dashpots of any strength leave the matrix of the size of `1 / sigma`. `size` is that of
+/// the eigenvalues wanted, rad/s.
+///
+/// # Errors
+/// [`CeaError::Linalg`] where the decomposition fails.
+fn spectrum(problem: &HarmonicProblem, at: &Matrices, size: f64) -> Result<Vec<c64>, CeaError> {
+    let n = problem.dimension;
+    let (sigma, scale) = (c64::new(0.7 * size, 0.0), c64::new(size, 0.0));
+    let [mass, damping, stiffness] = problem.dense(at);
+    let shifted = Mat::from_fn(n, n, |i, j| {
+        stiffness[(i, j)] + sigma * (damping[(i, j)] + sigma * mass[(i, j)])
+    });
+    let factors = ComplexDenseLu::factorize(shifted);
+    let (mut x, mut y) = (stiffness, mass);
+    factors.solve_in_place(x.as_mut());
+    factors.solve_in_place(y.as_mut());
+    let one = |i: usize, j: usize| c64::new(f64::from(u8::from(i == j)), 0.0);
+    let inverse = Mat::from_fn(2 * n, 2 * n, |i, j| match (i < n, j < n) {
+        (true, true) => (x[(i, j)] - one(i, j)) / sigma,
+        (true, false) => -scale * y[(i, j - n)],
+        (false, true) => x[(i - n, j)] / scale,
+        (false, false) => -sigma * y[(i - n, j - n)],
+    });
+    let values = complex_eigenvalues(inverse.as_ref())?;
+    Ok(values.iter().map(|value| sigma + value.inv()).collect())
+}

@@ -1,0 +1,235 @@
+//! All eigenvalues of a small dense quadratic problem, over any range of sizes.
+
+use super::CeaError;
+use crate::linalg::dense_eigen::real_eigenvalues;
+use crate::linalg::{ComplexDenseLu, DenseLu, LinalgError, Mat, MatRef, c64};
+
+/// Ratio of the shifts of neighbouring windows.
+const WINDOW: f64 = 10.0;
+
+/// Windows below and above the first one at most: what lies beyond is zero or infinite to working precision.
+const MOST_WINDOWS: i32 = 16;
+
+/// Rounds of scaling by rows and columns.
+const SCALINGS: usize = 6;
+
+/// An eigenpair of `(lambda^2 M + lambda C + K) x = 0`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct QuadraticMode {
+    /// Eigenvalue `lambda`, `Im >= 0`: complex ones come in conjugate pairs, of which this is one.
+    pub eigenvalue: c64,
+    /// Right vector, largest entry one.
+    pub vector: Vec<c64>,
+    /// Largest row of `|T x| / (|lambda|^2 |M| + |lambda| |C| + |K|) |x|`, entry by entry: the relative change of the entries that
+    /// makes the pair exact.
+    pub residual: f64,
+}
+
+/// All eigenpairs of a real quadratic problem, by size.
+///
+/// The spectrum is taken window by window in `|lambda|`: with the shift `sigma > 0` amid a window, rows and columns are scaled by
+/// powers of two until `|K| + sigma |C| + sigma^2 |M|` is of the size of one, and
+///
+/// ```text
+/// [ (X - 1) / sigma   - sigma Y ]
+/// [ X / sigma         - sigma Y ],   X = T(sigma)^-1 K,  Y = T(sigma)^-1 M,   unknowns (x, lambda x / sigma)
+/// ```
+///
+/// has the eigenvalues `1 / (lambda - sigma)`, accurate for those of its window. Windows go on until nothing is left on either side, so
+/// sizes that lie many orders apart cost more windows, not digits. Zero and infinite eigenvalues are left out.
+///
+/// # Errors
+/// [`CeaError::Linalg`] where an entry is not finite or a decomposition fails, [`CeaError::SingularTogether`].
+///
+/// # Panics
+/// If the matrices are not square and of one size.
+pub fn quadratic_modes(
+    mass: MatRef<'_, f64>,
+    damping: MatRef<'_, f64>,
+    stiffness: MatRef<'_, f64>,
+) -> Result<Vec<QuadraticMode>, CeaError> {
+    let n = mass.nrows();
+    for matrix in [mass, damping, stiffness] {
+        assert_eq!([matrix.nrows(), matrix.ncols()], [n, n]);
+        if !matrix.is_all_finite() {
+            return Err(LinalgError::DenseEigen { dimension: n }.into());
+        }
+    }
+    let problem = Problem {
+        matrices: [mass, damping, stiffness],
+    };
+    let ratio = (stiffness.norm_max() / mass.norm_max()).sqrt();
+    let first = if ratio.is_finite() && ratio > 0.0 {
+        0.7 * ratio
+    } else {
+        1.0
+    };
+    let mut values = Vec::new();
+    let [below, above] = problem.window(first, &mut values)?;
+    for (direction, mut left) in [(-1, below), (1, above)] {
+        let mut step = 0;
+        while left > 0 && step < MOST_WINDOWS {
+            step += 1;
+            let shift = first * WINDOW.powi(direction * step);
+            let [below, above] = problem.window(shift, &mut values)?;
+            left = if direction < 0 { below } else { above };
+        }
+    }
+    values.retain(|value| value.im >= 0.0);
+    values.sort_by(|a, b| a.norm().total_cmp(&b.norm()).then(a.im.total_cmp(&b.im)));
+    Ok(values.iter().map(|value| problem.mode(*value)).collect())
+}
+
+struct Problem<'a> {
+    matrices: [MatRef<'a, f64>; 3],
+}
+
+impl Problem<'_> {
+    /// Adds the eigenvalues of a window about `shift`; the numbers of smaller and of larger ones.
+    fn window(&self, shift: f64, values: &mut Vec<c64>) -> Result<[usize; 2], CeaError> {
+        let n = self.matrices[0].nrows();
+        let [mass, damping, stiffness] = self.scaled(shift);
+        let sum = Mat::from_fn(n, n, |i, j| {
+            stiffness[(i, j)] + damping[(i, j)] + mass[(i, j)]
+        });
+        let factors = DenseLu::factorize(sum);
+        let (mut x, mut y) = (stiffness, mass);
+        factors.solve_in_place(x.as_mut());
+        factors.solve_in_place(y.as_mut());
+        if !(x.is_all_finite() && y.is_all_finite()) {
+            return Err(CeaError::SingularTogether { dimension: n });
+        }
+        // Of `sigma / (lambda - sigma)`, with `sigma^2 M` and `sigma C` in place of `M` and `C`.
+        let one = |i: usize, j: usize| f64::from(u8::from(i == j));
+        let inverse = Mat::from_fn(2 * n, 2 * n, |i, j| match (i < n, j < n) {
+            (true, true) => x[(i, j)] - one(i, j),
+            (true, false) => -y[(i, j - n)],
+            (false, true) => x[(i - n, j)],
+            (false, false) => -y[(i - n, j - n)],
+        });
+        let (mut below, mut above) = (0, 0);
+        let half = WINDOW.sqrt();
+        for value in real_eigenvalues(inverse.as_ref())? {
+            let relative = value.inv() + 1.0;
+            match relative.norm() {
+                size if size < 1.0 / half => below += 1,
+                // Zero stands for infinity.
+                size if !(size < half) => above += 1,
+                _ => values.push(shift * relative),
+            }
+        }
+        Ok([below, above])
+    }
+
+    /// `sigma^2 M`, `sigma C`, `K` with rows and columns scaled by powers of two.
+    fn scaled(&self, shift: f64) -> [Mat<f64>; 3] {
+        let n = self.matrices[0].nrows();
+        let [mass, damping, stiffness] = self.matrices;
+        let size = Mat::from_fn(n, n, |i, j| {
+            let [m, c, k] = [mass[(i, j)], damping[(i, j)], stiffness[(i, j)]].map(f64::abs);
+            k + shift * (c + shift * m)
+        });
+        let (mut rows, mut columns) = (vec![1.0; n], vec![1.0; n]);
+        let root = |largest: f64| match largest > 0.0 {
+            true => (-0.5 * largest.log2()).round().exp2(),
+            false => 1.0,
+        };
+        for _ in 0..SCALINGS {
+            for i in 0..n {
+                let entries = (0..n).map(|j| size[(i, j)] * rows[i] * columns[j]);
+                rows[i] *= root(entries.fold(0.0, f64::max));
+            }
+            for j in 0..n {
+                let entries = (0..n).map(|i| size[(i, j)] * rows[i] * columns[j]);
+                columns[j] *= root(entries.fold(0.0, f64::max));
+            }
+        }
+        let scaled = |matrix: MatRef<'_, f64>, factor: f64| {
+            Mat::from_fn(n, n, |i, j| factor * matrix[(i, j)] * rows[i] * columns[j])
+        };
+        [
+            scaled(mass, shift * shift),
+            scaled(damping, shift),
+            scaled(stiffness, 1.0),
+        ]
+    }
+
+    /// The pair of an eigenvalue, by inverse iteration.
+    fn mode(&self, eigenvalue: c64) -> QuadraticMode {
+        let n = self.matrices[0].nrows();
+        let [mass, damping, stiffness] = self.matrices;
+        // Off the eigenvalue by more than its round-off.
+        let shift = eigenvalue * (1.0 + 1e-12);
+        let at = Mat::from_fn(n, n, |i, j| {
+            stiffness[(i, j)] + shift * (damping[(i, j)] + shift * mass[(i, j)])
+        });
+        let lu = ComplexDenseLu::factorize(at);
+        let mut x = Mat::from_fn(n, 1, |i, _| c64::new(1.0 + (1.7 * i as f64).sin(), 0.0));
+        for _ in 0..3 {
+            lu.solve_in_place(x.as_mut());
+            let largest = (0..n)
+                .map(|i| x[(i, 0)])
+                .fold(c64::new(0.0, 0.0), |best, v| {
+                    if v.norm() > best.norm() { v } else { best }
+                });
+            (0..n).for_each(|i| x[(i, 0)] /= largest);
+        }
+        let vector: Vec<c64> = (0..n).map(|i| x[(i, 0)]).collect();
+        let size = eigenvalue.norm();
+        let residual = (0..n).map(|i| {
+            let (mut force, mut scale) = (c64::new(0.0, 0.0), 0.0);
+            for (j, x) in vector.iter().enumerate() {
+                let [m, c, k] = [mass[(i, j)], damping[(i, j)], stiffness[(i, j)]];
+                force += (k + eigenvalue * (c + eigenvalue * m)) * x;
+                scale += (k.abs() + size * (c.abs() + size * m.abs())) * x.norm();
+            }
+            force.norm() / scale.max(f64::MIN_POSITIVE)
+        });
+        QuadraticMode {
+            eigenvalue,
+            residual: residual.fold(0.0, f64::max),
+            vector,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Uncoupled oscillators in closed form, their sizes 14 orders apart, one of them overdamped, in badly scaled coordinates.
+    #[test]
+    fn oscillators_of_sizes_many_orders_apart_keep_all_digits() {
+        let frequencies = [1e-6, 3e-4, 2.0, 7e5, 1e8];
+        let damping = [0.01, 0.2, 3.0, 0.0, 0.5];
+        let diagonal = |entry: &dyn Fn(usize) -> f64| {
+            // The same coordinate change on the left and the right of every matrix.
+            let scale = |i: usize| 1e3_f64.powi(i as i32 - 2);
+            Mat::from_fn(5, 5, |i, j| if i == j { entry(i) * scale(i) } else { 0.0 })
+        };
+        let mass = diagonal(&|_| 1.0);
+        let damper = diagonal(&|i| 2.0 * damping[i] * frequencies[i]);
+        let stiffness = diagonal(&|i| frequencies[i] * frequencies[i]);
+        let found = quadratic_modes(mass.as_ref(), damper.as_ref(), stiffness.as_ref()).unwrap();
+        // Four pairs, of which one of each is listed, and two real eigenvalues.
+        assert_eq!(found.len(), 6);
+        for (w, d) in frequencies.iter().zip(damping) {
+            let root = c64::new(d * d - 1.0, 0.0).sqrt();
+            let exact = c64::new(-w * d, 0.0) + root * *w;
+            let distance = |mode: &QuadraticMode| (mode.eigenvalue - exact).norm() / exact.norm();
+            assert!(found.iter().map(distance).fold(f64::INFINITY, f64::min) < 1e-14);
+        }
+        assert!(found.iter().all(|mode| mode.residual < 1e-11));
+    }
+
+    #[test]
+    fn matrices_that_are_singular_together_are_refused() {
+        let zero = Mat::<f64>::zeros(2, 2);
+        let one = Mat::from_fn(2, 2, |i, j| f64::from(u8::from(i == 0 && j == 0)));
+        let found = quadratic_modes(one.as_ref(), zero.as_ref(), one.as_ref());
+        assert!(matches!(
+            found,
+            Err(CeaError::Linalg(LinalgError::Singular { .. }))
+        ));
+    }
+}

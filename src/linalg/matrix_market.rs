@@ -1,0 +1,347 @@
+//! Matrices in the Matrix Market format.
+
+use std::io::{self, Write};
+use thiserror::Error;
+
+/// A matrix by its entries; repeated positions add up.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MarketMatrix {
+    /// Number of rows.
+    pub rows: usize,
+    /// Number of columns.
+    pub columns: usize,
+    /// `(row, column, value)`, counted from 0.
+    pub entries: Vec<(usize, usize, f64)>,
+}
+
+/// Text that is no real matrix in the Matrix Market format.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum MatrixMarketError {
+    /// The first line.
+    #[error(
+        "line 1 is no Matrix Market banner of a real matrix: \"{found}\"; expected \"%%MatrixMarket matrix coordinate real general\" \
+         (or array, integer, symmetric, skew-symmetric)"
+    )]
+    Banner {
+        /// The line.
+        found: String,
+    },
+    /// A line that does not hold the numbers it should.
+    #[error("line {line}: \"{found}\" should be {expected}")]
+    Line {
+        /// Counted from 1.
+        line: usize,
+        /// The line.
+        found: String,
+        /// What it should be.
+        expected: &'static str,
+    },
+    /// A number that is not finite.
+    #[error("line {line}: {found} is not finite")]
+    NotFinite {
+        /// Counted from 1.
+        line: usize,
+        /// The number.
+        found: String,
+    },
+    /// An entry outside the matrix.
+    #[error("line {line}: entry ({row}, {column}) lies outside a matrix of {rows} x {columns}")]
+    Outside {
+        /// Counted from 1.
+        line: usize,
+        /// Counted from 1.
+        row: usize,
+        /// Counted from 1.
+        column: usize,
+        /// Rows of the matrix.
+        rows: usize,
+        /// Columns of the matrix.
+        columns: usize,
+    },
+    /// Too few or too many entries.
+    #[error("the size line promises {promised} entries, the file has {found}")]
+    Count {
+        /// Entries promised.
+        promised: usize,
+        /// Entries found.
+        found: usize,
+    },
+}
+
+/// Which triangle stands for which.
+#[derive(Clone, Copy, PartialEq)]
+enum Symmetry {
+    General,
+    Symmetric,
+    Skew,
+}
+
+impl MarketMatrix {
+    /// Reads `coordinate` and `array` matrices of real or integer entries, general, symmetric or skew-symmetric.
+    ///
+    /// # Errors
+    /// [`MatrixMarketError`] with the line.
+    pub fn read(text: &str) -> Result<Self, MatrixMarketError> {
+        let banner = text.lines().next().unwrap_or_default();
+        let (is_coordinate, symmetry) = read_banner(banner)?;
+        let mut lines = text
+            .lines()
+            .enumerate()
+            .skip(1)
+            .map(|(k, line)| (k + 1, line.trim()))
+            .filter(|(_, line)| !line.is_empty() && !line.starts_with('%'));
+        let expected = match is_coordinate {
+            true => "rows, columns and number of entries",
+            false => "rows and columns",
+        };
+        let (at, size) = lines.next().unwrap_or((text.lines().count(), ""));
+        let whole = whole_numbers(size).filter(|n| n.len() == 2 + usize::from(is_coordinate));
+        let Some(whole) = whole else {
+            return Err(wrong_line(at, size, expected));
+        };
+        let mut matrix = Self {
+            rows: whole[0],
+            columns: whole[1],
+            entries: Vec::new(),
+        };
+        match is_coordinate {
+            true => matrix.read_coordinates(lines, symmetry, whole[2])?,
+            false => matrix.read_array(lines, symmetry)?,
+        }
+        Ok(matrix)
+    }
+
+    fn read_coordinates<'a>(
+        &mut self,
+        lines: impl Iterator<Item = (usize, &'a str)>,
+        symmetry: Symmetry,
+        promised: usize,
+    ) -> Result<(), MatrixMarketError> {
+        let mut found = 0;
+        for (line, text) in lines {
+            let words: Vec<&str> = text.split_whitespace().collect();
+            let expected = "a row, a column and a value";
+            let [row, column, value] = words[..] else {
+                return Err(wrong_line(line, text, expected));
+            };
+            let (Ok(row), Ok(column)) = (row.parse::<usize>(), column.parse::<usize>()) else {
+                return Err(wrong_line(line, text, expected));
+            };
+            let value = finite(line, value)?;
+            if row == 0 || column == 0 || row > self.rows || column > self.columns {
+                return Err(MatrixMarketError::Outside {
+                    line,
+                    row,
+                    column,
+                    rows: self.rows,
+                    columns: self.columns,
+                });
+            }
+            self.add((row - 1, column - 1), value, symmetry);
+            found += 1;
+        }
+        match found == promised {
+            true => Ok(()),
+            false => Err(MatrixMarketError::Count { promised, found }),
+        }
+    }
+
+    /// Column by column; of a symmetric matrix the lower triangle alone.
+    fn read_array<'a>(
+        &mut self,
+        lines: impl Iterator<Item = (usize, &'a str)>,
+        symmetry: Symmetry,
+    ) -> Result<(), MatrixMarketError> {
+        let first = |column: usize| match symmetry {
+            Symmetry::General => 0,
+            Symmetry::Symmetric => column,
+            Symmetry::Skew => column + 1,
+        };
+        let rows = self.rows;
+        let places: Vec<(usize, usize)> = (0..self.columns)
+            .flat_map(|column| (first(column)..rows).map(move |row| (row, column)))
+            .collect();
+        let mut found = 0;
+        for (line, text) in lines {
+            for word in text.split_whitespace() {
+                let value = finite(line, word)?;
+                if let Some(&place) = places.get(found) {
+                    self.add(place, value, symmetry);
+                }
+                found += 1;
+            }
+        }
+        match found == places.len() {
+            true => Ok(()),
+            false => Err(MatrixMarketError::Count {
+                promised: places.len(),
+                found,
+            }),
+        }
+    }
+
+    fn add(&mut self, (row, column): (usize, usize), value: f64, symmetry: Symmetry) {
+        self.entries.push((row, column, value));
+        if row != column && symmetry != Symmetry::General {
+            let mirrored = if symmetry == Symmetry::Skew {
+                -value
+            } else {
+                value
+            };
+            self.entries.push((column, row, mirrored));
+        }
+    }
+
+    /// Writes it as `coordinate real general`, every number in the shortest form that reads back as the same bits.
+    ///
+    /// # Errors
+    /// Those of the writer.
+    pub fn write(&self, comment: &str, out: &mut dyn Write) -> io::Result<()> {
+        writeln!(out, "%%MatrixMarket matrix coordinate real general")?;
+        for line in comment.lines() {
+            writeln!(out, "% {line}")?;
+        }
+        writeln!(out, "{} {} {}", self.rows, self.columns, self.entries.len())?;
+        for (row, column, value) in &self.entries {
+            writeln!(out, "{} {} {value:?}", row + 1, column + 1)?;
+        }
+        Ok(())
+    }
+
+    /// Row pointers, columns and values of the compressed rows, columns rising within each; repeated positions added up.
+    pub fn compressed_rows(&self) -> (Vec<usize>, Vec<usize>, Vec<f64>) {
+        let mut sorted = self.entries.clone();
+        sorted.sort_by_key(|&(row, column, _)| (row, column));
+        let (mut pointers, mut columns, mut values) = (vec![0], Vec::new(), Vec::<f64>::new());
+        for row in 0..self.rows {
+            let start = columns.len();
+            let first = sorted.partition_point(|entry| entry.0 < row);
+            for &(_, column, value) in sorted[first..].iter().take_while(|entry| entry.0 == row) {
+                match columns[start..].last() {
+                    Some(&last) if last == column => {
+                        let place = values.len() - 1;
+                        values[place] += value;
+                    }
+                    _ => {
+                        columns.push(column);
+                        values.push(value);
+                    }
+                }
+            }
+            pointers.push(columns.len());
+        }
+        (pointers, columns, values)
+    }
+}
+
+fn read_banner(banner: &str) -> Result<(bool, Symmetry), MatrixMarketError> {
+    let words: Vec<String> = banner.split_whitespace().map(str::to_lowercase).collect();
+    let words: Vec<&str> = words.iter().map(String::as_str).collect();
+    let wrong = || MatrixMarketError::Banner {
+        found: banner.chars().take(80).collect(),
+    };
+    let ["%%matrixmarket", "matrix", format, field, symmetry] = words[..] else {
+        return Err(wrong());
+    };
+    let is_coordinate = match format {
+        "coordinate" => true,
+        "array" => false,
+        _ => return Err(wrong()),
+    };
+    let symmetry = match symmetry {
+        "general" => Symmetry::General,
+        "symmetric" => Symmetry::Symmetric,
+        "skew-symmetric" => Symmetry::Skew,
+        _ => return Err(wrong()),
+    };
+    match field {
+        "real" | "double" | "integer" => Ok((is_coordinate, symmetry)),
+        _ => Err(wrong()),
+    }
+}
+
+fn whole_numbers(text: &str) -> Option<Vec<usize>> {
+    text.split_whitespace()
+        .map(|word| word.parse().ok())
+        .collect()
+}
+
+fn wrong_line(line: usize, found: &str, expected: &'static str) -> MatrixMarketError {
+    MatrixMarketError::Line {
+        line,
+        found: found.chars().take(80).collect(),
+        expected,
+    }
+}
+
+fn finite(line: usize, word: &str) -> Result<f64, MatrixMarketError> {
+    match word.parse::<f64>() {
+        Ok(value) if value.is_finite() => Ok(value),
+        Ok(_) => Err(MatrixMarketError::NotFinite {
+            line,
+            found: word.to_owned(),
+        }),
+        Err(_) => Err(wrong_line(line, word, "a number")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_written_matrix_reads_back_bit_for_bit() {
+        let matrix = MarketMatrix {
+            rows: 3,
+            columns: 2,
+            entries: vec![(0, 1, 0.1), (2, 0, -1.0 / 3.0e200), (2, 1, 5e-324)],
+        };
+        let mut text = Vec::new();
+        matrix.write("K\nN/m", &mut text).unwrap();
+        let text = String::from_utf8(text).unwrap();
+        assert_eq!(MarketMatrix::read(&text), Ok(matrix));
+    }
+
+    #[test]
+    fn triangles_and_arrays_are_completed() {
+        let symmetric =
+            "%%MatrixMarket matrix coordinate real symmetric\n% c\n2 2 2\n1 1 4\n2 1 -1\n";
+        let read = MarketMatrix::read(symmetric).unwrap();
+        assert_eq!(read.entries, [(0, 0, 4.0), (1, 0, -1.0), (0, 1, -1.0)]);
+        let array = "%%MatrixMarket matrix array integer skew-symmetric\n2 2\n7\n";
+        let read = MarketMatrix::read(array).unwrap();
+        assert_eq!(read.entries, [(1, 0, 7.0), (0, 1, -7.0)]);
+        assert_eq!(
+            read.compressed_rows(),
+            (vec![0, 1, 2], vec![1, 0], vec![-7.0, 7.0])
+        );
+    }
+
+    #[test]
+    fn what_is_no_matrix_is_refused_with_its_line() {
+        let banner = "%%MatrixMarket matrix coordinate real general\n";
+        for (body, message) in [
+            (
+                "2 2\n",
+                "line 2: \"2 2\" should be rows, columns and number of entries",
+            ),
+            (
+                "2 2 1\n1 x 3\n",
+                "line 3: \"1 x 3\" should be a row, a column and a value",
+            ),
+            ("2 2 1\n1 2 nan\n", "line 3: nan is not finite"),
+            (
+                "2 2 1\n3 1 1.0\n",
+                "line 3: entry (3, 1) lies outside a matrix of 2 x 2",
+            ),
+            (
+                "2 2 2\n1 1 1.0\n",
+                "the size line promises 2 entries, the file has 1",
+            ),
+        ] {
+            let error = MarketMatrix::read(&format!("{banner}{body}")).unwrap_err();
+            assert_eq!(error.to_string(), message);
+        }
+        assert!(MarketMatrix::read("%%MatrixMarket matrix coordinate complex general\n").is_err());
+    }
+}

@@ -1,0 +1,352 @@
+//! The matrices of small motions as files: Matrix Market, NPZ, and what multiplies what.
+
+mod spectrum;
+
+pub use spectrum::{FreeSpectrum, FreeSpectrumSummary};
+
+use super::folder::{FolderError, OutputFolder};
+use super::manifest::Manifest;
+use super::npz::NpzArchive;
+use super::summary::{Entry, Summary, object};
+use super::table::{Table, format_number};
+use crate::linalg::MarketMatrix;
+use serde::{Deserialize, Serialize};
+use std::fmt::Write as _;
+use std::io;
+
+/// Table of the unknowns.
+pub const UNKNOWNS: &str = "unknowns.csv";
+/// Table of the contact points, one for each row of the contact matrices.
+pub const CONTACT: &str = "contact.csv";
+/// What multiplies what.
+pub const DESCRIPTION: &str = "matrices.json";
+
+/// The equation that the matrices belong to.
+const EQUATION: &str = "(lambda^2 M + lambda C + K) x = 0, each the sum over its entries in matrices of mu^friction_power times the file";
+
+/// One exported matrix.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ExportedMatrix {
+    /// Name of its files.
+    pub name: String,
+    /// What it is.
+    pub role: MatrixRole,
+    /// Its entries.
+    pub matrix: MarketMatrix,
+}
+
+/// What a matrix is in the problem.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum MatrixRole {
+    /// Coefficient of `mu^power` in the mass `M`, kg/m.
+    Mass {
+        /// Power of the friction coefficient.
+        friction_power: usize,
+    },
+    /// In the damping `C`, Pa s.
+    Damping {
+        /// Power of the friction coefficient.
+        friction_power: usize,
+    },
+    /// In the stiffness `K`, Pa.
+    Stiffness {
+        /// Power of the friction coefficient.
+        friction_power: usize,
+    },
+    /// Motion of each contact point along the normal of the counterface, out of the unknowns.
+    ContactNormal,
+    /// Motion of each contact point along the sliding.
+    ContactSlip,
+}
+
+/// One unknown.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ExportedUnknown {
+    /// Number of its node as the user knows it.
+    pub node: usize,
+    /// Whether it is the distance of the node from the opposite body, not its own displacement.
+    pub is_distance: bool,
+    /// Direction of the motion, global axes.
+    pub direction: [f64; 3],
+    /// Place of the node, m.
+    pub place: [f64; 3],
+}
+
+/// One contact point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ExportedContactPoint {
+    /// Number of its node.
+    pub node: usize,
+    /// Whether it is pressed; an open one has no contact terms.
+    pub is_pressed: bool,
+    /// Tributary length, m.
+    pub length: f64,
+    /// Normal force at the case's friction coefficient, N/m.
+    pub normal_force: f64,
+}
+
+/// Everything that the command exports.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ExportedSystem {
+    /// Friction coefficient of the case.
+    pub friction_coefficient: f64,
+    /// Friction coefficients between which the same contact points are pressed, so that the matrices hold.
+    pub friction_range: [f64; 2],
+    /// `[alpha, beta]` where `C = alpha M + beta K` exactly.
+    pub proportional_damping: Option<[f64; 2]>,
+    /// Matrices by role.
+    pub matrices: Vec<ExportedMatrix>,
+    /// The unknowns, in the order of rows and columns.
+    pub unknowns: Vec<ExportedUnknown>,
+    /// The contact points, in the order of the rows of the contact matrices.
+    pub contact: Vec<ExportedContactPoint>,
+}
+
+/// Where a matrix is written, and how large it is.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MatrixEntry {
+    /// Its name.
+    pub name: String,
+    /// What it is.
+    pub role: MatrixRole,
+    /// Unit of its entries.
+    pub unit: String,
+    /// Number of rows.
+    pub rows: usize,
+    /// Number of columns.
+    pub columns: usize,
+    /// Number of entries.
+    pub entries: usize,
+    /// Matrix Market file.
+    pub matrix_market: String,
+    /// File for `scipy.sparse.load_npz`.
+    pub npz: String,
+}
+
+/// `summary.json` of `frictionsim matrices`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MatricesSummary {
+    /// `matrices`.
+    pub command: String,
+    /// Title of the case.
+    pub title: String,
+    /// Wall time, s.
+    pub wall_s: f64,
+    /// Number of unknowns.
+    pub dofs: usize,
+    /// What the matrices are put together to.
+    pub equation: String,
+    /// What `lambda` is measured in, and what all of this is measured for.
+    pub units: String,
+    /// Friction coefficient of the case.
+    pub friction_coefficient: f64,
+    /// Friction coefficients between which the matrices hold.
+    pub friction_range: [f64; 2],
+    /// `[alpha, beta]` where `C = alpha M + beta K` exactly.
+    pub proportional_damping: Option<[f64; 2]>,
+    /// The files.
+    pub matrices: Vec<MatrixEntry>,
+    /// Table of the unknowns.
+    pub unknowns: String,
+    /// Table of the contact points.
+    pub contact: String,
+    /// What it was made from.
+    pub manifest: Manifest,
+}
+
+impl Summary for MatricesSummary {
+    fn headline(&self) -> Vec<Entry> {
+        vec![Entry::new("dofs", self.dofs)]
+    }
+}
+
+impl MatrixRole {
+    fn unit(self) -> &'static str {
+        match self {
+            Self::Mass { .. } => "kg/m",
+            Self::Damping { .. } => "Pa s",
+            Self::Stiffness { .. } => "Pa",
+            Self::ContactNormal | Self::ContactSlip => "1",
+        }
+    }
+
+    /// What it is, in words.
+    fn meaning(self) -> String {
+        let power = |what: &str, power: usize| match power {
+            0 => format!("{what} without friction"),
+            power => format!("{what}: coefficient of mu^{power}"),
+        };
+        match self {
+            Self::Mass { friction_power } => power("mass", friction_power),
+            Self::Damping { friction_power } => power("damping", friction_power),
+            Self::Stiffness { friction_power } => power("stiffness", friction_power),
+            Self::ContactNormal => "motion of the contact points along the normal".to_owned(),
+            Self::ContactSlip => "motion of the contact points along the sliding".to_owned(),
+        }
+    }
+}
+
+impl MatricesSummary {
+    /// The summary of an exported system.
+    pub fn new(system: &ExportedSystem, title: &str, wall_s: f64, manifest: &Manifest) -> Self {
+        let entry = |own: &ExportedMatrix| MatrixEntry {
+            name: own.name.clone(),
+            role: own.role,
+            unit: own.role.unit().to_owned(),
+            rows: own.matrix.rows,
+            columns: own.matrix.columns,
+            entries: own.matrix.entries.len(),
+            matrix_market: format!("{}.mtx", own.name),
+            npz: format!("{}.npz", own.name),
+        };
+        Self {
+            command: "matrices".to_owned(),
+            title: title.to_owned(),
+            wall_s,
+            dofs: system.unknowns.len(),
+            equation: EQUATION.to_owned(),
+            units: "SI; lambda in rad/s; matrices per metre of thickness".to_owned(),
+            friction_coefficient: system.friction_coefficient,
+            friction_range: system.friction_range,
+            proportional_damping: system.proportional_damping,
+            matrices: system.matrices.iter().map(entry).collect(),
+            unknowns: UNKNOWNS.to_owned(),
+            contact: CONTACT.to_owned(),
+            manifest: manifest.clone(),
+        }
+    }
+}
+
+/// Writes every matrix in both formats, the two tables and what multiplies what.
+///
+/// # Errors
+/// Those of the folder.
+pub fn write_matrices(
+    folder: &OutputFolder,
+    system: &ExportedSystem,
+    summary: &MatricesSummary,
+) -> Result<(), FolderError> {
+    for own in &system.matrices {
+        let comment = format!("{}, {}", own.role.meaning(), own.role.unit());
+        folder.write_bulk(&format!("{}.mtx", own.name), |out| {
+            own.matrix.write(&comment, out)
+        })?;
+        folder.write_bulk(&format!("{}.npz", own.name), |out| {
+            out.write_all(&compressed_rows(&own.matrix)?)
+        })?;
+    }
+    write_unknowns(folder, system)?;
+    write_contact(folder, system)?;
+    folder.write(DESCRIPTION, |out| {
+        let mut description = object(summary)?;
+        if let Some(fields) = description.as_object_mut() {
+            for key in ["wall_s", "manifest", "command"] {
+                fields.remove(key);
+            }
+        }
+        serde_json::to_writer_pretty(&mut *out, &description)?;
+        writeln!(out)
+    })?;
+    Ok(())
+}
+
+/// Writes node, direction and place of every unknown.
+fn write_unknowns(folder: &OutputFolder, system: &ExportedSystem) -> Result<(), FolderError> {
+    folder.write(UNKNOWNS, |out| {
+        let columns = [
+            "unknown",
+            "node",
+            "kind",
+            "direction_x",
+            "direction_y",
+            "direction_z",
+        ];
+        let mut table = Table::new(out, &[&columns[..], &["x_m", "y_m", "z_m"]].concat())?;
+        for (k, own) in system.unknowns.iter().enumerate() {
+            let kind = if own.is_distance {
+                "distance"
+            } else {
+                "displacement"
+            };
+            let mut row = vec![k.to_string(), own.node.to_string(), kind.to_owned()];
+            row.extend(
+                own.direction
+                    .iter()
+                    .chain(&own.place)
+                    .map(|v| format_number(*v)),
+            );
+            table.row(row)?;
+        }
+        table.finish()
+    })?;
+    Ok(())
+}
+
+/// Writes the contact points.
+fn write_contact(folder: &OutputFolder, system: &ExportedSystem) -> Result<(), FolderError> {
+    folder.write(CONTACT, |out| {
+        let columns = [
+            "point",
+            "node",
+            "status",
+            "length_m",
+            "normal_force_n_per_m",
+        ];
+        let mut table = Table::new(out, &columns)?;
+        for (k, own) in system.contact.iter().enumerate() {
+            let status = if own.is_pressed { "slip" } else { "open" };
+            let numbers = [own.length, own.normal_force].map(format_number);
+            let [length, force] = numbers;
+            table.row([
+                k.to_string(),
+                own.node.to_string(),
+                status.to_owned(),
+                length,
+                force,
+            ])?;
+        }
+        table.finish()
+    })?;
+    Ok(())
+}
+
+/// An archive that `scipy.sparse.load_npz` reads as compressed rows.
+fn compressed_rows(matrix: &MarketMatrix) -> io::Result<Vec<u8>> {
+    let (pointers, columns, values) = matrix.compressed_rows();
+    let mut archive = NpzArchive::default();
+    let whole = |values: Vec<usize>| values.into_iter().map(|value| value as i64);
+    archive.array("indices", &[columns.len()], whole(columns))?;
+    archive.array("indptr", &[pointers.len()], whole(pointers))?;
+    archive.word("format", "csr")?;
+    archive.array(
+        "shape",
+        &[2],
+        [matrix.rows as i64, matrix.columns as i64].into_iter(),
+    )?;
+    archive.array("data", &[values.len()], values.into_iter())?;
+    archive.finish()
+}
+
+/// What is printed.
+pub fn print(summary: &MatricesSummary) -> String {
+    let mut text = format!("{} unknowns; {}\n\n", summary.dofs, summary.units);
+    for entry in &summary.matrices {
+        let size = format!("{} x {}", entry.rows, entry.columns);
+        let _ = writeln!(
+            text,
+            "  {:<16} {size:>15} {:>9} entries  {} ({})",
+            entry.name,
+            entry.entries,
+            entry.role.meaning(),
+            entry.unit,
+        );
+    }
+    let [from, to] = summary.friction_range;
+    let _ = writeln!(
+        text,
+        "\n{}\nThey hold for friction coefficients from {from} to {to}.",
+        summary.equation
+    );
+    text
+}

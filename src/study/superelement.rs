@@ -1,0 +1,44 @@
+//! The eigenvalues of a superelement that stands free.
+
+use super::StudyError;
+use crate::case::{FreeSystem, ModeSelection};
+use crate::cea::quadratic_modes;
+use crate::linalg::{MarketMatrix, Mat};
+use crate::results::matrices::FreeSpectrum;
+use std::f64::consts::TAU;
+
+/// The oscillating modes that a case asks for, out of all eigenvalues of its matrices.
+///
+/// # Errors
+/// Matrices that are singular together.
+pub fn free_spectrum(system: &FreeSystem) -> Result<FreeSpectrum, StudyError> {
+    let own = &system.superelement;
+    let [mass, damping, stiffness] = [&own.mass, &own.damping, &own.stiffness].map(dense);
+    let all = quadratic_modes(mass.as_ref(), damping.as_ref(), stiffness.as_ref())?;
+    let total = all.len();
+    let mut modes: Vec<_> = all
+        .into_iter()
+        .filter(|mode| mode.eigenvalue.im > 0.0)
+        .collect();
+    let overdamped = total - modes.len();
+    modes.sort_by(|a, b| a.eigenvalue.im.total_cmp(&b.eigenvalue.im));
+    match system.modes {
+        ModeSelection::Lowest(count) => modes.truncate(count),
+        ModeSelection::BelowHz(limit) => modes.retain(|mode| mode.eigenvalue.im <= TAU * limit),
+    }
+    Ok(FreeSpectrum {
+        title: system.title.clone(),
+        name: own.name.clone(),
+        dofs: own.mass.rows,
+        modes,
+        overdamped,
+    })
+}
+
+fn dense(matrix: &MarketMatrix) -> Mat<f64> {
+    let mut dense = Mat::zeros(matrix.rows, matrix.columns);
+    for &(row, column, value) in &matrix.entries {
+        dense[(row, column)] += value;
+    }
+    dense
+}

@@ -1,0 +1,295 @@
+//! Matrices that leave the program and come back.
+//!
+//! Independent check: `disk_brake100` of the NLEVP collection (licence beside the data) with eigenvalues computed to 40 digits elsewhere.
+//! Consistency check: the exported matrices of a body without symmetry, solved densely, have the eigenvalues of `cea`.
+
+use assert_cmd::Command;
+use frictionsim::cea::quadratic_modes;
+use frictionsim::linalg::{MarketMatrix, Mat, c64};
+use serde_json::Value;
+use std::f64::consts::TAU;
+use std::fs;
+use std::io::Read;
+use std::path::Path;
+use tempfile::TempDir;
+
+fn dense(matrix: &MarketMatrix) -> Mat<f64> {
+    let mut dense = Mat::zeros(matrix.rows, matrix.columns);
+    for &(row, column, value) in &matrix.entries {
+        dense[(row, column)] += value;
+    }
+    dense
+}
+
+/// Badly scaled on purpose: sizes of eigenvalues lie seven orders apart. A plain linearization loses the small ones.
+#[test]
+fn the_public_disk_brake_problem_has_its_eigenvalues_of_every_size() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/numerics/nlevp");
+    let [mass, damping, stiffness] = ["M", "C", "K"].map(|name| {
+        let text = fs::read_to_string(folder.join(format!("disk_brake100_{name}.mtx"))).unwrap();
+        dense(&MarketMatrix::read(&text).unwrap())
+    });
+    let text = fs::read_to_string(folder.join("disk_brake100_eigenvalues.csv")).unwrap();
+    let exact = text.lines().skip(1).map(|line| {
+        let (re, im) = line.split_once(',').unwrap();
+        c64::new(re.parse().unwrap(), im.parse().unwrap())
+    });
+    let exact: Vec<c64> = exact.collect();
+    let found = quadratic_modes(mass.as_ref(), damping.as_ref(), stiffness.as_ref()).unwrap();
+    assert_eq!(found.len(), exact.len());
+    for exact in exact {
+        let distances = found
+            .iter()
+            .map(|mode| (mode.eigenvalue - exact).norm() / exact.norm());
+        let error = distances.fold(f64::INFINITY, f64::min);
+        // A prototype in another language, by the same windows, has 3e-13.
+        assert!(error < 2e-12, "{exact}: {error:e}");
+    }
+    assert!(found.iter().all(|mode| mode.residual < 1e-12));
+}
+
+/// A sheared block of 5 x 3 quadrilaterals, thicker on one side, on a plane that slides under it; its back on springs and dashpots of
+/// their own, so that damping is not proportional.
+fn block(folder: &TempDir) {
+    let mut mesh = String::from("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n");
+    mesh += "1 1 \"face\"\n1 2 \"back\"\n2 3 \"block\"\n$EndPhysicalNames\n$Nodes\n24\n";
+    for j in 0..4 {
+        for i in 0..6 {
+            let (x, y) = (0.01 * f64::from(i), 0.01 * f64::from(j));
+            mesh += &format!(
+                "{} {} {} 0\n",
+                1 + i + 6 * j,
+                x + 0.2 * y,
+                y * (1.0 + 4.0 * x)
+            );
+        }
+    }
+    mesh += "$EndNodes\n$Elements\n25\n";
+    let mut number = 0;
+    for (tag, row) in [(1, 0), (2, 3)] {
+        for i in 1..6 {
+            number += 1;
+            mesh += &format!(
+                "{number} 1 2 {tag} {tag} {} {}\n",
+                i + 6 * row,
+                i + 1 + 6 * row
+            );
+        }
+    }
+    for j in 0..3 {
+        for i in 1..6 {
+            number += 1;
+            let first = i + 6 * j;
+            let [a, b, c, d] = [first, first + 1, first + 7, first + 6];
+            mesh += &format!("{number} 3 2 3 3 {a} {b} {c} {d}\n");
+        }
+    }
+    mesh += "$EndElements\n";
+    fs::write(folder.path().join("block.msh"), mesh).unwrap();
+    let case = "[mesh]\nfile = \"block.msh\"\n[boundaries.back]\ncondition = \"support\"\nnormal_stiffness = 1e12\n\
+        tangential_stiffness = 1e12\nnormal_damping = 2e5\n[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.38\n\
+        density = 1228.0\nformulation = \"plane-strain\"\n[damping]\nmass_coefficient = 40.0\nstiffness_coefficient = 4.5e-7\n\
+        [contact]\nboundary = \"face\"\ncounterface = \"plane\"\ndirection = [1.0, 0.0]\nspeed = 1.5\n\
+        friction_coefficient = 0.3\ninterference = 1e-5\n[cea]\nfriction_coefficients = [0.3]\nmodes = 6\n";
+    fs::write(folder.path().join("block.toml"), case).unwrap();
+}
+
+fn run(folder: &TempDir, command: &str, set: &[&str]) -> std::process::Output {
+    let mut program = Command::cargo_bin("frictionsim").unwrap();
+    program
+        .current_dir(folder.path())
+        .args([command, "block.toml", "--quiet", "--no-figures"]);
+    program.args(["--force", "--out", command]);
+    for text in set {
+        program.args(["--set", text]);
+    }
+    program.output().unwrap()
+}
+
+/// The exported problem at a friction coefficient, put together as `matrices.json` says.
+fn assembled(folder: &Path, friction: f64) -> [Mat<f64>; 3] {
+    let text = fs::read(folder.join("matrices.json")).unwrap();
+    let description: Value = serde_json::from_slice(&text).unwrap();
+    let size = description["dofs"].as_u64().unwrap() as usize;
+    let mut sums = [0, 1, 2].map(|_| Mat::<f64>::zeros(size, size));
+    for entry in description["matrices"].as_array().unwrap() {
+        let file = folder.join(entry["matrix_market"].as_str().unwrap());
+        let matrix = dense(&MarketMatrix::read(&fs::read_to_string(file).unwrap()).unwrap());
+        for (sum, role) in sums.iter_mut().zip(["mass", "damping", "stiffness"]) {
+            if let Some(power) = entry["role"][role]["friction_power"].as_i64() {
+                let factor = friction.powi(power as i32);
+                for j in 0..size {
+                    for i in 0..size {
+                        sum[(i, j)] += factor * matrix[(i, j)];
+                    }
+                }
+            }
+        }
+    }
+    sums
+}
+
+#[test]
+fn exported_matrices_solved_densely_have_the_eigenvalues_of_the_analysis() {
+    let folder = tempfile::tempdir().unwrap();
+    block(&folder);
+    for contact in [
+        &[][..],
+        &[
+            "contact.normal_stiffness=1e13",
+            "contact.normal_damping=1e4",
+        ],
+    ] {
+        for command in ["cea", "matrices"] {
+            let output = run(&folder, command, contact);
+            assert!(
+                output.status.success(),
+                "{}",
+                String::from_utf8_lossy(&output.stderr)
+            );
+        }
+        let [mass, damping, stiffness] = assembled(&folder.path().join("matrices"), 0.3);
+        let found = quadratic_modes(mass.as_ref(), damping.as_ref(), stiffness.as_ref()).unwrap();
+        let table = fs::read_to_string(folder.path().join("cea/eigenvalues.csv")).unwrap();
+        let mut rows = table
+            .lines()
+            .map(|line| line.split(',').collect::<Vec<_>>());
+        let header = rows.next().unwrap();
+        let column = |name: &str| header.iter().position(|own| *own == name).unwrap();
+        let mut count = 0;
+        for row in rows {
+            let part = |name: &str| TAU * row[column(name)].parse::<f64>().unwrap();
+            let listed = c64::new(part("real_hz"), part("frequency_hz"));
+            let distances = found.iter().map(|mode| (mode.eigenvalue - listed).norm());
+            let error = distances.fold(f64::INFINITY, f64::min) / listed.norm();
+            assert!(error < 1e-9, "{listed}: {error:e}");
+            count += 1;
+        }
+        assert!(count >= 6);
+    }
+}
+
+/// The keys and types that `scipy.sparse.load_npz` asks for.
+#[test]
+fn archives_hold_compressed_rows_as_scipy_reads_them() {
+    let folder = tempfile::tempdir().unwrap();
+    block(&folder);
+    assert!(run(&folder, "matrices", &[]).status.success());
+    let out = folder.path().join("matrices");
+    let matrix = fs::read_to_string(out.join("K.mtx")).unwrap();
+    let (pointers, columns, _) = MarketMatrix::read(&matrix).unwrap().compressed_rows();
+    let mut archive = zip::ZipArchive::new(fs::File::open(out.join("K.npz")).unwrap()).unwrap();
+    let mut entry = |name: &str| {
+        let mut bytes = Vec::new();
+        archive
+            .by_name(name)
+            .unwrap()
+            .read_to_end(&mut bytes)
+            .unwrap();
+        let header = 10 + usize::from(bytes[8]) + 256 * usize::from(bytes[9]);
+        let text = String::from_utf8_lossy(&bytes[10..header]).into_owned();
+        (text, bytes[header..].to_vec())
+    };
+    let (text, bytes) = entry("format.npy");
+    assert!(
+        text.contains("'descr': '|S3'") && text.contains("'shape': ()"),
+        "{text}"
+    );
+    assert_eq!(bytes, b"csr");
+    for (name, values) in [("indptr.npy", pointers), ("indices.npy", columns)] {
+        let (text, bytes) = entry(name);
+        assert!(text.contains("'descr': '<i8'"), "{text}");
+        let read: Vec<usize> = bytes
+            .chunks_exact(8)
+            .map(|chunk| i64::from_le_bytes(chunk.try_into().unwrap()) as usize)
+            .collect();
+        assert_eq!(read, values);
+    }
+    let unknowns = fs::read_to_string(out.join("unknowns.csv")).unwrap();
+    assert!(
+        unknowns.starts_with("unknown,node,kind,direction_x,direction_y,direction_z,x_m,y_m,z_m\n")
+    );
+}
+
+#[test]
+fn matrices_of_a_body_of_revolution_are_refused_with_the_reason() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/ring-on-layer.toml");
+    fs::copy(case, folder.path().join("block.toml")).unwrap();
+    let output = run(&folder, "matrices", &[]);
+    assert_eq!(output.status.code(), Some(2));
+    let text = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(text.contains("one set for each harmonic"), "{text}");
+}
+
+/// A case of the public problem in a folder of its own.
+fn brake(folder: &TempDir, stiffness: &str) {
+    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/numerics/nlevp");
+    for name in ["M", "C", "K"] {
+        let to = folder.path().join(format!("{name}.mtx"));
+        fs::copy(data.join(format!("disk_brake100_{name}.mtx")), to).unwrap();
+    }
+    let case = format!(
+        "[superelements.brake]\nmass = \"M.mtx\"\ndamping = \"C.mtx\"\nstiffness = \"{stiffness}\"\n[cea]\nmodes = 100\n"
+    );
+    fs::write(folder.path().join("block.toml"), case).unwrap();
+}
+
+#[test]
+fn cea_of_a_superelement_lists_the_oscillating_modes_of_its_matrices() {
+    let folder = tempfile::tempdir().unwrap();
+    brake(&folder, "K.mtx");
+    let output = run(&folder, "cea", &[]);
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/numerics/nlevp");
+    let text = fs::read_to_string(data.join("disk_brake100_eigenvalues.csv")).unwrap();
+    let exact: Vec<f64> = text
+        .lines()
+        .skip(1)
+        .map(|line| line.split_once(',').unwrap().1.parse::<f64>().unwrap())
+        .filter(|imaginary| *imaginary > 0.0)
+        .collect();
+    let table = fs::read_to_string(folder.path().join("cea/eigenvalues.csv")).unwrap();
+    let found: Vec<f64> = table
+        .lines()
+        .skip(1)
+        .map(|line| TAU * line.split(',').nth(3).unwrap().parse::<f64>().unwrap())
+        .collect();
+    assert_eq!(found.len(), exact.len());
+    for exact in exact {
+        let nearest = found
+            .iter()
+            .map(|own| (own / exact - 1.0).abs())
+            .fold(f64::INFINITY, f64::min);
+        // Some decay a hundred times faster than they oscillate: digits of the frequency are those of the whole over that.
+        assert!(nearest < 1e-9, "{exact}: {nearest:e}");
+    }
+}
+
+#[test]
+fn superelements_that_cannot_be_solved_are_refused_with_matrix_and_reason() {
+    let folder = tempfile::tempdir().unwrap();
+    for (matrix, words) in [
+        ("2 2 1\n1 1 1.0\n", "superelements.brake.stiffness is 2 x 2"),
+        ("100 100 1\n1 1 inf\n", "line 3: inf is not finite"),
+        (
+            "100 100 1\n101 1 1.0\n",
+            "lies outside a matrix of 100 x 100",
+        ),
+    ] {
+        brake(&folder, "other.mtx");
+        let text = format!("%%MatrixMarket matrix coordinate real general\n{matrix}");
+        fs::write(folder.path().join("other.mtx"), text).unwrap();
+        let output = run(&folder, "cea", &[]);
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert!(said.contains(words), "{said}");
+    }
+    brake(&folder, "nowhere.mtx");
+    let said = run(&folder, "cea", &[]).stderr;
+    assert!(String::from_utf8_lossy(&said).contains("superelements.brake.stiffness: nowhere.mtx"));
+}

@@ -1,0 +1,218 @@
+//! Slow sliding in three dimensions: the dashpot `mu p / V` of friction across the sliding grows without bound.
+//!
+//! Independent check: all eigenvalues of a coarse whole harmonic by a dense decomposition, at finite speed and with the motion across the
+//! sliding held.
+
+use crate::solids::model::disc;
+use assert_cmd::Command;
+use frictionsim::cea::cyclic::{SolidModel, SolidSweep, solid_sweep};
+use frictionsim::cea::{ModeLimit, SweepRequest};
+use frictionsim::linalg::{ComplexDenseLu, Mat, c64};
+use frictionsim::mesh::{BoundaryCondition, ElementKind, SolidContact, SolidSector};
+use frictionsim::prestress::SolidTangent;
+use std::f64::consts::TAU;
+use std::path::Path;
+
+const FRICTION: f64 = 0.3;
+const LIMIT: f64 = 9000.0;
+const ONE: c64 = c64::new(1.0, 0.0);
+
+/// The disc on a rotor of so many turns a minute.
+fn turning(element: ElementKind, divisions: [usize; 3], rpm: f64) -> SolidModel {
+    let mut model = disc(element, divisions);
+    model.contact.rotation_speed = rpm * TAU / 60.0;
+    model
+}
+
+fn solved(model: &SolidModel) -> SolidSweep {
+    let request = SweepRequest {
+        friction_coefficients: &[FRICTION],
+        limit: ModeLimit::MaxFrequency(LIMIT),
+        shapes_at: &[],
+    };
+    solid_sweep(model, &request).unwrap()
+}
+
+/// Listed eigenvalues of harmonic `n`.
+fn listed(found: &SolidSweep, n: usize) -> Vec<c64> {
+    let modes = found.sweep.points[0].modes.iter();
+    modes
+        .filter(|mode| mode.harmonic == n)
+        .map(|mode| mode.eigenvalue)
+        .collect()
+}
+
+/// Oscillating eigenvalues of a whole harmonic below the limit, both waves with positive imaginary part; of the unknowns that move
+/// those in `held` do not.
+///
+/// Eigenvalues `1 / (lambda - sigma)` of the linearized problem with the unknowns `(x, lambda x / sigma)`.
+fn dense(model: &SolidModel, n: usize, is_held: &dyn Fn(usize) -> bool) -> Vec<c64> {
+    let sector = SolidSector::generate(&model.specification).unwrap();
+    let tangent =
+        SolidTangent::linearize(&sector, &model.material, &model.options, &model.contact).unwrap();
+    let (harmonic, sigma) = (tangent.harmonic(n), c64::new(TAU * LIMIT, 0.0));
+    let at = harmonic.at(FRICTION);
+    let unknowns = harmonic.moving().into_iter().enumerate();
+    let kept: Vec<usize> = unknowns
+        .filter(|(_, u)| !is_held(*u))
+        .map(|(k, _)| k)
+        .collect();
+    let (size, h) = (kept.len(), at.half_bandwidth);
+    let full = |band: &[c64]| {
+        Mat::from_fn(size, size, |i, j| {
+            let (row, column) = (kept[i], kept[j]);
+            match row.abs_diff(column) <= h {
+                true => band[row * (2 * h + 1) + column + h - row],
+                false => ONE - ONE,
+            }
+        })
+    };
+    let [mass, damping, stiffness] = [&at.mass, &at.damping, &at.stiffness].map(|b| full(b));
+    let shifted = Mat::from_fn(size, size, |i, j| {
+        stiffness[(i, j)] + sigma * (damping[(i, j)] + sigma * mass[(i, j)])
+    });
+    let lu = ComplexDenseLu::factorize(shifted);
+    let (mut x, mut y) = (stiffness, mass);
+    lu.solve_in_place(x.as_mut());
+    lu.solve_in_place(y.as_mut());
+    let unit = |i: usize, j: usize| if i == j { ONE } else { ONE - ONE };
+    let inverse = Mat::from_fn(2 * size, 2 * size, |i, j| match (i < size, j < size) {
+        (true, true) => (x[(i, j)] - unit(i, j)) / sigma,
+        (true, false) => -sigma * y[(i, j - size)],
+        (false, true) => x[(i - size, j)] / sigma,
+        (false, false) => -sigma * y[(i - size, j - size)],
+    });
+    let values = inverse.eigenvalues().unwrap();
+    let values = values.iter().map(|value| sigma + value.inv());
+    let is_standing = tangent.is_standing(n);
+    values
+        .filter(|value| value.im > 0.0 || !is_standing)
+        .map(|value| c64::new(value.re, value.im.abs()))
+        .filter(|value| value.im < TAU * LIMIT && value.norm() < 1.19 * TAU * LIMIT)
+        .filter(|value| value.im > 0.1 * value.norm())
+        .collect()
+}
+
+/// Largest distance of an eigenvalue relative to it from the nearest of the others.
+fn distance(values: &[c64], others: &[c64]) -> f64 {
+    let nearest = |value: &c64| {
+        let distances = others
+            .iter()
+            .map(|other| (other - value).norm() / value.norm());
+        distances.fold(f64::INFINITY, f64::min)
+    };
+    values.iter().map(nearest).fold(0.0, f64::max)
+}
+
+/// What the small space leaves out is all that may differ.
+fn assert_equal(found: &SolidSweep, n: usize, exact: &[c64], what: &str) {
+    let listed = listed(found, n);
+    assert!(exact.len() > 3, "{what}");
+    assert_eq!(listed.len(), exact.len(), "{what}, n = {n}");
+    let error = distance(&listed, exact).max(distance(exact, &listed));
+    let bound = 10.0 * found.reduction_error + 1e-9;
+    assert!(error < bound, "{what}, n = {n}: {error:e} above {bound:e}");
+    assert!(bound < 1e-3, "{what}: {bound:e}");
+}
+
+#[test]
+fn slow_sliding_has_the_eigenvalues_of_a_dense_solution_of_the_whole_harmonic() {
+    for (element, divisions) in [
+        (ElementKind::Quad4, [24, 6, 2]),
+        (ElementKind::Quad8, [24, 4, 1]),
+    ] {
+        for rpm in [0.1, 1.0, 10.0, 100.0] {
+            let model = turning(element, divisions, rpm);
+            let found = solved(&model);
+            for n in [0, 1, 3] {
+                let exact = dense(&model, n, &|_| false);
+                assert_equal(&found, n, &exact, &format!("{element:?} at {rpm} rpm"));
+            }
+        }
+    }
+}
+
+#[test]
+fn a_ring_on_a_penalty_contact_has_the_eigenvalues_of_a_dense_solution_when_it_turns_slowly() {
+    for rpm in [0.1, 10.0] {
+        let mut model = turning(ElementKind::Quad4, [24, 7, 1], rpm);
+        model.specification.contact = SolidContact::Ring {
+            inner_radius: 0.03,
+            outer_radius: 0.07,
+        };
+        model.specification.conditions[2] = BoundaryCondition::Guide;
+        model.contact.interference = 5e-6;
+        model.options.contact.normal_stiffness = Some(1e12);
+        let found = solved(&model);
+        let exact = dense(&model, 2, &|_| false);
+        assert_equal(&found, 2, &exact, &format!("ring at {rpm} rpm"));
+    }
+}
+
+#[test]
+fn sliding_that_comes_to_rest_has_the_spectrum_with_the_motion_across_it_held() {
+    let model = turning(ElementKind::Quad4, [24, 6, 2], 1e-7);
+    let sector = SolidSector::generate(&model.specification).unwrap();
+    let tangent =
+        SolidTangent::linearize(&sector, &model.material, &model.options, &model.contact).unwrap();
+    let nodes = sector.rings.iter().flat_map(|ring| &ring.nodes);
+    let across: Vec<usize> = nodes
+        .filter_map(|node| tangent.unknown_of()[3 * node + 2])
+        .collect();
+    let found = solved(&model);
+    for n in [0, 2] {
+        let held = dense(&model, n, &|unknown| across.contains(&unknown));
+        assert_equal(&found, n, &held, "held");
+    }
+}
+
+/// Steps of a thousandth of the speed move no eigenvalue further than a few thousandths.
+#[test]
+fn eigenvalues_are_continuous_in_the_speed_of_sliding() {
+    for rpm in [0.1, 3.0, 50.0, 150.0] {
+        let [slower, faster] = [1.0, 1.001]
+            .map(|factor| solved(&turning(ElementKind::Quad4, [24, 6, 2], factor * rpm)));
+        for n in [0, 1, 2] {
+            let (slower, faster) = (listed(&slower, n), listed(&faster, n));
+            assert_eq!(slower.len(), faster.len(), "{rpm} rpm, n = {n}");
+            let change = distance(&slower, &faster);
+            assert!(change < 3e-3, "{rpm} rpm, n = {n}: {change:e}");
+        }
+    }
+}
+
+#[test]
+fn the_note_names_the_dashpot_of_friction_and_not_the_damping_of_the_material() {
+    let folder = tempfile::TempDir::new().unwrap();
+    let mut command = Command::cargo_bin("frictionsim").unwrap();
+    let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/ring-on-layer.toml");
+    command.arg("cea").arg(case).arg("--no-figures");
+    for set in [
+        "contact.rotation_speed_rpm=10.0",
+        "cea.friction_coefficients=[0.4]",
+        "mesh.circumferential_elements=24",
+        "mesh.radial_elements=7",
+        "mesh.axial_elements=1",
+    ] {
+        command.args(["--set", set]);
+    }
+    let output = command
+        .arg("--out")
+        .arg(folder.path().join("out"))
+        .output()
+        .unwrap();
+    let text = String::from_utf8_lossy(&output.stdout);
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    assert!(
+        text.contains("dashpot of friction across the sliding"),
+        "{text}"
+    );
+    assert!(
+        !text.contains("damping.stiffness_coefficient set it"),
+        "{text}"
+    );
+}
