@@ -8,7 +8,7 @@ use crate::results::charts::{
 };
 use crate::results::drawing::{Declaration, DrawingOptions, draw_all};
 use crate::results::report::NamedFigure;
-use crate::signal::{SpectralResolution, SpectrogramOptions, spectral_lines, spectrogram};
+use crate::signal::{SpectrogramOptions, spectrogram};
 use serde::{Deserialize, Serialize};
 use std::sync::Mutex;
 
