@@ -54,7 +54,13 @@ fn text_boxes(svg: &str) -> (Vec<(String, [f64; 4], bool)>, [f64; 2]) {
     }
     let mut options = Options::default();
     let fonts = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/chart/font");
-    options.fontdb_mut().load_fonts_dir(fonts);
+    for entry in std::fs::read_dir(fonts).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_some_and(|extension| extension == "ttf") {
+            let bytes = std::fs::read(&path).unwrap();
+            options.fontdb_mut().load_font_data(bytes);
+        }
+    }
     let tree = Tree::from_str(svg, &options).unwrap();
     let mut boxes = Vec::new();
     visit(tree.root(), &mut boxes);
