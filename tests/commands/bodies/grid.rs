@@ -2,6 +2,9 @@
 
 use std::fmt::Write as _;
 
+/// Type of the element in the file, its physical group, its nodes.
+type Element = (u32, String, Vec<usize>);
+
 /// A grid of `along` x `across` elements: a ring around the origin (`along` around, `across` from inside outwards) or a block.
 pub struct Grid<'a> {
     pub shape: Shape,
@@ -23,8 +26,8 @@ pub enum Shape {
 
 /// All grids in one MSH 2.2 file.
 pub fn msh(grids: &[Grid<'_>]) -> String {
-    let (mut nodes, mut elements): (Vec<[f64; 2]>, Vec<(u32, String, Vec<usize>)>) =
-        Default::default();
+    let mut nodes: Vec<[f64; 2]> = Vec::new();
+    let mut elements: Vec<Element> = Vec::new();
     for grid in grids {
         let first = nodes.len();
         let around = match grid.shape {
@@ -86,7 +89,7 @@ impl Grid<'_> {
     }
 }
 
-fn written(nodes: &[[f64; 2]], elements: &[(u32, String, Vec<usize>)]) -> String {
+fn written(nodes: &[[f64; 2]], elements: &[Element]) -> String {
     let mut groups: Vec<(u32, &str)> = Vec::new();
     for (kind, name, _) in elements {
         let group = (if *kind == 1 { 1 } else { 2 }, name.as_str());
