@@ -198,7 +198,7 @@ fn solid_elements(
         mesh.element_starts.push(mesh.elements.len() as u32);
         mesh.element_kinds.push(element.kind);
         mesh.congruent_to.push(e as u32);
-        let region = names.binary_search(&*element.region);
+        let region = names.binary_search(&&*element.region);
         let region = region.expect("regions are those of the elements");
         mesh.element_regions.push(region as u16);
     }
