@@ -242,3 +242,49 @@ impl Elimination {
             })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Consistency check: forms that share dofs with each other are what `y` says they are.
+    #[test]
+    fn forms_that_share_dofs_are_entries_of_the_new_basis() {
+        let mut basis = Elimination::holding(6, [5]);
+        let forms: [Row; 3] = [
+            vec![(0, 0.8), (1, 0.6), (3, -1.0)],
+            vec![(1, 2.0), (0, -0.5), (4, -0.25), (5, 3.0)],
+            vec![(3, 1.0), (4, -1.0)],
+        ];
+        let pivots = forms.each_ref().map(|form| basis.take(form).unwrap());
+        // Held dofs vanish.
+        let y = [0.3, -1.7, 0.9, 2.2, -0.4, 0.0];
+        let u = basis.displacement(&y);
+        for (form, pivot) in forms.iter().zip(pivots) {
+            let value: f64 = form.iter().map(|&(dof, a)| a * u[dof]).sum();
+            assert!((value - y[pivot]).abs() < 1e-14);
+        }
+        // Forces and matrices follow: f . u = (T^T f) . y, and u . A u = y . (T^T A T) y.
+        let forces = [1.0, -2.0, 0.5, 3.0, -1.0, 0.0];
+        let work = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let moved = basis.transposed_forces(&forces);
+        assert!((work(&forces, &u) - work(&moved, &y)).abs() < 1e-13);
+        let mut matrix = Triplets::default();
+        for i in 0..6 {
+            matrix.push(i, (2 * i + 1) % 6, 1.0 + i as f64);
+            matrix.push(i, i, 2.0);
+        }
+        let energy = work(&u, &matrix.multiply(6, &u));
+        let congruent = basis.congruent(&matrix);
+        assert!((work(&y, &congruent.multiply(6, &y)) - energy).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_form_that_follows_from_others_is_not_taken_twice() {
+        let mut basis = Elimination::holding(3, [2]);
+        assert!(basis.take(&vec![(0, 1.0), (1, -1.0)]).is_some());
+        let pivot = basis.take(&vec![(0, 1.0), (1, 1.0)]).unwrap();
+        basis.drop_unknown(pivot);
+        assert_eq!(basis.take(&vec![(0, 2.0), (2, 5.0)]), None);
+    }
+}
