@@ -105,8 +105,8 @@ fn unknowns(model: &WholeMesh, tangent: &SlidingTangent) -> Vec<ExportedUnknown>
     let mesh = &model.mesh;
     let unknown = |&dof: &usize| {
         let (node, axis) = (dof / 2, dof % 2);
-        let angle = mesh.frame_angles[node] + FRAC_PI_2 * axis as f64;
-        let [x, y] = mesh.nodes[node];
+        let angle = mesh.frame_angles()[node] + FRAC_PI_2 * axis as f64;
+        let [x, y] = mesh.plane_node(node);
         ExportedUnknown {
             node: mesh.node_label(node),
             is_distance: tangent.distances.iter().any(|(normal, _)| *normal == dof),

@@ -12,9 +12,6 @@ use crate::signal::{SpectrogramOptions, spectrogram};
 use serde::{Deserialize, Serialize};
 use std::sync::Mutex;
 
-/// Lines among which the fundamental is looked for.
-const MOST_LINES: usize = 20;
-
 /// Everything that the figures show.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SignalRecord {

@@ -140,7 +140,7 @@ fn uncertainty_note(case: &Case, sweep: &FrictionSweep) -> Option<String> {
         .map_or_else(String::new, |stiffness| {
             let size = stiffness * case.body.contact_length() / case.material.young_modulus;
             let length = match &case.body {
-                Body::Imported(_) => "the size of the contact",
+                Body::Imported(_) | Body::Assembly(_) => "the size of the contact",
                 Body::Annulus(_) | Body::Revolution(_) => "geometry.inner_radius",
             };
             format!(
@@ -209,6 +209,8 @@ fn friction_note(case: &Case, model: &SlidingModel) -> Option<String> {
     let friction = case.contact.sliding.friction_coefficient;
     let (law, pressure) = match &model.state {
         SteadyState::Solid(solid) => solid.mean_friction(),
+        // Each contact has its own.
+        SteadyState::Assembly(_) => return None,
         SteadyState::Plane(base) => {
             let pressures = base.pressures(friction);
             let mean = pressures.iter().sum::<f64>() / pressures.len().max(1) as f64;

@@ -85,6 +85,7 @@ impl<'a> TransientStudy<'a> {
                 mesh
             }
             Body::Imported(imported) => Arc::clone(&imported.mesh),
+            Body::Assembly(assembly) => Arc::clone(&assembly.mesh),
         };
         Ok(Self {
             case,
