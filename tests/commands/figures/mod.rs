@@ -53,8 +53,11 @@ fn text_boxes(svg: &str) -> (Vec<(String, [f64; 4], bool)>, [f64; 2]) {
         }
     }
     let mut options = Options::default();
-    let fonts = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/chart/font");
-    options.fontdb_mut().load_fonts_dir(fonts);
+    for face in ["DejaVuSans", "DejaVuSans-Bold", "DejaVuSans-Oblique"] {
+        let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("src/chart/font");
+        let font = std::fs::read(folder.join(format!("{face}.ttf"))).unwrap();
+        options.fontdb_mut().load_font_data(font);
+    }
     let tree = Tree::from_str(svg, &options).unwrap();
     let mut boxes = Vec::new();
     visit(tree.root(), &mut boxes);
