@@ -377,11 +377,11 @@ impl Placed<'_> {
         }
     }
 
-    /// Lines of its headings with their colours.
-    fn heading_lines(&self) -> Vec<(String, &'static str)> {
+    /// Lines of its headings with their colours; a letter at the left stands in the same line.
+    fn heading_lines(&self, has_letter: bool) -> Vec<(String, &'static str)> {
         let wrapped = |(line, colour): &(String, &'static str)| {
-            // A letter at the left stands in the same line.
-            let room = (self.part.1 - 2.0 * LETTER_WIDTH).max(LETTER_WIDTH);
+            let letters = if has_letter { 2.0 * LETTER_WIDTH } else { 0.0 };
+            let room = (self.part.1 - letters).max(LETTER_WIDTH);
             let lines = text::wrapped(line, (HEADING_SIZE, false), room);
             lines
                 .into_iter()
@@ -404,7 +404,7 @@ impl Placed<'_> {
 
     /// Room needed above the data area, points.
     fn top_need(&self, letters: bool) -> f64 {
-        let headings = self.heading_lines().len() as f64 * 1.25 * HEADING_SIZE;
+        let headings = self.heading_lines(letters).len() as f64 * 1.25 * HEADING_SIZE;
         let lines = self.caption_lines().len().max(usize::from(letters));
         let line = match lines {
             0 => 0.0,
@@ -443,7 +443,7 @@ impl Placed<'_> {
         }
         let captions = self.caption_lines();
         let first = baseline - CAPTION_STEP * captions.len().saturating_sub(1) as f64;
-        let headings = self.heading_lines();
+        let headings = self.heading_lines(letter.is_some());
         let lines = headings.len();
         let last = match captions.is_empty() {
             true => baseline,

@@ -141,11 +141,7 @@ fn damping_note(case: &Case, sweep: &FrictionSweep) -> Option<String> {
 }
 
 /// The motions that friction across the sliding keeps from oscillating, and those that it damps.
-fn overdamped_note(
-    case: &Case,
-    model: &SlidingModel,
-    overdamped: &[Overdamped],
-) -> Option<String> {
+fn overdamped_note(case: &Case, model: &SlidingModel, overdamped: &[Overdamped]) -> Option<String> {
     let most = overdamped.iter().max_by_key(|own| own.count);
     let (most, solid) = (most.filter(|own| own.count > 0)?, model.solid()?);
     let [slowest, fastest] = most.decay;
