@@ -9,9 +9,6 @@ use crate::linalg::Distribution;
 /// Share of a distribution beyond what its key can take from which on it is refused.
 const MOST_BEYOND: f64 = 0.05;
 
-/// Standard deviation of the logarithm beyond which a log-normal distribution is hardly meant: a factor of 20 either way.
-const LARGEST_LOG_DEVIATION: f64 = 3.0;
-
 /// A parameter and what is known of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UncertainParameter {
@@ -43,9 +40,6 @@ pub struct Uncertainty {
     /// What is uncertain, in alphabetical order.
     pub parameters: Vec<UncertainParameter>,
 }
-
-/// Standard deviation of a logarithm beyond which a scatter is hardly meant: a factor of 20 either way.
-const LARGEST_LOG_DEVIATION: f64 = 3.0;
 
 pub(super) fn uncertainty(root: &Section<'_>) -> Option<Uncertainty> {
     let section = root.section("uncertainty", false);
@@ -168,18 +162,11 @@ fn uncertain(
         }
         "log_normal" => {
             let (median, deviation) = (a, b);
-            let is_narrow = b <= LARGEST_LOG_DEVIATION;
-            let needs = match is_narrow || a <= 0.0 {
-                true => "two positive numbers",
-                false => {
-                    "the second number is the standard deviation of the logarithm, at most 3: 0.1 is about 10 %"
-                }
-            };
-            let is_valid = a > 0.0 && b > 0.0 && is_narrow;
+            let is_valid = a > 0.0 && b > 0.0;
             (
                 Distribution::LogNormal { median, deviation },
                 is_valid,
-                needs,
+                "two positive numbers",
             )
         }
         _ => {

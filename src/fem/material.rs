@@ -108,6 +108,15 @@ impl ElasticMaterial {
         [lambda, e / (2.0 * (1.0 + nu))]
     }
 
+    /// Lamé constants `[lambda, G]` of the solid, Pa.
+    pub fn solid_lame_constants(&self) -> [f64; 2] {
+        let solid = Self {
+            formulation: PlaneFormulation::ThreeDimensional,
+            ..*self
+        };
+        solid.lame_constants()
+    }
+
     /// A material whose Lamé constants are the derivatives of this one's with respect to Poisson's ratio, so that whatever is
     /// linear in the Lamé constants differentiates itself.
     pub fn poisson_rate(&self) -> Self {

@@ -168,7 +168,7 @@ fn solid_elements(
     index_of: &[Option<u32>],
 ) -> Result<Mesh, MeshFileError> {
     let count = index_of.iter().flatten().count();
-    let names: BTreeSet<&str> = file.elements.iter().map(|e| e.region.as_str()).collect();
+    let names: BTreeSet<&str> = file.elements.iter().map(|e| &*e.region).collect();
     let names: Vec<&str> = names.into_iter().collect();
     if names.len() > usize::from(u16::MAX) {
         return Err(MeshFileError::Body(format!(
@@ -198,7 +198,7 @@ fn solid_elements(
         mesh.element_starts.push(mesh.elements.len() as u32);
         mesh.element_kinds.push(element.kind);
         mesh.congruent_to.push(e as u32);
-        let region = names.binary_search(&element.region.as_str());
+        let region = names.binary_search(&&*element.region);
         let region = region.expect("regions are those of the elements");
         mesh.element_regions.push(region as u16);
     }

@@ -25,11 +25,11 @@ pub struct Elimination {
     is_dropped: Vec<bool>,
 }
 
-/// Friction of rigid contact: the force of a dropped separation acts along the slip too.
+/// Friction of rigid contact: the normal force acts along the slip too.
 #[derive(Clone, Debug)]
 pub(super) struct RigidFriction {
-    /// Pivot of the separation.
-    pub pivot: usize,
+    /// Displacement whose work is the normal force, over all dofs.
+    pub lift: Row,
     /// `drag` times the row of the slip, over all dofs.
     pub slip: Row,
 }
@@ -181,35 +181,50 @@ impl Elimination {
     }
 
     /// The matrices of small motions over the unknowns: `T^T A T` without what vanishes, where `friction` adds `-mu` times the
-    /// row of a dropped separation, the force of rigid contact, to the rows of its slip.
+    /// work of a lift, the normal force of rigid contact, to the rows of its slip.
     pub(super) fn project(
         &self,
         full: &[Triplets],
         unknowns: &DofMap,
         friction: &[RigidFriction],
     ) -> ProjectedPolynomial {
-        let slips: BTreeMap<usize, Row> = friction
+        let slips: Vec<Row> = friction
             .iter()
             .map(|rigid| {
                 let slip = self.transposed(&rigid.slip).into_iter();
                 let free = slip.filter_map(|(dof, a)| Some((unknowns.unknown_of[dof]?, a)));
-                (rigid.pivot, free.collect())
+                free.collect()
             })
             .collect();
-        let powers = full.len() + usize::from(!slips.is_empty());
+        let mut lifts: BTreeMap<usize, Row> = BTreeMap::new();
+        for (i, rigid) in friction.iter().enumerate() {
+            for &(dof, value) in &rigid.lift {
+                lifts.entry(dof).or_default().push((i, value));
+            }
+        }
+        let powers = full.len() + usize::from(!friction.is_empty());
         let mut projected = vec![Vec::new(); powers];
         for (power, terms) in full.iter().enumerate() {
             for (row, column, value) in self.congruent(terms).entries {
-                let Some(unknown) = unknowns.unknown_of[column].filter(|_| value != 0.0) else {
+                let [row, column] = [row, column].map(|dof| unknowns.unknown_of[dof]);
+                if let (Some(row), Some(column)) = (row, column) {
+                    projected[power].push((row, column, value));
+                }
+            }
+            // The normal force is the work of the lift, taken over all dofs.
+            for &(row, column, value) in &terms.entries {
+                let Some(lifted) = lifts.get(&row) else {
                     continue;
                 };
-                if let Some(row) = unknowns.unknown_of[row] {
-                    projected[power].push((row, unknown, value));
-                } else if let Some(slip) = slips.get(&row) {
-                    let moved = slip
-                        .iter()
-                        .map(|&(row, along)| (row, unknown, -along * value));
-                    projected[power + 1].extend(moved);
+                for (dof, across) in self.transposed(&[(column, 1.0)]) {
+                    let Some(unknown) = unknowns.unknown_of[dof] else {
+                        continue;
+                    };
+                    for &(i, along) in lifted {
+                        let force = -along * value * across;
+                        let moved = slips[i].iter().map(|&(row, a)| (row, unknown, a * force));
+                        projected[power + 1].extend(moved);
+                    }
                 }
             }
         }

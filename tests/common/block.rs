@@ -88,7 +88,7 @@ pub fn block(kind: ElementKind, cells: [usize; 3], map: impl Fn([f64; 3]) -> [f6
             file.elements.push(FileElement {
                 label: file.elements.len() + 1,
                 kind,
-                region: "body".to_owned(),
+                region: "body".into(),
                 entity: 1,
                 nodes,
             });

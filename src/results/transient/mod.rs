@@ -102,7 +102,7 @@ impl TransientReport<'_> {
     fn turn_of_probe(&self, probe: usize) -> Option<(f64, f64)> {
         let has_axes = self.solid.is_none() && !self.mesh.is_cyclic;
         let node = self.record.probes[probe] - 1;
-        has_axes.then(|| self.mesh.frame_angles[node].sin_cos())
+        has_axes.then(|| self.mesh.frame_angles()[node].sin_cos())
     }
 
     /// Number of a probe as the user knows it.

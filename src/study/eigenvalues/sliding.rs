@@ -1,13 +1,14 @@
 //! Steady sliding, reported beside the modes of an eigenvalue analysis.
 
 use super::StudyError;
+use super::assembly::base_state;
 use super::model::Model;
 use super::solid::SolidBody;
 use crate::case::{Case, Cea};
 use crate::fem::nodal_stress;
 use crate::mesh::{AnnulusMesh, Counterface, Mesh, SectorMesh};
 use crate::prestress::{SectorTangent, SteadySliding};
-use crate::results::cea::{BaseField, BaseState};
+use crate::results::cea::{AssemblyReport, BaseField, BaseState};
 use crate::study::extent_of;
 use std::sync::Arc;
 
@@ -17,6 +18,8 @@ pub enum SteadyState {
     Plane(SteadySliding),
     /// Of a body of revolution in three dimensions.
     Solid(Box<SolidBody>),
+    /// Of solid bodies that slide on each other.
+    Assembly(AssemblyReport),
 }
 
 /// A model with its mesh and its steady sliding.
@@ -44,6 +47,11 @@ impl SlidingModel {
                 let mesh = Arc::new(AnnulusMesh::generate(&solid.plane)?.mesh);
                 (mesh, SteadyState::Solid(Box::new(solid)))
             }
+            Model::Assembly(assembly) => {
+                let report = assembly.report(case)?;
+                let mesh = Arc::clone(&assembly.body.mesh);
+                (mesh, SteadyState::Assembly(report))
+            }
             Model::Whole(whole) => {
                 let state = SteadyState::Plane(whole.base().clone());
                 (Arc::clone(&whole.mesh), state)
@@ -64,7 +72,15 @@ impl SlidingModel {
     pub fn solid(&self) -> Option<&SolidBody> {
         match &self.state {
             SteadyState::Solid(solid) => Some(solid),
-            SteadyState::Plane(_) => None,
+            SteadyState::Plane(_) | SteadyState::Assembly(_) => None,
+        }
+    }
+
+    /// The base state of solid bodies that slide on each other, if they are some.
+    pub fn assembly(&self) -> Option<&AssemblyReport> {
+        match &self.state {
+            SteadyState::Assembly(report) => Some(report),
+            SteadyState::Plane(_) | SteadyState::Solid(_) => None,
         }
     }
 
@@ -80,6 +96,7 @@ impl SlidingModel {
     pub fn base_state(&self, case: &Case) -> BaseState {
         let base = match &self.state {
             SteadyState::Solid(solid) => return solid.base_state(case),
+            SteadyState::Assembly(report) => return base_state(case, report),
             SteadyState::Plane(base) => base,
         };
         let friction = case.contact.sliding.friction_coefficient;
