@@ -1,10 +1,12 @@
-"""The sparse sweep against a general shift-invert Krylov-Schur iteration (SLEPc), same matrices, same machine.
+"""The sparse sweep against SLEPc at each friction value: same matrices, same machine, one thread, processor time.
 
     apt-get install python3-slepc4py-real          # Debian, with the system's own python
-    /usr/bin/python3 benches/against_slepc.py [circumferential radial modes values]
+    /usr/bin/python3 benches/against_slepc.py [BODY ...]
 
-Both solve K(mu) x = kappa M(mu) x for the lowest modes at every friction value, on one thread, in processor time,
-factorizations included; SLEPc with whichever LU of PETSc, MUMPS, SuperLU and UMFPACK is fastest. Default: 180 35 30 21.
+Without arguments all bodies below. SLEPc solves (lambda^2 M + lambda C + K) x = 0 by TOAR, or K x = kappa M x by
+Krylov-Schur where damping is proportional, shifted and inverted about zero, with whichever LU of PETSc, MUMPS, SuperLU
+and UMFPACK is fastest for the body, factorizations included. Ours does the whole sweep: modes without friction with the
+proof that none is missing, branches, onsets. AGAINST_SLEPC_BINARY names a bench that is built already.
 """
 
 import glob
@@ -22,121 +24,152 @@ import numpy as np
 from petsc4py import PETSc
 from slepc4py import SLEPc
 
-ALPHA, BETA = 40.0, 4.5e-7
+RIM = ["mesh.circumferential_elements=120", "mesh.radial_elements=24", 'material.formulation="plane-stress"',
+       'boundaries.outer.condition="support"', "boundaries.outer.normal_stiffness=2e11",
+       "boundaries.outer.tangential_stiffness=2e11"]
+BODIES = {
+    "test-bench": ("test-bench", []),
+    "sliding-block": ("sliding-block", []),
+    "pad-on-disc": ("pad-on-disc", []),
+    "supported-rim": ("polycarbonate-disc", RIM + ["cea.friction_coefficients=[0.3]"]),
+    "triangles": ("disc-triangles", []),
+    "two-dampings": ("test-bench", ['boundaries.screws.condition="clamped"']),
+    "dashpots": ("disc-triangles", ["contact.tangential_damping=200.0"]),
+    "falling-friction": ("falling-friction", []),
+}
+PACKAGES = ("petsc", "mumps", "superlu", "umfpack")
 
 
-def peak_megabytes():
-    with open("/proc/self/status") as status:
-        return int(next(line for line in status if line.startswith("VmHWM")).split()[1]) / 1024
-
-
-def polynomial(folder, name, mu):
-    parts = sorted(f for f in os.listdir(folder) if f.startswith(name + "-"))
-    return sum(np.fromfile(f"{folder}/{f}") * mu**p for p, f in enumerate(parts))
+def request(folder):
+    """What is wanted: the numbers after each word."""
+    lines = (line.split() for line in open(f"{folder}/request.txt"))
+    return {words[0]: [float(w) for w in words[1:]] for words in lines}
 
 
 def matrix(folder, name, mu):
     """PETSc reads rows; the files hold columns, so this is the transpose, transposed back."""
-    pointers = np.fromfile(f"{folder}/pointers.i64", dtype=np.int64).astype(PETSc.IntType)
-    rows = np.fromfile(f"{folder}/rows.i64", dtype=np.int64).astype(PETSc.IntType)
+    pointers, rows = (np.fromfile(f"{folder}/{n}.i64", dtype=np.int64).astype(PETSc.IntType) for n in ("pointers", "rows"))
+    parts = sorted(f for f in os.listdir(folder) if f.startswith(name + "-"))
+    values = sum(np.fromfile(f"{folder}/{f}") * mu**p for p, f in enumerate(parts))
     n = len(pointers) - 1
-    transposed = PETSc.Mat().createAIJ((n, n), csr=(pointers, rows, polynomial(folder, name, mu)))
+    transposed = PETSc.Mat().createAIJ((n, n), csr=(pointers, rows, values))
     transposed.assemble()
     return transposed.transpose()
 
 
-def solve(folder, mu, modes, package, tolerance):
-    """Processor time and the eigenvalues of the quadratic problem with their residuals."""
-    stiffness, mass = (matrix(folder, name, mu) for name in ("stiffness", "mass"))
-    start = time.process_time()
-    solver = SLEPc.EPS().create()
-    solver.setOperators(stiffness, mass)
-    solver.setProblemType(SLEPc.EPS.ProblemType.GNHEP)
-    solver.setWhichEigenpairs(SLEPc.EPS.Which.TARGET_MAGNITUDE)
-    solver.setTarget(0.0)
-    solver.setDimensions(modes)
-    solver.setTolerances(tolerance, 500)
-    transform = solver.getST()
+def shift_and_invert(transform, package):
     transform.setType(SLEPc.ST.Type.SINVERT)
     linear = transform.getKSP()
     linear.setType("preonly")
     linear.getPC().setType("lu")
     linear.getPC().setFactorSolverType(package)
+
+
+def solve(folder, mu, modes, package):
+    """Processor time, eigenvalues with Im > 0, and the largest relative residual of the quadratic problem."""
+    stiffness, damping, mass = (matrix(folder, name, mu) for name in ("stiffness", "damping", "mass"))
+    proportional = request(folder).get("proportional")
+    if proportional:
+        solver = SLEPc.EPS().create()
+        solver.setOperators(stiffness, mass)
+        solver.setProblemType(SLEPc.EPS.ProblemType.GNHEP)
+        solver.setWhichEigenpairs(SLEPc.EPS.Which.TARGET_MAGNITUDE)
+        solver.setDimensions(modes)
+    else:
+        solver = SLEPc.PEP().create()
+        solver.setOperators([stiffness, damping, mass])
+        solver.setType(SLEPc.PEP.Type.TOAR)
+        solver.setWhichEigenpairs(SLEPc.PEP.Which.TARGET_MAGNITUDE)
+        solver.setScale(SLEPc.PEP.Scale.SCALAR)
+        solver.setDimensions(2 * modes)
+    solver.setTarget(0.0)
+    solver.setTolerances(1e-8, 500)
+    shift_and_invert(solver.getST(), package)
+    start = time.process_time()
     solver.solve()
     seconds = time.process_time() - start
-    norms = [m.norm(PETSc.NormType.NORM_INFINITY) for m in (stiffness, mass)]
-    found = []
+    norms = [m.norm(PETSc.NormType.NORM_INFINITY) for m in (stiffness, damping, mass)]
+    found, worst = [], 0.0
     xr, xi = stiffness.createVecs()
-    for i in range(min(modes, solver.getConverged())):
-        kappa = solver.getEigenpair(i, xr, xi)
-        p = ALPHA + BETA * kappa
-        root = 1j * np.sqrt(kappa - p * p / 4 + 0j)
-        eigenvalue = max(root - p / 2, -root - p / 2, key=lambda v: v.imag)
-        x = xr.getArray() + 1j * xi.getArray() if kappa.imag else xr.getArray() + 0j
+    for i in range(solver.getConverged()):
+        value = solver.getEigenpair(i, xr, xi)
+        if proportional:
+            alpha, beta = proportional
+            half = (alpha + beta * value) / 2
+            root = 1j * np.sqrt(value - half * half + 0j)
+            value = max(root - half, -root - half, key=lambda v: v.imag)
+        if value.imag <= 0:
+            continue
+        x = xr.getArray() + 1j * (xi.getArray() if value.imag else 0.0)
+        if proportional and solver.getEigenvalue(i).imag == 0:
+            x = xr.getArray() + 0j
 
         def times(m):
-            return sum(
-                factor * (m * PETSc.Vec().createWithArray(np.ascontiguousarray(part))).getArray()
-                for factor, part in ((1, x.real), (1j, x.imag))
-            )
+            parts = ((1, np.ascontiguousarray(x.real)), (1j, np.ascontiguousarray(x.imag)))
+            return sum(f * (m * PETSc.Vec().createWithArray(p)).getArray() for f, p in parts)
 
-        size = abs(eigenvalue)
-        force = abs(1 + BETA * eigenvalue) * np.linalg.norm(times(stiffness) - kappa * times(mass))
-        damped = ALPHA * norms[1] + BETA * norms[0]
-        scale = (size**2 * norms[1] + size * damped + norms[0]) * np.linalg.norm(x)
-        found.append((eigenvalue, force / scale))
-    # Python would keep them, and the peak be that of all values together.
-    for thing in (solver, stiffness, mass, xr, xi):
-        thing.destroy()
-    return seconds, found
+        force = np.linalg.norm(times(stiffness) + value * times(damping) + value**2 * times(mass))
+        size = abs(value)
+        scale = (size**2 * norms[2] + size * norms[1] + norms[0]) * np.linalg.norm(x)
+        worst = max(worst, force / scale)
+        found.append(value)
+    found.sort(key=abs)
+    return seconds, found[:modes], worst
 
 
-def seconds_of(folder, mu, modes, package):
-    """Processor time of one value in a process of its own, whose memory is not counted here."""
-    one = [sys.executable, os.path.abspath(__file__), "--one", folder, str(mu), str(modes), package]
-    done = subprocess.run(one, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
-    return float(done.stdout) if done.returncode == 0 else None
+def fastest(folder, mu, modes):
+    """The package of least time, each in a process of its own."""
+    times = {}
+    for package in PACKAGES:
+        one = [sys.executable, os.path.abspath(__file__), "--one", folder, str(mu), str(modes), package]
+        done = subprocess.run(one, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        if done.returncode == 0:
+            times[package] = float(done.stdout)
+    return min(times, key=times.get)
+
+
+def own(folder):
+    found = {}
+    for line in open(f"{folder}/eigenvalues.txt"):
+        mu, re, im = map(float, line.split())
+        found.setdefault(mu, []).append(complex(re, im))
+    return found
+
+
+def compare(body):
+    case, overrides = BODIES[body]
+    root = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+    program = os.environ.get("AGAINST_SLEPC_BINARY")
+    command = [program] if program else ["cargo", "bench", "-q", "--bench", "against_slepc", "--"]
+    with tempfile.TemporaryDirectory() as folder:
+        given = [folder, f"{root}/cases/{case}.toml"] + overrides
+        ours = subprocess.run(command + given, cwd=root, check=True, stdout=subprocess.PIPE, text=True).stdout
+        words = ours.split()
+        number = lambda name: float(words[words.index(name) + 1])
+        seconds, residual, difference, package = 0.0, 0.0, 0.0, None
+        for state in sorted(glob.glob(f"{folder}/state-*")):
+            for mu, modes in own(state).items():
+                package = package or fastest(state, mu, len(modes))
+                elapsed, found, worst = solve(state, mu, len(modes), package)
+                seconds += elapsed
+                residual = max(residual, worst)
+                for value in found:
+                    nearest = min(abs(value - mode) for mode in modes)
+                    # Modes at the cut may be in one list alone.
+                    if nearest < 1e-3 * abs(value):
+                        difference = max(difference, nearest / abs(value))
+        print(f"| {body} | {number('unknowns'):.0f} | {number('values'):.0f} | {number('seconds'):.2f} s, {number('residual'):.0e} "
+              f"| {seconds:.2f} s, {residual:.0e} ({package}) | {seconds / number('seconds'):.1f} | {difference:.0e} |", flush=True)
 
 
 def main():
     if sys.argv[1:2] == ["--one"]:
         folder, mu, modes, package = sys.argv[2:]
-        print(solve(folder, float(mu), int(modes), package, 1e-10)[0])
+        print(solve(folder, float(mu), int(modes), package)[0])
         return
-    given = sys.argv[1:5] + ["180", "35", "30", "21"][len(sys.argv) - 1 :]
-    modes, count = int(given[2]), int(given[3])
-    values = [0.3] if count == 1 else [i / (count - 1) for i in range(count)]
-    root = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-    program = os.environ.get("AGAINST_SLEPC_BINARY")
-    command = [program] if program else ["cargo", "bench", "-q", "--bench", "against_slepc", "--"]
-    with tempfile.TemporaryDirectory() as folder:
-        ours = subprocess.run(command + [folder] + given, cwd=root, check=True, stdout=subprocess.PIPE, text=True)
-        print("frictionsim:", ours.stdout.strip())
-        words = ours.stdout.split()
-        own_seconds = float(words[words.index("seconds") + 1])
-        own = {}
-        for line in open(f"{folder}/eigenvalues.txt"):
-            mu, re, im = map(float, line.split())
-            own.setdefault(mu, []).append(complex(re, im))
-        trial = {}
-        for package in ("petsc", "mumps", "superlu", "umfpack"):
-            seconds = seconds_of(folder, values[len(values) // 2], modes, package)
-            if seconds is not None:
-                trial[package] = seconds
-        print("SLEPc, one value:", ", ".join(f"{name} {t:.3f} s" for name, t in trial.items()))
-        package = min(trial, key=trial.get)
-        seconds, residual, difference = 0.0, 0.0, 0.0
-        for mu in values:
-            elapsed, found = solve(folder, mu, modes, package, 1e-10)
-            seconds += elapsed
-            residual = max(residual, max(r for _, r in found))
-            for value, _ in found:
-                nearest = min(abs(value - mode) for mode in own[mu])
-                # A pair at the cut may be in one list alone.
-                if nearest < 1e-3 * abs(value):
-                    difference = max(difference, nearest / abs(value))
-        print(f"SLEPc, {package}: seconds {seconds:.3f} residual {residual:.2e} peak_mb {peak_megabytes():.0f}")
-        print(f"largest relative difference {difference:.1e}; ratio {seconds / own_seconds:.2f}")
+    print("| body | unknowns | friction values | here | SLEPc | ratio | largest relative difference |\n|---|---|---|---|---|---|---|")
+    for body in sys.argv[1:] or BODIES:
+        compare(body)
 
 
 main()

@@ -1,18 +1,18 @@
-//! The sparse sweep on one thread, timed, with its matrices and eigenvalues written for `against_slepc.py`.
+//! The sparse sweep of a case on one thread, timed, with its matrices and eigenvalues written for `against_slepc.py`.
 //!
-//! Arguments: folder, circumferential and radial elements, modes, friction values from 0 to 1 (one value: 0.3).
+//! Arguments: folder, case file, overrides `KEY=VALUE`. The folder gets one subfolder for each base state of the sweep
+//! (contact nodes open or close between them): `pointers.i64`, `rows.i64` (compressed columns, little-endian),
+//! `stiffness-P.f64`, `damping-P.f64`, `mass-P.f64` (values that multiply the power `P` of the friction coefficient),
+//! `request.txt` (what is wanted), `eigenvalues.txt` (friction coefficient, real and imaginary part, rad/s).
 
-#[path = "../tests/common/disc.rs"]
-mod disc;
-
-use disc::{DAMPING, POLYCARBONATE, annulus, contact};
+use frictionsim::case::Case;
 use frictionsim::cea::sparse::sweep;
-use frictionsim::cea::{ModeLimit, SweepRequest};
-use frictionsim::contact::ContactStiffness;
-use frictionsim::fem::{MassKind, assemble_stiffness};
-use frictionsim::linalg::MatrixPolynomial;
-use frictionsim::mesh::{AnnulusMesh, ElementKind};
-use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
+use frictionsim::cea::{FrictionSweep, ModeLimit, SweepRequest};
+use frictionsim::linalg::{MatrixPolynomial, factorize_on_one_thread};
+use frictionsim::prestress::SlidingTangent;
+use frictionsim::study::eigenvalues::{WholeMesh, mode_limit};
+use frictionsim::study::tangent_options;
+use std::fmt::Write;
 use std::path::Path;
 
 fn main() {
@@ -21,70 +21,90 @@ fn main() {
         .skip(1)
         .filter(|a| !a.starts_with("--"))
         .collect();
-    let [folder, numbers @ ..] = given.as_slice() else {
+    let [folder, file, overrides @ ..] = given.as_slice() else {
         return println!("run benches/against_slepc.py");
     };
-    let number = |i: usize, default: usize| {
-        numbers
-            .get(i)
-            .map_or(default, |text| text.parse().expect("a whole number"))
-    };
-    let tangent = tangent(number(0, 180), number(1, 35));
-    let (modes, count) = (number(2, 30), number(3, 21));
-    let values: Vec<f64> = match count {
-        1 => vec![0.3],
-        _ => (0..count).map(|i| i as f64 / (count - 1) as f64).collect(),
-    };
-    write_matrices(Path::new(folder), &tangent);
-
-    let request = SweepRequest {
-        friction_coefficients: &values,
-        limit: ModeLimit::Lowest(modes),
-        shapes_at: &[],
-    };
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(1)
-        .build()
-        .expect("a thread");
-    let (found, seconds) = pool.install(|| {
-        let start = processor_seconds();
-        let found = sweep(&tangent, &request, &|_| {}).expect("solved");
-        (found, processor_seconds() - start)
-    });
-    let all = || found.points.iter().flat_map(|point| &point.modes);
-    let residual = all().map(|mode| mode.residual).fold(0.0, f64::max);
-    let mut table = String::new();
-    for point in &found.points {
-        for mode in &point.modes {
-            let (mu, lambda) = (point.friction_coefficient, mode.eigenvalue);
-            table += &format!("{mu:?} {:?} {:?}\n", lambda.re, lambda.im);
+    factorize_on_one_thread();
+    let bytes = std::fs::read(file).expect("a case file");
+    let case = Case::parse(file, &bytes, overrides).expect("a valid case");
+    let cea = case.require_cea().expect("a section [cea]").clone();
+    let frictions = cea.solved_friction_coefficients();
+    let options = tangent_options(&case, cea.mass);
+    let model = WholeMesh::solve(&case, options, &frictions).expect("steady sliding");
+    let (mut seconds, mut residual, mut count, mut unknowns) = (0.0, 0.0_f64, 0, 0);
+    for (k, state) in model.range.states.iter().enumerate() {
+        let own = frictions.iter().zip(&model.range.state_of);
+        let values: Vec<f64> = own.filter(|(_, s)| **s == k).map(|(mu, _)| *mu).collect();
+        if values.is_empty() {
+            continue;
         }
+        let tangent = model.tangent(&case, state);
+        let request = SweepRequest {
+            friction_coefficients: &values,
+            limit: mode_limit(&cea),
+            shapes_at: &[],
+        };
+        let folder = Path::new(folder).join(format!("state-{k}"));
+        write_matrices(&folder, &tangent);
+        write_request(&folder, &tangent, &request);
+        if std::env::var_os("MATRICES_ONLY").is_some() {
+            continue;
+        }
+        let (found, elapsed) = timed_sweep(&tangent, &request);
+        write_eigenvalues(&folder, &found);
+        let modes = found.points.iter().flat_map(|point| &point.modes);
+        residual = modes.map(|mode| mode.residual).fold(residual, f64::max);
+        (seconds, count) = (seconds + elapsed, count + values.len());
+        unknowns = unknowns.max(tangent.unknowns.len());
     }
-    std::fs::write(Path::new(folder).join("eigenvalues.txt"), table).expect("written");
     println!(
-        "unknowns {} values {} modes {modes} seconds {seconds:.3} residual {residual:.2e} peak_mb {:.0}",
-        tangent.unknowns.len(),
-        values.len(),
+        "unknowns {unknowns} values {count} seconds {seconds:.3} residual {residual:.2e} peak_mb {:.0}",
         peak_megabytes(),
     );
 }
 
-fn tangent(circumferential: usize, radial: usize) -> SlidingTangent {
-    let specification = annulus(ElementKind::Quad4, circumferential, radial);
-    let mesh = AnnulusMesh::generate(&specification)
-        .expect("a valid annulus")
-        .mesh;
-    let elastic = assemble_stiffness(&mesh, &POLYCARBONATE);
-    let contact = contact(610.0);
-    let base = SteadySliding::solve(&mesh, &elastic, &contact).expect("the disc is in contact");
-    let options = TangentOptions {
-        mass: MassKind::Consistent,
-        geometric_stiffness: false,
-        damping: DAMPING,
-        damping_model: DampingModel::WholeTangent,
-        contact: ContactStiffness::default(),
+/// The sweep on one thread, and its processor time.
+fn timed_sweep(tangent: &SlidingTangent, request: &SweepRequest<'_>) -> (FrictionSweep, f64) {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+    pool.expect("a thread").install(|| {
+        let start = processor_seconds();
+        let found = sweep(tangent, request, &|_| {}).expect("solved");
+        (found, processor_seconds() - start)
+    })
+}
+
+fn write_eigenvalues(folder: &Path, found: &FrictionSweep) {
+    let mut table = String::new();
+    for point in &found.points {
+        for mode in &point.modes {
+            let (mu, lambda) = (point.friction_coefficient, mode.eigenvalue);
+            writeln!(table, "{mu:?} {:?} {:?}", lambda.re, lambda.im).expect("written");
+        }
+    }
+    std::fs::write(folder.join("eigenvalues.txt"), table).expect("written");
+}
+
+/// One line for each: what is wanted, and what of the tangent is no matrix.
+fn write_request(folder: &Path, tangent: &SlidingTangent, request: &SweepRequest<'_>) {
+    let mut text = String::new();
+    let mut line = |name: &str, values: &dyn std::fmt::Debug| {
+        let values = format!("{values:?}").replace(['[', ']', ','], "");
+        writeln!(text, "{name} {values}").expect("written");
     };
-    SlidingTangent::linearize(&mesh, &POLYCARBONATE, &elastic, &base, &options)
+    line("values", &request.friction_coefficients);
+    match request.limit {
+        ModeLimit::Lowest(count) => line("lowest", &count),
+        ModeLimit::MaxFrequency(hz) => line("below_hz", &hz),
+    }
+    if let Some(damping) = tangent.proportional {
+        let own = [damping.mass_coefficient, damping.stiffness_coefficient];
+        line("proportional", &own);
+    }
+    line("tangential", &tangent.contact_tangential);
+    line("normal", &tangent.contact_normal);
+    line("opposite", &tangent.contact_opposite);
+    line("angles", &tangent.contact_angles);
+    std::fs::write(folder.join("request.txt"), text).expect("written");
 }
 
 /// Compressed columns as little-endian arrays: the pattern once, values of each power of friction.
@@ -102,8 +122,11 @@ fn write_matrices(folder: &Path, tangent: &SlidingTangent) {
     };
     write("pointers.i64", integers(pattern.column_pointers()));
     write("rows.i64", integers(pattern.row_indices()));
-    let polynomials: [(&str, &MatrixPolynomial); 2] =
-        [("stiffness", &tangent.stiffness), ("mass", &tangent.mass)];
+    let polynomials: [(&str, &MatrixPolynomial); 3] = [
+        ("stiffness", &tangent.stiffness),
+        ("damping", &tangent.damping),
+        ("mass", &tangent.mass),
+    ];
     for (name, polynomial) in polynomials {
         for (power, values) in polynomial.coefficients().iter().enumerate() {
             let bytes = values.iter().flat_map(|v| v.to_le_bytes()).collect();

@@ -1,6 +1,6 @@
 //! `frictionsim cea` of a superelement that stands free.
 
-use super::options::{STANDARD_INPUT, input_name, read_input};
+use super::limits::{LARGEST_CASE, STANDARD_INPUT, input_name, read_input};
 use super::session::start_threads;
 use super::{Failure, RunOptions, terminal};
 use crate::case::{FreeSystem, RawCase};
@@ -18,7 +18,7 @@ pub fn described(options: &RunOptions) -> Result<Option<FreeSystem>, Failure> {
     if options.case == Path::new(STANDARD_INPUT) {
         return Ok(None);
     }
-    let bytes = read_input(&options.case)?;
+    let bytes = read_input(&options.case, LARGEST_CASE)?;
     let raw = RawCase::parse(
         &input_name(&options.case),
         &bytes,

@@ -1,5 +1,6 @@
 //! Kinds of body that a case can have, each with its own data.
 
+use super::assembly::AssemblyBody;
 use super::imported::ImportedBody;
 use crate::fem::{AnnulusMaterials, ElasticMaterial, MaterialField};
 use crate::mesh::{
@@ -36,6 +37,8 @@ pub enum Body {
     Revolution(Revolution),
     /// A plane body from a mesh file.
     Imported(ImportedBody),
+    /// Solid bodies from a mesh file.
+    Assembly(AssemblyBody),
 }
 
 impl Body {
@@ -43,7 +46,7 @@ impl Body {
     pub fn annulus(&self) -> Option<&Annulus> {
         match self {
             Self::Annulus(annulus) => Some(annulus),
-            Self::Revolution(_) | Self::Imported(_) => None,
+            Self::Revolution(_) | Self::Imported(_) | Self::Assembly(_) => None,
         }
     }
 
@@ -51,7 +54,7 @@ impl Body {
     pub fn revolution(&self) -> Option<&Revolution> {
         match self {
             Self::Revolution(revolution) => Some(revolution),
-            Self::Annulus(_) | Self::Imported(_) => None,
+            Self::Annulus(_) | Self::Imported(_) | Self::Assembly(_) => None,
         }
     }
 
@@ -59,7 +62,15 @@ impl Body {
     pub fn imported(&self) -> Option<&ImportedBody> {
         match self {
             Self::Imported(imported) => Some(imported),
-            Self::Annulus(_) | Self::Revolution(_) => None,
+            Self::Annulus(_) | Self::Revolution(_) | Self::Assembly(_) => None,
+        }
+    }
+
+    /// The solid bodies from a mesh file, if it is some.
+    pub fn assembly(&self) -> Option<&AssemblyBody> {
+        match self {
+            Self::Assembly(assembly) => Some(assembly),
+            Self::Annulus(_) | Self::Revolution(_) | Self::Imported(_) => None,
         }
     }
 
@@ -68,7 +79,7 @@ impl Body {
         match self {
             Self::Annulus(annulus) => Some(&annulus.specification),
             Self::Revolution(revolution) => Some(&revolution.specification.annulus),
-            Self::Imported(_) => None,
+            Self::Imported(_) | Self::Assembly(_) => None,
         }
     }
 
@@ -85,7 +96,7 @@ impl Body {
     /// Components of a displacement.
     pub fn dimension(&self) -> usize {
         match self {
-            Self::Revolution(_) => 3,
+            Self::Revolution(_) | Self::Assembly(_) => 3,
             Self::Annulus(_) | Self::Imported(_) => 2,
         }
     }
@@ -96,6 +107,7 @@ impl Body {
             Self::Annulus(annulus) => node_count(&annulus.specification),
             Self::Revolution(revolution) => solid_node_count(&revolution.specification),
             Self::Imported(imported) => imported.mesh.node_count() as u128,
+            Self::Assembly(assembly) => assembly.mesh.node_count() as u128,
         }
     }
 
@@ -110,6 +122,7 @@ impl Body {
                 around(&specification.annulus) * specification.axial_elements as u128
             }
             Self::Imported(imported) => imported.mesh.element_count() as u128,
+            Self::Assembly(assembly) => assembly.mesh.element_count() as u128,
         }
     }
 
@@ -129,6 +142,7 @@ impl Body {
                 rings * around(&specification.annulus)
             }
             Self::Imported(imported) => imported.mesh.contact_edge().nodes.len(),
+            Self::Assembly(assembly) => assembly.contact_node_count(),
         }
     }
 
@@ -141,12 +155,20 @@ impl Body {
                 let mut kinds = imported.mesh.element_kinds.iter();
                 kinds.any(|kind| kind.is_quadratic())
             }
+            Self::Assembly(assembly) => {
+                let mut kinds = assembly.mesh.element_kinds.iter();
+                kinds.any(|kind| kind.is_quadratic())
+            }
         }
     }
 
     /// Whether the elements are those that the explicit transient of this body takes.
     pub fn suits_transient(&self) -> bool {
-        self.imported().is_some() || !self.is_quadratic()
+        match self {
+            Self::Imported(_) => true,
+            Self::Assembly(_) => false,
+            Self::Annulus(_) | Self::Revolution(_) => !self.is_quadratic(),
+        }
     }
 
     /// Area of the body across the axis, m2.
@@ -158,6 +180,7 @@ impl Body {
             Self::Annulus(annulus) => ring(&annulus.specification),
             Self::Revolution(revolution) => ring(&revolution.specification.annulus),
             Self::Imported(imported) => imported.mesh.area(),
+            Self::Assembly(assembly) => (2.0 * assembly.size()).powi(2),
         }
     }
 
@@ -167,6 +190,7 @@ impl Body {
             Self::Annulus(annulus) => annulus.specification.outer_radius,
             Self::Revolution(revolution) => revolution.specification.annulus.outer_radius,
             Self::Imported(imported) => imported.size(),
+            Self::Assembly(assembly) => assembly.size(),
         }
     }
 
@@ -184,6 +208,7 @@ impl Body {
                 } => radius,
                 _ => imported.size(),
             },
+            Self::Assembly(assembly) => assembly.size(),
         }
     }
 
@@ -198,6 +223,7 @@ impl Body {
             Self::Annulus(annulus) => generate(&annulus.specification),
             Self::Revolution(revolution) => generate(&revolution.specification.annulus),
             Self::Imported(imported) => Ok(Arc::clone(&imported.mesh)),
+            Self::Assembly(assembly) => Ok(Arc::clone(&assembly.mesh)),
         }
     }
 
@@ -207,6 +233,7 @@ impl Body {
             Self::Annulus(annulus) => &annulus.materials,
             Self::Revolution(revolution) => &revolution.material,
             Self::Imported(imported) => &imported.materials,
+            Self::Assembly(assembly) => &assembly.materials,
         }
     }
 
@@ -216,6 +243,7 @@ impl Body {
             Self::Annulus(annulus) => 1 + usize::from(annulus.materials.shaft.is_some()),
             Self::Revolution(_) => 1,
             Self::Imported(imported) => imported.materials.len(),
+            Self::Assembly(assembly) => assembly.materials.len(),
         }
     }
 
@@ -223,6 +251,7 @@ impl Body {
     pub fn node_label(&self, node: usize) -> usize {
         match self {
             Self::Imported(imported) => imported.mesh.node_label(node),
+            Self::Assembly(assembly) => assembly.mesh.node_label(node),
             Self::Annulus(_) | Self::Revolution(_) => node + 1,
         }
     }

@@ -1,7 +1,7 @@
 //! `[boundaries.*]`: what holds each boundary.
 
 use super::reader::Section;
-use super::words::ConditionWord;
+use super::words::{ConditionWord, HeldAxis};
 use crate::mesh::{BoundaryCondition, ElasticSupport};
 
 /// A boundary of the case with its condition.
@@ -32,6 +32,7 @@ fn condition(section: &Section<'_>) -> BoundaryCondition {
         tangential_damping: section.number("tangential_damping"),
     };
     let pressure = section.optional_number("pressure");
+    let axes: Vec<HeldAxis> = section.choices("directions");
     // A value without effect is a mistake.
     let reject = |key: &str, needs: &str| {
         section.reject(
@@ -56,6 +57,9 @@ fn condition(section: &Section<'_>) -> BoundaryCondition {
             }
         }
     }
+    if word != ConditionWord::Fixed && section.has("directions") {
+        reject("directions", "fixed");
+    }
     if word != ConditionWord::Pressure && section.has("pressure") {
         reject("pressure", "pressure");
     }
@@ -63,6 +67,13 @@ fn condition(section: &Section<'_>) -> BoundaryCondition {
         ConditionWord::Clamped => BoundaryCondition::Clamped,
         ConditionWord::Support => BoundaryCondition::Support(support),
         ConditionWord::Guide => BoundaryCondition::Guide,
+        ConditionWord::Fixed => {
+            if axes.is_empty() {
+                section.missing("directions");
+            }
+            let has = |axis: HeldAxis| axes.contains(&axis);
+            BoundaryCondition::Fixed([has(HeldAxis::X), has(HeldAxis::Y), has(HeldAxis::Z)])
+        }
         ConditionWord::Pressure => {
             BoundaryCondition::Pressure(pressure.unwrap_or_else(|| section.number("pressure")))
         }

@@ -135,7 +135,7 @@ pub(super) fn contact(
 }
 
 /// How friction falls with the slip speed; a ratio of one is a constant coefficient.
-fn friction_decay(section: &Section<'_>) -> Option<FrictionDecay> {
+pub(super) fn friction_decay(section: &Section<'_>) -> Option<FrictionDecay> {
     let static_ratio = section.number("static_friction_ratio");
     let decay_speed = section.optional_number("decay_speed");
     let decay = decay_speed.map(|decay_speed| FrictionDecay {
@@ -145,7 +145,10 @@ fn friction_decay(section: &Section<'_>) -> Option<FrictionDecay> {
     if static_ratio > 1.0 && !section.has("decay_speed") {
         section.reject(
             "static_friction_ratio",
-            format!("contact.static_friction_ratio = {static_ratio} needs contact.decay_speed"),
+            format!(
+                "{} = {static_ratio} needs decay_speed",
+                section.name("static_friction_ratio")
+            ),
             "falls over no speed".to_owned(),
             Some(
                 "give the speed over which friction falls, for example decay_speed = 0.2"

@@ -63,6 +63,14 @@ impl super::Case {
                 specification.axial_elements =
                     (specification.axial_elements as f64 * factor).round() as usize;
             }
+            Body::Assembly(_) => {
+                return Err(self.error_at(
+                    "convergence.factors",
+                    "the meshes of solid bodies are not refined by this program".to_owned(),
+                    "no refinement".to_owned(),
+                    Some("mesh them finer, and compare the runs".to_owned()),
+                ));
+            }
             Body::Imported(imported) => {
                 *imported = imported.refined(factor.log2() as u32).map_err(|error| {
                     let (key, label) = ("convergence.factors", "makes no body".to_owned());
@@ -94,6 +102,12 @@ pub(super) fn read(root: &Section<'_>, body: Option<&Body>, has: [bool; 3]) -> O
     };
     if has_enough(&section, "factors", &factors) && is_ordered(&section, "factors", &factors, 1.0) {
         match body {
+            Some(Body::Assembly(_)) => section.reject(
+                "factors",
+                "the meshes of solid bodies are not refined by this program".to_owned(),
+                "no refinement".to_owned(),
+                Some("mesh them finer, and compare the runs".to_owned()),
+            ),
             Some(Body::Imported(imported)) => check_splits(&section, imported, &factors),
             Some(Body::Annulus(annulus)) => {
                 check_meshes(&section, &annulus.specification, None, &factors);

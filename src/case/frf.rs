@@ -45,7 +45,8 @@ pub(super) fn read(root: &Section<'_>, nodes: &Nodes<'_>) -> Option<Frf> {
     let force_node = named[0].unwrap_or(0);
     let response_node = named[1].unwrap_or(force_node);
     let mut frequencies_hz = section.numbers("frequencies_hz").unwrap_or_default();
-    if frequencies_hz.is_empty() {
+    // What is wrong with a range has been said.
+    if !section.has("frequencies_hz") || section.is_empty_list("frequencies_hz") {
         section.reject(
             "frequencies_hz",
             "frf.frequencies_hz is missing or empty".to_owned(),

@@ -11,11 +11,12 @@ use super::key::{CaseKey, Default, Kind};
 use super::range::Spacing;
 use super::words::{
     Analysis, BaseContact, CeaMethod, Combination, ConditionWord, CounterfaceWord, FrfMethod,
-    OnsetChoice, StabilityChoice, words,
+    HeldAxis, OnsetChoice, StabilityChoice, words,
 };
 use crate::fem::{MassKind, PlaneFormulation};
 use crate::frf::{Direction, FrfBoundary};
 use crate::mesh::ElementKind;
+use crate::prestress::BaseChoice;
 use crate::signal::ResponseQuantity;
 use crate::transient::{InitialState, OperatorChoice};
 
@@ -79,6 +80,7 @@ pub const KEYS: &[CaseKey] = &[
     key("superelements.*.damping", Text, "", Otherwise("no damping"), "\"C.mtx\"", "the file of its damping matrix"),
     key("superelements.*.stiffness", Text, "", Required, "\"K.mtx\"", "the file of its stiffness matrix"),
     key("boundaries.*.condition", Choice(words::<ConditionWord>), "", Required, "\"support\"", "what holds the boundary (left out, `outer` of the annulus and the `bore` of its shaft are clamped, every other one free)"),
+    key("boundaries.*.directions", Choices(words::<HeldAxis>), "", Otherwise("needed by condition = \"fixed\""), "[\"x\", \"y\"]", "the directions in which a boundary of solid bodies is held"),
     key("boundaries.*.normal_stiffness", Number(NotNegative), "Pa/m", Value("0.0"), "2e11", "the normal stiffness of a support"),
     key("boundaries.*.tangential_stiffness", Number(NotNegative), "Pa/m", Value("0.0"), "2e11", "the tangential stiffness of a support"),
     key("boundaries.*.axial_stiffness", Number(NotNegative), "Pa/m", Value("0.0"), "2e11", "the stiffness of a support along the axis, on the inner and outer face of a three-dimensional body"),
@@ -119,6 +121,23 @@ pub const KEYS: &[CaseKey] = &[
     key("contact.base_state", Choice(words::<BaseContact>), "", Value("\"rigid\""), "\"rigid\"", "whether normal_stiffness carries the base state of a three-dimensional body too").used_by(COMPLIANT, "its contact is rigid"),
     key("contact.normal_damping", Number(NotNegative), "Pa s/m", Value("0.0"), "0.0", "a normal dashpot on the contact").used_by(COMPLIANT, "its contact is rigid"),
     key("contact.tangential_damping", Number(NotNegative), "Pa s/m", Value("0.0"), "0.0", "a tangential dashpot on the contact").used_by(COMPLIANT, "Coulomb's law alone acts along its contact"),
+
+    key("motion.*.axis", Numbers(Finite), "", Required, "[0.0, 0.0, 1.0]", "the axis about which the region of that name turns, counter-clockwise seen against it"),
+    key("motion.*.center", Numbers(Finite), "m", Otherwise("[0, 0, 0]"), "[0.0, 0.0, 0.0]", "a point of that axis"),
+    key("motion.*.rotation_speed_rpm", Number(Finite), "1/min", Required, "120.0", "its rotation speed"),
+
+    key("contacts.*.surface", Text, "", Required, "\"lining\"", "the surface of solid bodies that slides, the finer and softer one"),
+    key("contacts.*.counter", Text, "", Required, "\"disc_face\"", "the surface that it slides on; the meshes need not match"),
+    key("contacts.*.friction_coefficient", Number(NotNegative), "", Required, "0.4", "its friction coefficient; a sweep varies that of the first contact, and the others keep their ratio to it"),
+    key("contacts.*.static_friction_ratio", Number(AtLeast(1.0)), "", Value("1.0"), "1.4", "static over kinetic friction"),
+    key("contacts.*.decay_speed", Number(Positive), "m/s", Otherwise("friction is constant"), "0.2", "the slip speed over which friction falls from its static to its kinetic value"),
+    key("contacts.*.normal_stiffness", NumberOr(Positive, "rigid"), "Pa/m", Otherwise("rigid"), "1e14", "the normal stiffness of the contact (left out or \"rigid\" = rigid)"),
+    key("contacts.*.normal_damping", Number(NotNegative), "Pa s/m", Value("0.0"), "0.0", "a normal dashpot on the contact"),
+    key("contacts.*.tangential_damping", Number(NotNegative), "Pa s/m", Value("0.0"), "0.0", "a tangential dashpot on the contact"),
+    key("contacts.*.state", Choice(words::<BaseChoice>), "", Value("\"solved\""), "\"closed\"", "the base state: gap, pressure and opening from the loads, or all facing points closed and free of stress"),
+
+    key("ties.*.surface", Text, "", Required, "\"backplate_glue\"", "a surface of solid bodies that is glued, the finer one"),
+    key("ties.*.counter", Text, "", Required, "\"lining_glue\"", "the surface that it is glued to; the meshes need not match"),
 
     key("cea.friction_coefficients", Numbers(NotNegative), "", Otherwise("contact.friction_coefficient"), "{ from = 0.0, to = 1.0, count = 51 }", "the friction coefficients of the sweep"),
     key("cea.max_frequency_hz", Number(Positive), "Hz", Otherwise("cea.modes decides"), "17500.0", "the frequency below which all modes are found"),

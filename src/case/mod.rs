@@ -4,6 +4,7 @@
 //! validated: every section a struct in the terms of the lower floors, every rule between keys
 //! checked, all errors reported at once as [`CaseErrors`].
 
+mod assembly;
 mod basin;
 mod body;
 mod boundaries;
@@ -41,6 +42,7 @@ mod value;
 mod words;
 
 pub use crate::transient::{InitialState, OperatorChoice, Perturbation, TimeStep};
+pub use assembly::AssemblyBody;
 pub use body::{Annulus, Body, Revolution};
 pub use cea::{Cea, CeaMap, ModeSelection};
 pub use contact::Contact;
@@ -348,7 +350,7 @@ impl Case {
     pub fn require_annulus(&self, waves: &str, search: &str) -> Result<&Annulus, CaseErrors> {
         match &self.body {
             Body::Annulus(annulus) => Ok(annulus),
-            Body::Revolution(_) => Err(self.not_plane(search)),
+            Body::Revolution(_) | Body::Assembly(_) => Err(self.not_plane(search)),
             Body::Imported(_) => Err(self.error_at(
                 "mesh.file",
                 format!("{waves} need the rotational symmetry of the built-in annulus"),

@@ -1,5 +1,6 @@
 //! The sections that describe the model: geometry, mesh, material, damping, contact.
 
+use super::assembly;
 use super::body::{Annulus, Body, Revolution, node_count};
 use super::boundaries::{self, NamedCondition};
 use super::contact::{Contact, contact};
@@ -84,6 +85,12 @@ pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &ElasticMateria
     };
     ignore_generated(&geometry, &mesh);
     geometry.close();
+    if root.has("contacts") || root.has("ties") {
+        let parts = (conditions.as_slice(), material);
+        let model = assembly_model(root, raw, (&mesh, &file), parts, thickness);
+        mesh.close();
+        return model;
+    }
     let (contact, place) = contact(root, None, is_pressed);
     if is_solid {
         mesh.reject(
@@ -113,6 +120,32 @@ pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &ElasticMateria
     mesh.close();
     Model {
         body: body.map(Body::Imported),
+        thickness,
+        mesh: bytes,
+        contact,
+    }
+}
+
+/// The solid bodies of a mesh file.
+fn assembly_model(
+    root: &Section<'_>,
+    raw: &RawCase,
+    (mesh, file): (&Section<'_>, &str),
+    (conditions, material): (&[NamedCondition], &ElasticMaterial),
+    thickness: f64,
+) -> Model {
+    let _ = mesh.optional_count("axial_elements");
+    let scale = mesh.number("scale");
+    let own = imported::materials(root, material);
+    let (parts, contact) = assembly::sections(root);
+    let reject = |(message, label): (String, String)| mesh.reject("file", message, label, None);
+    let bytes = imported::mesh_bytes(raw, file).map_err(&reject).ok();
+    let body = bytes.as_ref().and_then(|bytes| {
+        let body = assembly::assemble(bytes, scale, conditions, (material, &own), parts);
+        body.map_err(&reject).ok()
+    });
+    Model {
+        body: body.map(Body::Assembly),
         thickness,
         mesh: bytes,
         contact,

@@ -103,6 +103,9 @@ fn numbered(
         Body::Imported(imported) => {
             return labelled(&imported.mesh.labels, section, &what, number, at);
         }
+        Body::Assembly(assembly) => {
+            return labelled(&assembly.mesh.labels, section, &what, number, at);
+        }
         Body::Annulus(_) => {
             "node ids count radially outwards first: 1 + j (radial_elements + 1) + i"
         }
@@ -160,6 +163,7 @@ fn nearest(body: &Body, point: [f64; 2]) -> Option<(usize, [f64; 2])> {
     match body {
         Body::Annulus(annulus) => nearest_in_sectors(&annulus.specification, point),
         Body::Revolution(revolution) => nearest_on_top(&revolution.specification, point),
+        Body::Assembly(_) => None,
         Body::Imported(imported) => {
             let (node, _) = imported.mesh.nearest_node(point)?;
             Some((node, imported.mesh.plane_node(node)))

@@ -62,8 +62,8 @@ fn lengths(case: &Case) -> Option<Diagnostic> {
     let range = format!("outside the plausible range of {shortest} to {longest}");
     let is_outside = |value: f64| value < least || value > most;
     let help = "a case is in SI: are these millimetres or micrometres?";
-    if let Body::Imported(imported) = &case.body {
-        let width = 2.0 * imported.size();
+    if let Body::Imported(_) | Body::Assembly(_) = &case.body {
+        let width = 2.0 * case.body.size();
         if is_outside(width) {
             let message = format!("the mesh is {width:.4} m wide, {range} (mesh.scale)");
             let help =

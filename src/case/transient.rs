@@ -74,6 +74,14 @@ impl Case {
                 "the transient needs bricks of 8 nodes, \"quad4\": it lumps the mass",
             )?,
             Body::Imported(_) => {}
+            Body::Assembly(_) => {
+                return Err(self.error_at(
+                    "mesh.file",
+                    "a transient takes plane bodies and bodies of revolution".to_owned(),
+                    "these are solid bodies".to_owned(),
+                    Some("use `frictionsim cea`".to_owned()),
+                ));
+            }
         }
         Ok(transient)
     }
@@ -266,6 +274,8 @@ fn slip_speed(body: &Body, sliding: &SlidingContact) -> f64 {
             } => 0.5 * (inner_radius + outer_radius),
             SolidContact::Inner => specification.annulus.inner_radius,
         },
+        // Where it turns, the slip speed differs from point to point.
+        Body::Assembly(_) => 1.0,
         Body::Imported(imported) => match imported.mesh.counterface {
             Counterface::Cylinder { radius, .. } => radius,
             // What turns is a speed, m/s, there.

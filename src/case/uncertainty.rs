@@ -44,9 +44,6 @@ pub struct Uncertainty {
     pub parameters: Vec<UncertainParameter>,
 }
 
-/// Standard deviation of a logarithm beyond which a scatter is hardly meant: a factor of 20 either way.
-const LARGEST_LOG_DEVIATION: f64 = 3.0;
-
 pub(super) fn uncertainty(root: &Section<'_>) -> Option<Uncertainty> {
     let section = root.section("uncertainty", false);
     let samples = section.count("samples");
@@ -168,18 +165,11 @@ fn uncertain(
         }
         "log_normal" => {
             let (median, deviation) = (a, b);
-            let is_narrow = b <= LARGEST_LOG_DEVIATION;
-            let needs = match is_narrow || a <= 0.0 {
-                true => "two positive numbers",
-                false => {
-                    "the second number is the standard deviation of the logarithm, at most 3: 0.1 is about 10 %"
-                }
-            };
-            let is_valid = a > 0.0 && b > 0.0 && is_narrow;
+            let is_valid = a > 0.0 && b > 0.0;
             (
                 Distribution::LogNormal { median, deviation },
                 is_valid,
-                needs,
+                "two positive numbers",
             )
         }
         _ => {

@@ -4,6 +4,7 @@ use super::range::Spacing;
 use crate::fem::{MassKind, PlaneFormulation};
 use crate::frf::{Direction, FrfBoundary};
 use crate::mesh::ElementKind;
+use crate::prestress::BaseChoice;
 use crate::signal::ResponseQuantity;
 use crate::transient::{InitialState, OperatorChoice};
 
@@ -24,8 +25,17 @@ pub(super) enum ConditionWord {
     Clamped,
     Support,
     Guide,
+    Fixed,
     Pressure,
     Free,
+}
+
+/// A direction that a boundary is held in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum HeldAxis {
+    X,
+    Y,
+    Z,
 }
 
 /// The shape of the counterface, in words.
@@ -123,6 +133,7 @@ choices! {
         "clamped" = Self::Clamped,
         "support" = Self::Support,
         "guide" = Self::Guide,
+        "fixed" = Self::Fixed,
         "pressure" = Self::Pressure,
         "free" = Self::Free,
     }
@@ -144,6 +155,8 @@ choices! {
     OnsetChoice { "all" = Self::All, "lowest" = Self::Lowest }
     StabilityChoice { "point" = Self::Point, "branch" = Self::Branch, "none" = Self::None }
     FrfBoundary { "free" = Self::Free, "clamped" = Self::Clamped, "sliding" = Self::Sliding }
+    BaseChoice { "solved" = Self::Solved, "closed" = Self::Closed }
+    HeldAxis { "x" = Self::X, "y" = Self::Y, "z" = Self::Z }
     BaseContact { "rigid" = Self::Rigid, "compliant" = Self::Compliant }
     Direction { "radial" = Self::Radial, "tangential" = Self::Tangential, "axial" = Self::Axial }
     ResponseQuantity {

@@ -5,8 +5,8 @@ use super::CeaError;
 /// Which modes are wanted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ModeLimit {
-    /// So many of lowest frequency, the two members of a pair counted singly; one more where two that are equal
-    /// would be parted.
+    /// The N modes of lowest frequency; members of a degenerate pair count separately, but one more is listed where the
+    /// limit would part them.
     Lowest(usize),
     /// All up to this frequency, Hz.
     MaxFrequency(f64),

@@ -27,6 +27,8 @@ pub struct MortarNode {
     pub own: Vec<(u32, f64)>,
     /// Nodes of the counter surface with theirs.
     pub counter: Vec<(u32, f64)>,
+    /// Nodes of the own surface that move along a direction, and how far, where the jump here alone is one.
+    pub lift: Vec<(u32, f64)>,
 }
 
 /// Sums over the faces at a node.
@@ -68,10 +70,24 @@ pub fn mortar_nodes(mesh: &Mesh, surface: &Boundary, pair: &SurfacePair) -> Vec<
             }
         }
     }
+    let mut middles_of: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+    for (&middle, ends) in &corners_of {
+        for &end in ends {
+            middles_of.entry(end).or_default().push(middle);
+        }
+    }
     let largest = sums.values().map(|sum| sum.area).fold(0.0, f64::max);
     sums.iter()
         .filter(|(_, sum)| sum.area > 1e-6 * largest)
         .map(|(&node, sum)| {
+            let lift = match middles_of.get(&node) {
+                _ if corners_of.contains_key(&node) => vec![(node, 1.0 - 2.0 * CORNER_SHARE)],
+                None => vec![(node, 1.0)],
+                Some(middles) => {
+                    let shares = middles.iter().map(|&middle| (middle, CORNER_SHARE));
+                    std::iter::once((node, 1.0)).chain(shares).collect()
+                }
+            };
             let own = match corners_of.get(&node) {
                 None => vec![(node, 1.0)],
                 Some(&[p, q]) => {
@@ -87,6 +103,7 @@ pub fn mortar_nodes(mesh: &Mesh, surface: &Boundary, pair: &SurfacePair) -> Vec<
                 normal: sum.normal.normalize().into(),
                 area: sum.area,
                 gap: sum.gap / sum.area,
+                lift,
                 own,
                 counter: counter
                     .map(|(&other, value)| (other, value / sum.area))

@@ -115,6 +115,8 @@ impl ContactSurface {
                     let site = site(node.position, node.normal, moving);
                     let jump = |direction: [f64; 3]| node.jump(mesh, direction);
                     found.add(site, [node.area, node.gap], friction, jump);
+                    let lift = row_along(mesh, &node.lift, node.normal, 1.0);
+                    found.points.last_mut().expect("one was added").lift = lift;
                 }
             }
         }

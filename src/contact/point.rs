@@ -24,6 +24,9 @@ pub struct Point {
     pub gap: f64,
     /// Row of the separation.
     pub normal: Row,
+    /// A displacement that parts the surfaces by one here, and neither parts them elsewhere nor lets them slip: the normal
+    /// force is its work. Empty where the point has no dofs of its own.
+    pub lift: Row,
     /// Row of the slip along the sliding.
     pub slip: Row,
     /// Row of the slip across the sliding; empty in the plane.
@@ -55,6 +58,7 @@ impl ContactInterface {
             weight: self.tributary_lengths[i],
             gap: self.gaps[i],
             normal: self.separation(i).collect(),
+            lift: vec![(self.normal_dof(i), 1.0)],
             slip: self.slip(i).collect(),
             across: Row::new(),
             tilt: slope(i, |share| share.normal_slope),

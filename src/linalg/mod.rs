@@ -11,6 +11,7 @@ pub mod gram;
 mod krylov_schur;
 mod matrix_market;
 mod polynomial;
+mod quadratic_krylov;
 mod sparse_cholesky;
 mod sparse_ldl;
 mod sparse_lu;
@@ -25,6 +26,9 @@ pub use gaussian_noise::GaussianNoise;
 pub use krylov_schur::{BlockOperator, KrylovSchurSettings, RealPairs, Wanted, krylov_schur};
 pub use matrix_market::{MarketMatrix, MatrixMarketError};
 pub use polynomial::{MatrixPolynomial, SparsityPattern};
+pub use quadratic_krylov::{
+    QuadraticKrylovSettings, QuadraticOperator, QuadraticPairs, quadratic_krylov,
+};
 pub use sparse_cholesky::SparseCholesky;
 pub use sparse_ldl::{LdlAnalysis, SparseLdl};
 pub use sparse_lu::{ComplexSparseLu, LuAnalysis, SparseLu};

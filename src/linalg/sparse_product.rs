@@ -52,6 +52,23 @@ impl SparsityPattern {
         })
     }
 
+    /// `A x + B y` for each pair of columns, with `A` and `B` given by their nonzero values; for few columns, of which
+    /// [`Self::multiply`] would interleave empty ones.
+    pub fn multiply_sum(&self, [a, b]: [&[f64]; 2], [x, y]: [MatRef<'_, f64>; 2]) -> Mat<f64> {
+        let n = self.dimension();
+        let mut sum = Mat::zeros(n, x.ncols());
+        for j in 0..x.ncols() {
+            let (x, y) = (column(x, j), column(y, j));
+            let target = column_mut(&mut sum, j);
+            for source in 0..n {
+                for (position, row) in self.column(source) {
+                    target[row] += a[position] * x[source] + b[position] * y[source];
+                }
+            }
+        }
+        sum
+    }
+
     /// `A^T x` for each column of `x`, with `A` given by its nonzero `values`.
     pub fn multiply_transpose(&self, values: &[f64], x: MatRef<'_, f64>) -> Mat<f64> {
         let [y] = self.by_lanes(x, |input, index| {
@@ -133,6 +150,11 @@ mod tests {
         let values = p.evaluate(0.0);
         let y = p.pattern().multiply(&values, x.as_ref());
         assert!((y - product(a.as_ref(), x.as_ref())).norm_max() < 1e-14);
+        let halves: Vec<f64> = values.iter().map(|v| 0.5 * v).collect();
+        let sum = p
+            .pattern()
+            .multiply_sum([&halves, &halves], [x.as_ref(), x.as_ref()]);
+        assert!((sum - product(a.as_ref(), x.as_ref())).norm_max() < 1e-14);
         let yt = p.pattern().multiply_transpose(&values, x.as_ref());
         assert!((yt - product(a.transpose(), x.as_ref())).norm_max() < 1e-14);
     }

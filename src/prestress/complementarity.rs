@@ -3,7 +3,7 @@
 use super::PrestressError;
 use super::cholesky::CholeskySolver;
 use super::elimination::Elimination;
-use super::friction_polynomial::interpolated;
+use super::friction_polynomial::{evaluate, interpolated};
 use crate::contact::{Point, Row};
 use crate::fem::{DofMap, Triplets};
 use crate::linalg::{DenseLu, Mat};
@@ -86,6 +86,18 @@ pub struct PressedState {
     pub normal_forces: Vec<Vec<f64>>,
     /// Whether each contact point is pressed; the others are open.
     pub is_pressed: Vec<bool>,
+}
+
+impl PressedState {
+    /// Displacement over all dofs at a friction coefficient, m.
+    pub fn displacement(&self, friction_coefficient: f64) -> Vec<f64> {
+        evaluate(&self.displacements, friction_coefficient)
+    }
+
+    /// Normal force on each contact point, N; none of a state that is free of stress.
+    pub fn normal_forces(&self, friction_coefficient: f64) -> Vec<f64> {
+        evaluate(&self.normal_forces, friction_coefficient)
+    }
 }
 
 /// States over a range of friction coefficients.

@@ -25,11 +25,11 @@ pub struct Elimination {
     is_dropped: Vec<bool>,
 }
 
-/// Friction of rigid contact: the force of a dropped separation acts along the slip too.
+/// Friction of rigid contact: the normal force acts along the slip too.
 #[derive(Clone, Debug)]
 pub(super) struct RigidFriction {
-    /// Pivot of the separation.
-    pub pivot: usize,
+    /// Displacement whose work is the normal force, over all dofs.
+    pub lift: Row,
     /// `drag` times the row of the slip, over all dofs.
     pub slip: Row,
 }
@@ -181,35 +181,50 @@ impl Elimination {
     }
 
     /// The matrices of small motions over the unknowns: `T^T A T` without what vanishes, where `friction` adds `-mu` times the
-    /// row of a dropped separation, the force of rigid contact, to the rows of its slip.
+    /// work of a lift, the normal force of rigid contact, to the rows of its slip.
     pub(super) fn project(
         &self,
         full: &[Triplets],
         unknowns: &DofMap,
         friction: &[RigidFriction],
     ) -> ProjectedPolynomial {
-        let slips: BTreeMap<usize, Row> = friction
+        let slips: Vec<Row> = friction
             .iter()
             .map(|rigid| {
                 let slip = self.transposed(&rigid.slip).into_iter();
                 let free = slip.filter_map(|(dof, a)| Some((unknowns.unknown_of[dof]?, a)));
-                (rigid.pivot, free.collect())
+                free.collect()
             })
             .collect();
-        let powers = full.len() + usize::from(!slips.is_empty());
+        let mut lifts: BTreeMap<usize, Row> = BTreeMap::new();
+        for (i, rigid) in friction.iter().enumerate() {
+            for &(dof, value) in &rigid.lift {
+                lifts.entry(dof).or_default().push((i, value));
+            }
+        }
+        let powers = full.len() + usize::from(!friction.is_empty());
         let mut projected = vec![Vec::new(); powers];
         for (power, terms) in full.iter().enumerate() {
             for (row, column, value) in self.congruent(terms).entries {
-                let Some(unknown) = unknowns.unknown_of[column].filter(|_| value != 0.0) else {
+                let [row, column] = [row, column].map(|dof| unknowns.unknown_of[dof]);
+                if let (Some(row), Some(column)) = (row, column) {
+                    projected[power].push((row, column, value));
+                }
+            }
+            // The normal force is the work of the lift, taken over all dofs.
+            for &(row, column, value) in &terms.entries {
+                let Some(lifted) = lifts.get(&row) else {
                     continue;
                 };
-                if let Some(row) = unknowns.unknown_of[row] {
-                    projected[power].push((row, unknown, value));
-                } else if let Some(slip) = slips.get(&row) {
-                    let moved = slip
-                        .iter()
-                        .map(|&(row, along)| (row, unknown, -along * value));
-                    projected[power + 1].extend(moved);
+                for (dof, across) in self.transposed(&[(column, 1.0)]) {
+                    let Some(unknown) = unknowns.unknown_of[dof] else {
+                        continue;
+                    };
+                    for &(i, along) in lifted {
+                        let force = -along * value * across;
+                        let moved = slips[i].iter().map(|&(row, a)| (row, unknown, a * force));
+                        projected[power + 1].extend(moved);
+                    }
                 }
             }
         }
@@ -225,5 +240,51 @@ impl Elimination {
             .ok_or_else(|| PrestressError::Overconstrained {
                 name: name.to_owned(),
             })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Consistency check: forms that share dofs with each other are what `y` says they are.
+    #[test]
+    fn forms_that_share_dofs_are_entries_of_the_new_basis() {
+        let mut basis = Elimination::holding(6, [5]);
+        let forms: [Row; 3] = [
+            vec![(0, 0.8), (1, 0.6), (3, -1.0)],
+            vec![(1, 2.0), (0, -0.5), (4, -0.25), (5, 3.0)],
+            vec![(3, 1.0), (4, -1.0)],
+        ];
+        let pivots = forms.each_ref().map(|form| basis.take(form).unwrap());
+        // Held dofs vanish.
+        let y = [0.3, -1.7, 0.9, 2.2, -0.4, 0.0];
+        let u = basis.displacement(&y);
+        for (form, pivot) in forms.iter().zip(pivots) {
+            let value: f64 = form.iter().map(|&(dof, a)| a * u[dof]).sum();
+            assert!((value - y[pivot]).abs() < 1e-14);
+        }
+        // Forces and matrices follow: f . u = (T^T f) . y, and u . A u = y . (T^T A T) y.
+        let forces = [1.0, -2.0, 0.5, 3.0, -1.0, 0.0];
+        let work = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let moved = basis.transposed_forces(&forces);
+        assert!((work(&forces, &u) - work(&moved, &y)).abs() < 1e-13);
+        let mut matrix = Triplets::default();
+        for i in 0..6 {
+            matrix.push(i, (2 * i + 1) % 6, 1.0 + i as f64);
+            matrix.push(i, i, 2.0);
+        }
+        let energy = work(&u, &matrix.multiply(6, &u));
+        let congruent = basis.congruent(&matrix);
+        assert!((work(&y, &congruent.multiply(6, &y)) - energy).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_form_that_follows_from_others_is_not_taken_twice() {
+        let mut basis = Elimination::holding(3, [2]);
+        assert!(basis.take(&vec![(0, 1.0), (1, -1.0)]).is_some());
+        let pivot = basis.take(&vec![(0, 1.0), (1, 1.0)]).unwrap();
+        basis.drop_unknown(pivot);
+        assert_eq!(basis.take(&vec![(0, 2.0), (2, 5.0)]), None);
     }
 }

@@ -188,7 +188,7 @@ impl SlidingTangent {
                     let drag = point.friction.drag;
                     let slip = point.slip.iter().map(|&(dof, along)| (dof, drag * along));
                     friction.push(RigidFriction {
-                        pivot,
+                        lift: point.lift.clone(),
                         slip: slip.collect(),
                     });
                 }

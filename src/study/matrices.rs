@@ -1,8 +1,9 @@
 //! The matrices that the eigenvalue analysis of a case solves, by power of the friction coefficient.
 
 use super::StudyError;
-use super::eigenvalues::SlidingModel;
-use crate::case::{Case, Cea, CeaMethod};
+use super::eigenvalues::{Solver, WholeMesh};
+use super::tangent_options;
+use crate::case::{Case, CeaMethod};
 use crate::linalg::{MarketMatrix, MatrixPolynomial};
 use crate::prestress::SlidingTangent;
 use crate::results::matrices::{
@@ -26,11 +27,10 @@ pub fn matrices(case: &Case) -> Result<ExportedSystem, StudyError> {
             Some("use a plane formulation, or an imported mesh".to_owned()),
         )));
     }
-    let cea = Cea {
-        method: CeaMethod::Sparse,
-        ..cea.clone()
-    };
-    let model = SlidingModel::new(case, &cea)?;
+    // The whole mesh, whatever the case's own method; what no method solves is refused.
+    Solver::of(case, CeaMethod::Auto)?;
+    let frictions = cea.solved_friction_coefficients();
+    let model = WholeMesh::solve(case, tangent_options(case, cea.mass), &frictions)?;
     let state = model.base();
     let tangent = model.tangent(case, state);
     let friction = case.contact.sliding.friction_coefficient;
@@ -52,20 +52,16 @@ pub fn matrices(case: &Case) -> Result<ExportedSystem, StudyError> {
         unknowns: unknowns(&model, &tangent),
         contact: Vec::new(),
     };
-    let roles: [(&str, &MatrixPolynomial, fn(usize) -> MatrixRole); 3] = [
-        ("M", &tangent.mass, |friction_power| MatrixRole::Mass {
-            friction_power,
-        }),
-        ("C", &tangent.damping, |friction_power| {
-            MatrixRole::Damping { friction_power }
-        }),
-        ("K", &tangent.stiffness, |friction_power| {
-            MatrixRole::Stiffness { friction_power }
-        }),
-    ];
-    for (name, polynomial, role) in roles {
-        system.matrices.extend(powers(name, polynomial, role));
-    }
+    let matrices = &mut system.matrices;
+    matrices.extend(powers("M", &tangent.mass, |friction_power| {
+        MatrixRole::Mass { friction_power }
+    }));
+    matrices.extend(powers("C", &tangent.damping, |friction_power| {
+        MatrixRole::Damping { friction_power }
+    }));
+    matrices.extend(powers("K", &tangent.stiffness, |friction_power| {
+        MatrixRole::Stiffness { friction_power }
+    }));
     contact_rows(&model, &tangent, &mut system);
     Ok(system)
 }
@@ -101,12 +97,12 @@ fn powers<'a>(
 }
 
 /// Node, direction and place of every unknown.
-fn unknowns(model: &SlidingModel, tangent: &SlidingTangent) -> Vec<ExportedUnknown> {
+fn unknowns(model: &WholeMesh, tangent: &SlidingTangent) -> Vec<ExportedUnknown> {
     let mesh = &model.mesh;
     let unknown = |&dof: &usize| {
         let (node, axis) = (dof / 2, dof % 2);
-        let angle = mesh.frame_angles[node] + FRAC_PI_2 * axis as f64;
-        let [x, y] = mesh.nodes[node];
+        let angle = mesh.frame_angles()[node] + FRAC_PI_2 * axis as f64;
+        let [x, y] = mesh.plane_node(node);
         ExportedUnknown {
             node: mesh.node_label(node),
             is_distance: tangent.distances.iter().any(|(normal, _)| *normal == dof),
@@ -119,7 +115,7 @@ fn unknowns(model: &SlidingModel, tangent: &SlidingTangent) -> Vec<ExportedUnkno
 
 /// The contact points and their motion along the normal and along the sliding. In rigid contact the normal motion of a pressed point
 /// is no unknown: its row is empty.
-fn contact_rows(model: &SlidingModel, tangent: &SlidingTangent, system: &mut ExportedSystem) {
+fn contact_rows(model: &WholeMesh, tangent: &SlidingTangent, system: &mut ExportedSystem) {
     let (base, interface) = (model.base(), &model.base().interface);
     let normal_forces = base.normal_forces(system.friction_coefficient);
     let unknown_of = &tangent.unknowns.unknown_of;

@@ -1,5 +1,4 @@
-//! Everything about a case that can be known to be wrong before it runs, asked of the same code that
-//! the runs ask.
+//! Checks of a case without running it, through the code paths of the run.
 
 use super::eigenvalues::Solver;
 use super::response::FrequencyStudy;

@@ -167,7 +167,7 @@ fn cyclic(case: &Case, frf: &Frf) -> Result<System, StudyError> {
     let system = match &case.body {
         Body::Annulus(body) => annulus(case, frf, &body.specification)?,
         Body::Revolution(body) => solid(case, frf, &body.specification)?,
-        Body::Imported(_) => {
+        Body::Imported(_) | Body::Assembly(_) => {
             return Err(StudyError::Case(case.error_at(
                 "frf.method",
                 "frf.method = \"cyclic\" needs the symmetry of the built-in annulus".to_owned(),
@@ -237,6 +237,14 @@ fn solid(
 
 /// Matrices of the body as it is held, and the unknowns of force and response.
 fn whole(case: &Case, frf: &Frf, is_reduced: bool) -> Result<System, StudyError> {
+    if case.body.assembly().is_some() {
+        return Err(StudyError::Case(case.error_at(
+            "frf.boundary",
+            "responses of assemblies of solid bodies are not computed".to_owned(),
+            "these are solid bodies from a mesh file".to_owned(),
+            Some("use `frictionsim cea`".to_owned()),
+        )));
+    }
     if case.body.revolution().is_some() {
         let name = if is_reduced { "reduced" } else { "direct" };
         return Err(StudyError::Case(case.error_at(

@@ -19,6 +19,9 @@ const PERIODS: f64 = 8.0;
 /// Fewest blocks in the last fifth of a run that can be told to have settled.
 const FEWEST_BLOCKS: usize = 4;
 
+/// Margin of the duration that a run is said to need: its frequency may fall as it goes on.
+const SPARE: f64 = 1.1;
+
 /// Share of a run that its end is.
 const END: f64 = 0.2;
 
@@ -220,7 +223,7 @@ impl Settling {
         let until = record.start_up_time;
         if fifth.len() < length.saturating_mul(wanted) {
             let needed = wanted as f64 * length as f64 * interval;
-            let duration = rounded_up((needed / END).max(until / (1.0 - END)));
+            let duration = rounded_up((SPARE * needed / END).max(until / (1.0 - END)));
             return Err(Unsettled::TooShort { duration });
         }
         if record.rows[fifth.start].time < until {

@@ -253,11 +253,6 @@ fn meshes_of_other_programs_are_named_with_the_way_to_convert_them() {
             "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n",
             "meshio leaves such files",
         ),
-        (
-            "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n$Elements\n1\n\
-             1 4 2 1 1 1 2 3 4\n$EndElements\n",
-            "mesh the plane section",
-        ),
     ] {
         check(&folder(text, CASE)).code(2).stderr(contains(said));
     }
@@ -516,7 +511,7 @@ fn a_case_without_end_is_refused_at_the_limit() {
     frictionsim(&folder, &["check", "/dev/zero"])
         .assert()
         .code(2)
-        .stderr(contains("larger than the 16 MiB"));
+        .stderr(contains("larger than 16 MiB"));
 }
 
 /// A MATLAB file of one compressed variable: `count` bytes that are all zero.
@@ -557,4 +552,139 @@ fn a_small_file_that_inflates_to_a_huge_one_is_refused() {
     .code(2)
     .stderr(contains("MATLAB file"))
     .stderr(contains("million numbers, the limit"));
+}
+
+#[test]
+fn a_run_that_was_interrupted_while_it_replaces_others_goes_on_where_it_was() {
+    use frictionsim::results::{Manifest, OutputFolder, Replace};
+    let manifest = |command: &str| Manifest {
+        case_hash: command.to_owned(),
+        ..Manifest::new(command)
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let open = |command, replace| OutputFolder::open(folder.path(), &manifest(command), replace);
+    let old = open("cea", Replace::SameCase).unwrap();
+    old.write("table.csv", |out| out.write_all(b"old")).unwrap();
+    old.finish().unwrap();
+    assert!(open("transient", Replace::SameCase).is_err());
+
+    let begun = open("transient", Replace::Anything).unwrap();
+    begun
+        .write("checkpoint.bin", |out| out.write_all(b"state"))
+        .unwrap();
+    begun.suspend().unwrap();
+    assert_eq!(fs::read(at("table.csv")).unwrap(), b"old");
+    assert!(OutputFolder::is_begun(
+        folder.path(),
+        &manifest("transient")
+    ));
+    // Killed before its end once more.
+    drop(open("transient", Replace::SameCase).unwrap());
+
+    let again = open("transient", Replace::SameCase).unwrap();
+    assert_eq!(
+        fs::read(again.path().join("checkpoint.bin")).unwrap(),
+        b"state"
+    );
+    again
+        .write("energy.csv", |out| out.write_all(b"new"))
+        .unwrap();
+    again.finish().unwrap();
+    assert!(
+        !at("table.csv").exists() && !at(".replacing").exists() && !at("checkpoint.bin").exists()
+    );
+    assert_eq!(fs::read(at("energy.csv")).unwrap(), b"new");
+}
+
+#[test]
+fn answers_to_common_slips_name_what_was_meant() {
+    let mesh = Block::new(SIDE + 1).text("block");
+    let folder = folder(&mesh, CASE);
+    fs::write(
+        folder.path().join("table.toml"),
+        "frequency_hz,real\n1,2\n3,4\n",
+    )
+    .unwrap();
+    fs::write(folder.path().join("mesh.toml"), &mesh).unwrap();
+    fs::write(
+        folder.path().join("comma.toml"),
+        "[contact]\nfriction_coefficient = 0,3\n",
+    )
+    .unwrap();
+    fs::write(folder.path().join("disc.csv"), &mesh).unwrap();
+    let frf = "frf.frequencies_hz={from=1,to=10,step=1}";
+    let continuation = "cycle.continuation={key=\"contact.friction\",from=0.1,to=0.2}";
+    for (arguments, said) in [
+        (
+            &["check", "table.toml"][..],
+            "this is a table of values, not a case",
+        ),
+        (&["check", "mesh.toml"], "this is a Gmsh mesh"),
+        (&["check", "comma.toml"], "decimal point, not a comma: 0.3"),
+        (
+            &["signal", "disc.csv"],
+            "this is a Gmsh mesh, not a measurement",
+        ),
+        (
+            &[
+                "check",
+                "block.toml",
+                "--set",
+                "output.probes=[{r=0.02,angle=90}]",
+            ],
+            "did you mean `radius`?",
+        ),
+        (
+            &[
+                "check",
+                "block.toml",
+                "--set",
+                "output.probes=[{r=0.02,angle=90}]",
+            ],
+            "did you mean `angle_deg`?",
+        ),
+        (
+            &[
+                "check",
+                "block.toml",
+                "--set",
+                frf,
+                "--set",
+                "frf.force_node=1",
+            ],
+            "did you mean `count`?",
+        ),
+        (
+            &["check", "block.toml", "--set", continuation],
+            "did you mean \"contact.friction_coefficient\"?",
+        ),
+        (
+            &[
+                "check",
+                "block.toml",
+                "--set",
+                "uncertainty.distributions={\"material.youngs_modulus\"={uniform=[1,2]}}",
+            ],
+            "\"material.youngs_modulus\" in uncertainty.distributions cannot be varied",
+        ),
+        (&["eigen", "block.toml"], "`frictionsim cea`"),
+    ] {
+        frictionsim(&folder, arguments)
+            .assert()
+            .code(2)
+            .stderr(contains(said));
+    }
+    let range = [
+        "check",
+        "block.toml",
+        "--set",
+        frf,
+        "--set",
+        "frf.force_node=1",
+    ];
+    frictionsim(&folder, &range)
+        .assert()
+        .code(2)
+        .stderr(contains("missing or empty").not());
 }

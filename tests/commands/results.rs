@@ -123,6 +123,7 @@ fn report<'a>(
         },
         field,
         solid: None,
+        assembly: None,
         sensitivities: None,
         map: None,
         notes: vec!["harmonics above 6 do not exist on this mesh".to_owned()],

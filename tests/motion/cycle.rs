@@ -53,22 +53,22 @@ fn external_power_leaves_as_heat_of_body_and_contact() {
 fn cycles_along_a_branch_have_the_powers_of_each_alone() {
     let bytes = include_bytes!("../../cases/limit-cycle.toml");
     let overrides = [
-        "mesh.circumferential_elements=60",
-        "mesh.radial_elements=12",
+        "mesh.circumferential_elements=45",
+        "mesh.radial_elements=9",
         "cycle.harmonics=[1]",
-        "cycle.continuation.from=50.0",
-        "cycle.continuation.to=700.0",
-        "cycle.continuation.count=5",
+        "cycle.continuation.from=70.0",
+        "cycle.continuation.to=250.0",
+        "cycle.continuation.count=3",
         "cycle.confirmation_periods=0",
     ];
     let case = Case::parse("branch", bytes, &overrides.map(str::to_owned)).unwrap();
     let study = CycleStudy::new(&case, SimdLevel::detect()).unwrap();
     let results = study.run(0, &|| {});
     let branch = results[0].branch.as_ref().unwrap();
-    let specification = annulus(ElementKind::Quad4, 60, 12);
+    let specification = annulus(ElementKind::Quad4, 45, 9);
     let solver = CycleSolver::new(&specification, &POLYCARBONATE, &DAMPING, 1, None).unwrap();
     let stepping = solver.stepping(SimdLevel::detect()).unwrap();
-    assert!(branch.cycles.len() >= 5);
+    assert!(branch.cycles.len() >= 3);
     for cycle in &branch.cycles {
         // A balance of its own closes to round-off; that of a scaled neighbour is off by a thousandth.
         assert!(

@@ -509,7 +509,7 @@ fn bad_files_and_names_are_refused_with_a_remedy() {
         (&good, &misspelt, "did you mean \"bottom\""),
         (&good, &loose, "nothing holds the body"),
         (&good, &away, "does not face"),
-        (&good, &round, "no circle"),
+        (&good, &round, "not a circle"),
         (&inverted, &plain, "inverted"),
         (&folded, &plain, "inverted"),
         (&dangling, &plain, "dangling"),

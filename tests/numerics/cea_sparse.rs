@@ -268,6 +268,47 @@ fn sweep_agrees_with_krylov_schur_at_the_same_friction() {
     }
 }
 
+/// Independent check where damping is not proportional: modes interpolated between sampled friction values against a
+/// Krylov-Schur iteration on vectors of full length at each of them.
+#[test]
+fn sweep_with_general_damping_agrees_with_krylov_schur_at_every_friction() {
+    let disc = Disc {
+        damping_model: DampingModel::BodyOnly,
+        ..Disc::coarse()
+    };
+    let tangent = disc.tangent();
+    let values: Vec<f64> = (0..9).map(|i| f64::from(i) * 0.075).collect();
+    let result = run(&tangent, &values, ModeLimit::Lowest(8));
+    let linearization = Linearization::of(&tangent, 1e5);
+    for point in &result.points[1..] {
+        let mu = point.friction_coefficient;
+        let operator = ShiftInverted {
+            matrices: &StructureMatrices::at(&tangent, linearization, mu),
+            factors: &StiffnessFactors::general(&tangent, &OnceLock::new(), mu).unwrap(),
+        };
+        let settings = KrylovSchurSettings {
+            wanted: Wanted::Largest(24),
+            tolerance: 1e-11,
+            block: 3,
+            max_applications: 5000,
+        };
+        let pairs = krylov_schur(&operator, None, &settings).unwrap();
+        let found = pairs.values.iter();
+        let mut exact: Vec<c64> = found.filter_map(|&s| linearization.eigenvalue(s)).collect();
+        exact.sort_by(|a, b| a.im.total_cmp(&b.im));
+        assert_eq!(point.modes.len(), 8);
+        for (mode, exact) in point.modes.iter().zip(&exact) {
+            let error = (mode.eigenvalue - exact).norm() / exact.norm();
+            assert!(
+                error < 1e-9,
+                "{mu}: {} {exact} {error:.1e}",
+                mode.eigenvalue
+            );
+            assert!(mode.residual < 1e-9);
+        }
+    }
+}
+
 /// Consistency check.
 #[test]
 fn sweep_is_bitwise_equal_on_one_and_two_threads() {

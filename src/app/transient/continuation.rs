@@ -20,6 +20,9 @@ pub fn run_hash(session: &Session) -> String {
 pub fn reopen(session: &Session) -> Result<OutputFolder, Failure> {
     let ours = &session.manifest;
     let (path, _) = session.options.output.destination(ours, true);
+    if OutputFolder::is_begun(&path, ours) {
+        return session.reopen_folder();
+    }
     let found = match read_manifest(&path) {
         Ok(found) if found.command == ours.command && found.case_hash != ours.case_hash => found,
         _ => return session.reopen_folder(),

@@ -41,7 +41,7 @@ pub(super) fn draw_record(
         analysis: &study.analyse(record),
         mesh: &study.mesh,
         solid: study.sector.as_ref(),
-        has_harmonics: case.is_annulus(),
+        has_harmonics: case.has_sectors(),
         material: case.materials(),
         thickness: study.thickness(),
         extent: extent_of(case),

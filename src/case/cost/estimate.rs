@@ -98,7 +98,7 @@ impl Case {
                     pairs * (CYCLIC_PAIR[0] + CYCLIC_PAIR[1] * unknowns),
                 )
             }
-            (Body::Annulus(_) | Body::Imported(_), _) => {
+            (Body::Annulus(_) | Body::Imported(_) | Body::Assembly(_), _) => {
                 let unknowns = 2.0 * size.nodes as f64;
                 (
                     SPARSE_BYTES[0] + SPARSE_BYTES[1] * unknowns * (2.0 * modes as f64 + 40.0),

@@ -49,6 +49,8 @@ impl Size {
                 let each = elements.map(|element| element_frequency(mesh, element, speed(element)));
                 each.fold(0.0, f64::max)
             }
+            // No transient takes it.
+            Body::Assembly(_) => 0.0,
         };
         Self {
             nodes: body.node_count(),

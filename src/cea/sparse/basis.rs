@@ -5,12 +5,16 @@ use super::linearization::Linearization;
 use super::mode::ReducedMode;
 use super::packed::{PackedEntry, PackedModes};
 use super::reduced::ReducedModel;
-use super::structure::{ShiftInverted, StiffnessFactors, StructureMatrices};
+use super::structure::{Companion, ShiftInverted, StiffnessFactors, StructureMatrices};
 use crate::cea::CeaError;
 use crate::linalg::dense::{
-    column, column_norms, dot, join_columns, orthonormal_complement, pick_columns,
+    column, column_mut, column_norms, dot, join_columns, orthonormal_complement, pick_columns,
+    random_columns,
 };
-use crate::linalg::{KrylovSchurSettings, LinalgError, LuAnalysis, Wanted, krylov_schur};
+use crate::linalg::{
+    KrylovSchurSettings, LinalgError, LuAnalysis, QuadraticKrylovSettings, Wanted, krylov_schur,
+    quadratic_krylov,
+};
 use crate::linalg::{Mat, MatRef, Scale};
 use crate::prestress::SlidingTangent;
 use std::ops::Range;
@@ -34,6 +38,12 @@ const STEPS_PER_DECADE: f64 = 0.7;
 const KRYLOV_TOLERANCE: f64 = 1e-3;
 /// Friction values whose modes make up the compressed basis, besides the ends.
 const CHEBYSHEV_POINTS: usize = 5;
+/// Residual of the iteration whose vectors the basis takes up, relative to the shift-inverted operator.
+const SAMPLE_RESIDUAL: f64 = 1e-9;
+/// Part of such a vector, of unit length, that is worth keeping.
+const SAMPLE_TOLERANCE: f64 = 1e-10;
+/// Start vectors of an iteration that does not rely on the basis.
+const SEARCH_WIDTH: usize = 4;
 /// Refinements of one basis before the preconditioner is considered unfit.
 const MAX_ROUNDS: usize = 40;
 
@@ -55,6 +65,8 @@ pub struct BasisBuilder<'a> {
     pub model: ReducedModel,
     /// Modes to be held at every friction coefficient.
     pub count: usize,
+    /// Friction coefficients whose modes of the quadratic problem the basis holds.
+    sampled: Vec<f64>,
 }
 
 impl<'a> BasisBuilder<'a> {
@@ -74,15 +86,32 @@ impl<'a> BasisBuilder<'a> {
             analysis: OnceLock::new(),
             model,
             count: modes.ncols(),
+            sampled: Vec::new(),
         }
     }
 
     /// Refines at `values` (friction coefficients, ascending) in a spread-out order until corrections
-    /// vanish.
+    /// vanish; of the quadratic problem, takes up the modes at the ends and in the middle.
     ///
     /// # Errors
-    /// If a dense decomposition fails.
-    pub fn cover(&mut self, values: &[f64]) -> Result<(), LinalgError> {
+    /// If a dense decomposition or an iteration fails.
+    pub fn cover(&mut self, values: &[f64]) -> Result<(), CeaError> {
+        if let Linearization::Companion { .. } = self.linearization {
+            if values[0] > 0.0 {
+                // Branches begin there: modes without friction and damping are near enough.
+                let modes = Mat::identity(self.model.dimension(), self.count);
+                self.model
+                    .hold_sample(0.0, &self.model.expand(modes.as_ref()));
+            }
+            for mu in [
+                values[values.len() - 1],
+                values[0],
+                values[values.len() / 2],
+            ] {
+                self.improve_at(mu)?;
+            }
+            return Ok(());
+        }
         for &mu in spread(values).iter().cycle().take(MAX_ROUNDS) {
             // Of a single value the last corrections need no other look: its point is checked.
             let is_done = |longest: f64| values.len() == 1 && longest <= SHORTEST;
@@ -94,6 +123,60 @@ impl<'a> BasisBuilder<'a> {
             self.compress(values)?;
         }
         Ok(())
+    }
+
+    /// Makes the basis hold the modes at `mu` better; whether it grew.
+    ///
+    /// # Errors
+    /// If `K(mu)` is singular, or an iteration or a dense decomposition fails.
+    pub fn improve_at(&mut self, mu: f64) -> Result<bool, CeaError> {
+        match self.linearization {
+            Linearization::Reduced(_) => Ok(self.refine_at(mu)?.is_some()),
+            Linearization::Companion { .. } if self.sampled.contains(&mu) => Ok(false),
+            Linearization::Companion { frequency_scale } => {
+                self.sampled.push(mu);
+                // Combinations of the modes without friction, which the basis holds first.
+                let width = self.start_width();
+                let known = self.count.min(self.model.dimension());
+                let start = [1, 2].map(|seed| {
+                    self.model
+                        .expand(random_columns(known, width, seed).as_ref())
+                });
+                self.sample(mu, frequency_scale, &start, self.count)
+            }
+        }
+    }
+
+    /// Start vectors of an iteration: two where modes may come in pairs of equal eigenvalue.
+    fn start_width(&self) -> usize {
+        1 + usize::from(!self.tangent.contact_angles.is_empty())
+    }
+
+    /// Adds the vectors of the `modes` lowest modes of the quadratic problem at `mu`; whether the basis grew.
+    fn sample(
+        &mut self,
+        mu: f64,
+        frequency_scale: f64,
+        [x, y]: &[Mat<f64>; 2],
+        modes: usize,
+    ) -> Result<bool, CeaError> {
+        let matrices = StructureMatrices::at(self.tangent, self.linearization, mu);
+        let factors = match mu {
+            0.0 => StiffnessFactors::frictionless(self.tangent)?,
+            _ => StiffnessFactors::general(self.tangent, &self.analysis, mu)?,
+        };
+        let operator = Companion::new(&matrices, &factors, frequency_scale);
+        let settings = QuadraticKrylovSettings {
+            pairs: modes,
+            tolerance: SAMPLE_RESIDUAL,
+            max_applications: 20 * (modes + 10),
+        };
+        let found = quadratic_krylov(&operator, [x.as_ref(), y.as_ref()], &settings)?;
+        let mut vectors = found.vectors;
+        turn_to_real(&mut vectors);
+        let has_grown = self.model.extend(vectors.clone(), SAMPLE_TOLERANCE).ncols() > 0;
+        self.model.hold_sample(mu, &vectors);
+        Ok(has_grown)
     }
 
     /// Drops what the modes do not need: keeps their span at some of `values` (Chebyshev points, as the
@@ -184,14 +267,15 @@ impl<'a> BasisBuilder<'a> {
     /// If `K(mu)` is singular or the iteration does not converge.
     pub fn search(&mut self, mu: f64, extra: usize) -> Result<(), CeaError> {
         let unknowns = self.tangent.stiffness.dimension();
+        let wanted = (self.count + extra).min(unknowns);
+        if let Linearization::Companion { frequency_scale } = self.linearization {
+            let start =
+                [3, 4].map(|seed| random_columns(unknowns, SEARCH_WIDTH.min(unknowns), seed));
+            self.sample(mu, frequency_scale, &start, wanted)?;
+            return Ok(());
+        }
         let matrices = StructureMatrices::at(self.tangent, self.linearization, mu);
         let factors = StiffnessFactors::general(self.tangent, &self.analysis, mu)?;
-        let modes = (self.count + extra).min(unknowns);
-        let wanted = match self.linearization {
-            Linearization::Reduced(_) => modes,
-            // Each mode is a conjugate pair.
-            Linearization::Companion { .. } => 2 * modes,
-        };
         let operator = ShiftInverted {
             matrices: &matrices,
             factors: &factors,
@@ -199,13 +283,34 @@ impl<'a> BasisBuilder<'a> {
         let settings = KrylovSchurSettings {
             wanted: Wanted::Largest(wanted),
             tolerance: 1e-11,
-            block: 4,
+            block: SEARCH_WIDTH,
             max_applications: 100 * (wanted + 20),
         };
         let mut vectors = krylov_schur(&operator, None, &settings)?.vectors;
         vectors.truncate(unknowns, wanted);
         self.model.extend(vectors, COMPRESSED);
         Ok(())
+    }
+}
+
+/// Scales complex vectors, real and imaginary parts in neighbouring columns, to unit length and turns their phase so
+/// that the imaginary part is as short as can be: what friction and damping do to a mode then stands alone.
+fn turn_to_real(vectors: &mut Mat<f64>) {
+    for j in (0..vectors.ncols()).step_by(2) {
+        let (p, q) = (column(vectors.as_ref(), j), column(vectors.as_ref(), j + 1));
+        let (pp, pq, qq) = (dot(p, p), dot(p, q), dot(q, q));
+        let angle = 0.5 * (2.0 * pq).atan2(pp - qq);
+        let length = (pp + qq).sqrt();
+        let (cosine, sine) = (angle.cos() / length, angle.sin() / length);
+        let turned: Vec<[f64; 2]> = p
+            .iter()
+            .zip(q)
+            .map(|(p, q)| [cosine * p + sine * q, cosine * q - sine * p])
+            .collect();
+        for half in 0..2 {
+            let target = column_mut(vectors, j + half).iter_mut();
+            target.zip(&turned).for_each(|(v, t)| *v = t[half]);
+        }
     }
 }
 

@@ -27,6 +27,17 @@ impl Linearization {
         }
     }
 
+    /// Residual force relative to inertia force above which a point is improved.
+    ///
+    /// The real problem's bases aim lower anyway. Of the quadratic one an eigenvalue is wrong by the product of the
+    /// errors of its right and left vectors: this keeps it below 1e-9.
+    pub fn force_residual_goal(self) -> f64 {
+        match self {
+            Self::Reduced(_) => 1e-10,
+            Self::Companion { .. } => 1e-7,
+        }
+    }
+
     /// `lambda` with `Im > 0` that belongs to the eigenvalue `s` of the shift-inverted operator,
     /// `s = 1/kappa` or `s = 1/nu`; `None` for an overdamped mode and for the conjugate of a mode.
     pub fn eigenvalue(self, s: c64) -> Option<c64> {
@@ -39,6 +50,14 @@ impl Linearization {
                 let nu = s.inv();
                 (nu.im > 0.0).then_some(nu * frequency_scale)
             }
+        }
+    }
+
+    /// The `s` of [`Self::eigenvalue`] that belongs to `lambda`.
+    pub fn inverse_value(self, lambda: c64) -> c64 {
+        match self {
+            Self::Reduced(damping) => damping.kappa(lambda).inv(),
+            Self::Companion { frequency_scale } => (lambda / frequency_scale).inv(),
         }
     }
 }

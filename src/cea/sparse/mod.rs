@@ -2,7 +2,9 @@
 //!
 //! 1. [`FrictionlessModes`]: the lowest modes at `mu = 0` by Krylov-Schur iteration; the inertia of
 //!    `K - sigma M` proves that none is missing.
-//! 2. [`BasisBuilder`]: one basis that holds the modes of all friction coefficients, grown by residuals.
+//! 2. [`BasisBuilder`]: one basis that holds the modes of all friction coefficients. Where damping is proportional it
+//!    grows by residuals; otherwise it takes up the modes at a few friction coefficients, each from a Krylov iteration
+//!    on the quadratic problem ([`crate::linalg::quadratic_krylov`]), chosen where residuals are largest.
 //! 3. [`PointSolver`]: the projected problem at each friction coefficient, in parallel; every mode is
 //!    held to its residual in the full matrices, and the basis grows where one fails.
 //! 4. [`track`]: branches continued from `mu = 0`, so that none is lost on the way.

@@ -87,6 +87,35 @@ impl OnsetFinder<'_> {
     }
 }
 
+/// Overlap, 1 for equal modes, above which a mode found near both ends belongs to their branch.
+const SAME: f64 = 0.8;
+
+impl OnsetFinder<'_> {
+    /// The branch at `guess` by an iteration from the nearer end, where what it finds overlaps with both.
+    fn continued(&self, from: &State, to: &State, guess: BranchPoint) -> Option<ReducedMode> {
+        let mu = guess.friction_coefficient;
+        let ends = [from, to];
+        let nearer = usize::from((to.mu - mu).abs() < (mu - from.mu).abs());
+        let start = ReducedMode {
+            eigenvalue: guess.eigenvalue,
+            ..ends[nearer].mode.clone()
+        };
+        let mode = self.model.mode_near(mu, &start)?;
+        let at = self.model.at(mu);
+        let modes = [from.mode.clone(), mode.clone(), to.mode.clone()];
+        let columns = ComplexColumns::of(&modes, self.model.dimension());
+        let (mass, damping) = (columns.mapped(&at.mass), columns.mapped(&at.damping));
+        let along = |i: usize, j: usize| {
+            let sum = modes[i].eigenvalue + modes[j].eigenvalue;
+            sum * mass.dot(&modes[i].left, j) + damping.dot(&modes[i].left, j)
+        };
+        let is_same = [0, 2]
+            .iter()
+            .all(|&end| (along(1, end) * along(end, 1)).norm() > SAME);
+        is_same.then_some(mode)
+    }
+}
+
 impl BranchSolver for OnsetFinder<'_> {
     type State = State;
     type Error = LinalgError;
@@ -111,6 +140,9 @@ impl BranchSolver for OnsetFinder<'_> {
         guess: BranchPoint,
     ) -> Result<Option<State>, LinalgError> {
         let mu = guess.friction_coefficient;
+        if let Some(mode) = self.continued(from, to, guess) {
+            return Ok(Some(State { mu, mode }));
+        }
         let mut modes = self.model.solve(mu, self.points[0].modes.len())?;
         let at = self.model.at(mu);
         let columns = ComplexColumns::of(&modes, self.model.dimension());

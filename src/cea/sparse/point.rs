@@ -13,8 +13,6 @@ use crate::linalg::c64;
 use crate::prestress::SlidingTangent;
 use std::f64::consts::TAU;
 
-/// Residual force relative to inertia force above which a point is improved; the basis aims lower.
-const FORCE_RESIDUAL_GOAL: f64 = 1e-10;
 /// Residual relative to the matrices below which there is only round-off.
 const ROUND_OFF: f64 = 1e-15;
 /// Relative error of an eigenvalue that such a residual may mean.
@@ -58,13 +56,13 @@ impl SolvedPoint {
         })
     }
 
-    /// Whether a wanted mode could still be improved.
-    pub fn misses_goal(&self) -> bool {
+    /// Whether a wanted mode could still be improved: its residual force, relative to the inertia force, is above `goal`.
+    pub fn misses_goal(&self, goal: f64) -> bool {
         let is_met = |check: &ModeCheck| {
             // A residual of round-off is no excuse where the mode answers to it.
             let error = check.residual / f64::EPSILON * check.uncertainty;
             let is_round_off = check.residual <= ROUND_OFF && error <= EIGENVALUE_GOAL;
-            check.force_residual <= FORCE_RESIDUAL_GOAL || is_round_off
+            check.force_residual <= goal || is_round_off
         };
         !self.checks.iter().take(self.wanted).all(is_met)
     }

@@ -4,12 +4,23 @@ use super::linearization::Linearization;
 use super::mode::ReducedMode;
 use super::packed::ComplexColumns;
 use super::term::Term;
-use crate::linalg::dense::{GrowingColumns, product, transpose_product};
+use crate::linalg::dense::{
+    GrowingColumns, column, join_columns, orthonormal_complement, product, transpose_product,
+};
 use crate::linalg::dense_eigen::real_eigen;
 use crate::linalg::gram::complement;
-use crate::linalg::{DenseLu, LinalgError, MatrixPolynomial};
+use crate::linalg::{ComplexDenseLu, DenseLu, LinalgError, MatrixPolynomial};
 use crate::linalg::{Mat, MatRef, Scale, c64};
 use crate::prestress::SlidingTangent;
+
+/// Samples near a friction coefficient whose modes make up the space for its own.
+const NEIGHBOURS: usize = 4;
+/// Length of coordinates, of vectors of unit length, below which a space holds them already.
+const SAME_SPACE: f64 = 1e-9;
+/// Rayleigh quotients after which a mode counts as not found; three or four do.
+const QUOTIENT_STEPS: usize = 8;
+/// Relative change of the eigenvalue that ends the iteration: its error is about the cube of that.
+const QUOTIENT_TOLERANCE: f64 = 1e-8;
 
 /// `K`, `C` and `M` (or their derivatives) projected, at one friction coefficient.
 pub struct ProjectedMatrices {
@@ -19,6 +30,39 @@ pub struct ProjectedMatrices {
     pub damping: Mat<f64>,
     /// `V^T M V`.
     pub mass: Mat<f64>,
+}
+
+impl ProjectedMatrices {
+    /// The matrices projected once more, on orthonormal `columns` of coordinates.
+    fn within(&self, columns: &Mat<f64>) -> Self {
+        let [stiffness, damping, mass] = [&self.stiffness, &self.damping, &self.mass].map(|p| {
+            let image = product(p.as_ref(), columns.as_ref());
+            transpose_product(columns.as_ref(), image.as_ref())
+        });
+        Self {
+            stiffness,
+            damping,
+            mass,
+        }
+    }
+}
+
+/// `columns` times complex coordinates; nothing of no coordinates.
+fn combined(columns: &Mat<f64>, coordinates: &[c64]) -> Vec<c64> {
+    let mut sum = vec![
+        c64::new(0.0, 0.0);
+        if coordinates.is_empty() {
+            0
+        } else {
+            columns.nrows()
+        }
+    ];
+    for (j, factor) in coordinates.iter().enumerate() {
+        for (s, v) in sum.iter_mut().zip(column(columns.as_ref(), j)) {
+            *s += factor * *v;
+        }
+    }
+    sum
 }
 
 /// `V^T (lambda^2 M(mu) + lambda C(mu) + K(mu)) V` with an orthonormal `V` that holds the wanted right vectors
@@ -34,6 +78,8 @@ pub struct ReducedModel {
     basis: GrowingColumns,
     /// `V^T P_p V` of `P = K, C, M` for each power of `mu`; `C` only where it is not proportional.
     projected: [Vec<Mat<f64>>; 3],
+    /// Friction coefficients whose modes the basis holds as such, and the coordinates that span them.
+    samples: Vec<(f64, Mat<f64>)>,
 }
 
 impl ReducedModel {
@@ -53,6 +99,7 @@ impl ReducedModel {
             basis: GrowingColumns::new(tangent.stiffness.dimension()),
             projected: terms.each_ref().map(|t| vec![Mat::zeros(0, 0); t.len()]),
             terms,
+            samples: Vec::new(),
         }
     }
 
@@ -141,14 +188,92 @@ impl ReducedModel {
         with_left: bool,
     ) -> Result<Vec<ReducedMode>, LinalgError> {
         let at = self.at(mu);
+        let mut modes =
+            self.solve_in(self.span_of_nearest(mu, NEIGHBOURS), &at, count, with_left)?;
+        if with_left {
+            self.complete(&mut modes, &at, mu);
+        }
+        Ok(modes)
+    }
+
+    /// [`Self::solve`] for matching modes between solved points: in the span of the two nearest samples.
+    ///
+    /// # Errors
+    /// If the dense eigenvalue decomposition fails.
+    pub fn solve_between(&self, mu: f64, count: usize) -> Result<Vec<ReducedMode>, LinalgError> {
+        let at = self.at(mu);
+        let mut modes = self.solve_in(self.span_of_nearest(mu, 2), &at, count, true)?;
+        self.complete(&mut modes, &at, mu);
+        Ok(modes)
+    }
+
+    /// Takes note that `vectors` are the modes at `mu`: the problem there is then solved in their span, and nearby in
+    /// that of the nearest ones.
+    pub fn hold_sample(&mut self, mu: f64, vectors: &Mat<f64>) {
+        let coordinates = transpose_product(self.basis.columns(), vectors.as_ref());
+        self.samples.push((mu, coordinates));
+    }
+
+    /// Orthonormal coordinates of the span of the `count` samples nearest to `mu`, or of the one there; nothing without
+    /// samples.
+    fn span_of_nearest(&self, mu: f64, count: usize) -> Option<Mat<f64>> {
+        let mut nearest: Vec<&(f64, Mat<f64>)> = self.samples.iter().collect();
+        nearest.sort_by(|a, b| (a.0 - mu).abs().total_cmp(&(b.0 - mu).abs()));
+        let is_sampled = nearest.first()?.0 == mu;
+        match is_sampled {
+            true => nearest.retain(|sample| sample.0 == mu),
+            false => nearest.truncate(count),
+        }
+        let m = self.dimension();
+        let mut columns = Mat::zeros(m, 0);
+        for (_, coordinates) in nearest {
+            let own = Mat::from_fn(m, coordinates.ncols(), |i, j| {
+                if i < coordinates.nrows() {
+                    coordinates[(i, j)]
+                } else {
+                    0.0
+                }
+            });
+            let new = orthonormal_complement(columns.as_ref(), own, SAME_SPACE);
+            columns = join_columns(columns.as_ref(), new.as_ref());
+        }
+        Some(columns)
+    }
+
+    /// The modes within a space of coordinates, or in the whole basis, without derivatives and scale.
+    fn solve_in(
+        &self,
+        space: Option<Mat<f64>>,
+        at: &ProjectedMatrices,
+        count: usize,
+        with_left: bool,
+    ) -> Result<Vec<ReducedMode>, LinalgError> {
+        let Some(columns) = space else {
+            return self.solve_projected(at, count, with_left);
+        };
+        let mut modes = self.solve_projected(&at.within(&columns), count, with_left)?;
+        for mode in &mut modes {
+            mode.right = combined(&columns, &mode.right);
+            mode.left = combined(&columns, &mode.left);
+        }
+        Ok(modes)
+    }
+
+    /// The modes of projected matrices, without derivatives and scale.
+    fn solve_projected(
+        &self,
+        at: &ProjectedMatrices,
+        count: usize,
+        with_left: bool,
+    ) -> Result<Vec<ReducedMode>, LinalgError> {
         let lu = DenseLu::factorize(at.stiffness.clone());
         let leading = match self.linearization {
             Linearization::Reduced(_) => count,
             Linearization::Companion { .. } => 2 * count,
         };
-        let eigen = real_eigen(self.shift_inverted(&at, &lu).as_ref(), with_left, leading)?;
+        let eigen = real_eigen(self.shift_inverted(at, &lu).as_ref(), with_left, leading)?;
         // The upper half of a left vector of the operator is K^T times that of the problem.
-        let m = self.dimension();
+        let m = at.stiffness.nrows();
         let mut left = eigen.left;
         if let Some(left) = &mut left {
             lu.solve_transpose_in_place(left.as_mut().split_at_row_mut(m).0);
@@ -172,10 +297,60 @@ impl ReducedModel {
             .take(count)
             .collect();
         modes.sort_by(|p, q| p.eigenvalue.im.total_cmp(&q.eigenvalue.im));
-        if with_left {
-            self.complete(&mut modes, &at, mu);
-        }
         Ok(modes)
+    }
+
+    /// The mode at `mu` near `guess`, by two-sided Rayleigh quotient iteration from its eigenvalue and vectors; nothing
+    /// where that does not settle.
+    ///
+    /// Source: K. Schreiber, Nonlinear Eigenvalue Problems: Newton-type Methods and Nonlinear Rayleigh Functionals,
+    /// thesis, TU Berlin (2008).
+    pub fn mode_near(&self, mu: f64, guess: &ReducedMode) -> Option<ReducedMode> {
+        let at = self.at(mu);
+        let m = self.dimension();
+        let column = |v: &[c64]| Mat::from_fn(m, 1, |i, _| v.get(i).copied().unwrap_or_default());
+        let (mut right, mut left) = (column(&guess.right), column(&guess.left));
+        let mut lambda = guess.eigenvalue;
+        for _ in 0..QUOTIENT_STEPS {
+            let pencil = |i: usize, j: usize| {
+                lambda * (lambda * at.mass[(i, j)] + at.damping[(i, j)]) + at.stiffness[(i, j)]
+            };
+            let slope = Mat::from_fn(m, m, |i, j| {
+                lambda * (2.0 * at.mass[(i, j)]) + at.damping[(i, j)]
+            });
+            let lu = ComplexDenseLu::factorize(Mat::from_fn(m, m, pencil));
+            (right, left) = (&slope * &right, slope.transpose() * &left);
+            lu.solve_in_place(right.as_mut());
+            lu.solve_transpose_in_place(left.as_mut());
+            for vector in [&mut right, &mut left] {
+                let length = vector.norm_l2();
+                vector.col_mut(0).iter_mut().for_each(|v| *v /= length);
+            }
+            let form = |p: &Mat<f64>| -> c64 {
+                let image = |i: usize| -> c64 { (0..m).map(|j| right[(j, 0)] * p[(i, j)]).sum() };
+                (0..m).map(|i| left[(i, 0)] * image(i)).sum()
+            };
+            let [a, b, c] = [&at.mass, &at.damping, &at.stiffness].map(form);
+            let step = ((a * lambda + b) * lambda + c) / (a * lambda * 2.0 + b);
+            lambda -= step;
+            if !(step.norm() < guess.eigenvalue.norm()) {
+                return None;
+            }
+            if step.norm() <= QUOTIENT_TOLERANCE * lambda.norm() {
+                let entries = |v: &Mat<c64>| v.col(0).iter().copied().collect();
+                let mut modes = [ReducedMode {
+                    eigenvalue: lambda,
+                    inverse_value: self.linearization.inverse_value(lambda),
+                    derivative: c64::new(0.0, 0.0),
+                    right: entries(&right),
+                    left: entries(&left),
+                }];
+                self.complete(&mut modes, &at, mu);
+                let [mode] = modes;
+                return (mode.eigenvalue.im > 0.0).then_some(mode);
+            }
+        }
+        None
     }
 
     /// The dense shift-inverted operator of the linearisation.
@@ -187,7 +362,7 @@ impl ReducedModel {
             Linearization::Companion {
                 frequency_scale: omega,
             } => {
-                let m = self.dimension();
+                let m = at.stiffness.nrows();
                 let mut damped = at.damping.clone();
                 lu.solve_in_place(damped.as_mut());
                 Mat::from_fn(2 * m, 2 * m, |i, j| match (i < m, j < m) {

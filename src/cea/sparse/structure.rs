@@ -4,8 +4,8 @@ use super::linearization::Linearization;
 use super::packed::PackedEntry;
 use crate::linalg::dense::{column, column_mut, join_rows};
 use crate::linalg::{
-    BlockOperator, LdlAnalysis, LinalgError, LuAnalysis, MatrixPolynomial, SparseLdl, SparseLu,
-    SparsityPattern,
+    BlockOperator, LdlAnalysis, LinalgError, LuAnalysis, MatrixPolynomial, QuadraticOperator,
+    SparseLdl, SparseLu, SparsityPattern,
 };
 use crate::linalg::{Mat, MatRef, Scale, c64};
 use crate::prestress::SlidingTangent;
@@ -221,5 +221,46 @@ impl BlockOperator for ShiftInverted<'_> {
                 join_rows(top.as_ref(), x)
             }
         }
+    }
+}
+
+/// The upper blocks of [`ShiftInverted`] of the quadratic problem, `A = -omega K^-1 C` and `B = -omega^2 K^-1 M`.
+pub struct Companion<'a> {
+    pattern: &'a SparsityPattern,
+    factors: &'a StiffnessFactors,
+    /// Nonzero values of `-omega C` and `-omega^2 M`.
+    values: [Vec<f64>; 2],
+}
+
+impl<'a> Companion<'a> {
+    /// The blocks of `matrices`, whose `K` has these `factors`.
+    pub fn new(
+        matrices: &'a StructureMatrices<'_>,
+        factors: &'a StiffnessFactors,
+        frequency_scale: f64,
+    ) -> Self {
+        let [_, damping, mass] = &matrices.values;
+        let scaled = |factor: f64, values: &[f64]| values.iter().map(|v| factor * v).collect();
+        Self {
+            pattern: matrices.pattern,
+            factors,
+            values: [
+                scaled(-frequency_scale, damping),
+                scaled(-frequency_scale * frequency_scale, mass),
+            ],
+        }
+    }
+}
+
+impl QuadraticOperator for Companion<'_> {
+    fn dimension(&self) -> usize {
+        self.pattern.dimension()
+    }
+
+    fn apply(&self, x: MatRef<'_, f64>, y: MatRef<'_, f64>) -> Mat<f64> {
+        let [damping, mass] = &self.values;
+        let mut image = self.pattern.multiply_sum([damping, mass], [x, y]);
+        self.factors.solve_in_place(&mut image);
+        image
     }
 }

@@ -35,13 +35,18 @@ pub fn draw(
     let mut figures: Vec<Declaration<'_>> = vec![
         Box::new(move || Ok(locus(report, dampings))),
         Box::new(move || pairs(report)),
-        Box::new(move || Ok(prestress(report))),
     ];
-    for point in &report.sweep.points {
+    // Solid bodies are not drawn: their fields are in the VTU files.
+    let is_drawn = report.assembly.is_none();
+    if is_drawn {
+        figures.push(Box::new(move || Ok(prestress(report))));
+    }
+    for point in report.sweep.points.iter().filter(|_| is_drawn) {
         let friction = point.friction_coefficient;
         figures.push(Box::new(move || Ok(shapes(report, friction))));
     }
-    for branch in followed_branches(report) {
+    let followed = followed_branches(report).into_iter();
+    for branch in followed.filter(|_| is_drawn) {
         figures.push(Box::new(move || Ok(branch_shapes(report, branch))));
     }
     if let Some(map) = report.map {

@@ -26,9 +26,10 @@ pub fn write(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<Value, Fol
     if let Some(map) = report.map {
         folder.write("map.csv", |out| map.write(out))?;
     }
-    match report.solid {
-        Some(solid) => solid.write_base(folder, &report.base)?,
-        None => write_base(folder, report.mesh, (&report.base, report.field))?,
+    match (report.solid, report.assembly) {
+        (Some(solid), _) => solid.write_base(folder, &report.base)?,
+        (None, Some(assembly)) => assembly.write_base(folder, report.mesh)?,
+        (None, None) => write_base(folder, report.mesh, (&report.base, report.field))?,
     }
     write_shapes(folder, report)?;
     write_summary(folder, &summary(report, folder.manifest()))
@@ -163,8 +164,8 @@ fn shape_fields(report: &CeaReport<'_>, mode: &ComplexMode) -> [Field; 3] {
     }
     let part = |of: fn(&crate::linalg::c64) -> f64| shape.iter().map(of).collect::<Vec<f64>>();
     let amplitude = shape
-        .chunks_exact(2)
-        .map(|pair| (pair[0].norm_sqr() + pair[1].norm_sqr()).sqrt())
+        .chunks_exact(report.mesh.dimension)
+        .map(|u| u.iter().map(|value| value.norm_sqr()).sum::<f64>().sqrt())
         .collect();
     [
         Field::vectors("displacement_real", report.mesh, &part(|value| value.re)),

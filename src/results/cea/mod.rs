@@ -1,5 +1,6 @@
 //! Results of a complex eigenvalue analysis: what is printed and what is written.
 
+mod assembly;
 mod base;
 mod branches;
 mod coupling;
@@ -14,6 +15,7 @@ mod shape;
 mod solid;
 mod summary;
 
+pub use assembly::{AssemblyPoint, AssemblyReport};
 pub use base::{BaseField, BaseState, write_base};
 pub use figures::draw;
 pub use files::{write, write_eigenvalues, write_stability};
@@ -57,6 +59,8 @@ pub struct CeaReport<'a> {
     pub field: &'a BaseField,
     /// The body where it is three-dimensional; `mesh` and `field` then stand for nothing.
     pub solid: Option<&'a SolidReport>,
+    /// The base state of solid bodies from a mesh file; `field` then stands for nothing.
+    pub assembly: Option<&'a AssemblyReport>,
     /// Which parameter decides, where the solver knows.
     pub sensitivities: Option<&'a SensitivityReport>,
     /// Critical friction over a second parameter, where the case asks for it.

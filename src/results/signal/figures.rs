@@ -8,12 +8,9 @@ use crate::results::charts::{
 };
 use crate::results::drawing::{Declaration, DrawingOptions, draw_all};
 use crate::results::report::NamedFigure;
-use crate::signal::{SpectralResolution, SpectrogramOptions, spectral_lines, spectrogram};
+use crate::signal::{SpectrogramOptions, spectrogram};
 use serde::{Deserialize, Serialize};
 use std::sync::Mutex;
-
-/// Lines among which the fundamental is looked for.
-const MOST_LINES: usize = 20;
 
 /// Everything that the figures show.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -123,6 +123,11 @@ impl OutputFolder {
         }
     }
 
+    /// Whether this run has been begun in a folder whose results it is to replace, and was interrupted.
+    pub fn is_begun(path: &Path, manifest: &Manifest) -> bool {
+        is_owned(&path.join(STAGING), manifest).unwrap_or(false)
+    }
+
     /// Takes the folder of an earlier run to draw its figures anew: figures and report that are not
     /// written again go, every other file stays.
     ///

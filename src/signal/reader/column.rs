@@ -2,6 +2,9 @@
 
 use super::field::Value;
 
+/// Largest magnitude of a measured number.
+const LARGEST: f64 = 1e100;
+
 /// Numbers of one column.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Column {
@@ -38,6 +41,7 @@ impl Column {
         if let Some(parts) = &mut self.imaginary {
             parts.push(imaginary);
         }
-        real.is_finite() && imaginary.is_finite()
+        // Squares and sums of squares of samples must be finite, too.
+        real.abs() <= LARGEST && imaginary.abs() <= LARGEST
     }
 }

@@ -77,7 +77,7 @@ pub enum ReadProblem {
     },
     /// A field is NaN or infinite.
     #[error(
-        "`{field}` in column {name} is not finite; remove the row, or export without missing values"
+        "`{field}` in column {name} is not finite (or beyond 1e100); remove the row, or export without missing values"
     )]
     NotFinite {
         /// The field as written.

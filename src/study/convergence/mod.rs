@@ -266,6 +266,11 @@ fn mesh_level(case: &Case) -> (f64, String) {
             let (size, name) = of(&specification.annulus);
             (size, format!("{name} x {}", specification.axial_elements))
         }
+        Body::Assembly(assembly) => {
+            let count = assembly.mesh.element_count();
+            let size = 2.0 * assembly.size() / (count as f64).cbrt();
+            (size, format!("{count} elements"))
+        }
         Body::Imported(imported) => {
             let count = imported.mesh.element_count();
             let size = (imported.mesh.area() / count as f64).sqrt();

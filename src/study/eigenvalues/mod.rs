@@ -12,6 +12,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod assembly;
 mod dampings;
 mod map;
 mod model;
@@ -21,6 +22,7 @@ mod solve;
 mod spectrum;
 mod states;
 
+pub use assembly::AssemblyModel;
 pub use dampings::dampings;
 pub use map::map;
 pub use model::{Model, Solver, Spectrum, asked_modes, mode_limit};
@@ -136,6 +138,7 @@ pub fn report<'a>(
         base: model.base_state(case),
         field,
         solid: model.solid().map(|body| &body.report),
+        assembly: model.assembly(),
         sensitivities: solution.sensitivities.as_ref(),
         map: None,
         notes: solution.notes.clone(),

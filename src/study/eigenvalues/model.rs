@@ -1,5 +1,6 @@
 //! Models of the eigenvalue solvers, and the choice of the solver for a body.
 
+use super::assembly::{self, AssemblyModel};
 use super::states::WholeMesh;
 use super::{Progress, StudyError};
 use crate::case::{Annulus, Body, Case, CaseErrors, Cea, CeaMethod, ModeSelection, Revolution};
@@ -17,6 +18,8 @@ pub enum Solver {
     SolidSectors(Revolution),
     /// The whole mesh of a plane body.
     WholeMesh,
+    /// The whole mesh of solid bodies.
+    Assembly,
 }
 
 impl Solver {
@@ -27,7 +30,7 @@ impl Solver {
     pub fn of(case: &Case, method: CeaMethod) -> Result<Self, CaseErrors> {
         refuse_rest(case)?;
         match (&case.body, method) {
-            (Body::Imported(_), CeaMethod::Cyclic) => Err(case.error_at(
+            (Body::Imported(_) | Body::Assembly(_), CeaMethod::Cyclic) => Err(case.error_at(
                 "cea.method",
                 "cea.method = \"cyclic\" needs the symmetry of the built-in annulus".to_owned(),
                 "an imported mesh has no sectors".to_owned(),
@@ -50,6 +53,7 @@ impl Solver {
             Body::Annulus(annulus) => Self::Sectors(*annulus),
             Body::Revolution(revolution) => Self::SolidSectors(*revolution),
             Body::Imported(_) => Self::WholeMesh,
+            Body::Assembly(_) => Self::Assembly,
         }
     }
 }
@@ -60,6 +64,7 @@ fn refuse_rest(case: &Case) -> Result<(), CaseErrors> {
         return Ok(());
     }
     let key = match case.raw.find("contact.speed") {
+        _ if case.body.assembly().is_some() => "motion",
         Some(_) => "contact.speed",
         None => "contact.rotation_speed_rpm",
     };
@@ -78,9 +83,11 @@ pub enum Model {
     /// The harmonics of a plane annulus.
     Sectors(Annulus, TangentOptions),
     /// The harmonics of a body of revolution in three dimensions.
-    SolidSectors(SolidModel),
+    SolidSectors(Box<SolidModel>),
     /// The whole mesh of a plane body.
     Whole(WholeMesh),
+    /// The whole mesh of solid bodies.
+    Assembly(Box<AssemblyModel>),
 }
 
 /// The spectrum of a model over friction coefficients.
@@ -129,13 +136,20 @@ impl Model {
             Solver::SolidSectors(Revolution {
                 specification,
                 material,
-            }) => Self::SolidSectors(SolidModel {
+            }) => Self::SolidSectors(Box::new(SolidModel {
                 specification,
                 material,
                 options,
                 contact: *sliding,
-            }),
+            })),
             Solver::WholeMesh => Self::Whole(WholeMesh::solve(case, options, frictions)?),
+            Solver::Assembly => {
+                let body = case.body.assembly();
+                let body = body.expect("the solver of an assembly is given to one alone");
+                Self::Assembly(Box::new(AssemblyModel::solve(
+                    case, body, options, frictions,
+                )?))
+            }
         })
     }
 
@@ -143,7 +157,7 @@ impl Model {
     pub fn method(&self) -> &'static str {
         match self {
             Self::Sectors(..) | Self::SolidSectors(_) => "cyclic",
-            Self::Whole(_) => "sparse",
+            Self::Whole(_) | Self::Assembly(_) => "sparse",
         }
     }
 
@@ -199,6 +213,18 @@ impl Model {
                     sensitivities: None,
                     without_sensitivities: 0,
                     notes: whole.changes_note().into_iter().collect(),
+                    coverage: None,
+                    overdamped: Vec::new(),
+                    sweep,
+                })
+            }
+            Self::Assembly(model) => {
+                let (sweep, dofs) = model.sweep(request, progress)?;
+                Ok(Spectrum {
+                    dofs,
+                    sensitivities: None,
+                    without_sensitivities: 0,
+                    notes: assembly::note(&model.body).into_iter().collect(),
                     coverage: None,
                     overdamped: Vec::new(),
                     sweep,

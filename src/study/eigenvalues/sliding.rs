@@ -1,22 +1,25 @@
 //! Steady sliding, reported beside the modes of an eigenvalue analysis.
 
 use super::StudyError;
+use super::assembly::base_state;
 use super::model::Model;
 use super::solid::SolidBody;
 use crate::case::{Case, Cea};
 use crate::fem::nodal_stress;
 use crate::mesh::{AnnulusMesh, Counterface, Mesh, SectorMesh};
 use crate::prestress::{SectorTangent, SteadySliding};
-use crate::results::cea::{BaseField, BaseState};
+use crate::results::cea::{AssemblyReport, BaseField, BaseState};
 use crate::study::extent_of;
 use std::sync::Arc;
 
 /// Steady sliding at the case's own friction coefficient.
 pub enum SteadyState {
     /// Of a plane body.
-    Plane(SteadySliding),
+    Plane(Box<SteadySliding>),
     /// Of a body of revolution in three dimensions.
     Solid(Box<SolidBody>),
+    /// Of solid bodies that slide on each other.
+    Assembly(AssemblyReport),
 }
 
 /// A model with its mesh and its steady sliding.
@@ -44,8 +47,13 @@ impl SlidingModel {
                 let mesh = Arc::new(AnnulusMesh::generate(&solid.plane)?.mesh);
                 (mesh, SteadyState::Solid(Box::new(solid)))
             }
+            Model::Assembly(assembly) => {
+                let report = assembly.report(case)?;
+                let mesh = Arc::clone(&assembly.body.mesh);
+                (mesh, SteadyState::Assembly(report))
+            }
             Model::Whole(whole) => {
-                let state = SteadyState::Plane(whole.base().clone());
+                let state = SteadyState::Plane(Box::new(whole.base().clone()));
                 (Arc::clone(&whole.mesh), state)
             }
             Model::Sectors(annulus, options) => {
@@ -54,7 +62,7 @@ impl SlidingModel {
                 let materials = &annulus.materials;
                 let tangent = SectorTangent::linearize(&sector, materials, options, sliding)?;
                 let base = SteadySliding::from_sector(&mesh, &sector, tangent.base(), sliding);
-                (Arc::new(mesh.mesh), SteadyState::Plane(base))
+                (Arc::new(mesh.mesh), SteadyState::Plane(Box::new(base)))
             }
         };
         Ok(Self { mesh, model, state })
@@ -64,7 +72,15 @@ impl SlidingModel {
     pub fn solid(&self) -> Option<&SolidBody> {
         match &self.state {
             SteadyState::Solid(solid) => Some(solid),
-            SteadyState::Plane(_) => None,
+            SteadyState::Plane(_) | SteadyState::Assembly(_) => None,
+        }
+    }
+
+    /// The base state of solid bodies that slide on each other, if they are some.
+    pub fn assembly(&self) -> Option<&AssemblyReport> {
+        match &self.state {
+            SteadyState::Assembly(report) => Some(report),
+            SteadyState::Plane(_) | SteadyState::Solid(_) => None,
         }
     }
 
@@ -72,6 +88,7 @@ impl SlidingModel {
     pub fn contact_changes(&self) -> &[f64] {
         match &self.model {
             Model::Whole(whole) => &whole.range.changes,
+            Model::Assembly(assembly) => &assembly.range.changes,
             Model::Sectors(..) | Model::SolidSectors(_) => &[],
         }
     }
@@ -80,6 +97,7 @@ impl SlidingModel {
     pub fn base_state(&self, case: &Case) -> BaseState {
         let base = match &self.state {
             SteadyState::Solid(solid) => return solid.base_state(case),
+            SteadyState::Assembly(report) => return base_state(case, report),
             SteadyState::Plane(base) => base,
         };
         let friction = case.contact.sliding.friction_coefficient;

@@ -1,12 +1,12 @@
 //! Solution of the eigenvalue analysis of a case, and the notes on its results.
 
-use super::model::{Model, mode_limit};
+use super::model::{Model, Solver, mode_limit};
 use super::sliding::SteadyState;
 use super::solid::SolidBody;
 use super::{Progress, SlidingModel, Solution, StudyError};
-use crate::case::{Body, Case, Cea};
+use crate::case::{Body, Case, Cea, CeaMethod};
 use crate::cea::cyclic::{Coverage, Overdamped, Sensitivity};
-use crate::cea::{FrictionSweep, SweepRequest};
+use crate::cea::{CeaError, FrictionSweep, SweepRequest};
 use crate::fem::RegionMaterial;
 use crate::results::cea::SensitivityReport;
 use std::f64::consts::TAU;
@@ -47,13 +47,22 @@ fn solve_with(
         limit: mode_limit(cea),
         shapes_at: &cea.shapes_at,
     };
-    let found = model.model.spectrum(case, &request, with_rates, progress)?;
+    let solved = model.model.spectrum(case, &request, with_rates, progress);
+    let (found, method, instead) = match solved {
+        Ok(found) => (found, model.model.method(), None),
+        Err(error) => {
+            let whole = whole_mesh_instead(case, cea, model, &error)?.ok_or(error.clone())?;
+            let found = whole.spectrum(case, &request, with_rates, progress)?;
+            (found, whole.method(), Some(instead_note(&error)))
+        }
+    };
 
     let mut notes: Vec<String> = found
         .coverage
         .iter()
         .map(|c| coverage_note(&model.model, c))
         .collect();
+    notes.extend(instead);
     notes.extend(found.notes);
     notes.extend(overdamped_note(case, model, &found.overdamped));
     notes.extend(model.solid().and_then(SolidBody::note));
@@ -69,11 +78,49 @@ fn solve_with(
     let sensitivities = found.sensitivities;
     Ok(Solution {
         dofs: found.dofs,
-        method: model.model.method(),
+        method,
         sensitivities: sensitivities.map(|branches| sensitivity_report(case, branches)),
         notes,
         sweep: found.sweep,
     })
+}
+
+fn instead_note(error: &CeaError) -> String {
+    let why = match error {
+        CeaError::LostHarmonic { harmonic, friction } => {
+            format!(
+                "a branch of harmonic {harmonic} could not be followed up to friction {friction}"
+            )
+        }
+        CeaError::Unproven { harmonic, .. } => {
+            format!("harmonic {harmonic} may hold further modes")
+        }
+        other => other.to_string(),
+    };
+    format!("{why}: the whole mesh was solved instead, as with cea.method = \"sparse\"")
+}
+
+/// The whole mesh of a plane annulus, where `auto` chose its harmonics and a branch of them could not be followed.
+///
+/// # Errors
+/// No state of steady sliding.
+fn whole_mesh_instead(
+    case: &Case,
+    cea: &Cea,
+    model: &SlidingModel,
+    error: &CeaError,
+) -> Result<Option<Model>, CeaError> {
+    let is_lost = matches!(
+        error,
+        CeaError::LostHarmonic { .. } | CeaError::Unproven { .. }
+    );
+    match &model.model {
+        Model::Sectors(_, options) if is_lost && cea.method == CeaMethod::Auto => {
+            let frictions = cea.solved_friction_coefficients();
+            Model::with_solver(case, Solver::WholeMesh, *options, &frictions).map(Some)
+        }
+        _ => Ok(None),
+    }
 }
 
 /// Relative uncertainty of an eigenvalue from which on the digits that are printed are in doubt.
@@ -93,7 +140,7 @@ fn uncertainty_note(case: &Case, sweep: &FrictionSweep) -> Option<String> {
         .map_or_else(String::new, |stiffness| {
             let size = stiffness * case.body.contact_length() / case.material.young_modulus;
             let length = match &case.body {
-                Body::Imported(_) => "the size of the contact",
+                Body::Imported(_) | Body::Assembly(_) => "the size of the contact",
                 Body::Annulus(_) | Body::Revolution(_) => "geometry.inner_radius",
             };
             format!(
@@ -141,11 +188,7 @@ fn damping_note(case: &Case, sweep: &FrictionSweep) -> Option<String> {
 }
 
 /// The motions that friction across the sliding keeps from oscillating, and those that it damps.
-fn overdamped_note(
-    case: &Case,
-    model: &SlidingModel,
-    overdamped: &[Overdamped],
-) -> Option<String> {
+fn overdamped_note(case: &Case, model: &SlidingModel, overdamped: &[Overdamped]) -> Option<String> {
     let most = overdamped.iter().max_by_key(|own| own.count);
     let (most, solid) = (most.filter(|own| own.count > 0)?, model.solid()?);
     let [slowest, fastest] = most.decay;
@@ -166,6 +209,8 @@ fn friction_note(case: &Case, model: &SlidingModel) -> Option<String> {
     let friction = case.contact.sliding.friction_coefficient;
     let (law, pressure) = match &model.state {
         SteadyState::Solid(solid) => solid.mean_friction(),
+        // Each contact has its own.
+        SteadyState::Assembly(_) => return None,
         SteadyState::Plane(base) => {
             let pressures = base.pressures(friction);
             let mean = pressures.iter().sum::<f64>() / pressures.len().max(1) as f64;
@@ -227,7 +272,7 @@ fn coverage_note(model: &Model, coverage: &Coverage) -> String {
             coverage.largest_harmonic,
             coverage.margin_hz,
         ),
-        Model::Sectors(..) | Model::Whole(_) => proof_note(coverage),
+        Model::Sectors(..) | Model::Whole(_) | Model::Assembly(_) => proof_note(coverage),
     }
 }
 

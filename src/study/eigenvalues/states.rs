@@ -66,32 +66,10 @@ impl WholeMesh {
         request: &SweepRequest<'_>,
         progress: &Progress<'_>,
     ) -> Result<(FrictionSweep, usize), CeaError> {
-        let frictions = request.friction_coefficients;
         let range = &self.range;
-        let (mut parts, mut dofs) = (Vec::new(), 0);
-        for (k, state) in range.states.iter().enumerate() {
-            let own = frictions.iter().zip(&range.state_of);
-            let mut values: Vec<f64> = own.filter(|(_, s)| **s == k).map(|(mu, _)| *mu).collect();
-            if values.is_empty() {
-                continue;
-            }
-            // Branches are followed up to the change on either side.
-            values.extend(
-                k.checked_sub(1)
-                    .and_then(|before| range.changes.get(before)),
-            );
-            values.extend(range.changes.get(k));
-            values.sort_by(f64::total_cmp);
-            values.dedup();
-            let tangent = self.tangent(case, state);
-            dofs = dofs.max(tangent.unknowns.len());
-            let part = SweepRequest {
-                friction_coefficients: &values,
-                ..*request
-            };
-            parts.push(sparse::sweep(&tangent, &part, progress)?);
-        }
-        Ok((joined(parts, frictions), dofs))
+        let tangent = |k: usize| Ok(self.tangent(case, &range.states[k]));
+        let changes = (range.state_of.as_slice(), range.changes.as_slice());
+        sweep_states(range.states.len(), changes, request, progress, &tangent)
     }
 
     /// Where contact nodes open or close.
@@ -106,6 +84,39 @@ impl WholeMesh {
             )
         })
     }
+}
+
+/// Sweeps over base states: each has a tangent and a sweep of its own, which the friction coefficients where one state gives
+/// way to the next end and begin. Gives the number of unknowns too.
+pub(super) fn sweep_states(
+    count: usize,
+    (state_of, changes): (&[usize], &[f64]),
+    request: &SweepRequest<'_>,
+    progress: &Progress<'_>,
+    tangent: &dyn Fn(usize) -> Result<SlidingTangent, CeaError>,
+) -> Result<(FrictionSweep, usize), CeaError> {
+    let frictions = request.friction_coefficients;
+    let (mut parts, mut dofs) = (Vec::new(), 0);
+    for k in 0..count {
+        let own = frictions.iter().zip(state_of);
+        let mut values: Vec<f64> = own.filter(|(_, s)| **s == k).map(|(mu, _)| *mu).collect();
+        if values.is_empty() {
+            continue;
+        }
+        // Branches are followed up to the change on either side.
+        values.extend(k.checked_sub(1).and_then(|before| changes.get(before)));
+        values.extend(changes.get(k));
+        values.sort_by(f64::total_cmp);
+        values.dedup();
+        let tangent = tangent(k)?;
+        dofs = dofs.max(tangent.unknowns.len());
+        let part = SweepRequest {
+            friction_coefficients: &values,
+            ..*request
+        };
+        parts.push(sparse::sweep(&tangent, &part, progress)?);
+    }
+    Ok((joined(parts, frictions), dofs))
 }
 
 /// One sweep of the parts: each is labelled like the one before by the nearest eigenvalues where they meet.

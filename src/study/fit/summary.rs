@@ -113,8 +113,7 @@ fn notes(case: &Case, wanted: &Fit, fitted: &Fitted) -> Vec<String> {
         let (key, from, to) = (&wanted.parameter.key, wanted.from, wanted.to);
         if estimate.at_bound.is_some() {
             notes.push(format!(
-                "{key} lies on its bound {:e}: the data want it beyond, and its value is the bound's, not theirs; widen \
-                 the bounds if values there make sense",
+                "{key} is at its bound {:e}: the data favour a value outside; widen the bounds if that is plausible",
                 estimate.value
             ));
         }

@@ -85,6 +85,7 @@ impl<'a> TransientStudy<'a> {
                 mesh
             }
             Body::Imported(imported) => Arc::clone(&imported.mesh),
+            Body::Assembly(assembly) => Arc::clone(&assembly.mesh),
         };
         Ok(Self {
             case,
@@ -190,7 +191,7 @@ impl<'a> TransientStudy<'a> {
     /// Reads a record.
     pub fn analyse(&self, record: &Recorder) -> TransientAnalysis {
         let perturbation = &self.settings.perturbation;
-        let analysis = match (self.case.is_annulus(), perturbation.noise) {
+        let analysis = match (self.case.has_sectors(), perturbation.noise) {
             (false, _) => TransientAnalysis::without_symmetry(record),
             (true, 0.0) => TransientAnalysis::of(record, &perturbation.harmonics()),
             // Noise seeds every harmonic.
@@ -276,7 +277,7 @@ impl<'a> TransientStudy<'a> {
             mesh: &self.mesh,
             solid: self.sector.as_ref(),
             material: case.materials(),
-            has_harmonics: case.is_annulus(),
+            has_harmonics: case.has_sectors(),
             thickness: self.thickness(),
             extent: extent_of(case),
             friction_coefficient: case.contact.sliding.friction_coefficient,

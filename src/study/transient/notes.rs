@@ -36,7 +36,7 @@ impl TransientStudy<'_> {
     fn no_sliding(&self) -> Option<String> {
         let case = self.case;
         let starts_at_rest = self.settings.initial == InitialState::Rest;
-        if !starts_at_rest || case.is_annulus() || case.contact.sliding.rotation_speed == 0.0 {
+        if !starts_at_rest || case.has_sectors() || case.contact.sliding.rotation_speed == 0.0 {
             return None;
         }
         let stiffness = assemble_stiffness(&self.mesh, case.materials());

@@ -63,6 +63,7 @@ fn report_of_an_eigenvalue_analysis_holds_every_figure_table_and_the_case() {
         },
         field: &field,
         solid: None,
+        assembly: None,
         sensitivities: None,
         map: None,
         notes: vec![],

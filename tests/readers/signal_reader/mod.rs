@@ -178,7 +178,7 @@ fn every_refusal_names_file_line_column_and_remedy() {
     let with = |row: &str| format!("{head}{body}{row}\n");
     assert_eq!(
         message(&with("110,nan,1")),
-        "FRF.csv:12:5: `nan` in column `real` is not finite; remove the row, or export without \
+        "FRF.csv:12:5: `nan` in column `real` is not finite (or beyond 1e100); remove the row, or export without \
          missing values"
     );
     assert!(message(&with("110,1,inf")).starts_with("FRF.csv:12:7: `inf`"));

@@ -1,0 +1,312 @@
+//! Assemblies of solid bodies: `[motion.*]`, `[contacts.*]`, `[ties.*]`.
+
+use super::boundaries::NamedCondition;
+use super::contact::{Contact, friction_decay};
+use super::raw::MeshBytes;
+use super::reader::Section;
+use super::suggestion;
+use crate::contact::{ContactStiffness, Motion, PairFriction, SlidingContact};
+use crate::fem::{ElasticMaterial, PlaneFormulation, RegionMaterial};
+use crate::mesh::{GmshFile, Mesh, MeshFileError};
+use crate::prestress::{BaseChoice, SlidingSurfaces, TiedSurfaces};
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+/// Solid bodies of a mesh file that are tied together and slide on each other.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AssemblyBody {
+    /// The mesh of all bodies.
+    pub mesh: Arc<Mesh>,
+    /// The material of each of its regions.
+    pub materials: Vec<RegionMaterial>,
+    /// Surfaces that are glued.
+    pub ties: Vec<TiedSurfaces>,
+    /// Surfaces that slide on each other.
+    pub contacts: Vec<SlidingSurfaces>,
+    /// Regions that turn.
+    pub motions: Vec<Motion>,
+    /// What the base state of the contacts is.
+    pub base: BaseChoice,
+}
+
+/// `[motion.*]`, `[contacts.*]` and `[ties.*]` as the case names regions and surfaces.
+pub(super) struct AssemblyParts {
+    motions: Vec<(String, Motion)>,
+    contacts: Vec<NamedContact>,
+    ties: Vec<(String, [String; 2])>,
+    base: BaseChoice,
+}
+
+struct NamedContact {
+    name: String,
+    sides: [String; 2],
+    friction_coefficient: f64,
+    surfaces: SlidingSurfaces,
+}
+
+/// Reads the sections of an assembly; its first contact and motion give the common contact of the case: a sweep varies the
+/// friction coefficient of the first contact, and the others keep their ratio to it.
+pub(super) fn sections(root: &Section<'_>) -> (AssemblyParts, Contact) {
+    let motions = each(root, "motion", motion);
+    let ties = each(root, "ties", |section| {
+        [section.text("surface"), section.text("counter")]
+    });
+    let mut bases = Vec::new();
+    let contacts = each(root, "contacts", |section| contact(section, &mut bases));
+    let contacts: Vec<NamedContact> = contacts
+        .into_iter()
+        .map(|(name, contact)| NamedContact {
+            surfaces: SlidingSurfaces {
+                name: name.clone(),
+                ..contact.surfaces
+            },
+            name,
+            ..contact
+        })
+        .collect();
+    let base = bases.first().copied().unwrap_or_default();
+    if bases.iter().any(|other| *other != base) {
+        root.reject(
+            "contacts",
+            "contacts are \"solved\" and \"closed\" in one case: a contact that is free of stress beside one that is not has \
+             no equilibrium"
+                .to_owned(),
+            "one state for all".to_owned(),
+            Some("give every contact the same `state`".to_owned()),
+        );
+    }
+    if root.has("contact") {
+        root.reject(
+            "contact",
+            "[contact] and [contacts.*] in one case: the one is the short form of the other"
+                .to_owned(),
+            "one of the two".to_owned(),
+            Some("leave [contact] out".to_owned()),
+        );
+    }
+    let first = contacts.first();
+    let common = Contact {
+        sliding: SlidingContact {
+            friction_coefficient: first.map_or(0.0, |contact| contact.friction_coefficient),
+            decay: first.and_then(|contact| contact.surfaces.friction.decay),
+            interference: 0.0,
+            rotation_speed: motions
+                .first()
+                .map_or(0.0, |motion| motion.1.rotation_speed),
+        },
+        stiffness: first.map_or_else(ContactStiffness::default, |contact| {
+            contact.surfaces.stiffness
+        }),
+    };
+    let parts = AssemblyParts {
+        motions,
+        contacts,
+        ties,
+        base,
+    };
+    (parts, common)
+}
+
+/// Reads every section under `name`.
+fn each<T>(
+    root: &Section<'_>,
+    name: &str,
+    mut read: impl FnMut(&Section<'_>) -> T,
+) -> Vec<(String, T)> {
+    let all = root.section(name, false);
+    let names: Vec<&str> = all.remaining().into_iter().map(|(name, _)| name).collect();
+    let found = names.into_iter().map(|name| {
+        let section = all.section(name, false);
+        let value = read(&section);
+        section.close();
+        (name.to_owned(), value)
+    });
+    let found = found.collect();
+    all.close();
+    found
+}
+
+fn motion(section: &Section<'_>) -> Motion {
+    let triple = |key: &str| match section.numbers(key).as_deref() {
+        Some(&[x, y, z]) => Some([x, y, z]),
+        Some(_) => {
+            section.reject(
+                key,
+                format!("{} needs three numbers", section.name(key)),
+                "must be [x, y, z]".to_owned(),
+                None,
+            );
+            None
+        }
+        None => None,
+    };
+    if !section.has("axis") {
+        section.missing("axis");
+    }
+    let axis = triple("axis").unwrap_or([0.0, 0.0, 1.0]);
+    let length = axis.iter().map(|x| x * x).sum::<f64>().sqrt();
+    if length == 0.0 {
+        section.reject(
+            "axis",
+            format!("{} = [0, 0, 0] points nowhere", section.name("axis")),
+            "must not be zero".to_owned(),
+            None,
+        );
+    }
+    Motion {
+        regions: Vec::new(),
+        axis: axis.map(|x| x / length.max(f64::MIN_POSITIVE)),
+        center: triple("center").unwrap_or([0.0; 3]),
+        rotation_speed: section.number("rotation_speed_rpm") * TAU / 60.0,
+    }
+}
+
+/// One contact, without its name and its place in the mesh.
+fn contact(section: &Section<'_>, bases: &mut Vec<BaseChoice>) -> NamedContact {
+    bases.push(section.choice("state"));
+    let decay = friction_decay(section);
+    let stiffness = ContactStiffness {
+        normal_stiffness: section.optional_number("normal_stiffness"),
+        normal_damping: section.number("normal_damping"),
+        tangential_damping: section.number("tangential_damping"),
+        is_base_compliant: true,
+    };
+    if stiffness.normal_stiffness.is_none() && stiffness.normal_damping > 0.0 {
+        section.reject(
+            "normal_damping",
+            format!(
+                "{} has no effect on a rigid contact",
+                section.name("normal_damping")
+            ),
+            "needs normal_stiffness".to_owned(),
+            Some("give normal_stiffness, or leave normal_damping out".to_owned()),
+        );
+    }
+    NamedContact {
+        name: String::new(),
+        sides: [section.text("surface"), section.text("counter")],
+        friction_coefficient: section.number("friction_coefficient"),
+        surfaces: SlidingSurfaces {
+            name: String::new(),
+            surface: 0,
+            counter: 0,
+            friction: PairFriction { ratio: 1.0, decay },
+            stiffness,
+        },
+    }
+}
+
+/// The solid bodies of a mesh file. An error is a message and a label.
+pub(super) fn assemble(
+    bytes: &MeshBytes,
+    scale: f64,
+    conditions: &[NamedCondition],
+    (common, own): (&ElasticMaterial, &[(String, RegionMaterial)]),
+    parts: AssemblyParts,
+) -> Result<AssemblyBody, (String, String)> {
+    let unusable = |error: MeshFileError| {
+        let message = format!("{}: {error}", bytes.file);
+        (message, "makes no bodies".to_owned())
+    };
+    let file = GmshFile::read(&bytes.bytes).map_err(unusable)?;
+    let mesh = Mesh::from_solids(&file, scale, conditions).map_err(unusable)?;
+    let region =
+        |name: &str, key: &str| named(&mesh.regions, name, key, "region (physical volume)");
+    let boundaries: Vec<String> = mesh.boundaries.iter().map(|b| b.name.clone()).collect();
+    let surface = |name: &str, key: &str| named(&boundaries, name, key, "surface");
+
+    // Materials of regions; those without a section of their own have the common one.
+    let solid = |elastic: ElasticMaterial| ElasticMaterial {
+        formulation: PlaneFormulation::ThreeDimensional,
+        ..elastic
+    };
+    let everywhere = RegionMaterial {
+        elastic: solid(*common),
+        damping: None,
+    };
+    let mut materials = vec![everywhere; mesh.regions.len()];
+    for (name, material) in own {
+        let place = region(name, &format!("[materials.{name}]"))?;
+        materials[place] = RegionMaterial {
+            elastic: solid(material.elastic),
+            ..*material
+        };
+    }
+    let mut motions = Vec::new();
+    for (name, motion) in parts.motions {
+        motions.push(Motion {
+            regions: vec![region(&name, &format!("[motion.{name}]"))?],
+            ..motion
+        });
+    }
+    let mut ties = Vec::new();
+    for (name, [own, counter]) in parts.ties {
+        ties.push(TiedSurfaces {
+            surface: surface(&own, &format!("ties.{name}.surface"))?,
+            counter: surface(&counter, &format!("ties.{name}.counter"))?,
+            name,
+        });
+    }
+    let reference = parts
+        .contacts
+        .first()
+        .map(|contact| contact.friction_coefficient);
+    let mut contacts = Vec::new();
+    for NamedContact {
+        name,
+        sides: [own, counter],
+        friction_coefficient,
+        mut surfaces,
+    } in parts.contacts
+    {
+        surfaces.surface = surface(&own, &format!("contacts.{name}.surface"))?;
+        surfaces.counter = surface(&counter, &format!("contacts.{name}.counter"))?;
+        surfaces.friction.ratio = match reference {
+            Some(reference) if reference > 0.0 => friction_coefficient / reference,
+            _ => 1.0,
+        };
+        contacts.push(surfaces);
+    }
+    Ok(AssemblyBody {
+        mesh: Arc::new(mesh),
+        materials,
+        ties,
+        contacts,
+        motions,
+        base: parts.base,
+    })
+}
+
+/// Place of a name among those of a mesh file.
+fn named(known: &[String], name: &str, key: &str, what: &str) -> Result<usize, (String, String)> {
+    known.iter().position(|other| other == name).ok_or_else(|| {
+        let hint = suggestion::nearest(name, known.iter().map(String::as_str))
+            .map_or_else(String::new, |near| format!("; did you mean \"{near}\"?"));
+        let list: Vec<String> = known.iter().map(|name| format!("\"{name}\"")).collect();
+        let message = format!(
+            "{key}: the mesh file has no {what} \"{name}\"; it has {}{hint}",
+            list.join(", ")
+        );
+        (message, "names none of its parts".to_owned())
+    })
+}
+
+impl AssemblyBody {
+    /// Half the largest extent of the bodies, m.
+    pub fn size(&self) -> f64 {
+        let extent = |axis: usize| {
+            let coordinates = || self.mesh.nodes.iter().map(|point| point[axis]);
+            coordinates().fold(f64::NEG_INFINITY, f64::max)
+                - coordinates().fold(f64::INFINITY, f64::min)
+        };
+        0.5 * (0..3).map(extent).fold(0.0, f64::max)
+    }
+
+    /// Nodes of the contact surfaces.
+    pub fn contact_node_count(&self) -> usize {
+        let surfaces = self.contacts.iter().map(|contact| contact.surface);
+        surfaces
+            .map(|place| self.mesh.boundaries[place].nodes.len())
+            .sum()
+    }
+}

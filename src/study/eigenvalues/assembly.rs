@@ -1,0 +1,143 @@
+//! Eigenvalues of an assembly of solid bodies.
+
+use super::Progress;
+use super::states::sweep_states;
+use crate::case::{AssemblyBody, Case};
+use crate::cea::{CeaError, FrictionSweep, SweepRequest};
+use crate::prestress::{
+    Assembly, BaseChoice, PressedRange, PressedState, PrestressError, TangentOptions,
+};
+use crate::results::Extent;
+use crate::results::cea::{AssemblyPoint, AssemblyReport, BaseState};
+
+/// An assembly and its base states.
+pub struct AssemblyModel {
+    /// The bodies, what ties them and what slides.
+    pub body: AssemblyBody,
+    /// Base states at the friction coefficients that are solved, and last at the case's own.
+    pub range: PressedRange,
+    /// How the tangent is taken.
+    pub options: TangentOptions,
+}
+
+impl AssemblyModel {
+    /// Solves the base states at some friction coefficients and at the case's own.
+    ///
+    /// # Errors
+    /// Surfaces that do not meet; no base state.
+    pub fn solve(
+        case: &Case,
+        body: &AssemblyBody,
+        options: TangentOptions,
+        frictions: &[f64],
+    ) -> Result<Self, CeaError> {
+        let own = case.contact.sliding.friction_coefficient;
+        let frictions = [frictions, &[own]].concat();
+        let range = assembled(body)?.range(&frictions)?;
+        Ok(Self {
+            body: body.clone(),
+            range,
+            options,
+        })
+    }
+
+    /// The state at the case's own friction coefficient.
+    fn base(&self) -> &PressedState {
+        let own = self.range.state_of.last();
+        &self.range.states[*own.expect("the case's own friction coefficient comes last")]
+    }
+
+    /// Solves the eigenproblems at the friction coefficients that it was made for; gives the number of unknowns too.
+    ///
+    /// # Errors
+    /// Those of the solver.
+    pub fn sweep(
+        &self,
+        request: &SweepRequest<'_>,
+        progress: &Progress<'_>,
+    ) -> Result<(FrictionSweep, usize), CeaError> {
+        let assembly = assembled(&self.body)?;
+        let range = &self.range;
+        let tangent = |k: usize| Ok(assembly.tangent(&range.states[k], &self.options)?);
+        let changes = (range.state_of.as_slice(), range.changes.as_slice());
+        sweep_states(range.states.len(), changes, request, progress, &tangent)
+    }
+
+    /// The base state point by point at the case's own friction coefficient.
+    ///
+    /// # Errors
+    /// Those of the pairing of surfaces.
+    pub fn report(&self, case: &Case) -> Result<AssemblyReport, PrestressError> {
+        let friction = case.contact.sliding.friction_coefficient;
+        let (assembly, state) = (assembled(&self.body)?, self.base());
+        let forces = state.normal_forces(friction);
+        let all = assembly.contacts().iter().flat_map(|(contact, surface)| {
+            let points = surface.points.iter().zip(&surface.sites);
+            points.map(move |(point, site)| (contact, point, site))
+        });
+        let points = all.enumerate().map(|(i, (contact, point, site))| {
+            let pressure = forces.get(i).map_or(0.0, |force| force / point.weight);
+            AssemblyPoint {
+                contact: contact.name.clone(),
+                site: *site,
+                area: point.weight,
+                pressure,
+                shear: friction * point.friction.drag * pressure,
+                is_closed: state.is_pressed[i],
+                speed: point.speed,
+            }
+        });
+        Ok(AssemblyReport {
+            points: points.collect(),
+            displacement: state.displacement(friction),
+        })
+    }
+}
+
+fn assembled(body: &AssemblyBody) -> Result<Assembly<'_>, PrestressError> {
+    Assembly::new(
+        &body.mesh,
+        &body.materials,
+        &body.ties,
+        &body.contacts,
+        &body.motions,
+        body.base,
+    )
+}
+
+/// What the report says of the base state of an assembly.
+pub fn base_state(case: &Case, report: &AssemblyReport) -> BaseState {
+    let range = |value: fn(&AssemblyPoint) -> f64| {
+        let values = report.points.iter().map(value);
+        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| {
+            [low.min(v), high.max(v)]
+        })
+    };
+    let closed = report.points.iter().filter(|point| point.is_closed).count();
+    let powers = report.points.iter();
+    let power: f64 = powers
+        .map(|point| point.shear * point.area * point.speed)
+        .sum();
+    let speed = case.contact.sliding.rotation_speed;
+    BaseState {
+        friction_coefficient: case.contact.sliding.friction_coefficient,
+        slipping: closed,
+        sticking: 0,
+        open: report.points.len() - closed,
+        pressure_pa: range(|point| point.pressure),
+        shear_pa: range(|point| point.shear),
+        torque_n_m: Some(if speed == 0.0 { 0.0 } else { power / speed }),
+        drag_n: None,
+        power_w: power,
+        extent: Extent::WholeBody,
+    }
+}
+
+/// Whether the base state is the one without stress.
+pub fn note(body: &AssemblyBody) -> Option<String> {
+    (body.base == BaseChoice::Closed).then(|| {
+        "the base state is closed and free of stress: no pressure, no geometric stiffness, no dashpot of friction across the \
+         sliding"
+            .to_owned()
+    })
+}
