@@ -9,6 +9,9 @@ use crate::linalg::Distribution;
 /// Share of a distribution beyond what its key can take from which on it is refused.
 const MOST_BEYOND: f64 = 0.05;
 
+/// Standard deviation of the logarithm beyond which a log-normal distribution is hardly meant: a factor of 20 either way.
+const LARGEST_LOG_DEVIATION: f64 = 3.0;
+
 /// A parameter and what is known of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UncertainParameter {

@@ -88,6 +88,7 @@ impl SlidingModel {
     pub fn contact_changes(&self) -> &[f64] {
         match &self.model {
             Model::Whole(whole) => &whole.range.changes,
+            Model::Assembly(assembly) => &assembly.range.changes,
             Model::Sectors(..) | Model::SolidSectors(_) => &[],
         }
     }

@@ -272,7 +272,7 @@ fn coverage_note(model: &Model, coverage: &Coverage) -> String {
             coverage.largest_harmonic,
             coverage.margin_hz,
         ),
-        Model::Sectors(..) | Model::Whole(_) => proof_note(coverage),
+        Model::Sectors(..) | Model::Whole(_) | Model::Assembly(_) => proof_note(coverage),
     }
 }
 
