@@ -377,10 +377,12 @@ impl Placed<'_> {
         }
     }
 
-    /// Lines of its headings with their colours.
-    fn heading_lines(&self) -> Vec<(String, &'static str)> {
+    /// Lines of its headings with their colours; a letter at the left stands in the same line.
+    fn heading_lines(&self, has_letter: bool) -> Vec<(String, &'static str)> {
         let wrapped = |(line, colour): &(String, &'static str)| {
-            let lines = text::wrapped(line, (HEADING_SIZE, false), self.part.1);
+            let letters = if has_letter { 2.0 * LETTER_WIDTH } else { 0.0 };
+            let room = (self.part.1 - letters).max(LETTER_WIDTH);
+            let lines = text::wrapped(line, (HEADING_SIZE, false), room);
             lines
                 .into_iter()
                 .map(|line| (line, *colour))
@@ -402,7 +404,7 @@ impl Placed<'_> {
 
     /// Room needed above the data area, points.
     fn top_need(&self, letters: bool) -> f64 {
-        let headings = self.heading_lines().len() as f64 * 1.25 * HEADING_SIZE;
+        let headings = self.heading_lines(letters).len() as f64 * 1.25 * HEADING_SIZE;
         let lines = self.caption_lines().len().max(usize::from(letters));
         let line = match lines {
             0 => 0.0,
@@ -413,7 +415,11 @@ impl Placed<'_> {
             width if width <= self.legend_room() => LINE_HEIGHT,
             _ => line + self.legend.height(self.legend_width()),
         };
-        let head = headings.max(line).max(legend);
+        let head = match self.panel.caption.is_empty() {
+            true => headings.max(line).max(legend),
+            // Headings stand above a caption.
+            false => headings + line.max(legend),
+        };
         head + self.panel.rim_height() + if head > 0.0 { 3.0 } else { 0.0 }
     }
 
@@ -435,18 +441,22 @@ impl Placed<'_> {
                 baseline -= height;
             }
         }
-        let headings = self.heading_lines();
+        let captions = self.caption_lines();
+        let first = baseline - CAPTION_STEP * captions.len().saturating_sub(1) as f64;
+        let headings = self.heading_lines(letter.is_some());
         let lines = headings.len();
+        let last = match captions.is_empty() {
+            true => baseline,
+            false => first - 9.5,
+        };
         for (row, (line, colour)) in headings.iter().enumerate() {
-            let y = baseline - (lines - 1 - row) as f64 * 1.25 * HEADING_SIZE;
+            let y = last - (lines - 1 - row) as f64 * 1.25 * HEADING_SIZE;
             let style = TextStyle::new(HEADING_SIZE)
                 .anchored(Anchor::Middle)
                 .coloured(colour);
             let middle = on_sheet(svg, area.x + 0.5 * area.width, line, HEADING_SIZE);
             svg.text(middle, y, line, &style);
         }
-        let captions = self.caption_lines();
-        let first = baseline - CAPTION_STEP * captions.len().saturating_sub(1) as f64;
         if let Some(letter) = letter {
             let style = TextStyle::new(8.0).bold();
             svg.text(left, first, &format!("({letter})"), &style);

@@ -2,7 +2,7 @@
 
 use super::Mesh;
 use super::gmsh::{GmshFile, MeshFileError};
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashMap;
 
 /// Distance up to which nodes coincide, over the shortest edge of the mesh.
 const COINCIDENT: f64 = 1e-4;
@@ -89,107 +89,95 @@ pub(super) fn refuse_doubled_elements(file: &GmshFile) -> Result<(), MeshFileErr
     )))
 }
 
-/// Parts of a plane body that lie on each other without being joined.
+/// Parts of a body that lie on each other without being joined.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UnmergedNodes {
     /// Nodes that lie where another one lies.
     pub count: usize,
     /// The first of them: the numbers of both, and the place, m.
-    pub first: Vec<([usize; 2], [f64; 2])>,
-    /// Edges of one element alone that no physical curve holds.
-    pub unnamed_edges: usize,
+    pub first: Vec<([usize; 2], [f64; 3])>,
+    /// Edges of one element alone that no physical curve holds; of a plane body.
+    pub unnamed_edges: Option<usize>,
 }
 
 impl std::fmt::Display for UnmergedNodes {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let verb = match self.count {
-            1 => "1 node lies",
-            _ => "nodes lie",
+        let nodes = match self.count {
+            1 => "1 node lies".to_owned(),
+            count => format!("{count} nodes lie"),
         };
-        if self.count != 1 {
-            write!(f, "{} ", self.count)?;
-        }
-        write!(
-            f,
-            "{verb} where another one lies, without being joined to it ("
-        )?;
-        for (i, ([first, second], [x, y])) in self.first.iter().enumerate() {
-            let separator = if i > 0 { "; " } else { "" };
-            write!(f, "{separator}{first} and {second} at ({x:.6}, {y:.6}) m")?;
-        }
+        let named = self.first.iter().map(|([first, second], [x, y, z])| {
+            let z = match self.unnamed_edges {
+                Some(_) => String::new(),
+                None => format!(", {z:.6}"),
+            };
+            format!("{first} and {second} at ({x:.6}, {y:.6}{z}) m")
+        });
+        let named: Vec<String> = named.collect();
         let more = if self.count > self.first.len() {
             "; ..."
         } else {
             ""
         };
-        write!(f, "{more}); ")?;
+        write!(
+            f,
+            "{nodes} where another one lies, without being joined to it ({}{more})",
+            named.join("; ")
+        )?;
         match self.unnamed_edges {
-            1 => write!(f, "1 free edge is in no physical curve"),
-            count => write!(f, "{count} free edges are in no physical curve"),
+            None => Ok(()),
+            Some(1) => write!(f, "; 1 free edge is in no physical curve"),
+            Some(count) => write!(f, "; {count} free edges are in no physical curve"),
         }
     }
 }
 
 impl Mesh {
-    /// Edges of one element alone that belong to no named boundary.
-    pub fn unnamed_edge_count(&self) -> usize {
-        let mut boundaries_of: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+    /// For each node the boundaries that it lies on.
+    fn boundaries_of_nodes(&self) -> Vec<Vec<usize>> {
+        let mut boundaries_of = vec![Vec::new(); self.node_count()];
         for (b, boundary) in self.boundaries.iter().enumerate() {
             for &node in &boundary.nodes {
-                boundaries_of.entry(node).or_default().push(b);
+                boundaries_of[node as usize].push(b);
             }
         }
-        let of = |node: u32| boundaries_of.get(&node).map_or(&[][..], Vec::as_slice);
-        let edges = self.outline_edges();
-        let is_unnamed = |(p, q, _): &&(u32, u32, Option<u32>)| {
-            let shared = |b: &&usize| of(*q).contains(b);
-            !of(*p).iter().any(|b| shared(&b))
-        };
-        edges.iter().filter(is_unnamed).count()
+        boundaries_of
     }
 
-    /// Nodes that coincide without being joined; those of two surfaces that slide on each other may.
+    /// Edges of one element alone that belong to no named boundary, of a plane body.
+    pub fn unnamed_edge_count(&self) -> Option<usize> {
+        if self.dimension != 2 {
+            return None;
+        }
+        let of = self.boundaries_of_nodes();
+        let is_named = |(p, q, _): &(u32, u32, Option<u32>)| {
+            let there = &of[*q as usize];
+            of[*p as usize].iter().any(|b| there.contains(b))
+        };
+        let edges = self.outline_edges();
+        Some(edges.iter().filter(|edge| !is_named(edge)).count())
+    }
+
+    /// Nodes that coincide without being joined, but for those of two named boundaries that lie on each other: surfaces
+    /// that slide on each other or are tied.
     pub fn unmerged_nodes(&self) -> Option<UnmergedNodes> {
-        let shortest = self.shortest_edge();
-        let is_on = |boundary: Option<usize>| {
-            let mut on = vec![false; self.node_count()];
-            let nodes = boundary.map_or(&[][..], |b| &self.boundaries[b].nodes);
-            nodes.iter().for_each(|&node| on[node as usize] = true);
-            on
+        let of = self.boundaries_of_nodes();
+        let is_meant = |p: u32, q: u32| {
+            let [p, q] = [p, q].map(|node| &of[node as usize]);
+            p.iter().any(|b| !q.contains(b)) && q.iter().any(|b| !p.contains(b))
         };
-        let (contact, opposite) = (
-            is_on((!self.boundaries.is_empty()).then_some(self.contact)),
-            is_on(self.opposite),
-        );
-        let slides = |p: u32, q: u32| {
-            let [p, q] = [p, q].map(|node| node as usize);
-            (contact[p] && opposite[q]) || (contact[q] && opposite[p])
-        };
-        let mut pairs = coincident_nodes(&self.nodes, COINCIDENT * shortest);
-        pairs.retain(|&(p, q)| !slides(p, q));
+        let distance = COINCIDENT * self.quality().smallest_edge;
+        let mut pairs = coincident_nodes(&self.nodes, distance);
+        pairs.retain(|&(p, q)| !is_meant(p, q));
         let first = pairs.iter().take(NAMED).map(|&(p, q)| {
             let labels = [p, q].map(|node| self.node_label(node as usize));
-            (labels, self.plane_node(p as usize))
+            (labels, self.nodes[p as usize])
         });
         (!pairs.is_empty()).then(|| UnmergedNodes {
             count: pairs.len(),
             first: first.collect(),
             unnamed_edges: self.unnamed_edge_count(),
         })
-    }
-
-    /// Shortest edge of an element, m.
-    fn shortest_edge(&self) -> f64 {
-        let mut shortest = f64::INFINITY;
-        for element in 0..self.element_count() {
-            let (kind, nodes) = (self.element_kind(element), self.element_nodes(element));
-            for edge in 0..kind.corner_count() {
-                let (p, q, _) = kind.edge(edge);
-                let [p, q] = [p, q].map(|local| self.nodes[nodes[local] as usize]);
-                shortest = shortest.min((p[0] - q[0]).hypot(p[1] - q[1]));
-            }
-        }
-        shortest
     }
 }
 

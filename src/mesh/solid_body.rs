@@ -1,5 +1,6 @@
 //! Solid bodies of a mesh file: regions, named surfaces, and what holds them.
 
+use super::coincidence::refuse_doubled_elements;
 use super::faces::{FaceKey, face_key};
 use super::gmsh::{GmshFile, MeshFileError, SurfaceFace};
 use super::plane_body::used_nodes;
@@ -168,6 +169,7 @@ fn solid_elements(
     index_of: &[Option<u32>],
 ) -> Result<Mesh, MeshFileError> {
     let count = index_of.iter().flatten().count();
+    refuse_doubled_elements(file)?;
     let names: BTreeSet<&str> = file.elements.iter().map(|e| &*e.region).collect();
     let names: Vec<&str> = names.into_iter().collect();
     if names.len() > usize::from(u16::MAX) {

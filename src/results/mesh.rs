@@ -239,7 +239,9 @@ impl MeshStatistics {
             largest_edge_m: quality.largest_edge,
             largest_aspect_ratio: quality.largest_aspect_ratio,
             worst_jacobian: quality.worst_jacobian,
-            unnamed_free_edges: (!mesh.labels.is_empty()).then(|| mesh.unnamed_edge_count()),
+            unnamed_free_edges: (!mesh.labels.is_empty())
+                .then(|| mesh.unnamed_edge_count())
+                .flatten(),
             area_m2: area,
             area_error: annulus.map(|annulus| (area / exact(annulus) - 1.0).abs()),
             elements_per_wavelength: wavelength.map(|length| length / quality.largest_edge),

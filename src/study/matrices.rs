@@ -52,20 +52,16 @@ pub fn matrices(case: &Case) -> Result<ExportedSystem, StudyError> {
         unknowns: unknowns(&model, &tangent),
         contact: Vec::new(),
     };
-    let roles: [(&str, &MatrixPolynomial, fn(usize) -> MatrixRole); 3] = [
-        ("M", &tangent.mass, |friction_power| MatrixRole::Mass {
-            friction_power,
-        }),
-        ("C", &tangent.damping, |friction_power| {
-            MatrixRole::Damping { friction_power }
-        }),
-        ("K", &tangent.stiffness, |friction_power| {
-            MatrixRole::Stiffness { friction_power }
-        }),
-    ];
-    for (name, polynomial, role) in roles {
-        system.matrices.extend(powers(name, polynomial, role));
-    }
+    let matrices = &mut system.matrices;
+    matrices.extend(powers("M", &tangent.mass, |friction_power| {
+        MatrixRole::Mass { friction_power }
+    }));
+    matrices.extend(powers("C", &tangent.damping, |friction_power| {
+        MatrixRole::Damping { friction_power }
+    }));
+    matrices.extend(powers("K", &tangent.stiffness, |friction_power| {
+        MatrixRole::Stiffness { friction_power }
+    }));
     contact_rows(&model, &tangent, &mut system);
     Ok(system)
 }

@@ -253,11 +253,6 @@ fn meshes_of_other_programs_are_named_with_the_way_to_convert_them() {
             "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n",
             "meshio leaves such files",
         ),
-        (
-            "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n$Elements\n1\n\
-             1 4 2 1 1 1 2 3 4\n$EndElements\n",
-            "mesh the plane section",
-        ),
     ] {
         check(&folder(text, CASE)).code(2).stderr(contains(said));
     }

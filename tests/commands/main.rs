@@ -9,6 +9,7 @@ mod table_1;
 
 mod architecture;
 mod basin;
+mod bodies;
 mod case_files;
 mod cli;
 mod convergence_command;

@@ -20,9 +20,6 @@ const STEEL: ElasticMaterial = ElasticMaterial {
     formulation: PlaneFormulation::ThreeDimensional,
 };
 
-/// Quadratic kinds.
-const QUADRATIC: [ElementKind; 3] = [ElementKind::Tet10, ElementKind::Hex20, ElementKind::Wedge15];
-
 /// A parallelepiped without right angles.
 fn skewed([x, y, z]: [f64; 3]) -> [f64; 3] {
     [

@@ -97,6 +97,12 @@ impl<'a> BasisBuilder<'a> {
     /// If a dense decomposition or an iteration fails.
     pub fn cover(&mut self, values: &[f64]) -> Result<(), CeaError> {
         if let Linearization::Companion { .. } = self.linearization {
+            if values[0] > 0.0 {
+                // Branches begin there: modes without friction and damping are near enough.
+                let modes = Mat::identity(self.model.dimension(), self.count);
+                self.model
+                    .hold_sample(0.0, &self.model.expand(modes.as_ref()));
+            }
             for mu in [
                 values[values.len() - 1],
                 values[0],

@@ -278,7 +278,7 @@ fn match_modes(
     }
     if depth < MAX_BISECTIONS {
         let middle = 0.5 * (from.0 + to.0);
-        let modes = model.solve(middle, from.1.len().max(to.1.len()))?;
+        let modes = model.solve_between(middle, from.1.len().max(to.1.len()))?;
         let first = match_modes(from, (middle, &modes), needed, model, depth + 1)?;
         let reached = first
             .iter()

@@ -188,21 +188,22 @@ impl ReducedModel {
         with_left: bool,
     ) -> Result<Vec<ReducedMode>, LinalgError> {
         let at = self.at(mu);
-        let mut modes = match self.subspace(mu) {
-            None => self.solve_projected(&at, count, with_left)?,
-            Some(columns) => {
-                let within = at.within(&columns);
-                let mut modes = self.solve_projected(&within, count, with_left)?;
-                for mode in &mut modes {
-                    mode.right = combined(&columns, &mode.right);
-                    mode.left = combined(&columns, &mode.left);
-                }
-                modes
-            }
-        };
+        let mut modes =
+            self.solve_in(self.span_of_nearest(mu, NEIGHBOURS), &at, count, with_left)?;
         if with_left {
             self.complete(&mut modes, &at, mu);
         }
+        Ok(modes)
+    }
+
+    /// [`Self::solve`] for matching modes between solved points: in the span of the two nearest samples.
+    ///
+    /// # Errors
+    /// If the dense eigenvalue decomposition fails.
+    pub fn solve_between(&self, mu: f64, count: usize) -> Result<Vec<ReducedMode>, LinalgError> {
+        let at = self.at(mu);
+        let mut modes = self.solve_in(self.span_of_nearest(mu, 2), &at, count, true)?;
+        self.complete(&mut modes, &at, mu);
         Ok(modes)
     }
 
@@ -213,18 +214,15 @@ impl ReducedModel {
         self.samples.push((mu, coordinates));
     }
 
-    /// Orthonormal coordinates of the space in which the modes at `mu` are looked for, where it is not the whole basis:
-    /// that of a sample, or of the [`NEIGHBOURS`] nearest ones.
-    fn subspace(&self, mu: f64) -> Option<Mat<f64>> {
+    /// Orthonormal coordinates of the span of the `count` samples nearest to `mu`, or of the one there; nothing without
+    /// samples.
+    fn span_of_nearest(&self, mu: f64, count: usize) -> Option<Mat<f64>> {
         let mut nearest: Vec<&(f64, Mat<f64>)> = self.samples.iter().collect();
         nearest.sort_by(|a, b| (a.0 - mu).abs().total_cmp(&(b.0 - mu).abs()));
-        let is_sampled = nearest.first().is_some_and(|sample| sample.0 == mu);
-        if !is_sampled && nearest.len() <= NEIGHBOURS {
-            return None;
-        }
+        let is_sampled = nearest.first()?.0 == mu;
         match is_sampled {
             true => nearest.retain(|sample| sample.0 == mu),
-            false => nearest.truncate(NEIGHBOURS),
+            false => nearest.truncate(count),
         }
         let m = self.dimension();
         let mut columns = Mat::zeros(m, 0);
@@ -240,6 +238,25 @@ impl ReducedModel {
             columns = join_columns(columns.as_ref(), new.as_ref());
         }
         Some(columns)
+    }
+
+    /// The modes within a space of coordinates, or in the whole basis, without derivatives and scale.
+    fn solve_in(
+        &self,
+        space: Option<Mat<f64>>,
+        at: &ProjectedMatrices,
+        count: usize,
+        with_left: bool,
+    ) -> Result<Vec<ReducedMode>, LinalgError> {
+        let Some(columns) = space else {
+            return self.solve_projected(at, count, with_left);
+        };
+        let mut modes = self.solve_projected(&at.within(&columns), count, with_left)?;
+        for mode in &mut modes {
+            mode.right = combined(&columns, &mode.right);
+            mode.left = combined(&columns, &mode.left);
+        }
+        Ok(modes)
     }
 
     /// The modes of projected matrices, without derivatives and scale.

@@ -83,11 +83,11 @@ pub enum Model {
     /// The harmonics of a plane annulus.
     Sectors(Annulus, TangentOptions),
     /// The harmonics of a body of revolution in three dimensions.
-    SolidSectors(SolidModel),
+    SolidSectors(Box<SolidModel>),
     /// The whole mesh of a plane body.
     Whole(WholeMesh),
     /// The whole mesh of solid bodies.
-    Assembly(AssemblyModel),
+    Assembly(Box<AssemblyModel>),
 }
 
 /// The spectrum of a model over friction coefficients.
@@ -136,17 +136,19 @@ impl Model {
             Solver::SolidSectors(Revolution {
                 specification,
                 material,
-            }) => Self::SolidSectors(SolidModel {
+            }) => Self::SolidSectors(Box::new(SolidModel {
                 specification,
                 material,
                 options,
                 contact: *sliding,
-            }),
+            })),
             Solver::WholeMesh => Self::Whole(WholeMesh::solve(case, options, frictions)?),
             Solver::Assembly => {
                 let body = case.body.assembly();
                 let body = body.expect("the solver of an assembly is given to one alone");
-                Self::Assembly(AssemblyModel::solve(case, body, options, frictions)?)
+                Self::Assembly(Box::new(AssemblyModel::solve(
+                    case, body, options, frictions,
+                )?))
             }
         })
     }

@@ -15,7 +15,7 @@ use std::sync::Arc;
 /// Steady sliding at the case's own friction coefficient.
 pub enum SteadyState {
     /// Of a plane body.
-    Plane(SteadySliding),
+    Plane(Box<SteadySliding>),
     /// Of a body of revolution in three dimensions.
     Solid(Box<SolidBody>),
     /// Of solid bodies that slide on each other.
@@ -53,7 +53,7 @@ impl SlidingModel {
                 (mesh, SteadyState::Assembly(report))
             }
             Model::Whole(whole) => {
-                let state = SteadyState::Plane(whole.base().clone());
+                let state = SteadyState::Plane(Box::new(whole.base().clone()));
                 (Arc::clone(&whole.mesh), state)
             }
             Model::Sectors(annulus, options) => {
@@ -62,7 +62,7 @@ impl SlidingModel {
                 let materials = &annulus.materials;
                 let tangent = SectorTangent::linearize(&sector, materials, options, sliding)?;
                 let base = SteadySliding::from_sector(&mesh, &sector, tangent.base(), sliding);
-                (Arc::new(mesh.mesh), SteadyState::Plane(base))
+                (Arc::new(mesh.mesh), SteadyState::Plane(Box::new(base)))
             }
         };
         Ok(Self { mesh, model, state })

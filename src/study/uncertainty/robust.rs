@@ -72,12 +72,11 @@ pub fn curves(
 ) -> Result<RobustSummary, StudyError> {
     let samples = case.require_uncertainty()?.samples.min(SAMPLES);
     let curves = designs.iter().map(|design| {
-        let solved: Result<Vec<([f64; 4], Vec<Onset>)>, StudyError> = design
-            .values
-            .iter()
+        let values = design.values.iter();
+        let solved = values
             .map(|&value| probability(case, sampler, design, value, samples))
-            .collect();
-        let (points, onsets): (Vec<[f64; 4]>, Vec<Vec<Onset>>) = solved?.into_iter().unzip();
+            .collect::<Result<Vec<_>, StudyError>>()?;
+        let (points, onsets): (Vec<[f64; 4]>, Vec<Vec<Onset>>) = solved.into_iter().unzip();
         let own = case.number(&design.key);
         let has_effect = onsets.windows(2).any(|pair| !are_same(&pair[0], &pair[1]));
         let reached = reaches(&points, own, bound).filter(|_| has_effect);

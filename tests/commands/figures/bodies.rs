@@ -43,7 +43,7 @@ fn sweep() -> FrictionSweep {
 fn field(mesh: &Mesh) -> BaseField {
     let nodes = mesh.contact_edge().nodes.clone();
     let angle = |node: &u32| {
-        let [x, y] = mesh.nodes[*node as usize];
+        let [x, y] = mesh.plane_node(*node as usize);
         y.atan2(x)
     };
     let angles: Vec<f64> = nodes.iter().map(angle).collect();
@@ -101,6 +101,7 @@ fn report<'a>(
         },
         field,
         solid: None,
+        assembly: None,
         sensitivities: None,
         map: None,
         notes: vec![],

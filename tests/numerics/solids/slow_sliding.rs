@@ -16,6 +16,7 @@ use std::path::Path;
 const FRICTION: f64 = 0.3;
 const LIMIT: f64 = 9000.0;
 const ONE: c64 = c64::new(1.0, 0.0);
+const ZERO: c64 = c64::new(0.0, 0.0);
 
 /// The disc on a rotor of so many turns a minute.
 fn turning(element: ElementKind, divisions: [usize; 3], rpm: f64) -> SolidModel {
@@ -63,7 +64,7 @@ fn dense(model: &SolidModel, n: usize, is_held: &dyn Fn(usize) -> bool) -> Vec<c
             let (row, column) = (kept[i], kept[j]);
             match row.abs_diff(column) <= h {
                 true => band[row * (2 * h + 1) + column + h - row],
-                false => ONE - ONE,
+                false => ZERO,
             }
         })
     };
@@ -75,7 +76,7 @@ fn dense(model: &SolidModel, n: usize, is_held: &dyn Fn(usize) -> bool) -> Vec<c
     let (mut x, mut y) = (stiffness, mass);
     lu.solve_in_place(x.as_mut());
     lu.solve_in_place(y.as_mut());
-    let unit = |i: usize, j: usize| if i == j { ONE } else { ONE - ONE };
+    let unit = |i: usize, j: usize| if i == j { ONE } else { ZERO };
     let inverse = Mat::from_fn(2 * size, 2 * size, |i, j| match (i < size, j < size) {
         (true, true) => (x[(i, j)] - unit(i, j)) / sigma,
         (true, false) => -sigma * y[(i, j - size)],

@@ -1,0 +1,426 @@
+//! What each analysis is held to.
+
+use super::{Answer, Bench, Cell};
+use serde_json::Value;
+use std::path::Path;
+
+/// A cell of the table: the body's bench, and that of the same body described otherwise.
+type Check = fn(&Bench, Option<&Bench>) -> Cell;
+
+/// Every analysis with its check.
+pub const ALL: &[(&str, Check)] = &[
+    ("`check`", check),
+    ("`mesh`", mesh),
+    ("`cea`", cea),
+    ("`cea`, cyclic", cea_cyclic),
+    ("`cea`, sparse", cea_sparse),
+    ("stability map", map),
+    ("sensitivities", sensitivities),
+    ("`transient`, cyclic", transient_cyclic),
+    ("`transient`, sparse", transient_sparse),
+    ("`frf`, free", frf_free),
+    ("`frf`, clamped", frf_clamped),
+    ("`frf`, sliding", frf_sliding),
+    ("`cycle`", cycle),
+    ("`basin`", basin),
+    ("`sweep`", sweep),
+    ("`fit`", fit),
+    ("`uncertainty`", uncertainty),
+    ("`convergence`", convergence),
+    ("`plot`", plot),
+    ("`compare`", compare),
+];
+
+/// Goes on with a run that is done; a refusal is the cell.
+macro_rules! done {
+    ($answer:expr) => {
+        match $answer {
+            Answer::Done(summary, folder) => (summary, folder),
+            Answer::Refused(reason) => return Cell::Refused(reason),
+        }
+    };
+}
+
+/// The same for a run that another one of this body needs, which must not be refused.
+macro_rules! needed {
+    ($answer:expr) => {
+        match $answer {
+            Answer::Done(summary, folder) => (summary, folder),
+            Answer::Refused(reason) => {
+                return Cell::Wrong(format!("its reference is refused: {reason}"))
+            }
+        }
+    };
+}
+
+/// Right where `holds`, else wrong with what was found.
+fn verdict(holds: bool, found: impl FnOnce() -> String) -> Cell {
+    match holds {
+        true => Cell::Right,
+        false => Cell::Wrong(found()),
+    }
+}
+
+fn is_close(a: f64, b: f64, tolerance: f64) -> bool {
+    (a - b).abs() <= tolerance * a.abs().max(b.abs())
+}
+
+/// Columns of a CSV file by name.
+fn column(folder: &Path, file: &str, name: &str) -> Vec<f64> {
+    let mut reader =
+        csv::Reader::from_path(folder.join(file)).unwrap_or_else(|error| panic!("{file}: {error}"));
+    let headers = reader.headers().unwrap().clone();
+    let place = headers.iter().position(|header| header == name);
+    let place = place.unwrap_or_else(|| panic!("{file} has no column {name}"));
+    let rows = reader.records().map(|row| row.unwrap()[place].parse());
+    rows.map(|value| value.unwrap_or(f64::NAN)).collect()
+}
+
+/// Frequency and growth rate of the modes at friction 0.3, by frequency.
+fn spectrum(folder: &Path) -> Vec<[f64; 2]> {
+    let of = |name| column(folder, "eigenvalues.csv", name);
+    let (friction, frequency) = (of("friction_coefficient"), of("frequency_hz"));
+    let growth = of("growth_rate_per_s");
+    let rows = (0..friction.len()).filter(|&i| friction[i] == 0.3);
+    rows.map(|i| [frequency[i], growth[i]]).collect()
+}
+
+/// Whether every mode of `a` below the last of both has its like in `b`: to `tolerance` of the circular frequency.
+fn agree(a: &[[f64; 2]], b: &[[f64; 2]], tolerance: f64) -> Cell {
+    let highest = |modes: &[[f64; 2]]| modes.last().map_or(0.0, |mode| mode[0]);
+    let limit = highest(a).min(highest(b)) * (1.0 - 1e-6);
+    let below = |modes: &[[f64; 2]]| modes.iter().filter(|mode| mode[0] < limit).count();
+    if below(a) == 0 || below(a) != below(b) {
+        return Cell::Wrong(format!(
+            "{} modes beside {}: {a:?}, {b:?}",
+            below(a),
+            below(b)
+        ));
+    }
+    let distance = |p: &[f64; 2], q: &[f64; 2]| {
+        (std::f64::consts::TAU * (p[0] - q[0])).hypot(p[1] - q[1]) / (std::f64::consts::TAU * p[0])
+    };
+    let worst = a.iter().filter(|mode| mode[0] < limit).map(|mode| {
+        b.iter()
+            .map(|other| distance(mode, other))
+            .fold(f64::INFINITY, f64::min)
+    });
+    let worst = worst.fold(0.0, f64::max);
+    verdict(worst <= tolerance, || {
+        format!("spectra differ by {worst:e}")
+    })
+}
+
+/// The lowest onset of a summary of `cea`.
+fn lowest_onset(summary: &Value) -> Option<f64> {
+    let onsets = summary["critical_frictions"].as_array()?.iter();
+    let onsets = onsets.filter_map(|onset| onset["critical_friction"].as_f64());
+    onsets.min_by(f64::total_cmp)
+}
+
+fn check(bench: &Bench, _: Option<&Bench>) -> Cell {
+    done!(bench.run("check", &[], &[]));
+    Cell::Right
+}
+
+fn mesh(bench: &Bench, twin: Option<&Bench>) -> Cell {
+    let (own, _) = done!(bench.run("mesh", &[], &[]));
+    let area = own["mesh"]["area_m2"]
+        .as_f64()
+        .or(own["mesh"]["volume_m3"].as_f64());
+    let Some(twin) = twin else {
+        return verdict(area.is_some_and(|area| area > 0.0), || {
+            format!("{}", own["mesh"])
+        });
+    };
+    let (other, _) = needed!(twin.run("mesh", &[], &[]));
+    let (area, other) = (area.unwrap(), other["mesh"]["area_m2"].as_f64().unwrap());
+    verdict(is_close(area, other, 1e-12), || {
+        format!("area {area} and {other}")
+    })
+}
+
+/// Against the other description of the body, else against a full solution's residual.
+fn cea(bench: &Bench, twin: Option<&Bench>) -> Cell {
+    let (summary, own) = done!(bench.run("cea", &[], &[]));
+    let residual = summary["largest_residual"].as_f64().unwrap();
+    if residual > 1e-8 {
+        return Cell::Wrong(format!("residual {residual:e}"));
+    }
+    let Some(twin) = twin else {
+        return Cell::Right;
+    };
+    let (_, other) = needed!(twin.run("cea", &[], &[]));
+    agree(&spectrum(&own), &spectrum(&other), 1e-8)
+}
+
+fn by_method(bench: &Bench, method: &str) -> Cell {
+    let method = format!("cea.method=\"{method}\"");
+    let (_, own) = done!(bench.run("cea", &[&method], &[]));
+    let (_, other) = needed!(bench.run("cea", &[], &[]));
+    agree(&spectrum(&own), &spectrum(&other), 1e-8)
+}
+
+fn cea_cyclic(bench: &Bench, _: Option<&Bench>) -> Cell {
+    by_method(bench, "cyclic")
+}
+
+fn cea_sparse(bench: &Bench, _: Option<&Bench>) -> Cell {
+    by_method(bench, "sparse")
+}
+
+/// The lowest onset of each point of the map is that of an analysis of its own.
+fn map(bench: &Bench, _: Option<&Bench>) -> Cell {
+    let key = "damping.stiffness_coefficient";
+    let map = format!("cea.map={{key=\"{key}\",values=[3e-7,4.5e-7]}}");
+    let (_, folder) = done!(bench.run("cea", &[&map], &[]));
+    let (values, onsets) = (
+        column(&folder, "map.csv", key),
+        column(&folder, "map.csv", "critical_friction"),
+    );
+    for value in [3e-7, 4.5e-7] {
+        let (summary, _) = needed!(bench.run("cea", &[&format!("{key}={value:?}")], &[]));
+        let own = values
+            .iter()
+            .zip(&onsets)
+            .filter(|(v, _)| **v == value)
+            .map(|(_, onset)| *onset);
+        let own = own.filter(|onset| onset.is_finite()).min_by(f64::total_cmp);
+        let single = lowest_onset(&summary);
+        let same = match (own, single) {
+            (Some(own), Some(single)) => is_close(own, single, 1e-7),
+            (own, single) => own == single,
+        };
+        if !same {
+            return Cell::Wrong(format!(
+                "onset {own:?} in the map, {single:?} alone, at {value}"
+            ));
+        }
+    }
+    Cell::Right
+}
+
+/// The derivative by Young's modulus is the difference of two analyses.
+fn sensitivities(bench: &Bench, _: Option<&Bench>) -> Cell {
+    let (_, folder) = done!(bench.run("cea", &[], &[]));
+    if !folder.join("sensitivities.csv").exists() {
+        return Cell::Refused("not computed for this body yet".to_owned());
+    }
+    let of = |name| column(&folder, "sensitivities.csv", name);
+    let (frequencies, slopes) = (of("frequency_hz"), of("frequency_hz_per_young_modulus"));
+    let step = 1e-4 * 2.5e9;
+    let at = |value: f64| bench.run("cea", &[&format!("material.young_modulus={value:?}")], &[]);
+    let ((_, low), (_, high)) = (needed!(at(2.5e9 - step)), needed!(at(2.5e9 + step)));
+    let (low, high) = (spectrum(&low), spectrum(&high));
+    let nearest = |modes: &[[f64; 2]], frequency: f64| {
+        let distance = |mode: &&[f64; 2]| (mode[0] - frequency).abs();
+        modes
+            .iter()
+            .min_by(|a, b| distance(a).total_cmp(&distance(b)))
+            .unwrap()[0]
+    };
+    for (&frequency, &slope) in frequencies.iter().zip(&slopes).take(4) {
+        let change = 2.0 * step * slope;
+        let difference =
+            nearest(&high, frequency + 0.5 * change) - nearest(&low, frequency - 0.5 * change);
+        if (difference - change).abs() > 1e-3 * frequency * 1e-4 {
+            return Cell::Wrong(format!(
+                "{frequency} Hz: {change} expected, {difference} found"
+            ));
+        }
+    }
+    Cell::Right
+}
+
+/// Energy closes, and both operators tell the same.
+fn transient(bench: &Bench, operator: &str) -> Cell {
+    let operator = format!("transient.operator=\"{operator}\"");
+    let (own, folder) = done!(bench.run("transient", &[&operator], &[]));
+    let residual = own["max_balance_residual"].as_f64().unwrap();
+    if residual > 1e-10 {
+        return Cell::Wrong(format!("energy balance {residual:e}"));
+    }
+    let (_, other) = needed!(bench.run("transient", &[], &[]));
+    let strain = |folder: &Path| *column(folder, "energy.csv", "strain_j").last().unwrap();
+    let (own, other) = (strain(&folder), strain(&other));
+    verdict(is_close(own, other, 1e-8), || {
+        format!("strain energy {own} and {other}")
+    })
+}
+
+fn transient_cyclic(bench: &Bench, _: Option<&Bench>) -> Cell {
+    transient(bench, "cyclic")
+}
+
+fn transient_sparse(bench: &Bench, _: Option<&Bench>) -> Cell {
+    transient(bench, "sparse")
+}
+
+/// The response from one place to another, at three frequencies.
+fn response(bench: &Bench, boundary: &str, terminals: [[f64; 2]; 2], method: &str) -> Answer {
+    let place = |[x, y]: [f64; 2]| format!("{{x={x:?},y={y:?}}}");
+    let frf = format!(
+        "frf={{boundary=\"{boundary}\",force_node={},response_node={},force_direction=\"radial\",\
+         response_direction=\"radial\",frequencies_hz=[2000.0,7000.0,9500.0],method=\"{method}\"}}",
+        place(terminals[0]),
+        place(terminals[1]),
+    );
+    bench.run("frf", &[&frf], &[])
+}
+
+/// Two places within every body.
+const PLACES: [[f64; 2]; 2] = [[0.038, 0.002], [0.005, 0.0325]];
+
+fn magnitudes(folder: &Path) -> Vec<f64> {
+    let mut reader = csv::Reader::from_path(folder.join("frf.csv")).unwrap();
+    let rows = reader.records().map(|row| row.unwrap());
+    let value = |text: &str| text.parse::<f64>().unwrap();
+    rows.map(|row| value(&row[1]).hypot(value(&row[2])))
+        .collect()
+}
+
+/// Force and response change places without a change (Maxwell and Betti).
+fn reciprocal(bench: &Bench, boundary: &str) -> Cell {
+    let (_, there) = done!(response(bench, boundary, PLACES, "auto"));
+    let (_, back) = needed!(response(bench, boundary, [PLACES[1], PLACES[0]], "auto"));
+    let (there, back) = (magnitudes(&there), magnitudes(&back));
+    let same = there.iter().zip(&back).all(|(a, b)| is_close(*a, *b, 1e-7));
+    verdict(same, || format!("{there:?} there, {back:?} back"))
+}
+
+fn frf_free(bench: &Bench, _: Option<&Bench>) -> Cell {
+    reciprocal(bench, "free")
+}
+
+fn frf_clamped(bench: &Bench, _: Option<&Bench>) -> Cell {
+    reciprocal(bench, "clamped")
+}
+
+/// In sliding contact friction breaks the symmetry: the twin or the direct solution is the other route.
+fn frf_sliding(bench: &Bench, twin: Option<&Bench>) -> Cell {
+    let (_, own) = done!(response(bench, "sliding", PLACES, "auto"));
+    let (_, other) = match twin {
+        Some(twin) => needed!(response(twin, "sliding", PLACES, "auto")),
+        None => match response(bench, "sliding", PLACES, "direct") {
+            Answer::Done(summary, folder) => (summary, folder),
+            // Bodies of revolution have no direct solution of the whole body.
+            Answer::Refused(_) => needed!(response(bench, "sliding", PLACES, "cyclic")),
+        },
+    };
+    let (own, other) = (magnitudes(&own), magnitudes(&other));
+    let same = own.iter().zip(&other).all(|(a, b)| is_close(*a, *b, 1e-6));
+    verdict(same, || format!("{own:?} and {other:?}"))
+}
+
+/// Energy closes over the period.
+fn cycle(bench: &Bench, _: Option<&Bench>) -> Cell {
+    let (summary, _) = done!(bench.run("cycle", &["cycle={harmonics=[1]}"], &[]));
+    let text = summary.to_string();
+    verdict(text.contains("balance_residual"), || text.clone())
+}
+
+/// The bounds of the boundary hold it between them.
+fn basin(bench: &Bench, _: Option<&Bench>) -> Cell {
+    let request =
+        "basin={harmonics=[1,2],seed_ratio_from=0.5,seed_ratio_to=2.0,tolerance=3.0,periods=20}";
+    done!(bench.run("basin", &[request], &[]));
+    Cell::Right
+}
+
+/// A point of the sweep is the analysis alone.
+fn sweep(bench: &Bench, _: Option<&Bench>) -> Cell {
+    let sweep = "sweep={\"damping.stiffness_coefficient\"=[3e-7,4.5e-7],analyses=[\"cea\"]}";
+    let (_, folder) = done!(bench.run("sweep", &[sweep], &[]));
+    let (alone, _) = needed!(bench.run("cea", &[], &[]));
+    let modes = column(&folder, "points.csv", "modes");
+    let residual = column(&folder, "points.csv", "largest_residual");
+    let own = [
+        alone["modes"].as_f64().unwrap(),
+        alone["largest_residual"].as_f64().unwrap(),
+    ];
+    verdict(modes[1] == own[0] && residual[1] == own[1], || {
+        format!("{modes:?} {residual:?} {own:?}")
+    })
+}
+
+/// Fitted to its own frequencies, the body gives its modulus back.
+fn fit(bench: &Bench, _: Option<&Bench>) -> Cell {
+    let (_, folder) = needed!(bench.run("cea", &[], &[]));
+    let modes = spectrum(&folder);
+    let lines: Vec<String> = modes
+        .iter()
+        .take(3)
+        .map(|mode| format!("{:?}\n", mode[0]))
+        .collect();
+    let lines = bench.write("lines.csv", &format!("frequency_hz\n{}", lines.concat()));
+    let overrides = [
+        "fit.parameters={\"material.young_modulus\"=[2.3e9,2.7e9]}",
+        "material.young_modulus=2.45e9",
+    ];
+    let (summary, _) = done!(bench.run("fit", &overrides, &[&lines]));
+    let value = summary["parameters"]["material.young_modulus"]["value"]
+        .as_f64()
+        .unwrap();
+    verdict(is_close(value, 2.5e9, 1e-4), || format!("modulus {value}"))
+}
+
+/// Where next to nothing is uncertain the lowest critical friction is that of the analysis.
+fn uncertainty(bench: &Bench, _: Option<&Bench>) -> Cell {
+    let overrides = [
+        "uncertainty={samples=4,seed=1}",
+        "uncertainty.distributions={\"damping.stiffness_coefficient\"={uniform=[4.4999999e-7,4.5000001e-7]}}",
+    ];
+    let (summary, _) = done!(bench.run("uncertainty", &overrides, &[]));
+    let (alone, _) = needed!(bench.run("cea", &[], &[]));
+    let (own, single) = (
+        summary["critical_friction"]["median"].as_f64(),
+        lowest_onset(&alone),
+    );
+    let none = summary["critical_friction"]["without_onset"].as_f64();
+    match single {
+        Some(single) => verdict(own.is_some_and(|own| is_close(own, single, 1e-5)), || {
+            format!("{own:?} in the samples, {single} alone")
+        }),
+        None => verdict(none == Some(1.0), || {
+            format!("{own:?} in the samples, none alone")
+        }),
+    }
+}
+
+/// The frequencies of the coarsest mesh are those of the analysis.
+fn convergence(bench: &Bench, _: Option<&Bench>) -> Cell {
+    let factors = "convergence={factors=[1,2,4],analyses=[\"cea\"]}";
+    let overrides = [factors, "cea.modes=2", "cea.friction_coefficients=[0.3]"];
+    let (_, folder) = done!(bench.run("convergence", &overrides, &[]));
+    let (_, alone) = needed!(bench.run("cea", &overrides[1..], &[]));
+    let values = column(&folder, "convergence.csv", "value");
+    let lowest = spectrum(&alone)[0][0];
+    let found = values.iter().any(|value| is_close(*value, lowest, 1e-9));
+    verdict(found, || format!("{lowest} is not among {values:?}"))
+}
+
+/// What is drawn again is there.
+fn plot(bench: &Bench, _: Option<&Bench>) -> Cell {
+    let (_, folder) = needed!(bench.run("cea", &["cea.friction_coefficients=[0.0,0.3]"], &[]));
+    match bench.redraw(&folder) {
+        Ok(()) => verdict(
+            folder.join("locus.svg").exists() || folder.join("figures").exists(),
+            || "no figure is drawn".to_owned(),
+        ),
+        Err(reason) => Cell::Refused(reason),
+    }
+}
+
+/// A run differs from itself by nothing.
+fn compare(bench: &Bench, _: Option<&Bench>) -> Cell {
+    let runs = [bench.run("cea", &[], &[]), bench.run("cea", &[], &[])];
+    let [Answer::Done(_, a), Answer::Done(_, b)] = runs else {
+        return Cell::Wrong("cea is refused".to_owned());
+    };
+    let (summary, _) = done!(bench.run_on("compare", &[&a, &b], &[]));
+    let quantities = summary["quantities"].as_array().unwrap().iter();
+    let same = quantities
+        .filter(|q| q["path"] != "wall_s")
+        .all(|q| q["values"][0] == q["values"][1]);
+    verdict(same, || format!("{summary}"))
+}

@@ -1,0 +1,122 @@
+//! Mesh files of rings and blocks of four-node quadrilaterals, written node by node.
+
+use std::fmt::Write as _;
+
+/// Type of the element in the file, its physical group, its nodes.
+type Element = (u32, String, Vec<usize>);
+
+/// A grid of `along` x `across` elements: a ring around the origin (`along` around, `across` from inside outwards) or a block.
+pub struct Grid<'a> {
+    pub shape: Shape,
+    pub along: usize,
+    pub across: usize,
+    /// Region of each layer across.
+    pub region_of_layer: &'a dyn Fn(usize) -> &'a str,
+    /// Names of the first and the last line along.
+    pub names: [&'a str; 2],
+    /// Whether every quadrilateral is cut into two triangles.
+    pub triangles: bool,
+}
+
+#[derive(Clone, Copy)]
+pub enum Shape {
+    Ring { inner: f64, outer: f64 },
+    Block { width: f64, height: f64 },
+}
+
+/// All grids in one MSH 2.2 file.
+pub fn msh(grids: &[Grid<'_>]) -> String {
+    let mut nodes: Vec<[f64; 2]> = Vec::new();
+    let mut elements: Vec<Element> = Vec::new();
+    for grid in grids {
+        let first = nodes.len();
+        let around = match grid.shape {
+            Shape::Ring { .. } => grid.along,
+            Shape::Block { .. } => grid.along + 1,
+        };
+        for layer in 0..=grid.across {
+            for step in 0..around {
+                nodes.push(grid.place(step, layer));
+            }
+        }
+        let node = |step: usize, layer: usize| first + layer * around + step % around;
+        for layer in 0..grid.across {
+            for step in 0..grid.along {
+                let [a, b, c, d] =
+                    [(0, 0), (0, 1), (1, 1), (1, 0)].map(|(i, j)| node(step + i, layer + j));
+                // Counter-clockwise: outwards first on a ring, along first on a block.
+                let corners = match grid.shape {
+                    Shape::Ring { .. } => [a, b, c, d],
+                    Shape::Block { .. } => [a, d, c, b],
+                };
+                let region = (grid.region_of_layer)(layer).to_owned();
+                if grid.triangles {
+                    let [a, b, c, d] = corners;
+                    elements.push((2, region.clone(), vec![a, b, c]));
+                    elements.push((2, region, vec![a, c, d]));
+                } else {
+                    elements.push((3, region, corners.to_vec()));
+                }
+            }
+        }
+        for (name, layer) in grid.names.iter().zip([0, grid.across]) {
+            for step in 0..grid.along {
+                elements.push((
+                    1,
+                    (*name).to_owned(),
+                    vec![node(step, layer), node(step + 1, layer)],
+                ));
+            }
+        }
+    }
+    written(&nodes, &elements)
+}
+
+impl Grid<'_> {
+    fn place(&self, step: usize, layer: usize) -> [f64; 2] {
+        let (x, y) = (
+            step as f64 / self.along as f64,
+            layer as f64 / self.across as f64,
+        );
+        match self.shape {
+            Shape::Ring { inner, outer } => {
+                let radius = inner + (outer - inner) * y;
+                let (sin, cos) = (std::f64::consts::TAU * x).sin_cos();
+                [radius * cos, radius * sin]
+            }
+            Shape::Block { width, height } => [width * x, height * y],
+        }
+    }
+}
+
+fn written(nodes: &[[f64; 2]], elements: &[Element]) -> String {
+    let mut groups: Vec<(u32, &str)> = Vec::new();
+    for (kind, name, _) in elements {
+        let group = (if *kind == 1 { 1 } else { 2 }, name.as_str());
+        if !groups.contains(&group) {
+            groups.push(group);
+        }
+    }
+    let mut text = format!(
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n{}\n",
+        groups.len()
+    );
+    for (i, (dimension, name)) in groups.iter().enumerate() {
+        writeln!(text, "{dimension} {} \"{name}\"", i + 1).unwrap();
+    }
+    writeln!(text, "$EndPhysicalNames\n$Nodes\n{}", nodes.len()).unwrap();
+    for (i, [x, y]) in nodes.iter().enumerate() {
+        writeln!(text, "{} {x:?} {y:?} 0", i + 1).unwrap();
+    }
+    writeln!(text, "$EndNodes\n$Elements\n{}", elements.len()).unwrap();
+    for (i, (kind, name, corners)) in elements.iter().enumerate() {
+        let dimension = if *kind == 1 { 1 } else { 2 };
+        let tag = 1 + groups
+            .iter()
+            .position(|g| *g == (dimension, name.as_str()))
+            .unwrap();
+        let corners: Vec<String> = corners.iter().map(|node| (node + 1).to_string()).collect();
+        writeln!(text, "{} {kind} 2 {tag} {tag} {}", i + 1, corners.join(" ")).unwrap();
+    }
+    text + "$EndElements\n"
+}

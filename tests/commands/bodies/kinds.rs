@@ -1,0 +1,184 @@
+//! The kinds of bodies, coarse.
+
+use super::grid::{Grid, Shape, msh};
+
+/// A kind of body.
+pub struct Kind {
+    pub name: &'static str,
+    pub case: String,
+    pub mesh: Option<String>,
+    /// The kind that is the same body described otherwise.
+    pub twin: Option<&'static str>,
+}
+
+const AROUND: usize = 32;
+const ACROSS: usize = 6;
+const RING: Shape = Shape::Ring {
+    inner: 0.0205,
+    outer: 0.0905,
+};
+const POLYCARBONATE: &str = "young_modulus = 2.5e9\npoisson_ratio = 0.3805\ndensity = 1228.0\n";
+const STEEL: &str = "young_modulus = 2.1e11\npoisson_ratio = 0.3\ndensity = 7850.0\n";
+const ANALYSES: &str = "[damping]\nmass_coefficient = 40.0\nstiffness_coefficient = 4.5e-7\n
+[cea]\nfriction_coefficients = [0.0, 0.15, 0.3]\nmodes = 8\ngeometric_stiffness = false\n
+[transient]\nduration = 3e-4\nexpansion_time = 1e-4\n";
+
+/// A case of its geometry and mesh, its material, what the contact has beside friction, and further sections.
+fn case(geometry: &str, contact: &str, further: &str) -> String {
+    format!(
+        "title = \"A kind of body\"\n[geometry]\nthickness = 0.009\n{geometry}\n[material]\n{POLYCARBONATE}
+[contact]\nfriction_coefficient = 0.3\n{contact}\n{further}\n{ANALYSES}"
+    )
+}
+
+/// The built-in annulus.
+fn annulus(geometry: &str, contact: &str, further: &str) -> String {
+    let geometry = format!(
+        "inner_radius = 0.0205\nouter_radius = 0.0905\n{geometry}\n\
+         [mesh]\ncircumferential_elements = {AROUND}\nradial_elements = {ACROSS}"
+    );
+    let contact = format!("interference = 25e-6\nrotation_speed_rpm = 610.0\n{contact}");
+    case(&geometry, &contact, further)
+}
+
+/// A ring from a file.
+fn imported(contact: &str, further: &str) -> String {
+    let contact = format!("interference = 25e-6\nrotation_speed_rpm = 610.0\n{contact}");
+    let further = format!("[boundaries.outer]\ncondition = \"clamped\"\n{further}");
+    case("[mesh]\nfile = \"body.msh\"", &contact, &further)
+}
+
+fn ring<'a>(region_of_layer: &'a dyn Fn(usize) -> &'a str) -> Grid<'a> {
+    Grid {
+        shape: RING,
+        along: AROUND,
+        across: ACROSS,
+        region_of_layer,
+        names: ["inner", "outer"],
+        triangles: false,
+    }
+}
+
+/// Disc and shaft in one file, the shaft of `around` elements.
+fn two_bodies(around: usize) -> String {
+    let shaft = Grid {
+        shape: Shape::Ring {
+            inner: 0.006,
+            outer: 0.0205,
+        },
+        along: around,
+        across: 2,
+        region_of_layer: &|_| "shaft",
+        names: ["bore", "journal"],
+        triangles: false,
+    };
+    msh(&[ring(&|_| "disc"), shaft])
+}
+
+/// All kinds, in the order of the table.
+pub fn kinds() -> Vec<Kind> {
+    let kind = |name, case| Kind {
+        name,
+        case,
+        mesh: None,
+        twin: None,
+    };
+    let of_file = |name, case, mesh| Kind {
+        name,
+        case,
+        mesh: Some(mesh),
+        twin: None,
+    };
+    let shaft = format!("[materials.shaft]\n{STEEL}");
+    let journal = "boundary = \"inner\"\ncounterface = \"body\"\ncounter_boundary = \"journal\"\n";
+    let bore = format!("{shaft}[boundaries.bore]\ncondition = \"clamped\"\n");
+    let springs = "normal_stiffness = 7.4e12\n";
+    let support = "[boundaries.outer]\ncondition = \"support\"\nnormal_stiffness = 2e11\ntangential_stiffness = 2e11\n";
+    let falling = "static_friction_ratio = 1.2\ndecay_speed = 2.0\n";
+    let block = case(
+        "[mesh]\nfile = \"body.msh\"",
+        "boundary = \"face\"\ncounterface = \"plane\"\ndirection = [1.0, 0.0]\nspeed = 1.5\ninterference = 1e-5\n",
+        "[boundaries.back]\ncondition = \"support\"\nnormal_stiffness = 1e12\ntangential_stiffness = 1e12\n",
+    );
+    let solid = |contact: &str, further: &str| {
+        annulus("", contact, further).replace(
+            "[material]\n",
+            "axial_elements = 1\n[material]\nformulation = \"three-dimensional\"\n",
+        )
+    };
+    vec![
+        kind("annulus", annulus("", "", "")),
+        kind("annulus, springs in the contact", annulus("", springs, "")),
+        kind("annulus, supported", annulus("", "", support)),
+        kind("annulus, falling friction", annulus("", falling, "")),
+        kind("annulus and shaft", {
+            let text = annulus("shaft_inner_radius = 0.006", "", &shaft);
+            text.replace(
+                "radial_elements = 6",
+                "radial_elements = 6\nshaft_radial_elements = 2",
+            )
+        }),
+        Kind {
+            twin: Some("annulus"),
+            ..of_file(
+                "annulus from a file",
+                imported("", ""),
+                msh(&[ring(&|_| "disc")]),
+            )
+        },
+        of_file(
+            "triangles from a file",
+            imported("", ""),
+            msh(&[Grid {
+                triangles: true,
+                ..ring(&|_| "disc")
+            }]),
+        ),
+        of_file(
+            "two materials",
+            imported(
+                "",
+                &format!(
+                    "[materials.rim]\n{STEEL}mass_coefficient = 40.0\nstiffness_coefficient = 1e-8\n"
+                ),
+            ),
+            msh(&[ring(&|layer| if layer < 4 { "disc" } else { "rim" })]),
+        ),
+        of_file(
+            "block, contact opens in part",
+            block,
+            msh(&[Grid {
+                shape: Shape::Block {
+                    width: 0.04,
+                    height: 0.06,
+                },
+                along: 10,
+                across: 10,
+                region_of_layer: &|_| "block",
+                names: ["face", "back"],
+                triangles: false,
+            }]),
+        ),
+        Kind {
+            twin: Some("annulus and shaft"),
+            ..of_file(
+                "two bodies, matching",
+                imported(journal, &bore),
+                two_bodies(AROUND),
+            )
+        },
+        of_file(
+            "two bodies, not matching",
+            imported(journal, &bore),
+            two_bodies(24),
+        ),
+        kind("body of revolution, contact on the edge", solid("", "")),
+        kind(
+            "body of revolution, contact on a face",
+            solid(
+                "boundary = \"top\"\nring_inner_radius = 0.04\nring_outer_radius = 0.07\nnormal_stiffness = 1e12\n",
+                "[boundaries.bottom]\ncondition = \"guide\"\n",
+            ),
+        ),
+    ]
+}
