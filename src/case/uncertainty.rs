@@ -44,9 +44,6 @@ pub struct Uncertainty {
     pub parameters: Vec<UncertainParameter>,
 }
 
-/// Standard deviation of a logarithm beyond which a scatter is hardly meant: a factor of 20 either way.
-const LARGEST_LOG_DEVIATION: f64 = 3.0;
-
 pub(super) fn uncertainty(root: &Section<'_>) -> Option<Uncertainty> {
     let section = root.section("uncertainty", false);
     let samples = section.count("samples");

@@ -31,10 +31,13 @@ fn texts(svg: &str) -> Vec<String> {
     words.collect()
 }
 
+/// Words of a text, its box (left, top, right, bottom) in points, and whether it has a halo.
+type TextBox = (String, [f64; 4], bool);
+
 /// The boxes of the texts of a drawing, points, as the embedded font sets them, with their words; and the size of the sheet.
-fn text_boxes(svg: &str) -> (Vec<(String, [f64; 4], bool)>, [f64; 2]) {
+fn text_boxes(svg: &str) -> (Vec<TextBox>, [f64; 2]) {
     use resvg::usvg::{Group, Node, Options, PaintOrder, Tree};
-    fn visit(group: &Group, out: &mut Vec<(String, [f64; 4], bool)>) {
+    fn visit(group: &Group, out: &mut Vec<TextBox>) {
         for node in group.children() {
             match node {
                 Node::Group(group) => visit(group, out),
