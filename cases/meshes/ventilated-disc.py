@@ -5,7 +5,7 @@
 Cheeks r 0.125 to 0.175 m at z 0 to 0.010 and 0.025 to 0.035 m, 21 radial ribs with parallel sides between them, 28.70 mm wide;
 a hat of a ring r 0.1125 to 0.125 m, a cylinder r 0.105 to 0.1125 m up to z 0.075 m and a plate r 0.040 to 0.105 m with five
 holes of radius 10 mm. Two pads r 0.130 to 0.1675 m, 60 to 120 degrees, 15 mm thick, one on each face; disc and pads share no
-node. Regions disc, pad_bottom, pad_top; surfaces bolts (bore and holes), disc_bottom, disc_top (friction rings), lining_bottom,
+node. Regions disc, pad_bottom, pad_top; surfaces bolts (bore and holes), disc_bottom (cheek and hat), disc_top (cheek), lining_bottom,
 lining_top (pad faces on the disc), back_bottom, back_top.
 """
 

@@ -532,7 +532,8 @@ fn curved_bricks_and_wedges_of_gmsh_have_the_volume_and_surfaces_of_their_ring()
 fn the_ventilated_disc_has_the_volumes_and_pad_faces_of_its_geometry() {
     let found = measures(include_bytes!("../../cases/meshes/ventilated-disc.msh"));
     let pad = PI / 6.0 * (0.1675_f64.powi(2) - 0.13_f64.powi(2));
-    let ring = PI * (0.175_f64.powi(2) - 0.1125_f64.powi(2));
+    // At the bottom the hat is flush with the cheek: one face.
+    let ring = PI * (0.175_f64.powi(2) - 0.105_f64.powi(2));
     let exact = [
         ("disc", 2.153_222_5e-3),
         ("pad_bottom", 0.015 * pad),
