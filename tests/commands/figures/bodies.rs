@@ -193,9 +193,26 @@ fn contact_around_an_imported_hole_is_drawn_and_listed_over_rising_angles() {
         .split("<path d=\"")
         .find(|path| path.contains("stroke=\"#0072b2\""));
     let curve = curve.unwrap().split('"').next().unwrap();
-    let numbers = curve.split(|c: char| !(c.is_ascii_digit() || c == '.' || c == '-'));
-    let numbers: Vec<f64> = numbers.filter_map(|text| text.parse().ok()).collect();
-    assert!(numbers.len() > 40, "{curve}");
+    // Steps behind the first point are relative; a sign or a second point begins the next number.
+    let mut numbers: Vec<String> = vec![String::new()];
+    for c in curve.chars() {
+        let last = numbers.last_mut().unwrap();
+        match c {
+            '0'..='9' => last.push(c),
+            '.' if !last.contains('.') => last.push(c),
+            '.' | '-' => numbers.push(c.to_string()),
+            _ => numbers.push(String::new()),
+        }
+    }
+    let numbers: Vec<f64> = numbers
+        .iter()
+        .filter_map(|text| text.parse().ok())
+        .collect();
+    let steps: Vec<f64> = numbers[2..].iter().step_by(2).copied().collect();
+    assert!(
+        steps.len() > 30 && steps.iter().all(|step| *step > 0.0),
+        "{curve}"
+    );
     let path = folder.path().join("base");
     let out = OutputFolder::open(&path, &Manifest::new("cea"), Replace::Anything).unwrap();
     write_base(&out, &mesh, (&report.base, &field)).unwrap();

@@ -101,7 +101,7 @@ fn report_of_an_eigenvalue_analysis_holds_every_figure_table_and_the_case() {
         };
         draw(&folder, &slower, &dampings, &options).unwrap();
         let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
-        assert!(!read("report.html").contains("77.7"));
+        assert!(!read("report.html").contains("77.70 s"));
         for entry in std::fs::read_dir(folder.path().join("figures")).unwrap() {
             let path = entry.unwrap().path();
             let name = format!("{} at {width} mm", path.display());
