@@ -27,7 +27,10 @@ from slepc4py import SLEPc
 RIM = ["mesh.circumferential_elements=120", "mesh.radial_elements=24", 'material.formulation="plane-stress"',
        'boundaries.outer.condition="support"', "boundaries.outer.normal_stiffness=2e11",
        "boundaries.outer.tangential_stiffness=2e11"]
+ANNULUS = ["mesh.circumferential_elements=180", "mesh.radial_elements=35", 'mesh.element="quad4"',
+           "cea.geometric_stiffness=false", "cea.friction_coefficients={ from = 0.0, to = 1.0, count = 21 }"]
 BODIES = {
+    "annulus": ("polycarbonate-disc", ANNULUS),
     "test-bench": ("test-bench", []),
     "sliding-block": ("sliding-block", []),
     "pad-on-disc": ("pad-on-disc", []),

@@ -63,6 +63,8 @@ pub struct ContactSurface {
     pub points: Vec<Point>,
     /// Place of each.
     pub sites: Vec<ContactSite>,
+    /// Nodes of the own surface that each point is among, with their shares in it.
+    pub shares: Vec<Vec<(u32, f64)>>,
     /// Nodes of the own surface that have the other before them.
     pub nodes: Vec<u32>,
     /// Area of the own surface, and how much of it is covered, m2.
@@ -94,6 +96,7 @@ impl ContactSurface {
         let mut found = Self {
             points: Vec::new(),
             sites: Vec::new(),
+            shares: Vec::new(),
             nodes: own_nodes(&pair),
             area: pair.area,
             covered: pair.covered,
@@ -108,6 +111,7 @@ impl ContactSurface {
                         row
                     };
                     found.add(site, [point.area, point.gap], friction, jump);
+                    found.shares.push(point.own.clone());
                 }
             }
             PointKind::Nodes => {
@@ -115,6 +119,7 @@ impl ContactSurface {
                     let site = site(node.position, node.normal, moving);
                     let jump = |direction: [f64; 3]| node.jump(mesh, direction);
                     found.add(site, [node.area, node.gap], friction, jump);
+                    found.shares.push(vec![(node.node, 1.0)]);
                     let lift = row_along(mesh, &node.lift, node.normal, 1.0);
                     found.points.last_mut().expect("one was added").lift = lift;
                 }

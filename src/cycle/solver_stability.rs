@@ -22,6 +22,18 @@ pub struct SteppedCycle {
     modes: Vec<f64>,
 }
 
+impl SteppedCycle {
+    /// A cycle of the same wave, larger or smaller: its exponents are the same. Its powers are its own, since they grow
+    /// partly with the amplitude and partly with its square.
+    #[must_use]
+    pub fn scaled_to(&self, cycle: &LimitCycle) -> Self {
+        Self {
+            cycle: cycle.clone(),
+            ..self.clone()
+        }
+    }
+}
+
 impl CycleSolver {
     /// Growth of small perturbations of a cycle.
     ///
@@ -52,30 +64,6 @@ impl MeshStepping<'_> {
             stability: found.stability,
             modes: found.modes,
         })
-    }
-
-    /// Settles a cycle of the same wave as `neighbour`, larger or smaller: its powers are its own, since they grow partly
-    /// with the amplitude and partly with its square; its exponents are those of the neighbour.
-    ///
-    /// # Errors
-    /// [`CycleError::Stepping`] if the transient cannot start.
-    pub fn settle_scaled(
-        &self,
-        cycle: &LimitCycle,
-        neighbour: &SteppedCycle,
-    ) -> Result<SteppedCycle, CycleError> {
-        Ok(SteppedCycle {
-            cycle: self.stepped(cycle)?,
-            ..neighbour.clone()
-        })
-    }
-
-    /// A cycle with the powers and fractions that it has in the transient of its mesh.
-    ///
-    /// # Errors
-    /// [`CycleError::Stepping`] if the transient cannot start.
-    pub fn stepped(&self, cycle: &LimitCycle) -> Result<LimitCycle, CycleError> {
-        Ok(self.period(cycle)?.stepped(cycle))
     }
 
     /// Value of `parameter` (SI) at which the branch from one cycle to another, of different stability, changes it.

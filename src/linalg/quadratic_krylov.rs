@@ -36,7 +36,7 @@ pub struct QuadraticKrylovSettings {
 }
 
 /// Krylov vectors for each wanted pair before the first look at the projected problem.
-const FIRST_LOOK: f64 = 4.4;
+const FIRST_LOOK: f64 = 5.0;
 /// Part of a new vector that must lie beyond the known ones.
 const INDEPENDENT: f64 = 1e-13;
 

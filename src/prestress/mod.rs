@@ -3,6 +3,9 @@
 //! [`SteadySliding`] is the base state: the counterface pushed in by `delta`, every pressed contact node
 //! slipping, the others open. [`SlidingTangent`] holds the matrices of small motions around it,
 //! `M(mu) q'' + C(mu) q' + K_t(mu) q = 0`, as polynomials in the friction coefficient.
+//! Both stand on contact points with rows: [`CondensedContact`] finds the base state by complementarity, [`Elimination`] takes held
+//! dofs, ties and rigid contact out, and [`SlidingTangent::assemble`] puts the matrices together. [`Assembly`] is solid bodies
+//! that are tied and slide on each other.
 //! [`SectorSliding`] and [`SectorTangent`] are the same for a uniform annulus, from one of its sectors.
 
 mod assembly;

@@ -494,3 +494,66 @@ fn a_turned_block_has_the_same_frequencies() {
         }
     }
 }
+
+/// Volumes of the regions and areas of the surfaces of a mesh file.
+fn measures(bytes: &[u8]) -> Vec<(String, f64)> {
+    let mesh = Mesh::from_solids(&GmshFile::read(bytes).unwrap(), 1.0, &[]).unwrap();
+    let regions = mesh.regions.iter().cloned().zip(mesh.region_measures());
+    let surfaces = mesh.boundaries.iter();
+    let surfaces = surfaces.map(|b| (b.name.clone(), mesh.face_area(&b.faces)));
+    regions.chain(surfaces).collect()
+}
+
+/// Independent check: volumes and areas of a quarter ring of curved bricks and wedges, whose nodes Gmsh numbers in its own way.
+#[test]
+fn curved_bricks_and_wedges_of_gmsh_have_the_volume_and_surfaces_of_their_ring() {
+    let (inner, outer, height) = (0.05_f64, 0.08_f64, 0.02);
+    let exact = [
+        ("ring", PI / 4.0 * (outer * outer - inner * inner) * height),
+        ("inner", PI / 2.0 * inner * height),
+        ("outer", PI / 2.0 * outer * height),
+    ];
+    for bytes in [
+        &include_bytes!("meshes/ring-hex20.msh")[..],
+        &include_bytes!("meshes/ring-wedge15.msh")[..],
+    ] {
+        let found = measures(bytes);
+        assert_eq!(found.len(), 3);
+        for ((name, found), (expected, exact)) in found.iter().zip(exact) {
+            assert_eq!(name, expected);
+            // Parabolas for arcs of 22.5 degrees: 2e-5 of the area beneath.
+            assert!((found / exact - 1.0).abs() < 1e-4, "{name} {found} {exact}");
+        }
+    }
+}
+
+/// Independent check: the volumes that the geometry kernel gives for the parts of the ventilated disc, pads in closed form.
+#[test]
+fn the_ventilated_disc_has_the_volumes_and_pad_faces_of_its_geometry() {
+    let found = measures(include_bytes!("../../cases/meshes/ventilated-disc.msh"));
+    let pad = PI / 6.0 * (0.1675_f64.powi(2) - 0.13_f64.powi(2));
+    let ring = PI * (0.175_f64.powi(2) - 0.1125_f64.powi(2));
+    let exact = [
+        ("disc", 2.153_222_5e-3),
+        ("pad_bottom", 0.015 * pad),
+        ("pad_top", 0.015 * pad),
+        ("back_bottom", pad),
+        ("back_top", pad),
+        ("bolts", 2.0 * PI * 0.01 * (0.04 + 5.0 * 0.01)),
+        ("disc_bottom", ring),
+        ("disc_top", PI * (0.175_f64.powi(2) - 0.125_f64.powi(2))),
+        ("lining_bottom", pad),
+        ("lining_top", pad),
+    ];
+    assert_eq!(found.len(), exact.len());
+    for ((name, found), (expected, exact)) in found.iter().zip(exact) {
+        assert_eq!(name, expected);
+        // Quadratic edges of 25 mm on circles of 10 mm and more.
+        let tolerance = if name == "bolts" { 2e-2 } else { 2e-3 };
+        println!("{name} {found} {exact}");
+        assert!(
+            (found / exact - 1.0).abs() < tolerance,
+            "{name} {found} {exact}"
+        );
+    }
+}

@@ -39,7 +39,7 @@ const KRYLOV_TOLERANCE: f64 = 1e-3;
 /// Friction values whose modes make up the compressed basis, besides the ends.
 const CHEBYSHEV_POINTS: usize = 5;
 /// Residual of the iteration whose vectors the basis takes up, relative to the shift-inverted operator.
-const SAMPLE_RESIDUAL: f64 = 1e-9;
+const SAMPLE_RESIDUAL: f64 = 1e-8;
 /// Part of such a vector, of unit length, that is worth keeping.
 const SAMPLE_TOLERANCE: f64 = 1e-10;
 /// Start vectors of an iteration that does not rely on the basis.

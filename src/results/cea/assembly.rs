@@ -23,6 +23,8 @@ pub struct AssemblyPoint {
     pub is_closed: bool,
     /// Sliding speed, m/s.
     pub speed: f64,
+    /// Nodes of the surface that it is among, with their shares in it.
+    pub shares: Vec<(u32, f64)>,
 }
 
 /// The base state of an assembly.
@@ -35,7 +37,8 @@ pub struct AssemblyReport {
 }
 
 impl AssemblyReport {
-    /// Writes `prestress.csv` (contact points) and `prestress.vtu` (displacement).
+    /// Writes `prestress.csv` (contact points) and `prestress.vtu` (displacement; pressure, traction and closed share of the
+    /// points around each node of a contact surface, zero elsewhere).
     ///
     /// # Errors
     /// Those of the folder.
@@ -56,10 +59,34 @@ impl AssemblyReport {
             ];
             write_rows(out, columns, &self.points)
         })?;
-        let fields = [Field::vectors("displacement_m", mesh, &self.displacement)];
+        let around = |value: fn(&AssemblyPoint) -> f64| self.around_nodes(mesh, value);
+        let fields = [
+            Field::vectors("displacement_m", mesh, &self.displacement),
+            Field::scalars("pressure_pa", around(|point| point.pressure)),
+            Field::scalars("shear_pa", around(|point| point.shear)),
+            Field::scalars(
+                "closed_share",
+                around(|point| f64::from(u8::from(point.is_closed))),
+            ),
+        ];
         folder.write_bulk("prestress.vtu", |out| {
             write_vtu(out, &EncodedMesh::new(mesh)?, &[], &fields, &[])
         })?;
         Ok(())
+    }
+
+    /// Mean over the points around each node, weighted by area and share.
+    fn around_nodes(&self, mesh: &Mesh, value: fn(&AssemblyPoint) -> f64) -> Vec<f64> {
+        let mut sums = vec![[0.0; 2]; mesh.node_count()];
+        for point in &self.points {
+            for &(node, share) in &point.shares {
+                // Shape functions of corners of quadratic faces may be negative.
+                let weight = point.area * share.abs();
+                sums[node as usize][0] += weight * value(point);
+                sums[node as usize][1] += weight;
+            }
+        }
+        let mean = |[sum, weight]: [f64; 2]| if weight > 0.0 { sum / weight } else { 0.0 };
+        sums.into_iter().map(mean).collect()
     }
 }

@@ -6,42 +6,35 @@ use rayon::prelude::*;
 /// Cycles whose exponents are found one after the other, each from its neighbour's; the groups run in parallel.
 const GROUP: usize = 8;
 
-/// Every cycle of a branch settled in the transient: powers and fractions are its own there, even where its exponents do not
-/// converge. Where a wave only scales from one cycle to the next, its stability is the same.
+/// Stability of every cycle of a branch, settled in the transient. Where a wave only scales from one cycle to the next, its
+/// stability is the same. The cycles stay what they are: their powers are those of the wave, whose balance is exact, while
+/// the few periods of a transient that settles still lose or gain some energy.
 pub fn along(
     stepping: &MeshStepping<'_>,
-    cycles: &mut [LimitCycle],
+    cycles: &[LimitCycle],
 ) -> Vec<Result<SteppedCycle, String>> {
     let is_scaled = |a: &LimitCycle, b: &LimitCycle| {
         let drift = a.state.frequency / b.state.frequency - 1.0;
         a.state.contact == b.state.contact && drift.abs() < 1e-9
     };
     let settled: Vec<Vec<Result<SteppedCycle, String>>> = cycles
-        .par_chunks_mut(GROUP)
+        .par_chunks(GROUP)
         .map(|group| {
             let mut done: Vec<Result<SteppedCycle, String>> = Vec::new();
-            let mut before: Option<(LimitCycle, SteppedCycle)> = None;
+            let mut before: Option<(&LimitCycle, SteppedCycle)> = None;
             for cycle in group {
                 let found = match &before {
-                    Some((own, settled)) if is_scaled(own, cycle) => {
-                        stepping.settle_scaled(cycle, settled)
-                    }
+                    Some((own, settled)) if is_scaled(own, cycle) => Ok(settled.scaled_to(cycle)),
                     _ => {
                         let neighbour = before.as_ref().map(|(_, settled)| settled);
-                        stepping.settle(cycle, neighbour)
+                        let settled = stepping.settle(cycle, neighbour);
+                        settled.map_err(|error| error.to_string())
                     }
                 };
-                let own = match &found {
-                    Ok(settled) => Ok(settled.cycle.clone()),
-                    Err(_) => stepping.stepped(cycle),
-                };
                 if let Ok(settled) = &found {
-                    before = Some((cycle.clone(), settled.clone()));
+                    before = Some((cycle, settled.clone()));
                 }
-                if let Ok(own) = own {
-                    *cycle = own;
-                }
-                done.push(found.map_err(|error| error.to_string()));
+                done.push(found);
             }
             done
         })

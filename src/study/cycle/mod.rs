@@ -177,7 +177,7 @@ impl<'a> CycleStudy<'a> {
         let start = Instant::now();
         let stability = self.choices.stability;
         let found = solver.find(&self.point);
-        let mut branch = match (&found, &self.continuation) {
+        let branch = match (&found, &self.continuation) {
             (Ok(cycle), Some((parameter, values))) => {
                 Some(solver.follow(cycle, *parameter, values))
             }
@@ -206,8 +206,8 @@ impl<'a> CycleStudy<'a> {
                             .confirm(cycle, known, periods)
                             .map_err(|e| e.to_string())
                     });
-                    if let (Some(branch), StabilityChoice::Branch) = (&mut branch, stability) {
-                        let settled = along(&stepping, &mut branch.cycles);
+                    if let (Some(branch), StabilityChoice::Branch) = (&branch, stability) {
+                        let settled = along(&stepping, &branch.cycles);
                         result.stability_changes = changes(&stepping, branch.parameter, &settled);
                         result.branch_stability = settled
                             .into_iter()

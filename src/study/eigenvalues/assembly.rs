@@ -72,10 +72,14 @@ impl AssemblyModel {
         let (assembly, state) = (assembled(&self.body)?, self.base());
         let forces = state.normal_forces(friction);
         let all = assembly.contacts().iter().flat_map(|(contact, surface)| {
-            let points = surface.points.iter().zip(&surface.sites);
-            points.map(move |(point, site)| (contact, point, site))
+            let points = surface
+                .points
+                .iter()
+                .zip(&surface.sites)
+                .zip(&surface.shares);
+            points.map(move |((point, site), shares)| (contact, point, site, shares))
         });
-        let points = all.enumerate().map(|(i, (contact, point, site))| {
+        let points = all.enumerate().map(|(i, (contact, point, site, shares))| {
             let pressure = forces.get(i).map_or(0.0, |force| force / point.weight);
             AssemblyPoint {
                 contact: contact.name.clone(),
@@ -85,6 +89,7 @@ impl AssemblyModel {
                 shear: friction * point.friction.drag * pressure,
                 is_closed: state.is_pressed[i],
                 speed: point.speed,
+                shares: shares.clone(),
             }
         });
         Ok(AssemblyReport {
