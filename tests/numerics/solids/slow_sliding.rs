@@ -90,7 +90,8 @@ fn dense(model: &SolidModel, n: usize, is_held: &dyn Fn(usize) -> bool) -> Vec<c
         .filter(|value| value.im > 0.0 || !is_standing)
         .map(|value| c64::new(value.re, value.im.abs()))
         .filter(|value| value.im < TAU * LIMIT && value.norm() < 1.19 * TAU * LIMIT)
-        .filter(|value| value.im > 0.1 * value.norm())
+        // Slower motions are creep of the contact against its dashpots.
+        .filter(|value| value.im > 0.1 * value.norm() && value.norm() > 1.2e-3 * TAU * LIMIT)
         .collect()
 }
 
@@ -141,7 +142,7 @@ fn a_ring_on_a_penalty_contact_has_the_eigenvalues_of_a_dense_solution_when_it_t
             inner_radius: 0.03,
             outer_radius: 0.07,
         };
-        model.specification.conditions[2] = BoundaryCondition::Guide;
+        model.specification.conditions[3] = BoundaryCondition::Guide;
         model.contact.interference = 5e-6;
         model.options.contact.normal_stiffness = Some(1e12);
         let found = solved(&model);

@@ -21,12 +21,16 @@ const SAME: f64 = 1e-6;
 /// The shortest step of a branch over the step of friction: a branch that turns faster begins or ends there.
 const SHORTEST: f64 = 5e-3;
 
+/// Eigenvalues below this share of the largest are creep of the contact against its dashpots, `lambda ~ - k V / (mu p)`, whatever
+/// little imaginary part friction gives them; slow modes of the body come from rest.
+const CREEP: f64 = 1e-3;
+
 /// Motions that decay without oscillating, at one friction coefficient.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Overdamped {
     /// Friction coefficient `mu`.
     pub friction_coefficient: f64,
-    /// Number of motions: real eigenvalues, and those with a frequency below a tenth of their size.
+    /// Number of motions: real eigenvalues, those with a frequency below a tenth of their size, and creep of the contact.
     pub count: usize,
     /// Their slowest and fastest decay, 1/s.
     pub decay: [f64; 2],
@@ -143,7 +147,7 @@ impl Course<'_> {
         }
         let is_wanted = |value: &c64| {
             let is_own = value.im > 0.0 || !self.problem.is_standing;
-            is_own && value.norm() <= self.largest && !self.problem.is_ending(*value)
+            is_own && value.norm() <= self.largest && !self.is_overdamped(value)
         };
         let mut missing: Vec<c64> = all
             .iter()
@@ -233,11 +237,16 @@ impl Course<'_> {
         Ok(())
     }
 
+    /// Whether a motion that no branch has come to decays without oscillating, or creeps.
+    fn is_overdamped(&self, value: &c64) -> bool {
+        self.problem.is_ending(*value) || value.norm() < CREEP * self.largest
+    }
+
     /// The motions that do not oscillate.
     fn overdamped(&self, friction: f64, all: &[c64]) -> Overdamped {
         let slow = all
             .iter()
-            .filter(|value| value.norm() <= self.largest && self.problem.is_ending(**value));
+            .filter(|value| value.norm() <= self.largest && self.is_overdamped(value));
         let rates: Vec<f64> = slow.map(|value| -value.re).collect();
         Overdamped {
             friction_coefficient: friction,
