@@ -14,7 +14,7 @@ use std::path::PathBuf;
 /// Time beyond which a run is hardly meant, s: 30 days.
 const LONGEST_RUN: f64 = 30.0 * 86_400.0;
 
-/// Validate without running, and estimate the cost (unknowns, time step, steps, memory, time)
+/// Validate without running; estimate unknowns, steps, memory and time
 #[derive(Args)]
 pub struct Arguments {
     /// Case files

@@ -136,6 +136,16 @@ fn assembly_model(
 ) -> Model {
     let _ = mesh.optional_count("axial_elements");
     let scale = mesh.number("scale");
+    if root.has("contact") {
+        let _ = root.section("contact", false);
+        root.reject(
+            "contact",
+            "[contact] is for a body with one contact: this case has [contacts.*] or [ties.*]"
+                .to_owned(),
+            "beside the contacts of an assembly".to_owned(),
+            Some("describe it under [contacts.NAME]".to_owned()),
+        );
+    }
     let own = imported::materials(root, material);
     let (parts, contact) = assembly::sections(root);
     let reject = |(message, label): (String, String)| mesh.reject("file", message, label, None);

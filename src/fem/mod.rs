@@ -12,13 +12,15 @@ pub mod operator;
 pub mod sector;
 pub mod solid;
 mod stress;
+mod triplets;
 
 pub use assembly::{
-    DofMap, MassKind, Triplets, assemble_extra_damping, assemble_geometric_stiffness,
-    assemble_mass, assemble_pressures, assemble_stiffness, assemble_supports, lumped_masses,
+    DofMap, MassKind, assemble_extra_damping, assemble_geometric_stiffness, assemble_mass,
+    assemble_pressures, assemble_stiffness, assemble_supports, lumped_masses,
 };
 pub use material::{
     AnnulusMaterials, ElasticMaterial, MaterialField, PlaneFormulation, RayleighDamping,
     RegionMaterial,
 };
 pub use stress::{NodalStress, SolidStress, nodal_stress, solid_stress};
+pub use triplets::Triplets;

@@ -4,7 +4,7 @@ use super::eigenvalues::Solver;
 use super::response::FrequencyStudy;
 use super::transient::TransientStudy;
 use super::{StudyError, eigenvalues};
-use crate::case::{Case, CaseErrors, Cost, Diagnostic, Location, StudyCost};
+use crate::case::{Case, CaseErrors, Cea, CeaMethod, Cost, Diagnostic, Location, StudyCost};
 use crate::fem::operator::SimdLevel;
 use crate::transient::StepPlan;
 
@@ -76,12 +76,18 @@ pub fn preflight(case: &Case, available: f64) -> Result<Preflight, StudyError> {
         && is_small
     {
         // A harmonic of a plane annulus is solved at once; anything else takes the time of the run itself.
-        if let Solver::Sectors(annulus) = Solver::of(case, cea.method)? {
+        Solver::of(case, cea.method)?;
+        if let Solver::Sectors(annulus) = Solver::by_symmetry(&case.body) {
             let modes = found.cost.cea.map_or(0, |cost| cost.modes);
             let sectors = annulus.specification.circumferential_elements.max(1);
             let sector = found.cost.dofs as usize / sectors;
             if sector.saturating_mul(modes) <= MOST_EIGENVALUE_WORK {
-                let tried = eigenvalues::preflight(case, cea);
+                // Both methods find the same modes, or none.
+                let by_sectors = Cea {
+                    method: CeaMethod::Cyclic,
+                    ..cea.clone()
+                };
+                let tried = eigenvalues::preflight(case, &by_sectors);
                 found.tolerate("cea", tried)?;
             }
         }

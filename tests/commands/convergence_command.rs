@@ -191,7 +191,7 @@ fn bad_factors_are_refused_with_file_line_and_key() {
         ),
         (
             "factors = [1, 1.01, 2]",
-            "is no refinement of that of 1, 36 x 8",
+            "does not refine that of 1, 36 x 8",
         ),
         ("factors = [0.01, 1, 2]", "0 x 0, has too few elements"),
         ("factors = [1, 2, 1e9]", "above the limit"),

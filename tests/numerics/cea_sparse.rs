@@ -233,7 +233,8 @@ fn quadratic_and_reduced_problem_have_one_spectrum() {
             }
         }
         for (i, j) in a.intervals.iter().zip(&b.intervals) {
-            assert!((i.critical_friction - j.critical_friction).abs() < 1e-6);
+            let difference = (i.critical_friction - j.critical_friction).abs();
+            assert!(difference < 1e-6, "{difference:e}: {i:?} {j:?}");
         }
     }
 }
