@@ -130,7 +130,7 @@ pub fn redraw(folder: &OutputFolder, case: &Case, options: &DrawingOptions) -> R
     let summary: Value = read_summary(folder.path())?;
     let cea = case.require_cea()?;
     let model = SlidingModel::new(case, cea)?;
-    let solution = eigenvalues::solve_modes(case, cea, &model)?;
+    let solution = eigenvalues::solve(case, cea, &model, &|_| {})?;
     let field = model.base_field(case);
     let map = cea.map.as_ref();
     let map = map

@@ -92,7 +92,7 @@ pub fn preflight(case: &Case, available: f64) -> Result<Preflight, StudyError> {
             }
         }
     }
-    if case.frf.is_some() && is_small && case.body.annulus().is_some() {
+    if case.frf.is_some() && is_small && case.body.has_sectors() {
         let tried = FrequencyStudy::new(case).map(|_| ());
         found.tolerate("frf", tried)?;
     }

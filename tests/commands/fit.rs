@@ -246,7 +246,7 @@ fn a_fit_on_its_bound_says_so() {
         found["parameters"]["material.young_modulus"]["at_bound"],
         2.2e9
     );
-    assert!(said.contains("lies on its bound"), "{said}");
+    assert!(said.contains("is at its bound"), "{said}");
 }
 
 #[test]

@@ -192,7 +192,7 @@ fn the_printed_table_tells_stable_ranges_from_unstable_modes() {
         "against       9900.00",
         "0.138200",
         "0.900000 (9950.00 Hz)",
-        "2 modes below 10000 Hz at 3 friction values, largest residual 1.0e-13",
+        "2 modes (below 10000 Hz) at 3 friction values, largest residual 1.0e-13",
         "12 contact nodes slipping, 0 sticking, 0 open",
         "pressure 2.8000 to 2.8300 MPa; torque 20.1500 N m",
         "harmonics above 6",
@@ -373,9 +373,11 @@ fn a_folder_of_another_case_is_refused_until_forced() {
     );
     assert!(refused.to_string().contains("--force"));
     assert!(folder.path().join("modes/old.csv").exists());
+    // Finished results stay until the new run has its own.
     let forced = open(folder.path(), "b", Replace::Anything).unwrap();
-    assert!(!folder.path().join("modes/old.csv").exists());
+    assert!(folder.path().join("modes/old.csv").exists());
     forced.finish().unwrap();
+    assert!(!folder.path().join("modes/old.csv").exists());
 }
 
 #[test]
@@ -409,11 +411,8 @@ fn what_a_killed_run_left_does_not_survive_another_case() {
     drop(killed);
     fs::write(folder.path().join("figures/.writing-x"), "half").unwrap();
     let other = open(folder.path(), "b", Replace::Anything).unwrap();
-    assert_eq!(
-        fs::read_dir(folder.path().join("figures")).unwrap().count(),
-        0
-    );
     other.finish().unwrap();
+    assert!(!folder.path().join("figures/early.svg").exists());
 }
 
 #[test]

@@ -252,6 +252,9 @@ fn a_run_from_a_limit_cycle_has_no_linear_stage() {
     let start = [
         "transient.initial=\"limit-cycle\"",
         "transient.limit_cycle_harmonic=2",
+        // The waves of coarser meshes are no motion of the disc.
+        "mesh.circumferential_elements=90",
+        "mesh.radial_elements=18",
     ];
     let assert = frictionsim(&arguments(&out, &start)).assert().code(0);
     let text = String::from_utf8(assert.get_output().stdout.clone()).unwrap();

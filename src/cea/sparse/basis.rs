@@ -44,6 +44,8 @@ const SAMPLE_RESIDUAL: f64 = 1e-8;
 const SAMPLE_TOLERANCE: f64 = 1e-10;
 /// Start vectors of an iteration that does not rely on the basis.
 const SEARCH_WIDTH: usize = 4;
+/// Corrections of a single mode in a row.
+const MAX_CORRECTIONS: usize = 16;
 /// Refinements of one basis before the preconditioner is considered unfit.
 const MAX_ROUNDS: usize = 40;
 
@@ -132,7 +134,7 @@ impl<'a> BasisBuilder<'a> {
     pub fn improve_at(&mut self, mu: f64) -> Result<bool, CeaError> {
         match self.linearization {
             Linearization::Reduced(_) => Ok(self.refine_at(mu)?.is_some()),
-            Linearization::Companion { .. } if self.sampled.contains(&mu) => Ok(false),
+            Linearization::Companion { .. } if self.sampled.contains(&mu) => self.refine_sample(mu),
             Linearization::Companion { frequency_scale } => {
                 self.sampled.push(mu);
                 // Combinations of the modes without friction, which the basis holds first.
@@ -177,6 +179,65 @@ impl<'a> BasisBuilder<'a> {
         let has_grown = self.model.extend(vectors.clone(), SAMPLE_TOLERANCE).ncols() > 0;
         self.model.hold_sample(mu, &vectors);
         Ok(has_grown)
+    }
+
+    /// Adds the corrections of the modes at a sampled `mu` to the basis and to the sample; whether there were any.
+    fn refine_sample(&mut self, mu: f64) -> Result<bool, CeaError> {
+        let modes = self.model.solve_right(mu, self.count)?;
+        let mut corrections = self.corrections(&modes, mu);
+        let lengths = column_norms(corrections.as_ref());
+        for (j, length) in lengths.into_iter().enumerate().filter(|(_, l)| *l > 0.0) {
+            let entries = column_mut(&mut corrections, j).iter_mut();
+            entries.for_each(|v| *v /= length);
+        }
+        let has_any = corrections.ncols() > 0;
+        if has_any {
+            self.model.extend(corrections.clone(), VECTOR_TOLERANCE);
+            self.model.hold_sample(mu, &corrections);
+        }
+        Ok(has_any)
+    }
+
+    /// Corrects one mode at `mu`, not sampled, in the basis until its residual vanishes or stays; whether the basis
+    /// grew.
+    ///
+    /// Each correction needs two solves, and a Rayleigh quotient iteration in the basis.
+    pub fn refine_mode(&mut self, mu: f64, mode: &ReducedMode) -> bool {
+        let (mut mode, mut last, mut has_grown) = (mode.clone(), f64::INFINITY, false);
+        for _ in 0..MAX_CORRECTIONS {
+            let corrections = self.corrections(std::slice::from_ref(&mode), mu);
+            let lengths = column_norms(corrections.as_ref());
+            let longest = lengths.into_iter().fold(0.0, f64::max);
+            // Corrections of round-off do not become shorter.
+            if longest == 0.0 || longest > 0.7 * last {
+                break;
+            }
+            last = longest;
+            let new = self.model.extend(corrections, VECTOR_TOLERANCE * longest);
+            if new.ncols() == 0 {
+                break;
+            }
+            has_grown = true;
+            match self.model.mode_near(mu, &mode) {
+                Some(next) => mode = next,
+                None => break,
+            }
+        }
+        has_grown
+    }
+
+    /// Makes the tracking of branches over `from..to` surer: takes up the modes at an end or, after those, at the
+    /// next of the dyadic fractions between; whether anything was left to do.
+    ///
+    /// # Errors
+    /// As [`Self::improve_at`].
+    pub fn improve_between(&mut self, from: f64, to: f64) -> Result<bool, CeaError> {
+        let fractions = [0.0, 1.0, 0.5, 0.25, 0.75, 0.125, 0.375, 0.625, 0.875];
+        let values = fractions.map(|t| from + t * (to - from));
+        match values.into_iter().find(|mu| !self.sampled.contains(mu)) {
+            Some(mu) => self.improve_at(mu).map(|_| true),
+            None => Ok(false),
+        }
     }
 
     /// Drops what the modes do not need: keeps their span at some of `values` (Chebyshev points, as the

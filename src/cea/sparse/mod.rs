@@ -34,7 +34,7 @@ pub use edge::ContactEdge;
 pub use frictionless::FrictionlessModes;
 pub use linearization::Linearization;
 pub use mode::ReducedMode;
-pub use onset::OnsetFinder;
+pub use onset::{FoundInterval, OnsetFinder};
 pub use point::{ModeCheck, PointSolver, SolvedPoint};
 pub use reduced::{ProjectedMatrices, ReducedModel};
 pub use structure::{ShiftInverted, StiffnessFactors, StructureMatrices};

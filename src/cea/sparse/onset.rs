@@ -2,6 +2,7 @@
 
 use super::RESIDUAL_BOUND;
 use super::branches::TrackedBranch;
+use super::linearization::Linearization;
 use super::mode::ReducedMode;
 use super::packed::ComplexColumns;
 use super::point::{PointSolver, SolvedPoint};
@@ -14,8 +15,18 @@ use std::f64::consts::TAU;
 /// A mode and its friction coefficient.
 #[derive(Clone, Debug)]
 pub struct State {
-    mu: f64,
-    mode: ReducedMode,
+    /// Friction coefficient.
+    pub mu: f64,
+    /// Mode there.
+    pub mode: ReducedMode,
+}
+
+/// An unstable interval, and the modes where it begins and ends between the points of a sweep.
+pub struct FoundInterval {
+    /// The interval.
+    pub interval: UnstableInterval,
+    /// Modes at its ends that lie within the range.
+    pub crossings: Vec<State>,
 }
 
 /// Follows one branch between the points of a sweep.
@@ -35,7 +46,7 @@ impl OnsetFinder<'_> {
     ///
     /// # Errors
     /// If a dense decomposition fails, or the mode at a crossing does not satisfy the full problem.
-    pub fn intervals(&mut self, branch: &TrackedBranch) -> Result<Vec<UnstableInterval>, CeaError> {
+    pub fn intervals(&mut self, branch: &TrackedBranch) -> Result<Vec<FoundInterval>, CeaError> {
         let places = || branch.modes.iter().zip(self.points);
         let is_wanted = |(index, point): (&Option<usize>, &SolvedPoint)| {
             index.is_some_and(|i| i < point.wanted)
@@ -67,7 +78,7 @@ impl OnsetFinder<'_> {
         &self,
         branch: &TrackedBranch,
         found: &Instability<State>,
-    ) -> Result<UnstableInterval, CeaError> {
+    ) -> Result<FoundInterval, CeaError> {
         let State { mu, mode } = &found.onset;
         let check = &self
             .solver
@@ -83,7 +94,12 @@ impl OnsetFinder<'_> {
         let label = branch.label;
         let direction = self.solver.edge.direction(&check.edge, label.harmonic);
         let name = (label.harmonic, label.branch, direction);
-        Ok(found.interval(name, |state| self.point(state)))
+        let onset = (!found.from_start).then_some(&found.onset);
+        let crossings = onset.into_iter().chain(&found.restabilized);
+        Ok(FoundInterval {
+            interval: found.interval(name, |state| self.point(state)),
+            crossings: crossings.cloned().collect(),
+        })
     }
 }
 
@@ -101,18 +117,22 @@ impl OnsetFinder<'_> {
             ..ends[nearer].mode.clone()
         };
         let mode = self.model.mode_near(mu, &start)?;
+        self.are_same(mu, &mode, &[&from.mode, &to.mode])
+            .then_some(mode)
+    }
+
+    /// Whether `mode` at `mu` overlaps with each of `others`.
+    fn are_same(&self, mu: f64, mode: &ReducedMode, others: &[&ReducedMode]) -> bool {
         let at = self.model.at(mu);
-        let modes = [from.mode.clone(), mode.clone(), to.mode.clone()];
+        let all = std::iter::once(mode).chain(others.iter().copied());
+        let modes: Vec<ReducedMode> = all.cloned().collect();
         let columns = ComplexColumns::of(&modes, self.model.dimension());
         let (mass, damping) = (columns.mapped(&at.mass), columns.mapped(&at.damping));
         let along = |i: usize, j: usize| {
             let sum = modes[i].eigenvalue + modes[j].eigenvalue;
             sum * mass.dot(&modes[i].left, j) + damping.dot(&modes[i].left, j)
         };
-        let is_same = [0, 2]
-            .iter()
-            .all(|&end| (along(1, end) * along(end, 1)).norm() > SAME);
-        is_same.then_some(mode)
+        (1..modes.len()).all(|other| (along(0, other) * along(other, 0)).norm() > SAME)
     }
 }
 
@@ -163,9 +183,16 @@ impl BranchSolver for OnsetFinder<'_> {
             ends.iter().map(|end| overlap(end, j)).sum::<f64>() / (1e-4 + distance)
         };
         let best = (0..modes.len()).max_by(|&i, &j| score(i).total_cmp(&score(j)));
-        Ok(best.map(|best| State {
-            mu,
-            mode: modes.swap_remove(best),
+        Ok(best.map(|best| {
+            let coarse = modes.swap_remove(best);
+            // Of the quadratic problem that was in the span of samples: the whole basis knows better.
+            let fine = match self.solver.linearization {
+                Linearization::Reduced(_) => None,
+                Linearization::Companion { .. } => self.model.mode_near(mu, &coarse),
+            };
+            let fine = fine.filter(|fine| self.are_same(mu, fine, &[&coarse]));
+            let mode = fine.unwrap_or(coarse);
+            State { mu, mode }
         }))
     }
 }

@@ -6,7 +6,7 @@ use super::mode::ReducedMode;
 use super::packed::{PackedModes, PackedVector};
 use super::reduced::ReducedModel;
 use super::structure::StructureMatrices;
-use super::{GROUP_WIDTH, TRACKING_MARGIN};
+use super::{GROUP_WIDTH, RESIDUAL_BOUND, TRACKING_MARGIN};
 use crate::cea::{ModeLimit, keeping_ties};
 use crate::linalg::LinalgError;
 use crate::linalg::c64;
@@ -56,13 +56,15 @@ impl SolvedPoint {
         })
     }
 
-    /// Whether a wanted mode could still be improved: its residual force, relative to the inertia force, is above `goal`.
+    /// Whether a wanted mode could still be improved: its residual force, relative to the inertia force, is above `goal`,
+    /// or its residual above the bound of converged pairs.
     pub fn misses_goal(&self, goal: f64) -> bool {
         let is_met = |check: &ModeCheck| {
             // A residual of round-off is no excuse where the mode answers to it.
             let error = check.residual / f64::EPSILON * check.uncertainty;
             let is_round_off = check.residual <= ROUND_OFF && error <= EIGENVALUE_GOAL;
-            check.force_residual <= goal || is_round_off
+            let is_fine = check.force_residual <= goal && check.residual <= RESIDUAL_BOUND;
+            is_fine || is_round_off
         };
         !self.checks.iter().take(self.wanted).all(is_met)
     }

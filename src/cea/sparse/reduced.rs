@@ -47,6 +47,14 @@ impl ProjectedMatrices {
     }
 }
 
+/// Columns continued by zeros to `rows` entries.
+fn lengthened(columns: &Mat<f64>, rows: usize) -> Mat<f64> {
+    let known = columns.nrows();
+    Mat::from_fn(rows, columns.ncols(), |i, j| {
+        if i < known { columns[(i, j)] } else { 0.0 }
+    })
+}
+
 /// `columns` times complex coordinates; nothing of no coordinates.
 fn combined(columns: &Mat<f64>, coordinates: &[c64]) -> Vec<c64> {
     let mut sum = vec![
@@ -208,10 +216,16 @@ impl ReducedModel {
     }
 
     /// Takes note that `vectors` are the modes at `mu`: the problem there is then solved in their span, and nearby in
-    /// that of the nearest ones.
+    /// that of the nearest ones. Vectors at the same `mu` add to those held.
     pub fn hold_sample(&mut self, mu: f64, vectors: &Mat<f64>) {
         let coordinates = transpose_product(self.basis.columns(), vectors.as_ref());
-        self.samples.push((mu, coordinates));
+        match self.samples.iter_mut().find(|sample| sample.0 == mu) {
+            Some((_, held)) => {
+                let known = lengthened(held, coordinates.nrows());
+                *held = join_columns(known.as_ref(), coordinates.as_ref());
+            }
+            None => self.samples.push((mu, coordinates)),
+        }
     }
 
     /// Orthonormal coordinates of the span of the `count` samples nearest to `mu`, or of the one there; nothing without
@@ -227,13 +241,7 @@ impl ReducedModel {
         let m = self.dimension();
         let mut columns = Mat::zeros(m, 0);
         for (_, coordinates) in nearest {
-            let own = Mat::from_fn(m, coordinates.ncols(), |i, j| {
-                if i < coordinates.nrows() {
-                    coordinates[(i, j)]
-                } else {
-                    0.0
-                }
-            });
+            let own = lengthened(coordinates, m);
             let new = orthonormal_complement(columns.as_ref(), own, SAME_SPACE);
             columns = join_columns(columns.as_ref(), new.as_ref());
         }

@@ -5,7 +5,7 @@ use super::branches::{BranchLabel, TrackedBranch, label_frictionless, track};
 use super::edge::ContactEdge;
 use super::frictionless::FrictionlessModes;
 use super::linearization::Linearization;
-use super::onset::OnsetFinder;
+use super::onset::{FoundInterval, OnsetFinder, State};
 use super::point::{PointSolver, SolvedPoint};
 use super::{RESIDUAL_BOUND, TRACKING_MARGIN};
 use crate::cea::{
@@ -20,6 +20,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Friction values at which the basis is refined, at least, over a range.
 const MIN_SAMPLES: usize = 6;
+/// Change of a critical friction coefficient below which its mode needs no more corrections.
+const SETTLED: f64 = 1e-10;
 /// Attempts to improve points that miss the goal.
 const MAX_REPAIRS: usize = 8;
 
@@ -214,7 +216,8 @@ impl<'a> SparseSweep<'a> {
         Ok(())
     }
 
-    /// Continues all branches from `mu = 0`. Where one is lost, an independent iteration searches for it.
+    /// Continues all branches from `mu = 0`. Where one is lost the basis takes up, of the quadratic problem, modes at
+    /// more friction coefficients about that place; in the end an independent iteration searches for it.
     ///
     /// # Errors
     /// [`CeaError::LostBranch`] if it stays lost.
@@ -235,9 +238,15 @@ impl<'a> SparseSweep<'a> {
                     to: self.grid[lost.point + 1],
                 });
             }
-            searched = true;
-            self.builder
-                .search(self.grid[lost.point + 1], TRACKING_MARGIN)?;
+            let (from, to) = (self.grid[lost.point], self.grid[lost.point + 1]);
+            let has_improved = match self.linearization {
+                Linearization::Reduced(_) => false,
+                Linearization::Companion { .. } => self.builder.improve_between(from, to)?,
+            };
+            if !has_improved {
+                searched = true;
+                self.builder.search(to, TRACKING_MARGIN)?;
+            }
             self.solve(&|_| {})?;
         }
     }
@@ -264,8 +273,12 @@ impl<'a> SparseSweep<'a> {
     }
 
     /// Unstable intervals of all branches; where a crossing misses its residual, the basis grows there.
+    ///
+    /// Of the quadratic problem the basis holds the modes of a few friction coefficients only: the modes at crossings
+    /// are corrected until these settle.
     fn intervals(&mut self, branches: &[TrackedBranch]) -> Result<Vec<UnstableInterval>, CeaError> {
         let mut repairs = 0;
+        let mut settled: Vec<f64> = Vec::new();
         loop {
             let solver = self.point_solver();
             let finder = || OnsetFinder {
@@ -279,7 +292,28 @@ impl<'a> SparseSweep<'a> {
                 .map(|branch| finder().intervals(branch))
                 .collect();
             match found {
-                Ok(intervals) => return Ok(intervals.into_iter().flatten().collect()),
+                Ok(found) => {
+                    let found: Vec<FoundInterval> = found.into_iter().flatten().collect();
+                    let crossings = || found.iter().flat_map(|found| &found.crossings);
+                    let places: Vec<f64> = crossings().map(|state| state.mu).collect();
+                    let pairs = || places.iter().zip(&settled);
+                    let has_settled = places.len() == settled.len()
+                        && pairs().all(|(new, old)| (new - old).abs() <= SETTLED);
+                    let is_final = matches!(self.linearization, Linearization::Reduced(_))
+                        || has_settled
+                        || repairs >= MAX_REPAIRS;
+                    let mut has_grown = false;
+                    if !is_final {
+                        for State { mu, mode } in crossings() {
+                            has_grown |= self.builder.refine_mode(*mu, mode);
+                        }
+                    }
+                    if !has_grown {
+                        return Ok(found.into_iter().map(|found| found.interval).collect());
+                    }
+                    settled = places;
+                    repairs += 1;
+                }
                 Err(CeaError::NotConverged {
                     friction_coefficient,
                     ..

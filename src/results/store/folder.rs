@@ -347,10 +347,8 @@ fn replaces_others(
     replace: Replace,
 ) -> Result<bool, FolderError> {
     let replaces = match read_contents(path)? {
-        Some(found) => {
-            let replace = replaceable(path, &found, replace);
-            check_owner(path, &found.manifest, manifest, replace).map(|same| !same)
-        }
+        Some(found) if is_void(path, &found) => Ok(false),
+        Some(found) => check_owner(path, &found.manifest, manifest, replace).map(|same| !same),
         None => match refuse_foreign(path) {
             Ok(()) => Ok(false),
             Err(_) if replace == Replace::Anything => Ok(true),
@@ -377,15 +375,12 @@ fn remove_temporaries(path: &Path) {
     }
 }
 
-/// Whose results may be replaced, seen what there is: a run that ended before its first result left nobody's.
-fn replaceable(path: &Path, contents: &Contents, replace: Replace) -> Replace {
+/// Whether a folder holds nobody's results: those of a run that ended before its first file.
+fn is_void(path: &Path, contents: &Contents) -> bool {
     let is_there = |name: &str| is_inside(name) && path.join(name).exists();
     let unfinished = fs::read_to_string(path.join(JOURNAL)).unwrap_or_default();
     let mut names = contents.files.iter().map(String::as_str);
-    if names.any(is_there) || unfinished.lines().any(is_there) {
-        return replace;
-    }
-    Replace::Anything
+    !names.any(is_there) && !unfinished.lines().any(is_there)
 }
 
 /// Whether the results there are of the same effective case; refuses those that must stay.

@@ -54,7 +54,8 @@ pub struct Solution {
     pub notes: Vec<String>,
 }
 
-/// Modes at the case's own friction coefficient and the onsets over its sweep; mode shapes are not computed.
+/// Modes at the case's own friction coefficient and the onsets over its sweep; mode shapes only of a body without symmetry,
+/// whose modes are recognised by nothing else.
 ///
 /// # Errors
 /// Those of the mesh, of steady sliding and of the solver; a frequency limit below the first mode.
@@ -67,7 +68,10 @@ pub fn modes_and_onsets(case: &Case) -> Result<FrictionSweep, StudyError> {
     let request = SweepRequest {
         friction_coefficients: &cea.solved_friction_coefficients(),
         limit: mode_limit(&cea),
-        shapes_at: &[],
+        shapes_at: match case.body.has_sectors() {
+            true => &[],
+            false => &cea.shapes_at,
+        },
     };
     let model = Model::new(case, &cea)?;
     let sweep = model.spectrum(case, &request, false, &|_| {})?.sweep;

@@ -78,7 +78,8 @@ pub fn curves(
             .collect::<Result<Vec<_>, StudyError>>()?;
         let (points, onsets): (Vec<[f64; 4]>, Vec<Vec<Onset>>) = solved.into_iter().unzip();
         let own = case.number(&design.key);
-        let has_effect = onsets.windows(2).any(|pair| !are_same(&pair[0], &pair[1]));
+        let moves_onsets = onsets.windows(2).any(|pair| !are_same(&pair[0], &pair[1]));
+        let has_effect = moves_onsets || points.windows(2).any(|pair| pair[0][1] != pair[1][1]);
         let reached = reaches(&points, own, bound).filter(|_| has_effect);
         Ok(DesignCurve {
             key: design.key.clone(),

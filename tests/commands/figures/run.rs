@@ -86,7 +86,7 @@ fn a_run_gets_every_figure_of_its_record() {
         ("shear-stress", &["shear stress τrθ (MPa)"]),
         ("trajectories", &["contact node 196", "radial ur"]),
         ("contact", &["traction (", "cylinder Ωa"]),
-        ("energy", &["power (W/m)", "stored energy", "J/m)"]),
+        ("energy", &["power (kW/m)", "stored energy", "J/m)"]),
     ];
     assert_eq!(figures.len(), expected.len());
     for (figure, (name, labels)) in figures.iter().zip(expected) {

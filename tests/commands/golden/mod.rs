@@ -198,7 +198,7 @@ fn compare(case: &str, frozen: &Result, now: &Result) -> Vec<String> {
 #[test]
 fn every_command_gives_the_keys_columns_and_numbers_of_version_0_1_0() {
     let folder = tempfile::tempdir().unwrap();
-    let frozen_path = repository().join("tests/golden/frozen.json");
+    let frozen_path = repository().join("tests/commands/golden/frozen.json");
     let freezing = std::env::var_os("GOLDEN_FREEZE").map(PathBuf::from);
     let binary = freezing
         .clone()

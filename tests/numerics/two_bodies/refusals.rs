@@ -51,7 +51,7 @@ fn bodies_that_do_not_meet_are_refused_with_a_remedy() {
             "apart.msh",
             body,
             "no point of \"sole\"",
-            "correct the curves",
+            "check the curves",
         ),
         (
             "good.msh",

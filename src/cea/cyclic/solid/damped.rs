@@ -53,7 +53,6 @@ pub(super) struct Range<'a> {
 pub(super) fn follow_damped(
     problem: HarmonicProblem,
     pairs: &[(f64, Vec<f64>)],
-    first_free: usize,
     range: &Range<'_>,
 ) -> Result<(HarmonicPaths, Vec<Overdamped>), CeaError> {
     let mut course = Course {
@@ -61,7 +60,7 @@ pub(super) fn follow_damped(
         follower: Follower::new(&problem),
         largest: range.largest,
         paths: Vec::new(),
-        next_branch: first_free,
+        next_branch: pairs.len(),
     };
     let at_rest = problem.at(0.0);
     for (branch, (kappa, shape)) in pairs.iter().enumerate() {

@@ -208,7 +208,7 @@ fn follow(
             kept: request.shapes_at,
             largest: margin.sqrt(),
         };
-        follow_damped(problem(), &pairs, found.reduction.kappas.len(), &range)
+        follow_damped(problem(), &pairs, &range)
     };
     let (paths, overdamped) = match found.is_damped {
         true => damped()?,
