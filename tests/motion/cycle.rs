@@ -53,8 +53,8 @@ fn external_power_leaves_as_heat_of_body_and_contact() {
 fn cycles_along_a_branch_have_the_powers_of_each_alone() {
     let bytes = include_bytes!("../../cases/limit-cycle.toml");
     let overrides = [
-        "mesh.circumferential_elements=45",
-        "mesh.radial_elements=9",
+        "mesh.circumferential_elements=90",
+        "mesh.radial_elements=18",
         "cycle.harmonics=[1]",
         "cycle.continuation.from=70.0",
         "cycle.continuation.to=250.0",
@@ -65,7 +65,7 @@ fn cycles_along_a_branch_have_the_powers_of_each_alone() {
     let study = CycleStudy::new(&case, SimdLevel::detect()).unwrap();
     let results = study.run(0, &|| {});
     let branch = results[0].branch.as_ref().unwrap();
-    let specification = annulus(ElementKind::Quad4, 45, 9);
+    let specification = annulus(ElementKind::Quad4, 90, 18);
     let solver = CycleSolver::new(&specification, &POLYCARBONATE, &DAMPING, 1, None).unwrap();
     assert!(branch.cycles.len() >= 3);
     for cycle in &branch.cycles {

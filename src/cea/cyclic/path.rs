@@ -36,7 +36,7 @@ pub(super) enum Waves {
 
 /// One branch of one harmonic.
 pub(super) struct Path {
-    /// Rank among the harmonic's modes without friction; those that do not reach back there have the numbers beyond.
+    /// Rank among the harmonic's modes without friction; those that do not reach back there are numbered from 1000 on.
     pub branch: usize,
     /// `kappa` without friction and damping; `None` of a branch that does not reach back there.
     pub rest: Option<c64>,

@@ -12,11 +12,14 @@ use crate::linalg::gram::complement;
 use crate::linalg::{ComplexDenseLu, DenseLu, LinalgError, MatrixPolynomial};
 use crate::linalg::{Mat, MatRef, Scale, c64};
 use crate::prestress::SlidingTangent;
+use rayon::prelude::*;
 
 /// Samples near a friction coefficient whose modes make up the space for its own.
 const NEIGHBOURS: usize = 4;
 /// Length of coordinates, of vectors of unit length, below which a space holds them already.
 const SAME_SPACE: f64 = 1e-9;
+/// Relative distance of eigenvalues below which they are one multiple eigenvalue.
+const MULTIPLE: f64 = 1e-7;
 /// Rayleigh quotients after which a mode counts as not found; three or four do.
 const QUOTIENT_STEPS: usize = 8;
 /// Relative change of the eigenvalue that ends the iteration: its error is about the cube of that.
@@ -199,9 +202,45 @@ impl ReducedModel {
         let mut modes =
             self.solve_in(self.span_of_nearest(mu, NEIGHBOURS), &at, count, with_left)?;
         if with_left {
+            self.widen_left(&mut modes, &at, mu);
             self.complete(&mut modes, &at, mu);
         }
         Ok(modes)
+    }
+
+    /// Replaces the left vectors of `modes` in the span of a sample by those in the whole basis.
+    ///
+    /// A sample holds right vectors only. With friction left ones are others, which that span hardly holds: overlaps
+    /// and derivatives would be wrong. Right vectors at several friction coefficients together come close to them.
+    fn widen_left(&self, modes: &mut [ReducedMode], at: &ProjectedMatrices, mu: f64) {
+        if mu == 0.0 || !self.samples.iter().any(|sample| sample.0 == mu) {
+            return;
+        }
+        let m = self.dimension();
+        let values: Vec<c64> = modes.iter().map(|mode| mode.eigenvalue).collect();
+        // The iteration would turn the vectors of one multiple eigenvalue into one.
+        let is_single = |lambda: c64| {
+            let near = |other: &&c64| (**other - lambda).norm() <= MULTIPLE * lambda.norm();
+            values.iter().filter(near).count() == 1
+        };
+        let single = modes.par_iter_mut().filter(|m| is_single(m.eigenvalue));
+        single.for_each(|mode| {
+            let lambda = mode.eigenvalue;
+            let pencil = |i: usize, j: usize| {
+                lambda * (lambda * at.mass[(i, j)] + at.damping[(i, j)]) + at.stiffness[(i, j)]
+            };
+            let slope = Mat::from_fn(m, m, |i, j| {
+                lambda * (2.0 * at.mass[(i, j)]) + at.damping[(i, j)]
+            });
+            let coarse = Mat::from_fn(m, 1, |i, _| mode.left.get(i).copied().unwrap_or_default());
+            let mut left = slope.transpose() * &coarse;
+            ComplexDenseLu::factorize(Mat::from_fn(m, m, pencil))
+                .solve_transpose_in_place(left.as_mut());
+            let length = left.norm_l2();
+            if length.is_finite() && length > 0.0 {
+                mode.left = left.col(0).iter().map(|v| v / length).collect();
+            }
+        });
     }
 
     /// [`Self::solve`] for matching modes between solved points: in the span of the two nearest samples.
@@ -211,6 +250,7 @@ impl ReducedModel {
     pub fn solve_between(&self, mu: f64, count: usize) -> Result<Vec<ReducedMode>, LinalgError> {
         let at = self.at(mu);
         let mut modes = self.solve_in(self.span_of_nearest(mu, 2), &at, count, true)?;
+        self.widen_left(&mut modes, &at, mu);
         self.complete(&mut modes, &at, mu);
         Ok(modes)
     }

@@ -252,9 +252,12 @@ impl OutputFolder {
         let written = self.written();
         let destination = &self.destination;
         let replaced = read_contents(destination)?.map(Contents::into_files);
-        let replaced = replaced.unwrap_or_default();
-        // A process that is killed from here on leaves a run of this case that has not ended.
+        let mut replaced = replaced.unwrap_or_default();
+        // What a killed run left there is known from its journal.
         let journal_path = destination.join(JOURNAL);
+        let unfinished = fs::read_to_string(&journal_path).unwrap_or_default();
+        replaced.extend(unfinished.lines().map(|name| (name.to_owned(), None)));
+        // A process that is killed from here on leaves a run of this case that has not ended.
         let names: String = written.keys().map(|name| format!("{name}\n")).collect();
         fs::write(&journal_path, names).map_err(|e| FolderError::io("write", &journal_path, e))?;
         let both = replaced.keys().chain(written.keys());

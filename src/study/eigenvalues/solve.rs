@@ -199,7 +199,8 @@ fn overdamped_note(case: &Case, model: &SlidingModel, overdamped: &[Overdamped])
          pressure and radius, overdamps them; it grows as contact.rotation_speed_rpm = {} falls, and holds that motion in the limit",
         most.count,
         solid.dashpot_across(friction),
-        case.contact.sliding.rotation_speed * 60.0 / TAU,
+        case.number("contact.rotation_speed_rpm")
+            .unwrap_or(case.contact.sliding.rotation_speed * 60.0 / TAU),
     ))
 }
 

@@ -53,7 +53,11 @@ const CHANGES: &[(&str, &str, &str, &str)] = &[
         "summaries.cycle.cycles[].onsets*",
         "onsets are those below the case's friction, from the eigenvalue analysis",
     ),
+    ("*", "*", "cycles[].branch.folds*", FOLDS),
+    ("*", "*", "summaries.cycle.cycles[].branch.folds*", FOLDS),
 ];
+
+const FOLDS: &str = "a fold is a turn back by more than the phases of the wave resolve";
 
 const SIGNAL: &str = "probes hold mean accelerations; peaks stand out of the noise at a stated resolution, modes are named within 3 %, stages \
      need an interval";

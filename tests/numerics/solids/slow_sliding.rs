@@ -109,7 +109,7 @@ fn distance(values: &[c64], others: &[c64]) -> f64 {
 /// What the small space leaves out is all that may differ.
 fn assert_equal(found: &SolidSweep, n: usize, exact: &[c64], what: &str) {
     let listed = listed(found, n);
-    assert!(exact.len() > 3, "{what}");
+    assert!(!exact.is_empty(), "{what}, n = {n}");
     assert_eq!(listed.len(), exact.len(), "{what}, n = {n}");
     let error = distance(&listed, exact).max(distance(exact, &listed));
     let bound = 10.0 * found.reduction_error + 1e-9;
@@ -137,7 +137,7 @@ fn slow_sliding_has_the_eigenvalues_of_a_dense_solution_of_the_whole_harmonic() 
 #[test]
 fn a_ring_on_a_penalty_contact_has_the_eigenvalues_of_a_dense_solution_when_it_turns_slowly() {
     for rpm in [0.1, 10.0] {
-        let mut model = turning(ElementKind::Quad4, [24, 7, 1], rpm);
+        let mut model = turning(ElementKind::Quad8, [24, 7, 1], rpm);
         model.specification.contact = SolidContact::Ring {
             inner_radius: 0.03,
             outer_radius: 0.07,
@@ -146,8 +146,10 @@ fn a_ring_on_a_penalty_contact_has_the_eigenvalues_of_a_dense_solution_when_it_t
         model.contact.interference = 5e-6;
         model.options.contact.normal_stiffness = Some(1e12);
         let found = solved(&model);
-        let exact = dense(&model, 2, &|_| false);
-        assert_equal(&found, 2, &exact, &format!("ring at {rpm} rpm"));
+        for n in [0, 1] {
+            let exact = dense(&model, n, &|_| false);
+            assert_equal(&found, n, &exact, &format!("ring at {rpm} rpm"));
+        }
     }
 }
 

@@ -165,10 +165,11 @@ fn no_record_of_a_convergence_study_makes_plot_panic() {
 #[test]
 fn no_checkpoint_makes_its_reader_panic() {
     let scratch = tempfile::tempdir().unwrap();
-    let (folder, file) = (scratch.path(), scratch.path().join(CHECKPOINT));
+    let folder = &scratch.path().join("run");
+    let file = folder.join(CHECKPOINT);
     let manifest = Manifest::new("transient");
     // What stands in it is a record of a run; a state without fields is enough for the reader.
-    let run = finished(folder, "transient");
+    let run = finished(scratch.path(), "transient");
     let record: Recorder = read_record(&run).unwrap();
     let state = TransientState {
         step: 1,

@@ -238,7 +238,7 @@ fn a_rounded_time_column_asks_for_the_rate_and_is_overruled_by_it() {
     let file = read_signal(text.as_bytes(), "x", Some(51_200.0)).unwrap();
     assert_eq!(file.sampling_rate, 51_200.0);
     assert!(
-        file.notes[0].contains("takes the place of the time column"),
+        file.notes[0].contains("replaces the time column"),
         "{:?}",
         file.notes
     );

@@ -188,8 +188,7 @@ fn every_refusal_names_file_line_column_and_remedy() {
     assert!(message(&with("110,1,2,3")).starts_with("FRF.csv:12:9: 4 fields where"));
     assert!(message(&with("-5,1,2")).starts_with("FRF.csv:12:1: frequency -5 is negative"));
     assert!(
-        message(&with("20,1,2"))
-            .starts_with("FRF.csv:12:1: frequency 20 Hz stands already in line 3")
+        message(&with("20,1,2")).starts_with("FRF.csv:12:1: frequency 20 Hz is already in line 3")
     );
     assert!(message("").contains("no data"));
     assert!(message("# nothing\n\n").contains("no data"));

@@ -25,6 +25,10 @@ const SHORTEST: f64 = 5e-3;
 /// little imaginary part friction gives them; slow modes of the body come from rest.
 const CREEP: f64 = 1e-3;
 
+/// Branches that do not reach back to rest are numbered from here on, beyond those at rest: how many of these lie below a bound changes
+/// with the model, and with it names would.
+const FIRST_BORN: usize = 1000;
+
 /// Motions that decay without oscillating, at one friction coefficient.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Overdamped {
@@ -60,7 +64,7 @@ pub(super) fn follow_damped(
         follower: Follower::new(&problem),
         largest: range.largest,
         paths: Vec::new(),
-        next_branch: pairs.len(),
+        next_branch: pairs.len().max(FIRST_BORN),
     };
     let at_rest = problem.at(0.0);
     for (branch, (kappa, shape)) in pairs.iter().enumerate() {
@@ -154,7 +158,8 @@ impl Course<'_> {
             .filter(|(value, claimed)| !**claimed && is_wanted(value))
             .map(|(value, _)| *value)
             .collect();
-        missing.sort_by(|a, b| a.im.total_cmp(&b.im));
+        // Those near the bound come last, so that no other's number depends on them.
+        missing.sort_by(|a, b| a.norm().total_cmp(&b.norm()));
         for value in missing {
             self.add(value, [before, friction], &was_open, &shared)?;
         }
