@@ -65,9 +65,11 @@ impl Bench {
             .unwrap()
             .keep();
         let mut program = Command::new(env!("CARGO_BIN_EXE_frictionsim"));
-        program.arg(command).args(inputs).args(["--json", "-qq"]);
+        program.arg(command).args(inputs).arg("--json");
         if command != "check" {
-            program.args(["--no-figures", "--force", "--out"]).arg(&out);
+            program
+                .args(["-qq", "--no-figures", "--force", "--out"])
+                .arg(&out);
         }
         for setting in overrides {
             program.args(["--set", setting]);

@@ -349,7 +349,7 @@ fn cycle(bench: &Bench, _: Option<&Bench>) -> Cell {
 /// The bounds of the boundary hold it between them.
 fn basin(bench: &Bench, _: Option<&Bench>) -> Cell {
     let request =
-        "basin={harmonics=[1,2],seed_ratio_from=0.5,seed_ratio_to=2.0,tolerance=3.0,periods=20}";
+        "basin={harmonics=[1,2],seed_ratio_from=0.5,seed_ratio_to=2.0,tolerance=3.0,periods=50}";
     done!(bench.run("basin", &[request], &[]));
     Cell::Right
 }
