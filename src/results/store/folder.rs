@@ -34,7 +34,7 @@ pub enum Replace {
 ///
 /// Every file appears under its final name only when complete. The lock goes with the process: a
 /// killed run leaves none behind. A run that replaces the results of another case is built in a folder
-/// beside them, [`STAGING`], and takes their place when it is complete.
+/// beside them, `.replacing`, and takes their place when it is complete.
 #[derive(Debug)]
 pub struct OutputFolder {
     /// Where files are written.
