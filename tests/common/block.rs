@@ -99,12 +99,3 @@ pub fn block(kind: ElementKind, cells: [usize; 3], map: impl Fn([f64; 3]) -> [f6
     file.points = places.into_iter().map(map).collect();
     file
 }
-
-/// The same as a mesh, free.
-pub fn block_mesh(
-    kind: ElementKind,
-    cells: [usize; 3],
-    map: impl Fn([f64; 3]) -> [f64; 3],
-) -> Mesh {
-    Mesh::from_solids(&block(kind, cells, map), 1.0, &[]).unwrap()
-}

@@ -1,6 +1,6 @@
 //! Solid elements of every kind against theory and against each other.
 
-use crate::block::{SOLIDS, block, block_mesh};
+use crate::block::{SOLIDS, block};
 use faer::Mat;
 use faer::linalg::solvers::Solve;
 use faer::sparse::{SparseColMat, Triplet};
@@ -11,7 +11,7 @@ use frictionsim::fem::{
 };
 use frictionsim::mesh::{BoundaryCondition, ElasticSupport, ElementKind, GmshFile, Mesh};
 use nalgebra::{DMatrix, Matrix3, Rotation3, SymmetricEigen, Vector3};
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 const STEEL: ElasticMaterial = ElasticMaterial {
     young_modulus: 2e11,
@@ -328,36 +328,39 @@ fn masses_have_the_volume_and_inertia_of_the_block() {
 /// Theory: Lamé's mode of a free cube of side `L`, `u = (cos(pi x / L) sin(pi y / L), - sin(pi x / L) cos(pi y / L), 0)`, has
 /// `omega = sqrt(2) pi c_t / L` exactly. Frequencies converge with order 2 on linear kinds, 4 on quadratic ones.
 #[test]
-fn the_lame_mode_of_a_free_cube_converges_with_the_order_of_the_kind() {
-    const SIDE: f64 = 0.1;
+fn the_lame_mode_of_a_cube_converges_with_the_order_of_the_kind() {
+    const SIDE: f64 = 0.05;
     let [_, shear] = STEEL.lame_constants();
-    let exact = 2.0_f64.sqrt() * PI / SIDE * (shear / STEEL.density).sqrt();
+    let exact = PI / SIDE * (shear / STEEL.density / 2.0).sqrt();
+    // A quarter of the cube between its planes of symmetry: Lamé's mode stands alone there, on meshes without symmetry too.
+    let guided = ["x1", "y1", "z0", "z1"].map(|face| (face.to_owned(), BoundaryCondition::Guide));
     let error = |kind: ElementKind, cells: usize| {
-        let mesh = block_mesh(kind, [cells; 3], |p| p.map(|x| SIDE * x));
+        let file = block(kind, [cells; 3], |p| p.map(|x| SIDE * x));
+        let mesh = Mesh::from_solids(&file, 1.0, &guided).unwrap();
         let lame = sample(&mesh, |p| {
-            let (x, y) = (PI * p.x / SIDE, PI * p.y / SIDE);
+            let (x, y) = (FRAC_PI_2 * p.x / SIDE, FRAC_PI_2 * p.y / SIDE);
             Vector3::new(x.cos() * y.sin(), -x.sin() * y.cos(), 0.0)
         });
-        // Blocks of tetrahedra are not symmetric and mix Lamé's modes with their neighbours: theirs is the motion itself.
-        let pencil = Pencil::of(&mesh);
-        let square = match kind {
-            ElementKind::Tet4 | ElementKind::Tet10 => {
-                pencil.quotient(&DMatrix::from_vec(lame.len(), 1, lame))
-            }
-            _ => pencil.like(&lame),
-        };
-        (square.sqrt() / exact - 1.0).abs()
+        (Pencil::of(&mesh).like(&lame).sqrt() / exact - 1.0).abs()
     };
     for kind in SOLIDS {
         let cells = match kind {
-            _ if kind.is_quadratic() => [2, 4],
-            _ => [4, 8],
+            _ if kind.is_quadratic() => [4, 6],
+            _ => [8, 14],
         };
         let errors = cells.map(|cells| error(kind, cells));
         let order = (errors[0] / errors[1]).ln() / (cells[1] as f64 / cells[0] as f64).ln();
         println!("{kind:?} {errors:?} {order}");
         let expected = if kind.is_quadratic() { 4.0 } else { 2.0 };
-        assert!(order > expected - 0.3, "{kind:?} {errors:?} order {order}");
+        // Split cells have not lost their next term yet (1.76 and 3.62 here, 1.37 and 3.2 with half as many cells); bricks have.
+        let shortfall = match kind {
+            ElementKind::Hex8 | ElementKind::Hex20 => 0.02,
+            _ => 0.4,
+        };
+        assert!(
+            order > expected - shortfall,
+            "{kind:?} {errors:?} order {order}"
+        );
     }
 }
 
