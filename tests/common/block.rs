@@ -1,6 +1,6 @@
 //! Blocks of solid elements of every kind, as a mesh file holds them.
 
-use frictionsim::mesh::{ElementKind, FileElement, GmshFile, Mesh};
+use frictionsim::mesh::{ElementKind, FileElement, GmshFile};
 use std::collections::BTreeMap;
 
 /// Solid kinds.
