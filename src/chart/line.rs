@@ -23,6 +23,7 @@ pub struct Line {
     marker: Option<(Marker, f64)>,
     arrows: usize,
     name: Option<String>,
+    label: Option<String>,
     is_whole: bool,
 }
 
@@ -43,6 +44,7 @@ impl Line {
             marker: None,
             arrows: 0,
             name: None,
+            label: None,
             is_whole: false,
         }
     }
@@ -85,6 +87,14 @@ impl Line {
     pub fn name(self, name: impl Into<String>) -> Self {
         Self {
             name: Some(name.into()),
+            ..self
+        }
+    }
+
+    /// The same with a name for those who take the numbers, which the legend does not show.
+    pub fn label(self, label: impl Into<String>) -> Self {
+        Self {
+            label: Some(label.into()),
             ..self
         }
     }
@@ -159,7 +169,7 @@ impl Layer for Line {
         // A line without width carries the arrows of others.
         let is_shown = self.stroke.width > 0.0 && !self.xs.is_empty();
         let series = Series {
-            name: self.name.as_deref().map(plain).unwrap_or_default(),
+            name: exported_name(self.label.as_ref(), self.name.as_ref()),
             kind: match self.stroke.dash {
                 [] => SeriesKind::Line,
                 _ => SeriesKind::Dashed,
@@ -174,6 +184,11 @@ impl Layer for Line {
         };
         is_shown.then_some(series).into_iter().collect()
     }
+}
+
+/// What a series is called in the numbers of a figure: its label, or its name in the legend.
+fn exported_name(label: Option<&String>, name: Option<&String>) -> String {
+    label.or(name).map(|text| plain(text)).unwrap_or_default()
 }
 
 /// An arrow head on the longest step of each part of a curve: which way it is run through.
@@ -213,6 +228,7 @@ pub struct Points {
     radius: f64,
     colour: &'static str,
     name: Option<String>,
+    label: Option<String>,
     rows: Vec<usize>,
     tips: Vec<String>,
     key: Option<Stroke>,
@@ -228,6 +244,7 @@ impl Points {
             radius: 2.0,
             colour: SERIES[0],
             name: None,
+            label: None,
             rows: Vec::new(),
             tips: Vec::new(),
             key: None,
@@ -238,6 +255,14 @@ impl Points {
     pub fn keyed(self, stroke: Stroke) -> Self {
         Self {
             key: Some(stroke),
+            ..self
+        }
+    }
+
+    /// The same with a name for those who take the numbers, which the legend does not show.
+    pub fn label(self, label: impl Into<String>) -> Self {
+        Self {
+            label: Some(label.into()),
             ..self
         }
     }
@@ -298,7 +323,7 @@ impl Layer for Points {
     fn series(&self) -> Vec<Series> {
         let (xs, ys) = self.points.iter().copied().unzip();
         let series = Series {
-            name: self.name.as_deref().map(plain).unwrap_or_default(),
+            name: exported_name(self.label.as_ref(), self.name.as_ref()),
             kind: SeriesKind::Points,
             colour: self.colour,
             xs,

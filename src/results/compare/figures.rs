@@ -124,6 +124,10 @@ fn panel_of(panel: &PanelData, runs: &[(usize, &str, &PanelData)]) -> Panel {
         for series in curves {
             let places = || series.xs.iter().copied().zip(series.ys.iter().copied());
             anchor = anchor.or_else(|| places().find(|(x, y)| (x + y).is_finite()));
+            let label = match series.name.as_str() {
+                "" => literal(title),
+                name => format!("{}: {}", literal(title), literal(name)),
+            };
             let number = |names: &[&str]| names.iter().position(|name| *name == series.name);
             out = match series.kind {
                 SeriesKind::Line | SeriesKind::Dashed => {
@@ -132,11 +136,15 @@ fn panel_of(panel: &PanelData, runs: &[(usize, &str, &PanelData)]) -> Panel {
                         dash,
                         ..Stroke::solid(colour, 0.8)
                     };
-                    out.layer(Line::through(places()).stroke(stroke))
+                    out.layer(Line::through(places()).stroke(stroke).label(label))
                 }
                 SeriesKind::Points | SeriesKind::Field => {
                     let marker = point_marker(number(&points).unwrap_or(0));
-                    out.layer(Points::new(places()).marker(marker, 1.4, colour))
+                    out.layer(
+                        Points::new(places())
+                            .marker(marker, 1.4, colour)
+                            .label(label),
+                    )
                 }
             };
         }
