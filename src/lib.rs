@@ -1,9 +1,22 @@
 //! Finite-element stability and transient analysis of frictional contact.
 //!
-//! A deformable annulus, clamped at its outer edge, is pressed from inside by a rotating rigid
-//! cylinder. Three analyses share one model: a prestressed complex eigenvalue analysis
-//! ([`cea`]), an explicit contact transient ([`transient`]), and limit cycles found directly
-//! ([`cycle`]).
+//! Deformable bodies are pressed against each other or against a rigid counterface, and slide. One model serves a prestressed
+//! complex eigenvalue analysis ([`cea`]), an explicit transient ([`transient`]), frequency responses ([`frf`]) and limit cycles
+//! found directly ([`cycle`]). The [`guide`] is for users of the program; this page is for readers of the code.
+//!
+//! # From a case to a result
+//!
+//! A run goes down this list; each step has one module, and its equations stand there.
+//!
+//! 1. [`case`]: a TOML file becomes a [`case::Case`]; every key is declared once, every mistake has its line.
+//! 2. [`mesh`]: the body as elements, regions and boundaries, built in or read from a file.
+//! 3. [`fem`]: `M`, `C = alpha_R M + beta_R K` and `K` of its elements, with supports and pressures.
+//! 4. [`contact`]: points with gap, normal and sliding direction; the friction law; pairs of meshes that do not match.
+//! 5. [`prestress`]: steady sliding, `K u = G_n^T N + s mu G_t^T N` with `gap >= 0`, `N >= 0`, `gap N = 0`, and the matrices of
+//!    small motions around it, polynomials in `mu`.
+//! 6. [`cea`], [`transient`], [`frf`], [`cycle`]: what these matrices do, each for itself.
+//! 7. [`study`]: an analysis of a case from beginning to end, and what repeats analyses: sweeps, fits, probabilities.
+//! 8. [`results`] and [`chart`]: tables, fields, figures, reports; [`app`]: the command line.
 //!
 //! # From equation to item
 //!
@@ -49,6 +62,7 @@ pub mod contact;
 pub mod cycle;
 pub mod fem;
 pub mod frf;
+pub mod guide;
 pub mod linalg;
 pub mod mesh;
 pub mod prestress;
