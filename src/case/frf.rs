@@ -58,10 +58,12 @@ pub(super) fn read(root: &Section<'_>, nodes: &Nodes<'_>) -> Option<Frf> {
     frequencies_hz.dedup();
     let direction = |key| {
         let direction: Direction = section.choice(key);
-        if direction == Direction::Axial && nodes.body.is_some_and(|body| body.dimension() == 2) {
+        let is_along = matches!(direction, Direction::Axial | Direction::Z);
+        if is_along && nodes.body.is_some_and(|body| body.dimension() == 2) {
+            let name = direction.name();
             section.reject(
                 key,
-                format!("frf.{key} = \"axial\": a plane body does not move along its axis"),
+                format!("frf.{key} = \"{name}\": a plane body does not move along its axis"),
                 "the body is plane".to_owned(),
                 Some(
                     "use \"radial\" or \"tangential\", or material.formulation = \"three-dimensional\""

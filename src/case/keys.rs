@@ -194,9 +194,9 @@ pub const KEYS: &[CaseKey] = &[
 
     key("frf.boundary", Choice(words::<FrfBoundary>), "", Value("\"free\""), "\"free\"", "how the disc is held while it is excited"),
     key("frf.force_node", Node, "", Required, "36", "the node that is struck, by number or by place"),
-    key("frf.force_direction", Choice(words::<Direction>), "", Value("\"radial\""), "\"radial\"", "the direction of the force; \"axial\" in three dimensions"),
+    key("frf.force_direction", Choice(words::<Direction>), "", Value("\"radial\""), "\"radial\"", "the direction of the force; \"axial\" in three dimensions, \"x\", \"y\", \"z\" on bodies from a file"),
     key("frf.response_node", Node, "", Otherwise("frf.force_node"), "36", "the node observed, by number or by place"),
-    key("frf.response_direction", Choice(words::<Direction>), "", Value("\"radial\""), "\"radial\"", "the direction observed; \"axial\" in three dimensions"),
+    key("frf.response_direction", Choice(words::<Direction>), "", Value("\"radial\""), "\"radial\"", "the direction observed; the same choices"),
     key("frf.frequencies_hz", Numbers(Positive), "Hz", Required, "{ from = 1.0, to = 10000.0, count = 10000 }", "the frequencies of the response"),
     key("frf.quantity", Choice(words::<ResponseQuantity>), "", Value("\"accelerance\""), "\"accelerance\"", "what is observed for each unit of force"),
     key("frf.method", Choice(words::<FrfMethod>), "", Value("\"auto\""), "\"auto\"", "how the response is computed (auto = cyclic)"),
@@ -231,6 +231,7 @@ pub(super) const RANGE: &[CaseKey] = &[
 pub(super) const PLACE: &[CaseKey] = &[
     key("x", Number(Finite), "m", Otherwise("radius and angle_deg"), "0.0", "the distance from the origin to the right"),
     key("y", Number(Finite), "m", Otherwise("radius and angle_deg"), "0.042", "the distance from the origin upwards"),
+    key("z", Number(Finite), "m", Otherwise("0, and the top face of a body of revolution"), "0.005", "the distance from the origin along z, of solid bodies"),
     key("radius", Number(NotNegative), "m", Otherwise("x and y"), "0.0425", "the distance from the cylinder's axis (from the origin where there is none)"),
     key("angle_deg", Number(Finite), "degrees", Otherwise("x and y"), "90.0", "the angle about that axis from +x"),
 ];

@@ -15,15 +15,15 @@ pub struct PlacedNode {
     /// Node, counted from 0.
     pub node: usize,
     /// The place, m.
-    pub asked: [f64; 2],
+    pub asked: [f64; 3],
     /// Where the node is, m.
-    pub at: [f64; 2],
+    pub at: [f64; 3],
 }
 
 impl PlacedNode {
     /// Distance of the node from the place, m.
     pub fn distance(&self) -> f64 {
-        (self.at[0] - self.asked[0]).hypot(self.at[1] - self.asked[1])
+        distance(self.at, self.asked)
     }
 }
 
@@ -51,33 +51,41 @@ impl Nodes<'_> {
         (named, at): &(NodePlace, Location),
     ) -> Option<Found> {
         let body = self.body?;
-        let asked = match *named {
+        let (asked, z) = match *named {
             NodePlace::Number(number) => {
                 return numbered(body, section, key, number, at).map(|n| (n, None));
             }
-            NodePlace::Point(point) => point,
-            NodePlace::Polar { radius, angle } => {
+            NodePlace::Point(point, z) => (point, z),
+            NodePlace::Polar { radius, angle, z } => {
                 let [x, y] = axis(body);
-                [x + radius * angle.cos(), y + radius * angle.sin()]
+                ([x + radius * angle.cos(), y + radius * angle.sin()], z)
             }
         };
-        let (node, point) = nearest(body, asked)?;
+        if let (2, Some(z)) = (body.dimension(), z) {
+            section.reject_there(
+                at,
+                format!("{}: z = {z} of a plane body", section.name(key)),
+                "the body is plane".to_owned(),
+                "leave z out",
+            );
+            return None;
+        }
+        let (node, point) = nearest(body, asked, z)?;
         let placed = PlacedNode {
             node,
-            asked,
+            // Without z the height is the node's.
+            asked: [asked[0], asked[1], z.unwrap_or(point[2])],
             at: point,
         };
         if placed.distance() > FAR * body.size() {
             section.warn(
                 key,
                 format!(
-                    "{}: the node nearest to ({}, {}) m is node {} at ({:.6}, {:.6}) m, {:.1e} m away",
+                    "{}: the node nearest to {} m is node {} at {} m, {:.1e} m away",
                     section.name(key),
-                    asked[0],
-                    asked[1],
+                    listed(&placed.asked[..body.dimension()], None),
                     body.node_label(node),
-                    point[0],
-                    point[1],
+                    listed(&point[..body.dimension()], Some(6)),
                     placed.distance()
                 ),
                 "places are in metres",
@@ -150,6 +158,19 @@ fn labelled(
     found
 }
 
+/// Coordinates in brackets, with so many decimals.
+fn listed(point: &[f64], decimals: Option<usize>) -> String {
+    let written = point.iter().map(|x| match decimals {
+        Some(count) => format!("{x:.count$}"),
+        None => x.to_string(),
+    });
+    format!("({})", written.collect::<Vec<_>>().join(", "))
+}
+
+fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (a[0] - b[0]).hypot(a[1] - b[1]).hypot(a[2] - b[2])
+}
+
 /// The centre that polar places are about, m.
 fn axis(body: &Body) -> [f64; 2] {
     match body.imported().map(|imported| imported.mesh.counterface) {
@@ -159,14 +180,22 @@ fn axis(body: &Body) -> [f64; 2] {
 }
 
 /// The node nearest to a point, and where it is; none where the mesh makes none.
-fn nearest(body: &Body, point: [f64; 2]) -> Option<(usize, [f64; 2])> {
+fn nearest(body: &Body, point: [f64; 2], z: Option<f64>) -> Option<(usize, [f64; 3])> {
+    let [x, y] = point;
     match body {
-        Body::Annulus(annulus) => nearest_in_sectors(&annulus.specification, point),
-        Body::Revolution(revolution) => nearest_on_top(&revolution.specification, point),
-        Body::Assembly(_) => None,
+        Body::Annulus(annulus) => {
+            let (node, [x, y]) = nearest_in_sectors(&annulus.specification, point)?;
+            Some((node, [x, y, 0.0]))
+        }
+        Body::Revolution(revolution) => nearest_corner(&revolution.specification, point, z),
+        Body::Assembly(assembly) => {
+            let asked = [x, y, z.unwrap_or(0.0)];
+            let nodes = assembly.mesh.nodes.iter().copied().enumerate();
+            nodes.min_by(|a, b| distance(a.1, asked).total_cmp(&distance(b.1, asked)))
+        }
         Body::Imported(imported) => {
             let (node, _) = imported.mesh.nearest_node(point)?;
-            Some((node, imported.mesh.plane_node(node)))
+            Some((node, imported.mesh.nodes[node]))
         }
     }
 }
@@ -193,8 +222,12 @@ fn nearest_in_sectors(
     Some((node, at))
 }
 
-/// The node of the top face that lies nearest to a point, and where it is.
-fn nearest_on_top(solid: &SolidSpecification, [x, y]: [f64; 2]) -> Option<(usize, [f64; 2])> {
+/// The corner node that lies nearest to a point, on the top face where no height is given, and where it is.
+fn nearest_corner(
+    solid: &SolidSpecification,
+    [x, y]: [f64; 2],
+    z: Option<f64>,
+) -> Option<(usize, [f64; 3])> {
     let count = solid.annulus.circumferential_elements;
     let nodes = solid_node_count(solid);
     let per_sector = usize::try_from(nodes / count.max(1) as u128).ok()?;
@@ -202,11 +235,18 @@ fn nearest_on_top(solid: &SolidSpecification, [x, y]: [f64; 2]) -> Option<(usize
     let turn = (y.atan2(x) / TAU * sectors).round().rem_euclid(sectors);
     let angle = TAU * turn / sectors;
     let radii = solid.corner_radii().ok()?;
-    let distance = |radius: f64| (radius - x.hypot(y)).abs();
+    let away = |radius: f64| (radius - x.hypot(y)).abs();
     let places = radii.iter().copied().enumerate();
-    let (i, radius) = places.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)))?;
-    let node = solid.corner_node([i, solid.axial_elements]);
-    let place = [radius * angle.cos(), radius * angle.sin()];
+    let (i, radius) = places.min_by(|a, b| away(a.1).total_cmp(&away(b.1)))?;
+    // Layers are equally thick.
+    let layers = solid.axial_elements;
+    let layer = z.map_or(layers as f64, |z| {
+        let share = z / solid.thickness;
+        (share * layers as f64).round().clamp(0.0, layers as f64)
+    });
+    let height = solid.thickness * layer / layers as f64;
+    let node = solid.corner_node([i, layer as usize]);
+    let place = [radius * angle.cos(), radius * angle.sin(), height];
     Some((
         (turn as usize).checked_mul(per_sector)?.checked_add(node)?,
         place,

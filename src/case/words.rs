@@ -158,7 +158,14 @@ choices! {
     BaseChoice { "solved" = Self::Solved, "closed" = Self::Closed }
     HeldAxis { "x" = Self::X, "y" = Self::Y, "z" = Self::Z }
     BaseContact { "rigid" = Self::Rigid, "compliant" = Self::Compliant }
-    Direction { "radial" = Self::Radial, "tangential" = Self::Tangential, "axial" = Self::Axial }
+    Direction {
+        "radial" = Self::Radial,
+        "tangential" = Self::Tangential,
+        "axial" = Self::Axial,
+        "x" = Self::X,
+        "y" = Self::Y,
+        "z" = Self::Z,
+    }
     ResponseQuantity {
         "accelerance" = Self::Accelerance,
         "mobility" = Self::Mobility,

@@ -188,6 +188,10 @@ impl CyclicSystem {
             return Err(FrfError::NoNode { key, node, count });
         }
         let component = terminal.direction.component();
+        let component = component.ok_or(FrfError::NoAxes {
+            key,
+            direction: terminal.direction.name(),
+        })?;
         if component >= self.components {
             return Err(FrfError::in_plane(terminal, key));
         }

@@ -3,7 +3,7 @@
 use super::factors::{Analyses, factorized};
 use super::neighbours::solve_together;
 use super::system::check_frequencies;
-use super::{FrfError, FrfSystem};
+use super::{FrfError, FrfSystem, Port};
 use crate::linalg::c64;
 use rayon::prelude::*;
 
@@ -19,7 +19,7 @@ pub struct DirectResponse {
     pub receptance: Vec<c64>,
 }
 
-/// Receptance between two unknowns, `h = e_response^T (K + i omega C - omega^2 M)^{-1} e_force`.
+/// Receptance between two ports, unknowns mostly: `h = e_response^T (K + i omega C - omega^2 M)^{-1} e_force`.
 ///
 /// Neighbouring lines share one sparse factorization, real with proportional damping and complex with
 /// any other, and each is solved from it in a Krylov space until its own backward error is that of
@@ -31,11 +31,17 @@ pub struct DirectResponse {
 /// [`FrfError::Frequency`]; [`FrfError::Factorization`] where an undamped system is at resonance.
 pub fn direct_response(
     system: &FrfSystem,
-    force: usize,
-    response: usize,
+    force: impl Into<Port>,
+    response: impl Into<Port>,
     frequencies_hz: &[f64],
 ) -> Result<DirectResponse, FrfError> {
-    direct_response_with(system, force, response, frequencies_hz, &|_| {})
+    direct_response_with(
+        system,
+        &force.into(),
+        &response.into(),
+        frequencies_hz,
+        &|_| {},
+    )
 }
 
 /// As [`direct_response`]; `done` hears how many lines are solved, a few at a time, from any thread.
@@ -44,8 +50,8 @@ pub fn direct_response(
 /// As [`direct_response`].
 pub fn direct_response_with(
     system: &FrfSystem,
-    force: usize,
-    response: usize,
+    force: &Port,
+    response: &Port,
     frequencies_hz: &[f64],
     done: &(dyn Fn(usize) + Sync),
 ) -> Result<DirectResponse, FrfError> {

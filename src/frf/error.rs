@@ -29,6 +29,39 @@ pub enum FrfError {
         /// `radial`, `tangential` or `axial`.
         direction: &'static str,
     },
+    /// An axis of the mesh, on a body that is solved harmonic by harmonic.
+    #[error(
+        "frf.{key}: direction \"{direction}\" is for bodies from a mesh file; use \"radial\", \"tangential\" or \"axial\""
+    )]
+    NoAxes {
+        /// Case key of the node.
+        key: &'static str,
+        /// `x`, `y` or `z`.
+        direction: &'static str,
+    },
+    /// Radius and tangent of a node on the axis.
+    #[error(
+        "frf.{key} = {node} lies on the axis, where {direction} has no direction: use \"x\", \"y\" or \"z\", or another node"
+    )]
+    OnAxis {
+        /// Case key.
+        key: &'static str,
+        /// Node id, from 1.
+        node: usize,
+        /// `radial` or `tangential`.
+        direction: &'static str,
+    },
+    /// A force on a node of a surface that follows another one.
+    #[error(
+        "frf.{key} = {node} lies on a surface that is tied to or slides on another, and follows it: apply the force to a node \
+         beside the surface"
+    )]
+    Follows {
+        /// Case key.
+        key: &'static str,
+        /// Node id, from 1.
+        node: usize,
+    },
     /// A plane body, along its axis.
     #[error(
         "frf.{key} = {node} cannot move in axial direction: the body is plane; use \"radial\" or \"tangential\", or \
@@ -57,7 +90,7 @@ pub enum FrfError {
     /// The reduction does not reach its tolerance.
     #[error(
         "the reduced model still errs by {error:.1e} (bound {bound:.0e}) with {vectors} vectors: use \
-         frf.method = \"cyclic\""
+         frf.method = \"auto\", which solves line by line then, or \"direct\""
     )]
     NotReduced {
         /// Error found at the check lines.
@@ -75,7 +108,10 @@ impl FrfError {
         match self {
             Self::NoNode { key, .. }
             | Self::Constrained { key, .. }
-            | Self::InPlane { key, .. } => Some(key),
+            | Self::InPlane { key, .. }
+            | Self::NoAxes { key, .. }
+            | Self::OnAxis { key, .. }
+            | Self::Follows { key, .. } => Some(key),
             _ => None,
         }
     }

@@ -1,6 +1,6 @@
 //! Sparse factorizations of the dynamic stiffness.
 
-use super::{FrfError, FrfSystem};
+use super::{FrfError, FrfSystem, Port};
 use crate::linalg::{ComplexSparseLu, LdlAnalysis, LinalgError, LuAnalysis, c64};
 
 /// Symbolic factorizations of the system's pattern.
@@ -22,17 +22,15 @@ impl Analyses {
 pub(super) fn factorized(
     system: &FrfSystem,
     analysis: &LuAnalysis,
-    force: usize,
-    response: usize,
+    force: &Port,
+    response: &Port,
     frequency_hz: f64,
 ) -> Result<c64, FrfError> {
-    let mut unit = vec![c64::new(0.0, 0.0); system.dimension()];
-    unit[force] = c64::new(1.0, 0.0);
     let values = system.dynamic_stiffness(frequency_hz);
     let lu =
         ComplexSparseLu::factorize(analysis, values).map_err(|source| FrfError::Factorization {
             frequency_hz,
             source,
         })?;
-    Ok(lu.solve_refined(&unit)[response])
+    Ok(response.observe(&lu.solve_refined(&force.complex_force(system.dimension()))))
 }

@@ -1,8 +1,8 @@
 //! Lines close to each other, solved from one factorization.
 
-use super::FrfSystem;
 use super::factors::Analyses;
 use super::krylov::KrylovSpace;
+use super::{FrfSystem, Port};
 use crate::fem::RayleighDamping;
 use crate::linalg::{ComplexSparseLu, MatMut, SparseLdl, SparseLu, c64};
 use std::f64::consts::TAU;
@@ -16,8 +16,8 @@ const GROWTH_BOUND: f64 = 1e15;
 pub(super) fn solve_together(
     system: &FrfSystem,
     analyses: &Analyses,
-    force: usize,
-    response: usize,
+    force: &Port,
+    response: &Port,
     lines: &[f64],
 ) -> Vec<Option<c64>> {
     let solved = match system.proportional() {
@@ -30,7 +30,7 @@ pub(super) fn solve_together(
     let accepted = |(f, x): (&f64, Vec<c64>)| {
         let (residual, size) = system.residual(*f, &x, force);
         let is_solved = residual <= BACKWARD_ERROR_BOUND * size && size < GROWTH_BOUND;
-        is_solved.then(|| x[response])
+        is_solved.then(|| response.observe(&x))
     };
     lines.iter().zip(solved).map(accepted).collect()
 }
@@ -44,15 +44,13 @@ fn proportional(
     system: &FrfSystem,
     analyses: &Analyses,
     rayleigh: RayleighDamping,
-    force: usize,
+    force: &Port,
     lines: &[f64],
 ) -> Option<Vec<Vec<c64>>> {
     let count = system.dimension();
     let middle = 0.5 * (lines[0] + lines[lines.len() - 1]);
     let factors = RealFactors::new(system, analyses, middle)?;
-    let mut unit = vec![0.0; count];
-    unit[force] = 1.0;
-    let mut space = KrylovSpace::new(factors.solve(unit));
+    let mut space = KrylovSpace::new(factors.solve(force.force(count)));
     let sigma = (TAU * middle).powi(2);
     let distances: Vec<c64> = lines.iter().map(|f| shift(rayleigh, *f) - sigma).collect();
     let [mass, _, _] = system.matrices();
@@ -78,7 +76,7 @@ fn proportional(
 fn general(
     system: &FrfSystem,
     analyses: &Analyses,
-    force: usize,
+    force: &Port,
     lines: &[f64],
 ) -> Option<Vec<Vec<c64>>> {
     let count = system.dimension();
@@ -89,8 +87,8 @@ fn general(
     let solve = |x: &mut [c64]| {
         factors.solve_in_place(MatMut::from_column_major_slice_mut(x, count, 1));
     };
-    let mut start = vec![c64::new(0.0, 0.0); 2 * count];
-    start[force] = c64::new(1.0, 0.0);
+    let mut start = force.complex_force(count);
+    start.resize(2 * count, c64::new(0.0, 0.0));
     solve(&mut start[..count]);
     let mut space = KrylovSpace::new(start);
     let distances: Vec<c64> = lines
@@ -202,9 +200,10 @@ mod tests {
             // Two of the lines lie within the bandwidth of unstable modes (9.9 and 10.5 kHz).
             for first in [500.0, 5000.0, 9850.0, 10_450.0] {
                 let lines: Vec<f64> = (0..16).map(|k| first + 10.0 * f64::from(k)).collect();
-                let shared = solve_together(&system, &analyses, 5, 200, &lines);
+                let shared = solve_together(&system, &analyses, &5.into(), &200.into(), &lines);
                 for (f, found) in lines.iter().zip(shared) {
-                    let own = factorized(&system, &analyses.lu, 5, 200, *f).unwrap();
+                    let own =
+                        factorized(&system, &analyses.lu, &5.into(), &200.into(), *f).unwrap();
                     // Backward errors of 1e-14 times condition numbers of 1e4 or less.
                     let found = found.expect("solved together");
                     assert!(

@@ -2,7 +2,7 @@
 
 use super::factors::factorized;
 use super::system::check_frequencies;
-use super::{FrfError, FrfSystem};
+use super::{FrfError, FrfSystem, Port};
 use crate::linalg::dense::{join_columns, orthonormalize, transpose_product};
 use crate::linalg::{ComplexDenseLu, LuAnalysis, Mat, SparseLu, c64};
 use std::f64::consts::TAU;
@@ -47,7 +47,7 @@ pub struct ReducedResponse {
     pub vectors: usize,
 }
 
-/// Receptance between two unknowns by a rational Krylov reduction.
+/// Receptance between two ports, unknowns mostly, by a rational Krylov reduction.
 ///
 /// At real shifts `sigma_j = omega_j^2` spread over the range, one basis `V` collects
 /// `((K - sigma_j M)^{-1} M)^k (K - sigma_j M)^{-1} e_force` and the same of the transposed system from
@@ -62,11 +62,12 @@ pub struct ReducedResponse {
 /// Source: E. J. Grimme, "Krylov projection methods for model reduction", thesis, Urbana (1997).
 pub fn reduced_response(
     system: &FrfSystem,
-    force: usize,
-    response: usize,
+    force: impl Into<Port>,
+    response: impl Into<Port>,
     frequencies_hz: &[f64],
     settings: &ReductionSettings,
 ) -> Result<ReducedResponse, FrfError> {
+    let (force, response) = (&force.into(), &response.into());
     check_frequencies(frequencies_hz)?;
     let (low, high) = range(frequencies_hz);
     if frequencies_hz.is_empty() {
@@ -161,8 +162,8 @@ fn extended(
     system: &FrfSystem,
     analysis: &LuAnalysis,
     basis: Mat<f64>,
-    force: usize,
-    response: usize,
+    force: &Port,
+    response: &Port,
     shift_hz: f64,
 ) -> Result<Mat<f64>, FrfError> {
     let mut frequency_hz = shift_hz;
@@ -190,8 +191,7 @@ fn extended(
         // Each chain is orthogonalized in itself alone: with vectors of the other chain mixed in, the
         // recursion would leave its Krylov space.
         let mut chain = Mat::<f64>::zeros(n, 0);
-        let mut right = vec![0.0; n];
-        right[start] = 1.0;
+        let mut right = start.force(n);
         for _ in 0..MOMENTS {
             let mut x = Mat::from_fn(n, 1, |i, _| right[i]);
             if is_transposed {
@@ -222,7 +222,7 @@ struct ReducedModel {
 }
 
 impl ReducedModel {
-    fn project(system: &FrfSystem, basis: &Mat<f64>, force: usize, response: usize) -> Self {
+    fn project(system: &FrfSystem, basis: &Mat<f64>, force: &Port, response: &Port) -> Self {
         let count = basis.ncols();
         let [mass, damping, stiffness] = system.matrices().map(|values| {
             let mut image = Mat::<f64>::zeros(basis.nrows(), count);
@@ -236,8 +236,8 @@ impl ReducedModel {
             mass,
             damping,
             stiffness,
-            force: (0..count).map(|j| basis[(force, j)]).collect(),
-            response: (0..count).map(|j| basis[(response, j)]).collect(),
+            force: force.row_of(basis.as_ref()),
+            response: response.row_of(basis.as_ref()),
         }
     }
 

@@ -1,6 +1,7 @@
 //! Mass, damping and stiffness of the body in the state that is excited.
 
-use super::{Direction, FrfError, Terminal};
+use super::{Axis, Direction, FrfError, Port, Terminal};
+use crate::contact::Row;
 use crate::fem::{
     DofMap, MassKind, MaterialField, RayleighDamping, assemble_extra_damping, assemble_mass,
     assemble_stiffness, assemble_supports,
@@ -12,6 +13,9 @@ use crate::prestress::SlidingTangent;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
+/// Share of a direction that is the round-off of a frame.
+const NO_SHARE: f64 = 1e-12;
+
 /// `M`, `C`, `K` over the unknowns, on one sparsity pattern.
 #[derive(Clone, Debug)]
 pub struct FrfSystem {
@@ -22,6 +26,8 @@ pub struct FrfSystem {
     proportional: Option<RayleighDamping>,
     is_symmetric: bool,
     unknowns: DofMap,
+    /// Dofs that are combinations of the unknowns, as full dofs.
+    followers: Vec<(usize, Row)>,
 }
 
 impl FrfSystem {
@@ -37,7 +43,7 @@ impl FrfSystem {
         let unknowns = if is_clamped {
             DofMap::clamped(mesh)
         } else {
-            DofMap::excluding(2 * mesh.node_count(), [])
+            DofMap::excluding(mesh.dof_count(), [])
         };
         let restricted = |entries: &[(usize, usize, f64)]| -> Vec<(usize, usize, f64)> {
             let at = |dof: usize| unknowns.unknown_of[dof];
@@ -81,6 +87,7 @@ impl FrfSystem {
             proportional: is_proportional.then_some(damping),
             is_symmetric: true,
             unknowns,
+            followers: Vec::new(),
         }
     }
 
@@ -97,6 +104,15 @@ impl FrfSystem {
             proportional: tangent.proportional,
             is_symmetric: false,
             unknowns: tangent.unknowns.clone(),
+            followers: tangent.distances.clone(),
+        }
+    }
+
+    /// Bodies without contact from their tangent, whose matrices are symmetric.
+    pub fn tied(tangent: &SlidingTangent) -> Self {
+        Self {
+            is_symmetric: true,
+            ..Self::sliding(tangent, 0.0)
         }
     }
 
@@ -105,15 +121,65 @@ impl FrfSystem {
         self.unknowns.len()
     }
 
-    /// Unknown of a terminal; `key` is the case key of its node.
+    /// Port of a terminal on the system's mesh, its direction about `axis`; `key` is the case key of its node.
+    ///
+    /// A node of a tied or sliding surface that follows another one can be observed, not excited: a force there would act on
+    /// the other surface too, and through friction.
+    ///
+    /// # Errors
+    /// [`FrfError::NoNode`], [`FrfError::Constrained`] where the boundary holds it, [`FrfError::InPlane`] along the axis of a
+    /// plane body, [`FrfError::OnAxis`], [`FrfError::Follows`].
+    pub fn port(
+        &self,
+        mesh: &Mesh,
+        axis: Option<Axis>,
+        terminal: Terminal,
+        key: &'static str,
+    ) -> Result<Port, FrfError> {
+        let (count, node) = (mesh.node_count(), terminal.node + 1);
+        if node > count {
+            return Err(FrfError::NoNode { key, node, count });
+        }
+        if matches!(terminal.direction, Direction::Axial | Direction::Z) && mesh.dimension == 2 {
+            return Err(FrfError::in_plane(terminal, key));
+        }
+        let direction = terminal.direction.name();
+        let on_axis = FrfError::OnAxis {
+            key,
+            node,
+            direction,
+        };
+        let local = terminal.direction.at(mesh, terminal.node, axis);
+        let local = local.ok_or(on_axis)?;
+        let mut shares = Row::new();
+        for component in (0..mesh.dimension).filter(|&k| local[k].abs() > NO_SHARE) {
+            let (dof, share) = (mesh.dimension * terminal.node + component, local[component]);
+            let follower = self.followers.iter().find(|(own, _)| *own == dof);
+            match (follower, self.unknowns.unknown_of[dof]) {
+                (Some(_), _) if key == "force_node" => {
+                    return Err(FrfError::Follows { key, node });
+                }
+                (Some((_, row)), _) => {
+                    let free = |&(other, part): &(usize, f64)| {
+                        Some((self.unknowns.unknown_of[other]?, part * share))
+                    };
+                    shares.extend(row.iter().filter_map(free));
+                }
+                (None, Some(unknown)) => shares.push((unknown, share)),
+                (None, None) => return Err(FrfError::constrained(terminal, key)),
+            }
+        }
+        Ok(Port(shares))
+    }
+
+    /// Unknown of a terminal of a plane body along its nodal frame; `key` is the case key of its node.
     ///
     /// # Errors
     /// [`FrfError::NoNode`], [`FrfError::Constrained`] where the boundary holds it, [`FrfError::InPlane`] along the axis.
     pub fn unknown(&self, terminal: Terminal, key: &'static str) -> Result<usize, FrfError> {
-        if terminal.direction == Direction::Axial {
-            return Err(FrfError::in_plane(terminal, key));
-        }
-        let dof = 2 * terminal.node + terminal.direction.component();
+        let component = terminal.direction.component().filter(|&k| k < 2);
+        let component = component.ok_or_else(|| FrfError::in_plane(terminal, key))?;
+        let dof = 2 * terminal.node + component;
         let node = terminal.node + 1;
         match self.unknowns.unknown_of.get(dof) {
             None => Err(FrfError::NoNode {
@@ -147,11 +213,10 @@ impl FrfSystem {
     }
 
     /// `|e_force - A x|` and `|A| |x|` for `A = K + i omega C - omega^2 M`, in the largest norm.
-    pub(super) fn residual(&self, frequency_hz: f64, x: &[c64], force: usize) -> (f64, f64) {
+    pub(super) fn residual(&self, frequency_hz: f64, x: &[c64], force: &Port) -> (f64, f64) {
         let omega = TAU * frequency_hz;
-        let mut residual = vec![c64::new(0.0, 0.0); x.len()];
+        let mut residual = force.complex_force(x.len());
         let mut row_sums = vec![0.0; x.len()];
-        residual[force] = c64::new(1.0, 0.0);
         for (column, x) in x.iter().enumerate() {
             for (k, row) in self.pattern.column(column) {
                 let real = self.stiffness[k] - omega * omega * self.mass[k];

@@ -1,5 +1,8 @@
 //! Excitation and response degrees of freedom, and the support during the test.
 
+use crate::mesh::Mesh;
+use nalgebra::Vector3;
+
 /// How the body is held while it is excited.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FrfBoundary {
@@ -18,8 +21,23 @@ pub enum Direction {
     Radial,
     /// Around the axis, counter-clockwise; along `y` where the body has none.
     Tangential,
-    /// Along the axis; plane bodies do not move there.
+    /// Along the axis; plane bodies do not move there. Along `z` where the body has no axis.
     Axial,
+    /// Along `x` of the mesh.
+    X,
+    /// Along `y` of the mesh.
+    Y,
+    /// Along `z` of the mesh; plane bodies do not move there.
+    Z,
+}
+
+/// An axis that directions are about: a point of it, m, and its unit vector.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Axis {
+    /// A point of it, m.
+    pub center: [f64; 3],
+    /// Unit vector along it.
+    pub direction: [f64; 3],
 }
 
 impl Direction {
@@ -29,12 +47,49 @@ impl Direction {
             Self::Radial => "radial",
             Self::Tangential => "tangential",
             Self::Axial => "axial",
+            Self::X => "x",
+            Self::Y => "y",
+            Self::Z => "z",
         }
     }
 
-    /// Component of a displacement `(u_r, u_theta, u_z)`.
-    pub fn component(self) -> usize {
-        self as usize
+    /// Component of a displacement `(u_r, u_theta, u_z)`; none along the axes of the mesh.
+    pub fn component(self) -> Option<usize> {
+        match self {
+            Self::Radial => Some(0),
+            Self::Tangential => Some(1),
+            Self::Axial => Some(2),
+            Self::X | Self::Y | Self::Z => None,
+        }
+    }
+
+    /// Unit vector at a node, in the node's frame: of a plane body that frame is the one of radius and tangent, of solid bodies
+    /// the three directions are about `axis`, or along `x`, `y`, `z` without one. `None` on the axis itself, where radius and
+    /// tangent have no direction.
+    pub(super) fn at(self, mesh: &Mesh, node: usize, axis: Option<Axis>) -> Option<Vector3<f64>> {
+        let across = match self {
+            Self::X => Vector3::x(),
+            Self::Y => Vector3::y(),
+            Self::Z => Vector3::z(),
+            Self::Radial | Self::Tangential | Self::Axial if mesh.dimension == 2 => {
+                return self.component().map(|k| Vector3::ith(k, 1.0));
+            }
+            Self::Radial | Self::Tangential | Self::Axial => match axis {
+                None => Vector3::ith(self.component()?, 1.0),
+                Some(axis) => {
+                    let along = Vector3::from(axis.direction);
+                    let arm = Vector3::from(mesh.nodes[node]) - Vector3::from(axis.center);
+                    let radius = arm - along * arm.dot(&along);
+                    let radial = radius.try_normalize(1e-9 * arm.norm());
+                    match self {
+                        Self::Axial => along,
+                        Self::Tangential => along.cross(&radial?),
+                        _ => radial?,
+                    }
+                }
+            },
+        };
+        Some(mesh.frame(node).transpose() * across)
     }
 }
 

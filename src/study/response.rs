@@ -11,17 +11,21 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+use super::eigenvalues::AssemblyModel;
 use super::{StudyError, tangent_options};
-use crate::case::{Body, Case, CaseErrors, Frf, FrfMethod};
+use crate::case::{AssemblyBody, Body, Case, CaseErrors, Frf, FrfMethod};
 use crate::fem::assemble_stiffness;
 use crate::frf::{
-    CyclicSystem, FrfBoundary, FrfError, FrfSystem, ReductionSettings, cyclic_response,
+    Axis, CyclicSystem, FrfBoundary, FrfError, FrfSystem, Port, ReductionSettings, cyclic_response,
     direct_response_with, reduced_response,
 };
 use crate::linalg::{GaussianNoise, c64};
-use crate::mesh::{AnnulusSpecification, SectorMesh, SolidSector, SolidSpecification};
+use crate::mesh::{
+    AnnulusSpecification, BoundaryCondition, Mesh, SectorMesh, SolidSector, SolidSpecification,
+};
 use crate::prestress::{SectorTangent, SlidingTangent, SolidTangent, SteadySliding};
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 /// Hears how many frequencies are solved, a few at a time, from any thread; the cyclic method and the reduction are silent.
 pub type Progress<'a> = dyn Fn(usize) + Sync + 'a;
@@ -38,13 +42,23 @@ pub struct FrequencyStudy<'a> {
 enum System {
     /// Harmonic by harmonic.
     Cyclic(Box<CyclicSystem>),
-    /// The whole mesh, with the unknowns of force and response.
+    /// The whole mesh, with the ports of force and response.
     Whole {
         system: Box<FrfSystem>,
-        force: usize,
-        response: usize,
-        is_reduced: bool,
+        ports: Box<[Port; 2]>,
+        reduction: Reduction,
     },
+}
+
+/// Whether a whole mesh is projected on a small space.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Reduction {
+    /// Every line is solved.
+    No,
+    /// Where it reaches its tolerance; every line is solved elsewhere.
+    Tried,
+    /// Or an error.
+    Asked,
 }
 
 /// A computed response and how it came about.
@@ -79,8 +93,9 @@ impl<'a> FrequencyStudy<'a> {
         let system = match frf.method {
             FrfMethod::Auto if case.has_sectors() => cyclic(case, frf)?,
             FrfMethod::Cyclic => cyclic(case, frf)?,
-            FrfMethod::Auto | FrfMethod::Reduced => whole(case, frf, true)?,
-            FrfMethod::Direct => whole(case, frf, false)?,
+            FrfMethod::Auto => whole(case, frf, Reduction::Tried)?,
+            FrfMethod::Reduced => whole(case, frf, Reduction::Asked)?,
+            FrfMethod::Direct => whole(case, frf, Reduction::No)?,
         };
         Ok(Self { case, frf, system })
     }
@@ -113,28 +128,29 @@ impl<'a> FrequencyStudy<'a> {
             }
             System::Whole {
                 system,
-                force,
-                response,
-                is_reduced: false,
+                ports,
+                reduction,
             } => {
-                let solved = direct_response_with(system, *force, *response, lines, done)?;
-                found.dofs = system.dimension();
-                found.method = "direct";
-                found.solved = solved.receptance;
-            }
-            System::Whole {
-                system,
-                force,
-                response,
-                is_reduced: true,
-            } => {
+                let [force, response] = &**ports;
                 let settings = ReductionSettings::default();
-                let solved = reduced_response(system, *force, *response, lines, &settings)?;
+                let reduced = (*reduction != Reduction::No).then(|| {
+                    reduced_response(system, force.clone(), response.clone(), lines, &settings)
+                });
                 found.dofs = system.dimension();
-                found.method = "reduced";
-                found.largest_error = Some(solved.largest_error);
-                found.vectors = Some(solved.vectors);
-                found.solved = solved.receptance;
+                match reduced {
+                    // A reduction that misses its tolerance is no answer; each line for itself is.
+                    None => found.solve_directly(system, ports, done)?,
+                    Some(Err(FrfError::NotReduced { .. })) if *reduction == Reduction::Tried => {
+                        found.solve_directly(system, ports, done)?;
+                    }
+                    Some(solved) => {
+                        let solved = solved?;
+                        found.method = "reduced";
+                        found.largest_error = Some(solved.largest_error);
+                        found.vectors = Some(solved.vectors);
+                        found.solved = solved.receptance;
+                    }
+                }
             }
         }
         Ok(found)
@@ -142,6 +158,20 @@ impl<'a> FrequencyStudy<'a> {
 }
 
 impl Response {
+    /// Solves line by line.
+    fn solve_directly(
+        &mut self,
+        system: &FrfSystem,
+        ports: &[Port; 2],
+        done: &Progress<'_>,
+    ) -> Result<(), FrfError> {
+        let [force, response] = ports;
+        let lines = &self.frequencies_hz;
+        self.solved = direct_response_with(system, force, response, lines, done)?.receptance;
+        self.method = "direct";
+        Ok(())
+    }
+
     /// Displacement for each unit of force at each frequency, of the body's true thickness, m/N.
     pub fn receptance(&self) -> Vec<c64> {
         self.solved.iter().map(|h| h / self.thickness).collect()
@@ -164,6 +194,9 @@ impl Response {
 
 /// The harmonics of an annulus, or of a body of revolution in three dimensions.
 fn cyclic(case: &Case, frf: &Frf) -> Result<System, StudyError> {
+    if frf.boundary == FrfBoundary::Sliding {
+        refuse_rest(case)?;
+    }
     let system = match &case.body {
         Body::Annulus(body) => annulus(case, frf, &body.specification)?,
         Body::Revolution(body) => solid(case, frf, &body.specification)?,
@@ -235,50 +268,104 @@ fn solid(
     ))
 }
 
-/// Matrices of the body as it is held, and the unknowns of force and response.
-fn whole(case: &Case, frf: &Frf, is_reduced: bool) -> Result<System, StudyError> {
-    if case.body.assembly().is_some() {
-        return Err(StudyError::Case(case.error_at(
-            "frf.boundary",
-            "responses of assemblies of solid bodies are not computed".to_owned(),
-            "these are solid bodies from a mesh file".to_owned(),
-            Some("use `frictionsim cea`".to_owned()),
-        )));
-    }
+/// Matrices of the whole mesh as it is held, and the ports of force and response.
+fn whole(case: &Case, frf: &Frf, reduction: Reduction) -> Result<System, StudyError> {
     if case.body.revolution().is_some() {
-        let name = if is_reduced { "reduced" } else { "direct" };
+        let name = match reduction {
+            Reduction::No => "direct",
+            Reduction::Tried | Reduction::Asked => "reduced",
+        };
         return Err(StudyError::Case(case.error_at(
             "frf.method",
-            format!("frf.method = \"{name}\" is for plane bodies"),
-            "the body is three-dimensional".to_owned(),
+            format!("frf.method = \"{name}\" is for bodies that are solved on their whole mesh"),
+            "a body of revolution is solved harmonic by harmonic".to_owned(),
             Some("use \"auto\" or \"cyclic\"".to_owned()),
         )));
     }
-    let mesh = &*case.mesh()?;
-    let system = if frf.boundary == FrfBoundary::Sliding {
-        let stiffness = assemble_stiffness(mesh, case.materials());
-        let base = SteadySliding::solve(mesh, &stiffness, &case.contact.sliding)?;
-        let options = tangent_options(case, frf.mass);
-        let tangent =
-            SlidingTangent::linearize(mesh, case.materials(), &stiffness, &base, &options);
-        FrfSystem::sliding(&tangent, case.contact.sliding.friction_coefficient)
-    } else {
-        let is_clamped = frf.boundary == FrfBoundary::Clamped;
-        let rayleigh = case.damping.rayleigh;
-        FrfSystem::body(mesh, case.materials(), frf.mass, rayleigh, is_clamped)
+    if frf.boundary == FrfBoundary::Sliding {
+        refuse_rest(case)?;
+    }
+    let (system, mesh, axis) = match &case.body {
+        Body::Assembly(body) => {
+            let motion = body.motions.first();
+            let axis = motion.map(|motion| Axis {
+                center: motion.center,
+                direction: motion.axis,
+            });
+            (assembly(case, frf, body)?, Arc::clone(&body.mesh), axis)
+        }
+        Body::Annulus(_) | Body::Imported(_) | Body::Revolution(_) => {
+            let mesh = case.mesh()?;
+            (plane(case, frf, &mesh)?, mesh, None)
+        }
     };
-    let unknown = |terminal, key| {
-        let found = system.unknown(terminal, key);
+    let port = |terminal, key| {
+        let found = system.port(&mesh, axis, terminal, key);
         found.map_err(|error| at_node(case, &error))
     };
-    let force = unknown(frf.force, "force_node")?;
-    let response = unknown(frf.response, "response_node")?;
+    let force = port(frf.force, "force_node")?;
+    let response = port(frf.response, "response_node")?;
     Ok(System::Whole {
         system: Box::new(system),
-        force,
-        response,
-        is_reduced,
+        ports: Box::new([force, response]),
+        reduction,
     })
+}
+
+/// A plane body as it is held.
+fn plane(case: &Case, frf: &Frf, mesh: &Mesh) -> Result<FrfSystem, StudyError> {
+    if frf.boundary != FrfBoundary::Sliding {
+        let is_clamped = frf.boundary == FrfBoundary::Clamped;
+        let (materials, rayleigh) = (case.materials(), case.damping.rayleigh);
+        return Ok(FrfSystem::body(
+            mesh, materials, frf.mass, rayleigh, is_clamped,
+        ));
+    }
+    let stiffness = assemble_stiffness(mesh, case.materials());
+    let base = SteadySliding::solve(mesh, &stiffness, &case.contact.sliding)?;
+    let options = tangent_options(case, frf.mass);
+    let tangent = SlidingTangent::linearize(mesh, case.materials(), &stiffness, &base, &options);
+    Ok(FrfSystem::sliding(
+        &tangent,
+        case.contact.sliding.friction_coefficient,
+    ))
+}
+
+/// An assembly as it is held: sliding, or its bodies as they are tied, without their contacts.
+fn assembly(case: &Case, frf: &Frf, body: &AssemblyBody) -> Result<FrfSystem, StudyError> {
+    let options = tangent_options(case, frf.mass);
+    if frf.boundary == FrfBoundary::Sliding {
+        let model = AssemblyModel::solve(case, body, options, &[])?;
+        return Ok(FrfSystem::sliding(
+            &model.own_tangent()?,
+            case.contact.sliding.friction_coefficient,
+        ));
+    }
+    let mut apart = AssemblyBody {
+        contacts: Vec::new(),
+        ..body.clone()
+    };
+    if frf.boundary == FrfBoundary::Free {
+        let mesh = Arc::make_mut(&mut apart.mesh);
+        for boundary in &mut mesh.boundaries {
+            boundary.condition = BoundaryCondition::Free;
+        }
+    }
+    let model = AssemblyModel::solve(case, &apart, options, &[])?;
+    Ok(FrfSystem::tied(&model.own_tangent()?))
+}
+
+/// A counterface at rest sticks: there is no steady sliding to respond around.
+fn refuse_rest(case: &Case) -> Result<(), CaseErrors> {
+    if case.contact.sliding.rotation_speed != 0.0 {
+        return Ok(());
+    }
+    Err(case.error_at(
+        "frf.boundary",
+        "frf.boundary = \"sliding\" at rest: the contact sticks, and there is no steady sliding to respond around".to_owned(),
+        "the speed is 0".to_owned(),
+        Some("give a speed, however small, or use \"clamped\" or \"free\"".to_owned()),
+    ))
 }
 
 /// What is wrong with a node, at its key.

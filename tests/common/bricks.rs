@@ -1,14 +1,6 @@
 //! Bodies of bricks side by side in one mesh file.
 
-use frictionsim::fem::{ElasticMaterial, PlaneFormulation};
 use std::fmt::Write;
-
-pub const STEEL: ElasticMaterial = ElasticMaterial {
-    young_modulus: 2e11,
-    poisson_ratio: 0.3,
-    density: 7850.0,
-    formulation: PlaneFormulation::ThreeDimensional,
-};
 
 /// A block of bricks; its sides are the surfaces `NAME_x0`, `NAME_x1`, `NAME_y0` ... of the file.
 pub struct Block {

@@ -2,6 +2,8 @@
 
 #[path = "../common/block.rs"]
 mod block;
+#[path = "../common/bricks.rs"]
+mod bricks;
 #[path = "../common/disc.rs"]
 mod disc;
 #[path = "../common/msh.rs"]

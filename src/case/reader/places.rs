@@ -10,10 +10,14 @@ use crate::case::value::{RawItem, RawValue};
 pub(in crate::case) enum NodePlace {
     /// By its number.
     Number(usize),
-    /// As the nearest to a point, m.
-    Point([f64; 2]),
+    /// As the nearest to a point, m; on the top face of a body of revolution where no `z` is given.
+    Point([f64; 2], Option<f64>),
     /// As the nearest to a radius, m, and an angle about the axis, rad.
-    Polar { radius: f64, angle: f64 },
+    Polar {
+        radius: f64,
+        angle: f64,
+        z: Option<f64>,
+    },
 }
 
 impl<'a> Section<'a> {
@@ -37,22 +41,23 @@ impl<'a> Section<'a> {
         };
         let mut place = Section::new(self.findings, self.name(key), Some(table), item.at.clone());
         place.declarations = Some(keys::PLACE);
-        let [x, y, radius, angle] =
-            ["x", "y", "radius", "angle_deg"].map(|part| place.optional_number(part));
+        let [x, y, z, radius, angle] =
+            ["x", "y", "z", "radius", "angle_deg"].map(|part| place.optional_number(part));
         place.close();
         let found = match (x, y, radius, angle) {
-            (Some(x), Some(y), None, None) => NodePlace::Point([x, y]),
+            (Some(x), Some(y), None, None) => NodePlace::Point([x, y], z),
             (None, None, Some(radius), Some(angle)) => NodePlace::Polar {
                 radius,
                 angle: angle.to_radians(),
+                z,
             },
             _ => {
-                let wanted = "must be { x, y } or { radius, angle_deg }";
+                let wanted = "must be { x, y } or { radius, angle_deg }, with z on solid bodies";
                 self.reject_at(item, key, wanted);
                 return None;
             }
         };
-        let is_read = [x, y, radius, angle].into_iter().flatten();
+        let is_read = [x, y, z, radius, angle].into_iter().flatten();
         is_read.into_iter().all(f64::is_finite).then_some(found)
     }
 }

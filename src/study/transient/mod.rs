@@ -283,7 +283,9 @@ impl<'a> TransientStudy<'a> {
             friction_coefficient: case.contact.sliding.friction_coefficient,
             initial: settings.initial.name(),
             perturbation: &settings.perturbation,
-            places: places.map(|place| (place.node, place.asked)).collect(),
+            places: places
+                .map(|place| (place.node, [place.asked[0], place.asked[1]]))
+                .collect(),
             operator,
             plan,
             record,

@@ -1,17 +1,24 @@
 //! Solid bodies that are tied together and slide on each other (independent checks, unless a test says otherwise).
 
-mod bricks;
+mod response;
 
-use bricks::{Block, STEEL, file_of};
+use crate::bricks::{Block, file_of};
 use frictionsim::cea::sparse::sweep;
 use frictionsim::cea::{ModeLimit, SweepRequest};
 use frictionsim::contact::{ContactStiffness, Motion, PairError, PairFriction};
-use frictionsim::fem::{MassKind, RayleighDamping};
+use frictionsim::fem::{ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping};
 use frictionsim::linalg::c64;
 use frictionsim::mesh::{BoundaryCondition, GmshFile, Mesh};
 use frictionsim::prestress::{
     Assembly, BaseChoice, DampingModel, PrestressError, SlidingSurfaces, TangentOptions,
     TiedSurfaces,
+};
+
+const STEEL: ElasticMaterial = ElasticMaterial {
+    young_modulus: 2e11,
+    poisson_ratio: 0.3,
+    density: 7850.0,
+    formulation: PlaneFormulation::ThreeDimensional,
 };
 
 const OPTIONS: TangentOptions = TangentOptions {

@@ -92,7 +92,7 @@ fn methods_of_plane_bodies_and_held_nodes_are_refused_with_key_and_remedy() {
         for command in ["frf", "check"] {
             let run = frictionsim(&folder, command, &[&set]).assert().code(2);
             run.stderr(contains(format!(
-                "frf.method = \"{method}\" is for plane bodies"
+                "frf.method = \"{method}\" is for bodies that are solved on their whole mesh"
             )))
             .stderr(contains("use \"auto\" or \"cyclic\""));
         }

@@ -77,7 +77,7 @@ fn agrees(cyclic: &CyclicSystem, whole: &WholeRing, force: Terminal, what: &str)
         at(sector, 1, [2, 2 * nz], quadratic, Tangential),
         at(sector, 6, [0, 0], 0, Tangential),
     ];
-    let dof = |t: &Terminal| 3 * t.node + t.direction.component();
+    let dof = |t: &Terminal| 3 * t.node + t.direction.component().unwrap();
     let dense: Vec<Vec<c64>> = FREQUENCIES
         .iter()
         .map(|f| whole.respond(*f, dof(&force), &responses.each_ref().map(dof)))
@@ -137,7 +137,7 @@ fn a_body_on_springs_responds_like_the_whole_ring() {
     for response in [force, at(&whole.sector, 4, [0, 2], 0, Tangential)] {
         let found = cyclic_response(&system, force, response, &FREQUENCIES).unwrap();
         for (f, h) in FREQUENCIES.iter().zip(&found.receptance) {
-            let dofs = [force, response].map(|t| 3 * t.node + t.direction.component());
+            let dofs = [force, response].map(|t| 3 * t.node + t.direction.component().unwrap());
             let dense = whole.respond(*f, dofs[0], &dofs);
             differences = differences.max((h - dense[1]).norm() / dense[0].norm());
         }
@@ -198,7 +198,7 @@ fn agrees_in_contact(cyclic: &CyclicSystem, whole: &WholeRing, force: Terminal, 
         at(sector, 2, [2 - quadratic, 2], 0, Axial),
         at(sector, 6, [0, 0], 0, Tangential),
     ];
-    let dof = |t: &Terminal| 3 * t.node + t.direction.component();
+    let dof = |t: &Terminal| 3 * t.node + t.direction.component().unwrap();
     for f in FREQUENCIES {
         let dense = whole.respond(f, dof(&force), &responses.each_ref().map(dof));
         let top = dense.iter().fold(0.0_f64, |m, h| m.max(h.norm()));

@@ -1,0 +1,144 @@
+//! Frequency responses of assemblies against their eigenvalues (cross-method: the response knows no modes).
+
+use super::{OPTIONS, PRESSED, STEEL, boundary, mesh_of, sliding, stacked, turning};
+use crate::bricks::{Block, file_of};
+use frictionsim::cea::sparse::sweep;
+use frictionsim::cea::{ModeLimit, SweepRequest};
+use frictionsim::fem::RayleighDamping;
+use frictionsim::frf::{Axis, Direction, FrfError, FrfSystem, Terminal, direct_response};
+use frictionsim::linalg::c64;
+use frictionsim::mesh::{BoundaryCondition, Mesh};
+use frictionsim::prestress::{Assembly, BaseChoice, SlidingTangent, TangentOptions, TiedSurfaces};
+use std::f64::consts::TAU;
+
+const DAMPED: TangentOptions = TangentOptions {
+    damping: RayleighDamping {
+        mass_coefficient: 30.0,
+        stiffness_coefficient: 2e-8,
+    },
+    ..OPTIONS
+};
+
+fn node_at(mesh: &Mesh, place: [f64; 3]) -> usize {
+    let distance = |p: &[f64; 3]| (0..3).map(|k| (p[k] - place[k]).powi(2)).sum::<f64>();
+    let nodes = mesh.nodes.iter().map(distance).enumerate();
+    nodes.min_by(|a, b| a.1.total_cmp(&b.1)).unwrap().0
+}
+
+fn terminal(node: usize, direction: Direction) -> Terminal {
+    Terminal { node, direction }
+}
+
+/// The pole of a response with one mode beside a smooth rest: `h = a + b / (x - p)`, `x = i omega`, from three lines.
+fn pole(lines: [f64; 3], h: [c64; 3]) -> c64 {
+    let x = lines.map(|f| c64::new(0.0, TAU * f));
+    // Differences of `h (x - p) = a x + c`: two equations, linear in `a` and `p`.
+    let difference = |k: usize| (h[k] * x[k] - h[0] * x[0], x[k] - x[0], h[k] - h[0]);
+    let ((u1, v1, w1), (u2, v2, w2)) = (difference(1), difference(2));
+    (u1 * v2 - u2 * v1) / (w1 * v2 - w2 * v1)
+}
+
+/// Pole and eigenvalue of the lowest mode agree at two friction coefficients, on a rigid contact and on springs.
+#[test]
+fn the_response_of_a_sliding_assembly_has_the_poles_of_its_eigenvalue_analysis() {
+    let mesh = mesh_of(&file_of(&stacked(0.0), |point| point), &PRESSED);
+    let motion = turning(&mesh, [0.0, 0.0, 1.0], [1.0, 0.3, 0.0]);
+    let axis = Axis {
+        center: [1.0, 0.3, 0.0],
+        direction: [0.0, 0.0, 1.0],
+    };
+    for normal_stiffness in [None, Some(1e14)] {
+        let contact = sliding(&mesh, normal_stiffness);
+        let motions = std::slice::from_ref(&motion);
+        let solved = BaseChoice::Solved;
+        let assembly = Assembly::new(&mesh, &STEEL, &[], &[contact], motions, solved).unwrap();
+        for friction in [0.2, 0.5] {
+            let range = assembly.range(&[friction]).unwrap();
+            let tangent = assembly.tangent(&range.states[0], &DAMPED).unwrap();
+            let lambda = lowest(&tangent, friction);
+            let system = FrfSystem::sliding(&tangent, friction);
+            let port = |place, direction, key| {
+                let terminal = terminal(node_at(&mesh, place), direction);
+                system.port(&mesh, Some(axis), terminal, key).unwrap()
+            };
+            let force = port([0.05, 0.04, 0.035], Direction::Tangential, "force_node");
+            let response = port([0.05, 0.04, 0.0], Direction::X, "response_node");
+            let lines = [-1e-4, 0.0, 1e-4].map(|shift| lambda.im / TAU * (1.0 + shift));
+            let h = direct_response(&system, force, response, &lines)
+                .unwrap()
+                .receptance;
+            let found = pole(lines, [h[0], h[1], h[2]]);
+            println!("{normal_stiffness:?} {friction}: {lambda} {found}");
+            // The other modes are a constant beside it to the square of the lines' distance, relative to theirs.
+            assert!(
+                (found - lambda).norm() < 1e-6 * lambda.norm(),
+                "{lambda} {found}"
+            );
+        }
+    }
+}
+
+fn lowest(tangent: &SlidingTangent, friction: f64) -> c64 {
+    let request = SweepRequest {
+        friction_coefficients: &[friction],
+        limit: ModeLimit::Lowest(2),
+        shapes_at: &[],
+    };
+    let found = sweep(tangent, &request, &|_| {}).unwrap();
+    found.points[0].modes[0].eigenvalue
+}
+
+/// Cross-method: two tied halves respond like the whole, and a node that follows another can be observed, not excited.
+#[test]
+fn tied_halves_respond_like_the_whole() {
+    let block = |name, origin, size, counts| Block {
+        name,
+        origin,
+        size,
+        counts,
+    };
+    let clamped = |name| [(name, BoundaryCondition::Clamped)];
+    let whole = [block("bar", [0.0; 3], [0.12, 0.02, 0.02], [6, 2, 2])];
+    let halves = [
+        block("left", [0.0; 3], [0.06, 0.02, 0.02], [3, 2, 2]),
+        block("right", [0.06, 0.0, 0.0], [0.06, 0.02, 0.02], [3, 2, 2]),
+    ];
+    let lines = [500.0, 1300.0, 4000.0];
+    let responses = [(whole.as_slice(), "bar_x0"), (&halves, "left_x0")].map(|(blocks, held)| {
+        let mesh = mesh_of(&file_of(blocks, |point| point), &clamped(held));
+        let ties: Vec<TiedSurfaces> = (blocks.len() == 2)
+            .then(|| TiedSurfaces {
+                name: "glue".to_owned(),
+                surface: boundary(&mesh, "right_x0"),
+                counter: boundary(&mesh, "left_x1"),
+            })
+            .into_iter()
+            .collect();
+        let assembly = Assembly::new(&mesh, &STEEL, &ties, &[], &[], BaseChoice::Closed).unwrap();
+        let range = assembly.range(&[0.0]).unwrap();
+        let tangent = assembly.tangent(&range.states[0], &DAMPED).unwrap();
+        let system = FrfSystem::tied(&tangent);
+        let tip = terminal(node_at(&mesh, [0.12, 0.02, 0.02]), Direction::Z);
+        let middle = terminal(node_at(&mesh, [0.08, 0.0, 0.0]), Direction::Y);
+        let force = system.port(&mesh, None, tip, "force_node").unwrap();
+        let response = system.port(&mesh, None, middle, "response_node").unwrap();
+        if let [tie] = ties.as_slice() {
+            let glued = mesh.boundaries[tie.surface].nodes[0] as usize;
+            let glued = terminal(glued, Direction::Z);
+            let refused = system.port(&mesh, None, glued, "force_node").unwrap_err();
+            assert!(matches!(refused, FrfError::Follows { .. }), "{refused}");
+            let observed = system.port(&mesh, None, glued, "response_node").unwrap();
+            let there = direct_response(&system, force.clone(), observed, &lines);
+            assert!(there.unwrap().receptance.iter().all(|h| h.norm() > 0.0));
+        }
+        direct_response(&system, force, response, &lines)
+            .unwrap()
+            .receptance
+    });
+    for (whole, halves) in responses[0].iter().zip(&responses[1]) {
+        assert!(
+            (whole - halves).norm() < 1e-9 * whole.norm(),
+            "{whole} {halves}"
+        );
+    }
+}
