@@ -33,6 +33,10 @@ pub const PROFILE: Profile = Profile {
             "derivatives of eigenvalues and onsets by parameters",
         ),
         (
+            "contributions.csv, coupling.csv",
+            "what each part, support and contact adds to growth; which modes couple",
+        ),
+        (
             "prestress.csv, prestress.vtu",
             "steady sliding, node by node",
         ),
@@ -212,6 +216,7 @@ mod tests {
             dofs: 100,
             method: "sparse",
             sensitivities: None,
+            reading: None,
             notes: Vec::new(),
         }
     }

@@ -18,7 +18,7 @@ pub enum MassKind {
 /// Elements that are rotated copies of one another share one matrix to the last bit, so that a
 /// rotationally symmetric mesh gives an exactly rotationally symmetric operator.
 pub fn assemble_stiffness(mesh: &Mesh, material: &dyn MaterialField) -> Triplets {
-    assemble_congruent(mesh, |e| {
+    assemble_congruent(mesh, &|_| true, |e| {
         element::stiffness(mesh, e, material.of(mesh.region(e)))
     })
 }
@@ -26,27 +26,59 @@ pub fn assemble_stiffness(mesh: &Mesh, material: &dyn MaterialField) -> Triplets
 /// Global mass `M` over all dofs, kg for each metre of thickness.
 pub fn assemble_mass(mesh: &Mesh, material: &dyn MaterialField, kind: MassKind) -> Triplets {
     match kind {
-        MassKind::Consistent => assemble_congruent(mesh, |e| {
-            element::consistent_mass(mesh, e, material.of(mesh.region(e)))
-        }),
-        MassKind::Lumped => {
-            let mut triplets = Triplets::default();
-            for (node, mass) in lumped_masses(mesh, material).into_iter().enumerate() {
-                for axis in 0..mesh.dimension {
-                    let dof = mesh.dimension * node + axis;
-                    triplets.push(dof, dof, mass);
-                }
-            }
-            triplets
+        MassKind::Consistent => consistent_mass(mesh, material, &|_| true),
+        MassKind::Lumped => diagonal(mesh, lumped_masses(mesh, material)),
+    }
+}
+
+/// Mass and stiffness of the elements of one region alone, over all dofs: kg and N/m, in the plane for each metre of thickness.
+pub fn assemble_region(
+    mesh: &Mesh,
+    material: &dyn MaterialField,
+    kind: MassKind,
+    region: usize,
+) -> [Triplets; 2] {
+    let is_own = |e: usize| mesh.region(e) == region;
+    let mass = match kind {
+        MassKind::Consistent => consistent_mass(mesh, material, &is_own),
+        MassKind::Lumped => diagonal(mesh, masses_of(mesh, material, &is_own)),
+    };
+    let stiffness = assemble_congruent(mesh, &is_own, |e| {
+        element::stiffness(mesh, e, material.of(region))
+    });
+    [mass, stiffness]
+}
+
+fn consistent_mass(
+    mesh: &Mesh,
+    material: &dyn MaterialField,
+    keep: &dyn Fn(usize) -> bool,
+) -> Triplets {
+    assemble_congruent(mesh, keep, |e| {
+        element::consistent_mass(mesh, e, material.of(mesh.region(e)))
+    })
+}
+
+fn diagonal(mesh: &Mesh, masses: Vec<f64>) -> Triplets {
+    let mut triplets = Triplets::default();
+    for (node, mass) in masses.into_iter().enumerate() {
+        for axis in 0..mesh.dimension {
+            let dof = mesh.dimension * node + axis;
+            triplets.push(dof, dof, mass);
         }
     }
+    triplets
 }
 
 /// Lumped mass of each node, kg for each metre of thickness.
 pub fn lumped_masses(mesh: &Mesh, material: &dyn MaterialField) -> Vec<f64> {
+    masses_of(mesh, material, &|_| true)
+}
+
+fn masses_of(mesh: &Mesh, material: &dyn MaterialField, keep: &dyn Fn(usize) -> bool) -> Vec<f64> {
     let mut masses = vec![0.0; mesh.node_count()];
     let mut cache: Vec<Option<Vec<f64>>> = vec![None; mesh.element_count()];
-    for e in 0..mesh.element_count() {
+    for e in (0..mesh.element_count()).filter(|&e| keep(e)) {
         let shared = cache[mesh.congruent_to[e] as usize]
             .get_or_insert_with(|| element::lumped_mass(mesh, e, material.of(mesh.region(e))));
         for (&node, mass) in mesh.element_nodes(e).iter().zip(shared.iter()) {
@@ -63,8 +95,27 @@ pub fn assemble_geometric_stiffness(
     material: &dyn MaterialField,
     base: &[f64],
 ) -> Triplets {
+    geometric_stiffness_of(mesh, material, base, &|_| true)
+}
+
+/// The same of the elements of one region alone.
+pub fn assemble_region_geometric_stiffness(
+    mesh: &Mesh,
+    material: &dyn MaterialField,
+    base: &[f64],
+    region: usize,
+) -> Triplets {
+    geometric_stiffness_of(mesh, material, base, &|e| mesh.region(e) == region)
+}
+
+fn geometric_stiffness_of(
+    mesh: &Mesh,
+    material: &dyn MaterialField,
+    base: &[f64],
+    keep: &dyn Fn(usize) -> bool,
+) -> Triplets {
     let mut triplets = Triplets::default();
-    for e in 0..mesh.element_count() {
+    for e in (0..mesh.element_count()).filter(|&e| keep(e)) {
         let matrix = element::geometric_stiffness(mesh, e, material.of(mesh.region(e)), base);
         scatter(&mut triplets, mesh, e, &matrix);
     }
@@ -143,15 +194,17 @@ pub fn assemble_extra_damping(
     Some(triplets)
 }
 
-fn assemble_congruent(mesh: &Mesh, compute: impl Fn(usize) -> DMatrix<f64>) -> Triplets {
+fn assemble_congruent(
+    mesh: &Mesh,
+    keep: &dyn Fn(usize) -> bool,
+    compute: impl Fn(usize) -> DMatrix<f64>,
+) -> Triplets {
     let mut triplets = Triplets::default();
     let mut cache: Vec<Option<DMatrix<f64>>> = vec![None; mesh.element_count()];
-    let sizes = mesh
-        .element_kinds
-        .iter()
-        .map(|kind| (mesh.dimension * kind.node_count()).pow(2));
+    let kept = || (0..mesh.element_count()).filter(|&e| keep(e));
+    let sizes = kept().map(|e| (mesh.dimension * mesh.element_kinds[e].node_count()).pow(2));
     triplets.entries.reserve_exact(sizes.sum());
-    for e in 0..mesh.element_count() {
+    for e in kept() {
         let matrix = cache[mesh.congruent_to[e] as usize].get_or_insert_with(|| compute(e));
         scatter(&mut triplets, mesh, e, matrix);
     }

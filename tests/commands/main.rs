@@ -1,5 +1,7 @@
 //! The commands, their case files, figures and results as a user meets them; the structure of the source.
 
+#[path = "../common/bricks.rs"]
+mod bricks;
 #[path = "../common/disc.rs"]
 mod disc;
 #[path = "../common/msh.rs"]
@@ -21,6 +23,7 @@ mod golden;
 mod identify;
 mod inputs;
 mod plot;
+mod reading;
 mod results;
 mod signal_command;
 mod survival;

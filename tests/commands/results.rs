@@ -125,6 +125,7 @@ fn report<'a>(
         solid: None,
         assembly: None,
         sensitivities: None,
+        reading: None,
         map: None,
         notes: vec!["harmonics above 6 do not exist on this mesh".to_owned()],
         wall_s: 0.5,

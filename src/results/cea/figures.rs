@@ -2,6 +2,7 @@
 
 use super::branches::{Branch, branch_of, branches, interval_rows, pieces};
 use super::locus::{NamedDamping, locus};
+use super::reading::budget;
 use super::shape::{Body, ModeShape, moving};
 use super::{CeaReport, direction_name, html_report};
 use crate::cea::ComplexMode;
@@ -48,6 +49,9 @@ pub fn draw(
     let followed = followed_branches(report).into_iter();
     for branch in followed.filter(|_| is_drawn) {
         figures.push(Box::new(move || Ok(branch_shapes(report, branch))));
+    }
+    if let Some(reading) = report.reading {
+        figures.push(Box::new(move || budget(report, reading)));
     }
     if let Some(map) = report.map {
         figures.push(Box::new(|| map.figure()));

@@ -23,6 +23,10 @@ pub fn write(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<Value, Fol
     if let Some(sensitivities) = report.sensitivities {
         folder.write("sensitivities.csv", |out| sensitivities.write(out))?;
     }
+    if let Some(reading) = report.reading {
+        folder.write("contributions.csv", |out| reading.write_contributions(out))?;
+        folder.write("coupling.csv", |out| reading.write_couplings(out))?;
+    }
     if let Some(map) = report.map {
         folder.write("map.csv", |out| map.write(out))?;
     }

@@ -9,6 +9,7 @@ mod files;
 mod locus;
 mod map;
 mod print;
+mod reading;
 mod report;
 mod sensitivity;
 mod shape;
@@ -22,6 +23,7 @@ pub use files::{write, write_eigenvalues, write_stability};
 pub use locus::NamedDamping;
 pub use map::MapReport;
 pub use print::print;
+pub use reading::{Contribution, Coupling, ModeName, Reading, Source};
 pub use report::html_report;
 pub use sensitivity::SensitivityReport;
 pub use solid::SolidReport;
@@ -63,6 +65,8 @@ pub struct CeaReport<'a> {
     pub assembly: Option<&'a AssemblyReport>,
     /// Which parameter decides, where the solver knows.
     pub sensitivities: Option<&'a SensitivityReport>,
+    /// Where growth comes from and which modes couple, where the solver knows.
+    pub reading: Option<&'a Reading>,
     /// Critical friction over a second parameter, where the case asks for it.
     pub map: Option<&'a MapReport>,
     /// Anything the solver has to say: lost branches, harmonics left out, and why.

@@ -233,6 +233,11 @@ fn totals(out: &mut String, report: &CeaReport<'_>) {
     if let Some(sensitivities) = report.sensitivities {
         let _ = writeln!(out, "{}", sensitivities.print());
     }
+    let friction = report.base.friction_coefficient;
+    let reading = report.reading.iter();
+    for sentence in reading.flat_map(|reading| reading.sentences(friction, 1)) {
+        let _ = writeln!(out, "{sentence}");
+    }
     if let Some(map) = report.map {
         let _ = writeln!(out, "{}", map.print());
     }

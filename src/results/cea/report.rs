@@ -68,9 +68,22 @@ pub fn html_report(
     }
 }
 
+/// Unstable modes that the report puts into words, at most.
+const READ_MODES: usize = 6;
+
 /// Which modes couple and which parameter decides, as far as that is known.
 fn decisive(report: &CeaReport<'_>) -> Option<ReportSection> {
-    let mut paragraphs = sentences(report);
+    let own = report.base.friction_coefficient;
+    let read = report
+        .reading
+        .map(|reading| reading.sentences(own, READ_MODES));
+    let read = read.unwrap_or_default();
+    // Waves of a pair are one mode without friction: that they couple is told apart.
+    let mut paragraphs = match read.is_empty() || report.has_harmonics {
+        true => sentences(report),
+        false => Vec::new(),
+    };
+    paragraphs.extend(read);
     let tables = report
         .sensitivities
         .map_or(Vec::new(), |all| all.tables(SENSITIVE_MODES));

@@ -16,6 +16,7 @@ mod assembly;
 mod dampings;
 mod map;
 mod model;
+mod reading;
 mod sliding;
 mod solid;
 mod solve;
@@ -35,7 +36,7 @@ pub use states::WholeMesh;
 use super::StudyError;
 use crate::case::{Case, Cea, Diagnostic, ModeSelection};
 use crate::cea::{FrictionSweep, SweepProgress, SweepRequest};
-use crate::results::cea::{BaseField, CeaReport, SensitivityReport};
+use crate::results::cea::{BaseField, CeaReport, Reading, SensitivityReport};
 
 /// Hears of every friction value that is solved.
 pub type Progress<'a> = dyn Fn(SweepProgress) + Sync + 'a;
@@ -50,6 +51,8 @@ pub struct Solution {
     pub method: &'static str,
     /// Derivatives of the eigenvalues at the case's own friction coefficient.
     pub sensitivities: Option<SensitivityReport>,
+    /// Where growth comes from and which modes couple; none without mode shapes.
+    pub reading: Option<Reading>,
     /// What it has to say.
     pub notes: Vec<String>,
 }
@@ -144,6 +147,7 @@ pub fn report<'a>(
         solid: model.solid().map(|body| &body.report),
         assembly: model.assembly(),
         sensitivities: solution.sensitivities.as_ref(),
+        reading: solution.reading.as_ref(),
         map: None,
         notes: solution.notes.clone(),
         wall_s,

@@ -1,6 +1,7 @@
 //! Solution of the eigenvalue analysis of a case, and the notes on its results.
 
 use super::model::{Model, Solver, mode_limit};
+use super::reading::{read, shapes_needed};
 use super::sliding::SteadyState;
 use super::solid::SolidBody;
 use super::{Progress, SlidingModel, Solution, StudyError};
@@ -41,14 +42,20 @@ fn solve_with(
     // Branches are known up to the largest friction coefficient of the sweep.
     let friction = case.contact.sliding.friction_coefficient;
     let frictions = cea.solved_friction_coefficients();
+    let with_reading = with_rates;
     let with_rates = with_rates && frictions.iter().any(|&mu| mu >= friction);
+    let mut shapes_at = cea.shapes_at.clone();
+    if with_reading {
+        let modes = case.cost().cea.map_or(0, |cost| cost.modes) as f64;
+        shapes_at.extend(shapes_needed(case, &model.model, &frictions, modes));
+    }
     let request = SweepRequest {
         friction_coefficients: &frictions,
         limit: mode_limit(cea),
-        shapes_at: &cea.shapes_at,
+        shapes_at: &shapes_at,
     };
     let solved = model.model.spectrum(case, &request, with_rates, progress);
-    let (found, method, instead) = match solved {
+    let (mut found, method, instead) = match solved {
         Ok(found) => (found, model.model.method(), None),
         Err(error) => {
             let whole = whole_mesh_instead(case, cea, model, &error)?.ok_or(error.clone())?;
@@ -75,8 +82,19 @@ fn solve_with(
     notes.extend(uncertainty_note(case, &found.sweep));
     notes.extend(damping_note(case, &found.sweep));
     notes.extend(friction_note(case, model));
+    let reading = match with_reading {
+        true => read(case, model, &found.sweep),
+        false => None,
+    };
+    // Shapes that only the reading needed.
+    for point in &mut found.sweep.points {
+        if !cea.shapes_at.contains(&point.friction_coefficient) {
+            point.modes.iter_mut().for_each(|mode| mode.shape = None);
+        }
+    }
     let sensitivities = found.sensitivities;
     Ok(Solution {
+        reading,
         dofs: found.dofs,
         method,
         sensitivities: sensitivities.map(|branches| sensitivity_report(case, branches)),

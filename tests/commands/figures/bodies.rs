@@ -103,6 +103,7 @@ fn report<'a>(
         solid: None,
         assembly: None,
         sensitivities: None,
+        reading: None,
         map: None,
         notes: vec![],
         wall_s: 1.0,

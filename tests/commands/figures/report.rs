@@ -65,6 +65,7 @@ fn report_of_an_eigenvalue_analysis_holds_every_figure_table_and_the_case() {
         solid: None,
         assembly: None,
         sensitivities: None,
+        reading: None,
         map: None,
         notes: vec![],
         wall_s: 1.2,

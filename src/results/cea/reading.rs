@@ -1,0 +1,275 @@
+//! Where the growth of each mode comes from, and which modes couple: `contributions.csv` and `coupling.csv`.
+
+use super::CeaReport;
+use crate::chart::{Axis, ChartError, Figure, INK, Line, Panel, Rule, Stroke, literal};
+use crate::results::quantity::fixed;
+use crate::results::table::{Column, write_rows};
+use std::io::{self, Write};
+
+/// A mode of one friction value, as its table numbers it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ModeName {
+    /// Friction coefficient.
+    pub friction_coefficient: f64,
+    /// Number by frequency, from 1.
+    pub mode: usize,
+    /// `Im(lambda) / 2 pi`, Hz.
+    pub frequency_hz: f64,
+    /// Circumferential harmonic; none without symmetry.
+    pub harmonic: Option<usize>,
+    /// Branch, from 0.
+    pub branch: usize,
+    /// +1 travels with the rotor, -1 against it, 0 stands; none without symmetry.
+    pub direction: Option<i8>,
+}
+
+/// What a contribution comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// The material damping of a region.
+    Part,
+    /// The dashpots of a support.
+    Support,
+    /// A contact: its friction, its dashpots, the turning of its forces.
+    Contact,
+}
+
+impl Source {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Part => "part",
+            Self::Support => "support",
+            Self::Contact => "contact",
+        }
+    }
+}
+
+/// The share of one part, support or contact in a mode.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contribution {
+    /// The mode.
+    pub mode: ModeName,
+    /// Name of the region, boundary or contact.
+    pub name: String,
+    /// What it is.
+    pub source: Source,
+    /// Share of the kinetic energy; none of what has no mass.
+    pub kinetic_share: Option<f64>,
+    /// Share of the strain energy of parts and supports; none of a contact.
+    pub strain_share: Option<f64>,
+    /// What it adds to the growth rate, 1/s.
+    pub growth_rate: f64,
+}
+
+/// The share of a mode of the lowest friction value in an unstable mode.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Coupling {
+    /// The unstable mode.
+    pub mode: ModeName,
+    /// Its growth rate, 1/s.
+    pub growth_rate: f64,
+    /// The mode of the lowest friction value.
+    pub reference: ModeName,
+    /// `|phi_0^H M phi|^2 / (phi_0^H M phi_0  phi^H M phi)`.
+    pub share: f64,
+}
+
+/// Where growth comes from, and which modes couple.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Reading {
+    /// Every mode whose shape was solved for, with all that contributes to it.
+    pub contributions: Vec<Contribution>,
+    /// Every unstable one of them with the modes that it consists of, the largest share first.
+    pub couplings: Vec<Coupling>,
+}
+
+impl Reading {
+    /// Writes `contributions.csv`: a row for each mode, friction value and part, support or contact.
+    ///
+    /// # Errors
+    /// Those of the writer.
+    pub fn write_contributions(&self, out: &mut dyn Write) -> io::Result<()> {
+        let columns: &[Column<'_, &Contribution>] = &[
+            ("friction_coefficient", &|row| {
+                row.mode.friction_coefficient.into()
+            }),
+            ("mode", &|row| row.mode.mode.into()),
+            ("frequency_hz", &|row| row.mode.frequency_hz.into()),
+            ("harmonic", &|row| row.mode.harmonic.into()),
+            ("branch", &|row| row.mode.branch.into()),
+            ("direction", &|row| row.mode.direction.into()),
+            ("name", &|row| row.name.clone().into()),
+            ("kind", &|row| row.source.name().to_owned().into()),
+            ("kinetic_share", &|row| row.kinetic_share.into()),
+            ("strain_share", &|row| row.strain_share.into()),
+            ("growth_rate_per_s", &|row| row.growth_rate.into()),
+        ];
+        write_rows(out, columns, &self.contributions)
+    }
+
+    /// Writes `coupling.csv`: a row for each unstable mode and each mode of the lowest friction value that it consists of.
+    ///
+    /// # Errors
+    /// Those of the writer.
+    pub fn write_couplings(&self, out: &mut dyn Write) -> io::Result<()> {
+        let columns: &[Column<'_, &Coupling>] = &[
+            ("friction_coefficient", &|row| {
+                row.mode.friction_coefficient.into()
+            }),
+            ("mode", &|row| row.mode.mode.into()),
+            ("frequency_hz", &|row| row.mode.frequency_hz.into()),
+            ("harmonic", &|row| row.mode.harmonic.into()),
+            ("growth_rate_per_s", &|row| row.growth_rate.into()),
+            ("reference_friction", &|row| {
+                row.reference.friction_coefficient.into()
+            }),
+            ("reference_mode", &|row| row.reference.mode.into()),
+            ("reference_frequency_hz", &|row| {
+                row.reference.frequency_hz.into()
+            }),
+            ("reference_harmonic", &|row| row.reference.harmonic.into()),
+            ("share", &|row| row.share.into()),
+        ];
+        write_rows(out, columns, &self.couplings)
+    }
+
+    /// The unstable modes at a friction coefficient in a sentence each, the fastest first: which modes couple, what feeds and
+    /// what takes.
+    pub(super) fn sentences(&self, friction: f64, most: usize) -> Vec<String> {
+        let mut unstable: Vec<&Coupling> = Vec::new();
+        for coupling in &self.couplings {
+            let is_new = unstable.iter().all(|known| known.mode != coupling.mode);
+            if coupling.mode.friction_coefficient == friction && is_new {
+                unstable.push(coupling);
+            }
+        }
+        unstable.sort_by(|a, b| b.growth_rate.total_cmp(&a.growth_rate));
+        let modes = unstable.iter().take(most);
+        modes.map(|first| self.sentence(first)).collect()
+    }
+
+    fn sentence(&self, first: &Coupling) -> String {
+        let mode = &first.mode;
+        let own = self.couplings.iter().filter(|row| row.mode == *mode);
+        let partners: Vec<String> = own
+            .take_while(|row| row.share >= NOTABLE)
+            .take(2)
+            .map(|row| {
+                format!(
+                    "{} ({}, {:.0} %)",
+                    row.reference.mode,
+                    kilohertz(&row.reference),
+                    100.0 * row.share
+                )
+            })
+            .collect();
+        let partners = match partners.as_slice() {
+            [one] => format!("comes from mode {one}"),
+            [one, other] => format!("couples modes {one} and {other}"),
+            _ => "consists of many modes".to_owned(),
+        };
+        let budget = self.contributions.iter().filter(|row| row.mode == *mode);
+        let largest = budget.clone().map(|row| row.growth_rate.abs());
+        let largest = largest.fold(0.0, f64::max);
+        let budget: Vec<String> = budget
+            .filter(|row| row.growth_rate.abs() >= LEAST_RATE * largest)
+            .map(|row| {
+                let verb = if row.growth_rate > 0.0 {
+                    "feeds"
+                } else {
+                    "takes"
+                };
+                let rate = fixed(row.growth_rate.abs(), 1);
+                format!("{} {verb} {rate} 1/s", row.name)
+            })
+            .collect();
+        format!(
+            "mode {} ({}) {partners} of friction {}: {}",
+            mode.mode,
+            kilohertz(mode),
+            first.reference.friction_coefficient,
+            budget.join(", ")
+        )
+    }
+}
+
+/// Part of the largest contribution from which on another one is named.
+const LEAST_RATE: f64 = 1e-3;
+
+/// Share from which on a mode is named.
+const NOTABLE: f64 = 0.05;
+
+fn kilohertz(mode: &ModeName) -> String {
+    let frequency = format!("{} kHz", fixed(1e-3 * mode.frequency_hz, 3));
+    match mode.harmonic {
+        Some(harmonic) => format!("n = {harmonic}, {frequency}"),
+        None => frequency,
+    }
+}
+
+/// Panels of the figure, at most.
+const PANELS: usize = 6;
+
+/// Growth rate over friction of the modes that grow fastest, and what each part, support and contact adds to it.
+///
+/// # Errors
+/// [`ChartError::Empty`] where fewer than three friction values were read.
+pub(super) fn budget(report: &CeaReport<'_>, reading: &Reading) -> Result<Figure, ChartError> {
+    let mut frictions: Vec<f64> = Vec::new();
+    for row in &reading.contributions {
+        let friction = row.mode.friction_coefficient;
+        if report.friction_coefficients.contains(&friction) && !frictions.contains(&friction) {
+            frictions.push(friction);
+        }
+    }
+    if frictions.len() < 3 {
+        return Err(ChartError::empty("budget of growth over friction"));
+    }
+    // The branches that reach the largest growth rate.
+    let mut fastest: Vec<(usize, f64)> = Vec::new();
+    for coupling in &reading.couplings {
+        let (branch, rate) = (coupling.mode.branch, coupling.growth_rate);
+        match fastest.iter_mut().find(|(known, _)| *known == branch) {
+            Some((_, largest)) => *largest = largest.max(rate),
+            None => fastest.push((branch, rate)),
+        }
+    }
+    fastest.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let panels = fastest.iter().take(PANELS).map(|&(branch, _)| {
+        let rows = || {
+            let all = reading.contributions.iter();
+            all.filter(move |row| row.mode.branch == branch)
+        };
+        let mut names: Vec<&str> = Vec::new();
+        rows().for_each(|row| {
+            if !names.contains(&row.name.as_str()) {
+                names.push(&row.name);
+            }
+        });
+        let total = frictions.iter().map(|&friction| {
+            let own = rows().filter(|row| row.mode.friction_coefficient == friction);
+            (friction, own.map(|row| row.growth_rate).sum::<f64>())
+        });
+        let last = rows().last().map_or(0.0, |row| row.mode.frequency_hz);
+        let mut panel = Panel::new(Axis::friction().tight(), Axis::new("growth rate", "1/s"))
+            .height(90.0)
+            .caption(format!("branch {branch}, {} kHz", fixed(1e-3 * last, 2)))
+            .layer(Rule::horizontal(0.0).stroke(Stroke::solid(INK, 0.6)))
+            .layer(Line::through(total).solid(INK, 1.4).name("growth rate"));
+        for (place, name) in names.into_iter().enumerate() {
+            let own = rows().filter(|row| row.name == name);
+            let points = own.map(|row| (row.mode.friction_coefficient, row.growth_rate));
+            panel = panel.layer(Line::through(points).nth(place).name(literal(name)));
+        }
+        panel
+    });
+    let panels: Vec<Panel> = panels.collect();
+    if panels.is_empty() {
+        return Err(ChartError::empty("budget of growth over friction"));
+    }
+    let caption = "Growth rate of the fastest modes over friction, and what each part, support and contact adds to it.";
+    Ok(Figure::new("budget", caption)
+        .columns(2)
+        .shared_x()
+        .panels(panels))
+}

@@ -1,0 +1,174 @@
+//! `contributions.csv` and `coupling.csv` of `cea`: where growth comes from, which modes couple.
+
+use crate::bricks::{Block, file_of};
+use assert_cmd::Command;
+use std::collections::BTreeMap;
+use std::f64::consts::TAU;
+use std::path::Path;
+
+/// Two pads on a slab that turns, the slab and one pad with damping of their own.
+const CASE: &str = "title = \"Two pads\"
+[mesh]\nfile = \"pads.msh\"
+[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0
+[materials.slab]\nyoung_modulus = 7e9\npoisson_ratio = 0.3\ndensity = 2000.0\nmass_coefficient = 10.0\nstiffness_coefficient = 1e-7
+[materials.left]\nyoung_modulus = 2e9\npoisson_ratio = 0.3\ndensity = 1200.0\nmass_coefficient = 5.0\nstiffness_coefficient = 2e-7
+[damping]\nmass_coefficient = 40.0\nstiffness_coefficient = 4.5e-7
+[boundaries.slab_z0]\ncondition = \"support\"\nnormal_stiffness = 1e13\ntangential_stiffness = 1e13\nnormal_damping = 1e4
+[boundaries.left_z1]\ncondition = \"clamped\"
+[boundaries.right_z1]\ncondition = \"clamped\"
+[motion.slab]\naxis = [0.0, 0.0, 1.0]\ncenter = [0.5, 0.1, 0.0]\nrotation_speed_rpm = 100.0
+[contacts.first]\nsurface = \"left_z0\"\ncounter = \"slab_z1\"\nfriction_coefficient = 0.6\nnormal_stiffness = 1e13\nstate = \"closed\"
+[contacts.second]\nsurface = \"right_z0\"\ncounter = \"slab_z1\"\nfriction_coefficient = 0.6\nnormal_stiffness = 1e13\nstate = \"closed\"
+[cea]\nfriction_coefficients = [0.0, 0.3, 0.6]\nmodes = 12\n";
+
+fn pads() -> Vec<u8> {
+    let block = |name, origin, size, counts| Block {
+        name,
+        origin,
+        size,
+        counts,
+    };
+    let blocks = [
+        block("slab", [0.0; 3], [0.06, 0.03, 0.01], [6, 3, 1]),
+        block(
+            "left",
+            [0.005, 0.005, 0.01],
+            [0.015, 0.02, 0.012],
+            [3, 3, 2],
+        ),
+        block("right", [0.035, 0.005, 0.01], [0.02, 0.02, 0.01], [3, 3, 2]),
+    ];
+    file_of(&blocks, |point| point)
+}
+
+/// The rows of a table by column.
+fn table(path: &Path) -> Vec<BTreeMap<String, String>> {
+    let mut reader = csv::Reader::from_path(path).unwrap();
+    let rows = reader.deserialize();
+    rows.map(|row| row.unwrap()).collect()
+}
+
+fn number(row: &BTreeMap<String, String>, column: &str) -> f64 {
+    row[column].parse().unwrap_or(f64::NAN)
+}
+
+fn cea(folder: &Path, case: &Path, set: &[&str]) -> String {
+    let mut command = Command::cargo_bin("frictionsim").unwrap();
+    command
+        .arg("cea")
+        .arg(case)
+        .args(["--out"])
+        .arg(folder.join("out"));
+    command.args(["--force", "--no-figures"]);
+    for text in set {
+        command.args(["--set", text]);
+    }
+    let output = command.output().unwrap();
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{errors}");
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// Exact identities: what parts, supports and two contacts add is the growth rate; without friction the contacts add nothing,
+/// and each region takes `(alpha T + beta U) / 2` of its shares `T`, `U` of the energies.
+#[test]
+fn what_parts_supports_and_contacts_add_is_the_growth_rate() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("pads.msh"), pads()).unwrap();
+    let case = folder.path().join("case.toml");
+    std::fs::write(&case, CASE).unwrap();
+    let said = cea(folder.path(), &case, &[]);
+    let out = folder.path().join("out");
+    let rows = table(&out.join("contributions.csv"));
+    let coefficients = BTreeMap::from([
+        ("slab", [10.0, 1e-7]),
+        ("left", [5.0, 2e-7]),
+        ("right", [40.0, 4.5e-7]),
+    ]);
+    let mut is_fed = false;
+    for mode in table(&out.join("eigenvalues.csv")) {
+        let is_own = |row: &&BTreeMap<String, String>| {
+            row["mode"] == mode["mode"]
+                && row["friction_coefficient"] == mode["friction_coefficient"]
+        };
+        let own: Vec<_> = rows.iter().filter(is_own).collect();
+        assert_eq!(own.len(), 6, "three parts, a support, two contacts");
+        let (growth, omega) = (
+            number(&mode, "growth_rate_per_s"),
+            TAU * number(&mode, "frequency_hz"),
+        );
+        let sum: f64 = own.iter().map(|row| number(row, "growth_rate_per_s")).sum();
+        // Contacts are found from their forces, which a residual of 1e-12 of the eigenproblem carries.
+        assert!((sum - growth).abs() < 1e-8 * omega, "{sum} {growth}");
+        for share in ["kinetic_share", "strain_share"] {
+            let shares = own
+                .iter()
+                .map(|row| number(row, share))
+                .filter(|share| share.is_finite());
+            assert!((shares.sum::<f64>() - 1.0).abs() < 1e-12);
+        }
+        let fed = own.iter().filter(|row| row["kind"] == "contact");
+        let fed: Vec<f64> = fed.map(|row| number(row, "growth_rate_per_s")).collect();
+        if number(&mode, "friction_coefficient") == 0.0 {
+            assert!(
+                fed.iter().all(|fed| fed.abs() < 1e-8 * omega),
+                "{fed:?} without friction"
+            );
+            // `-2 g_r = alpha_r T_r + beta_r U_r`: every region tells the same strain energy of the whole.
+            let parts = own.iter().filter(|row| row["kind"] == "part");
+            let whole: Vec<f64> = parts
+                .map(|row| {
+                    let [alpha, beta] = coefficients[row["name"].as_str()];
+                    let damped = -2.0 * number(row, "growth_rate_per_s");
+                    let rest = damped - alpha * number(row, "kinetic_share");
+                    rest / (beta * number(row, "strain_share"))
+                })
+                .collect();
+            let same = |energy: &f64| (energy / whole[0] - 1.0).abs() < 1e-6;
+            assert!(
+                whole.iter().all(same) && whole[0] < omega * omega * 1.01,
+                "{whole:?}"
+            );
+        } else {
+            is_fed |= fed.iter().any(|fed| *fed > 1.0);
+        }
+    }
+    assert!(is_fed, "friction feeds a mode");
+    // The most unstable mode in words, if there is one.
+    let couplings = table(&out.join("coupling.csv"));
+    assert_eq!(couplings.is_empty(), !said.contains("feeds"), "{said}");
+}
+
+/// Bessel's inequality: modes without friction are orthogonal by mass, so that shares never sum to more than one.
+#[test]
+fn an_unstable_mode_consists_of_the_modes_without_friction() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/polycarbonate-disc.toml");
+    let set = [
+        "mesh.circumferential_elements=48",
+        "mesh.radial_elements=8",
+        "cea.friction_coefficients=[0.0, 0.15, 0.3]",
+    ];
+    for method in ["cyclic", "sparse"] {
+        let method = format!("cea.method={method}");
+        let said = cea(
+            folder.path(),
+            &case,
+            &[&set[..], &[method.as_str()]].concat(),
+        );
+        assert!(
+            said.contains("comes from mode") && said.contains("contact feeds"),
+            "{said}"
+        );
+        let rows = table(&folder.path().join("out/coupling.csv"));
+        let mut sums: BTreeMap<(String, String), f64> = BTreeMap::new();
+        for row in &rows {
+            let key = (row["friction_coefficient"].clone(), row["mode"].clone());
+            *sums.entry(key).or_default() += number(row, "share");
+        }
+        assert!(!sums.is_empty());
+        for (mode, sum) in sums {
+            assert!((0.8..1.0 + 1e-6).contains(&sum), "{method} {mode:?}: {sum}");
+        }
+    }
+}
