@@ -120,7 +120,7 @@ fn part_of(section: &FileSection) -> FilePart {
 }
 
 /// All that a file holds as sections of a case, in SI units.
-pub fn sections(
+pub(super) fn sections(
     file: &GmshFile,
     units: UnitsWord,
     left_out: &mut Vec<LeftOut>,

@@ -16,6 +16,7 @@ mod format;
 mod frames;
 mod gmsh;
 mod model_data;
+mod nastran;
 mod plane_body;
 mod quality;
 mod refinement;
@@ -25,6 +26,7 @@ mod sectors;
 mod solid;
 mod solid_body;
 mod specification;
+mod universal;
 
 pub use annulus::AnnulusMesh;
 pub use body::{BodySpecification, CounterfaceSpecification};

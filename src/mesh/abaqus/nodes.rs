@@ -114,6 +114,17 @@ impl Reader<'_, '_> {
             {
                 let name = block.required(self.deck, "TYPE")?.to_uppercase();
                 let known = element_type(&name);
+                if known.is_none()
+                    && ["C3D", "CPE", "CPS"]
+                        .iter()
+                        .any(|solid| name.starts_with(solid))
+                {
+                    let message = format!(
+                        "elements of type {name} are not supported: tetrahedra, bricks and wedges (C3D4, C3D10, C3D8, C3D20, \
+                         C3D6, C3D15), and of plane bodies CPE and CPS with 3, 4, 6 or 8 nodes are"
+                    );
+                    return Err(self.deck.error(block.place, message));
+                }
                 let found = match known.filter(|known| Some(known.kind.dimension()) == dimension) {
                     Some(known) => self.element_block(scope, block, &known, offset)?,
                     None => self.skipped_block(scope, block, &name)?,
