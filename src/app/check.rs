@@ -167,6 +167,9 @@ fn describe(name: &str, case: &Case, found: &Preflight) -> String {
             duration(longest)
         );
     }
+    for note in &case.taken.notes {
+        let _ = writeln!(out, "  {note}");
+    }
     for warning in case.warnings.iter().chain(&found.warnings) {
         let _ = writeln!(out, "  warning: {warning}");
     }
@@ -237,6 +240,7 @@ fn object(name: &str, case: &Case, found: &Preflight) -> Value {
         "uncertainty": found.uncertainty.as_ref().map(|cost| study(cost, "runs")),
         "sweep": found.sweep.as_ref().map(|cost| study(cost, "points")),
         "sweep_points": found.sweep.map(|sweep| sweep.runs),
+        "notes": case.taken.notes,
         "warnings": warnings.map(ToString::to_string).collect::<Vec<_>>(),
     })
 }

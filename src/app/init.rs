@@ -2,7 +2,7 @@
 
 use super::profile::{Profile, Redraw};
 use super::{Failure, terminal};
-use crate::case::reference;
+use crate::case::{case_from, reference};
 use clap::{Args, ValueHint};
 use std::fmt::Write as _;
 use std::io::Write;
@@ -126,6 +126,10 @@ pub struct Arguments {
     /// Template; see --list
     #[arg(default_value = "cea")]
     template: String,
+    /// Mesh file to start from: an input file of Abaqus or CalculiX, Nastran bulk data, a universal file or a Gmsh mesh; the case
+    /// has everything that the file holds
+    #[arg(long, value_name = "MESH", value_hint = ValueHint::FilePath, conflicts_with = "template")]
+    from: Option<PathBuf>,
     /// File to write, `-` for stdout [default: <TEMPLATE>.toml]; meshes and tables of the template go beside it
     #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
     out: Option<PathBuf>,
@@ -149,6 +153,10 @@ pub const PROFILE: Profile = Profile {
             "frictionsim init mesh -o part.toml",
             "a part of your own: part.toml and its mesh",
         ),
+        (
+            "frictionsim init --from brake.inp",
+            "brake.toml with the materials, ties, contacts and conditions of brake.inp",
+        ),
     ],
     redraw: Redraw::Nothing,
 };
@@ -168,6 +176,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             "{REFERENCE:<18}every key of a case with its default and meaning"
         );
         return terminal::print(&text);
+    }
+    if let Some(mesh) = &arguments.from {
+        return start_from(mesh, arguments);
     }
     let template = match arguments.template.as_str() {
         REFERENCE => None,
@@ -212,6 +223,28 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         let _ = writeln!(written, "{}", path.display());
     }
     terminal::print(&written)
+}
+
+/// Writes the case that a mesh file suggests, beside it unless told otherwise.
+fn start_from(mesh: &Path, arguments: &Arguments) -> Result<(), Failure> {
+    let path = match &arguments.out {
+        Some(path) => path.clone(),
+        None => mesh.with_extension("toml"),
+    };
+    let is_stdout = path == Path::new("-");
+    // The case names the mesh as seen from its own folder.
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let shown = match mesh.strip_prefix(folder) {
+        Ok(inside) if !is_stdout => inside.to_path_buf(),
+        _ if is_stdout || folder.as_os_str().is_empty() => mesh.to_path_buf(),
+        _ => std::path::absolute(mesh).unwrap_or_else(|_| mesh.to_path_buf()),
+    };
+    let text = case_from(mesh, &shown.display().to_string()).map_err(Failure::usage)?;
+    if is_stdout {
+        return terminal::print(&text);
+    }
+    write(&path, text.as_bytes(), arguments.force)?;
+    terminal::print(&format!("{}\n", path.display()))
 }
 
 impl Template {

@@ -2,13 +2,15 @@
 
 use super::profile::{Profile, Redraw};
 use super::{Failure, RunOptions, Session};
-use crate::case::{Case, ModeSelection};
+use crate::case::{AssemblyBody, Case, ModeSelection};
 use crate::mesh::{AnnulusMesh, SolidSector, SolidSpecification};
 use crate::results::mesh::{
     MeshStatistics, MeshSummary, draw_mesh, print, write_mesh, write_solid_mesh,
 };
+use crate::results::solid_mesh::{self, SolidMeshStatistics, SolidMeshSummary};
 use crate::results::{DrawingOptions, OutputFolder, read_summary, write_summary};
 use clap::Args;
+use std::collections::BTreeMap;
 
 /// Mesh only: statistics, VTU, picture
 #[derive(Args)]
@@ -33,6 +35,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let case = &session.case;
     session.check_memory(case.cost().mesh_memory_bytes)?;
     let folder = session.open_folder()?;
+    if let Some(assembly) = case.body.assembly() {
+        return run_solid(&session, folder, assembly);
+    }
     let generate = |grid| AnnulusMesh::generate(grid).map_err(Failure::usage);
     let annulus = case.body.grid().map(generate).transpose()?;
     let mesh = case.mesh().map_err(Failure::usage)?;
@@ -58,6 +63,12 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         title: case.title.clone(),
         wall_s: session.wall_seconds(),
         mesh: statistics,
+        not_used: case
+            .taken
+            .left_out
+            .iter()
+            .map(ToString::to_string)
+            .collect(),
         manifest: session.manifest.clone(),
     };
     let object = write_summary(&folder, &summary)?;
@@ -67,11 +78,54 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         .finish(folder, &print(&summary), &object)
 }
 
+/// The mesh of solid bodies.
+fn run_solid(
+    session: &Session,
+    folder: OutputFolder,
+    assembly: &AssemblyBody,
+) -> Result<(), Failure> {
+    let case = &session.case;
+    let mesh = &assembly.mesh;
+    let mut roles: BTreeMap<usize, &'static str> = BTreeMap::new();
+    for tie in &assembly.ties {
+        roles.extend([(tie.surface, "tie"), (tie.counter, "tie")]);
+    }
+    for contact in &assembly.contacts {
+        roles.extend([
+            (contact.counter, "counterface"),
+            (contact.surface, "contact"),
+        ]);
+    }
+    let densities = (0..mesh.regions.len()).map(|region| case.materials().of(region).density);
+    let densities: Vec<f64> = densities.collect();
+    solid_mesh::write(&folder, mesh, &roles)?;
+    let summary = SolidMeshSummary {
+        command: "mesh".to_owned(),
+        title: case.title.clone(),
+        wall_s: session.wall_seconds(),
+        mesh: SolidMeshStatistics::new(mesh, &densities, &roles),
+        notes: case.taken.notes.clone(),
+        not_used: case
+            .taken
+            .left_out
+            .iter()
+            .map(ToString::to_string)
+            .collect(),
+        manifest: session.manifest.clone(),
+    };
+    let object = write_summary(&folder, &summary)?;
+    let text = solid_mesh::print(&summary);
+    session.options.output.finish(folder, &text, &object)
+}
+
 /// Draws the picture of a folder again.
 ///
 /// # Errors
 /// Those of the drawing and of the folder.
 pub fn redraw(folder: &OutputFolder, case: &Case, options: &DrawingOptions) -> Result<(), Failure> {
+    if case.body.assembly().is_some() {
+        return Ok(());
+    }
     let mesh = case.mesh().map_err(Failure::usage)?;
     let summary: MeshSummary = read_summary(folder.path())?;
     let probes = &case.output.probes;

@@ -16,10 +16,7 @@ pub fn recorded_case(folder: &Path, manifest: &Manifest) -> Result<Case, Failure
     let mut raw = RawCase::parse(&manifest.case_file, text, &manifest.overrides)?;
     let file = raw.find("mesh.file").map(|item| &item.value);
     if let (Some(RawValue::String(file)), Ok(bytes)) = (file, fs::read(folder.join(MESH))) {
-        raw.mesh = Some(MeshBytes {
-            file: file.clone(),
-            bytes: bytes.into(),
-        });
+        raw.mesh = Some(MeshBytes::new(file.clone(), bytes));
     }
     Ok(Case::from_raw(raw)?)
 }

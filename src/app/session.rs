@@ -40,6 +40,9 @@ impl Session {
         if options.changes.deny_warnings {
             case.deny_warnings(&ignored)?;
         }
+        for note in &case.taken.notes {
+            tracing::info!("{note}");
+        }
         for warning in case.warnings.iter().chain(&ignored) {
             tracing::warn!("{warning}");
         }

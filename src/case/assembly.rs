@@ -7,7 +7,7 @@ use super::reader::Section;
 use super::suggestion;
 use crate::contact::{ContactStiffness, Motion, PairFriction, SlidingContact};
 use crate::fem::{ElasticMaterial, PlaneFormulation, RegionMaterial};
-use crate::mesh::{GmshFile, Mesh, MeshFileError};
+use crate::mesh::{Mesh, MeshFileError};
 use crate::prestress::{BaseChoice, SlidingSurfaces, TiedSurfaces};
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -208,7 +208,7 @@ pub(super) fn assemble(
         let message = format!("{}: {error}", bytes.file);
         (message, "makes no bodies".to_owned())
     };
-    let file = GmshFile::read(&bytes.bytes).map_err(unusable)?;
+    let file = bytes.read().map_err(unusable)?;
     let mesh = Mesh::from_solids(&file, scale, conditions).map_err(unusable)?;
     let region =
         |name: &str, key: &str| named(&mesh.regions, name, key, "region (physical volume)");

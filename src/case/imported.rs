@@ -1,6 +1,7 @@
 //! Bodies from mesh files: `mesh.file`, `[materials.*]`, and where the counterface is.
 
 use super::boundaries::NamedCondition;
+use super::inclusion;
 use super::opposite::{check_meeting, opposite_curve};
 use super::raw::{MeshBytes, RawCase};
 use super::reader::Section;
@@ -12,14 +13,11 @@ use crate::mesh::{
     BodyPart, BodySpecification, CounterfaceSpecification, GmshFile, Mesh, MeshFileError,
     SolidContact,
 };
-use std::io::Read as _;
 use std::path::Path;
 use std::sync::Arc;
 
 /// Names that a message lists.
 const MOST_NAMES: usize = 10;
-/// Largest mesh file, bytes.
-const LARGEST_MESH: u64 = 4 << 30;
 
 /// A body that a mesh file describes.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,7 +27,7 @@ pub struct ImportedBody {
     /// The material of each of its regions.
     pub materials: Vec<RegionMaterial>,
     /// What the mesh was made of, for its refinements.
-    source: Arc<(GmshFile, BodySpecification)>,
+    source: Arc<(Arc<GmshFile>, BodySpecification)>,
 }
 
 /// Where the counterface is, as `[contact]` says.
@@ -171,23 +169,9 @@ pub(super) fn mesh_bytes(raw: &RawCase, file: &str) -> Result<MeshBytes, (String
         return Ok(known.clone());
     }
     let folder = Path::new(&raw.name).parent().unwrap_or(Path::new(""));
-    let path = folder.join(file);
-    let unreadable = |reason: &dyn std::fmt::Display| {
-        let message = format!("cannot read the mesh file {}: {reason}", path.display());
-        (message, "not readable".to_owned())
-    };
-    let mut bytes = Vec::new();
-    let file_size = std::fs::File::open(&path)
-        .and_then(|source| source.take(LARGEST_MESH + 1).read_to_end(&mut bytes))
-        .map_err(|error| unreadable(&error))?;
-    if file_size as u64 > LARGEST_MESH {
-        let reason = format!("it is larger than {} MiB", LARGEST_MESH >> 20);
-        return Err(unreadable(&reason));
-    }
-    Ok(MeshBytes {
-        file: file.to_owned(),
-        bytes: bytes.into(),
-    })
+    let label = |message| (message, "not readable".to_owned());
+    let bytes = inclusion::mesh_file(&folder.join(file)).map_err(label)?;
+    Ok(MeshBytes::new(file.to_owned(), bytes))
 }
 
 /// Why a mesh file does not describe the body, and the key of the case to blame.
@@ -234,7 +218,7 @@ impl ImportError {
 pub(super) fn import(mesh: &MeshBytes, parts: &BodyParts) -> Result<ImportedBody, ImportError> {
     let shown = &mesh.file;
     let unusable = |error: MeshFileError| ImportError::of(error, shown);
-    let read = GmshFile::read(&mesh.bytes).map_err(unusable)?;
+    let read = mesh.read().map_err(unusable)?;
     let specification = BodySpecification {
         scale: parts.scale,
         contact: parts.place.boundary.clone(),
@@ -300,7 +284,7 @@ impl ImportedBody {
         Ok(Self {
             mesh: Arc::new(Mesh::from_gmsh(&fine, specification)?),
             materials: self.materials.clone(),
-            source: Arc::new((fine, specification.clone())),
+            source: Arc::new((Arc::new(fine), specification.clone())),
         })
     }
 

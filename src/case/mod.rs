@@ -17,6 +17,7 @@ mod diagnostic;
 mod fit;
 mod frf;
 mod imported;
+mod inclusion;
 mod key;
 mod keys;
 mod model;
@@ -33,9 +34,11 @@ mod rules;
 mod shaft;
 mod shown;
 mod solid;
+mod starting;
 mod suggestion;
 mod superelements;
 mod sweep;
+mod taken;
 mod transient;
 mod uncertainty;
 mod value;
@@ -62,12 +65,16 @@ pub use parameters::ModelParameter;
 pub use range::{Spacing, range_values};
 pub use raw::{MeshBytes, RawCase};
 pub use shown::{first_of, shown, shown_json};
+pub use starting::case_from;
 pub use superelements::{FreeSystem, Superelement};
 pub use sweep::{Sweep, SweptKey};
+pub use taken::{FileSection, Taken};
 pub use transient::{Output, Transient};
 pub use uncertainty::{UncertainParameter, Uncertainty};
 pub use value::{RawEntry, RawItem, RawTable, RawValue};
-pub use words::{Analysis, CeaMethod, Combination, FrfMethod, OnsetChoice, StabilityChoice};
+pub use words::{
+    Analysis, CeaMethod, Combination, FrfMethod, OnsetChoice, StabilityChoice, UnitsWord,
+};
 
 use crate::fem::{ElasticMaterial, MaterialField};
 use crate::mesh::{Mesh, MeshError};
@@ -111,6 +118,8 @@ pub struct Case {
     pub fit: Option<Fit>,
     /// Parameters that are uncertain, if the case names them.
     pub uncertainty: Option<Uncertainty>,
+    /// What it takes from its mesh file beside the mesh.
+    pub taken: Taken,
     /// Things that are no errors but that the user should hear of.
     pub warnings: Vec<Diagnostic>,
 }
@@ -138,7 +147,8 @@ impl Case {
     fn read(mut raw: RawCase) -> Result<Self, CaseErrors> {
         let findings = Findings::default();
         let end = Location::new(0, raw.text.trim_end().len()..raw.text.trim_end().len());
-        let root = Section::root(&findings, &raw.root, end);
+        let (effective, taken) = taken::effective(&mut raw);
+        let root = Section::root(&findings, &effective, end);
         let title = title(&raw, root.optional_text("title").unwrap_or_default());
         let material = model::material(&root);
         let model::Model {
@@ -173,7 +183,9 @@ impl Case {
         let sweep = sweep::read(&root);
         superelements::refuse_attached(&root);
         root.close();
-        let (errors, warnings) = findings.into_parts();
+        let (mut errors, mut warnings) = findings.into_parts();
+        taken.name_places(&mut errors);
+        warnings.extend(taken.warning(&raw.place("mesh.file")));
         raw.mesh = mesh;
         let Some(body) = body.filter(|_| errors.is_empty()) else {
             return Err(raw.errors(errors));
@@ -195,6 +207,7 @@ impl Case {
             convergence,
             fit,
             uncertainty,
+            taken,
             warnings,
             raw,
         };

@@ -9,6 +9,7 @@ use super::raw::{MeshBytes, RawCase};
 use super::reader::Section;
 use super::shaft;
 use super::solid;
+use super::words::{FilePart, UnitsWord};
 use crate::fem::{AnnulusMaterials, ElasticMaterial, RayleighDamping, RegionMaterial};
 use crate::mesh::{AnnulusSpecification, BoundaryCondition, ElementKind, SolidSpecification};
 
@@ -39,7 +40,7 @@ pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &ElasticMateria
         .any(|(_, condition)| matches!(condition, BoundaryCondition::Pressure(_)));
     let mesh = root.section("mesh", true);
     let file = mesh.optional_text("file");
-    let scale = mesh.number("scale");
+    let scale = length_factor(&mesh);
     let geometry = root.section("geometry", file.is_none());
     let thickness = geometry.number("thickness");
     let is_solid = solid::is_solid(material);
@@ -85,7 +86,12 @@ pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &ElasticMateria
     };
     ignore_generated(&geometry, &mesh);
     geometry.close();
-    if root.has("contacts") || root.has("ties") {
+    let is_file_solid = imported::mesh_bytes(raw, &file)
+        .ok()
+        .and_then(|bytes| bytes.read().ok())
+        .is_some_and(|read| read.dimension == 3);
+    let is_lone_solid = is_file_solid && !root.has("contact");
+    if root.has("contacts") || root.has("ties") || is_lone_solid {
         let parts = (conditions.as_slice(), material);
         let model = assembly_model(root, raw, (&mesh, &file), parts, thickness);
         mesh.close();
@@ -135,7 +141,7 @@ fn assembly_model(
     thickness: f64,
 ) -> Model {
     let _ = mesh.optional_count("axial_elements");
-    let scale = mesh.number("scale");
+    let scale = length_factor(mesh);
     if root.has("contact") {
         let _ = root.section("contact", false);
         root.reject(
@@ -160,6 +166,25 @@ fn assembly_model(
         mesh: bytes,
         contact,
     }
+}
+
+/// Factor on the coordinates of a mesh file: that of its units, or `mesh.scale`.
+fn length_factor(mesh: &Section<'_>) -> f64 {
+    let units: UnitsWord = mesh.choice("units");
+    let _: Vec<FilePart> = mesh.choices("take");
+    let scale = mesh.number("scale");
+    if !mesh.has("units") {
+        return scale;
+    }
+    if mesh.has("scale") {
+        mesh.reject(
+            "scale",
+            "mesh.units and mesh.scale both scale the coordinates".to_owned(),
+            "beside mesh.units".to_owned(),
+            Some("leave one of them out".to_owned()),
+        );
+    }
+    10f64.powi(units.length())
 }
 
 /// Reads what describes a generated body, which has no effect beside `mesh.file`, and says so.

@@ -202,8 +202,9 @@ impl super::Case {
         Self::from_raw(raw).map_err(said)
     }
 
-    /// The number that the case gives a key, if it gives one.
+    /// The number that the case, or its mesh file, gives a key, if one does.
     pub fn number(&self, key: &str) -> Option<f64> {
-        self.raw.find(key)?.value.number()
+        let own = self.raw.find(key).and_then(|item| item.value.number());
+        own.or_else(|| self.taken.number(key))
     }
 }

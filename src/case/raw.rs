@@ -3,10 +3,11 @@
 use super::diagnostic::{CaseErrors, Diagnostic, Location, Source};
 use super::overrides;
 use super::value::{RawItem, RawTable, RawValue, convert_table, quote};
+use crate::mesh::{GmshFile, MeshFileError};
 use sha2::{Digest, Sha256};
 use std::collections::HashSet;
 use std::fmt::Write as _;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 use toml::de::DeTable;
 
 /// A parsed, not yet validated case: the file's TOML with the overrides laid over it.
@@ -25,12 +26,40 @@ pub struct RawCase {
 }
 
 /// A mesh file as it was read.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct MeshBytes {
     /// Its name in the case.
     pub file: String,
-    /// What it holds.
+    /// What it holds, the text of files that it includes in their places.
     pub bytes: Arc<[u8]>,
+    /// What its text says, once that is asked for.
+    parsed: Arc<OnceLock<Result<Arc<GmshFile>, MeshFileError>>>,
+}
+
+impl PartialEq for MeshBytes {
+    fn eq(&self, other: &Self) -> bool {
+        self.file == other.file && self.bytes == other.bytes
+    }
+}
+
+impl MeshBytes {
+    /// The bytes of the mesh file that a case calls `file`.
+    pub fn new(file: String, bytes: impl Into<Arc<[u8]>>) -> Self {
+        Self {
+            file,
+            bytes: bytes.into(),
+            parsed: Arc::default(),
+        }
+    }
+
+    /// The mesh and what the file holds beside it; read once.
+    ///
+    /// # Errors
+    /// [`MeshFileError::Syntax`] with the line, or the byte of a binary file.
+    pub fn read(&self) -> Result<Arc<GmshFile>, MeshFileError> {
+        let read = || GmshFile::read_as(&self.file, &self.bytes).map(Arc::new);
+        self.parsed.get_or_init(read).clone()
+    }
 }
 
 impl RawCase {

@@ -19,6 +19,11 @@ pub(super) fn words<T: Choice>() -> Vec<&'static str> {
     T::WORDS.iter().map(|pair| pair.0).collect()
 }
 
+/// The words of a choice with what they stand for.
+pub(super) fn words_of<T: Choice>() -> impl Iterator<Item = (&'static str, T)> {
+    T::WORDS.iter().copied()
+}
+
 /// What holds a boundary, in words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ConditionWord {
@@ -36,6 +41,43 @@ pub(super) enum HeldAxis {
     X,
     Y,
     Z,
+}
+
+/// Units of a mesh file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum UnitsWord {
+    /// m, kg, s, Pa.
+    MKgS,
+    /// mm, t, s, MPa.
+    MmTS,
+}
+
+impl UnitsWord {
+    /// Power of ten that takes a length or a speed to SI units.
+    pub(super) fn length(self) -> i32 {
+        [0, -3][usize::from(self == Self::MmTS)]
+    }
+
+    /// The same for a stress: t / (mm s2) = 1e6 Pa.
+    pub(super) fn stress(self) -> i32 {
+        [0, 6][usize::from(self == Self::MmTS)]
+    }
+
+    /// The same for a density: t / mm3 = 1e12 kg / m3.
+    pub(super) fn density(self) -> i32 {
+        [0, 12][usize::from(self == Self::MmTS)]
+    }
+}
+
+/// A part of what a mesh file holds beside the mesh.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum FilePart {
+    Materials,
+    Ties,
+    Contacts,
+    Boundaries,
+    Motion,
+    Nothing,
 }
 
 /// The shape of the counterface, in words.
@@ -136,6 +178,15 @@ choices! {
         "fixed" = Self::Fixed,
         "pressure" = Self::Pressure,
         "free" = Self::Free,
+    }
+    UnitsWord { "m-kg-s" = Self::MKgS, "mm-t-s" = Self::MmTS }
+    FilePart {
+        "materials" = Self::Materials,
+        "ties" = Self::Ties,
+        "contacts" = Self::Contacts,
+        "boundaries" = Self::Boundaries,
+        "motion" = Self::Motion,
+        "nothing" = Self::Nothing,
     }
     CounterfaceWord { "cylinder" = Self::Cylinder, "plane" = Self::Plane, "body" = Self::Body }
     ElementKind { "quad4" = Self::Quad4, "quad8" = Self::Quad8 }

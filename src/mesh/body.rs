@@ -156,6 +156,11 @@ impl Mesh {
 
 fn no_curve(file: &GmshFile, name: &str, part: BodyPart) -> MeshFileError {
     let refuse = |message: String| MeshFileError::Request { part, message };
+    if file.node_sets.contains_key(name) {
+        return refuse(format!(
+            "node set \"{name}\" is not all nodes of some edges of the outline: a curve of a plane body consists of edges"
+        ));
+    }
     if file.curves.contains_key(name) {
         return refuse(format!(
             "physical curve \"{name}\" is not on the rim of the body: its edges are not edges of one element each"

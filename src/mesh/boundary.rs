@@ -1,6 +1,7 @@
 //! Named boundaries of a body, and what holds them.
 
 use super::{Counterface, FaceKind, Mesh};
+use std::collections::BTreeSet;
 use std::f64::consts::FRAC_PI_2;
 
 /// Distributed springs and dashpots along a boundary, for each unit of its area.
@@ -73,6 +74,13 @@ pub struct Boundary {
 }
 
 impl Boundary {
+    /// Whether each of its nodes is a node of one of its faces: a set of nodes need not be a surface.
+    pub fn is_covered(&self) -> bool {
+        let faces = self.faces.iter();
+        let nodes: BTreeSet<u32> = faces.flat_map(|face| face.nodes.iter().copied()).collect();
+        !nodes.is_empty() && self.nodes.iter().all(|node| nodes.contains(node))
+    }
+
     /// Puts the nodes of the contact edge in the order in which their places along the counterface rise; a closed edge
     /// begins at the smallest angle from 0 on.
     pub(super) fn order_along(&mut self, mesh: &Mesh) {

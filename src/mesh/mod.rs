@@ -1,16 +1,22 @@
-//! Nodes, elements, regions and boundaries of plane and solid bodies, the generator of the annulus, and the reader of Gmsh
+//! Nodes, elements, regions and boundaries of plane and solid bodies, the generator of the annulus, and the readers of mesh
 //! files.
 
+mod abaqus;
 mod annulus;
 mod body;
 mod boundary;
 mod coincidence;
+mod collection;
 mod counterface;
 mod curve;
+mod deck;
 mod element;
 mod faces;
+mod format;
 mod frames;
 mod gmsh;
+mod model_data;
+mod nastran;
 mod plane_body;
 mod quality;
 mod refinement;
@@ -20,15 +26,22 @@ mod sectors;
 mod solid;
 mod solid_body;
 mod specification;
+mod universal;
 
 pub use annulus::AnnulusMesh;
 pub use body::{BodySpecification, CounterfaceSpecification};
 pub use boundary::{Boundary, BoundaryCondition, BoundaryFace, ElasticSupport, NodalSupport};
 pub use coincidence::{UnmergedNodes, coincident_nodes};
 pub use counterface::Counterface;
+pub use deck::included_text;
 pub use element::{ElementKind, FaceKind, FacePoint, QuadraturePoint, Shape};
+pub use format::MeshFormat;
 pub use frames::NodalFrames;
 pub use gmsh::{BodyPart, CurveEdge, FileElement, GmshFile, MeshFileError, SurfaceFace};
+pub use model_data::{
+    FileCondition, FileConditionKind, FileContact, FileElasticity, FileMaterial, FileMotion,
+    FileTie, LeftOut, MaterialAxes, ModelData,
+};
 pub use quality::MeshQuality;
 pub use sector::SectorMesh;
 pub use solid::{

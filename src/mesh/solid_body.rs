@@ -49,13 +49,57 @@ impl Mesh {
                 mesh.boundaries.push(boundary);
             }
         }
+        mesh.add_node_sets(file, &index_of, &outer);
         for (name, condition) in conditions {
             let place = mesh.boundaries.iter().position(|b| b.name == *name);
             let place = place.ok_or_else(|| no_surface(&file.surfaces, name))?;
-            mesh.boundaries[place].condition = *condition;
+            let boundary = &mut mesh.boundaries[place];
+            let needs_faces = !matches!(
+                condition,
+                BoundaryCondition::Clamped | BoundaryCondition::Fixed(_) | BoundaryCondition::Free
+            );
+            if needs_faces && !boundary.is_covered() {
+                return Err(MeshFileError::Body(format!(
+                    "boundaries.{name} is a set of nodes that are not all nodes of some faces: it can be \"clamped\" or \"fixed\"; \
+                     name a surface of faces for anything else"
+                )));
+            }
+            boundary.condition = *condition;
         }
         mesh.turn_frames_to_guides();
         Ok(mesh)
+    }
+
+    /// Adds sets of nodes that are no surfaces, in alphabetical order among the boundaries; their faces are those whose nodes all
+    /// belong to them.
+    fn add_node_sets(
+        &mut self,
+        file: &GmshFile,
+        index_of: &[Option<u32>],
+        outer: &BTreeMap<FaceKey, BoundaryFace>,
+    ) {
+        for (name, nodes) in &file.node_sets {
+            let nodes = nodes.iter().filter_map(|&node| index_of[node as usize]);
+            let nodes: BTreeSet<u32> = nodes.collect();
+            if nodes.is_empty() || self.boundaries.iter().any(|b| b.name == *name) {
+                continue;
+            }
+            let faces = outer.values();
+            let own = faces.filter(|face| face.nodes.iter().all(|node| nodes.contains(node)));
+            let surface = self.surface(name, own.cloned().collect());
+            // Nodes beside those faces have no share in the area.
+            let area_of = |node: &u32| match surface.nodes.binary_search(node) {
+                Ok(place) => surface.tributary_lengths[place],
+                Err(_) => 0.0,
+            };
+            let areas = nodes.iter().map(area_of).collect();
+            self.boundaries.push(Boundary {
+                nodes: nodes.into_iter().collect(),
+                tributary_lengths: areas,
+                ..surface
+            });
+        }
+        self.boundaries.sort_by(|a, b| a.name.cmp(&b.name));
     }
 
     /// A named surface of some faces, free.

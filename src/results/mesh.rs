@@ -26,6 +26,9 @@ pub struct MeshSummary {
     pub wall_s: f64,
     /// Size and quality.
     pub mesh: MeshStatistics,
+    /// What of the mesh file is not used: keyword, place, count, reason.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub not_used: Vec<String>,
     /// What it was made from.
     pub manifest: Manifest,
 }
@@ -98,6 +101,9 @@ pub fn print(summary: &MeshSummary) -> String {
             "boundary {}: {} nodes, {:.6e} m, {}",
             boundary.name, boundary.nodes, boundary.length_m, boundary.condition
         );
+    }
+    for line in &summary.not_used {
+        let _ = writeln!(out, "not used: {line}");
     }
     match mesh.unnamed_free_edges {
         None | Some(0) => {}

@@ -19,6 +19,7 @@ pub mod quantity;
 pub mod report;
 mod response;
 pub mod signal;
+pub mod solid_mesh;
 mod store;
 pub mod summary;
 pub mod sweep;

@@ -6,6 +6,7 @@ mod cursor;
 mod version2;
 mod version4;
 
+use super::model_data::ModelData;
 use super::{ElementKind, FaceKind};
 use cursor::Cursor;
 use std::collections::BTreeMap;
@@ -77,6 +78,10 @@ pub struct GmshFile {
     pub surfaces: BTreeMap<String, Vec<SurfaceFace>>,
     /// Whether each node has some element, a point included.
     pub is_used: Vec<bool>,
+    /// Named sets of nodes of a solid body that are not all the nodes of some faces.
+    pub node_sets: BTreeMap<String, Vec<u32>>,
+    /// What the file holds beside the mesh.
+    pub model: ModelData,
 }
 
 /// One element of a file.
