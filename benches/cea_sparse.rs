@@ -7,7 +7,7 @@ mod disc;
 use disc::{DAMPING, POLYCARBONATE, annulus, contact};
 use divan::Bencher;
 use frictionsim::cea::sparse::{SparseSweep, StiffnessFactors, sweep};
-use frictionsim::cea::{ModeLimit, SweepRequest};
+use frictionsim::cea::{ModeLimit, SweepRequest, Unwatched};
 use frictionsim::contact::ContactStiffness;
 use frictionsim::fem::{MassKind, assemble_stiffness};
 use frictionsim::mesh::{AnnulusMesh, ElementKind};
@@ -76,14 +76,18 @@ fn phase_2_unsymmetric_factorization_one_value(bencher: Bencher<'_, '_>) {
 #[divan::bench(sample_count = 5)]
 fn phase_3_frictionless_modes(bencher: Bencher<'_, '_>) {
     let tangent = tangent(180, 35);
-    bencher.bench_local(|| SparseSweep::prepare(&tangent, &request(&values())).expect("solved"));
+    bencher.bench_local(|| {
+        SparseSweep::prepare(&tangent, &request(&values()), &Unwatched).expect("solved")
+    });
 }
 
 #[divan::bench(sample_count = 5)]
 fn phase_4_common_basis(bencher: Bencher<'_, '_>) {
     let tangent = tangent(180, 35);
     bencher
-        .with_inputs(|| SparseSweep::prepare(&tangent, &request(&values())).expect("solved"))
+        .with_inputs(|| {
+            SparseSweep::prepare(&tangent, &request(&values()), &Unwatched).expect("solved")
+        })
         .bench_local_values(|mut sweep| sweep.cover().map(|()| sweep));
 }
 
@@ -92,11 +96,12 @@ fn phase_5_points_with_residuals(bencher: Bencher<'_, '_>) {
     let tangent = tangent(180, 35);
     bencher
         .with_inputs(|| {
-            let mut sweep = SparseSweep::prepare(&tangent, &request(&values())).expect("solved");
+            let mut sweep =
+                SparseSweep::prepare(&tangent, &request(&values()), &Unwatched).expect("solved");
             sweep.cover().expect("covered");
             sweep
         })
-        .bench_local_values(|mut sweep| on_one_thread(|| sweep.solve(&|_| {}).map(|()| sweep)));
+        .bench_local_values(|mut sweep| on_one_thread(|| sweep.solve().map(|()| sweep)));
 }
 
 #[divan::bench(sample_count = 5)]
@@ -104,9 +109,10 @@ fn phase_6_tracking_and_onsets(bencher: Bencher<'_, '_>) {
     let tangent = tangent(180, 35);
     bencher
         .with_inputs(|| {
-            let mut sweep = SparseSweep::prepare(&tangent, &request(&values())).expect("solved");
+            let mut sweep =
+                SparseSweep::prepare(&tangent, &request(&values()), &Unwatched).expect("solved");
             sweep.cover().expect("covered");
-            sweep.solve(&|_| {}).expect("solved");
+            sweep.solve().expect("solved");
             sweep
         })
         .bench_local_values(|mut sweep| {

@@ -3,19 +3,30 @@
 use super::profile::{Profile, Redraw};
 use super::{Failure, RunOptions, Session, superelement, terminal};
 use crate::case::{Case, Cea};
-use crate::results::cea::{CeaReport, draw, print, write};
+use crate::cea::{SweepProgress, SweepStage, Unwatched};
+use crate::results::cea::{CeaReport, KeptSteps, draw, print, write};
 use crate::results::{DrawingOptions, OutputFolder, read_summary};
-use crate::study::eigenvalues::{self, SlidingModel, Solution, refuse_no_modes};
+use crate::study::eigenvalues::{self, Progress, SlidingModel, Solution, Solver, refuse_no_modes};
 use clap::Args;
+use indicatif::ProgressBar;
 use serde_json::Value;
 
 /// Complex eigenvalue sweep over the friction coefficient
+///
+/// Of a body that is solved on its whole mesh, Ctrl-C and SIGTERM leave the friction values that are done in the output
+/// folder, and --resume goes on from there to the same tables as a run that was never stopped.
 #[derive(Args)]
 pub struct Arguments {
     /// The case and how to run it.
     #[command(flatten)]
     pub options: RunOptions,
+    /// Go on from what an interrupted run has done; without any, start from the beginning
+    #[arg(long, conflicts_with = "force")]
+    pub resume: bool,
 }
+
+/// What an interrupted run leaves.
+const KEPT: &str = "friction values that are done are kept: the same command with --resume goes on";
 
 /// What the rest of the program asks of this command.
 pub const PROFILE: Profile = Profile {
@@ -70,15 +81,26 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     if let Some(system) = superelement::described(&arguments.options)? {
         return superelement::run(&arguments.options, &system);
     }
-    run_with(arguments, |session, cea, model| {
-        let bar = terminal::progress(session.options.output.is_quiet(), 0, "friction values");
-        let solution = eigenvalues::solve(&session.case, cea, model, &|progress| {
-            bar.set_length(progress.total as u64);
-            bar.set_position(progress.solved as u64);
-        })?;
-        bar.finish_and_clear();
-        Ok(solution)
+    run_with(arguments, |session, cea, model, watch| {
+        Ok(eigenvalues::solve(&session.case, cea, model, watch)?)
     })
+}
+
+/// Shows how far a sweep has come.
+fn show(bar: &ProgressBar, progress: SweepProgress) {
+    bar.set_message(match progress.stage {
+        SweepStage::Blocks => "blocks of modes",
+        SweepStage::Values => "friction values",
+        SweepStage::MapPoints => "points of the map",
+    });
+    bar.set_length(progress.total as u64);
+    bar.set_position(progress.solved as u64);
+}
+
+/// Whether the solver of a case keeps its steps: harmonics take seconds at most, and keep none.
+fn model_keeps(case: &Case, cea: &Cea) -> bool {
+    let solver = Solver::of(case, cea.method);
+    matches!(solver, Ok(Solver::WholeMesh | Solver::Assembly))
 }
 
 /// Runs the subcommand with a solver.
@@ -87,7 +109,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 /// A bad case, contact that opens, a solver that fails, an output folder that cannot be written.
 fn run_with(
     arguments: &Arguments,
-    solve: impl FnOnce(&Session, &Cea, &SlidingModel) -> Result<Solution, Failure>,
+    solve: impl FnOnce(&Session, &Cea, &SlidingModel, &Progress<'_>) -> Result<Solution, Failure>,
 ) -> Result<(), Failure> {
     let session = Session::start("cea", &arguments.options)?;
     let case = &session.case;
@@ -95,18 +117,28 @@ fn run_with(
     let cost = case.cost();
     let solver_bytes = cost.cea.map_or(0.0, |cea| cea.memory_bytes);
     session.check_memory(cost.mesh_memory_bytes + solver_bytes)?;
-    let folder = session.open_folder()?;
-    terminal::catch_signals(terminal::NOTHING_KEPT);
+    let folder = match arguments.resume {
+        true => session.reopen_folder()?,
+        false => session.open_folder()?,
+    };
+    let bar = terminal::progress(session.options.output.is_quiet(), 0, "modes at rest");
+    let heard = |progress| show(&bar, progress);
+    let steps = KeptSteps::new(&folder, arguments.resume, &heard);
+    terminal::catch_signals(match model_keeps(case, cea) {
+        true => KEPT,
+        false => terminal::NOTHING_KEPT,
+    });
 
     let model = SlidingModel::new(case, cea)?;
-    let solution = solve(&session, cea, &model)?;
+    let solution = solve(&session, cea, &model, &steps)?;
     refuse_no_modes(case, cea, &solution.sweep)?;
 
     let map = cea
         .map
         .as_ref()
-        .map(|map| eigenvalues::map(case, cea, map))
+        .map(|map| eigenvalues::watched_map(case, cea, map, &steps))
         .transpose()?;
+    bar.finish_and_clear();
     let field = model.base_field(case);
     let report = CeaReport {
         map: map.as_ref(),
@@ -121,6 +153,7 @@ fn run_with(
             &drawing,
         )?;
     }
+    steps.discard();
     let table = print(&report, session.options.output.verbose > 0);
     session.options.output.finish(folder, &table, &summary)
 }
@@ -134,7 +167,7 @@ pub fn redraw(folder: &OutputFolder, case: &Case, options: &DrawingOptions) -> R
     let summary: Value = read_summary(folder.path())?;
     let cea = case.require_cea()?;
     let model = SlidingModel::new(case, cea)?;
-    let solution = eigenvalues::solve(case, cea, &model, &|_| {})?;
+    let solution = eigenvalues::solve(case, cea, &model, &Unwatched)?;
     let field = model.base_field(case);
     let map = cea.map.as_ref();
     let map = map
@@ -184,6 +217,7 @@ mod tests {
                     ..OutputOptions::default()
                 },
             },
+            resume: false,
         }
     }
 
@@ -222,7 +256,7 @@ mod tests {
     }
 
     fn run(arguments: &Arguments) -> Result<(), Failure> {
-        run_with(arguments, |_, cea, model| Ok(made_up(cea, model)))
+        run_with(arguments, |_, cea, model, _| Ok(made_up(cea, model)))
     }
 
     #[test]
@@ -257,7 +291,7 @@ mod tests {
     fn the_reported_torque_and_power_are_those_of_the_whole_thickness() {
         let folder = tempfile::tempdir().unwrap();
         let arguments = arguments(folder.path(), &[]);
-        run_with(&arguments, |session, cea, model| {
+        run_with(&arguments, |session, cea, model, _| {
             let (case, base) = (&session.case, model.base_state(&session.case));
             let field = model.base_field(case);
             // Torque = thickness * radius * sum of traction times tributary length.
@@ -282,7 +316,7 @@ mod tests {
     #[test]
     fn a_limit_below_the_first_mode_is_an_error_of_the_case() {
         let folder = tempfile::tempdir().unwrap();
-        let failure = run_with(&arguments(folder.path(), &[]), |_, cea, model| {
+        let failure = run_with(&arguments(folder.path(), &[]), |_, cea, model, _| {
             let mut solution = made_up(cea, model);
             solution
                 .sweep

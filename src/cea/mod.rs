@@ -12,9 +12,11 @@ mod quadratic;
 mod request;
 pub mod sparse;
 mod spectrum;
+mod watch;
 
 pub use branch::{BranchPoint, ModeBranch};
 pub use error::CeaError;
 pub use quadratic::{QuadraticMode, quadratic_modes};
-pub use request::{ModeLimit, SweepProgress, SweepRequest};
+pub use request::{ModeLimit, SweepProgress, SweepRequest, SweepStage};
 pub use spectrum::{ComplexMode, FrictionPoint, FrictionSweep, UnstableInterval, keeping_ties};
+pub use watch::{PartWatch, SweepWatch, Unwatched};

@@ -55,11 +55,24 @@ impl SweepRequest<'_> {
     }
 }
 
+/// What a sweep is at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SweepStage {
+    /// Modes at a few friction coefficients, from which those at all others are made.
+    Blocks,
+    /// Friction coefficients.
+    Values,
+    /// Values of the second parameter of a stability map.
+    MapPoints,
+}
+
 /// How far a sweep has come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SweepProgress {
-    /// Friction values solved.
+    /// At what.
+    pub stage: SweepStage,
+    /// How many of it are solved.
     pub solved: usize,
-    /// Friction values in all.
+    /// How many there are; 0 where that is not known before.
     pub total: usize,
 }

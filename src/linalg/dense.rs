@@ -128,6 +128,19 @@ pub fn column_mut(a: &mut Mat<f64>, j: usize) -> &mut [f64] {
     column.expect("owned columns are contiguous").as_slice_mut()
 }
 
+/// The columns of `a`, each by itself.
+pub fn columns_of(a: &Mat<f64>) -> Vec<Vec<f64>> {
+    (0..a.ncols())
+        .map(|j| column(a.as_ref(), j).to_vec())
+        .collect()
+}
+
+/// The matrix of `rows` rows with these columns, if they are of that length.
+pub fn from_columns(columns: &[Vec<f64>], rows: usize) -> Option<Mat<f64>> {
+    let is_whole = columns.iter().all(|column| column.len() == rows);
+    is_whole.then(|| Mat::from_fn(rows, columns.len(), |i, j| columns[j][i]))
+}
+
 /// Columns `columns` of `a`, in that order.
 pub fn pick_columns(a: &Mat<f64>, columns: &[usize]) -> Mat<f64> {
     let mut picked = Mat::zeros(a.nrows(), columns.len());

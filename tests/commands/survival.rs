@@ -324,3 +324,59 @@ fn a_terminated_sweep_says_how_to_go_on() {
     assert_eq!(output.status.code(), Some(130), "{errors}");
     assert!(errors.contains("--resume"), "{errors}");
 }
+
+/// Runs `cea` of a body without symmetry into a folder.
+fn cea(folder: &Path, options: &[&str]) -> Command {
+    let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/test-bench.toml");
+    let mut command = Command::new(PROGRAM);
+    command
+        .arg("cea")
+        .arg(case)
+        .args(["--quiet", "--no-figures", "--out"])
+        .arg(folder)
+        .args(options);
+    command
+}
+
+/// Steps that an interrupted eigenvalue sweep has left.
+fn steps(folder: &Path) -> usize {
+    let entries = std::fs::read_dir(folder.join("progress"));
+    let names = entries.into_iter().flatten().flatten();
+    let is_whole = |name: &str| name.ends_with(".bin");
+    names
+        .filter(|entry| is_whole(&entry.file_name().to_string_lossy()))
+        .count()
+}
+
+#[test]
+fn an_eigenvalue_sweep_stopped_twice_resumes_to_identical_tables() {
+    let root = tempfile::tempdir().unwrap();
+    let (stopped, whole) = (root.path().join("stopped"), root.path().join("whole"));
+    for (options, wanted) in [(&[][..], 2), (&["--resume"], 4)] {
+        let mut command = cea(&stopped, options);
+        command.stdout(Stdio::null()).stderr(Stdio::piped());
+        let mut child = command.spawn().unwrap();
+        while steps(&stopped) < wanted {
+            assert!(
+                child.try_wait().unwrap().is_none(),
+                "over before it was stopped"
+            );
+            std::thread::sleep(std::time::Duration::from_millis(2));
+        }
+        let kill = Command::new("kill").arg(child.id().to_string()).status();
+        assert!(kill.unwrap().success());
+        let output = child.wait_with_output().unwrap();
+        let errors = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(130), "{errors}");
+        assert!(errors.contains("--resume"), "{errors}");
+    }
+    for (folder, options) in [(&stopped, &["--resume"][..]), (&whole, &[])] {
+        let output = cea(folder, options).output().unwrap();
+        assert!(output.status.success(), "{output:?}");
+        assert!(!folder.join("progress").exists());
+    }
+    for table in ["eigenvalues.csv", "stability.csv"] {
+        let [one, other] = [&stopped, &whole].map(|f| std::fs::read(f.join(table)).unwrap());
+        assert!(one == other, "{table}");
+    }
+}

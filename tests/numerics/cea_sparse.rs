@@ -7,7 +7,9 @@ use faer::{Mat, c64};
 use frictionsim::cea::sparse::{
     FrictionlessModes, Linearization, ShiftInverted, StiffnessFactors, StructureMatrices, sweep,
 };
-use frictionsim::cea::{CeaError, ComplexMode, FrictionSweep, ModeLimit, SweepRequest};
+use frictionsim::cea::{
+    CeaError, ComplexMode, FrictionSweep, ModeLimit, SweepProgress, SweepRequest, SweepWatch,
+};
 use frictionsim::contact::ContactStiffness;
 use frictionsim::fem::{DofMap, MassKind, RayleighDamping, assemble_stiffness};
 use frictionsim::linalg::dense::random_columns;
@@ -16,7 +18,7 @@ use frictionsim::linalg::{DenseLu, KrylovSchurSettings, MatrixPolynomial, Wanted
 use frictionsim::mesh::{AnnulusMesh, ElementKind};
 use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
 use std::f64::consts::TAU;
-use std::sync::OnceLock;
+use std::sync::{Mutex, OnceLock};
 
 type Entries = Vec<(usize, usize, f64)>;
 
@@ -331,6 +333,59 @@ fn sweep_is_bitwise_equal_on_one_and_two_threads() {
     assert!(one == two);
     assert!(one.points[3].modes.iter().all(|m| m.shape.is_some()));
     assert!(one.points[2].modes.iter().all(|m| m.shape.is_none()));
+}
+
+/// Keeps the steps of a sweep in their order.
+#[derive(Default)]
+struct Kept {
+    known: Vec<(String, Vec<Vec<f64>>)>,
+    new: Mutex<Vec<(String, Vec<Vec<f64>>)>>,
+}
+
+impl SweepWatch for Kept {
+    fn reached(&self, _progress: SweepProgress) {}
+
+    fn recall(&self, name: &str) -> Option<Vec<Vec<f64>>> {
+        let found = self.known.iter().find(|step| step.0 == name);
+        found.map(|step| step.1.clone())
+    }
+
+    fn keep(&self, name: &str, columns: &[Vec<f64>]) {
+        let step = (name.to_owned(), columns.to_vec());
+        self.new.lock().unwrap().push(step);
+    }
+}
+
+/// Consistency check: a sweep that finds the first steps of an earlier run goes on to the same bits, with proportional
+/// and with any damping, and does the other steps alone.
+#[test]
+fn sweep_goes_on_from_any_step_to_the_same_bits() {
+    for damping_model in [DampingModel::WholeTangent, DampingModel::BodyOnly] {
+        let disc = Disc {
+            circumferential: 24,
+            radial: 6,
+            damping_model,
+            ..Disc::coarse()
+        };
+        let (tangent, values) = (disc.tangent(), [0.1, 0.2, 0.3]);
+        let request = SweepRequest {
+            friction_coefficients: &values,
+            limit: ModeLimit::Lowest(6),
+            shapes_at: &[],
+        };
+        let first = Kept::default();
+        let whole = sweep(&tangent, &request, &first).unwrap();
+        let steps = first.new.into_inner().unwrap();
+        assert!(steps.len() > 4, "{}", steps.len());
+        for done in [1, 2, steps.len() - 2, steps.len()] {
+            let rest = Kept {
+                known: steps[..done].to_vec(),
+                ..Kept::default()
+            };
+            assert!(sweep(&tangent, &request, &rest).unwrap() == whole);
+            assert_eq!(rest.new.into_inner().unwrap().len(), steps.len() - done);
+        }
+    }
 }
 
 #[test]

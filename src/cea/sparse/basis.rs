@@ -6,10 +6,10 @@ use super::mode::ReducedMode;
 use super::packed::{PackedEntry, PackedModes};
 use super::reduced::ReducedModel;
 use super::structure::{Companion, ShiftInverted, StiffnessFactors, StructureMatrices};
-use crate::cea::CeaError;
+use crate::cea::{CeaError, SweepProgress, SweepStage, SweepWatch};
 use crate::linalg::dense::{
-    column, column_mut, column_norms, dot, join_columns, orthonormal_complement, pick_columns,
-    random_columns,
+    column, column_mut, column_norms, columns_of, dot, from_columns, join_columns,
+    orthonormal_complement, pick_columns, random_columns,
 };
 use crate::linalg::{
     KrylovSchurSettings, LinalgError, LuAnalysis, QuadraticKrylovSettings, Wanted, krylov_schur,
@@ -69,6 +69,9 @@ pub struct BasisBuilder<'a> {
     pub count: usize,
     /// Friction coefficients whose modes of the quadratic problem the basis holds.
     sampled: Vec<f64>,
+    watch: &'a dyn SweepWatch,
+    /// Steps that the watch was offered.
+    steps: usize,
 }
 
 impl<'a> BasisBuilder<'a> {
@@ -78,6 +81,7 @@ impl<'a> BasisBuilder<'a> {
         linearization: Linearization,
         modes: &Mat<f64>,
         factors: StiffnessFactors,
+        watch: &'a dyn SweepWatch,
     ) -> Self {
         let mut model = ReducedModel::empty(tangent, linearization);
         model.extend(modes.clone(), 1e-8);
@@ -89,7 +93,40 @@ impl<'a> BasisBuilder<'a> {
             model,
             count: modes.ncols(),
             sampled: Vec::new(),
+            watch,
+            steps: 0,
         }
+    }
+
+    /// Steps so far: the state of the basis is known by their number.
+    pub(super) fn steps(&self) -> usize {
+        self.steps
+    }
+
+    /// The columns of the next step at `mu`: those that an earlier run of the same sweep found, else those that `find` does.
+    fn step<E>(
+        &mut self,
+        mu: f64,
+        find: impl FnOnce(&Self) -> Result<Mat<f64>, E>,
+    ) -> Result<Mat<f64>, E> {
+        let name = format!("basis-{:04}-at-{mu:?}", self.steps);
+        let unknowns = self.tangent.stiffness.dimension();
+        let kept = self.watch.recall(&name);
+        let columns = match kept.and_then(|columns| from_columns(&columns, unknowns)) {
+            Some(columns) => columns,
+            None => {
+                let columns = find(self)?;
+                self.watch.keep(&name, &columns_of(&columns));
+                columns
+            }
+        };
+        self.steps += 1;
+        self.watch.reached(SweepProgress {
+            stage: SweepStage::Blocks,
+            solved: self.steps,
+            total: 0,
+        });
+        Ok(columns)
     }
 
     /// Refines at `values` (friction coefficients, ascending) in a spread-out order until corrections
@@ -140,11 +177,12 @@ impl<'a> BasisBuilder<'a> {
                 // Combinations of the modes without friction, which the basis holds first.
                 let width = self.start_width();
                 let known = self.count.min(self.model.dimension());
-                let start = [1, 2].map(|seed| {
-                    self.model
-                        .expand(random_columns(known, width, seed).as_ref())
-                });
-                self.sample(mu, frequency_scale, &start, self.count)
+                self.sample(mu, frequency_scale, self.count, |builder| {
+                    [1, 2].map(|seed| {
+                        let mixed = random_columns(known, width, seed);
+                        builder.model.expand(mixed.as_ref())
+                    })
+                })
             }
         }
     }
@@ -154,14 +192,31 @@ impl<'a> BasisBuilder<'a> {
         1 + usize::from(!self.tangent.contact_angles.is_empty())
     }
 
-    /// Adds the vectors of the `modes` lowest modes of the quadratic problem at `mu`; whether the basis grew.
+    /// Adds the vectors of the `modes` lowest modes of the quadratic problem at `mu`, found from what `start` gives; whether
+    /// the basis grew.
     fn sample(
         &mut self,
         mu: f64,
         frequency_scale: f64,
-        [x, y]: &[Mat<f64>; 2],
         modes: usize,
+        start: impl FnOnce(&Self) -> [Mat<f64>; 2],
     ) -> Result<bool, CeaError> {
+        let vectors = self.step(mu, |builder| {
+            builder.quadratic_modes(mu, frequency_scale, modes, &start(builder))
+        })?;
+        let has_grown = self.model.extend(vectors.clone(), SAMPLE_TOLERANCE).ncols() > 0;
+        self.model.hold_sample(mu, &vectors);
+        Ok(has_grown)
+    }
+
+    /// Vectors of the `modes` lowest modes of the quadratic problem at `mu`, two real columns each.
+    fn quadratic_modes(
+        &self,
+        mu: f64,
+        frequency_scale: f64,
+        modes: usize,
+        [x, y]: &[Mat<f64>; 2],
+    ) -> Result<Mat<f64>, CeaError> {
         let matrices = StructureMatrices::at(self.tangent, self.linearization, mu);
         let factors = match mu {
             0.0 => StiffnessFactors::frictionless(self.tangent)?,
@@ -176,15 +231,15 @@ impl<'a> BasisBuilder<'a> {
         let found = quadratic_krylov(&operator, [x.as_ref(), y.as_ref()], &settings)?;
         let mut vectors = found.vectors;
         turn_to_real(&mut vectors);
-        let has_grown = self.model.extend(vectors.clone(), SAMPLE_TOLERANCE).ncols() > 0;
-        self.model.hold_sample(mu, &vectors);
-        Ok(has_grown)
+        Ok(vectors)
     }
 
     /// Adds the corrections of the modes at a sampled `mu` to the basis and to the sample; whether there were any.
     fn refine_sample(&mut self, mu: f64) -> Result<bool, CeaError> {
-        let modes = self.model.solve_right(mu, self.count)?;
-        let mut corrections = self.corrections(&modes, mu);
+        let mut corrections = self.step(mu, |builder| {
+            let modes = builder.model.solve_right(mu, builder.count)?;
+            Ok::<_, LinalgError>(builder.corrections(&modes, mu))
+        })?;
         let lengths = column_norms(corrections.as_ref());
         for (j, length) in lengths.into_iter().enumerate().filter(|(_, l)| *l > 0.0) {
             let entries = column_mut(&mut corrections, j).iter_mut();
@@ -277,24 +332,29 @@ impl<'a> BasisBuilder<'a> {
     /// If a dense decomposition fails.
     pub fn refine_at(&mut self, mu: f64) -> Result<Option<f64>, LinalgError> {
         let modes = self.model.solve_right(mu, self.count)?;
-        let corrections = self.corrections(&modes, mu);
+        let corrections = self.step(mu, |builder| {
+            Ok::<_, LinalgError>(builder.corrections(&modes, mu))
+        })?;
         let longest = column_norms(corrections.as_ref())
             .into_iter()
             .fold(0.0, f64::max);
         let mut new = self.model.extend(corrections, VECTOR_TOLERANCE * longest);
         let has_added = new.ncols() > 0;
         let steps = STEPS_PER_DECADE * (longest / SHORTEST).log10();
-        let (mass, inertia) = (&self.tangent.mass, self.highest_kappa(&modes));
+        let inertia = self.highest_kappa(&modes);
         // A negative number is none.
         for _ in 0..steps as usize {
             if new.ncols() == 0 {
                 break;
             }
-            let mut image = mass
-                .pattern()
-                .multiply(&mass.coefficients()[0], new.as_ref());
-            self.preconditioner.solve_in_place(&mut image);
-            image *= Scale(inertia);
+            let image = self.step(mu, |builder| {
+                let mass = &builder.tangent.mass;
+                let values = &mass.coefficients()[0];
+                let mut image = mass.pattern().multiply(values, new.as_ref());
+                builder.preconditioner.solve_in_place(&mut image);
+                image *= Scale(inertia);
+                Ok::<_, LinalgError>(image)
+            })?;
             new = self.model.extend(image, KRYLOV_TOLERANCE);
         }
         Ok(has_added.then_some(longest))
@@ -330,11 +390,19 @@ impl<'a> BasisBuilder<'a> {
         let unknowns = self.tangent.stiffness.dimension();
         let wanted = (self.count + extra).min(unknowns);
         if let Linearization::Companion { frequency_scale } = self.linearization {
-            let start =
-                [3, 4].map(|seed| random_columns(unknowns, SEARCH_WIDTH.min(unknowns), seed));
-            self.sample(mu, frequency_scale, &start, wanted)?;
+            let width = SEARCH_WIDTH.min(unknowns);
+            let start = [3, 4].map(|seed| random_columns(unknowns, width, seed));
+            self.sample(mu, frequency_scale, wanted, |_| start)?;
             return Ok(());
         }
+        let vectors = self.step(mu, |builder| builder.dominant_vectors(mu, wanted))?;
+        self.model.extend(vectors, COMPRESSED);
+        Ok(())
+    }
+
+    /// The `wanted` dominant vectors of the reduced problem at `mu`.
+    fn dominant_vectors(&self, mu: f64, wanted: usize) -> Result<Mat<f64>, CeaError> {
+        let unknowns = self.tangent.stiffness.dimension();
         let matrices = StructureMatrices::at(self.tangent, self.linearization, mu);
         let factors = StiffnessFactors::general(self.tangent, &self.analysis, mu)?;
         let operator = ShiftInverted {
@@ -349,8 +417,7 @@ impl<'a> BasisBuilder<'a> {
         };
         let mut vectors = krylov_schur(&operator, None, &settings)?.vectors;
         vectors.truncate(unknowns, wanted);
-        self.model.extend(vectors, COMPRESSED);
-        Ok(())
+        Ok(vectors)
     }
 }
 

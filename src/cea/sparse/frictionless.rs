@@ -3,9 +3,10 @@
 use super::GUARD_MODES;
 use super::linearization::Linearization;
 use super::structure::{ShiftInverted, StiffnessFactors, StructureMatrices};
-use crate::cea::{CeaError, ModeLimit};
+use crate::cea::{CeaError, ModeLimit, SweepWatch};
 use crate::fem::RayleighDamping;
 use crate::linalg::Mat;
+use crate::linalg::dense::{columns_of, from_columns};
 use crate::linalg::{
     KrylovSchurSettings, LdlAnalysis, LinalgError, MatrixPolynomial, SparseLdl, Wanted,
     krylov_schur,
@@ -37,7 +38,41 @@ impl FrictionlessModes {
     /// # Errors
     /// [`CeaError::CountMismatch`] if the inertia of `K - sigma M` in that gap counts another number.
     pub fn compute(tangent: &SlidingTangent, limit: ModeLimit) -> Result<Self, CeaError> {
+        Self::found_by(tangent, &Inertia::new(tangent)?, limit)
+    }
+
+    /// [`Self::compute`], or what an earlier run of the same sweep found.
+    ///
+    /// # Errors
+    /// As [`Self::compute`].
+    pub(super) fn compute_watched(
+        tangent: &SlidingTangent,
+        limit: ModeLimit,
+        watch: &dyn SweepWatch,
+    ) -> Result<Self, CeaError> {
+        const NAME: &str = "frictionless";
         let inertia = Inertia::new(tangent)?;
+        let unknowns = tangent.stiffness.dimension();
+        if let Some((vectors, frequencies)) = recalled(watch.recall(NAME), unknowns) {
+            let factors = inertia.factors(&frequencies, None)?;
+            return Ok(Self {
+                vectors,
+                frequencies,
+                factors,
+            });
+        }
+        let found = Self::found_by(tangent, &inertia, limit)?;
+        let mut columns = columns_of(&found.vectors);
+        columns.push(found.frequencies.clone());
+        watch.keep(NAME, &columns);
+        Ok(found)
+    }
+
+    fn found_by(
+        tangent: &SlidingTangent,
+        inertia: &Inertia<'_>,
+        limit: ModeLimit,
+    ) -> Result<Self, CeaError> {
         let wanted = match limit {
             ModeLimit::Lowest(count) => count,
             ModeLimit::MaxFrequency(limit_hz) => inertia.count_below(TAU * limit_hz)?,
@@ -88,15 +123,22 @@ impl FrictionlessModes {
             }
             kept
         };
-        let factors = inertia
-            .factorize_amid(&frequencies[..kept])
-            .unwrap_or(factors);
+        let factors = inertia.factors(&frequencies[..kept], Some(factors))?;
         Ok(Self {
             vectors: pairs.vectors.get(.., ..kept).to_owned(),
             frequencies: frequencies[..kept].to_vec(),
             factors,
         })
     }
+}
+
+/// Vectors and frequencies that were kept, if they are some.
+fn recalled(kept: Option<Vec<Vec<f64>>>, unknowns: usize) -> Option<(Mat<f64>, Vec<f64>)> {
+    let mut columns = kept?;
+    let frequencies = columns.pop()?;
+    let is_whole = frequencies.len() == columns.len() && !columns.is_empty();
+    let vectors = from_columns(&columns, unknowns)?;
+    is_whole.then_some((vectors, frequencies))
 }
 
 /// Number of leading frequencies before the widest relative gap at or after `wanted`.
@@ -137,6 +179,19 @@ impl<'a> Inertia<'a> {
     fn factorize_stiffness(&self) -> Result<StiffnessFactors, LinalgError> {
         let ldl = SparseLdl::factorize(&self.analysis, &self.stiffness.evaluate(0.0))?;
         Ok(StiffnessFactors::Symmetric(Box::new(ldl)))
+    }
+
+    /// Factors of `K - sigma M` with a shift amid the modes, else those of `K`, where they are known already.
+    fn factors(
+        &self,
+        frequencies: &[f64],
+        unshifted: Option<StiffnessFactors>,
+    ) -> Result<StiffnessFactors, LinalgError> {
+        match (self.factorize_amid(frequencies), unshifted) {
+            (Some(amid), _) => Ok(amid),
+            (None, Some(unshifted)) => Ok(unshifted),
+            (None, None) => self.factorize_stiffness(),
+        }
     }
 
     /// Factors of `K - sigma M` with a shift amid the modes; nothing where there is no such gap, or no such factors.

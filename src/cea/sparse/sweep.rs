@@ -10,7 +10,7 @@ use super::point::{PointSolver, SolvedPoint};
 use super::{RESIDUAL_BOUND, TRACKING_MARGIN};
 use crate::cea::{
     CeaError, ComplexMode, FrictionPoint, FrictionSweep, ModeLimit, SweepProgress, SweepRequest,
-    UnstableInterval,
+    SweepStage, SweepWatch, UnstableInterval,
 };
 use crate::linalg::LinalgError;
 use crate::prestress::SlidingTangent;
@@ -29,8 +29,8 @@ const MAX_REPAIRS: usize = 8;
 ///
 /// Oscillating modes of lowest natural frequency only: overdamped motions, and modes whose eigenvalue is
 /// far from the origin because of damping alone, are not searched. Friction values are solved in parallel
-/// on the current rayon pool; the result is the same, bit for bit, for any number of threads. `progress`
-/// is called from those threads.
+/// on the current rayon pool; the result is the same, bit for bit, for any number of threads, and whether `watch` kept a part of
+/// it from an earlier run or not.
 ///
 /// Points come in the order given; repeated values are computed once.
 ///
@@ -40,11 +40,11 @@ const MAX_REPAIRS: usize = 8;
 pub fn sweep(
     tangent: &SlidingTangent,
     request: &SweepRequest<'_>,
-    progress: &(dyn Fn(SweepProgress) + Sync),
+    watch: &dyn SweepWatch,
 ) -> Result<FrictionSweep, CeaError> {
-    let mut sweep = SparseSweep::prepare(tangent, request)?;
+    let mut sweep = SparseSweep::prepare(tangent, request, watch)?;
     sweep.cover()?;
-    sweep.solve(progress)?;
+    sweep.solve()?;
     let branches = sweep.track()?;
     sweep.finish(request, &branches)
 }
@@ -62,6 +62,7 @@ pub struct SparseSweep<'a> {
     lowest: f64,
     points: Vec<SolvedPoint>,
     labels: Vec<BranchLabel>,
+    watch: &'a dyn SweepWatch,
 }
 
 impl<'a> SparseSweep<'a> {
@@ -72,6 +73,7 @@ impl<'a> SparseSweep<'a> {
     pub fn prepare(
         tangent: &'a SlidingTangent,
         request: &SweepRequest<'_>,
+        watch: &'a dyn SweepWatch,
     ) -> Result<Self, CeaError> {
         let mut grid = request.rising_grid()?;
         request.limit.check()?;
@@ -79,7 +81,7 @@ impl<'a> SparseSweep<'a> {
         if lowest > 0.0 {
             grid.insert(0, 0.0);
         }
-        let modes = FrictionlessModes::compute(tangent, request.limit)?;
+        let modes = FrictionlessModes::compute_watched(tangent, request.limit, watch)?;
         let highest = modes.frequencies.last().copied().unwrap_or(1.0);
         let linearization = Linearization::of(tangent, highest);
         Ok(Self {
@@ -87,11 +89,18 @@ impl<'a> SparseSweep<'a> {
             linearization,
             limit: request.limit,
             edge: ContactEdge::of(tangent),
-            builder: BasisBuilder::new(tangent, linearization, &modes.vectors, modes.factors),
+            builder: BasisBuilder::new(
+                tangent,
+                linearization,
+                &modes.vectors,
+                modes.factors,
+                watch,
+            ),
             grid,
             lowest,
             points: Vec::new(),
             labels: Vec::new(),
+            watch,
         })
     }
 
@@ -131,10 +140,10 @@ impl<'a> SparseSweep<'a> {
     ///
     /// # Errors
     /// As [`sweep`].
-    pub fn solve(&mut self, progress: &(dyn Fn(SweepProgress) + Sync)) -> Result<(), CeaError> {
+    pub fn solve(&mut self) -> Result<(), CeaError> {
         let all: Vec<usize> = (0..self.grid.len()).collect();
         let goal = self.linearization.force_residual_goal();
-        self.points = self.solve_points(&all, progress)?;
+        self.points = self.solve_points(&all)?;
         for _ in 0..MAX_REPAIRS + self.grid.len() {
             let missing: Vec<usize> = all
                 .iter()
@@ -158,7 +167,7 @@ impl<'a> SparseSweep<'a> {
                 }
                 self.builder.search(self.grid[worst], TRACKING_MARGIN)?;
             }
-            for (k, point) in missing.iter().zip(self.solve_points(&missing, &|_| {})?) {
+            for (k, point) in missing.iter().zip(self.solve_points(&missing)?) {
                 self.points[*k] = point;
             }
         }
@@ -172,22 +181,32 @@ impl<'a> SparseSweep<'a> {
         Ok(())
     }
 
-    fn solve_points(
-        &self,
-        indices: &[usize],
-        progress: &(dyn Fn(SweepProgress) + Sync),
-    ) -> Result<Vec<SolvedPoint>, LinalgError> {
-        let solver = self.point_solver();
-        let (solved, total) = (AtomicUsize::new(0), indices.len());
+    fn solve_points(&self, indices: &[usize]) -> Result<Vec<SolvedPoint>, LinalgError> {
+        let solved = AtomicUsize::new(0);
         indices
             .par_iter()
             .map(|&k| {
-                let point = solver.solve(&self.builder.model, self.grid[k]);
-                let solved = solved.fetch_add(1, Ordering::Relaxed) + 1;
-                progress(SweepProgress { solved, total });
+                let point = self.solve_point(self.grid[k]);
+                self.watch.reached(SweepProgress {
+                    stage: SweepStage::Values,
+                    solved: solved.fetch_add(1, Ordering::Relaxed) + 1,
+                    total: indices.len(),
+                });
                 point
             })
             .collect()
+    }
+
+    /// The point at `mu` in the basis as it is, or what an earlier run of the same sweep found there.
+    fn solve_point(&self, mu: f64) -> Result<SolvedPoint, LinalgError> {
+        let name = format!("value-{:04}-{mu:?}", self.builder.steps());
+        let kept = self.watch.recall(&name);
+        if let Some(point) = kept.and_then(|kept| SolvedPoint::from_columns(mu, &kept)) {
+            return Ok(point);
+        }
+        let point = self.point_solver().solve(&self.builder.model, mu)?;
+        self.watch.keep(&name, &point.to_columns());
+        Ok(point)
     }
 
     fn point_solver(&self) -> PointSolver<'_> {
@@ -247,7 +266,7 @@ impl<'a> SparseSweep<'a> {
                 searched = true;
                 self.builder.search(to, TRACKING_MARGIN)?;
             }
-            self.solve(&|_| {})?;
+            self.solve()?;
         }
     }
 
@@ -380,6 +399,7 @@ impl<'a> SparseSweep<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cea::Unwatched;
     use crate::cea::sparse::StiffnessFactors;
     use crate::cea::sparse::fixtures::string_on_belt;
 
@@ -394,9 +414,9 @@ mod tests {
                 limit: ModeLimit::Lowest(6),
                 shapes_at: &[],
             };
-            let mut sweep = SparseSweep::prepare(&tangent, &request).unwrap();
+            let mut sweep = SparseSweep::prepare(&tangent, &request, &Unwatched).unwrap();
             sweep.cover().unwrap();
-            sweep.solve(&|_| {}).unwrap();
+            sweep.solve().unwrap();
             let complete = sweep.points[2].modes.len();
             let lost = sweep.points[2].modes.remove(3);
             sweep.points[2].checks.remove(3);
@@ -416,13 +436,19 @@ mod tests {
         let modes = FrictionlessModes::compute(&tangent, ModeLimit::Lowest(6)).unwrap();
         let linearization = Linearization::of(&tangent, 1.0);
         let without_second = crate::linalg::dense::pick_columns(&modes.vectors, &[0, 2, 3, 4, 5]);
-        let mut builder =
-            BasisBuilder::new(&tangent, linearization, &without_second, modes.factors);
+        let mut builder = BasisBuilder::new(
+            &tangent,
+            linearization,
+            &without_second,
+            modes.factors,
+            &Unwatched,
+        );
         let before = builder.model.solve(0.2, 5).unwrap();
         builder.search(0.2, 2).unwrap();
         let after = builder.model.solve(0.2, 5).unwrap();
         let factors = StiffnessFactors::frictionless(&tangent).unwrap();
-        let mut complete = BasisBuilder::new(&tangent, linearization, &modes.vectors, factors);
+        let mut complete =
+            BasisBuilder::new(&tangent, linearization, &modes.vectors, factors, &Unwatched);
         complete.cover(&[0.2]).unwrap();
         for (found, exact) in after.iter().zip(complete.model.solve(0.2, 5).unwrap()) {
             assert!((found.eigenvalue - exact.eigenvalue).norm() < 1e-9 * exact.eigenvalue.norm());

@@ -25,7 +25,7 @@ mod states;
 
 pub use assembly::AssemblyModel;
 pub use dampings::dampings;
-pub use map::map;
+pub use map::{map, watched_map};
 pub use model::{Model, Solver, Spectrum, asked_modes, mode_limit};
 pub use sliding::{SlidingModel, SteadyState};
 pub use solid::SolidBody;
@@ -35,11 +35,11 @@ pub use states::WholeMesh;
 
 use super::StudyError;
 use crate::case::{Case, Cea, Diagnostic, ModeSelection};
-use crate::cea::{FrictionSweep, SweepProgress, SweepRequest};
+use crate::cea::{FrictionSweep, SweepRequest, SweepWatch, Unwatched};
 use crate::results::cea::{BaseField, CeaReport, Reading, SensitivityReport};
 
-/// Hears of every friction value that is solved.
-pub type Progress<'a> = dyn Fn(SweepProgress) + Sync + 'a;
+/// Hears of every friction value that is solved, and may keep what took long to find.
+pub type Progress<'a> = dyn SweepWatch + 'a;
 
 /// What a solver gives back.
 pub struct Solution {
@@ -77,7 +77,7 @@ pub fn modes_and_onsets(case: &Case) -> Result<FrictionSweep, StudyError> {
         },
     };
     let model = Model::new(case, &cea)?;
-    let sweep = model.spectrum(case, &request, false, &|_| {})?.sweep;
+    let sweep = model.spectrum(case, &request, false, &Unwatched)?.sweep;
     refuse_no_modes(case, &cea, &sweep)?;
     Ok(sweep)
 }

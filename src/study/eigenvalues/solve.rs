@@ -7,7 +7,7 @@ use super::solid::SolidBody;
 use super::{Progress, SlidingModel, Solution, StudyError};
 use crate::case::{Body, Case, Cea, CeaMethod};
 use crate::cea::cyclic::{Coverage, Overdamped, Sensitivity};
-use crate::cea::{CeaError, FrictionSweep, SweepRequest};
+use crate::cea::{CeaError, FrictionSweep, SweepRequest, Unwatched};
 use crate::fem::RegionMaterial;
 use crate::results::cea::SensitivityReport;
 use std::f64::consts::TAU;
@@ -30,7 +30,7 @@ pub fn solve(
 /// # Errors
 /// Those of the solver.
 pub fn solve_modes(case: &Case, cea: &Cea, model: &SlidingModel) -> Result<Solution, StudyError> {
-    solve_with(case, cea, model, (false, &|_| {}))
+    solve_with(case, cea, model, (false, &Unwatched))
 }
 
 fn solve_with(

@@ -4,7 +4,9 @@ use super::StudyError;
 use super::model::{Model, Solver, mode_limit};
 use crate::case::{Case, Cea, CeaMethod, ModeSelection};
 use crate::cea::cyclic::Sensitivity;
-use crate::cea::{CeaError, ComplexMode, FrictionSweep, ModeLimit, SweepRequest, UnstableInterval};
+use crate::cea::{
+    CeaError, ComplexMode, FrictionSweep, ModeLimit, SweepRequest, UnstableInterval, Unwatched,
+};
 use crate::fem::MassKind;
 use crate::prestress::TangentOptions;
 use crate::study::tangent_options;
@@ -51,7 +53,7 @@ pub fn modes_below(
         limit: mode_limit(&cea),
         shapes_at: &[],
     };
-    let found = model.spectrum(case, &request, with_rates, &|_| {})?;
+    let found = model.spectrum(case, &request, with_rates, &Unwatched)?;
     let point = found.sweep.points.into_iter().next();
     Ok((
         point.map_or_else(Vec::new, |point| point.modes),
@@ -76,7 +78,7 @@ pub fn modes_at_own_friction(
     let solver = Solver::by_symmetry(&case.body);
     let frictions = request.friction_coefficients;
     let model = Model::with_solver(case, solver, *options, frictions)?;
-    let found = model.spectrum(case, &request, false, &|_| {})?;
+    let found = model.spectrum(case, &request, false, &Unwatched)?;
     let point = found.sweep.points.into_iter().next();
     Ok(point.map_or_else(Vec::new, |point| point.modes))
 }
@@ -131,7 +133,7 @@ pub fn unstable_intervals(
             intervals: found.intervals,
         });
     }
-    let found = model.spectrum(case, &request, false, &|_| {})?;
+    let found = model.spectrum(case, &request, false, &Unwatched)?;
     super::refuse_no_modes(case, &cea, &found.sweep)?;
     let followed = match (&model, found.coverage) {
         (Model::Sectors(..), Some(coverage)) => coverage.followed,

@@ -3,7 +3,9 @@
 use super::Progress;
 use crate::case::Case;
 use crate::cea::sparse;
-use crate::cea::{CeaError, FrictionPoint, FrictionSweep, SweepRequest, UnstableInterval};
+use crate::cea::{
+    CeaError, FrictionPoint, FrictionSweep, PartWatch, SweepRequest, UnstableInterval,
+};
 use crate::fem::assemble_stiffness;
 use crate::mesh::Mesh;
 use crate::prestress::{SlidingRange, SlidingTangent, SteadySliding, TangentOptions};
@@ -114,7 +116,12 @@ pub(super) fn sweep_states(
             friction_coefficients: &values,
             ..*request
         };
-        parts.push(sparse::sweep(&tangent, &part, progress)?);
+        let watch = PartWatch {
+            whole: progress,
+            prefix: format!("state-{k}-"),
+            is_heard: true,
+        };
+        parts.push(sparse::sweep(&tangent, &part, &watch)?);
     }
     Ok((joined(parts, frictions), dofs))
 }
