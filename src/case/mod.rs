@@ -14,6 +14,7 @@ mod convergence;
 mod cost;
 mod cycle;
 mod diagnostic;
+mod elastic;
 mod fit;
 mod frf;
 mod imported;
@@ -140,13 +141,13 @@ impl Case {
         let end = Location::new(0, raw.text.trim_end().len()..raw.text.trim_end().len());
         let root = Section::root(&findings, &raw.root, end);
         let title = title(&raw, root.optional_text("title").unwrap_or_default());
-        let material = model::material(&root);
+        let mut material = model::material(&root);
         let model::Model {
             body,
             thickness,
             mesh,
             contact,
-        } = model::model(&root, &raw, &material);
+        } = model::model(&root, &raw, &mut material);
         let damping = model::damping(&root);
         let cea = cea::cea(&root, body.as_ref(), contact.sliding.friction_coefficient);
         let transient = transient::transient(&root, body.as_ref(), &contact.sliding);

@@ -4,13 +4,17 @@ use super::assembly;
 use super::body::{Annulus, Body, Revolution, node_count};
 use super::boundaries::{self, NamedCondition};
 use super::contact::{Contact, contact};
+use super::elastic::{Surroundings, elastic, place_axes};
 use super::imported::{self, BodyParts};
 use super::raw::{MeshBytes, RawCase};
 use super::reader::Section;
 use super::shaft;
 use super::solid;
 use crate::fem::{AnnulusMaterials, ElasticMaterial, RayleighDamping, RegionMaterial};
-use crate::mesh::{AnnulusSpecification, BoundaryCondition, ElementKind, SolidSpecification};
+use crate::mesh::{
+    AnnulusSpecification, BoundaryCondition, CounterfaceSpecification, ElementKind,
+    SolidSpecification,
+};
 
 /// `[damping]`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,7 +36,7 @@ pub(super) struct Model {
 }
 
 /// The generated body, or that of a mesh file.
-pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &ElasticMaterial) -> Model {
+pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &mut ElasticMaterial) -> Model {
     let conditions = boundaries::all(root);
     let is_pressed = conditions
         .iter()
@@ -48,8 +52,16 @@ pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &ElasticMateria
     }
     let Some(file) = file else {
         let axial = solid::axial_elements(&geometry, &mesh, is_solid);
-        let (mut annulus, shaft_material) =
+        let sectors = Surroundings::Sectors {
+            is_plane: !is_solid,
+        };
+        place_axes(root, &["material"], material, &sectors);
+        let (mut annulus, mut shaft_material) =
             annulus(root, &geometry, &mesh, (&conditions, is_solid), material);
+        if let Some(shaft) = &mut shaft_material {
+            let path = ["materials", "shaft"];
+            place_axes(root, &path, &mut shaft.elastic, &sectors);
+        }
         geometry.close();
         mesh.close();
         let (contact, place) = contact(root, Some((&annulus, is_solid)), is_pressed);
@@ -86,8 +98,8 @@ pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &ElasticMateria
     ignore_generated(&geometry, &mesh);
     geometry.close();
     if root.has("contacts") || root.has("ties") {
-        let parts = (conditions.as_slice(), material);
-        let model = assembly_model(root, raw, (&mesh, &file), parts, thickness);
+        let conditions = conditions.as_slice();
+        let model = assembly_model(root, raw, (&mesh, &file), (conditions, material), thickness);
         mesh.close();
         return model;
     }
@@ -100,12 +112,18 @@ pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &ElasticMateria
             Some("give radii and element counts, or a plane formulation".to_owned()),
         );
     }
+    let plane = Surroundings::Plane {
+        center: match place.counterface {
+            CounterfaceSpecification::Cylinder { center, .. } => Some(center),
+            CounterfaceSpecification::Plane { .. } => None,
+        },
+    };
     let parts = BodyParts {
         scale,
         place,
         interference: contact.sliding.interference,
         boundaries: conditions,
-        materials: imported::materials(root, material),
+        materials: materials(root, material, &plane),
         common: *material,
     };
     let reject = |(message, label): (String, String)| mesh.reject("file", message, label, None);
@@ -131,7 +149,7 @@ fn assembly_model(
     root: &Section<'_>,
     raw: &RawCase,
     (mesh, file): (&Section<'_>, &str),
-    (conditions, material): (&[NamedCondition], &ElasticMaterial),
+    (conditions, material): (&[NamedCondition], &mut ElasticMaterial),
     thickness: f64,
 ) -> Model {
     let _ = mesh.optional_count("axial_elements");
@@ -146,8 +164,9 @@ fn assembly_model(
             Some("describe it under [contacts.NAME]".to_owned()),
         );
     }
-    let own = imported::materials(root, material);
     let (parts, contact) = assembly::sections(root);
+    let solids = Surroundings::Solids { axis: parts.axis() };
+    let own = materials(root, material, &solids);
     let reject = |(message, label): (String, String)| mesh.reject("file", message, label, None);
     let bytes = imported::mesh_bytes(raw, file).map_err(&reject).ok();
     let body = bytes.as_ref().and_then(|bytes| {
@@ -160,6 +179,20 @@ fn assembly_model(
         mesh: bytes,
         contact,
     }
+}
+
+/// `[materials.*]` with their axes and those of `[material]` laid into the body.
+fn materials(
+    root: &Section<'_>,
+    common: &mut ElasticMaterial,
+    body: &Surroundings,
+) -> Vec<(String, RegionMaterial)> {
+    place_axes(root, &["material"], common, body);
+    let mut own = imported::materials(root, common);
+    for (name, material) in &mut own {
+        place_axes(root, &["materials", name], &mut material.elastic, body);
+    }
+    own
 }
 
 /// Reads what describes a generated body, which has no effect beside `mesh.file`, and says so.
@@ -264,12 +297,8 @@ fn check_mesh(mesh: &Section<'_>, annulus: &AnnulusSpecification) {
 
 pub(super) fn material(root: &Section<'_>) -> ElasticMaterial {
     let section = root.section("material", true);
-    let material = ElasticMaterial {
-        young_modulus: section.number("young_modulus"),
-        poisson_ratio: section.number("poisson_ratio"),
-        density: section.number("density"),
-        formulation: section.choice("formulation"),
-    };
+    let formulation = section.choice("formulation");
+    let material = elastic(&section, formulation);
     section.close();
     material
 }

@@ -8,6 +8,7 @@ pub const STEEL: ElasticMaterial = ElasticMaterial {
     poisson_ratio: 0.3,
     density: 7850.0,
     formulation: PlaneFormulation::ThreeDimensional,
+    ..ElasticMaterial::PLAIN
 };
 
 /// A block of bricks; its sides are the surfaces `NAME_x0`, `NAME_x1`, `NAME_y0` ... of the file.
