@@ -29,6 +29,7 @@ fn main() {
         poisson_ratio: 0.3805,
         density: 1228.0,
         formulation: PlaneFormulation::PlaneStrain,
+        ..ElasticMaterial::PLAIN
     };
     let point = OperatingPoint {
         contact: SlidingContact {

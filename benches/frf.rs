@@ -37,6 +37,7 @@ const MATERIAL: ElasticMaterial = ElasticMaterial {
     poisson_ratio: 0.3805,
     density: 1228.0,
     formulation: PlaneFormulation::PlaneStrain,
+    ..ElasticMaterial::PLAIN
 };
 const DAMPING: RayleighDamping = RayleighDamping {
     mass_coefficient: 40.0,

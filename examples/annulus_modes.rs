@@ -27,6 +27,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
         poisson_ratio: 0.38,
         density: 1228.0,
         formulation: PlaneFormulation::PlaneStrain,
+        ..ElasticMaterial::PLAIN
     };
     let options = TangentOptions {
         mass: MassKind::Consistent,

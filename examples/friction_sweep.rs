@@ -31,6 +31,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
         poisson_ratio: 0.3805,
         density: 1228.0,
         formulation: PlaneFormulation::PlaneStrain,
+        ..ElasticMaterial::PLAIN
     };
     let contact = SlidingContact {
         decay: None,

@@ -30,6 +30,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
         poisson_ratio: 0.3805,
         density: 1228.0,
         formulation: PlaneFormulation::PlaneStrain,
+        ..ElasticMaterial::PLAIN
     };
     let damping = RayleighDamping {
         mass_coefficient: 40.0,

@@ -44,6 +44,18 @@ struct NamedContact {
     surfaces: SlidingSurfaces,
 }
 
+impl AssemblyParts {
+    /// Direction and a point of the axis of the motion, where all motions have the same.
+    pub(super) fn axis(&self) -> Result<[[f64; 3]; 2], &'static str> {
+        let mut motions = self.motions.iter().map(|(_, motion)| motion);
+        let first = motions.next().ok_or("the case has no [motion.*]")?;
+        if motions.any(|other| other.axis != first.axis || other.center != first.center) {
+            return Err("the motions of the case have several");
+        }
+        Ok([first.axis, first.center])
+    }
+}
+
 /// Reads the sections of an assembly; its first contact and motion give the common contact of the case: a sweep varies the
 /// friction coefficient of the first contact, and the others keep their ratio to it.
 pub(super) fn sections(root: &Section<'_>) -> (AssemblyParts, Contact) {

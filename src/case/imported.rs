@@ -1,6 +1,7 @@
 //! Bodies from mesh files: `mesh.file`, `[materials.*]`, and where the counterface is.
 
 use super::boundaries::NamedCondition;
+use super::elastic::elastic;
 use super::inclusion;
 use super::opposite::{check_meeting, opposite_curve};
 use super::raw::{MeshBytes, RawCase};
@@ -131,12 +132,7 @@ pub(super) fn materials(
             section.optional_number("mass_coefficient"),
             section.optional_number("stiffness_coefficient"),
         ];
-        let elastic = ElasticMaterial {
-            young_modulus: section.number("young_modulus"),
-            poisson_ratio: section.number("poisson_ratio"),
-            density: section.number("density"),
-            formulation: common.formulation,
-        };
+        let elastic = elastic(&section, common.formulation);
         let damping = match coefficients {
             [None, None] => None,
             [mass, stiffness] => Some(RayleighDamping {

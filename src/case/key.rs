@@ -88,6 +88,8 @@ pub enum Kind {
     Choice(fn() -> Vec<&'static str>),
     /// Some of a few words: one or a list.
     Choices(fn() -> Vec<&'static str>),
+    /// One of a few words, or two vectors.
+    Directions(fn() -> Vec<&'static str>),
     /// The dotted name of a case key whose value is a number.
     Parameter,
     /// A table whose keys are case keys, in words.
@@ -99,6 +101,8 @@ pub enum Kind {
 pub enum Default {
     /// Nothing: its section needs the key.
     Required,
+    /// Nothing: its section needs the key, or what these words say.
+    RequiredUnless(&'static str),
     /// This value, in TOML.
     Value(&'static str),
     /// What these words say.
@@ -183,6 +187,7 @@ impl CaseKey {
             Kind::Nodes => "node number, { x, y }, { radius, angle_deg } or list".to_owned(),
             Kind::Choice(words) => format!("\"{}\"", words().join("\", \"")),
             Kind::Choices(words) => format!("some of \"{}\"", words().join("\", \"")),
+            Kind::Directions(words) => format!("\"{}\" or two vectors", words().join("\", \"")),
             Kind::Parameter => "numeric case key".to_owned(),
             Kind::Table(words) => words.to_owned(),
         }
@@ -192,7 +197,7 @@ impl CaseKey {
     pub fn default_text(&self) -> &'static str {
         match self.default {
             Default::Required => "required",
-            Default::Value(text) | Default::Otherwise(text) => text,
+            Default::Value(text) | Default::Otherwise(text) | Default::RequiredUnless(text) => text,
         }
     }
 

@@ -2,16 +2,16 @@
 //! JSON schema and the commented template are made from.
 
 use super::key::Bound::{AtLeast, Between, Finite, NotNegative, Positive};
-use super::key::Default::{Otherwise, Required, Value};
+use super::key::Default::{Otherwise, Required, RequiredUnless, Value};
 use super::key::Kind::{
-    Choice, Choices, Count, Counts, Flag, Node, Nodes, Number, NumberOr, Numbers, Parameter, Table,
-    Text,
+    Choice, Choices, Count, Counts, Directions, Flag, Node, Nodes, Number, NumberOr, Numbers,
+    Parameter, Table, Text,
 };
 use super::key::{CaseKey, Default, Kind};
 use super::range::Spacing;
 use super::words::{
-    Analysis, BaseContact, CeaMethod, Combination, ConditionWord, CounterfaceWord, FilePart,
-    FrfMethod, HeldAxis, OnsetChoice, StabilityChoice, UnitsWord, words,
+    Analysis, AxesWord, BaseContact, CeaMethod, Combination, ConditionWord, CounterfaceWord,
+    FilePart, FrfMethod, HeldAxis, OnsetChoice, StabilityChoice, UnitsWord, words,
 };
 use crate::fem::{MassKind, PlaneFormulation};
 use crate::frf::{Direction, FrfBoundary};
@@ -19,6 +19,7 @@ use crate::mesh::ElementKind;
 use crate::prestress::BaseChoice;
 use crate::signal::ResponseQuantity;
 use crate::transient::{InitialState, OperatorChoice};
+use std::borrow::Cow;
 
 /// A key that every command uses which reads its section.
 const fn key(
@@ -90,13 +91,21 @@ pub const KEYS: &[CaseKey] = &[
     key("boundaries.*.tangential_damping", Number(NotNegative), "Pa s/m", Value("0.0"), "0.0", "the tangential dashpot of a support"),
     key("boundaries.*.pressure", Number(Finite), "Pa", Otherwise("needed by condition = \"pressure\""), "1e5", "the pressure that pushes onto the body"),
 
-    key("material.young_modulus", Number(Positive), "Pa", Required, "2.5e9", "Young's modulus"),
-    key("material.poisson_ratio", Number(Between(-1.0, 0.5)), "", Required, "0.3805", "Poisson's ratio"),
+    key("material.young_modulus", Number(Positive), "Pa", RequiredUnless("required, or young_moduli"), "2.5e9", "Young's modulus"),
+    key("material.poisson_ratio", Number(Between(-1.0, 0.5)), "", RequiredUnless("required, or poisson_ratios"), "0.3805", "Poisson's ratio"),
+    key("material.young_moduli", Numbers(Positive), "Pa", Otherwise("isotropic"), "[8e9, 8e9, 1.5e9]", "Young's moduli of an orthotropic material along its axes 1, 2 and 3, in place of young_modulus; `young_moduli[3]` names the third alone"),
+    key("material.poisson_ratios", Numbers(Finite), "", Otherwise("isotropic"), "[0.25, 0.1, 0.1]", "its Poisson's ratios nu_12, nu_13 and nu_23: nu_ij is the contraction along j under a stress along i"),
+    key("material.shear_moduli", Numbers(Positive), "Pa", Otherwise("isotropic"), "[3e9, 1e9, 1e9]", "its shear moduli G_12, G_13 and G_23"),
+    key("material.axes", Directions(words::<AxesWord>), "", Value("\"global\""), "\"cylindrical\"", "where its axes lie: along x, y, z; radial, circumferential, axial about the axis of the motion; or along the first of two vectors and in the plane of both"),
     key("material.density", Number(Positive), "kg/m3", Required, "1228.0", "the density"),
     key("material.formulation", Choice(words::<PlaneFormulation>), "", Value("\"plane-strain\""), "\"plane-strain\"", "the out-of-plane assumption, or none"),
 
-    key("materials.*.young_modulus", Number(Positive), "Pa", Required, "2.1e11", "Young's modulus of a physical surface, or of the `shaft`"),
-    key("materials.*.poisson_ratio", Number(Between(-1.0, 0.5)), "", Required, "0.3", "its Poisson's ratio"),
+    key("materials.*.young_modulus", Number(Positive), "Pa", RequiredUnless("required, or young_moduli"), "2.1e11", "Young's modulus of a physical surface, or of the `shaft`"),
+    key("materials.*.poisson_ratio", Number(Between(-1.0, 0.5)), "", RequiredUnless("required, or poisson_ratios"), "0.3", "its Poisson's ratio"),
+    key("materials.*.young_moduli", Numbers(Positive), "Pa", Otherwise("isotropic"), "[8e9, 8e9, 1.5e9]", "Young's moduli of an orthotropic material along its axes 1, 2 and 3, in place of young_modulus; `young_moduli[3]` names the third alone"),
+    key("materials.*.poisson_ratios", Numbers(Finite), "", Otherwise("isotropic"), "[0.25, 0.1, 0.1]", "its Poisson's ratios nu_12, nu_13 and nu_23: nu_ij is the contraction along j under a stress along i"),
+    key("materials.*.shear_moduli", Numbers(Positive), "Pa", Otherwise("isotropic"), "[3e9, 1e9, 1e9]", "its shear moduli G_12, G_13 and G_23"),
+    key("materials.*.axes", Directions(words::<AxesWord>), "", Value("\"global\""), "\"cylindrical\"", "where its axes lie: along x, y, z; radial, circumferential, axial about the axis of the motion; or along the first of two vectors and in the plane of both"),
     key("materials.*.density", Number(Positive), "kg/m3", Required, "7850.0", "its density"),
     key("materials.*.mass_coefficient", Number(NotNegative), "1/s", Otherwise("[damping]"), "20.0", "Rayleigh's alpha of its own"),
     key("materials.*.stiffness_coefficient", Number(NotNegative), "s", Otherwise("[damping]"), "1e-7", "Rayleigh's beta of its own"),
@@ -238,9 +247,50 @@ pub(super) const PLACE: &[CaseKey] = &[
     key("angle_deg", Number(Finite), "degrees", Otherwise("x and y"), "90.0", "the angle about that axis from +x"),
 ];
 
-/// The entry of a dotted key, or of a key of a range.
+/// One number of a list, `KEY[2]` or `KEY.2` counted from 1, of lists whose places mean something.
+#[rustfmt::skip]
+const ELEMENTS: &[CaseKey] = &[
+    key("material.young_moduli.*", Number(Positive), "Pa", Required, "8e9", "one of Young's moduli"),
+    key("material.poisson_ratios.*", Number(Finite), "", Required, "0.25", "one of Poisson's ratios"),
+    key("material.shear_moduli.*", Number(Positive), "Pa", Required, "3e9", "one of the shear moduli"),
+    key("materials.*.young_moduli.*", Number(Positive), "Pa", Required, "8e9", "one of Young's moduli"),
+    key("materials.*.poisson_ratios.*", Number(Finite), "", Required, "0.25", "one of Poisson's ratios"),
+    key("materials.*.shear_moduli.*", Number(Positive), "Pa", Required, "3e9", "one of the shear moduli"),
+];
+
+/// A dotted name with places in lists as parts of it: `KEY[2]` as `KEY.2`.
+pub(super) fn dotted(name: &str) -> Cow<'_, str> {
+    let mut parts = name.split('[');
+    let first = parts.next().unwrap_or_default();
+    let mut with_parts = first.to_owned();
+    for part in parts {
+        let digits = part.split_once(']').filter(|(place, _)| {
+            !place.is_empty() && place.bytes().all(|byte| byte.is_ascii_digit())
+        });
+        match digits {
+            Some((place, rest)) => with_parts += &format!(".{place}{rest}"),
+            None => with_parts += &format!("[{part}"),
+        }
+    }
+    match with_parts == name {
+        true => Cow::Borrowed(name),
+        false => Cow::Owned(with_parts),
+    }
+}
+
+/// The place in a list, from 0, that the last part of a dotted name gives counted from 1.
+pub(super) fn list_place(part: &str) -> Option<usize> {
+    part.parse::<usize>().ok()?.checked_sub(1)
+}
+
+/// The entry of a dotted key, of a number in a list, or of a key of a range.
 pub fn find(name: &str) -> Option<&'static CaseKey> {
-    KEYS.iter().find(|key| key.is_named(name))
+    let known = KEYS.iter().find(|key| key.is_named(name));
+    known.or_else(|| {
+        let name = dotted(name);
+        list_place(name.rsplit('.').next()?).filter(|place| *place < 3)?;
+        ELEMENTS.iter().find(|key| key.is_named(&name))
+    })
 }
 
 /// Whether a dotted name is that of a key or of a section.

@@ -14,6 +14,7 @@ mod convergence;
 mod cost;
 mod cycle;
 mod diagnostic;
+mod elastic;
 mod fit;
 mod frf;
 mod imported;
@@ -150,13 +151,13 @@ impl Case {
         let (effective, taken) = taken::effective(&mut raw);
         let root = Section::root(&findings, &effective, end);
         let title = title(&raw, root.optional_text("title").unwrap_or_default());
-        let material = model::material(&root);
+        let mut material = model::material(&root);
         let model::Model {
             body,
             thickness,
             mesh,
             contact,
-        } = model::model(&root, &raw, &material);
+        } = model::model(&root, &raw, &mut material);
         let damping = model::damping(&root);
         let cea = cea::cea(&root, body.as_ref(), contact.sliding.friction_coefficient);
         let transient = transient::transient(&root, body.as_ref(), &contact.sliding);

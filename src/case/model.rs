@@ -4,6 +4,7 @@ use super::assembly;
 use super::body::{Annulus, Body, Revolution, node_count};
 use super::boundaries::{self, NamedCondition};
 use super::contact::{Contact, contact};
+use super::elastic::{Surroundings, elastic, place_axes};
 use super::imported::{self, BodyParts};
 use super::raw::{MeshBytes, RawCase};
 use super::reader::Section;
@@ -11,7 +12,10 @@ use super::shaft;
 use super::solid;
 use super::words::{FilePart, UnitsWord};
 use crate::fem::{AnnulusMaterials, ElasticMaterial, RayleighDamping, RegionMaterial};
-use crate::mesh::{AnnulusSpecification, BoundaryCondition, ElementKind, SolidSpecification};
+use crate::mesh::{
+    AnnulusSpecification, BoundaryCondition, CounterfaceSpecification, ElementKind,
+    SolidSpecification,
+};
 
 /// `[damping]`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,7 +37,7 @@ pub(super) struct Model {
 }
 
 /// The generated body, or that of a mesh file.
-pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &ElasticMaterial) -> Model {
+pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &mut ElasticMaterial) -> Model {
     let conditions = boundaries::all(root);
     let is_pressed = conditions
         .iter()
@@ -49,8 +53,16 @@ pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &ElasticMateria
     }
     let Some(file) = file else {
         let axial = solid::axial_elements(&geometry, &mesh, is_solid);
-        let (mut annulus, shaft_material) =
+        let sectors = Surroundings::Sectors {
+            is_plane: !is_solid,
+        };
+        place_axes(root, &["material"], material, &sectors);
+        let (mut annulus, mut shaft_material) =
             annulus(root, &geometry, &mesh, (&conditions, is_solid), material);
+        if let Some(shaft) = &mut shaft_material {
+            let path = ["materials", "shaft"];
+            place_axes(root, &path, &mut shaft.elastic, &sectors);
+        }
         geometry.close();
         mesh.close();
         let (contact, place) = contact(root, Some((&annulus, is_solid)), is_pressed);
@@ -106,12 +118,18 @@ pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &ElasticMateria
             Some("give radii and element counts, or a plane formulation".to_owned()),
         );
     }
+    let plane = Surroundings::Plane {
+        center: match place.counterface {
+            CounterfaceSpecification::Cylinder { center, .. } => Some(center),
+            CounterfaceSpecification::Plane { .. } => None,
+        },
+    };
     let parts = BodyParts {
         scale,
         place,
         interference: contact.sliding.interference,
         boundaries: conditions,
-        materials: imported::materials(root, material),
+        materials: materials(root, material, &plane),
         common: *material,
     };
     let reject = |(message, label): (String, String)| mesh.reject("file", message, label, None);
@@ -137,7 +155,7 @@ fn assembly_model(
     root: &Section<'_>,
     raw: &RawCase,
     (mesh, file): (&Section<'_>, &str),
-    (conditions, material): (&[NamedCondition], &ElasticMaterial),
+    (conditions, material): (&[NamedCondition], &mut ElasticMaterial),
     thickness: f64,
 ) -> Model {
     let _ = mesh.optional_count("axial_elements");
@@ -152,8 +170,9 @@ fn assembly_model(
             Some("describe it under [contacts.NAME]".to_owned()),
         );
     }
-    let own = imported::materials(root, material);
     let (parts, contact) = assembly::sections(root);
+    let solids = Surroundings::Solids { axis: parts.axis() };
+    let own = materials(root, material, &solids);
     let reject = |(message, label): (String, String)| mesh.reject("file", message, label, None);
     let bytes = imported::mesh_bytes(raw, file).map_err(&reject).ok();
     let body = bytes.as_ref().and_then(|bytes| {
@@ -185,6 +204,20 @@ fn length_factor(mesh: &Section<'_>) -> f64 {
         );
     }
     10f64.powi(units.length())
+}
+
+/// `[materials.*]` with their axes and those of `[material]` laid into the body.
+fn materials(
+    root: &Section<'_>,
+    common: &mut ElasticMaterial,
+    body: &Surroundings,
+) -> Vec<(String, RegionMaterial)> {
+    place_axes(root, &["material"], common, body);
+    let mut own = imported::materials(root, common);
+    for (name, material) in &mut own {
+        place_axes(root, &["materials", name], &mut material.elastic, body);
+    }
+    own
 }
 
 /// Reads what describes a generated body, which has no effect beside `mesh.file`, and says so.
@@ -289,12 +322,8 @@ fn check_mesh(mesh: &Section<'_>, annulus: &AnnulusSpecification) {
 
 pub(super) fn material(root: &Section<'_>) -> ElasticMaterial {
     let section = root.section("material", true);
-    let material = ElasticMaterial {
-        young_modulus: section.number("young_modulus"),
-        poisson_ratio: section.number("poisson_ratio"),
-        density: section.number("density"),
-        formulation: section.choice("formulation"),
-    };
+    let formulation = section.choice("formulation");
+    let material = elastic(&section, formulation);
     section.close();
     material
 }

@@ -49,7 +49,7 @@ pub(super) fn lay(
             remove(root, &path, source, diagnostics);
         }
     } else if let Some((path, item)) = parse(text, source, diagnostics) {
-        insert(root, &path, item);
+        insert(root, &path, item, diagnostics);
     }
 }
 
@@ -61,7 +61,7 @@ fn path(
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Option<KeyPath> {
     // The key alone tells how deep the path goes; an inline table as value is not part of it.
-    match DeTable::parse(&format!("{text}=0")) {
+    match DeTable::parse(&format!("{}=0", keys::dotted(text))) {
         Ok(table) if table.get_ref().len() == 1 => Some(key_path(table.get_ref(), source)),
         _ => {
             diagnostics.push(Diagnostic::error(
@@ -195,7 +195,12 @@ fn place_within(at: &Location, errors: &mut [Diagnostic]) {
 }
 
 /// Puts a value at a path, making the tables on the way.
-fn insert(table: &mut RawTable, path: &[(String, Location)], item: RawItem) {
+fn insert(
+    table: &mut RawTable,
+    path: &[(String, Location)],
+    item: RawItem,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
     let Some(((key, key_at), rest)) = path.split_first() else {
         return;
     };
@@ -211,6 +216,21 @@ fn insert(table: &mut RawTable, path: &[(String, Location)], item: RawItem) {
             at: key_at.clone(),
         },
     });
+    if let (RawValue::Array(items), [(part, _)]) = (&mut entry.item.value, rest)
+        && let Some(place) = keys::list_place(part)
+    {
+        let count = items.len();
+        match items.get_mut(place) {
+            Some(slot) => *slot = item,
+            None => diagnostics.push(Diagnostic::error(
+                format!("{key}[{part}] is beyond the {count} numbers of the case's {key}"),
+                "no such place in the list".to_owned(),
+                item.at,
+                Some(format!("places are counted from 1: [1] to [{count}]")),
+            )),
+        }
+        return;
+    }
     if !matches!(entry.item.value, RawValue::Table(_)) {
         // A path through a plain value: the reader of that key reports the table it then finds.
         entry.item = RawItem {
@@ -219,6 +239,6 @@ fn insert(table: &mut RawTable, path: &[(String, Location)], item: RawItem) {
         };
     }
     if let RawValue::Table(inner) = &mut entry.item.value {
-        insert(inner, rest, item);
+        insert(inner, rest, item, diagnostics);
     }
 }

@@ -174,6 +174,14 @@ pub(super) fn bar_wave_speed(case: &Case) -> f64 {
     (case.material.young_modulus / case.material.density).sqrt()
 }
 
+/// The key that sets the modulus of `[material]`: of an orthotropic one the list, of whose values the mean is judged.
+pub(super) fn modulus_key(case: &Case) -> &'static str {
+    match case.material.orthotropy {
+        Some(_) => "material.young_moduli",
+        None => "material.young_modulus",
+    }
+}
+
 /// Speed of waves in a bar, `sqrt(E / rho)`.
 fn wave_speed(case: &Case) -> Option<Diagnostic> {
     let (modulus, density) = (case.material.young_modulus, case.material.density);
@@ -183,15 +191,16 @@ fn wave_speed(case: &Case) -> Option<Diagnostic> {
         return None;
     }
     // The one that no solid has; rigid ones are within a factor of ten.
+    let modulus_key = modulus_key(case);
     let key = match DENSITIES.contains(&density) {
-        true => "material.young_modulus",
+        true => modulus_key,
         false => "material.density",
     };
     Some(warning(
         case,
         key,
         format!(
-            "material.young_modulus = {modulus:e} Pa and material.density = {density:e} kg/m3 give \
+            "{modulus_key} = {modulus:e} Pa and material.density = {density:e} kg/m3 give \
              waves of {speed:.3e} m/s, outside {least} to {most} m/s"
         ),
         if key == "material.density" {
@@ -206,7 +215,7 @@ fn wave_speed(case: &Case) -> Option<Diagnostic> {
 fn poisson_ratio(case: &Case) -> Option<Diagnostic> {
     let ratio = case.material.poisson_ratio;
     let is_plane_stress = case.material.formulation == PlaneFormulation::PlaneStress;
-    if ratio <= LARGEST_POISSON_RATIO || is_plane_stress {
+    if ratio <= LARGEST_POISSON_RATIO || is_plane_stress || case.material.orthotropy.is_some() {
         return None;
     }
     Some(warning(
@@ -334,8 +343,9 @@ fn interference(case: &Case) -> Option<Diagnostic> {
     (pressure > LARGEST_PRESSURE * modulus).then(|| {
         let message = format!(
             "{key} = {delta} m gives a contact pressure of about {pressure:.3e} Pa, {:.2} of \
-             material.young_modulus = {modulus:e} Pa: strains are not small",
-            pressure / modulus
+             {} = {modulus:e} Pa: strains are not small",
+            pressure / modulus,
+            modulus_key(case),
         );
         warning(case, key, message, "a large pressure", help)
     })

@@ -1,8 +1,8 @@
 //! The case exactly as its TOML says it: a tree of values that know where they were written.
 
 use super::diagnostic::{CaseErrors, Diagnostic, Location, Source};
-use super::overrides;
 use super::value::{RawItem, RawTable, RawValue, convert_table, quote};
+use super::{keys, overrides};
 use crate::mesh::{GmshFile, MeshFileError};
 use sha2::{Digest, Sha256};
 use std::collections::HashSet;
@@ -211,7 +211,8 @@ impl RawCase {
 
     /// Where a dotted key is written, else the nearest section around it.
     pub fn place(&self, key: &str) -> Location {
-        let mut name = key;
+        let key = keys::dotted(key);
+        let mut name = &*key;
         loop {
             if let Some(item) = self.find(name) {
                 return item.at.clone();
@@ -226,12 +227,16 @@ impl RawCase {
     /// The value of a dotted key, if the case gives it.
     pub fn find(&self, key: &str) -> Option<&RawItem> {
         let mut table = &self.root;
+        let key = keys::dotted(key);
         let mut parts = key.split('.').peekable();
         while let Some(part) = parts.next() {
             let item = &table.get(part)?.item;
             match (&item.value, parts.peek()) {
                 (_, None) => return Some(item),
                 (RawValue::Table(inner), Some(_)) => table = inner,
+                (RawValue::Array(items), Some(place)) => {
+                    return items.get(keys::list_place(place)?);
+                }
                 _ => return None,
             }
         }

@@ -64,11 +64,12 @@ pub fn template() -> String {
         }
         for key in keys_of(section) {
             let (value, note) = match key.default {
-                Default::Required => (key.example, String::new()),
+                Default::Required | Default::RequiredUnless(_) => (key.example, String::new()),
                 Default::Value(value) => (value, String::new()),
                 Default::Otherwise(words) => (key.example, format!("; left out: {words}")),
             };
-            let active = needed && key.default == Default::Required;
+            let is_required = matches!(key.default, Default::Required | Default::RequiredUnless(_));
+            let active = needed && is_required;
             let comment = if active { "" } else { "# " };
             let line = format!("{comment}{} = {value}", key.short());
             let unit = match key.unit {
@@ -167,6 +168,12 @@ fn key_schema(key: &CaseKey) -> Value {
         Kind::Nodes => of_one(node()),
         Kind::Choice(words) => json!({ "enum": words() }),
         Kind::Choices(words) => of_one(json!({ "enum": words() })),
+        Kind::Directions(words) => json!({ "anyOf": [
+            { "enum": words() },
+            { "type": "array", "minItems": 2, "maxItems": 2, "items": {
+                "type": "array", "minItems": 2, "maxItems": 3, "items": { "type": "number" },
+            }},
+        ]}),
         Kind::Table(_) => json!({ "type": "object" }),
         Kind::Parameter => {
             let numeric = KEYS.iter().filter(|key| key.is_numeric());

@@ -1,7 +1,7 @@
 //! Rules between sections.
 
 use super::diagnostic::Diagnostic;
-use super::plausibility::bar_wave_speed;
+use super::plausibility::{bar_wave_speed, modulus_key};
 use super::{Case, InitialState, TimeStep};
 
 /// Steps beyond which no machine finishes a transient.
@@ -92,10 +92,11 @@ pub(super) fn infeasible(case: &Case) -> Vec<Diagnostic> {
     }
     let speed = bar_wave_speed(case);
     if !(SLOWEST_WAVES..=FASTEST_WAVES).contains(&speed) {
+        let key = modulus_key(case);
         refuse(
-            "material.young_modulus",
+            key,
             format!(
-                "material.young_modulus = {:e} Pa and material.density = {:e} kg/m3 give waves of {speed:.1e} m/s, as no \
+                "{key} = {:e} Pa and material.density = {:e} kg/m3 give waves of {speed:.1e} m/s, as no \
                  material has them",
                 case.material.young_modulus, case.material.density
             ),

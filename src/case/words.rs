@@ -95,6 +95,13 @@ pub(super) enum BaseContact {
     Compliant,
 }
 
+/// Where the axes of an orthotropic material lie.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum AxesWord {
+    Global,
+    Cylindrical,
+}
+
 /// Eigenvalue solver.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CeaMethod {
@@ -209,6 +216,7 @@ choices! {
     BaseChoice { "solved" = Self::Solved, "closed" = Self::Closed }
     HeldAxis { "x" = Self::X, "y" = Self::Y, "z" = Self::Z }
     BaseContact { "rigid" = Self::Rigid, "compliant" = Self::Compliant }
+    AxesWord { "global" = Self::Global, "cylindrical" = Self::Cylindrical }
     Direction {
         "radial" = Self::Radial,
         "tangential" = Self::Tangential,

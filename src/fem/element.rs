@@ -1,7 +1,7 @@
 //! Element matrices of isoparametric elements in nodal frames, plane and solid alike.
 //!
 //! A plane element is integrated as a solid one of unit thickness whose gradients along z vanish: strains have six components,
-//! and the material says what they mean ([`ElasticMaterial::elasticity`]).
+//! and the material says what they mean ([`ElasticMaterial::elasticity_at`]).
 
 use super::{ElasticMaterial, PlaneFormulation};
 use crate::mesh::{ElementKind, Mesh, QuadraturePoint};
@@ -221,9 +221,9 @@ impl ElementGeometry {
     ) -> Vec<Voigt> {
         let internal = self.internal_amplitudes(material, values);
         let gradients = self.displacement_gradients(points, values, internal.as_ref());
-        let gradients = gradients.iter();
-        gradients
-            .map(|gradient| stress_of(material, gradient))
+        let pairs = points.iter().zip(&gradients);
+        pairs
+            .map(|(point, gradient)| stress_of(material, gradient, self.position(point)))
             .collect()
     }
 
@@ -246,11 +246,12 @@ impl ElementGeometry {
         let size =
             dimension * self.node_count() + if self.has_incompatible_modes() { 9 } else { 0 };
         let components = self.components();
-        let law = self.solid_aware(material).elasticity();
+        let material = self.solid_aware(material);
         let points = self.stiffness_points();
         let modes = self.incompatible_gradients(&points);
         let mut matrix = DMatrix::zeros(size, size);
         for (point, modes) in points.iter().zip(&modes) {
+            let law = material.elasticity_at(self.position(point));
             let mut strains: Vec<Voigt> = Vec::with_capacity(size);
             for (gradient, frame) in point.gradients.iter().zip(&self.frames) {
                 let axes = (0..dimension).map(|axis| frame.column(axis).into_owned());
@@ -359,7 +360,8 @@ impl ElementGeometry {
             let mut stress = Matrix3::zeros();
             for (part, gradients) in parts.iter().zip(&gradients) {
                 let law = self.solid_aware(part.material);
-                stress += tensor(&stress_of(&law, &gradients[i]));
+                let stress_there = stress_of(&law, &gradients[i], self.position(point));
+                stress += tensor(&stress_there);
             }
             stress *= point.measure;
             for column in 0..count {
@@ -474,17 +476,18 @@ fn work(components: &[usize], strain: &Voigt, stress: &Voigt) -> f64 {
     products.reduce(|sum, product| sum + product).unwrap_or(0.0)
 }
 
-/// Cauchy stress of a displacement gradient, Pa.
-pub fn stress_of(material: &ElasticMaterial, gradient: &Matrix3<f64>) -> Voigt {
+/// Cauchy stress of a displacement gradient at a place, Pa.
+pub fn stress_of(material: &ElasticMaterial, gradient: &Matrix3<f64>, place: [f64; 3]) -> Voigt {
     let g = gradient;
-    material.stress(&[
+    let strain = [
         g[(0, 0)],
         g[(1, 1)],
         g[(2, 2)],
         g[(0, 1)] + g[(1, 0)],
         g[(1, 2)] + g[(2, 1)],
         g[(0, 2)] + g[(2, 0)],
-    ])
+    ];
+    material.stress(&strain, place)
 }
 
 /// A stress as a symmetric matrix.

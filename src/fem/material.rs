@@ -1,5 +1,6 @@
-//! Isotropic linear elasticity in the plane, and Rayleigh damping.
+//! Linear elasticity of a region, isotropic or orthotropic, and Rayleigh damping.
 
+use super::orthotropy::{Elasticity, Orthotropy};
 use crate::linalg::c64;
 
 /// Which out-of-plane quantity vanishes.
@@ -13,17 +14,19 @@ pub enum PlaneFormulation {
     ThreeDimensional,
 }
 
-/// Isotropic linear elastic material.
+/// Linear elastic material, isotropic unless it has an orthotropy.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ElasticMaterial {
-    /// Young's modulus `E`, Pa.
+    /// Young's modulus `E`, Pa; of an orthotropic material the mean over all directions, for estimates alone.
     pub young_modulus: f64,
-    /// Poisson's ratio `nu`.
+    /// Poisson's ratio `nu`; of an orthotropic material as [`Orthotropy::mean_constants`] gives it.
     pub poisson_ratio: f64,
     /// Density `rho`, kg/m3.
     pub density: f64,
     /// Plane strain or plane stress.
     pub formulation: PlaneFormulation,
+    /// Constants and axes in place of the two above, for a material that is not the same in every direction.
+    pub orthotropy: Option<Orthotropy>,
 }
 
 /// Which material fills each region of a mesh.
@@ -94,8 +97,26 @@ impl MaterialField for Vec<RegionMaterial> {
 }
 
 impl ElasticMaterial {
+    /// What a material has that says no more: isotropic, in plane strain; without stiffness or mass until they are given.
+    pub const PLAIN: Self = Self {
+        young_modulus: 0.0,
+        poisson_ratio: 0.0,
+        density: 0.0,
+        formulation: PlaneFormulation::PlaneStrain,
+        orthotropy: None,
+    };
+
+    /// The same without stiffness.
+    pub fn without_stiffness(&self) -> Self {
+        Self {
+            young_modulus: 0.0,
+            orthotropy: None,
+            ..*self
+        }
+    }
+
     /// Lamé constants `[lambda, G]` of the plane problem, Pa:
-    /// `sigma = lambda tr(epsilon) I + 2 G epsilon` with the in-plane trace.
+    /// `sigma = lambda tr(epsilon) I + 2 G epsilon` with the in-plane trace; of an orthotropic material those of its mean.
     ///
     /// Plane strain: `lambda = E nu / ((1 + nu)(1 - 2 nu))`; plane stress:
     /// `lambda = E nu / (1 - nu^2)`. Both: `G = E / (2 (1 + nu))`.
@@ -132,14 +153,33 @@ impl ElasticMaterial {
             young_modulus: shear * (3.0 * lambda + 2.0 * shear) / (lambda + shear),
             poisson_ratio: lambda / (2.0 * (lambda + shear)),
             density: self.density,
-            formulation: PlaneFormulation::PlaneStrain,
+            ..Self::PLAIN
         }
     }
 
-    /// Elasticity matrix `D` in `sigma = D epsilon`, Pa, over `(xx, yy, zz, xy, yz, zx)` with engineering shear strains
-    /// `2 epsilon_xy, ...`; what a plane formulation says of the third direction is in it, so that strains of a plane body,
-    /// which have none, give its stresses in the plane.
-    pub fn elasticity(&self) -> [[f64; 6]; 6] {
+    /// Elasticity matrix `D` in `sigma = D epsilon` at a place, Pa, over `(xx, yy, zz, xy, yz, zx)` with engineering shear
+    /// strains `2 epsilon_xy, ...`; what a plane formulation says of the third direction is in it, so that strains of a plane
+    /// body, which have none, give its stresses in the plane.
+    pub fn elasticity_at(&self, place: [f64; 3]) -> Elasticity {
+        let Some(orthotropy) = &self.orthotropy else {
+            return self.isotropic_elasticity();
+        };
+        let mut law = orthotropy.elasticity_at(place);
+        if self.formulation == PlaneFormulation::PlaneStress {
+            // sigma_zz = 0 gives epsilon_zz = -(D_zx epsilon_xx + D_zy epsilon_yy + ...) / D_zz.
+            let across = law[2];
+            for (row, coupling) in across.iter().enumerate() {
+                for (column, other) in across.iter().enumerate() {
+                    law[row][column] -= coupling * other / across[2];
+                }
+            }
+            law[2] = [0.0; 6];
+            law.iter_mut().for_each(|row| row[2] = 0.0);
+        }
+        law
+    }
+
+    fn isotropic_elasticity(&self) -> Elasticity {
         let [lambda, g] = self.lame_constants();
         let p = lambda + 2.0 * g;
         let [z, zz] = match self.formulation {
@@ -156,9 +196,13 @@ impl ElasticMaterial {
         ]
     }
 
-    /// Stress `(xx, yy, zz, xy, yz, zx)`, Pa, of a strain `(xx, yy, zz, 2 xy, 2 yz, 2 zx)`:
-    /// `sigma = lambda tr(epsilon) I + 2 G epsilon`.
-    pub fn stress(&self, strain: &[f64; 6]) -> [f64; 6] {
+    /// Stress `(xx, yy, zz, xy, yz, zx)`, Pa, of a strain `(xx, yy, zz, 2 xy, 2 yz, 2 zx)` at a place: `sigma = D epsilon`, of
+    /// an isotropic material `lambda tr(epsilon) I + 2 G epsilon`.
+    pub fn stress(&self, strain: &[f64; 6], place: [f64; 3]) -> [f64; 6] {
+        if self.orthotropy.is_some() {
+            let law = self.elasticity_at(place);
+            return law.map(|row| row.iter().zip(strain).map(|(d, e)| d * e).sum());
+        }
         let [lambda, g] = self.lame_constants();
         let volume = lambda * (strain[0] + strain[1] + strain[2]);
         let normal = |k: usize| volume + 2.0 * g * strain[k];
@@ -176,11 +220,13 @@ impl ElasticMaterial {
         ]
     }
 
-    /// Out-of-plane stress `sigma_zz` for in-plane normal stresses, Pa.
-    pub fn out_of_plane_stress(&self, sigma_xx: f64, sigma_yy: f64) -> f64 {
-        match self.formulation {
-            PlaneFormulation::PlaneStress => 0.0,
-            _ => self.poisson_ratio * (sigma_xx + sigma_yy),
+    /// Out-of-plane stress `sigma_zz` for in-plane normal stresses, Pa; `None` of an orthotropic material, whose strains
+    /// are needed for it.
+    pub fn out_of_plane_stress(&self, sigma_xx: f64, sigma_yy: f64) -> Option<f64> {
+        match (self.formulation, &self.orthotropy) {
+            (PlaneFormulation::PlaneStress, _) => Some(0.0),
+            (_, None) => Some(self.poisson_ratio * (sigma_xx + sigma_yy)),
+            (_, Some(_)) => None,
         }
     }
 }

@@ -9,6 +9,7 @@ pub mod element;
 mod face;
 mod material;
 pub mod operator;
+mod orthotropy;
 pub mod sector;
 pub mod solid;
 mod stress;
@@ -23,5 +24,6 @@ pub use material::{
     AnnulusMaterials, ElasticMaterial, MaterialField, PlaneFormulation, RayleighDamping,
     RegionMaterial,
 };
+pub use orthotropy::{Elasticity, Indefinite, MaterialAxes, Orthotropy, RATIOS};
 pub use stress::{NodalStress, SolidStress, nodal_stress, solid_stress};
 pub use triplets::Triplets;

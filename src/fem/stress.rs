@@ -240,6 +240,8 @@ fn in_frame(stress: Voigt, angle: f64, material: &ElasticMaterial) -> NodalStres
         radial,
         hoop,
         shear: local[(0, 1)],
-        axial: material.out_of_plane_stress(radial, hoop),
+        axial: material
+            .out_of_plane_stress(radial, hoop)
+            .unwrap_or(stress[2]),
     }
 }

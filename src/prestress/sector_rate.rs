@@ -142,7 +142,12 @@ impl SectorTangent {
             Parameter::YoungModulus(region)
             | Parameter::PoissonRatio(region)
             | Parameter::Density(region) => {
-                if region >= self.materials.len() {
+                let Some(material) = self.materials.get(region) else {
+                    return Ok(None);
+                };
+                // An orthotropic material has neither of the constants of isotropy.
+                let is_density = matches!(parameter, Parameter::Density(_));
+                if material.elastic.orthotropy.is_some() && !is_density {
                     return Ok(None);
                 }
                 self.material_rate(&mut terms, parameter, region)?;
@@ -168,9 +173,8 @@ impl SectorTangent {
         // Matrices are linear in density and Lame's constants.
         let rate = match parameter {
             Parameter::Density(_) => ElasticMaterial {
-                young_modulus: 0.0,
                 density: 1.0,
-                ..material
+                ..material.without_stiffness()
             },
             Parameter::YoungModulus(_) => ElasticMaterial {
                 young_modulus: 1.0,
@@ -239,9 +243,8 @@ impl SectorTangent {
     /// section of the case is the cause of.
     fn of_region(&self, own: usize, elastic: ElasticMaterial) -> Vec<RegionMaterial> {
         let nothing = ElasticMaterial {
-            young_modulus: 0.0,
             density: 0.0,
-            ..elastic
+            ..elastic.without_stiffness()
         };
         let regions = self.materials.iter().enumerate();
         let regions = regions.map(|(region, material)| RegionMaterial {

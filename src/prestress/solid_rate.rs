@@ -19,7 +19,8 @@ pub struct SolidRate {
 
 impl SolidTangent {
     /// Derivative with respect to `parameter`, the base state following: pressure, prestress and the ends of what is pressed. `None`
-    /// for a normal stiffness or a friction law that the contact does not have, and for what belongs to a shaft.
+    /// for a normal stiffness or a friction law that the contact does not have, for the two constants of isotropy where the material
+    /// is orthotropic, and for what belongs to a shaft.
     ///
     /// Rings in rigid contact are pressed or not, and so are the nodes of 8-node bricks on springs: where a parameter changes the
     /// set, eigenvalues jump.
@@ -42,6 +43,12 @@ impl SolidTangent {
                     ..material
                 };
                 rate.terms.mass = solid::mass(&self.sector, &unit, self.options.mass);
+            }
+            // An orthotropic material has neither constant.
+            Parameter::YoungModulus(0) | Parameter::PoissonRatio(0)
+                if material.orthotropy.is_some() =>
+            {
+                return Ok(None);
             }
             Parameter::YoungModulus(0) => {
                 let unit = ElasticMaterial {

@@ -320,6 +320,7 @@ mod tests {
             poisson_ratio: 0.3805,
             density: 1228.0,
             formulation: PlaneFormulation::PlaneStrain,
+            ..ElasticMaterial::PLAIN
         };
         (mesh.unwrap().mesh, material)
     }

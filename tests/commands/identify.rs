@@ -45,6 +45,7 @@ fn free_disc(step_hz: f64) -> (Vec<f64>, Vec<c64>) {
         poisson_ratio: 0.3805,
         density: 1228.0,
         formulation: PlaneFormulation::PlaneStrain,
+        ..ElasticMaterial::PLAIN
     };
     let damping = RayleighDamping {
         mass_coefficient: ALPHA,

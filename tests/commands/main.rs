@@ -22,6 +22,7 @@ mod fit;
 mod golden;
 mod identify;
 mod inputs;
+mod materials;
 mod plot;
 mod reading;
 mod results;

@@ -10,6 +10,7 @@ pub const POLYCARBONATE: ElasticMaterial = ElasticMaterial {
     poisson_ratio: 0.3805,
     density: 1228.0,
     formulation: PlaneFormulation::PlaneStrain,
+    ..ElasticMaterial::PLAIN
 };
 
 pub const DAMPING: RayleighDamping = RayleighDamping {

@@ -30,6 +30,7 @@ fn metal(young_modulus: f64, poisson_ratio: f64, density: f64) -> ElasticMateria
         poisson_ratio,
         density,
         formulation: PlaneFormulation::PlaneStress,
+        ..ElasticMaterial::PLAIN
     }
 }
 

@@ -31,6 +31,7 @@ fn polycarbonate(formulation: PlaneFormulation) -> ElasticMaterial {
         poisson_ratio: 0.38,
         density: 1228.0,
         formulation,
+        ..ElasticMaterial::PLAIN
     }
 }
 

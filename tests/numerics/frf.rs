@@ -33,6 +33,7 @@ fn material() -> ElasticMaterial {
         poisson_ratio: 0.3805,
         density: 1228.0,
         formulation: PlaneFormulation::PlaneStrain,
+        ..ElasticMaterial::PLAIN
     }
 }
 

@@ -63,6 +63,7 @@ fn annulus_speed(n: usize) -> c64 {
         poisson_ratio: POISSON_RATIO,
         density: 1.0,
         formulation: PlaneFormulation::PlaneStrain,
+        ..ElasticMaterial::PLAIN
     };
     let undamped = RayleighDamping {
         mass_coefficient: 0.0,

@@ -28,6 +28,7 @@ mod frf_sliding;
 mod friction_law;
 mod half_space;
 mod matrices;
+mod orthotropy;
 mod plane_body;
 mod plane_spectrum;
 mod shaft;

@@ -18,6 +18,7 @@ const STEEL: ElasticMaterial = ElasticMaterial {
     poisson_ratio: 0.3,
     density: 7850.0,
     formulation: PlaneFormulation::ThreeDimensional,
+    ..ElasticMaterial::PLAIN
 };
 
 /// A parallelepiped without right angles.
@@ -108,14 +109,18 @@ fn rigid_motions(mesh: &Mesh) -> Vec<Vec<f64>> {
 }
 
 /// Stiffness with supports and consistent mass over the free dofs of a mesh.
-struct Pencil {
+pub struct Pencil {
     stiffness: Vec<(usize, usize, f64)>,
     mass: Vec<(usize, usize, f64)>,
     unknowns: DofMap,
 }
 
 impl Pencil {
-    fn of(mesh: &Mesh) -> Self {
+    pub fn of(mesh: &Mesh) -> Self {
+        Self::of_material(mesh, &STEEL)
+    }
+
+    pub fn of_material(mesh: &Mesh, material: &ElasticMaterial) -> Self {
         let unknowns = DofMap::clamped(mesh);
         let free = |matrix: &Triplets| {
             let entries = matrix.entries.iter();
@@ -124,13 +129,13 @@ impl Pencil {
                 .filter_map(|&(row, column, value)| Some((at(row)?, at(column)?, value)))
                 .collect()
         };
-        let mut stiffness = assemble_stiffness(mesh, &STEEL);
+        let mut stiffness = assemble_stiffness(mesh, material);
         stiffness
             .entries
             .extend(assemble_supports(mesh)[0].entries.iter());
         Self {
             stiffness: free(&stiffness),
-            mass: free(&assemble_mass(mesh, &STEEL, MassKind::Consistent)),
+            mass: free(&assemble_mass(mesh, material, MassKind::Consistent)),
             unknowns,
         }
     }
@@ -166,7 +171,7 @@ impl Pencil {
     }
 
     /// The lowest frequencies, Hz, by subspace iteration.
-    fn frequencies(&self, count: usize) -> Vec<f64> {
+    pub fn frequencies(&self, count: usize) -> Vec<f64> {
         let (size, width) = (self.unknowns.len(), count + 8);
         let mut draw = draws();
         let mut vectors = DMatrix::from_fn(size, width, |_, _| draw());

@@ -99,6 +99,21 @@ impl<'a> Section<'a> {
         )
     }
 
+    /// A list of lists of numbers; `None` where the key is left out or a word.
+    pub fn vectors(&self, key: &str) -> Option<Vec<Vec<f64>>> {
+        let item = self.item(key)?;
+        if self.is_some_text(key) {
+            return None;
+        }
+        let of_one = |item: &RawItem| -> Vec<f64> {
+            let values = item.listed().iter();
+            values
+                .filter_map(|item| self.read_number(key, item, Bound::Finite))
+                .collect()
+        };
+        Some(item.listed().iter().map(of_one).collect())
+    }
+
     /// The values of `{ from, to, count, spacing }`; none where something is wrong with it.
     pub fn range(&self, key: &str, table: &'a RawTable, item: &RawItem, bound: Bound) -> Vec<f64> {
         let mut range = Section::new(self.findings, self.name(key), Some(table), item.at.clone());

@@ -39,10 +39,10 @@ pub struct Sensitivity {
     pub mass_coefficient: c64,
     /// With respect to `beta_R`, s.
     pub stiffness_coefficient: c64,
-    /// With respect to Young's modulus, Pa.
-    pub young_modulus: c64,
-    /// With respect to Poisson's ratio.
-    pub poisson_ratio: c64,
+    /// With respect to Young's modulus, Pa; `None` for an orthotropic material.
+    pub young_modulus: Option<c64>,
+    /// With respect to Poisson's ratio; `None` for an orthotropic material.
+    pub poisson_ratio: Option<c64>,
     /// With respect to the density, kg/m3.
     pub density: c64,
     /// With respect to static over kinetic friction `q`; `None` for constant friction.
@@ -111,8 +111,8 @@ impl Sensitivity {
             normal_stiffness: responses[0],
             mass_coefficient: given(1),
             stiffness_coefficient: given(2),
-            young_modulus: given(3),
-            poisson_ratio: given(4),
+            young_modulus: responses[3],
+            poisson_ratio: responses[4],
             density: given(5),
             static_friction_ratio: responses[6],
             decay_speed: responses[7],

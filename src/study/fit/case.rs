@@ -161,8 +161,8 @@ fn rate(sensitivity: &Sensitivity, parameter: &ModelParameter) -> Option<c64> {
         "contact.normal_stiffness" => sensitivity.normal_stiffness,
         "damping.mass_coefficient" => Some(sensitivity.mass_coefficient),
         "damping.stiffness_coefficient" => Some(sensitivity.stiffness_coefficient),
-        "material.young_modulus" => Some(sensitivity.young_modulus),
-        "material.poisson_ratio" => Some(sensitivity.poisson_ratio),
+        "material.young_modulus" => sensitivity.young_modulus,
+        "material.poisson_ratio" => sensitivity.poisson_ratio,
         "material.density" => Some(sensitivity.density),
         _ => None,
     };

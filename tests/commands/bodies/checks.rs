@@ -209,15 +209,18 @@ fn sensitivities(bench: &Bench, _: Option<&Bench>) -> Cell {
     if !folder.join("sensitivities.csv").exists() {
         return Cell::Refused("not computed for this body yet".to_owned());
     }
-    let of = |name| column(&folder, "sensitivities.csv", name);
+    let of = |name: &str| column(&folder, "sensitivities.csv", name);
     let (frequencies, growths) = (of("frequency_hz"), of("growth_rate_per_s"));
-    let slopes = [
-        of("frequency_hz_per_young_modulus"),
-        of("growth_rate_per_young_modulus"),
-    ];
-    let step = SMALL_CHANGE * 2.5e9;
-    let at = |value: f64| bench.run("cea", &[&format!("material.young_modulus={value:?}")], &[]);
-    let ((_, low), (_, high)) = (needed!(at(2.5e9 - step)), needed!(at(2.5e9 + step)));
+    // An orthotropic material has no Young's modulus.
+    let is_isotropic = of("frequency_hz_per_young_modulus")[0].is_finite();
+    let (name, value) = match is_isotropic {
+        true => ("young_modulus", 2.5e9),
+        false => ("density", 1700.0),
+    };
+    let slopes = ["frequency_hz", "growth_rate"].map(|kind| of(&format!("{kind}_per_{name}")));
+    let step = SMALL_CHANGE * value;
+    let at = |value: f64| bench.run("cea", &[&format!("material.{name}={value:?}")], &[]);
+    let ((_, low), (_, high)) = (needed!(at(value - step)), needed!(at(value + step)));
     let (low, high) = (spectrum(&low), spectrum(&high));
     // Both waves of a pair have nearly one frequency: the growth rate tells them apart.
     let distance = |mode: &[f64; 2], [frequency, growth]: [f64; 2]| {

@@ -18,6 +18,9 @@ const RING: Shape = Shape::Ring {
     outer: 0.0905,
 };
 const POLYCARBONATE: &str = "young_modulus = 2.5e9\npoisson_ratio = 0.3805\ndensity = 1228.0\n";
+/// Stiffer around than outwards; axes about the disc's own.
+const LINING: &str = "young_moduli = [2e9, 5e9, 1.5e9]\npoisson_ratios = [0.2, 0.3, 0.25]\n\
+    shear_moduli = [1.2e9, 0.8e9, 0.9e9]\naxes = \"cylindrical\"\ndensity = 1700.0\n";
 const STEEL: &str = "young_modulus = 2.1e11\npoisson_ratio = 0.3\ndensity = 7850.0\n";
 const ANALYSES: &str = "[damping]\nmass_coefficient = 40.0\nstiffness_coefficient = 4.5e-7\n
 [cea]\nfriction_coefficients = [0.0, 0.15, 0.3]\nmodes = 8\ngeometric_stiffness = false\n
@@ -123,6 +126,18 @@ pub fn kinds() -> Vec<Kind> {
             ..of_file(
                 "annulus from a file",
                 imported("", ""),
+                msh(&[ring(&|_| "disc")]),
+            )
+        },
+        kind(
+            "orthotropic annulus",
+            annulus("", "", "").replace(POLYCARBONATE, LINING),
+        ),
+        Kind {
+            twin: Some("orthotropic annulus"),
+            ..of_file(
+                "orthotropic annulus from a file",
+                imported("", "").replace(POLYCARBONATE, LINING),
                 msh(&[ring(&|_| "disc")]),
             )
         },

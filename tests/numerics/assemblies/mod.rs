@@ -19,6 +19,7 @@ const STEEL: ElasticMaterial = ElasticMaterial {
     poisson_ratio: 0.3,
     density: 7850.0,
     formulation: PlaneFormulation::ThreeDimensional,
+    ..ElasticMaterial::PLAIN
 };
 
 const OPTIONS: TangentOptions = TangentOptions {

@@ -95,13 +95,13 @@ fn sensitivities_equal_finite_differences() {
                 (
                     "nu",
                     1.0,
-                    s.poisson_ratio,
+                    s.poisson_ratio.unwrap(),
                     difference(1e-3, &|m, h| m.material.annulus.poisson_ratio += h),
                 ),
                 (
                     "E",
                     2.5e9,
-                    s.young_modulus,
+                    s.young_modulus.unwrap(),
                     difference(2e7, &|m, h| m.material.annulus.young_modulus += h),
                 ),
                 (

@@ -25,6 +25,7 @@ pub fn material(annulus: &Annulus) -> ElasticMaterial {
         } else {
             PlaneFormulation::PlaneStress
         },
+        ..ElasticMaterial::PLAIN
     }
 }
 

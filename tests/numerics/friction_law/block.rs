@@ -24,6 +24,7 @@ const STEEL: ElasticMaterial = ElasticMaterial {
     poisson_ratio: 0.3,
     density: 7850.0,
     formulation: PlaneFormulation::PlaneStrain,
+    ..ElasticMaterial::PLAIN
 };
 const WIDTH: f64 = 0.04;
 const HEIGHT: f64 = 0.03;

@@ -198,8 +198,8 @@ fn sensitivities_to_the_law_equal_finite_differences() {
             let analytic = [
                 s.static_friction_ratio.unwrap(),
                 s.decay_speed.unwrap(),
-                s.young_modulus * 2e9,
-                s.poisson_ratio,
+                s.young_modulus.unwrap() * 2e9,
+                s.poisson_ratio.unwrap(),
             ];
             for (analytic, moved) in analytic.into_iter().zip(&moved) {
                 let [a, b, c, d] = [0, 1, 2, 3].map(|k| branch_eigenvalue(&moved[k], &s, friction));

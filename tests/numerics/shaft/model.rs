@@ -15,6 +15,7 @@ pub const STEEL: ElasticMaterial = ElasticMaterial {
     poisson_ratio: 0.3,
     density: 7850.0,
     formulation: PlaneFormulation::PlaneStrain,
+    ..ElasticMaterial::PLAIN
 };
 
 /// The disc with a bore of 6 mm in its shaft.

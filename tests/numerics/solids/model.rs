@@ -39,6 +39,7 @@ pub fn disc(element: ElementKind, [around, radial, axial]: [usize; 3]) -> SolidM
             poisson_ratio: 0.3805,
             density: 1228.0,
             formulation: PlaneFormulation::ThreeDimensional,
+            ..ElasticMaterial::PLAIN
         },
         options: TangentOptions {
             mass: MassKind::Consistent,

@@ -68,14 +68,14 @@ fn compare(model: &SolidModel, what: &str) {
             "nu",
             Some(1.0),
             2.5e-4,
-            |s| Some(s.poisson_ratio),
+            |s| s.poisson_ratio,
             |m, h| m.material.poisson_ratio += h,
         ),
         (
             "E",
             Some(2.5e9),
             1e7,
-            |s| Some(s.young_modulus),
+            |s| s.young_modulus,
             |m, h| m.material.young_modulus += h,
         ),
         (

@@ -28,6 +28,7 @@ fn a_mode_of_two_bodies_whose_meshes_do_not_match_grows_as_its_eigenvalue_says()
         poisson_ratio: 0.35,
         density: 8500.0,
         formulation: PlaneFormulation::PlaneStrain,
+        ..ElasticMaterial::PLAIN
     };
     let mesh = rings([40, 48], [3, 9], 0.05);
     for shaft in [POLYCARBONATE, brass] {

@@ -1,0 +1,241 @@
+//! Elastic constants of a material, isotropic or orthotropic, and where its axes lie.
+
+use super::reader::Section;
+use super::words::AxesWord;
+use crate::fem::{ElasticMaterial, MaterialAxes, Orthotropy, PlaneFormulation, RATIOS};
+
+/// The constants of an isotropic material.
+const ISOTROPIC: [&str; 2] = ["young_modulus", "poisson_ratio"];
+/// The constants of an orthotropic one.
+const ORTHOTROPIC: [&str; 3] = ["young_moduli", "poisson_ratios", "shear_moduli"];
+
+/// About what the body is built, which decides where the axes of a material can lie.
+pub(super) enum Surroundings {
+    /// Equal sectors about z through the origin; in the plane or not.
+    Sectors { is_plane: bool },
+    /// A plane body, and the axis of its counterface.
+    Plane { center: Option<[f64; 2]> },
+    /// Solid bodies, and the axis of their motion; else why there is none.
+    Solids {
+        axis: Result<[[f64; 3]; 2], &'static str>,
+    },
+}
+
+/// Elasticity and density of `[material]` or of a section of `[materials.*]`. Cylindrical axes are about z until
+/// [`place_axes`] knows the body.
+pub(super) fn elastic(section: &Section<'_>, formulation: PlaneFormulation) -> ElasticMaterial {
+    let density = section.number("density");
+    let plain = ElasticMaterial {
+        density,
+        formulation,
+        ..ElasticMaterial::PLAIN
+    };
+    if ORTHOTROPIC.iter().any(|key| section.has(key)) {
+        for key in ISOTROPIC {
+            let _ = section.optional_number(key);
+            if section.has(key) {
+                section.reject(
+                    key,
+                    format!(
+                        "{} beside the keys of an orthotropic material",
+                        section.name(key)
+                    ),
+                    "isotropic or orthotropic".to_owned(),
+                    Some("leave out the constants of the one or of the other".to_owned()),
+                );
+            }
+        }
+        let orthotropy = orthotropy(section);
+        let [young_modulus, poisson_ratio] = orthotropy.mean_constants();
+        return ElasticMaterial {
+            young_modulus,
+            poisson_ratio,
+            orthotropy: Some(orthotropy),
+            ..plain
+        };
+    }
+    // Known keys of the section, though none is given.
+    let _ = ORTHOTROPIC.map(|key| section.numbers(key));
+    if axes(section) != MaterialAxes::global() {
+        section.reject(
+            "axes",
+            format!("{} is for an orthotropic material", section.name("axes")),
+            "an isotropic material has no axes".to_owned(),
+            Some("give young_moduli, poisson_ratios and shear_moduli, or leave it out".to_owned()),
+        );
+    }
+    let [young_modulus, poisson_ratio] = ISOTROPIC.map(|key| {
+        let value = section.optional_number(key);
+        value.unwrap_or_else(|| {
+            section.missing(key);
+            f64::NAN
+        })
+    });
+    ElasticMaterial {
+        young_modulus,
+        poisson_ratio,
+        ..plain
+    }
+}
+
+/// The nine constants, which must give every strain a positive energy, and the axes.
+fn orthotropy(section: &Section<'_>) -> Orthotropy {
+    let triple = |key: &str| -> Option<[f64; 3]> {
+        if !section.has(key) {
+            section.missing(key);
+        }
+        let values = section.numbers(key)?;
+        let given = section.list_length(key).unwrap_or(1);
+        if given != 3 {
+            section.reject(
+                key,
+                format!("{} has {given} of three numbers", section.name(key)),
+                "one for each of three axes".to_owned(),
+                None,
+            );
+        }
+        values.try_into().ok()
+    };
+    let moduli = triple("young_moduli");
+    let ratios = triple("poisson_ratios");
+    let shears = triple("shear_moduli");
+    let harmless = [1.0; 3];
+    let orthotropy = Orthotropy {
+        young_moduli: moduli.unwrap_or(harmless),
+        poisson_ratios: ratios.unwrap_or([0.0; 3]),
+        shear_moduli: shears.unwrap_or(harmless),
+        axes: axes(section),
+    };
+    if moduli.is_none() || ratios.is_none() || shears.is_none() {
+        return orthotropy;
+    }
+    if let Err(broken) = orthotropy.check() {
+        let (name, [low, high]) = (RATIOS[broken.which], broken.bounds);
+        let value = orthotropy.poisson_ratios[broken.which];
+        section.reject(
+            "poisson_ratios",
+            format!(
+                "{}: {name} = {value} would give some strain a negative energy; beside the other constants it must lie \
+                 between {low:.6} and {high:.6}",
+                section.name("poisson_ratios")
+            ),
+            format!("{name} is too large"),
+            Some(
+                "nu_ij is the contraction along j under a stress along i: nu_ij / E_i = nu_ji / E_j; are the axes swapped?"
+                    .to_owned(),
+            ),
+        );
+    }
+    orthotropy
+}
+
+/// `axes`: a word, or two vectors.
+fn axes(section: &Section<'_>) -> MaterialAxes {
+    let Some(vectors) = section.vectors("axes") else {
+        return match section.choice("axes") {
+            AxesWord::Global => MaterialAxes::global(),
+            AxesWord::Cylindrical => MaterialAxes::Cylindrical {
+                axis: [0.0, 0.0, 1.0],
+                center: [0.0; 3],
+            },
+        };
+    };
+    let filled = |vector: &[f64]| match *vector {
+        [x, y] => Some([x, y, 0.0]),
+        [x, y, z] => Some([x, y, z]),
+        _ => None,
+    };
+    let found = match vectors.as_slice() {
+        [first, second] => filled(first).zip(filled(second)),
+        _ => None,
+    };
+    let Some((first, second)) = found else {
+        section.reject(
+            "axes",
+            format!("{} needs two vectors", section.name("axes")),
+            "must be [[x, y, z], [x, y, z]]".to_owned(),
+            None,
+        );
+        return MaterialAxes::global();
+    };
+    MaterialAxes::along(first, second).unwrap_or_else(|| {
+        section.reject(
+            "axes",
+            format!("the vectors of {} are parallel", section.name("axes")),
+            "span no plane".to_owned(),
+            Some("the first is axis 1, the second lies in the plane of axes 1 and 2".to_owned()),
+        );
+        MaterialAxes::global()
+    })
+}
+
+/// Lays cylindrical axes about the body's own, and refuses axes under which the body is not what its analyses take it for.
+/// `path` is the material's section: `["material"]` or `["materials", NAME]`.
+pub(super) fn place_axes(
+    root: &Section<'_>,
+    path: &[&str],
+    material: &mut ElasticMaterial,
+    body: &Surroundings,
+) {
+    let Some(orthotropy) = &mut material.orthotropy else {
+        return;
+    };
+    let reject = |message: String, label: &str, help: &str| {
+        let outer = root.section(path[0], false);
+        let inner = path.get(1).map(|name| outer.section(name, false));
+        let section = inner.as_ref().unwrap_or(&outer);
+        let key = match section.has("axes") {
+            true => "axes",
+            false => "young_moduli",
+        };
+        section.reject(
+            key,
+            format!("{}: {message}", section.name(key)),
+            label.to_owned(),
+            Some(help.to_owned()),
+        );
+    };
+    if let MaterialAxes::Cylindrical { axis, center } = &mut orthotropy.axes {
+        let found = match body {
+            Surroundings::Sectors { .. } => Ok([[0.0, 0.0, 1.0], [0.0; 3]]),
+            Surroundings::Plane { center } => center
+                .map(|[x, y]| [[0.0, 0.0, 1.0], [x, y, 0.0]])
+                .ok_or("the counterface is a plane, which has no axis"),
+            Surroundings::Solids { axis } => *axis,
+        };
+        match found {
+            Ok(found) => [*axis, *center] = found,
+            Err(reason) => reject(
+                format!("\"cylindrical\" axes lie about the axis of the motion: {reason}"),
+                "no axis to lie about",
+                "give two vectors, or \"global\"",
+            ),
+        }
+    }
+    let is_plane = match body {
+        Surroundings::Sectors { is_plane } => *is_plane,
+        Surroundings::Plane { .. } => true,
+        Surroundings::Solids { .. } => false,
+    };
+    if is_plane && !orthotropy.is_symmetric_across_z() {
+        reject(
+            "motions in the plane would cause others across it: a plane body needs one axis of the material along z"
+                .to_owned(),
+            "no plane of symmetry",
+            "give two vectors in the plane, or one in it and [0, 0, 1]",
+        );
+    } else if matches!(body, Surroundings::Sectors { .. }) && !orthotropy.is_invariant_about_z() {
+        let [e, nu] = [orthotropy.young_moduli[0], orthotropy.poisson_ratios[0]];
+        reject(
+            "fixed axes make the sectors of a body of revolution differ from one another, and its motions have no \
+             circumferential harmonics then"
+                .to_owned(),
+            "not the same at every angle",
+            &format!(
+                "use axes = \"cylindrical\", constants that are the same across z (E_1 = E_2, nu_13 = nu_23, G_13 = G_23, \
+                 G_12 = E_1 / (2 (1 + nu_12)) = {:?}), or describe the body by mesh.file",
+                e / (2.0 * (1.0 + nu))
+            ),
+        );
+    }
+}

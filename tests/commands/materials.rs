@@ -1,0 +1,105 @@
+//! Orthotropic materials as a user meets them: results beside theory, keys that name one number of a list, refusals.
+
+use frictionsim::case::Case;
+use frictionsim::contact::SlidingContact;
+use frictionsim::fem::sector;
+use frictionsim::mesh::SectorMesh;
+use frictionsim::prestress::SectorSliding;
+
+const DISC: &str = r#"
+[geometry]
+inner_radius = 0.0205
+outer_radius = 0.0905
+[mesh]
+circumferential_elements = 60
+radial_elements = 60
+element = "quad8"
+[material]
+young_moduli = [2e9, 5e9, 1.5e9]
+poisson_ratios = [0.2, 0.3, 0.25]
+shear_moduli = [1.2e9, 0.8e9, 0.9e9]
+axes = "cylindrical"
+density = 1700.0
+formulation = "plane-stress"
+[contact]
+friction_coefficient = 0.0
+interference = 25e-6
+rotation_speed_rpm = 610.0
+[cea]
+modes = 4
+"#;
+
+fn read(overrides: &[&str]) -> Result<Case, String> {
+    let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
+    Case::parse("disc.toml", DISC.as_bytes(), &overrides).map_err(|errors| errors.to_string())
+}
+
+/// Theory (Lekhnitskii): a disc of cylindrical orthotropy in plane stress, clamped outside and widened inside:
+/// `u = A (r^k - b^2k r^-k)`, `k^2 = E_theta / E_r`, `sigma_r = E_r / (1 - nu_rt nu_tr) (u' + nu_tr u / r)`.
+#[test]
+fn the_pressure_of_a_cylindrically_orthotropic_disc_is_lekhnitskiis() {
+    let case = read(&[]).unwrap();
+    let body = case.body.annulus().unwrap();
+    let sector = SectorMesh::generate(&body.specification).unwrap();
+    let stiffness = sector::stiffness(&sector, &body.materials);
+    let contact: &SlidingContact = &case.contact.sliding;
+    let state = SectorSliding::solve(&sector, &stiffness, contact).unwrap();
+    let (a, b, k): (f64, f64, f64) = (0.0205, 0.0905, 2.5_f64.sqrt());
+    let [e_r, nu_rt, nu_tr] = [2e9, 0.2, 0.2 * 2.5];
+    let share = (a / b).powf(2.0 * k);
+    let slope = -k * (1.0 + share) / (1.0 - share);
+    let exact = -e_r / (1.0 - nu_rt * nu_tr) * 25e-6 / a * (slope + nu_tr);
+    // Corners and middles of quadratic edges share the force: the mean over one sector's edge.
+    let force: f64 = state.normal_forces.iter().sum();
+    let mean = force / sector.tributary_lengths().iter().sum::<f64>();
+    println!("{mean} {exact} {:e}", mean / exact - 1.0);
+    assert!((mean / exact - 1.0).abs() < 1e-3, "{mean} {exact}");
+}
+
+#[test]
+fn one_number_of_a_list_is_set_by_its_place_counted_from_one() {
+    for key in ["material.young_moduli[2]", "material.young_moduli.2"] {
+        let case = read(&[&format!("{key}=4e9")]).unwrap();
+        let orthotropy = case.material.orthotropy.unwrap();
+        assert_eq!(orthotropy.young_moduli, [2e9, 4e9, 1.5e9]);
+        assert_eq!(case.number(key), Some(4e9));
+    }
+    let beyond = read(&["material.young_moduli[4]=4e9"]).unwrap_err();
+    assert!(beyond.contains("beyond the 3 numbers"), "{beyond}");
+    let study = "fit.parameters={\"material.shear_moduli[1]\"=[1e9, 2e9]}";
+    let fit = read(&[study]).unwrap().fit.unwrap();
+    assert_eq!(fit.parameters[0].parameter.key, "material.shear_moduli[1]");
+}
+
+#[test]
+fn axes_and_constants_that_do_not_fit_are_refused_with_the_reason() {
+    let refusals = [
+        ("material.axes=global", "circumferential harmonics"),
+        ("material.axes=[[1, 0, 0], [-3, 0, 0]]", "are parallel"),
+        (
+            "material.axes=[[1, 0, 1], [0, 1, 0]]",
+            "one axis of the material along z",
+        ),
+        ("material.axes=[[1, 0, 0]]", "needs two vectors"),
+        ("material.poisson_ratios=[0.2, 2.5, 0.2]", "nu_13 = 2.5"),
+        ("material.young_moduli=[1e9, 2e9]", "2 of three numbers"),
+        (
+            "material.young_modulus=2e9",
+            "beside the keys of an orthotropic material",
+        ),
+    ];
+    for (change, reason) in refusals {
+        let message = read(&[change]).unwrap_err();
+        assert!(message.contains(reason), "{change}: {message}");
+        let key = change.split('=').next().unwrap();
+        assert!(message.contains(key), "{change}: {message}");
+    }
+    // The same across z: turning the body changes nothing, with axes that do not turn.
+    let around = [
+        "material.young_moduli=[2e9, 2e9, 5e9]",
+        "material.poisson_ratios=[0.25, 0.1, 0.1]",
+        "material.shear_moduli=[0.8e9, 1e9, 1e9]",
+        "material.axes=global",
+    ];
+    read(&around).unwrap();
+}
