@@ -37,7 +37,7 @@ class Case(MutableMapping[str, Any]):
         self.path = Path(path)
         """The case file."""
         try:
-            self._text = self.path.read_bytes().decode("utf-8", errors="surrogateescape")
+            self._text = self.path.read_bytes()
         except OSError as error:
             raise UsageError(f"cannot read {self.path}: {error.strerror}") from None
         self._changes: dict[str, Any] = {}

@@ -93,10 +93,19 @@ class FrictionsimWarning(UserWarning):
     """What the program warns of: implausible values, keys that a command does not use."""
 
 
+def in_python(text: str) -> str:
+    """A message that names options of the command line, with the arguments that they are here."""
+    for option, argument in {"--out": "folder=", "--force": "force=True", "--resume": "resume=True"}.items():
+        text = text.replace(option, argument)
+    return text
+
+
 def translate(failure: _native.NativeFailure) -> NoReturn:
     """Raise the exception that a failure of the compiled part stands for."""
     found = json.loads(failure.args[0])
-    text = found["text"]
+    text: str = found["text"]
+    if found["kind"] != "case":
+        text = in_python(text)
     if found["kind"] == "case":
         raise CaseError(text, tuple(CaseProblem(**problem) for problem in found["problems"])) from None
     if found["kind"] == "usage":

@@ -22,10 +22,10 @@ def wait_for_stopped() -> None:
 def command_line(arguments: Sequence[str]) -> int:
     """The command line: takes ``sys.argv``, gives the exit code."""
 
-def values(name: str, text: str, overrides: Sequence[str]) -> dict[str, Any]:
+def values(name: str, text: bytes, overrides: Sequence[str]) -> dict[str, Any]:
     """The values of a case text under overrides, sections as dictionaries."""
 
-def validate(name: str, text: str, overrides: Sequence[str]) -> list[str]:
+def validate(name: str, text: bytes, overrides: Sequence[str]) -> list[str]:
     """Validate a case text, whose files lie beside ``name``; gives its warnings."""
 
 def check(path: str | PathLike[str], overrides: Sequence[str]) -> str:
@@ -37,7 +37,7 @@ def keys() -> str:
 def without(key: str) -> str:
     """The override that takes a key away."""
 
-def edited(text: str, overrides: Sequence[str]) -> str:
+def edited(text: bytes, overrides: Sequence[str]) -> str:
     """A case text with overrides written into it; comments stay."""
 
 def shipped_cases() -> list[tuple[str, str]]:

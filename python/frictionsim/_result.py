@@ -262,9 +262,9 @@ class FitResult(Result):
     """Parameters fitted to measured modes."""
 
     @property
-    def parameters(self) -> dict[str, dict[str, float]]:
-        """``value``, ``low`` and ``high`` (95 %) of each fitted key."""
-        found: dict[str, dict[str, float]] = self.summary["parameters"]
+    def parameters(self) -> dict[str, dict[str, Any]]:
+        """``value``, ``low`` and ``high`` (95 %) of each fitted key; no bounds where the data do not give them."""
+        found: dict[str, dict[str, Any]] = self.summary["parameters"]
         return found
 
     @property

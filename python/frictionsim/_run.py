@@ -11,7 +11,7 @@ from typing import Any, TypeVar
 
 from . import _native
 from ._case import Case, PathOrText, as_case
-from ._errors import FrictionsimWarning, translate
+from ._errors import FrictionsimWarning, in_python, translate
 from ._progress import ProgressChoice, Teller
 from ._result import (
     CeaResult,
@@ -94,7 +94,7 @@ def _tell_interruption(
     if keeper is not None and command in _RESUMABLE:
         keeper._finalizer.detach()  # type: ignore[attr-defined]
         message += f"; pass folder={keeper.name!r} with resume=True"
-    raise KeyboardInterrupt(message.replace("--resume", "resume=True")) from None
+    raise KeyboardInterrupt(in_python(message)) from None
 
 
 def _resumed(resume: bool) -> list[str]:

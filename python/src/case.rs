@@ -18,10 +18,10 @@ use toml_edit::{DocumentMut, Item, Key, Table, Value};
 pub fn values<'py>(
     py: Python<'py>,
     name: &str,
-    text: &str,
+    text: &[u8],
     overrides: Vec<String>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let raw = RawCase::parse(name, text.as_bytes(), &overrides);
+    let raw = RawCase::parse(name, text, &overrides);
     let raw = raw.map_err(|errors| case_exception(&errors))?;
     dictionary(py, &raw.root)
 }
@@ -51,8 +51,8 @@ fn object(py: Python<'_>, value: &RawValue) -> PyResult<Py<PyAny>> {
 
 /// Validates a case text, whose files are looked for beside `name`: its warnings.
 #[pyfunction]
-pub fn validate(name: &str, text: &str, overrides: Vec<String>) -> PyResult<Vec<String>> {
-    let case = Case::parse(name, text.as_bytes(), &overrides);
+pub fn validate(name: &str, text: &[u8], overrides: Vec<String>) -> PyResult<Vec<String>> {
+    let case = Case::parse(name, text, &overrides);
     let case = case.map_err(|errors| case_exception(&errors))?;
     Ok(case.warnings.iter().map(ToString::to_string).collect())
 }
@@ -82,7 +82,8 @@ pub fn without(key: &str) -> String {
 
 /// A case text with overrides written into it, its comments left where they are.
 #[pyfunction]
-pub fn edited(text: &str, overrides: Vec<String>) -> PyResult<String> {
+pub fn edited(text: &[u8], overrides: Vec<String>) -> PyResult<String> {
+    let text = std::str::from_utf8(text).map_err(usage_exception)?;
     let mut document: DocumentMut = text.parse().map_err(usage_exception)?;
     let unset = without("");
     for change in &overrides {
