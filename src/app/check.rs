@@ -9,7 +9,7 @@ use crate::study::{Preflight, preflight};
 use clap::{Args, ValueHint};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Time beyond which a run is hardly meant, s: 30 days.
 const LONGEST_RUN: f64 = 30.0 * 86_400.0;
@@ -74,7 +74,17 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
 }
 
-fn check(path: &std::path::Path, arguments: &Arguments) -> Result<(Case, Preflight), Failure> {
+/// Whether a case is valid and what it would cost: the entry of `frictionsim check --json`.
+///
+/// # Errors
+/// Those of the case.
+pub fn examine(path: &Path, overrides: &[String]) -> Result<Value, Failure> {
+    let case = read_case(path, overrides)?;
+    let found = preflight(&case, machine_memory())?;
+    Ok(object(&path.display().to_string(), &case, &found))
+}
+
+fn check(path: &Path, arguments: &Arguments) -> Result<(Case, Preflight), Failure> {
     let case = read_case(path, &arguments.changes.overrides())?;
     let found = preflight(&case, machine_memory());
     if found.is_err() {

@@ -1,6 +1,7 @@
 //! `frictionsim init`: a commented case to start from.
 
 use super::profile::{Profile, Redraw};
+use super::shipped::{ShippedCase, ShippedFile, all_cases, all_files};
 use super::{Failure, terminal};
 use crate::case::{case_from, reference};
 use clap::{Args, ValueHint};
@@ -8,102 +9,82 @@ use std::fmt::Write as _;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// A case to start from.
+/// A shipped case under a name of its own.
 struct Template {
     name: &'static str,
-    meaning: &'static str,
     /// The shipped case that it is.
     case: &'static str,
-    text: &'static str,
-    /// Files that the case or its command reads, from the folder of the case on.
-    files: &'static [(&'static str, &'static [u8])],
+    meaning: &'static str,
 }
 
-/// A template made of a shipped case and the files that belong to it.
-macro_rules! template {
-    ($name:literal, $case:literal, [$($file:literal),*], $meaning:literal) => {
-        Template {
-            name: $name,
-            meaning: $meaning,
-            case: $case,
-            text: include_str!(concat!("../../cases/", $case)),
-            files: &[$(($file, include_bytes!(concat!("../../cases/", $file)))),*],
-        }
-    };
+const fn template(name: &'static str, case: &'static str, meaning: &'static str) -> Template {
+    Template {
+        name,
+        case,
+        meaning,
+    }
 }
 
 const TEMPLATES: &[Template] = &[
-    template!(
+    template(
         "cea",
         "polycarbonate-disc.toml",
-        [],
-        "complex eigenvalues of a disc over the friction coefficient"
+        "complex eigenvalues of a disc over the friction coefficient",
     ),
-    template!(
+    template(
         "transient",
         "polycarbonate-610rpm.toml",
-        [],
-        "contact transient from first expansion to limit cycle"
+        "contact transient from first expansion to limit cycle",
     ),
-    template!(
+    template(
         "sweep",
         "speed-friction-study.toml",
-        [],
-        "transients over rotation speed and friction"
+        "transients over rotation speed and friction",
     ),
-    template!(
+    template(
         "convergence",
         "convergence.toml",
-        [],
-        "eigenvalues, a transient and a limit cycle over mesh and time step"
+        "eigenvalues, a transient and a limit cycle over mesh and time step",
     ),
-    template!(
+    template(
         "cycle",
         "limit-cycle.toml",
-        [],
-        "limit cycles over the rotation speed, without time stepping"
+        "limit cycles over the rotation speed, without time stepping",
     ),
-    template!(
+    template(
         "basin",
         "basin.toml",
-        [],
-        "which of two stable limit cycles a transient ends on"
+        "which of two stable limit cycles a transient ends on",
     ),
-    template!(
+    template(
         "frf",
         "hammer-test.toml",
-        [],
-        "frequency response of a free disc, as in a hammer test"
+        "frequency response of a free disc, as in a hammer test",
     ),
-    template!(
+    template(
         "fit",
         "fit-table-1.toml",
-        ["table-1.csv"],
-        "material and contact stiffness from measured modes"
+        "material and contact stiffness from measured modes",
     ),
-    template!(
+    template(
         "uncertainty",
         "squeal-probability.toml",
-        [],
-        "probability of squeal where parameters scatter"
+        "probability of squeal where parameters scatter",
     ),
-    template!(
+    template(
         "mesh",
         "sliding-block.toml",
-        ["meshes/block.msh", "meshes/block.geo"],
-        "a part of your own from a Gmsh mesh, on a moving plane"
+        "a part of your own from a Gmsh mesh, on a moving plane",
     ),
-    template!(
+    template(
         "two-bodies",
         "pad-on-disc.toml",
-        ["meshes/pad.msh", "meshes/pad.py"],
-        "a pad on a disc from a mesh, both deformable"
+        "a pad on a disc from a mesh, both deformable",
     ),
-    template!(
+    template(
         "three-dimensions",
         "ring-on-disc.toml",
-        [],
-        "a disc in three dimensions under a rotating ring"
+        "a disc in three dimensions under a rotating ring",
     ),
 ];
 
@@ -123,19 +104,23 @@ const SYNONYMS: &[(&str, &str)] = &[
 /// Write a commented case to start from
 #[derive(Args)]
 pub struct Arguments {
-    /// Template; see --list
+    /// Template or shipped case; see --list
     #[arg(default_value = "cea")]
     template: String,
     /// Mesh file to start from: an input file of Abaqus or CalculiX, Nastran bulk data, a universal file or a Gmsh mesh; the case
     /// has everything that the file holds
     #[arg(long, value_name = "MESH", value_hint = ValueHint::FilePath, conflicts_with = "template")]
     from: Option<PathBuf>,
-    /// File to write, `-` for stdout [default: <TEMPLATE>.toml]; meshes and tables of the template go beside it
+    /// File to write, `-` for stdout [default: <TEMPLATE>.toml]; meshes and tables of the template go beside it. With --all
+    /// the folder [default: cases]
     #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
     out: Option<PathBuf>,
-    /// List the templates
+    /// List the templates and the shipped cases
     #[arg(long)]
     list: bool,
+    /// Write every shipped case with its meshes and tables
+    #[arg(long, conflicts_with = "list")]
+    all: bool,
     /// Replace existing files
     #[arg(long)]
     force: bool,
@@ -157,6 +142,10 @@ pub const PROFILE: Profile = Profile {
             "frictionsim init --from brake.inp",
             "brake.toml with the materials, ties, contacts and conditions of brake.inp",
         ),
+        (
+            "frictionsim init --all",
+            "every shipped case, in the folder cases",
+        ),
     ],
     redraw: Redraw::Nothing,
 };
@@ -167,15 +156,10 @@ pub const PROFILE: Profile = Profile {
 /// An unknown template, an existing file without `--force`, a file that cannot be written.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.list {
-        let mut text = String::new();
-        for template in TEMPLATES {
-            let _ = writeln!(text, "{:<18}{}", template.name, template.meaning);
-        }
-        let _ = writeln!(
-            text,
-            "{REFERENCE:<18}every key of a case with its default and meaning"
-        );
-        return terminal::print(&text);
+        return terminal::print(&list());
+    }
+    if arguments.all {
+        return write_all(arguments);
     }
     if let Some(mesh) = &arguments.from {
         return start_from(mesh, arguments);
@@ -184,7 +168,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         REFERENCE => None,
         name => Some(find(name)?),
     };
-    let name = template.map_or(REFERENCE, |template| template.name);
+    let name = template.map_or(REFERENCE, |(name, _)| name);
     let path = match &arguments.out {
         Some(path) => path.clone(),
         None => PathBuf::from(format!("{name}.toml")),
@@ -194,32 +178,78 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         Some(name) if !is_stdout => name.to_string_lossy().into_owned(),
         _ => format!("{name}.toml"),
     };
-    let text = match template {
-        Some(template) => template.case_named(&shown),
+    let text = match &template {
+        Some((_, case)) => case.named(&shown),
         None => reference::template(),
     };
     if is_stdout {
         return terminal::print(&text);
     }
     let folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
-    let beside = template.map_or(&[][..], |template| template.files);
-    let beside = beside
-        .iter()
-        .map(|(name, bytes)| (folder.join(name), *bytes));
+    let beside = template.map_or(Vec::new(), |(_, case)| case.files());
     let mut files = vec![(path, text.as_bytes())];
-    // What is there already, as it would be written, need not be replaced.
-    files
-        .extend(beside.filter(|(path, bytes)| std::fs::read(path).ok().as_deref() != Some(*bytes)));
-    if !arguments.force
-        && let Some((path, _)) = files
-            .iter()
-            .find(|(path, _)| path.symlink_metadata().is_ok())
-    {
+    files.extend(missing(&folder, beside).map(|(path, bytes)| (path, &bytes[..])));
+    write_files(&files, arguments.force)
+}
+
+/// Every template and every other shipped case with its meaning, one on a line.
+fn list() -> String {
+    let mut text = String::new();
+    let mut line = |name: &str, meaning: &str| {
+        let _ = writeln!(text, "{name:<LONGEST_NAME$}  {meaning}");
+    };
+    for template in TEMPLATES {
+        line(template.name, template.meaning);
+    }
+    line(
+        REFERENCE,
+        "every key of a case with its default and meaning",
+    );
+    for case in other_cases() {
+        line(case.name(), case.title());
+    }
+    text
+}
+
+/// Width of the names in the list.
+const LONGEST_NAME: usize = 18;
+
+/// The shipped cases that are no templates.
+fn other_cases() -> impl Iterator<Item = ShippedCase> {
+    let is_template = |case: &ShippedCase| TEMPLATES.iter().any(|own| own.case == case.file);
+    all_cases()
+        .into_iter()
+        .filter(move |case| !is_template(case))
+}
+
+/// Writes the folder of the shipped cases.
+fn write_all(arguments: &Arguments) -> Result<(), Failure> {
+    let folder = arguments.out.clone();
+    let folder = folder.unwrap_or_else(|| PathBuf::from("cases"));
+    let files: Vec<_> = missing(&folder, all_files()).collect();
+    write_files(&files, arguments.force)
+}
+
+/// Shipped files that a folder does not hold as they would be written.
+fn missing(
+    folder: &Path,
+    files: Vec<ShippedFile>,
+) -> impl Iterator<Item = (PathBuf, &'static [u8])> {
+    let placed = files
+        .into_iter()
+        .map(move |(name, bytes)| (folder.join(name), bytes));
+    placed.filter(|(path, bytes)| std::fs::read(path).ok().as_deref() != Some(*bytes))
+}
+
+/// Writes all files or, where one exists, none, and says which.
+fn write_files(files: &[(PathBuf, &[u8])], force: bool) -> Result<(), Failure> {
+    let is_there = |(path, _): &&(PathBuf, &[u8])| path.symlink_metadata().is_ok();
+    if let Some((path, _)) = files.iter().find(is_there).filter(|_| !force) {
         return Err(exists(path));
     }
     let mut written = String::new();
-    for (path, bytes) in &files {
-        write(path, bytes, arguments.force)?;
+    for (path, bytes) in files {
+        write(path, bytes, force)?;
         let _ = writeln!(written, "{}", path.display());
     }
     terminal::print(&written)
@@ -247,25 +277,17 @@ fn start_from(mesh: &Path, arguments: &Arguments) -> Result<(), Failure> {
     terminal::print(&format!("{}\n", path.display()))
 }
 
-impl Template {
-    /// The case as a file of this name, beside the files that it reads; comments name both.
-    fn case_named(&self, name: &str) -> String {
-        let own = format!("cases/{}", self.case);
-        let text = self.text.replace(&own, name);
-        let files = self.files.iter();
-        files.fold(text, |text, (file, _)| {
-            text.replace(&format!("cases/{file}"), file)
-        })
-    }
-}
-
-fn find(name: &str) -> Result<&'static Template, Failure> {
+/// The case that a name stands for, a template's or a shipped case's, and the name of the file to write.
+fn find(name: &str) -> Result<(&str, ShippedCase), Failure> {
     let synonym = SYNONYMS.iter().find(|pair| pair.0 == name);
     let name = synonym.map_or(name, |pair| pair.1);
-    let found = TEMPLATES.iter().find(|template| template.name == name);
-    found.ok_or_else(|| {
+    let template = TEMPLATES.iter().find(|template| template.name == name);
+    let file = template.map_or(format!("{name}.toml"), |template| template.case.to_owned());
+    let case = ShippedCase::find(&file);
+    case.map(|case| (name, case)).ok_or_else(|| {
         let names = TEMPLATES.iter().map(|template| template.name);
-        let names: Vec<&str> = names.chain([REFERENCE]).collect();
+        let others = other_cases().map(|case| case.name());
+        let names: Vec<&str> = names.chain([REFERENCE]).chain(others).collect();
         Failure::usage(format!(
             "no template \"{name}\": choose one of {}",
             names.join(", ")
@@ -310,17 +332,13 @@ mod tests {
     use crate::case::Case;
 
     #[test]
-    fn every_template_is_a_valid_case_beside_its_files() {
-        let folder = tempfile::tempdir().unwrap();
+    fn every_template_is_a_shipped_case() {
         for template in TEMPLATES {
-            for (name, bytes) in template.files {
-                write(&folder.path().join(name), bytes, true).unwrap();
-            }
-            let text = template.case_named("case.toml");
-            assert!(!text.contains("cases/"), "{}", template.name);
-            let path = folder.path().join("case.toml").display().to_string();
-            let case = Case::parse(&path, text.as_bytes(), &[]);
-            assert!(case.is_ok(), "{}", case.unwrap_err());
+            assert!(
+                ShippedCase::find(template.case).is_some(),
+                "{}",
+                template.name
+            );
         }
         let case = Case::parse(REFERENCE, reference::template().as_bytes(), &[]);
         assert!(case.is_ok(), "{}", case.unwrap_err());

@@ -2,12 +2,13 @@
 
 mod basin;
 pub mod cea;
-mod check;
+pub mod check;
 mod collect;
 mod compare;
 mod completions;
 mod convergence;
 pub mod cycle;
+pub mod embedded;
 mod failure;
 mod figure_options;
 mod fit;
@@ -26,6 +27,7 @@ mod profile;
 mod recorded_case;
 mod session;
 mod share;
+pub mod shipped;
 mod signal;
 mod superelement;
 pub mod sweep;
@@ -171,8 +173,13 @@ fn options_behind_subcommand(command: &clap::Command, mut given: Vec<OsString>) 
 /// Parses the command line, runs the subcommand and turns its outcome into an exit code: 0 done,
 /// 1 the run failed, 2 bad usage or case, 130 interrupted.
 pub fn main() -> ExitCode {
+    ExitCode::from(run_arguments(std::env::args_os().collect()))
+}
+
+/// As [`main`], for arguments given by another program, the name of the program first; gives the exit code.
+pub fn run_arguments(given: Vec<OsString>) -> u8 {
     let command = command_line();
-    let given = options_behind_subcommand(&command, std::env::args_os().collect());
+    let given = options_behind_subcommand(&command, given);
     let matches = command.clone().try_get_matches_from(given);
     let parsed = matches.and_then(|found| CommandLine::from_arg_matches(&found));
     let parsed = match parsed {
@@ -181,7 +188,7 @@ pub fn main() -> ExitCode {
     };
     limits::refuse_writes_beyond_limit();
     match parsed.command.run() {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(()) => 0,
         Err(failure) => terminal::report(&failure),
     }
 }

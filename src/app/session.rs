@@ -2,7 +2,7 @@
 
 use super::limits::{LARGEST_CASE, input_name, read_input};
 use super::terminal;
-use super::{Failure, RunOptions};
+use super::{Failure, RunOptions, embedded};
 use crate::case::{Case, RawCase};
 use crate::fem::operator::SimdLevel;
 use crate::results::{Manifest, OutputFolder};
@@ -142,6 +142,10 @@ pub fn start_threads(asked: Option<u16>) -> usize {
     // Threads belong to the outer loops (friction values, harmonics); inside them more of them would only
     // make small factorizations slower.
     crate::linalg::factorize_on_one_thread();
+    if embedded::current().is_some() {
+        // The threads of an embedded run are its own.
+        return rayon::current_num_threads();
+    }
     let mut builder = rayon::ThreadPoolBuilder::new();
     if let Some(count) = asked {
         builder = builder.num_threads(usize::from(count));

@@ -72,7 +72,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         .share
         .open(&session, output, plan.count(), &points)?;
 
-    terminal::catch_signals("finished points are kept: go on with --resume");
+    terminal::catch_signals(workers::KEPT);
     let progress = SweepProgress::new(output.is_quiet(), points.len());
     let run = SweepRun {
         plan: &plan,

@@ -1,11 +1,12 @@
 //! Terminal output: results on stdout, log and progress on stderr.
 
 use super::Failure;
+use super::embedded::{self, EmbeddedRun};
 use crate::case::{shown, shown_json};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use std::io::{self, IsTerminal, Write};
-use std::process::ExitCode;
+use tracing::Dispatch;
 use tracing_subscriber::fmt::format::Writer;
 use tracing_subscriber::fmt::{FmtContext, FormatEvent, FormatFields};
 use tracing_subscriber::registry::LookupSpan;
@@ -33,18 +34,18 @@ pub fn print_json(value: &serde_json::Value) -> Result<(), Failure> {
 }
 
 /// Says on stderr what went wrong (every error names its cause itself), and gives the exit code.
-pub fn report(failure: &Failure) -> ExitCode {
+pub fn report(failure: &Failure) -> u8 {
     let word = error_word();
     let (text, code) = match failure {
         Failure::Case(errors) => (errors.render(is_coloured()), 2),
         Failure::Usage(error) => (format!("{word} {}", shown(&error.to_string())), 2),
         Failure::Run(error) => (format!("{word} {}", shown(&error.to_string())), 1),
         Failure::Interrupted(message) => (format!("{word} {}", shown(message)), INTERRUPTED),
-        Failure::BrokenPipe | Failure::DryRun => return ExitCode::SUCCESS,
+        Failure::BrokenPipe | Failure::DryRun => return 0,
     };
     // Nobody is left to tell if stderr is closed.
     let _ = writeln!(io::stderr().lock(), "{text}");
-    ExitCode::from(code)
+    code
 }
 
 /// Says a warning on stderr, for commands that keep no log.
@@ -88,14 +89,14 @@ fn meant_command(error: &clap::Error) -> Option<&'static str> {
 }
 
 /// Prints what the command line's parser says (help and version too), and gives the exit code.
-pub fn report_usage(error: &clap::Error) -> ExitCode {
+pub fn report_usage(error: &clap::Error) -> u8 {
     if let Some(meant) = meant_command(error) {
         let _ = writeln!(
             io::stderr().lock(),
             "{} no such command; `frictionsim {meant}` does that\n\nFor more information, try '--help'.",
             error_word()
         );
-        return ExitCode::from(2);
+        return 2;
     }
     let plain = error.render().to_string();
     let safe = shown(&plain);
@@ -106,7 +107,7 @@ pub fn report_usage(error: &clap::Error) -> ExitCode {
     };
     // Nobody is left to tell if the stream is closed.
     drop(printed);
-    u8::try_from(error.exit_code()).map_or(ExitCode::FAILURE, ExitCode::from)
+    u8::try_from(error.exit_code()).unwrap_or(1)
 }
 
 /// Advice for a run that keeps nothing before its end.
@@ -115,8 +116,12 @@ pub const NOTHING_KEPT: &str = "nothing of this run is kept: the same command st
 /// Exit code of a process that Ctrl-C or SIGTERM ended.
 pub const INTERRUPTED: u8 = 130;
 
-/// Makes Ctrl-C and SIGTERM end the process with exit code 130 and a word on what is kept and how to go on.
+/// Makes Ctrl-C and SIGTERM end the process with exit code 130 and a word on what is kept and how to go on. Inside another
+/// program, whose signals are its own, the word is kept for it.
 pub fn catch_signals(advice: &'static str) {
+    if let Some(run) = embedded::current() {
+        return run.advise(advice);
+    }
     let stop = move || {
         // Nobody is left to tell if stderr is closed.
         let _ = writeln!(io::stderr(), "\n{} interrupted; {advice}", error_word());
@@ -139,8 +144,23 @@ pub fn error_word() -> &'static str {
     }
 }
 
-/// Sends the log to stderr: information and warnings; with one `quiet` warnings, with two errors only.
+/// A log of warnings that an embedded run keeps.
+pub fn log_into(run: &EmbeddedRun) -> Dispatch {
+    let run = run.clone();
+    let subscriber = tracing_subscriber::fmt()
+        .with_writer(move || run.clone())
+        .with_ansi(false)
+        .with_max_level(tracing::Level::WARN)
+        .event_format(Line);
+    subscriber.finish().into()
+}
+
+/// Sends the log to stderr: information and warnings; with one `quiet` warnings, with two errors only. An embedded run has
+/// a log of its own.
 pub fn start_log(quiet: u8, verbose: u8) {
+    if embedded::current().is_some() {
+        return;
+    }
     let level = match (quiet, verbose) {
         (0, 0) => tracing::Level::INFO,
         (0, _) => tracing::Level::DEBUG,
@@ -202,6 +222,9 @@ pub fn progress(quiet: bool, length: u64, message: &'static str) -> ProgressBar 
 /// A progress bar with a template of its own, in which `{count}` is how many are done of how many, and `{left}` the time
 /// left; neither says anything before there is something to say.
 pub fn progress_in(quiet: bool, length: u64, template: &str) -> ProgressBar {
+    if let Some(run) = embedded::current() {
+        return run.bar(length);
+    }
     if quiet || !io::stderr().is_terminal() {
         return ProgressBar::hidden();
     }

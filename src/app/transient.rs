@@ -9,6 +9,7 @@ pub use figures::{draw_beside, linear_stage};
 use super::profile::{Profile, Redraw};
 use super::{Failure, RunOptions, Session};
 use crate::fem::operator::StiffnessOperator;
+use crate::linalg::interruption;
 use crate::results::transient::{
     CHECKPOINT, Checkpoint, TransientReport, print, write, write_checkpoint,
 };
@@ -189,6 +190,8 @@ fn step(
     let stepping_s = clock.elapsed().as_secs_f64();
     let record = watch.finish()?;
     let end = end.map_err(|error| study.error(error))?;
+    // What there is is written in peace.
+    interruption::acknowledge();
     Ok(Stepped {
         is_finished: end == RunEnd::Finished || record.has_stopped,
         record,

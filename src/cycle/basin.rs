@@ -4,7 +4,7 @@ use super::onset::DiscModel;
 use super::{CycleError, OperatingPoint};
 use crate::contact::ContactStatus;
 use crate::fem::operator::{SimdLevel, StiffnessOperator, largest_frequency};
-use crate::linalg::c64;
+use crate::linalg::{c64, interruption};
 use crate::mesh::AnnulusMesh;
 use crate::transient::{
     CentralDifference, InitialState, OperatorChoice, Perturbation, StandingWave, TimeStep,
@@ -169,6 +169,7 @@ impl Contest<'_> {
         let mut saturation_ratio = None;
         let (mut before, mut agreeing) = (seed_ratio, 0);
         for step in 1..=self.request.periods * steps {
+            interruption::check();
             run.advance();
             if saturation_ratio.is_none() && is_saturated(&run) {
                 let [first, second] = self.amplitudes(&run);

@@ -4,7 +4,7 @@ use super::limit_cycle::LimitCycle;
 use super::stability::FloquetExponent;
 use super::stepping::MeshStepping;
 use super::{CycleError, CycleStability, Verdict};
-use crate::linalg::c64;
+use crate::linalg::{c64, interruption};
 use std::f64::consts::TAU;
 
 /// Velocity of the seed in the harmonic of the leading perturbation, in units of the slip speed.
@@ -107,6 +107,7 @@ impl MeshStepping<'_> {
         let mut turnings = vec![Turning::default(); harmonics.len()];
         let (mut from, mut until) = (0, 0);
         for step in 0..periods * steps {
+            interruption::check();
             run.advance();
             if step < first {
                 continue;

@@ -8,6 +8,7 @@ use crate::fem::RayleighDamping;
 use crate::fem::operator::{
     AlignedVector, MotionFields, SimdLevel, StepCoefficients, StiffnessOperator, largest_frequency,
 };
+use crate::linalg::interruption;
 use crate::mesh::AnnulusMesh;
 use crate::transient::{
     CentralDifference, InitialState, OperatorChoice, Perturbation, TimeStep, TransientModel,
@@ -191,6 +192,7 @@ impl MeshStepping<'_> {
         };
         period.start = period.packed(run.fields());
         for _ in 0..steps {
+            interruption::check();
             run.advance();
             period.record(&run);
         }

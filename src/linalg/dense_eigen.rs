@@ -1,7 +1,7 @@
 //! Eigenvalue decomposition of dense real matrices.
 
 use super::dense::{column, column_mut, product, random_columns};
-use super::{ComplexDenseLu, LinalgError};
+use super::{ComplexDenseLu, LinalgError, interruption};
 use faer::diag::Diag;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::evd::{ComputeEigenvectors, evd_cplx, evd_real, evd_scratch};
@@ -29,6 +29,7 @@ pub struct RealEigen {
 /// Eigenvalues, rising, and orthonormal eigenvectors of a symmetric matrix, of which the lower triangle is read; nothing where
 /// the iteration fails.
 pub fn symmetric_eigen(matrix: &Mat<f64>) -> (Vec<f64>, Mat<f64>) {
+    interruption::check();
     match matrix.self_adjoint_eigen(faer::Side::Lower) {
         Ok(found) => (
             found.S().column_vector().iter().copied().collect(),
@@ -43,6 +44,7 @@ pub fn symmetric_eigen(matrix: &Mat<f64>) -> (Vec<f64>, Mat<f64>) {
 /// # Errors
 /// If the QR iteration does not converge, or the matrix is not finite.
 pub fn complex_eigenvalues(matrix: MatRef<'_, c64>) -> Result<Vec<c64>, LinalgError> {
+    interruption::check();
     let n = matrix.nrows();
     let failure = LinalgError::DenseEigen { dimension: n };
     if !matrix.is_all_finite() {
@@ -69,6 +71,7 @@ pub fn complex_eigenvalues(matrix: MatRef<'_, c64>) -> Result<Vec<c64>, LinalgEr
 /// # Errors
 /// As [`complex_eigenvalues`].
 pub fn real_eigenvalues(matrix: MatRef<'_, f64>) -> Result<Vec<c64>, LinalgError> {
+    interruption::check();
     let n = matrix.nrows();
     let failure = LinalgError::DenseEigen { dimension: n };
     if !matrix.is_all_finite() {
@@ -107,6 +110,7 @@ pub fn real_eigen(
     with_left: bool,
     leading: usize,
 ) -> Result<RealEigen, LinalgError> {
+    interruption::check();
     let n = matrix.nrows();
     let failure = LinalgError::DenseEigen { dimension: n };
     if !matrix.is_all_finite() {

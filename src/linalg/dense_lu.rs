@@ -1,5 +1,6 @@
 //! Dense LU factorization, sequential and instantiated once for each scalar.
 
+use super::interruption;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::lu::partial_pivoting::{factor, solve};
 use faer::perm::Perm;
@@ -19,6 +20,7 @@ macro_rules! dense_lu {
         impl $name {
             /// Factorizes a square matrix with partial pivoting.
             pub fn factorize(mut matrix: Mat<$scalar>) -> Self {
+                interruption::check();
                 let n = matrix.nrows();
                 let (mut forward, mut inverse) = (vec![0; n], vec![0; n]);
                 let scratch = factor::lu_in_place_scratch::<usize, $scalar>(

@@ -1,12 +1,12 @@
 //! Block Krylov-Schur iteration for the eigenvalues of largest modulus of a real operator.
 
-use super::LinalgError;
 use super::dense::{
     GrowingColumns, Orthonormalized, add_product, orthonormalize, product, random_columns,
     transpose_product,
 };
 use super::dense_eigen::{RealEigen, real_eigen};
 use super::gram::orthonormal_columns;
+use super::{LinalgError, interruption};
 use faer::{Mat, MatRef, c64};
 
 /// A real linear operator that is applied to blocks of vectors.
@@ -82,6 +82,7 @@ pub fn krylov_schur(
     let mut process = BlockArnoldi::new(operator, seed);
     let mut looked_at = 0;
     loop {
+        interruption::check();
         process.expand();
         let too_small =
             matches!(settings.wanted, Wanted::Largest(count) if process.dimension() < count.min(n));

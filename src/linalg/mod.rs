@@ -8,6 +8,7 @@ mod distribution;
 mod error;
 mod gaussian_noise;
 pub mod gram;
+pub mod interruption;
 mod krylov_schur;
 mod matrix_market;
 mod polynomial;

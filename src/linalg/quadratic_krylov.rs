@@ -1,8 +1,8 @@
 //! Krylov iteration for quadratic eigenproblems on half-length vectors.
 
-use super::LinalgError;
 use super::dense::{GrowingColumns, dot, orthonormalize, product};
 use super::dense_eigen::{RealEigen, real_eigen};
+use super::{LinalgError, interruption};
 use faer::{Mat, MatRef, c64};
 
 /// The two blocks `A` and `B` of the operator `S = [A B; I 0]`.
@@ -61,6 +61,7 @@ pub fn quadratic_krylov(
     let mut process = TwoLevelArnoldi::new(operator, start);
     let mut next_look = (FIRST_LOOK * settings.pairs as f64) as usize;
     loop {
+        interruption::check();
         process.expand();
         let is_spent = process.expanded >= settings.max_applications;
         if process.expanded < next_look && !process.is_exhausted() && !is_spent {

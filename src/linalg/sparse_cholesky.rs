@@ -1,6 +1,6 @@
 //! Sparse Cholesky factorization.
 
-use super::LinalgError;
+use super::{LinalgError, interruption};
 use faer::linalg::solvers::Solve;
 use faer::sparse::linalg::solvers::Llt;
 use faer::sparse::{SparseColMat, Triplet};
@@ -21,6 +21,7 @@ impl SparseCholesky {
         dimension: usize,
         entries: impl Iterator<Item = (usize, usize, f64)>,
     ) -> Result<Self, LinalgError> {
+        interruption::check();
         let failure = |reason: String| LinalgError::Factorization { dimension, reason };
         let triplets: Vec<_> = entries
             .map(|(row, column, value)| Triplet::new(row, column, value))

@@ -1,7 +1,7 @@
 //! Sparse symmetric factorization `A = P^T L D L^T P` and the inertia it shows.
 
 use super::dense::column_blocks;
-use super::{LinalgError, SparsityPattern};
+use super::{LinalgError, SparsityPattern, interruption};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::{
@@ -70,6 +70,7 @@ impl SparseLdl {
     /// # Errors
     /// On a zero pivot, or if the factors fail a trial solve.
     pub fn factorize(analysis: &LdlAnalysis, values: &[f64]) -> Result<Self, LinalgError> {
+        interruption::check();
         let symbolic = &analysis.symbolic;
         let mut factors = vec![0.0; symbolic.len_val()];
         let scratch = symbolic.factorize_numeric_ldlt_scratch::<f64>(Par::Seq, Default::default());

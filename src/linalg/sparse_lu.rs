@@ -1,7 +1,7 @@
 //! Sparse LU factorization: one symbolic analysis for all values of a pattern, real or complex.
 
 use super::dense::column_blocks;
-use super::{LinalgError, SparsityPattern};
+use super::{LinalgError, SparsityPattern, interruption};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::lu::{LuRef, NumericLu, SymbolicLu, factorize_symbolic_lu};
 use faer::{Conj, Mat, MatMut, Par, c64};
@@ -66,6 +66,7 @@ macro_rules! sparse_lu {
                 analysis: &LuAnalysis,
                 values: Vec<$scalar>,
             ) -> Result<Self, LinalgError> {
+                interruption::check();
                 let mut numeric = NumericLu::new();
                 let symbolic = &analysis.symbolic;
                 let scratch = symbolic

@@ -1,7 +1,7 @@
 //! Runs the points of a sweep on worker threads.
 
 use super::progress::SweepProgress;
-use crate::app::Failure;
+use crate::app::{Failure, embedded};
 use crate::case::Case;
 use crate::results::Manifest;
 use crate::results::sweep::{Found, PointClock, PointRecord, SweepFolder};
@@ -14,6 +14,12 @@ use std::time::Instant;
 
 /// Runs the analyses of one point and gives the summary of each by its name.
 pub type PointRunner<'a> = dyn Fn(&Case) -> Result<Map<String, Value>, Failure> + Sync + 'a;
+
+/// What an interrupted sweep leaves.
+pub const KEPT: &str = "finished points are kept: go on with --resume";
+
+/// Hash of a point's case; its summaries, or its error in words.
+type PointOutcome = (String, Result<Map<String, Value>, String>);
 
 /// A sweep on its way.
 pub struct SweepRun<'a> {
@@ -63,10 +69,7 @@ impl SweepRun<'_> {
             }
         };
         let pools = (0..workers)
-            .map(|_| {
-                let builder = rayon::ThreadPoolBuilder::new();
-                builder.num_threads((threads / workers).max(1)).build()
-            })
+            .map(|_| embedded::inherited_pool((threads / workers).max(1)))
             .collect::<Result<Vec<_>, _>>()
             .map_err(Failure::run)?;
         std::thread::scope(|scope| {
@@ -101,7 +104,7 @@ impl SweepRun<'_> {
         let swept = self.plan.swept(point);
         self.progress.begin(point, &swept);
         let (start, busy) = (Instant::now(), thread_core_seconds());
-        let (case_hash, outcome) = self.compute(point);
+        let (case_hash, outcome) = self.compute(point)?;
         let wall_s = start.elapsed().as_secs_f64();
         let core_s = match (busy, thread_core_seconds(), rayon::current_num_threads()) {
             (Some(before), Some(after), 1) => after - before,
@@ -127,22 +130,25 @@ impl SweepRun<'_> {
         Ok(true)
     }
 
-    fn compute(&self, point: usize) -> (String, Result<Map<String, Value>, String>) {
+    /// Hash and summaries of a point, or its error in words.
+    ///
+    /// # Errors
+    /// [`Failure::Interrupted`] where the whole sweep is asked to stop.
+    fn compute(&self, point: usize) -> Result<PointOutcome, Failure> {
         let case = match self.plan.point_case(point) {
             Ok(case) => case,
-            Err(error) => return (String::new(), Err(error)),
+            Err(error) => return Ok((String::new(), Err(error))),
         };
         // A point that panics must not take the others with it.
         let outcome = catch_unwind(AssertUnwindSafe(|| (self.runner)(&case)));
         let outcome = match outcome {
             Ok(result) => result.map_err(|failure| one_line(&failure.messages().join("; "))),
-            Err(panic) => {
-                let text = panic.downcast_ref::<String>().map(String::as_str);
-                let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
-                Err(format!("panic: {}", text.unwrap_or("of unknown cause")))
+            Err(cause) if embedded::is_stopped(cause.as_ref()) => {
+                return Err(Failure::Interrupted(format!("interrupted; {KEPT}")));
             }
+            Err(cause) => Err(format!("panic: {}", embedded::panic_text(cause.as_ref()))),
         };
-        (case.raw.hash(), outcome)
+        Ok((case.raw.hash(), outcome))
     }
 }
 

@@ -1,6 +1,6 @@
 //! Progress, checkpoints and signals beside the time loop.
 
-use crate::app::{Failure, terminal};
+use crate::app::{Failure, embedded, terminal};
 use crate::results::transient::write_checkpoint;
 use crate::results::{FolderError, OutputFolder};
 use crate::transient::{Observer, Recorder, Sample, StepPlan};
@@ -14,6 +14,10 @@ static IS_INTERRUPTED: AtomicBool = AtomicBool::new(false);
 
 /// Makes Ctrl-C and SIGTERM stop the run at its next sample; a second one ends the process at once.
 pub fn catch_signals() {
+    if embedded::current().is_some() {
+        // Stopped by whoever started it: see the recorder.
+        return;
+    }
     // A second run of the same process finds the handler in place.
     let _ = ctrlc::set_handler(|| {
         if IS_INTERRUPTED.swap(true, Ordering::SeqCst) {

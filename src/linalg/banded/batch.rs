@@ -1,5 +1,6 @@
 //! Several complex banded systems of one shape, solved side by side.
 
+use crate::linalg::interruption;
 use faer::c64;
 
 /// Systems solved side by side.
@@ -140,6 +141,7 @@ impl BandedBatch {
 
     /// Solves `A x = e_unknown` in each system.
     pub fn solve(&mut self, unknown: usize) -> [Quality; LANES] {
+        interruption::check();
         self.solution.fill(Lanes::ZERO);
         self.solution[unknown].re = [1.0; LANES];
         self.factors.copy_from_slice(&self.values);

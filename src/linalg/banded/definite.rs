@@ -1,6 +1,7 @@
 //! `L D L^T` of symmetric banded matrices, row by row over contiguous rows.
 
 use super::BandedMatrix;
+use crate::linalg::interruption;
 
 /// `L D L^T` factorization without pivoting of `a - shift b`, for bands too wide for [`super::BandedLdl`].
 ///
@@ -20,6 +21,7 @@ impl BandedFactor {
     /// # Panics
     /// If the shapes differ.
     pub fn new(a: &BandedMatrix, b: &BandedMatrix, shift: f64) -> Self {
+        interruption::check();
         let (n, h) = (a.dimension, a.half_bandwidth);
         assert_eq!((b.dimension, b.half_bandwidth), (n, h));
         let width = h + 1;

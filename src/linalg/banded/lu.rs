@@ -1,5 +1,6 @@
 //! LU factorization of complex banded matrices.
 
+use crate::linalg::interruption;
 use faer::c64;
 
 /// LU factorization with partial pivoting of a complex banded matrix.
@@ -32,6 +33,7 @@ impl BandedLu {
     /// An exactly singular pivot is replaced by a tiny one: a shift that is an eigenvalue to the last bit
     /// is welcome in inverse iteration.
     pub fn factorize(&mut self, values: &[c64]) {
+        interruption::check();
         let (n, h) = (self.dimension, self.half_bandwidth);
         let (width, stored) = (3 * h + 1, 2 * h + 1);
         let zero = c64::new(0.0, 0.0);

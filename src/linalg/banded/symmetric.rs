@@ -1,6 +1,7 @@
 //! Factorizations of symmetric and Hermitian banded matrices.
 
 use super::BandedMatrix;
+use crate::linalg::interruption;
 use faer::c64;
 
 /// `L D L^T` factorization without pivoting of a symmetric banded matrix `A - shift B`.
@@ -38,6 +39,7 @@ impl BandedLdl {
     /// # Panics
     /// If the shapes differ.
     pub fn refactorize(&mut self, a: &BandedMatrix, b: &BandedMatrix, shift: f64) {
+        interruption::check();
         let (n, h) = (self.dimension, self.half_bandwidth);
         assert_eq!((a.dimension, a.half_bandwidth), (n, h));
         assert_eq!((b.dimension, b.half_bandwidth), (n, h));

@@ -24,6 +24,7 @@ use super::{StudyError, extent_of};
 use crate::case::{Annulus, Body, Case, Revolution, Transient};
 use crate::cycle::Family;
 use crate::fem::operator::{SimdLevel, StiffnessOperator};
+use crate::linalg::interruption;
 use crate::mesh::{AnnulusMesh, Mesh, SolidSector};
 use crate::results::transient::TransientReport;
 use crate::transient::{
@@ -218,6 +219,7 @@ impl<'a> TransientStudy<'a> {
         let clock = Instant::now();
         // On a thread of the pool: a step hands parts of itself to the others.
         rayon::scope(|_| run.run(&mut record)).map_err(|error| self.error(error))?;
+        interruption::check();
         let stepping_s = clock.elapsed().as_secs_f64();
         Ok(SolvedTransient {
             analysis: self.analyse(&record),

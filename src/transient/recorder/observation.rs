@@ -1,6 +1,7 @@
 //! The part of a sample that is kept.
 
 use super::{ContactFrame, HARMONIC_COUNT, Recorder, SampleRow, Snapshot};
+use crate::linalg::interruption;
 use crate::transient::{Observer, Sample, Settling};
 use std::ops::ControlFlow;
 
@@ -46,7 +47,10 @@ impl Observer for Recorder {
             self.has_stopped = true;
             return ControlFlow::Break(());
         }
-        ControlFlow::Continue(())
+        match interruption::is_asked() {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        }
     }
 }
 

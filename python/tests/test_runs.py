@@ -1,0 +1,223 @@
+"""Runs: the bytes of the command line, threads, memory, interruption."""
+
+from __future__ import annotations
+
+import gc
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import textwrap
+import threading
+import time
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import COARSE, assert_same_files, command_line, options
+
+import frictionsim
+
+
+def test_an_analysis_gives_the_bytes_of_the_command_line(disc: frictionsim.Case, tmp_path: Path) -> None:
+    command_line("cea", str(disc.path), "-o", "cli", *options(disc), folder=tmp_path)
+    result = frictionsim.cea(disc, folder=tmp_path / "python")
+    assert_same_files(tmp_path / "cli", result.folder)
+    summaries = [frictionsim.open_results(tmp_path / name).summary for name in ("cli", "python")]
+    for summary in summaries:
+        del summary["wall_s"]
+    assert summaries[0] == summaries[1]
+
+
+def test_other_commands_give_the_bytes_of_the_command_line(tmp_path: Path) -> None:
+    run = {**COARSE, "transient.duration": 1e-3, "output.probes": [1], "output.snapshots": [5e-4]}
+    transient = frictionsim.Case.shipped("polycarbonate-610rpm").changed(run)
+    frf = frictionsim.Case.shipped("hammer-test").changed({**COARSE, "frf.force_node": 4, "frf.response_node": 4})
+    for command, case in {"transient": transient, "frf": frf}.items():
+        command_line(command, str(case.path), "-o", command, "--no-figures", *options(case), folder=tmp_path)
+        result = getattr(frictionsim, command)(case, figures=False)
+        names = list(result.tables)
+        assert names
+        for name in names:
+            ours = (result.folder / f"{name}.csv").read_bytes()
+            assert ours == (tmp_path / command / f"{name}.csv").read_bytes(), name
+
+
+def test_two_threads_at_once_get_their_own_results(disc: frictionsim.Case) -> None:
+    frictions = [0.05, 0.1, 0.2, 0.3, 0.4, 0.5]
+
+    def growth(friction: float) -> np.ndarray:
+        own = disc.changed({"cea.friction_coefficients": [friction]})
+        eigenvalues = frictionsim.cea(own, figures=False, progress=False).eigenvalues
+        assert set(eigenvalues["friction_coefficient"]) == {friction}
+        return eigenvalues["growth_rate_per_s"]
+
+    alone = [growth(friction) for friction in frictions]
+    with ThreadPoolExecutor(2) as pool:
+        together = list(pool.map(growth, frictions))
+    for one, other in zip(alone, together, strict=True):
+        np.testing.assert_array_equal(one, other)
+
+
+def test_other_python_threads_go_on_during_a_run(long_transient: frictionsim.Case) -> None:
+    case = long_transient.changed({"transient.duration": 0.02, "output.snapshots": []})
+    counted = 0
+    done = threading.Event()
+
+    def count() -> None:
+        nonlocal counted
+        while not done.wait(1e-3):
+            counted += 1
+
+    counter = threading.Thread(target=count)
+    counter.start()
+    begin = time.perf_counter()
+    frictionsim.transient(case, figures=False)
+    wall = time.perf_counter() - begin
+    done.set()
+    counter.join()
+    # A held interpreter lock would let no tick through; half of them leave room for a busy machine.
+    assert counted > 0.1 * wall / 1e-3
+
+
+def test_the_number_of_threads_changes_no_byte(disc: frictionsim.Case) -> None:
+    one, two = (frictionsim.cea(disc, threads=threads, figures=False) for threads in (1, 2))
+    assert (one.folder / "eigenvalues.csv").read_bytes() == (two.folder / "eigenvalues.csv").read_bytes()
+    assert [result.summary["manifest"]["threads"] for result in (one, two)] == [1, 2]
+
+
+def resident_bytes() -> int:
+    """Memory of this process, where the system says it."""
+    pages = Path("/proc/self/statm").read_text().split()[1]
+    return int(pages) * os.sysconf("SC_PAGE_SIZE")
+
+
+@pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="this system does not say how much memory is taken")
+def test_memory_does_not_grow_over_a_thousand_calls(
+    disc: frictionsim.Case, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    if Path("/dev/shm").is_dir():
+        # Most of a small call is waiting for the disk.
+        monkeypatch.setattr(tempfile, "tempdir", "/dev/shm")
+    case = disc.changed({"cea.friction_coefficients": [0.3], "cea.modes": 2, "cea.max_frequency_hz": None})
+    case["cea.shapes_at"] = []
+
+    def call(count: int) -> int:
+        for _ in range(count):
+            result = frictionsim.cea(case, figures=False, progress=False, threads=1)
+            assert len(result.eigenvalues["mode"]) == 2
+        gc.collect()
+        return resident_bytes()
+
+    before = call(100)
+    after = call(1000)
+    # Two kilobytes a call would be a leak; allocators keep a few pages.
+    assert after - before < 2e6, f"{(after - before) / 1000:.0f} bytes a call"
+
+
+SCRIPT = """
+import sys, frictionsim
+case = frictionsim.Case(sys.argv[1], eval(sys.argv[2]))
+print("begin", flush=True)
+try:
+    getattr(frictionsim, sys.argv[3])(case, folder=sys.argv[4], figures=False, progress=lambda *told: print("told", flush=True))
+except KeyboardInterrupt as interrupt:
+    print("interrupted:", interrupt, flush=True)
+"""
+
+
+def interrupted(case: frictionsim.Case, command: str, folder: Path) -> tuple[float, str]:
+    """Interrupt a run on its way; gives the time until the call returns, and what it says."""
+    changes = repr(case._changes)
+    words = [sys.executable, "-c", textwrap.dedent(SCRIPT), str(case.path), changes, command, str(folder)]
+    with subprocess.Popen(words, stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout is not None
+        while "told" not in (line := process.stdout.readline()):
+            assert line, "the run ended before it was interrupted"
+        time.sleep(0.5)
+        begin = time.perf_counter()
+        process.send_signal(signal.SIGINT)
+        while (said := process.stdout.readline()).startswith("told"):
+            pass
+        wall = time.perf_counter() - begin
+        process.communicate()
+    return wall, said
+
+
+def test_ctrl_c_ends_a_transient_within_a_second_and_it_resumes_to_the_same_bytes(
+    long_transient: frictionsim.Case, tmp_path: Path
+) -> None:
+    wall, said = interrupted(long_transient, "transient", tmp_path / "run")
+    assert wall < 1.0
+    assert "resume=True" in said and "stopped at t =" in said, said
+    stopped = frictionsim.open_results(tmp_path / "run")
+    reached = stopped.table("energy")["time_s"][-1]
+    # Goes on for a little more, to the bytes of a run that was never stopped.
+    longer = long_transient.changed({"transient.duration": float(np.ceil(reached * 1e2) / 1e2 + 0.01)})
+    resumed = frictionsim.transient(longer, folder=tmp_path / "run", resume=True, figures=False)
+    whole = frictionsim.transient(longer, figures=False)
+    for name in whole.tables:
+        assert (resumed.folder / f"{name}.csv").read_bytes() == (whole.folder / f"{name}.csv").read_bytes(), name
+
+
+def test_ctrl_c_ends_a_sweep_within_a_second_and_it_resumes(long_transient: frictionsim.Case, tmp_path: Path) -> None:
+    sweep = {"sweep": {"contact.friction_coefficient": [0.2, 0.3, 0.4], "analyses": ["transient"]}}
+    study = long_transient.changed({**sweep, "transient.duration": 1.0})
+    wall, said = interrupted(study, "sweep", tmp_path / "study")
+    assert wall < 1.0
+    assert "resume=True" in said, said
+    short = {**sweep, "transient.duration": 1e-3}
+    with pytest.raises(frictionsim.UsageError, match="other"):
+        frictionsim.sweep(long_transient.changed(short), folder=tmp_path / "study", figures=False)
+
+
+def test_ctrl_c_ends_an_eigenvalue_analysis_within_a_second(tmp_path: Path) -> None:
+    case = frictionsim.Case.shipped("polycarbonate-disc").changed({"cea.method": "sparse"})
+    wall, said = interrupted(case, "cea", tmp_path / "cea")
+    assert wall < 1.0, said
+    assert "interrupted" in said
+
+
+def test_progress_is_told_and_may_stop_the_run(long_transient: frictionsim.Case) -> None:
+    told: list[tuple[str, int, int | None]] = []
+
+    class Enough(Exception):
+        pass
+
+    def tell(message: str, done: int, total: int | None) -> None:
+        told.append((message, done, total))
+        if len(told) == 3:
+            raise Enough
+
+    with pytest.raises(Enough):
+        frictionsim.transient(long_transient, figures=False, progress=tell)
+    message, done, total = told[-1]
+    assert "stick" in message and total == 200_001 and 0 < done < total
+
+
+def test_a_folder_in_use_is_refused_with_the_remedy(long_transient: frictionsim.Case, tmp_path: Path) -> None:
+    begun, stop = threading.Event(), threading.Event()
+
+    class Enough(Exception):
+        pass
+
+    def tell(*_: object) -> None:
+        begun.set()
+        if stop.is_set():
+            raise Enough
+
+    def run() -> None:
+        with pytest.raises(Enough):
+            frictionsim.transient(long_transient, folder=tmp_path / "run", figures=False, progress=tell)
+
+    thread = threading.Thread(target=run)
+    thread.start()
+    assert begun.wait(20)
+    try:
+        with pytest.raises(frictionsim.RunError, match="another folder with folder="):
+            frictionsim.transient(long_transient, folder=tmp_path / "run", figures=False)
+    finally:
+        stop.set()
+        thread.join()
