@@ -41,6 +41,7 @@ mod raster;
 mod ruler;
 mod scale;
 mod shapes;
+mod surface;
 mod svg;
 mod text;
 
@@ -69,6 +70,7 @@ pub use raster::Drawing;
 pub use ruler::Ruler;
 pub use scale::{Scale, extremes};
 pub use shapes::{Bars, Shapes};
+pub use surface::{Surface, SurfaceMesh};
 pub use svg::{ID_PREFIX, Rect, Stroke, Svg, escape};
 pub use text::{Anchor, TextStyle, literal, plain};
 

@@ -1,7 +1,9 @@
 //! The base state of an assembly of solid bodies, point by point.
 
+use crate::chart::{Axis, ChartError, ColourMap, Figure, Panel, literal};
 use crate::contact::{ContactSite, ContactStatus};
 use crate::mesh::Mesh;
+use crate::results::charts::SolidView;
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::table::{Column, write_rows};
 use crate::results::vtu::{EncodedMesh, Field, write_vtu};
@@ -32,6 +34,8 @@ pub struct AssemblyPoint {
 pub struct AssemblyReport {
     /// The points of all contacts.
     pub points: Vec<AssemblyPoint>,
+    /// Each contact with the boundary that has its points.
+    pub surfaces: Vec<(String, usize)>,
     /// Displacement of every node in nodal frames, `3 * node_count` values, m.
     pub displacement: Vec<f64>,
 }
@@ -73,6 +77,43 @@ impl AssemblyReport {
             write_vtu(out, &EncodedMesh::new(mesh)?, &[], &fields, &[])
         })?;
         Ok(())
+    }
+
+    /// Pressure on each contact surface, seen from outside along its mean normal; grey where it is open.
+    ///
+    /// # Errors
+    /// [`ChartError::Empty`] for a base state that is free of stress.
+    pub(super) fn prestress(&self, mesh: &Mesh) -> Result<Figure, ChartError> {
+        if self.points.iter().all(|point| point.pressure == 0.0) {
+            return Err(ChartError::empty(
+                "pressure of contacts that are free of stress",
+            ));
+        }
+        let pressures = self.around_nodes(mesh, |point| point.pressure);
+        let closed = self.around_nodes(mesh, |point| f64::from(u8::from(point.is_closed)));
+        let nodes = pressures.iter().zip(&closed);
+        let values: Vec<f64> = nodes
+            .map(|(&pressure, &closed)| if closed > 0.0 { pressure } else { f64::NAN })
+            .collect();
+        let largest = pressures.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+        let axis = || {
+            Axis::new("contact pressure", "Pa")
+                .prefixed()
+                .between(0.0, largest)
+        };
+        let panels = self.surfaces.iter().map(|(name, boundary)| {
+            let view = SolidView::of_boundary(mesh, *boundary);
+            let surface = view.surface(values.clone(), (&[], 0.0), axis(), ColourMap::Viridis);
+            let panel = Panel::plane(surface.window(0.05)).height(150.0);
+            panel.caption(literal(name)).layer(surface)
+        });
+        let panels: Vec<Panel> = panels.collect();
+        let caption = "Contact pressure in the base state on each contact surface, seen from outside; grey where it is open.";
+        let columns = panels.len().clamp(1, 3);
+        let figure = Figure::new("prestress", caption)
+            .columns(columns)
+            .panels(panels);
+        Ok(figure.colour_foot(axis(), ColourMap::Viridis))
     }
 
     /// Mean over the points around each node, weighted by area and share.

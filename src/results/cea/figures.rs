@@ -37,17 +37,15 @@ pub fn draw(
         Box::new(move || Ok(locus(report, dampings))),
         Box::new(move || pairs(report)),
     ];
-    // Solid bodies are not drawn: their fields are in the VTU files.
-    let is_drawn = report.assembly.is_none();
-    if is_drawn {
-        figures.push(Box::new(move || Ok(prestress(report))));
+    match report.assembly {
+        None => figures.push(Box::new(move || Ok(prestress(report)))),
+        Some(assembly) => figures.push(Box::new(move || assembly.prestress(report.mesh))),
     }
-    for point in report.sweep.points.iter().filter(|_| is_drawn) {
+    for point in &report.sweep.points {
         let friction = point.friction_coefficient;
         figures.push(Box::new(move || Ok(shapes(report, friction))));
     }
-    let followed = followed_branches(report).into_iter();
-    for branch in followed.filter(|_| is_drawn) {
+    for branch in followed_branches(report) {
         figures.push(Box::new(move || Ok(branch_shapes(report, branch))));
     }
     if let Some(reading) = report.reading {
@@ -243,7 +241,7 @@ fn shapes(report: &CeaReport<'_>, friction: f64) -> Figure {
         panels,
         report.has_harmonics,
     );
-    match shapes.is_empty() || report.solid.is_some() {
+    match shapes.is_empty() || report.solid.is_some() || report.assembly.is_some() {
         true => figure,
         false => figure.motion(moving(report.mesh, &shapes)),
     }

@@ -13,6 +13,8 @@ use std::io::{self, Write};
 pub struct MapReport {
     /// Case key of the second parameter.
     pub key: String,
+    /// Its unit; empty of a number without one.
+    pub unit: String,
     /// Whether the body has the symmetry that harmonics belong to.
     pub has_harmonics: bool,
     /// Largest friction coefficient studied.
@@ -108,10 +110,14 @@ impl MapReport {
             count => format!("; {count} values failed, see map.csv"),
         };
         match onsets.min_by(|a, b| a.0.total_cmp(&b.0)) {
-            Some((friction, value)) => format!(
-                "map over {}: lowest critical friction {friction:.6} at {value}{failed}",
-                self.key
-            ),
+            Some((friction, value)) => {
+                let at = format!("{value} {}", self.unit);
+                format!(
+                    "map over {}: lowest critical friction {friction:.6} at {}{failed}",
+                    self.key,
+                    at.trim_end()
+                )
+            }
             None => format!(
                 "map over {}: stable up to friction {}{failed}",
                 self.key, self.largest_friction

@@ -4,12 +4,13 @@ use super::CeaReport;
 use super::solid::Picture;
 use crate::cea::ComplexMode;
 use crate::chart::{
-    Axis, Field, INK, Line, MUTED, Motion, MotionKind, MotionState, Panel, Stroke, plain, signed,
+    Axis, ColourMap, Field, INK, Line, MUTED, Motion, MotionKind, MotionState, Panel, Stroke,
+    plain, signed,
 };
 use crate::linalg::c64;
 use crate::mesh::Mesh;
 use crate::results::charts::palette::UNSTABLE;
-use crate::results::charts::{Disc, MovingBody};
+use crate::results::charts::{Disc, MovingBody, SolidView};
 
 /// Largest displacement drawn, as a fraction of the half width of the mesh.
 const DEFLECTION: f64 = 0.07;
@@ -62,6 +63,8 @@ pub(super) enum Body<'a> {
     Plane(Disc<'a>, &'a Mesh),
     /// With a thickness.
     Solid(Picture<'a>),
+    /// From a mesh file of solid elements.
+    Assembly(SolidView<'a>),
 }
 
 impl<'a> Body<'a> {
@@ -69,6 +72,7 @@ impl<'a> Body<'a> {
     pub fn new(report: &CeaReport<'a>, rays: usize) -> Self {
         match report.solid {
             Some(solid) => Self::Solid(Picture::new(&solid.sector)),
+            None if report.assembly.is_some() => Self::Assembly(SolidView::new(report.mesh)),
             None => Self::Plane(Disc::with_lattice(report.mesh, rays), report.mesh),
         }
     }
@@ -77,6 +81,7 @@ impl<'a> Body<'a> {
     pub fn panel(&self, shape: &ModeShape<'_>, lines: &[String; 3]) -> Panel {
         match self {
             Self::Plane(disc, mesh) => shape_panel(disc, mesh, shape, lines),
+            Self::Assembly(view) => assembly_panel(view, shape, lines),
             Self::Solid(picture) => {
                 let values = shape.mode.shape.as_deref().unwrap_or(&[]);
                 let panel = picture.panel(values, Axis::new("", "").between(0.0, 1.0));
@@ -120,6 +125,33 @@ fn shape_panel(disc: &Disc<'_>, mesh: &Mesh, shape: &ModeShape<'_>, lines: &[Str
         .height(150.0)
         .layer(disc.deformed(amplitude, &real, magnification, axis))
         .layer(Line::through(disc.contact_edge()).stroke(stroke))
+}
+
+/// The deformed bodies, coloured by the displacement amplitude, at the instant of the largest displacement.
+fn assembly_panel(view: &SolidView<'_>, shape: &ModeShape<'_>, lines: &[String; 3]) -> Panel {
+    let values = shape.mode.shape.as_deref().unwrap_or(&[]);
+    let square = values.iter().fold(c64::ZERO, |sum, u| sum + u * u);
+    let root = square.sqrt();
+    let turn = match root.norm() > 0.0 {
+        true => root.conj() / root.norm(),
+        false => c64::ONE,
+    };
+    let real: Vec<f64> = values.iter().map(|u| (u * turn).re).collect();
+    let amplitude: Vec<f64> = real
+        .chunks_exact(3)
+        .map(|u| u.iter().map(|x| x * x).sum::<f64>().sqrt())
+        .collect();
+    let largest = amplitude.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+    let magnification = 0.5 * DEFLECTION * view.size() / largest;
+    let axis = Axis::new("", "").between(0.0, largest);
+    let surface = view.surface(amplitude, (&real, magnification), axis, ColourMap::Viridis);
+    let colour = shape.colour();
+    let panel = lines
+        .iter()
+        .fold(Panel::plane(surface.window(0.04)), |panel, line| {
+            panel.heading_in(colour, line)
+        });
+    panel.height(130.0).layer(surface)
 }
 
 /// The modes as motions to choose from: the unstable ones first, as many as a page carries.

@@ -6,6 +6,7 @@ mod critical_friction;
 mod disc;
 mod motion;
 pub mod palette;
+mod solid;
 
 pub use contact::{
     ContactVelocity, FieldFrame, contact_figure, field_figure, open_contact_figure, place_axis,
@@ -17,3 +18,4 @@ pub use course::{
 pub use critical_friction::{CriticalBranch, critical_friction};
 pub use disc::Disc;
 pub use motion::MovingBody;
+pub use solid::SolidView;

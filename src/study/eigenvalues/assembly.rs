@@ -101,7 +101,11 @@ impl AssemblyModel {
                 shares: shares.clone(),
             }
         });
+        let contacts = self.body.contacts.iter();
         Ok(AssemblyReport {
+            surfaces: contacts
+                .map(|own| (own.name.clone(), own.surface))
+                .collect(),
             points: points.collect(),
             displacement: state.displacement(friction),
         })

@@ -2,7 +2,7 @@
 
 use super::model::{Model, Solver, mode_limit};
 use super::{Progress, StudyError};
-use crate::case::{Case, Cea, CeaMap};
+use crate::case::{Case, Cea, CeaMap, find_key};
 use crate::cea::cyclic;
 use crate::cea::{PartWatch, SweepProgress, SweepStage, Unwatched};
 use crate::results::cea::MapReport;
@@ -68,6 +68,7 @@ pub fn watched_map(
     );
     Ok(MapReport {
         key: map.key.clone(),
+        unit: find_key(&map.key).map_or("", |key| key.unit).to_owned(),
         has_harmonics: case.has_sectors(),
         largest_friction,
         points,

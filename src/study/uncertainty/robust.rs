@@ -36,8 +36,8 @@ impl FromStr for Design {
         let count = count
             .filter(|count| (2..=1000).contains(count))
             .ok_or(hint)?;
-        if from == to {
-            return Err(format!("{hint}; its ends must differ"));
+        if from >= to {
+            return Err(format!("{hint}; FROM must be less than TO"));
         }
         Ok(Self {
             key: key.trim().to_owned(),

@@ -1,0 +1,288 @@
+//! The shaded surface of solid bodies, hidden parts hidden, coloured by values at its nodes.
+
+use super::axis::Axis;
+use super::colour::{ColourMap, channels};
+use super::colour_bar::Colours;
+use super::frame::Frame;
+use super::image::{IndexedImage, Palette};
+use super::layer::Layer;
+use super::svg::Svg;
+use std::sync::Arc;
+
+/// Colours of the values, and one more for faces without a value ...
+const LEVELS: usize = 15;
+/// ... each at so many brightnesses: together, with the edges, fewer than 255.
+const SHADES: usize = 15;
+/// Colour of faces without a value.
+const NEUTRAL: &str = "#c8c8c8";
+/// Colour of edges.
+const EDGE: &str = "#303030";
+/// Image pixels for each point of the drawing.
+const PIXELS_PER_POINT: f64 = 3.0;
+/// Where the light comes from: over the left shoulder of the viewer.
+const LIGHT: [f64; 3] = [-0.35, 0.5, 0.79];
+
+/// Triangles and edges of a surface by their nodes.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct SurfaceMesh {
+    /// Corners, the outside to the viewer where they run counter-clockwise.
+    pub triangles: Vec<[u32; 3]>,
+    /// Edges drawn as lines.
+    pub edges: Vec<[u32; 2]>,
+}
+
+/// A surface seen along the third axis of its positions.
+#[derive(Clone, Debug)]
+pub struct Surface {
+    mesh: Arc<SurfaceMesh>,
+    positions: Vec<[f64; 3]>,
+    values: Vec<f64>,
+    colours: Colours,
+}
+
+impl Surface {
+    /// Nodes at positions to the right, upwards and towards the viewer, with values (NaN: none) at them.
+    pub fn new(
+        mesh: Arc<SurfaceMesh>,
+        positions: Vec<[f64; 3]>,
+        values: Vec<f64>,
+        axis: Axis,
+        map: ColourMap,
+    ) -> Self {
+        let known: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();
+        let colours = Colours::over(axis, map, &known);
+        Self {
+            mesh,
+            positions,
+            values,
+            colours,
+        }
+    }
+
+    /// The corners of the rectangle around the nodes of the surface, with `room` as a fraction of its size.
+    pub fn window(&self, room: f64) -> [[f64; 2]; 2] {
+        let nodes = self.mesh.triangles.iter().flatten();
+        let mut ends = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+        for &node in nodes {
+            let place = self.positions[node as usize];
+            for axis in 0..2 {
+                ends[0][axis] = ends[0][axis].min(place[axis]);
+                ends[1][axis] = ends[1][axis].max(place[axis]);
+            }
+        }
+        let size = (ends[1][0] - ends[0][0]).max(ends[1][1] - ends[0][1]);
+        let more = 0.5 * room * size;
+        [ends[0].map(|x| x - more), ends[1].map(|x| x + more)]
+    }
+
+    fn palette(&self) -> Palette {
+        let values = (0..LEVELS).map(|level| {
+            let position = (level as f64 + 0.5) / LEVELS as f64;
+            self.colours.map.at(position)
+        });
+        let bases: Vec<[u8; 3]> = values.chain([channels(NEUTRAL)]).collect();
+        let shaded = bases.iter().flat_map(|base| {
+            (0..SHADES).map(|shade| {
+                let brightness = 0.42 + 0.58 * shade as f64 / (SHADES - 1) as f64;
+                base.map(|channel| (f64::from(channel) * brightness).round() as u8)
+            })
+        });
+        let hex: Vec<String> = shaded
+            .chain([channels(EDGE)])
+            .map(|[r, g, b]| format!("#{r:02x}{g:02x}{b:02x}"))
+            .collect();
+        Palette::of_colours(&hex.iter().map(String::as_str).collect::<Vec<_>>())
+    }
+
+    /// Fills every triangle in front of what is there, then draws the edges that are not hidden.
+    fn rasterize(&self, frame: &Frame, palette: &Palette) -> IndexedImage {
+        let size = |points: f64| (points * PIXELS_PER_POINT).round().clamp(1.0, 2000.0) as usize;
+        let (width, height) = (size(frame.area.width), size(frame.area.height));
+        let mut canvas = Canvas {
+            image: IndexedImage {
+                width,
+                height,
+                pixels: vec![palette.transparent(); width * height],
+            },
+            depth: vec![f64::NEG_INFINITY; width * height],
+        };
+        let place = |node: u32| {
+            let [x, y, z] = self.positions[node as usize];
+            [
+                frame.x.fraction(x) * width as f64,
+                (1.0 - frame.y.fraction(y)) * height as f64,
+                z,
+            ]
+        };
+        let (low, high) = self.colours.range;
+        let level = |node: u32| {
+            let value = self.values.get(node as usize).copied().unwrap_or(f64::NAN);
+            (value - low) / (high - low).max(f64::MIN_POSITIVE) * LEVELS as f64
+        };
+        for corners in &self.mesh.triangles {
+            let shade = self.shade(corners);
+            canvas.fill(corners.map(place), corners.map(level), shade);
+        }
+        // An edge lies in its faces: it stands a little in front of them.
+        let reach = self.positions.iter().map(|place| place[2]);
+        let (near, far) = reach.fold((f64::NEG_INFINITY, f64::INFINITY), |(near, far), z| {
+            (near.max(z), far.min(z))
+        });
+        let lift = 4e-3 * (near - far).max(0.0);
+        for ends in &self.mesh.edges {
+            canvas.line(ends.map(place), lift);
+        }
+        canvas.image
+    }
+
+    /// Brightness of a face by its angle to the light, as an index.
+    fn shade(&self, corners: &[u32; 3]) -> usize {
+        let [a, b, c] = corners.map(|node| self.positions[node as usize]);
+        let [u, v] = [b, c].map(|p| [p[0] - a[0], p[1] - a[1], p[2] - a[2]]);
+        let normal = [
+            u[1] * v[2] - u[2] * v[1],
+            u[2] * v[0] - u[0] * v[2],
+            u[0] * v[1] - u[1] * v[0],
+        ];
+        let length = normal.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let facing: f64 = normal.iter().zip(LIGHT).map(|(n, l)| n * l).sum();
+        // A face seen from behind is lit like its back.
+        let lit = (facing / length.max(f64::MIN_POSITIVE)).abs();
+        ((lit * SHADES as f64) as usize).min(SHADES - 1)
+    }
+}
+
+/// An image with the depth of what it shows.
+struct Canvas {
+    image: IndexedImage,
+    depth: Vec<f64>,
+}
+
+impl Canvas {
+    fn fill(&mut self, [a, b, c]: [[f64; 3]; 3], levels: [f64; 3], shade: usize) {
+        let area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
+        if !area.is_finite() || area.abs() < 1e-12 {
+            return;
+        }
+        let bounds = |axis: usize, limit: usize| {
+            let low = a[axis].min(b[axis]).min(c[axis]) - 0.5;
+            let high = a[axis].max(b[axis]).max(c[axis]) - 0.5;
+            let last = high.floor().min(limit as f64 - 1.0);
+            (low.ceil().max(0.0) as usize)..((last + 1.0).max(0.0) as usize)
+        };
+        let (columns, rows) = (bounds(0, self.image.width), bounds(1, self.image.height));
+        for row in rows {
+            for column in columns.clone() {
+                let (x, y) = (column as f64 + 0.5, row as f64 + 0.5);
+                let v = ((x - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (y - a[1])) / area;
+                let w = ((b[0] - a[0]) * (y - a[1]) - (x - a[0]) * (b[1] - a[1])) / area;
+                if v < -1e-9 || w < -1e-9 || v + w > 1.0 + 1e-9 {
+                    continue;
+                }
+                let at = |[p, q, r]: [f64; 3]| p + v * (q - p) + w * (r - p);
+                let (pixel, depth) = (row * self.image.width + column, at([a[2], b[2], c[2]]));
+                if depth > self.depth[pixel] {
+                    self.depth[pixel] = depth;
+                    let level = at(levels);
+                    let level = match level.is_finite() {
+                        true => level.clamp(0.0, (LEVELS - 1) as f64) as usize,
+                        false => LEVELS,
+                    };
+                    self.image.pixels[pixel] = (level * SHADES + shade) as u8;
+                }
+            }
+        }
+    }
+
+    fn line(&mut self, [a, b]: [[f64; 3]; 2], lift: f64) {
+        let steps = (b[0] - a[0]).abs().max((b[1] - a[1]).abs()).ceil();
+        if !steps.is_finite() {
+            return;
+        }
+        let count = steps.max(1.0) as usize;
+        for k in 0..=count {
+            let share = k as f64 / count as f64;
+            let [x, y, z] = [0, 1, 2].map(|axis| a[axis] + share * (b[axis] - a[axis]));
+            let (column, row) = (x.floor(), y.floor());
+            let is_inside = column >= 0.0
+                && row >= 0.0
+                && column < self.image.width as f64
+                && row < self.image.height as f64;
+            if !is_inside {
+                continue;
+            }
+            let pixel = row as usize * self.image.width + column as usize;
+            if z + lift >= self.depth[pixel] {
+                self.image.pixels[pixel] = ((LEVELS + 1) * SHADES) as u8;
+            }
+        }
+    }
+}
+
+impl Layer for Surface {
+    fn extent(&self, see: &mut dyn FnMut(f64, f64)) {
+        let [low, high] = self.window(0.0);
+        see(low[0], low[1]);
+        see(high[0], high[1]);
+    }
+
+    fn draw(&self, svg: &mut Svg, frame: &Frame) {
+        let palette = self.palette();
+        if let Some(png) = self.rasterize(frame, &palette).encode(&palette) {
+            svg.image(&frame.area, &png, false);
+        }
+    }
+
+    fn colours(&self) -> Option<&Colours> {
+        Some(&self.colours)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A large square behind a small one: where both are, the small one shows; edges behind it are hidden.
+    #[test]
+    fn what_lies_in_front_hides_what_lies_behind() {
+        let square = |half: f64, depth: f64| {
+            [[-half, -half], [half, -half], [half, half], [-half, half]].map(|[x, y]| [x, y, depth])
+        };
+        let positions = [square(1.0, 0.0), square(0.5, 1.0)].concat();
+        let mesh = SurfaceMesh {
+            triangles: vec![[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]],
+            edges: vec![[0, 2]],
+        };
+        let values = vec![0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0];
+        let axis = Axis::new("", "").between(0.0, 1.0);
+        let surface = Surface::new(Arc::new(mesh), positions, values, axis, ColourMap::Viridis);
+        let mut canvas = Canvas {
+            image: IndexedImage {
+                width: 40,
+                height: 40,
+                pixels: vec![0; 1600],
+            },
+            depth: vec![f64::NEG_INFINITY; 1600],
+        };
+        let place = |node: u32| {
+            let [x, y, z] = surface.positions[node as usize];
+            [20.0 * (x + 1.0), 20.0 * (1.0 - y), z]
+        };
+        for corners in &surface.mesh.triangles {
+            let level = |node: u32| surface.values[node as usize] * LEVELS as f64;
+            canvas.fill(
+                corners.map(place),
+                corners.map(level),
+                surface.shade(corners),
+            );
+        }
+        for ends in &surface.mesh.edges {
+            canvas.line(ends.map(place), 0.01);
+        }
+        let level =
+            |column: usize, row: usize| canvas.image.pixels[row * 40 + column] as usize / SHADES;
+        assert_eq!((level(20, 20), level(3, 10)), (LEVELS - 1, 0));
+        // The diagonal is an edge outside the small square.
+        assert_eq!((level(2, 37), level(15, 24)), (LEVELS + 1, LEVELS - 1));
+    }
+}

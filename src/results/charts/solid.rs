@@ -1,0 +1,159 @@
+//! Solid bodies of a mesh file as pictures: their outer surface from one point of view.
+
+use crate::chart::{Axis, ColourMap, Surface, SurfaceMesh};
+use crate::mesh::{BoundaryFace, Mesh};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// Cosine of the angle between two faces below which their common edge is drawn.
+const SHARP: f64 = 0.75;
+
+/// The surface of solid bodies seen along a direction.
+pub struct SolidView<'a> {
+    mesh: &'a Mesh,
+    shown: Arc<SurfaceMesh>,
+    /// Unit vectors to the right, upwards and towards the viewer.
+    axes: [[f64; 3]; 3],
+}
+
+impl<'a> SolidView<'a> {
+    /// All bodies from the front, the right and above, `z` upwards.
+    pub fn new(mesh: &'a Mesh) -> Self {
+        Self::of(mesh, &mesh.outer_faces(), [0.5, -0.72, 0.62])
+    }
+
+    /// One boundary from outside, along its mean normal.
+    pub fn of_boundary(mesh: &'a Mesh, boundary: usize) -> Self {
+        let faces = &mesh.boundaries[boundary].faces;
+        let normals = mesh.nodal_normals(faces);
+        let mut mean = [0.0; 3];
+        for normal in normals.values() {
+            (0..3).for_each(|axis| mean[axis] += normal[axis]);
+        }
+        Self::of(mesh, faces, mean)
+    }
+
+    fn of(mesh: &'a Mesh, faces: &[BoundaryFace], towards: [f64; 3]) -> Self {
+        let towards = unit(towards).unwrap_or([0.0, 0.0, 1.0]);
+        // Upwards is z, but for what is seen along it.
+        let up = match towards[2].abs() > 0.9 {
+            true => [0.0, 1.0, 0.0],
+            false => [0.0, 0.0, 1.0],
+        };
+        let right = unit(cross(up, towards)).unwrap_or([1.0, 0.0, 0.0]);
+        let shown = SurfaceMesh {
+            triangles: faces.iter().flat_map(triangles).collect(),
+            edges: sharp_edges(mesh, faces),
+        };
+        Self {
+            mesh,
+            shown: Arc::new(shown),
+            axes: [right, cross(towards, right), towards],
+        }
+    }
+
+    /// Values at the nodes (NaN: none) on the bodies displaced by `displacement` (nodal frames, three values a node, m) times
+    /// `magnification`.
+    pub fn surface(
+        &self,
+        values: Vec<f64>,
+        (displacement, magnification): (&[f64], f64),
+        axis: Axis,
+        map: ColourMap,
+    ) -> Surface {
+        let place = |(node, place): (usize, &[f64; 3])| {
+            let moved = displacement.get(3 * node..3 * node + 3).map(|u| {
+                let u = self.mesh.frame(node) * nalgebra::Vector3::from_column_slice(u);
+                [0, 1, 2].map(|k| place[k] + magnification * u[k])
+            });
+            let place = moved.unwrap_or(*place);
+            self.axes.map(|axis| dot(axis, place))
+        };
+        let positions = self.mesh.nodes.iter().enumerate().map(place).collect();
+        Surface::new(Arc::clone(&self.shown), positions, values, axis, map)
+    }
+
+    /// Largest extent of the bodies along an axis, m.
+    pub fn size(&self) -> f64 {
+        let along = |axis: usize| {
+            let places = self.mesh.nodes.iter().map(|place| place[axis]);
+            let ends = places.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+                (low.min(x), high.max(x))
+            });
+            ends.1 - ends.0
+        };
+        (0..3).map(along).fold(f64::MIN_POSITIVE, f64::max)
+    }
+}
+
+/// The triangles between the nodes of a face.
+fn triangles(face: &BoundaryFace) -> Vec<[u32; 3]> {
+    let parts: &[[usize; 3]] = match face.nodes.len() {
+        3 => &[[0, 1, 2]],
+        4 => &[[0, 1, 2], [0, 2, 3]],
+        6 => &[[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]],
+        8 => &[
+            [0, 4, 7],
+            [4, 1, 5],
+            [5, 2, 6],
+            [6, 3, 7],
+            [4, 5, 6],
+            [4, 6, 7],
+        ],
+        _ => &[],
+    };
+    parts
+        .iter()
+        .map(|part| part.map(|node| face.nodes[node]))
+        .collect()
+}
+
+/// Edges between faces that meet at an angle, between regions, and at the rim of open surfaces.
+fn sharp_edges(mesh: &Mesh, faces: &[BoundaryFace]) -> Vec<[u32; 2]> {
+    type Side = ([f64; 3], usize);
+    let mut edges: BTreeMap<[u32; 2], (Vec<u32>, Vec<Side>)> = BTreeMap::new();
+    for face in faces {
+        let corners = face.kind.corner_count();
+        let [a, b, c] = [0, 1, 2].map(|k| mesh.nodes[face.nodes[k] as usize]);
+        let normal = unit(cross(difference(b, a), difference(c, a))).unwrap_or_default();
+        let side = (normal, mesh.region(face.element as usize));
+        for edge in 0..corners {
+            let (p, q) = (face.nodes[edge], face.nodes[(edge + 1) % corners]);
+            let middle = face.nodes.get(corners + edge).copied();
+            let path = [Some(p), middle, Some(q)].into_iter().flatten().collect();
+            let entry = edges.entry([p.min(q), p.max(q)]);
+            entry.or_insert_with(|| (path, Vec::new())).1.push(side);
+        }
+    }
+    let is_sharp = |sides: &[Side]| match sides {
+        [one, other] => one.1 != other.1 || dot(one.0, other.0) < SHARP,
+        _ => true,
+    };
+    let sharp = edges.into_values().filter(|(_, sides)| is_sharp(sides));
+    let steps = sharp.flat_map(|(path, _)| {
+        let steps: Vec<[u32; 2]> = path.windows(2).map(|step| [step[0], step[1]]).collect();
+        steps
+    });
+    steps.collect()
+}
+
+fn difference(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [0, 1, 2].map(|k| a[k] - b[k])
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3).map(|k| a[k] * b[k]).sum()
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+fn unit(a: [f64; 3]) -> Option<[f64; 3]> {
+    let length = dot(a, a).sqrt();
+    (length > 0.0).then(|| a.map(|x| x / length))
+}
