@@ -1,7 +1,7 @@
 //! The case to start from that a mesh file suggests: everything that it holds, as sections with their places in the file.
 
+use super::file_sections::{FileSection, sections};
 use super::inclusion;
-use super::taken::{FileSection, sections};
 use super::value::{RawValue, quote};
 use super::words::UnitsWord;
 use crate::mesh::{GmshFile, SurfaceFace};

@@ -20,6 +20,7 @@ mod fit;
 mod golden;
 mod identify;
 mod inputs;
+mod mesh_files;
 mod plot;
 mod results;
 mod signal_command;
