@@ -186,7 +186,15 @@ fn material_section(
                 MaterialAxes::Vectors([first, second]) => {
                     list(vec![numbers(first), numbers(second)])
                 }
-                MaterialAxes::Cylindrical(_) => text("cylindrical"),
+                MaterialAxes::Cylindrical([from, to]) => {
+                    left_out.push(LeftOut {
+                        keyword: format!("axis of the cylindrical orientation of {}", material.region),
+                        place: material.place.clone(),
+                        count: 1,
+                        reason: format!("axes are about the motion's axis here, there through {from:?} and {to:?}: check it"),
+                    });
+                    text("cylindrical")
+                }
             };
             keys.push(("axes", axes));
         }

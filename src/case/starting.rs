@@ -130,7 +130,13 @@ fn write_section(section: &FileSection, shown: &str, out: &mut String) {
             "center" => "    # m",
             _ => "",
         };
-        let _ = writeln!(out, "{key} = {value}{unit}");
+        let _ = match value {
+            // Moduli are read by their powers of ten.
+            RawValue::Float(number) if number.abs() >= 1e6 => {
+                writeln!(out, "{key} = {number:e}{unit}")
+            }
+            _ => writeln!(out, "{key} = {value}{unit}"),
+        };
     }
     let has = |key: &str| section.keys.iter().any(|known| known.0 == key);
     if section.path.0 == "contacts" && !has("friction_coefficient") {

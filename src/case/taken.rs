@@ -60,7 +60,11 @@ pub(super) fn effective(raw: &mut RawCase) -> (RawTable, Taken) {
     let sections = sections(&file, units.unwrap_or(UnitsWord::MKgS), &mut taken.left_out);
     let mut merged = table;
     for section in sections {
+        let is_named = section.path.0 != "material";
         if !parts.contains(&part_of(&section)) {
+            if !is_named {
+                continue;
+            }
             taken.left_out.push(LeftOut {
                 keyword: format!("{} {}", section.path.0, section.path.1),
                 place: section.place,
