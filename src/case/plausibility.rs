@@ -66,8 +66,7 @@ fn lengths(case: &Case) -> Option<Diagnostic> {
         let width = 2.0 * case.body.size();
         if is_outside(width) {
             let message = format!("the mesh is {width:.4} m wide, {range} (mesh.scale)");
-            let help =
-                "coordinates are taken as metres: for a mesh in millimetres set mesh.scale = 0.001";
+            let help = "coordinates are taken as metres: for a mesh in millimetres set mesh.units = \"mm-t-s\", or mesh.scale = 0.001";
             return Some(warning(case, "mesh.scale", message, "metres?", help));
         }
     }

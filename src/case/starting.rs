@@ -1,7 +1,7 @@
 //! The case to start from that a mesh file suggests: everything that it holds, as sections with their places in the file.
 
+use super::file_sections::{FileSection, sections};
 use super::inclusion;
-use super::taken::{FileSection, sections};
 use super::value::{RawValue, quote};
 use super::words::UnitsWord;
 use crate::mesh::{GmshFile, SurfaceFace};
@@ -130,7 +130,13 @@ fn write_section(section: &FileSection, shown: &str, out: &mut String) {
             "center" => "    # m",
             _ => "",
         };
-        let _ = writeln!(out, "{key} = {value}{unit}");
+        let _ = match value {
+            // Moduli are read by their powers of ten.
+            RawValue::Float(number) if number.abs() >= 1e6 => {
+                writeln!(out, "{key} = {number:e}{unit}")
+            }
+            _ => writeln!(out, "{key} = {value}{unit}"),
+        };
     }
     let has = |key: &str| section.keys.iter().any(|known| known.0 == key);
     if section.path.0 == "contacts" && !has("friction_coefficient") {

@@ -132,20 +132,6 @@ impl SolidMeshStatistics {
                 mass_kg: densities[r] * volumes[r],
             });
         let regions: Vec<SolidRegion> = regions.collect();
-        let boundaries = mesh
-            .boundaries
-            .iter()
-            .enumerate()
-            .map(|(b, boundary)| SolidBoundary {
-                name: boundary.name.clone(),
-                nodes: boundary.nodes.len(),
-                faces: boundary.faces.len(),
-                area_m2: mesh.face_area(&boundary.faces),
-                condition: match roles.get(&b) {
-                    Some(role) => (*role).to_owned(),
-                    None => condition_name(boundary.condition).to_owned(),
-                },
-            });
         let contact_nodes: BTreeSet<u32> = roles
             .iter()
             .filter(|role| *role.1 == "contact")
@@ -179,9 +165,28 @@ impl SolidMeshStatistics {
             volume_m3: regions.iter().map(|region| region.volume_m3).sum(),
             mass_kg: regions.iter().map(|region| region.mass_kg).sum(),
             regions,
-            boundaries: boundaries.collect(),
+            boundaries: boundaries_of(mesh, roles),
         }
     }
+}
+
+/// The named boundaries of a mesh; `roles` of those that slide or are glued.
+fn boundaries_of(mesh: &Mesh, roles: &BTreeMap<usize, &'static str>) -> Vec<SolidBoundary> {
+    let boundaries = mesh
+        .boundaries
+        .iter()
+        .enumerate()
+        .map(|(b, boundary)| SolidBoundary {
+            name: boundary.name.clone(),
+            nodes: boundary.nodes.len(),
+            faces: boundary.faces.len(),
+            area_m2: mesh.face_area(&boundary.faces),
+            condition: match roles.get(&b) {
+                Some(role) => (*role).to_owned(),
+                None => condition_name(boundary.condition).to_owned(),
+            },
+        });
+    boundaries.collect()
 }
 
 fn condition_name(condition: BoundaryCondition) -> &'static str {

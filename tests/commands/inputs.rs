@@ -244,11 +244,17 @@ fn a_mesh_in_millimetres_is_told_by_its_scale_and_one_beyond_all_lengths_refused
 }
 
 #[test]
-fn meshes_of_other_programs_are_named_with_the_way_to_convert_them() {
+fn meshes_of_other_programs_are_told_by_their_content_whatever_their_name() {
     for (text, said) in [
-        ("*Heading\n test\n*Node\n1, 0., 0.\n", "gmsh22"),
-        ("$ comment\nBEGIN BULK\nGRID,1,,0.,0.,0.\n", "Nastran"),
-        ("    -1\n  2411\n", "gmsh part.unv -save"),
+        (
+            "*Heading\n test\n*Node\n1, 0., 0.\n",
+            "no solid or plane elements (*ELEMENT",
+        ),
+        (
+            "$ comment\nBEGIN BULK\nGRID,1,,0.,0.,0.\n",
+            "no solid elements (CTETRA",
+        ),
+        ("    -1\n  2411\n", "it is truncated (-1 expected)"),
         (
             "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n",
             "meshio leaves such files",

@@ -23,6 +23,7 @@ mod golden;
 mod identify;
 mod inputs;
 mod materials;
+mod mesh_files;
 mod plot;
 mod reading;
 mod results;

@@ -1,7 +1,10 @@
 //! Readers of measured data, meshes and results, with right, wrong and mutated input.
 
+#[path = "../common/block.rs"]
+mod block;
 #[path = "../common/msh.rs"]
 mod msh;
 
 mod fuzz;
+mod mesh_files;
 mod signal_reader;

@@ -46,6 +46,15 @@ impl Reader<'_, '_> {
                 });
             }
         }
+        self.read_pairs(blocks, &interactions)
+    }
+
+    /// Contact pairs.
+    fn read_pairs(
+        &mut self,
+        blocks: &Placed<'_, '_>,
+        interactions: &BTreeMap<String, Interaction>,
+    ) -> Result<(), MeshFileError> {
         for &(scope, block) in blocks.iter().filter(|(_, b)| b.keyword == "CONTACT PAIR") {
             let name = block.required(self.deck, "INTERACTION")?;
             let Some(interaction) = interactions.get(&name.to_uppercase()).cloned() else {

@@ -65,57 +65,25 @@ const GENERATORS: [&str; 9] = [
     "SYMMETRIC MODEL GENERATION",
 ];
 
-/// Keywords that are read, and those that say nothing about the model.
-const KNOWN: [&str; 36] = [
-    "HEADING",
-    "NODE",
-    "ELEMENT",
-    "NSET",
-    "ELSET",
-    "SURFACE",
-    "SOLID SECTION",
-    "MATERIAL",
-    "ELASTIC",
-    "DENSITY",
-    "DAMPING",
-    "ORIENTATION",
-    "TIE",
-    "CONTACT PAIR",
-    "SURFACE INTERACTION",
-    "SURFACE BEHAVIOR",
-    "FRICTION",
-    "CHANGE FRICTION",
-    "BOUNDARY",
-    "DLOAD",
-    "DSLOAD",
-    "STEP",
-    "END STEP",
-    "MOTION",
-    "INCLUDE",
-    "PREPRINT",
-    "RESTART",
-    "OUTPUT",
-    "NODE OUTPUT",
-    "ELEMENT OUTPUT",
-    "CONTACT OUTPUT",
-    "NODE FILE",
-    "EL FILE",
-    "NODE PRINT",
-    "EL PRINT",
-    "CONTACT FILE",
+/// Keywords that are read.
+#[rustfmt::skip]
+const KNOWN: [&str; 25] = [
+    "HEADING", "NODE", "ELEMENT", "NSET", "ELSET", "SURFACE", "SOLID SECTION", "MATERIAL", "ELASTIC", "DENSITY", "DAMPING",
+    "ORIENTATION", "TIE", "CONTACT PAIR", "SURFACE INTERACTION", "SURFACE BEHAVIOR", "FRICTION", "CHANGE FRICTION", "BOUNDARY",
+    "DLOAD", "DSLOAD", "STEP", "END STEP", "MOTION", "INCLUDE",
 ];
 
 /// Keywords of analyses, which the case describes.
+#[rustfmt::skip]
 const ANALYSES: [&str; 9] = [
-    "STATIC",
-    "FREQUENCY",
-    "COMPLEX FREQUENCY",
-    "DYNAMIC",
-    "MODAL DYNAMIC",
-    "STEADY STATE DYNAMICS",
-    "BUCKLE",
-    "VISCO",
-    "CONTROLS",
+    "STATIC", "FREQUENCY", "COMPLEX FREQUENCY", "DYNAMIC", "MODAL DYNAMIC", "STEADY STATE DYNAMICS", "BUCKLE", "VISCO", "CONTROLS",
+];
+
+/// Keywords of what is written.
+#[rustfmt::skip]
+const OUTPUTS: [&str; 14] = [
+    "PREPRINT", "RESTART", "OUTPUT", "NODE OUTPUT", "ELEMENT OUTPUT", "CONTACT OUTPUT", "NODE FILE", "EL FILE", "NODE PRINT",
+    "EL PRINT", "CONTACT FILE", "CONTACT PRINT", "FILE FORMAT", "MONITOR",
 ];
 
 /// Reads an input file; the files that it includes stand in it ([`included_text`](super::included_text)).
@@ -188,6 +156,7 @@ impl Reader<'_, '_> {
             let reason = match keyword {
                 _ if KNOWN.contains(&keyword) => continue,
                 _ if ANALYSES.contains(&keyword) => "the case says what is computed",
+                _ if OUTPUTS.contains(&keyword) => "the case says what is written",
                 _ => "",
             };
             self.leave_out(&format!("*{keyword}"), block.place, reason);

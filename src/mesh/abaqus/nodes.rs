@@ -164,15 +164,13 @@ impl Reader<'_, '_> {
         Ok(largest)
     }
 
-    /// Elements of a type that is known; the largest number.
-    fn element_block(
+    /// Keeps what a type of elements says: what is different here, plane strain or plane stress.
+    fn note_type(
         &mut self,
-        scope: usize,
         block: &Block<'_>,
+        name: &str,
         known: &ElementType,
-        offset: usize,
-    ) -> Result<usize, MeshFileError> {
-        let name = block.parameter("TYPE").unwrap_or_default().to_uppercase();
+    ) -> Result<(), MeshFileError> {
         if !known.difference.is_empty() {
             let remark = format!("elements {name} are {}", known.difference);
             if !self.model.remarks.contains(&remark) {
@@ -191,6 +189,19 @@ impl Reader<'_, '_> {
             }
             self.model.is_plane_strain = Some(is_strain);
         }
+        Ok(())
+    }
+
+    /// Elements of a type that is known; the largest number.
+    fn element_block(
+        &mut self,
+        scope: usize,
+        block: &Block<'_>,
+        known: &ElementType,
+        offset: usize,
+    ) -> Result<usize, MeshFileError> {
+        let name = block.parameter("TYPE").unwrap_or_default().to_uppercase();
+        self.note_type(block, &name, known)?;
         let region = block.parameter("ELSET");
         let region: Option<Arc<str>> = region.map(|name| self.scopes[scope].full_name(name).into());
         let first = self.collection.elements.len();

@@ -175,29 +175,8 @@ fn foreign(bytes: &[u8]) -> String {
                           field_data, then mesh.write(\"part.msh\", file_format=\"gmsh22\", binary=False)";
     const GMSH: &str = "save the mesh as MSH 4.1 or 2.2 (gmsh -2 -format msh41)";
     let start = String::from_utf8_lossy(&bytes[..bytes.len().min(4096)]).into_owned();
-    let trimmed = start.trim_start();
-    let upper = trimmed.to_uppercase();
     let (what, remedy) = if bytes.is_empty() {
         ("the file is empty", GMSH)
-    } else if ["**", "*HEADING", "*NODE", "*PART", "*INCLUDE"]
-        .iter()
-        .any(|mark| upper.starts_with(mark))
-    {
-        (
-            "this looks like an Abaqus or CalculiX input file, which Gmsh does not open",
-            MESHIO,
-        )
-    } else if upper.starts_with("BEGIN BULK")
-        || upper.starts_with("SOL ")
-        || upper.contains("\nGRID")
-    {
-        ("this looks like a Nastran file", MESHIO)
-    } else if trimmed.starts_with("-1") {
-        (
-            "this looks like a universal file (UNV)",
-            "open it in Gmsh, which keeps its groups, and save it as MSH: \
-          gmsh part.unv -save -format msh41 -o part.msh",
-        )
     } else if start.contains("VTK") || start.contains("vtk") {
         ("this looks like a VTK file", MESHIO)
     } else if start.starts_with("solid") || start.starts_with("ISO-10303") {
@@ -208,7 +187,10 @@ fn foreign(bytes: &[u8]) -> String {
             "run gmsh -2 on it",
         )
     } else {
-        ("this is no Gmsh mesh, which begins with $MeshFormat", GMSH)
+        (
+            "this is no Gmsh mesh, which begins with $MeshFormat, nor does its name end in .inp, .bdf or .unv",
+            GMSH,
+        )
     };
     format!("{what}; {remedy}")
 }

@@ -145,6 +145,12 @@ impl Reader<'_, '_> {
                 .or_default()
                 .extend(faces);
         }
+        self.read_bsurfs()
+    }
+
+    /// Faces of solids by three of their nodes.
+    fn read_bsurfs(&mut self) -> Result<(), MeshFileError> {
+        let deck = self.deck;
         for card in self.cards_of("BSURFS") {
             let name = format!("BSURFS_{}", card.number(deck, 0)?);
             // Element and three of its nodes in turns, from the fifth field on.

@@ -60,3 +60,43 @@ fn no_mesh_file_makes_its_reader_panic() {
         },
     );
 }
+
+/// Files of other programs, of solid bodies with all that such files hold.
+const OTHERS: [(&str, &str); 6] = [
+    ("bricks.inp", crate::mesh_files::ASSEMBLY),
+    ("brick.bdf", crate::mesh_files::BULK_DATA),
+    ("brick.unv", crate::mesh_files::UNIVERSAL),
+    ("ring.inp", include_str!("../meshes/ring-hex20.inp")),
+    ("ring.bdf", include_str!("../meshes/ring-hex20.bdf")),
+    ("ring.unv", include_str!("../meshes/ring-hex20.unv")),
+];
+
+#[test]
+fn no_file_of_another_program_makes_its_reader_panic() {
+    hold(
+        "other-mesh",
+        |random: &mut Random| {
+            // Which reader it is stands in the first byte.
+            let number = random.below(OTHERS.len());
+            let original = OTHERS[number].1.as_bytes().to_vec();
+            let changed = match random.below(8) {
+                0 => original[..random.below(original.len())].to_vec(),
+                1 => binary(random, &original),
+                _ => text(random, &[original]),
+            };
+            [vec![number as u8], changed].concat()
+        },
+        |bytes| {
+            let (name, _) = OTHERS[usize::from(bytes[0])];
+            let bytes = &bytes[1..];
+            match GmshFile::read_as(name, bytes) {
+                Ok(file) => {
+                    assert!(file.points.len() <= 3 * bytes.len());
+                    assert!(file.elements.len() <= 3 * bytes.len());
+                    drop(Mesh::from_solids(&file, 1.0, &[]));
+                }
+                Err(error) => assert!(!error.to_string().is_empty()),
+            }
+        },
+    );
+}

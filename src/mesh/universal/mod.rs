@@ -5,13 +5,14 @@
 //!
 //! Source: Siemens SDRC, universal file format, datasets 164, 2411, 2412, 2467.
 
+mod groups;
+
 use super::ElementKind;
 use super::collection::{CollectedElement, Collection};
 use super::deck::{Deck, Place, quoted, real};
-use super::gmsh::{GmshFile, MeshFileError, SurfaceFace};
+use super::gmsh::{GmshFile, MeshFileError};
 use super::model_data::ModelData;
 use std::collections::{BTreeSet, HashMap};
-use std::sync::Arc;
 
 /// Datasets of groups, by the entities that one line lists.
 const GROUPS: [usize; 9] = [2417, 2429, 2430, 2432, 2435, 2452, 2467, 2477, 752];
@@ -193,7 +194,7 @@ impl<'a> Reader<'_, 'a> {
     fn units(&mut self) -> Result<(), MeshFileError> {
         let _ = self.inner()?;
         if let Some((_, line)) = self.inner()? {
-            let factor = line.get(..25.min(line.len())).and_then(real);
+            let factor = line.split_whitespace().next().and_then(real);
             if let Some(factor) = factor.filter(|factor| *factor != 1.0) {
                 self.model.remarks.push(format!(
                     "the file says that its lengths are to be divided by {factor} for metres (dataset 164): mesh.scale does that"
@@ -368,112 +369,5 @@ impl<'a> Reader<'_, 'a> {
                 *place = moved.get(place).copied().unwrap_or(*place);
             }
         }
-    }
-
-    fn groups(&mut self, dataset: usize) -> Result<(), MeshFileError> {
-        while let Some(head) = self.inner()? {
-            let numbers = self.ints(head)?;
-            let count = self.must(numbers.last().copied())?;
-            let next = self.inner()?;
-            let name = self.must(next)?.1.trim();
-            let name = match name {
-                "" => format!("group_{}", numbers.first().copied().unwrap_or(0)),
-                name => name.to_owned(),
-            };
-            // Each entity has its type and number; newer datasets add two more fields.
-            let width = if matches!(dataset, 2417 | 752) { 2 } else { 4 };
-            let mut items = Vec::new();
-            while items.len() < count {
-                let next = self.inner()?;
-                let line = self.must(next)?;
-                let numbers = self.ints(line)?;
-                let before = items.len();
-                let entities = numbers.chunks(width).filter(|entity| entity.len() == width);
-                items.extend(entities.map(|entity| (entity[0], entity[1])));
-                if items.len() == before {
-                    return Err(self
-                        .deck
-                        .error(line.0, format!("entities of group {name} expected")));
-                }
-            }
-            self.groups.push(Group {
-                name,
-                items,
-                place: head.0,
-            });
-        }
-        Ok(())
-    }
-
-    /// Makes a region, a surface or a set of nodes of a group.
-    fn group(
-        &mut self,
-        group: &Group,
-        outer: &HashMap<Vec<u32>, SurfaceFace>,
-    ) -> Result<(), MeshFileError> {
-        let region: Arc<str> = group.name.as_str().into();
-        let (mut nodes, mut faces, mut lost) = (Vec::new(), Vec::new(), 0);
-        for &(kind, number) in &group.items {
-            let missing = |what: &str| {
-                let message = format!(
-                    "group {} names {what} {number}, which the file does not have",
-                    group.name
-                );
-                self.deck.error(group.place, message)
-            };
-            match kind {
-                NODE => nodes.push(*self.nodes.get(&number).ok_or_else(|| missing("node"))?),
-                ELEMENT => match self
-                    .entities
-                    .get(&number)
-                    .ok_or_else(|| missing("element"))?
-                {
-                    Entity::Element(place) => {
-                        if self.is_grouped.insert(*place) {
-                            self.collection.elements[*place].region = Some(Arc::clone(&region));
-                        }
-                    }
-                    Entity::Skin(corners) => match outer.get(corners) {
-                        Some(face) => faces.push(face.clone()),
-                        None => lost += 1,
-                    },
-                },
-                _ => lost += 1,
-            }
-        }
-        if lost > 0 {
-            let deck = self.deck;
-            let keyword = format!("{lost} entities of group {}", group.name);
-            let reason = "no nodes, solid elements or shells on the outside";
-            self.model
-                .leave_out(&keyword, || deck.name(group.place), reason);
-        }
-        if !faces.is_empty() {
-            self.collection
-                .surfaces
-                .entry(group.name.clone())
-                .or_default()
-                .extend(faces);
-        } else if !nodes.is_empty() && nodes.len() < self.collection.points.len() {
-            self.collection
-                .node_sets
-                .entry(group.name.clone())
-                .or_default()
-                .extend(nodes);
-        }
-        Ok(())
-    }
-
-    /// Outer faces by what names them in the file: the corners of a shell, all nodes of a beam.
-    fn outer_faces(&self) -> HashMap<Vec<u32>, SurfaceFace> {
-        let faces = self.collection.free_faces(&[]).into_iter();
-        let named = faces.map(|face| {
-            let count = face.0.corner_count();
-            let count = if count == 2 { face.1.len() } else { count };
-            let mut key = face.1[..count].to_vec();
-            key.sort_unstable();
-            (key, face)
-        });
-        named.collect()
     }
 }

@@ -1,0 +1,47 @@
+//! Mesh files of other programs: the same bodies, whoever wrote them.
+
+mod abaqus;
+mod nastran;
+mod same_body;
+mod taken;
+mod universal;
+
+pub use abaqus::ASSEMBLY;
+pub use nastran::BRICK as BULK_DATA;
+pub use universal::BRICK as UNIVERSAL;
+
+use frictionsim::mesh::{GmshFile, Mesh, MeshFileError};
+
+/// A file of the given name and text.
+fn read(name: &str, text: &str) -> Result<GmshFile, MeshFileError> {
+    GmshFile::read_as(name, text.as_bytes())
+}
+
+/// Its solid bodies.
+fn body(name: &str, text: &str) -> Mesh {
+    let file = read(name, text).unwrap_or_else(|error| panic!("{error}"));
+    Mesh::from_solids(&file, 1.0, &[]).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Area of a named boundary, m2.
+fn area(mesh: &Mesh, name: &str) -> f64 {
+    let names: Vec<&str> = mesh.boundaries.iter().map(|b| b.name.as_str()).collect();
+    let boundary = mesh
+        .boundary(name)
+        .unwrap_or_else(|| panic!("{name} of {names:?}"));
+    mesh.face_area(&boundary.faces)
+}
+
+/// The error of a file that must not be read.
+fn error(name: &str, text: &str) -> String {
+    read(name, text).expect_err("the file is wrong").to_string()
+}
+
+/// Each pair of a change and what must be said: `from` exchanged by `to` in a right file.
+fn check_errors(name: &str, text: &str, changes: &[(&str, &str, &str)]) {
+    for (from, to, said) in changes {
+        assert!(text.contains(from), "{from}");
+        let found = error(name, &text.replacen(from, to, 1));
+        assert!(found.contains(said), "{from} -> {to}: {found}, not {said}");
+    }
+}

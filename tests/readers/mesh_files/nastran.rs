@@ -1,0 +1,187 @@
+//! Nastran bulk data: fields, coordinate systems, model data, errors.
+
+use super::{area, body, check_errors, read};
+use frictionsim::mesh::{FileConditionKind, FileElasticity};
+
+/// A brick of 1 x 2 x 3 whose nodes stand in a system moved by (5, 0, 0) and turned by 90 degrees about z, one of them in cylindrical
+/// coordinates in that; in small, large and free fields.
+pub const BRICK: &str = "SOL 103
+CEND
+TITLE = a brick
+SPC = 20
+LOAD = 3
+BEGIN BULK
+$HMNAME PROP               1\"iron\" 4
+CORD2R  1       0       5.      0.      0.      5.      0.      1.      +C1
++C1     5.      1.      0.
+CORD2C,2,1,0.,0.,0.,0.,0.,1.,
+,1.,0.,0.
+GRID    1       1       0.      0.      0.
+GRID    2       1       1.      0.      0.
+GRID*                  3               1              1.              2.
+*                     0.
+GRID,4,2,2.,90.,0.0
+GRID    5       1       0.      0.      30.-1
+GRID    6       1       1.      0.      .3+1
+GRID,7,1,1.,2.,3.
+GRID,8,1,0.,2.,3.
+CHEXA   10      1       1       2       3       4       5       6       +E
++E      7       8
+PSOLID  1       7
+MAT1    7       1.1+11          .27     7200.
+SPC1    20      123     1       2       3       4
+SPC1,21,3,5,THRU,8
+SPC,20,5,3,0.
+PLOAD4  3       10      2.5                             5       7
+CQUAD4  30      4       1       2       6       5
+PSHELL  4       7       .1
+FORCE   3       1       0       1.      1.      0.      0.
+ENDDATA
+";
+
+/// Closed form: a brick in systems of coordinates within each other.
+#[test]
+fn nodes_of_nested_systems_in_all_fields_make_a_brick() {
+    let mesh = body("brick.bdf", BRICK);
+    assert_eq!(mesh.regions, ["iron"]);
+    assert!((mesh.region_measures()[0] - 6.0).abs() < 1e-12);
+    // (1, 2, 0) turned to (-2, 1, 0), moved by 5.
+    let [x, y, z] = mesh.nodes[2];
+    assert!(
+        (x - 3.0).abs() + (y - 1.0).abs() + z.abs() < 1e-12,
+        "{x} {y} {z}"
+    );
+    let [x, y, z] = mesh.nodes[3];
+    assert!((x - 3.0).abs() + y.abs() + z.abs() < 1e-12, "{x} {y} {z}");
+    for (name, exact) in [
+        ("PLOAD4_3", 2.0),
+        ("SPC_20_123", 2.0),
+        ("SPC_21_3", 2.0),
+        ("PSHELL_4", 3.0),
+    ] {
+        assert!((area(&mesh, name) - exact).abs() < 1e-12, "{name}");
+    }
+}
+
+#[test]
+fn materials_supports_and_pressures_are_those_that_the_subcase_names() {
+    let model = read("brick.bdf", BRICK).unwrap().model;
+    assert_eq!(model.title.as_deref(), Some("a brick"));
+    let material = &model.materials[0];
+    assert_eq!(
+        (material.region.as_str(), material.density),
+        ("iron", Some(7200.0))
+    );
+    let isotropic = FileElasticity::Isotropic {
+        young_modulus: 1.1e11,
+        poisson_ratio: 0.27,
+    };
+    assert_eq!(material.elasticity, Some(isotropic));
+    let found: Vec<_> = model
+        .conditions
+        .iter()
+        .map(|c| (c.boundary.as_str(), c.kind))
+        .collect();
+    assert_eq!(
+        found,
+        [
+            ("SPC_20_123", FileConditionKind::Fixed([true; 3])),
+            ("SPC_20_3", FileConditionKind::Fixed([false, false, true])),
+            ("PLOAD4_3", FileConditionKind::Pressure(2.5)),
+        ]
+    );
+    let listed: Vec<String> = model.left_out.iter().map(ToString::to_string).collect();
+    assert!(
+        listed.iter().any(|l| l.starts_with("FORCE (line 31)")),
+        "{listed:#?}"
+    );
+    assert!(
+        listed
+            .iter()
+            .any(|l| l.contains("set 21, directions 3") && l.contains("no subcase names this set"))
+    );
+    assert!(
+        listed
+            .iter()
+            .any(|l| l.starts_with("CQUAD4 (line 29): read as a surface"))
+    );
+    assert_eq!(listed.len(), 3, "{listed:#?}");
+}
+
+/// MAT9 holds the stiffness; E 2e5, nu 0.3 in it is an isotropic material.
+#[test]
+fn an_orthotropic_stiffness_gives_engineering_constants() {
+    let (e, nu) = (2e5_f64, 0.3);
+    let lambda = e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu));
+    let g = e / (2.0 * (1.0 + nu));
+    let d = lambda + 2.0 * g;
+    let mat9 = format!(
+        "MAT9,7,{d},{lambda},{lambda},,,,{d}\n,{lambda},,,,{d},,,\n,{g},,,{g},,{g},7.8-9\n"
+    );
+    let text = BRICK.replace("MAT1    7       1.1+11          .27     7200.\n", &mat9);
+    let material = &read("brick.bdf", &text).unwrap().model.materials[0];
+    let Some(FileElasticity::Orthotropic {
+        young_moduli,
+        poisson_ratios,
+        shear_moduli,
+        ..
+    }) = &material.elasticity
+    else {
+        panic!("{material:?}");
+    };
+    assert_eq!(material.density, Some(7.8e-9));
+    for i in 0..3 {
+        assert!((young_moduli[i] / e - 1.0).abs() < 1e-12);
+        assert!((poisson_ratios[i] / nu - 1.0).abs() < 1e-12);
+        assert!((shear_moduli[i] / g - 1.0).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn wrong_bulk_data_is_told_by_line_and_name() {
+    check_errors(
+        "brick.bdf",
+        BRICK,
+        &[
+            (
+                "+E      7       8",
+                "+E      7       88",
+                "line 21: CHEXA 10 names node 88",
+            ),
+            ("+E      7       8", "+E      7", "CHEXA 10 lacks node 8"),
+            (
+                "GRID,7,1,1.,2.,3.",
+                "GRID,7,3,1.,2.,3.",
+                "line 19: no coordinate system has the number 3",
+            ),
+            (
+                "CORD2C,2,1",
+                "CORD2C,2,2",
+                "coordinate system 2 is defined by itself",
+            ),
+            (
+                "GRID,7,1,1.,2.,3.",
+                "GRID,7,1,1.,2.a,3.",
+                "GRID: a number expected in field 5, found \"2.a\"",
+            ),
+            (
+                "PSOLID  1       7",
+                "PSOLID  1       8",
+                "names material 8, which is no MAT1 or MAT9",
+            ),
+            ("10      2.5", "11      2.5", "PLOAD4 names element 11"),
+            (
+                "5       7\nCQUAD4",
+                "5       6\nCQUAD4",
+                "name no face of element 10",
+            ),
+            (
+                "SPC1    20      123",
+                "SPC1    20      12x",
+                "directions 1 to 6 expected, found \"12x\"",
+            ),
+            ("CHEXA   10", "CPYRAM  10", "pyramids are not supported"),
+        ],
+    );
+    assert!(super::error("a.bdf", "GRID,1,,0.,0.,0.\n").contains("no solid elements"));
+}

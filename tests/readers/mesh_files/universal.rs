@@ -1,0 +1,119 @@
+//! Universal files: groups and errors.
+
+use super::{area, body, check_errors, read};
+
+/// A brick of 1 x 2 x 3, its bottom a group of nodes, its top a group of one shell; a dataset that is not known before it.
+pub const BRICK: &str = "    -1
+   151
+ some model
+    -1
+    -1
+   164
+         1SI: Meter (newton)           2
+  1.0D+03  1.0D+00  1.0D+00
+  2.7D+02
+    -1
+    -1
+  2411
+         1         1         1        11
+   0.0D+00   0.0D+00   0.0D+00
+         2         1         1        11
+   1.0D+00   0.0D+00   0.0D+00
+         3         1         1        11
+   1.0D+00   2.0D+00   0.0D+00
+         4         1         1        11
+   0.0D+00   2.0D+00   0.0D+00
+         5         1         1        11
+   0.0D+00   0.0D+00   3.0D+00
+         6         1         1        11
+   1.0D+00   0.0D+00   3.0D+00
+         7         1         1        11
+   1.0D+00   2.0D+00   3.0D+00
+         8         1         1        11
+   0.0D+00   2.0D+00   3.0D+00
+    -1
+    -1
+  2412
+         1       115         1         1         7         8
+         1         2         3         4         5         6         7         8
+         2        94         1         1         7         4
+         5         6         7         8
+         3        21         1         1         7         2
+         0         1         1
+         1         2
+    -1
+    -1
+  2467
+         1         0         0         0         0         0         0         1
+iron
+         8         1         0         0
+         2         0         0         0         0         0         0         4
+foot
+         7         1         0         0         7         2         0         0
+         7         3         0         0         7         4         0         0
+         3         0         0         0         0         0         0         1
+head
+         8         2         0         0
+    -1
+";
+
+#[test]
+fn groups_are_regions_surfaces_and_sets_of_nodes() {
+    let mesh = body("brick.unv", BRICK);
+    assert_eq!(mesh.regions, ["iron"]);
+    assert!((mesh.region_measures()[0] - 6.0).abs() < 1e-12);
+    assert!((area(&mesh, "foot") - 2.0).abs() < 1e-12);
+    assert!((area(&mesh, "head") - 2.0).abs() < 1e-12);
+    let model = read("brick.unv", BRICK).unwrap().model;
+    assert_eq!(model.left_out[0].to_string(), "dataset 151 (line 2)");
+    assert!(
+        model.remarks[0].contains("divided by 1000"),
+        "{:?}",
+        model.remarks
+    );
+}
+
+#[test]
+fn wrong_universal_files_are_told_by_line() {
+    check_errors(
+        "brick.unv",
+        BRICK,
+        &[
+            (
+                "         5         6         7         8\n         3",
+                "         5         6         7         9\n         3",
+                "element 2 names node 9",
+            ),
+            ("  2467\n", "  2411\n", "line 43: a coordinate expected"),
+            (
+                "         7         3         0         0",
+                "         7        33         0         0",
+                "group foot names node 33",
+            ),
+            (
+                "         8         2         0         0",
+                "         8        22         0         0",
+                "group head names element 22",
+            ),
+            (
+                "         1       115 ",
+                "         1       114 ",
+                "of kind 114, which is not supported",
+            ),
+            (
+                "   1.0D+00   2.0D+00   3.0D+00",
+                "   1.0D+00   2.0D+00   3.x",
+                "a coordinate expected, found \"3.x\"",
+            ),
+        ],
+    );
+    // Truncated behind any line.
+    let lines: Vec<&str> = BRICK.lines().collect();
+    for count in 11..lines.len() {
+        let text = lines[..count].join("\n");
+        if let Err(error) = read("brick.unv", &text) {
+            let said = error.to_string();
+            assert!(said.contains("line"), "{said}");
+        }
+    }
+}
