@@ -156,9 +156,14 @@ impl FrfSystem {
             let (dof, share) = (mesh.dimension * terminal.node + component, local[component]);
             let follower = self.followers.iter().find(|(own, _)| *own == dof);
             match (follower, self.unknowns.unknown_of[dof]) {
-                (Some(_), _) if key == "force_node" => {
-                    return Err(FrfError::Follows { key, node });
-                }
+                // A separation from a rigid counterface is the node's own.
+                (Some((_, row)), _) if key == "force_node" => match row.as_slice() {
+                    [(own, part)] if *own == dof => match self.unknowns.unknown_of[dof] {
+                        Some(unknown) => shares.push((unknown, part * share)),
+                        None => return Err(FrfError::constrained(terminal, key)),
+                    },
+                    _ => return Err(FrfError::Follows { key, node }),
+                },
                 (Some((_, row)), _) => {
                     let free = |&(other, part): &(usize, f64)| {
                         Some((self.unknowns.unknown_of[other]?, part * share))

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Modules by floor, lowest first.
-const FLOORS: [&[&str]; 9] = [
+const FLOORS: [&[&str]; 10] = [
     &["linalg", "mesh", "signal", "chart"],
     &["fem"],
     &["contact"],
@@ -16,6 +16,7 @@ const FLOORS: [&[&str]; 9] = [
     &["case", "results"],
     &["study"],
     &["app"],
+    &["guide"],
 ];
 
 fn floor_of(module: &str) -> Option<usize> {

@@ -21,7 +21,7 @@ use crate::linalg::{Mat, MatRef, MatrixPolynomial, c64};
 use crate::mesh::{BoundaryCondition, Mesh};
 use crate::prestress::{DampingModel, TangentOptions};
 use crate::results::cea::{Contribution, Coupling, ModeName, Reading, Source};
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
 /// Bytes of mode shapes over a sweep beyond which they are taken at the ends and at the case's own friction alone.
 const MOST_SHAPES: f64 = 5e8;
@@ -114,17 +114,12 @@ impl<'a> Parts<'a> {
             Model::Sectors(_, options) => (options, Vec::new()),
             Model::Whole(whole) => (&whole.options, Vec::new()),
             Model::Assembly(assembly) => {
-                let contacts = assembly.body.contacts.iter().map(|contact| {
-                    let surfaces = [contact.surface, contact.counter].into_iter();
-                    let nodes = surfaces.flat_map(|surface| &mesh.boundaries[surface].nodes);
-                    let nodes: BTreeSet<usize> = nodes.map(|&node| node as usize).collect();
-                    let d = mesh.dimension;
-                    let dofs = nodes
-                        .into_iter()
-                        .flat_map(|node| (0..d).map(move |k| d * node + k));
-                    (contact.name.clone(), dofs.collect())
-                });
-                (&assembly.options, contacts.collect())
+                let pairs = assembly.body.contacts.iter();
+                let pairs = pairs.map(|own| (own.name.clone(), [own.surface, own.counter]));
+                (
+                    &assembly.options,
+                    contact_dofs(mesh, &pairs.collect::<Vec<_>>()),
+                )
             }
         };
         let materials = case.materials();
@@ -238,7 +233,7 @@ impl<'a> Parts<'a> {
             let fed = mode.growth_rate() - taken;
             let shares = match &balance {
                 None => vec![fed],
-                Some(balance) => self.feeds(shapes, (i, mode), &balance[i], kinetic[i]),
+                Some(balance) => self.feeds(shapes, (i, mode), (&balance[i], kinetic[i], fed)),
             };
             for ((contact, _), growth_rate) in self.contacts.iter().zip(shares) {
                 out.push(Contribution {
@@ -253,13 +248,13 @@ impl<'a> Parts<'a> {
         }
     }
 
-    /// `Im(phi^H f) / (2 omega m)` of the forces on the surfaces of each contact.
+    /// `Im(phi^H f) / (2 omega m)` of the forces on the surfaces of each contact; what forces on nodes of two contacts leave of the
+    /// sum `fed` is shared out evenly.
     fn feeds(
         &self,
         shapes: &Shapes<'_>,
         (i, mode): (usize, &ComplexMode),
-        balance: &[c64],
-        kinetic: f64,
+        (balance, kinetic, fed): (&[c64], f64, f64),
     ) -> Vec<f64> {
         let (re, im) = (
             shapes.columns.col_as_slice(2 * i),
@@ -268,10 +263,46 @@ impl<'a> Parts<'a> {
         let work = |dof: &usize| (c64::new(re[*dof], -im[*dof]) * balance[*dof]).im;
         let contacts = self.contacts.iter();
         let works = contacts.map(|(_, dofs)| dofs.iter().map(work).sum::<f64>());
-        works
+        let rates: Vec<f64> = works
             .map(|work| work / (2.0 * mode.eigenvalue.im * kinetic))
-            .collect()
+            .collect();
+        let left = (fed - rates.iter().sum::<f64>()) / rates.len() as f64;
+        rates.into_iter().map(|rate| rate + left).collect()
     }
+}
+
+/// The dofs on both surfaces of each contact; a node that several contacts touch is of the one whose finer surface is nearest.
+fn contact_dofs(mesh: &Mesh, contacts: &[(String, [usize; 2])]) -> Vec<(String, Vec<usize>)> {
+    let nodes = |boundary: usize| mesh.boundaries[boundary].nodes.iter().map(|&n| n as usize);
+    let distance = |node: usize, contact: usize| {
+        let at = mesh.nodes[node];
+        let away = |other: usize| -> f64 {
+            let place = mesh.nodes[other];
+            (0..3).map(|k| (at[k] - place[k]).powi(2)).sum()
+        };
+        nodes(contacts[contact].1[0])
+            .map(away)
+            .fold(f64::INFINITY, f64::min)
+    };
+    let mut touched: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for (contact, (_, surfaces)) in contacts.iter().enumerate() {
+        for node in surfaces.iter().flat_map(|&surface| nodes(surface)) {
+            let known = touched.entry(node).or_default();
+            if !known.contains(&contact) {
+                known.push(contact);
+            }
+        }
+    }
+    let mut dofs = vec![Vec::new(); contacts.len()];
+    for (node, all) in touched {
+        let nearest = all.iter().copied();
+        let nearest = nearest.min_by(|a, b| distance(node, *a).total_cmp(&distance(node, *b)));
+        let owner = nearest.unwrap_or(all[0]);
+        let d = mesh.dimension;
+        dofs[owner].extend((0..d).map(|k| d * node + k));
+    }
+    let names = contacts.iter().map(|(name, _)| name.clone());
+    names.zip(dofs).collect()
 }
 
 /// The displacement of the base state of a plane body at a friction coefficient.
