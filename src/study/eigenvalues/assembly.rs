@@ -5,7 +5,8 @@ use super::states::sweep_states;
 use crate::case::{AssemblyBody, Case};
 use crate::cea::{CeaError, FrictionSweep, SweepRequest};
 use crate::prestress::{
-    Assembly, BaseChoice, PressedRange, PressedState, PrestressError, TangentOptions,
+    Assembly, BaseChoice, PressedRange, PressedState, PrestressError, SlidingTangent,
+    TangentOptions,
 };
 use crate::results::Extent;
 use crate::results::cea::{AssemblyPoint, AssemblyReport, BaseState};
@@ -61,6 +62,15 @@ impl AssemblyModel {
         let tangent = |k: usize| Ok(assembly.tangent(&range.states[k], &self.options)?);
         let changes = (range.state_of.as_slice(), range.changes.as_slice());
         sweep_states(range.states.len(), changes, request, progress, &tangent)
+    }
+
+    /// The tangent of one of the states.
+    ///
+    /// # Errors
+    /// Those of the pairing of surfaces.
+    pub(super) fn tangent(&self, state: usize) -> Result<SlidingTangent, CeaError> {
+        let assembly = assembled(&self.body)?;
+        Ok(assembly.tangent(&self.range.states[state], &self.options)?)
     }
 
     /// The base state point by point at the case's own friction coefficient.
