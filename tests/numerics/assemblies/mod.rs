@@ -1,6 +1,6 @@
 //! Solid bodies that are tied together and slide on each other (independent checks, unless a test says otherwise).
 
-mod bricks;
+pub mod bricks;
 
 use bricks::{Block, STEEL, file_of};
 use frictionsim::cea::sparse::sweep;
