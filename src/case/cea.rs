@@ -32,6 +32,8 @@ pub struct Cea {
     pub shapes_at: Vec<f64>,
     /// Stability map over a second parameter.
     pub map: Option<CeaMap>,
+    /// Whether derivatives are computed; where the case does not say, of bodies that are solved harmonic by harmonic.
+    pub sensitivities: Option<bool>,
 }
 
 impl Cea {
@@ -90,6 +92,9 @@ pub(super) fn cea(
             .unwrap_or_else(|| vec![friction_coefficient]),
         friction_coefficients,
         map: cea_map(&section),
+        sensitivities: section
+            .has("sensitivities")
+            .then(|| section.flag("sensitivities")),
     };
     section.close();
     Some(cea)

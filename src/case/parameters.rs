@@ -17,6 +17,9 @@ const MODEL: &[&str] = &[
     "contact",
 ];
 
+/// Sections that make the model of solid bodies that slide on each other, besides.
+const ASSEMBLY: &[&str] = &["contacts", "motion"];
+
 /// A continuous parameter of the model, and the keys that take the same value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ModelParameter {
@@ -183,6 +186,26 @@ pub(super) fn refuse_twice<'a>(
     }
 }
 
+/// Adds the numbers below a table whose keys are continuous parameters of the model.
+fn collect_numbers(prefix: &str, table: &RawTable, found: &mut Vec<(String, f64)>) {
+    for (name, entry) in table {
+        let key = match prefix {
+            "" => name.clone(),
+            _ => format!("{prefix}.{name}"),
+        };
+        let section = key.split('.').next().unwrap_or_default();
+        match &entry.item.value {
+            RawValue::Table(inner) => collect_numbers(&key, inner, found),
+            value if MODEL.contains(&section) || ASSEMBLY.contains(&section) => {
+                let kind = keys::find(&key).map(|key| &key.kind);
+                let is_continuous = matches!(kind, Some(Kind::Number(_) | Kind::NumberOr(..)));
+                found.extend(value.number().filter(|_| is_continuous).map(|v| (key, v)));
+            }
+            _ => {}
+        }
+    }
+}
+
 impl super::Case {
     /// The case with parameters of the model at other values, and without what is studied of it.
     ///
@@ -200,6 +223,19 @@ impl super::Case {
             raw.root.remove(study);
         }
         Self::from_raw(raw).map_err(said)
+    }
+
+    /// The continuous parameters of the model that the case gives as numbers other than 0, with these, by key; the friction
+    /// coefficient of `[contact]`, which sweeps vary, and the thickness of a plane body, which scales results alone, are left out.
+    pub fn model_numbers(&self) -> Vec<(String, f64)> {
+        let mut found = Vec::new();
+        collect_numbers("", &self.raw.root, &mut found);
+        let is_left_out = |key: &str| {
+            key == "contact.friction_coefficient"
+                || (key == "geometry.thickness" && self.body.dimension() == 2)
+        };
+        found.retain(|(key, value)| *value != 0.0 && !is_left_out(key));
+        found
     }
 
     /// The number that the case, or its mesh file, gives a key, if one does.

@@ -327,7 +327,7 @@ fn a_terminated_sweep_says_how_to_go_on() {
 
 /// Runs `cea` of a body without symmetry into a folder.
 fn cea(folder: &Path, options: &[&str]) -> Command {
-    let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/test-bench.toml");
+    let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/sliding-block.toml");
     let mut command = Command::new(PROGRAM);
     command
         .arg("cea")

@@ -15,6 +15,7 @@ mod triangles;
 
 mod assemblies;
 mod body;
+mod body_sensitivity;
 mod cea_cyclic;
 mod cea_sparse;
 mod continuum;

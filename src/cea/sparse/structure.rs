@@ -174,6 +174,14 @@ impl StiffnessFactors {
             Self::General(lu) => lu.solve_in_place(x.as_mut()),
         }
     }
+
+    /// `K^-T x` for each column, in place.
+    pub fn solve_transpose_in_place(&self, x: &mut Mat<f64>) {
+        match self {
+            Self::Symmetric(ldl) => ldl.solve_in_place(x.as_mut()),
+            Self::General(lu) => lu.solve_transpose_in_place(x.as_mut()),
+        }
+    }
 }
 
 /// Shift-and-invert about zero, in real arithmetic: the lowest modes are its eigenvalues of largest
@@ -230,6 +238,7 @@ pub struct Companion<'a> {
     factors: &'a StiffnessFactors,
     /// Nonzero values of `-omega C` and `-omega^2 M`.
     values: [Vec<f64>; 2],
+    is_transposed: bool,
 }
 
 impl<'a> Companion<'a> {
@@ -248,6 +257,15 @@ impl<'a> Companion<'a> {
                 scaled(-frequency_scale, damping),
                 scaled(-frequency_scale * frequency_scale, mass),
             ],
+            is_transposed: false,
+        }
+    }
+
+    /// The blocks of the transposed matrices: their vectors are the left ones.
+    pub fn transposed(self) -> Self {
+        Self {
+            is_transposed: !self.is_transposed,
+            ..self
         }
     }
 }
@@ -259,6 +277,12 @@ impl QuadraticOperator for Companion<'_> {
 
     fn apply(&self, x: MatRef<'_, f64>, y: MatRef<'_, f64>) -> Mat<f64> {
         let [damping, mass] = &self.values;
+        if self.is_transposed {
+            let product = |values, x| self.pattern.multiply_transpose(values, x);
+            let mut image = product(damping, x) + product(mass, y);
+            self.factors.solve_transpose_in_place(&mut image);
+            return image;
+        }
         let mut image = self.pattern.multiply_sum([damping, mass], [x, y]);
         self.factors.solve_in_place(&mut image);
         image

@@ -27,7 +27,7 @@ pub use map::MapReport;
 pub use print::print;
 pub use reading::{Contribution, Coupling, ModeName, Reading, Source};
 pub use report::html_report;
-pub use sensitivity::SensitivityReport;
+pub use sensitivity::{OnsetRates, SensitivityReport, SensitivityRow};
 pub use solid::SolidReport;
 pub use summary::{CeaSummary, CriticalFriction, ModeSummary, UnstableCount, summary};
 

@@ -12,11 +12,44 @@ use std::io::{self, Write};
 /// Derivatives of the eigenvalues at one friction coefficient, and the values of the parameters there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SensitivityReport {
-    /// One entry for each branch.
-    pub branches: Vec<Sensitivity>,
-    /// Normal stiffness, `alpha_R`, `beta_R`, `E`, `nu`, `rho`, static over kinetic friction and decay speed of the case, then
-    /// `E`, `nu`, `rho`, `alpha_R`, `beta_R` of its shaft (0 for rigid contact, constant friction, no shaft).
-    pub values: [f64; 13],
+    /// Names of the parameters, the friction coefficient first.
+    pub parameters: Vec<String>,
+    /// Their values; that of the friction coefficient is each row's own.
+    pub values: Vec<f64>,
+    /// One for each branch.
+    pub rows: Vec<SensitivityRow>,
+    /// Whether modes have a circumferential harmonic and a direction.
+    pub has_harmonics: bool,
+    /// Whether rows say how critical friction coefficients move.
+    pub has_onsets: bool,
+}
+
+/// Derivatives of one eigenvalue.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SensitivityRow {
+    /// Where the derivatives are taken.
+    pub friction_coefficient: f64,
+    /// Circumferential harmonic, where modes have one.
+    pub harmonic: usize,
+    /// Branch.
+    pub branch: usize,
+    /// Direction of travel.
+    pub direction: i8,
+    /// Eigenvalue, rad/s.
+    pub eigenvalue: c64,
+    /// `d lambda / d parameter`, in the order of the parameters; `None` of one that the branch does not have.
+    pub derivatives: Vec<Option<c64>>,
+    /// Where the branch turns unstable first.
+    pub onset: Option<OnsetRates>,
+}
+
+/// How the critical friction coefficient of a branch moves.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OnsetRates {
+    /// The critical friction coefficient `mu_c`.
+    pub critical_friction: f64,
+    /// `d mu_c / d parameter`, in the order of the parameters; nothing by the friction coefficient itself.
+    pub derivatives: Vec<Option<f64>>,
 }
 
 /// Short names of the parameters, the friction coefficient first.
@@ -63,27 +96,55 @@ fn derivatives(branch: &Sensitivity) -> [Option<c64>; 14] {
 }
 
 impl SensitivityReport {
-    /// Change of growth rate, 1/s, for one per cent more of each parameter, largest first.
-    fn per_cent(&self, branch: &Sensitivity) -> Vec<(&'static str, f64)> {
-        let friction = [branch.friction_coefficient];
-        let values = friction.iter().chain(&self.values);
-        let mut changes: Vec<(&'static str, f64)> = derivatives(branch)
-            .into_iter()
-            .zip(values)
-            .zip(NAMES)
-            .filter_map(|((derivative, value), name)| Some((name, 0.01 * value * derivative?.re)))
+    /// Of branches that were solved harmonic by harmonic. `given`: normal stiffness, `alpha_R`, `beta_R`, `E`, `nu`, `rho`, static
+    /// over kinetic friction and decay speed of the case, then `E`, `nu`, `rho`, `alpha_R`, `beta_R` of its shaft (0 for rigid
+    /// contact, constant friction, no shaft). Parameters of a friction law that falls with speed, and of a shaft, are there where
+    /// the case has one.
+    pub fn of_harmonics(branches: &[Sensitivity], given: [f64; 13]) -> Self {
+        let all: Vec<_> = branches.iter().map(derivatives).collect();
+        let is_given = |i: &usize| *i < ALWAYS || all.iter().any(|row| row[*i].is_some());
+        let columns: Vec<usize> = (0..NAMES.len()).filter(is_given).collect();
+        let rows = branches
+            .iter()
+            .zip(&all)
+            .map(|(branch, all)| SensitivityRow {
+                friction_coefficient: branch.friction_coefficient,
+                harmonic: branch.harmonic,
+                branch: branch.branch,
+                direction: branch.direction,
+                eigenvalue: branch.eigenvalue,
+                derivatives: columns.iter().map(|&i| all[i]).collect(),
+                onset: None,
+            });
+        let value = |&i: &usize| match i {
+            0 => f64::NAN,
+            i => given[i - 1],
+        };
+        Self {
+            parameters: columns.iter().map(|&i| NAMES[i].to_owned()).collect(),
+            values: columns.iter().map(value).collect(),
+            rows: rows.collect(),
+            has_harmonics: true,
+            has_onsets: false,
+        }
+    }
+
+    /// Change of the eigenvalue, 1/s, for one per cent more of each parameter, that of the growth rate largest first.
+    fn per_cent<'a>(&'a self, row: &'a SensitivityRow) -> Vec<(&'a str, c64)> {
+        let own = [row.friction_coefficient];
+        let values = own.iter().chain(self.values.iter().skip(1));
+        let given = row.derivatives.iter().zip(values).zip(&self.parameters);
+        let mut changes: Vec<(&str, c64)> = given
+            .filter_map(|((derivative, value), name)| {
+                Some((name.as_str(), (*derivative)? * (0.01 * value)))
+            })
             .collect();
-        changes.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
+        changes.sort_by(|a, b| b.1.re.abs().total_cmp(&a.1.re.abs()));
         changes
     }
 
-    /// Writes one row for each branch: the derivative of its growth rate (1/s) and of its frequency (Hz)
-    /// for each unit of each parameter; empty where the contact is rigid. Columns of a friction law that falls with
-    /// speed, and of a shaft, are there where the case has one.
-    ///
-    /// # Errors
-    /// Those of the writer.
-    pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+    /// Names of the columns.
+    fn columns(&self) -> Vec<String> {
         let mut columns: Vec<String> = [
             "friction_coefficient",
             "harmonic",
@@ -94,53 +155,68 @@ impl SensitivityReport {
         ]
         .map(str::to_owned)
         .to_vec();
-        let all: Vec<_> = self.branches.iter().map(derivatives).collect();
-        let is_given = |i: &usize| *i < ALWAYS || all.iter().any(|row| row[*i].is_some());
-        let given: Vec<usize> = (0..NAMES.len()).filter(is_given).collect();
-        for name in given.iter().map(|&i| NAMES[i]) {
+        for name in &self.parameters {
             columns.push(format!("growth_rate_per_{name}"));
             columns.push(format!("frequency_hz_per_{name}"));
         }
+        if self.has_onsets {
+            columns.push("critical_friction".to_owned());
+            let names = self.parameters.iter().skip(1);
+            columns.extend(names.map(|name| format!("critical_friction_per_{name}")));
+        }
+        columns
+    }
+
+    /// Writes one row for each branch: the derivative of its growth rate (1/s) and of its frequency (Hz) for each unit of
+    /// each parameter, empty of a parameter that it does not have; and where onsets were followed, the first critical friction
+    /// coefficient of the branch with its derivatives.
+    ///
+    /// # Errors
+    /// Those of the writer.
+    pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+        let columns = self.columns();
         let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
         let mut table = Table::new(out, &columns)?;
-        for (branch, derivatives) in self.branches.iter().zip(&all) {
-            let mut row = vec![
-                format_number(branch.friction_coefficient),
-                branch.harmonic.to_string(),
-                branch.branch.to_string(),
-                branch.direction.to_string(),
-                format_number(branch.eigenvalue.re),
-                format_number(branch.eigenvalue.im / TAU),
+        let named = |text: String| match self.has_harmonics {
+            true => text,
+            false => String::new(),
+        };
+        for row in &self.rows {
+            let mut cells = vec![
+                format_number(row.friction_coefficient),
+                named(row.harmonic.to_string()),
+                row.branch.to_string(),
+                named(row.direction.to_string()),
+                format_number(row.eigenvalue.re),
+                format_number(row.eigenvalue.im / TAU),
             ];
-            for &i in &given {
-                let parts = derivatives[i].map_or([f64::NAN; 2], |d| [d.re, d.im / TAU]);
-                row.extend(parts.map(format_number));
+            for derivative in &row.derivatives {
+                let parts = derivative.map_or([f64::NAN; 2], |d| [d.re, d.im / TAU]);
+                cells.extend(parts.map(format_number));
             }
-            table.row(row)?;
+            if self.has_onsets {
+                let critical = row.onset.as_ref().map(|onset| onset.critical_friction);
+                let rate = |i: usize| row.onset.as_ref().and_then(|onset| onset.derivatives[i]);
+                let rates = (1..self.parameters.len()).map(rate);
+                let all = std::iter::once(critical).chain(rates);
+                cells.extend(all.map(|value| format_number(value.unwrap_or(f64::NAN))));
+            }
+            table.row(cells)?;
         }
         table.finish()
     }
 
     /// Tables of the modes that grow fastest, at most `most`: what one per cent more of each parameter changes, largest first.
     pub(super) fn tables(&self, most: usize) -> Vec<ReportTable> {
-        let mut branches: Vec<&Sensitivity> = self.branches.iter().collect();
-        branches.sort_by(|a, b| b.eigenvalue.re.total_cmp(&a.eigenvalue.re));
-        branches
-            .into_iter()
+        let mut rows: Vec<&SensitivityRow> = self.rows.iter().collect();
+        rows.sort_by(|a, b| b.eigenvalue.re.total_cmp(&a.eigenvalue.re));
+        rows.into_iter()
             .take(most)
-            .map(|branch| self.table(branch))
+            .map(|row| self.table(row))
             .collect()
     }
 
-    fn table(&self, branch: &Sensitivity) -> ReportTable {
-        let friction = [branch.friction_coefficient];
-        let values = friction.iter().chain(&self.values);
-        let derivatives = derivatives(branch).into_iter().zip(values).zip(NAMES);
-        let mut changes: Vec<(&str, c64)> = derivatives
-            .filter_map(|((derivative, value), name)| Some((name, derivative? * (0.01 * value))))
-            .filter(|(_, change)| change.norm() > 0.0)
-            .collect();
-        changes.sort_by(|a, b| b.1.re.abs().total_cmp(&a.1.re.abs()));
+    fn table(&self, own: &SensitivityRow) -> ReportTable {
         let row = |(name, change): (&str, c64)| {
             vec![
                 name.replace('_', " "),
@@ -148,49 +224,58 @@ impl SensitivityReport {
                 format!("{:+.3}", change.im / TAU + 0.0),
             ]
         };
-        let (rate, frequency) = (branch.eigenvalue.re, branch.eigenvalue.im / TAU);
+        let changes = self.per_cent(own).into_iter();
+        let changes = changes.filter(|(_, change)| change.norm() > 0.0);
+        let (rate, frequency) = (own.eigenvalue.re, own.eigenvalue.im / TAU);
+        let travels = match self.has_harmonics {
+            true => format!(", {} the rotor", direction_name(own.direction)),
+            false => String::new(),
+        };
         ReportTable {
             caption: format!(
-                "One per cent more of each parameter changes n = {}, branch {}, {} the rotor ({frequency:.1} Hz, {} at {:.1} 1/s \
-                 at friction {}) by",
-                branch.harmonic,
-                branch.branch,
-                direction_name(branch.direction),
+                "One per cent more of each parameter changes {}{travels} ({frequency:.1} Hz, {} at {:.1} 1/s at friction {}) by",
+                self.name(own),
                 if rate > 0.0 { "grows" } else { "decays" },
                 rate.abs(),
-                branch.friction_coefficient,
+                own.friction_coefficient,
             ),
             columns: ["parameter", "growth rate (1/s)", "frequency (Hz)"]
                 .map(String::from)
                 .to_vec(),
-            rows: changes.into_iter().map(row).collect(),
+            rows: changes.map(row).collect(),
+        }
+    }
+
+    fn name(&self, row: &SensitivityRow) -> String {
+        match self.has_harmonics {
+            true => format!("n = {}, branch {}", row.harmonic, row.branch),
+            false => format!("branch {}", row.branch),
         }
     }
 
     /// What decides the growth of the mode that grows fastest, in words.
     pub fn print(&self) -> String {
         let fastest = self
-            .branches
+            .rows
             .iter()
             .max_by(|a, b| a.eigenvalue.re.total_cmp(&b.eigenvalue.re));
-        let Some(branch) = fastest else {
+        let Some(row) = fastest else {
             return String::new();
         };
         let mut text = format!(
-            "at friction {} mode n = {}, branch {} {} at {:.1} 1/s; change of the growth rate when a parameter rises by 1 %:",
-            branch.friction_coefficient,
-            branch.harmonic,
-            branch.branch,
-            if branch.eigenvalue.re > 0.0 {
+            "at friction {} mode {} {} at {:.1} 1/s; change of the growth rate when a parameter rises by 1 %:",
+            row.friction_coefficient,
+            self.name(row),
+            if row.eigenvalue.re > 0.0 {
                 "grows"
             } else {
                 "decays"
             },
-            branch.eigenvalue.re.abs(),
+            row.eigenvalue.re.abs(),
         );
-        for (index, (name, change)) in self.per_cent(branch).into_iter().enumerate() {
+        for (index, (name, change)) in self.per_cent(row).into_iter().enumerate() {
             let separator = if index == 0 { "" } else { "," };
-            let _ = write!(text, "{separator} {name} {change:+.2}");
+            let _ = write!(text, "{separator} {name} {:+.2}", change.re);
         }
         text + " 1/s"
     }

@@ -72,6 +72,15 @@ impl AssemblyModel {
         assembled(&self.body)?.tangent(self.base(), &self.options)
     }
 
+    /// The tangent of one of the states.
+    ///
+    /// # Errors
+    /// Those of the pairing of surfaces.
+    pub(super) fn tangent(&self, state: usize) -> Result<SlidingTangent, CeaError> {
+        let assembly = assembled(&self.body)?;
+        Ok(assembly.tangent(&self.range.states[state], &self.options)?)
+    }
+
     /// The base state point by point at the case's own friction coefficient.
     ///
     /// # Errors

@@ -6,7 +6,7 @@ use super::{Progress, StudyError};
 use crate::case::{Annulus, Body, Case, CaseErrors, Cea, CeaMethod, ModeSelection, Revolution};
 use crate::cea::cyclic::{self, Coverage, Overdamped, Sensitivity, SolidModel, SolidSweep};
 use crate::cea::{CeaError, FrictionSweep, ModeLimit, SweepRequest};
-use crate::prestress::TangentOptions;
+use crate::prestress::{SlidingTangent, TangentOptions};
 use crate::study::tangent_options;
 
 /// The eigenvalue solver that a body gets.
@@ -230,6 +230,67 @@ impl Model {
                     sweep,
                 })
             }
+        }
+    }
+
+    /// The model of a case with the base states of this one, of a body solved on its whole mesh: for a case that differs in
+    /// nothing that these depend on.
+    pub(super) fn with_its_states(&self, case: &Case, options: TangentOptions) -> Option<Self> {
+        match self {
+            Self::Whole(whole) => Some(Self::Whole(WholeMesh {
+                // Its boundaries have supports.
+                mesh: case.mesh().ok()?,
+                range: whole.range.clone(),
+                options,
+            })),
+            Self::Assembly(assembly) => Some(Self::Assembly(Box::new(AssemblyModel {
+                body: case.body.assembly()?.clone(),
+                range: assembly.range.clone(),
+                options,
+            }))),
+            Self::Sectors(..) | Self::SolidSectors(_) => None,
+        }
+    }
+
+    /// How many base states there are over the whole mesh; none of a body solved harmonic by harmonic.
+    pub(super) fn state_count(&self) -> usize {
+        match self {
+            Self::Whole(whole) => whole.range.states.len(),
+            Self::Assembly(assembly) => assembly.range.states.len(),
+            Self::Sectors(..) | Self::SolidSectors(_) => 0,
+        }
+    }
+
+    /// Which of them belongs to each friction coefficient that the model was made for.
+    pub(super) fn state_of(&self) -> &[usize] {
+        match self {
+            Self::Whole(whole) => &whole.range.state_of,
+            Self::Assembly(assembly) => &assembly.range.state_of,
+            Self::Sectors(..) | Self::SolidSectors(_) => &[],
+        }
+    }
+
+    /// Which contact points are pressed in one of them.
+    pub(super) fn pressed(&self, state: usize) -> &[bool] {
+        match self {
+            Self::Whole(whole) => &whole.range.states[state].is_pressed,
+            Self::Assembly(assembly) => &assembly.range.states[state].is_pressed,
+            Self::Sectors(..) | Self::SolidSectors(_) => &[],
+        }
+    }
+
+    /// The tangent of one of them.
+    ///
+    /// # Errors
+    /// Those of the pairing of surfaces.
+    ///
+    /// # Panics
+    /// Of a body solved harmonic by harmonic, which has none.
+    pub(super) fn tangent(&self, case: &Case, state: usize) -> Result<SlidingTangent, CeaError> {
+        match self {
+            Self::Whole(whole) => Ok(whole.tangent(case, &whole.range.states[state])),
+            Self::Assembly(assembly) => assembly.tangent(state),
+            Self::Sectors(..) | Self::SolidSectors(_) => panic!("no whole mesh"),
         }
     }
 

@@ -2,6 +2,7 @@
 
 use super::model::{Model, Solver, mode_limit};
 use super::reading::{read, shapes_needed};
+use super::sensitivity::body_sensitivities;
 use super::sliding::SteadyState;
 use super::solid::SolidBody;
 use super::{Progress, SlidingModel, Solution, StudyError};
@@ -43,7 +44,9 @@ fn solve_with(
     let friction = case.contact.sliding.friction_coefficient;
     let frictions = cea.solved_friction_coefficients();
     let with_reading = with_rates;
-    let with_rates = with_rates && frictions.iter().any(|&mu| mu >= friction);
+    let with_rates = with_rates
+        && cea.sensitivities != Some(false)
+        && frictions.iter().any(|&mu| mu >= friction);
     let mut shapes_at = cea.shapes_at.clone();
     if with_reading {
         let modes = case.cost().cea.map_or(0, |cost| cost.modes) as f64;
@@ -63,6 +66,11 @@ fn solve_with(
             (found, whole.method(), Some(instead_note(&error)))
         }
     };
+    let is_asked = with_rates && cea.sensitivities == Some(true);
+    let (of_body, rate_note) = match is_asked && method == "sparse" {
+        true => body_rates(case, cea, &found.sweep),
+        false => (None, None),
+    };
 
     let mut notes: Vec<String> = found
         .coverage
@@ -79,6 +87,7 @@ fn solve_with(
             found.without_sensitivities
         ));
     }
+    notes.extend(rate_note);
     notes.extend(uncertainty_note(case, &found.sweep));
     notes.extend(damping_note(case, &found.sweep));
     notes.extend(friction_note(case, model));
@@ -97,11 +106,51 @@ fn solve_with(
         reading,
         dofs: found.dofs,
         method,
-        sensitivities: sensitivities.map(|branches| sensitivity_report(case, branches)),
+        sensitivities: match of_body {
+            Some(of_body) => Some(of_body),
+            None => sensitivities.map(|branches| sensitivity_report(case, branches)),
+        },
         notes,
         sweep: found.sweep,
     })
 }
+
+/// Sensitivities of a body solved on its whole mesh; why there are none, or what is missing of them.
+fn body_rates(
+    case: &Case,
+    cea: &Cea,
+    sweep: &FrictionSweep,
+) -> (Option<SensitivityReport>, Option<String>) {
+    let friction = case.contact.sliding.friction_coefficient;
+    let mut points = sweep.points.iter();
+    if !points.any(|p| p.friction_coefficient == friction && !p.modes.is_empty()) {
+        let note = format!(
+            "no sensitivities: there are no modes at contact.friction_coefficient = {friction}; name it in \
+             cea.friction_coefficients"
+        );
+        return (None, Some(note));
+    }
+    match body_sensitivities(case, cea, sweep) {
+        Ok(found) => {
+            let missing = found.missing.iter().take(MISSING_SHOWN).cloned();
+            let mut missing: Vec<String> = missing.collect();
+            if found.missing.len() > MISSING_SHOWN {
+                missing.push("...".to_owned());
+            }
+            let note = format!("sensitivities.csv has gaps: {}", missing.join("; "));
+            let has_gaps = !found.missing.is_empty();
+            (Some(found.report), has_gaps.then_some(note))
+        }
+        // The spectrum is there all the same.
+        Err(error) => {
+            let why = error.messages().join("; ");
+            (None, Some(format!("no sensitivities: {why}")))
+        }
+    }
+}
+
+/// Gaps of the sensitivities that a note lists.
+const MISSING_SHOWN: usize = 4;
 
 fn instead_note(error: &CeaError) -> String {
     let why = match error {
@@ -258,9 +307,9 @@ fn sensitivity_report(case: &Case, branches: Vec<Sensitivity>) -> SensitivityRep
         ]
     });
     let own = shaft.and_then(|shaft| shaft.damping).unwrap_or_default();
-    SensitivityReport {
-        branches,
-        values: [
+    SensitivityReport::of_harmonics(
+        &branches,
+        [
             case.contact.stiffness.normal_stiffness.unwrap_or(0.0),
             case.damping.rayleigh.mass_coefficient,
             case.damping.rayleigh.stiffness_coefficient,
@@ -275,7 +324,7 @@ fn sensitivity_report(case: &Case, branches: Vec<Sensitivity>) -> SensitivityRep
             own.mass_coefficient,
             own.stiffness_coefficient,
         ],
-    }
+    )
 }
 
 /// Which harmonics were solved, and why no other can hold a mode of the range.

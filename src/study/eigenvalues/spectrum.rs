@@ -31,6 +31,7 @@ fn analysis(case: &Case, frictions: &[f64], limit_hz: f64) -> Cea {
             geometric_stiffness: true,
             shapes_at,
             map: None,
+            sensitivities: None,
         },
     }
 }

@@ -1,0 +1,247 @@
+//! Sensitivities of bodies solved on their whole mesh against central differences of whole analyses run again (independent
+//! checks): the difference of two spectra knows nothing of vectors.
+
+use crate::bricks::{Block, file_of};
+use crate::disc::annulus;
+use crate::msh::{FORMS, write_msh};
+use frictionsim::case::Case;
+use frictionsim::cea::FrictionSweep;
+use frictionsim::linalg::c64;
+use frictionsim::mesh::{AnnulusMesh, ElementKind};
+use frictionsim::results::cea::SensitivityReport;
+use frictionsim::study::eigenvalues::{body_sensitivities, modes_and_onsets};
+use std::path::Path;
+use tempfile::TempDir;
+
+/// What differences leave, relative: the square of their step where modes are about to meet, and the round-off of spectra over it.
+const TOLERANCE: f64 = 1e-3;
+
+/// Step of a parameter, relative to its value; moduli run away with Poisson's ratio.
+fn step_of(key: &str) -> f64 {
+    match key.ends_with("poisson_ratio") {
+        true => 2e-4,
+        false => 2e-3,
+    }
+}
+
+struct Body {
+    folder: TempDir,
+    text: String,
+}
+
+impl Body {
+    fn case(&self, set: &[String]) -> Case {
+        let name = self.folder.path().join("case.toml").display().to_string();
+        Case::parse(&name, self.text.as_bytes(), set).unwrap_or_else(|e| panic!("{e}"))
+    }
+
+    /// The case's own friction coefficient and its spectrum.
+    fn solve(&self, set: &[String]) -> (f64, FrictionSweep) {
+        let case = self.case(set);
+        let friction = case.contact.sliding.friction_coefficient;
+        (friction, modes_and_onsets(&case).unwrap())
+    }
+
+    fn sensitivities(&self) -> (SensitivityReport, Vec<String>) {
+        let (case, (_, sweep)) = (self.case(&[]), self.solve(&[]));
+        let found = body_sensitivities(&case, case.require_cea().unwrap(), &sweep).unwrap();
+        (found.report, found.missing)
+    }
+
+    /// Holds the derivatives by some keys, named as in the table, to differences; how many onsets were among them.
+    fn check(&self, keys: &[(&str, &str)]) -> usize {
+        let (report, missing) = self.sensitivities();
+        assert_eq!(missing, Vec::<String>::new());
+        let mut onsets = 0;
+        for (key, name) in keys {
+            let at = report.parameters.iter().position(|own| own == name);
+            let at = at.unwrap_or_else(|| panic!("no {name} in {:?}", report.parameters));
+            let (value, step) = (report.values[at], step_of(key) * report.values[at]);
+            let sides =
+                [1.0, -1.0].map(|sign| self.solve(&[format!("{key}={:?}", value + sign * step)]));
+            for row in &report.rows {
+                let [above, below] = sides.each_ref().map(|s| nearest(s, row.eigenvalue));
+                let difference = (above - below) / (2.0 * step);
+                let error = (row.derivatives[at].unwrap() - difference).norm();
+                let unit = row.eigenvalue.norm() / value;
+                assert!(
+                    error < TOLERANCE * difference.norm() + 5e-7 * unit,
+                    "{key}, {}: {:?} {difference} ({:.1e} {:.1e})",
+                    row.eigenvalue,
+                    row.derivatives[at],
+                    error / difference.norm(),
+                    error / unit,
+                );
+                let Some(onset) = &row.onset else {
+                    continue;
+                };
+                onsets += 1;
+                let critical = sides
+                    .each_ref()
+                    .map(|s| nearest_onset(&s.1, onset.critical_friction));
+                let difference = (critical[0] - critical[1]) / (2.0 * step);
+                let error = (onset.derivatives[at].unwrap() - difference).abs();
+                assert!(
+                    error < TOLERANCE * difference.abs() + 1e-5 * onset.critical_friction / value,
+                    "{key}, onset {}: {:?} {difference}",
+                    onset.critical_friction,
+                    onset.derivatives[at],
+                );
+            }
+        }
+        onsets
+    }
+}
+
+/// The eigenvalue of a spectrum at a friction coefficient that is nearest to one.
+fn nearest((friction, sweep): &(f64, FrictionSweep), eigenvalue: c64) -> c64 {
+    let points = sweep.points.iter();
+    let point = points.filter(|point| point.friction_coefficient == *friction);
+    let all = point
+        .flat_map(|point| &point.modes)
+        .map(|mode| mode.eigenvalue);
+    let distance = |other: &c64| (other - eigenvalue).norm();
+    all.min_by(|a, b| distance(a).total_cmp(&distance(b)))
+        .unwrap()
+}
+
+fn nearest_onset(sweep: &FrictionSweep, friction: f64) -> f64 {
+    let all = sweep.intervals.iter().map(|i| i.critical_friction);
+    let distance = |other: &f64| (other - friction).abs();
+    all.min_by(|a, b| distance(a).total_cmp(&distance(b)))
+        .unwrap()
+}
+
+/// A body without symmetry: its hub is round, its outer edge an oval about another centre, on an elastic support.
+fn oval(contact: &str) -> Body {
+    let folder = tempfile::tempdir().unwrap();
+    let mesh = AnnulusMesh::generate(&annulus(ElementKind::Quad4, 24, 4))
+        .unwrap()
+        .mesh;
+    let numbers: Vec<usize> = (1..=mesh.node_count()).collect();
+    let oval = write_msh(&mesh, FORMS[2], &numbers, |[x, y]: [f64; 2]| {
+        let outwards = (x.hypot(y) - 0.0205) / 0.07;
+        [
+            x * (1.0 + 0.3 * outwards) + 0.006 * outwards,
+            y * (1.0 - 0.1 * outwards),
+        ]
+    });
+    std::fs::write(folder.path().join("oval.msh"), oval).unwrap();
+    let text = format!(
+        "[mesh]\nfile = \"oval.msh\"\n[boundaries.outer]\ncondition = \"support\"\nnormal_stiffness = 2e12\n\
+         tangential_stiffness = 1e12\nnormal_damping = 2e4\n\
+         [material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.3805\ndensity = 1228.0\n\
+         [damping]\nmass_coefficient = 40.0\nstiffness_coefficient = 2e-7\n\
+         [contact]\nfriction_coefficient = 0.3\ninterference = 25e-6\nrotation_speed_rpm = 610.0\n{contact}\
+         [cea]\nmodes = 8\nfriction_coefficients = [0.0, 0.15, 0.3, 0.45]\n"
+    );
+    Body { folder, text }
+}
+
+/// Supports with dashpots, falling friction, prestress: nothing is proportional, and the base state moves.
+#[test]
+fn sensitivities_of_an_oval_on_supports_are_differences_of_its_spectra() {
+    let falling =
+        oval("static_friction_ratio = 1.3\ndecay_speed = 1.0\ntangential_damping = 200.0\n");
+    let onsets = falling.check(&[
+        ("material.young_modulus", "young_modulus"),
+        ("material.poisson_ratio", "poisson_ratio"),
+        ("material.density", "density"),
+        ("contact.interference", "interference"),
+        ("contact.decay_speed", "decay_speed"),
+        ("contact.rotation_speed_rpm", "rotation_speed_rpm"),
+    ]);
+    assert!(onsets > 0, "no onset");
+}
+
+/// Springs and dashpots in the contact and on the support.
+#[test]
+fn sensitivities_of_an_oval_on_springs_are_differences_of_its_spectra() {
+    let springs = oval("normal_stiffness = 5e12\nnormal_damping = 1e3\n");
+    springs.check(&[
+        ("contact.normal_stiffness", "normal_stiffness"),
+        ("damping.stiffness_coefficient", "stiffness_coefficient"),
+        (
+            "boundaries.outer.normal_stiffness",
+            "boundaries.outer.normal_stiffness",
+        ),
+        (
+            "boundaries.outer.normal_damping",
+            "boundaries.outer.normal_damping",
+        ),
+    ]);
+}
+
+/// Some contact nodes are open at friction 0.5.
+#[test]
+fn sensitivities_of_a_block_whose_corner_lifts_are_differences_of_its_spectra() {
+    let folder = tempfile::tempdir().unwrap();
+    let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
+    let text = std::fs::read_to_string(cases.join("sliding-block.toml")).unwrap();
+    let mesh = cases.join("meshes/block.msh").display().to_string();
+    let text = text
+        .replace("meshes/block.msh", &mesh)
+        .replace("[0.1, 0.3, 0.5]", "[0.5]")
+        .replace("modes = 10", "modes = 3");
+    let block = Body { folder, text };
+    block.check(&[("material.poisson_ratio", "poisson_ratio")]);
+}
+
+/// Two blocks of bricks whose meshes do not match; the dashpot of friction across the sliding follows the pressure.
+#[test]
+fn sensitivities_of_an_assembly_are_differences_of_its_spectra() {
+    let folder = tempfile::tempdir().unwrap();
+    let blocks = [
+        Block {
+            name: "lower",
+            origin: [0.0; 3],
+            size: [0.05, 0.04, 0.02],
+            counts: [3, 2, 1],
+        },
+        Block {
+            name: "upper",
+            origin: [0.005, 0.004, 0.02],
+            size: [0.04, 0.03, 0.015],
+            counts: [2, 2, 1],
+        },
+    ];
+    std::fs::write(
+        folder.path().join("blocks.msh"),
+        file_of(&blocks, |point| point),
+    )
+    .unwrap();
+    let text = "[mesh]\nfile = \"blocks.msh\"\n[boundaries.lower_z0]\ncondition = \"clamped\"\n\
+        [boundaries.upper_x0]\ncondition = \"fixed\"\ndirections = [\"x\"]\n\
+        [boundaries.upper_y0]\ncondition = \"fixed\"\ndirections = [\"y\"]\n\
+        [boundaries.upper_z1]\ncondition = \"pressure\"\npressure = 2e6\n\
+        [material]\nyoung_modulus = 2e11\npoisson_ratio = 0.3\ndensity = 7850.0\n\
+        [materials.upper]\nyoung_modulus = 8e9\npoisson_ratio = 0.25\ndensity = 2200.0\nmass_coefficient = 50.0\nstiffness_coefficient = 1e-7\n\
+        [damping]\nmass_coefficient = 20.0\nstiffness_coefficient = 1e-8\n\
+        [motion.lower]\naxis = [0.0, 0.0, 1.0]\ncenter = [1.0, 0.3, 0.0]\nrotation_speed_rpm = 12.0\n\
+        [contacts.pad]\nsurface = \"upper_z0\"\ncounter = \"lower_z1\"\nfriction_coefficient = 0.3\nnormal_stiffness = 1e13\n\
+        [cea]\nmodes = 5\nfriction_coefficients = [0.0, 0.3]\n"
+        .to_owned();
+    let body = Body { folder, text };
+    body.check(&[
+        (
+            "materials.upper.young_modulus",
+            "materials.upper.young_modulus",
+        ),
+        (
+            "boundaries.upper_z1.pressure",
+            "boundaries.upper_z1.pressure",
+        ),
+        (
+            "motion.lower.rotation_speed_rpm",
+            "motion.lower.rotation_speed_rpm",
+        ),
+        (
+            "contacts.pad.normal_stiffness",
+            "contacts.pad.normal_stiffness",
+        ),
+        (
+            "contacts.pad.friction_coefficient",
+            "contacts.pad.friction_coefficient",
+        ),
+    ]);
+}
