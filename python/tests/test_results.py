@@ -112,6 +112,8 @@ def test_the_matrices_have_the_eigenvalues_of_the_analysis() -> None:
         assert np.abs(values - eigenvalue).min() < 1e-7 * abs(eigenvalue), scipy.__version__
     with pytest.raises(ValueError, match="pressed"):
         matrices.at(0.0)
+    # Friction coefficients that the analysis has not looked at are not claimed.
+    assert frictionsim.matrices(case).friction_range == (0.5, 0.5)
 
 
 def test_a_fit_can_be_laid_over_its_case() -> None:

@@ -2,7 +2,8 @@
 //!
 //! The threads of a run are its own and carry it with them, so that several runs go on side by side.
 
-use super::{CommandLine, Failure, command_line, terminal};
+use super::log::warnings_into;
+use super::{CommandLine, Failure, command_line};
 use crate::linalg::interruption::{Stop, Stopped, is_asked};
 use clap::FromArgMatches;
 use indicatif::ProgressBar;
@@ -14,6 +15,9 @@ use std::io::{self, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use tracing::Dispatch;
+
+/// Advice for a run that keeps nothing before its end.
+pub const NOTHING_KEPT: &str = "nothing of this run is kept: the same command starts it again";
 
 thread_local! {
     static OWN: RefCell<Option<EmbeddedRun>> = const { RefCell::new(None) };
@@ -92,7 +96,7 @@ impl EmbeddedRun {
         match outcome {
             Ok(result) => result.map_err(EmbeddedFailure::Command),
             Err(cause) if cause.is::<Stopped>() => {
-                let advice = self.state().advice.unwrap_or(terminal::NOTHING_KEPT);
+                let advice = self.state().advice.unwrap_or(NOTHING_KEPT);
                 let failure = Failure::Interrupted(format!("interrupted; {advice}"));
                 Err(EmbeddedFailure::Command(failure))
             }
@@ -136,7 +140,9 @@ impl EmbeddedRun {
 
     /// The thread pool of the run; 0 for all cores.
     fn pool(&self, threads: usize) -> Result<ThreadPool, ThreadPoolBuildError> {
-        build_pool(threads, Some(self.clone()), terminal::log_into(self))
+        let run = self.clone();
+        let log = warnings_into(move || run.clone());
+        build_pool(threads, Some(self.clone()), log)
     }
 
     fn state(&self) -> MutexGuard<'_, State> {

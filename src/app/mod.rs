@@ -17,6 +17,7 @@ mod identify;
 mod init;
 mod keys;
 mod limits;
+mod log;
 mod man;
 mod matrices;
 mod measurement;

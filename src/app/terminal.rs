@@ -1,15 +1,14 @@
 //! Terminal output: results on stdout, log and progress on stderr.
 
 use super::Failure;
-use super::embedded::{self, EmbeddedRun};
+use super::embedded;
+use super::log::Line;
 use crate::case::{shown, shown_json};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use std::io::{self, IsTerminal, Write};
-use tracing::Dispatch;
-use tracing_subscriber::fmt::format::Writer;
-use tracing_subscriber::fmt::{FmtContext, FormatEvent, FormatFields};
-use tracing_subscriber::registry::LookupSpan;
+
+pub use super::embedded::NOTHING_KEPT;
 
 /// Writes a result to stdout, control characters in it escaped.
 ///
@@ -110,9 +109,6 @@ pub fn report_usage(error: &clap::Error) -> u8 {
     u8::try_from(error.exit_code()).unwrap_or(1)
 }
 
-/// Advice for a run that keeps nothing before its end.
-pub const NOTHING_KEPT: &str = "nothing of this run is kept: the same command starts it again";
-
 /// Exit code of a process that Ctrl-C or SIGTERM ended.
 pub const INTERRUPTED: u8 = 130;
 
@@ -144,17 +140,6 @@ pub fn error_word() -> &'static str {
     }
 }
 
-/// A log of warnings that an embedded run keeps.
-pub fn log_into(run: &EmbeddedRun) -> Dispatch {
-    let run = run.clone();
-    let subscriber = tracing_subscriber::fmt()
-        .with_writer(move || run.clone())
-        .with_ansi(false)
-        .with_max_level(tracing::Level::WARN)
-        .event_format(Line);
-    subscriber.finish().into()
-}
-
 /// Sends the log to stderr: information and warnings; with one `quiet` warnings, with two errors only. An embedded run has
 /// a log of its own.
 pub fn start_log(quiet: u8, verbose: u8) {
@@ -174,38 +159,6 @@ pub fn start_log(quiet: u8, verbose: u8) {
         .event_format(Line);
     // A second call, as tests make, finds the log started.
     let _ = subscriber.try_init();
-}
-
-/// A line of the log: its level, coloured where stderr takes colours, and its text with control characters escaped.
-struct Line;
-
-impl<S, N> FormatEvent<S, N> for Line
-where
-    S: tracing::Subscriber + for<'a> LookupSpan<'a>,
-    N: for<'a> FormatFields<'a> + 'static,
-{
-    fn format_event(
-        &self,
-        context: &FmtContext<'_, S, N>,
-        mut out: Writer<'_>,
-        event: &tracing::Event<'_>,
-    ) -> std::fmt::Result {
-        let level = event.metadata().level();
-        let colour = match *level {
-            tracing::Level::ERROR => 31,
-            tracing::Level::WARN => 33,
-            tracing::Level::INFO => 32,
-            tracing::Level::DEBUG => 34,
-            tracing::Level::TRACE => 35,
-        };
-        match out.has_ansi_escapes() {
-            true => write!(out, "\x1b[{colour}m{level:>5}\x1b[0m ")?,
-            false => write!(out, "{level:>5} ")?,
-        }
-        let mut text = String::new();
-        context.format_fields(Writer::new(&mut text), event)?;
-        writeln!(out, "{}", shown(&text))
-    }
 }
 
 /// A progress bar on a terminal, nothing in a pipe or with `quiet`. `length` is 0 while it is not known.

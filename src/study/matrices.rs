@@ -34,17 +34,18 @@ pub fn matrices(case: &Case) -> Result<ExportedSystem, StudyError> {
     let state = model.base();
     let tangent = model.tangent(case, state);
     let friction = case.contact.sliding.friction_coefficient;
-    let largest = cea
-        .solved_friction_coefficients()
-        .into_iter()
-        .fold(friction, f64::max);
+    let largest = frictions.iter().copied().fold(friction, f64::max);
+    let smallest = frictions.iter().copied().fold(friction, f64::min);
     // The polynomials are those of one set of pressed points, which changes at `changes`.
     let changes = &model.range.changes;
     let below = changes.iter().copied().filter(|change| *change <= friction);
     let above = changes.iter().copied().filter(|change| *change > friction);
     let mut system = ExportedSystem {
         friction_coefficient: friction,
-        friction_range: [below.fold(0.0, f64::max), above.fold(largest, f64::min)],
+        friction_range: [
+            below.fold(smallest, f64::max),
+            above.fold(largest, f64::min),
+        ],
         proportional_damping: tangent
             .proportional
             .map(|rayleigh| [rayleigh.mass_coefficient, rayleigh.stiffness_coefficient]),

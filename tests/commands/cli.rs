@@ -578,6 +578,27 @@ fn init_writes_cases_that_check_accepts_and_overwrites_nothing() {
 }
 
 #[test]
+fn init_all_writes_every_shipped_case_with_its_mesh_and_overwrites_nothing() {
+    let folder = folder();
+    let all = || frictionsim(&folder).args(["init", "--all"]).assert();
+    all().code(0).stdout(contains("cases/sliding-block.toml"));
+    let shipped = fs::read_dir(cases()).unwrap().flatten();
+    let names = shipped.map(|entry| entry.file_name());
+    let toml: Vec<_> = names
+        .filter(|name| name.to_string_lossy().ends_with(".toml"))
+        .collect();
+    assert!(toml.len() > 20);
+    for name in toml {
+        let path = Path::new("cases").join(name);
+        frictionsim(&folder).arg("check").arg(path).assert().code(0);
+    }
+    // What is there as it would be written stays; what is not is not overwritten.
+    all().code(0).stdout("");
+    fs::write(folder.path().join("cases/basin.toml"), "precious").unwrap();
+    all().code(2).stderr(contains("basin.toml exists"));
+}
+
+#[test]
 fn init_to_stdout_is_the_case_alone() {
     let folder = folder();
     let assert = frictionsim(&folder)

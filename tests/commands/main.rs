@@ -16,6 +16,7 @@ mod case_files;
 mod cli;
 mod convergence_command;
 mod cycle_command;
+mod embedded;
 mod examples;
 mod figures;
 mod fit;

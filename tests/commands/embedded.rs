@@ -1,0 +1,177 @@
+//! Commands inside another program: side by side, interrupted, panicking.
+
+use frictionsim::app::Failure;
+use frictionsim::app::embedded::{EmbeddedFailure, EmbeddedRun};
+use std::ffi::OsString;
+use std::fs;
+use std::path::Path;
+use std::time::{Duration, Instant};
+use tempfile::{TempDir, tempdir};
+
+/// A command on a shipped case with a coarse mesh, without figures, into `name` of a folder.
+fn words(command: &str, case: &str, folder: &TempDir, name: &str, set: &[&str]) -> Vec<OsString> {
+    let case = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("cases")
+        .join(case);
+    let out = folder.path().join(name);
+    let mut words: Vec<OsString> = vec![command.into(), case.into(), "--out".into(), out.into()];
+    let coarse = ["mesh.circumferential_elements=16", "mesh.radial_elements=3"];
+    for change in coarse.iter().chain(set) {
+        words.extend(["--set".into(), change.into()]);
+    }
+    words.extend(["-qq", "--no-figures"].map(OsString::from));
+    words
+}
+
+fn run(words: Vec<OsString>) -> Result<(), EmbeddedFailure> {
+    EmbeddedRun::default().run(words, 1)
+}
+
+/// Runs a command on a thread, stops it once it counts something, and gives its failure and how long it took to stop.
+fn stopped(words: Vec<OsString>) -> (EmbeddedFailure, Duration) {
+    let run = EmbeddedRun::default();
+    let own = run.clone();
+    let thread = std::thread::spawn(move || own.run(words, 2));
+    while run.progress().is_none_or(|progress| progress.done == 0) && !thread.is_finished() {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    let asked = Instant::now();
+    run.stop();
+    let outcome = thread.join().unwrap();
+    (outcome.unwrap_err(), asked.elapsed())
+}
+
+fn interruption(failure: &EmbeddedFailure) -> &str {
+    match failure {
+        EmbeddedFailure::Command(Failure::Interrupted(text)) => text,
+        other => panic!("{other:?}"),
+    }
+}
+
+const RUN: [&str; 3] = [
+    "output.probes=[1]",
+    "output.sample_interval=1e-5",
+    "contact.friction_coefficient=0.3",
+];
+
+fn transient(folder: &TempDir, name: &str, duration: &str) -> Vec<OsString> {
+    let set = [&RUN[..], &[duration]].concat();
+    words("transient", "polycarbonate-610rpm.toml", folder, name, &set)
+}
+
+#[test]
+fn a_transient_that_is_stopped_keeps_what_it_has_and_resumes_to_the_same_bytes() {
+    let folder = tempdir().unwrap();
+    let (failure, time) = stopped(transient(&folder, "run", "transient.duration=10.0"));
+    assert!(interruption(&failure).contains("--resume"), "{failure:?}");
+    assert!(time < Duration::from_secs(1), "{time:?}");
+    let table = fs::read_to_string(folder.path().join("run/energy.csv")).unwrap();
+    let last = table.lines().last().unwrap().split(',').next().unwrap();
+    let reached: f64 = last.parse().unwrap();
+    // A little further than it came, in one run and in two.
+    let duration = format!("transient.duration={:.3}", reached + 0.002);
+    let mut again = transient(&folder, "run", &duration);
+    again.push("--resume".into());
+    run(again).unwrap();
+    run(transient(&folder, "whole", &duration)).unwrap();
+    for name in ["energy.csv", "contact.csv", "probe-1.csv", "harmonics.csv"] {
+        let [one, two] = ["run", "whole"].map(|run| fs::read(folder.path().join(run).join(name)));
+        assert_eq!(one.unwrap(), two.unwrap(), "{name}");
+    }
+}
+
+#[test]
+fn a_sweep_that_is_stopped_keeps_its_finished_points() {
+    let folder = tempdir().unwrap();
+    let set = [
+        &RUN[..],
+        &[
+            "transient.duration=0.5",
+            "sweep={\"contact.rotation_speed_rpm\"=[600.0, 605.0, 610.0, 620.0]}",
+        ],
+    ]
+    .concat();
+    let study = words("sweep", "polycarbonate-610rpm.toml", &folder, "study", &set);
+    let run = EmbeddedRun::default();
+    let own = run.clone();
+    let thread = std::thread::spawn(move || own.run(study, 2));
+    std::thread::sleep(Duration::from_millis(300));
+    let asked = Instant::now();
+    run.stop();
+    let failure = thread.join().unwrap().unwrap_err();
+    assert!(asked.elapsed() < Duration::from_secs(1));
+    assert!(interruption(&failure).contains("--resume"), "{failure:?}");
+    // An interrupted point is no failed point.
+    let points = fs::read_dir(folder.path().join("study/points")).unwrap();
+    for point in points.flatten() {
+        let text = fs::read_to_string(point.path()).unwrap_or_default();
+        assert!(!text.contains("panic"), "{text}");
+    }
+}
+
+#[test]
+fn an_eigenvalue_analysis_is_stopped_between_factorizations() {
+    let folder = tempdir().unwrap();
+    let set = [
+        "cea.method=sparse",
+        "mesh.radial_elements=35",
+        "mesh.circumferential_elements=180",
+    ];
+    let case = words("cea", "polycarbonate-disc.toml", &folder, "cea", &set);
+    let run = EmbeddedRun::default();
+    let own = run.clone();
+    let thread = std::thread::spawn(move || own.run(case, 2));
+    std::thread::sleep(Duration::from_millis(500));
+    let asked = Instant::now();
+    run.stop();
+    let failure = thread.join().unwrap().unwrap_err();
+    assert!(asked.elapsed() < Duration::from_secs(1));
+    assert!(interruption(&failure).contains("starts it again"));
+}
+
+#[test]
+fn a_panic_is_caught_and_the_next_run_goes_on() {
+    let run = EmbeddedRun::default();
+    let failure = run.enclose(1, || -> Result<(), Failure> {
+        rayon::join(|| (), || panic!("of the test"));
+        Ok(())
+    });
+    match failure.unwrap_err() {
+        EmbeddedFailure::Panic(text) => assert_eq!(text, "of the test"),
+        other => panic!("{other:?}"),
+    }
+    assert_eq!(run.enclose(1, || Ok(7)).unwrap(), 7);
+}
+
+#[test]
+fn bad_words_and_bad_cases_are_failures_as_on_the_command_line() {
+    let folder = tempdir().unwrap();
+    let unknown = run(vec!["cea".into(), "--colour".into()]).unwrap_err();
+    let EmbeddedFailure::Command(failure @ Failure::Usage(_)) = &unknown else {
+        panic!("{unknown:?}");
+    };
+    assert!(failure.messages()[0].contains("--colour"));
+    let set = ["contact.friction_coefficient=-1"];
+    let bad = run(words("cea", "polycarbonate-disc.toml", &folder, "x", &set)).unwrap_err();
+    assert!(
+        matches!(&bad, EmbeddedFailure::Command(Failure::Case(_))),
+        "{bad:?}"
+    );
+}
+
+#[test]
+fn warnings_are_kept_for_the_caller_and_each_run_has_its_own() {
+    let folder = tempdir().unwrap();
+    let (loud, calm) = (EmbeddedRun::default(), EmbeddedRun::default());
+    let set = |density: &'static str| ["cea.friction_coefficients=[0.3]", density];
+    let case = "polycarbonate-disc.toml";
+    let dense = set("material.density=1.228e-9");
+    loud.run(words("cea", case, &folder, "dense", &dense), 1)
+        .unwrap();
+    let usual = set("material.density=1228.0");
+    calm.run(words("cea", case, &folder, "usual", &usual), 1)
+        .unwrap();
+    let said = loud.take_log();
+    assert!(said.contains("WARN") && said.contains("density"), "{said}");
+    assert_eq!(calm.take_log(), "");
+}
