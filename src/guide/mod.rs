@@ -6,8 +6,10 @@
 //! 4. [`analyses`]: one paragraph and one command for each.
 //! 5. [`results`]: how to read folders, tables and figures.
 //! 6. [`measurement`]: from a measured response to a probability of squeal.
-//! 7. [`theory`]: the equations in the order in which a run computes them, each with its module.
-//! 8. [`extending`]: an element, a law, a figure, a key.
+//! 7. [`matrices`]: the same problem in another program, reduced matrices of other programs.
+//! 8. [`python`]: the module.
+//! 9. [`theory`]: the equations in the order in which a run computes them, each with its module.
+//! 10. [`extending`]: an element, a law, a figure, a key.
 
 #[doc = include_str!("start.md")]
 pub mod start {}
@@ -26,6 +28,12 @@ pub mod results {}
 
 #[doc = include_str!("measurement.md")]
 pub mod measurement {}
+
+#[doc = include_str!("matrices.md")]
+pub mod matrices {}
+
+#[doc = include_str!("python.md")]
+pub mod python {}
 
 #[doc = include_str!("theory.md")]
 pub mod theory {}

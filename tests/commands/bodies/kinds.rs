@@ -1,6 +1,7 @@
 //! The kinds of bodies, coarse.
 
 use super::grid::{Grid, Shape, msh};
+use crate::bricks::{Block, file_of};
 
 /// A kind of body.
 pub struct Kind {
@@ -78,6 +79,32 @@ fn two_bodies(around: usize) -> String {
     msh(&[ring(&|_| "disc"), shaft])
 }
 
+/// A slab that turns about a far axis, a lining pressed on it, and a backplate glued to the lining, whose meshes do not match.
+fn solids() -> (String, String) {
+    let block = |name, bottom, height, counts| Block {
+        name,
+        origin: [0.0, 0.0, bottom],
+        size: [0.04, 0.035, height],
+        counts,
+    };
+    let blocks = [
+        block("slab", -0.035, 0.02, [4, 3, 2]),
+        block("lining", -0.015, 0.01, [5, 4, 1]),
+        block("plate", -0.005, 0.005, [4, 4, 1]),
+    ];
+    let mesh = String::from_utf8(file_of(&blocks, |point| point)).expect("a file of text");
+    let case = format!(
+        "title = \"A kind of body\"\n[mesh]\nfile = \"body.msh\"\n[material]\n{POLYCARBONATE}
+[boundaries.slab_z0]\ncondition = \"clamped\"
+[boundaries.plate_z1]\ncondition = \"pressure\"\npressure = 1e5
+[boundaries.plate_x0]\ncondition = \"fixed\"\ndirections = [\"x\", \"y\"]
+[motion.slab]\naxis = [0.0, 0.0, 1.0]\ncenter = [0.5, 0.1, 0.0]\nrotation_speed_rpm = 100.0
+[contacts.pad]\nsurface = \"lining_z0\"\ncounter = \"slab_z1\"\nfriction_coefficient = 0.3\nnormal_stiffness = 1e12
+[ties.glue]\nsurface = \"lining_z1\"\ncounter = \"plate_z0\"\n{ANALYSES}"
+    );
+    (case, mesh)
+}
+
 /// All kinds, in the order of the table.
 pub fn kinds() -> Vec<Kind> {
     let kind = |name, case| Kind {
@@ -109,6 +136,7 @@ pub fn kinds() -> Vec<Kind> {
             "axial_elements = 1\n[material]\nformulation = \"three-dimensional\"\n",
         )
     };
+    let (solids, solid_mesh) = solids();
     vec![
         kind("annulus", annulus("", "", "")),
         kind("annulus, springs in the contact", annulus("", springs, "")),
@@ -195,5 +223,6 @@ pub fn kinds() -> Vec<Kind> {
                 "[boundaries.bottom]\ncondition = \"guide\"\n",
             ),
         ),
+        of_file("solid bodies, tied and sliding", solids, solid_mesh),
     ]
 }
