@@ -74,7 +74,7 @@ pub const KEYS: &[CaseKey] = &[
     key("mesh.radial_grading", Number(Positive), "", Value("1.0"), "1.0", "the size ratio of successive elements outwards (1 = uniform)"),
     key("mesh.element", Choice(words::<ElementKind>), "", Value("\"quad4\""), "\"quad4\"", "the element shape"),
 
-    key("mesh.file", Text, "", Otherwise("an annulus is generated"), "\"rig.msh\"", "a mesh of the body, relative to the case, in place of radii and element counts: Gmsh (MSH 2.2 or 4.1), or an input file of Abaqus or CalculiX (.inp)"),
+    key("mesh.file", Text, "", Otherwise("an annulus is generated"), "\"rig.msh\"", "a mesh of the body, relative to the case, in place of radii and element counts: Gmsh (MSH 2.2 or 4.1), an input file of Abaqus or CalculiX (.inp), Nastran bulk data (.bdf) or a universal file (.unv)"),
     key("mesh.units", Choice(words::<UnitsWord>), "", Value("\"m-kg-s\""), "\"mm-t-s\"", "the units of that file: of its coordinates, materials, pressures and stiffnesses"),
     key("mesh.take", Choices(words::<FilePart>), "", Otherwise("all"), "[\"materials\", \"ties\"]", "what is taken from that file beside the mesh (sections of the case win)"),
     key("mesh.scale", Number(Positive), "", Value("1.0"), "0.001", "the factor on the coordinates of that file alone, in place of mesh.units"),

@@ -105,7 +105,7 @@ pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &mut ElasticMat
     let is_lone_solid = is_file_solid && !root.has("contact");
     if root.has("contacts") || root.has("ties") || is_lone_solid {
         let parts = (conditions.as_slice(), material);
-        let model = assembly_model(root, raw, (&mesh, &file), parts, thickness);
+        let model = assembly_model(root, raw, (&mesh, &file, scale), parts, thickness);
         mesh.close();
         return model;
     }
@@ -154,12 +154,11 @@ pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &mut ElasticMat
 fn assembly_model(
     root: &Section<'_>,
     raw: &RawCase,
-    (mesh, file): (&Section<'_>, &str),
+    (mesh, file, scale): (&Section<'_>, &str, f64),
     (conditions, material): (&[NamedCondition], &mut ElasticMaterial),
     thickness: f64,
 ) -> Model {
     let _ = mesh.optional_count("axial_elements");
-    let scale = length_factor(mesh);
     if root.has("contact") {
         let _ = root.section("contact", false);
         root.reject(

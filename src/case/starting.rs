@@ -237,14 +237,12 @@ fn plane_contact(file: &GmshFile) -> String {
 
 fn analysis(file: &GmshFile, out: &mut String) {
     let is_sliding = !file.model.contacts.is_empty() || file.dimension == 2;
-    let friction = match is_sliding {
-        true => "{ from = 0.0, to = 0.6, count = 7 }",
-        false => "[0.0]",
-    };
-    let _ = write!(
-        out,
-        "\n[cea]\nmodes = {MODES}\nfriction_coefficients = {friction}\n"
-    );
+    if is_sliding {
+        let _ = write!(
+            out,
+            "\n[cea]\nmodes = {MODES}\nfriction_coefficients = {{ from = 0.0, to = 0.6, count = 7 }}\n"
+        );
+    }
     if file.dimension == 3 && file.model.contacts.is_empty() {
         let surfaces: Vec<&str> = file.surfaces.keys().map(String::as_str).collect();
         let _ = write!(

@@ -22,6 +22,8 @@ const MOST_NAMED: usize = 8;
 pub struct Taken {
     /// Name of the file in the case.
     pub file: String,
+    /// Whether the file cannot be read, so that nobody knows what it holds.
+    pub is_unread: bool,
     /// What is taken.
     pub sections: Vec<FileSection>,
     /// How the file was read, and what is taken, in sentences.
@@ -42,12 +44,16 @@ pub(super) fn effective(raw: &mut RawCase) -> (RawTable, Taken) {
     };
     let units = text("mesh.units").and_then(|word| word_of(&word));
     // A file that cannot be read is told where the body is made of it.
+    let unread = Taken {
+        is_unread: true,
+        ..Taken::default()
+    };
     let Ok(bytes) = imported::mesh_bytes(raw, &name) else {
-        return (table, Taken::default());
+        return (table, unread);
     };
     raw.mesh = Some(bytes.clone());
     let Ok(file) = bytes.read() else {
-        return (table, Taken::default());
+        return (table, unread);
     };
     let at = raw.place("mesh.file");
     let parts = parts_taken(raw);
@@ -250,7 +256,13 @@ impl Taken {
     }
 
     /// Adds to errors about what was taken the line of the file that says it.
-    pub(super) fn name_places(&self, errors: &mut [Diagnostic]) {
+    ///
+    /// Where the file cannot be read, sections that it may hold are not asked for.
+    pub(super) fn name_places(&self, errors: &mut Vec<Diagnostic>) {
+        let is_asked = |error: &Diagnostic| error.message.starts_with("missing section [");
+        if self.is_unread && !errors.iter().all(is_asked) {
+            errors.retain(|error| !is_asked(error));
+        }
         for error in errors {
             let is_meant = |section: &&FileSection| {
                 let path = format!("{}.{}", section.path.0, section.path.1);

@@ -156,7 +156,9 @@ fn sections_of_the_case_win_over_those_of_the_file() {
     };
     assert_eq!(body.contacts.len(), 1);
     // Nothing but the mesh.
-    let bare = CASE.replace("units", "take = \"nothing\"\nunits")
+    let bare = CASE
+        .replace("[cea]\nmodes = 3\n", "")
+        .replace("units", "take = \"nothing\"\nunits")
         + "[material]\nyoung_modulus = 2e11\npoisson_ratio = 0.3\ndensity = 7850.0\n";
     let case = case_of(folder.path(), &bare).unwrap_or_else(|errors| panic!("{errors}"));
     let Body::Assembly(body) = &case.body else {
@@ -198,11 +200,13 @@ fn what_is_not_used_is_a_warning_and_what_is_wrong_has_its_line() {
     assert!(said.contains("mesh.units and mesh.scale"), "{said}");
     // Millimetres read as metres.
     let metres = CASE.replace("units = \"mm-t-s\"\n", "");
-    let case = case_of(folder.path(), &metres).unwrap_or_else(|errors| panic!("{errors}"));
-    let warnings: Vec<String> = case.warnings.iter().map(ToString::to_string).collect();
+    let said = case_of(folder.path(), &metres)
+        .unwrap_err()
+        .messages()
+        .join("\n");
     assert!(
-        warnings.iter().any(|w| w.contains("mesh.scale")),
-        "{warnings:?}"
+        said.contains("20.0000 m wide") && said.contains("mesh.scale"),
+        "{said}"
     );
 }
 
