@@ -46,6 +46,8 @@ const SAMPLE_TOLERANCE: f64 = 1e-10;
 const SEARCH_WIDTH: usize = 4;
 /// Corrections of a single mode in a row.
 const MAX_CORRECTIONS: usize = 16;
+/// Refinements of the modes at one friction coefficient for structural damping, each of which wins about the loss factor.
+const LOSSY_ROUNDS: usize = 6;
 /// Refinements of one basis before the preconditioner is considered unfit.
 const MAX_ROUNDS: usize = 40;
 
@@ -144,7 +146,15 @@ impl<'a> BasisBuilder<'a> {
                     self.model
                         .expand(random_columns(known, width, seed).as_ref())
                 });
-                self.sample(mu, frequency_scale, &start, self.count)
+                let has_grown = self.sample(mu, frequency_scale, &start, self.count)?;
+                // The iteration leaves structural damping out: its vectors are a start.
+                let rounds = self.tangent.structural.as_ref().map_or(0, |_| LOSSY_ROUNDS);
+                for _ in 0..rounds {
+                    if !self.refine_sample(mu)? {
+                        break;
+                    }
+                }
+                Ok(has_grown)
             }
         }
     }

@@ -25,7 +25,7 @@ mod states;
 pub use assembly::AssemblyModel;
 pub use dampings::dampings;
 pub use map::map;
-pub use model::{Model, Solver, Spectrum, asked_modes, mode_limit};
+pub use model::{Model, Solver, Spectrum, asked_modes, mode_limit, no_cyclic_losses};
 pub use sliding::{SlidingModel, SteadyState};
 pub use solid::SolidBody;
 pub use solve::{solve, solve_modes};
