@@ -237,6 +237,12 @@ impl Body {
         }
     }
 
+    /// Whether a material has structural damping.
+    pub fn has_structural_damping(&self) -> bool {
+        let mut regions = 0..self.region_count();
+        regions.any(|region| self.materials().of(region).loss_factor != 0.0)
+    }
+
     /// Number of materials.
     pub fn region_count(&self) -> usize {
         match self {

@@ -25,8 +25,21 @@ pub(super) enum Surroundings {
 /// [`place_axes`] knows the body.
 pub(super) fn elastic(section: &Section<'_>, formulation: PlaneFormulation) -> ElasticMaterial {
     let density = section.number("density");
+    let loss_factor = section.number("loss_factor");
+    if loss_factor > 1.0 {
+        section.reject(
+            "loss_factor",
+            format!(
+                "{} = {loss_factor} is beyond any material's: at 1 half of the strain energy is lost in a sixth of a cycle",
+                section.name("loss_factor")
+            ),
+            "at most 1".to_owned(),
+            Some("steel has about 0.001, cast iron 0.002, a lining 0.01 to 0.1, rubber 0.1 to 1".to_owned()),
+        );
+    }
     let plain = ElasticMaterial {
         density,
+        loss_factor,
         formulation,
         ..ElasticMaterial::PLAIN
     };

@@ -252,6 +252,7 @@ impl Case {
     /// A case without `[basin]`, and one whose friction falls with speed.
     pub fn require_basin(&self) -> Result<&crate::cycle::BasinRequest, CaseErrors> {
         let remedy = "[basin]\nharmonics = [1, 2]";
+        self.refuse_losses_in_time("the search for a basin")?;
         self.require_rigid_shaft("the search for a basin")?;
         let found = self.basin.as_ref();
         let found = found.ok_or_else(|| self.lacks("basin", "search for a basin", remedy))?;
@@ -272,6 +273,7 @@ impl Case {
         let remedy = "[cycle]\nharmonics = [1, 2]";
         let cycle = self.cycle.as_ref();
         let cycle = cycle.ok_or_else(|| self.lacks("cycle", "limit cycle", remedy))?;
+        self.refuse_losses_in_time("the search for limit cycles")?;
         self.require_rigid_shaft("the search for limit cycles")?;
         self.require_annulus(
             "limit cycles are rotating waves, which",
@@ -400,6 +402,37 @@ impl Case {
     /// Number of a node, counted from 0, as the user knows it.
     pub fn node_label(&self, node: usize) -> usize {
         self.body.node_label(node)
+    }
+
+    /// An error at the first loss factor of the case.
+    pub fn loss_error(&self, message: String, label: &str, help: &str) -> CaseErrors {
+        let names: Vec<String> = match self.raw.find("materials").map(|item| &item.value) {
+            Some(RawValue::Table(sections)) => sections.keys().cloned().collect(),
+            _ => Vec::new(),
+        };
+        let own = names
+            .iter()
+            .map(|name| format!("materials.{name}.loss_factor"));
+        let mut keys = std::iter::once("material.loss_factor".to_owned()).chain(own);
+        let is_lossy = |key: &String| self.number(key).is_some_and(|value| value > 0.0);
+        let key = keys.find(is_lossy);
+        let key = key.unwrap_or_else(|| "material.loss_factor".to_owned());
+        let message = format!("{key}: {message}");
+        self.error_at(&key, message, label.to_owned(), Some(help.to_owned()))
+    }
+
+    /// Refuses structural damping in an analysis over time.
+    pub(super) fn refuse_losses_in_time(&self, what: &str) -> Result<(), CaseErrors> {
+        if !self.body.has_structural_damping() {
+            return Ok(());
+        }
+        Err(self.loss_error(
+            format!(
+                "{what} is over time, and a stiffness K (1 + i eta) belongs to one frequency: in time it would act before its cause"
+            ),
+            "for `cea` and `frf`",
+            "use damping.stiffness_coefficient = eta / (2 pi f), which loses as much at the frequency f, and set loss_factor = 0",
+        ))
     }
 
     fn lacks(&self, section: &str, analysis: &str, remedy: &str) -> CaseErrors {

@@ -61,6 +61,7 @@ impl Case {
         let remedy = "[transient]\nduration = 0.05";
         let transient = self.transient.as_ref();
         let transient = transient.ok_or_else(|| self.lacks("transient", "transient", remedy))?;
+        self.refuse_losses_in_time("a transient")?;
         let cycle = matches!(transient.initial, InitialState::LimitCycle { .. });
         if cycle {
             self.require_annulus(

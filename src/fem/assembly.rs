@@ -194,6 +194,26 @@ pub fn assemble_extra_damping(
     Some(triplets)
 }
 
+/// Structural damping `sum_e eta_e K_e` over all dofs, N/m, in the plane for each metre of thickness; `None` where no material
+/// has any. The force on a motion `x e^{lambda t}` with `Im lambda > 0` is `i` times it.
+pub fn assemble_structural_damping(mesh: &Mesh, material: &dyn MaterialField) -> Option<Triplets> {
+    let losses: Vec<f64> = (0..mesh.regions.len().max(1))
+        .map(|region| material.of(region).loss_factor)
+        .collect();
+    if losses.iter().all(|loss| *loss == 0.0) {
+        return None;
+    }
+    let mut triplets = Triplets::default();
+    for e in 0..mesh.element_count() {
+        let region = mesh.region(e);
+        if losses[region] != 0.0 {
+            let matrix = element::stiffness(mesh, e, material.of(region)) * losses[region];
+            scatter(&mut triplets, mesh, e, &matrix);
+        }
+    }
+    Some(triplets)
+}
+
 fn assemble_congruent(
     mesh: &Mesh,
     keep: &dyn Fn(usize) -> bool,

@@ -27,6 +27,8 @@ pub struct ElasticMaterial {
     pub formulation: PlaneFormulation,
     /// Constants and axes in place of the two above, for a material that is not the same in every direction.
     pub orthotropy: Option<Orthotropy>,
+    /// Structural damping `eta`: stiffness `K (1 + i eta)` at positive frequencies.
+    pub loss_factor: f64,
 }
 
 /// Which material fills each region of a mesh.
@@ -104,6 +106,7 @@ impl ElasticMaterial {
         density: 0.0,
         formulation: PlaneFormulation::PlaneStrain,
         orthotropy: None,
+        loss_factor: 0.0,
     };
 
     /// The same without stiffness.

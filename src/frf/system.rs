@@ -4,7 +4,7 @@ use super::{Axis, Direction, FrfError, Port, Terminal};
 use crate::contact::Row;
 use crate::fem::{
     DofMap, MassKind, MaterialField, RayleighDamping, assemble_extra_damping, assemble_mass,
-    assemble_stiffness, assemble_supports,
+    assemble_stiffness, assemble_structural_damping, assemble_supports,
 };
 use crate::linalg::c64;
 use crate::linalg::{MatrixPolynomial, SparsityPattern};
@@ -23,6 +23,8 @@ pub struct FrfSystem {
     mass: Vec<f64>,
     damping: Vec<f64>,
     stiffness: Vec<f64>,
+    /// Structural damping `H`; empty without.
+    structural: Vec<f64>,
     proportional: Option<RayleighDamping>,
     is_symmetric: bool,
     unknowns: DofMap,
@@ -60,7 +62,9 @@ impl FrfSystem {
         if let Some(own) = assemble_extra_damping(mesh, material, mass, damping) {
             dashpots.entries.extend(own.entries);
         }
-        let is_proportional = !is_held && dashpots.entries.is_empty();
+        let structural = assemble_structural_damping(mesh, material);
+        let is_proportional = !is_held && dashpots.entries.is_empty() && structural.is_none();
+        let structural = structural.map(|terms| restricted(&terms.entries));
         let mass = restricted(&assemble_mass(mesh, material, mass).entries);
         let body = restricted(&assemble_stiffness(mesh, material).entries);
         let mut stiffness = body.clone();
@@ -75,6 +79,7 @@ impl FrfSystem {
             .map(|(row, column, _)| (*row, *column));
         let pattern = Arc::new(SparsityPattern::from_positions(unknowns.len(), positions));
         let values = |entries| MatrixPolynomial::on_pattern(&pattern, &[entries]).evaluate(0.0);
+        let structural = structural.map_or_else(Vec::new, values);
         let [mass, body, stiffness, dashpots] = [mass, body, stiffness, dashpots].map(values);
         let proportional =
             |(m, k): (&f64, &f64)| damping.mass_coefficient * m + damping.stiffness_coefficient * k;
@@ -84,6 +89,7 @@ impl FrfSystem {
             damping: pairs.zip(&dashpots).map(|(c, own)| c + own).collect(),
             mass,
             stiffness,
+            structural,
             proportional: is_proportional.then_some(damping),
             is_symmetric: true,
             unknowns,
@@ -101,6 +107,10 @@ impl FrfSystem {
             mass: tangent.mass.evaluate(friction_coefficient),
             damping: tangent.damping.evaluate(friction_coefficient),
             stiffness: tangent.stiffness.evaluate(friction_coefficient),
+            structural: match &tangent.structural {
+                Some(structural) => structural.evaluate(friction_coefficient),
+                None => Vec::new(),
+            },
             proportional: tangent.proportional,
             is_symmetric: false,
             unknowns: tangent.unknowns.clone(),
@@ -217,7 +227,7 @@ impl FrfSystem {
         self.is_symmetric
     }
 
-    /// `|e_force - A x|` and `|A| |x|` for `A = K + i omega C - omega^2 M`, in the largest norm.
+    /// `|e_force - A x|` and `|A| |x|` for `A = K + i H + i omega C - omega^2 M`, in the largest norm.
     pub(super) fn residual(&self, frequency_hz: f64, x: &[c64], force: &Port) -> (f64, f64) {
         let omega = TAU * frequency_hz;
         let mut residual = force.complex_force(x.len());
@@ -225,7 +235,7 @@ impl FrfSystem {
         for (column, x) in x.iter().enumerate() {
             for (k, row) in self.pattern.column(column) {
                 let real = self.stiffness[k] - omega * omega * self.mass[k];
-                let value = c64::new(real, omega * self.damping[k]);
+                let value = c64::new(real, omega * self.damping[k] + self.lost(k));
                 residual[row] -= value * x;
                 row_sums[row] += value.re.abs() + value.im.abs();
             }
@@ -240,13 +250,18 @@ impl FrfSystem {
         (if is_finite { residual } else { f64::INFINITY }, size)
     }
 
-    /// Nonzeros of `K + i omega C - omega^2 M`.
+    /// Nonzero `k` of the structural damping.
+    fn lost(&self, k: usize) -> f64 {
+        self.structural.get(k).copied().unwrap_or(0.0)
+    }
+
+    /// Nonzeros of `K + i H + i omega C - omega^2 M`.
     pub(super) fn dynamic_stiffness(&self, frequency_hz: f64) -> Vec<c64> {
         let omega = TAU * frequency_hz;
         (0..self.mass.len())
             .map(|k| {
                 let real = self.stiffness[k] - omega * omega * self.mass[k];
-                c64::new(real, omega * self.damping[k])
+                c64::new(real, omega * self.damping[k] + self.lost(k))
             })
             .collect()
     }

@@ -66,6 +66,43 @@ pub fn complex_eigenvalues(matrix: MatRef<'_, c64>) -> Result<Vec<c64>, LinalgEr
     Ok(values.column_vector().iter().copied().collect())
 }
 
+/// Eigenvalues `lambda` of a complex square matrix `A`, right vectors `A x = lambda x` and, where they are asked for, left ones
+/// `y^H A = lambda y^H`, as columns, in no particular order.
+///
+/// # Errors
+/// As [`complex_eigenvalues`].
+pub fn complex_eigen(
+    matrix: MatRef<'_, c64>,
+    with_left: bool,
+) -> Result<(Vec<c64>, Mat<c64>, Option<Mat<c64>>), LinalgError> {
+    let n = matrix.nrows();
+    let failure = LinalgError::DenseEigen { dimension: n };
+    if !matrix.is_all_finite() {
+        return Err(failure);
+    }
+    let mut values = Diag::<c64>::zeros(n);
+    let mut right = Mat::<c64>::zeros(n, n);
+    let mut left = with_left.then(|| Mat::<c64>::zeros(n, n));
+    let left_mode = match with_left {
+        true => ComputeEigenvectors::Yes,
+        false => ComputeEigenvectors::No,
+    };
+    let yes = ComputeEigenvectors::Yes;
+    let scratch = evd_scratch::<c64>(n, left_mode, yes, Par::Seq, Default::default());
+    evd_cplx(
+        matrix,
+        values.as_mut(),
+        left.as_mut().map(|left| left.as_mut()),
+        Some(right.as_mut()),
+        Par::Seq,
+        MemStack::new(&mut MemBuffer::new(scratch)),
+        Default::default(),
+    )
+    .map_err(|_| failure)?;
+    let values = values.column_vector().iter().copied().collect();
+    Ok((values, right, left))
+}
+
 /// Eigenvalues of a real square matrix, in no particular order, without vectors.
 ///
 /// # Errors

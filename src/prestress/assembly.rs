@@ -11,7 +11,7 @@ use crate::contact::{
 };
 use crate::fem::{
     MaterialField, Triplets, assemble_extra_damping, assemble_mass, assemble_pressures,
-    assemble_stiffness, assemble_supports,
+    assemble_stiffness, assemble_structural_damping, assemble_supports,
 };
 use crate::mesh::Mesh;
 
@@ -204,6 +204,7 @@ impl<'a> Assembly<'a> {
                 options.mass,
                 options.damping,
             ),
+            structural: assemble_structural_damping(self.mesh, self.materials),
         };
         // Each contact has its stretch of the state's points.
         let mut first = 0;

@@ -5,7 +5,7 @@ use super::{DampingModel, PrestressError, SteadySliding, TangentOptions};
 use crate::contact::{ContactStiffness, Point, PressedPoints, Row, linearized};
 use crate::fem::{
     DofMap, MaterialField, RayleighDamping, Triplets, assemble_extra_damping,
-    assemble_geometric_stiffness, assemble_mass, assemble_supports,
+    assemble_geometric_stiffness, assemble_mass, assemble_structural_damping, assemble_supports,
 };
 use crate::linalg::{MatrixPolynomial, SparsityPattern, c64};
 use crate::mesh::Mesh;
@@ -40,6 +40,8 @@ pub struct SlidingTangent {
     pub damping: MatrixPolynomial,
     /// `K_t(mu)`, Pa.
     pub stiffness: MatrixPolynomial,
+    /// Structural damping `H(mu)`, Pa, whose force is `i H q` at positive frequencies; `None` without.
+    pub structural: Option<MatrixPolynomial>,
     /// Coefficients with which `C = alpha_R M + beta_R K_t` exactly; `None` where damping is not
     /// proportional.
     pub proportional: Option<RayleighDamping>,
@@ -88,6 +90,8 @@ pub struct BodyTerms {
     pub supports: [Triplets; 2],
     /// What regions with damping of their own add.
     pub extra_damping: Option<Triplets>,
+    /// Structural damping of the materials.
+    pub structural: Option<Triplets>,
 }
 
 /// The surfaces of one contact and their state.
@@ -137,6 +141,7 @@ impl SlidingTangent {
                 .then(|| base.displacements.iter().map(stressed).collect()),
             supports: assemble_supports(mesh),
             extra_damping: assemble_extra_damping(mesh, material, options.mass, options.damping),
+            structural: assemble_structural_damping(mesh, material),
         };
         let part = ContactPart {
             points: &base.points,
@@ -246,6 +251,10 @@ impl SlidingTangent {
         if has_dashpots {
             damping = MatrixPolynomial::combination(1.0, &damping, 1.0, &on_pattern(&dashpots));
         }
+        // Its entries are those of the body's stiffness.
+        let structural = body.structural.as_ref();
+        let structural =
+            structural.map(|terms| on_pattern(&projected(std::slice::from_ref(terms))));
         let is_whole = options.damping_model == DampingModel::WholeTangent && !has_supports;
         let touched = |dofs: &[usize]| -> Vec<usize> {
             let mut seen = BTreeSet::new();
@@ -256,7 +265,8 @@ impl SlidingTangent {
             mass,
             damping,
             stiffness,
-            proportional: (is_whole && !has_dashpots).then_some(rayleigh),
+            proportional: (is_whole && !has_dashpots && structural.is_none()).then_some(rayleigh),
+            structural,
             contact_tangential: touched(&dofs.tangential),
             contact_normal: touched(&dofs.normal),
             contact_opposite: touched(&dofs.opposite),

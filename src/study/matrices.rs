@@ -27,6 +27,15 @@ pub fn matrices(case: &Case) -> Result<ExportedSystem, StudyError> {
             Some("use a plane formulation, or an imported mesh".to_owned()),
         )));
     }
+    if case.body.has_structural_damping() {
+        let refusal = case.loss_error(
+            "the files hold one real problem, and structural damping makes the stiffness complex"
+                .to_owned(),
+            "not written",
+            "set loss_factor = 0, and multiply the stiffness of the region by 1 + i eta",
+        );
+        return Err(StudyError::Case(refusal));
+    }
     // The whole mesh, whatever the case's own method; what no method solves is refused.
     Solver::of(case, CeaMethod::Auto)?;
     let frictions = cea.solved_friction_coefficients();

@@ -11,7 +11,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-use super::eigenvalues::AssemblyModel;
+use super::eigenvalues::{AssemblyModel, no_cyclic_losses};
 use super::{StudyError, tangent_options};
 use crate::case::{AssemblyBody, Body, Case, CaseErrors, Frf, FrfMethod};
 use crate::fem::assemble_stiffness;
@@ -90,7 +90,23 @@ impl<'a> FrequencyStudy<'a> {
     /// key; a mesh that cannot be built; no state of sliding.
     pub fn new(case: &'a Case) -> Result<Self, StudyError> {
         let frf = case.require_frf()?;
+        let is_lossy = case.body.has_structural_damping();
         let system = match frf.method {
+            FrfMethod::Auto | FrfMethod::Cyclic if is_lossy && case.body.revolution().is_some() => {
+                return Err(no_cyclic_losses(case, "the response").into());
+            }
+            FrfMethod::Auto if is_lossy => whole(case, frf, Reduction::No)?,
+            FrfMethod::Cyclic if is_lossy && case.has_sectors() => {
+                return Err(no_cyclic_losses(case, "frf.method = \"cyclic\"").into());
+            }
+            FrfMethod::Reduced if is_lossy => {
+                let refusal = case.loss_error(
+                    "frf.method = \"reduced\" projects on real spaces of viscous damping, which structural damping is not".to_owned(),
+                    "not in a reduced model",
+                    "use frf.method = \"direct\"",
+                );
+                return Err(refusal.into());
+            }
             FrfMethod::Auto if case.has_sectors() => cyclic(case, frf)?,
             FrfMethod::Cyclic => cyclic(case, frf)?,
             FrfMethod::Auto => whole(case, frf, Reduction::Tried)?,

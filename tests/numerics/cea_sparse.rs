@@ -47,6 +47,7 @@ fn problem(
         mass,
         damping,
         stiffness,
+        structural: None,
         proportional,
         unknowns: DofMap::excluding(size, []),
         contact_tangential: Vec::new(),

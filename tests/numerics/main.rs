@@ -35,4 +35,5 @@ mod plane_spectrum;
 mod shaft;
 mod solid_elements;
 mod solids;
+mod structural_damping;
 mod two_bodies;

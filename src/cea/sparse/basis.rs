@@ -46,6 +46,8 @@ const SAMPLE_TOLERANCE: f64 = 1e-10;
 const SEARCH_WIDTH: usize = 4;
 /// Corrections of a single mode in a row.
 const MAX_CORRECTIONS: usize = 16;
+/// Refinements of the modes at one friction coefficient for structural damping, each of which wins about the loss factor.
+const LOSSY_ROUNDS: usize = 6;
 /// Refinements of one basis before the preconditioner is considered unfit.
 const MAX_ROUNDS: usize = 40;
 
@@ -177,12 +179,20 @@ impl<'a> BasisBuilder<'a> {
                 // Combinations of the modes without friction, which the basis holds first.
                 let width = self.start_width();
                 let known = self.count.min(self.model.dimension());
-                self.sample(mu, frequency_scale, self.count, |builder| {
+                let has_grown = self.sample(mu, frequency_scale, self.count, |builder| {
                     [1, 2].map(|seed| {
                         let mixed = random_columns(known, width, seed);
                         builder.model.expand(mixed.as_ref())
                     })
-                })
+                })?;
+                // The iteration leaves structural damping out: its vectors are a start.
+                let rounds = self.tangent.structural.as_ref().map_or(0, |_| LOSSY_ROUNDS);
+                for _ in 0..rounds {
+                    if !self.refine_sample(mu)? {
+                        break;
+                    }
+                }
+                Ok(has_grown)
             }
         }
     }

@@ -29,6 +29,7 @@ pub fn string_on_belt(count: usize, coupling: f64, is_proportional: bool) -> Sli
         ),
         mass,
         stiffness,
+        structural: None,
         proportional: is_proportional.then_some(damping),
         unknowns: DofMap::excluding(count, []),
         contact_tangential: Vec::new(),

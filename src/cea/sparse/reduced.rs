@@ -7,7 +7,7 @@ use super::term::Term;
 use crate::linalg::dense::{
     GrowingColumns, column, join_columns, orthonormal_complement, product, transpose_product,
 };
-use crate::linalg::dense_eigen::real_eigen;
+use crate::linalg::dense_eigen::{complex_eigen, real_eigen};
 use crate::linalg::gram::complement;
 use crate::linalg::{ComplexDenseLu, DenseLu, LinalgError, MatrixPolynomial};
 use crate::linalg::{Mat, MatRef, Scale, c64};
@@ -33,20 +33,34 @@ pub struct ProjectedMatrices {
     pub damping: Mat<f64>,
     /// `V^T M V`.
     pub mass: Mat<f64>,
+    /// `V^T H V` of structural damping.
+    pub structural: Option<Mat<f64>>,
 }
 
 impl ProjectedMatrices {
     /// The matrices projected once more, on orthonormal `columns` of coordinates.
     fn within(&self, columns: &Mat<f64>) -> Self {
-        let [stiffness, damping, mass] = [&self.stiffness, &self.damping, &self.mass].map(|p| {
+        let within = |p: &Mat<f64>| {
             let image = product(p.as_ref(), columns.as_ref());
             transpose_product(columns.as_ref(), image.as_ref())
-        });
+        };
+        let [stiffness, damping, mass] = [&self.stiffness, &self.damping, &self.mass].map(within);
         Self {
             stiffness,
             damping,
             mass,
+            structural: self.structural.as_ref().map(within),
         }
+    }
+
+    /// `T(lambda) = lambda^2 M + lambda C + K + i H`, `Im lambda > 0`.
+    fn pencil(&self, lambda: c64) -> Mat<c64> {
+        let m = self.mass.nrows();
+        Mat::from_fn(m, m, |i, j| {
+            let lost = self.structural.as_ref().map_or(0.0, |h| h[(i, j)]);
+            lambda * (lambda * self.mass[(i, j)] + self.damping[(i, j)])
+                + c64::new(self.stiffness[(i, j)], lost)
+        })
     }
 }
 
@@ -83,12 +97,13 @@ fn combined(columns: &Mat<f64>, coordinates: &[c64]) -> Vec<c64> {
 /// is compressed.
 pub struct ReducedModel {
     linearization: Linearization,
-    /// Coefficients of `P = K, C, M` by power of `mu`.
-    terms: [Vec<Term>; 3],
+    /// Coefficients of `P = K, C, M, H` by power of `mu`.
+    terms: [Vec<Term>; 4],
     /// `V`, `unknowns x m`.
     basis: GrowingColumns,
-    /// `V^T P_p V` of `P = K, C, M` for each power of `mu`; `C` only where it is not proportional.
-    projected: [Vec<Mat<f64>>; 3],
+    /// `V^T P_p V` of `P = K, C, M, H` for each power of `mu`; `C` only where it is not proportional, `H` where there is
+    /// structural damping.
+    projected: [Vec<Mat<f64>>; 4],
     /// Friction coefficients whose modes the basis holds as such, and the coordinates that span them.
     samples: Vec<(f64, Mat<f64>)>,
 }
@@ -104,7 +119,13 @@ impl ReducedModel {
             Linearization::Reduced(_) => Vec::new(),
             Linearization::Companion { .. } => terms(&tangent.damping),
         };
-        let terms = [terms(&tangent.stiffness), damping, terms(&tangent.mass)];
+        let structural = tangent.structural.as_ref().map_or_else(Vec::new, terms);
+        let terms = [
+            terms(&tangent.stiffness),
+            damping,
+            terms(&tangent.mass),
+            structural,
+        ];
         Self {
             linearization,
             basis: GrowingColumns::new(tangent.stiffness.dimension()),
@@ -159,7 +180,8 @@ impl ReducedModel {
     }
 
     fn combine(&self, evaluate: impl Fn(&[Mat<f64>]) -> Mat<f64>) -> ProjectedMatrices {
-        let [stiffness, damping, mass] = &self.projected;
+        let [stiffness, damping, mass, structural] = &self.projected;
+        let structural = (!structural.is_empty()).then(|| evaluate(structural));
         let (stiffness, mass) = (evaluate(stiffness), evaluate(mass));
         let damping = match self.linearization {
             Linearization::Reduced(coefficients) => {
@@ -172,6 +194,7 @@ impl ReducedModel {
             stiffness,
             damping,
             mass,
+            structural,
         }
     }
 
@@ -226,16 +249,12 @@ impl ReducedModel {
         let single = modes.par_iter_mut().filter(|m| is_single(m.eigenvalue));
         single.for_each(|mode| {
             let lambda = mode.eigenvalue;
-            let pencil = |i: usize, j: usize| {
-                lambda * (lambda * at.mass[(i, j)] + at.damping[(i, j)]) + at.stiffness[(i, j)]
-            };
             let slope = Mat::from_fn(m, m, |i, j| {
                 lambda * (2.0 * at.mass[(i, j)]) + at.damping[(i, j)]
             });
             let coarse = Mat::from_fn(m, 1, |i, _| mode.left.get(i).copied().unwrap_or_default());
             let mut left = slope.transpose() * &coarse;
-            ComplexDenseLu::factorize(Mat::from_fn(m, m, pencil))
-                .solve_transpose_in_place(left.as_mut());
+            ComplexDenseLu::factorize(at.pencil(lambda)).solve_transpose_in_place(left.as_mut());
             let length = left.norm_l2();
             if length.is_finite() && length > 0.0 {
                 mode.left = left.col(0).iter().map(|v| v / length).collect();
@@ -314,6 +333,9 @@ impl ReducedModel {
         count: usize,
         with_left: bool,
     ) -> Result<Vec<ReducedMode>, LinalgError> {
+        if let Some(structural) = &at.structural {
+            return self.solve_lossy(at, structural, count, with_left);
+        }
         let lu = DenseLu::factorize(at.stiffness.clone());
         let leading = match self.linearization {
             Linearization::Reduced(_) => count,
@@ -348,6 +370,70 @@ impl ReducedModel {
         Ok(modes)
     }
 
+    /// [`Self::solve_projected`] with structural damping `H`: the eigenvalues `1 / nu` of the complex operator
+    ///
+    /// ```text
+    /// [ -omega (K + i H)^-1 C   -omega^2 (K + i H)^-1 M ]
+    /// [  I                       0                      ],    lambda = omega nu, Im nu > 0;
+    /// ```
+    ///
+    /// those with `Im nu < 0` are no motions: at negative frequencies the force is `-i H`.
+    fn solve_lossy(
+        &self,
+        at: &ProjectedMatrices,
+        structural: &Mat<f64>,
+        count: usize,
+        with_left: bool,
+    ) -> Result<Vec<ReducedMode>, LinalgError> {
+        let Linearization::Companion {
+            frequency_scale: omega,
+        } = self.linearization
+        else {
+            return Ok(Vec::new());
+        };
+        // The operator.
+        let m = at.stiffness.nrows();
+        let complex = |p: &Mat<f64>, factor: f64| {
+            Mat::from_fn(m, m, |i, j| c64::new(factor * p[(i, j)], 0.0))
+        };
+        let lu = ComplexDenseLu::factorize(Mat::from_fn(m, m, |i, j| {
+            c64::new(at.stiffness[(i, j)], structural[(i, j)])
+        }));
+        let (mut damped, mut inert) = (
+            complex(&at.damping, -omega),
+            complex(&at.mass, -omega * omega),
+        );
+        lu.solve_in_place(damped.as_mut());
+        lu.solve_in_place(inert.as_mut());
+        let operator = Mat::from_fn(2 * m, 2 * m, |i, j| match (i < m, j < m) {
+            (true, true) => damped[(i, j)],
+            (true, false) => inert[(i, j - m)],
+            (false, _) => c64::new(f64::from(u8::from(i - m == j)), 0.0),
+        });
+        let (values, right, left) = complex_eigen(operator.as_ref(), with_left)?;
+        // The upper half of a left vector y^H of the operator is (K + i H)^T times that of the problem.
+        let left = left.map(|left| {
+            let mut upper = Mat::from_fn(m, left.ncols(), |i, j| left[(i, j)].conj());
+            lu.solve_transpose_in_place(upper.as_mut());
+            upper
+        });
+        let mut order: Vec<usize> = (0..values.len()).collect();
+        order.sort_by(|&i, &j| values[j].norm().total_cmp(&values[i].norm()));
+        let mode = |i: usize| {
+            let column = |vectors: &Mat<c64>| (0..m).map(|row| vectors[(row, i)]).collect();
+            Some(ReducedMode {
+                eigenvalue: self.linearization.eigenvalue(values[i])?,
+                inverse_value: values[i],
+                derivative: c64::new(0.0, 0.0),
+                right: column(&right),
+                left: left.as_ref().map_or_else(Vec::new, column),
+            })
+        };
+        let mut modes: Vec<ReducedMode> = order.into_iter().filter_map(mode).take(count).collect();
+        modes.sort_by(|p, q| p.eigenvalue.im.total_cmp(&q.eigenvalue.im));
+        Ok(modes)
+    }
+
     /// The mode at `mu` near `guess`, by two-sided Rayleigh quotient iteration from its eigenvalue and vectors; nothing
     /// where that does not settle.
     ///
@@ -360,13 +446,10 @@ impl ReducedModel {
         let (mut right, mut left) = (column(&guess.right), column(&guess.left));
         let mut lambda = guess.eigenvalue;
         for _ in 0..QUOTIENT_STEPS {
-            let pencil = |i: usize, j: usize| {
-                lambda * (lambda * at.mass[(i, j)] + at.damping[(i, j)]) + at.stiffness[(i, j)]
-            };
             let slope = Mat::from_fn(m, m, |i, j| {
                 lambda * (2.0 * at.mass[(i, j)]) + at.damping[(i, j)]
             });
-            let lu = ComplexDenseLu::factorize(Mat::from_fn(m, m, pencil));
+            let lu = ComplexDenseLu::factorize(at.pencil(lambda));
             (right, left) = (&slope * &right, slope.transpose() * &left);
             lu.solve_in_place(right.as_mut());
             lu.solve_transpose_in_place(left.as_mut());
@@ -378,7 +461,8 @@ impl ReducedModel {
                 let image = |i: usize| -> c64 { (0..m).map(|j| right[(j, 0)] * p[(i, j)]).sum() };
                 (0..m).map(|i| left[(i, 0)] * image(i)).sum()
             };
-            let [a, b, c] = [&at.mass, &at.damping, &at.stiffness].map(form);
+            let [a, b, mut c] = [&at.mass, &at.damping, &at.stiffness].map(form);
+            c += c64::new(0.0, 1.0) * at.structural.as_ref().map_or(c64::new(0.0, 0.0), form);
             let step = ((a * lambda + b) * lambda + c) / (a * lambda * 2.0 + b);
             lambda -= step;
             if !(step.norm() < guess.eigenvalue.norm()) {
@@ -429,13 +513,18 @@ impl ReducedModel {
         let right = ComplexColumns::of(modes, self.dimension());
         let [m, c] = [&at.mass, &at.damping].map(|p| right.mapped(p));
         let [dk, dc, dm] = [&rate.stiffness, &rate.damping, &rate.mass].map(|p| right.mapped(p));
+        let dh = rate.structural.as_ref().map(|p| right.mapped(p));
         for (j, mode) in modes.iter_mut().enumerate() {
             let lambda = mode.eigenvalue;
             let length = mode.right.iter().map(|v| v.norm_sqr()).sum::<f64>().sqrt();
             mode.right.iter_mut().for_each(|v| *v /= length);
             let along = |columns: &ComplexColumns| columns.dot(&mode.left, j) / length;
             let scale = lambda * 2.0 * along(&m) + along(&c);
-            let change = lambda * lambda * along(&dm) + lambda * along(&dc) + along(&dk);
+            let lost = dh.as_ref().map_or(c64::new(0.0, 0.0), along);
+            let change = lambda * lambda * along(&dm)
+                + lambda * along(&dc)
+                + along(&dk)
+                + c64::new(0.0, 1.0) * lost;
             mode.derivative = -change / scale;
             mode.left.iter_mut().for_each(|v| *v /= scale);
         }

@@ -17,6 +17,8 @@ pub struct StructureMatrices<'a> {
     pattern: &'a Arc<SparsityPattern>,
     /// Nonzero values of `[K, C, M]`; empty where a matrix vanishes or is not needed.
     values: [Cow<'a, [f64]>; 3],
+    /// Nonzero values of the structural damping `H`, of the general problem.
+    structural: Option<Vec<f64>>,
     linearization: Linearization,
 }
 
@@ -28,9 +30,14 @@ impl<'a> StructureMatrices<'a> {
             Linearization::Reduced(_) => Cow::Borrowed(&[][..]),
             Linearization::Companion { .. } => of(&tangent.damping),
         };
+        let structural = match linearization {
+            Linearization::Reduced(_) => None,
+            Linearization::Companion { .. } => tangent.structural.as_ref(),
+        };
         Self {
             pattern: tangent.stiffness.pattern(),
             values: [of(&tangent.stiffness), damping, of(&tangent.mass)],
+            structural: structural.map(|terms| terms.evaluate(mu)),
             linearization,
         }
     }
@@ -64,6 +71,12 @@ impl<'a> StructureMatrices<'a> {
                     let lambda = entry.inverse_value.inv() * frequency_scale;
                     add_complex_multiple(&mut residual, lambda * lambda, &inert, entry);
                     add_complex_multiple(&mut residual, lambda, &damped, entry);
+                }
+                if let Some(structural) = &self.structural {
+                    let lost = self.pattern.multiply(structural, x);
+                    for entry in entries {
+                        add_complex_multiple(&mut residual, c64::new(0.0, 1.0), &lost, entry);
+                    }
                 }
                 (residual, inert)
             }

@@ -27,7 +27,7 @@ mod states;
 pub use assembly::AssemblyModel;
 pub use dampings::dampings;
 pub use map::{map, watched_map};
-pub use model::{Model, Solver, Spectrum, asked_modes, mode_limit};
+pub use model::{Model, Solver, Spectrum, asked_modes, mode_limit, no_cyclic_losses};
 pub use sensitivity::{BodySensitivities, body_sensitivities};
 pub use sliding::{SlidingModel, SteadyState};
 pub use solid::SolidBody;

@@ -29,6 +29,7 @@ impl Solver {
     /// A method that the body does not have; a counterface at rest, on which the body sticks.
     pub fn of(case: &Case, method: CeaMethod) -> Result<Self, CaseErrors> {
         refuse_rest(case)?;
+        let is_lossy = case.body.has_structural_damping();
         match (&case.body, method) {
             (Body::Imported(_) | Body::Assembly(_), CeaMethod::Cyclic) => Err(case.error_at(
                 "cea.method",
@@ -42,6 +43,12 @@ impl Solver {
                 "the body is three-dimensional".to_owned(),
                 Some("use \"auto\" or \"cyclic\"".to_owned()),
             )),
+            (Body::Revolution(_), _) if is_lossy => {
+                Err(no_cyclic_losses(case, "the eigenvalue analysis"))
+            }
+            (Body::Annulus(_), CeaMethod::Cyclic) if is_lossy => {
+                Err(no_cyclic_losses(case, "cea.method = \"cyclic\""))
+            }
             (Body::Annulus(_), CeaMethod::Sparse) => Ok(Self::WholeMesh),
             (body, _) => Ok(Self::by_symmetry(body)),
         }
@@ -50,12 +57,25 @@ impl Solver {
     /// The solver that uses all the symmetry of a body.
     pub fn by_symmetry(body: &Body) -> Self {
         match body {
+            Body::Annulus(_) if body.has_structural_damping() => Self::WholeMesh,
             Body::Annulus(annulus) => Self::Sectors(*annulus),
             Body::Revolution(revolution) => Self::SolidSectors(*revolution),
             Body::Imported(_) => Self::WholeMesh,
             Body::Assembly(_) => Self::Assembly,
         }
     }
+}
+
+/// Why a body of sectors with structural damping is not solved harmonic by harmonic.
+pub fn no_cyclic_losses(case: &Case, what: &str) -> CaseErrors {
+    case.loss_error(
+        format!(
+            "{what} of a body of sectors takes the waves +n and -n from one real problem, whose roots come in conjugate pairs: \
+             with structural damping K (1 + i eta) they do not"
+        ),
+        "not harmonic by harmonic",
+        "use method = \"sparse\" or \"auto\" (frf: \"direct\") on a plane body, a mesh file, or [damping]",
+    )
 }
 
 /// Refuses a counterface at rest: a contact that sticks has no modes of sliding.

@@ -3,11 +3,11 @@
 //! With `phi` a mode over all dofs, `m = phi^H M phi`, `c` and `k` alike, and `p` the power-like product of the contact forces,
 //!
 //! ```text
-//! lambda^2 m + lambda c + k = p,     lambda = sigma + i omega
-//! sigma = (Im p - omega c) / (2 omega m)
+//! lambda^2 m + lambda c + k + i h = p,     lambda = sigma + i omega
+//! sigma = (Im p - omega c - h) / (2 omega m)
 //! ```
 //!
-//! as `M`, `C`, `K` of the bodies are symmetric. `m`, `c`, `k` are sums over regions and supports, `p` over contacts: the growth
+//! as `M`, `C`, `K` of the bodies are symmetric; `h` is `eta k` of each region with a loss factor. `m`, `c`, `k` are sums over regions and supports, `p` over contacts: the growth
 //! rate is a sum of what each takes or feeds, without a remainder.
 
 use super::model::Model;
@@ -96,8 +96,8 @@ struct Parts<'a> {
     case: &'a Case,
     mesh: &'a Mesh,
     options: &'a TangentOptions,
-    /// Each region with its name and its coefficients `alpha`, `beta`.
-    regions: Vec<(String, Pair, [f64; 2])>,
+    /// Each region with its name and its coefficients `alpha`, `beta`, `eta`.
+    regions: Vec<(String, Pair, [f64; 3])>,
     /// Dashpots and springs of each support.
     supports: Vec<(String, Pair)>,
     /// Mass and stiffness of all regions.
@@ -131,7 +131,11 @@ impl<'a> Parts<'a> {
                 sum.entries.extend_from_slice(&own.entries);
             }
             let damping = materials.own_damping(region).unwrap_or(options.damping);
-            let coefficients = [damping.mass_coefficient, damping.stiffness_coefficient];
+            let coefficients = [
+                damping.mass_coefficient,
+                damping.stiffness_coefficient,
+                materials.of(region).loss_factor,
+            ];
             (name.clone(), Pair::new(count, own), coefficients)
         });
         let regions = regions.collect();
@@ -186,19 +190,29 @@ impl<'a> Parts<'a> {
         let mut balance =
             (self.contacts.len() > 1).then(|| vec![vec![c64::ZERO; self.mesh.dof_count()]; count]);
         let mut rows: Vec<(&str, Source, Vec<[f64; 3]>)> = Vec::new();
-        for (region, (name, pair, [alpha, own_beta])) in self.regions.iter().enumerate() {
+        for (region, (name, pair, [alpha, own_beta, eta])) in self.regions.iter().enumerate() {
             let [mass, stiffness] = pair.multiply(shapes.columns.as_ref());
             let (m, k) = (shapes.forms(&mass), shapes.forms(&stiffness));
             let g = self.geometric_forms(model, shapes, region);
             let each = (0..count).map(|i| {
                 kinetic[i] += m[i];
                 strain[i] += k[i];
-                [m[i], k[i], alpha * m[i] + own_beta * k[i] + beta * g[i]]
+                // A loss factor takes like a dashpot `eta k / omega`.
+                let loss = eta * k[i] / shapes.modes[i].1.eigenvalue.im;
+                [
+                    m[i],
+                    k[i],
+                    alpha * m[i] + own_beta * k[i] + beta * g[i] + loss,
+                ]
             });
             rows.push((name, Source::Part, each.collect()));
             if let Some(balance) = &mut balance {
-                let factors =
-                    |lambda: c64| [lambda * lambda + lambda * alpha, lambda * own_beta + 1.0];
+                let factors = |lambda: c64| {
+                    [
+                        lambda * lambda + lambda * alpha,
+                        lambda * own_beta + c64::new(1.0, *eta),
+                    ]
+                };
                 shapes.add(balance, [&mass, &stiffness], factors);
             }
         }

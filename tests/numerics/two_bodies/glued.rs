@@ -73,6 +73,7 @@ fn frequencies(mesh: &Mesh, glue: &Glue, held: Vec<usize>, count: usize) -> Vec<
         damping: MatrixPolynomial::combination(0.0, &mass, 0.0, &stiffness),
         mass,
         stiffness,
+        structural: None,
         proportional: None,
         unknowns,
         contact_tangential: Vec::new(),

@@ -1,0 +1,209 @@
+//! Structural damping `K (1 + i eta)`: closed form where one loss factor holds for the whole body, dense complex matrices where
+//! disc and shaft have their own.
+
+use crate::disc::{POLYCARBONATE, annulus, contact};
+use faer::{Mat, c64};
+use frictionsim::cea::sparse::sweep;
+use frictionsim::cea::{FrictionSweep, ModeLimit, SweepRequest};
+use frictionsim::contact::ContactStiffness;
+use frictionsim::fem::{
+    AnnulusMaterials, ElasticMaterial, MassKind, RayleighDamping, RegionMaterial,
+    assemble_stiffness,
+};
+use frictionsim::frf::{Direction, FrfSystem, Terminal, direct_response};
+use frictionsim::linalg::dense_eigen::complex_eigenvalues;
+use frictionsim::linalg::{ComplexDenseLu, MatrixPolynomial};
+use frictionsim::mesh::{
+    AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind, ShaftSpecification,
+};
+use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
+use std::f64::consts::TAU;
+
+/// The disc on a deformable shaft of steel, with a loss factor each.
+fn tangent([disc, shaft]: [f64; 2], damping: RayleighDamping) -> SlidingTangent {
+    let specification = AnnulusSpecification {
+        shaft: Some(ShaftSpecification {
+            inner_radius: 0.006,
+            radial_elements: 1,
+            bore: BoundaryCondition::Clamped,
+        }),
+        ..annulus(ElementKind::Quad4, 16, 3)
+    };
+    let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
+    let lossy = |loss_factor: f64, elastic: ElasticMaterial| ElasticMaterial {
+        loss_factor,
+        ..elastic
+    };
+    let steel = ElasticMaterial {
+        young_modulus: 2.1e11,
+        poisson_ratio: 0.3,
+        density: 7850.0,
+        ..POLYCARBONATE
+    };
+    let materials = AnnulusMaterials {
+        annulus: lossy(disc, POLYCARBONATE),
+        shaft: Some(RegionMaterial {
+            elastic: lossy(shaft, steel),
+            damping: None,
+        }),
+    };
+    let elastic = assemble_stiffness(&mesh, &materials);
+    let base = SteadySliding::solve(&mesh, &elastic, &contact(610.0)).unwrap();
+    let options = TangentOptions {
+        mass: MassKind::Consistent,
+        geometric_stiffness: false,
+        damping,
+        damping_model: DampingModel::WholeTangent,
+        contact: ContactStiffness::default(),
+    };
+    SlidingTangent::linearize(&mesh, &materials, &elastic, &base, &options)
+}
+
+fn solved(tangent: &SlidingTangent, frictions: &[f64]) -> FrictionSweep {
+    let request = SweepRequest {
+        friction_coefficients: frictions,
+        limit: ModeLimit::Lowest(8),
+        shapes_at: &[],
+    };
+    sweep(tangent, &request, &|_| {}).unwrap()
+}
+
+fn eigenvalues(sweep: &FrictionSweep, point: usize) -> Vec<c64> {
+    let modes = sweep.points[point].modes.iter();
+    modes.map(|mode| mode.eigenvalue).collect()
+}
+
+/// Largest relative distance of an expected eigenvalue from the nearest one found.
+fn largest_error(found: &[c64], expected: &[c64]) -> f64 {
+    let error = |a: &c64| {
+        let distances = found.iter().map(|b| (a - b).norm() / a.norm());
+        distances.fold(f64::INFINITY, f64::min)
+    };
+    expected.iter().map(error).fold(0.0, f64::max)
+}
+
+fn dense(polynomial: &MatrixPolynomial, mu: f64) -> Mat<f64> {
+    let size = polynomial.dimension();
+    let identity = Mat::<f64>::identity(size, size);
+    polynomial
+        .pattern()
+        .multiply(&polynomial.evaluate(mu), identity.as_ref())
+}
+
+/// Eigenvalues with `Im > 0` of `lambda^2 M + lambda C + K + i H`, by rising frequency.
+fn dense_eigenvalues(tangent: &SlidingTangent, mu: f64) -> Vec<c64> {
+    let [mass, damping, stiffness] =
+        [&tangent.mass, &tangent.damping, &tangent.stiffness].map(|p| dense(p, mu));
+    let lost = dense(tangent.structural.as_ref().unwrap(), mu);
+    let n = mass.nrows();
+    // lambda = 1e4 nu: both halves of a vector alike in size.
+    let scale = 1e4;
+    let lu = ComplexDenseLu::factorize(Mat::from_fn(n, n, |i, j| {
+        c64::new(mass[(i, j)] * scale * scale, 0.0)
+    }));
+    let mut stiff = Mat::from_fn(n, n, |i, j| c64::new(stiffness[(i, j)], lost[(i, j)]));
+    let mut damped = Mat::from_fn(n, n, |i, j| c64::new(damping[(i, j)] * scale, 0.0));
+    lu.solve_in_place(stiff.as_mut());
+    lu.solve_in_place(damped.as_mut());
+    let companion = Mat::from_fn(2 * n, 2 * n, |i, j| match (i < n, j < n) {
+        (true, true) => c64::new(0.0, 0.0),
+        (true, false) => c64::new(f64::from(u8::from(i == j - n)), 0.0),
+        (false, true) => -stiff[(i - n, j)],
+        (false, false) => -damped[(i - n, j - n)],
+    });
+    let mut values = complex_eigenvalues(companion.as_ref()).unwrap();
+    values.retain(|value| value.im > 0.0);
+    values.sort_by(|a, b| a.im.total_cmp(&b.im));
+    values.into_iter().map(|value| value * scale).collect()
+}
+
+/// Theory: with one loss factor for all, `lambda = lambda_0 sqrt(1 + i eta)` of the undamped eigenvalues `lambda_0`, with and
+/// without friction, coupled modes included.
+#[test]
+fn one_loss_factor_turns_every_undamped_eigenvalue_by_the_root_of_its_stiffness() {
+    let frictions = [0.0, 0.2, 0.5];
+    let undamped = solved(&tangent([0.0; 2], RayleighDamping::default()), &frictions);
+    for eta in [0.01, 0.3] {
+        let found = solved(&tangent([eta; 2], RayleighDamping::default()), &frictions);
+        let turn = c64::new(1.0, eta).sqrt();
+        for point in 0..frictions.len() {
+            let expected: Vec<c64> = eigenvalues(&undamped, point)
+                .iter()
+                .map(|value| value * turn)
+                .collect();
+            let error = largest_error(&eigenvalues(&found, point), &expected);
+            println!("eta {eta} mu {} {error:e}", frictions[point]);
+            assert!(error < 1e-9, "{eta} {error:e}");
+        }
+    }
+}
+
+/// Independent check: the dense companion matrix, with viscous damping beside; at the critical friction the dense eigenvalue has
+/// no growth.
+#[test]
+fn loss_factors_of_disc_and_shaft_have_the_spectrum_of_the_dense_matrices() {
+    let viscous = RayleighDamping {
+        mass_coefficient: 20.0,
+        stiffness_coefficient: 1e-7,
+    };
+    let tangent = tangent([0.02, 0.2], viscous);
+    let frictions = [0.0, 0.3, 0.6, 0.9];
+    let found = solved(&tangent, &frictions);
+    for (point, &mu) in frictions.iter().enumerate() {
+        let expected = dense_eigenvalues(&tangent, mu);
+        let own = eigenvalues(&found, point);
+        let error = largest_error(&expected, &own);
+        let highest = own.last().unwrap().im;
+        let count = expected
+            .iter()
+            .filter(|v| v.im <= highest * 1.000_001)
+            .count();
+        println!("mu {mu} {error:e} {count} {}", own.len());
+        assert!(error < 1e-9, "{mu} {error:e}");
+        assert_eq!(count, own.len(), "{mu}");
+    }
+    assert!(!found.intervals.is_empty());
+    for interval in &found.intervals {
+        let onset = dense_eigenvalues(&tangent, interval.critical_friction);
+        let omega = TAU * interval.frequency_hz;
+        let nearest = onset.iter().map(|v| (v.im - omega).hypot(v.re));
+        let nearest = nearest.fold(f64::INFINITY, f64::min);
+        println!("critical {} {nearest:e}", interval.critical_friction);
+        assert!(nearest < 1e-7 * omega, "{interval:?} {nearest:e}");
+    }
+}
+
+/// Independent check: the receptance from the dense matrix `K + i H + i omega C - omega^2 M`.
+#[test]
+fn the_response_with_loss_factors_is_that_of_the_dense_matrix() {
+    let tangent = tangent([0.02, 0.2], RayleighDamping::default());
+    let system = FrfSystem::sliding(&tangent, 0.3);
+    let terminal = |node: usize| Terminal {
+        node,
+        direction: Direction::Radial,
+    };
+    let free = (0..60).filter_map(|node| system.unknown(terminal(node), "force_node").ok());
+    let free: Vec<usize> = free.collect();
+    let (force, response) = (free[2], free[9]);
+    let lines = [500.0, 4000.0, 7000.0];
+    let found = direct_response(&system, force, response, &lines).unwrap();
+    let [mass, stiffness, lost] = [
+        &tangent.mass,
+        &tangent.stiffness,
+        tangent.structural.as_ref().unwrap(),
+    ]
+    .map(|p| dense(p, 0.3));
+    let n = mass.nrows();
+    for (frequency, found) in lines.iter().zip(found.receptance) {
+        let square = (TAU * frequency).powi(2);
+        let matrix = Mat::from_fn(n, n, |i, j| {
+            c64::new(stiffness[(i, j)] - square * mass[(i, j)], lost[(i, j)])
+        });
+        let unit = |i: usize| c64::new(f64::from(u8::from(i == force)), 0.0);
+        let mut x = Mat::from_fn(n, 1, |i, _| unit(i));
+        ComplexDenseLu::factorize(matrix).solve_in_place(x.as_mut());
+        let expected = x[(response, 0)];
+        // Round-off of two factorizations times the condition of the matrix.
+        assert!((found - expected).norm() < 1e-8 * expected.norm());
+    }
+}
