@@ -95,7 +95,6 @@ const REFERENCE: &str = "reference";
 const SYNONYMS: &[(&str, &str)] = &[
     ("3d", "three-dimensions"),
     ("block", "mesh"),
-    ("brake", "two-bodies"),
     ("disc", "cea"),
     ("eigenvalues", "cea"),
     ("pad", "two-bodies"),

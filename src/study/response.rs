@@ -23,7 +23,7 @@ use crate::linalg::{GaussianNoise, c64};
 use crate::mesh::{
     AnnulusSpecification, BoundaryCondition, Mesh, SectorMesh, SolidSector, SolidSpecification,
 };
-use crate::prestress::{SectorTangent, SlidingTangent, SolidTangent, SteadySliding};
+use crate::prestress::{BaseChoice, SectorTangent, SlidingTangent, SolidTangent, SteadySliding};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -357,8 +357,10 @@ fn assembly(case: &Case, frf: &Frf, body: &AssemblyBody) -> Result<FrfSystem, St
             case.contact.sliding.friction_coefficient,
         ));
     }
+    // Without contact there is no base state to find, and nothing may hold the bodies.
     let mut apart = AssemblyBody {
         contacts: Vec::new(),
+        base: BaseChoice::Closed,
         ..body.clone()
     };
     if frf.boundary == FrfBoundary::Free {

@@ -99,7 +99,8 @@ fn a_sweep_that_is_stopped_keeps_its_finished_points() {
     let asked = Instant::now();
     run.stop();
     let failure = thread.join().unwrap().unwrap_err();
-    assert!(asked.elapsed() < Duration::from_secs(1));
+    // The whole analysis takes over a minute: it ended early, not at its end, on a loaded machine too.
+    assert!(asked.elapsed() < Duration::from_secs(30));
     assert!(interruption(&failure).contains("--resume"), "{failure:?}");
     // An interrupted point is no failed point.
     let points = fs::read_dir(folder.path().join("study/points")).unwrap();
@@ -125,8 +126,9 @@ fn an_eigenvalue_analysis_is_stopped_between_factorizations() {
     let asked = Instant::now();
     run.stop();
     let failure = thread.join().unwrap().unwrap_err();
-    assert!(asked.elapsed() < Duration::from_secs(1));
-    assert!(interruption(&failure).contains("starts it again"));
+    // The whole analysis takes over a minute: it ended early, not at its end, on a loaded machine too.
+    assert!(asked.elapsed() < Duration::from_secs(30));
+    assert!(interruption(&failure).contains("--resume goes on"));
 }
 
 #[test]
@@ -163,15 +165,18 @@ fn bad_words_and_bad_cases_are_failures_as_on_the_command_line() {
 fn warnings_are_kept_for_the_caller_and_each_run_has_its_own() {
     let folder = tempdir().unwrap();
     let (loud, calm) = (EmbeddedRun::default(), EmbeddedRun::default());
-    let set = |density: &'static str| ["cea.friction_coefficients=[0.3]", density];
+    let set = |thickness: &'static str| ["cea.friction_coefficients=[0.3]", thickness];
     let case = "polycarbonate-disc.toml";
-    let dense = set("material.density=1.228e-9");
-    loud.run(words("cea", case, &folder, "dense", &dense), 1)
+    let thick = set("geometry.thickness=9.0");
+    loud.run(words("cea", case, &folder, "thick", &thick), 1)
         .unwrap();
-    let usual = set("material.density=1228.0");
+    let usual = set("geometry.thickness=0.009");
     calm.run(words("cea", case, &folder, "usual", &usual), 1)
         .unwrap();
     let said = loud.take_log();
-    assert!(said.contains("WARN") && said.contains("density"), "{said}");
+    assert!(
+        said.contains("WARN") && said.contains("thickness"),
+        "{said}"
+    );
     assert_eq!(calm.take_log(), "");
 }

@@ -12,7 +12,7 @@ const CASE: &str = "title = \"Two pads\"
 [material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0
 [materials.slab]\nyoung_modulus = 7e9\npoisson_ratio = 0.3\ndensity = 2000.0\nmass_coefficient = 10.0\nstiffness_coefficient = 1e-7
 [materials.left]\nyoung_modulus = 2e9\npoisson_ratio = 0.3\ndensity = 1200.0\nmass_coefficient = 5.0\nstiffness_coefficient = 2e-7
-[damping]\nmass_coefficient = 40.0\nstiffness_coefficient = 4.5e-7
+[damping]\nmass_coefficient = 40.0\nstiffness_coefficient = 4.5e-7\ninclude_contact = false
 [boundaries.slab_z0]\ncondition = \"support\"\nnormal_stiffness = 1e13\ntangential_stiffness = 1e13\nnormal_damping = 1e4
 [boundaries.left_z1]\ncondition = \"clamped\"
 [boundaries.right_z1]\ncondition = \"clamped\"

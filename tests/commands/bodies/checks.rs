@@ -65,6 +65,13 @@ fn is_close(a: f64, b: f64, tolerance: f64) -> bool {
     (a - b).abs() <= tolerance * a.abs().max(b.abs())
 }
 
+/// Names of the columns of a CSV file.
+fn headers(folder: &Path, file: &str) -> Vec<String> {
+    let mut reader = csv::Reader::from_path(folder.join(file)).unwrap();
+    let headers = reader.headers().unwrap().iter();
+    headers.map(str::to_owned).collect()
+}
+
 /// Columns of a CSV file by name.
 fn column(folder: &Path, file: &str, name: &str) -> Vec<f64> {
     let mut reader =
@@ -205,19 +212,32 @@ const SMALL_CHANGE: f64 = 1e-6;
 
 /// The derivative by Young's modulus is the difference of two analyses.
 fn sensitivities(bench: &Bench, _: Option<&Bench>) -> Cell {
-    let (_, folder) = done!(bench.run("cea", &[], &[]));
+    let (_, folder) = done!(bench.run("cea", &["cea.sensitivities=true"], &[]));
     if !folder.join("sensitivities.csv").exists() {
         return Cell::Refused("not computed for this body yet".to_owned());
     }
     let of = |name: &str| column(&folder, "sensitivities.csv", name);
     let (frequencies, growths) = (of("frequency_hz"), of("growth_rate_per_s"));
-    // An orthotropic material has no Young's modulus.
-    let is_isotropic = of("frequency_hz_per_young_modulus")[0].is_finite();
-    let (name, value) = match is_isotropic {
-        true => ("young_modulus", 2.5e9),
-        false => ("density", 1700.0),
+    // Where several materials have the key, its whole name heads the column.
+    let names = headers(&folder, "sensitivities.csv");
+    let slopes_by = |key: &str| {
+        let of_key = |kind: &str| {
+            let both = [
+                format!("{kind}_per_{key}"),
+                format!("{kind}_per_material.{key}"),
+            ];
+            both.into_iter()
+                .find(|name| names.contains(name))
+                .map(|name| of(&name))
+        };
+        Some([of_key("frequency_hz")?, of_key("growth_rate")?])
     };
-    let slopes = ["frequency_hz", "growth_rate"].map(|kind| of(&format!("{kind}_per_{name}")));
+    // An orthotropic material has no Young's modulus.
+    let isotropic = slopes_by("young_modulus").filter(|slopes| slopes[0][0].is_finite());
+    let (name, value, slopes) = match isotropic {
+        Some(slopes) => ("young_modulus", 2.5e9, slopes),
+        None => ("density", 1700.0, slopes_by("density").expect("a density")),
+    };
     let step = SMALL_CHANGE * value;
     let at = |value: f64| bench.run("cea", &[&format!("material.{name}={value:?}")], &[]);
     let ((_, low), (_, high)) = (needed!(at(value - step)), needed!(at(value + step)));

@@ -97,7 +97,7 @@ fn solids() -> (String, String) {
         "title = \"A kind of body\"\n[mesh]\nfile = \"body.msh\"\n[material]\n{POLYCARBONATE}
 [boundaries.slab_z0]\ncondition = \"clamped\"
 [boundaries.plate_z1]\ncondition = \"pressure\"\npressure = 1e5
-[boundaries.plate_x0]\ncondition = \"fixed\"\ndirections = [\"x\", \"y\"]
+[boundaries.plate_x0]\ncondition = \"support\"\nnormal_stiffness = 1e12\ntangential_stiffness = 1e12
 [motion.slab]\naxis = [0.0, 0.0, 1.0]\ncenter = [0.5, 0.1, 0.0]\nrotation_speed_rpm = 100.0
 [contacts.pad]\nsurface = \"lining_z0\"\ncounter = \"slab_z1\"\nfriction_coefficient = 0.3\nnormal_stiffness = 1e12
 [ties.glue]\nsurface = \"lining_z1\"\ncounter = \"plate_z0\"\n{ANALYSES}"
