@@ -187,7 +187,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
     let beside = template.map_or(Vec::new(), |(_, case)| case.files());
     let mut files = vec![(path, text.as_bytes())];
-    files.extend(missing(&folder, beside).map(|(path, bytes)| (path, &bytes[..])));
+    files.extend(missing(&folder, beside));
     write_files(&files, arguments.force)
 }
 
@@ -230,13 +230,13 @@ fn write_all(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 /// Shipped files that a folder does not hold as they would be written.
-fn missing(
-    folder: &Path,
+fn missing<'a>(
+    folder: &'a Path,
     files: Vec<ShippedFile>,
-) -> impl Iterator<Item = (PathBuf, &'static [u8])> {
+) -> impl Iterator<Item = (PathBuf, &'a [u8])> {
     let placed = files
         .into_iter()
-        .map(move |(name, bytes)| (folder.join(name), bytes));
+        .map(move |(name, bytes)| -> (PathBuf, &'a [u8]) { (folder.join(name), bytes) });
     placed.filter(|(path, bytes)| std::fs::read(path).ok().as_deref() != Some(*bytes))
 }
 

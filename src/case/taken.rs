@@ -117,7 +117,7 @@ fn merge(root: &mut RawTable, mut section: FileSection, at: &Location) -> Option
     let (group, name) = (section.path.0, section.path.1.as_str());
     if let Some(of_group) = table_of(root, group) {
         let own = match group {
-            "material" => Some(&*of_group),
+            "material" => Some(of_group),
             _ => table_of(of_group, name),
         };
         if group == "contacts" || group == "ties" {

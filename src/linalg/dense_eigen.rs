@@ -66,6 +66,9 @@ pub fn complex_eigenvalues(matrix: MatRef<'_, c64>) -> Result<Vec<c64>, LinalgEr
     Ok(values.column_vector().iter().copied().collect())
 }
 
+/// Eigenvalues, right vectors and, where they are asked for, left vectors, as columns.
+pub type ComplexEigen = (Vec<c64>, Mat<c64>, Option<Mat<c64>>);
+
 /// Eigenvalues `lambda` of a complex square matrix `A`, right vectors `A x = lambda x` and, where they are asked for, left ones
 /// `y^H A = lambda y^H`, as columns, in no particular order.
 ///
@@ -74,7 +77,7 @@ pub fn complex_eigenvalues(matrix: MatRef<'_, c64>) -> Result<Vec<c64>, LinalgEr
 pub fn complex_eigen(
     matrix: MatRef<'_, c64>,
     with_left: bool,
-) -> Result<(Vec<c64>, Mat<c64>, Option<Mat<c64>>), LinalgError> {
+) -> Result<ComplexEigen, LinalgError> {
     let n = matrix.nrows();
     let failure = LinalgError::DenseEigen { dimension: n };
     if !matrix.is_all_finite() {

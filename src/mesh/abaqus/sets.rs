@@ -154,8 +154,9 @@ impl Reader<'_, '_> {
                         .copied(),
                 );
             } else {
-                let is_meant =
-                    |label: usize| (first..=last).contains(&label) && (label - first) % step == 0;
+                let is_meant = |label: usize| {
+                    (first..=last).contains(&label) && (label - first).is_multiple_of(step)
+                };
                 let own = known
                     .iter()
                     .filter(|((s, label), _)| *s == scope && is_meant(*label));

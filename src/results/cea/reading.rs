@@ -250,7 +250,8 @@ pub(super) fn budget(report: &CeaReport<'_>, reading: &Reading) -> Result<Figure
             let own = rows().filter(|row| row.mode.friction_coefficient == friction);
             (friction, own.map(|row| row.growth_rate).sum::<f64>())
         });
-        let last = rows().last().map_or(0.0, |row| row.mode.frequency_hz);
+        let last = rows().next_back();
+        let last = last.map_or(0.0, |row| row.mode.frequency_hz);
         let mut panel = Panel::new(Axis::friction().tight(), Axis::new("growth rate", "1/s"))
             .height(90.0)
             .caption(format!("branch {branch}, {} kHz", fixed(1e-3 * last, 2)))

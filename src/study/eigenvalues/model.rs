@@ -101,11 +101,11 @@ fn refuse_rest(case: &Case) -> Result<(), CaseErrors> {
 /// A model whose spectrum can be asked for.
 pub enum Model {
     /// The harmonics of a plane annulus.
-    Sectors(Annulus, TangentOptions),
+    Sectors(Box<Annulus>, TangentOptions),
     /// The harmonics of a body of revolution in three dimensions.
     SolidSectors(Box<SolidModel>),
     /// The whole mesh of a plane body.
-    Whole(WholeMesh),
+    Whole(Box<WholeMesh>),
     /// The whole mesh of solid bodies.
     Assembly(Box<AssemblyModel>),
 }
@@ -152,7 +152,7 @@ impl Model {
     ) -> Result<Self, CeaError> {
         let sliding = &case.contact.sliding;
         Ok(match solver {
-            Solver::Sectors(annulus) => Self::Sectors(annulus, options),
+            Solver::Sectors(annulus) => Self::Sectors(Box::new(annulus), options),
             Solver::SolidSectors(Revolution {
                 specification,
                 material,
@@ -162,7 +162,7 @@ impl Model {
                 options,
                 contact: *sliding,
             })),
-            Solver::WholeMesh => Self::Whole(WholeMesh::solve(case, options, frictions)?),
+            Solver::WholeMesh => Self::Whole(Box::new(WholeMesh::solve(case, options, frictions)?)),
             Solver::Assembly => {
                 let body = case.body.assembly();
                 let body = body.expect("the solver of an assembly is given to one alone");
@@ -257,12 +257,12 @@ impl Model {
     /// nothing that these depend on.
     pub(super) fn with_its_states(&self, case: &Case, options: TangentOptions) -> Option<Self> {
         match self {
-            Self::Whole(whole) => Some(Self::Whole(WholeMesh {
+            Self::Whole(whole) => Some(Self::Whole(Box::new(WholeMesh {
                 // Its boundaries have supports.
                 mesh: case.mesh().ok()?,
                 range: whole.range.clone(),
                 options,
-            })),
+            }))),
             Self::Assembly(assembly) => Some(Self::Assembly(Box::new(AssemblyModel {
                 body: case.body.assembly()?.clone(),
                 range: assembly.range.clone(),
