@@ -64,7 +64,7 @@ fn a_transient_that_is_stopped_keeps_what_it_has_and_resumes_to_the_same_bytes()
     let folder = tempdir().unwrap();
     let (failure, time) = stopped(transient(&folder, "run", "transient.duration=10.0"));
     assert!(interruption(&failure).contains("--resume"), "{failure:?}");
-    assert!(time < Duration::from_secs(1), "{time:?}");
+    assert!(time < Duration::from_secs(15), "{time:?}");
     let table = fs::read_to_string(folder.path().join("run/energy.csv")).unwrap();
     let last = table.lines().last().unwrap().split(',').next().unwrap();
     let reached: f64 = last.parse().unwrap();
