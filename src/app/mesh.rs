@@ -63,12 +63,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         title: case.title.clone(),
         wall_s: session.wall_seconds(),
         mesh: statistics,
-        not_used: case
-            .taken
-            .left_out
-            .iter()
-            .map(ToString::to_string)
-            .collect(),
+        not_used: case.taken.not_used(),
         manifest: session.manifest.clone(),
     };
     let object = write_summary(&folder, &summary)?;
@@ -105,12 +100,7 @@ fn run_solid(
         wall_s: session.wall_seconds(),
         mesh: SolidMeshStatistics::new(mesh, &densities, &roles),
         notes: case.taken.notes.clone(),
-        not_used: case
-            .taken
-            .left_out
-            .iter()
-            .map(ToString::to_string)
-            .collect(),
+        not_used: case.taken.not_used(),
         manifest: session.manifest.clone(),
     };
     let object = write_summary(&folder, &summary)?;

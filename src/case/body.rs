@@ -126,11 +126,11 @@ impl Body {
         }
     }
 
-    /// Contact nodes, under a ring at most those of the whole face.
-    pub fn contact_node_count(&self) -> usize {
+    /// Contact nodes, under a ring at most those of the whole face, in a width that no input overflows.
+    pub fn contact_node_count(&self) -> u128 {
         let around = |grid: &AnnulusSpecification| {
             let per_element = if grid.element.is_quadratic() { 2 } else { 1 };
-            per_element * grid.circumferential_elements
+            per_element * grid.circumferential_elements as u128
         };
         match self {
             Self::Annulus(annulus) => around(&annulus.specification),
@@ -139,10 +139,10 @@ impl Body {
                     SolidContact::Inner => specification.axial_elements + 1,
                     SolidContact::Ring { .. } => specification.annulus.radial_elements + 1,
                 };
-                rings * around(&specification.annulus)
+                rings as u128 * around(&specification.annulus)
             }
-            Self::Imported(imported) => imported.mesh.contact_edge().nodes.len(),
-            Self::Assembly(assembly) => assembly.contact_node_count(),
+            Self::Imported(imported) => imported.mesh.contact_edge().nodes.len() as u128,
+            Self::Assembly(assembly) => assembly.contact_node_count() as u128,
         }
     }
 

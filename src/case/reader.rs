@@ -16,6 +16,9 @@ use std::collections::BTreeSet;
 /// Unknown keys of one section that are named; the others are counted.
 const MOST_UNKNOWN: usize = 10;
 
+/// Largest whole number that a key takes: products of two are safe in 64 bits.
+const LARGEST_COUNT: usize = u32::MAX as usize;
+
 /// Errors and warnings found so far.
 #[derive(Debug, Default)]
 pub(super) struct Findings {
@@ -323,6 +326,10 @@ impl<'a> Section<'a> {
             }
         };
         match usize::try_from(value) {
+            Ok(value) if value > LARGEST_COUNT => {
+                self.reject_at(item, key, &format!("must be {LARGEST_COUNT} or less"));
+                None
+            }
             Ok(value) if value >= least => Some(value),
             _ => {
                 self.reject_at(item, key, &format!("must be {least} or more"));

@@ -231,6 +231,11 @@ fn summary(taken: &Taken) -> Vec<String> {
 }
 
 impl Taken {
+    /// What of the file is not used, one line each.
+    pub fn not_used(&self) -> Vec<String> {
+        self.left_out.iter().map(ToString::to_string).collect()
+    }
+
     /// A warning that names what of the file is not used; none where all is.
     pub(super) fn warning(&self, at: &Location) -> Option<Diagnostic> {
         let harmless = |left_out: &&LeftOut| left_out.reason.starts_with("the case says what");

@@ -145,37 +145,13 @@ fn centre(ring: &[[f64; 3]], is_quadratic: bool) -> [f64; 3] {
     sum
 }
 
-/// Fills a triangle of vertices (x, y in pixels, level), pixel centres inside or on its edge.
+/// Fills a triangle of vertices (x, y in pixels, level).
 fn triangle(image: &mut IndexedImage, [a, b, c]: [[f64; 3]; 3], levels: usize) {
-    let area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
-    if !area.is_finite() || area.abs() < 1e-12 {
-        return;
-    }
-    let bounds = |axis: usize, limit: usize| {
-        let low = a[axis].min(b[axis]).min(c[axis]) - 0.5;
-        let high = a[axis].max(b[axis]).max(c[axis]) - 0.5;
-        (
-            low.ceil().max(0.0) as usize,
-            high.floor().min(limit as f64 - 1.0),
-        )
-    };
-    let (columns, rows) = (bounds(0, image.width), bounds(1, image.height));
-    if columns.1 < 0.0 || rows.1 < 0.0 {
-        return;
-    }
-    for row in rows.0..=rows.1 as usize {
-        for column in columns.0..=columns.1 as usize {
-            let (x, y) = (column as f64 + 0.5, row as f64 + 0.5);
-            let v = ((x - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (y - a[1])) / area;
-            let w = ((b[0] - a[0]) * (y - a[1]) - (x - a[0]) * (b[1] - a[1])) / area;
-            // Neighbours share pixels on their common edge, so no seam shows.
-            if v >= -1e-9 && w >= -1e-9 && v + w <= 1.0 + 1e-9 {
-                let level = a[2] + v * (b[2] - a[2]) + w * (c[2] - a[2]);
-                let level = level.clamp(0.0, (levels - 1) as f64) as u8;
-                image.pixels[row * image.width + column] = level;
-            }
-        }
-    }
+    let corners = [a, b, c].map(|[x, y, _]| [x, y]);
+    image.over_triangle(corners, |pixel, _, v, w| {
+        let level = a[2] + v * (b[2] - a[2]) + w * (c[2] - a[2]);
+        *pixel = level.clamp(0.0, (levels - 1) as f64) as u8;
+    });
 }
 
 impl Layer for Field {

@@ -55,6 +55,37 @@ pub(super) struct IndexedImage {
 }
 
 impl IndexedImage {
+    /// Calls `see` with the index of every pixel whose centre lies inside or on the edge of a triangle (x, y in pixels), and the
+    /// weights `v`, `w` of its second and third corner there. Neighbours share the pixels on their common edge, so no seam shows.
+    pub fn over_triangle(
+        &mut self,
+        [a, b, c]: [[f64; 2]; 3],
+        mut see: impl FnMut(&mut u8, usize, f64, f64),
+    ) {
+        let area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
+        if !area.is_finite() || area.abs() < 1e-12 {
+            return;
+        }
+        let bounds = |axis: usize, limit: usize| {
+            let low = a[axis].min(b[axis]).min(c[axis]) - 0.5;
+            let high = a[axis].max(b[axis]).max(c[axis]) - 0.5;
+            let last = high.floor().min(limit as f64 - 1.0);
+            (low.ceil().max(0.0) as usize)..((last + 1.0).max(0.0) as usize)
+        };
+        let (columns, rows) = (bounds(0, self.width), bounds(1, self.height));
+        for row in rows {
+            for column in columns.clone() {
+                let (x, y) = (column as f64 + 0.5, row as f64 + 0.5);
+                let v = ((x - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (y - a[1])) / area;
+                let w = ((b[0] - a[0]) * (y - a[1]) - (x - a[0]) * (b[1] - a[1])) / area;
+                if v >= -1e-9 && w >= -1e-9 && v + w <= 1.0 + 1e-9 {
+                    let pixel = row * self.width + column;
+                    see(&mut self.pixels[pixel], pixel, v, w);
+                }
+            }
+        }
+    }
+
     /// The image as PNG; `None` for one without pixels.
     pub fn encode(&self, palette: &Palette) -> Option<Vec<u8>> {
         if self.width * self.height == 0 {

@@ -159,39 +159,23 @@ struct Canvas {
 }
 
 impl Canvas {
+    /// Fills a triangle of corners (x, y in pixels, depth) where nothing stands in front of it.
     fn fill(&mut self, [a, b, c]: [[f64; 3]; 3], levels: [f64; 3], shade: usize) {
-        let area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
-        if !area.is_finite() || area.abs() < 1e-12 {
-            return;
-        }
-        let bounds = |axis: usize, limit: usize| {
-            let low = a[axis].min(b[axis]).min(c[axis]) - 0.5;
-            let high = a[axis].max(b[axis]).max(c[axis]) - 0.5;
-            let last = high.floor().min(limit as f64 - 1.0);
-            (low.ceil().max(0.0) as usize)..((last + 1.0).max(0.0) as usize)
-        };
-        let (columns, rows) = (bounds(0, self.image.width), bounds(1, self.image.height));
-        for row in rows {
-            for column in columns.clone() {
-                let (x, y) = (column as f64 + 0.5, row as f64 + 0.5);
-                let v = ((x - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (y - a[1])) / area;
-                let w = ((b[0] - a[0]) * (y - a[1]) - (x - a[0]) * (b[1] - a[1])) / area;
-                if v < -1e-9 || w < -1e-9 || v + w > 1.0 + 1e-9 {
-                    continue;
-                }
-                let at = |[p, q, r]: [f64; 3]| p + v * (q - p) + w * (r - p);
-                let (pixel, depth) = (row * self.image.width + column, at([a[2], b[2], c[2]]));
-                if depth > self.depth[pixel] {
-                    self.depth[pixel] = depth;
-                    let level = at(levels);
-                    let level = match level.is_finite() {
-                        true => level.clamp(0.0, (LEVELS - 1) as f64) as usize,
-                        false => LEVELS,
-                    };
-                    self.image.pixels[pixel] = (level * SHADES + shade) as u8;
-                }
+        let (image, depths) = (&mut self.image, &mut self.depth);
+        let corners = [a, b, c].map(|[x, y, _]| [x, y]);
+        image.over_triangle(corners, |pixel, place, v, w| {
+            let at = |[p, q, r]: [f64; 3]| p + v * (q - p) + w * (r - p);
+            let depth = at([a[2], b[2], c[2]]);
+            if depth > depths[place] {
+                depths[place] = depth;
+                let level = at(levels);
+                let level = match level.is_finite() {
+                    true => level.clamp(0.0, (LEVELS - 1) as f64) as usize,
+                    false => LEVELS,
+                };
+                *pixel = (level * SHADES + shade) as u8;
             }
-        }
+        });
     }
 
     fn line(&mut self, [a, b]: [[f64; 3]; 2], lift: f64) {

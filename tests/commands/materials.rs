@@ -1,10 +1,11 @@
-//! Orthotropic materials as a user meets them: results beside theory, keys that name one number of a list, refusals.
+//! Materials as a user meets them: results beside theory, keys that name one number of a list, refusals.
 
-use frictionsim::case::Case;
+use frictionsim::case::{Case, CeaMethod};
 use frictionsim::contact::SlidingContact;
 use frictionsim::fem::sector;
 use frictionsim::mesh::SectorMesh;
 use frictionsim::prestress::SectorSliding;
+use frictionsim::study::eigenvalues::Solver;
 
 const DISC: &str = r#"
 [geometry]
@@ -102,4 +103,27 @@ fn axes_and_constants_that_do_not_fit_are_refused_with_the_reason() {
         "material.axes=global",
     ];
     read(&around).unwrap();
+}
+
+#[test]
+fn structural_damping_is_refused_where_it_has_no_meaning() {
+    let run = "transient={ duration=1e-4, expansion_time=5e-5 }";
+    let case = read(&["material.loss_factor=0.1", "mesh.element=\"quad4\"", run]).unwrap();
+    let message = case.require_transient().unwrap_err().to_string();
+    for part in [
+        "material.loss_factor",
+        "belongs to one frequency",
+        "stiffness_coefficient",
+    ] {
+        assert!(message.contains(part), "{message}");
+    }
+    // Sectors take both waves of a harmonic from one real problem; the whole mesh is solved instead.
+    let cyclic = Solver::of(&case, CeaMethod::Cyclic).err().unwrap();
+    assert!(cyclic.to_string().contains("conjugate pairs"), "{cyclic}");
+    assert!(matches!(
+        Solver::of(&case, CeaMethod::Auto),
+        Ok(Solver::WholeMesh)
+    ));
+    let beyond = read(&["material.loss_factor=1.5"]).unwrap_err();
+    assert!(beyond.contains("material.loss_factor = 1.5"), "{beyond}");
 }

@@ -79,12 +79,17 @@ impl AssemblyReport {
         Ok(())
     }
 
+    /// Whether no contact point presses: the closed state of an analysis without prestress.
+    pub(super) fn is_free_of_stress(&self) -> bool {
+        self.points.iter().all(|point| point.pressure == 0.0)
+    }
+
     /// Pressure on each contact surface, seen from outside along its mean normal; grey where it is open.
     ///
     /// # Errors
     /// [`ChartError::Empty`] for a base state that is free of stress.
     pub(super) fn prestress(&self, mesh: &Mesh) -> Result<Figure, ChartError> {
-        if self.points.iter().all(|point| point.pressure == 0.0) {
+        if self.is_free_of_stress() {
             return Err(ChartError::empty(
                 "pressure of contacts that are free of stress",
             ));

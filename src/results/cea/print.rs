@@ -214,19 +214,22 @@ fn totals(out: &mut String, report: &CeaReport<'_>) {
         report.largest_residual(),
     );
     let base = &report.base;
-    let _ = writeln!(
+    let _ = write!(
         out,
-        "steady sliding at friction {}: {} contact nodes slipping, {} sticking, {} open; \
-         pressure {} to {} MPa; {}, {}",
-        base.friction_coefficient,
-        base.slipping,
-        base.sticking,
-        base.open,
-        megapascal(base.pressure_pa[0]),
-        megapascal(base.pressure_pa[1]),
-        base.drive(),
-        base.power(),
+        "steady sliding at friction {}: {} contact nodes slipping, {} sticking, {} open; ",
+        base.friction_coefficient, base.slipping, base.sticking, base.open,
     );
+    let _ = match report.assembly {
+        Some(assembly) if assembly.is_free_of_stress() => writeln!(out, "free of stress"),
+        _ => writeln!(
+            out,
+            "pressure {} to {} MPa; {}, {}",
+            megapascal(base.pressure_pa[0]),
+            megapascal(base.pressure_pa[1]),
+            base.drive(),
+            base.power(),
+        ),
+    };
     if let Some(note) = base.extent.note() {
         let _ = writeln!(out, "{note}");
     }

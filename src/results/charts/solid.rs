@@ -2,6 +2,7 @@
 
 use crate::chart::{Axis, ColourMap, Surface, SurfaceMesh};
 use crate::mesh::{BoundaryFace, Mesh};
+use nalgebra::Vector3;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -13,34 +14,31 @@ pub struct SolidView<'a> {
     mesh: &'a Mesh,
     shown: Arc<SurfaceMesh>,
     /// Unit vectors to the right, upwards and towards the viewer.
-    axes: [[f64; 3]; 3],
+    axes: [Vector3<f64>; 3],
 }
 
 impl<'a> SolidView<'a> {
     /// All bodies from the front, the right and above, `z` upwards.
     pub fn new(mesh: &'a Mesh) -> Self {
-        Self::of(mesh, &mesh.outer_faces(), [0.5, -0.72, 0.62])
+        Self::of(mesh, &mesh.outer_faces(), Vector3::new(0.5, -0.72, 0.62))
     }
 
     /// One boundary from outside, along its mean normal.
     pub fn of_boundary(mesh: &'a Mesh, boundary: usize) -> Self {
         let faces = &mesh.boundaries[boundary].faces;
         let normals = mesh.nodal_normals(faces);
-        let mut mean = [0.0; 3];
-        for normal in normals.values() {
-            (0..3).for_each(|axis| mean[axis] += normal[axis]);
-        }
-        Self::of(mesh, faces, mean)
+        let sum = normals.values().map(|&normal| Vector3::from(normal)).sum();
+        Self::of(mesh, faces, sum)
     }
 
-    fn of(mesh: &'a Mesh, faces: &[BoundaryFace], towards: [f64; 3]) -> Self {
-        let towards = unit(towards).unwrap_or([0.0, 0.0, 1.0]);
+    fn of(mesh: &'a Mesh, faces: &[BoundaryFace], towards: Vector3<f64>) -> Self {
+        let towards = towards.try_normalize(0.0).unwrap_or(Vector3::z());
         // Upwards is z, but for what is seen along it.
-        let up = match towards[2].abs() > 0.9 {
-            true => [0.0, 1.0, 0.0],
-            false => [0.0, 0.0, 1.0],
+        let up = match towards.z.abs() > 0.9 {
+            true => Vector3::y(),
+            false => Vector3::z(),
         };
-        let right = unit(cross(up, towards)).unwrap_or([1.0, 0.0, 0.0]);
+        let right = up.cross(&towards).normalize();
         let shown = SurfaceMesh {
             triangles: faces.iter().flat_map(triangles).collect(),
             edges: sharp_edges(mesh, faces),
@@ -48,7 +46,7 @@ impl<'a> SolidView<'a> {
         Self {
             mesh,
             shown: Arc::new(shown),
-            axes: [right, cross(towards, right), towards],
+            axes: [right, towards.cross(&right), towards],
         }
     }
 
@@ -62,12 +60,11 @@ impl<'a> SolidView<'a> {
         map: ColourMap,
     ) -> Surface {
         let place = |(node, place): (usize, &[f64; 3])| {
-            let moved = displacement.get(3 * node..3 * node + 3).map(|u| {
-                let u = self.mesh.frame(node) * nalgebra::Vector3::from_column_slice(u);
-                [0, 1, 2].map(|k| place[k] + magnification * u[k])
-            });
-            let place = moved.unwrap_or(*place);
-            self.axes.map(|axis| dot(axis, place))
+            let mut place = Vector3::from(*place);
+            if let Some(u) = displacement.get(3 * node..3 * node + 3) {
+                place += self.mesh.frame(node) * Vector3::from_column_slice(u) * magnification;
+            }
+            self.axes.map(|axis| axis.dot(&place))
         };
         let positions = self.mesh.nodes.iter().enumerate().map(place).collect();
         Surface::new(Arc::clone(&self.shown), positions, values, axis, map)
@@ -110,12 +107,15 @@ fn triangles(face: &BoundaryFace) -> Vec<[u32; 3]> {
 
 /// Edges between faces that meet at an angle, between regions, and at the rim of open surfaces.
 fn sharp_edges(mesh: &Mesh, faces: &[BoundaryFace]) -> Vec<[u32; 2]> {
-    type Side = ([f64; 3], usize);
+    type Side = (Vector3<f64>, usize);
     let mut edges: BTreeMap<[u32; 2], (Vec<u32>, Vec<Side>)> = BTreeMap::new();
     for face in faces {
         let corners = face.kind.corner_count();
-        let [a, b, c] = [0, 1, 2].map(|k| mesh.nodes[face.nodes[k] as usize]);
-        let normal = unit(cross(difference(b, a), difference(c, a))).unwrap_or_default();
+        let [a, b, c] = [0, 1, 2].map(|k| Vector3::from(mesh.nodes[face.nodes[k] as usize]));
+        let normal = (b - a)
+            .cross(&(c - a))
+            .try_normalize(0.0)
+            .unwrap_or_default();
         let side = (normal, mesh.region(face.element as usize));
         for edge in 0..corners {
             let (p, q) = (face.nodes[edge], face.nodes[(edge + 1) % corners]);
@@ -126,7 +126,7 @@ fn sharp_edges(mesh: &Mesh, faces: &[BoundaryFace]) -> Vec<[u32; 2]> {
         }
     }
     let is_sharp = |sides: &[Side]| match sides {
-        [one, other] => one.1 != other.1 || dot(one.0, other.0) < SHARP,
+        [one, other] => one.1 != other.1 || one.0.dot(&other.0) < SHARP,
         _ => true,
     };
     let sharp = edges.into_values().filter(|(_, sides)| is_sharp(sides));
@@ -135,25 +135,4 @@ fn sharp_edges(mesh: &Mesh, faces: &[BoundaryFace]) -> Vec<[u32; 2]> {
         steps
     });
     steps.collect()
-}
-
-fn difference(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [0, 1, 2].map(|k| a[k] - b[k])
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    (0..3).map(|k| a[k] * b[k]).sum()
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
-fn unit(a: [f64; 3]) -> Option<[f64; 3]> {
-    let length = dot(a, a).sqrt();
-    (length > 0.0).then(|| a.map(|x| x / length))
 }

@@ -7,8 +7,10 @@
 //! sigma = (Im p - omega c - h) / (2 omega m)
 //! ```
 //!
-//! as `M`, `C`, `K` of the bodies are symmetric; `h` is `eta k` of each region with a loss factor. `m`, `c`, `k` are sums over regions and supports, `p` over contacts: the growth
-//! rate is a sum of what each takes or feeds, without a remainder.
+//! as `M`, `C`, `K` of the bodies are symmetric; `h` is `eta k` of each region with a loss factor. `m`, `c`, `k` are sums
+//! over regions and supports, `p` over contacts: the growth rate is a sum of what each takes or feeds, without a remainder.
+
+mod shapes;
 
 use super::model::Model;
 use super::sliding::{SlidingModel, SteadyState};
@@ -20,14 +22,12 @@ use crate::fem::{
 use crate::linalg::{Mat, MatRef, MatrixPolynomial, c64};
 use crate::mesh::{BoundaryCondition, Mesh};
 use crate::prestress::{DampingModel, TangentOptions};
-use crate::results::cea::{Contribution, Coupling, ModeName, Reading, Source};
+use crate::results::cea::{Contribution, Reading, Source};
+use shapes::Shapes;
 use std::collections::BTreeMap;
 
 /// Bytes of mode shapes over a sweep beyond which they are taken at the ends and at the case's own friction alone.
 const MOST_SHAPES: f64 = 5e8;
-
-/// Share below which a mode of the lowest friction value is left out of the couplings.
-const LEAST_SHARE: f64 = 0.01;
 
 /// Friction coefficients whose shapes the reading needs, of those that are solved: all of them on a whole mesh, where shapes
 /// are at hand; the lowest and the case's own where they are built harmonic by harmonic, or would fill the memory.
@@ -65,7 +65,8 @@ pub(super) fn read(case: &Case, model: &SlidingModel, sweep: &FrictionSweep) -> 
             continue;
         }
         parts.contributions(model, &shapes, &mut reading.contributions);
-        let couplings = shapes.couplings(&references, &reference_images, &parts);
+        let [own_images, _] = parts.whole.multiply(shapes.columns.as_ref());
+        let couplings = shapes.couplings(&own_images, (&references, &reference_images));
         reading.couplings.extend(couplings);
     }
     Some(reading)
@@ -355,115 +356,4 @@ fn supports(mesh: &Mesh) -> Vec<(String, Pair)> {
         .filter(|&b| supported(b))
         .map(of)
         .collect()
-}
-
-/// The shapes of one friction value, real and imaginary part of each in two columns.
-struct Shapes<'a> {
-    friction: f64,
-    has_harmonics: bool,
-    /// Number of each mode by frequency, from 1.
-    modes: Vec<(usize, &'a ComplexMode)>,
-    columns: Mat<f64>,
-}
-
-impl<'a> Shapes<'a> {
-    fn of(point: &'a FrictionPoint, has_harmonics: bool) -> Self {
-        let numbered = point.modes.iter().enumerate();
-        let modes: Vec<(usize, &ComplexMode)> = numbered
-            .filter(|(_, mode)| mode.shape.is_some())
-            .map(|(index, mode)| (index + 1, mode))
-            .collect();
-        let shape = |column: usize| modes[column / 2].1.shape.as_deref().unwrap_or_default();
-        let rows = modes.first().map_or(0, |_| shape(0).len());
-        let columns = Mat::from_fn(rows, 2 * modes.len(), |row, column| {
-            let value = shape(column)[row];
-            if column % 2 == 0 { value.re } else { value.im }
-        });
-        Self {
-            friction: point.friction_coefficient,
-            has_harmonics,
-            modes,
-            columns,
-        }
-    }
-
-    fn name(&self, number: usize, mode: &ComplexMode) -> ModeName {
-        ModeName {
-            friction_coefficient: self.friction,
-            mode: number,
-            frequency_hz: mode.frequency_hz(),
-            harmonic: self.has_harmonics.then_some(mode.harmonic),
-            branch: mode.branch,
-            direction: self.has_harmonics.then_some(mode.direction),
-        }
-    }
-
-    /// `phi^H A phi` of each mode, from the product of a symmetric `A` with the columns.
-    fn forms(&self, image: &Mat<f64>) -> Vec<f64> {
-        let product = |column: usize| -> f64 {
-            let pairs = self
-                .columns
-                .col_as_slice(column)
-                .iter()
-                .zip(image.col_as_slice(column));
-            pairs.map(|(x, y)| x * y).sum()
-        };
-        (0..self.modes.len())
-            .map(|i| product(2 * i) + product(2 * i + 1))
-            .collect()
-    }
-
-    /// Adds `factors_0 A_0 phi + factors_1 A_1 phi` of each mode to its balance.
-    fn add(
-        &self,
-        balance: &mut [Vec<c64>],
-        images: [&Mat<f64>; 2],
-        factors: impl Fn(c64) -> [c64; 2],
-    ) {
-        for (i, ((_, mode), sum)) in self.modes.iter().zip(balance).enumerate() {
-            for (image, factor) in images.into_iter().zip(factors(mode.eigenvalue)) {
-                let (re, im) = (image.col_as_slice(2 * i), image.col_as_slice(2 * i + 1));
-                for (sum, (re, im)) in sum.iter_mut().zip(re.iter().zip(im)) {
-                    *sum += factor * c64::new(*re, *im);
-                }
-            }
-        }
-    }
-
-    /// Shares of the reference modes in every unstable mode, the largest first.
-    fn couplings(
-        &self,
-        references: &Shapes<'_>,
-        images: &Mat<f64>,
-        parts: &Parts<'_>,
-    ) -> Vec<Coupling> {
-        let [own_images, _] = parts.whole.multiply(self.columns.as_ref());
-        let (own, of_references) = (self.forms(&own_images), references.forms(images));
-        let mut all = Vec::new();
-        for (i, (number, mode)) in self
-            .modes
-            .iter()
-            .enumerate()
-            .filter(|(_, (_, mode))| mode.is_unstable())
-        {
-            let phi = [2 * i, 2 * i + 1].map(|column| self.columns.col_as_slice(column));
-            let mut shares: Vec<Coupling> = Vec::new();
-            for (j, (reference, other)) in references.modes.iter().enumerate() {
-                let image = [2 * j, 2 * j + 1].map(|column| images.col_as_slice(column));
-                let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
-                let re = dot(image[0], phi[0]) + dot(image[1], phi[1]);
-                let im = dot(image[0], phi[1]) - dot(image[1], phi[0]);
-                shares.push(Coupling {
-                    mode: self.name(*number, mode),
-                    growth_rate: mode.growth_rate(),
-                    reference: references.name(*reference, other),
-                    share: (re * re + im * im) / (own[i] * of_references[j]),
-                });
-            }
-            shares.retain(|row| row.share >= LEAST_SHARE);
-            shares.sort_by(|a, b| b.share.total_cmp(&a.share));
-            all.extend(shares);
-        }
-        all
-    }
 }
