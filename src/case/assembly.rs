@@ -5,7 +5,8 @@ use super::contact::{Contact, friction_decay};
 use super::raw::MeshBytes;
 use super::reader::Section;
 use super::suggestion;
-use crate::contact::{ContactStiffness, Motion, PairFriction, SlidingContact};
+use super::words::NormalLawWord;
+use crate::contact::{ContactStiffness, Motion, NormalLaw, PairFriction, SlidingContact};
 use crate::fem::{ElasticMaterial, PlaneFormulation, RegionMaterial};
 use crate::mesh::{Mesh, MeshFileError};
 use crate::prestress::{BaseChoice, SlidingSurfaces, TiedSurfaces};
@@ -170,6 +171,7 @@ fn motion(section: &Section<'_>) -> Motion {
         axis: axis.map(|x| x / length.max(f64::MIN_POSITIVE)),
         center: triple("center").unwrap_or([0.0; 3]),
         rotation_speed: section.number("rotation_speed_rpm") * TAU / 60.0,
+        has_rotation_terms: section.flag("rotation_terms"),
     }
 }
 
@@ -183,6 +185,7 @@ fn contact(section: &Section<'_>, bases: &mut Vec<BaseChoice>) -> NamedContact {
         tangential_damping: section.number("tangential_damping"),
         is_base_compliant: true,
     };
+    let (law, stiffness) = normal_law(section, stiffness);
     if stiffness.normal_stiffness.is_none() && stiffness.normal_damping > 0.0 {
         section.reject(
             "normal_damping",
@@ -204,8 +207,78 @@ fn contact(section: &Section<'_>, bases: &mut Vec<BaseChoice>) -> NamedContact {
             counter: 0,
             friction: PairFriction { ratio: 1.0, decay },
             stiffness,
+            law,
         },
     }
+}
+
+/// The keys of a contact's law of pressure, and which of them each law has.
+const LAW_KEYS: [(&str, &[NormalLawWord]); 4] = [
+    (
+        "normal_stiffness",
+        &[NormalLawWord::Linear, NormalLawWord::Cubic],
+    ),
+    ("cubic_stiffness", &[NormalLawWord::Cubic]),
+    ("reference_pressure", &[NormalLawWord::Exponential]),
+    ("height", &[NormalLawWord::Exponential]),
+];
+
+/// How a contact stiffens with pressure, and its stiffness without.
+fn normal_law(
+    section: &Section<'_>,
+    stiffness: ContactStiffness,
+) -> (Option<NormalLaw>, ContactStiffness) {
+    let word: NormalLawWord = section.choice("normal_law");
+    for (key, laws) in LAW_KEYS {
+        if !laws.contains(&word) && section.has(key) {
+            let of_word = match word {
+                NormalLawWord::Linear => "linear",
+                NormalLawWord::Cubic => "cubic",
+                NormalLawWord::Exponential => "exponential",
+            };
+            section.reject(
+                key,
+                format!(
+                    "{} has no effect with normal_law = \"{of_word}\"",
+                    section.name(key)
+                ),
+                "not a number of this law".to_owned(),
+                Some("leave it out, or give the law that it belongs to".to_owned()),
+            );
+        }
+        if laws.contains(&word) && word != NormalLawWord::Linear && !section.has(key) {
+            section.missing(key);
+        }
+    }
+    let number = |key: &str| section.optional_number(key);
+    let law = match word {
+        NormalLawWord::Linear => None,
+        NormalLawWord::Cubic => stiffness
+            .normal_stiffness
+            .zip(number("cubic_stiffness"))
+            .map(|(stiffness, cubic_stiffness)| NormalLaw::Cubic {
+                stiffness,
+                cubic_stiffness,
+            }),
+        NormalLawWord::Exponential => number("reference_pressure").zip(number("height")).map(
+            |(reference_pressure, height)| NormalLaw::Exponential {
+                reference_pressure,
+                height,
+            },
+        ),
+    };
+    // What is asked for but unused is told above.
+    let _ = (
+        number("cubic_stiffness"),
+        number("reference_pressure"),
+        number("height"),
+    );
+    let at_rest = law.map(|law| law.stiffness(0.0));
+    let stiffness = ContactStiffness {
+        normal_stiffness: at_rest.or(stiffness.normal_stiffness),
+        ..stiffness
+    };
+    (law, stiffness)
 }
 
 /// The solid bodies of a mesh file. An error is a message and a label.
@@ -304,6 +377,16 @@ fn named(known: &[String], name: &str, key: &str, what: &str) -> Result<usize, (
 }
 
 impl AssemblyBody {
+    /// Regions whose rotation has its inertia.
+    pub fn rotors(&self) -> impl Iterator<Item = &str> {
+        let turning = self
+            .motions
+            .iter()
+            .filter(|motion| motion.has_rotation_terms);
+        let regions = turning.flat_map(|motion| &motion.regions);
+        regions.map(|&region| self.mesh.regions[region].as_str())
+    }
+
     /// Half the largest extent of the bodies, m.
     pub fn size(&self) -> f64 {
         let extent = |axis: usize| {

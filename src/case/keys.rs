@@ -11,7 +11,7 @@ use super::key::{CaseKey, Default, Kind};
 use super::range::Spacing;
 use super::words::{
     Analysis, AxesWord, BaseContact, CeaMethod, Combination, ConditionWord, CounterfaceWord,
-    FilePart, FrfMethod, HeldAxis, OnsetChoice, StabilityChoice, UnitsWord, words,
+    FilePart, FrfMethod, HeldAxis, NormalLawWord, OnsetChoice, StabilityChoice, UnitsWord, words,
 };
 use crate::fem::{MassKind, PlaneFormulation};
 use crate::frf::{Direction, FrfBoundary};
@@ -138,6 +138,7 @@ pub const KEYS: &[CaseKey] = &[
     key("motion.*.axis", Numbers(Finite), "", Required, "[0.0, 0.0, 1.0]", "the axis about which the region of that name turns, counter-clockwise seen against it"),
     key("motion.*.center", Numbers(Finite), "m", Otherwise("[0, 0, 0]"), "[0.0, 0.0, 0.0]", "a point of that axis"),
     key("motion.*.rotation_speed_rpm", Number(Finite), "1/min", Required, "120.0", "its rotation speed"),
+    key("motion.*.rotation_terms", Flag, "", Value("false"), "true", "whether the inertia of its rotation counts, as of a disc of revolution: Coriolis, transport and centrifugal terms"),
 
     key("contacts.*.surface", Text, "", Required, "\"lining\"", "the surface of solid bodies that slides, the finer and softer one"),
     key("contacts.*.counter", Text, "", Required, "\"disc_face\"", "the surface that it slides on; the meshes need not match"),
@@ -145,6 +146,10 @@ pub const KEYS: &[CaseKey] = &[
     key("contacts.*.static_friction_ratio", Number(AtLeast(1.0)), "", Value("1.0"), "1.4", "static over kinetic friction"),
     key("contacts.*.decay_speed", Number(Positive), "m/s", Otherwise("friction is constant"), "0.2", "the slip speed over which friction falls from its static to its kinetic value"),
     key("contacts.*.normal_stiffness", NumberOr(Positive, "rigid"), "Pa/m", Otherwise("rigid"), "1e14", "the normal stiffness of the contact (left out or \"rigid\" = rigid)"),
+    key("contacts.*.normal_law", Choice(words::<NormalLawWord>), "", Value("\"linear\""), "\"exponential\"", "pressure over the approach g of the surfaces: k g; k g + c g^3; or p_r (exp(g / h) - 1), whose stiffness is (p + p_r) / h"),
+    key("contacts.*.cubic_stiffness", Number(Positive), "Pa/m3", Otherwise("needed by normal_law = \"cubic\""), "1e25", "the coefficient c of that law; k is normal_stiffness"),
+    key("contacts.*.reference_pressure", Number(Positive), "Pa", Otherwise("needed by normal_law = \"exponential\""), "1e5", "the pressure p_r of that law"),
+    key("contacts.*.height", Number(Positive), "m", Otherwise("needed by normal_law = \"exponential\""), "1e-6", "the height h of that law, of the roughness"),
     key("contacts.*.normal_damping", Number(NotNegative), "Pa s/m", Value("0.0"), "0.0", "a normal dashpot on the contact"),
     key("contacts.*.tangential_damping", Number(NotNegative), "Pa s/m", Value("0.0"), "0.0", "a tangential dashpot on the contact"),
     key("contacts.*.state", Choice(words::<BaseChoice>), "", Value("\"solved\""), "\"closed\"", "the base state: gap, pressure and opening from the loads, or all facing points closed and free of stress"),

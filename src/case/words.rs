@@ -102,6 +102,14 @@ pub(super) enum AxesWord {
     Cylindrical,
 }
 
+/// Pressure over approach of a contact.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum NormalLawWord {
+    Linear,
+    Cubic,
+    Exponential,
+}
+
 /// Eigenvalue solver.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CeaMethod {
@@ -214,6 +222,7 @@ choices! {
     StabilityChoice { "point" = Self::Point, "branch" = Self::Branch, "none" = Self::None }
     FrfBoundary { "free" = Self::Free, "clamped" = Self::Clamped, "sliding" = Self::Sliding }
     BaseChoice { "solved" = Self::Solved, "closed" = Self::Closed }
+    NormalLawWord { "linear" = Self::Linear, "cubic" = Self::Cubic, "exponential" = Self::Exponential }
     HeldAxis { "x" = Self::X, "y" = Self::Y, "z" = Self::Z }
     BaseContact { "rigid" = Self::Rigid, "compliant" = Self::Compliant }
     AxesWord { "global" = Self::Global, "cylindrical" = Self::Cylindrical }

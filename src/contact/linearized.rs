@@ -10,6 +10,8 @@ pub struct PressedPoints<'a> {
     pub is_pressed: &'a [bool],
     /// Normal force `N_i(mu)` by power of `mu`, N (N/m in the plane); nothing where the state is free of stress.
     pub normal_forces: &'a [Vec<f64>],
+    /// Stiffness `w k_n(mu)` at that force by power of `mu`, N/m, of contact that stiffens; nothing where it does not.
+    pub stiffnesses: &'a [Vec<f64>],
 }
 
 /// What contact adds to the matrices of small motions over all dofs, by power of `mu`.
@@ -30,7 +32,7 @@ pub struct ContactTerms {
 /// dT = drag mu dN - (slope mu N + w c_t) t.u' ,   dD = -(|drag| mu N / V + w c_t) d.u'
 /// ```
 ///
-/// along the rows `n`, `t` and `d` of normal, slip and slip across: friction follows the normal force, falls with the slip
+/// with `k_n` at the base state's pressure where contact stiffens, along the rows `n`, `t` and `d` of normal, slip and slip across: friction follows the normal force, falls with the slip
 /// speed, and turns with the direction of slip. Shape: sums over all dofs of both bodies, N/m and N s/m.
 pub fn linearized(
     points: &[Point],
@@ -42,21 +44,23 @@ pub fn linearized(
     for point in pressed().map(|i| &points[i]) {
         let weight = point.weight;
         // Springs and dashpots of the contact itself.
-        if let Some(normal) = stiffness.normal_stiffness {
-            add_normal_law(&mut terms.stiffness, point, weight * normal);
+        if let (Some(normal), []) = (stiffness.normal_stiffness, state.stiffnesses) {
+            add_normal_law(&mut terms.stiffness, 0, point, weight * normal);
         }
         if stiffness.normal_damping != 0.0 {
-            add_normal_law(
-                &mut terms.dashpots,
-                point,
-                weight * stiffness.normal_damping,
-            );
+            let value = weight * stiffness.normal_damping;
+            add_normal_law(&mut terms.dashpots, 0, point, value);
         }
         if stiffness.tangential_damping != 0.0 {
             let value = weight * stiffness.tangential_damping;
             for row in [&point.slip, &point.across] {
                 add_product(power(&mut terms.dashpots, 0), value, row, row);
             }
+        }
+    }
+    for (p, springs) in state.stiffnesses.iter().enumerate() {
+        for i in pressed() {
+            add_normal_law(&mut terms.stiffness, p, &points[i], springs[i]);
         }
     }
     // What the forces of the base state do.
@@ -81,11 +85,11 @@ pub fn linearized(
     terms
 }
 
-/// `dN = -coefficient n.u` and the friction that follows it.
-fn add_normal_law(terms: &mut Vec<Triplets>, point: &Point, coefficient: f64) {
-    add_product(power(terms, 0), coefficient, &point.normal, &point.normal);
+/// `dN = -coefficient mu^p n.u` and the friction that follows it.
+fn add_normal_law(terms: &mut Vec<Triplets>, p: usize, point: &Point, coefficient: f64) {
+    add_product(power(terms, p), coefficient, &point.normal, &point.normal);
     let follow = point.friction.drag * coefficient;
-    add_product(power(terms, 1), follow, &point.slip, &point.normal);
+    add_product(power(terms, p + 1), follow, &point.slip, &point.normal);
 }
 
 /// Normal force and friction of the base state as they turn with the surface.

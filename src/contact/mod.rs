@@ -16,6 +16,7 @@ mod interface;
 mod law;
 mod linearized;
 mod mortar;
+mod normal_law;
 mod opposite;
 mod pairing;
 mod point;
@@ -28,6 +29,7 @@ pub use law::{
 };
 pub use linearized::{ContactTerms, PressedPoints, linearized};
 pub use mortar::{MortarNode, mortar_nodes};
+pub use normal_law::NormalLaw;
 pub use opposite::OppositeShare;
 pub use pairing::{ContactSite, ContactSurface, Motion, PairFriction, PointKind};
 pub use point::{Point, Row, value_of};

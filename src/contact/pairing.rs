@@ -17,6 +17,8 @@ pub struct Motion {
     pub center: [f64; 3],
     /// `Omega`, rad/s.
     pub rotation_speed: f64,
+    /// Whether its inertia counts: Coriolis, transport, and the stress and stiffness of the centrifugal load.
+    pub has_rotation_terms: bool,
 }
 
 impl Motion {
@@ -24,6 +26,12 @@ impl Motion {
     pub fn velocity(&self, position: [f64; 3]) -> [f64; 3] {
         let arm = Vector3::from(position) - Vector3::from(self.center);
         (Vector3::from(self.axis).cross(&arm) * self.rotation_speed).into()
+    }
+
+    /// `Omega x (Omega x r)`, m/s2.
+    pub fn acceleration(&self, position: [f64; 3]) -> [f64; 3] {
+        let velocity = Vector3::from(self.velocity(position));
+        (Vector3::from(self.axis).cross(&velocity) * self.rotation_speed).into()
     }
 }
 

@@ -10,6 +10,7 @@ mod face;
 mod material;
 pub mod operator;
 mod orthotropy;
+mod rotation;
 pub mod sector;
 pub mod solid;
 mod stress;
@@ -25,5 +26,6 @@ pub use material::{
     RegionMaterial,
 };
 pub use orthotropy::{Elasticity, Indefinite, MaterialAxes, Orthotropy, RATIOS};
+pub use rotation::{RotationTerms, Turning, assemble_rotation};
 pub use stress::{NodalStress, SolidStress, nodal_stress, solid_stress};
 pub use triplets::Triplets;

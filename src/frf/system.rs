@@ -118,10 +118,10 @@ impl FrfSystem {
         }
     }
 
-    /// Bodies without contact from their tangent, whose matrices are symmetric.
+    /// Bodies without contact from their tangent, whose matrices are symmetric unless a body turns.
     pub fn tied(tangent: &SlidingTangent) -> Self {
         Self {
-            is_symmetric: true,
+            is_symmetric: !tangent.is_gyroscopic,
             ..Self::sliding(tangent, 0.0)
         }
     }

@@ -1,13 +1,16 @@
 //! Solid bodies that are tied together and slide on each other.
 
 use super::cholesky::CholeskySolver;
-use super::complementarity::{CondensedContact, PressedRange, PressedState, Pressing};
+use super::complementarity::{PressedRange, PressedState, Pressing};
+use super::condensed::CondensedContact;
 use super::elimination::Elimination;
+use super::penalty::PenaltyContact;
+use super::rotation::Rotation;
 use super::tangent::{BodyTerms, ContactDofs, ContactPart, SlidingTangent};
 use super::{PrestressError, TangentOptions};
 use crate::contact::{
-    ContactStiffness, ContactSurface, Motion, PairError, PairFriction, PointKind, PressedPoints,
-    SurfacePair, mortar_nodes,
+    ContactStiffness, ContactSurface, Motion, NormalLaw, PairError, PairFriction, PointKind,
+    PressedPoints, SurfacePair, mortar_nodes,
 };
 use crate::fem::{
     MaterialField, Triplets, assemble_extra_damping, assemble_mass, assemble_pressures,
@@ -49,13 +52,16 @@ pub struct SlidingSurfaces {
     pub friction: PairFriction,
     /// Penalty or rigid, and dashpots.
     pub stiffness: ContactStiffness,
+    /// How it stiffens with pressure; `None` where it does not. Its stiffness without pressure is that of `stiffness`.
+    pub law: Option<NormalLaw>,
 }
 
 /// Solid bodies of one mesh with what ties them and what slides.
 ///
 /// Meshes stay where they are; the sliding is imposed as a relative velocity. Small motions are taken about the undeformed
 /// bodies: neither geometric stiffness nor forces that turn with the surface, of which one without the other would not leave
-/// a rigid rotation free.
+/// a rigid rotation free. A region that turns may have the inertia of its rotation ([`crate::fem::RotationTerms`]) with the
+/// geometric stiffness of its centrifugal stress.
 #[derive(Debug)]
 pub struct Assembly<'a> {
     mesh: &'a Mesh,
@@ -67,6 +73,7 @@ pub struct Assembly<'a> {
     /// The contacts with their points.
     contacts: Vec<(SlidingSurfaces, ContactSurface)>,
     base: BaseChoice,
+    rotation: Option<Rotation>,
 }
 
 impl<'a> Assembly<'a> {
@@ -99,10 +106,20 @@ impl<'a> Assembly<'a> {
                 Ok((contact.clone(), surface))
             })
             .collect();
+        let elastic = assemble_stiffness(mesh, materials);
+        let supports = assemble_supports(mesh);
+        let seams: Vec<usize> = ties.iter().flat_map(|t| [t.surface, t.counter]).collect();
+        let held = || {
+            let mut held = elastic.clone();
+            held.entries.extend_from_slice(&supports[0].entries);
+            basis.congruent(&held)
+        };
+        let rotation = Rotation::of(mesh, materials, motions, (&basis, &seams), held)?;
         Ok(Self {
-            elastic: assemble_stiffness(mesh, materials),
-            supports: assemble_supports(mesh),
             contacts: found?,
+            rotation,
+            elastic,
+            supports,
             mesh,
             materials,
             basis,
@@ -130,6 +147,7 @@ impl<'a> Assembly<'a> {
                 states: vec![PressedState {
                     displacements: vec![vec![0.0; self.mesh.dof_count()]],
                     normal_forces: Vec::new(),
+                    stiffnesses: Vec::new(),
                     is_pressed: vec![true; points.len()],
                 }],
                 state_of: vec![0; friction_coefficients.len()],
@@ -141,7 +159,11 @@ impl<'a> Assembly<'a> {
             .entries
             .extend_from_slice(&self.supports[0].entries);
         let none = || vec![0.0; self.mesh.dof_count()];
-        let load = assemble_pressures(self.mesh).unwrap_or_else(none);
+        let mut load = assemble_pressures(self.mesh).unwrap_or_else(none);
+        if let Some(rotation) = &self.rotation {
+            let pairs = load.iter_mut().zip(&rotation.centrifugal);
+            pairs.for_each(|(load, own)| *load += own);
+        }
         if points.is_empty() {
             let count = friction_coefficients.len();
             return self.without_contact(&stiffness, &load, count);
@@ -151,7 +173,12 @@ impl<'a> Assembly<'a> {
             let points = surface.points.iter();
             points.map(move |point| normal.map(|k| k * point.weight))
         });
+        let laws = self.contacts.iter().flat_map(|(contact, surface)| {
+            let points = surface.points.iter();
+            points.map(|_| contact.law)
+        });
         let pressing = Pressing {
+            laws: laws.collect(),
             stiffness: &stiffness,
             load,
             elimination: self.basis.clone(),
@@ -159,7 +186,12 @@ impl<'a> Assembly<'a> {
             stiffnesses: stiffnesses.collect(),
             points: &points,
         };
-        CondensedContact::new(&pressing)?.range(friction_coefficients)
+        // Points on springs leave the matrices sparse; rigid ones need the bodies' response to each.
+        match PenaltyContact::new(&pressing)? {
+            Some(bodies) => bodies.range(friction_coefficients),
+            None if pressing.laws.iter().any(Option::is_some) => Err(PrestressError::MixedContacts),
+            None => CondensedContact::new(&pressing)?.range(friction_coefficients),
+        }
     }
 
     /// Bodies that are tied at most, under their loads.
@@ -177,6 +209,7 @@ impl<'a> Assembly<'a> {
             states: vec![PressedState {
                 displacements: vec![self.basis.displacement(&displacement)],
                 normal_forces: Vec::new(),
+                stiffnesses: Vec::new(),
                 is_pressed: Vec::new(),
             }],
             state_of: vec![0; count],
@@ -205,35 +238,39 @@ impl<'a> Assembly<'a> {
                 options.damping,
             ),
             structural: assemble_structural_damping(self.mesh, self.materials),
+            rotation: self.rotation.as_ref().map(|own| own.terms.clone()),
         };
         // Each contact has its stretch of the state's points.
         let mut first = 0;
-        let stretches: Vec<(std::ops::Range<usize>, Vec<Vec<f64>>)> = self
+        let stretches: Vec<(std::ops::Range<usize>, [Vec<Vec<f64>>; 2])> = self
             .contacts
             .iter()
             .map(|(_, surface)| {
                 let range = first..first + surface.points.len();
                 first = range.end;
-                let forces = state
-                    .normal_forces
-                    .iter()
-                    .map(|all| all[range.clone()].to_vec());
-                (range.clone(), forces.collect())
+                let own = |all: &Vec<Vec<f64>>| -> Vec<Vec<f64>> {
+                    all.iter().map(|all| all[range.clone()].to_vec()).collect()
+                };
+                let own = [own(&state.normal_forces), own(&state.stiffnesses)];
+                (range, own)
             })
             .collect();
         let parts: Vec<ContactPart<'_>> = self
             .contacts
             .iter()
             .zip(&stretches)
-            .map(|((contact, surface), (range, forces))| ContactPart {
-                points: &surface.points,
-                state: PressedPoints {
-                    is_pressed: &state.is_pressed[range.clone()],
-                    normal_forces: forces,
+            .map(
+                |((contact, surface), (range, [forces, stiffnesses]))| ContactPart {
+                    points: &surface.points,
+                    state: PressedPoints {
+                        is_pressed: &state.is_pressed[range.clone()],
+                        normal_forces: forces,
+                        stiffnesses,
+                    },
+                    stiffness: contact.stiffness,
+                    has_own_dofs: contact.stiffness.normal_stiffness.is_none(),
                 },
-                stiffness: contact.stiffness,
-                has_own_dofs: contact.stiffness.normal_stiffness.is_none(),
-            })
+            )
             .collect();
         let nodes = self.contacts.iter().flat_map(|(_, surface)| &surface.nodes);
         let dofs = ContactDofs {

@@ -3,7 +3,8 @@
 use super::PrestressError;
 use super::SectorSliding;
 use super::cholesky::CholeskySolver;
-use super::complementarity::{CondensedContact, PressedState, Pressing};
+use super::complementarity::{PressedState, Pressing};
+use super::condensed::CondensedContact;
 use super::elimination::Elimination;
 use super::friction_polynomial::evaluate;
 use crate::contact::{ContactInterface, Point, SlidingContact, SteadyFriction};
@@ -112,6 +113,7 @@ impl SteadySliding {
         let sheared = unknowns.expand(&solver.solve(unknowns.restrict(&traction)));
         let state = PressedState {
             displacements: vec![basis.displacement(&pressed), basis.displacement(&sheared)],
+            stiffnesses: Vec::new(),
             is_pressed: vec![true; normal_forces.len()],
             normal_forces: vec![normal_forces],
         };
@@ -157,6 +159,7 @@ impl SteadySliding {
                 repeat(&state.pressed_displacement),
                 repeat(&state.sheared_displacement),
             ],
+            stiffnesses: Vec::new(),
             is_pressed: vec![true; normal_forces.len()],
             normal_forces: vec![normal_forces],
         };
@@ -222,6 +225,7 @@ impl SlidingRange {
                 .map(|point| contact.interference - point.gap)
                 .collect(),
             stiffnesses: vec![None; points.len()],
+            laws: vec![None; points.len()],
             points: &points,
         };
         let found = CondensedContact::new(&pressing)?.range(friction_coefficients)?;

@@ -61,6 +61,23 @@ pub enum PrestressError {
         /// Why not.
         error: crate::contact::PairError,
     },
+    /// Contact that stiffens beside rigid contact.
+    #[error(
+        "contacts with a normal_law other than \"linear\" and rigid contacts in one case: give the rigid ones a normal_stiffness"
+    )]
+    MixedContacts,
+    /// A region that turns with the inertia of its rotation, but is no body of revolution.
+    #[error(
+        "motion.{region}.rotation_terms = true, but \"{region}\" is no body of revolution about that axis: {:.0} % of the \
+         velocity on its sides stands across them, which move in the frame at rest; leave rotation_terms out",
+        100.0 * share
+    )]
+    NotOfRevolution {
+        /// The region.
+        region: String,
+        /// `∫ |n . v| dA / ∫ |v| dA` over its sides.
+        share: f64,
+    },
     /// A rotor at rest under Coulomb's law as a vector.
     #[error(
         "contact.rotation_speed_rpm = 0: without sliding, friction holds a three-dimensional body across the sliding as by an \

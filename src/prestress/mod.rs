@@ -11,14 +11,17 @@
 mod assembly;
 mod cholesky;
 mod complementarity;
+mod condensed;
 mod elimination;
 mod equilibrium;
 mod error;
 mod face_conditions;
 mod friction_polynomial;
 mod options;
+mod penalty;
 mod pressing;
 mod pressing_rate;
+mod rotation;
 mod sector;
 mod sector_rate;
 mod sector_tangent;
@@ -32,7 +35,8 @@ mod solid_tangent;
 mod tangent;
 
 pub use assembly::{Assembly, BaseChoice, SlidingSurfaces, TiedSurfaces};
-pub use complementarity::{CondensedContact, PressedRange, PressedState, Pressing};
+pub use complementarity::{PressedRange, PressedState, Pressing};
+pub use condensed::CondensedContact;
 pub use elimination::Elimination;
 pub use equilibrium::{SlidingRange, SteadySliding};
 pub use error::PrestressError;

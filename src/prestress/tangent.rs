@@ -45,6 +45,8 @@ pub struct SlidingTangent {
     /// Coefficients with which `C = alpha_R M + beta_R K_t` exactly; `None` where damping is not
     /// proportional.
     pub proportional: Option<RayleighDamping>,
+    /// Whether `C(0)` has a skew part: bodies that turn.
+    pub is_gyroscopic: bool,
     /// Which full dofs the unknowns are.
     pub unknowns: DofMap,
     /// Unknown of each contact node's tangential displacement, in the order of the interface.
@@ -92,6 +94,8 @@ pub struct BodyTerms {
     pub extra_damping: Option<Triplets>,
     /// Structural damping of the materials.
     pub structural: Option<Triplets>,
+    /// Stiffness and gyroscopic matrix of regions that turn, which `alpha_R` and `beta_R` do not multiply.
+    pub rotation: Option<[Triplets; 2]>,
 }
 
 /// The surfaces of one contact and their state.
@@ -142,12 +146,14 @@ impl SlidingTangent {
             supports: assemble_supports(mesh),
             extra_damping: assemble_extra_damping(mesh, material, options.mass, options.damping),
             structural: assemble_structural_damping(mesh, material),
+            rotation: None,
         };
         let part = ContactPart {
             points: &base.points,
             state: PressedPoints {
                 is_pressed: &base.is_pressed,
                 normal_forces: &base.normal_forces,
+                stiffnesses: &[],
             },
             stiffness: options.contact,
             has_own_dofs: true,
@@ -224,13 +230,17 @@ impl SlidingTangent {
             DampingModel::BodyOnly => projected(std::slice::from_ref(&body.elastic)),
         };
 
-        // What it does not: supports, dashpots, regions with damping of their own.
+        // What it does not: supports, dashpots, regions with damping of their own, rotation.
         let [springs, support_dashpots] = &body.supports;
         let has_supports = !springs.entries.is_empty() || !support_dashpots.entries.is_empty();
         add_powers(&mut stiffness, std::slice::from_ref(springs));
         add_powers(&mut dashpots, std::slice::from_ref(support_dashpots));
         if let Some(own) = &body.extra_damping {
             add_powers(&mut dashpots, std::slice::from_ref(own));
+        }
+        if let Some([springs, gyroscopic]) = &body.rotation {
+            add_powers(&mut stiffness, std::slice::from_ref(springs));
+            add_powers(&mut dashpots, std::slice::from_ref(gyroscopic));
         }
         let has_dashpots = dashpots.iter().any(|terms| !terms.entries.is_empty());
         let stiffness = projected(&stiffness);
@@ -267,6 +277,7 @@ impl SlidingTangent {
             stiffness,
             proportional: (is_whole && !has_dashpots && structural.is_none()).then_some(rayleigh),
             structural,
+            is_gyroscopic: body.rotation.is_some(),
             contact_tangential: touched(&dofs.tangential),
             contact_normal: touched(&dofs.normal),
             contact_opposite: touched(&dofs.opposite),
@@ -346,6 +357,7 @@ mod tests {
             let state = PressedPoints {
                 is_pressed: &base.is_pressed,
                 normal_forces: &base.normal_forces,
+                stiffnesses: &[],
             };
             let options = ContactStiffness::default();
             let mut prestress = linearized(&base.points, &state, &options).turning;

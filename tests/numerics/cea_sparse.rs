@@ -53,6 +53,7 @@ fn problem(
         contact_tangential: Vec::new(),
         contact_normal: Vec::new(),
         contact_opposite: Vec::new(),
+        is_gyroscopic: false,
         distances: Vec::new(),
         contact_angles: Vec::new(),
         sliding_direction: 1.0,

@@ -3,9 +3,10 @@
 use super::size::Size;
 use super::{CeaCost, CycleCost, FrfCost, TransientCost};
 use crate::case::{
-    Body, Case, Cea, CeaMethod, Cycle, Frf, FrfMethod, ModeSelection, Revolution, StabilityChoice,
-    TimeStep, Transient,
+    AssemblyBody, Body, Case, Cea, CeaMethod, Cycle, Frf, FrfMethod, ModeSelection, Revolution,
+    StabilityChoice, TimeStep, Transient,
 };
+use crate::fem::ElasticMaterial;
 use crate::frf::FrfBoundary;
 use crate::mesh::SolidSpecification;
 use crate::transient::stable_step_limit;
@@ -36,6 +37,9 @@ const SPARSE_VALUE: [f64; 2] = [0.2, 3e-6];
 
 /// Memory of a whole mesh, bytes: at all, and for each unknown and vector of its basis.
 const SPARSE_BYTES: [f64; 2] = [2e7, 100.0];
+
+/// Memory and time of a solid body's mesh beside a plane one's: its rows are three times as long, its factor fills more.
+const SOLID_SPARSE: [f64; 2] = [2.5, 1.5];
 
 /// Phases of a limit cycle where the mesh decides.
 const LIKELY_PHASES: usize = 169;
@@ -100,11 +104,15 @@ impl Case {
             }
             (Body::Annulus(_) | Body::Imported(_) | Body::Assembly(_), _) => {
                 let unknowns = self.body.dimension() as f64 * size.nodes as f64;
+                let [bytes, times] = match self.body.assembly() {
+                    Some(_) => SOLID_SPARSE,
+                    None => [1.0, 1.0],
+                };
+                let vectors = unknowns * modes as f64;
+                let value = SPARSE_VALUE[0] + SPARSE_VALUE[1] * vectors;
                 (
-                    SPARSE_BYTES[0] + SPARSE_BYTES[1] * unknowns * (2.0 * modes as f64 + 40.0),
-                    SPARSE_BASIS[0]
-                        + SPARSE_BASIS[1] * unknowns * modes as f64
-                        + values * (SPARSE_VALUE[0] + SPARSE_VALUE[1] * unknowns * modes as f64),
+                    SPARSE_BYTES[0] + bytes * SPARSE_BYTES[1] * (2.0 * vectors + 40.0 * unknowns),
+                    times * (SPARSE_BASIS[0] + SPARSE_BASIS[1] * vectors + values * value),
                 )
             }
         };
@@ -188,24 +196,19 @@ impl Case {
         }
     }
 
-    /// Weyl's estimate of the number of modes below a frequency: of motions in the plane
-    /// `A omega^2 / 4 pi (1 / c_p^2 + 1 / c_s^2)`, and of the bending of a body of revolution, a plate,
-    /// `A omega / 4 pi sqrt(rho h / D)` with `D = E h^3 / 12 (1 - nu^2)`.
+    /// Weyl's estimate of the number of modes below a frequency, see [`weyl`].
     fn modes_below(&self, limit_hz: f64, size: &Size) -> usize {
         let omega = TAU * limit_hz;
-        let [lambda, shear] = self.material.lame_constants();
-        let (density, ratio) = (self.material.density, self.material.poisson_ratio);
-        let slowness = density / (lambda + 2.0 * shear) + density / shear;
-        let area = self.body.area() / (2.0 * TAU);
-        let in_plane = area * omega * omega * slowness;
-        let bending = self.body.revolution().map_or(0.0, |body| {
-            let thickness = body.specification.thickness;
-            let stiffness = self.material.young_modulus * thickness.powi(3);
-            let stiffness = stiffness / (12.0 * (1.0 - ratio * ratio));
-            area * omega * (density * thickness / stiffness).sqrt()
-        });
+        let count = match &self.body {
+            Body::Assembly(assembly) => solid_modes(assembly, omega),
+            Body::Annulus(_) | Body::Imported(_) | Body::Revolution(_) => {
+                let solid = self.body.revolution();
+                let thickness = solid.map(|body| body.specification.thickness);
+                weyl(&self.material, omega, self.body.area(), thickness)
+            }
+        };
         let most = usize::try_from(2 * size.nodes).unwrap_or(usize::MAX);
-        ((in_plane + bending) as usize).clamp(1, most.max(1))
+        (count as usize).clamp(1, most.max(1))
     }
 
     pub(super) fn transient_cost(&self, transient: &Transient, size: &Size) -> TransientCost {
@@ -231,6 +234,46 @@ impl Case {
             seconds: each * size.elements as f64 * steps,
         }
     }
+}
+
+/// Weyl's estimate of the number of modes below an angular frequency: of motions in the plane
+/// `A omega^2 / 4 pi (1 / c_p^2 + 1 / c_s^2)`, and of the bending of a plate, `A omega / 4 pi sqrt(rho h / D)` with
+/// `D = E h^3 / 12 (1 - nu^2)`.
+fn weyl(material: &ElasticMaterial, omega: f64, area: f64, thickness: Option<f64>) -> f64 {
+    let [lambda, shear] = material.lame_constants();
+    let (density, ratio) = (material.density, material.poisson_ratio);
+    let slowness = density / (lambda + 2.0 * shear) + density / shear;
+    let area = area / (2.0 * TAU);
+    let bending = thickness.map_or(0.0, |thickness| {
+        let stiffness = material.young_modulus * thickness.powi(3);
+        let stiffness = stiffness / (12.0 * (1.0 - ratio * ratio));
+        area * omega * (density * thickness / stiffness).sqrt()
+    });
+    area * omega * omega * slowness + bending
+}
+
+/// The same of solid bodies: each region as a plate of half its surface that has its volume, and with
+/// `V omega^3 / 6 pi^2 (1 / c_p^3 + 2 / c_s^3)` as a piece of space.
+fn solid_modes(assembly: &AssemblyBody, omega: f64) -> f64 {
+    let mesh = &assembly.mesh;
+    let mut surfaces = vec![Vec::new(); mesh.regions.len()];
+    for face in mesh.outer_faces() {
+        surfaces[mesh.region(face.element as usize)].push(face);
+    }
+    let volumes = mesh.region_measures();
+    let regions = volumes.iter().zip(&surfaces).zip(&assembly.materials);
+    let each = regions.map(|((volume, faces), material)| {
+        let material = &material.elastic;
+        // A region within others has no surface of its own.
+        let area = (0.5 * mesh.face_area(faces)).max(volume.powf(2.0 / 3.0));
+        let [lambda, shear] = material.lame_constants();
+        let [pressure, shear] =
+            [lambda + 2.0 * shear, shear].map(|m| (material.density / m).sqrt());
+        let slowness = pressure.powi(3) + 2.0 * shear.powi(3);
+        let inside = volume * omega.powi(3) * slowness / (1.5 * TAU * TAU);
+        inside + weyl(material, omega, area, Some(volume / area))
+    });
+    each.sum()
 }
 
 /// Entries of the factor of a plane mesh under a minimum-degree ordering, measured: about

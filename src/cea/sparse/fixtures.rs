@@ -35,6 +35,7 @@ pub fn string_on_belt(count: usize, coupling: f64, is_proportional: bool) -> Sli
         contact_tangential: Vec::new(),
         contact_normal: Vec::new(),
         contact_opposite: Vec::new(),
+        is_gyroscopic: false,
         distances: Vec::new(),
         contact_angles: Vec::new(),
         sliding_direction: 1.0,

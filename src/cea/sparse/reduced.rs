@@ -111,19 +111,22 @@ pub struct ReducedModel {
 impl ReducedModel {
     /// A model without columns.
     pub fn empty(tangent: &SlidingTangent, linearization: Linearization) -> Self {
-        let terms = |p: &MatrixPolynomial| -> Vec<Term> {
+        // Without friction all are symmetric but for gyroscopic damping.
+        let terms = |p: &MatrixPolynomial, is_symmetric: bool| -> Vec<Term> {
             let powers = 0..p.coefficients().len();
-            powers.map(|power| Term::new(p, power)).collect()
+            let term = |power: usize| Term::new(p, power, is_symmetric && power == 0);
+            powers.map(term).collect()
         };
         let damping = match linearization {
             Linearization::Reduced(_) => Vec::new(),
-            Linearization::Companion { .. } => terms(&tangent.damping),
+            Linearization::Companion { .. } => terms(&tangent.damping, !tangent.is_gyroscopic),
         };
-        let structural = tangent.structural.as_ref().map_or_else(Vec::new, terms);
+        let structural = tangent.structural.as_ref();
+        let structural = structural.map_or_else(Vec::new, |p| terms(p, true));
         let terms = [
-            terms(&tangent.stiffness),
+            terms(&tangent.stiffness, true),
             damping,
-            terms(&tangent.mass),
+            terms(&tangent.mass, true),
             structural,
         ];
         Self {
@@ -149,8 +152,8 @@ impl ReducedModel {
         }
         let basis = self.basis.columns();
         for (projected, terms) in self.projected.iter_mut().zip(&mut self.terms) {
-            for (power, (small, term)) in projected.iter_mut().zip(terms).enumerate() {
-                *small = term.grow(small, basis, &new, power == 0);
+            for (small, term) in projected.iter_mut().zip(terms) {
+                *small = term.grow(small, basis, &new);
             }
         }
         self.basis.append(new.as_ref());

@@ -12,7 +12,8 @@ use crate::cea::{
     CeaError, ComplexMode, FrictionPoint, FrictionSweep, ModeLimit, SweepProgress, SweepRequest,
     SweepStage, SweepWatch, UnstableInterval,
 };
-use crate::linalg::LinalgError;
+use crate::linalg::{LinalgError, c64};
+
 use crate::prestress::SlidingTangent;
 use rayon::prelude::*;
 use std::f64::consts::TAU;
@@ -377,8 +378,14 @@ impl<'a> SparseSweep<'a> {
                     0.0 => 0,
                     _ => self.edge.direction(&check.edge, label.harmonic),
                 };
+                // A body that turns without damping neither grows nor decays but by round-off.
+                let is_round_off = self.tangent.is_gyroscopic
+                    && mode.eigenvalue.re.abs() <= check.uncertainty * mode.eigenvalue.norm();
                 ComplexMode {
-                    eigenvalue: mode.eigenvalue,
+                    eigenvalue: match is_round_off {
+                        true => c64::new(0.0, mode.eigenvalue.im),
+                        false => mode.eigenvalue,
+                    },
                     harmonic: label.harmonic,
                     branch: label.branch,
                     direction,

@@ -11,11 +11,12 @@ pub struct Term {
     support: Option<Vec<usize>>,
     /// Rows of `V` of these unknowns.
     restricted: Mat<f64>,
+    is_symmetric: bool,
 }
 
 impl Term {
     /// The coefficient of `mu^power` of `polynomial`.
-    pub fn new(polynomial: &MatrixPolynomial, power: usize) -> Self {
+    pub fn new(polynomial: &MatrixPolynomial, power: usize, is_symmetric: bool) -> Self {
         let (matrix, unknowns) = polynomial.compact_coefficient(power);
         let support = (unknowns.len() < polynomial.dimension()).then_some(unknowns);
         let rows = support.as_ref().map_or(0, Vec::len);
@@ -23,38 +24,27 @@ impl Term {
             matrix,
             support,
             restricted: Mat::zeros(rows, 0),
+            is_symmetric,
         }
     }
 
     /// `V^T P V` with the rows and columns of `new` basis vectors added.
-    pub fn grow(
-        &mut self,
-        known: &Mat<f64>,
-        basis: MatRef<'_, f64>,
-        new: &Mat<f64>,
-        is_symmetric: bool,
-    ) -> Mat<f64> {
+    pub fn grow(&mut self, known: &Mat<f64>, basis: MatRef<'_, f64>, new: &Mat<f64>) -> Mat<f64> {
         let Some(support) = &self.support else {
-            return self.grown(known, basis, new.as_ref(), is_symmetric);
+            return self.grown(known, basis, new.as_ref());
         };
         let rows = Mat::from_fn(support.len(), new.ncols(), |i, j| new[(support[i], j)]);
-        let grown = self.grown(known, self.restricted.as_ref(), rows.as_ref(), is_symmetric);
+        let grown = self.grown(known, self.restricted.as_ref(), rows.as_ref());
         self.restricted = join_columns(self.restricted.as_ref(), rows.as_ref());
         grown
     }
 
-    fn grown(
-        &self,
-        known: &Mat<f64>,
-        basis: MatRef<'_, f64>,
-        new: MatRef<'_, f64>,
-        is_symmetric: bool,
-    ) -> Mat<f64> {
+    fn grown(&self, known: &Mat<f64>, basis: MatRef<'_, f64>, new: MatRef<'_, f64>) -> Mat<f64> {
         let (pattern, values) = (self.matrix.pattern(), &self.matrix.coefficients()[0]);
         let (old, total) = (known.ncols(), known.ncols() + new.ncols());
         let image = pattern.multiply(values, new);
         let above = transpose_product(basis, image.as_ref());
-        let below = if is_symmetric {
+        let below = if self.is_symmetric {
             above.transpose().to_owned()
         } else {
             transpose_product(pattern.multiply_transpose(values, new).as_ref(), basis)

@@ -160,11 +160,19 @@ pub fn base_state(case: &Case, report: &AssemblyReport) -> BaseState {
     }
 }
 
-/// Whether the base state is the one without stress.
-pub fn note(body: &AssemblyBody) -> Option<String> {
-    (body.base == BaseChoice::Closed).then(|| {
+/// What a base state without stress and the inertia of rotation leave out.
+pub fn notes(body: &AssemblyBody) -> Vec<String> {
+    let closed = (body.base == BaseChoice::Closed).then(|| {
         "the base state is closed and free of stress: no pressure, no geometric stiffness, no dashpot of friction across the \
          sliding"
             .to_owned()
-    })
+    });
+    let rotors: Vec<&str> = body.rotors().collect();
+    let turning = (!rotors.is_empty()).then(|| {
+        format!(
+            "{} with Coriolis, transport and centrifugal terms, in the frame at rest: what each part takes or feeds is not told",
+            rotors.join(", ")
+        )
+    });
+    closed.into_iter().chain(turning).collect()
 }

@@ -244,7 +244,7 @@ impl Model {
                     dofs,
                     sensitivities: None,
                     without_sensitivities: 0,
-                    notes: assembly::note(&model.body).into_iter().collect(),
+                    notes: assembly::notes(&model.body),
                     coverage: None,
                     overdamped: Vec::new(),
                     sweep,
@@ -263,6 +263,8 @@ impl Model {
                 range: whole.range.clone(),
                 options,
             }))),
+            // A centrifugal load depends on the density.
+            Self::Assembly(assembly) if assembly.body.rotors().next().is_some() => None,
             Self::Assembly(assembly) => Some(Self::Assembly(Box::new(AssemblyModel {
                 body: case.body.assembly()?.clone(),
                 range: assembly.range.clone(),

@@ -1,6 +1,8 @@
 //! Solid bodies that are tied together and slide on each other (independent checks, unless a test says otherwise).
 
+mod normal_law;
 mod response;
+mod rotation;
 
 use crate::bricks::{Block, file_of};
 use frictionsim::cea::sparse::sweep;
@@ -65,6 +67,7 @@ fn sliding(mesh: &Mesh, normal_stiffness: Option<f64>) -> SlidingSurfaces {
             normal_stiffness,
             ..ContactStiffness::default()
         },
+        law: None,
     }
 }
 
@@ -76,6 +79,7 @@ fn turning(mesh: &Mesh, axis: [f64; 3], center: [f64; 3]) -> Motion {
         axis,
         center,
         rotation_speed: 10.0,
+        has_rotation_terms: false,
     }
 }
 

@@ -79,6 +79,7 @@ fn frequencies(mesh: &Mesh, glue: &Glue, held: Vec<usize>, count: usize) -> Vec<
         contact_tangential: Vec::new(),
         contact_normal: Vec::new(),
         contact_opposite: Vec::new(),
+        is_gyroscopic: false,
         distances: Vec::new(),
         contact_angles: Vec::new(),
         sliding_direction: 1.0,

@@ -50,8 +50,11 @@ pub(super) fn shapes_needed(case: &Case, model: &Model, frictions: &[f64], modes
 }
 
 /// Reads every mode that has a shape; `None` where the body's matrices are not at hand: a body of revolution in three
-/// dimensions.
+/// dimensions, or one with the inertia of its rotation, whose gyroscopic forces the balance above has not.
 pub(super) fn read(case: &Case, model: &SlidingModel, sweep: &FrictionSweep) -> Option<Reading> {
+    if matches!(&model.model, Model::Assembly(own) if own.body.rotors().next().is_some()) {
+        return None;
+    }
     let parts = Parts::new(case, model)?;
     let mut reading = Reading::default();
     let shaped = |point: &&FrictionPoint| point.modes.iter().any(|mode| mode.shape.is_some());

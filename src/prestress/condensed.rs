@@ -1,0 +1,225 @@
+//! Bodies condensed onto their contact points: a dense system, as rigid contact needs it.
+
+use super::PrestressError;
+use super::cholesky::CholeskySolver;
+use super::complementarity::{
+    ContactState, PressedBodies, PressedRange, Pressing, chebyshev_points, form, range,
+};
+use crate::contact::{Point, Row};
+use crate::fem::{DofMap, Triplets};
+use crate::linalg::{DenseLu, Mat};
+
+/// Contact points whose responses are computed together.
+const BLOCK: usize = 32;
+
+/// Points through which the polynomial of a state goes.
+const NODES: usize = 7;
+
+/// Smallest range of friction coefficients of a polynomial: without friction the state needs none, but its tangent is
+/// followed from there.
+const LEAST_RANGE: f64 = 0.05;
+
+/// Bodies condensed onto their contact points.
+///
+/// Pressed points obey `c_i = p_i - N_i / k_i` with the separation `c_i = n_i . u` and the push `p_i = delta_i - g_i`
+/// (`1 / k_i = 0` where the contact is rigid), open ones `N_i = 0`:
+///
+/// ```text
+/// K u = f + sum_i N_i (n_i + mu drag_i t_i),   c_i >= p_i - N_i / k_i,   N_i >= 0,   N_i (c_i - p_i + N_i / k_i) = 0
+/// ```
+///
+/// is a linear complementarity problem with a matrix that is not symmetric. Bodies may be held by the contact alone, so
+/// springs `kappa_i` at the points stand in `K* = K + sum kappa_i n_i n_i^T`, and their forces are given back exactly:
+///
+/// ```text
+/// c = c_0 + A (N + kappa c) + mu B N,   A_ij = n_i . K*^-1 n_j,   B_ij = n_i . K*^-1 t_j drag_j,   c_0 = n . K*^-1 f
+/// ```
+///
+/// One solution for each point serves both: `B` has the rows of `t` and the columns of `K*^-1 n`, since `K*` is symmetric.
+pub struct CondensedContact<'a> {
+    pressing: &'a Pressing<'a>,
+    unknowns: DofMap,
+    solver: CholeskySolver,
+    /// Rows `n` and `drag t` over the unknowns.
+    normals: Vec<Row>,
+    drags: Vec<Row>,
+    /// `A` and `B`.
+    normal_response: Mat<f64>,
+    drag_response: Mat<f64>,
+    /// `c_0`.
+    unpressed: Vec<f64>,
+    /// `kappa_i`.
+    springs: Vec<f64>,
+}
+
+impl<'a> CondensedContact<'a> {
+    /// Condenses the bodies onto their points.
+    ///
+    /// # Errors
+    /// [`PrestressError::Singular`] where a body is held by nothing, not even by contact.
+    pub fn new(pressing: &'a Pressing<'a>) -> Result<Self, PrestressError> {
+        let elimination = &pressing.elimination;
+        let unknowns = elimination.unknowns();
+        let [normals, drags] = pressing.rows(&unknowns);
+
+        // K* over the unknowns.
+        let mut regular = elimination.congruent(pressing.stiffness);
+        let springs = spring_stiffnesses(pressing.points, &regular);
+        for (row, spring) in normals.iter().zip(&springs) {
+            for &(i, along) in row {
+                for &(j, across) in row {
+                    let [i, j] = [unknowns.dofs[i], unknowns.dofs[j]];
+                    regular.push(i, j, along * spring * across);
+                }
+            }
+        }
+        let solver = CholeskySolver::new(&regular, &unknowns)?;
+        let count = normals.len();
+        let mut condensed = Self {
+            pressing,
+            solver,
+            normal_response: Mat::zeros(count, count),
+            drag_response: Mat::zeros(count, count),
+            unpressed: Vec::new(),
+            normals,
+            drags,
+            springs,
+            unknowns,
+        };
+        condensed.respond();
+        Ok(condensed)
+    }
+
+    /// `A`, `B` and `c_0`, a block of unit forces at a time.
+    fn respond(&mut self) {
+        let count = self.normals.len();
+        for first in (0..count).step_by(BLOCK) {
+            let width = BLOCK.min(count - first);
+            let mut block = Mat::<f64>::zeros(self.unknowns.len(), width);
+            for j in 0..width {
+                for &(dof, along) in &self.normals[first + j] {
+                    block[(dof, j)] += along;
+                }
+            }
+            self.solver.solve_block(block.as_mut());
+            let response = |row: &Row, j: usize| -> f64 {
+                row.iter().map(|&(dof, a)| a * block[(dof, j)]).sum()
+            };
+            for j in 0..width {
+                for i in 0..count {
+                    self.normal_response[(i, first + j)] = response(&self.normals[i], j);
+                    // K* is symmetric: the response of n_j to t_i is that of t_i to n_j.
+                    self.drag_response[(first + j, i)] = response(&self.drags[i], j);
+                }
+            }
+        }
+        let load = self.pressing.restricted_load(&self.unknowns);
+        let resting = self.solver.solve(load);
+        self.unpressed = self.normals.iter().map(|row| form(row, &resting)).collect();
+    }
+
+    /// `1 / k_i`, m/N.
+    fn compliance(&self, i: usize) -> f64 {
+        self.pressing.stiffnesses[i].map_or(0.0, f64::recip)
+    }
+
+    /// States at every one of `friction_coefficients`.
+    ///
+    /// # Errors
+    /// [`PrestressError::NoState`] at the first friction coefficient without one; [`PrestressError::GapEverywhere`].
+    pub fn range(mut self, friction_coefficients: &[f64]) -> Result<PressedRange, PrestressError> {
+        range(&mut self, friction_coefficients)
+    }
+}
+
+impl PressedBodies for CondensedContact<'_> {
+    fn pressing(&self) -> &Pressing<'_> {
+        self.pressing
+    }
+
+    fn stiffness_at(&self, point: usize) -> f64 {
+        self.normal_response[(point, point)].recip()
+    }
+
+    fn round_off(&self) -> f64 {
+        1e-12
+    }
+
+    fn change_width(&self) -> f64 {
+        1e-9
+    }
+
+    fn nodes(&self, [_, upper]: [f64; 2]) -> Vec<f64> {
+        chebyshev_points(NODES, [0.0, upper.max(LEAST_RANGE)])
+    }
+
+    fn state_of(
+        &mut self,
+        friction_coefficient: f64,
+        is_pressed: &[bool],
+    ) -> Result<ContactState, PrestressError> {
+        let (count, pushed) = (is_pressed.len(), &self.pressing.pushed);
+        // Unknown: the normal force of a pressed point, the separation of an open one; columns scaled to be alike.
+        let scale: Vec<f64> = (0..count).map(|i| self.normal_response[(i, i)]).collect();
+        let (springs, a, b) = (&self.springs, &self.normal_response, &self.drag_response);
+        let matrix = Mat::from_fn(count, count, |i, j| {
+            let own = f64::from(u8::from(i == j));
+            if is_pressed[j] {
+                let yields = self.compliance(j);
+                let pushes = a[(i, j)] * (1.0 - springs[j] * yields);
+                (-own * yields - pushes - friction_coefficient * b[(i, j)]) / scale[j]
+            } else {
+                own - a[(i, j)] * springs[j]
+            }
+        });
+        let mut solution = Mat::from_fn(count, 1, |i, _| {
+            let pressed = (0..count).filter(|&j| is_pressed[j]);
+            let given: f64 = pressed.map(|j| a[(i, j)] * springs[j] * pushed[j]).sum();
+            let own = if is_pressed[i] { pushed[i] } else { 0.0 };
+            self.unpressed[i] + given - own
+        });
+        DenseLu::factorize(matrix).solve_in_place(solution.as_mut());
+        let mut state = ContactState {
+            separations: vec![0.0; count],
+            normal_forces: vec![0.0; count],
+            stiffnesses: None,
+        };
+        for i in 0..count {
+            if is_pressed[i] {
+                let force = solution[(i, 0)] / scale[i];
+                state.normal_forces[i] = force;
+                state.separations[i] = pushed[i] - self.compliance(i) * force;
+            } else {
+                state.separations[i] = solution[(i, 0)];
+            }
+        }
+        Ok(state)
+    }
+
+    fn whole_displacement(&self, friction_coefficient: f64, state: &ContactState) -> Vec<f64> {
+        let elimination = &self.pressing.elimination;
+        let mut right = self.pressing.restricted_load(&self.unknowns);
+        for (i, &force) in state.normal_forces.iter().enumerate() {
+            let pressed = force + self.springs[i] * state.separations[i];
+            for &(dof, along) in &self.normals[i] {
+                right[dof] += pressed * along;
+            }
+            for &(dof, along) in &self.drags[i] {
+                right[dof] += friction_coefficient * force * along;
+            }
+        }
+        elimination.displacement(&self.unknowns.expand(&self.solver.solve(right)))
+    }
+}
+
+/// Springs at the points, in proportion to their weights, that together are about as stiff as a node of the bodies.
+fn spring_stiffnesses(points: &[Point], stiffness: &Triplets) -> Vec<f64> {
+    let diagonal = stiffness.entries.iter().filter(|entry| entry.0 == entry.1);
+    let (sum, count) = diagonal.fold((0.0, 0_usize), |(sum, count), entry| {
+        (sum + entry.2.abs(), count + 1)
+    });
+    let whole: f64 = points.iter().map(|point| point.weight).sum();
+    let total = sum / count.max(1) as f64;
+    let share = |point: &Point| total * point.weight / whole;
+    points.iter().map(share).collect()
+}

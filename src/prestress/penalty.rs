@@ -1,0 +1,307 @@
+//! Bodies on the springs of their contact points: sparse, for many thousands of points.
+
+use super::PrestressError;
+use super::cholesky::CholeskySolver;
+use super::complementarity::{
+    ContactState, PressedBodies, PressedRange, Pressing, chebyshev_points, form, range,
+};
+use crate::contact::Row;
+use crate::fem::{DofMap, Triplets};
+use crate::linalg::gmres;
+
+/// Stiffness of an open point beside a pressed one in the matrix that is factorized: bodies may be held by contact alone.
+const OPEN_SHARE: f64 = 1e-6;
+
+/// Products after which another matrix is factorized, and the share of points that differ from it.
+const MOST_PRODUCTS: usize = 30;
+const MOST_CHANGED: f64 = 0.1;
+
+/// Width to which a friction coefficient is located at which points open or close: one of thousands, with no force on it.
+const CHANGE_WIDTH: f64 = 1e-6;
+
+/// Tangents of contact that stiffens that are tried, and the change of a force, over the largest, at which they have settled.
+const MOST_TANGENTS: usize = 60;
+const SETTLED: f64 = 1e-11;
+
+/// Residual of the separations, over those without friction.
+const TOLERANCE: f64 = 1e-14;
+
+/// Points through which the polynomial of a state goes, in a short range between two changes of the pressed points and in a
+/// longer one: about `2 (range / 6)^n` is left out, as the state has poles beyond friction 1.
+const NODES: [usize; 2] = [6, 8];
+const SHORT_RANGE: f64 = 0.1;
+
+/// Smallest range of friction coefficients of a polynomial.
+const LEAST_RANGE: f64 = 0.05;
+
+/// Bodies whose contact points have springs `k_i`.
+///
+/// Pressed points push with `N_i = k_i (p_i - c_i)`, `c_i = n_i . u`, `p_i` the push, open ones not at all:
+///
+/// ```text
+/// K u = f + sum_i N_i (n_i + mu drag_i t_i)
+/// ```
+///
+/// With `P = K + sum r_i k_i n_i n_i^T`, symmetric and factorized once for a set of pressed points (`r_i` is one, and small at
+/// open points), the separations alone are unknown:
+///
+/// ```text
+/// c + n . P^-1 E c = n . P^-1 (f + sum_pressed k_i p_i (n_i + mu drag_i t_i))
+/// E c = sum_i ((s_i - r_i) n_i + s_i mu drag_i t_i) k_i c_i,     s_i = 1 where pressed, else 0
+/// ```
+///
+/// a system near the identity, as friction and the points that changed since are small beside `P`.
+///
+/// Contact that stiffens, `N_i = w_i p(p_i - c_i)`, is linear about the force found last, with the stiffness of its tangent
+/// there and the push with which that passes through it: Newton's iteration on the approach as a function of the force, which
+/// is concave, so that no step runs away.
+pub(super) struct PenaltyContact<'a> {
+    pressing: &'a Pressing<'a>,
+    unknowns: DofMap,
+    /// `K` over the unknowns, numbered by dof.
+    stiffness: Triplets,
+    /// `k_i`, N/m, and `p_i`, m: of the tangent where contact stiffens.
+    springs: Vec<f64>,
+    pushed: Vec<f64>,
+    normals: Vec<Row>,
+    drags: Vec<Row>,
+    /// `P`, the points pressed in it, and `r_i k_i` in it, N/m.
+    solver: CholeskySolver,
+    factorized: Vec<bool>,
+    held: Vec<f64>,
+    /// Whether the last solution took too long.
+    is_slow: bool,
+    /// Separations found last.
+    last: Vec<f64>,
+}
+
+impl<'a> PenaltyContact<'a> {
+    /// Bodies on springs at all their points; `None` where a point is rigid.
+    ///
+    /// # Errors
+    /// [`PrestressError::Singular`] where a body is held by nothing, not even by contact.
+    pub fn new(pressing: &'a Pressing<'a>) -> Result<Option<Self>, PrestressError> {
+        let springs: Option<Vec<f64>> = pressing.stiffnesses.iter().copied().collect();
+        let Some(springs) = springs else {
+            return Ok(None);
+        };
+        let unknowns = pressing.elimination.unknowns();
+        let [normals, drags] = pressing.rows(&unknowns);
+        let stiffness = pressing.elimination.congruent(pressing.stiffness);
+        let all = vec![true; springs.len()];
+        let solver = factorize(&stiffness, &unknowns, &normals, &springs)?;
+        Ok(Some(Self {
+            last: vec![0.0; springs.len()],
+            pushed: pressing.pushed.clone(),
+            held: springs.clone(),
+            pressing,
+            unknowns,
+            stiffness,
+            springs,
+            normals,
+            drags,
+            solver,
+            factorized: all,
+            is_slow: false,
+        }))
+    }
+
+    /// States at every one of `friction_coefficients`.
+    ///
+    /// # Errors
+    /// [`PrestressError::NoState`] at the first friction coefficient without one; [`PrestressError::GapEverywhere`].
+    pub fn range(mut self, friction_coefficients: &[f64]) -> Result<PressedRange, PrestressError> {
+        range(&mut self, friction_coefficients)
+    }
+
+    /// Factorizes `P` of other pressed points where they differ too much from those in it, or the last solution took long.
+    fn follow(&mut self, is_pressed: &[bool]) -> Result<(), PrestressError> {
+        let pairs = is_pressed.iter().zip(&self.factorized);
+        let changed = pairs.filter(|(a, b)| a != b).count();
+        let is_far = changed as f64 > MOST_CHANGED * is_pressed.len() as f64;
+        let shares = is_pressed.iter().zip(&self.springs);
+        let held: Vec<f64> = shares
+            .map(|(&is_pressed, spring)| {
+                if is_pressed {
+                    *spring
+                } else {
+                    OPEN_SHARE * spring
+                }
+            })
+            .collect();
+        if is_far || self.is_slow && held != self.held {
+            self.solver = factorize(&self.stiffness, &self.unknowns, &self.normals, &held)?;
+            self.factorized = is_pressed.to_vec();
+            self.held = held;
+        }
+        Ok(())
+    }
+
+    /// `P^-1` times `right_side` and forces `along` the normals and drags of the points.
+    fn respond(&self, mut right_side: Vec<f64>, along: &[[f64; 2]]) -> Vec<f64> {
+        for (i, forces) in along.iter().enumerate() {
+            for (row, force) in [&self.normals[i], &self.drags[i]].into_iter().zip(forces) {
+                if *force != 0.0 {
+                    row.iter()
+                        .for_each(|&(dof, a)| right_side[dof] += force * a);
+                }
+            }
+        }
+        self.solver.solve(right_side)
+    }
+
+    fn separations(&self, displacement: &[f64]) -> Vec<f64> {
+        let rows = self.normals.iter();
+        rows.map(|row| form(row, displacement)).collect()
+    }
+
+    /// Separations and normal forces on the springs as they are.
+    fn linear_state(
+        &mut self,
+        friction_coefficient: f64,
+        is_pressed: &[bool],
+    ) -> (Vec<f64>, Vec<f64>) {
+        let (pushed, springs) = (&self.pushed, &self.springs);
+        let pressed = |i: usize| f64::from(u8::from(is_pressed[i]));
+        let count = springs.len();
+
+        // What the loads and the pushes alone do.
+        let along = (0..count).map(|i| {
+            let push = pressed(i) * springs[i] * pushed[i];
+            [push, friction_coefficient * push]
+        });
+        let load = self.pressing.restricted_load(&self.unknowns);
+        let given = self.separations(&self.respond(load, &along.collect::<Vec<_>>()));
+
+        // The separations with what `P` has not.
+        let apply = |c: &[f64]| -> Vec<f64> {
+            let along = (0..count).map(|i| {
+                let force = pressed(i) * springs[i] * c[i];
+                [force - self.held[i] * c[i], friction_coefficient * force]
+            });
+            let none = vec![0.0; self.unknowns.len()];
+            let moved = self.respond(none, &along.collect::<Vec<_>>());
+            let response = self.separations(&moved);
+            c.iter().zip(response).map(|(c, r)| c + r).collect()
+        };
+        let mut separations = self.last.clone();
+        let (products, _) = gmres(apply, &given, &mut separations, TOLERANCE);
+        let forces = (0..count).map(|i| match is_pressed[i] {
+            true => springs[i] * (pushed[i] - separations[i]),
+            false => 0.0,
+        });
+        let forces = forces.collect();
+        self.is_slow = products > MOST_PRODUCTS;
+        self.last.clone_from(&separations);
+        (separations, forces)
+    }
+
+    /// Springs and pushes of the tangents at some forces; whether any contact stiffens.
+    fn follow_laws(&mut self, normal_forces: &[f64]) -> bool {
+        let mut stiffens = false;
+        for (i, (law, point)) in self
+            .pressing
+            .laws
+            .iter()
+            .zip(self.pressing.points)
+            .enumerate()
+        {
+            if let Some(law) = law {
+                stiffens = true;
+                let force = normal_forces[i].max(0.0);
+                let approach = law.approach(force / point.weight);
+                self.springs[i] = point.weight * law.stiffness(approach);
+                self.pushed[i] = self.pressing.pushed[i] - approach + force / self.springs[i];
+            }
+        }
+        stiffens
+    }
+}
+
+impl PressedBodies for PenaltyContact<'_> {
+    fn pressing(&self) -> &Pressing<'_> {
+        self.pressing
+    }
+
+    fn stiffness_at(&self, point: usize) -> f64 {
+        self.springs[point]
+    }
+
+    fn round_off(&self) -> f64 {
+        1e-9
+    }
+
+    fn change_width(&self) -> f64 {
+        CHANGE_WIDTH
+    }
+
+    fn nodes(&self, [lower, upper]: [f64; 2]) -> Vec<f64> {
+        let wider = 0.5 * (LEAST_RANGE - (upper - lower)).max(0.0);
+        let count = NODES[usize::from(upper - lower > SHORT_RANGE)];
+        chebyshev_points(count, [lower - wider, upper + wider])
+    }
+
+    fn state_of(
+        &mut self,
+        friction_coefficient: f64,
+        is_pressed: &[bool],
+    ) -> Result<ContactState, PrestressError> {
+        let mut before: Option<Vec<f64>> = None;
+        for _ in 0..MOST_TANGENTS {
+            self.follow(is_pressed)?;
+            let (separations, normal_forces) = self.linear_state(friction_coefficient, is_pressed);
+            let is_linear = !self.follow_laws(&normal_forces);
+            let largest = normal_forces.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
+            let is_settled = before.as_ref().is_some_and(|before| {
+                let moved = before
+                    .iter()
+                    .zip(&normal_forces)
+                    .map(|(a, b)| (a - b).abs());
+                moved.fold(0.0, f64::max) <= SETTLED * largest
+            });
+            if is_linear || is_settled {
+                return Ok(ContactState {
+                    separations,
+                    normal_forces,
+                    stiffnesses: (!is_linear).then(|| self.springs.clone()),
+                });
+            }
+            before = Some(normal_forces);
+        }
+        Err(PrestressError::NoState {
+            friction_coefficient,
+        })
+    }
+
+    fn whole_displacement(&self, friction_coefficient: f64, state: &ContactState) -> Vec<f64> {
+        let along: Vec<[f64; 2]> = (0..self.springs.len())
+            .map(|i| {
+                let force = state.normal_forces[i];
+                let held = self.held[i] * state.separations[i];
+                [force + held, friction_coefficient * force]
+            })
+            .collect();
+        let load = self.pressing.restricted_load(&self.unknowns);
+        let y = self.unknowns.expand(&self.respond(load, &along));
+        self.pressing.elimination.displacement(&y)
+    }
+}
+
+/// Factorizes `P` with some springs at the points.
+fn factorize(
+    stiffness: &Triplets,
+    unknowns: &DofMap,
+    normals: &[Row],
+    springs: &[f64],
+) -> Result<CholeskySolver, PrestressError> {
+    let mut held = stiffness.clone();
+    for (row, spring) in normals.iter().zip(springs) {
+        for &(j, along) in row {
+            for &(k, across) in row {
+                let [j, k] = [unknowns.dofs[j], unknowns.dofs[k]];
+                held.push(j, k, along * spring * across);
+            }
+        }
+    }
+    CholeskySolver::new(&held, unknowns)
+}

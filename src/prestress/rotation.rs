@@ -1,0 +1,120 @@
+//! Rotation of regions of an assembly.
+
+use super::PrestressError;
+use super::cholesky::CholeskySolver;
+use super::elimination::Elimination;
+use crate::contact::Motion;
+use crate::fem::{
+    MassKind, MaterialField, Triplets, Turning, assemble_geometric_stiffness, assemble_mass,
+    assemble_rotation,
+};
+use crate::mesh::Mesh;
+use std::collections::BTreeSet;
+
+/// Largest share of the velocity that may stand across the sides of a body of revolution: a mesh of a circle has flat faces,
+/// `pi / 2 N` of them with `N` around.
+const MOST_ACROSS: f64 = 0.1;
+
+/// Springs to the ground over the stiffest motion, against which a free body is turned: a centrifugal load is in balance by
+/// itself, and what is left of it moves the body as a whole.
+const GROUND: f64 = 1e-12;
+
+/// The inertia of all regions that turn with their rotation terms.
+#[derive(Debug)]
+pub(super) struct Rotation {
+    /// Stiffness (transport and centrifugal stress) and gyroscopic matrix over all dofs.
+    pub terms: [Triplets; 2],
+    /// Centrifugal load, N.
+    pub centrifugal: Vec<f64>,
+}
+
+impl Rotation {
+    /// The terms of the motions that ask for them; `held` gives the stiffness over the unknowns of `basis`, in which the
+    /// boundaries `seams` are glued.
+    ///
+    /// # Errors
+    /// [`PrestressError::NotOfRevolution`].
+    pub fn of(
+        mesh: &Mesh,
+        materials: &dyn MaterialField,
+        motions: &[Motion],
+        (basis, seams): (&Elimination, &[usize]),
+        held: impl FnOnce() -> Triplets,
+    ) -> Result<Option<Self>, PrestressError> {
+        let turning: Vec<&Motion> = motions.iter().filter(|m| m.has_rotation_terms).collect();
+        if turning.iter().all(|motion| motion.rotation_speed == 0.0) {
+            return Ok(None);
+        }
+        for motion in &turning {
+            check_revolution(mesh, motion, seams)?;
+        }
+        let fields: Vec<Box<Turning<'_>>> = turning
+            .iter()
+            .map(|motion| -> Box<Turning<'_>> {
+                Box::new(|place| [motion.velocity(place), motion.acceleration(place)])
+            })
+            .collect();
+        let of_region = |region: usize| {
+            let found = turning.iter().position(|m| m.regions.contains(&region));
+            found.map(|i| &*fields[i])
+        };
+        let mut terms = assemble_rotation(mesh, materials, &of_region);
+
+        // The stress of the centrifugal load alone.
+        let mut stiffness = held();
+        let mass = basis.congruent(&assemble_mass(mesh, materials, MassKind::Lumped));
+        let largest = |matrix: &Triplets| {
+            let diagonal = matrix.entries.iter().filter(|entry| entry.0 == entry.1);
+            diagonal.fold(0.0_f64, |largest, entry| largest.max(entry.2))
+        };
+        let ground = GROUND * largest(&stiffness) / largest(&mass);
+        let springs = mass.entries.into_iter();
+        stiffness
+            .entries
+            .extend(springs.map(|(row, column, value)| (row, column, ground * value)));
+        let unknowns = basis.unknowns();
+        let solver = CholeskySolver::new(&stiffness, &unknowns)?;
+        let load = unknowns.restrict(&basis.transposed_forces(&terms.centrifugal));
+        let displacement = basis.displacement(&unknowns.expand(&solver.solve(load)));
+        let stressed = assemble_geometric_stiffness(mesh, materials, &displacement);
+        terms.transport.entries.extend(stressed.entries);
+        Ok(Some(Self {
+            terms: [terms.transport, terms.gyroscopic],
+            centrifugal: terms.centrifugal,
+        }))
+    }
+}
+
+/// Refuses a region whose sides, the parts of its surface along the axis, are carried along by its motion.
+fn check_revolution(mesh: &Mesh, motion: &Motion, seams: &[usize]) -> Result<(), PrestressError> {
+    let glued = seams.iter().flat_map(|&seam| &mesh.boundaries[seam].faces);
+    let glued: BTreeSet<(u32, &[u32])> = glued.map(|f| (f.element, f.nodes.as_slice())).collect();
+    let (mut across, mut whole) = (0.0, 0.0);
+    for face in mesh.outer_faces() {
+        let is_own = motion.regions.contains(&mesh.region(face.element as usize));
+        if !is_own || glued.contains(&(face.element, face.nodes.as_slice())) {
+            continue;
+        }
+        let points = mesh.face_points(&face);
+        for point in face.kind.quadrature() {
+            let there = face.kind.at(&points, point);
+            let velocity = motion.velocity(there.position);
+            let dot = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| a[k] * b[k]).sum::<f64>();
+            let along = dot(there.area, motion.axis);
+            let side = (dot(there.area, there.area) - along * along)
+                .max(0.0)
+                .sqrt();
+            across += dot(velocity, there.area).abs();
+            whole += dot(velocity, velocity).sqrt() * side;
+        }
+    }
+    let share = across / whole;
+    if share > MOST_ACROSS {
+        let region = motion.regions.first().map(|&region| &mesh.regions[region]);
+        return Err(PrestressError::NotOfRevolution {
+            region: region.cloned().unwrap_or_default(),
+            share,
+        });
+    }
+    Ok(())
+}

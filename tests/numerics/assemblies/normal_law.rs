@@ -1,0 +1,100 @@
+//! Contact that stiffens with pressure.
+
+use super::{
+    PRESSED, STEEL, eigenvalues, largest_difference, mesh_of, patch_error, sliding, stacked,
+    turning,
+};
+use crate::bricks::file_of;
+use frictionsim::contact::NormalLaw;
+use frictionsim::linalg::c64;
+use frictionsim::mesh::Mesh;
+use frictionsim::prestress::{Assembly, BaseChoice, SlidingSurfaces};
+
+const LAWS: [NormalLaw; 2] = [
+    NormalLaw::Exponential {
+        reference_pressure: 2e6,
+        height: 5e-6,
+    },
+    NormalLaw::Cubic {
+        stiffness: 1e12,
+        cubic_stiffness: 4e22,
+    },
+];
+
+fn bar() -> Mesh {
+    mesh_of(&file_of(&stacked(0.0), |point| point), &PRESSED)
+}
+
+fn stiffening(mesh: &Mesh, law: NormalLaw) -> SlidingSurfaces {
+    SlidingSurfaces {
+        law: Some(law),
+        ..sliding(mesh, Some(law.stiffness(0.0)))
+    }
+}
+
+fn solved<'a>(mesh: &'a Mesh, contact: SlidingSurfaces) -> Assembly<'a> {
+    let motion = turning(mesh, [0.0, 0.0, 1.0], [1.0, 0.3, 0.0]);
+    Assembly::new(mesh, &STEEL, &[], &[contact], &[motion], BaseChoice::Solved).unwrap()
+}
+
+/// Closed form: under the pressure p the surfaces approach by `h ln(1 + p / p_r)`, or by the root of the cubic.
+#[test]
+fn a_bar_under_pressure_sinks_by_the_approach_of_the_law() {
+    let mesh = bar();
+    for law in LAWS {
+        let assembly = solved(&mesh, stiffening(&mesh, law));
+        let range = assembly.range(&[0.0]).unwrap();
+        let approach = match law {
+            NormalLaw::Exponential {
+                reference_pressure,
+                height,
+            } => height * (1.0 + 1e8 / reference_pressure).ln(),
+            NormalLaw::Cubic { .. } => law.approach(1e8),
+        };
+        assert!((law.pressure(approach) / 1e8 - 1.0).abs() < 1e-12);
+        let error = patch_error(&mesh, &range.states[0].displacements[0], approach);
+        println!("{law:?} {:e}", error / approach);
+        assert!(error < 1e-9 * approach, "{law:?} {error:e}");
+    }
+}
+
+/// Independent: small motions are those of the linear contact whose stiffness is `dp / dg` at that pressure, friction included.
+#[test]
+fn small_motions_are_those_of_the_stiffness_at_the_pressure() {
+    let mesh = bar();
+    let spectrum = |contact: SlidingSurfaces| -> Vec<c64> {
+        let first = eigenvalues(&solved(&mesh, contact.clone()), 0.0, 6);
+        [first, eigenvalues(&solved(&mesh, contact), 0.3, 6)].concat()
+    };
+    for law in LAWS {
+        let stiffness = law.stiffness(law.approach(1e8));
+        if let NormalLaw::Exponential {
+            reference_pressure,
+            height,
+        } = law
+        {
+            assert!((stiffness * height / (1e8 + reference_pressure) - 1.0).abs() < 1e-12);
+        }
+        // Without friction the pressure is the same everywhere; with it, it is not.
+        let [linear, own] = [sliding(&mesh, Some(stiffness)), stiffening(&mesh, law)].map(spectrum);
+        let error = largest_difference(&linear[..6], &own[..6]);
+        println!("{law:?} {error:e}");
+        assert!(error < 1e-8, "{law:?} {error:e}");
+        let apart = largest_difference(&linear[6..], &own[6..]);
+        assert!(apart > 1e-6 && apart < 0.1, "{law:?} {apart:e}");
+    }
+}
+
+/// Theory: a cubic law without its cubic part is the linear contact, its base state and its motions under friction.
+#[test]
+fn a_law_that_hardly_stiffens_is_linear_contact() {
+    let mesh = bar();
+    let law = NormalLaw::Cubic {
+        stiffness: 1e13,
+        cubic_stiffness: 1e8,
+    };
+    let linear = solved(&mesh, sliding(&mesh, Some(1e13)));
+    let own = solved(&mesh, stiffening(&mesh, law));
+    let error = largest_difference(&eigenvalues(&linear, 0.4, 6), &eigenvalues(&own, 0.4, 6));
+    assert!(error < 1e-8, "{error:e}");
+}

@@ -1,0 +1,141 @@
+//! Rings that turn, in the frame at rest.
+
+use super::{STEEL, boundary, eigenvalues, mesh_of};
+use crate::bricks::{Block, file_of};
+use frictionsim::contact::Motion;
+use frictionsim::fem::{MassKind, assemble_mass, assemble_supports};
+use frictionsim::mesh::{BoundaryCondition, ElasticSupport, Mesh};
+use frictionsim::prestress::{Assembly, BaseChoice, PrestressError, TiedSurfaces};
+use std::f64::consts::TAU;
+
+/// A ring of 40 x 4 x 1 bricks, r 50 to 150 mm, 10 mm thick, its two ends glued.
+fn ring(bore: BoundaryCondition) -> (Mesh, TiedSurfaces) {
+    let block = Block {
+        name: "ring",
+        origin: [0.05, 0.0, -0.005],
+        size: [0.1, TAU, 0.01],
+        counts: [4, 40, 1],
+    };
+    let file = file_of(&[block], |[radius, angle, z]| {
+        let (sin, cos) = angle.sin_cos();
+        [radius * cos, radius * sin, z]
+    });
+    let mesh = mesh_of(&file, &[("ring_x0", bore)]);
+    let seam = TiedSurfaces {
+        name: "seam".to_owned(),
+        surface: boundary(&mesh, "ring_y1"),
+        counter: boundary(&mesh, "ring_y0"),
+    };
+    (mesh, seam)
+}
+
+/// The ring turns about an axis parallel to its own.
+fn turning(rotation_speed: f64, center: [f64; 3]) -> Motion {
+    Motion {
+        regions: vec![0],
+        axis: [0.0, 0.0, 1.0],
+        center,
+        rotation_speed,
+        has_rotation_terms: true,
+    }
+}
+
+fn frequencies(mesh: &Mesh, seam: &TiedSurfaces, speed: f64, count: usize) -> Vec<f64> {
+    let (ties, motion) = (std::slice::from_ref(seam), turning(speed, [0.0; 3]));
+    let closed = BaseChoice::Closed;
+    let assembly = Assembly::new(mesh, &STEEL, ties, &[], &[motion], closed).unwrap();
+    let found = eigenvalues(&assembly, 0.0, count);
+    // A gyroscopic system takes no power.
+    assert!(
+        found
+            .iter()
+            .all(|lambda| lambda.re.abs() < 1e-7 * lambda.im)
+    );
+    found.iter().map(|lambda| lambda.im).collect()
+}
+
+/// Closed form: a rigid rotor on soft springs, `I_d omega^2 -+ I_p Omega omega - k = 0` for its tilts, `sqrt(k / m)` for its
+/// translations whatever the speed. Coriolis, transport and the centrifugal stress hold each other in balance there.
+#[test]
+fn a_rotor_on_soft_springs_tilts_as_a_rigid_gyroscope() {
+    let soft = ElasticSupport {
+        normal_stiffness: 2e6,
+        tangential_stiffness: 3e6,
+        ..ElasticSupport::default()
+    };
+    let (mesh, seam) = ring(BoundaryCondition::Support(soft));
+    let mass = assemble_mass(&mesh, &STEEL, MassKind::Consistent);
+    let [springs, _] = assemble_supports(&mesh);
+    let form = |matrix: &frictionsim::fem::Triplets, motion: fn([f64; 3]) -> [f64; 3]| -> f64 {
+        let x: Vec<f64> = mesh.nodes.iter().flat_map(|&node| motion(node)).collect();
+        let image = matrix.multiply(x.len(), &x);
+        x.iter().zip(image).map(|(a, b)| a * b).sum()
+    };
+    let tilt = |[_, y, z]: [f64; 3]| [0.0, -z, y];
+    let spin = |[x, y, _]: [f64; 3]| [-y, x, 0.0];
+    let (own, polar) = (form(&mass, tilt), form(&mass, spin));
+    let stiffness = form(&springs, tilt);
+    let speed = 200.0;
+    let root = (polar * speed).hypot(2.0 * (stiffness * own).sqrt());
+    let tilts = [1.0, -1.0].map(|sign| (root + sign * polar * speed) / (2.0 * own));
+    let along =
+        |motion: fn([f64; 3]) -> [f64; 3]| (form(&springs, motion) / form(&mass, motion)).sqrt();
+    let mut expected = vec![
+        tilts[0],
+        tilts[1],
+        along(|_| [1.0, 0.0, 0.0]),
+        along(|_| [0.0, 1.0, 0.0]),
+        along(|_| [0.0, 0.0, 1.0]),
+        along(spin),
+    ];
+    expected.sort_by(f64::total_cmp);
+    let found = frequencies(&mesh, &seam, speed, 6);
+    println!("{expected:?}\n{found:?}");
+    for (found, expected) in found.iter().zip(&expected) {
+        // The ring bends a little: its lowest mode is at 3e3 rad/s.
+        assert!((found / expected - 1.0).abs() < 5e-3, "{found} {expected}");
+    }
+}
+
+/// Theory: in the frame at rest the two waves of `n` nodal diameters stand `2 n Omega` apart.
+#[test]
+fn waves_of_a_turning_ring_split_by_twice_the_harmonic_times_the_speed() {
+    let (mesh, seam) = ring(BoundaryCondition::Clamped);
+    let speed = 60.0;
+    let at_rest = frequencies(&mesh, &seam, 0.0, 7);
+    let turning = frequencies(&mesh, &seam, speed, 7);
+    println!("{at_rest:?}\n{turning:?}");
+    // Pairs at rest: neighbours that coincide.
+    let mut pairs = Vec::new();
+    let mut i = 0;
+    while i + 1 < at_rest.len() {
+        if at_rest[i + 1] / at_rest[i] - 1.0 < 1e-6 {
+            pairs.push(at_rest[i]);
+            i += 1;
+        }
+        i += 1;
+    }
+    assert_eq!(pairs.len(), 3);
+    for (n, omega) in (1..).zip(pairs) {
+        let shift = f64::from(n) * speed;
+        for expected in [omega - shift, omega + shift] {
+            let nearest = turning.iter().map(|found| found - expected);
+            let nearest = nearest.min_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap();
+            // Centrifugal stress adds about `2 Omega^2 / omega`; 40 elements around carry a wave to (n / 40)^2.
+            let bound = 3.0 * speed * speed / omega + 0.01 * shift;
+            assert!(nearest.abs() < bound, "n = {n}: {nearest} {bound}");
+        }
+    }
+}
+
+#[test]
+fn a_body_that_is_none_of_revolution_about_the_axis_has_no_rotation_terms() {
+    let (mesh, seam) = ring(BoundaryCondition::Clamped);
+    let (ties, motion) = ([seam], turning(60.0, [0.03, 0.0, 0.0]));
+    let closed = BaseChoice::Closed;
+    let found = Assembly::new(&mesh, &STEEL, &ties, &[], &[motion], closed);
+    let error = found.err().unwrap();
+    assert!(matches!(error, PrestressError::NotOfRevolution { .. }));
+    let message = error.to_string();
+    assert!(message.contains("motion.ring.rotation_terms"), "{message}");
+}
