@@ -1,6 +1,7 @@
 //! `frictionsim cycle`: limit cycles found directly, and followed over a parameter.
 
 mod figures;
+mod periodic;
 
 use super::profile::{Profile, Redraw};
 use super::session::{available_memory, gibibytes};
@@ -12,9 +13,10 @@ use clap::Args;
 
 /// Limit cycles without time stepping
 ///
-/// Finds the rotating wave that steady sliding gives way to, for each harmonic asked for, as a steady contact problem
-/// along its phase; follows it over a parameter (cycle.continuation); says whether it is stable, and lets a short
-/// transient confirm it. Needs a cycle section in the case.
+/// On the built-in annulus: finds the rotating wave that steady sliding gives way to, for each harmonic asked for, as a
+/// steady contact problem along its phase; follows it over a parameter (cycle.continuation). On any other plane body: finds
+/// the periodic motion that each growing mode ends in, as a fixed point of the transient's own steps over one period. Says
+/// whether it is stable, and lets a short transient confirm it. Needs a cycle section in the case.
 #[derive(Args)]
 pub struct Arguments {
     /// The case and how to run it.
@@ -32,6 +34,10 @@ pub const PROFILE: Profile = Profile {
         ("branch-nN.csv", "one row for each cycle of a branch"),
         ("stability-nN.csv", "exponents of perturbations"),
         ("cycles.pvd, cycle-nN.vtu", "fields over one period"),
+        (
+            "cycle-modeK.csv, contact-modeK.csv, .npz, harmonics-modeK.csv",
+            "of a body without symmetry: the contact over one period, its nodes, harmonics in time",
+        ),
         ("record.bin", "what the figures are drawn from"),
     ],
     examples: &[(
@@ -49,6 +55,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let session = Session::start("cycle", &arguments.options)?;
     let case = &session.case;
     case.require_cycle()?;
+    if !case.has_rotating_waves() {
+        return periodic::run(&session);
+    }
     session.check_memory(case.memory("cycle").0)?;
     check_memory(case)?;
     let study = CycleStudy::new(case, session.simd)?;

@@ -1,10 +1,12 @@
 //! `[cycle]`: limit cycles found directly.
 
 use super::body::Body;
+use super::diagnostic::Diagnostic;
 use super::keys;
 use super::range::{Spacing, range_values};
 use super::reader::Section;
 use super::words::{OnsetChoice, StabilityChoice};
+use super::{Case, CaseErrors};
 use crate::cycle::Parameter;
 
 /// Shortest transient that puts a cycle to the test: its last fifth has the four periods that a frequency is read from,
@@ -20,6 +22,8 @@ pub struct Cycle {
     pub onsets: OnsetChoice,
     /// Phases along the wave; `None` takes as many as the mesh asks for.
     pub phases: Option<usize>,
+    /// Harmonics in which the motion of a body without symmetry is told; `None` takes as many as leave a thousandth of it.
+    pub harmonic_count: Option<usize>,
     /// Times over one period at which the whole field is written.
     pub frames: usize,
     /// Periods of the transient that puts a cycle to the test; 0 for none.
@@ -52,11 +56,104 @@ impl Continuation {
     }
 }
 
+impl Case {
+    /// The search for limit cycles.
+    ///
+    /// # Errors
+    /// A case without `[cycle]`, a body in three dimensions, one of Quad8 elements that is generated, a counterface at rest, and
+    /// of rotating waves a cylinder that turns backwards.
+    pub fn require_cycle(&self) -> Result<&Cycle, CaseErrors> {
+        let remedy = "[cycle]\nharmonics = [1, 2]";
+        let cycle = self.cycle.as_ref();
+        let cycle = cycle.ok_or_else(|| self.lacks("cycle", "limit cycle", remedy))?;
+        self.refuse_losses_in_time("the search for limit cycles")?;
+        if let Body::Revolution(_) | Body::Assembly(_) = &self.body {
+            return Err(self.not_plane("the search for limit cycles takes"));
+        }
+        if self.body.annulus().is_some() {
+            self.require_quad4("limit cycles need \"quad4\"")?;
+        }
+        let speed = self.contact.sliding.rotation_speed;
+        let is_moving = match self.has_rotating_waves() {
+            true => speed > 0.0,
+            false => speed != 0.0,
+        };
+        if is_moving {
+            return Ok(cycle);
+        }
+        let key = match self.raw.find("contact.speed") {
+            Some(_) => "contact.speed",
+            None => "contact.rotation_speed_rpm",
+        };
+        let value = self.raw.find(key).map(|item| item.value.to_string());
+        let value = value.unwrap_or_default();
+        Err(match self.has_rotating_waves() {
+            true => self.error_at(
+                key,
+                format!("{key} = {value}: limit cycles need a cylinder that turns"),
+                "must be positive here".to_owned(),
+                Some("a cylinder turning backwards gives the mirror image".to_owned()),
+            ),
+            false => self.error_at(
+                key,
+                format!(
+                    "{key} = {value}: the contact sticks at rest, and no limit cycle lives there"
+                ),
+                "must not be zero here".to_owned(),
+                Some("give a speed; its sign is the sense of the sliding".to_owned()),
+            ),
+        })
+    }
+
+    /// Whether the limit cycles of the body are rotating waves: on the generated annulus around a rigid shaft, with a constant
+    /// friction coefficient. Those of any other plane body are motions of the whole mesh.
+    pub fn has_rotating_waves(&self) -> bool {
+        let annulus = self.body.annulus();
+        annulus.is_some_and(|annulus| annulus.materials.shaft.is_none())
+            && self.contact.sliding.decay.is_none()
+    }
+
+    /// That its limit cycles are rotating waves.
+    ///
+    /// # Errors
+    /// A deformable shaft, friction that falls with speed, a body that is no generated annulus.
+    pub fn require_rotating_waves(&self) -> Result<(), CaseErrors> {
+        self.require_rigid_shaft("the search for rotating waves")?;
+        let (waves, search) = (
+            "limit cycles are rotating waves, which",
+            "rotating waves are sought in",
+        );
+        self.require_annulus(waves, search)?;
+        self.require_constant_friction()
+    }
+
+    /// That a search for periodic motions of a whole body knows no circumferential harmonics.
+    pub(super) fn ignored_harmonics(&self, command: &str) -> Option<Diagnostic> {
+        let is_heard = command == "cycle" && !self.has_rotating_waves();
+        self.cycle
+            .as_ref()?
+            .harmonics
+            .as_ref()
+            .filter(|_| is_heard)?;
+        let key = "cycle.harmonics";
+        Some(Diagnostic::error(
+            format!(
+                "{key} is not used: the limit cycles of this body are motions of the whole mesh, one for each mode that grows, \
+                 and no rotating waves"
+            ),
+            "not used".to_owned(),
+            self.raw.place(key),
+            None,
+        ))
+    }
+}
+
 pub(super) fn cycle(root: &Section<'_>, body: Option<&Body>) -> Option<Cycle> {
     let section = root.section("cycle", false);
     let harmonics = section.harmonics(body.and_then(Body::sector_count));
     let onsets = section.choice("onsets");
     let phases = section.optional_count("phases");
+    let harmonic_count = section.optional_count("harmonic_count");
     let frames = section.count("frames");
     let confirmation_periods = section.count("confirmation_periods");
     if let periods @ 1..CONFIRMATION_PERIODS = confirmation_periods {
@@ -94,6 +191,7 @@ pub(super) fn cycle(root: &Section<'_>, body: Option<&Body>) -> Option<Cycle> {
         harmonics,
         onsets,
         phases,
+        harmonic_count,
         frames,
         confirmation_periods,
         stability,

@@ -202,6 +202,7 @@ pub const KEYS: &[CaseKey] = &[
     key("cycle.harmonics", Counts(1), "", Otherwise("those that are unstable"), "[1, 2]", "the harmonics whose limit cycle is sought"),
     key("cycle.onsets", Choice(words::<OnsetChoice>), "", Value("\"all\""), "\"lowest\"", "the losses of stability of each harmonic whose limit cycles are sought (left out = all below the friction)"),
     key("cycle.phases", Count(31), "", Otherwise("as the mesh asks for"), "171", "the number of phases along the wave"),
+    key("cycle.harmonic_count", Count(1), "", Otherwise("as many as leave a thousandth of the motion"), "12", "the harmonics in which the motion of a body without symmetry is told"),
     key("cycle.frames", Count(1), "", Value("1"), "24", "the times over one period at which the whole field is written"),
     key("cycle.confirmation_periods", Count(0), "", Value("20"), "20", "the periods of the transient that puts each cycle to the test (0 = none)"),
     key("cycle.stability", Choice(words::<StabilityChoice>), "", Value("\"point\""), "\"point\"", "the cycles whose stability is worked out"),

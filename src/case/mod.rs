@@ -264,39 +264,6 @@ impl Case {
         Ok(found)
     }
 
-    /// The search for limit cycles.
-    ///
-    /// # Errors
-    /// A case without `[cycle]`, one of Quad8 elements, whose contact nodes are not all alike, one whose friction
-    /// falls with speed, and one whose cylinder does not turn, or turns backwards.
-    pub fn require_cycle(&self) -> Result<&Cycle, CaseErrors> {
-        let remedy = "[cycle]\nharmonics = [1, 2]";
-        let cycle = self.cycle.as_ref();
-        let cycle = cycle.ok_or_else(|| self.lacks("cycle", "limit cycle", remedy))?;
-        self.refuse_losses_in_time("the search for limit cycles")?;
-        self.require_rigid_shaft("the search for limit cycles")?;
-        self.require_annulus(
-            "limit cycles are rotating waves, which",
-            "the search for limit cycles takes",
-        )?;
-        self.require_quad4("limit cycles need \"quad4\"")?;
-        self.require_constant_friction()?;
-        let key = "contact.rotation_speed_rpm";
-        if self.contact.sliding.rotation_speed <= 0.0 {
-            let value = self.raw.find(key).map(|item| item.value.to_string());
-            return Err(self.error_at(
-                key,
-                format!(
-                    "{key} = {}: limit cycles need a cylinder that turns",
-                    value.unwrap_or_default()
-                ),
-                "must be positive here".to_owned(),
-                Some("a cylinder turning backwards gives the mirror image".to_owned()),
-            ));
-        }
-        Ok(cycle)
-    }
-
     /// Limit cycles are sought under a constant friction coefficient.
     fn require_constant_friction(&self) -> Result<(), CaseErrors> {
         if self.contact.sliding.decay.is_none() {

@@ -407,6 +407,7 @@ impl Case {
         let ignored = analyses.flat_map(|(analysis, _)| {
             KEYS.iter()
                 .filter(move |key| !key.used_by.is_empty() && !key.used_by.contains(&analysis))
+                .filter(move |_| analysis != "cycle" || self.has_rotating_waves())
                 .filter(|key| self.departs_from_default(key))
                 .map(move |key| (analysis, key))
         });
@@ -419,7 +420,9 @@ impl Case {
                 None,
             )
         };
-        ignored.map(say).collect()
+        let mut said: Vec<Diagnostic> = ignored.map(say).collect();
+        said.extend(self.ignored_harmonics(command));
+        said
     }
 
     /// Whether the case gives a key another value than its default.

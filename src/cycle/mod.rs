@@ -7,6 +7,8 @@
 //! a branch of cycles is followed from its birth in steady sliding through every change of contact state
 //! ([`CycleSolver`]). Cycles are born where the eigenvalue analysis has its onsets ([`DiscModel`]); their stability is that of
 //! the transient's own step, linearized over one period ([`MeshStepping`]).
+//!
+//! Bodies without symmetry have no rotating waves; their cycles are periodic motions of the whole mesh ([`periodic`]).
 
 mod basin;
 mod body;
@@ -20,6 +22,7 @@ mod grid;
 mod limit_cycle;
 mod onset;
 mod parameter;
+pub mod periodic;
 mod solver;
 mod solver_stability;
 mod stability;

@@ -15,6 +15,7 @@ pub mod matrices;
 pub mod mesh;
 mod npz;
 mod parameter;
+pub mod periodic;
 pub mod quantity;
 pub mod report;
 mod response;

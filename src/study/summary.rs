@@ -1,6 +1,6 @@
 //! The summary of one analysis of a case, as its command prints it, without a file written: what a point of a sweep holds.
 
-use super::cycle::CycleStudy;
+use super::cycle::{CycleStudy, PeriodicStudy};
 use super::eigenvalues::{self, SlidingModel};
 use super::transient::TransientStudy;
 use super::{StudyError, basin};
@@ -26,7 +26,10 @@ pub fn summarize(
         Analysis::Cea => cea(case, manifest),
         Analysis::Transient => transient(case, manifest),
         Analysis::Basin => Ok(serde_json::to_value(basin::summary(case, manifest)?)?),
-        Analysis::Cycle => cycle(case, manifest, CycleStudy::refuse_nothing),
+        Analysis::Cycle if case.has_rotating_waves() => {
+            cycle(case, manifest, CycleStudy::refuse_nothing)
+        }
+        Analysis::Cycle => periodic(case, manifest),
     }
 }
 
@@ -63,6 +66,16 @@ fn transient(case: &Case, manifest: &Manifest) -> Result<Value, StudyError> {
         )
     };
     Ok(object(&results::transient::summary(&report, manifest))?)
+}
+
+/// The limit cycles of a body without symmetry.
+fn periodic(case: &Case, manifest: &Manifest) -> Result<Value, StudyError> {
+    let start = Instant::now();
+    let study = PeriodicStudy::new(case, SimdLevel::choose(&manifest.simd)?)?;
+    let results = study.run(0, &|_| {})?;
+    let report = study.report(results, start.elapsed().as_secs_f64());
+    PeriodicStudy::refuse_nothing(&report)?;
+    Ok(object(&results::periodic::summary(&report, manifest))?)
 }
 
 /// With the branches as `curves`, of which the command itself writes tables; `judge` may refuse what was found.

@@ -235,3 +235,104 @@ fn an_interrupted_search_says_what_is_kept_and_can_be_started_again() {
     );
     assert!(again.status.success(), "{again:?}");
 }
+
+/// The shipped block at a friction coefficient at which one mode grows.
+fn run_block(arguments: &[&str], out: &Path) -> Output {
+    let case = concat!(env!("CARGO_MANIFEST_DIR"), "/cases/sliding-block.toml");
+    Command::new(env!("CARGO_BIN_EXE_frictionsim"))
+        .args(["cycle", case, "--json", "--no-figures"])
+        .args(["--set", "contact.friction_coefficient=0.7"])
+        .args(["--set", "cycle.frames=2", "--out"])
+        .arg(out)
+        .args(arguments)
+        .output()
+        .unwrap()
+}
+
+#[test]
+fn a_body_without_symmetry_has_its_cycle_in_tables_without_a_harmonic_of_a_circumference() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("cycle");
+    let output = run_block(&[], &out);
+    assert!(output.status.success(), "{output:?}");
+    let summary: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let [own] = summary["cycles"].as_array().unwrap().as_slice() else {
+        panic!("one mode grows: {summary}");
+    };
+    assert_eq!(own["mode"], 7);
+    assert_eq!(own["stability"]["verdict"], "stable");
+    assert_eq!(own["confirmation"]["agrees"], true);
+    assert!(own["balance_residual"].as_f64().unwrap() < 1e-7);
+    assert!(own["harmonic_remainder"].as_f64().unwrap() <= 1e-3);
+    for absent in ["harmonic", "onset", "phases", "direction"] {
+        assert!(own.get(absent).is_none(), "{absent}");
+    }
+    let header = |name: &str| {
+        let text = std::fs::read_to_string(out.join(name)).unwrap();
+        text.lines().next().unwrap().to_owned()
+    };
+    assert!(header("cycle-mode7.csv").starts_with("phase_rad,time_s,status,pressure_pa"));
+    assert!(header("contact-mode7.csv").starts_with("node,x_m,y_m,stick,slip,open"));
+    assert!(header("harmonics-mode7.csv").ends_with("remainder"));
+    assert!(header("stability-mode7.csv").starts_with("growth_rate_per_s,beat_hz"));
+    assert!(out.join("cycle-mode7-001.vtu").exists() && out.join("contact-mode7.npz").exists());
+    // What an interrupted search keeps has served its purpose.
+    assert!(!out.join("done-mode7.json").exists());
+}
+
+#[test]
+fn the_cycle_of_a_whole_mesh_has_the_same_bytes_for_any_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    let table = |threads: &str| {
+        let out = folder.path().join(threads);
+        let set = [
+            "--threads",
+            threads,
+            "--set",
+            "cycle.confirmation_periods=0",
+        ];
+        let output = run_block(&set, &out);
+        assert!(output.status.success(), "{output:?}");
+        [
+            "cycle-mode7.csv",
+            "contact-mode7.npz",
+            "stability-mode7.csv",
+        ]
+        .map(|name| std::fs::read(out.join(name)).unwrap())
+    };
+    assert!(table("1") == table("2"));
+}
+
+#[test]
+fn a_body_without_symmetry_says_what_it_does_not_use_and_where_nothing_grows() {
+    let folder = tempfile::tempdir().unwrap();
+    let set = [
+        "--set",
+        "cycle.harmonics=[1]",
+        "--set",
+        "contact.friction_coefficient=0.5",
+    ];
+    let output = run_block(&set, &folder.path().join("stable"));
+    let (words, text) = (
+        String::from_utf8(output.stdout).unwrap(),
+        String::from_utf8(output.stderr).unwrap(),
+    );
+    assert!(output.status.success(), "{text}");
+    assert!(text.contains("cycle.harmonics is not used"), "{text}");
+    let summary: Value = serde_json::from_str(&words).unwrap();
+    assert_eq!(summary["steady_sliding_stable"], true);
+    assert!(
+        summary["least_stable"]["growth_rate_per_s"]
+            .as_f64()
+            .unwrap()
+            < 0.0
+    );
+
+    let rest = run_block(&["--set", "contact.speed=0"], &folder.path().join("rest"));
+    let text = String::from_utf8(rest.stderr).unwrap();
+    assert_eq!(rest.status.code(), Some(2), "{text}");
+    assert!(
+        text.contains("contact.speed") && text.contains("sticks at rest"),
+        "{text}"
+    );
+}

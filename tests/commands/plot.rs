@@ -212,6 +212,28 @@ fn limit_cycle_figures_are_drawn_again_to_the_same_bytes() {
 }
 
 #[test]
+fn cycles_of_a_whole_mesh_are_drawn_again_to_the_same_bytes() {
+    let folder = tempfile::tempdir().unwrap();
+    let set = [
+        "contact.friction_coefficient=0.7",
+        "cycle.stability=\"branch\"",
+        "cycle.continuation={ key = \"contact.friction_coefficient\", from = 0.69, to = 0.71, count = 3 }",
+    ];
+    run(&folder, "cycle", "sliding-block.toml", &set, &[]);
+    let expected = [
+        "status-mode7",
+        "contact-mode7",
+        "history-mode7",
+        "orbit-mode7",
+        "harmonics-mode7",
+        "branch-mode7",
+        "velocity",
+        "shear-stress",
+    ];
+    check_redrawn(&folder, &expected);
+}
+
+#[test]
 fn study_of_limit_cycles_is_drawn_again_to_the_same_bytes() {
     let folder = tempfile::tempdir().unwrap();
     let set = [

@@ -5,5 +5,6 @@ mod disc;
 
 mod cycle;
 mod cycle_discs;
+mod cycle_periodic;
 mod cycle_transient;
 mod transient;

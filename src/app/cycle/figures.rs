@@ -12,7 +12,11 @@ use serde_json::Value;
 /// # Errors
 /// As [`draw_record`].
 pub fn redraw(folder: &OutputFolder, case: &Case, options: &DrawingOptions) -> Result<(), Failure> {
-    draw_record(folder, case, &read_summary(folder.path())?, options)
+    let summary = read_summary(folder.path())?;
+    match case.has_rotating_waves() {
+        true => draw_record(folder, case, &summary, options),
+        false => super::periodic::draw_record(folder, case, &summary, options),
+    }
 }
 
 /// Draws the figures and the report of the record in the folder.

@@ -44,6 +44,16 @@ const SOLID_SPARSE: [f64; 2] = [2.5, 1.5];
 /// Phases of a limit cycle where the mesh decides.
 const LIKELY_PHASES: usize = 169;
 
+/// Modes that grow where nobody knows yet.
+const LIKELY_GROWING: usize = 2;
+
+/// Periods that the search for a periodic motion and its multipliers take.
+const PERIODS: [f64; 2] = [80.0, 60.0];
+
+/// Steps of such a period, and the time of one for each unknown, s.
+const PERIOD_STEPS: f64 = 800.0;
+const PERIOD_STEP: f64 = 1.3e-8;
+
 impl Case {
     pub(super) fn samples(&self) -> f64 {
         let duration = self.transient.as_ref().map_or(0.0, |run| run.duration);
@@ -125,6 +135,9 @@ impl Case {
     }
 
     pub(super) fn cycle_cost(&self, cycle: &Cycle, size: &Size) -> CycleCost {
+        if !self.has_rotating_waves() {
+            return self.periodic_cost(cycle, size);
+        }
         let phases = cycle.phases.unwrap_or(LIKELY_PHASES) as f64;
         let families = cycle.harmonics.as_ref().map_or(2, Vec::len);
         let followed = cycle.continuation.as_ref().map_or(0, |range| range.count);
@@ -144,6 +157,29 @@ impl Case {
             // A few dense matrices of two unknowns for each phase, and of four for the perturbations.
             memory_bytes: families as f64 * 8.0 * 40.0 * phases * phases,
             seconds: families as f64 * (each + 2e-9 * elements * steps),
+        }
+    }
+
+    /// Periodic motions of the whole mesh, each from the periods that it takes.
+    fn periodic_cost(&self, cycle: &Cycle, size: &Size) -> CycleCost {
+        let followed = cycle.continuation.as_ref().map_or(0, |range| range.count);
+        let families = LIKELY_GROWING;
+        let [search, multipliers] = PERIODS;
+        let analysed = match cycle.stability {
+            StabilityChoice::None => 0,
+            StabilityChoice::Point => 1,
+            StabilityChoice::Branch => 1 + followed,
+        };
+        let periods = search * (1 + followed) as f64
+            + multipliers * analysed as f64
+            + cycle.confirmation_periods as f64;
+        let unknowns = 2.0 * size.nodes as f64;
+        CycleCost {
+            families,
+            cycles: 1 + followed,
+            // Secants with their images and their basis, twice as long as there are unknowns, and the Krylov space.
+            memory_bytes: families as f64 * 8.0 * 2.0 * unknowns * 250.0,
+            seconds: families as f64 * periods * PERIOD_STEPS * PERIOD_STEP * unknowns,
         }
     }
 

@@ -15,8 +15,10 @@
 
 mod along;
 mod families;
+mod periodic;
 
 pub use families::{disc_model, mode_limit};
+pub use periodic::PeriodicStudy;
 
 use super::{StudyError, extent_of};
 use crate::case::{Case, Cycle, StabilityChoice};
@@ -53,6 +55,7 @@ impl<'a> CycleStudy<'a> {
     /// A bad case; steady sliding that is stable against every harmonic, where the case names none.
     pub fn new(case: &'a Case, simd: SimdLevel) -> Result<Self, StudyError> {
         let choices = case.require_cycle()?;
+        case.require_rotating_waves()?;
         let model = disc_model(case)?;
         let point = operating_point(case);
         let friction = point.contact.friction_coefficient;

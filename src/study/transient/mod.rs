@@ -19,6 +19,8 @@
 mod notes;
 mod settings;
 
+pub(super) use settings::body;
+
 use super::cycle::limit_cycle;
 use super::{StudyError, extent_of};
 use crate::case::{Annulus, Body, Case, Revolution, Transient};

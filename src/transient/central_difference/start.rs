@@ -111,6 +111,30 @@ impl<'a> CentralDifference<'a> {
         Ok(run)
     }
 
+    /// Starts anew with another time step, from the displacement `u_0` and the velocity `v_{-1/2}` that `place` writes into
+    /// the fields of the operator's layout; a perturbation is not added again.
+    ///
+    /// The step is the caller's to keep below the limit of [`Self::plan`]. Nothing else of the body is set up again: for those
+    /// who step many short runs of one body.
+    pub fn restart(&mut self, time_step: f64, place: impl FnOnce(&mut MotionFields)) {
+        debug_assert!(time_step > 0.0 && time_step <= self.plan.limit);
+        self.plan.time_step = time_step;
+        self.coefficients.time_step = time_step;
+        self.kick = None;
+        self.next_step = 0;
+        place(&mut self.fields);
+        let fields = &mut self.fields;
+        self.operator
+            .multiply(&mut fields.displacement, &mut fields.elastic);
+        self.operator
+            .multiply(&mut fields.velocity, &mut fields.elastic_rate);
+        self.take_sums();
+        self.initial_energy = self.energy_before_step();
+        self.largest_energy = self.initial_energy;
+        self.net_work = 0.0;
+        self.largest_residual = 0.0;
+    }
+
     fn new(
         body: TransientBody<'a>,
         operator: &'a dyn StiffnessOperator,

@@ -60,8 +60,10 @@ fn what_needs_constant_friction_says_so() {
     const CYCLES: &str = include_str!("../../../cases/limit-cycle.toml");
     const BASIN: &str = include_str!("../../../cases/basin.toml");
     let parts = ["constant friction", "static_friction_ratio"];
-    let cycles = valid(CYCLES, &[RATIO, SPEED]).require_cycle().unwrap_err();
-    assert_reports(&cycles.to_string(), &parts);
+    let cycles = valid(CYCLES, &[RATIO, SPEED]);
+    let waves = cycles.require_rotating_waves().unwrap_err();
+    assert_reports(&waves.to_string(), &parts);
+    assert!(cycles.require_cycle().is_ok() && !cycles.has_rotating_waves());
     let basin = valid(BASIN, &[RATIO, SPEED]).require_basin().unwrap_err();
     assert_reports(&basin.to_string(), &parts);
     let start = [

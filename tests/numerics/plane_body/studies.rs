@@ -221,13 +221,13 @@ fn rotating_waves_are_sought_in_no_imported_body() {
     let folder = folder();
     let set = [
         "basin={ harmonics = [1, 2] }",
-        "cycle={ harmonics = [1] }",
+        "cycle={ confirmation_periods = 0 }",
         "transient={ duration = 1e-4, initial = \"limit-cycle\", limit_cycle_harmonic = 1 }",
     ];
     let body = case(&folder, "disc.msh", &set);
     let errors = [
         body.require_basin().unwrap_err(),
-        body.require_cycle().unwrap_err(),
+        body.require_rotating_waves().unwrap_err(),
         body.require_transient().unwrap_err(),
     ];
     for error in errors {
@@ -237,6 +237,8 @@ fn rotating_waves_are_sought_in_no_imported_body() {
             "{text}"
         );
     }
+    // Its limit cycles are periodic motions of the whole mesh.
+    assert!(body.require_cycle().is_ok() && !body.has_rotating_waves());
 }
 
 /// Warnings and limits compare an imported body with its own size, and name keys that the case has.

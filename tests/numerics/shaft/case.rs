@@ -106,10 +106,10 @@ fn bad_shafts_are_refused_with_a_remedy() {
 
 /// What takes the cylinder as rigid says so.
 #[test]
-fn limit_cycles_and_free_responses_refuse_a_deformable_shaft() {
+fn rotating_waves_and_free_responses_refuse_a_deformable_shaft() {
     let case = parse("", "").unwrap();
     for error in [
-        case.require_cycle().unwrap_err().to_string(),
+        case.require_rotating_waves().unwrap_err().to_string(),
         case.require_frf().unwrap_err().to_string(),
     ] {
         assert!(error.contains("geometry.shaft_inner_radius"), "{error}");

@@ -1,0 +1,140 @@
+//! A periodic motion put to the test: does a transient that starts beside it stay there?
+
+use super::map::{PeriodMap, PeriodicState};
+use super::motion::PeriodicMotion;
+use super::multipliers::FloquetMultiplier;
+use crate::cycle::Verdict;
+use crate::linalg::{GaussianNoise, c64, interruption};
+use std::f64::consts::TAU;
+
+/// Length of the random perturbation at the start, relative to the amplitude.
+const SEED: f64 = 0.01;
+/// E-folds of a leading perturbation that may grow over which the transient runs: of a random start it is a small part.
+const E_FOLDS: f64 = 8.0;
+/// Most periods that are spent on a slow perturbation.
+const MOST_PERIODS: usize = 200;
+
+/// Largest difference between a cycle and a transient that stays on it: of the frequency and of the external power,
+/// relative, and of the fractions of contact nodes.
+const TOLERANCE: [f64; 3] = [1e-3, 0.02, 0.02];
+
+/// The last fifth of a short transient that started beside a periodic motion, for each metre of thickness.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MotionConfirmation {
+    /// Length of the run in periods of the cycle.
+    pub periods: usize,
+    /// Frequency of the contact nodes, Hz.
+    pub main_frequency_hz: f64,
+    /// Fractions of contact nodes that `[stick, slip, open]`.
+    pub status: [f64; 3],
+    /// Power of the counterface, W/m.
+    pub external_power: f64,
+    /// E-folds of the leading perturbation over the run; negative where it decays, 0 where it is not known.
+    pub e_folds: f64,
+}
+
+impl MotionConfirmation {
+    /// Whether the transient still is on the cycle.
+    pub fn agrees(&self, motion: &PeriodicMotion) -> bool {
+        let [frequency_bound, power_bound, status_bound] = TOLERANCE;
+        let within = |value: f64, wanted: f64, bound: f64| (value / wanted - 1.0).abs() <= bound;
+        let mut statuses = self.status.iter().zip(motion.fractions);
+        within(self.main_frequency_hz, motion.frequency_hz, frequency_bound)
+            && within(
+                self.external_power,
+                motion.powers.contact.external,
+                power_bound,
+            )
+            && statuses.all(|(a, b)| (a - b).abs() <= status_bound)
+    }
+
+    /// Steps the body through `least` periods or more from a cycle that is perturbed by a hundredth of its amplitude at random,
+    /// and reads the last fifth.
+    pub fn run(
+        map: &mut PeriodMap<'_>,
+        state: &PeriodicState,
+        leading: Option<&FloquetMultiplier>,
+        least: usize,
+    ) -> Self {
+        let periods = telling_periods(state, leading, least);
+        let start = perturbed(map, state);
+        map.place(&start);
+        let first = periods - periods / 5;
+        let mut turns: Vec<c64> = Vec::new();
+        let mut weights: Vec<c64> = Vec::new();
+        for period in 0..periods {
+            interruption::check();
+            if period == first {
+                map.run.take_sums();
+            }
+            let amplitudes = first_harmonic(map);
+            if period < first {
+                continue;
+            }
+            // How far the motion has turned against that of the first period looked at.
+            if weights.is_empty() {
+                weights = amplitudes.iter().map(|a| a.conj()).collect();
+            }
+            turns.push(amplitudes.iter().zip(&weights).map(|(a, w)| a * w).sum());
+        }
+        let (powers, _, counts) = map.run.take_sums();
+        let turned: f64 = turns
+            .windows(2)
+            .map(|pair| (pair[1] * pair[0].conj()).arg())
+            .sum();
+        let share = turned / TAU / (turns.len() - 1).max(1) as f64;
+        let steps = (periods - first) * map.steps();
+        Self {
+            periods,
+            main_frequency_hz: (1.0 + share) / state.period,
+            status: counts.fractions(),
+            external_power: powers.external / steps as f64,
+            e_folds: leading.map_or(0.0, |found| {
+                found.growth_rate * periods as f64 * state.period
+            }),
+        }
+    }
+}
+
+/// `least`, or as many as a perturbation that may grow needs for eight e-folds.
+fn telling_periods(
+    state: &PeriodicState,
+    leading: Option<&FloquetMultiplier>,
+    least: usize,
+) -> usize {
+    let growing = leading.filter(|found| found.verdict() != Verdict::Stable);
+    let wanted = growing.map_or(0, |found| {
+        let rate = found.growth_rate.abs().max(found.uncertainty);
+        (E_FOLDS / (rate * state.period)).ceil() as usize
+    });
+    least.max(wanted.min(MOST_PERIODS))
+}
+
+/// A state with a random velocity of a hundredth of its amplitude; a first period damps what the body damps fast.
+fn perturbed(map: &mut PeriodMap<'_>, state: &PeriodicState) -> PeriodicState {
+    let vibration = map.image(state).vibration;
+    let mut noise = GaussianNoise::new(2);
+    let half = state.motion.len() / 2;
+    let scale = SEED * vibration / (half as f64).sqrt();
+    let mut start = state.clone();
+    for value in &mut start.motion[half..] {
+        *value += scale * noise.draw().re;
+    }
+    start
+}
+
+/// First harmonic over one period of the displacement of each contact node along the counterface.
+fn first_harmonic(map: &mut PeriodMap<'_>) -> Vec<c64> {
+    let places = map.run.contact().tangential_places().to_vec();
+    let mut sums = vec![c64::new(0.0, 0.0); places.len()];
+    let steps = map.steps();
+    for step in 0..steps {
+        map.run.advance();
+        let turn = c64::from_polar(1.0, -TAU * step as f64 / steps as f64);
+        let displacement = &map.run.fields().displacement;
+        for (sum, &place) in sums.iter_mut().zip(&places) {
+            *sum += displacement[place] * turn;
+        }
+    }
+    sums
+}

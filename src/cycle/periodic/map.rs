@@ -1,0 +1,227 @@
+//! The period map of a body: so many steps of the explicit transient, from a state to where it comes.
+
+use super::vector::{difference, dot, norm};
+use crate::contact::ContactInterface;
+use crate::fem::operator::StiffnessOperator;
+use crate::linalg::interruption;
+use crate::transient::{
+    CentralDifference, ContactPowers, InitialState, Perturbation, StatusCounts, TimeStep,
+    TransientBody, TransientError, TransientSettings,
+};
+
+/// Share of the longest step that a period begins with: it may grow by the rest before it takes another number of steps.
+const FILLED: f64 = 0.97;
+
+/// Looks at the kinetic energy within a period.
+const LOOKS: usize = 32;
+
+/// A state of motion, and the time after which it should come back.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PeriodicState {
+    /// `(omega sqrt(m) u_0, sqrt(m) v_{-1/2})` of every moving dof, root of J/m: its square is an energy.
+    pub motion: Vec<f64>,
+    /// `T`, s.
+    pub period: f64,
+}
+
+/// Where a state comes after its period.
+#[derive(Clone, Debug)]
+pub struct PeriodImage {
+    /// As [`PeriodicState::motion`].
+    pub motion: Vec<f64>,
+    /// Its rate there, 1/s.
+    pub rate: Vec<f64>,
+    /// What it misses its start by.
+    pub residual: Vec<f64>,
+    /// Root of twice the largest kinetic energy: the amplitude that residuals are relative to.
+    pub vibration: f64,
+    /// Mean contact powers, W/m.
+    pub powers: ContactPowers,
+    /// Mean power of the dampings of body and supports, W/m.
+    pub material_damping: f64,
+    /// Statuses over all nodes and steps.
+    pub counts: StatusCounts,
+}
+
+impl PeriodImage {
+    /// `|P(x) - x|` over the amplitude of the vibration.
+    pub fn relative_residual(&self) -> f64 {
+        norm(&self.residual) / self.vibration
+    }
+
+    /// The period that a state which comes back a little early or late should have had, less the one that it had: the shift
+    /// along the motion that makes up for most of the residual, s.
+    pub fn delay(&self) -> f64 {
+        -dot(&self.residual, &self.rate) / dot(&self.rate, &self.rate)
+    }
+
+    /// Whether every number is one.
+    pub fn is_finite(&self) -> bool {
+        let sum: f64 = self.motion.iter().sum();
+        sum.is_finite() && self.vibration.is_finite()
+    }
+}
+
+/// `P(x, T)`: `N` steps of `T / N` of the transient of a body, `N` a whole number that keeps the step below its limit.
+///
+/// The map is that of the time loop itself ([`CentralDifference`]), continuous in state and period, with a kink wherever a node
+/// changes its status at another step. For each metre of thickness.
+pub struct PeriodMap<'a> {
+    pub(super) run: CentralDifference<'a>,
+    /// Places of the moving dofs, with the roots of their masses.
+    pub(super) moving: Vec<(usize, f64)>,
+    /// `omega`, rad/s, that weighs displacements.
+    frequency: f64,
+    longest_step: f64,
+    steps: usize,
+    periods: usize,
+}
+
+impl<'a> PeriodMap<'a> {
+    /// The map of a body for motions of about so high a frequency, rad/s, with steps no longer than `longest_step`, s, where one
+    /// is given.
+    ///
+    /// # Errors
+    /// A body that the time loop cannot take.
+    pub fn new(
+        body: impl Into<TransientBody<'a>>,
+        operator: &'a dyn StiffnessOperator,
+        frequency: f64,
+        longest_step: Option<f64>,
+    ) -> Result<Self, TransientError> {
+        let period = std::f64::consts::TAU / frequency;
+        let settings = TransientSettings {
+            duration: 2.0 * period,
+            time_step: TimeStep::Auto,
+            sample_interval: period,
+            expansion_time: 0.0,
+            initial: InitialState::SteadySliding,
+            perturbation: Perturbation::default(),
+        };
+        let still = vec![0.0; operator.dof_count()];
+        let run = CentralDifference::start_from(body, operator, &settings, &still, still.clone())?;
+        let masses = operator.masses();
+        let places = (0..operator.dof_count()).map(|dof| operator.position(dof));
+        let moving = places
+            .filter(|&place| masses[place] > 0.0)
+            .map(|place| (place, masses[place].sqrt()));
+        let longest = 0.95 * run.plan().limit;
+        let mut map = Self {
+            moving: moving.collect(),
+            frequency,
+            longest_step: longest_step.map_or(longest, |given| given.min(longest)),
+            steps: 1,
+            periods: 0,
+            run,
+        };
+        map.fit(period);
+        Ok(map)
+    }
+
+    /// Chooses the number of steps where those of a period would be too long, and says whether it has changed.
+    pub fn fit(&mut self, period: f64) -> bool {
+        let is_long = period / self.steps as f64 > self.longest_step;
+        if is_long {
+            self.steps = (period / (FILLED * self.longest_step)).ceil() as usize;
+        }
+        is_long
+    }
+
+    /// Steps of a period.
+    pub fn steps(&self) -> usize {
+        self.steps
+    }
+
+    /// Periods stepped so far.
+    pub fn periods(&self) -> usize {
+        self.periods
+    }
+
+    /// The contact edge.
+    pub fn interface(&self) -> &ContactInterface {
+        self.run.interface()
+    }
+
+    /// The state of a displacement `u_0` (m) and a velocity `v_{-1/2}` (m/s) over all dofs in nodal frames.
+    pub fn state(&self, displacement: &[f64], velocity: &[f64], period: f64) -> PeriodicState {
+        let operator = self.run.operator();
+        let masses = operator.masses();
+        let dofs = (0..operator.dof_count()).filter(|&dof| masses[operator.position(dof)] > 0.0);
+        let dofs: Vec<usize> = dofs.collect();
+        let part = |field: &[f64], weight: f64| -> Vec<f64> {
+            let pairs = dofs.iter().zip(&self.moving);
+            pairs
+                .map(|(&dof, (_, root))| weight * root * field[dof])
+                .collect()
+        };
+        let mut motion = part(displacement, self.frequency);
+        motion.extend(part(velocity, 1.0));
+        PeriodicState { motion, period }
+    }
+
+    /// The motion that the time loop is in.
+    pub(super) fn motion(&self) -> Vec<f64> {
+        let fields = self.run.fields();
+        let moving = self.moving.iter();
+        let displacement =
+            moving.map(|&(place, root)| self.frequency * root * fields.displacement[place]);
+        let moving = self.moving.iter();
+        let velocity = moving.map(|&(place, root)| root * fields.velocity[place]);
+        displacement.chain(velocity).collect()
+    }
+
+    /// Puts the time loop at the start of a period.
+    pub(super) fn place(&mut self, state: &PeriodicState) {
+        let (displacement, velocity) = state.motion.split_at(self.moving.len());
+        let (moving, frequency) = (&self.moving, self.frequency);
+        let time_step = state.period / self.steps as f64;
+        self.run.restart(time_step, |fields| {
+            for (&(place, root), (u, v)) in moving.iter().zip(displacement.iter().zip(velocity)) {
+                fields.displacement[place] = u / (frequency * root);
+                fields.velocity[place] = v / root;
+            }
+        });
+    }
+
+    /// Where a state comes after its period, which [`Self::fit`] must know.
+    pub fn image(&mut self, state: &PeriodicState) -> PeriodImage {
+        interruption::check();
+        self.periods += 1;
+        self.place(state);
+        let look_every = (self.steps / LOOKS).max(1);
+        let mut largest = 0.0_f64;
+        for step in 0..self.steps - 1 {
+            self.run.advance();
+            if step.is_multiple_of(look_every) {
+                largest = largest.max(self.twice_kinetic_energy());
+            }
+        }
+        let before = self.motion();
+        self.run.advance();
+        let motion = self.motion();
+
+        // Mean powers, and the rate of the last step.
+        let per_step = self.steps as f64 / state.period;
+        let mut rate = difference(&motion, &before);
+        rate.iter_mut().for_each(|value| *value *= per_step);
+        let (powers, damping, counts) = self.run.take_sums();
+        let share = 1.0 / self.steps as f64;
+        PeriodImage {
+            residual: difference(&motion, &state.motion),
+            motion,
+            rate,
+            vibration: largest.max(f64::MIN_POSITIVE).sqrt(),
+            powers: powers.scaled(share),
+            material_damping: share * damping,
+            counts,
+        }
+    }
+
+    fn twice_kinetic_energy(&self) -> f64 {
+        let velocity = &self.run.fields().velocity;
+        let moving = self.moving.iter();
+        moving
+            .map(|&(place, root)| (root * velocity[place]).powi(2))
+            .sum()
+    }
+}

@@ -1,0 +1,37 @@
+//! Limit cycles of bodies without symmetry: fixed points of the period map of the explicit transient.
+//!
+//! A body of any plane shape has no rotating waves, and its limit cycle is a motion `x(t + T) = x(t)` of the whole mesh. It
+//! is sought where the transient itself has it: `P(x, T)` are `N` steps of `T / N` of the time loop with its Lagrange
+//! multipliers, stick, slip, lift-off and impacts included, and a cycle is `P(x, T) = x` ([`PeriodMap`]). So cycle and
+//! transient are one discrete motion, and the energy balance of the time loop is that of the cycle.
+//!
+//! The search ([`find`]) is Newton's method on the few directions in which perturbations die slowly or grow, and plain
+//! periods on all others (Lust, Roose, Spence, Champneys, "An adaptive Newton-Picard algorithm with subspace iteration for
+//! computing periodic solutions", SIAM J. Sci. Comput. 19, 1998). Instead of a basis of slow directions, differences of the
+//! last iterates and of their residuals serve as secants ([`SecantSpace`]): they cost no period of their own, and the map,
+//! continuous but with a kink wherever a node changes its status, needs no derivative. It starts on the shape of a growing
+//! mode, at the amplitude at which friction stops to feed it ([`balanced_start`]). Floquet multipliers come from Arnoldi's
+//! process on differences of the map ([`FloquetMultipliers`]).
+
+mod branch;
+mod confirmation;
+mod error;
+mod map;
+mod motion;
+mod multipliers;
+mod search;
+mod secants;
+mod spectrum;
+mod start;
+mod vector;
+
+pub use branch::{BranchMotion, BranchRequest, PeriodicBranch};
+pub use confirmation::MotionConfirmation;
+pub use error::PeriodicError;
+pub use map::{PeriodImage, PeriodMap, PeriodicState};
+pub use motion::{ContactInstant, MotionRequest, PeriodicMotion, PeriodicPowers};
+pub use multipliers::{FloquetMultiplier, FloquetMultipliers};
+pub use search::{ACCEPTED, Found, TOLERANCE, find};
+pub use secants::SecantSpace;
+pub use spectrum::MotionHarmonic;
+pub use start::{GrowingMode, balanced_start};

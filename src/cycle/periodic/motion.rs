@@ -1,0 +1,259 @@
+//! What a periodic motion is like: powers, statuses, histories of the contact nodes, harmonics, fields.
+
+use super::map::{PeriodMap, PeriodicState};
+use super::search::Found;
+use super::spectrum::{MotionHarmonic, harmonics};
+use crate::contact::ContactStatus;
+use crate::fem::operator::gather;
+use crate::transient::ContactPowers;
+
+/// Mean powers of a periodic motion, W for each metre of thickness.
+///
+/// `external = stick + slide + contact_dissipated`, and
+/// `stick + slide + normal_contact = material_damping + contact_damping`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PeriodicPowers {
+    /// Of the contact.
+    pub contact: ContactPowers,
+    /// Lost in body and supports.
+    pub material_damping: f64,
+}
+
+impl PeriodicPowers {
+    /// `|external + normal - dissipated - material damping - contact damping| / external`: what is left of the energy balance
+    /// of the cycle.
+    pub fn balance_residual(&self) -> f64 {
+        let own = &self.contact;
+        let out = own.contact_dissipated + self.material_damping + own.damping;
+        ((own.external + own.normal - out) / own.external).abs()
+    }
+
+    /// Every power times `factor`.
+    pub fn scaled(&self, factor: f64) -> Self {
+        Self {
+            contact: self.contact.scaled(factor),
+            material_damping: factor * self.material_damping,
+        }
+    }
+}
+
+/// The contact at one instant, node by node.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ContactInstant {
+    /// Time, s.
+    pub time: f64,
+    /// Status.
+    pub status: Vec<ContactStatus>,
+    /// Contact pressure, Pa.
+    pub pressure: Vec<f64>,
+    /// Contact shear, Pa.
+    pub shear: Vec<f64>,
+    /// Displacement along the normal and along the counterface, m.
+    pub displacement: Vec<[f64; 2]>,
+    /// Velocity, m/s.
+    pub velocity: Vec<[f64; 2]>,
+}
+
+/// How much of a motion is kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MotionRequest {
+    /// Instants of the contact over the period, at most one a step.
+    pub instants: usize,
+    /// Times at which the whole field is kept.
+    pub frames: usize,
+}
+
+/// A periodic motion of a body and its contact. For each metre of thickness.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PeriodicMotion {
+    /// `1 / T`, Hz.
+    pub frequency_hz: f64,
+    /// Steps of the period.
+    pub steps: usize,
+    /// `|P(x) - x|` over the amplitude.
+    pub residual: f64,
+    /// Periods that it took to find.
+    pub periods: usize,
+    /// Mean powers.
+    pub powers: PeriodicPowers,
+    /// Fractions of contact nodes that `[stick, slip, open]`, over the period.
+    pub fractions: [f64; 3],
+    /// The same of each contact node.
+    pub shares: Vec<[f64; 3]>,
+    /// Contact node, among those of the edge, that moves most along the counterface; time starts where it is farthest ahead.
+    pub node: usize,
+    /// Half the range of its displacement along the counterface, m.
+    pub amplitude: f64,
+    /// The contact over the period.
+    pub instants: Vec<ContactInstant>,
+    /// Harmonics 1, 2, ... of the motion of the contact nodes.
+    pub harmonics: Vec<MotionHarmonic>,
+    /// Time (s), displacement (m) and velocity (m/s) over all dofs in nodal frames, evenly spaced from zero on.
+    pub frames: Vec<(f64, [Vec<f64>; 2])>,
+}
+
+impl PeriodicMotion {
+    /// Steps once more through a period that was found, from where the contact node that moves most is farthest ahead.
+    pub fn of(map: &mut PeriodMap<'_>, found: &Found, request: MotionRequest) -> Self {
+        let state = &found.state;
+        let samples = contact_displacements(map, state);
+        let (node, amplitude) = widest(&samples);
+        let ahead = samples.iter().map(|sample| sample[node][1]).enumerate();
+        let first = ahead
+            .max_by(|a, b| a.1.total_cmp(&b.1))
+            .map_or(0, |most| most.0);
+        let from = later(map, state, first);
+        let mut motion = Self {
+            frequency_hz: 1.0 / state.period,
+            steps: map.steps(),
+            residual: found.residual,
+            periods: found.periods,
+            powers: PeriodicPowers {
+                contact: found.image.powers,
+                material_damping: found.image.material_damping,
+            },
+            fractions: found.image.counts.fractions(),
+            shares: Vec::new(),
+            node,
+            amplitude,
+            instants: Vec::new(),
+            harmonics: harmonics(&samples),
+            frames: Vec::new(),
+        };
+        motion.record(map, &from, request);
+        motion
+    }
+
+    /// The contact and the fields over the period that begins with `from`.
+    fn record(&mut self, map: &mut PeriodMap<'_>, from: &PeriodicState, request: MotionRequest) {
+        map.place(from);
+        let (steps, nodes) = (map.steps(), map.interface().len());
+        let mut counts = vec![[0_usize; 3]; nodes];
+        for step in 0..steps {
+            let time = step as f64 * from.period / steps as f64;
+            let before = contact_motion(map);
+            let fields = is_one_of(step, steps, request.frames).then(|| {
+                let (fields, operator) = (map.run.fields(), map.run.operator());
+                [&fields.displacement, &fields.velocity].map(|field| gather(operator, field))
+            });
+            map.run.advance();
+            for (count, status) in counts.iter_mut().zip(&map.run.contact().status) {
+                count[place_of(*status)] += 1;
+            }
+            if let Some([displacement, earlier]) = fields {
+                let later = gather(map.run.operator(), &map.run.fields().velocity);
+                let pairs = earlier.iter().zip(&later);
+                let velocity = pairs.map(|(a, b)| 0.5 * (a + b)).collect();
+                self.frames.push((time, [displacement, velocity]));
+            }
+            if is_one_of(step, steps, request.instants) {
+                self.instants.push(instant(map, time, &before));
+            }
+        }
+        let share = |count: [usize; 3]| count.map(|count| count as f64 / steps as f64);
+        self.shares = counts.into_iter().map(share).collect();
+    }
+
+    /// How many harmonics leave no more than `remainder` of the vibration.
+    pub fn harmonics_within(&self, remainder: f64) -> usize {
+        let found = self
+            .harmonics
+            .iter()
+            .position(|own| own.remainder <= remainder);
+        found.map_or(self.harmonics.len(), |place| place + 1)
+    }
+
+    /// Whether another motion is this one: frequency, statuses, powers and amplitude agree.
+    pub fn is(&self, other: &Self) -> bool {
+        let near = |a: f64, b: f64, share: f64| (a - b).abs() <= share * b.abs();
+        let mut fractions = self.fractions.iter().zip(other.fractions);
+        near(self.frequency_hz, other.frequency_hz, 1e-5)
+            && near(self.amplitude, other.amplitude, 1e-3)
+            && near(
+                self.powers.contact.external,
+                other.powers.contact.external,
+                1e-3,
+            )
+            && fractions.all(|(a, b)| (a - b).abs() < 1e-3)
+    }
+}
+
+/// Whether a step is one of so many that are evenly spaced over a period, from the first on.
+fn is_one_of(step: usize, steps: usize, count: usize) -> bool {
+    let count = count.min(steps);
+    let place = (step * count).div_ceil(steps);
+    count > 0 && place * steps / count == step
+}
+
+fn place_of(status: ContactStatus) -> usize {
+    match status {
+        ContactStatus::Stick => 0,
+        ContactStatus::Slip => 1,
+        ContactStatus::Open => 2,
+    }
+}
+
+/// Displacement and velocity of the contact nodes that the time loop is in.
+fn contact_motion(map: &PeriodMap<'_>) -> [Vec<[f64; 2]>; 2] {
+    let (law, fields) = (map.run.contact(), map.run.fields());
+    let places = || law.normal_places().iter().zip(law.tangential_places());
+    [&fields.displacement, &fields.velocity]
+        .map(|field| places().map(|(&n, &t)| [field[n], field[t]]).collect())
+}
+
+/// The contact at the step that has just been done, from the motion before it.
+fn instant(map: &PeriodMap<'_>, time: f64, before: &[Vec<[f64; 2]>; 2]) -> ContactInstant {
+    let law = map.run.contact();
+    let [_, after] = contact_motion(map);
+    let lengths = &map.interface().tributary_lengths;
+    let stress = |forces: &[f64]| forces.iter().zip(lengths).map(|(f, w)| f / w).collect();
+    let mean = |(a, b): (&[f64; 2], &[f64; 2])| [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
+    ContactInstant {
+        time,
+        status: law.status.clone(),
+        pressure: stress(&law.normal_force),
+        shear: stress(&law.tangential_force),
+        displacement: before[0].clone(),
+        velocity: before[1].iter().zip(&after).map(mean).collect(),
+    }
+}
+
+/// Displacements of the contact nodes at every step of a period.
+fn contact_displacements(map: &mut PeriodMap<'_>, state: &PeriodicState) -> Vec<Vec<[f64; 2]>> {
+    map.place(state);
+    let steps = 0..map.steps();
+    let sample = |_| {
+        let [displacement, _] = contact_motion(map);
+        map.run.advance();
+        displacement
+    };
+    steps.map(sample).collect()
+}
+
+/// The node that moves most along the counterface, and half the range of its displacement.
+fn widest(samples: &[Vec<[f64; 2]>]) -> (usize, f64) {
+    let range = |node: usize| {
+        let along = samples.iter().map(|sample| sample[node][1]);
+        let [low, high] = along.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], u| {
+            [low.min(u), high.max(u)]
+        });
+        0.5 * (high - low)
+    };
+    let nodes = 0..samples.first().map_or(0, Vec::len);
+    let ranges = nodes.map(|node| (node, range(node)));
+    ranges.fold(
+        (0, 0.0),
+        |best, own| if own.1 > best.1 { own } else { best },
+    )
+}
+
+/// The state so many steps later.
+fn later(map: &mut PeriodMap<'_>, state: &PeriodicState, steps: usize) -> PeriodicState {
+    map.place(state);
+    (0..steps).for_each(|_| map.run.advance());
+    let motion = map.motion();
+    PeriodicState {
+        motion,
+        period: state.period,
+    }
+}

@@ -1,0 +1,223 @@
+//! Floquet multipliers of a periodic motion.
+
+use super::error::PeriodicError;
+use super::map::{PeriodMap, PeriodicState};
+use super::vector::{difference, dot, norm, orthogonalize};
+use crate::cycle::Verdict;
+use crate::linalg::dense_eigen::{RealEigen, real_eigen};
+use crate::linalg::{GaussianNoise, Mat, c64};
+use std::f64::consts::TAU;
+
+/// Multipliers kept.
+const KEPT: usize = 6;
+/// Of those, the leading ones that must have converged.
+const CONVERGED: usize = 2;
+/// Residual of a converged multiplier, relative to it.
+const RESIDUAL: f64 = 4e-3;
+/// Residual of one that is worth listing.
+const LISTED: f64 = 0.1;
+/// Smallest and largest dimension of the Krylov space, and periods between two looks at it.
+const DIMENSIONS: [usize; 3] = [16, 100, 4];
+/// Length of a perturbation, relative to the amplitude: so large that some nodes change their status at another step, whose kinks
+/// then count as they do in the motion.
+const PERTURBATION: f64 = 3e-3;
+/// A multiplier within this of 1 whose direction has this share along the motion is the shift in phase.
+const NEUTRAL: [f64; 2] = [0.1, 0.7];
+
+/// A multiplier of small perturbations over one period.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FloquetMultiplier {
+    /// `rho`: a perturbation is `rho` times as large after a period.
+    pub multiplier: c64,
+    /// `ln |rho| / T`, 1/s.
+    pub growth_rate: f64,
+    /// What that may be wrong by, 1/s.
+    pub uncertainty: f64,
+    /// `|arg rho| / 2 pi T`: distance of its frequency from the nearest harmonic of the cycle, Hz.
+    pub beat_hz: f64,
+}
+
+impl FloquetMultiplier {
+    /// What its growth rate says for sure.
+    pub fn verdict(&self) -> Verdict {
+        match self.growth_rate {
+            rate if rate > self.uncertainty => Verdict::Unstable,
+            rate if rate < -self.uncertainty => Verdict::Stable,
+            _ => Verdict::Undecided,
+        }
+    }
+}
+
+/// The leading multipliers of a periodic motion.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FloquetMultipliers {
+    /// By falling modulus, one of each conjugate pair, without the shift in phase.
+    pub multipliers: Vec<FloquetMultiplier>,
+    /// That of the shift in phase, which is 1 but for the steps in which nodes change their status; none where no direction was
+    /// told to be it.
+    pub shift: Option<c64>,
+    /// Periods spent.
+    pub periods: usize,
+}
+
+/// A Ritz value: itself, its residual, and its share along the motion.
+struct Ritz {
+    value: c64,
+    residual: f64,
+    along: f64,
+}
+
+impl FloquetMultipliers {
+    /// Arnoldi's process on differences of the period map at a periodic motion, until the leading multipliers have converged.
+    ///
+    /// # Errors
+    /// [`PeriodicError::Multipliers`] where they do not.
+    pub fn of(map: &mut PeriodMap<'_>, state: &PeriodicState) -> Result<Self, PeriodicError> {
+        let (first, image) = (map.periods(), map.image(state));
+        let length = PERTURBATION * image.vibration;
+        let mut apply = |direction: &[f64]| {
+            let pairs = state.motion.iter().zip(direction);
+            let moved = PeriodicState {
+                motion: pairs.map(|(x, d)| x + length * d).collect(),
+                period: state.period,
+            };
+            let mut change = difference(&map.image(&moved).motion, &image.motion);
+            change.iter_mut().for_each(|value| *value /= length);
+            change
+        };
+        let mut noise = GaussianNoise::new(1);
+        let start = (0..state.motion.len()).map(|_| noise.draw().re).collect();
+        // What the body damps within a period is of no interest.
+        let mut basis = vec![unit(apply(&unit(start)))];
+        let mut columns: Vec<Vec<f64>> = Vec::new();
+        let along = unit(image.rate.clone());
+        let [least, most, stride] = DIMENSIONS;
+        loop {
+            // One more vector.
+            let mut next = apply(&basis[basis.len() - 1]);
+            let mut column = orthogonalize(&mut next, &basis);
+            column.push(norm(&next));
+            basis.push(unit(next));
+            columns.push(column);
+            let dimension = columns.len();
+            if dimension < least || !dimension.is_multiple_of(stride) {
+                continue;
+            }
+            let (shift, others) = leading(&columns, &basis, &along)?;
+            let converged = others.iter().take(CONVERGED);
+            let is_done = shift.is_some()
+                && others.len() >= CONVERGED
+                && converged.into_iter().all(|ritz| ritz.residual < RESIDUAL);
+            if is_done || dimension >= most {
+                let listed = others.into_iter().take(KEPT);
+                let listed: Vec<Ritz> = listed.take_while(|r| r.residual < LISTED).collect();
+                if listed.is_empty() {
+                    return Err(PeriodicError::Multipliers { dimension });
+                }
+                let periods = dimension + 2;
+                debug_assert_eq!(periods, map.periods() - first);
+                let step = 1.0 / map.steps() as f64;
+                return Ok(Self::assessed(
+                    &listed,
+                    shift,
+                    (state.period, step),
+                    periods,
+                ));
+            }
+        }
+    }
+
+    /// With what the residuals, the shift's distance from 1, a hundredth of each rate and the steps leave open: a node changes its
+    /// status at a step, and a multiplier of `N` steps is known to `1 / N`.
+    fn assessed(
+        listed: &[Ritz],
+        shift: Option<c64>,
+        (period, step): (f64, f64),
+        periods: usize,
+    ) -> Self {
+        let off = shift.map_or(NEUTRAL[0], |shift| shift.norm().ln().abs());
+        let of = |ritz: &Ritz| {
+            let growth_rate = ritz.value.norm().ln() / period;
+            FloquetMultiplier {
+                multiplier: ritz.value,
+                growth_rate,
+                uncertainty: (ritz.residual + off + step) / period + 0.01 * growth_rate.abs(),
+                beat_hz: ritz.value.arg().abs() / (TAU * period),
+            }
+        };
+        Self {
+            multipliers: listed.iter().map(of).collect(),
+            shift,
+            periods,
+        }
+    }
+
+    /// The multiplier of the fastest growth or slowest decay.
+    pub fn leading(&self) -> Option<&FloquetMultiplier> {
+        self.multipliers.first()
+    }
+
+    /// Whether small perturbations decay.
+    pub fn verdict(&self) -> Verdict {
+        let all = || self.multipliers.iter().map(FloquetMultiplier::verdict);
+        if all().any(|found| found == Verdict::Unstable) {
+            Verdict::Unstable
+        } else if all().any(|found| found == Verdict::Undecided) {
+            Verdict::Undecided
+        } else {
+            Verdict::Stable
+        }
+    }
+}
+
+/// The shift in phase and the other Ritz values, by falling modulus, of `A V = V H`.
+fn leading(
+    columns: &[Vec<f64>],
+    basis: &[Vec<f64>],
+    along: &[f64],
+) -> Result<(Option<c64>, Vec<Ritz>), PeriodicError> {
+    let dimension = columns.len();
+    let matrix = Mat::from_fn(dimension, dimension, |i, j| {
+        columns[j].get(i).copied().unwrap_or(0.0)
+    });
+    let eigen = real_eigen(matrix.as_ref(), false, 0)
+        .map_err(|_| PeriodicError::Multipliers { dimension })?;
+    let overflow = columns[dimension - 1][dimension];
+    let shares: Vec<f64> = basis.iter().map(|unit| dot(unit, along)).collect();
+    let ritz = |i: usize| {
+        let vector = eigenvector(&eigen, i);
+        let length = vector.iter().map(|y| y.norm_sqr()).sum::<f64>().sqrt();
+        let pairs = vector.iter().zip(&shares);
+        let value = eigen.values[i];
+        Ritz {
+            value,
+            residual: overflow * vector[dimension - 1].norm() / (length * value.norm()),
+            along: pairs.map(|(y, share)| y * share).sum::<c64>().norm() / length,
+        }
+    };
+    let upper = (0..dimension).filter(|&i| eigen.values[i].im >= 0.0);
+    let mut all: Vec<Ritz> = upper.map(ritz).collect();
+    all.sort_by(|a, b| b.value.norm().total_cmp(&a.value.norm()));
+    let [reach, least] = NEUTRAL;
+    let is_shift = |ritz: &Ritz| (ritz.value - 1.0).norm() < reach && ritz.along > least;
+    let candidates = all.iter().enumerate().filter(|(_, ritz)| is_shift(ritz));
+    let shift = candidates.max_by(|a, b| a.1.along.total_cmp(&b.1.along));
+    let place = shift.map(|(place, _)| place);
+    let shift = place.map(|place| all.remove(place).value);
+    Ok((shift, all))
+}
+
+/// Eigenvector `i`, not of unit length.
+fn eigenvector(eigen: &RealEigen, i: usize) -> Vec<c64> {
+    let part = |row: usize| match eigen.values[i].im {
+        im if im > 0.0 => c64::new(eigen.right[(row, i)], eigen.right[(row, i + 1)]),
+        _ => c64::new(eigen.right[(row, i)], 0.0),
+    };
+    (0..eigen.right.nrows()).map(part).collect()
+}
+
+fn unit(mut vector: Vec<f64>) -> Vec<f64> {
+    let length = norm(&vector);
+    vector.iter_mut().for_each(|value| *value /= length);
+    vector
+}

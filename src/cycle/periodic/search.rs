@@ -1,0 +1,229 @@
+//! The search for a periodic motion.
+
+use super::error::PeriodicError;
+use super::map::{PeriodImage, PeriodMap, PeriodicState};
+use super::secants::SecantSpace;
+use super::vector::{add, difference, norm};
+
+/// Residual, relative to the amplitude of the vibration, at which a motion repeats itself.
+pub const TOLERANCE: f64 = 1e-9;
+/// Residual with which it is taken where no more is to be had.
+pub const ACCEPTED: f64 = 1e-6;
+
+/// Plain periods before the first secant, at least, and at most where the motion is still far from repeating itself: what the
+/// start has of fast motions goes, and what attracts draws it near.
+const PLAIN: [usize; 2] = [4, 30];
+/// Residual from which on secants know better.
+const NEAR: f64 = 0.05;
+/// Plain periods of a second attempt, where the secants of the first have led nowhere.
+const LONG: usize = 80;
+/// Differences kept.
+const DEPTH: usize = 40;
+/// Most periods.
+const MOST: usize = 240;
+/// Periods without a residual half as large as before after which the search ends.
+const PATIENCE: usize = 50;
+/// Longest step, relative to the amplitude, and of the period, relative to it.
+const LONGEST: [f64; 2] = [0.3, 0.05];
+/// A residual so many times the smallest goes back to it.
+const ASTRAY: f64 = 50.0;
+/// How often that is done.
+const RETURNS: usize = 3;
+/// Share of the largest amplitude below which a vibration has died.
+const DEAD: f64 = 1e-3;
+/// Times the first amplitude above which a motion is out of all bounds.
+const UNBOUNDED: f64 = 1e4;
+
+/// A periodic motion.
+#[derive(Clone, Debug)]
+pub struct Found {
+    /// The state that comes back.
+    pub state: PeriodicState,
+    /// Where it comes.
+    pub image: PeriodImage,
+    /// `|P(x) - x|` over the amplitude.
+    pub residual: f64,
+    /// Periods stepped for it.
+    pub periods: usize,
+}
+
+/// A periodic motion near a state.
+///
+/// # Errors
+/// A motion that dies, leaves its counterface, grows without bound or does not repeat itself.
+pub fn find(map: &mut PeriodMap<'_>, start: PeriodicState) -> Result<Found, PeriodicError> {
+    let first = map.periods();
+    let result = match attempt(map, start.clone(), PLAIN) {
+        Err(PeriodicError::NotConverged { .. }) => attempt(map, start, [LONG; 2]),
+        result => result,
+    };
+    let periods = map.periods() - first;
+    match result {
+        Ok(found) => Ok(Found { periods, ..found }),
+        Err(PeriodicError::NotConverged {
+            residual,
+            frequency_hz,
+            ..
+        }) => Err(PeriodicError::NotConverged {
+            periods,
+            residual,
+            frequency_hz,
+        }),
+        Err(error) => Err(error),
+    }
+}
+
+/// A search with so many plain periods first, at least and at most.
+fn attempt(
+    map: &mut PeriodMap<'_>,
+    start: PeriodicState,
+    [least, most]: [usize; 2],
+) -> Result<Found, PeriodicError> {
+    let first = map.periods();
+    let mut search = Search {
+        spent: 0,
+        secants: SecantSpace::new(DEPTH),
+        state: start,
+        last: None,
+        best: None,
+        improved: (0, f64::INFINITY),
+        largest: 0.0,
+        first: None,
+        returns: 0,
+        is_plain: true,
+    };
+    loop {
+        if map.fit(search.state.period) {
+            search.forget();
+        }
+        let image = map.image(&search.state);
+        search.spent = map.periods() - first;
+        search.judge(&image)?;
+        let is_stuck = !search.is_plain && search.spent >= search.improved.0 + PATIENCE;
+        let is_spent = search.spent >= MOST + least || is_stuck;
+        if search.best_residual() < TOLERANCE || is_spent {
+            return search.finish();
+        }
+        let is_far = image.relative_residual() > NEAR && search.is_plain;
+        search.is_plain = search.spent <= least || (is_far && search.spent <= most);
+        match search.is_plain {
+            true => search.go_plainly(image),
+            false => search.go(image),
+        }
+    }
+}
+
+/// Where a search is.
+struct Search {
+    spent: usize,
+    secants: SecantSpace,
+    state: PeriodicState,
+    /// The iterate before, with its residual.
+    last: Option<(PeriodicState, Vec<f64>)>,
+    /// The state of the smallest residual.
+    best: Option<Found>,
+    /// Periods spent when the residual last halved, and what it was then.
+    improved: (usize, f64),
+    largest: f64,
+    first: Option<f64>,
+    returns: usize,
+    /// Whether no secant has been taken yet.
+    is_plain: bool,
+}
+
+impl Search {
+    fn best_residual(&self) -> f64 {
+        self.best
+            .as_ref()
+            .map_or(f64::INFINITY, |best| best.residual)
+    }
+
+    fn forget(&mut self) {
+        self.secants.clear();
+        self.last = None;
+    }
+
+    /// Keeps the image if it is the best, and refuses motions that lead nowhere.
+    fn judge(&mut self, image: &PeriodImage) -> Result<(), PeriodicError> {
+        let periods = self.spent;
+        let first = *self.first.get_or_insert(image.vibration);
+        if !image.is_finite() || image.vibration > UNBOUNDED * first {
+            return Err(PeriodicError::Unbounded { periods });
+        }
+        self.largest = self.largest.max(image.vibration);
+        if image.vibration < DEAD * self.largest {
+            return Err(PeriodicError::Died { periods });
+        }
+        if image.counts.stick + image.counts.slip == 0 {
+            return Err(PeriodicError::Separated);
+        }
+        let residual = image.relative_residual();
+        if residual < 0.5 * self.improved.1 {
+            self.improved = (self.spent, residual);
+        }
+        if residual < self.best_residual() {
+            self.best = Some(Found {
+                state: self.state.clone(),
+                image: image.clone(),
+                residual,
+                periods,
+            });
+        }
+        Ok(())
+    }
+
+    /// One period further.
+    fn go_plainly(&mut self, image: PeriodImage) {
+        let limit = LONGEST[1] * self.state.period;
+        self.state.period += image.delay().clamp(-limit, limit);
+        self.state.motion = image.motion;
+    }
+
+    /// One step of the secants; from a state far worse than the best, back to that and a plain period on.
+    fn go(&mut self, image: PeriodImage) {
+        let residual = image.relative_residual();
+        let is_astray = residual > ASTRAY * self.best_residual() && self.returns < RETURNS;
+        if let (true, Some(best)) = (is_astray, &self.best) {
+            self.returns += 1;
+            self.improved.0 = self.spent;
+            self.state = best.state.clone();
+            let image = best.image.clone();
+            self.forget();
+            return self.go_plainly(image);
+        }
+        if let Some((state, residual)) = self.last.take() {
+            self.secants.push(
+                difference(&self.state.motion, &state.motion),
+                self.state.period - state.period,
+                difference(&image.residual, &residual),
+            );
+        }
+        let (step, period) = self.secants.step(&image.residual, &image.rate);
+        let lengths = [
+            norm(&step) / image.vibration,
+            period.abs() / self.state.period,
+        ];
+        let shares = lengths.iter().zip(LONGEST);
+        let share = shares.fold(1.0_f64, |share, (length, longest)| {
+            share.min(longest / length.max(f64::MIN_POSITIVE))
+        });
+        self.last = Some((self.state.clone(), image.residual));
+        add(&mut self.state.motion, share, &step);
+        self.state.period += share * period;
+    }
+
+    fn finish(self) -> Result<Found, PeriodicError> {
+        let periods = self.spent;
+        let Some(best) = self.best else {
+            return Err(PeriodicError::Unbounded { periods });
+        };
+        match best.residual <= ACCEPTED {
+            true => Ok(Found { periods, ..best }),
+            false => Err(PeriodicError::NotConverged {
+                periods,
+                residual: best.residual,
+                frequency_hz: 1.0 / best.state.period,
+            }),
+        }
+    }
+}

@@ -1,0 +1,335 @@
+//! The figures of limit cycles of a body without symmetry, from their record.
+
+use super::record::{MotionRecord, PeriodicRecord};
+use crate::chart::{
+    Axis, ChartError, ColourMap, Figure, INK, Line, MUTED, Marker, Panel, Points, Rule, SERIES,
+    Stroke,
+};
+use crate::contact::{ContactInterface, ContactStatus, SlidingContact};
+use crate::fem::MaterialField;
+use crate::mesh::Mesh;
+use crate::results::charts::palette::status_ground;
+use crate::results::charts::{
+    ContactVelocity, Disc, FieldFrame, contact_figure, field_figure, open_contact_figure,
+    place_axis, shear_stress_figure, status_curves, status_map,
+};
+use crate::results::drawing::{Declaration, DrawingOptions, draw_all};
+use crate::results::parameter::parameter_axis;
+use crate::results::report::NamedFigure;
+
+/// Whole-field pictures of one kind, at most.
+const FIELD_LIMIT: usize = 8;
+/// Periods of a history.
+const PERIODS: usize = 2;
+
+/// Limit cycles and what their figures show besides.
+pub struct PeriodicFigures<'a> {
+    /// The record.
+    pub record: &'a PeriodicRecord,
+    /// The mesh.
+    pub mesh: &'a Mesh,
+    /// The materials, for the stress fields.
+    pub materials: &'a dyn MaterialField,
+    /// The contact of the case.
+    pub contact: SlidingContact,
+}
+
+/// Draws the cycles: contact over the period and at one instant, history, closed curves and harmonics of each, then the
+/// fields of all.
+///
+/// # Errors
+/// That of a figure that cannot be drawn although there is something to draw.
+pub fn draw_cycles(
+    data: &PeriodicFigures<'_>,
+    options: &DrawingOptions,
+) -> Result<Vec<NamedFigure>, ChartError> {
+    let mut figures: Vec<Declaration<'_>> = Vec::new();
+    for motion in &data.record.cycles {
+        figures.push(Box::new(move || data.status(motion)));
+        figures.push(Box::new(move || Ok(data.at_one_instant(motion))));
+        figures.push(Box::new(move || Ok(data.history(motion))));
+        figures.push(Box::new(move || Ok(data.orbit(motion))));
+        figures.push(Box::new(move || Ok(harmonics(motion))));
+        figures.push(Box::new(move || branch(motion)));
+    }
+    figures.push(Box::new(|| data.velocity()));
+    figures.push(Box::new(|| data.shear_stress()));
+    draw_all(figures, options)
+}
+
+impl PeriodicFigures<'_> {
+    fn surface_speed(&self) -> f64 {
+        let interface = ContactInterface::of(self.mesh);
+        interface.surface_speed(self.contact.rotation_speed)
+    }
+
+    /// The status of all contact nodes over one period.
+    fn status(&self, motion: &MotionRecord) -> Result<Figure, ChartError> {
+        let ends = (motion.times[0], motion.times[motion.times.len() - 1]);
+        let map = status_map(&motion.times, motion.nodes(), &motion.status, ends);
+        let (map, _) = map.ok_or_else(|| ChartError::empty("statuses over a period"))?;
+        let caption = format!(
+            "Contact status of every contact node over one period of the limit cycle of {}.",
+            hertz(motion)
+        );
+        let panel = Panel::new(Axis::time(), place_axis(self.mesh.has_round_contact()))
+            .plain()
+            .height(120.0)
+            .layer(map)
+            .legend();
+        Ok(Figure::new(format!("status-{}", tag(motion)), caption).panel(panel))
+    }
+
+    /// The contact at time zero.
+    fn at_one_instant(&self, motion: &MotionRecord) -> Figure {
+        let [pressure, shear, velocity] = &motion.edge;
+        let velocity = match self.mesh.opposite {
+            Some(_) => ContactVelocity::Absolute(velocity, f64::NAN),
+            None => ContactVelocity::Absolute(velocity, self.surface_speed()),
+        };
+        let statuses = motion.first_statuses();
+        let name = format!("contact-{}", tag(motion));
+        if !self.mesh.has_round_contact() {
+            let caption = format!(
+                "Limit cycle of {} at one instant along the contact edge: tractions (a), velocity (b), on a ground coloured by \
+                 status.",
+                hertz(motion)
+            );
+            let names = (name, caption, heading(motion));
+            return open_contact_figure(names, &statuses, [pressure, shear], velocity);
+        }
+        let caption = format!(
+            "Limit cycle of {} at one instant: status around the circle (a), tractions (b), velocity (c).",
+            hertz(motion)
+        );
+        let first = ContactInterface::of(self.mesh).angles.first().copied();
+        contact_figure(
+            ((name, caption, heading(motion)), "cylinder *Ωa*"),
+            (first.unwrap_or(0.0), &statuses),
+            [pressure, shear],
+            velocity,
+        )
+    }
+
+    /// What the node that moves most goes through in two periods, on a ground coloured by its status.
+    fn history(&self, motion: &MotionRecord) -> Figure {
+        let count = motion.times.len();
+        let interval = 1.0 / (motion.frequency_hz * count as f64);
+        let samples = PERIODS * count + 1;
+        let all = |values: &[f64]| -> Vec<(f64, f64)> {
+            let values = values.iter().copied().cycle().take(samples).enumerate();
+            values.map(|(i, v)| (i as f64 * interval, v)).collect()
+        };
+        let own = motion.node_statuses().into_iter().cycle().take(samples);
+        let status: Vec<ContactStatus> = own.collect();
+        // A sample stands for half an interval on either side.
+        let ground = || status_ground(&status, |i| (i as f64 - 0.5) * interval);
+        let end = (samples - 1) as f64 * interval;
+        let over_time = |y: Axis, height: f64, caption: &str| {
+            Panel::new(Axis::time().between(0.0, end), y)
+                .plain()
+                .height(height)
+                .caption(caption)
+                .layer(ground())
+        };
+        let limit = |sign: f64| {
+            let friction = sign * self.contact.friction_coefficient;
+            let limit: Vec<f64> = motion.pressure.iter().map(|p| friction * p).collect();
+            Line::through(all(&limit)).stroke(Stroke::dashed(MUTED, 0.9))
+        };
+        let line = |values: &[f64], colour, name: &str| {
+            Line::through(all(values)).solid(colour, 1.1).name(name)
+        };
+        let metres = |name: &str| Axis::new(name, "m").prefixed();
+        let caption = format!(
+            "Contact node {} through two periods of the limit cycle of {}.",
+            self.node_label(motion),
+            hertz(motion)
+        );
+        let [u_n, u_t] = &motion.displacement;
+        let [v_n, v_t] = &motion.velocity;
+        let displacement = |name: &str, values: &[f64], caption: &str| {
+            over_time(metres(name), 62.0, caption).layer(Line::through(all(values)).solid(INK, 1.1))
+        };
+        let counterface = (self.mesh.opposite.is_none()).then(|| {
+            Rule::horizontal(self.surface_speed())
+                .stretching()
+                .name("counterface")
+        });
+        let law = [limit(1.0).name("Coulomb limit ±*μp*"), limit(-1.0)];
+        let law = law.into_iter().filter(|_| self.contact.decay.is_none());
+        Figure::new(format!("history-{}", tag(motion)), caption)
+            .shared_x()
+            .panel(displacement(
+                "*u*_{t}",
+                u_t,
+                "displacement along the contact",
+            ))
+            .panel(displacement("*u*_{n}", u_n, "normal displacement"))
+            .panel(
+                over_time(Axis::new("*v*", "m/s"), 78.0, "velocity")
+                    .layers(counterface)
+                    .layer(line(v_n, SERIES[2], "normal *v*_{n}"))
+                    .layer(line(v_t, SERIES[0], "tangential *v*_{t}")),
+            )
+            .panel(
+                over_time(Axis::new("traction", "Pa").prefixed(), 90.0, "tractions")
+                    .layers(law)
+                    .layer(line(&motion.pressure, INK, "pressure *p*"))
+                    .layer(line(&motion.shear, SERIES[1], "friction traction *τ*")),
+            )
+    }
+
+    /// The closed curves of the node that moves most: velocity over displacement, along the contact and normal, and its path.
+    fn orbit(&self, motion: &MotionRecord) -> Figure {
+        let ([u_n, u_t], [v_n, v_t]) = (&motion.displacement, &motion.velocity);
+        let statuses = motion.node_statuses();
+        let status: Vec<ContactStatus> = statuses.iter().chain(statuses.first()).copied().collect();
+        let loop_of = |caption: &str, x: (&str, &[f64]), y: (&str, &str, &[f64])| {
+            let points = || x.1.iter().copied().zip(y.2.iter().copied());
+            let closed: Vec<(f64, f64)> = points().chain(points().next()).collect();
+            let axis = |name: &str, unit: &str| Axis::new(name, unit).prefixed();
+            Panel::new(axis(x.0, "m"), axis(y.0, y.1))
+                .height(128.0)
+                .caption(caption)
+                .layers(status_curves(&closed, &status))
+                .layer(Line::through(closed).solid(INK, 0.0).arrows(3))
+        };
+        let caption = format!(
+            "Phase plots, along the contact (a) and normal to it (b), and path (c) of contact node {} in the limit cycle of {}.",
+            self.node_label(motion),
+            hertz(motion)
+        );
+        let along = ("displacement *u*_{t}", &u_t[..]);
+        let normal = ("displacement *u*_{n}", &u_n[..]);
+        Figure::new(format!("orbit-{}", tag(motion)), caption)
+            .columns(3)
+            .panel(loop_of(
+                "along the contact",
+                along,
+                ("velocity *v*_{t}", "m/s", v_t),
+            ))
+            .panel(loop_of("normal", normal, ("velocity *v*_{n}", "m/s", v_n)))
+            .panel(loop_of("path", along, (normal.0, "m", normal.1)))
+    }
+
+    fn node_label(&self, motion: &MotionRecord) -> usize {
+        let nodes = ContactInterface::of(self.mesh).nodes;
+        let node = nodes.get(motion.node).copied().unwrap_or(0);
+        self.mesh.node_label(node as usize)
+    }
+
+    fn velocity(&self) -> Result<Figure, ChartError> {
+        let frames = self.record.cycles.iter().take(FIELD_LIMIT);
+        let frames = frames.map(|motion| -> FieldFrame {
+            let speeds = motion.velocity_field.chunks_exact(2);
+            let speeds = speeds.map(|v| v[0].hypot(v[1])).collect();
+            (heading(motion), speeds, motion.first_statuses())
+        });
+        let caption = (
+            "velocity",
+            "Velocity modulus and contact status of the limit cycles at one instant.",
+        );
+        let axis = Axis::new("velocity |*v*|", "m/s");
+        let disc = Disc::new(self.mesh);
+        field_figure(caption, &disc, &axis, ColourMap::Viridis, frames.collect())
+    }
+
+    fn shear_stress(&self) -> Result<Figure, ChartError> {
+        let cycles = self.record.cycles.iter().take(FIELD_LIMIT);
+        let fields = cycles.map(|motion| (heading(motion), &motion.displacement_field[..]));
+        let caption = "Shear stress of the limit cycles at one instant.";
+        shear_stress_figure(caption, &Disc::new(self.mesh), self.materials, fields)
+    }
+}
+
+/// The cycles along the parameter of the case: frequency, amplitude, status, power; unstable ones as open circles.
+fn branch(motion: &MotionRecord) -> Result<Figure, ChartError> {
+    let curve = motion
+        .branch
+        .as_ref()
+        .filter(|curve| curve.values.len() > 1);
+    let curve = curve.ok_or_else(|| ChartError::empty("cycles along a parameter"))?;
+    let through = |values: &[f64]| {
+        let pairs = curve.values.iter().copied();
+        Line::through(pairs.zip(values.iter().copied()))
+    };
+    let unstable = |values: &[f64]| {
+        let pairs = curve.values.iter().zip(values).zip(&curve.stable);
+        let open = pairs.filter(|(_, stable)| **stable == Some(false));
+        let points: Vec<(f64, f64)> = open.map(|((x, y), _)| (*x, *y)).collect();
+        Points::new(points)
+            .marker(Marker::Circle, 2.2, SERIES[1])
+            .name("unstable")
+    };
+    let panel = |y: Axis, height: f64| {
+        Panel::new(parameter_axis(&curve.key), y)
+            .plain()
+            .height(height)
+    };
+    let one = |y: Axis, values: &[f64]| {
+        panel(y, 72.0)
+            .layer(through(values).solid(INK, 1.1))
+            .layer(unstable(values))
+    };
+    let names = ["stick", "slip", "open"];
+    let shares = names.iter().zip(&curve.status).enumerate();
+    let shares =
+        shares.map(|(i, (name, values))| through(values).solid(SERIES[i], 1.1).name(*name));
+    let caption = format!(
+        "Limit cycles along {} from that of {}: frequency, amplitude, contact status, power of the counterface.",
+        curve.key,
+        hertz(motion)
+    );
+    Ok(Figure::new(format!("branch-{}", tag(motion)), caption)
+        .shared_x()
+        .panel(one(
+            Axis::new("frequency", "kHz").times(1e-3),
+            &curve.frequency_hz,
+        ))
+        .panel(one(
+            Axis::new("amplitude", "m").prefixed(),
+            &curve.amplitude,
+        ))
+        .panel(panel(Axis::new("share of nodes", "%").times(100.0), 72.0).layers(shares))
+        .panel(one(Axis::new("power", "W").prefixed(), &curve.external)))
+}
+
+/// Amplitudes of the harmonics in time.
+fn harmonics(motion: &MotionRecord) -> Figure {
+    let caption = format!(
+        "Harmonics of the motion of the contact nodes in the limit cycle of {}: root mean square over the nodes.",
+        hertz(motion)
+    );
+    let line = |values: &[f64], colour, name: &str| {
+        let frequencies = (1..=values.len()).map(|k| k as f64 * motion.frequency_hz);
+        Line::through(frequencies.zip(values.iter().copied()))
+            .solid(colour, 0.8)
+            .marked(Marker::Circle, 1.6)
+            .name(name)
+    };
+    let [normal, along] = &motion.harmonics;
+    let amplitude = Axis::new("amplitude", "m").logarithmic();
+    Figure::new(format!("harmonics-{}", tag(motion)), caption).panel(
+        Panel::new(Axis::kilohertz(), amplitude)
+            .height(110.0)
+            .layer(line(along, SERIES[0], "along the contact"))
+            .layer(line(normal, SERIES[2], "normal")),
+    )
+}
+
+fn tag(motion: &MotionRecord) -> String {
+    format!("mode{}", motion.mode)
+}
+
+fn hertz(motion: &MotionRecord) -> String {
+    format!("{:.2} Hz", motion.frequency_hz)
+}
+
+fn heading(motion: &MotionRecord) -> String {
+    format!(
+        "mode {}, {:.2} kHz",
+        motion.mode,
+        motion.frequency_hz * 1e-3
+    )
+}

@@ -1,0 +1,151 @@
+//! Results of a search for the limit cycles of a body without symmetry: what is printed and what is written.
+
+mod figures;
+mod print;
+mod record;
+mod report;
+mod summary;
+mod tables;
+
+pub use figures::PeriodicFigures;
+pub use print::{doubt, print};
+pub use record::{CurveRecord, MotionRecord, PeriodicRecord};
+pub use report::draw;
+pub use summary::{
+    MotionSummary, MultiplierSummary, PeriodicBranchSummary, PeriodicConfirmation,
+    PeriodicStability, PeriodicSummary, SoughtSummary, summary, summary_of,
+};
+
+use crate::cycle::periodic::{
+    FloquetMultipliers, MotionConfirmation, PeriodicBranch, PeriodicMotion,
+};
+use crate::mesh::Mesh;
+use crate::results::extent::Extent;
+use crate::results::folder::{FolderError, OutputFolder};
+use crate::results::record::write_record;
+use crate::results::summary::write_summary;
+use serde_json::Value;
+use std::fmt;
+
+/// A mode of steady sliding.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SoughtMode {
+    /// Number by frequency, from 1, among the modes of the case's own friction coefficient.
+    pub number: usize,
+    /// Frequency, Hz.
+    pub frequency_hz: f64,
+    /// Growth rate, 1/s.
+    pub growth_rate: f64,
+}
+
+/// `mode 15`.
+impl fmt::Display for SoughtMode {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "mode {}", self.number)
+    }
+}
+
+/// A limit cycle and what is known of it.
+#[derive(Clone, Debug)]
+pub struct FoundCycle {
+    /// The motion.
+    pub motion: PeriodicMotion,
+    /// Harmonics in which it is told.
+    pub harmonic_count: usize,
+    /// Its multipliers, where they were asked for, or why there are none.
+    pub stability: Option<Result<FloquetMultipliers, String>>,
+    /// A transient that started beside it, where one was asked for.
+    pub confirmation: Option<MotionConfirmation>,
+    /// The branch through it over the parameter of the case, where one was asked for.
+    pub branch: Option<PeriodicBranch>,
+}
+
+/// What the search from one mode has led to.
+#[derive(Clone, Debug)]
+pub struct PeriodicResult {
+    /// The mode.
+    pub mode: SoughtMode,
+    /// The cycle, or why there is none.
+    pub outcome: Result<FoundCycle, String>,
+    /// Mode that has led to the same cycle before.
+    pub same_as: Option<usize>,
+    /// Wall time, s.
+    pub wall_s: f64,
+}
+
+impl PeriodicResult {
+    /// Part of a file name: `mode15`.
+    pub fn tag(&self) -> String {
+        format!("mode{}", self.mode.number)
+    }
+
+    /// The cycle, where this mode is the first to lead to it.
+    pub fn own(&self) -> Option<&FoundCycle> {
+        let found = self.outcome.as_ref().ok();
+        found.filter(|_| self.same_as.is_none())
+    }
+}
+
+/// Everything that a search reports.
+#[derive(Clone, Debug)]
+pub struct PeriodicReport<'a> {
+    /// Title of the case.
+    pub title: &'a str,
+    /// The mesh.
+    pub mesh: &'a Mesh,
+    /// Thickness, m: scales powers.
+    pub thickness: f64,
+    /// What powers are of.
+    pub extent: Extent,
+    /// Friction coefficient of the case.
+    pub friction_coefficient: f64,
+    /// Modes looked at.
+    pub modes: usize,
+    /// Frequency of the highest, Hz.
+    pub highest_hz: f64,
+    /// The mode that grows fastest or decays slowest.
+    pub least_stable: Option<SoughtMode>,
+    /// One entry for each mode that grows, fastest first.
+    pub results: Vec<PeriodicResult>,
+    /// Wall time of the run, s.
+    pub wall_s: f64,
+}
+
+impl PeriodicReport<'_> {
+    /// Whether no mode looked at grows.
+    pub fn is_stable(&self) -> bool {
+        self.results.is_empty()
+    }
+
+    /// That steady sliding is stable, in words; nothing where it is not.
+    pub fn stable_sliding(&self) -> Option<String> {
+        if !self.is_stable() {
+            return None;
+        }
+        let slowest = self.least_stable.map_or_else(String::new, |mode| {
+            format!(
+                "; the slowest to decay is {mode}, {:.2} Hz, at {:.1} 1/s",
+                mode.frequency_hz, mode.growth_rate
+            )
+        });
+        Some(format!(
+            "steady sliding is stable at contact.friction_coefficient = {}, so no limit cycle is born there: none of {} modes up \
+             to {:.0} Hz grows{slowest} (raise the friction coefficient; `cea` over cea.friction_coefficients finds the onsets)",
+            self.friction_coefficient, self.modes, self.highest_hz,
+        ))
+    }
+}
+
+/// Writes all files and returns the summary.
+///
+/// # Errors
+/// Those of the folder.
+pub fn write(folder: &OutputFolder, report: &PeriodicReport<'_>) -> Result<Value, FolderError> {
+    for result in &report.results {
+        if let Some(found) = result.own() {
+            tables::write(folder, report, &result.tag(), found)?;
+        }
+    }
+    write_record(folder, &PeriodicRecord::of(report))?;
+    write_summary(folder, &summary(report, folder.manifest()))
+}
