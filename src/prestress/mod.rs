@@ -33,7 +33,7 @@ mod tangent;
 
 pub use assembly::{Assembly, BaseChoice, SlidingSurfaces, TiedSurfaces};
 pub use complementarity::{CondensedContact, PressedRange, PressedState, Pressing};
-pub use elimination::Elimination;
+pub use elimination::{Elimination, RigidFriction};
 pub use equilibrium::{SlidingRange, SteadySliding};
 pub use error::PrestressError;
 pub use face_conditions::{pressure_load, supports};
