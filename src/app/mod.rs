@@ -14,6 +14,7 @@ mod figure_options;
 mod fit;
 mod frf;
 mod identify;
+mod improve;
 mod init;
 mod keys;
 mod limits;
@@ -95,6 +96,7 @@ commands! {
     Cycle: cycle,
     Basin: basin,
     Convergence: convergence,
+    Improve: improve,
     Mesh: mesh,
     Matrices: matrices,
     Check: check,

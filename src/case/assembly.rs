@@ -2,6 +2,7 @@
 
 use super::boundaries::NamedCondition;
 use super::contact::{Contact, friction_decay};
+use super::modifications::{Modification, reshaped};
 use super::raw::MeshBytes;
 use super::reader::Section;
 use super::suggestion;
@@ -60,12 +61,12 @@ impl AssemblyParts {
 /// Reads the sections of an assembly; its first contact and motion give the common contact of the case: a sweep varies the
 /// friction coefficient of the first contact, and the others keep their ratio to it.
 pub(super) fn sections(root: &Section<'_>) -> (AssemblyParts, Contact) {
-    let motions = each(root, "motion", motion);
-    let ties = each(root, "ties", |section| {
+    let motions = root.each("motion", motion);
+    let ties = root.each("ties", |section| {
         [section.text("surface"), section.text("counter")]
     });
     let mut bases = Vec::new();
-    let contacts = each(root, "contacts", |section| contact(section, &mut bases));
+    let contacts = root.each("contacts", |section| contact(section, &mut bases));
     let contacts: Vec<NamedContact> = contacts
         .into_iter()
         .map(|(name, contact)| NamedContact {
@@ -118,25 +119,6 @@ pub(super) fn sections(root: &Section<'_>) -> (AssemblyParts, Contact) {
         base,
     };
     (parts, common)
-}
-
-/// Reads every section under `name`.
-fn each<T>(
-    root: &Section<'_>,
-    name: &str,
-    mut read: impl FnMut(&Section<'_>) -> T,
-) -> Vec<(String, T)> {
-    let all = root.section(name, false);
-    let names: Vec<&str> = all.remaining().into_iter().map(|(name, _)| name).collect();
-    let found = names.into_iter().map(|name| {
-        let section = all.section(name, false);
-        let value = read(&section);
-        section.close();
-        (name.to_owned(), value)
-    });
-    let found = found.collect();
-    all.close();
-    found
 }
 
 fn motion(section: &Section<'_>) -> Motion {
@@ -287,13 +269,15 @@ pub(super) fn assemble(
     scale: f64,
     conditions: &[NamedCondition],
     (common, own): (&ElasticMaterial, &[(String, RegionMaterial)]),
-    parts: AssemblyParts,
+    (parts, modifications): (AssemblyParts, &[Modification]),
 ) -> Result<AssemblyBody, (String, String)> {
     let unusable = |error: MeshFileError| {
         let message = format!("{}: {error}", bytes.file);
         (message, "makes no bodies".to_owned())
     };
     let file = bytes.read().map_err(unusable)?;
+    let misfit = |(key, why): (String, String)| (format!("{key}: {why}"), "not so".to_owned());
+    let (file, _) = reshaped(file, scale, "", modifications).map_err(misfit)?;
     let mesh = Mesh::from_solids(&file, scale, conditions).map_err(unusable)?;
     let region =
         |name: &str, key: &str| named(&mesh.regions, name, key, "region (physical volume)");

@@ -227,6 +227,24 @@ impl Body {
         }
     }
 
+    /// The mesh of a body from a mesh file, which is whole.
+    pub(super) fn whole_mesh(&self) -> Option<&Arc<Mesh>> {
+        match self {
+            Self::Imported(imported) => Some(&imported.mesh),
+            Self::Assembly(assembly) => Some(&assembly.mesh),
+            Self::Annulus(_) | Self::Revolution(_) => None,
+        }
+    }
+
+    /// As [`Self::whole_mesh`], to change it.
+    pub(super) fn whole_mesh_mut(&mut self) -> Option<&mut Arc<Mesh>> {
+        match self {
+            Self::Imported(imported) => Some(&mut imported.mesh),
+            Self::Assembly(assembly) => Some(&mut assembly.mesh),
+            Self::Annulus(_) | Self::Revolution(_) => None,
+        }
+    }
+
     /// The material of each region of the mesh.
     pub fn materials(&self) -> &dyn MaterialField {
         match self {

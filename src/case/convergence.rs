@@ -94,6 +94,14 @@ pub(super) fn read(root: &Section<'_>, body: Option<&Body>, has: [bool; 3]) -> O
     if !section.is_given() {
         return None;
     }
+    if root.has("modifications") {
+        root.reject(
+            "modifications",
+            "[modifications] are places of one mesh: a finer one would have others".to_owned(),
+            "not beside [convergence]".to_owned(),
+            Some("leave one of the two sections out, and compare meshes by hand".to_owned()),
+        );
+    }
     let factors = match section.numbers("factors") {
         _ if body.is_some_and(|body| !body.has_sectors()) && !section.has("factors") => {
             SPLITS.to_vec()

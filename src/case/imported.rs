@@ -3,6 +3,7 @@
 use super::boundaries::NamedCondition;
 use super::elastic::elastic;
 use super::inclusion;
+use super::modifications::{Modification, reshaped};
 use super::opposite::{check_meeting, opposite_curve};
 use super::raw::{MeshBytes, RawCase};
 use super::reader::Section;
@@ -211,14 +212,24 @@ impl ImportError {
 }
 
 /// The body that a mesh file describes.
-pub(super) fn import(mesh: &MeshBytes, parts: &BodyParts) -> Result<ImportedBody, ImportError> {
+pub(super) fn import(
+    mesh: &MeshBytes,
+    parts: &BodyParts,
+    modifications: &[Modification],
+) -> Result<ImportedBody, ImportError> {
     let shown = &mesh.file;
     let unusable = |error: MeshFileError| ImportError::of(error, shown);
     let read = mesh.read().map_err(unusable)?;
+    let misfit = |(key, why): (String, String)| {
+        let message = format!("{key}: {why}");
+        ImportError::new(&key, message, "does not fit the body")
+    };
+    let boundary = &parts.place.boundary;
+    let (read, way) = reshaped(read, parts.scale, boundary, modifications).map_err(misfit)?;
     let specification = BodySpecification {
         scale: parts.scale,
         contact: parts.place.boundary.clone(),
-        counterface: parts.place.counterface,
+        counterface: moved(parts, way).map_err(misfit)?,
         opposite: parts.place.opposite.clone(),
         conditions: parts.boundaries.clone(),
     };
@@ -256,14 +267,40 @@ pub(super) fn import(mesh: &MeshBytes, parts: &BodyParts) -> Result<ImportedBody
             |(_, material)| *material,
         )
     };
-    Ok(ImportedBody {
-        materials: mesh.regions.iter().map(material).collect(),
-        mesh: Arc::new(mesh),
-        source: Arc::new((read, specification)),
-    })
+    let materials = mesh.regions.iter().map(material).collect();
+    Ok(ImportedBody::new(mesh, materials, read, specification))
+}
+
+/// The counterface of a body whose contact curve is moved.
+fn moved(parts: &BodyParts, way: [f64; 2]) -> Result<CounterfaceSpecification, (String, String)> {
+    match (parts.place.counterface, &parts.place.opposite) {
+        (own, _) if way == [0.0; 2] => Ok(own),
+        (CounterfaceSpecification::Cylinder { center, radius }, None) => {
+            let center = [center[0] + way[0], center[1] + way[1]];
+            Ok(CounterfaceSpecification::Cylinder { center, radius })
+        }
+        _ => Err((
+            "modifications".to_owned(),
+            "an offset moves a hole with the rigid cylinder in it; this contact has another counterface".to_owned(),
+        )),
+    }
 }
 
 impl ImportedBody {
+    /// A body of a mesh that was made of a file.
+    pub(super) fn new(
+        mesh: Mesh,
+        materials: Vec<RegionMaterial>,
+        file: Arc<GmshFile>,
+        specification: BodySpecification,
+    ) -> Self {
+        Self {
+            mesh: Arc::new(mesh),
+            materials,
+            source: Arc::new((file, specification)),
+        }
+    }
+
     /// The same body with every element split into four, `times` over.
     ///
     /// # Errors

@@ -68,6 +68,8 @@ impl Bound {
 pub enum Kind {
     /// Free text.
     Text,
+    /// Texts: one or a list.
+    Texts,
     /// True or false.
     Flag,
     /// A number.
@@ -177,6 +179,7 @@ impl CaseKey {
     pub fn values(&self) -> String {
         match self.kind {
             Kind::Text => "text".to_owned(),
+            Kind::Texts => "text or list".to_owned(),
             Kind::Flag => "true or false".to_owned(),
             Kind::Number(bound) => format!("number{}", bound.condition()),
             Kind::NumberOr(bound, word) => format!("number{} or \"{word}\"", bound.condition()),

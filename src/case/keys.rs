@@ -5,13 +5,14 @@ use super::key::Bound::{AtLeast, Between, Finite, NotNegative, Positive};
 use super::key::Default::{Otherwise, Required, RequiredUnless, Value};
 use super::key::Kind::{
     Choice, Choices, Count, Counts, Directions, Flag, Node, Nodes, Number, NumberOr, Numbers,
-    Parameter, Table, Text,
+    Parameter, Table, Text, Texts,
 };
 use super::key::{CaseKey, Default, Kind};
 use super::range::Spacing;
 use super::words::{
     Analysis, AxesWord, BaseContact, CeaMethod, Combination, ConditionWord, CounterfaceWord,
-    FilePart, FrfMethod, HeldAxis, NormalLawWord, OnsetChoice, StabilityChoice, UnitsWord, words,
+    FilePart, FrfMethod, HeldAxis, ModificationKind, NormalLawWord, OnsetChoice, StabilityChoice,
+    UnitsWord, words,
 };
 use crate::fem::{MassKind, PlaneFormulation};
 use crate::frf::{Direction, FrfBoundary};
@@ -91,6 +92,18 @@ pub const KEYS: &[CaseKey] = &[
     key("boundaries.*.tangential_damping", Number(NotNegative), "Pa s/m", Value("0.0"), "0.0", "the tangential dashpot of a support"),
     key("boundaries.*.pressure", Number(Finite), "Pa", Otherwise("needed by condition = \"pressure\""), "1e5", "the pressure that pushes onto the body"),
 
+    key("modifications.*.at", Node, "", Otherwise("needed by mass, stiffness and damping"), "{ radius = 0.06, angle_deg = 90 }", "the node that a mass, a spring or a dashpot is attached to, by number or by place; a built-in annulus with modifications is solved on its whole mesh"),
+    key("modifications.*.mass", Number(NotNegative), "kg", Value("0.0"), "0.005", "the mass that is added at that node (alpha_R acts on it too)"),
+    key("modifications.*.stiffness", Number(NotNegative), "N/m", Value("0.0"), "1e6", "the stiffness of a spring from that node to the ground, unstressed before the bodies are pressed"),
+    key("modifications.*.damping", Number(NotNegative), "N s/m", Value("0.0"), "50.0", "the dashpot from that node to the ground"),
+    key("modifications.*.direction", Numbers(Finite), "", Otherwise("every direction"), "[1.0, 0.0]", "the direction of spring and dashpot"),
+    key("modifications.*.center", Numbers(Finite), "m", Otherwise("needed by remove and damping coefficients"), "[0.0, 0.06]", "the centre of a circle (a sphere on solid bodies): the modification is of the elements whose middle lies in it"),
+    key("modifications.*.radius", Number(Positive), "m", Otherwise("needed by remove and damping coefficients"), "0.005", "the radius of that circle"),
+    key("modifications.*.remove", Flag, "", Value("false"), "true", "whether those elements are taken away"),
+    key("modifications.*.mass_coefficient", Number(NotNegative), "1/s", Value("0.0"), "100.0", "the mass damping of those elements beside that of their material"),
+    key("modifications.*.stiffness_coefficient", Number(NotNegative), "s", Value("0.0"), "1e-6", "the stiffness damping of those elements beside that of their material"),
+    key("modifications.*.offset", Numbers(Finite), "m", Otherwise("as the mesh has it"), "[0.008, 0.0]", "the way by which the hole of a plane body is moved, with the cylinder in it; the mesh between it and the other curves follows"),
+
     key("material.young_modulus", Number(Positive), "Pa", RequiredUnless("required, or young_moduli"), "2.5e9", "Young's modulus"),
     key("material.poisson_ratio", Number(Between(-1.0, 0.5)), "", RequiredUnless("required, or poisson_ratios"), "0.3805", "Poisson's ratio"),
     key("material.young_moduli", Numbers(Positive), "Pa", Otherwise("isotropic"), "[8e9, 8e9, 1.5e9]", "Young's moduli of an orthotropic material along its axes 1, 2 and 3, in place of young_modulus; `young_moduli[3]` names the third alone"),
@@ -167,6 +180,19 @@ pub const KEYS: &[CaseKey] = &[
     key("cea.sensitivities", Flag, "", Otherwise("those of bodies solved harmonic by harmonic"), "true", "whether derivatives of eigenvalues and critical friction by the numbers of the case are computed"),
     key("cea.map.key", Parameter, "", Required, "\"contact.normal_stiffness\"", "the second parameter of the stability map"),
     key("cea.map.values", Numbers(Finite), "", Required, "{ from = 1e12, to = 1e14, count = 21, spacing = \"log\" }", "the values of that parameter"),
+
+    key("improve.modifications", Choices(words::<ModificationKind>), "", Otherwise("all that the body can have"), "[\"mass\", \"removal\"]", "what `frictionsim improve` tries against the unstable modes at the contact's friction coefficient"),
+    key("improve.min_frequency_hz", Number(NotNegative), "Hz", Otherwise("no limit"), "9000.0", "the frequency above which modes are to be silenced"),
+    key("improve.max_frequency_hz", Number(Positive), "Hz", Otherwise("that of [cea]"), "12000.0", "the frequency below which modes are to be silenced"),
+    key("improve.mass", Number(Positive), "kg", Otherwise("a hundredth of the bodies'"), "0.005", "the mass that may be added at a node"),
+    key("improve.stiffness", Number(Positive), "N/m", Otherwise("omega^2 times that mass"), "1e6", "the stiffness of a spring to the ground"),
+    key("improve.damping", Number(Positive), "N s/m", Otherwise("a tenth of omega times that mass"), "50.0", "the dashpot to the ground"),
+    key("improve.patch_radius", Number(Positive), "m", Otherwise("a twentieth of half the bodies' size"), "0.005", "the radius of a patch that is damped or taken away"),
+    key("improve.patch_damping", Number(Positive), "s", Otherwise("0.1 / omega"), "1e-6", "the stiffness coefficient of the damping that a patch gets (0.1 / omega is a loss factor of 0.1)"),
+    key("improve.offset", Number(Positive), "m", Otherwise("a tenth of half the body's size"), "0.008", "the farthest way by which the hole of a plane body is moved"),
+    key("improve.forbidden", Texts, "", Otherwise("nothing; surfaces in contact are never touched"), "[\"outer\"]", "regions and boundaries that nothing may be attached to, damped or taken from"),
+    key("improve.candidates", Count(1), "", Value("3"), "3", "how many places of each kind are listed"),
+    key("improve.confirm", Count(0), "", Value("4"), "4", "how many of the best candidates are run again as cases of their own"),
 
     key("transient.duration", Number(Positive), "s", Required, "0.05", "the simulated time"),
     key("transient.time_step", NumberOr(Positive, "auto"), "s", Value("\"auto\""), "\"auto\"", "the time step (\"auto\" = 0.95 of the stability limit, at most)"),

@@ -5,6 +5,7 @@
 //! checked, all errors reported at once as [`CaseErrors`].
 
 mod assembly;
+mod attachments;
 mod basin;
 mod body;
 mod boundaries;
@@ -19,10 +20,12 @@ mod file_sections;
 mod fit;
 mod frf;
 mod imported;
+mod improve;
 mod inclusion;
 mod key;
 mod keys;
 mod model;
+mod modifications;
 mod node;
 mod opposite;
 mod overrides;
@@ -59,6 +62,7 @@ pub use file_sections::FileSection;
 pub use fit::{Fit, FitParameter};
 pub use frf::Frf;
 pub use imported::ImportedBody;
+pub use improve::Improve;
 pub use key::{Bound, CaseKey, Default, Kind};
 pub use keys::{KEYS, find as find_key};
 pub use model::Damping;
@@ -76,7 +80,8 @@ pub use transient::{Output, Transient};
 pub use uncertainty::{UncertainParameter, Uncertainty};
 pub use value::{RawEntry, RawItem, RawTable, RawValue};
 pub use words::{
-    Analysis, CeaMethod, Combination, FrfMethod, OnsetChoice, StabilityChoice, UnitsWord,
+    Analysis, CeaMethod, Combination, FrfMethod, ModificationKind, OnsetChoice, StabilityChoice,
+    UnitsWord,
 };
 
 use crate::fem::{ElasticMaterial, MaterialField};
@@ -121,6 +126,8 @@ pub struct Case {
     pub fit: Option<Fit>,
     /// Parameters that are uncertain, if the case names them.
     pub uncertainty: Option<Uncertainty>,
+    /// What is tried against unstable modes.
+    pub improve: Improve,
     /// What it takes from its mesh file beside the mesh.
     pub taken: Taken,
     /// Things that are no errors but that the user should hear of.
@@ -183,6 +190,7 @@ impl Case {
         let convergence = convergence::read(&root, body.as_ref(), has);
         let fit = fit::fit(&root);
         let uncertainty = uncertainty::uncertainty(&root);
+        let improve = improve::improve(&root);
         let sweep = sweep::read(&root);
         superelements::refuse_attached(&root);
         root.close();
@@ -210,6 +218,7 @@ impl Case {
             convergence,
             fit,
             uncertainty,
+            improve,
             taken,
             warnings,
             raw,

@@ -1,11 +1,13 @@
 //! The sections that describe the model: geometry, mesh, material, damping, contact.
 
 use super::assembly;
+use super::attachments;
 use super::body::{Annulus, Body, Revolution, node_count};
 use super::boundaries::{self, NamedCondition};
 use super::contact::{Contact, contact};
 use super::elastic::{Surroundings, elastic, place_axes};
 use super::imported::{self, BodyParts};
+use super::modifications::{self, Modification};
 use super::raw::{MeshBytes, RawCase};
 use super::reader::Section;
 use super::shaft;
@@ -36,8 +38,23 @@ pub(super) struct Model {
     pub contact: Contact,
 }
 
-/// The generated body, or that of a mesh file.
+/// The generated body, or that of a mesh file, with its modifications.
 pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &mut ElasticMaterial) -> Model {
+    let changes = modifications::sections(root);
+    let mut model = unmodified(root, raw, material, &changes);
+    if let Some(body) = &mut model.body {
+        attachments::attach(root, &changes, body, model.thickness);
+    }
+    model
+}
+
+/// The body with what its modifications take away or move.
+fn unmodified(
+    root: &Section<'_>,
+    raw: &RawCase,
+    material: &mut ElasticMaterial,
+    changes: &[Modification],
+) -> Model {
     let conditions = boundaries::all(root);
     let is_pressed = conditions
         .iter()
@@ -67,17 +84,18 @@ pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &mut ElasticMat
         mesh.close();
         let (contact, place) = contact(root, Some((&annulus, is_solid)), is_pressed);
         let body = match axial {
-            None => Body::Annulus(Annulus {
+            None => Some(Annulus {
                 specification: annulus,
                 materials: AnnulusMaterials {
                     annulus: *material,
                     shaft: shaft_material,
                 },
-            }),
+            })
+            .and_then(|annulus| plane_annulus(root, annulus, changes)),
             Some(axial_elements) => {
                 let conditions = solid::conditions(root, &conditions, place.solid);
                 annulus.outer = conditions[1];
-                Body::Revolution(Revolution {
+                Some(Body::Revolution(Revolution {
                     specification: SolidSpecification {
                         annulus,
                         thickness,
@@ -86,11 +104,11 @@ pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &mut ElasticMat
                         conditions,
                     },
                     material: *material,
-                })
+                }))
             }
         };
         return Model {
-            body: Some(body),
+            body,
             thickness,
             mesh: None,
             contact,
@@ -105,7 +123,8 @@ pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &mut ElasticMat
     let is_lone_solid = is_file_solid && !root.has("contact");
     if root.has("contacts") || root.has("ties") || is_lone_solid {
         let parts = (conditions.as_slice(), material);
-        let model = assembly_model(root, raw, (&mesh, &file, scale), parts, thickness);
+        let file = (&mesh, file.as_str(), scale);
+        let model = assembly_model(root, raw, file, parts, (thickness, changes));
         mesh.close();
         return model;
     }
@@ -139,7 +158,9 @@ pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &mut ElasticMat
             let at = raw.place(&error.key);
             mesh.reject_placed(&at, error.message, error.label, error.help);
         };
-        imported::import(bytes, &parts).map_err(refuse).ok()
+        imported::import(bytes, &parts, changes)
+            .map_err(refuse)
+            .ok()
     });
     mesh.close();
     Model {
@@ -150,13 +171,32 @@ pub(super) fn model(root: &Section<'_>, raw: &RawCase, material: &mut ElasticMat
     }
 }
 
+/// A plane annulus, as a whole mesh where modifications break its symmetry.
+fn plane_annulus(root: &Section<'_>, annulus: Annulus, changes: &[Modification]) -> Option<Body> {
+    // What is wrong with the counts is said elsewhere.
+    if changes.is_empty() || node_count(&annulus.specification) > 1 << 24 {
+        return Some(Body::Annulus(annulus));
+    }
+    let reject = |(key, why): modifications::Misfit| {
+        let message = format!("{key}: {why}");
+        root.reject(
+            "modifications",
+            message,
+            "does not fit the disc".to_owned(),
+            None,
+        );
+    };
+    let body = attachments::reshaped_annulus(&annulus, changes);
+    body.map_err(reject).ok().map(Body::Imported)
+}
+
 /// The solid bodies of a mesh file.
 fn assembly_model(
     root: &Section<'_>,
     raw: &RawCase,
     (mesh, file, scale): (&Section<'_>, &str, f64),
     (conditions, material): (&[NamedCondition], &mut ElasticMaterial),
-    thickness: f64,
+    (thickness, changes): (f64, &[Modification]),
 ) -> Model {
     let _ = mesh.optional_count("axial_elements");
     if root.has("contact") {
@@ -175,7 +215,7 @@ fn assembly_model(
     let reject = |(message, label): (String, String)| mesh.reject("file", message, label, None);
     let bytes = imported::mesh_bytes(raw, file).map_err(&reject).ok();
     let body = bytes.as_ref().and_then(|bytes| {
-        let body = assembly::assemble(bytes, scale, conditions, (material, &own), parts);
+        let body = assembly::assemble(bytes, scale, conditions, (material, &own), (parts, changes));
         body.map_err(&reject).ok()
     });
     Model {

@@ -15,6 +15,7 @@ const MODEL: &[&str] = &[
     "materials",
     "damping",
     "contact",
+    "modifications",
 ];
 
 /// Sections that make the model of solid bodies that slide on each other, besides.

@@ -154,6 +154,7 @@ fn key_schema(key: &CaseKey) -> Value {
     let of_one = |one: Value| json!({ "anyOf": [one, { "type": "array", "items": one }] });
     let mut schema = match key.kind {
         Kind::Text => json!({ "type": "string" }),
+        Kind::Texts => of_one(json!({ "type": "string" })),
         Kind::Flag => json!({ "type": "boolean" }),
         Kind::Number(bound) => number(bound),
         Kind::NumberOr(bound, word) => json!({ "anyOf": [number(bound), { "const": word }] }),

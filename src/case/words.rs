@@ -24,6 +24,36 @@ pub(super) fn words_of<T: Choice>() -> impl Iterator<Item = (&'static str, T)> {
     T::WORDS.iter().copied()
 }
 
+/// What `improve` tries on a body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum ModificationKind {
+    /// A point mass.
+    Mass,
+    /// A spring to the ground.
+    Spring,
+    /// A dashpot to the ground.
+    Dashpot,
+    /// A damping layer on some elements.
+    Damping,
+    /// Elements taken away.
+    Removal,
+    /// The hole of a plane body moved.
+    Offset,
+}
+
+impl ModificationKind {
+    /// Its word.
+    pub fn word(self) -> &'static str {
+        let own = Self::WORDS.iter().find(|pair| pair.1 == self);
+        own.map_or("", |pair| pair.0)
+    }
+
+    /// All of them.
+    pub fn all() -> impl Iterator<Item = Self> {
+        Self::WORDS.iter().map(|pair| pair.1)
+    }
+}
+
 /// What holds a boundary, in words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ConditionWord {
@@ -218,6 +248,14 @@ choices! {
     OperatorChoice { "auto" = Self::Auto, "cyclic" = Self::Cyclic, "sparse" = Self::Sparse }
     Combination { "grid" = Self::Grid, "zip" = Self::Zip }
     Analysis { "transient" = Self::Transient, "cea" = Self::Cea, "cycle" = Self::Cycle, "basin" = Self::Basin }
+    ModificationKind {
+        "mass" = Self::Mass,
+        "spring" = Self::Spring,
+        "dashpot" = Self::Dashpot,
+        "damping" = Self::Damping,
+        "removal" = Self::Removal,
+        "offset" = Self::Offset,
+    }
     OnsetChoice { "all" = Self::All, "lowest" = Self::Lowest }
     StabilityChoice { "point" = Self::Point, "branch" = Self::Branch, "none" = Self::None }
     FrfBoundary { "free" = Self::Free, "clamped" = Self::Clamped, "sliding" = Self::Sliding }

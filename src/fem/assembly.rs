@@ -23,12 +23,48 @@ pub fn assemble_stiffness(mesh: &Mesh, material: &dyn MaterialField) -> Triplets
     })
 }
 
-/// Global mass `M` over all dofs, kg for each metre of thickness.
+/// Global mass `M` over all dofs, point masses included, kg for each metre of thickness.
 pub fn assemble_mass(mesh: &Mesh, material: &dyn MaterialField, kind: MassKind) -> Triplets {
     match kind {
-        MassKind::Consistent => consistent_mass(mesh, material, &|_| true),
+        MassKind::Consistent => {
+            let mut mass = consistent_mass(mesh, material, &|_| true);
+            mass.entries.extend(assemble_point_masses(mesh).entries);
+            mass
+        }
         MassKind::Lumped => diagonal(mesh, lumped_masses(mesh, material)),
     }
+}
+
+/// Point masses over all dofs, kg, in the plane for each metre of thickness.
+pub fn assemble_point_masses(mesh: &Mesh) -> Triplets {
+    let mut triplets = Triplets::default();
+    for attachment in mesh.attachments.iter().filter(|own| own.mass != 0.0) {
+        for axis in 0..mesh.dimension {
+            let dof = mesh.dimension * attachment.node + axis;
+            triplets.push(dof, dof, attachment.mass);
+        }
+    }
+    triplets
+}
+
+/// Consistent mass and stiffness of one element over its dofs, those of [`crate::mesh::Mesh::element_nodes`] in turn.
+pub fn element_matrices(
+    mesh: &Mesh,
+    material: &dyn MaterialField,
+    kind: MassKind,
+    element: usize,
+) -> [DMatrix<f64>; 2] {
+    let elastic = material.of(mesh.region(element));
+    let mass = match kind {
+        MassKind::Consistent => element::consistent_mass(mesh, element, elastic),
+        MassKind::Lumped => {
+            let masses = element::lumped_mass(mesh, element, elastic);
+            let d = mesh.dimension;
+            let size = d * masses.len();
+            DMatrix::from_fn(size, size, |i, j| if i == j { masses[i / d] } else { 0.0 })
+        }
+    };
+    [mass, element::stiffness(mesh, element, elastic)]
 }
 
 /// Mass and stiffness of the elements of one region alone, over all dofs: kg and N/m, in the plane for each metre of thickness.
@@ -70,9 +106,13 @@ fn diagonal(mesh: &Mesh, masses: Vec<f64>) -> Triplets {
     triplets
 }
 
-/// Lumped mass of each node, kg for each metre of thickness.
+/// Lumped mass of each node, point masses included, kg for each metre of thickness.
 pub fn lumped_masses(mesh: &Mesh, material: &dyn MaterialField) -> Vec<f64> {
-    masses_of(mesh, material, &|_| true)
+    let mut masses = masses_of(mesh, material, &|_| true);
+    for attachment in &mesh.attachments {
+        masses[attachment.node] += attachment.mass;
+    }
+    masses
 }
 
 fn masses_of(mesh: &Mesh, material: &dyn MaterialField, keep: &dyn Fn(usize) -> bool) -> Vec<f64> {
@@ -154,11 +194,11 @@ pub fn assemble_pressures(mesh: &Mesh) -> Option<Vec<f64>> {
     }
 }
 
-/// What damping coefficients of their own add to `alpha_R M + beta_R K_e` of the whole body, Pa s, over all dofs;
-/// `None` where no region has its own.
+/// What damping coefficients of their own, of regions and of patches, add to `alpha_R M + beta_R K_e` of the whole body, Pa s,
+/// over all dofs; `None` where nothing has its own.
 ///
 /// ```text
-/// sum_e (alpha_e - alpha_R) M_e + (beta_e - beta_R) K_e
+/// sum_e (alpha_e - alpha_R) M_e + (beta_e - beta_R) K_e  +  sum_patch (alpha_p M_e + beta_p K_e)
 /// ```
 pub fn assemble_extra_damping(
     mesh: &Mesh,
@@ -169,29 +209,41 @@ pub fn assemble_extra_damping(
     let own: Vec<_> = (0..mesh.regions.len())
         .map(|region| material.own_damping(region))
         .collect();
-    own.iter().flatten().next()?;
-    let mut triplets = Triplets::default();
+    if own.iter().all(Option::is_none) && mesh.patches.is_empty() {
+        return None;
+    }
+    let mut triplets = assemble_patch_damping(mesh, material, kind);
     for e in 0..mesh.element_count() {
-        let region = mesh.region(e);
-        let Some(damping) = own[region] else {
-            continue;
-        };
-        let elastic = material.of(region);
-        let mass = match kind {
-            MassKind::Consistent => element::consistent_mass(mesh, e, elastic),
-            MassKind::Lumped => {
-                let masses = element::lumped_mass(mesh, e, elastic);
-                let d = mesh.dimension;
-                let size = d * masses.len();
-                DMatrix::from_fn(size, size, |i, j| if i == j { masses[i / d] } else { 0.0 })
-            }
-        };
-        let matrix = mass * (damping.mass_coefficient - common.mass_coefficient)
-            + element::stiffness(mesh, e, elastic)
-                * (damping.stiffness_coefficient - common.stiffness_coefficient);
-        scatter(&mut triplets, mesh, e, &matrix);
+        if let Some(damping) = own[mesh.region(e)] {
+            let [mass, stiffness] = element_matrices(mesh, material, kind, e);
+            let alpha = damping.mass_coefficient - common.mass_coefficient;
+            let beta = damping.stiffness_coefficient - common.stiffness_coefficient;
+            scatter(&mut triplets, mesh, e, &(mass * alpha + stiffness * beta));
+        }
     }
     Some(triplets)
+}
+
+/// Damping of the patches alone over all dofs.
+pub fn assemble_patch_damping(
+    mesh: &Mesh,
+    material: &dyn MaterialField,
+    kind: MassKind,
+) -> Triplets {
+    let mut triplets = Triplets::default();
+    for patch in &mesh.patches {
+        let (alpha, beta) = (patch.mass_coefficient, patch.stiffness_coefficient);
+        for &e in &patch.elements {
+            let [mass, stiffness] = element_matrices(mesh, material, kind, e as usize);
+            scatter(
+                &mut triplets,
+                mesh,
+                e as usize,
+                &(mass * alpha + stiffness * beta),
+            );
+        }
+    }
+    triplets
 }
 
 /// Structural damping `sum_e eta_e K_e` over all dofs, N/m, in the plane for each metre of thickness; `None` where no material

@@ -54,6 +54,19 @@ pub(super) fn supports(mesh: &Mesh) -> [Triplets; 2] {
             }
         });
     }
+    // Springs and dashpots at single nodes.
+    for attachment in &mesh.attachments {
+        let laws = [&attachment.stiffness, &attachment.damping];
+        for (triplets, law) in both.iter_mut().zip(laws) {
+            let block = mesh.in_frame(attachment.node, law);
+            for (i, j) in (0..9).map(|k| (k / 3, k % 3)) {
+                if block[(i, j)] != 0.0 {
+                    let node = 3 * attachment.node;
+                    triplets.push(node + i, node + j, block[(i, j)]);
+                }
+            }
+        }
+    }
     both
 }
 

@@ -18,8 +18,9 @@ mod triplets;
 
 pub use assembly::{
     DofMap, MassKind, assemble_extra_damping, assemble_geometric_stiffness, assemble_mass,
-    assemble_pressures, assemble_region, assemble_region_geometric_stiffness, assemble_stiffness,
-    assemble_structural_damping, assemble_supports, lumped_masses,
+    assemble_patch_damping, assemble_point_masses, assemble_pressures, assemble_region,
+    assemble_region_geometric_stiffness, assemble_stiffness, assemble_structural_damping,
+    assemble_supports, element_matrices, lumped_masses,
 };
 pub use material::{
     AnnulusMaterials, ElasticMaterial, MaterialField, PlaneFormulation, RayleighDamping,

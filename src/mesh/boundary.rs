@@ -120,7 +120,7 @@ pub struct NodalSupport {
 
 impl Mesh {
     /// Springs and dashpots of every support, node by node, `w_i (k_n n n^T + k_t t t^T)`: the integral over the
-    /// boundary with its tributary lengths as weights.
+    /// boundary with its tributary lengths as weights; and those attached to single nodes.
     pub fn nodal_supports(&self) -> Vec<NodalSupport> {
         let mut supports = Vec::new();
         for boundary in &self.boundaries {
@@ -149,6 +149,21 @@ impl Mesh {
                     node,
                     stiffness: of(support.normal_stiffness, support.tangential_stiffness),
                     damping: of(support.normal_damping, support.tangential_damping),
+                });
+            }
+        }
+        // Springs and dashpots at single nodes.
+        for attachment in &self.attachments {
+            let block = |matrix| {
+                let own = self.in_frame(attachment.node, matrix);
+                [0, 1].map(|i| [0, 1].map(|j| own[(i, j)]))
+            };
+            let [stiffness, damping] = [&attachment.stiffness, &attachment.damping].map(block);
+            if stiffness != [[0.0; 2]; 2] || damping != [[0.0; 2]; 2] {
+                supports.push(NodalSupport {
+                    node: attachment.node,
+                    stiffness,
+                    damping,
                 });
             }
         }

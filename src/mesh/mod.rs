@@ -16,6 +16,7 @@ mod format;
 mod frames;
 mod gmsh;
 mod model_data;
+mod modification;
 mod nastran;
 mod plane_body;
 mod quality;
@@ -42,6 +43,7 @@ pub use model_data::{
     FileCondition, FileConditionKind, FileContact, FileElasticity, FileMaterial, FileMotion,
     FileTie, LeftOut, MaterialAxes, ModelData,
 };
+pub use modification::{Attachment, DampedPatch};
 pub use quality::MeshQuality;
 pub use sector::SectorMesh;
 pub use solid::{
@@ -90,6 +92,10 @@ pub struct Mesh {
     pub counterface: Counterface,
     /// Whether the body is a uniform annulus, all of whose sectors are alike.
     pub is_cyclic: bool,
+    /// Masses, springs and dashpots at nodes.
+    pub attachments: Vec<Attachment>,
+    /// Elements with damping beside that of their material.
+    pub patches: Vec<DampedPatch>,
 }
 
 /// A plane mesh without nodes.
@@ -111,6 +117,8 @@ impl Default for Mesh {
             opposite: None,
             counterface: Counterface::default(),
             is_cyclic: false,
+            attachments: Vec::new(),
+            patches: Vec::new(),
         }
     }
 }

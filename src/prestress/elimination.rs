@@ -27,7 +27,7 @@ pub struct Elimination {
 
 /// Friction of rigid contact: the normal force acts along the slip too.
 #[derive(Clone, Debug)]
-pub(super) struct RigidFriction {
+pub struct RigidFriction {
     /// Displacement whose work is the normal force, over all dofs.
     pub lift: Row,
     /// `drag` times the row of the slip, over all dofs.

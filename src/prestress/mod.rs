@@ -37,7 +37,7 @@ mod tangent;
 pub use assembly::{Assembly, BaseChoice, SlidingSurfaces, TiedSurfaces};
 pub use complementarity::{PressedRange, PressedState, Pressing};
 pub use condensed::CondensedContact;
-pub use elimination::Elimination;
+pub use elimination::{Elimination, RigidFriction};
 pub use equilibrium::{SlidingRange, SteadySliding};
 pub use error::PrestressError;
 pub use face_conditions::{pressure_load, supports};

@@ -64,6 +64,8 @@ pub struct SlidingTangent {
     pub contact_angles: Vec<f64>,
     /// Sense of the friction force `s`.
     pub sliding_direction: f64,
+    /// Friction of rigid contact, point by point.
+    pub friction: Vec<RigidFriction>,
 }
 
 impl SlidingTangent {
@@ -74,6 +76,25 @@ impl SlidingTangent {
         for (dof, row) in &self.distances {
             let parts = row.iter().map(|&(other, share)| free[other] * share);
             full[*dof] = parts.sum();
+        }
+        full
+    }
+
+    /// The vector `v` over all dofs with `v^T A u = w^T P x` for a matrix `A` of the bodies over all dofs, `P` what it is over
+    /// the unknowns at friction `mu`, `x` a vector over these and `u` its displacement: that of `w` less, at each point of rigid
+    /// contact, what the normal force does along its slip,
+    ///
+    /// ```text
+    /// v = T w - mu sum_i (slip_i . T w) lift_i
+    /// ```
+    pub fn test_displacement(&self, unknowns: &[c64], mu: f64) -> Vec<c64> {
+        let own = self.displacement(unknowns);
+        let mut full = own.clone();
+        for point in &self.friction {
+            let slip: c64 = point.slip.iter().map(|&(dof, a)| own[dof] * a).sum();
+            for &(dof, value) in &point.lift {
+                full[dof] -= slip * (mu * value);
+            }
         }
         full
     }
@@ -287,6 +308,7 @@ impl SlidingTangent {
                 .collect(),
             contact_angles: dofs.angles.clone(),
             sliding_direction: dofs.sliding_direction,
+            friction,
             unknowns,
         })
     }

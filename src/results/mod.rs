@@ -11,6 +11,7 @@ mod drawing;
 mod extent;
 pub mod fit;
 pub mod identification;
+pub mod improve;
 pub mod matrices;
 pub mod mesh;
 mod npz;

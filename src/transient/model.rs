@@ -97,6 +97,11 @@ impl<'a> TransientModel<'a> {
                 .map(|s| (s.damping[0][0] + s.damping[1][1]) / masses[s.node]);
             bound.mass_coefficient += rates.fold(0.0, f64::max);
         }
+        // Patches may overlap.
+        for patch in &self.mesh.patches {
+            bound.mass_coefficient += patch.mass_coefficient;
+            bound.stiffness_coefficient += patch.stiffness_coefficient;
+        }
         bound
     }
 

@@ -22,6 +22,7 @@ mod figures;
 mod fit;
 mod golden;
 mod identify;
+mod improve;
 mod inputs;
 mod materials;
 mod mesh_files;

@@ -57,6 +57,7 @@ fn problem(
         distances: Vec::new(),
         contact_angles: Vec::new(),
         sliding_direction: 1.0,
+        friction: Vec::new(),
     }
 }
 

@@ -28,6 +28,7 @@ mod frf_cyclic;
 mod frf_sliding;
 mod friction_law;
 mod half_space;
+mod improve;
 mod matrices;
 mod orthotropy;
 mod plane_body;

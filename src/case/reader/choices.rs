@@ -23,6 +23,19 @@ impl Section<'_> {
             .collect()
     }
 
+    /// Texts: one or a list; empty where it is not given.
+    pub fn texts(&self, key: &str) -> Vec<String> {
+        let items = self.item(key).map_or(&[][..], RawItem::listed).iter();
+        let text = |item: &RawItem| match &item.value {
+            RawValue::String(text) => Some(text.clone()),
+            _ => {
+                self.reject_at(item, key, "must be a string, or a list of strings");
+                None
+            }
+        };
+        items.filter_map(text).collect()
+    }
+
     /// One of a few words; the default where the key is left out or wrong.
     pub fn choice<T: Choice>(&self, key: &str) -> T {
         let given = self.item(key);

@@ -11,6 +11,21 @@ use crate::case::value::{RawItem, RawTable, RawValue};
 const LONGEST_RANGE: usize = 100_000;
 
 impl<'a> Section<'a> {
+    /// Reads every section under `name`, which are told apart by names that the case gives.
+    pub fn each<T>(&self, name: &str, mut read: impl FnMut(&Section<'_>) -> T) -> Vec<(String, T)> {
+        let all = self.section(name, false);
+        let names: Vec<&str> = all.remaining().into_iter().map(|(name, _)| name).collect();
+        let found = names.into_iter().map(|name| {
+            let section = all.section(name, false);
+            let value = read(&section);
+            section.close();
+            (name.to_owned(), value)
+        });
+        let found = found.collect();
+        all.close();
+        found
+    }
+
     /// A list of whole numbers without repetition, each with its place.
     pub fn counts(&self, key: &str) -> Option<Vec<(usize, Location)>> {
         let (item, least) = (self.item(key)?, self.least(key));

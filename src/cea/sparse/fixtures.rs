@@ -39,5 +39,6 @@ pub fn string_on_belt(count: usize, coupling: f64, is_proportional: bool) -> Sli
         distances: Vec::new(),
         contact_angles: Vec::new(),
         sliding_direction: 1.0,
+        friction: Vec::new(),
     }
 }

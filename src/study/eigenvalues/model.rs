@@ -284,7 +284,7 @@ impl Model {
     }
 
     /// Which of them belongs to each friction coefficient that the model was made for.
-    pub(super) fn state_of(&self) -> &[usize] {
+    pub(in crate::study) fn state_of(&self) -> &[usize] {
         match self {
             Self::Whole(whole) => &whole.range.state_of,
             Self::Assembly(assembly) => &assembly.range.state_of,
@@ -308,7 +308,11 @@ impl Model {
     ///
     /// # Panics
     /// Of a body solved harmonic by harmonic, which has none.
-    pub(super) fn tangent(&self, case: &Case, state: usize) -> Result<SlidingTangent, CeaError> {
+    pub(in crate::study) fn tangent(
+        &self,
+        case: &Case,
+        state: usize,
+    ) -> Result<SlidingTangent, CeaError> {
         match self {
             Self::Whole(whole) => Ok(whole.tangent(case, &whole.range.states[state])),
             Self::Assembly(assembly) => assembly.tangent(state),

@@ -83,6 +83,7 @@ fn frequencies(mesh: &Mesh, glue: &Glue, held: Vec<usize>, count: usize) -> Vec<
         distances: Vec::new(),
         contact_angles: Vec::new(),
         sliding_direction: 1.0,
+        friction: Vec::new(),
     };
     let modes = FrictionlessModes::compute(&structure, ModeLimit::Lowest(count)).unwrap();
     modes.frequencies[..count].to_vec()

@@ -17,13 +17,15 @@ use super::sliding::{SlidingModel, SteadyState};
 use crate::case::Case;
 use crate::cea::{ComplexMode, FrictionPoint, FrictionSweep};
 use crate::fem::{
-    Triplets, assemble_region, assemble_region_geometric_stiffness, assemble_supports,
+    Triplets, assemble_patch_damping, assemble_point_masses, assemble_region,
+    assemble_region_geometric_stiffness, assemble_supports,
 };
 use crate::linalg::{Mat, MatRef, MatrixPolynomial, c64};
 use crate::mesh::{BoundaryCondition, Mesh};
 use crate::prestress::{DampingModel, TangentOptions};
 use crate::results::cea::{Contribution, Reading, Source};
 use shapes::Shapes;
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 
 /// Bytes of mode shapes over a sweep beyond which they are taken at the ends and at the case's own friction alone.
@@ -102,12 +104,16 @@ struct Parts<'a> {
     options: &'a TangentOptions,
     /// Each region with its name and its coefficients `alpha`, `beta`, `eta`.
     regions: Vec<(String, Pair, [f64; 3])>,
-    /// Dashpots and springs of each support.
+    /// Dashpots and springs of each support, and last of the modifications.
     supports: Vec<(String, Pair)>,
-    /// Mass and stiffness of all regions.
+    /// Point masses.
+    attached: Option<Pair>,
+    /// Mass and stiffness of all regions, with point masses.
     whole: Pair,
     /// Each contact with the dofs of its surfaces.
     contacts: Vec<(String, Vec<usize>)>,
+    /// Geometric stiffness by base state and region, a polynomial in friction.
+    geometric: RefCell<BTreeMap<(usize, usize), MatrixPolynomial>>,
 }
 
 impl<'a> Parts<'a> {
@@ -143,17 +149,27 @@ impl<'a> Parts<'a> {
             (name.clone(), Pair::new(count, own), coefficients)
         });
         let regions = regions.collect();
+        let masses = assemble_point_masses(mesh);
+        all[0].entries.extend_from_slice(&masses.entries);
+        let has_masses = !masses.entries.is_empty();
+        let mut supports = supports(mesh);
+        if !(mesh.attachments.is_empty() && mesh.patches.is_empty()) {
+            let patches = assemble_patch_damping(mesh, materials, options.mass);
+            supports.push(modifications(mesh, patches));
+        }
         Some(Self {
             case,
             mesh,
             options,
             regions,
-            supports: supports(mesh),
+            supports,
+            attached: has_masses.then(|| Pair::new(count, [masses, Triplets::default()])),
             whole: Pair::new(count, all),
             contacts: match contacts.is_empty() {
                 true => vec![("contact".to_owned(), Vec::new())],
                 false => contacts,
             },
+            geometric: RefCell::default(),
         })
     }
 
@@ -166,15 +182,26 @@ impl<'a> Parts<'a> {
     ) -> Vec<f64> {
         let whole = self.options.damping_model == DampingModel::WholeTangent;
         let is_damped = whole && self.options.damping.stiffness_coefficient != 0.0;
-        let base = base_displacement(self.case, model, shapes.friction);
+        let base = base_state(self.case, model, shapes.friction);
         let base = base.filter(|_| is_damped && self.options.geometric_stiffness);
-        let Some(base) = base else {
+        let Some((state, displacements)) = base else {
             return vec![0.0; shapes.modes.len()];
         };
-        let materials = self.case.materials();
-        let geometric = assemble_region_geometric_stiffness(self.mesh, materials, &base, region);
-        let pair = Pair::new(self.mesh.dof_count(), [geometric, Triplets::default()]);
-        let [image, _] = pair.multiply(shapes.columns.as_ref());
+        // Linear in the displacement: assembled once for each state and power of friction.
+        let mut known = self.geometric.borrow_mut();
+        let geometric = known.entry((state, region)).or_insert_with(|| {
+            let materials = self.case.materials();
+            let terms = displacements.iter().map(|displacement| {
+                assemble_region_geometric_stiffness(self.mesh, materials, displacement, region)
+                    .entries
+            });
+            let terms: Vec<_> = terms.collect();
+            MatrixPolynomial::from_triplets(self.mesh.dof_count(), &terms)
+        });
+        let values = geometric.evaluate(shapes.friction);
+        let image = geometric
+            .pattern()
+            .multiply(&values, shapes.columns.as_ref());
         shapes.forms(&image)
     }
 
@@ -220,16 +247,31 @@ impl<'a> Parts<'a> {
                 shapes.add(balance, [&mass, &stiffness], factors);
             }
         }
-        for (name, pair) in &self.supports {
+        for (place, (name, pair)) in self.supports.iter().enumerate() {
             let [dashpots, springs] = pair.multiply(shapes.columns.as_ref());
             let (c, k) = (shapes.forms(&dashpots), shapes.forms(&springs));
+            // Point masses go with the modifications, which come last.
+            let attached = self.attached.as_ref();
+            let attached = attached.filter(|_| place + 1 == self.supports.len());
+            let masses = attached.map(|own| own.multiply(shapes.columns.as_ref()));
+            let m = masses.as_ref().map(|[mass, _]| shapes.forms(mass));
+            let alpha = self.options.damping.mass_coefficient;
             let each = (0..count).map(|i| {
                 strain[i] += k[i];
-                [f64::NAN, k[i], c[i]]
+                let Some(m) = &m else {
+                    return [f64::NAN, k[i], c[i]];
+                };
+                kinetic[i] += m[i];
+                [m[i], k[i], c[i] + alpha * m[i]]
             });
             rows.push((name, Source::Support, each.collect()));
-            if let Some(balance) = &mut balance {
-                shapes.add(balance, [&dashpots, &springs], |lambda| [lambda, c64::ONE]);
+            let Some(balance) = &mut balance else {
+                continue;
+            };
+            shapes.add(balance, [&dashpots, &springs], |lambda| [lambda, c64::ONE]);
+            if let Some([mass, none]) = &masses {
+                let factors = |lambda: c64| [lambda * lambda + lambda * alpha, c64::ZERO];
+                shapes.add(balance, [mass, none], factors);
             }
         }
         for (i, (number, mode)) in shapes.modes.iter().enumerate() {
@@ -323,18 +365,34 @@ fn contact_dofs(mesh: &Mesh, contacts: &[(String, [usize; 2])]) -> Vec<(String, 
     names.zip(dofs).collect()
 }
 
-/// The displacement of the base state of a plane body at a friction coefficient.
-fn base_displacement(case: &Case, model: &SlidingModel, friction: f64) -> Option<Vec<f64>> {
+/// Number and displacements, by power of friction, of the base state of a plane body at a friction coefficient.
+fn base_state<'m>(
+    case: &Case,
+    model: &'m SlidingModel,
+    friction: f64,
+) -> Option<(usize, &'m [Vec<f64>])> {
     match (&model.model, &model.state) {
         (Model::Whole(whole), _) => {
             let solved = case.cea.as_ref()?.solved_friction_coefficients();
             let place = solved.iter().position(|&mu| mu == friction)?;
-            let state = &whole.range.states[whole.range.state_of[place]];
-            Some(state.displacement(friction))
+            let state = whole.range.state_of[place];
+            Some((state, &whole.range.states[state].displacements))
         }
-        (_, SteadyState::Plane(base)) => Some(base.displacement(friction)),
+        (_, SteadyState::Plane(base)) => Some((0, &base.displacements)),
         (_, SteadyState::Solid(_) | SteadyState::Assembly(_)) => None,
     }
+}
+
+/// Dashpots and springs of the modifications, with the damping of their patches.
+fn modifications(mesh: &Mesh, patches: Triplets) -> (String, Pair) {
+    let mut own = mesh.clone();
+    for boundary in &mut own.boundaries {
+        boundary.condition = BoundaryCondition::Free;
+    }
+    let [springs, mut dashpots] = assemble_supports(&own);
+    dashpots.entries.extend(patches.entries);
+    let pair = Pair::new(mesh.dof_count(), [dashpots, springs]);
+    ("modifications".to_owned(), pair)
 }
 
 /// Dashpots and springs of each supported boundary.
@@ -346,6 +404,7 @@ fn supports(mesh: &Mesh) -> Vec<(String, Pair)> {
     let of = |boundary: usize| {
         // The mesh with this support alone.
         let mut own = mesh.clone();
+        own.attachments.clear();
         for (other, free) in own.boundaries.iter_mut().enumerate() {
             if other != boundary {
                 free.condition = BoundaryCondition::Free;

@@ -1,0 +1,95 @@
+//! `frictionsim improve`: where a modification silences unstable modes.
+
+use super::profile::{Profile, Redraw};
+use super::{Failure, RunOptions, Session, terminal};
+use crate::case::Case;
+use crate::results::improve::{ImproveSummary, draw, write};
+use crate::results::{DrawingOptions, OutputFolder, read_summary, write_summary};
+use crate::study::improve::{Improvement, improve};
+use clap::Args;
+
+/// Where a mass, a support, damping or less material silences unstable modes
+///
+/// Derivatives of the growth rates of the modes that are unstable at the case's friction coefficient, by a modification at
+/// every place of the bodies; the best places looked at with all modes together; the best of those run again as cases of their
+/// own, and confirmed or struck off. The section improve of the case says what may be changed and by how much.
+#[derive(Args)]
+pub struct Arguments {
+    #[command(flatten)]
+    options: RunOptions,
+}
+
+/// What the rest of the program asks of this command.
+pub const PROFILE: Profile = Profile {
+    files: &[
+        (
+            "candidates.csv",
+            "one row for each modification, the best first",
+        ),
+        (
+            "improve.vtu",
+            "derivatives of growth by a modification at each place",
+        ),
+        ("improved.toml", "the keys that make the best one"),
+    ],
+    examples: &[
+        (
+            "frictionsim improve disc.toml",
+            "what raises the critical friction most",
+        ),
+        (
+            "frictionsim improve disc.toml --set improve.modifications=mass --set improve.mass=0.005",
+            "where five grams do",
+        ),
+    ],
+    redraw: Redraw::OfCase(redraw),
+};
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// A bad case, nothing that grows, an output folder that cannot be written.
+pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let session = Session::start("improve", &arguments.options)?;
+    let cost = session.case.cost();
+    let solver_bytes = cost.cea.map_or(0.0, |cea| cea.memory_bytes);
+    session.check_memory(cost.mesh_memory_bytes + solver_bytes)?;
+    session.case.require_cea()?;
+    let folder = session.open_folder()?;
+    terminal::catch_signals(terminal::NOTHING_KEPT);
+    let found = improve(&session.case)?;
+    let summary = ImproveSummary {
+        command: "improve".to_owned(),
+        title: session.case.title.clone(),
+        wall_s: session.wall_seconds(),
+        dofs: found.dofs,
+        friction_coefficient: session.case.contact.sliding.friction_coefficient,
+        base: found.base,
+        modes: found.modes.clone(),
+        sizes: found.sizes,
+        candidates: found.candidates.clone(),
+        notes: found.notes.clone(),
+        manifest: session.manifest.clone(),
+    };
+    write(&folder, &summary, &found.mesh, &found.fields)?;
+    if let Some(drawing) = session.options.output.drawing() {
+        draw(&folder, &summary, &found.mesh, &found.fields, &drawing)?;
+    }
+    let object = write_summary(&folder, &summary)?;
+    session
+        .options
+        .output
+        .finish(folder, &summary.text(), &object)
+}
+
+/// Draws the figures of a folder again: fields are found anew, the list is that of the summary.
+///
+/// # Errors
+/// As [`run`]; a folder without a whole summary.
+pub fn redraw(folder: &OutputFolder, case: &Case, options: &DrawingOptions) -> Result<(), Failure> {
+    let summary: ImproveSummary = read_summary(folder.path())?;
+    let mut case = case.clone();
+    case.improve.confirm = 0;
+    let Improvement { mesh, fields, .. } = improve(&case)?;
+    Ok(draw(folder, &summary, &mesh, &fields, options)?)
+}

@@ -1,0 +1,129 @@
+//! What modifications attach to a body, and the annulus whose symmetry they break.
+
+use super::body::{Annulus, Body};
+use super::imported::ImportedBody;
+use super::modifications::{Misfit, Modification, reshaped};
+use super::node::Nodes;
+use super::reader::Section;
+use crate::fem::RegionMaterial;
+use crate::mesh::{
+    Attachment, BodySpecification, CounterfaceSpecification, DampedPatch, GmshFile, Mesh,
+    MeshFileError,
+};
+use nalgebra::{Matrix3, Vector3};
+use std::sync::Arc;
+
+/// A built-in annulus with modifications: no symmetry is left, and it is what a mesh file of it would be.
+pub(super) fn reshaped_annulus(
+    annulus: &Annulus,
+    modifications: &[Modification],
+) -> Result<ImportedBody, Misfit> {
+    let first = modifications.first();
+    let key = first.map_or_else(String::new, |own| format!("modifications.{}", own.name));
+    let spec = &annulus.specification;
+    if spec.shaft.is_some() {
+        let why = "modifications are for one body on a rigid cylinder; give a disc with a deformable shaft as a mesh file";
+        return Err((key, why.to_owned()));
+    }
+    let mesh = crate::mesh::AnnulusMesh::generate(spec);
+    let mesh = mesh.map_err(|error| (key.clone(), error.to_string()))?.mesh;
+    let contact = mesh.contact_edge().name.clone();
+    let file = Arc::new(GmshFile::of_mesh(&mesh));
+    let (file, center) = reshaped(file, 1.0, &contact, modifications)?;
+    let specification = BodySpecification {
+        scale: 1.0,
+        contact,
+        counterface: CounterfaceSpecification::Cylinder {
+            center,
+            radius: Some(spec.inner_radius),
+        },
+        opposite: None,
+        conditions: vec![("outer".to_owned(), spec.outer)],
+    };
+    let body = Mesh::from_gmsh(&file, &specification);
+    let body = body.map_err(|error: MeshFileError| (key, error.to_string()))?;
+    let material = RegionMaterial {
+        elastic: annulus.materials.annulus,
+        damping: None,
+    };
+    Ok(ImportedBody::new(body, vec![material], file, specification))
+}
+
+/// Attaches masses, springs, dashpots and damped patches to the mesh of a body; `thickness` is that of a plane body, m.
+pub(super) fn attach(
+    root: &Section<'_>,
+    modifications: &[Modification],
+    body: &mut Body,
+    thickness: f64,
+) {
+    if modifications.is_empty() {
+        return;
+    }
+    let all = root.section("modifications", false);
+    let extent = if body.dimension() == 2 {
+        thickness
+    } else {
+        1.0
+    };
+    let (mut attachments, mut patches) = (Vec::new(), Vec::new());
+    for own in modifications {
+        let section = all.section(&own.name, false);
+        if let Some(place) = &own.at {
+            let nodes = Nodes { body: Some(&*body) };
+            if let Some((node, _)) = nodes.find(&section, "at", place) {
+                attachments.push(own.attachment(node, extent));
+            }
+        }
+        if own.coefficients == [0.0; 2] {
+            continue;
+        }
+        let Some(((center, radius), mesh)) = own.within.zip(body.whole_mesh()) else {
+            continue;
+        };
+        let elements = mesh.elements_within(center, radius);
+        if elements.is_empty() {
+            section.reject(
+                "radius",
+                format!("{} holds no element's middle", section.name("radius")),
+                "no element within it".to_owned(),
+                Some("center and radius are in metres".to_owned()),
+            );
+        }
+        patches.push(DampedPatch {
+            elements,
+            mass_coefficient: own.coefficients[0],
+            stiffness_coefficient: own.coefficients[1],
+        });
+    }
+    match body.whole_mesh_mut() {
+        Some(mesh) => {
+            let mesh = Arc::make_mut(mesh);
+            (mesh.attachments, mesh.patches) = (attachments, patches);
+        }
+        None => root.reject(
+            "modifications",
+            "modifications break the rotational symmetry that this body is solved by".to_owned(),
+            "a body of revolution in three dimensions".to_owned(),
+            Some("give the body as a mesh file (mesh.file)".to_owned()),
+        ),
+    }
+}
+
+impl Modification {
+    /// What it attaches to a node, for each metre of thickness in the plane.
+    fn attachment(&self, node: usize, thickness: f64) -> Attachment {
+        let law = match self.direction {
+            None => Matrix3::identity(),
+            Some(direction) => {
+                let along = Vector3::from(direction).normalize();
+                along * along.transpose()
+            }
+        };
+        Attachment {
+            node,
+            mass: self.mass / thickness,
+            stiffness: law * (self.stiffness / thickness),
+            damping: law * (self.damping / thickness),
+        }
+    }
+}

@@ -1,0 +1,253 @@
+//! Results of `improve`: where a modification silences unstable modes, what it is predicted to do, and what it does.
+
+mod figures;
+mod files;
+mod report;
+
+use super::Manifest;
+use super::summary::{Entry, Summary};
+use serde::{Deserialize, Serialize};
+use std::fmt::Write as _;
+
+pub use figures::draw;
+pub use files::write;
+
+/// Fields over the mesh of one target.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TargetFields {
+    /// Number of the mode by frequency, from 1.
+    pub mode: usize,
+    /// Its frequency, Hz.
+    pub frequency_hz: f64,
+    /// Derivative of the growth rate by a mass at each node, 1/s for each kg.
+    pub mass: Vec<f64>,
+    /// By a spring at each node along the direction that helps most, 1/s for each N/m.
+    pub spring: Vec<f64>,
+    /// By a dashpot alike, 1/s for each N s/m.
+    pub dashpot: Vec<f64>,
+    /// By taking each element away, 1/s for each m2 of area (m3 of solid bodies).
+    pub removal: Vec<f64>,
+    /// By stiffness damping of each element, 1/s for each s and m2 (m3).
+    pub damping: Vec<f64>,
+}
+
+/// `summary.json` of `improve`.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct ImproveSummary {
+    /// Its command.
+    pub command: String,
+    /// Title of the case.
+    pub title: String,
+    /// Wall time, s.
+    pub wall_s: f64,
+    /// Unknowns of the eigenproblem.
+    pub dofs: usize,
+    /// The friction coefficient at which modes are to be silenced.
+    pub friction_coefficient: f64,
+    /// What the case does as it is.
+    pub base: State,
+    /// The modes that are to be silenced, by frequency.
+    pub modes: Vec<TargetMode>,
+    /// Sizes of the modifications.
+    pub sizes: Sizes,
+    /// Modifications, the best first.
+    pub candidates: Vec<Candidate>,
+    /// What there is to say.
+    pub notes: Vec<String>,
+    /// What it was made from.
+    pub manifest: Manifest,
+}
+
+/// A mode that is to be silenced.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub struct TargetMode {
+    /// Number by frequency, from 1.
+    pub mode: usize,
+    /// `Im(lambda) / 2 pi`, Hz.
+    pub frequency_hz: f64,
+    /// `Re(lambda)`, 1/s.
+    pub growth_rate_per_s: f64,
+}
+
+/// What the modes of the window of frequencies come to.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct State {
+    /// Growth rate of the mode that grows fastest there, 1/s.
+    pub growth_rate_per_s: Option<f64>,
+    /// Its frequency, Hz.
+    pub frequency_hz: Option<f64>,
+    /// The lowest critical friction coefficient there; null where none is below that of the case.
+    pub critical_friction: Option<f64>,
+    /// Unstable modes there.
+    pub unstable: usize,
+    /// Unstable modes at other frequencies.
+    pub unstable_beside: usize,
+    /// Frequency of the one of them that grows fastest, Hz.
+    pub beside_hz: Option<f64>,
+}
+
+/// Sizes of the modifications.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub struct Sizes {
+    /// Mass at a node, kg.
+    pub mass_kg: f64,
+    /// Stiffness of a spring, N/m.
+    pub stiffness_n_per_m: f64,
+    /// Damping of a dashpot, N s/m.
+    pub damping_n_s_per_m: f64,
+    /// Radius of a patch, m.
+    pub patch_radius_m: f64,
+    /// Stiffness coefficient of its damping, s.
+    pub patch_damping_s: f64,
+    /// Farthest way of the contact curve, m.
+    pub offset_m: f64,
+}
+
+/// One modification.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Candidate {
+    /// Place in the list, from 1.
+    pub rank: usize,
+    /// What it is.
+    pub kind: String,
+    /// Number of its node.
+    pub node: Option<usize>,
+    /// Where it is, m; the way of the hole for an offset.
+    pub position_m: [f64; 3],
+    /// Direction of a spring or dashpot.
+    pub direction: Option<[f64; 3]>,
+    /// Mass that it adds, kg; negative where material is taken away.
+    pub added_mass_kg: f64,
+    /// Largest growth rate of the targets to first order, 1/s.
+    pub first_order_growth_rate_per_s: Option<f64>,
+    /// What is predicted from all listed modes together.
+    pub predicted: State,
+    /// What the modified case does.
+    pub confirmed: Option<State>,
+    /// What that comes to, in words.
+    pub verdict: String,
+    /// Case keys that make it.
+    pub keys: Vec<String>,
+}
+
+impl Candidate {
+    /// Where it is, in words.
+    pub fn place(&self) -> String {
+        // No minus sign before a zero.
+        let [x, y, z] = self
+            .position_m
+            .map(|value| (1e5 * value).round() / 1e2 + 0.0);
+        let depth = match z == 0.0 {
+            true => String::new(),
+            false => format!(", {z:.2}"),
+        };
+        match (self.kind.as_str(), self.node) {
+            ("offset", _) => format!("hole moved by ({x:.2}, {y:.2}) mm"),
+            (_, Some(node)) => format!("node {node} at ({x:.2}, {y:.2}{depth}) mm"),
+            _ => format!("about ({x:.2}, {y:.2}{depth}) mm"),
+        }
+    }
+}
+
+/// A critical friction coefficient for people: none up to that of the case.
+pub(super) fn critical(value: Option<f64>, friction: f64) -> String {
+    value.map_or_else(|| format!("> {friction}"), |value| format!("{value:.4}"))
+}
+
+impl ImproveSummary {
+    /// What was found, in a sentence.
+    pub fn answer(&self) -> String {
+        let friction = self.friction_coefficient;
+        let base = critical(self.base.critical_friction, friction);
+        let best = self.candidates.iter().find(|own| own.verdict == "silenced");
+        let best = best.or_else(|| {
+            self.candidates
+                .iter()
+                .find(|own| own.verdict == "confirmed")
+        });
+        match (best, self.candidates.first()) {
+            (Some(own), _) => format!(
+                "{} ({}): critical friction {base} -> {}, run again and {}",
+                own.kind,
+                own.place(),
+                critical(
+                    own.confirmed.and_then(|state| state.critical_friction),
+                    friction
+                ),
+                own.verdict,
+            ),
+            (None, Some(own)) if own.confirmed.is_none() => format!(
+                "{} ({}): critical friction {base} -> {} as predicted; none was run again",
+                own.kind,
+                own.place(),
+                critical(own.predicted.critical_friction, friction),
+            ),
+            (None, Some(_)) => "none of the candidates that were run again holds".to_owned(),
+            (None, None) => "no modification of these sizes helps".to_owned(),
+        }
+    }
+
+    /// As text.
+    pub fn text(&self) -> String {
+        let friction = self.friction_coefficient;
+        let growth = |value: Option<f64>| value.map_or("-".to_owned(), |v| format!("{v:.1}"));
+        let mut out = format!("{}\n{}\n", self.title, self.answer());
+        for mode in &self.modes {
+            let _ = writeln!(
+                out,
+                "mode {} at {:.2} Hz grows by {:.1} 1/s at friction {friction}",
+                mode.mode, mode.frequency_hz, mode.growth_rate_per_s
+            );
+        }
+        let _ = writeln!(
+            out,
+            "growth 1/s and critical friction: as it is {} and {}\n\n{:>4}  {:<8} {:<34} {:>21} {:>21}  verdict",
+            growth(self.base.growth_rate_per_s),
+            critical(self.base.critical_friction, friction),
+            "rank",
+            "kind",
+            "where",
+            "predicted",
+            "run again",
+        );
+        let both = |state: &State| {
+            format!(
+                "{} {:>8}",
+                growth(state.growth_rate_per_s),
+                critical(state.critical_friction, friction)
+            )
+        };
+        for own in &self.candidates {
+            let _ = writeln!(
+                out,
+                "{:>4}  {:<8} {:<34} {:>21} {:>21}  {}",
+                own.rank,
+                own.kind,
+                own.place(),
+                both(&own.predicted),
+                own.confirmed.as_ref().map_or("-".to_owned(), both),
+                own.verdict,
+            );
+        }
+        for note in &self.notes {
+            let _ = writeln!(out, "{note}");
+        }
+        out
+    }
+}
+
+impl Summary for ImproveSummary {
+    fn headline(&self) -> Vec<Entry> {
+        let best = self.candidates.first();
+        let confirmed = best.and_then(|own| own.confirmed);
+        vec![
+            Entry::new("base.critical_friction", self.base.critical_friction),
+            Entry::new("base.growth_rate_per_s", self.base.growth_rate_per_s),
+            Entry::new("candidates", self.candidates.len()),
+            Entry::new(
+                "confirmed.growth_rate_per_s",
+                confirmed.and_then(|state| state.growth_rate_per_s),
+            ),
+        ]
+    }
+}

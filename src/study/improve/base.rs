@@ -1,0 +1,281 @@
+//! What there is to improve: the unstable modes of a case with their left and right vectors.
+
+use super::super::StudyError;
+use crate::case::{Body, Case, CaseErrors, Cea};
+use crate::cea::sparse::{ModePair, mode_pairs};
+use crate::cea::{CeaError, FrictionSweep, SweepRequest, Unwatched};
+use crate::linalg::c64;
+use crate::mesh::Mesh;
+use crate::prestress::{SlidingTangent, TangentOptions};
+use crate::results::improve::{State, TargetMode};
+use crate::study::eigenvalues::{Model, Solver, mode_limit};
+use crate::study::tangent_options;
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+/// Steps of friction from 0 to that of the case, over which branches are followed.
+const STEPS: usize = 4;
+
+/// A mode with its vectors over the unknowns and over all dofs.
+pub(super) struct PairedMode {
+    /// Vectors over the unknowns.
+    pub pair: ModePair,
+    /// Displacement of every dof.
+    pub right: Vec<c64>,
+    /// What a change of a body's matrix over all dofs is seen by, see [`SlidingTangent::test_displacement`].
+    pub left: Vec<c64>,
+}
+
+impl PairedMode {
+    /// `lambda`.
+    pub fn eigenvalue(&self) -> c64 {
+        self.pair.eigenvalue
+    }
+}
+
+/// Growth of the modes of a window of frequencies, and what grows beside them.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Outlook {
+    /// Eigenvalue of the mode that grows fastest, or decays slowest, in the window.
+    pub worst: Option<c64>,
+    /// Unstable modes in the window.
+    pub unstable: usize,
+    /// Unstable modes beside it.
+    pub beside: usize,
+    /// The fastest of those.
+    pub worst_beside: Option<c64>,
+}
+
+/// The frequencies of the modes that are to be silenced, Hz.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Window(pub [f64; 2]);
+
+impl Window {
+    /// Whether a mode is one of them.
+    pub fn holds(&self, eigenvalue: c64) -> bool {
+        let frequency = eigenvalue.im / TAU;
+        (self.0[0]..=self.0[1]).contains(&frequency)
+    }
+
+    /// What some modes come to.
+    pub fn outlook(&self, modes: impl IntoIterator<Item = c64>) -> Outlook {
+        let (own, others): (Vec<c64>, Vec<c64>) =
+            modes.into_iter().partition(|mode| self.holds(*mode));
+        let fastest = |modes: &[c64]| {
+            let modes = modes.iter().copied();
+            modes.max_by(|a, b| a.re.total_cmp(&b.re))
+        };
+        let count = |modes: &[c64]| modes.iter().filter(|mode| mode.re > 0.0).count();
+        Outlook {
+            worst: fastest(&own),
+            unstable: count(&own),
+            beside: count(&others),
+            worst_beside: fastest(&others),
+        }
+    }
+}
+
+/// The model of a case over its whole mesh, at its own friction coefficient.
+pub(super) struct Base<'a> {
+    pub case: &'a Case,
+    pub cea: &'a Cea,
+    pub mesh: Arc<Mesh>,
+    pub options: TangentOptions,
+    pub tangent: SlidingTangent,
+    /// The case's own friction coefficient.
+    pub friction: f64,
+    /// Displacement of the base state there, with which elements have a geometric stiffness; none of solids.
+    pub displacement: Option<Vec<f64>>,
+    pub window: Window,
+    /// Eigenvalues of all listed modes, by frequency.
+    pub listed: Vec<c64>,
+    /// Those of them that have vectors.
+    pub modes: Vec<PairedMode>,
+    pub outlook: Outlook,
+    /// The lowest critical friction coefficient of a mode in the window.
+    pub onset: Option<f64>,
+    /// Modes that coincide with another one.
+    pub multiple: usize,
+}
+
+/// Friction coefficients from 0 to that of a case.
+pub(super) fn friction_steps(case: &Case) -> Vec<f64> {
+    let own = case.contact.sliding.friction_coefficient;
+    let step = |i: usize| own * i as f64 / STEPS as f64;
+    (0..=STEPS).map(step).collect()
+}
+
+/// The model and the spectrum of a case over its whole mesh.
+pub(super) fn spectrum_of(case: &Case, cea: &Cea) -> Result<(Model, FrictionSweep), StudyError> {
+    let solver = match &case.body {
+        Body::Assembly(_) => Solver::Assembly,
+        _ => Solver::WholeMesh,
+    };
+    let frictions = friction_steps(case);
+    let options = tangent_options(case, cea.mass);
+    let model = Model::with_solver(case, solver, options, &frictions)?;
+    let request = SweepRequest {
+        friction_coefficients: &frictions,
+        limit: mode_limit(cea),
+        shapes_at: &[],
+    };
+    let sweep = model.spectrum(case, &request, false, &Unwatched)?.sweep;
+    Ok((model, sweep))
+}
+
+/// The lowest critical friction coefficient of a mode in a window.
+pub(super) fn lowest_onset(sweep: &FrictionSweep, window: Window) -> Option<f64> {
+    let intervals = sweep.intervals.iter();
+    let own = intervals.filter(|own| window.holds(c64::new(0.0, TAU * own.frequency_hz)));
+    own.map(|own| own.critical_friction).min_by(f64::total_cmp)
+}
+
+impl<'a> Base<'a> {
+    /// Solves the modes of a case over friction, and the vectors of those at its own.
+    ///
+    /// # Errors
+    /// A body that has no whole mesh; no unstable mode; those of the solver.
+    pub fn solve(case: &'a Case, cea: &'a Cea) -> Result<Self, StudyError> {
+        refuse_bodies(case)?;
+        let friction = case.contact.sliding.friction_coefficient;
+        let window = Window(case.improve.frequencies_hz);
+        let (model, sweep) = spectrum_of(case, cea)?;
+        let point = sweep.points.iter();
+        let own = point.filter(|point| point.friction_coefficient == friction);
+        let targets: Vec<c64> = own
+            .flat_map(|point| &point.modes)
+            .map(|mode| mode.eigenvalue)
+            .collect();
+        let outlook = window.outlook(targets.iter().copied());
+        if outlook.unstable == 0 {
+            return Err(nothing_grows(case, outlook, window).into());
+        }
+
+        // Left and right vectors of all listed modes.
+        let state = model.state_of().last().copied().unwrap_or(0);
+        let tangent = model.tangent(case, state)?;
+        let pairs = mode_pairs(&tangent, friction, &targets, targets.len() + 2)?;
+        let multiple = pairs.iter().filter(|pair| pair.is_none()).count();
+        let modes = pairs.into_iter().flatten().map(|pair| PairedMode {
+            right: tangent.displacement(&pair.right),
+            left: tangent.test_displacement(&pair.left, friction),
+            pair,
+        });
+        let modes: Vec<PairedMode> = modes.collect();
+        let displacement = match &model {
+            Model::Whole(whole) => Some(whole.base().displacement(friction)),
+            _ => None,
+        };
+        Ok(Self {
+            mesh: case.mesh().map_err(CeaError::from)?,
+            options: tangent_options(case, cea.mass),
+            onset: lowest_onset(&sweep, window),
+            case,
+            cea,
+            tangent,
+            friction,
+            displacement,
+            window,
+            listed: targets,
+            modes,
+            outlook,
+            multiple,
+        })
+    }
+
+    /// The modes that are to be silenced.
+    pub fn targets(&self) -> Vec<&PairedMode> {
+        let modes = self.modes.iter();
+        let grows =
+            |mode: &&PairedMode| self.window.holds(mode.eigenvalue()) && mode.eigenvalue().re > 0.0;
+        modes.filter(grows).collect()
+    }
+}
+
+/// The state of an outlook.
+pub(super) fn state(outlook: Outlook, onset: Option<f64>) -> State {
+    let beside = outlook.worst_beside.filter(|mode| mode.re > 0.0);
+    State {
+        growth_rate_per_s: outlook.worst.map(|mode| mode.re),
+        frequency_hz: outlook.worst.map(|mode| mode.im / TAU),
+        critical_friction: onset,
+        unstable: outlook.unstable,
+        unstable_beside: outlook.beside,
+        beside_hz: beside.map(|mode| mode.im / TAU),
+    }
+}
+
+/// The modes that are to be silenced, numbered as `cea` numbers them.
+pub(super) fn target_modes(base: &Base<'_>) -> Vec<TargetMode> {
+    let targets = base.targets();
+    let number = |mode: &PairedMode| {
+        let listed = base.listed.iter();
+        1 + listed
+            .filter(|other| other.im < mode.eigenvalue().im)
+            .count()
+    };
+    targets
+        .into_iter()
+        .map(|mode| TargetMode {
+            mode: number(mode),
+            frequency_hz: mode.eigenvalue().im / TAU,
+            growth_rate_per_s: mode.eigenvalue().re,
+        })
+        .collect()
+}
+
+/// Bodies whose changes break the symmetry that they are solved by, and damping without linear derivatives.
+fn refuse_bodies(case: &Case) -> Result<(), CaseErrors> {
+    let refuse = |key: &str, message: &str, label: &str, help: &str| {
+        let help = Some(help.to_owned());
+        Err(case.error_at(key, message.to_owned(), label.to_owned(), help))
+    };
+    if case.body.has_structural_damping() {
+        return Err(case.loss_error(
+            "improve takes derivatives of conjugate pairs of modes, which structural damping K (1 + i eta) does not leave".to_owned(),
+            "not in improve",
+            "give the damping by mass_coefficient and stiffness_coefficient: beta = eta / omega at the frequency of the mode",
+        ));
+    }
+    match &case.body {
+        Body::Revolution(_) => refuse(
+            "material.formulation",
+            "improve adds to, or takes from, one place of a body, which breaks the symmetry that this body is solved by",
+            "a body of revolution in three dimensions",
+            "give the body as a mesh file (mesh.file)",
+        ),
+        Body::Annulus(annulus) if annulus.materials.shaft.is_some() => refuse(
+            "geometry.shaft_inner_radius",
+            "improve adds to, or takes from, one place of a body, which breaks the symmetry that disc and shaft are solved by",
+            "a deformable shaft",
+            "give both bodies as a mesh file (mesh.file)",
+        ),
+        _ => Ok(()),
+    }
+}
+
+/// No mode of the window grows.
+fn nothing_grows(case: &Case, outlook: Outlook, window: Window) -> CaseErrors {
+    let friction = case.contact.sliding.friction_coefficient;
+    let [low, high] = window.0;
+    let place = match (low > 0.0, high.is_finite()) {
+        (false, false) => "of [cea]".to_owned(),
+        (true, false) => format!("above {low} Hz"),
+        (false, true) => format!("below {high} Hz"),
+        (true, true) => format!("from {low} to {high} Hz"),
+    };
+    let beside = match outlook.beside {
+        0 => String::new(),
+        count => format!("; {count} beside these frequencies do"),
+    };
+    let key = match case.raw.find("contact.friction_coefficient") {
+        Some(_) => "contact.friction_coefficient",
+        None => "contacts",
+    };
+    case.error_at(
+        key,
+        format!("no mode {place} grows at friction {friction}: there is nothing to improve{beside}"),
+        "every mode decays".to_owned(),
+        Some("raise the friction coefficient above the lowest critical one that `cea` prints, or widen improve.min_frequency_hz and max_frequency_hz".to_owned()),
+    )
+}

@@ -1,0 +1,129 @@
+//! Candidates as cases of their own: their keys, their runs, what these come to.
+
+use super::base::{Base, lowest_onset, spectrum_of, state};
+use super::trial::{Search, Target, Trial};
+use crate::case::{Case, ModificationKind};
+use crate::prestress::SlidingTangent;
+use crate::results::improve::State;
+use crate::study::StudyError;
+use crate::study::eigenvalues::Model;
+use nalgebra::{Matrix3, Vector3};
+
+/// Name of the section that makes a candidate.
+const NAME: &str = "improve";
+
+/// The law of a spring along a direction, or in every one.
+pub(super) fn law(direction: Option<[f64; 3]>) -> Matrix3<f64> {
+    match direction {
+        None => Matrix3::identity(),
+        Some(direction) => {
+            let along = Vector3::from(direction);
+            along * along.transpose()
+        }
+    }
+}
+
+/// The case keys that make a trial, `KEY=VALUE`.
+pub(super) fn keys_of(search: &Search<'_>, trial: &Trial) -> Vec<String> {
+    let (base, budget) = (search.base, &search.budget);
+    let d = base.mesh.dimension;
+    let key = |name: &str, value: String| format!("modifications.{NAME}.{name}={value}");
+    let list = |values: &[f64]| {
+        let texts = values.iter().map(|value| format!("{value:?}"));
+        format!("[{}]", texts.collect::<Vec<String>>().join(", "))
+    };
+    match &trial.target {
+        Target::Hole(way) => vec![key("offset", list(way))],
+        Target::Node(node, direction) => {
+            let (name, amount) = match trial.kind {
+                ModificationKind::Mass => ("mass", budget.mass),
+                ModificationKind::Spring => ("stiffness", budget.stiffness),
+                _ => ("damping", budget.damping),
+            };
+            let mut keys = vec![
+                key("at", base.mesh.node_label(*node).to_string()),
+                key(name, format!("{amount:?}")),
+            ];
+            keys.extend(direction.map(|along| key("direction", list(&along[..d]))));
+            keys
+        }
+        Target::Patch(element, _) => {
+            let middle = base.mesh.element_middle(*element);
+            // A hair more, so that elements at just that distance are in it.
+            let radius = budget.patch_radius * (1.0 + 1e-9);
+            let mut keys = vec![
+                key("center", list(&middle[..d])),
+                key("radius", format!("{radius:?}")),
+            ];
+            keys.push(match trial.kind {
+                ModificationKind::Removal => key("remove", "true".to_owned()),
+                _ => key(
+                    "stiffness_coefficient",
+                    format!("{:?}", budget.patch_damping),
+                ),
+            });
+            keys
+        }
+    }
+}
+
+/// The case with some keys.
+fn changed(base: &Base<'_>, keys: &[String]) -> Result<Case, String> {
+    let said = |errors: crate::case::CaseErrors| errors.messages().join("; ");
+    let mut raw = base.case.raw.with_overrides(keys).map_err(said)?;
+    for study in ["sweep", "fit", "uncertainty", "convergence"] {
+        raw.root.remove(study);
+    }
+    Case::from_raw(raw).map_err(said)
+}
+
+fn one_line(error: &StudyError) -> String {
+    error.messages().join("; ")
+}
+
+/// The tangent of the case with some keys, at its own friction coefficient.
+pub(super) fn tangent_of(base: &Base<'_>, keys: &[String]) -> Result<SlidingTangent, String> {
+    let case = changed(base, keys)?;
+    let options = base.options;
+    let solver = crate::study::eigenvalues::Solver::WholeMesh;
+    let model = Model::with_solver(&case, solver, options, &[base.friction]);
+    let model = model.map_err(|error| error.to_string())?;
+    let state = model.state_of().last().copied().unwrap_or(0);
+    let tangent = model.tangent(&case, state);
+    tangent.map_err(|error| error.to_string())
+}
+
+/// Runs the case with some keys.
+pub(super) fn run_again(base: &Base<'_>, keys: &[String]) -> Result<State, String> {
+    let case = changed(base, keys)?;
+    let cea = case
+        .require_cea()
+        .map_err(|errors| errors.messages().join("; "))?;
+    let (_, sweep) = spectrum_of(&case, cea).map_err(|error| one_line(&error))?;
+    let point = sweep.points.iter();
+    let own = point.filter(|point| point.friction_coefficient == base.friction);
+    let modes = own.flat_map(|point| &point.modes);
+    let outlook = base.window.outlook(modes.map(|mode| mode.eigenvalue));
+    Ok(state(outlook, lowest_onset(&sweep, base.window)))
+}
+
+/// What a run comes to against the case as it is.
+pub(super) fn verdict(base: &State, changed: &State) -> String {
+    if changed.unstable_beside > base.unstable_beside {
+        let frequency = changed.beside_hz.unwrap_or(f64::NAN);
+        return format!("struck off: a mode at {frequency:.0} Hz begins to grow");
+    }
+    if changed.unstable == 0 {
+        return "silenced".to_owned();
+    }
+    let growth = |state: &State| state.growth_rate_per_s.unwrap_or(f64::NEG_INFINITY);
+    let onset = |state: &State| state.critical_friction.unwrap_or(f64::INFINITY);
+    match (growth(changed) < growth(base), onset(changed) > onset(base)) {
+        (true, true) => "confirmed".to_owned(),
+        (true, false) => "struck off: modes begin to grow at less friction".to_owned(),
+        (false, _) => format!(
+            "struck off: the mode at {:.0} Hz grows faster",
+            changed.frequency_hz.unwrap_or(f64::NAN)
+        ),
+    }
+}

@@ -1,0 +1,347 @@
+//! What silences the unstable modes of a case: derivatives by every place of its bodies, the best of them looked at with all
+//! modes together, the best of those run again as cases of their own.
+//!
+//! ```no_run
+//! use frictionsim::case::Case;
+//! use frictionsim::study::improve::improve;
+//!
+//! let case = Case::parse("disc", &std::fs::read("cases/polycarbonate-disc.toml")?, &[])?;
+//! for candidate in improve(&case)?.candidates {
+//!     println!("{} {}: {}", candidate.kind, candidate.place(), candidate.verdict);
+//! }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod base;
+mod confirm;
+mod fields;
+mod modal;
+mod places;
+mod shown;
+mod trial;
+
+use super::StudyError;
+use crate::case::{Case, ModificationKind};
+use crate::cea::CeaError;
+use crate::fem::lumped_masses;
+use crate::mesh::Mesh;
+use crate::results::improve::{Candidate, Sizes, State, TargetFields, TargetMode};
+use base::{Base, Outlook, state, target_modes};
+use confirm::{keys_of, run_again, verdict};
+use fields::{Derivatives, element_dofs, element_terms, matrices};
+use modal::{Change, ModalModel};
+use nalgebra::DMatrix;
+use places::Places;
+use rayon::prelude::*;
+use std::collections::BTreeSet;
+use std::sync::Arc;
+use trial::{Budget, Search, Target, Trial};
+
+/// What `improve` finds.
+pub struct Improvement {
+    /// The mesh of the fields.
+    pub mesh: Arc<Mesh>,
+    /// Unknowns of the eigenproblem.
+    pub dofs: usize,
+    /// What the case does as it is.
+    pub base: State,
+    /// The modes that are to be silenced.
+    pub modes: Vec<TargetMode>,
+    /// Derivatives of each of them over the mesh.
+    pub fields: Vec<TargetFields>,
+    /// Sizes of the modifications.
+    pub sizes: Sizes,
+    /// Modifications, the best first.
+    pub candidates: Vec<Candidate>,
+    /// What there is to say.
+    pub notes: Vec<String>,
+}
+
+/// Part of removed material that predictions leave: nodes without any would be free.
+const REST: f64 = 1e-6;
+
+/// A trial with what all modes together make of it.
+struct Predicted {
+    trial: Trial,
+    state: State,
+}
+
+/// Finds what silences the unstable modes of a case at its friction coefficient, as its `[improve]` asks.
+///
+/// # Errors
+/// A body that is solved by its symmetry, nothing that grows; those of the solver.
+pub fn improve(case: &Case) -> Result<Improvement, StudyError> {
+    let cea = case.require_cea()?;
+    let base = Base::solve(case, cea)?;
+    let budget = budget(&base);
+    let search = Search {
+        places: Places::of(&base, budget.patch_radius)?,
+        derivatives: Derivatives::of_targets(&base),
+        base: &base,
+        budget,
+    };
+    let modal = ModalModel::new(&base).map_err(CeaError::from)?;
+
+    // The best places of each kind, and what all modes make of them.
+    let asked = &case.improve.modifications;
+    let is_asked = |kind: &ModificationKind| asked.is_empty() || asked.contains(kind);
+    let kinds: Vec<ModificationKind> = ModificationKind::all().filter(is_asked).collect();
+    let mut notes = Vec::new();
+    let mut listed: Vec<(usize, Predicted)> = Vec::new();
+    for &kind in &kinds {
+        let predicted = predictions(&search, &modal, kind, &mut notes)?;
+        if predicted.is_empty() {
+            notes.push(format!("{}: no place of this size helps", kind.word()));
+        }
+        listed.extend(predicted.into_iter().enumerate());
+    }
+    sort(&mut listed);
+
+    // The best of each kind before the second best of any.
+    let mut order: Vec<usize> = (0..listed.len()).collect();
+    order.sort_by_key(|&i| (listed[i].0, i));
+    order.truncate(case.improve.confirm);
+    order.sort_unstable();
+    let run = |&i: &usize| (i, run_again(&base, &keys_of(&search, &listed[i].1.trial)));
+    let confirmed: Vec<_> = order.par_iter().map(run).collect();
+    let candidates = listed.iter().enumerate().map(|(i, (_, own))| {
+        let outcome = confirmed.iter().find(|(place, _)| *place == i);
+        candidate(&search, i + 1, own, outcome.map(|(_, outcome)| outcome))
+    });
+    let mut candidates: Vec<Candidate> = candidates.collect();
+    promote(&mut candidates);
+    if base.multiple > 0 {
+        notes.push(format!(
+            "{} of the modes coincide with another one and are left out of the predictions",
+            base.multiple
+        ));
+    }
+    Ok(Improvement {
+        mesh: Arc::clone(&base.mesh),
+        dofs: base.tangent.unknowns.len(),
+        base: state(base.outlook, base.onset),
+        modes: target_modes(&base),
+        fields: shown::fields(&search),
+        sizes: Sizes {
+            mass_kg: budget.mass,
+            stiffness_n_per_m: budget.stiffness,
+            damping_n_s_per_m: budget.damping,
+            patch_radius_m: budget.patch_radius,
+            patch_damping_s: budget.patch_damping,
+            offset_m: budget.offset,
+        },
+        candidates,
+        notes,
+    })
+}
+
+/// Sizes of the modifications that the case gives, or that follow from its bodies and the fastest of its targets.
+fn budget(base: &Base<'_>) -> Budget {
+    let asked = &base.case.improve;
+    let thickness = match base.mesh.dimension {
+        2 => base.case.thickness,
+        _ => 1.0,
+    };
+    let worst = base.outlook.worst.map_or(1.0, |mode| mode.im);
+    let masses = lumped_masses(&base.mesh, base.case.materials());
+    let mass = asked.mass;
+    let mass = mass.unwrap_or_else(|| 0.01 * thickness * masses.iter().sum::<f64>());
+    let size = base.case.body.size();
+    Budget {
+        mass,
+        stiffness: asked.stiffness.unwrap_or(worst * worst * mass),
+        damping: asked.damping.unwrap_or(0.1 * worst * mass),
+        patch_radius: asked.patch_radius.unwrap_or(0.05 * size),
+        patch_damping: asked.patch_damping.unwrap_or(0.1 / worst),
+        offset: asked.offset.unwrap_or(0.1 * size),
+        thickness,
+    }
+}
+
+/// The candidates of one kind, the best first.
+fn predictions(
+    search: &Search<'_>,
+    modal: &ModalModel<'_>,
+    kind: ModificationKind,
+    notes: &mut Vec<String>,
+) -> Result<Vec<Predicted>, StudyError> {
+    let count = search.base.case.improve.candidates;
+    let trials = search.best(kind);
+    let changes: Vec<Result<(Change, Trial), String>> = trials
+        .into_par_iter()
+        .map(|trial| Ok((change(search, modal, &trial)?, trial)))
+        .collect();
+    for reason in changes.iter().filter_map(|own| own.as_ref().err()) {
+        notes.push(format!("{}: {reason}", kind.word()));
+    }
+    let changes: Vec<(Change, Trial)> = changes.into_iter().flatten().collect();
+
+    // By the growth of all modes together first; onsets only of those that are listed.
+    let outlooks = changes.par_iter().map(|(own, _)| modal.outlook(Some(own)));
+    let outlooks: Vec<Outlook> = outlooks.collect::<Result<_, _>>().map_err(CeaError::from)?;
+    let mut order: Vec<usize> = (0..changes.len()).collect();
+    let growth = |i: usize| outlooks[i].worst.map_or(f64::NEG_INFINITY, |mode| mode.re);
+    order.sort_by(|&a, &b| growth(a).total_cmp(&growth(b)));
+    let before = search
+        .base
+        .outlook
+        .worst
+        .map_or(f64::INFINITY, |mode| mode.re);
+    order.retain(|&i| growth(i) < before);
+    order.truncate(count);
+
+    // The reduced problem's own error at the onset is taken off.
+    let error = match (search.base.onset, modal.onset(None)) {
+        (Some(onset), Ok(Some(reduced))) => onset - reduced,
+        _ => 0.0,
+    };
+    let predicted: Result<Vec<Predicted>, crate::linalg::LinalgError> = order
+        .par_iter()
+        .map(|&i| {
+            let onset = modal.onset(Some(&changes[i].0))?;
+            let onset = onset.map(|mu| (mu + error).max(0.0));
+            let onset = onset.filter(|mu| *mu < search.base.friction);
+            Ok(Predicted {
+                trial: changes[i].1.clone(),
+                state: state(outlooks[i], onset),
+            })
+        })
+        .collect();
+    Ok(predicted.map_err(CeaError::from)?)
+}
+
+/// What a trial changes in the space of the modes.
+fn change(search: &Search<'_>, modal: &ModalModel<'_>, trial: &Trial) -> Result<Change, String> {
+    let (base, budget) = (search.base, &search.budget);
+    let d = base.mesh.dimension;
+    match (&trial.target, trial.kind) {
+        (Target::Node(node, direction), kind) => {
+            let dofs: Vec<usize> = (0..d).map(|axis| d * node + axis).collect();
+            let law = confirm::law(*direction);
+            let own = base.mesh.in_frame(*node, &law);
+            let matrix = |amount: f64| {
+                DMatrix::from_fn(d, d, |i, j| amount * own[(i, j)] / budget.thickness)
+            };
+            let none = DMatrix::<f64>::zeros(d, d);
+            Ok(match kind {
+                ModificationKind::Mass => {
+                    let mass = matrix(budget.mass);
+                    let damping = &mass * base.options.damping.mass_coefficient;
+                    modal.yielding(&dofs, [&mass, &damping, &none])
+                }
+                ModificationKind::Spring => {
+                    modal.yielding(&dofs, [&none, &none, &matrix(budget.stiffness)])
+                }
+                _ => modal.yielding(&dofs, [&none, &matrix(budget.damping), &none]),
+            })
+        }
+        (Target::Patch(_, elements), kind) => {
+            let (dofs, matrices) = patch_matrices(base, elements, kind, budget.patch_damping);
+            Ok(modal.yielding(&dofs, matrices.each_ref()))
+        }
+        (Target::Hole(_), _) => {
+            let tangent = confirm::tangent_of(base, &keys_of(search, trial))?;
+            let change = modal.to(&tangent);
+            change.ok_or_else(|| "the unknowns change with it".to_owned())
+        }
+    }
+}
+
+/// The dofs of a patch, rising, and what taking it away or damping it changes of their mass, damping and stiffness.
+fn patch_matrices(
+    base: &Base<'_>,
+    elements: &[u32],
+    kind: ModificationKind,
+    beta: f64,
+) -> (Vec<usize>, [DMatrix<f64>; 3]) {
+    let all = elements.iter().map(|&e| element_dofs(base, e as usize));
+    let all: Vec<Vec<usize>> = all.collect();
+    let own: BTreeSet<usize> = all.iter().flatten().copied().collect();
+    let own: Vec<usize> = own.into_iter().collect();
+    let mut sums = [0, 1, 2].map(|_| DMatrix::<f64>::zeros(own.len(), own.len()));
+    for (&element, dofs) in elements.iter().zip(&all) {
+        let terms = match kind {
+            ModificationKind::Removal => {
+                element_terms(base, element as usize).map(|own| own * -(1.0 - REST))
+            }
+            _ => {
+                let [mass, elastic] = matrices(base, element as usize);
+                [mass * 0.0, &elastic * beta, elastic * 0.0]
+            }
+        };
+        let places: Vec<usize> = dofs
+            .iter()
+            .map(|dof| own.partition_point(|o| o < dof))
+            .collect();
+        for (sum, term) in sums.iter_mut().zip(terms) {
+            for (j, &column) in places.iter().enumerate() {
+                for (i, &row) in places.iter().enumerate() {
+                    sum[(row, column)] += term[(i, j)];
+                }
+            }
+        }
+    }
+    (own, sums)
+}
+
+/// The best first: by critical friction, then by growth.
+fn sort(listed: &mut [(usize, Predicted)]) {
+    let merit = |own: &Predicted| {
+        let onset = own.state.critical_friction.unwrap_or(f64::INFINITY);
+        (-onset, own.state.growth_rate_per_s.unwrap_or(f64::INFINITY))
+    };
+    listed.sort_by(|(_, a), (_, b)| {
+        let (a, b) = (merit(a), merit(b));
+        a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1))
+    });
+}
+
+/// One row of the list.
+fn candidate(
+    search: &Search<'_>,
+    rank: usize,
+    own: &Predicted,
+    outcome: Option<&Result<State, String>>,
+) -> Candidate {
+    let trial = &own.trial;
+    let (node, direction) = match &trial.target {
+        Target::Node(node, direction) => (Some(search.base.mesh.node_label(*node)), *direction),
+        _ => (None, None),
+    };
+    let base = state(search.base.outlook, search.base.onset);
+    Candidate {
+        rank,
+        kind: trial.kind.word().to_owned(),
+        node,
+        position_m: search.place(trial),
+        direction,
+        added_mass_kg: shown::added_mass(search, trial),
+        first_order_growth_rate_per_s: trial.first_order,
+        predicted: own.state,
+        confirmed: outcome.and_then(|outcome| outcome.as_ref().ok()).copied(),
+        verdict: match outcome {
+            None => "not run again".to_owned(),
+            Some(Ok(state)) => verdict(&base, state),
+            Some(Err(reason)) => format!("struck off: {reason}"),
+        },
+        keys: keys_of(search, trial),
+    }
+}
+
+/// Puts what was struck off behind what was not.
+fn promote(candidates: &mut [Candidate]) {
+    let class = |own: &Candidate| match own.verdict.as_str() {
+        "silenced" => 0,
+        "confirmed" => 1,
+        "not run again" => 2,
+        _ => 3,
+    };
+    let onset = |own: &Candidate| {
+        let state = own.confirmed.unwrap_or(own.predicted);
+        -state.critical_friction.unwrap_or(f64::INFINITY)
+    };
+    candidates.sort_by(|a, b| class(a).cmp(&class(b)).then(onset(a).total_cmp(&onset(b))));
+    for (place, own) in candidates.iter_mut().enumerate() {
+        own.rank = place + 1;
+    }
+}

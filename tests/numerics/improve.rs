@@ -1,0 +1,288 @@
+//! Derivatives of growth rates by modifications of a body against differences of whole analyses run again with that
+//! modification, small (independent check: the difference of two spectra knows nothing of vectors).
+
+use crate::bricks::{Block, file_of};
+use crate::disc::annulus;
+use crate::msh::{FORMS, write_msh};
+use frictionsim::case::Case;
+use frictionsim::linalg::c64;
+use frictionsim::mesh::{AnnulusMesh, ElementKind, Mesh};
+use frictionsim::results::improve::TargetFields;
+use frictionsim::study::eigenvalues::modes_and_onsets;
+use frictionsim::study::improve::{Improvement, improve};
+use std::f64::consts::TAU;
+use tempfile::TempDir;
+
+/// What differences of second order leave, relative to the largest derivative of a kind over the body.
+const TOLERANCE: f64 = 0.01;
+
+struct Body {
+    folder: TempDir,
+    text: String,
+}
+
+impl Body {
+    fn case(&self, set: &[String]) -> Case {
+        let name = self.folder.path().join("case.toml").display().to_string();
+        Case::parse(&name, self.text.as_bytes(), set).unwrap_or_else(|e| panic!("{e}"))
+    }
+
+    fn improved(&self) -> Improvement {
+        let set = ["improve.confirm=0", "improve.candidates=1"].map(str::to_owned);
+        improve(&self.case(&set)).unwrap_or_else(|e| panic!("{e}"))
+    }
+
+    /// The eigenvalue nearest to one after some changes.
+    fn nearest(&self, set: &[String], eigenvalue: c64) -> c64 {
+        let case = self.case(set);
+        let friction = case.contact.sliding.friction_coefficient;
+        let sweep = modes_and_onsets(&case).unwrap_or_else(|e| panic!("{set:?}: {e}"));
+        let points = sweep.points.iter();
+        let own = points.filter(|point| point.friction_coefficient == friction);
+        let modes = own.flat_map(|point| &point.modes);
+        let away = |value: &c64| (value - eigenvalue).norm();
+        modes
+            .map(|mode| mode.eigenvalue)
+            .min_by(|a, b| away(a).total_cmp(&away(b)))
+            .unwrap()
+    }
+
+    /// `d growth / d p` at `p = 0` by the second-order difference over `0`, `h`, `2 h`; `keys` make a value of `p`.
+    fn difference(&self, eigenvalue: c64, step: f64, keys: &dyn Fn(f64) -> Vec<String>) -> f64 {
+        let [at, one, two] = [0.0, step, 2.0 * step].map(|p| self.nearest(&keys(p), eigenvalue).re);
+        (4.0 * one - two - 3.0 * at) / (2.0 * step)
+    }
+
+    /// Holds the fields of the fastest mode to differences at some nodes, and in the region `patch`; steps are of mass, kg,
+    /// stiffness, N/m, and damping, N s/m.
+    fn check(&self, nodes: &[usize], [mass, spring, dashpot]: [f64; 3]) {
+        let found = self.improved();
+        let fastest = found.modes.iter().enumerate();
+        let fastest =
+            fastest.max_by(|a, b| a.1.growth_rate_per_s.total_cmp(&b.1.growth_rate_per_s));
+        let (k, mode) = fastest.unwrap();
+        let eigenvalue = c64::new(mode.growth_rate_per_s, TAU * mode.frequency_hz);
+        let (mesh, fields) = (&*found.mesh, &found.fields[k]);
+        for &node in nodes {
+            let label = mesh.node_label(node);
+            let with_mass = |p: f64| {
+                vec![
+                    format!("modifications.t.at={label}"),
+                    format!("modifications.t.mass={p:?}"),
+                ]
+            };
+            let by_mass = self.difference(eigenvalue, mass, &with_mass);
+            near("mass", fields.mass[node], by_mass, &fields.mass);
+            self.check_direction(
+                eigenvalue,
+                ("stiffness", spring),
+                (mesh, node),
+                &fields.spring,
+            );
+            self.check_direction(
+                eigenvalue,
+                ("damping", dashpot),
+                (mesh, node),
+                &fields.dashpot,
+            );
+        }
+        self.check_patch(eigenvalue, mesh, fields);
+    }
+
+    /// The direction that helps most: no other one damps more, and it is as good as the field says.
+    fn check_direction(
+        &self,
+        eigenvalue: c64,
+        (key, step): (&str, f64),
+        (mesh, node): (&Mesh, usize),
+        field: &[f64],
+    ) {
+        let label = mesh.node_label(node);
+        let along = |direction: [f64; 3]| {
+            let listed = &direction[..mesh.dimension];
+            self.difference(eigenvalue, step, &|p| {
+                vec![
+                    format!("modifications.t.at={label}"),
+                    format!("modifications.t.{key}={p:?}"),
+                    format!("modifications.t.direction={listed:?}"),
+                ]
+            })
+        };
+        // The quadratic form from its values along the axes and between them.
+        let d = mesh.dimension;
+        let unit = |i: usize| [0, 1, 2].map(|k| f64::from(u8::from(k == i)));
+        let axes: Vec<f64> = (0..d).map(|i| along(unit(i))).collect();
+        let mut form = nalgebra::DMatrix::from_fn(d, d, |i, _| axes[i]);
+        for (i, j) in (0..d).flat_map(|i| (0..i).map(move |j| (i, j))) {
+            let (e, f) = (unit(i), unit(j));
+            let between = [0, 1, 2].map(|k| e[k] + f[k]);
+            // Along a unit vector the form has half of the sum of its four entries.
+            form[(i, j)] = along(between) - 0.5 * (axes[i] + axes[j]);
+            form[(j, i)] = form[(i, j)];
+        }
+        let least = form.symmetric_eigen().eigenvalues.min();
+        near(key, field[node], least, field);
+    }
+
+    /// Damping of the region `patch`, and a share of it taken away.
+    fn check_patch(&self, eigenvalue: c64, mesh: &Mesh, fields: &TargetFields) {
+        let region = mesh
+            .regions
+            .iter()
+            .position(|name| name == "patch")
+            .unwrap();
+        let own = || (0..mesh.element_count()).filter(|&e| mesh.region(e) == region);
+        let size = |e: usize| match mesh.dimension {
+            2 => mesh.element_area(e),
+            _ => brick_volume(mesh, e),
+        };
+        let sum = |field: &[f64]| own().map(|e| field[e] * size(e)).sum::<f64>();
+        let case = self.case(&[]);
+        let elastic = *case.materials().of(region);
+        let weaker = |p: f64| {
+            vec![
+                format!(
+                    "materials.patch.young_modulus={:?}",
+                    elastic.young_modulus * (1.0 - p)
+                ),
+                format!("materials.patch.density={:?}", elastic.density * (1.0 - p)),
+            ]
+        };
+        let by_removal = self.difference(eigenvalue, 2e-3, &weaker);
+        let removal = sum(&fields.removal);
+        assert!(
+            (removal - by_removal).abs() < TOLERANCE * by_removal.abs(),
+            "removal {removal} {by_removal}"
+        );
+        let middle = own().map(|e| mesh.element_middle(e)).next().unwrap();
+        let listed = &middle[..mesh.dimension];
+        let damped = |p: f64| {
+            vec![
+                format!("modifications.t.center={listed:?}"),
+                "modifications.t.radius=1e-6".to_owned(),
+                format!("modifications.t.stiffness_coefficient={p:?}"),
+            ]
+        };
+        let by_damping = self.difference(eigenvalue, 1e-8, &damped);
+        let first = own().next().unwrap();
+        near(
+            "damping",
+            fields.damping[first] * size(first),
+            by_damping,
+            &[by_damping],
+        );
+    }
+}
+
+/// A derivative beside a difference, to a share of the largest derivative of its field.
+fn near(what: &str, derivative: f64, difference: f64, field: &[f64]) {
+    let largest = field.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    assert!(
+        (derivative - difference).abs() < TOLERANCE * difference.abs().max(0.02 * largest),
+        "{what}: {derivative} {difference}, largest {largest}"
+    );
+}
+
+/// Volume of a brick with parallel sides.
+fn brick_volume(mesh: &Mesh, element: usize) -> f64 {
+    let nodes = mesh.element_nodes(element);
+    let at = |k: usize| mesh.nodes[nodes[k] as usize];
+    let edge = |k: usize| [0, 1, 2].map(|axis| at(k)[axis] - at(0)[axis]);
+    let (a, b, c) = (edge(1), edge(3), edge(4));
+    let cross = [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ];
+    (0..3).map(|k| cross[k] * c[k]).sum::<f64>().abs()
+}
+
+/// A disc as a mesh file, some of whose elements are the region `patch`; its points moved by `place`.
+fn disc(place: impl Fn([f64; 2]) -> [f64; 2], rest: &str) -> Body {
+    let folder = tempfile::tempdir().unwrap();
+    let mut mesh = AnnulusMesh::generate(&annulus(ElementKind::Quad4, 24, 4))
+        .unwrap()
+        .mesh;
+    mesh.regions.push("patch".to_owned());
+    // Two elements on one ray, away from both edges.
+    for element in [4 * 5 + 1, 4 * 5 + 2] {
+        mesh.element_regions[element] = 1;
+    }
+    let numbers: Vec<usize> = (1..=mesh.node_count()).collect();
+    let bytes = write_msh(&mesh, FORMS[2], &numbers, place);
+    std::fs::write(folder.path().join("disc.msh"), bytes).unwrap();
+    let text = format!(
+        "[geometry]\nthickness = 0.009\n[mesh]\nfile = \"disc.msh\"\n\
+         [material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.3805\ndensity = 1228.0\n\
+         [materials.patch]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.3805\ndensity = 1228.0\n\
+         [damping]\nmass_coefficient = 40.0\nstiffness_coefficient = 4.5e-7\n{rest}"
+    );
+    Body { folder, text }
+}
+
+/// Rigid contact, clamped, undamped but for the material: the annulus, as the program meshes it.
+#[test]
+fn fields_of_the_disc_are_differences_of_its_spectra() {
+    let body = disc(
+        |point| point,
+        "[boundaries.outer]\ncondition = \"clamped\"\n\
+         [contact]\nfriction_coefficient = 0.3\ninterference = 25e-6\nrotation_speed_rpm = 610.0\n\
+         [cea]\nmodes = 12\ngeometric_stiffness = false\n",
+    );
+    body.check(&[7, 23], [1e-5, 1e3, 1e-2]);
+}
+
+/// An oval on springs and dashpots under a compliant contact: nothing is proportional.
+#[test]
+fn fields_of_an_oval_on_supports_are_differences_of_its_spectra() {
+    let body = disc(
+        |[x, y]: [f64; 2]| {
+            let outwards = (x.hypot(y) - 0.0205) / 0.07;
+            [x * (1.0 + 0.1 * outwards) + 0.004 * outwards, y]
+        },
+        "[boundaries.outer]\ncondition = \"support\"\nnormal_stiffness = 2e13\n\
+         tangential_stiffness = 2e13\nnormal_damping = 2e3\n\
+         [contact]\nfriction_coefficient = 0.3\ninterference = 25e-6\nrotation_speed_rpm = 610.0\n\
+         normal_stiffness = 1e14\n[cea]\nmodes = 12\ngeometric_stiffness = false\n",
+    );
+    body.check(&[7], [1e-5, 1e3, 1e-2]);
+}
+
+/// A pad on a slab of bricks, free of stress.
+#[test]
+fn fields_of_an_assembly_are_differences_of_its_spectra() {
+    let folder = tempfile::tempdir().unwrap();
+    let block = |name, origin, size, counts| Block {
+        name,
+        origin,
+        size,
+        counts,
+    };
+    let blocks = [
+        block("slab", [0.0; 3], [0.06, 0.03, 0.01], [6, 3, 1]),
+        block("patch", [0.005, 0.005, 0.01], [0.02, 0.02, 0.02], [3, 3, 2]),
+    ];
+    std::fs::write(
+        folder.path().join("pads.msh"),
+        file_of(&blocks, |point| point),
+    )
+    .unwrap();
+    let text = "[mesh]\nfile = \"pads.msh\"\n\
+        [material]\nyoung_modulus = 7e9\npoisson_ratio = 0.3\ndensity = 2000.0\n\
+        [materials.patch]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.3\ndensity = 1228.0\n\
+        [damping]\nmass_coefficient = 2.0\nstiffness_coefficient = 1e-9\n\
+        [boundaries.slab_z0]\ncondition = \"clamped\"\n[boundaries.patch_z1]\ncondition = \"fixed\"\ndirections = [\"z\"]\n\
+        [boundaries.patch_x0]\ncondition = \"fixed\"\ndirections = [\"x\", \"y\"]\n\
+        [motion.slab]\naxis = [0.0, 0.0, 1.0]\ncenter = [0.5, 0.1, 0.0]\nrotation_speed_rpm = 100.0\n\
+        [contacts.pad]\nsurface = \"patch_z0\"\ncounter = \"slab_z1\"\nfriction_coefficient = 0.5\n\
+        normal_stiffness = 1e13\nstate = \"closed\"\n[cea]\nmodes = 10\n"
+        .to_owned();
+    let body = Body { folder, text };
+    let mesh = body.case(&[]).mesh().unwrap();
+    let node = mesh.nearest_node([0.005, 0.005]).unwrap().0;
+    let free = (0..mesh.node_count()).find(|&n| {
+        let [x, y, z] = mesh.nodes[n];
+        x > 0.02 && y < 0.006 && (z - 0.02).abs() < 1e-9
+    });
+    body.check(&[free.unwrap_or(node)], [1e-6, 1e2, 1e-3]);
+}
