@@ -324,8 +324,13 @@ fn every_bad_value_of_the_model_names_key_bound_and_place() {
         ),
         (
             "circumferential_elements",
-            "circumferential_elements = 9223372036854775807",
+            "circumferential_elements = 4294967295",
             ["nodes, above the limit", "lower mesh"],
+        ),
+        (
+            "circumferential_elements",
+            "circumferential_elements = 9223372036854775807",
+            ["must be 4294967295 or less", "number of elements"],
         ),
         (
             "formulation",
