@@ -34,6 +34,9 @@ pub struct PeriodicFigures<'a> {
     pub contact: SlidingContact,
 }
 
+/// Amplitude along the normal, over that along the contact, below which it is round-off.
+const ROUND_OFF: f64 = 1e-9;
+
 /// Draws the cycles: contact over the period and at one instant, history, closed curves and harmonics of each, then the
 /// fields of all.
 ///
@@ -310,12 +313,16 @@ fn harmonics(motion: &MotionRecord) -> Figure {
     };
     let [normal, along] = &motion.harmonics;
     let amplitude = Axis::new("amplitude", "m").logarithmic();
-    Figure::new(format!("harmonics-{}", tag(motion)), caption).panel(
-        Panel::new(Axis::kilohertz(), amplitude)
-            .height(110.0)
-            .layer(line(along, SERIES[0], "along the contact"))
-            .layer(line(normal, SERIES[2], "normal")),
-    )
+    let panel = Panel::new(Axis::kilohertz(), amplitude)
+        .height(110.0)
+        .layer(line(along, SERIES[0], "along the contact"));
+    // Rigid contact that stays closed leaves round-off along the normal.
+    let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
+    let panel = match largest(normal) > ROUND_OFF * largest(along) {
+        true => panel.layer(line(normal, SERIES[2], "normal")),
+        false => panel,
+    };
+    Figure::new(format!("harmonics-{}", tag(motion)), caption).panel(panel)
 }
 
 fn tag(motion: &MotionRecord) -> String {
