@@ -25,5 +25,5 @@ pub use material::{
     RegionMaterial,
 };
 pub use orthotropy::{Elasticity, Indefinite, MaterialAxes, Orthotropy, RATIOS};
-pub use stress::{NodalStress, SolidStress, nodal_stress, solid_stress};
+pub use stress::{NodalStress, SolidStress, nodal_stress, revolved_stress, solid_stress};
 pub use triplets::Triplets;
