@@ -22,7 +22,15 @@ fn keys_of(section: &str) -> impl Iterator<Item = &'static CaseKey> {
 
 /// Tables in Markdown, one for each section; a bracket in a text is none of a link.
 pub fn markdown() -> String {
-    let plain = |text: &str| text.replace('[', "\\[");
+    // Code keeps its brackets.
+    let plain = |text: &str| -> String {
+        let parts = text.split('`').enumerate();
+        let parts = parts.map(|(k, part)| match k % 2 {
+            0 => part.replace('[', "\\["),
+            _ => part.to_owned(),
+        });
+        parts.collect::<Vec<_>>().join("`")
+    };
     let mut out = String::new();
     for section in sections() {
         let _ = match section {
