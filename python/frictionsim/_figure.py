@@ -10,8 +10,10 @@ from pathlib import Path
 class Figure:
     """One figure, in the formats that the run has drawn."""
 
-    def __init__(self, stem: Path) -> None:
+    def __init__(self, stem: Path, keeper: object = None) -> None:
         self._stem = stem
+        # A temporary results folder stays as long as somebody has a figure of it.
+        self._keeper = keeper
 
     @property
     def name(self) -> str:
@@ -52,10 +54,10 @@ class Figure:
 class Figures(Mapping[str, Figure]):
     """The figures of a results folder by name."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, keeper: object = None) -> None:
         files = sorted(folder.iterdir()) if folder.is_dir() else []
         drawn = (file.with_suffix("") for file in files if file.suffix in {".svg", ".png", ".pdf"})
-        self._figures = {stem.name: Figure(stem) for stem in drawn}
+        self._figures = {stem.name: Figure(stem, keeper) for stem in drawn}
 
     def __getitem__(self, name: str) -> Figure:
         try:

@@ -31,7 +31,7 @@ class Result:
 
     def __init__(self, folder: Path, keeper: tempfile.TemporaryDirectory[str] | None = None) -> None:
         self.folder = folder
-        """The results folder, as the command line writes it; a temporary one goes with this object."""
+        """The results folder, as the command line writes it; a temporary one goes with this object and what is taken of it."""
         self._keeper = keeper
 
     @cached_property
@@ -72,7 +72,7 @@ class Result:
     @property
     def figures(self) -> Figures:
         """The figures by name; a notebook shows them."""
-        return Figures(self.folder / "figures")
+        return Figures(self.folder / "figures", self._keeper)
 
     @property
     def report(self) -> Path:
@@ -86,7 +86,7 @@ class Result:
         found = [*named, *sorted(self.folder.glob("*/*.vtu")), *sorted(self.folder.glob("*.vtu"))]
         for path in found:
             if path.exists():
-                return Field(path)
+                return Field(path, self._keeper)
         raise AttributeError("these results have no fields: frictionsim.mesh(case).mesh is the mesh of their case")
 
     def save(self, folder: str | Path) -> Path:
@@ -109,8 +109,8 @@ class Result:
 class Mode:
     """A mode shape of a complex eigenvalue analysis."""
 
-    def __init__(self, path: Path) -> None:
-        self._field = Field(path)
+    def __init__(self, path: Path, keeper: object = None) -> None:
+        self._field = Field(path, keeper)
         self.path = path
         """The VTU file."""
         numbers = self._field.numbers
@@ -144,8 +144,9 @@ class Mode:
 class Modes(Sequence[Mode]):
     """Mode shapes in the order of the analysis: by friction coefficient, then frequency; read when asked for."""
 
-    def __init__(self, paths: list[Path]) -> None:
+    def __init__(self, paths: list[Path], keeper: object = None) -> None:
         self._paths = paths
+        self._keeper = keeper
 
     @overload
     def __getitem__(self, number: int) -> Mode: ...
@@ -153,8 +154,8 @@ class Modes(Sequence[Mode]):
     def __getitem__(self, number: slice) -> Modes: ...
     def __getitem__(self, number: int | slice) -> Mode | Modes:
         if isinstance(number, slice):
-            return Modes(self._paths[number])
-        return Mode(self._paths[number])
+            return Modes(self._paths[number], self._keeper)
+        return Mode(self._paths[number], self._keeper)
 
     def __len__(self) -> int:
         return len(self._paths)
@@ -184,7 +185,7 @@ class CeaResult(Result):
     @cached_property
     def modes(self) -> Modes:
         """The mode shapes at the friction coefficients of ``cea.shapes_at``."""
-        return Modes([path for _, path in collection(self.folder / "modes.pvd")])
+        return Modes([path for _, path in collection(self.folder / "modes.pvd")], self._keeper)
 
     @property
     def critical_friction(self) -> float:
@@ -221,7 +222,7 @@ class TransientResult(Result):
     @property
     def snapshots(self) -> list[tuple[float, Field]]:
         """Fields at the times of ``output.snapshots``, s."""
-        return [(time, Field(path)) for time, path in collection(self.folder / "snapshots.pvd")]
+        return [(time, Field(path, self._keeper)) for time, path in collection(self.folder / "snapshots.pvd")]
 
     @property
     def settled(self) -> bool:

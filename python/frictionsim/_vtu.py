@@ -5,7 +5,7 @@ from __future__ import annotations
 import zlib
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 from xml.etree import ElementTree
 
 import numpy as np
@@ -44,8 +44,10 @@ class Cells:
 class Field:
     """A mesh with values at its points and in its elements."""
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, keeper: object = None) -> None:
         """Read a VTU file as this program writes it: appended raw data, zlib-compressed blocks."""
+        # A temporary results folder stays as long as somebody has a field of it.
+        self._keeper = keeper
         self.path = path
         """The file."""
         content = path.read_bytes()
@@ -107,7 +109,7 @@ class Field:
         """The field as a PyVista grid."""
         import pyvista
 
-        return pyvista.read(str(self.path))
+        return cast("pyvista.UnstructuredGrid", pyvista.read(str(self.path)))
 
     def __repr__(self) -> str:
         return f"Field({self.path.name}: {len(self.points)} points, {len(self.cells)} elements)"

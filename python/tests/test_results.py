@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 from pathlib import Path
 
 import numpy as np
@@ -31,6 +32,23 @@ def test_tables_are_columns_of_numbers(disc: frictionsim.Case) -> None:
         eigenvalues["nothing"]
     with pytest.raises(AttributeError, match="tables are"):
         _ = result.nothing
+
+
+def test_columns_are_not_copied(disc: frictionsim.Case) -> None:
+    eigenvalues = frictionsim.cea(disc, figures=False).eigenvalues
+    column = eigenvalues["frequency_hz"]
+    # NumPy looks at the memory in which the compiled part has read the table, and each look is at the same memory.
+    assert not column.flags.owndata and column.flags.writeable
+    assert eigenvalues["frequency_hz"] is column
+
+
+def test_fields_open_in_pyvista(disc: frictionsim.Case) -> None:
+    pytest.importorskip("pyvista")
+    mode = frictionsim.cea(disc, figures=False).modes[0]
+    grid = mode.mesh.to_pyvista()
+    np.testing.assert_array_equal(grid.points, mode.mesh.points)
+    assert grid.n_cells == len(mode.mesh.cells)
+    np.testing.assert_array_equal(grid.point_data["displacement_real"], mode.shape.real)
 
 
 def test_modes_have_complex_shapes_on_the_mesh(disc: frictionsim.Case) -> None:
@@ -78,7 +96,13 @@ def test_a_temporary_folder_goes_with_its_result(disc: frictionsim.Case, tmp_pat
     result = frictionsim.cea(disc, figures=False)
     folder = result.folder
     kept = result.save(tmp_path / "kept")
+    # What is taken of it keeps it.
+    modes, figures = result.modes, result.figures
     del result
+    gc.collect()
+    assert modes[0].frequency_hz > 0 and len(figures) == 0
+    del modes, figures
+    gc.collect()
     assert not folder.exists() and (kept / "eigenvalues.csv").exists()
     assert isinstance(frictionsim.open_results(kept), frictionsim.CeaResult)
 

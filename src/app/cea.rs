@@ -13,14 +13,14 @@ use serde_json::Value;
 
 /// Complex eigenvalue sweep over the friction coefficient
 ///
-/// Of a body that is solved on its whole mesh, Ctrl-C and SIGTERM leave the friction values that are done in the output
-/// folder, and --resume goes on from there to the same tables as a run that was never stopped.
+/// For a body that is solved on its whole mesh, Ctrl-C and SIGTERM keep the finished friction values in the output folder,
+/// and --resume continues to the same tables as an uninterrupted run.
 #[derive(Args)]
 pub struct Arguments {
     /// The case and how to run it.
     #[command(flatten)]
     pub options: RunOptions,
-    /// Go on from what an interrupted run has done; without any, start from the beginning
+    /// Continue from what an interrupted run has finished, or start from the beginning
     #[arg(long, conflicts_with = "force")]
     pub resume: bool,
 }

@@ -15,7 +15,8 @@ use std::path::PathBuf;
 /// Parameters of a case from measured modes or squeal frequencies
 ///
 /// Fits the keys of fit.parameters, each between its bounds, to a table of frequencies, real parts or damping factors;
-/// says how sure each value is, which mode is which line, and what the data cannot tell. Needs a fit section in the case.
+/// gives the confidence interval of each value, the mode of each line, and what the data cannot tell apart. Needs a fit
+/// section in the case.
 #[derive(Args)]
 pub struct Arguments {
     #[command(flatten)]

@@ -8,7 +8,9 @@ use crate::results::mesh::{
     MeshStatistics, MeshSummary, draw_mesh, print, write_mesh, write_solid_mesh,
 };
 use crate::results::solid_mesh::{self, SolidMeshStatistics, SolidMeshSummary};
-use crate::results::{DrawingOptions, OutputFolder, read_summary, write_summary};
+use crate::results::{
+    DrawingOptions, OutputFolder, read_summary, solid_mesh_figure, write_summary,
+};
 use clap::Args;
 use std::collections::BTreeMap;
 
@@ -81,6 +83,31 @@ fn run_solid(
 ) -> Result<(), Failure> {
     let case = &session.case;
     let mesh = &assembly.mesh;
+    let roles = roles(assembly);
+    let densities = (0..mesh.regions.len()).map(|region| case.materials().of(region).density);
+    let densities: Vec<f64> = densities.collect();
+    solid_mesh::write(&folder, mesh, &roles)?;
+    let statistics = SolidMeshStatistics::new(mesh, &densities, &roles);
+    if let Some(drawing) = session.options.output.drawing() {
+        let words = (case.title.as_str(), &roles);
+        solid_mesh_figure::draw(&folder, mesh, words, &statistics, &drawing)?;
+    }
+    let summary = SolidMeshSummary {
+        command: "mesh".to_owned(),
+        title: case.title.clone(),
+        wall_s: session.wall_seconds(),
+        mesh: statistics,
+        notes: case.taken.notes.clone(),
+        not_used: case.taken.not_used(),
+        manifest: session.manifest.clone(),
+    };
+    let object = write_summary(&folder, &summary)?;
+    let text = solid_mesh::print(&summary);
+    session.options.output.finish(folder, &text, &object)
+}
+
+/// Boundaries that slide or are glued, in a word.
+fn roles(assembly: &AssemblyBody) -> BTreeMap<usize, &'static str> {
     let mut roles: BTreeMap<usize, &'static str> = BTreeMap::new();
     for tie in &assembly.ties {
         roles.extend([(tie.surface, "tie"), (tie.counter, "tie")]);
@@ -91,21 +118,7 @@ fn run_solid(
             (contact.surface, "contact"),
         ]);
     }
-    let densities = (0..mesh.regions.len()).map(|region| case.materials().of(region).density);
-    let densities: Vec<f64> = densities.collect();
-    solid_mesh::write(&folder, mesh, &roles)?;
-    let summary = SolidMeshSummary {
-        command: "mesh".to_owned(),
-        title: case.title.clone(),
-        wall_s: session.wall_seconds(),
-        mesh: SolidMeshStatistics::new(mesh, &densities, &roles),
-        notes: case.taken.notes.clone(),
-        not_used: case.taken.not_used(),
-        manifest: session.manifest.clone(),
-    };
-    let object = write_summary(&folder, &summary)?;
-    let text = solid_mesh::print(&summary);
-    session.options.output.finish(folder, &text, &object)
+    roles
 }
 
 /// Draws the picture of a folder again.
@@ -113,7 +126,10 @@ fn run_solid(
 /// # Errors
 /// Those of the drawing and of the folder.
 pub fn redraw(folder: &OutputFolder, case: &Case, options: &DrawingOptions) -> Result<(), Failure> {
-    if case.body.assembly().is_some() {
+    if let Some(assembly) = case.body.assembly() {
+        let summary: SolidMeshSummary = read_summary(folder.path())?;
+        let words = (case.title.as_str(), &roles(assembly));
+        solid_mesh_figure::draw(folder, &assembly.mesh, words, &summary.mesh, options)?;
         return Ok(());
     }
     let mesh = case.mesh().map_err(Failure::usage)?;

@@ -22,13 +22,13 @@ use watch::{Checkpoints, Watch};
 
 /// Explicit contact transient
 ///
-/// Ctrl-C and SIGTERM stop the run cleanly: what was computed is written, and --resume goes on from there to the
-/// same bytes as a run that was never stopped.
+/// Ctrl-C and SIGTERM stop the run cleanly: the results so far are written, and --resume continues to the same bytes as an
+/// uninterrupted run.
 #[derive(Args)]
 pub struct Arguments {
     #[command(flatten)]
     options: RunOptions,
-    /// Go on from the checkpoint in the output folder; without one, start from the beginning
+    /// Continue from the checkpoint in the output folder, or start from the beginning
     #[arg(long, conflicts_with = "force")]
     resume: bool,
 }

@@ -21,7 +21,7 @@ const SAMPLES: &str = "samples";
 /// Draws the keys of uncertainty.distributions from their distributions, locates the onsets of each sample up to the
 /// largest of cea.friction_coefficients, and says how probable an unstable mode is at the friction coefficient of the
 /// case, how the lowest critical friction is distributed, and which parameter its variance comes from. Finished blocks
-/// of samples are kept: a run that is killed goes on with --resume, and several processes may work on one folder.
+/// of samples are kept: a killed run continues with --resume, and several processes may work on one folder.
 #[derive(Args)]
 pub struct Arguments {
     #[command(flatten)]

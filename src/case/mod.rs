@@ -320,10 +320,15 @@ impl Case {
         let remedy =
             "[frf]\nforce_node = 36\nfrequencies_hz = { from = 1.0, to = 10000.0, count = 10000 }";
         let frf = self.frf.as_ref();
-        if frf.is_some_and(|frf| frf.boundary != crate::frf::FrfBoundary::Sliding) {
-            self.require_rigid_shaft("a response without contact (frf.boundary)")?;
-        }
         frf.ok_or_else(|| self.lacks("frf", "frequency response", remedy))
+    }
+
+    /// Whether the response is solved harmonic by harmonic where nothing else is asked for: of equal sectors, but not of disc and
+    /// shaft apart, which are two bodies.
+    pub fn responds_by_harmonics(&self, frf: &Frf) -> bool {
+        let has_shaft = self.body.grid().is_some_and(|grid| grid.shaft.is_some());
+        let is_apart = frf.boundary != crate::frf::FrfBoundary::Sliding;
+        self.has_sectors() && !(has_shaft && is_apart)
     }
 
     /// The convergence study.

@@ -20,8 +20,17 @@ fn keys_of(section: &str) -> impl Iterator<Item = &'static CaseKey> {
     KEYS.iter().filter(move |key| key.section() == section)
 }
 
-/// Tables in Markdown, one for each section.
+/// Tables in Markdown, one for each section; a bracket in a text is none of a link.
 pub fn markdown() -> String {
+    // Code keeps its brackets.
+    let plain = |text: &str| -> String {
+        let parts = text.split('`').enumerate();
+        let parts = parts.map(|(k, part)| match k % 2 {
+            0 => part.replace('[', "\\["),
+            _ => part.to_owned(),
+        });
+        parts.collect::<Vec<_>>().join("`")
+    };
     let mut out = String::new();
     for section in sections() {
         let _ = match section {
@@ -35,15 +44,15 @@ pub fn markdown() -> String {
         for key in keys_of(section) {
             let default = match key.default {
                 Default::Value(value) => format!("`{value}`"),
-                _ => key.default_text().to_owned(),
+                _ => plain(key.default_text()),
             };
             let _ = writeln!(
                 out,
                 "| `{}` | {} | {} | {default} | {} |",
                 key.short(),
-                key.values(),
+                plain(&key.values()),
                 key.unit,
-                key.meaning
+                plain(key.meaning)
             );
         }
     }

@@ -93,6 +93,9 @@ pub(super) fn draw_grid(svg: &mut Svg, frame: &Frame, [x, y]: &[Vec<Tick>; 2]) {
     }
 }
 
+/// Most that the title of an axis may shrink to stay beside it.
+const SMALLEST_TITLE: f64 = 0.7;
+
 pub(super) fn draw_x_axis(svg: &mut Svg, frame: &Frame, ticks: &[Tick], labels: bool) {
     let (area, bottom) = (&frame.area, frame.area.bottom());
     let at = |value: f64| area.x + area.width * frame.x.place(value);
@@ -145,13 +148,12 @@ pub(super) fn draw_y_axis(svg: &mut Svg, frame: &Frame, ticks: &[Tick], title: O
             &style,
         );
     }
-    let style = TextStyle::new(TITLE_SIZE)
+    // A title that is longer than its axis would run into that of the panel below.
+    let title = frame.y.full_title();
+    let room = area.height + LABEL_SIZE;
+    let fitting = room / text::width(&title, TITLE_SIZE, false).max(room);
+    let style = TextStyle::new(TITLE_SIZE * fitting.max(SMALLEST_TITLE))
         .anchored(Anchor::Middle)
         .rotated(-90.0);
-    svg.text(
-        left - distance,
-        area.y + 0.5 * area.height,
-        &frame.y.full_title(),
-        &style,
-    );
+    svg.text(left - distance, area.y + 0.5 * area.height, &title, &style);
 }

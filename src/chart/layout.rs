@@ -108,6 +108,9 @@ impl<'a> Layout<'a> {
             true => ((grid.columns as f64 * width_mm / grid.width_mm) as usize).max(1),
             false => grid.columns,
         };
+        // Pictures without axes stay readable in pairs.
+        let are_pictures = grid.columns > 2 && grid.panels().all(|panel| panel.is_bare);
+        let columns = columns.max(if are_pictures { 2 } else { 1 });
         let mut placed = place_cells(grid, columns, is_narrow);
         resolve_axes(grid, &mut placed);
         let mut layout = Self {

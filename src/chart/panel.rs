@@ -24,7 +24,7 @@ pub struct Panel {
     pub(super) headings: Vec<(String, &'static str)>,
     pub(super) height: f64,
     pub(super) is_plane: bool,
-    is_bare: bool,
+    pub(super) is_bare: bool,
     has_grid: bool,
     pub(super) has_legend: bool,
     bar: Option<Side>,

@@ -6,6 +6,7 @@ use super::colour_bar::Colours;
 use super::frame::Frame;
 use super::image::{IndexedImage, Palette};
 use super::layer::Layer;
+use super::legend::Key;
 use super::svg::Svg;
 use std::sync::Arc;
 
@@ -36,8 +37,16 @@ pub struct SurfaceMesh {
 pub struct Surface {
     mesh: Arc<SurfaceMesh>,
     positions: Vec<[f64; 3]>,
-    values: Vec<f64>,
-    colours: Colours,
+    paint: Paint,
+}
+
+/// What colours a surface.
+#[derive(Clone, Debug)]
+enum Paint {
+    /// Values at the nodes.
+    Values(Vec<f64>, Box<Colours>),
+    /// The part that each triangle belongs to; colour and name of each part, with "" for one that the legend leaves out.
+    Parts(Vec<usize>, Vec<(&'static str, String)>),
 }
 
 impl Surface {
@@ -50,12 +59,26 @@ impl Surface {
         map: ColourMap,
     ) -> Self {
         let known: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();
-        let colours = Colours::over(axis, map, &known);
+        let colours = Box::new(Colours::over(axis, map, &known));
         Self {
             mesh,
             positions,
-            values,
-            colours,
+            paint: Paint::Values(values, colours),
+        }
+    }
+
+    /// Triangles in the colours of the parts that they belong to, by index; `parts` has colour and name of each ("": not in the
+    /// legend). From the sixteenth on parts take the colours of the first ones again.
+    pub fn of_parts(
+        mesh: Arc<SurfaceMesh>,
+        positions: Vec<[f64; 3]>,
+        part_of: Vec<usize>,
+        parts: Vec<(&'static str, String)>,
+    ) -> Self {
+        Self {
+            mesh,
+            positions,
+            paint: Paint::Parts(part_of, parts),
         }
     }
 
@@ -76,9 +99,9 @@ impl Surface {
     }
 
     fn palette(&self) -> Palette {
-        let values = (0..LEVELS).map(|level| {
-            let position = (level as f64 + 0.5) / LEVELS as f64;
-            self.colours.map.at(position)
+        let values = (0..LEVELS).map(|level| match &self.paint {
+            Paint::Values(_, colours) => colours.map.at((level as f64 + 0.5) / LEVELS as f64),
+            Paint::Parts(_, parts) => channels(parts.get(level).map_or(NEUTRAL, |part| part.0)),
         });
         let bases: Vec<[u8; 3]> = values.chain([channels(NEUTRAL)]).collect();
         let shaded = bases.iter().flat_map(|base| {
@@ -114,14 +137,9 @@ impl Surface {
                 z,
             ]
         };
-        let (low, high) = self.colours.range;
-        let level = |node: u32| {
-            let value = self.values.get(node as usize).copied().unwrap_or(f64::NAN);
-            (value - low) / (high - low).max(f64::MIN_POSITIVE) * LEVELS as f64
-        };
-        for corners in &self.mesh.triangles {
+        for (triangle, corners) in self.mesh.triangles.iter().enumerate() {
             let shade = self.shade(corners);
-            canvas.fill(corners.map(place), corners.map(level), shade);
+            canvas.fill(corners.map(place), self.levels(triangle, corners), shade);
         }
         // An edge lies in its faces: it stands a little in front of them.
         let reach = self.positions.iter().map(|place| place[2]);
@@ -133,6 +151,23 @@ impl Surface {
             canvas.line(ends.map(place), lift);
         }
         canvas.image
+    }
+
+    /// Colours at the corners of a triangle, as indices with fractions.
+    fn levels(&self, triangle: usize, corners: &[u32; 3]) -> [f64; 3] {
+        match &self.paint {
+            Paint::Values(values, colours) => corners.map(|node| {
+                let (low, high) = colours.range;
+                let value = values.get(node as usize).copied().unwrap_or(f64::NAN);
+                (value - low) / (high - low).max(f64::MIN_POSITIVE) * LEVELS as f64
+            }),
+            Paint::Parts(part_of, _) => {
+                let part = part_of
+                    .get(triangle)
+                    .map(|part| (part % LEVELS) as f64 + 0.5);
+                [part.unwrap_or(f64::NAN); 3]
+            }
+        }
     }
 
     /// Brightness of a face by its angle to the light, as an index.
@@ -218,7 +253,19 @@ impl Layer for Surface {
     }
 
     fn colours(&self) -> Option<&Colours> {
-        Some(&self.colours)
+        match &self.paint {
+            Paint::Values(_, colours) => Some(colours),
+            Paint::Parts(..) => None,
+        }
+    }
+
+    fn keys(&self) -> Vec<(Key, String)> {
+        let Paint::Parts(_, parts) = &self.paint else {
+            return Vec::new();
+        };
+        let named = parts.iter().filter(|(_, name)| !name.is_empty());
+        let keys = named.map(|(colour, name)| (Key::patch(colour, 1.0), name.clone()));
+        keys.collect()
     }
 }
 
@@ -252,13 +299,9 @@ mod tests {
             let [x, y, z] = surface.positions[node as usize];
             [20.0 * (x + 1.0), 20.0 * (1.0 - y), z]
         };
-        for corners in &surface.mesh.triangles {
-            let level = |node: u32| surface.values[node as usize] * LEVELS as f64;
-            canvas.fill(
-                corners.map(place),
-                corners.map(level),
-                surface.shade(corners),
-            );
+        for (triangle, corners) in surface.mesh.triangles.iter().enumerate() {
+            let levels = surface.levels(triangle, corners);
+            canvas.fill(corners.map(place), levels, surface.shade(corners));
         }
         for ends in &surface.mesh.edges {
             canvas.line(ends.map(place), 0.01);
@@ -268,5 +311,20 @@ mod tests {
         assert_eq!((level(20, 20), level(3, 10)), (LEVELS - 1, 0));
         // The diagonal is an edge outside the small square.
         assert_eq!((level(3, 37), level(15, 25)), (LEVELS + 1, LEVELS - 1));
+    }
+    /// Parts have one colour each, whatever their triangles, and names in the legend where they have one.
+    #[test]
+    fn parts_have_one_colour_each_and_a_name_in_the_legend() {
+        let mesh = SurfaceMesh {
+            triangles: vec![[0, 1, 2], [0, 2, 3]],
+            edges: Vec::new(),
+        };
+        let parts = vec![("#ff0000", "disc".to_owned()), ("#00ff00", String::new())];
+        let surface = Surface::of_parts(Arc::new(mesh), vec![[0.0; 3]; 4], vec![1, 0], parts);
+        assert_eq!(surface.levels(0, &[0, 1, 2]), [1.5; 3]);
+        assert_eq!(surface.levels(1, &[0, 2, 3]), [0.5; 3]);
+        let names: Vec<String> = surface.keys().into_iter().map(|key| key.1).collect();
+        assert_eq!(names, ["disc"]);
+        assert!(surface.colours().is_none());
     }
 }

@@ -28,5 +28,5 @@ pub use material::{
 };
 pub use orthotropy::{Elasticity, Indefinite, MaterialAxes, Orthotropy, RATIOS};
 pub use rotation::{RotationTerms, Turning, assemble_rotation};
-pub use stress::{NodalStress, SolidStress, nodal_stress, solid_stress};
+pub use stress::{NodalStress, SolidStress, nodal_stress, revolved_stress, solid_stress};
 pub use triplets::Triplets;

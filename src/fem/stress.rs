@@ -2,8 +2,8 @@
 
 use super::element::{ElementGeometry, Voigt, nodal_values};
 use super::{ElasticMaterial, MaterialField};
-use crate::mesh::Mesh;
-use nalgebra::{Matrix2, Matrix3, SMatrix, Vector3, Vector4};
+use crate::mesh::{Mesh, SolidSector};
+use nalgebra::{Matrix2, Matrix3, Rotation3, SMatrix, Vector3};
 
 /// Stress at one node in the axes of [`Mesh::reported_angle`], Pa.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -51,6 +51,15 @@ impl SolidStress {
     pub fn pressure(&self) -> f64 {
         -(self.0[0] + self.0[1] + self.0[2]) / 3.0
     }
+
+    /// The components in the axes that are the columns of a rotation, `R^T sigma R`.
+    fn turned(&self, axes: &Matrix3<f64>) -> Self {
+        let [x, y, z, xy, yz, zx] = self.0;
+        let global = Matrix3::new(x, xy, zx, xy, y, yz, zx, yz, z);
+        let own = axes.transpose() * global * axes;
+        let of = |row: usize, column: usize| own[(row, column)];
+        Self([of(0, 0), of(1, 1), of(2, 2), of(0, 1), of(1, 2), of(2, 0)])
+    }
 }
 
 /// Stress at each node of a plane body by superconvergent patch recovery (Zienkiewicz and Zhu 1992).
@@ -89,6 +98,47 @@ pub fn solid_stress(
     let recovered = recovered_stress(mesh, material, displacement).into_iter();
     recovered
         .map(|found| found.map_or_else(SolidStress::default, |(stress, _)| SolidStress(stress)))
+        .collect()
+}
+
+/// Stress at each node of a body of revolution in its nodal frames, components `(rr, tt, zz, rt, tz, zr)`, recovered as
+/// [`nodal_stress`] does.
+///
+/// `displacement` has `3 * node_count` values in nodal frames for each sector, m: those of all sectors, or of one that all others
+/// repeat, which then is what is found.
+pub fn revolved_stress(
+    sector: &SolidSector,
+    material: &ElasticMaterial,
+    displacement: &[f64],
+) -> Vec<SolidStress> {
+    let per_sector = sector.node_count();
+    let given = displacement.len() / (3 * per_sector);
+    // The patch of a node reaches two elements far: of a state that repeats the middle one of five sectors is as any other.
+    let count = match given {
+        1 => sector.sector_count().min(5),
+        _ => given,
+    };
+    let mesh = sector.part(count);
+    let frames: Vec<Rotation3<f64>> = (0..mesh.node_count())
+        .map(|node| sector.angle(node % per_sector, node / per_sector))
+        .map(|angle| Rotation3::from_axis_angle(&Vector3::z_axis(), angle))
+        .collect();
+    let of_node = |node: usize| &displacement[3 * node % displacement.len()..][..3];
+    let cartesian: Vec<f64> = frames
+        .iter()
+        .enumerate()
+        .flat_map(|(node, frame)| {
+            let [x, y, z] = (frame * Vector3::from_column_slice(of_node(node))).into();
+            [x, y, z]
+        })
+        .collect();
+    let found = solid_stress(&mesh, material, &cartesian);
+    let shown = match given {
+        1 => count / 2 * per_sector..(count / 2 + 1) * per_sector,
+        _ => 0..given * per_sector,
+    };
+    shown
+        .map(|node| found[node].turned(frames[node].matrix()))
         .collect()
 }
 
@@ -200,27 +250,39 @@ fn fit_in_plane(origin: [f64; 3], samples: &[&Sample]) -> Voigt {
     }
 }
 
-/// As [`fit_in_plane`], with a polynomial in three coordinates.
+/// As [`fit_in_plane`], with a polynomial in three coordinates. The samples of a patch one element thick lie on a plane: across it the
+/// stress is taken as constant.
 fn fit_in_space(origin: [f64; 3], samples: &[&Sample]) -> Voigt {
-    let size = size_of(origin, samples);
-    let (mut normal, mut right) = (SMatrix::<f64, 4, 4>::zeros(), SMatrix::<f64, 4, 6>::zeros());
-    for sample in samples {
-        let offset = |axis: usize| (sample.position[axis] - origin[axis]) / size;
-        let basis = Vector4::new(1.0, offset(0), offset(1), offset(2));
-        normal += basis * basis.transpose();
-        right += basis * SMatrix::<f64, 1, 6>::from(sample.stress);
-    }
-    // A patch one element thick has samples on a plane: of order 1e-3 for any other.
+    // About the centre of the samples the slope is independent of the mean.
     let count = samples.len() as f64;
-    let is_determined = normal.determinant() > 1e-9 * count.powi(4);
-    match normal.cholesky().filter(|_| is_determined) {
-        Some(factor) => {
-            let values = factor.solve(&right);
-            std::array::from_fn(|k| values[(0, k)])
-        }
-        None => mean(samples),
+    let sum: Vector3<f64> = samples.iter().map(|s| Vector3::from(s.position)).sum();
+    let centre = sum / count;
+    let middle = mean(samples);
+    let (mut normal, mut right) = (Matrix3::zeros(), SMatrix::<f64, 3, 6>::zeros());
+    for sample in samples {
+        let offset = Vector3::from(sample.position) - centre;
+        normal += offset * offset.transpose();
+        right += offset * SMatrix::<f64, 1, 6>::from(sample.stress);
     }
+    let eigen = normal.symmetric_eigen();
+    let widest = eigen.eigenvalues.max();
+    let reach = Vector3::from(origin) - centre;
+    let mut value = middle;
+    for (spread, axis) in eigen
+        .eigenvalues
+        .iter()
+        .zip(eigen.eigenvectors.column_iter())
+    {
+        if *spread > FLAT * widest {
+            let slope = axis.transpose() * right / *spread;
+            (0..6).for_each(|k| value[k] += axis.dot(&reach) * slope[k]);
+        }
+    }
+    value
 }
+
+/// Squared thickness over width below which the samples of a patch lie on a plane.
+const FLAT: f64 = 1e-4;
 
 fn mean(samples: &[&Sample]) -> Voigt {
     let mut sum = [0.0; 6];

@@ -10,6 +10,7 @@
 //! 8. [`python`]: the module.
 //! 9. [`theory`]: the equations in the order in which a run computes them, each with its module.
 //! 10. [`extending`]: an element, a law, a figure, a key.
+//! 11. [`keys`]: every key of a case.
 
 #[doc = include_str!("start.md")]
 pub mod start {}
@@ -40,3 +41,6 @@ pub mod theory {}
 
 #[doc = include_str!("extending.md")]
 pub mod extending {}
+
+#[doc = include_str!("keys.md")]
+pub mod keys {}

@@ -2,7 +2,9 @@
 
 use super::sectors::graded_radii;
 use super::specification::validate;
-use super::{AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind, Mesh, MeshError};
+use super::{
+    AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind, Mesh, MeshError, NodalFrames,
+};
 use std::f64::consts::{PI, TAU};
 
 mod faces;
@@ -94,6 +96,44 @@ impl SolidSector {
             mesh.nodes[node] = [radius * angle.cos(), radius * angle.sin(), 0.0];
         }
         Ok(mesh)
+    }
+
+    /// The solid elements of the first `count` sectors, closed to a ring where those are all, in global frames; nodes sector by
+    /// sector, of an open one the last sheet behind them.
+    pub fn part(&self, count: usize) -> Mesh {
+        let per_sector = self.node_count();
+        let is_closed = count >= self.sector_count();
+        let sheets = if is_closed {
+            self.sector_count()
+        } else {
+            count + 1
+        };
+        let place = |sheet: usize, k: usize| {
+            let (sin, cos) = self.angle(k, sheet).sin_cos();
+            let node = &self.nodes[k];
+            [node.radius * cos, node.radius * sin, node.height]
+        };
+        let nodes = (0..sheets).flat_map(|sheet| (0..per_sector).map(move |k| (sheet, k)));
+        let mut mesh = Mesh {
+            dimension: 3,
+            nodes: nodes.map(|(sheet, k)| place(sheet, k)).collect(),
+            frames: NodalFrames::global(3, sheets * per_sector),
+            element_starts: vec![0],
+            regions: vec![String::new()],
+            ..Mesh::default()
+        };
+        for sector in 0..count.min(self.sector_count()) {
+            for element in &self.elements {
+                let nodes = element.iter();
+                let nodes = nodes.map(|&(k, half)| (sector + half / 2) % sheets * per_sector + k);
+                mesh.elements.extend(nodes.map(|node| node as u32));
+                mesh.congruent_to.push(mesh.element_kinds.len() as u32);
+                mesh.element_starts.push(mesh.elements.len() as u32);
+                mesh.element_kinds.push(self.element_kind());
+                mesh.element_regions.push(0);
+            }
+        }
+        mesh
     }
 
     /// Nodes of one sector.

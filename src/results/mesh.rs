@@ -429,7 +429,7 @@ fn boundary_table(mesh: &MeshStatistics) -> ReportTable {
 }
 
 /// Colours of the elements of the regions, which take them in turns.
-const REGION_COLOURS: [&str; 6] = [
+pub(super) const REGION_COLOURS: [&str; 6] = [
     "#7d7d7d", "#b07d2b", "#4f8f5f", "#7a5c99", "#3f7fa8", "#a85858",
 ];
 /// Most normals drawn.

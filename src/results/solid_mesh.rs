@@ -189,7 +189,8 @@ fn boundaries_of(mesh: &Mesh, roles: &BTreeMap<usize, &'static str>) -> Vec<Soli
     boundaries.collect()
 }
 
-fn condition_name(condition: BoundaryCondition) -> &'static str {
+/// What a condition does, in a word.
+pub(super) fn condition_name(condition: BoundaryCondition) -> &'static str {
     match condition {
         BoundaryCondition::Clamped => "clamped",
         BoundaryCondition::Support(_) => "support",

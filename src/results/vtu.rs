@@ -1,7 +1,7 @@
 //! Fields on the mesh for ParaView: VTK XML unstructured grids, appended raw, zlib-compressed.
 
 use crate::contact::ContactStatus;
-use crate::fem::NodalStress;
+use crate::fem::{NodalStress, SolidStress};
 use crate::mesh::{Mesh, SolidSector};
 use flate2::{Compression, write::ZlibEncoder};
 use nalgebra::Vector3;
@@ -98,6 +98,29 @@ impl Field {
             field("stress_tt_pa", |stress| stress.hoop),
             field("stress_rt_pa", |stress| stress.shear),
         ]
+    }
+
+    /// The stresses at the nodes of a solid body: `von_mises_pa`, `hydrostatic_pressure_pa`, and the components along `axes`, one
+    /// letter each.
+    pub fn solid_stresses(stresses: &[SolidStress], axes: &str) -> Vec<Self> {
+        let mut fields = vec![
+            Self::scalars(
+                "von_mises_pa",
+                stresses.iter().map(SolidStress::von_mises).collect(),
+            ),
+            Self::scalars(
+                "hydrostatic_pressure_pa",
+                stresses.iter().map(SolidStress::pressure).collect(),
+            ),
+        ];
+        let axes: Vec<char> = axes.chars().collect();
+        let pairs = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)];
+        for (k, (one, other)) in pairs.into_iter().enumerate() {
+            let name = format!("stress_{}{}_pa", axes[one], axes[other]);
+            let values = stresses.iter().map(|stress| stress.0[k]).collect();
+            fields.push(Self::scalars(&name, values));
+        }
+        fields
     }
 
     /// The stress components along `x` and `y` of a body that is no annulus about the origin, where polar ones say little.

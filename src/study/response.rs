@@ -107,7 +107,10 @@ impl<'a> FrequencyStudy<'a> {
                 );
                 return Err(refusal.into());
             }
-            FrfMethod::Auto if case.has_sectors() => cyclic(case, frf)?,
+            FrfMethod::Auto if case.responds_by_harmonics(frf) => cyclic(case, frf)?,
+            FrfMethod::Cyclic if case.has_sectors() && !case.responds_by_harmonics(frf) => {
+                return Err(disc_and_shaft_apart(case).into());
+            }
             FrfMethod::Cyclic => cyclic(case, frf)?,
             FrfMethod::Auto => whole(case, frf, Reduction::Tried)?,
             FrfMethod::Reduced => whole(case, frf, Reduction::Asked)?,
@@ -384,6 +387,17 @@ fn refuse_rest(case: &Case) -> Result<(), CaseErrors> {
         "the speed is 0".to_owned(),
         Some("give a speed, however small, or use \"clamped\" or \"free\"".to_owned()),
     ))
+}
+
+/// Without contact a disc and its shaft are two bodies, which the harmonic solver does not take.
+fn disc_and_shaft_apart(case: &Case) -> CaseErrors {
+    case.error_at(
+        "frf.method",
+        "frf.method = \"cyclic\" takes one body, and without contact disc and shaft are two"
+            .to_owned(),
+        "disc and shaft do not touch here".to_owned(),
+        Some("use \"auto\", \"direct\" or \"reduced\"".to_owned()),
+    )
 }
 
 /// What is wrong with a node, at its key.

@@ -11,6 +11,26 @@ mod parameter_study;
 #[path = "../../examples/studies.rs"]
 mod studies;
 
+/// `examples/gallery` draws one picture of each case, and `cases/README.md` shows it.
+#[test]
+fn the_gallery_has_a_picture_of_every_shipped_case() {
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let readme = std::fs::read_to_string(root.join("cases/README.md")).unwrap();
+    let script = std::fs::read_to_string(root.join("examples/gallery")).unwrap();
+    for case in frictionsim::app::shipped::all_cases() {
+        let picture = format!("examples/figures/gallery/{}.png", case.name());
+        assert!(
+            root.join(&picture).exists(),
+            "{picture}: run examples/gallery"
+        );
+        assert!(readme.contains(&format!("(../{picture})")), "{picture}");
+        assert!(
+            script.contains(&format!("\ndraw {} ", case.name())),
+            "{picture}"
+        );
+    }
+}
+
 #[test]
 fn modes_of_an_annulus_are_those_of_the_continuum() {
     annulus_modes::main().unwrap();

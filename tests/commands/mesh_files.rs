@@ -131,3 +131,96 @@ fn the_case_that_init_writes_for_an_input_file_runs_as_it_is() {
         .assert()
         .code(2);
 }
+
+/// The picture names every region and what holds, loads and touches the bodies; `plot` draws it again to the same bytes.
+#[test]
+fn the_picture_of_solid_bodies_names_regions_and_boundaries() {
+    let folder = tempfile::tempdir().unwrap();
+    let picture = folder.path().join("out/figures/mesh.svg");
+    object(
+        &folder,
+        &["mesh", &shipped("brake.toml"), "--json", "-o", "out"],
+    );
+    let drawn = fs::read_to_string(&picture).unwrap();
+    let words = [
+        "Disc_Disc_iron",
+        "Outer_Lining",
+        "Inner_Backplate",
+        "contact",
+        "counterface",
+        "clamped",
+        "pressure",
+        "tie",
+        "free",
+        "regions, turned over",
+    ];
+    for word in words {
+        assert!(drawn.contains(word), "{word}");
+    }
+    // Nothing of the case is a support.
+    assert!(!drawn.contains(">support<"));
+    let report = fs::read_to_string(folder.path().join("out/report.html")).unwrap();
+    assert!(report.contains("Outer_Piston") && report.contains("mass (kg)"));
+    fs::remove_file(&picture).unwrap();
+    let mut plot = Command::cargo_bin("frictionsim").unwrap();
+    plot.current_dir(folder.path()).args(["plot", "out"]);
+    plot.assert().success();
+    assert_eq!(fs::read_to_string(&picture).unwrap(), drawn);
+}
+
+/// Stress of solid bodies stands in the files for ParaView, of base states and of snapshots.
+#[test]
+fn fields_of_bodies_of_revolution_have_their_stress() {
+    let folder = tempfile::tempdir().unwrap();
+    let coarse = [
+        "--set",
+        "mesh.circumferential_elements=16",
+        "--set",
+        "mesh.radial_elements=10",
+        "--no-figures",
+        "-qq",
+        "-o",
+        "out",
+    ];
+    let run = |command: &str, changes: &[&str]| {
+        let mut run = Command::cargo_bin("frictionsim").unwrap();
+        let case = shipped("ring-on-layer.toml");
+        run.current_dir(folder.path())
+            .args([command, &case, "--force"]);
+        run.args(coarse).args(changes).assert().success();
+    };
+    let holds_stress = |file: &str| {
+        let bytes = fs::read(folder.path().join("out").join(file)).unwrap();
+        let text = String::from_utf8_lossy(&bytes);
+        for name in [
+            "von_mises_pa",
+            "stress_zz_pa",
+            "stress_rt_pa",
+            "stress_rz_pa",
+        ] {
+            assert!(text.contains(&format!("Name=\"{name}\"")), "{file}: {name}");
+        }
+    };
+    run(
+        "cea",
+        &[
+            "--set",
+            "cea.friction_coefficients=[0.2]",
+            "--set",
+            "cea.max_frequency_hz=8000.0",
+        ],
+    );
+    holds_stress("prestress.vtu");
+    run(
+        "transient",
+        &[
+            "--set",
+            "transient.duration=1e-4",
+            "--set",
+            "output.snapshots=[1e-4]",
+        ],
+    );
+    let snapshots = fs::read_dir(folder.path().join("out/snapshots")).unwrap();
+    let first = snapshots.flatten().next().unwrap().file_name();
+    holds_stress(&format!("snapshots/{}", first.to_string_lossy()));
+}

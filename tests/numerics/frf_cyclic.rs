@@ -2,6 +2,7 @@
 //! assembly, another factorization: independent checks).
 
 use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact};
+use frictionsim::case::{Case, unset};
 use frictionsim::contact::ContactStiffness;
 use frictionsim::fem::{MassKind, assemble_stiffness};
 use frictionsim::frf::{
@@ -11,6 +12,7 @@ use frictionsim::mesh::{AnnulusMesh, AnnulusSpecification, ElementKind, SectorMe
 use frictionsim::prestress::{
     DampingModel, SectorTangent, SlidingTangent, SteadySliding, TangentOptions,
 };
+use frictionsim::study::response::FrequencyStudy;
 
 /// Even and odd numbers of sectors differ in their last harmonic.
 fn meshes() -> [AnnulusSpecification; 3] {
@@ -179,4 +181,39 @@ fn response_has_the_same_bits_for_any_number_of_threads() {
         pool.unwrap().install(work)
     };
     assert_eq!(on(1), on(3));
+}
+
+/// Without contact a shaft is a body of its own: the disc answers as it does without one, whose response another solver gives.
+#[test]
+fn a_disc_on_a_shaft_responds_without_contact_as_the_disc_alone() {
+    let text = include_str!("../../cases/deformable-shaft.toml");
+    let respond = |boundary: &str, changes: &[&str]| {
+        let mut set = vec![
+            "mesh.circumferential_elements=24".to_owned(),
+            "mesh.radial_elements=5".to_owned(),
+            format!(
+                "frf={{boundary=\"{boundary}\",force_node={{x=0.05,y=0.0}},response_node={{x=0.0,y=-0.07}},\
+                 frequencies_hz=[900.0,4321.0,8765.0]}}"
+            ),
+        ];
+        set.extend(changes.iter().map(|change| (*change).to_owned()));
+        let case = Case::parse("shaft.toml", text.as_bytes(), &set).unwrap();
+        let solved = FrequencyStudy::new(&case).unwrap().solve(&|_| {}).unwrap();
+        (solved.method, solved.receptance())
+    };
+    for boundary in ["free", "clamped"] {
+        let apart = respond(boundary, &["frf.method=\"direct\""]);
+        let rigid = [
+            "geometry.shaft_inner_radius",
+            "mesh.shaft_radial_elements",
+            "materials",
+        ];
+        let rigid = rigid.map(unset);
+        let alone = respond(boundary, &rigid.each_ref().map(String::as_str));
+        assert_eq!((apart.0, alone.0), ("direct", "cyclic"));
+        for (own, other) in apart.1.iter().zip(&alone.1) {
+            assert!((own - other).norm() < 1e-10 * other.norm(), "{own} {other}");
+        }
+        assert_eq!(respond(boundary, &[]).0, "reduced");
+    }
 }

@@ -189,7 +189,9 @@ impl Case {
         if let Body::Revolution(Revolution { specification, .. }) = &self.body {
             return self.solid_frf_cost(frf, specification, size.nodes);
         }
-        let (bytes, each) = match (frf.method, self.body.sector_count()) {
+        let sectors = self.body.sector_count();
+        let sectors = sectors.filter(|_| self.responds_by_harmonics(frf));
+        let (bytes, each) = match (frf.method, sectors) {
             // One block band of a sector for each harmonic.
             (FrfMethod::Auto | FrfMethod::Cyclic, Some(sectors)) => {
                 (100.0 * dofs / sectors.max(1) as f64, 2e-8 * dofs)

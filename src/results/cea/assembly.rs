@@ -2,6 +2,7 @@
 
 use crate::chart::{Axis, ChartError, ColourMap, Figure, Panel, literal};
 use crate::contact::{ContactSite, ContactStatus};
+use crate::fem::SolidStress;
 use crate::mesh::Mesh;
 use crate::results::charts::SolidView;
 use crate::results::folder::{FolderError, OutputFolder};
@@ -38,11 +39,13 @@ pub struct AssemblyReport {
     pub surfaces: Vec<(String, usize)>,
     /// Displacement of every node in nodal frames, `3 * node_count` values, m.
     pub displacement: Vec<f64>,
+    /// Stress at every node in global axes.
+    pub stress: Vec<SolidStress>,
 }
 
 impl AssemblyReport {
-    /// Writes `prestress.csv` (contact points) and `prestress.vtu` (displacement; pressure, traction and closed share of the
-    /// points around each node of a contact surface, zero elsewhere).
+    /// Writes `prestress.csv` (contact points) and `prestress.vtu` (displacement and stress; pressure, traction and closed share
+    /// of the points around each node of a contact surface, zero elsewhere).
     ///
     /// # Errors
     /// Those of the folder.
@@ -64,7 +67,7 @@ impl AssemblyReport {
             write_rows(out, columns, &self.points)
         })?;
         let around = |value: fn(&AssemblyPoint) -> f64| self.around_nodes(mesh, value);
-        let fields = [
+        let mut fields = vec![
             Field::vectors("displacement_m", mesh, &self.displacement),
             Field::scalars("pressure_pa", around(|point| point.pressure)),
             Field::scalars("shear_pa", around(|point| point.shear)),
@@ -73,6 +76,7 @@ impl AssemblyReport {
                 around(|point| f64::from(u8::from(point.is_closed))),
             ),
         ];
+        fields.extend(Field::solid_stresses(&self.stress, "xyz"));
         folder.write_bulk("prestress.vtu", |out| {
             write_vtu(out, &EncodedMesh::new(mesh)?, &[], &fields, &[])
         })?;

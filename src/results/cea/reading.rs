@@ -235,6 +235,12 @@ pub(super) fn budget(report: &CeaReport<'_>, reading: &Reading) -> Result<Figure
         }
     }
     fastest.sort_by(|a, b| b.1.total_cmp(&a.1));
+    // As tables and other figures name them.
+    let numbers = report.mode_numbers();
+    let name = |branch: usize| match report.has_harmonics {
+        true => format!("branch {branch}"),
+        false => report.branch_name((0, branch, 0), &numbers),
+    };
     let panels = fastest.iter().take(PANELS).map(|&(branch, _)| {
         let rows = || {
             let all = reading.contributions.iter();
@@ -254,7 +260,7 @@ pub(super) fn budget(report: &CeaReport<'_>, reading: &Reading) -> Result<Figure
         let last = last.map_or(0.0, |row| row.mode.frequency_hz);
         let mut panel = Panel::new(Axis::friction().tight(), Axis::new("growth rate", "1/s"))
             .height(90.0)
-            .caption(format!("branch {branch}, {} kHz", fixed(1e-3 * last, 2)))
+            .caption(format!("{}, {} kHz", name(branch), fixed(1e-3 * last, 2)))
             .layer(Rule::horizontal(0.0).stroke(Stroke::solid(INK, 0.6)))
             .layer(Line::through(total).solid(INK, 1.4).name("growth rate"));
         for (place, name) in names.into_iter().enumerate() {

@@ -5,6 +5,7 @@ use crate::chart::{
     Axis, Cell, ColourMap, Field as ColourField, Figure, Line, Marker, Mesh, Panel, SERIES, Side,
 };
 use crate::contact::ContactStatus;
+use crate::fem::SolidStress;
 use crate::linalg::c64;
 use crate::mesh::{ContactRing, SheetNode, SolidFace, SolidSector};
 use crate::prestress::SolidSliding;
@@ -25,6 +26,8 @@ pub struct SolidReport {
     pub base: SolidSliding,
     /// Friction coefficient of the base state that is shown.
     pub friction_coefficient: f64,
+    /// Its stress at the nodes of one sector, in their frames.
+    pub stress: Vec<SolidStress>,
 }
 
 impl SolidReport {
@@ -82,6 +85,8 @@ impl SolidReport {
         })?;
         let displacement = self.base.displacement(self.friction_coefficient);
         let mut fields = vec![self.vectors("displacement_m", &self.repeated(&displacement))];
+        let stress = self.stress.repeat(self.sector.sector_count());
+        fields.extend(Field::solid_stresses(&stress, "rtz"));
         fields.extend(self.contact_fields());
         let whole = state.whole();
         folder.write_bulk("prestress.vtu", |out| {

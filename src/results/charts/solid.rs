@@ -12,6 +12,7 @@ const SHARP: f64 = 0.75;
 /// The surface of solid bodies seen along a direction.
 pub struct SolidView<'a> {
     mesh: &'a Mesh,
+    faces: Vec<BoundaryFace>,
     shown: Arc<SurfaceMesh>,
     /// Unit vectors to the right, upwards and towards the viewer.
     axes: [Vector3<f64>; 3],
@@ -20,31 +21,49 @@ pub struct SolidView<'a> {
 impl<'a> SolidView<'a> {
     /// All bodies from the front, the right and above, `z` upwards.
     pub fn new(mesh: &'a Mesh) -> Self {
-        Self::of(mesh, &mesh.outer_faces(), Vector3::new(0.5, -0.72, 0.62))
+        Self::of(mesh, mesh.outer_faces(), Vector3::new(0.5, -0.72, 0.62))
+    }
+
+    /// The same turned over: from behind and below, `z` downwards.
+    pub fn turned_over(mesh: &'a Mesh) -> Self {
+        let towards = Vector3::new(0.5, 0.72, -0.62);
+        Self::upright(mesh, mesh.outer_faces(), towards, -Vector3::z())
     }
 
     /// One boundary from outside, along its mean normal.
     pub fn of_boundary(mesh: &'a Mesh, boundary: usize) -> Self {
-        let faces = &mesh.boundaries[boundary].faces;
-        let normals = mesh.nodal_normals(faces);
+        let faces = mesh.boundaries[boundary].faces.clone();
+        let normals = mesh.nodal_normals(&faces);
         let sum = normals.values().map(|&normal| Vector3::from(normal)).sum();
         Self::of(mesh, faces, sum)
     }
 
-    fn of(mesh: &'a Mesh, faces: &[BoundaryFace], towards: Vector3<f64>) -> Self {
+    fn of(mesh: &'a Mesh, faces: Vec<BoundaryFace>, towards: Vector3<f64>) -> Self {
         let towards = towards.try_normalize(0.0).unwrap_or(Vector3::z());
         // Upwards is z, but for what is seen along it.
         let up = match towards.z.abs() > 0.9 {
             true => Vector3::y(),
             false => Vector3::z(),
         };
+        Self::upright(mesh, faces, towards, up)
+    }
+
+    /// Faces seen from a direction, another one upwards.
+    fn upright(
+        mesh: &'a Mesh,
+        faces: Vec<BoundaryFace>,
+        towards: Vector3<f64>,
+        up: Vector3<f64>,
+    ) -> Self {
+        let towards = towards.normalize();
         let right = up.cross(&towards).normalize();
         let shown = SurfaceMesh {
             triangles: faces.iter().flat_map(triangles).collect(),
-            edges: sharp_edges(mesh, faces),
+            edges: edges(mesh, &faces, false),
         };
         Self {
             mesh,
+            faces,
             shown: Arc::new(shown),
             axes: [right, towards.cross(&right), towards],
         }
@@ -68,6 +87,24 @@ impl<'a> SolidView<'a> {
         };
         let positions = self.mesh.nodes.iter().enumerate().map(place).collect();
         Surface::new(Arc::clone(&self.shown), positions, values, axis, map)
+    }
+
+    /// The bodies with the edges of their elements, each face in the colour of its part; `parts` has colour and name of each ("":
+    /// not in the legend).
+    pub fn parts(
+        &self,
+        part_of: impl Fn(&BoundaryFace) -> usize,
+        parts: Vec<(&'static str, String)>,
+    ) -> Surface {
+        let shown = SurfaceMesh {
+            triangles: self.shown.triangles.clone(),
+            edges: edges(self.mesh, &self.faces, true),
+        };
+        let place = |node: &[f64; 3]| self.axes.map(|axis| axis.dot(&Vector3::from(*node)));
+        let positions = self.mesh.nodes.iter().map(place).collect();
+        let of_face = |face: &BoundaryFace| vec![part_of(face); triangles(face).len()];
+        let part_of = self.faces.iter().flat_map(of_face).collect();
+        Surface::of_parts(Arc::new(shown), positions, part_of, parts)
     }
 
     /// Largest extent of the bodies along an axis, m.
@@ -105,8 +142,8 @@ fn triangles(face: &BoundaryFace) -> Vec<[u32; 3]> {
         .collect()
 }
 
-/// Edges between faces that meet at an angle, between regions, and at the rim of open surfaces.
-fn sharp_edges(mesh: &Mesh, faces: &[BoundaryFace]) -> Vec<[u32; 2]> {
+/// Edges between faces that meet at an angle, between regions, and at the rim of open surfaces; or all.
+fn edges(mesh: &Mesh, faces: &[BoundaryFace], all: bool) -> Vec<[u32; 2]> {
     type Side = (Vector3<f64>, usize);
     let mut edges: BTreeMap<[u32; 2], (Vec<u32>, Vec<Side>)> = BTreeMap::new();
     for face in faces {
@@ -126,6 +163,7 @@ fn sharp_edges(mesh: &Mesh, faces: &[BoundaryFace]) -> Vec<[u32; 2]> {
         }
     }
     let is_sharp = |sides: &[Side]| match sides {
+        _ if all => true,
         [one, other] => one.1 != other.1 || one.0.dot(&other.0) < SHARP,
         _ => true,
     };

@@ -2,7 +2,9 @@
 
 use super::report::report;
 use super::{ImproveSummary, TargetFields};
-use crate::chart::{Axis, ChartError, ColourMap, Figure, INK, Marker, Panel, Points, Side, significant};
+use crate::chart::{
+    Axis, ChartError, ColourMap, Figure, INK, Marker, Panel, Points, Side, significant,
+};
 use crate::mesh::Mesh;
 use crate::results::charts::{Disc, SolidView};
 use crate::results::drawing::{Declaration, draw_all, write_report};

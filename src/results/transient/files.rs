@@ -4,7 +4,7 @@ use super::contact::encode_contact;
 use super::solid::contact_nodes;
 use super::{TransientReport, TransientSummary, summary};
 use crate::contact::ContactInterface;
-use crate::fem::nodal_stress;
+use crate::fem::{nodal_stress, revolved_stress};
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::record::write_record;
 use crate::results::summary::write_summary;
@@ -236,6 +236,8 @@ fn snapshot_fields(report: &TransientReport<'_>, snapshot: &Snapshot) -> Vec<Fie
             solid_vectors("displacement_m", sector, &snapshot.displacement),
             solid_vectors("velocity_m_per_s", sector, &snapshot.velocity),
         ];
+        let stress = revolved_stress(sector, report.material.of(0), &snapshot.displacement);
+        fields.extend(Field::solid_stresses(&stress, "rtz"));
         let nodes = snapshot.displacement.len() / 3;
         fields.extend(contact_fields(&contact_nodes(sector), nodes, snapshot));
         return fields;

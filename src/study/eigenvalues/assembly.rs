@@ -4,6 +4,7 @@ use super::Progress;
 use super::states::sweep_states;
 use crate::case::{AssemblyBody, Case};
 use crate::cea::{CeaError, FrictionSweep, SweepRequest};
+use crate::fem::solid_stress;
 use crate::prestress::{
     Assembly, BaseChoice, PressedRange, PressedState, PrestressError, SlidingTangent,
     TangentOptions,
@@ -111,12 +112,14 @@ impl AssemblyModel {
             }
         });
         let contacts = self.body.contacts.iter();
+        let displacement = state.displacement(friction);
         Ok(AssemblyReport {
+            stress: solid_stress(&self.body.mesh, &self.body.materials, &displacement),
             surfaces: contacts
                 .map(|own| (own.name.clone(), own.surface))
                 .collect(),
             points: points.collect(),
-            displacement: state.displacement(friction),
+            displacement,
         })
     }
 }

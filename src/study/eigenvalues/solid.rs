@@ -3,7 +3,7 @@
 use super::StudyError;
 use crate::case::Case;
 use crate::contact::SteadyFriction;
-use crate::fem::solid;
+use crate::fem::{revolved_stress, solid};
 use crate::mesh::{
     AnnulusSpecification, BoundaryCondition, ContactRing, SolidSector, SolidSpecification,
 };
@@ -34,9 +34,12 @@ impl SolidBody {
             ..specification.annulus
         };
         let friction_coefficient = case.contact.sliding.friction_coefficient;
+        let displacement = base.displacement(friction_coefficient);
+        let stress = revolved_stress(&sector, &case.material, &displacement);
         Ok(Self {
             report: SolidReport {
                 sector,
+                stress,
                 base,
                 friction_coefficient,
             },

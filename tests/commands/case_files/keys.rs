@@ -25,6 +25,27 @@ fn whole() -> String {
     format!("{RUN}\n{further}")
 }
 
+/// The guide's page of keys is what the declarations say; `FRICTIONSIM_WRITE_TABLE=1` writes it.
+#[test]
+fn the_guide_documents_every_key_as_it_is_declared() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/src/guide/keys.md");
+    let text = std::fs::read_to_string(path).unwrap();
+    let (head, rest) = text.split_once("<!-- keys: generated -->\n").unwrap();
+    let (stored, tail) = rest.split_once("\n<!-- end of the keys -->").unwrap();
+    let table = reference::markdown();
+    let table = table.trim_end();
+    if std::env::var_os("FRICTIONSIM_WRITE_TABLE").is_some() {
+        let written =
+            format!("{head}<!-- keys: generated -->\n{table}\n<!-- end of the keys -->{tail}");
+        std::fs::write(path, written).unwrap();
+    } else {
+        assert!(
+            stored == table,
+            "src/guide/keys.md is not what `frictionsim keys --markdown` prints"
+        );
+    }
+}
+
 #[test]
 fn a_default_written_out_changes_nothing() {
     let plain = valid(&whole(), &[]);

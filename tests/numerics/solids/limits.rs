@@ -3,8 +3,8 @@
 use crate::solids::model::{disc, modes};
 use frictionsim::cea::cyclic::{solid_sweep, sweep};
 use frictionsim::cea::{ComplexMode, ModeLimit, SweepRequest};
-use frictionsim::fem::PlaneFormulation;
-use frictionsim::mesh::{BoundaryCondition, ElementKind};
+use frictionsim::fem::{PlaneFormulation, revolved_stress};
+use frictionsim::mesh::{BoundaryCondition, ElementKind, SolidSector};
 
 fn plane(
     model: &frictionsim::cea::cyclic::SolidModel,
@@ -96,4 +96,48 @@ fn a_thin_disc_has_the_modes_of_plane_stress() {
         // The elements at the clamp cannot thin as they are stretched.
         assert!(error < 1e-2, "n = {}: {error:e}", mode.harmonic);
     }
+}
+
+/// Theory: `u_r = a r + b / r, u_z = c z` has the stresses of a thick tube, `sigma_r = lambda (2 a + c) + 2 G (a - b / r^2)`. Without `b`
+/// the field is linear, and every node has its stress to round-off; with it the largest error falls with the square of the mesh.
+#[test]
+fn the_stress_of_a_stretched_tube_is_that_of_the_theory() {
+    let (a, c) = (1e-4, -3e-5);
+    let worst = |kind: ElementKind, divisions: [usize; 3], b: f64| {
+        let model = disc(kind, divisions);
+        let sector = SolidSector::generate(&model.specification).unwrap();
+        let nodes = sector.nodes.iter();
+        let displacement: Vec<f64> = nodes
+            .flat_map(|node| [a * node.radius + b / node.radius, 0.0, c * node.height])
+            .collect();
+        let [lambda, shear] = model.material.lame_constants();
+        let stress = revolved_stress(&sector, &model.material, &displacement);
+        let whole = displacement.repeat(sector.sector_count());
+        let all = revolved_stress(&sector, &model.material, &whole);
+        let mut worst = 0.0f64;
+        for (k, node) in sector.nodes.iter().enumerate() {
+            let trace = lambda * (2.0 * a + c);
+            let turn = b / node.radius.powi(2);
+            let exact = [a - turn, a + turn, c].map(|strain| trace + 2.0 * shear * strain);
+            for (component, found) in stress[k].0.iter().enumerate() {
+                let exact = exact.get(component).copied().unwrap_or(0.0);
+                worst = worst.max((found - exact).abs() / (2.0 * shear * a));
+                // One sector that all repeat, or all of them.
+                let other = all[sector.node_count() + k].0[component];
+                assert!((found - other).abs() < 1e-9 * shear * a);
+            }
+        }
+        worst
+    };
+    for kind in [ElementKind::Quad4, ElementKind::Quad8] {
+        assert!(worst(kind, [24, 4, 2], 0.0) < 1e-9);
+    }
+    // b / r^2 is 1e-4 inside.
+    let inner = disc(ElementKind::Quad4, [24, 4, 1])
+        .specification
+        .annulus
+        .inner_radius;
+    let b = 1e-4 * inner * inner;
+    let [coarse, fine] = [1, 2].map(|k| worst(ElementKind::Quad4, [48 * k, 12 * k, 1], b));
+    assert!(fine < 0.1 && fine < 0.35 * coarse, "{coarse:.4} {fine:.4}");
 }

@@ -1,0 +1,181 @@
+//! The picture of solid bodies of a mesh file: regions and boundaries.
+
+use super::charts::SolidView;
+use super::drawing::{DrawingError, DrawingOptions, draw_all, write_report};
+use super::folder::OutputFolder;
+use super::mesh::REGION_COLOURS;
+use super::quantity::quantity;
+use super::report::{Report, ReportSection, ReportTable};
+use super::solid_mesh::{SolidBoundary, SolidMeshStatistics, SolidRegion, condition_name};
+use crate::chart::{Figure, Panel, SERIES, Surface, literal};
+use crate::mesh::{BoundaryFace, Mesh};
+use std::collections::BTreeMap;
+
+/// Draws `figures/mesh` and writes `report.html`: the regions by colour, then what holds, loads and touches the bodies, from the front
+/// and turned over; sizes and quality. `roles` names boundaries that slide or are glued.
+///
+/// # Errors
+/// Those of the drawing and of the folder.
+pub fn draw(
+    folder: &OutputFolder,
+    mesh: &Mesh,
+    (title, roles): (&str, &BTreeMap<usize, &'static str>),
+    statistics: &SolidMeshStatistics,
+    options: &DrawingOptions,
+) -> Result<(), DrawingError> {
+    let figures = draw_all(vec![Box::new(|| Ok(figure(mesh, title, roles)))], options)?;
+    let report = Report {
+        title: title.to_owned(),
+        sections: vec![
+            ReportSection::results(Vec::new(), numbers(statistics))
+                .with_tables([region_table(statistics), boundary_table(statistics)]),
+            ReportSection {
+                heading: "Mesh".into(),
+                figures,
+                ..ReportSection::default()
+            },
+        ],
+        manifest: folder.manifest().clone(),
+    };
+    write_report(folder, &report, options)
+}
+
+/// Colour of the boundaries of each kind, in the order of the legend; the last one of faces that nothing is said of.
+const CONDITION_COLOURS: [(&str, &str); 9] = [
+    (SERIES[1], "contact"),
+    (SERIES[5], "counterface"),
+    (SERIES[4], "pressure"),
+    (SERIES[0], "clamped"),
+    (SERIES[3], "fixed"),
+    ("#8c5bb0", "guide"),
+    (SERIES[2], "support"),
+    ("#b8a038", "tie"),
+    ("#d0d0d0", "free"),
+];
+
+/// Regions and boundaries, each seen from the front and turned over.
+fn figure(mesh: &Mesh, title: &str, roles: &BTreeMap<usize, &'static str>) -> Figure {
+    let regions = mesh.regions.iter().enumerate().map(|(r, name)| {
+        let colour = REGION_COLOURS[r % REGION_COLOURS.len()];
+        (colour, literal(name))
+    });
+    let regions: Vec<(&'static str, String)> = regions.collect();
+    let region = |face: &BoundaryFace| mesh.region(face.element as usize);
+    let conditions = conditions_of_faces(mesh, roles);
+    let condition = |face: &BoundaryFace| {
+        let found = conditions.get(&sorted(face));
+        found.copied().unwrap_or(CONDITION_COLOURS.len() - 1)
+    };
+    let legend = CONDITION_COLOURS.iter().enumerate().map(|(k, entry)| {
+        let is_there = k + 1 == CONDITION_COLOURS.len() || conditions.values().any(|&c| c == k);
+        let name = if is_there { entry.1 } else { "" };
+        (entry.0, name.to_owned())
+    });
+    let legend: Vec<(&'static str, String)> = legend.collect();
+    let views = [SolidView::new(mesh), SolidView::turned_over(mesh)];
+    let words = ["from the front", "turned over"];
+    let by_region = views.iter().zip(words).map(|(view, from)| {
+        let surface = view.parts(region, regions.clone());
+        panel(surface, format!("regions, {from}"))
+    });
+    let by_condition = views.iter().zip(words).map(|(view, from)| {
+        let surface = view.parts(condition, legend.clone());
+        panel(surface, format!("boundaries, {from}"))
+    });
+    let caption = match title {
+        "" => "Mesh".to_owned(),
+        title => literal(title),
+    };
+    Figure::new("mesh", caption)
+        .columns(2)
+        .panels(by_region.chain(by_condition))
+}
+
+fn panel(surface: Surface, caption: String) -> Panel {
+    let panel = Panel::plane(surface.window(0.05)).height(210.0);
+    panel.caption(caption).layer(surface)
+}
+
+/// The kind of each face of a boundary that holds, loads or touches, by its nodes. A face of several boundaries is of the first kind.
+fn conditions_of_faces(
+    mesh: &Mesh,
+    roles: &BTreeMap<usize, &'static str>,
+) -> BTreeMap<Vec<u32>, usize> {
+    let mut kinds: BTreeMap<Vec<u32>, usize> = BTreeMap::new();
+    for (b, boundary) in mesh.boundaries.iter().enumerate() {
+        let name = match roles.get(&b) {
+            Some(role) => role,
+            None => condition_name(boundary.condition),
+        };
+        let Some(kind) = CONDITION_COLOURS.iter().position(|entry| entry.1 == name) else {
+            continue;
+        };
+        for face in &boundary.faces {
+            let known = kinds.entry(sorted(face)).or_insert(kind);
+            *known = kind.min(*known);
+        }
+    }
+    kinds
+}
+
+/// The nodes of a face in rising order, which name it.
+fn sorted(face: &BoundaryFace) -> Vec<u32> {
+    let mut nodes = face.nodes.clone();
+    nodes.sort_unstable();
+    nodes
+}
+
+/// Sizes and quality, name and value.
+fn numbers(mesh: &SolidMeshStatistics) -> Vec<(String, String)> {
+    let row = |key: &str, value: f64| {
+        let quantity = quantity(key);
+        (quantity.caption.to_owned(), quantity.text(value))
+    };
+    vec![
+        row("nodes", mesh.nodes as f64),
+        row("elements", mesh.elements as f64),
+        row("dofs", mesh.dofs as f64),
+        row("contact_nodes", mesh.contact_nodes as f64),
+        row("smallest_edge_m", mesh.smallest_edge_m),
+        row("largest_edge_m", mesh.largest_edge_m),
+        row("largest_aspect_ratio", mesh.largest_aspect_ratio),
+        row("worst_jacobian", mesh.worst_jacobian),
+    ]
+}
+
+fn region_table(mesh: &SolidMeshStatistics) -> ReportTable {
+    let row = |region: &SolidRegion| {
+        vec![
+            region.name.clone(),
+            region.elements.to_string(),
+            format!("{:.6e}", region.volume_m3),
+            format!("{:.6}", region.mass_kg),
+        ]
+    };
+    ReportTable {
+        caption: "Regions".into(),
+        columns: ["region", "elements", "volume (m3)", "mass (kg)"]
+            .map(String::from)
+            .to_vec(),
+        rows: mesh.regions.iter().map(row).collect(),
+    }
+}
+
+fn boundary_table(mesh: &SolidMeshStatistics) -> ReportTable {
+    let row = |boundary: &SolidBoundary| {
+        vec![
+            boundary.name.clone(),
+            boundary.nodes.to_string(),
+            boundary.faces.to_string(),
+            format!("{:.6e}", boundary.area_m2),
+            boundary.condition.clone(),
+        ]
+    };
+    ReportTable {
+        caption: "Boundaries".into(),
+        columns: ["boundary", "nodes", "faces", "area (m2)", "condition"]
+            .map(String::from)
+            .to_vec(),
+        rows: mesh.boundaries.iter().map(row).collect(),
+    }
+}
