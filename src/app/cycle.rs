@@ -94,6 +94,9 @@ pub fn check_memory(case: &Case) -> Result<(), Failure> {
     if bytes <= available {
         return Ok(());
     }
+    if !case.has_rotating_waves() {
+        return Err(Failure::Case(case.memory_error("cycle", bytes, available)));
+    }
     Err(Failure::Case(case.error_at(
         "cycle.phases",
         format!(

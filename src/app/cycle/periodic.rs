@@ -37,6 +37,7 @@ fn keep(
 /// A bad case, a search that finds no cycle at all, an output folder that cannot be written.
 pub fn run(session: &Session) -> Result<(), Failure> {
     let case = &session.case;
+    session.check_memory(case.memory("cycle").0)?;
     let study = PeriodicStudy::new(case, session.simd)?;
     let folder = session.open_folder()?;
     let sought = study.sought_count() as u64;

@@ -14,7 +14,10 @@ impl Case {
                 .map(|run| (run.memory_bytes, self.record_key())),
             "cycle" => cost.cycle.map(|cycle| {
                 let phases = self.cycle.as_ref().and_then(|cycle| cycle.phases);
-                let key = phases.map_or("mesh.circumferential_elements", |_| "cycle.phases");
+                let key = match phases {
+                    Some(_) if self.has_rotating_waves() => "cycle.phases",
+                    _ => mesh,
+                };
                 (cycle.memory_bytes, key)
             }),
             "frf" => cost.frf.map(|frf| (frf.memory_bytes, mesh)),

@@ -117,6 +117,7 @@ impl BranchRequest<'_, '_> {
         let mut motions = Vec::new();
         for &value in values {
             while from != value || motions.is_empty() {
+                // A whole step, or the largest part of one that leads to a motion.
                 let mut end = BranchEnd::Lost;
                 let found = PARTS.iter().find_map(|part| {
                     let at = if *part == 1.0 {

@@ -59,6 +59,7 @@ impl MotionConfirmation {
         let periods = telling_periods(state, leading, least);
         let start = perturbed(map, state);
         map.place(&start);
+        // The last fifth: its first harmonic period by period, its powers and statuses.
         let first = periods - periods / 5;
         let mut turns: Vec<c64> = Vec::new();
         let mut weights: Vec<c64> = Vec::new();
@@ -77,6 +78,7 @@ impl MotionConfirmation {
             }
             turns.push(amplitudes.iter().zip(&weights).map(|(a, w)| a * w).sum());
         }
+        // What the first harmonic turns by from period to period is the difference of the frequencies.
         let (powers, _, counts) = map.run.take_sums();
         let turned: f64 = turns
             .windows(2)

@@ -103,6 +103,7 @@ impl FloquetMultipliers {
             if dimension < least || !dimension.is_multiple_of(stride) {
                 continue;
             }
+            // The leading ones, once in a while: the shift in phase stands apart.
             let (shift, others) = leading(&columns, &basis, &along)?;
             let converged = others.iter().take(CONVERGED);
             let is_done = shift.is_some()

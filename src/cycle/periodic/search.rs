@@ -7,8 +7,8 @@ use super::vector::{add, difference, norm};
 
 /// Residual, relative to the amplitude of the vibration, at which a motion repeats itself.
 pub const TOLERANCE: f64 = 1e-9;
-/// Residual with which it is taken where no more is to be had.
-pub const ACCEPTED: f64 = 1e-6;
+/// Residual with which it is taken where no more is to be had: friction that falls with speed jumps a little where a node sets out.
+pub const ACCEPTED: f64 = 1e-4;
 
 /// Plain periods before the first secant, at least, and at most where the motion is still far from repeating itself: what the
 /// start has of fast motions goes, and what attracts draws it near.

@@ -116,51 +116,39 @@ impl PeriodicFigures<'_> {
 
     /// What the node that moves most goes through in two periods, on a ground coloured by its status.
     fn history(&self, motion: &MotionRecord) -> Figure {
-        let count = motion.times.len();
-        let interval = 1.0 / (motion.frequency_hz * count as f64);
-        let samples = PERIODS * count + 1;
-        let all = |values: &[f64]| -> Vec<(f64, f64)> {
-            let values = values.iter().copied().cycle().take(samples).enumerate();
-            values.map(|(i, v)| (i as f64 * interval, v)).collect()
-        };
-        let own = motion.node_statuses().into_iter().cycle().take(samples);
-        let status: Vec<ContactStatus> = own.collect();
-        // A sample stands for half an interval on either side.
-        let ground = || status_ground(&status, |i| (i as f64 - 0.5) * interval);
-        let end = (samples - 1) as f64 * interval;
-        let over_time = |y: Axis, height: f64, caption: &str| {
-            Panel::new(Axis::time().between(0.0, end), y)
-                .plain()
-                .height(height)
-                .caption(caption)
-                .layer(ground())
-        };
-        let limit = |sign: f64| {
-            let friction = sign * self.contact.friction_coefficient;
-            let limit: Vec<f64> = motion.pressure.iter().map(|p| friction * p).collect();
-            Line::through(all(&limit)).stroke(Stroke::dashed(MUTED, 0.9))
+        let repeated = Repeated::new(motion);
+        let metres = |name: &str| Axis::new(name, "m").prefixed();
+        let displacement = |name: &str, values: &[f64], caption: &str| {
+            let line = Line::through(repeated.curve(values)).solid(INK, 1.1);
+            repeated.panel(metres(name), 62.0, caption).layer(line)
         };
         let line = |values: &[f64], colour, name: &str| {
-            Line::through(all(values)).solid(colour, 1.1).name(name)
+            Line::through(repeated.curve(values))
+                .solid(colour, 1.1)
+                .name(name)
         };
-        let metres = |name: &str| Axis::new(name, "m").prefixed();
-        let caption = format!(
-            "Contact node {} through two periods of the limit cycle of {}.",
-            self.node_label(motion),
-            hertz(motion)
-        );
         let [u_n, u_t] = &motion.displacement;
         let [v_n, v_t] = &motion.velocity;
-        let displacement = |name: &str, values: &[f64], caption: &str| {
-            over_time(metres(name), 62.0, caption).layer(Line::through(all(values)).solid(INK, 1.1))
-        };
+
+        // What a node that sticks moves with, and the limits of friction, where they are numbers.
         let counterface = (self.mesh.opposite.is_none()).then(|| {
             Rule::horizontal(self.surface_speed())
                 .stretching()
                 .name("counterface")
         });
+        let limit = |sign: f64| {
+            let friction = sign * self.contact.friction_coefficient;
+            let limit: Vec<f64> = motion.pressure.iter().map(|p| friction * p).collect();
+            Line::through(repeated.curve(&limit)).stroke(Stroke::dashed(MUTED, 0.9))
+        };
         let law = [limit(1.0).name("Coulomb limit ±*μp*"), limit(-1.0)];
         let law = law.into_iter().filter(|_| self.contact.decay.is_none());
+        let caption = format!(
+            "Contact node {} through two periods of the limit cycle of {}.",
+            self.node_label(motion),
+            hertz(motion)
+        );
+        let traction = Axis::new("traction", "Pa").prefixed();
         Figure::new(format!("history-{}", tag(motion)), caption)
             .shared_x()
             .panel(displacement(
@@ -170,13 +158,15 @@ impl PeriodicFigures<'_> {
             ))
             .panel(displacement("*u*_{n}", u_n, "normal displacement"))
             .panel(
-                over_time(Axis::new("*v*", "m/s"), 78.0, "velocity")
+                repeated
+                    .panel(Axis::new("*v*", "m/s"), 78.0, "velocity")
                     .layers(counterface)
                     .layer(line(v_n, SERIES[2], "normal *v*_{n}"))
                     .layer(line(v_t, SERIES[0], "tangential *v*_{t}")),
             )
             .panel(
-                over_time(Axis::new("traction", "Pa").prefixed(), 90.0, "tractions")
+                repeated
+                    .panel(traction, 90.0, "tractions")
                     .layers(law)
                     .layer(line(&motion.pressure, INK, "pressure *p*"))
                     .layer(line(&motion.shear, SERIES[1], "friction traction *τ*")),
@@ -246,6 +236,44 @@ impl PeriodicFigures<'_> {
     }
 }
 
+/// A few periods of the node that moves most.
+struct Repeated {
+    interval: f64,
+    samples: usize,
+    status: Vec<ContactStatus>,
+}
+
+impl Repeated {
+    fn new(motion: &MotionRecord) -> Self {
+        let count = motion.times.len();
+        let samples = PERIODS * count + 1;
+        let own = motion.node_statuses().into_iter().cycle().take(samples);
+        Self {
+            interval: 1.0 / (motion.frequency_hz * count as f64),
+            samples,
+            status: own.collect(),
+        }
+    }
+
+    /// Values of one period again and again, over the time.
+    fn curve(&self, values: &[f64]) -> Vec<(f64, f64)> {
+        let values = values.iter().copied().cycle().take(self.samples);
+        let timed = values.enumerate();
+        timed.map(|(i, v)| (i as f64 * self.interval, v)).collect()
+    }
+
+    /// A panel over the time on a ground coloured by status; a sample stands for half an interval on either side.
+    fn panel(&self, y: Axis, height: f64, caption: &str) -> Panel {
+        let end = (self.samples - 1) as f64 * self.interval;
+        let ground = status_ground(&self.status, |i| (i as f64 - 0.5) * self.interval);
+        Panel::new(Axis::time().between(0.0, end), y)
+            .plain()
+            .height(height)
+            .caption(caption)
+            .layer(ground)
+    }
+}
+
 /// The cycles along the parameter of the case: frequency, amplitude, status, power; unstable ones as open circles.
 fn branch(motion: &MotionRecord) -> Result<Figure, ChartError> {
     let curve = motion
@@ -275,6 +303,7 @@ fn branch(motion: &MotionRecord) -> Result<Figure, ChartError> {
             .layer(through(values).solid(INK, 1.1))
             .layer(unstable(values))
     };
+    // Shares of the three statuses in one panel.
     let names = ["stick", "slip", "open"];
     let shares = names.iter().zip(&curve.status).enumerate();
     let shares =

@@ -82,42 +82,44 @@ fn results(cycle: &Value, extent: Extent) -> Vec<(String, String)> {
         .collect()
 }
 
+/// Columns of the table of cycles: name, place in the summary, factor, decimals.
+const QUANTITIES: [(&str, &str, f64, usize); 16] = [
+    ("mode", "/mode", 1.0, 0),
+    ("its frequency (Hz)", "/mode_frequency_hz", 1.0, 2),
+    ("its growth rate (1/s)", "/growth_rate_per_s", 1.0, 1),
+    ("main frequency (Hz)", "/main_frequency_hz", 1.0, 2),
+    ("amplitude (µm)", "/amplitude_m", 1e6, 3),
+    ("stick (%)", "/status/stick", 100.0, 1),
+    ("slip (%)", "/status/slip", 100.0, 1),
+    ("open (%)", "/status/open", 100.0, 1),
+    ("power of the counterface (W)", "/power_w/external", 1.0, 2),
+    ("of it while sticking (W)", "/power_w/stick", 1.0, 2),
+    ("while sliding (W)", "/power_w/slide", 1.0, 2),
+    (
+        "dissipated in the contact (W)",
+        "/power_w/contact_dissipated",
+        1.0,
+        2,
+    ),
+    ("material damping (W)", "/power_w/material_damping", 1.0, 2),
+    ("normal contact (W)", "/power_w/normal_contact", 1.0, 2),
+    (
+        "transient from it (Hz)",
+        "/confirmation/main_frequency_hz",
+        1.0,
+        2,
+    ),
+    (
+        "fastest growth of a perturbation (1/s)",
+        "/stability/leading/growth_rate_per_s",
+        1.0,
+        1,
+    ),
+];
+
 fn cycle_table(cycles: &[Value], extent: Extent) -> ReportTable {
-    let quantities: [(&str, &str, f64, usize); 16] = [
-        ("mode", "/mode", 1.0, 0),
-        ("its frequency (Hz)", "/mode_frequency_hz", 1.0, 2),
-        ("its growth rate (1/s)", "/growth_rate_per_s", 1.0, 1),
-        ("main frequency (Hz)", "/main_frequency_hz", 1.0, 2),
-        ("amplitude (µm)", "/amplitude_m", 1e6, 3),
-        ("stick (%)", "/status/stick", 100.0, 1),
-        ("slip (%)", "/status/slip", 100.0, 1),
-        ("open (%)", "/status/open", 100.0, 1),
-        ("power of the counterface (W)", "/power_w/external", 1.0, 2),
-        ("of it while sticking (W)", "/power_w/stick", 1.0, 2),
-        ("while sliding (W)", "/power_w/slide", 1.0, 2),
-        (
-            "dissipated in the contact (W)",
-            "/power_w/contact_dissipated",
-            1.0,
-            2,
-        ),
-        ("material damping (W)", "/power_w/material_damping", 1.0, 2),
-        ("normal contact (W)", "/power_w/normal_contact", 1.0, 2),
-        (
-            "transient from it (Hz)",
-            "/confirmation/main_frequency_hz",
-            1.0,
-            2,
-        ),
-        (
-            "fastest growth of a perturbation (1/s)",
-            "/stability/leading/growth_rate_per_s",
-            1.0,
-            1,
-        ),
-    ];
     let rows = cycles.iter().map(|cycle| {
-        let cells = quantities.iter();
+        let cells = QUANTITIES.iter();
         let cells =
             cells.map(|(_, pointer, factor, decimals)| cell(cycle, pointer, *factor, *decimals));
         let answer = |pointer: &str| match cycle.pointer(pointer).and_then(Value::as_bool) {
@@ -134,7 +136,7 @@ fn cycle_table(cycles: &[Value], extent: Extent) -> ReportTable {
         cells.chain(answers).chain([why]).collect()
     });
     let watts = format!("({})", extent.unit("W"));
-    let names = quantities.iter();
+    let names = QUANTITIES.iter();
     let names = names.map(|quantity| quantity.0.replace("(W)", &watts));
     ReportTable {
         caption: "Limit cycles at the case's own operating point".into(),

@@ -203,6 +203,7 @@ impl<'a> PeriodicStudy<'a> {
             shape: mode.shape.as_deref().unwrap_or_default(),
             base: &self.base,
         };
+        // From the growing mode to the motion that repeats itself.
         let start = balanced_start(&mut map, &growing, speed);
         let found = find(&mut map, start)?;
         let request = MotionRequest {
@@ -210,6 +211,7 @@ impl<'a> PeriodicStudy<'a> {
             frames: frames.max(1),
         };
         let motion = PeriodicMotion::of(&mut map, &found, request);
+        // What small perturbations do, by multipliers and by a transient, and the cycles beside it.
         let stability = (self.choices.stability != StabilityChoice::None).then(|| {
             let multipliers = FloquetMultipliers::of(&mut map, &found.state);
             multipliers.map_err(|error| error.to_string())
