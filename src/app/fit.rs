@@ -90,7 +90,7 @@ pub fn redraw(folder: &OutputFolder, options: &DrawingOptions) -> Result<(), Fai
 }
 
 /// One hash for case and table: results belong to both.
-fn joint_hash(case_hash: &str, table: &[u8]) -> String {
+pub(super) fn joint_hash(case_hash: &str, table: &[u8]) -> String {
     let mut hash = Sha256::new();
     hash.update(case_hash.as_bytes());
     hash.update(table);

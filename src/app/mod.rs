@@ -19,6 +19,7 @@ mod init;
 mod keys;
 mod limits;
 mod log;
+mod mac;
 mod man;
 mod matrices;
 mod measurement;
@@ -97,6 +98,7 @@ commands! {
     Basin: basin,
     Convergence: convergence,
     Improve: improve,
+    Mac: mac,
     Mesh: mesh,
     Matrices: matrices,
     Check: check,

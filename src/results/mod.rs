@@ -12,6 +12,7 @@ mod extent;
 pub mod fit;
 pub mod identification;
 pub mod improve;
+pub mod mac;
 pub mod matrices;
 pub mod mesh;
 mod npz;

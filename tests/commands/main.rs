@@ -24,6 +24,7 @@ mod golden;
 mod identify;
 mod improve;
 mod inputs;
+mod mac;
 mod materials;
 mod mesh_files;
 mod plot;

@@ -71,7 +71,7 @@ pub(super) fn differences(line: &MeasuredMode, mode: &ModelMode) -> [f64; 2] {
 ///
 /// Shortest augmenting paths with potentials: R. Jonker, A. Volgenant, "A shortest augmenting path algorithm for dense
 /// and sparse linear assignment problems", Computing 38 (1987) 325.
-fn least_cost(costs: &[Vec<f64>]) -> Vec<usize> {
+pub(in crate::study) fn least_cost(costs: &[Vec<f64>]) -> Vec<usize> {
     let columns = costs.first().map_or(0, Vec::len);
     // Column 0 stands for "no column yet"; row 0 likewise.
     let (mut row_price, mut column_price) = (vec![0.0; costs.len() + 1], vec![0.0; columns + 1]);

@@ -19,6 +19,7 @@ pub use crate::signal::reader::MeasuredMode;
 pub use case::{fit_case, refuse_too_few, summarize};
 pub use estimate::{Fitted, LineFit, fit};
 pub use interval::{Estimate, Side};
+pub(in crate::study) use matching::least_cost;
 
 use crate::linalg::c64;
 use std::f64::consts::TAU;

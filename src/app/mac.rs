@@ -1,0 +1,94 @@
+//! `frictionsim mac`: modal assurance of measured shapes.
+
+use super::limits::{LARGEST_MEASUREMENT, input_name, read_input};
+use super::profile::{Profile, Redraw};
+use super::{Failure, RunOptions, Session, terminal};
+use crate::results::mac::{MacSummary, draw_mac, write_mac};
+use crate::results::{DrawingOptions, OutputFolder, read_summary, write_summary};
+use crate::signal::reader::read_shapes;
+use crate::study::mac::assurance;
+use clap::{Args, ValueHint};
+use std::path::PathBuf;
+
+/// Modal assurance criterion of measured shapes against the modes of a case
+///
+/// Compares every shape of the file with every mode at the case's friction coefficient, over the measured points (at their
+/// nearest nodes) and directions, and pairs them. Shapes come from a universal file (dataset 55) or a table with the columns
+/// x, y, z, ux, uy, uz (complex, or ux_re, ux_im ...), mode, frequency_hz.
+#[derive(Args)]
+pub struct Arguments {
+    #[command(flatten)]
+    options: RunOptions,
+    /// Measured shapes
+    #[arg(value_name = "SHAPES", value_hint = ValueHint::FilePath)]
+    shapes: PathBuf,
+    /// Factor that takes the coordinates of the shapes to metres
+    #[arg(long, value_name = "FACTOR", default_value_t = 1.0)]
+    scale: f64,
+}
+
+/// What the rest of the program asks of this command.
+pub const PROFILE: Profile = Profile {
+    files: &[("mac.csv", "one row for each shape and mode")],
+    examples: &[(
+        "frictionsim mac disc.toml shapes.unv --scale 0.001",
+        "which mode of the model is which measured one?",
+    )],
+    redraw: Redraw::OfFolder(redraw),
+};
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// A bad case or file of shapes, points off the body, an output folder that cannot be written.
+pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    if !(arguments.scale > 0.0 && arguments.scale.is_finite()) {
+        let message = format!("--scale {} must be positive and finite", arguments.scale);
+        return Err(Failure::usage(message));
+    }
+    let mut session = Session::start("mac", &arguments.options)?;
+    let bytes = read_input(&arguments.shapes, LARGEST_MEASUREMENT)?;
+    let source = input_name(&arguments.shapes);
+    let shapes = read_shapes(&bytes, &source)?;
+    // Results belong to case, shapes and scale.
+    let identity = format!("{} {:?}", session.manifest.case_hash, arguments.scale);
+    session.manifest.case_hash = super::fit::joint_hash(&identity, &bytes);
+    let cost = session.case.cost();
+    let solver_bytes = cost.cea.map_or(0.0, |cea| cea.memory_bytes);
+    session.check_memory(cost.mesh_memory_bytes + solver_bytes)?;
+    session.case.require_cea()?;
+    let folder = session.open_folder()?;
+    terminal::catch_signals(terminal::NOTHING_KEPT);
+    let found = assurance(&session.case, &shapes, arguments.scale)?;
+    let summary = MacSummary {
+        command: "mac".to_owned(),
+        title: session.case.title.clone(),
+        wall_s: session.wall_seconds(),
+        measurement: source,
+        friction_coefficient: session.case.contact.sliding.friction_coefficient,
+        shapes: found.shapes,
+        modes: found.modes,
+        mac: found.matrix,
+        pairs: found.pairs,
+        notes: found.notes,
+        manifest: folder.manifest().clone(),
+    };
+    write_mac(&folder, &summary)?;
+    if let Some(drawing) = session.options.output.drawing() {
+        draw_mac(&folder, &summary, &drawing)?;
+    }
+    let object = write_summary(&folder, &summary)?;
+    session
+        .options
+        .output
+        .finish(folder, &summary.text(), &object)
+}
+
+/// Draws the figure and the report of a folder from its summary.
+///
+/// # Errors
+/// A folder without a whole summary; those of the folder.
+pub fn redraw(folder: &OutputFolder, options: &DrawingOptions) -> Result<(), Failure> {
+    let summary: MacSummary = read_summary(folder.path())?;
+    Ok(draw_mac(folder, &summary, options)?)
+}

@@ -1,0 +1,357 @@
+//! Measured mode shapes: tables of points with complex displacements, and universal files with datasets 55.
+//!
+//! Source of the datasets: SDRC, "Universal file datasets", numbers 15, 55, 2411.
+
+use super::error::{ReadError, ReadProblem};
+use super::field::{Value, parse};
+use super::separator::{Separator, character, fields};
+use super::text::{comment, decode, first_of, lines, shortened};
+use faer::c64;
+use std::collections::BTreeMap;
+
+/// A measured shape.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeasuredShape {
+    /// What the file calls it.
+    pub name: String,
+    /// Its frequency, Hz, where the file says it.
+    pub frequency_hz: Option<f64>,
+    /// Points, in the unit of the file.
+    pub points: Vec<[f64; 3]>,
+    /// Displacement of each point along x, y, z, up to a factor; none in directions that were not measured.
+    pub motion: Vec<[Option<c64>; 3]>,
+}
+
+/// Reads all shapes of a file: a universal file with datasets 55 and nodes, or a table with a head of names.
+///
+/// A table has the columns `x`, `y`, `z` (left out in the plane) and, of those measured, `ux`, `uy`, `uz`: complex numbers
+/// `0.1+0.2j`, or two columns `ux_re`, `ux_im` each. `mode` tells several shapes apart, `frequency_hz` is each one's frequency.
+///
+/// # Errors
+/// [`ReadError`] with the place: no such column, a cell that is no number, a dataset that ends early.
+pub fn read_shapes(bytes: &[u8], source: &str) -> Result<Vec<MeasuredShape>, ReadError> {
+    let begin = bytes.iter().position(|b| !b.is_ascii_whitespace());
+    let shapes = match begin.is_some_and(|at| bytes[at..].starts_with(b"-1")) {
+        true => universal(bytes, source)?,
+        false => table(bytes, source)?,
+    };
+    let has_motion = |shape: &MeasuredShape| {
+        let all = shape.motion.iter().flatten().flatten();
+        all.fold(0.0, |sum, u| sum + u.norm_sqr()) > 0.0
+    };
+    match shapes.iter().find(|shape| !has_motion(shape)) {
+        Some(_) => Err(ReadError::whole(source, ReadProblem::NoNumbers)),
+        None if shapes.is_empty() => Err(ReadError::whole(source, ReadProblem::Empty)),
+        None => Ok(shapes),
+    }
+}
+
+/// Names of the columns: places, then displacements whole, real, imaginary.
+const PLACES: [[&str; 2]; 3] = [["x", "x_m"], ["y", "y_m"], ["z", "z_m"]];
+const WHOLE: [&str; 3] = ["ux", "uy", "uz"];
+
+/// Where each column of a table stands.
+struct Columns {
+    places: [Option<usize>; 3],
+    /// Real or whole, and imaginary part of each direction.
+    motion: [[Option<usize>; 2]; 3],
+    mode: Option<usize>,
+    frequency: Option<usize>,
+}
+
+impl Columns {
+    fn of(names: &[String], source: &str) -> Result<Self, ReadError> {
+        let place = |known: &[String]| names.iter().position(|name| known.contains(name));
+        let one = |known: &[&str]| {
+            let known: Vec<String> = known.iter().map(|name| (*name).to_owned()).collect();
+            place(&known)
+        };
+        let parts = |name: &str| {
+            let with = |ends: [&str; 2]| ends.map(|end| format!("{name}{end}"));
+            let [re, real] = with(["_re", "_real"]);
+            [
+                place(&[name.to_owned(), re, real]),
+                place(&with(["_im", "_imag"])),
+            ]
+        };
+        let columns = Self {
+            places: PLACES.map(|known| one(&known)),
+            motion: WHOLE.map(parts),
+            mode: one(&["mode", "shape"]),
+            frequency: one(&["frequency_hz", "frequency", "f_hz"]),
+        };
+        let has_motion = columns.motion.iter().any(|parts| parts[0].is_some());
+        if columns.places[0].is_none() || columns.places[1].is_none() || !has_motion {
+            let problem = ReadProblem::MissingColumn {
+                wanted: "points and displacements",
+                columns: first_of(names),
+                remedy: "the first line names the columns: x, y, z in metres, and of ux, uy, uz those measured, complex \
+                         (0.1+0.2j) or as ux_re, ux_im; mode and frequency_hz where there are several shapes",
+            };
+            return Err(ReadError::whole(source, problem));
+        }
+        Ok(columns)
+    }
+}
+
+/// The shapes of a table, in the order in which their names come.
+fn table(bytes: &[u8], source: &str) -> Result<Vec<MeasuredShape>, ReadError> {
+    let text = decode(bytes);
+    let mut rows =
+        lines(&text).filter(|(_, line)| !line.trim().is_empty() && comment(line).is_none());
+    let Some((_, head)) = rows.next() else {
+        return Err(ReadError::whole(source, ReadProblem::Empty));
+    };
+    let separator = match head {
+        _ if head.contains(';') => Separator::Semicolon,
+        _ if head.trim().contains('\t') => Separator::Tab,
+        _ if head.contains(',') => Separator::Comma,
+        _ => Separator::Blanks,
+    };
+    let names: Vec<String> = fields(head, separator).map(str::to_lowercase).collect();
+    let columns = Columns::of(&names, source)?;
+    let mut shapes: Vec<MeasuredShape> = Vec::new();
+    let mut known: BTreeMap<String, usize> = BTreeMap::new();
+    for (line, text) in rows {
+        let cells: Vec<&str> = fields(text, separator).collect();
+        let row = Row {
+            source,
+            line,
+            text,
+            cells,
+        };
+        let name = row.text_of(columns.mode).unwrap_or("1").to_owned();
+        let count = shapes.len();
+        let place = *known.entry(name.clone()).or_insert(count);
+        if place == count {
+            shapes.push(MeasuredShape {
+                name,
+                frequency_hz: row.number(columns.frequency, "frequency_hz")?,
+                points: Vec::new(),
+                motion: Vec::new(),
+            });
+        }
+        let mut point = [0.0; 3];
+        for (axis, value) in point.iter_mut().enumerate() {
+            if columns.places[axis].is_some() {
+                let own = row.number(columns.places[axis], PLACES[axis][0])?;
+                *value = own.ok_or_else(|| row.missing(PLACES[axis][0]))?;
+            }
+        }
+        let mut motion = [None; 3];
+        for (axis, value) in motion.iter_mut().enumerate() {
+            *value = row.complex(columns.motion[axis], WHOLE[axis])?;
+        }
+        shapes[place].points.push(point);
+        shapes[place].motion.push(motion);
+    }
+    Ok(shapes)
+}
+
+/// One row of a table.
+struct Row<'a> {
+    source: &'a str,
+    line: usize,
+    text: &'a str,
+    cells: Vec<&'a str>,
+}
+
+impl Row<'_> {
+    /// The cell of a column, if it has one that is not empty.
+    fn text_of(&self, column: Option<usize>) -> Option<&str> {
+        let cell = self.cells.get(column?)?;
+        (!cell.is_empty()).then_some(*cell)
+    }
+
+    fn missing(&self, name: &str) -> ReadError {
+        let problem = ReadProblem::NotANumber {
+            field: String::new(),
+            name: format!("`{name}`"),
+        };
+        ReadError::at(self.source, self.line, 1, problem)
+    }
+
+    fn value(&self, column: Option<usize>, name: &str) -> Result<Option<c64>, ReadError> {
+        let Some(cell) = self.text_of(column) else {
+            return Ok(None);
+        };
+        let (at, name) = (character(self.text, cell), format!("`{name}`"));
+        let field = shortened(cell);
+        let refuse = |problem| Err(ReadError::at(self.source, self.line, at, problem));
+        let value = match parse(cell) {
+            Some(Value::Real(value)) => c64::new(value, 0.0),
+            Some(Value::Complex(re, im)) => c64::new(re, im),
+            _ => return refuse(ReadProblem::NotANumber { field, name }),
+        };
+        if value.re.is_nan() {
+            return Ok(None);
+        }
+        match value.norm() < 1e100 {
+            true => Ok(Some(value)),
+            false => refuse(ReadProblem::NotFinite { field, name }),
+        }
+    }
+
+    fn number(&self, column: Option<usize>, name: &str) -> Result<Option<f64>, ReadError> {
+        Ok(self.value(column, name)?.map(|value| value.re))
+    }
+
+    fn complex(&self, parts: [Option<usize>; 2], name: &str) -> Result<Option<c64>, ReadError> {
+        let [real, imaginary] = [self.value(parts[0], name)?, self.value(parts[1], name)?];
+        let i = c64::new(0.0, 1.0);
+        Ok(real.map(|real| real + i * imaginary.map_or(0.0, |value| value.re)))
+    }
+}
+
+/// The shapes of a universal file.
+fn universal(bytes: &[u8], source: &str) -> Result<Vec<MeasuredShape>, ReadError> {
+    let text = String::from_utf8_lossy(bytes);
+    let all: Vec<&str> = text.lines().collect();
+    let mut nodes: BTreeMap<u64, [f64; 3]> = BTreeMap::new();
+    let mut found: Vec<(String, Option<f64>, Vec<(u64, [Option<c64>; 3])>)> = Vec::new();
+    let mut at = 0;
+    while at < all.len() {
+        if all[at].trim() != "-1" {
+            at += 1;
+            continue;
+        }
+        let number = all.get(at + 1).map_or("", |line| line.trim());
+        let first = at + 2;
+        let length = all[first.min(all.len())..].iter();
+        let length = length.take_while(|line| line.trim() != "-1").count();
+        let body = &all[first.min(all.len())..][..length];
+        let damaged = |(line, reason): (usize, &str)| {
+            let problem = ReadProblem::Damaged {
+                format: "universal file",
+                reason: format!("dataset {number}: {reason}"),
+            };
+            ReadError::at(source, first + line + 1, 1, problem)
+        };
+        match number {
+            "15" => nodes_of(body, 1, &mut nodes).map_err(damaged)?,
+            "2411" | "781" => nodes_of(body, 2, &mut nodes).map_err(damaged)?,
+            "55" => found.push(shape_of(body).map_err(damaged)?),
+            _ => {}
+        }
+        at = first + length + 1;
+    }
+    let shapes = found
+        .into_iter()
+        .enumerate()
+        .map(|(k, (name, frequency_hz, rows))| {
+            let (mut points, mut motion) = (Vec::new(), Vec::new());
+            for (node, values) in rows {
+                let Some(point) = nodes.get(&node) else {
+                    let problem = ReadProblem::Damaged {
+                        format: "universal file",
+                        reason: format!(
+                            "shape {} moves node {node}, which no dataset 15 or 2411 places",
+                            k + 1
+                        ),
+                    };
+                    return Err(ReadError::whole(source, problem));
+                };
+                points.push(*point);
+                motion.push(values);
+            }
+            Ok(MeasuredShape {
+                name,
+                frequency_hz,
+                points,
+                motion,
+            })
+        });
+    shapes.collect()
+}
+
+/// Numbers of a line, with Fortran's exponents.
+fn numbers(line: &str) -> Vec<f64> {
+    let words = line.split_whitespace();
+    let read = words.map(|word| word.replace(['D', 'd'], "e").parse().ok());
+    read.map_while(|value| value).collect()
+}
+
+/// Nodes of a dataset, whose coordinates stand on the last of so many lines, at its end.
+fn nodes_of<'r>(
+    body: &[&str],
+    lines: usize,
+    nodes: &mut BTreeMap<u64, [f64; 3]>,
+) -> Result<(), (usize, &'r str)> {
+    for (k, record) in body.chunks(lines).enumerate() {
+        let short = (k * lines, "a node ends early");
+        let (head, last) = (numbers(record[0]), numbers(record.last().ok_or(short)?));
+        let (Some(label), Some(from)) = (head.first(), last.len().checked_sub(3)) else {
+            return Err(short);
+        };
+        if record.len() < lines || (lines == 1 && last.len() < 7) {
+            return Err(short);
+        }
+        let place = [last[from], last[from + 1], last[from + 2]];
+        if place.iter().any(|x| !x.is_finite()) {
+            return Err((k * lines, "a coordinate is not finite"));
+        }
+        nodes.insert(*label as u64, place);
+    }
+    Ok(())
+}
+
+/// One shape: its name, its frequency, the motion of each node.
+type Shape = (String, Option<f64>, Vec<(u64, [Option<c64>; 3])>);
+
+/// Dataset 55: five lines of text, the form of the data, the mode, then nodes.
+fn shape_of<'r>(body: &[&str]) -> Result<Shape, (usize, &'r str)> {
+    if body.len() < 8 {
+        return Err((body.len(), "it ends within its header"));
+    }
+    let form = numbers(body[5]);
+    let word = |k: usize| form.get(k).map_or(0, |value| *value as u32);
+    let (analysis, characteristic, is_complex) = (word(1), word(2), word(4) == 5);
+    if ![2, 3].contains(&characteristic) || ![2, 5].contains(&word(4)) {
+        return Err((
+            5,
+            "no displacements of three directions, real or complex, in single precision",
+        ));
+    }
+    let each = match word(5) {
+        0 => [3, 6][usize::from(characteristic == 3)],
+        each => each as usize,
+    };
+    let (of_mode, values) = (numbers(body[6]), numbers(body[7]));
+    let mode = of_mode.get(3).map_or(1.0, |mode| *mode);
+    // Frequency of a real mode, eigenvalue of a complex one.
+    let frequency = match analysis {
+        2 => values.first().copied(),
+        3 | 7 => values
+            .get(1)
+            .map(|omega| omega.abs() / std::f64::consts::TAU),
+        _ => None,
+    };
+    let count = each * if is_complex { 2 } else { 1 };
+    let (mut rows, mut at) = (Vec::new(), 8);
+    while at < body.len() {
+        let label = numbers(body[at]);
+        let [label] = label[..] else {
+            return Err((at, "the number of a node is expected"));
+        };
+        at += 1;
+        let mut own = Vec::new();
+        while own.len() < count {
+            let line = body.get(at).ok_or((at, "a node ends early"))?;
+            let more = numbers(line);
+            if more.is_empty() {
+                return Err((at, "numbers are expected"));
+            }
+            own.extend(more);
+            at += 1;
+        }
+        let value = |axis: usize| match is_complex {
+            true => c64::new(own[2 * axis], own[2 * axis + 1]),
+            false => c64::new(own[axis], 0.0),
+        };
+        rows.push((
+            label as u64,
+            [0, 1, 2].map(|axis| (axis < each).then(|| value(axis))),
+        ));
+    }
+    Ok((format!("{mode}"), frequency.filter(|f| *f > 0.0), rows))
+}

@@ -1,0 +1,240 @@
+//! `frictionsim mac`: shapes that the program itself computed, turned in phase, scaled and noisy, find their modes again.
+
+use assert_cmd::Command;
+use frictionsim::case::Case;
+use frictionsim::linalg::c64;
+use frictionsim::signal::reader::read_shapes;
+use frictionsim::study::eigenvalues::{SlidingModel, solve_modes};
+use serde_json::Value;
+use std::fmt::Write;
+use std::path::Path;
+
+const CASE: &str = r#"
+title = "Disc"
+[geometry]
+inner_radius = 0.0205
+outer_radius = 0.0905
+thickness = 0.009
+[mesh]
+circumferential_elements = 36
+radial_elements = 6
+[material]
+young_modulus = 2.5e9
+poisson_ratio = 0.3805
+density = 1228.0
+[damping]
+mass_coefficient = 40.0
+stiffness_coefficient = 4.5e-7
+[contact]
+friction_coefficient = 0.3
+interference = 25e-6
+rotation_speed_rpm = 610.0
+[cea]
+modes = 8
+"#;
+
+/// Points and motions of some nodes in each mode, x, y, ux, uy.
+type Motion = Vec<([f64; 2], [c64; 2])>;
+
+/// Shapes of the case, the last mode first, each turned by a phase of its own, with 3 % of noise.
+fn measured() -> Vec<Motion> {
+    let case = Case::parse("case.toml", CASE.as_bytes(), &[]).unwrap();
+    let cea = case.require_cea().unwrap();
+    let model = SlidingModel::new(&case, cea).unwrap();
+    let solution = solve_modes(&case, cea, &model).unwrap();
+    // A linear congruential generator, between -1 and 1.
+    let mut state = 12345_u64;
+    let mut noise = || {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    };
+    let modes = solution.sweep.points[0].modes.iter().rev();
+    let shapes = modes.enumerate().map(|(k, mode)| {
+        let turn = c64::new(0.0, 1.1 + k as f64).exp() * 1e-3;
+        let shape = mode.shape.as_ref().unwrap();
+        let nodes = (0..model.mesh.node_count()).step_by(5);
+        let motion = nodes.map(|node| {
+            let frame = model.mesh.frame(node);
+            let global = [0, 1].map(|axis| {
+                let own =
+                    shape[2 * node] * frame[(axis, 0)] + shape[2 * node + 1] * frame[(axis, 1)];
+                turn * (own + c64::new(noise(), noise()) * 0.03)
+            });
+            (model.mesh.plane_node(node), global)
+        });
+        motion.collect()
+    });
+    shapes.collect()
+}
+
+fn table(shapes: &[Motion], scale: f64) -> String {
+    let mut text = "mode,frequency_hz,x,y,ux_re,ux_im,uy\n".to_owned();
+    for (k, shape) in shapes.iter().enumerate() {
+        for ([x, y], [u, v]) in shape {
+            let (x, y) = (scale * x, scale * y);
+            writeln!(
+                text,
+                "s{k},{}.5,{x},{y},{},{},{}{:+}j",
+                1000 + k,
+                u.re,
+                u.im,
+                v.re,
+                v.im
+            )
+            .unwrap();
+        }
+    }
+    text
+}
+
+/// Datasets 15 and 55.
+fn universal(shapes: &[Motion]) -> String {
+    let mut text = "    -1\n    15\n".to_owned();
+    for (n, ([x, y], _)) in shapes[0].iter().enumerate() {
+        writeln!(
+            text,
+            "{:>10}{:>10}{:>10}{:>10}{x:>13.5e}{y:>13.5e}{:>13.5e}",
+            n + 1,
+            0,
+            0,
+            11,
+            0.0
+        )
+        .unwrap();
+    }
+    text += "    -1\n";
+    for (k, shape) in shapes.iter().enumerate() {
+        writeln!(text, "    -1\n    55\nNONE\nNONE\nNONE\nNONE\nNONE").unwrap();
+        writeln!(
+            text,
+            "         1         3         2         8         5         3"
+        )
+        .unwrap();
+        writeln!(text, "         2         6         1{:>10}", k + 1).unwrap();
+        writeln!(
+            text,
+            "  1.0E+00  {:.5e} 0.0 0.0 0.0 0.0",
+            6283.0 * (k + 1) as f64
+        )
+        .unwrap();
+        for (n, (_, [u, v])) in shape.iter().enumerate() {
+            writeln!(text, "{:>10}", n + 1).unwrap();
+            writeln!(
+                text,
+                "{:>13.5e}{:>13.5e}{:>13.5e}{:>13.5e}{:>13.5e}{:>13.5e}",
+                u.re, u.im, v.re, v.im, 0.0, 0.0
+            )
+            .unwrap();
+        }
+        text += "    -1\n";
+    }
+    text
+}
+
+fn run(folder: &Path, shapes: &str, further: &[&str]) -> std::process::Output {
+    std::fs::write(folder.join("case.toml"), CASE).unwrap();
+    std::fs::write(folder.join("shapes"), shapes).unwrap();
+    let mut program = Command::cargo_bin("frictionsim").unwrap();
+    program.current_dir(folder);
+    program.args(["mac", "case.toml", "shapes", "--out", "out", "--force"]);
+    program.args(further).output().unwrap()
+}
+
+/// Noise of relative size 0.03 on each part of unit shapes leaves a criterion above 0.97 of the own mode.
+#[test]
+fn shapes_of_the_program_with_noise_find_their_modes() {
+    let folder = tempfile::tempdir().unwrap();
+    let shapes = measured();
+    for text in [table(&shapes, 1.0), universal(&shapes)] {
+        let output = run(folder.path(), &text, &[]);
+        let errors = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{errors}");
+        let summary = std::fs::read(folder.path().join("out/summary.json")).unwrap();
+        let summary: Value = serde_json::from_slice(&summary).unwrap();
+        let pairs = summary["pairs"].as_array().unwrap();
+        assert_eq!(pairs.len(), shapes.len());
+        for pair in pairs {
+            let number = |key: &str| pair[key].as_u64().unwrap() as usize;
+            assert_eq!(number("mode"), shapes.len() + 1 - number("shape"), "{pair}");
+            assert!(pair["mac"].as_f64().unwrap() > 0.97, "{pair}");
+        }
+        let rows = std::fs::read_to_string(folder.path().join("out/mac.csv")).unwrap();
+        assert_eq!(rows.lines().count(), 1 + shapes.len() * shapes.len());
+        assert!(folder.path().join("out/figures/mac.svg").exists());
+    }
+}
+
+#[test]
+fn points_off_the_body_are_counted_and_wrong_units_recognised() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut shapes = measured();
+    let output = run(folder.path(), &table(&shapes, 1e3), &[]);
+    let errors = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{errors}");
+    assert!(
+        errors.contains("millimetres: add --scale 0.001"),
+        "{errors}"
+    );
+    assert!(
+        run(folder.path(), &table(&shapes, 1e3), &["--scale", "0.001"])
+            .status
+            .success()
+    );
+
+    shapes[0][3].0 = [0.5, 0.5];
+    let output = run(folder.path(), &table(&shapes, 1.0), &[]);
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(
+        output.status.success() && said.contains("1 of 51 points lie off the body"),
+        "{said}"
+    );
+}
+
+#[test]
+fn a_table_has_shapes_by_their_names_in_any_columns() {
+    let text = "mode;frequency_hz;x;y;uy_im;uy_re;ux\n\
+                a;100;0;1;0,5;1;2+3j\nb;200;0;1;1;2;3\na;100;1;1;;-1;nan\n";
+    let shapes = read_shapes(text.as_bytes(), "s.csv").unwrap();
+    assert_eq!(shapes.len(), 2);
+    assert_eq!(
+        (shapes[0].name.as_str(), shapes[0].frequency_hz),
+        ("a", Some(100.0))
+    );
+    assert_eq!(shapes[0].points, [[0.0, 1.0, 0.0], [1.0, 1.0, 0.0]]);
+    let first = [Some(c64::new(2.0, 3.0)), Some(c64::new(1.0, 0.5)), None];
+    assert_eq!(shapes[0].motion[0], first);
+    assert_eq!(shapes[0].motion[1][0], None);
+}
+
+#[test]
+fn a_universal_file_has_nodes_and_complex_shapes() {
+    let text = "    -1\n    15\n         1         0         0        11  1.00000E+00  2.00000E+00  3.00000E+00\n    -1\n\
+                \x20   -1\n    55\na\nb\nc\nd\ne\n         1         3         2         8         5         3\n\
+                \x20        2         6         1         4\n -1.0E+00  6.28318530717959E+03  0. 0. 0. 0.\n\
+                \x20        1\n  1.0E+00  2.0E+00  3.0E+00  4.0E+00  5.0E+00  6.0E+00\n    -1\n";
+    let shapes = read_shapes(text.as_bytes(), "s.unv").unwrap();
+    assert_eq!(shapes[0].name, "4");
+    assert!((shapes[0].frequency_hz.unwrap() - 1000.0).abs() < 1e-9);
+    assert_eq!(shapes[0].points, [[1.0, 2.0, 3.0]]);
+    assert_eq!(shapes[0].motion[0][2], Some(c64::new(5.0, 6.0)));
+}
+
+#[test]
+fn what_is_no_shape_is_named_with_its_place() {
+    for (text, part) in [
+        ("x,y\n1,2\n", "ux"),
+        ("x,y,ux\n1,2,a\n", "s.csv:2:5"),
+        ("x,y,ux\n1,,3\n", "s.csv:2"),
+        ("x,y,ux\n", "empty"),
+        ("", "empty"),
+        ("x,y,ux\n1,2,0\n", "no row of numbers"),
+        ("-1\n55\na\n-1\n", "header"),
+    ] {
+        let error = read_shapes(text.as_bytes(), "s.csv")
+            .unwrap_err()
+            .to_string();
+        assert!(error.contains(part), "{text:?}: {error}");
+    }
+}
