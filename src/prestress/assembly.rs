@@ -242,7 +242,7 @@ impl<'a> Assembly<'a> {
         };
         // Each contact has its stretch of the state's points.
         let mut first = 0;
-        let stretches: Vec<(std::ops::Range<usize>, [Vec<Vec<f64>>; 2])> = self
+        let stretches: Vec<Stretch> = self
             .contacts
             .iter()
             .map(|(_, surface)| {
@@ -283,6 +283,9 @@ impl<'a> Assembly<'a> {
         SlidingTangent::assemble(&body, &parts, self.basis.clone(), &dofs, options)
     }
 }
+
+/// The points of one contact among all, with the powers of their forces and stiffnesses.
+type Stretch = (std::ops::Range<usize>, [Vec<Vec<f64>>; 2]);
 
 /// Takes the jumps of a tie's nodes for unknowns, and drops them.
 fn tie_surfaces(

@@ -5,7 +5,8 @@ use super::structure::{Companion, StiffnessFactors, StructureMatrices};
 use crate::cea::CeaError;
 use crate::linalg::dense::{column, random_columns};
 use crate::linalg::{
-    QuadraticKrylovSettings, QuadraticPairs, SparsityPattern, c64, quadratic_krylov,
+    ComplexSparseLu, LuAnalysis, Mat, QuadraticKrylovSettings, QuadraticPairs, SparsityPattern,
+    c64, quadratic_krylov,
 };
 use crate::prestress::SlidingTangent;
 use std::sync::OnceLock;
@@ -14,6 +15,15 @@ use std::sync::OnceLock;
 const RESIDUAL: f64 = 1e-10;
 /// Relative distance within which an eigenvalue is the one looked for, and another one makes it a multiple one.
 const SAME: f64 = 1e-6;
+/// Modes up to which each has factors of its own, complex ones: more of them cost more than two Krylov iterations.
+const FEW: usize = 6;
+/// Distance of the shift from an eigenvalue, relative to it: far enough for regular factors, near enough for iterations that gain
+/// as many digits.
+const OFFSET: f64 = 1e-7;
+/// Steps of inverse iteration.
+const STEPS: usize = 4;
+/// What the vectors from two starts may differ by, of length 1, where an eigenvalue is single.
+const ALIKE: f64 = 1e-5;
 
 /// An eigenvalue with its vectors over the unknowns of a tangent.
 #[derive(Clone, Debug)]
@@ -50,10 +60,12 @@ impl ModePair {
     }
 }
 
-/// The modes at the friction coefficient `mu` whose eigenvalues are `targets` (rad/s, `Im > 0`), found in the full problem among
-/// its `count` modes of lowest `|lambda|`: `None` where there is none, or where it is multiple and no single vector belongs to it.
+/// The modes at the friction coefficient `mu` whose eigenvalues are `targets` (rad/s, `Im > 0`), found in the full problem:
+/// `None` where there is none, or where it is multiple and no single vector belongs to it.
 ///
-/// One factorization of `K(mu)` serves a Krylov iteration on the quadratic problem and one on its transpose.
+/// A few are found by inverse iteration with factors of `T(lambda)` for each. For more, one factorization of `K(mu)` serves a Krylov
+/// iteration on the quadratic problem and one on its transpose, for the `count` modes of lowest `|lambda|`, which the targets must
+/// be among.
 ///
 /// # Errors
 /// If `K(mu)` is singular or an iteration does not converge.
@@ -63,6 +75,97 @@ pub fn mode_pairs(
     targets: &[c64],
     count: usize,
 ) -> Result<Vec<Option<ModePair>>, CeaError> {
+    let few = (targets.len() <= FEW).then(|| inverse_iterations(tangent, mu, targets));
+    let vectors = match few {
+        Some(Ok(vectors)) => vectors,
+        // Factors so near to an eigenvalue may be refused as singular.
+        Some(Err(_)) | None => krylov_vectors(tangent, mu, targets, count)?,
+    };
+
+    // Nonzero values of K, C, M at mu, and of their derivatives.
+    let pattern = tangent.stiffness.pattern();
+    let all = [&tangent.stiffness, &tangent.damping, &tangent.mass];
+    let [_, damping, mass] = all.map(|p| p.evaluate(mu));
+    let rates = all.map(|p| p.derivative(mu));
+    let pair = |(target, vectors): (&c64, Option<Vectors>)| {
+        let [right, left] = vectors?;
+        let mut pair = ModePair {
+            friction_coefficient: mu,
+            eigenvalue: *target,
+            derivative: c64::new(0.0, 0.0),
+            right,
+            left,
+        };
+        let scale = pair.form(pattern, &mass) * *target * 2.0 + pair.form(pattern, &damping);
+        pair.left.iter_mut().for_each(|v| *v /= scale);
+        pair.derivative = pair.response(pattern, rates.each_ref().map(Vec::as_slice));
+        Some(pair)
+    };
+    Ok(targets.iter().zip(vectors).map(pair).collect())
+}
+
+/// Right and left vector, of unit length.
+type Vectors = [Vec<c64>; 2];
+
+/// The vectors of each target by inverse iteration on `T(lambda)` and its transpose.
+fn inverse_iterations(
+    tangent: &SlidingTangent,
+    mu: f64,
+    targets: &[c64],
+) -> Result<Vec<Option<Vectors>>, CeaError> {
+    let pattern = tangent.stiffness.pattern();
+    let analysis = LuAnalysis::new(pattern)?;
+    let [stiffness, damping, mass] =
+        [&tangent.stiffness, &tangent.damping, &tangent.mass].map(|p| p.evaluate(mu));
+    let unknowns = pattern.dimension();
+    let start = random_columns(unknowns, 2.min(unknowns), 7);
+    let found = targets.iter().map(|target| {
+        let shift = *target * (1.0 + OFFSET);
+        let terms = stiffness.iter().zip(&damping).zip(&mass);
+        let pencil = terms.map(|((k, c), m)| shift * (shift * *m + *c) + *k);
+        let factors = ComplexSparseLu::factorize(&analysis, pencil.collect())?;
+        let converged = |is_left: bool| {
+            let mut x = Mat::from_fn(unknowns, start.ncols(), |i, j| c64::new(start[(i, j)], 0.0));
+            for _ in 0..STEPS {
+                match is_left {
+                    true => factors.solve_transpose_in_place(x.as_mut()),
+                    false => factors.solve_in_place(x.as_mut()),
+                }
+                for j in 0..x.ncols() {
+                    let length = x.col(j).norm_l2();
+                    x.col_mut(j).iter_mut().for_each(|v| *v /= length);
+                }
+            }
+            single(&x)
+        };
+        let both = (converged(false), converged(true));
+        Ok(both.0.zip(both.1).map(|(right, left)| [right, left]))
+    });
+    found.collect()
+}
+
+/// The first of two columns of unit length, if the other one is a multiple of it.
+fn single(x: &Mat<c64>) -> Option<Vec<c64>> {
+    let own: Vec<c64> = x.col(0).iter().copied().collect();
+    let other = x.col(x.ncols() - 1);
+    let overlap: c64 = own
+        .iter()
+        .zip(other.iter())
+        .map(|(a, b)| a.conj() * b)
+        .sum();
+    let rest = own.iter().zip(other.iter());
+    let rest: f64 = rest.map(|(a, b)| (b - a * overlap).norm_sqr()).sum();
+    // No number at all is no vector either.
+    (rest.sqrt() <= ALIKE).then_some(own)
+}
+
+/// The vectors of each target from two Krylov iterations.
+fn krylov_vectors(
+    tangent: &SlidingTangent,
+    mu: f64,
+    targets: &[c64],
+    count: usize,
+) -> Result<Vec<Option<Vectors>>, CeaError> {
     let moduli = targets.iter().map(|lambda| lambda.norm());
     let frequency_scale = moduli.fold(0.0, f64::max);
     let linearization = Linearization::Companion { frequency_scale };
@@ -82,26 +185,11 @@ pub fn mode_pairs(
     let start = [x.as_ref(), y.as_ref()];
     let right = quadratic_krylov(&operator, start, &settings)?;
     let left = quadratic_krylov(&operator.transposed(), start, &settings)?;
-
-    // Nonzero values of K, C, M at mu, and of their derivatives.
-    let pattern = tangent.stiffness.pattern();
-    let all = [&tangent.stiffness, &tangent.damping, &tangent.mass];
-    let [_, damping, mass] = all.map(|p| p.evaluate(mu));
-    let rates = all.map(|p| p.derivative(mu));
-    let pair = |target: &c64| {
-        let mut pair = ModePair {
-            friction_coefficient: mu,
-            eigenvalue: *target,
-            derivative: c64::new(0.0, 0.0),
-            right: vector_of(&right, *target, frequency_scale)?,
-            left: vector_of(&left, *target, frequency_scale)?,
-        };
-        let scale = pair.form(pattern, &mass) * *target * 2.0 + pair.form(pattern, &damping);
-        pair.left.iter_mut().for_each(|v| *v /= scale);
-        pair.derivative = pair.response(pattern, rates.each_ref().map(Vec::as_slice));
-        Some(pair)
+    let vectors = |target: &c64| {
+        let [right, left] = [&right, &left].map(|all| vector_of(all, *target, frequency_scale));
+        Some([right?, left?])
     };
-    Ok(targets.iter().map(pair).collect())
+    Ok(targets.iter().map(vectors).collect())
 }
 
 /// The vector of the only eigenvalue at `target`, of unit length.

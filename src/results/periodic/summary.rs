@@ -254,7 +254,7 @@ fn motion(report: &PeriodicReport<'_>, found: &FoundCycle) -> MotionSummary {
     let [stick, slip, open] = motion.fractions.map(present);
     let node = ContactInterface::of(report.mesh).nodes[motion.node];
     let told = motion.harmonics.iter().take(found.harmonic_count);
-    let last = told.clone().last();
+    let last = told.clone().next_back();
     MotionSummary {
         main_frequency_hz: motion.frequency_hz,
         status: StatusFractions { stick, slip, open },

@@ -208,7 +208,7 @@ fn universal(bytes: &[u8], source: &str) -> Result<Vec<MeasuredShape>, ReadError
     let text = String::from_utf8_lossy(bytes);
     let all: Vec<&str> = text.lines().collect();
     let mut nodes: BTreeMap<u64, [f64; 3]> = BTreeMap::new();
-    let mut found: Vec<(String, Option<f64>, Vec<(u64, [Option<c64>; 3])>)> = Vec::new();
+    let mut found: Vec<Shape> = Vec::new();
     let mut at = 0;
     while at < all.len() {
         if all[at].trim() != "-1" {

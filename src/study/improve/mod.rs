@@ -237,7 +237,11 @@ fn change(search: &Search<'_>, modal: &ModalModel<'_>, trial: &Trial) -> Result<
         }
         (Target::Patch(_, elements), kind) => {
             let (dofs, matrices) = patch_matrices(base, elements, kind, budget.patch_damping);
-            Ok(modal.yielding(&dofs, matrices.each_ref()))
+            Ok(match kind {
+                // What is left of a patch taken away gives way without bound: the listed modes alone tell.
+                ModificationKind::Removal => modal.local(&dofs, matrices.each_ref()),
+                _ => modal.yielding(&dofs, matrices.each_ref()),
+            })
         }
         (Target::Hole(_), _) => {
             let tangent = confirm::tangent_of(base, &keys_of(search, trial))?;

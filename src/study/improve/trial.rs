@@ -101,11 +101,13 @@ impl Search<'_> {
                     (None, self.growth(&|own| own.by_mass(node, alpha) * mass))
                 }
                 _ => {
-                    let (of, amount): (fn(&Derivatives, usize) -> Matrix3<f64>, f64) = match kind {
-                        ModificationKind::Spring => {
-                            (Derivatives::by_spring, self.budget.stiffness / extent)
-                        }
-                        _ => (Derivatives::by_dashpot, self.budget.damping / extent),
+                    let of = match kind {
+                        ModificationKind::Spring => Derivatives::by_spring,
+                        _ => Derivatives::by_dashpot,
+                    };
+                    let amount = match kind {
+                        ModificationKind::Spring => self.budget.stiffness / extent,
+                        _ => self.budget.damping / extent,
                     };
                     let along = steepest(&of(self.fastest(), node), self.base.mesh.dimension);
                     let change = |own: &Derivatives| {
