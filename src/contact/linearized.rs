@@ -32,8 +32,9 @@ pub struct ContactTerms {
 /// dT = drag mu dN - (slope mu N + w c_t) t.u' ,   dD = -(|drag| mu N / V + w c_t) d.u'
 /// ```
 ///
-/// with `k_n` at the base state's pressure where contact stiffens, along the rows `n`, `t` and `d` of normal, slip and slip across: friction follows the normal force, falls with the slip
-/// speed, and turns with the direction of slip. Shape: sums over all dofs of both bodies, N/m and N s/m.
+/// along the rows `n`, `t` and `d` of normal, slip and slip across, with `k_n` at the base state's pressure where contact
+/// stiffens: friction follows the normal force, falls with the slip speed, and turns with the direction of slip. Shape: sums
+/// over all dofs of both bodies, N/m and N s/m.
 pub fn linearized(
     points: &[Point],
     state: &PressedPoints<'_>,

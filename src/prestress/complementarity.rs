@@ -9,6 +9,12 @@ use crate::fem::{DofMap, Triplets};
 /// Sets of pressed points that are tried at one friction coefficient before the state is called missing.
 const MAX_SETS: usize = 200;
 
+/// Width to which a friction coefficient is located at which contact points open or close.
+const CHANGE_WIDTH: f64 = 1e-9;
+
+/// Share of the largest force up to which a violated condition is round-off.
+const ROUND_OFF: f64 = 1e-12;
+
 /// What presses bodies together.
 #[derive(Clone, Debug)]
 pub struct Pressing<'a> {
@@ -114,15 +120,8 @@ pub(super) trait PressedBodies {
     /// What presses them together.
     fn pressing(&self) -> &Pressing<'_>;
 
-    /// Stiffness against the penetration of a point, N/m, and the share of the largest force up to which a violated condition
-    /// is round-off.
+    /// Stiffness against the penetration of a point, N/m.
     fn stiffness_at(&self, point: usize) -> f64;
-
-    /// See [`Self::stiffness_at`].
-    fn round_off(&self) -> f64;
-
-    /// Width to which a friction coefficient is located at which points open or close.
-    fn change_width(&self) -> f64;
 
     /// Friction coefficients through which the polynomial of a state that holds in `range` goes.
     fn nodes(&self, range: [f64; 2]) -> Vec<f64>;
@@ -199,7 +198,7 @@ fn pressed_points(
             break;
         }
         let excesses = excesses(bodies, &state, &set);
-        let bound = bound(bodies, &state);
+        let bound = bound(&state);
         let wrong = excesses.iter().enumerate().filter(|(_, e)| **e > bound);
         let Some((worst, _)) = wrong.clone().max_by(|a, b| a.1.total_cmp(b.1)) else {
             return Ok(set);
@@ -229,9 +228,9 @@ fn excesses(bodies: &impl PressedBodies, state: &ContactState, is_pressed: &[boo
 }
 
 /// What may be round-off: it must not flip a point that just touches.
-fn bound(bodies: &impl PressedBodies, state: &ContactState) -> f64 {
+fn bound(state: &ContactState) -> f64 {
     let sizes = state.normal_forces.iter().map(|force| force.abs());
-    bodies.round_off() * sizes.fold(0.0_f64, f64::max)
+    ROUND_OFF * sizes.fold(0.0_f64, f64::max)
 }
 
 /// The friction coefficient up to which the set at `low` holds: the root of the largest violation, by regula falsi in the
@@ -241,17 +240,16 @@ fn change_between(
     set: &[bool],
     [mut low, mut high]: [f64; 2],
 ) -> Result<f64, PrestressError> {
-    let width = bodies.change_width();
     let mut violation = |friction: f64| -> Result<f64, PrestressError> {
         let state = bodies.state_of(friction, set)?;
         let excesses = excesses(bodies, &state, set);
         let largest = excesses.into_iter().fold(f64::NEG_INFINITY, f64::max);
-        Ok(largest - bound(bodies, &state))
+        Ok(largest - bound(&state))
     };
     let (mut at_low, mut at_high) = (violation(low)?, violation(high)?);
     let mut was_low = None;
     for step in 1.. {
-        if high - low <= width {
+        if high - low <= CHANGE_WIDTH {
             break;
         }
         let secant = (low * at_high - high * at_low) / (at_high - at_low);

@@ -141,14 +141,6 @@ impl PressedBodies for CondensedContact<'_> {
         self.normal_response[(point, point)].recip()
     }
 
-    fn round_off(&self) -> f64 {
-        1e-12
-    }
-
-    fn change_width(&self) -> f64 {
-        1e-9
-    }
-
     fn nodes(&self, [_, upper]: [f64; 2]) -> Vec<f64> {
         chebyshev_points(NODES, [0.0, upper.max(LEAST_RANGE)])
     }

@@ -16,9 +16,6 @@ const OPEN_SHARE: f64 = 1e-6;
 const MOST_PRODUCTS: usize = 30;
 const MOST_CHANGED: f64 = 0.1;
 
-/// Width to which a friction coefficient is located at which points open or close: one of thousands, with no force on it.
-const CHANGE_WIDTH: f64 = 1e-6;
-
 /// Tangents of contact that stiffens that are tried, and the change of a force, over the largest, at which they have settled.
 const MOST_TANGENTS: usize = 60;
 const SETTLED: f64 = 1e-11;
@@ -225,14 +222,6 @@ impl PressedBodies for PenaltyContact<'_> {
 
     fn stiffness_at(&self, point: usize) -> f64 {
         self.springs[point]
-    }
-
-    fn round_off(&self) -> f64 {
-        1e-9
-    }
-
-    fn change_width(&self) -> f64 {
-        CHANGE_WIDTH
     }
 
     fn nodes(&self, [lower, upper]: [f64; 2]) -> Vec<f64> {

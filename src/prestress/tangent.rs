@@ -87,7 +87,7 @@ impl SlidingTangent {
     /// ```text
     /// v = T w - mu sum_i (slip_i . T w) lift_i
     /// ```
-    pub fn test_displacement(&self, unknowns: &[c64], mu: f64) -> Vec<c64> {
+    pub fn left_displacement(&self, unknowns: &[c64], mu: f64) -> Vec<c64> {
         let own = self.displacement(unknowns);
         let mut full = own.clone();
         for point in &self.friction {

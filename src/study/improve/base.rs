@@ -22,7 +22,7 @@ pub(super) struct PairedMode {
     pub pair: ModePair,
     /// Displacement of every dof.
     pub right: Vec<c64>,
-    /// What a change of a body's matrix over all dofs is seen by, see [`SlidingTangent::test_displacement`].
+    /// What a change of a body's matrix over all dofs is seen by, see [`SlidingTangent::left_displacement`].
     pub left: Vec<c64>,
 }
 
@@ -158,7 +158,7 @@ impl<'a> Base<'a> {
         let multiple = pairs.iter().filter(|pair| pair.is_none()).count();
         let modes = pairs.into_iter().flatten().map(|pair| PairedMode {
             right: tangent.displacement(&pair.right),
-            left: tangent.test_displacement(&pair.left, friction),
+            left: tangent.left_displacement(&pair.left, friction),
             pair,
         });
         let modes: Vec<PairedMode> = modes.collect();
