@@ -82,8 +82,7 @@ pub(super) fn sections(root: &Section<'_>) -> (AssemblyParts, Contact) {
     if bases.iter().any(|other| *other != base) {
         root.reject(
             "contacts",
-            "contacts are \"solved\" and \"closed\" in one case: a contact that is free of stress beside one that is not has \
-             no equilibrium"
+            "contacts are \"solved\" and \"closed\" in one case: one that is free of stress and one that is not have no common equilibrium"
                 .to_owned(),
             "one state for all".to_owned(),
             Some("give every contact the same `state`".to_owned()),

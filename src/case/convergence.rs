@@ -346,7 +346,7 @@ fn analyses(
             section.reject(
                 "analyses",
                 format!("convergence.analyses names \"{word}\", which this case cannot run"),
-                "needs its section (and quad4 elements, for a transient or a cycle; a cycle the built-in annulus)".to_owned(),
+                "an analysis needs its own section; a transient also needs quad4 elements, a cycle quad4 elements and the built-in annulus".to_owned(),
                 None,
             );
         }

@@ -256,7 +256,7 @@ impl Taken {
             let _ = write!(message, "; {more} more (`frictionsim mesh` lists them all)");
         }
         let label = "not all of it is used".to_owned();
-        let help = "what matters of it belongs into the case".to_owned();
+        let help = "put what matters of it into the case".to_owned();
         Some(Diagnostic::error(message, label, at.clone(), Some(help)))
     }
 

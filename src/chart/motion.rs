@@ -1,24 +1,28 @@
 //! A body in motion: what a page with scripts animates.
 
-/// A mesh and the ways in which it moves.
+/// A body and what it shows: motions, or its parts.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Motion {
-    /// Places of the nodes at rest, m.
-    pub positions: Vec<[f64; 2]>,
-    /// Nodes around each element.
+    /// 2 for a plane body, 3 for a solid one that the reader turns.
+    pub dimension: usize,
+    /// Places of the nodes at rest, m; the third coordinate of a plane body is zero.
+    pub positions: Vec<[f64; 3]>,
+    /// Nodes around each element of a plane body, around each face of the surface of a solid one.
     pub cells: Vec<Vec<u32>>,
     /// Nodes of the contact edge, in order.
     pub edge: Vec<u32>,
-    /// The motions to choose from.
+    /// Edges of a solid body that are drawn, by their ends.
+    pub lines: Vec<[u32; 2]>,
+    /// What there is to choose from.
     pub states: Vec<MotionState>,
 }
 
-/// One motion.
+/// One motion, or one way to tell parts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MotionState {
     /// Its name in plain text.
     pub name: String,
-    /// Frequency, Hz.
+    /// Frequency, Hz; zero for what is at rest.
     pub frequency_hz: f64,
     /// What moves.
     pub kind: MotionKind,
@@ -27,20 +31,27 @@ pub struct MotionState {
 /// How a body moves.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MotionKind {
-    /// `Re((real + i imaginary) exp(i omega t))` of every node, along x and y, to any scale.
+    /// `Re((real + i imaginary) exp(i omega t))` of every node, along x, y and z, to any scale.
     Harmonic {
         /// Real part.
-        real: Vec<[f64; 2]>,
+        real: Vec<[f64; 3]>,
         /// Imaginary part.
-        imaginary: Vec<[f64; 2]>,
+        imaginary: Vec<[f64; 3]>,
     },
     /// A wave that turns about the origin without changing its shape.
     Turning {
-        /// Displacement at time zero of every node, along x and y, m.
-        displacement: Vec<[f64; 2]>,
+        /// Displacement at time zero of every node, along x, y and z, m.
+        displacement: Vec<[f64; 3]>,
         /// Turn in a period, rad, counter-clockwise.
         turn: f64,
         /// Contact status along the edge at time zero: 0 open, 1 stick, 2 slip.
         status: Vec<u8>,
+    },
+    /// No motion: cells in the colours of their parts.
+    Parts {
+        /// The part of each cell.
+        part_of: Vec<u32>,
+        /// Colour and name of each part; "" for one that is not there.
+        parts: Vec<(&'static str, String)>,
     },
 }

@@ -1,13 +1,13 @@
 //! The picture of solid bodies of a mesh file: regions and boundaries.
 
-use super::charts::SolidView;
+use super::charts::{MovingBody, SolidView};
 use super::drawing::{DrawingError, DrawingOptions, draw_all, write_report};
 use super::folder::OutputFolder;
 use super::mesh::REGION_COLOURS;
 use super::quantity::quantity;
 use super::report::{Report, ReportSection, ReportTable};
 use super::solid_mesh::{SolidBoundary, SolidMeshStatistics, SolidRegion, condition_name};
-use crate::chart::{Figure, Panel, SERIES, Surface, literal};
+use crate::chart::{Figure, Motion, MotionState, Panel, SERIES, Surface, literal};
 use crate::mesh::{BoundaryFace, Mesh};
 use std::collections::BTreeMap;
 
@@ -86,9 +86,23 @@ fn figure(mesh: &Mesh, title: &str, roles: &BTreeMap<usize, &'static str>) -> Fi
         "" => "Mesh".to_owned(),
         title => literal(title),
     };
+    let body = MovingBody::with_elements(mesh);
+    let colours = [
+        ("regions", body.parts(region, &regions)),
+        ("boundaries", body.parts(condition, &legend)),
+    ];
+    let states = colours.map(|(name, kind)| MotionState {
+        name: name.to_owned(),
+        frequency_hz: 0.0,
+        kind,
+    });
     Figure::new("mesh", caption)
         .columns(2)
         .panels(by_region.chain(by_condition))
+        .motion(Motion {
+            states: states.to_vec(),
+            ..body.at_rest()
+        })
 }
 
 fn panel(surface: Surface, caption: String) -> Panel {

@@ -74,6 +74,80 @@ fn eigenvalues_move_with_friction_and_modes_with_time() {
 }
 
 #[test]
+fn solid_bodies_are_turned_and_their_modes_move() {
+    if !driver::is_there() {
+        return;
+    }
+    let browser = Browser::open(WIDE);
+    let canvas = |figure: &str, what: &str| {
+        let figure = figure.replace('.', "\\\\.");
+        browser.run(&format!(
+            "return document.querySelector('#{figure} canvas').{what}"
+        ))
+    };
+
+    // A mesh: its regions and boundaries from every side.
+    let mesh_file = format!("mesh.file={:?}", case("meshes/brake.inp"));
+    let (_folder, report) = report_of("mesh", "brake.toml", &[&mesh_file]);
+    browser.visit_ready(&report);
+    press(&browser, "mesh", "Look around");
+    let regions = canvas("mesh", "toDataURL()");
+    browser.send("#mesh canvas", "\u{E014}");
+    let turned = canvas("mesh", "toDataURL()");
+    assert_ne!(turned, regions);
+    keep_screenshot(&browser, "mesh-solid-1280.png");
+    browser.run("const s = document.querySelector('#mesh select'); s.value = 1; s.dispatchEvent(new Event('change'))");
+    assert_ne!(canvas("mesh", "toDataURL()"), turned);
+    // Every boundary that does something is in the legend.
+    let legend = canvas("mesh", "nextElementSibling.textContent");
+    for word in ["contact", "counterface", "pressure", "tie"] {
+        assert!(legend.as_str().unwrap().contains(word), "{legend}");
+    }
+    check_accessibility(&browser);
+
+    // Modes of an assembly and of a body of revolution: they move, from the side that was chosen.
+    let assembly = [
+        mesh_file.as_str(),
+        "cea.friction_coefficients=[0.0,0.4]",
+        "cea.shapes_at=[0.4]",
+        "cea.max_frequency_hz=3000.0",
+    ];
+    let revolution = [
+        "mesh.circumferential_elements=24",
+        "mesh.radial_elements=3",
+        "mesh.axial_elements=2",
+        "cea.friction_coefficients=[0.4]",
+        "cea.shapes_at=[0.4]",
+    ];
+    let cases = [
+        ("brake.toml", &assembly[..]),
+        ("disc-three-dimensions.toml", &revolution[..]),
+    ];
+    for (name, set) in cases {
+        let (_folder, report) = report_of("cea", name, set);
+        browser.visit_ready(&report);
+        let figure = "modes-mu-0.4";
+        press(&browser, figure, "Animate");
+        let first = canvas(figure, "toDataURL()");
+        let corner = canvas(figure, "getBoundingClientRect().toJSON()");
+        let [x, y] = ["x", "y"].map(|key| corner[key].as_f64().unwrap());
+        browser.press_along(&[[x + 300.0, y + 200.0], [x + 380.0, y + 240.0]]);
+        let turned = canvas(figure, "toDataURL()");
+        assert_ne!(turned, first, "{name}");
+        press(&browser, figure, "Play");
+        browser.wait(
+            "return Number(document.querySelector('#modes-mu-0\\\\.4 canvas').dataset.phase) > 0.05",
+        );
+        press(&browser, figure, "Pause");
+        assert_ne!(canvas(figure, "toDataURL()"), turned, "{name}");
+        keep_screenshot(&browser, &format!("modes-{name}-1280.png"));
+        press(&browser, figure, "First view");
+        check_accessibility(&browser);
+        check_silence(&browser);
+    }
+}
+
+#[test]
 fn tables_are_sorted_and_filtered() {
     if !driver::is_there() {
         return;

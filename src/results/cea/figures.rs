@@ -241,9 +241,9 @@ fn shapes(report: &CeaReport<'_>, friction: f64) -> Figure {
         panels,
         report.has_harmonics,
     );
-    match shapes.is_empty() || report.solid.is_some() || report.assembly.is_some() {
+    match shapes.is_empty() {
         true => figure,
-        false => figure.motion(moving(report.mesh, &shapes)),
+        false => figure.motion(moving(report, &shapes)),
     }
 }
 

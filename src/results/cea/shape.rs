@@ -155,16 +155,42 @@ fn assembly_panel(view: &SolidView<'_>, shape: &ModeShape<'_>, lines: &[String; 
 }
 
 /// The modes as motions to choose from: the unstable ones first, as many as a page carries.
-pub(super) fn moving(mesh: &Mesh, shapes: &[ModeShape<'_>]) -> Motion {
+pub(super) fn moving(report: &CeaReport<'_>, shapes: &[ModeShape<'_>]) -> Motion {
+    match report.solid {
+        None => moving_mesh(report.mesh, shapes, |u, _| u),
+        Some(solid) => {
+            let sector = &solid.sector;
+            let whole = sector.part(sector.sector_count());
+            // Shapes have components along r, theta and z; the whole mesh has global frames.
+            moving_mesh(&whole, shapes, |[r, theta, z], node| {
+                let nodes = sector.node_count();
+                let (sin, cos) = sector.angle(node % nodes, node / nodes).sin_cos();
+                [cos * r - sin * theta, sin * r + cos * theta, z]
+            })
+        }
+    }
+}
+
+/// The modes of a mesh; `in_frame` brings the components of a node's displacement into its frame.
+fn moving_mesh(
+    mesh: &Mesh,
+    shapes: &[ModeShape<'_>],
+    in_frame: impl Fn([f64; 3], usize) -> [f64; 3],
+) -> Motion {
     let body = MovingBody::new(mesh);
     let (unstable, stable): (Vec<&ModeShape<'_>>, Vec<_>) =
         shapes.iter().partition(|s| s.mode.is_unstable());
     let chosen = unstable.into_iter().chain(stable).take(body.most_states());
     let states = chosen.map(|shape| {
         let values = shape.mode.shape.as_deref().unwrap_or(&[]);
-        let value = |dof: usize| values.get(dof).copied().unwrap_or_default();
-        let part =
-            |of: fn(c64) -> f64| body.cartesian(|node| [0, 1].map(|k| of(value(2 * node + k))));
+        let part = |of: fn(&c64) -> f64| {
+            body.cartesian(|node| {
+                let first = mesh.dimension * node;
+                let own = values.get(first..first + mesh.dimension).unwrap_or(&[]);
+                let component = |k: usize| own.get(k).map_or(0.0, of);
+                in_frame([0, 1, 2].map(component), node)
+            })
+        };
         let frequency_hz = shape.mode.frequency_hz();
         let name = format!(
             "{}: {} Hz, {}",

@@ -107,6 +107,12 @@ impl<'a> SolidView<'a> {
         Surface::of_parts(Arc::new(shown), positions, part_of, parts)
     }
 
+    /// Edges of faces between corners: where faces meet at an angle, between regions, at the rim of open surfaces; or all.
+    pub(super) fn corner_edges(mesh: &Mesh, faces: &[BoundaryFace], all: bool) -> Vec<[u32; 2]> {
+        let edges = edge_paths(mesh, faces, all).into_iter();
+        edges.map(|path| [path[0], path[path.len() - 1]]).collect()
+    }
+
     /// Largest extent of the bodies along an axis, m.
     pub fn size(&self) -> f64 {
         let along = |axis: usize| {
@@ -142,8 +148,17 @@ fn triangles(face: &BoundaryFace) -> Vec<[u32; 3]> {
         .collect()
 }
 
-/// Edges between faces that meet at an angle, between regions, and at the rim of open surfaces; or all.
+/// Edges drawn, in steps between their nodes.
 fn edges(mesh: &Mesh, faces: &[BoundaryFace], all: bool) -> Vec<[u32; 2]> {
+    let steps = edge_paths(mesh, faces, all).into_iter().flat_map(|path| {
+        let steps: Vec<[u32; 2]> = path.windows(2).map(|step| [step[0], step[1]]).collect();
+        steps
+    });
+    steps.collect()
+}
+
+/// Nodes along each edge between faces that meet at an angle, between regions, and at the rim of open surfaces; or along all.
+fn edge_paths(mesh: &Mesh, faces: &[BoundaryFace], all: bool) -> Vec<Vec<u32>> {
     type Side = (Vector3<f64>, usize);
     let mut edges: BTreeMap<[u32; 2], (Vec<u32>, Vec<Side>)> = BTreeMap::new();
     for face in faces {
@@ -168,9 +183,5 @@ fn edges(mesh: &Mesh, faces: &[BoundaryFace], all: bool) -> Vec<[u32; 2]> {
         _ => true,
     };
     let sharp = edges.into_values().filter(|(_, sides)| is_sharp(sides));
-    let steps = sharp.flat_map(|(path, _)| {
-        let steps: Vec<[u32; 2]> = path.windows(2).map(|step| [step[0], step[1]]).collect();
-        steps
-    });
-    steps.collect()
+    sharp.map(|(path, _)| path).collect()
 }

@@ -84,7 +84,7 @@ pub fn confirmation_text(report: &CycleReport<'_>, result: &CycleResult) -> Opti
     let verdict = match (found.agrees(cycle), leaves(result)) {
         (true, false) => "a transient stays on it".to_owned(),
         (true, true) => format!(
-            "a transient is on it still, in a time in which the leading perturbation makes {:.1} e-folds: too few to tell",
+            "a transient is still on it, in a time in which the leading perturbation makes {:.1} e-folds: too few to tell",
             found.e_folds
         ),
         (false, true) => "a transient leaves it, as its leading perturbation says".to_owned(),

@@ -185,7 +185,7 @@ fn confirmation_text(report: &PeriodicReport<'_>, result: &PeriodicResult) -> Op
     let verdict = match (run.agrees(&found.motion), leaves(found)) {
         (true, false) => "a transient stays on it".to_owned(),
         (true, true) => format!(
-            "a transient is on it still, in a time in which the leading perturbation makes {:.1} e-folds: too few to tell",
+            "a transient is still on it, in a time in which the leading perturbation makes {:.1} e-folds: too few to tell",
             run.e_folds
         ),
         (false, true) => "a transient leaves it, as its leading perturbation says".to_owned(),

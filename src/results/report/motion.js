@@ -1,5 +1,4 @@
 // Motion, sound, and points that move with a parameter.
-const ramp = ["#440154", "#482878", "#3e4989", "#31688e", "#26828e", "#1f9e89", "#35b779", "#6ece58", "#b5de2b", "#fde725"];
 const statusColours = ["#8c8c8c", "#0072b2", "#e69f00"], statusNames = ["open", "stick", "slip"];
 const slider = (name, attributes, oninput) => {
   const input = make("input", { type: "range", ...attributes });
@@ -9,36 +8,49 @@ const slider = (name, attributes, oninput) => {
 
 // The body at phase `t` of its period: places and the size of the displacement from 0 to 1.
 function movedBody(motion, state, t, amplitude) {
-  const { positions } = motion, count = positions.length / 2;
-  const places = new Float64Array(2 * count), sizes = new Float64Array(count);
+  const { positions, dimension } = motion, count = positions.length / dimension;
+  const places = Float64Array.from(positions), sizes = new Float64Array(count);
+  if (state.parts) return { places, sizes };
   const scale = (0.07 * amplitude * motion.half) / state.largest;
   const [cos, sin] = [Math.cos(2 * Math.PI * t), Math.sin(2 * Math.PI * t)];
   const turn = (state.turn ?? 0) * t, [turnCos, turnSin] = [Math.cos(turn), Math.sin(turn)];
   for (let i = 0; i < count; i++) {
-    const part = (k) => (state.displacement ? state.displacement[k] : state.real[k] * cos - state.imaginary[k] * sin);
-    const [u, v] = [part(2 * i), part(2 * i + 1)];
-    const [x, y] = [positions[2 * i] + scale * u, positions[2 * i + 1] + scale * v];
-    places[2 * i] = turnCos * x - turnSin * y;
-    places[2 * i + 1] = turnSin * x + turnCos * y;
-    sizes[i] = Math.hypot(u, v) / state.largest;
+    let square = 0;
+    for (let k = dimension * i; k < dimension * (i + 1); k++) {
+      const part = state.displacement ? state.displacement[k] : state.real[k] * cos - state.imaginary[k] * sin;
+      places[k] += scale * part;
+      square += part * part;
+    }
+    const [x, y] = [places[dimension * i], places[dimension * i + 1]];
+    places[dimension * i] = turnCos * x - turnSin * y;
+    places[dimension * i + 1] = turnSin * x + turnCos * y;
+    sizes[i] = Math.sqrt(square) / state.largest;
   }
   return { places, sizes };
 }
-function animate(motion, holder) {
-  const numbers = motion.positions;
-  let low = [Infinity, Infinity], high = [-Infinity, -Infinity];
-  numbers.forEach((v, i) => ((low[i % 2] = Math.min(low[i % 2], v)), (high[i % 2] = Math.max(high[i % 2], v))));
-  motion.half = 0.5 * Math.max(high[0] - low[0], high[1] - low[1]);
-  for (const state of motion.states) {
+// Middle and half the size of a body, and the largest displacement of each of its motions.
+function measure(motion) {
+  const { positions, dimension } = motion;
+  const low = Array(dimension).fill(Infinity), high = Array(dimension).fill(-Infinity);
+  positions.forEach((v, i) => ((low[i % dimension] = Math.min(low[i % dimension], v)), (high[i % dimension] = Math.max(high[i % dimension], v))));
+  motion.half = 0.5 * Math.max(...high.map((v, k) => v - low[k]));
+  motion.middle = low.map((v, k) => 0.5 * (v + high[k]));
+  for (const state of motion.states.filter((state) => !state.parts)) {
     const parts = state.displacement ? [state.displacement] : [state.real, state.imaginary];
-    state.largest = Math.max(1e-300, ...Array.from({ length: numbers.length / 2 }, (_, i) => Math.hypot(...parts.flatMap((p) => [p[2 * i], p[2 * i + 1]]))));
+    state.largest = 1e-300;
+    for (let i = 0; i < positions.length; i += dimension) {
+      let square = 0;
+      for (const part of parts) for (let k = i; k < i + dimension; k++) square += part[k] * part[k];
+      state.largest = Math.max(state.largest, Math.sqrt(square));
+    }
   }
-  const canvas = make("canvas", { width: 640, height: 640, role: "img" });
-  const context = canvas.getContext("2d"), middle = [0, 1].map((k) => 0.5 * (low[k] + high[k]));
-  const zoom = 320 / (1.16 * motion.half), at = (places, node) => [320 + zoom * (places[2 * node] - middle[0]), 320 - zoom * (places[2 * node + 1] - middle[1])];
-  let state = motion.states[0], t = 0, speed = 0.5, amplitude = 1, timer = 0, before;
-  const draw = () => {
-    const { places, sizes } = movedBody(motion, state, t, amplitude);
+}
+// A plane body on a canvas.
+function planePicture(motion, width, height) {
+  const canvas = make("canvas", { width, height, role: "img" });
+  const context = canvas.getContext("2d"), half = 0.5 * width, zoom = half / (1.16 * motion.half);
+  const at = (places, node) => [half + zoom * (places[2 * node] - motion.middle[0]), half - zoom * (places[2 * node + 1] - motion.middle[1])];
+  const paint = (state, places, sizes) => {
     const paths = ramp.map(() => new Path2D());
     let start = 0;
     for (const size of motion.sizes) {
@@ -49,7 +61,7 @@ function animate(motion, holder) {
       path.closePath();
       start += size;
     }
-    context.clearRect(0, 0, 640, 640);
+    context.clearRect(0, 0, width, height);
     paths.forEach((path, level) => {
       context.fillStyle = context.strokeStyle = ramp[level];
       context.lineWidth = 0.6;
@@ -66,31 +78,50 @@ function animate(motion, holder) {
         context.stroke();
       });
     }
+  };
+  return { canvas, paint, look: {}, tools: [], hint: "" };
+}
+const isMoving = (motion) => motion.states.some((state) => !state.parts);
+function animate(motion, holder) {
+  measure(motion);
+  const picture = motion.dimension === 3 ? solidPicture(motion, 720, 560) : planePicture(motion, 640, 640);
+  const { canvas } = picture, isAnimated = isMoving(motion);
+  let state = motion.states[0], t = 0, speed = 0.5, amplitude = 1, timer = 0, before;
+  const draw = () => {
+    const { places, sizes } = movedBody(motion, state, t, amplitude);
+    picture.paint(state, places, sizes);
     canvas.dataset.phase = t.toFixed(4);
   };
+  picture.look.redraw = () => timer || draw();
   const frame = (now) => {
     t = (t + (speed * Math.min(100, now - (before ?? now))) / 1000) % 1e6;
     before = now;
     draw();
     timer = requestAnimationFrame(frame);
   };
-  const name = () => canvas.setAttribute("aria-label", `The moving body: ${state.name}`);
   const play = button("Play", () => {
     timer ? (cancelAnimationFrame(timer), (timer = 0)) : ((before = undefined), (timer = requestAnimationFrame(frame)));
     play.textContent = timer ? "Pause" : "Play";
   });
+  const legend = make("span", { class: "tools" });
+  const key = ([colour, word]) => {
+    const mark = make("span", { class: "key line" });
+    mark.style.color = colour;
+    return make("span", {}, mark, word);
+  };
+  const show = () => {
+    canvas.setAttribute("aria-label", `${isAnimated ? "The moving body" : "The body"}: ${state.name}${picture.hint}`);
+    const statuses = state.status ? statusNames.map((word, code) => [statusColours[code], word]) : [];
+    legend.replaceChildren(...[...(state.parts ?? []), ...statuses].filter((part) => part[1]).map(key));
+    draw();
+  };
   const choice = make("select", {}, ...motion.states.map((state, i) => make("option", { value: i }, state.name)));
-  choice.addEventListener("change", () => ((state = motion.states[choice.value]), name(), draw()));
+  choice.addEventListener("change", () => ((state = motion.states[choice.value]), show()));
   const [speedLabel] = slider("Periods a second", { min: 0.05, max: 3, step: 0.05, value: speed }, (value) => (speed = value));
   const [sizeLabel] = slider("Amplitude", { min: 0, max: 3, step: 0.05, value: 1 }, (value) => ((amplitude = value), draw()));
-  const keys = motion.states.some((state) => state.status) ? statusNames.map((word, code) => {
-    const key = make("span", { class: "key line" });
-    key.style.color = statusColours[code];
-    return make("span", {}, key, word);
-  }) : [];
-  name();
-  holder.append(canvas, make("div", { class: "tools" }, make("label", {}, "Motion ", choice), play, speedLabel, sizeLabel, ...keys));
-  draw();
+  const moving = isAnimated ? [play, speedLabel, sizeLabel] : [];
+  holder.append(canvas, make("div", { class: "tools" }, make("label", {}, isAnimated ? "Motion " : "Colours ", choice), ...moving, ...picture.tools, legend));
+  show();
 }
 
 // A parameter: its points over the curves of the first panel, and a list of those that matter.
@@ -242,7 +273,7 @@ function equipFigure(figure) {
     holder.append(details);
   });
   if (figure.steps) more(`Move ${figure.steps.quantity}`, (holder) => stepThrough(figure.steps, figure.panels[0], holder));
-  if (figure.motion) more("Animate", (holder) => animate(figure.motion, holder));
+  if (figure.motion) more(isMoving(figure.motion) ? "Animate" : "Look around", (holder) => animate(figure.motion, holder));
   const signals = signalsOf(figure);
   if (signals.length) more("Listen", (holder) => listen(signals, holder));
   if (figure.panels.some((panel) => panel.series.length)) {
@@ -266,8 +297,8 @@ document.querySelectorAll("main section:not(#manifest) table").forEach(equipTabl
     }
     const { motion } = figure;
     if (motion) {
-      for (const key of ["positions", "sizes", "cells", "edge"]) motion[key] = numbers[motion[key]];
-      for (const state of motion.states) for (const key of ["real", "imaginary", "displacement", "status"]) if (key in state) state[key] = numbers[state[key]];
+      for (const key of ["positions", "sizes", "cells", "edge", "lines"]) motion[key] = numbers[motion[key]];
+      for (const state of motion.states) for (const key of ["real", "imaginary", "displacement", "status", "partOf"]) if (key in state) state[key] = numbers[state[key]];
     }
     equipFigure(figure);
   }

@@ -11,7 +11,11 @@ use std::fmt::Write;
 /// Charts with axes and zoom, under the MIT licence.
 const LIBRARY: &str = include_str!("vendor/uPlot.iife.min.js");
 const LIBRARY_STYLE: &str = include_str!("vendor/uPlot.min.css");
-const SCRIPTS: [&str; 2] = [include_str!("report.js"), include_str!("motion.js")];
+const SCRIPTS: [&str; 3] = [
+    include_str!("report.js"),
+    include_str!("solid.js"),
+    include_str!("motion.js"),
+];
 
 /// Columns that a curve over rising abscissae is thinned to, at most four points in each.
 const COLUMNS: usize = 400;
@@ -148,7 +152,13 @@ fn of_steps(steps: &Steps) -> Value {
 }
 
 fn of_motion(motion: &Motion, numbers: &mut Numbers) -> Value {
-    let flat = |places: &[[f64; 2]]| places.as_flattened().to_vec();
+    let flat = |places: &[[f64; 3]]| -> Vec<f64> {
+        let places = places.iter();
+        places
+            .flat_map(|place| &place[..motion.dimension])
+            .copied()
+            .collect()
+    };
     let sizes = motion.cells.iter().map(|cell| cell.len() as u32);
     let sizes = numbers.indices(sizes);
     let cells = numbers.indices(motion.cells.iter().flatten().copied());
@@ -175,11 +185,24 @@ fn of_motion(motion: &Motion, numbers: &mut Numbers) -> Value {
                     .indices(status.iter().map(|&code| u32::from(code)))
                     .into();
             }
+            MotionKind::Parts { part_of, parts } => {
+                out["partOf"] = numbers.indices(part_of.iter().copied()).into();
+                out["parts"] = parts.iter().map(|part| json!([part.0, part.1])).collect();
+            }
         }
         out
     });
     let states: Vec<Value> = states.collect();
-    json!({ "positions": positions, "sizes": sizes, "cells": cells, "edge": edge, "states": states })
+    let lines = numbers.indices(motion.lines.as_flattened().iter().copied());
+    json!({
+        "dimension": motion.dimension,
+        "positions": positions,
+        "sizes": sizes,
+        "cells": cells,
+        "edge": edge,
+        "lines": lines,
+        "states": states,
+    })
 }
 
 #[cfg(test)]

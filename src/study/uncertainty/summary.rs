@@ -124,7 +124,7 @@ pub fn summarize(case: &Case, samples: &[Sample]) -> UncertaintySummary {
     let mut notes = Vec::new();
     if let Some(sample) = samples.iter().find(|sample| sample.error.is_some()) {
         notes.push(format!(
-            "{failed} samples could not be solved and count nowhere; the first is sample {}: {}",
+            "{failed} samples could not be solved and are left out; the first is sample {}: {}",
             sample.number,
             sample.error.as_deref().unwrap_or_default()
         ));
