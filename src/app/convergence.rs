@@ -61,10 +61,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     if let Some(drawing) = session.options.output.drawing() {
         draw(&folder, &report, &drawing)?;
     }
-    session
-        .options
-        .output
-        .finish(folder, &print(&report), &summary)
+    let output = &session.options.output;
+    let text = print(&report, output.verbose > 0);
+    output.finish(folder, &text, &summary)
 }
 
 /// Draws the figures of a folder again, from its `record.bin`.

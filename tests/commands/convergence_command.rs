@@ -142,6 +142,13 @@ fn a_transient_is_tabled_over_mesh_and_time_step_with_figures_and_report() {
     ] {
         assert!(printed.contains(line), "{printed}");
     }
+    // What decides is printed, the other modes are in the table.
+    let left = printed.lines().find(|line| line.contains("--verbose"));
+    assert!(
+        left.is_some_and(|line| line.contains("do not grow")),
+        "{printed}"
+    );
+    assert!(printed.lines().count() < 60, "{printed}");
     let out = folder.path().join("out");
     for name in [
         "convergence.csv",

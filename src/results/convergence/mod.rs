@@ -47,6 +47,9 @@ pub struct Quantity {
     pub values: Vec<f64>,
     /// Order and limit.
     pub verdict: Verdict,
+    /// Whether the terminal leaves it to the table, as a mode that does not grow.
+    #[serde(skip)]
+    pub is_minor: bool,
 }
 
 impl Quantity {
@@ -57,6 +60,7 @@ impl Quantity {
             name,
             unit: unit.to_owned(),
             values,
+            is_minor: false,
         }
     }
 
@@ -75,6 +79,7 @@ impl Quantity {
             unit: String::new(),
             values,
             verdict,
+            is_minor: false,
         }
     }
 

@@ -79,7 +79,10 @@ pub fn of_sweeps(
         for levels in &everywhere {
             let name = format!("{part}, {}", name_of(key_of(levels[0]), case.has_sectors()));
             let values = levels.iter().map(|mode| value(mode)).collect();
-            quantities.push(Quantity::new(name, "Hz", sizes, values));
+            quantities.push(Quantity {
+                is_minor: !levels.last().is_some_and(|finest| finest.is_unstable()),
+                ..Quantity::new(name, "Hz", sizes, values)
+            });
         }
     }
     quantities.extend(onsets(sizes, sweeps, case.has_sectors()));
