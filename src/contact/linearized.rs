@@ -3,6 +3,9 @@
 use super::{ContactStiffness, Point, Row};
 use crate::fem::Triplets;
 
+/// Entries of one term from which on those of one place are summed at once: thousands of points share few nodes.
+const MANY_ENTRIES: usize = 1 << 18;
+
 /// The pressed points of a base state and their normal forces.
 #[derive(Clone, Copy, Debug)]
 pub struct PressedPoints<'a> {
@@ -41,6 +44,11 @@ pub fn linearized(
     stiffness: &ContactStiffness,
 ) -> ContactTerms {
     let mut terms = ContactTerms::default();
+    let merge_many = |terms: &mut [Triplets]| {
+        let many = terms.iter_mut();
+        many.filter(|term| term.entries.len() > MANY_ENTRIES)
+            .for_each(Triplets::merge);
+    };
     let pressed = || (0..points.len()).filter(|&i| state.is_pressed[i]);
     for point in pressed().map(|i| &points[i]) {
         let weight = point.weight;
@@ -63,6 +71,7 @@ pub fn linearized(
         for i in pressed() {
             add_normal_law(&mut terms.stiffness, p, &points[i], springs[i]);
         }
+        merge_many(&mut terms.stiffness);
     }
     // What the forces of the base state do.
     for (p, forces) in state.normal_forces.iter().enumerate() {
@@ -82,7 +91,9 @@ pub fn linearized(
         for (point, &force) in points.iter().zip(forces) {
             add_turning(&mut terms.turning, p, point, force);
         }
+        merge_many(&mut terms.dashpots);
     }
+    merge_many(&mut terms.stiffness);
     terms
 }
 

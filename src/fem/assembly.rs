@@ -154,12 +154,12 @@ fn geometric_stiffness_of(
     base: &[f64],
     keep: &dyn Fn(usize) -> bool,
 ) -> Triplets {
-    let mut triplets = Triplets::default();
+    let mut sum = ElementSum::new(mesh, keep);
     for e in (0..mesh.element_count()).filter(|&e| keep(e)) {
         let matrix = element::geometric_stiffness(mesh, e, material.of(mesh.region(e)), base);
-        scatter(&mut triplets, mesh, e, &matrix);
+        sum.add(e, &matrix);
     }
-    triplets
+    sum.finish()
 }
 
 /// Springs and dashpots of the supports over all dofs, N/m and N s/m, in the plane for each metre of thickness; empty where
@@ -271,16 +271,65 @@ fn assemble_congruent(
     keep: &dyn Fn(usize) -> bool,
     compute: impl Fn(usize) -> DMatrix<f64>,
 ) -> Triplets {
-    let mut triplets = Triplets::default();
+    let mut sum = ElementSum::new(mesh, keep);
+    // Only what several elements share is kept.
+    let mut copies = vec![0_u32; mesh.element_count()];
+    mesh.congruent_to
+        .iter()
+        .for_each(|&first| copies[first as usize] += 1);
     let mut cache: Vec<Option<DMatrix<f64>>> = vec![None; mesh.element_count()];
-    let kept = || (0..mesh.element_count()).filter(|&e| keep(e));
-    let sizes = kept().map(|e| (mesh.dimension * mesh.element_kinds[e].node_count()).pow(2));
-    triplets.entries.reserve_exact(sizes.sum());
-    for e in kept() {
-        let matrix = cache[mesh.congruent_to[e] as usize].get_or_insert_with(|| compute(e));
-        scatter(&mut triplets, mesh, e, matrix);
+    for e in (0..mesh.element_count()).filter(|&e| keep(e)) {
+        let first = mesh.congruent_to[e] as usize;
+        match copies[first] {
+            1 => sum.add(e, &compute(e)),
+            _ => sum.add(e, cache[first].get_or_insert_with(|| compute(e))),
+        }
     }
-    triplets
+    sum.finish()
+}
+
+/// Entries of solid bodies that are kept before those of one place are summed: an element shares each of its nodes with many.
+const MANY_ENTRIES: usize = 1 << 22;
+
+/// Element matrices on their way into a global one.
+struct ElementSum<'a> {
+    mesh: &'a Mesh,
+    triplets: Triplets,
+    /// Entries at which those of one place are summed.
+    limit: usize,
+}
+
+impl<'a> ElementSum<'a> {
+    fn new(mesh: &'a Mesh, keep: &dyn Fn(usize) -> bool) -> Self {
+        let mut triplets = Triplets::default();
+        let is_solid = mesh.dimension == 3;
+        let sizes = (0..mesh.element_count())
+            .filter(|&e| keep(e))
+            .map(|e| (mesh.dimension * mesh.element_kinds[e].node_count()).pow(2));
+        let size: usize = sizes.sum();
+        let limit = if is_solid { MANY_ENTRIES } else { usize::MAX };
+        triplets.entries.reserve_exact(size.min(limit));
+        Self {
+            mesh,
+            triplets,
+            limit,
+        }
+    }
+
+    fn add(&mut self, element: usize, matrix: &DMatrix<f64>) {
+        scatter(&mut self.triplets, self.mesh, element, matrix);
+        if self.triplets.entries.len() > self.limit {
+            self.triplets.merge();
+            self.limit = MANY_ENTRIES + 2 * self.triplets.entries.len();
+        }
+    }
+
+    fn finish(mut self) -> Triplets {
+        if self.mesh.dimension == 3 {
+            self.triplets.merge();
+        }
+        self.triplets
+    }
 }
 
 fn scatter(triplets: &mut Triplets, mesh: &Mesh, element: usize, matrix: &DMatrix<f64>) {
