@@ -9,7 +9,7 @@ use crate::case::{
 use crate::fem::ElasticMaterial;
 use crate::frf::FrfBoundary;
 use crate::mesh::SolidSpecification;
-use crate::transient::stable_step_limit;
+use crate::transient::{OperatorChoice, stable_step_limit};
 use std::f64::consts::TAU;
 
 /// Time of a complex multiplication and subtraction in the elimination of eight bands side by side, s.
@@ -30,13 +30,13 @@ const SOLID_PAIR: [f64; 2] = [8e-4, 5e-9];
 const SOLID_BYTES: f64 = 600.0;
 
 /// Time of the basis of a whole mesh, s: at all, and for each unknown and mode.
-const SPARSE_BASIS: [f64; 2] = [0.2, 2e-6];
+const SPARSE_BASIS: [f64; 2] = [1.0, 6e-6];
 
 /// Time of each friction value in it, s: at all, and for each unknown and mode.
-const SPARSE_VALUE: [f64; 2] = [0.2, 3e-6];
+const SPARSE_VALUE: [f64; 2] = [0.15, 3e-7];
 
 /// Memory of a whole mesh, bytes: at all, and for each unknown and vector of its basis.
-const SPARSE_BYTES: [f64; 2] = [2e7, 100.0];
+const SPARSE_BYTES: [f64; 2] = [1e8, 100.0];
 
 /// Memory and time of a solid body's mesh beside a plane one's: its rows are three times as long, its factor fills more.
 const SOLID_SPARSE: [f64; 2] = [2.5, 1.5];
@@ -50,9 +50,17 @@ const LIKELY_GROWING: usize = 2;
 /// Periods that the search for a periodic motion and its multipliers take.
 const PERIODS: [f64; 2] = [80.0, 60.0];
 
-/// Steps of such a period, and the time of one for each unknown, s.
+/// Steps of such a period.
 const PERIOD_STEPS: f64 = 800.0;
-const PERIOD_STEP: f64 = 1.3e-8;
+
+/// Memory of the program itself, bytes, and of each unknown of a whole mesh that is stepped in time.
+const PROGRAM_BYTES: f64 = 2.5e7;
+const STEPPED_BYTES: f64 = 4e3;
+
+/// Time of a step, s: for each unknown of a whole mesh, and for each element of sectors that are alike, of a plane body and of
+/// one in three dimensions.
+const SPARSE_STEP: f64 = 1.3e-8;
+const SECTOR_STEP: [f64; 2] = [2e-9, 4.3e-8];
 
 impl Case {
     pub(super) fn samples(&self) -> f64 {
@@ -129,7 +137,7 @@ impl Case {
         CeaCost {
             friction_values,
             modes,
-            memory_bytes,
+            memory_bytes: PROGRAM_BYTES + memory_bytes,
             seconds,
         }
     }
@@ -155,7 +163,7 @@ impl Case {
             families,
             cycles: 1 + followed,
             // A few dense matrices of two unknowns for each phase, and of four for the perturbations.
-            memory_bytes: families as f64 * 8.0 * 40.0 * phases * phases,
+            memory_bytes: PROGRAM_BYTES + families as f64 * 8.0 * 40.0 * phases * phases,
             seconds: families as f64 * (each + 2e-9 * elements * steps),
         }
     }
@@ -178,8 +186,8 @@ impl Case {
             families,
             cycles: 1 + followed,
             // Secants with their images and their basis, twice as long as there are unknowns, and the Krylov space.
-            memory_bytes: families as f64 * 8.0 * 2.0 * unknowns * 250.0,
-            seconds: families as f64 * periods * PERIOD_STEPS * PERIOD_STEP * unknowns,
+            memory_bytes: PROGRAM_BYTES + families as f64 * 8.0 * 2.0 * unknowns * 250.0,
+            seconds: families as f64 * periods * PERIOD_STEPS * SPARSE_STEP * unknowns,
         }
     }
 
@@ -208,7 +216,7 @@ impl Case {
         };
         FrfCost {
             lines,
-            memory_bytes: bytes + 64.0 * lines as f64,
+            memory_bytes: PROGRAM_BYTES + bytes + 64.0 * lines as f64,
             seconds: each * lines as f64,
         }
     }
@@ -229,7 +237,7 @@ impl Case {
         let held = (16.0 * entries).min(entries.max(f64::from(1 << 21)));
         FrfCost {
             lines,
-            memory_bytes: 48.0 * held + 256.0 * entries + 64.0 * lines as f64,
+            memory_bytes: PROGRAM_BYTES + 48.0 * held + 256.0 * entries + 64.0 * lines as f64,
             seconds: SOLID_LINE * lines as f64 * waves * unknowns * half_bandwidth.powi(2),
         }
     }
@@ -256,20 +264,25 @@ impl Case {
             TimeStep::Auto => stable_step,
         };
         let steps = (transient.duration / time_step).ceil();
-        // Measured: a brick of 180 x 35 x 4 takes 43 ns, a plane element of 180 x 35 2 ns.
-        let each = match self.body.dimension() {
-            3 => 4.3e-8,
-            _ => 2e-9,
+        let elements = size.elements as f64;
+        let is_sparse = transient.operator == OperatorChoice::Sparse;
+        let unknowns = self.body.dimension() as f64 * size.nodes as f64;
+        let (each, operator_bytes) = match &self.body {
+            Body::Revolution(_) => (SECTOR_STEP[1] * elements, 0.0),
+            Body::Annulus(_) if !is_sparse => (SECTOR_STEP[0] * elements, 0.0),
+            _ => (SPARSE_STEP * unknowns, STEPPED_BYTES * unknowns),
         };
         TransientCost {
             time_step,
             stable_step,
             steps,
             // Ten nodal vectors and the record, which a checkpoint holds once more.
-            memory_bytes: 160.0 * size.nodes as f64
+            memory_bytes: PROGRAM_BYTES
+                + 160.0 * size.nodes as f64
+                + operator_bytes
                 + self.snapshot_bytes()
                 + 2.0 * (self.sample_bytes() + self.frame_bytes()),
-            seconds: each * size.elements as f64 * steps,
+            seconds: each * steps,
         }
     }
 }
