@@ -36,6 +36,27 @@ pub struct RunFigures<'a> {
 }
 
 impl RunFigures<'_> {
+    /// Whether it is of solid bodies of a mesh, whose probes move along x, y and z.
+    pub(super) fn is_assembly(&self) -> bool {
+        self.solid.is_none() && self.mesh.dimension == 3
+    }
+
+    /// What the components of a probe are along, the first, the second and the third.
+    pub(super) fn directions(&self) -> [&'static str; 3] {
+        match self.is_assembly() {
+            true => [
+                "acceleration along x",
+                "acceleration along y",
+                "acceleration along z",
+            ],
+            false => [
+                "radial acceleration",
+                "tangential acceleration",
+                "axial acceleration",
+            ],
+        }
+    }
+
     /// Number of a probe as the user knows it.
     pub(super) fn probe_label(&self, probe: usize) -> usize {
         self.mesh.node_label(self.record.probes[probe] - 1)
