@@ -131,7 +131,7 @@ impl AssembledOperator {
 
 impl StiffnessOperator for AssembledOperator {
     fn name(&self) -> &'static str {
-        "assembled"
+        "sparse"
     }
 
     fn simd(&self) -> SimdLevel {

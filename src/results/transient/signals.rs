@@ -49,15 +49,16 @@ impl RunFigures<'_> {
             .map(|length| (end - length, end));
         let axis = run_axis(&times);
         let top = self.highest_frequency();
+        let component = self.shown_component(probe);
         let unit = match self.is_assembly() {
-            true => ("*a*_{y}", "m/s²"),
+            true => (["*a*_{x}", "*a*_{y}", "*a*_{z}"][component], "m/s²"),
             false => ("*a*_{θ}", "m/s²"),
         };
         let stages = stages(self.record, self.analysis);
         let largest = extremes(signal.iter().copied()).1;
         let whole = signal_panel(axis.clone(), &times, &signal, unit, 0.45);
         let whole = with_stages(
-            whole.caption(format!("{}, node {node}", self.directions()[1])),
+            whole.caption(format!("{}, node {node}", self.directions()[component])),
             &stages,
             (start, end),
             largest,
