@@ -10,7 +10,7 @@ use super::words::NormalLawWord;
 use crate::contact::{ContactStiffness, Motion, NormalLaw, PairFriction, SlidingContact};
 use crate::fem::{ElasticMaterial, PlaneFormulation, RegionMaterial};
 use crate::mesh::{Mesh, MeshFileError};
-use crate::prestress::{BaseChoice, SlidingSurfaces, TiedSurfaces};
+use crate::prestress::{Assembly, BaseChoice, PrestressError, SlidingSurfaces, TiedSurfaces};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -29,6 +29,40 @@ pub struct AssemblyBody {
     pub motions: Vec<Motion>,
     /// What the base state of the contacts is.
     pub base: BaseChoice,
+}
+
+impl AssemblyBody {
+    /// The bodies with their surfaces paired.
+    ///
+    /// # Errors
+    /// [`PrestressError::Pair`] names the tie or contact whose surfaces do not meet.
+    pub fn assembled(&self) -> Result<Assembly<'_>, PrestressError> {
+        let (mesh, ties, contacts) = (&self.mesh, &self.ties, &self.contacts);
+        Assembly::new(
+            mesh,
+            &self.materials,
+            ties,
+            contacts,
+            &self.motions,
+            self.base,
+        )
+    }
+
+    /// The same with all contact points at nodes, for steps in time.
+    ///
+    /// # Errors
+    /// As [`Self::assembled`].
+    pub fn stepped(&self) -> Result<Assembly<'_>, PrestressError> {
+        let (mesh, ties, contacts) = (&self.mesh, &self.ties, &self.contacts);
+        Assembly::at_nodes(
+            mesh,
+            &self.materials,
+            ties,
+            contacts,
+            &self.motions,
+            self.base,
+        )
+    }
 }
 
 /// `[motion.*]`, `[contacts.*]` and `[ties.*]` as the case names regions and surfaces.

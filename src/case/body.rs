@@ -165,8 +165,7 @@ impl Body {
     /// Whether the elements are those that the explicit transient of this body takes.
     pub fn suits_transient(&self) -> bool {
         match self {
-            Self::Imported(_) => true,
-            Self::Assembly(_) => false,
+            Self::Imported(_) | Self::Assembly(_) => true,
             Self::Annulus(_) | Self::Revolution(_) => !self.is_quadratic(),
         }
     }

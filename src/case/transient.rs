@@ -1,12 +1,14 @@
 //! `[transient]` and `[output]`: the explicit transient and what it writes.
 
 use super::Case;
+use super::assembly::AssemblyBody;
 use super::body::{Body, Revolution};
 use super::diagnostic::CaseErrors;
 use super::node::{Nodes, PlacedNode};
 use super::reader::Section;
 use crate::contact::SlidingContact;
 use crate::mesh::{Counterface, SolidContact};
+use crate::prestress::BaseChoice;
 use crate::transient::{
     InitialState, OperatorChoice, Perturbation, StandingWave, TimeStep, whole_intervals,
 };
@@ -75,16 +77,52 @@ impl Case {
                 "the transient needs bricks of 8 nodes, \"quad4\": it lumps the mass",
             )?,
             Body::Imported(_) => {}
-            Body::Assembly(_) => {
-                return Err(self.error_at(
-                    "mesh.file",
-                    "a transient takes plane bodies and bodies of revolution".to_owned(),
-                    "these are solid bodies".to_owned(),
-                    Some("use `frictionsim cea`".to_owned()),
-                ));
-            }
+            Body::Assembly(assembly) => self.check_stepped(assembly)?,
         }
         Ok(transient)
+    }
+
+    /// Refuses what an assembly cannot have in a transient.
+    fn check_stepped(&self, assembly: &AssemblyBody) -> Result<(), CaseErrors> {
+        if assembly.base == BaseChoice::Closed {
+            return Err(self.error_at(
+                "contacts",
+                "contacts with state = \"closed\" are free of stress: without a normal force there is no friction to step in time"
+                    .to_owned(),
+                "a transient needs state = \"solved\"".to_owned(),
+                Some("press the bodies together (condition = \"pressure\"), or leave `state` out".to_owned()),
+            ));
+        }
+        if assembly
+            .motions
+            .iter()
+            .any(|motion| motion.has_rotation_terms)
+        {
+            return Err(self.error_at(
+                "motion",
+                "rotation_terms are not stepped in time: the gyroscopic forces of the last half step would feed the motion"
+                    .to_owned(),
+                "with rotation_terms = false".to_owned(),
+                Some("use `frictionsim cea`, or leave rotation_terms out".to_owned()),
+            ));
+        }
+        if assembly
+            .contacts
+            .iter()
+            .any(|contact| contact.law.is_some())
+        {
+            return Err(self.error_at(
+                "contacts",
+                "contact that stiffens with pressure is not stepped in time between solid bodies"
+                    .to_owned(),
+                "with normal_law = \"linear\"".to_owned(),
+                Some(
+                    "use `frictionsim cea`, or the stiffness at the pressure of the base state"
+                        .to_owned(),
+                ),
+            ));
+        }
+        Ok(())
     }
 }
 

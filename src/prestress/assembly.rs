@@ -89,6 +89,37 @@ impl<'a> Assembly<'a> {
         motions: &[Motion],
         base: BaseChoice,
     ) -> Result<Self, PrestressError> {
+        let kind = |contact: &SlidingSurfaces| match contact.stiffness.normal_stiffness {
+            Some(_) => PointKind::Segments,
+            None => PointKind::Nodes,
+        };
+        Self::with_points(mesh, materials, (ties, contacts), (motions, base), &kind)
+    }
+
+    /// The same with all contact points at nodes, as a time step needs them: a point for each node of the finer surface, so
+    /// that the forces of points that stick are told apart.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn at_nodes(
+        mesh: &'a Mesh,
+        materials: &'a dyn MaterialField,
+        ties: &[TiedSurfaces],
+        contacts: &[SlidingSurfaces],
+        motions: &[Motion],
+        base: BaseChoice,
+    ) -> Result<Self, PrestressError> {
+        let kind = |_: &SlidingSurfaces| PointKind::Nodes;
+        Self::with_points(mesh, materials, (ties, contacts), (motions, base), &kind)
+    }
+
+    fn with_points(
+        mesh: &'a Mesh,
+        materials: &'a dyn MaterialField,
+        (ties, contacts): (&[TiedSurfaces], &[SlidingSurfaces]),
+        (motions, base): (&[Motion], BaseChoice),
+        kind: &dyn Fn(&SlidingSurfaces) -> PointKind,
+    ) -> Result<Self, PrestressError> {
         let mut basis = Elimination::holding(mesh.dof_count(), mesh.held_dofs());
         for tie in ties {
             tie_surfaces(mesh, tie, &mut basis)?;
@@ -97,11 +128,8 @@ impl<'a> Assembly<'a> {
             .iter()
             .map(|contact| {
                 let sides = [contact.surface, contact.counter].map(|b| &mesh.boundaries[b]);
-                let kind = match contact.stiffness.normal_stiffness {
-                    Some(_) => PointKind::Segments,
-                    None => PointKind::Nodes,
-                };
-                let surface = ContactSurface::of(mesh, sides, motions, contact.friction, kind);
+                let (friction, kind) = (contact.friction, kind(contact));
+                let surface = ContactSurface::of(mesh, sides, motions, friction, kind);
                 let surface = surface.map_err(|error| named("contacts", &contact.name, error))?;
                 Ok((contact.clone(), surface))
             })
@@ -130,6 +158,31 @@ impl<'a> Assembly<'a> {
     /// The contacts with their points.
     pub fn contacts(&self) -> &[(SlidingSurfaces, ContactSurface)] {
         &self.contacts
+    }
+
+    /// The mesh of all bodies.
+    pub fn mesh(&self) -> &'a Mesh {
+        self.mesh
+    }
+
+    /// The materials of its regions.
+    pub fn materials(&self) -> &'a dyn MaterialField {
+        self.materials
+    }
+
+    /// Held dofs and ties.
+    pub(crate) fn basis(&self) -> &Elimination {
+        &self.basis
+    }
+
+    /// Stiffness of the bodies, N/m.
+    pub(crate) fn elastic(&self) -> &Triplets {
+        &self.elastic
+    }
+
+    /// Springs (N/m) and dashpots (N s/m) of the supports.
+    pub(crate) fn supports(&self) -> &[Triplets; 2] {
+        &self.supports
     }
 
     /// Base states at every one of `friction_coefficients`, over the points of all contacts in turn.

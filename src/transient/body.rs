@@ -2,11 +2,11 @@
 
 use super::boundary::BoundaryForces;
 use super::{
-    LagrangeContact, OperatorChoice, Perturbation, SolidTransientModel, StepPlan, TransientError,
-    TransientModel, TransientSettings, build_operator,
+    AssemblyTransientModel, LagrangeContact, OperatorChoice, Perturbation, SolidTransientModel,
+    StepPlan, TransientError, TransientModel, TransientSettings, build_operator,
 };
 use crate::contact::{ContactInterface, SlidingContact};
-use crate::fem::operator::{SimdLevel, StiffnessOperator};
+use crate::fem::operator::{OperatorError, SimdLevel, StiffnessOperator};
 use crate::fem::{RayleighDamping, assemble_stiffness};
 use crate::prestress::SteadySliding;
 
@@ -17,6 +17,8 @@ pub enum TransientBody<'a> {
     Plane(TransientModel<'a>),
     /// Of revolution, in three dimensions.
     Solid(SolidTransientModel<'a>),
+    /// Solid bodies of a mesh.
+    Assembly(AssemblyTransientModel<'a>),
 }
 
 impl<'a> From<TransientModel<'a>> for TransientBody<'a> {
@@ -37,12 +39,18 @@ impl<'a> From<SolidTransientModel<'a>> for TransientBody<'a> {
     }
 }
 
+impl<'a> From<AssemblyTransientModel<'a>> for TransientBody<'a> {
+    fn from(model: AssemblyTransientModel<'a>) -> Self {
+        Self::Assembly(model)
+    }
+}
+
 impl TransientBody<'_> {
     /// Displacement components of a node: 2, or 3.
     pub fn components(&self) -> usize {
         match self {
             Self::Plane(_) => 2,
-            Self::Solid(_) => 3,
+            Self::Solid(_) | Self::Assembly(_) => 3,
         }
     }
 
@@ -51,6 +59,7 @@ impl TransientBody<'_> {
         match self {
             Self::Plane(model) => model.damping,
             Self::Solid(model) => model.damping,
+            Self::Assembly(model) => model.damping,
         }
     }
 
@@ -66,6 +75,10 @@ impl TransientBody<'_> {
         match self {
             Self::Plane(model) => build_operator(model, choice, simd),
             Self::Solid(model) => model.operator(choice, simd),
+            Self::Assembly(_) if choice == OperatorChoice::Cyclic => {
+                Err(OperatorError::NoSymmetry.into())
+            }
+            Self::Assembly(model) => model.operator(simd),
         }
     }
 
@@ -74,6 +87,7 @@ impl TransientBody<'_> {
         match self {
             Self::Plane(model) => &model.contact,
             Self::Solid(model) => &model.contact,
+            Self::Assembly(model) => &model.contact,
         }
     }
 
@@ -82,6 +96,7 @@ impl TransientBody<'_> {
         match self {
             Self::Plane(model) => model.interface(),
             Self::Solid(model) => model.interface(),
+            Self::Assembly(model) => model.interface(),
         }
     }
 
@@ -90,6 +105,8 @@ impl TransientBody<'_> {
         match self {
             Self::Plane(model) => model.interface().len() / 2,
             Self::Solid(model) => model.sector.sector_count() / 2,
+            // Its contact nodes are no edge.
+            Self::Assembly(_) => 0,
         }
     }
 
@@ -104,6 +121,7 @@ impl TransientBody<'_> {
                 let (local, s) = (node % sector.node_count(), node / sector.node_count());
                 [sector.nodes[local].radius, sector.angle(local, s)]
             }
+            Self::Assembly(model) => model.place(node),
         }
     }
 
@@ -116,6 +134,7 @@ impl TransientBody<'_> {
                 Ok(base.displacement(model.contact.friction_coefficient))
             }
             Self::Solid(model) => model.sliding_displacement(),
+            Self::Assembly(model) => model.sliding_displacement(),
         }
     }
 
@@ -127,6 +146,7 @@ impl TransientBody<'_> {
         match self {
             Self::Plane(model) => model.plan(operator, settings),
             Self::Solid(model) => model.plan(operator, settings),
+            Self::Assembly(model) => model.plan(operator, settings),
         }
     }
 
@@ -134,6 +154,7 @@ impl TransientBody<'_> {
         match self {
             Self::Plane(model) => BoundaryForces::new(model, operator),
             Self::Solid(model) => model.boundary_forces(operator),
+            Self::Assembly(model) => model.boundary_forces(operator),
         }
     }
 
@@ -145,6 +166,7 @@ impl TransientBody<'_> {
         match self {
             Self::Plane(model) => LagrangeContact::new(operator, interface, model),
             Self::Solid(model) => model.lagrange_contact(operator, interface),
+            Self::Assembly(model) => Ok(model.lagrange_contact(operator)),
         }
     }
 
@@ -156,6 +178,7 @@ impl TransientBody<'_> {
         match self {
             Self::Plane(model) => perturbation.field(model),
             Self::Solid(model) => model.perturbed(perturbation),
+            Self::Assembly(model) => model.perturbed(perturbation),
         }
     }
 }

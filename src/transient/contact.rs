@@ -2,6 +2,7 @@
 
 mod face;
 mod opposite;
+mod points;
 mod sums;
 
 pub use sums::{ContactPowers, StatusCounts};
@@ -12,6 +13,7 @@ use crate::contact::{ContactInterface, ContactStatus, CoulombFriction, SlippingN
 use crate::fem::operator::{MotionFields, StepCoefficients, StiffnessOperator};
 use face::FaceSliding;
 use opposite::OppositeBody;
+use points::PointContact;
 
 /// Contact of each node of the contact edge with the moving counterface.
 ///
@@ -60,6 +62,8 @@ pub struct LagrangeContact {
     inward: f64,
     /// The face of a body in three dimensions.
     face: Option<FaceSliding>,
+    /// The points between surfaces of an assembly.
+    points: Option<PointContact>,
 }
 
 impl LagrangeContact {
@@ -100,6 +104,7 @@ impl LagrangeContact {
             opposite: OppositeBody::new(operator, interface),
             inward: 1.0,
             face: None,
+            points: None,
         })
     }
 
@@ -112,6 +117,9 @@ impl LagrangeContact {
         coefficients: &StepCoefficients,
         shares: [f64; 3],
     ) {
+        if self.points.is_some() {
+            return self.apply_at_points(fields, coefficients);
+        }
         if self.opposite.is_some() {
             return self.apply_between_bodies(fields, coefficients, shares);
         }
@@ -154,7 +162,7 @@ impl LagrangeContact {
                     (tangential, self.status[i]) = self.law.project(trial, normal);
                     force = tangential;
                 } else {
-                    (tangential, force) = self.slip(i, mass / dt, [v_t, trial_t], normal);
+                    (tangential, force) = self.slip_force(i, mass / dt, [v_t, trial_t], normal);
                 }
                 fields.elastic[n] = q_n - normal / mass;
                 fields.elastic[t] = q_t - force / mass;
@@ -186,7 +194,13 @@ impl LagrangeContact {
 
     /// Friction force, and what it makes with the tangential dashpot, from `v_{n-1/2}` and the `v_{n+1/2}` without
     /// contact.
-    fn slip(&mut self, i: usize, inertia: f64, velocity: [f64; 2], normal: f64) -> (f64, f64) {
+    fn slip_force(
+        &mut self,
+        i: usize,
+        inertia: f64,
+        velocity: [f64; 2],
+        normal: f64,
+    ) -> (f64, f64) {
         let [before, free] = velocity;
         // The dashpot acts on the mean of both velocities: half of it is inertia.
         let half = 0.5 * self.dashpots.get(i).copied().unwrap_or(0.0);
@@ -215,6 +229,9 @@ impl LagrangeContact {
     /// Energy in the springs of a compliant contact at the half step before `u` and after its `shares` of the
     /// interference, J/m.
     pub fn energy(&self, fields: &MotionFields, shares: [f64; 2], dt: f64) -> f64 {
+        if self.points.is_some() {
+            return self.energy_at_points(fields, dt);
+        }
         let Some(law) = &self.compliance else {
             return 0.0;
         };
@@ -237,6 +254,9 @@ impl LagrangeContact {
         coefficients: &StepCoefficients,
         shares: [f64; 3],
     ) -> (ContactPowers, StatusCounts) {
+        if self.points.is_some() {
+            return self.settle_at_points(fields, coefficients.time_step);
+        }
         if self.face.is_some() {
             return self.settle_on_face(fields, coefficients, shares);
         }
@@ -292,17 +312,28 @@ impl LagrangeContact {
         (powers, counts)
     }
 
-    /// Distance of node `i` from the counterface under a `share` of the interference, m, from its normal dof.
-    pub fn gap(&self, i: usize, displacement: f64, share: f64) -> f64 {
-        self.inward * displacement - self.pushed(i, share)
+    /// Distance of node `i` from the counterface under a `share` of the interference, m, in a displacement field.
+    pub fn gap(&self, i: usize, displacement: &[f64], share: f64) -> f64 {
+        match self.points {
+            Some(_) => self.gap_at_node(i, displacement),
+            None => self.inward * displacement[self.normal[i]] - self.pushed(i, share),
+        }
     }
 
-    /// Place of each node's normal dof in a field.
+    /// Displacement of node `i` along the sliding, of two bodies over the other one where nodes have points, m.
+    pub fn slip(&self, i: usize, displacement: &[f64]) -> f64 {
+        match self.points {
+            Some(_) => self.slip_at_node(i, displacement),
+            None => displacement[self.tangential[i]],
+        }
+    }
+
+    /// Place of each node's normal dof in a field; none where contact is at points.
     pub fn normal_places(&self) -> &[usize] {
         &self.normal
     }
 
-    /// Place of each node's tangential dof in a field.
+    /// Place of each node's tangential dof in a field; none where contact is at points.
     pub fn tangential_places(&self) -> &[usize] {
         &self.tangential
     }

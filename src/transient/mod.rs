@@ -6,6 +6,7 @@
 //! that keeps what results need, and [`TransientAnalysis`] reads frequencies, growth and powers from it.
 
 mod analysis;
+mod assembly;
 mod body;
 mod boundary;
 mod central_difference;
@@ -23,6 +24,7 @@ mod solid;
 mod vibration;
 
 pub use analysis::{Growth, LastFifth, ProbeMotion, TransientAnalysis};
+pub use assembly::AssemblyTransientModel;
 pub use body::TransientBody;
 pub use central_difference::{CentralDifference, RunEnd, TransientState};
 pub use contact::{ContactPowers, LagrangeContact, StatusCounts};

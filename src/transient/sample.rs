@@ -70,15 +70,14 @@ impl Sample<'_> {
 
     /// Tangential displacement of contact node `i`, m.
     pub fn contact_tangential_displacement(&self, i: usize) -> f64 {
-        self.displacement_before[self.run.contact().tangential_places()[i]]
+        self.run.contact().slip(i, self.displacement_before)
     }
 
     /// Distance of contact node `i` from the counterface at `n`, m; negative where a compliant contact is compressed.
     pub fn gap(&self, i: usize) -> f64 {
-        let place = self.run.contact().normal_places()[i];
         let share = self.run.expanded_share(self.time);
-        let displacement = self.displacement_before[place];
-        self.run.contact().gap(i, displacement, share)
+        let contact = self.run.contact();
+        contact.gap(i, self.displacement_before, share)
     }
 
     /// Status of each contact node at `n`.

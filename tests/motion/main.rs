@@ -1,8 +1,11 @@
 //! Transients and limit cycles against theory, each other and themselves.
 
+#[path = "../common/bricks.rs"]
+mod bricks;
 #[path = "../common/disc.rs"]
 mod disc;
 
+mod assembly;
 mod cycle;
 mod cycle_discs;
 mod cycle_periodic;

@@ -49,8 +49,15 @@ impl Size {
                 let each = elements.map(|element| element_frequency(mesh, element, speed(element)));
                 each.fold(0.0, f64::max)
             }
-            // No transient takes it.
-            Body::Assembly(_) => 0.0,
+            Body::Assembly(assembly) => {
+                let mesh = &assembly.mesh;
+                let speed = |element: usize| {
+                    pressure_wave_speed(&assembly.materials[mesh.region(element)].elastic)
+                };
+                let elements = 0..mesh.element_count();
+                let each = elements.map(|element| solid_frequency(mesh, element, speed(element)));
+                each.fold(0.0, f64::max)
+            }
         };
         Self {
             nodes: body.node_count(),
@@ -120,4 +127,15 @@ fn element_frequency(mesh: &Mesh, element: usize, speed: f64) -> f64 {
     let short = mesh.element_area(element) / long;
     let order = if kind.is_quadratic() { QUADRATIC } else { 1.0 };
     2.0 * order * speed * (1.0 / short).hypot(1.0 / long)
+}
+
+/// The same of one solid element, as of a cube of its shortest edge.
+fn solid_frequency(mesh: &Mesh, element: usize, speed: f64) -> f64 {
+    let (kind, nodes) = (mesh.element_kind(element), mesh.element_nodes(element));
+    let place = |corner: usize| nalgebra::Vector3::from(mesh.nodes[nodes[corner] as usize]);
+    let edges = kind.edges().iter();
+    let lengths = edges.map(|&[a, b]| (place(a) - place(b)).norm());
+    let shortest = lengths.fold(f64::INFINITY, f64::min);
+    let finer = if kind.is_quadratic() { QUADRATIC } else { 1.0 };
+    2.0 * finer * speed * 3.0_f64.sqrt() / shortest
 }

@@ -4,6 +4,7 @@
 //! Three implementations stand behind one trait: [`SparseOperator`] for any plane mesh, [`CyclicStencil`] for a uniform annulus,
 //! whose sectors share one stencil in polar frames, and [`SolidStencil`] for a body of revolution in three dimensions.
 
+mod assembled;
 mod block_rows;
 mod cyclic;
 mod field;
@@ -14,6 +15,7 @@ mod simd;
 mod solid;
 mod sparse;
 
+pub use assembled::AssembledOperator;
 pub use cyclic::CyclicStencil;
 pub use field::{AlignedVector, MotionFields};
 pub use largest_frequency::{largest_frequency, largest_frequency_of};

@@ -1,13 +1,13 @@
 //! The figures of a transient, from its record.
 
 use super::run::RunFigures;
-use crate::chart::{Axis, ChartError, ColourMap, Figure, Line, Panel, SERIES, extremes};
+use crate::chart::{Axis, ChartError, ColourMap, Figure, Line, Panel, SERIES, Side, extremes};
 use crate::contact::{ContactInterface, ContactStatus};
-use crate::mesh::SolidFace;
+use crate::mesh::{SolidFace, SolidSector};
 use crate::results::charts::palette::status_of_code;
 use crate::results::charts::{
-    ContactVelocity, Disc, FieldFrame, contact_figure, field_figure, open_contact_figure,
-    shear_stress_figure, status_curves,
+    ContactVelocity, Disc, FieldFrame, SolidView, contact_figure, field_figure,
+    open_contact_figure, shear_stress_figure, status_curves,
 };
 use crate::results::drawing::{Declaration, DrawingOptions, draw_all};
 use crate::results::report::NamedFigure;
@@ -43,7 +43,33 @@ impl RunFigures<'_> {
         self.record.snapshots.iter().take(FIELD_LIMIT)
     }
 
+    /// Speed over the surface of solid bodies, each picture with colours of its own.
+    fn velocity_of_bodies(&self) -> Result<Figure, ChartError> {
+        let view = SolidView::new(self.mesh);
+        let panels = self.snapshots().map(|snapshot| {
+            let speeds = snapshot.velocity.chunks_exact(3);
+            let speeds = speeds.map(|v| v[0].hypot(v[1]).hypot(v[2])).collect();
+            let axis = Axis::new("velocity |*v*|", "m/s");
+            let surface = view.surface(speeds, (&[], 0.0), axis, ColourMap::Viridis);
+            let panel = Panel::plane(surface.window(0.04)).height(150.0);
+            let panel = panel.heading(heading(snapshot)).layer(surface);
+            panel.colour_bar(Side::Below)
+        });
+        let panels: Vec<Panel> = panels.collect();
+        if panels.is_empty() {
+            return Err(ChartError::empty("velocity at the snapshots"));
+        }
+        let caption = "Velocity modulus at the snapshot times.";
+        let columns = panels.len().clamp(1, 3);
+        Ok(Figure::new("velocity", caption)
+            .columns(columns)
+            .panels(panels))
+    }
+
     fn velocity(&self) -> Result<Figure, ChartError> {
+        if self.is_assembly() {
+            return self.velocity_of_bodies();
+        }
         // What is that much slower than the cylinder is round-off of a body at rest.
         let rest = 1e-9 * self.peripheral_speed.abs();
         let frames = self.snapshots().map(|snapshot| -> FieldFrame {
@@ -80,7 +106,7 @@ impl RunFigures<'_> {
     }
 
     fn shear_stress(&self) -> Result<Figure, ChartError> {
-        if self.solid.is_some() {
+        if self.solid.is_some() || self.is_assembly() {
             return Err(ChartError::empty("shear stress of a plane body"));
         }
         let fields = self.snapshots();
@@ -104,10 +130,9 @@ impl RunFigures<'_> {
 
     /// Phase plot of an internal node, and path of a contact node coloured by status over the last fifth.
     fn trajectories(&self) -> Result<Figure, ChartError> {
-        if self
-            .solid
-            .is_some_and(|sector| sector.specification.contact.face() != SolidFace::Inner)
-        {
+        let is_inner =
+            |sector: &SolidSector| sector.specification.contact.face() == SolidFace::Inner;
+        if self.is_assembly() || self.solid.is_some_and(|sector| !is_inner(sector)) {
             return Err(ChartError::empty("paths of nodes of an edge"));
         }
         let probes = 0..self.record.probes.len();
@@ -207,6 +232,7 @@ impl RunFigures<'_> {
     /// The contact at the last snapshot.
     fn contact(&self) -> Result<Figure, ChartError> {
         let snapshot = self.record.snapshots.last();
+        let snapshot = snapshot.filter(|_| !self.is_assembly());
         let snapshot = snapshot.ok_or_else(|| ChartError::empty("contact at the snapshots"))?;
         let frame = &snapshot.contact;
         let one = self.shown_places();

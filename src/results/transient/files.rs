@@ -1,10 +1,8 @@
 //! Probes, energies, contact, snapshots, summary.
 
 use super::contact::encode_contact;
-use super::solid::contact_nodes;
 use super::{TransientReport, TransientSummary, summary};
-use crate::contact::ContactInterface;
-use crate::fem::{nodal_stress, revolved_stress};
+use crate::fem::{nodal_stress, revolved_stress, solid_stress};
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::record::write_record;
 use crate::results::summary::write_summary;
@@ -30,6 +28,7 @@ pub fn write(
                 rows,
                 axial,
                 raw: raw(index),
+                is_cartesian: report.solid.is_none() && report.mesh.dimension == 3,
                 turn: report.turn_of_probe(index),
             };
             write_probe(out, &report.record.rows, &probe)
@@ -58,6 +57,8 @@ struct ProbeRows<'a> {
     axial: Option<&'a [[f64; 4]]>,
     /// Accelerations of the sampled step alone, where they are kept.
     raw: Option<&'a [[f64; 2]]>,
+    /// Whether its axes are x, y and z.
+    is_cartesian: bool,
     /// Sine and cosine of the angle of its node's axes, of a body that is no annulus about the origin.
     turn: Option<(f64, f64)>,
 }
@@ -74,21 +75,35 @@ fn write_probe(
         axial,
         raw,
         turn,
+        is_cartesian,
     } = *probe;
-    let mut columns = vec![
-        "time_s",
-        "u_r_m",
-        "u_theta_m",
-        "v_r_m_per_s",
-        "v_theta_m_per_s",
-        "a_r_m_per_s2",
-        "a_theta_m_per_s2",
-    ];
+    let mut columns = vec!["time_s"];
+    columns.extend(match is_cartesian {
+        true => [
+            "u_x_m",
+            "u_y_m",
+            "v_x_m_per_s",
+            "v_y_m_per_s",
+            "a_x_m_per_s2",
+            "a_y_m_per_s2",
+        ],
+        false => [
+            "u_r_m",
+            "u_theta_m",
+            "v_r_m_per_s",
+            "v_theta_m_per_s",
+            "a_r_m_per_s2",
+            "a_theta_m_per_s2",
+        ],
+    });
     if axial.is_some() {
         columns.extend(["u_z_m", "v_z_m_per_s", "a_z_m_per_s2"]);
     }
     if raw.is_some() {
-        columns.extend(["a_r_step_m_per_s2", "a_theta_step_m_per_s2"]);
+        columns.extend(match is_cartesian {
+            true => ["a_x_step_m_per_s2", "a_y_step_m_per_s2"],
+            false => ["a_r_step_m_per_s2", "a_theta_step_m_per_s2"],
+        });
         columns.extend(axial.map(|_| "a_z_step_m_per_s2"));
     }
     if turn.is_some() {
@@ -239,7 +254,22 @@ fn snapshot_fields(report: &TransientReport<'_>, snapshot: &Snapshot) -> Vec<Fie
         let stress = revolved_stress(sector, report.material.of(0), &snapshot.displacement);
         fields.extend(Field::solid_stresses(&stress, "rtz"));
         let nodes = snapshot.displacement.len() / 3;
-        fields.extend(contact_fields(&contact_nodes(sector), nodes, snapshot));
+        fields.extend(contact_fields(&report.contact_nodes, nodes, snapshot));
+        return fields;
+    }
+    if report.mesh.dimension == 3 {
+        let mesh = report.mesh;
+        let mut fields = vec![
+            Field::vectors("displacement_m", mesh, &snapshot.displacement),
+            Field::vectors("velocity_m_per_s", mesh, &snapshot.velocity),
+        ];
+        let stress = solid_stress(mesh, report.material, &snapshot.displacement);
+        fields.extend(Field::solid_stresses(&stress, "xyz"));
+        fields.extend(contact_fields(
+            &report.contact_nodes,
+            mesh.node_count(),
+            snapshot,
+        ));
         return fields;
     }
     let mut fields = vec![
@@ -249,9 +279,8 @@ fn snapshot_fields(report: &TransientReport<'_>, snapshot: &Snapshot) -> Vec<Fie
     let stresses = nodal_stress(report.mesh, report.material, &snapshot.displacement);
     fields.extend(Field::stresses(&stresses));
     fields.extend(Field::cartesian_stresses(report.mesh, &stresses));
-    let edge = ContactInterface::of(report.mesh).nodes;
     let count = report.mesh.node_count();
-    fields.extend(contact_fields(&edge, count, snapshot));
+    fields.extend(contact_fields(&report.contact_nodes, count, snapshot));
     fields
 }
 

@@ -39,6 +39,8 @@ pub struct TransientReport<'a> {
     pub mesh: &'a Mesh,
     /// One sector of a body in three dimensions, of which `mesh` is the section across the axis.
     pub solid: Option<&'a SolidSector>,
+    /// Contact nodes in the order of the record, counted from 0.
+    pub contact_nodes: Vec<u32>,
     /// Its material, for the stresses.
     pub material: &'a dyn MaterialField,
     /// Whether its vibrations have circumferential harmonics: it has the symmetry of the built-in annulus.
@@ -100,7 +102,8 @@ impl TransientReport<'_> {
 
     /// Sine and cosine of the angle of a probe's axes, of a plane body that is no annulus about the origin.
     fn turn_of_probe(&self, probe: usize) -> Option<(f64, f64)> {
-        let has_axes = self.solid.is_none() && !self.mesh.is_cyclic;
+        let is_plane = self.solid.is_none() && self.mesh.dimension == 2;
+        let has_axes = is_plane && !self.mesh.is_cyclic;
         let node = self.record.probes[probe] - 1;
         has_axes.then(|| self.mesh.frame_angles()[node].sin_cos())
     }

@@ -78,8 +78,8 @@ pub fn print(summary: &TransientSummary, state: EndState) -> String {
         let _ = writeln!(
             out,
             "  forces between the bodies had not converged in {steps} of {} steps: there they are approximate, though the \
-             energy closes; many contact nodes meet one node of the other body: name the coarser of the two curves in \
-             contact.boundary, or refine the other body",
+             energy closes; many contact nodes meet one node of the other body: exchange the two sides of the contact, or \
+             refine the other body",
             summary.steps
         );
     }

@@ -36,6 +36,27 @@ pub struct RunFigures<'a> {
 }
 
 impl RunFigures<'_> {
+    /// Whether it is of solid bodies of a mesh, whose probes move along x, y and z.
+    pub(super) fn is_assembly(&self) -> bool {
+        self.solid.is_none() && self.mesh.dimension == 3
+    }
+
+    /// What the components of a probe are along, the first, the second and the third.
+    pub(super) fn directions(&self) -> [&'static str; 3] {
+        match self.is_assembly() {
+            true => [
+                "acceleration along x",
+                "acceleration along y",
+                "acceleration along z",
+            ],
+            false => [
+                "radial acceleration",
+                "tangential acceleration",
+                "axial acceleration",
+            ],
+        }
+    }
+
     /// Number of a probe as the user knows it.
     pub(super) fn probe_label(&self, probe: usize) -> usize {
         self.mesh.node_label(self.record.probes[probe] - 1)
@@ -61,9 +82,35 @@ impl RunFigures<'_> {
         rows.map(|row| row[column]).collect()
     }
 
-    /// The tangential acceleration of a probe: the component that friction drives, and the one over which runs are compared.
+    /// Which component of a probe is shown: the tangential one, which friction drives and over which runs are compared; of solid
+    /// bodies of a mesh, which may lie anyhow, the strongest.
+    pub(super) fn shown_component(&self, probe: usize) -> usize {
+        if !self.is_assembly() {
+            return 1;
+        }
+        let size = |component: usize| -> f64 {
+            let signal = self.component(probe, component);
+            signal.iter().map(|a| a * a).sum()
+        };
+        (0..3)
+            .max_by(|&a, &b| size(a).total_cmp(&size(b)))
+            .unwrap_or(1)
+    }
+
+    /// Acceleration of a probe along one of its directions.
+    fn component(&self, probe: usize, component: usize) -> Vec<f64> {
+        match component {
+            2 => {
+                let rows = self.record.axial_rows[probe].iter();
+                rows.map(|row| row[2]).collect()
+            }
+            _ => self.column(probe, 4 + component),
+        }
+    }
+
+    /// The acceleration of a probe that is shown.
     pub(super) fn acceleration(&self, probe: usize) -> Vec<f64> {
-        self.column(probe, 5)
+        self.component(probe, self.shown_component(probe))
     }
 
     /// Frequency (Hz) and growth rate (1/s) of the unstable mode nearest to the vibration that grows on a body without

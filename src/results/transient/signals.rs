@@ -49,12 +49,16 @@ impl RunFigures<'_> {
             .map(|length| (end - length, end));
         let axis = run_axis(&times);
         let top = self.highest_frequency();
-        let unit = ("*a*_{θ}", "m/s²");
+        let component = self.shown_component(probe);
+        let unit = match self.is_assembly() {
+            true => (["*a*_{x}", "*a*_{y}", "*a*_{z}"][component], "m/s²"),
+            false => ("*a*_{θ}", "m/s²"),
+        };
         let stages = stages(self.record, self.analysis);
         let largest = extremes(signal.iter().copied()).1;
         let whole = signal_panel(axis.clone(), &times, &signal, unit, 0.45);
         let whole = with_stages(
-            whole.caption(format!("tangential acceleration, node {node}")),
+            whole.caption(format!("{}, node {node}", self.directions()[component])),
             &stages,
             (start, end),
             largest,
@@ -75,7 +79,7 @@ impl RunFigures<'_> {
             spectrogram_panels(&axis, &map, start, top, &self.references)
         });
         let caption = format!(
-            "Course of the run at node {node}: tangential acceleration, spectrograms with the frequencies of the eigenvalue \
+            "Course of the run at node {node}: acceleration, spectrograms with the frequencies of the eigenvalue \
              analysis, contact status; at the right the end of the run."
         );
         let mut figure = Figure::new(format!("overview-{node}"), caption)
@@ -106,6 +110,10 @@ impl RunFigures<'_> {
 
     /// The status of all contact nodes over time; a strobed map says so.
     fn status_panel(&self, time: Axis, range: (f64, f64), caption: String) -> Option<Panel> {
+        if self.is_assembly() {
+            // Nodes of surfaces have no order along an edge.
+            return None;
+        }
         let frames = &self.record.frames;
         let times: Vec<f64> = frames.iter().map(|frame| frame.time).collect();
         let places: Vec<usize> = (0..self.record.contact_angles.len())
@@ -144,17 +152,14 @@ impl RunFigures<'_> {
             })
         };
         let [tangential, radial] = [5, 4].map(|column| spectrum_of(self.column(probe, column)));
+        let [first, second, third] = self.directions();
         let axial = self.record.axial_rows.get(probe);
         let axial = axial.map(|rows| spectrum_of(rows.iter().map(|row| row[2]).collect()));
         let mut spectra: Vec<(&str, &[f64], &[f64])> = vec![
-            ("tangential acceleration", &tangential.0, &tangential.1),
-            ("radial acceleration", &radial.0, &radial.1),
+            (second, &tangential.0, &tangential.1),
+            (first, &radial.0, &radial.1),
         ];
-        spectra.extend(
-            axial
-                .iter()
-                .map(|(f, a)| ("axial acceleration", &f[..], &a[..])),
-        );
+        spectra.extend(axial.iter().map(|(f, a)| (third, &f[..], &a[..])));
         let caption =
             format!("Spectra of the accelerations of node {node} over the last fifth of the run.");
         let frequencies = (

@@ -6,8 +6,7 @@ use crate::case::{AssemblyBody, Case};
 use crate::cea::{CeaError, FrictionSweep, SweepRequest};
 use crate::fem::solid_stress;
 use crate::prestress::{
-    Assembly, BaseChoice, PressedRange, PressedState, PrestressError, SlidingTangent,
-    TangentOptions,
+    BaseChoice, PressedRange, PressedState, PrestressError, SlidingTangent, TangentOptions,
 };
 use crate::results::Extent;
 use crate::results::cea::{AssemblyPoint, AssemblyReport, BaseState};
@@ -35,7 +34,7 @@ impl AssemblyModel {
     ) -> Result<Self, CeaError> {
         let own = case.contact.sliding.friction_coefficient;
         let frictions = [frictions, &[own]].concat();
-        let range = assembled(body)?.range(&frictions)?;
+        let range = body.assembled()?.range(&frictions)?;
         Ok(Self {
             body: body.clone(),
             range,
@@ -58,7 +57,7 @@ impl AssemblyModel {
         request: &SweepRequest<'_>,
         progress: &Progress<'_>,
     ) -> Result<(FrictionSweep, usize), CeaError> {
-        let assembly = assembled(&self.body)?;
+        let assembly = self.body.assembled()?;
         let range = &self.range;
         let tangent = |k: usize| Ok(assembly.tangent(&range.states[k], &self.options)?);
         let changes = (range.state_of.as_slice(), range.changes.as_slice());
@@ -70,7 +69,7 @@ impl AssemblyModel {
     /// # Errors
     /// Those of the pairing of surfaces.
     pub fn own_tangent(&self) -> Result<SlidingTangent, PrestressError> {
-        assembled(&self.body)?.tangent(self.base(), &self.options)
+        self.body.assembled()?.tangent(self.base(), &self.options)
     }
 
     /// The tangent of one of the states.
@@ -78,7 +77,7 @@ impl AssemblyModel {
     /// # Errors
     /// Those of the pairing of surfaces.
     pub(super) fn tangent(&self, state: usize) -> Result<SlidingTangent, CeaError> {
-        let assembly = assembled(&self.body)?;
+        let assembly = self.body.assembled()?;
         Ok(assembly.tangent(&self.range.states[state], &self.options)?)
     }
 
@@ -88,7 +87,7 @@ impl AssemblyModel {
     /// Those of the pairing of surfaces.
     pub fn report(&self, case: &Case) -> Result<AssemblyReport, PrestressError> {
         let friction = case.contact.sliding.friction_coefficient;
-        let (assembly, state) = (assembled(&self.body)?, self.base());
+        let (assembly, state) = (self.body.assembled()?, self.base());
         let forces = state.normal_forces(friction);
         let all = assembly.contacts().iter().flat_map(|(contact, surface)| {
             let points = surface
@@ -122,17 +121,6 @@ impl AssemblyModel {
             displacement,
         })
     }
-}
-
-fn assembled(body: &AssemblyBody) -> Result<Assembly<'_>, PrestressError> {
-    Assembly::new(
-        &body.mesh,
-        &body.materials,
-        &body.ties,
-        &body.contacts,
-        &body.motions,
-        body.base,
-    )
 }
 
 /// What the report says of the base state of an assembly.

@@ -28,6 +28,7 @@ use crate::cycle::Family;
 use crate::fem::operator::{SimdLevel, StiffnessOperator};
 use crate::linalg::interruption;
 use crate::mesh::{AnnulusMesh, Mesh, SolidSector};
+use crate::prestress::Assembly;
 use crate::results::transient::TransientReport;
 use crate::transient::{
     CentralDifference, InitialState, Recorder, RecorderSettings, StepPlan, TransientAnalysis,
@@ -42,8 +43,10 @@ pub struct TransientStudy<'a> {
     pub case: &'a Case,
     /// Its mesh; of a body in three dimensions the section across the axis.
     pub mesh: Arc<Mesh>,
-    /// One sector of a body in three dimensions.
+    /// One sector of a body of revolution in three dimensions.
     pub sector: Option<SolidSector>,
+    /// Solid bodies of a mesh with their ties and contacts.
+    assembly: Option<Assembly<'a>>,
     transient: &'a Transient,
     annulus: Option<AnnulusMesh>,
     simd: SimdLevel,
@@ -73,7 +76,7 @@ impl<'a> TransientStudy<'a> {
     /// [`StudyError::Case`] for a case without `[transient]`; a mesh that cannot be built.
     pub fn new(case: &'a Case, simd: SimdLevel) -> Result<Self, StudyError> {
         let transient = case.require_transient()?;
-        let (mut annulus, mut sector) = (None, None);
+        let (mut annulus, mut sector, mut assembly) = (None, None, None);
         let mesh = match &case.body {
             Body::Annulus(Annulus { specification, .. }) => {
                 let generated = AnnulusMesh::generate(specification)?;
@@ -88,12 +91,16 @@ impl<'a> TransientStudy<'a> {
                 mesh
             }
             Body::Imported(imported) => Arc::clone(&imported.mesh),
-            Body::Assembly(assembly) => Arc::clone(&assembly.mesh),
+            Body::Assembly(body) => {
+                assembly = Some(body.stepped()?);
+                Arc::clone(&body.mesh)
+            }
         };
         Ok(Self {
             case,
             mesh,
             sector,
+            assembly,
             transient,
             annulus,
             simd,
@@ -103,8 +110,10 @@ impl<'a> TransientStudy<'a> {
 
     /// The body with its contact.
     pub fn body(&self) -> TransientBody<'_> {
-        let sector = self.sector.as_ref();
-        settings::body(self.case, &self.mesh, self.annulus.as_ref(), sector)
+        match (&self.assembly, self.sector.as_ref()) {
+            (Some(assembly), _) => settings::assembly(self.case, assembly).into(),
+            (None, sector) => settings::body(self.case, &self.mesh, self.annulus.as_ref(), sector),
+        }
     }
 
     /// Choices of the run.
@@ -280,6 +289,7 @@ impl<'a> TransientStudy<'a> {
             title: &case.title,
             mesh: &self.mesh,
             solid: self.sector.as_ref(),
+            contact_nodes: self.body().interface().nodes,
             material: case.materials(),
             has_harmonics: case.has_sectors(),
             thickness: self.thickness(),
@@ -327,12 +337,26 @@ impl<'a> TransientStudy<'a> {
         let speed = self.case.contact.sliding.rotation_speed;
         match &self.sector {
             Some(sector) => speed * sector.rings[sector.rings.len() / 2].radius,
+            None if self.assembly.is_some() => self.sliding_speed(),
             None => self.body().interface().surface_speed(speed),
         }
     }
 
+    /// Mean speed at which the contacts of an assembly slide, m/s.
+    fn sliding_speed(&self) -> f64 {
+        let contacts = self.assembly.iter().flat_map(Assembly::contacts);
+        let points = contacts.flat_map(|(_, surface)| &surface.points);
+        let [speed, area] = points.fold([0.0; 2], |[speed, area], point| {
+            [speed + point.weight * point.speed, area + point.weight]
+        });
+        speed / area.max(f64::MIN_POSITIVE)
+    }
+
     /// What records are multiplied by, m: those of a body in three dimensions are of the whole, and this is 1.
     pub fn thickness(&self) -> f64 {
-        self.sector.as_ref().map_or(self.case.thickness, |_| 1.0)
+        match self.sector.is_some() || self.assembly.is_some() {
+            true => 1.0,
+            false => self.case.thickness,
+        }
     }
 }

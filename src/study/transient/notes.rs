@@ -36,15 +36,21 @@ impl TransientStudy<'_> {
     fn no_sliding(&self) -> Option<String> {
         let case = self.case;
         let starts_at_rest = self.settings.initial == InitialState::Rest;
+        let jams = |error: PrestressError| match error {
+            PrestressError::NoState { .. } => Some(format!("the body jams: {error}")),
+            // A gap closes as the run moves the body, and other faults stop the run itself.
+            _ => None,
+        };
+        if let Some(assembly) = &self.assembly {
+            let range = assembly.range(&[case.contact.sliding.friction_coefficient]);
+            return range.err().and_then(jams);
+        }
         if !starts_at_rest || case.has_sectors() || case.contact.sliding.rotation_speed == 0.0 {
             return None;
         }
         let stiffness = assemble_stiffness(&self.mesh, case.materials());
-        match SteadySliding::solve(&self.mesh, &stiffness, &case.contact.sliding) {
-            Err(error @ PrestressError::NoState { .. }) => Some(format!("the body jams: {error}")),
-            // A gap closes as the run moves the body, and other faults stop the run itself.
-            Ok(_) | Err(_) => None,
-        }
+        let base = SteadySliding::solve(&self.mesh, &stiffness, &case.contact.sliding);
+        base.err().and_then(jams)
     }
 
     /// That displacements or strains are not small.
@@ -62,9 +68,17 @@ impl TransientStudy<'_> {
 
         // From the strain energy U: the uniform strain that the body would store it with, U = 1/2 (sum E A) strain^2.
         let materials = self.case.materials();
-        let stiffness: f64 = (0..mesh.element_count())
-            .map(|e| mesh.element_area(e) * materials.of(mesh.region(e)).young_modulus)
-            .sum();
+        let stiffness: f64 = match mesh.dimension {
+            3 => {
+                let volumes = mesh.region_measures().into_iter().enumerate();
+                volumes
+                    .map(|(region, volume)| volume * materials.of(region).young_modulus)
+                    .sum()
+            }
+            _ => (0..mesh.element_count())
+                .map(|e| mesh.element_area(e) * materials.of(mesh.region(e)).young_modulus)
+                .sum(),
+        };
         let depth = self.sector.as_ref().map_or(1.0, |_| self.case.thickness);
         let energies = record.rows.iter().map(|row| row.strain_energy);
         let energy = energies.fold(0.0, f64::max);

@@ -2,10 +2,11 @@
 
 use crate::case::{Case, Transient};
 use crate::mesh::{AnnulusMesh, Mesh, SolidSector};
+use crate::prestress::Assembly;
 use crate::study::StudyError;
 use crate::transient::{
-    Breakdown, RecorderSettings, SolidTransientModel, TransientBody, TransientError,
-    TransientModel, TransientSettings,
+    AssemblyTransientModel, Breakdown, RecorderSettings, SolidTransientModel, TransientBody,
+    TransientError, TransientModel, TransientSettings,
 };
 
 /// The body of a case; `mesh` and `annulus` are the section of one in three dimensions, `sector`.
@@ -42,6 +43,23 @@ pub fn body<'a>(
         stiffness,
     }
     .into()
+}
+
+/// The bodies of an assembly.
+pub fn assembly<'a>(case: &Case, assembly: &'a Assembly<'a>) -> AssemblyTransientModel<'a> {
+    let rayleigh = case.damping.rayleigh;
+    let motions = case.body.assembly().map_or(&[][..], |body| &body.motions);
+    let axis = motions.first().map(|motion| [motion.center, motion.axis]);
+    AssemblyTransientModel {
+        assembly,
+        damping: rayleigh,
+        contact: case.contact.sliding,
+        contact_damping: match case.damping.include_contact {
+            true => rayleigh.stiffness_coefficient,
+            false => 0.0,
+        },
+        axis: axis.unwrap_or([[0.0; 3], [0.0, 0.0, 1.0]]),
+    }
 }
 
 pub fn run_settings(case: &Case, transient: &Transient) -> TransientSettings {

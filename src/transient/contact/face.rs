@@ -88,6 +88,7 @@ impl LagrangeContact {
             unconverged_steps: 0,
             opposite: None,
             inward: face.inward_sign(),
+            points: None,
             face: Some(FaceSliding {
                 is_free: across.iter().map(|&k| operator.masses()[k] > 0.0).collect(),
                 across,
@@ -101,7 +102,8 @@ impl LagrangeContact {
 
     /// Friction across the sliding of each node, N; none on an edge.
     pub(in crate::transient) fn across_force(&self) -> &[f64] {
-        self.face.as_ref().map_or(&[], |face| &face.forces)
+        let on_face = self.face.as_ref().map(|face| face.forces.as_slice());
+        on_face.unwrap_or_else(|| self.across_at_points())
     }
 
     /// [`Self::apply`] on a face.

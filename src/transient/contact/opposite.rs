@@ -307,7 +307,7 @@ impl LagrangeContact {
             return self.tangential_force[i];
         }
         let velocity = [opposite.nodes[i].before[1], free];
-        let (friction, force) = self.slip(i, inertia, velocity, normal);
+        let (friction, force) = self.slip_force(i, inertia, velocity, normal);
         self.tangential_force[i] = friction;
         force
     }

@@ -1,0 +1,203 @@
+//! Model of a transient of an assembly of solid bodies.
+
+use super::boundary::BoundaryForces;
+use super::perturbation::Place;
+use super::{LagrangeContact, Perturbation, StepPlan, TransientError, TransientSettings};
+use crate::contact::{ContactInterface, SlidingContact};
+use crate::fem::operator::{AssembledOperator, SimdLevel, StiffnessOperator};
+use crate::fem::{
+    MassKind, RayleighDamping, Triplets, assemble_extra_damping, assemble_pressures, lumped_masses,
+};
+use crate::mesh::Counterface;
+use crate::prestress::{Assembly, PrestressError};
+use std::collections::BTreeMap;
+
+/// Solid bodies that are tied together and slide on each other.
+///
+/// Dofs are those of the mesh, three a node in its frame; ties and held dofs are eliminated, what follows others moves with
+/// them. Meshes stay where they are: sliding is a relative velocity at each contact point. Forces are in N, energies in J.
+#[derive(Clone, Copy, Debug)]
+pub struct AssemblyTransientModel<'a> {
+    /// The bodies with their ties and contacts.
+    pub assembly: &'a Assembly<'a>,
+    /// Rayleigh coefficients.
+    pub damping: RayleighDamping,
+    /// Friction of the first contact, and the speed of the first motion.
+    pub contact: SlidingContact,
+    /// Stiffness damping that acts on the springs of contacts too, s.
+    pub contact_damping: f64,
+    /// Point of the axis about which places are told, and the axis.
+    pub axis: [[f64; 3]; 2],
+}
+
+impl AssemblyTransientModel<'_> {
+    /// Its operator: the stiffness over the dofs that move by themselves, with their lumped masses.
+    ///
+    /// The mass of a dof that follows others goes to these, by the size of their shares.
+    ///
+    /// # Errors
+    /// [`TransientError::Operator`] where a node has no positive mass.
+    pub fn operator(&self, simd: SimdLevel) -> Result<Box<dyn StiffnessOperator>, TransientError> {
+        let (mesh, basis) = (self.assembly.mesh(), self.assembly.basis());
+        let unknowns = basis.unknowns();
+        let moves = |dof: usize| unknowns.unknown_of[dof].is_some();
+        let masses = lumped_masses(mesh, self.assembly.materials());
+        let mut own = vec![0.0; mesh.dof_count()];
+        let mut followers = BTreeMap::new();
+        for (dof, row) in basis.combinations() {
+            let shares: Vec<(u32, f64)> = row
+                .iter()
+                .filter(|(other, share)| moves(*other) && *share != 0.0)
+                .map(|&(other, share)| (other as u32, share))
+                .collect();
+            followers.insert(dof, shares);
+        }
+        for (dof, mass) in masses.iter().flat_map(|&mass| [mass; 3]).enumerate() {
+            match followers.get(&dof) {
+                None if moves(dof) => own[dof] += mass,
+                None => {}
+                Some(shares) => {
+                    let total: f64 = shares.iter().map(|(_, share)| share.abs()).sum();
+                    for &(other, share) in shares {
+                        own[other as usize] += mass * share.abs() / total;
+                    }
+                }
+            }
+        }
+        let mut stiffness = self.assembly.elastic().clone();
+        let [springs, _] = self.assembly.supports();
+        stiffness.entries.extend_from_slice(&springs.entries);
+        let followers = followers.into_iter();
+        let followers = followers
+            .map(|(dof, shares)| (dof as u32, shares))
+            .collect();
+        let stiffness = basis.congruent(&stiffness);
+        let operator = AssembledOperator::new(&stiffness, own, followers, simd)?;
+        Ok(Box::new(operator))
+    }
+
+    /// The nodes of the contact surfaces, contact by contact; each has an area for a length and its angle about the axis.
+    pub fn interface(&self) -> ContactInterface {
+        let (mut nodes, mut areas) = (Vec::new(), Vec::new());
+        for (_, surface) in self.assembly.contacts() {
+            let mut own: BTreeMap<u32, f64> = surface.nodes.iter().map(|&n| (n, 0.0)).collect();
+            for (point, shares) in surface.points.iter().zip(&surface.shares) {
+                for &(node, share) in shares {
+                    *own.entry(node).or_default() += share * point.weight;
+                }
+            }
+            nodes.extend(own.keys());
+            areas.extend(own.values());
+        }
+        let angles = nodes.iter().map(|&node: &u32| self.place(node as usize)[1]);
+        ContactInterface {
+            angles: angles.collect(),
+            gaps: vec![0.0; nodes.len()],
+            nodes,
+            tributary_lengths: areas,
+            counterface: Counterface::Plane {
+                point: [0.0; 2],
+                direction: [1.0, 0.0],
+            },
+            opposite: Vec::new(),
+        }
+    }
+
+    /// Distance of a node from the axis (m) and its angle about it (rad).
+    pub(super) fn place(&self, node: usize) -> [f64; 2] {
+        let [center, axis] = self.axis.map(nalgebra::Vector3::from);
+        let arm = nalgebra::Vector3::from(self.assembly.mesh().nodes[node]) - center;
+        // The axis with the smallest share along the other one gives the zero of the angle.
+        let first = nalgebra::Vector3::ith(axis.iamin(), 1.0);
+        let first = (first - axis * axis.dot(&first)).normalize();
+        let [x, y] = [arm.dot(&first), arm.dot(&axis.cross(&first))];
+        [x.hypot(y), y.atan2(x)]
+    }
+
+    /// Displacement of steady sliding over all dofs, m.
+    pub(super) fn sliding_displacement(&self) -> Result<Vec<f64>, TransientError> {
+        let friction = self.contact.friction_coefficient;
+        let range = self.assembly.range(&[friction])?;
+        let state = range.state_of.first().and_then(|&at| range.states.get(at));
+        let state = state.ok_or(PrestressError::NoState {
+            friction_coefficient: friction,
+        })?;
+        Ok(state.displacement(friction))
+    }
+
+    pub(super) fn plan(
+        &self,
+        operator: &dyn StiffnessOperator,
+        settings: &TransientSettings,
+    ) -> Result<StepPlan, TransientError> {
+        StepPlan::new(operator, &self.bounding_damping(operator), settings)
+    }
+
+    /// Coefficients of a Rayleigh damping that is nowhere below that of the bodies and their supports: what bounds the step.
+    fn bounding_damping(&self, operator: &dyn StiffnessOperator) -> RayleighDamping {
+        let mut bound = self.damping;
+        let (mesh, materials) = (self.assembly.mesh(), self.assembly.materials());
+        for region in 0..mesh.regions.len() {
+            let own = materials.own_damping(region).unwrap_or(self.damping);
+            bound.mass_coefficient = bound.mass_coefficient.max(own.mass_coefficient);
+            bound.stiffness_coefficient =
+                bound.stiffness_coefficient.max(own.stiffness_coefficient);
+        }
+        let [_, dashpots] = self.assembly.supports();
+        let rates = dashpots.entries.iter().filter_map(|&(row, column, value)| {
+            let mass = operator.masses()[operator.position(row)];
+            (row == column && mass > 0.0).then(|| value / mass)
+        });
+        bound.mass_coefficient += rates.fold(0.0, f64::max);
+        bound
+    }
+
+    pub(super) fn boundary_forces(&self, operator: &dyn StiffnessOperator) -> BoundaryForces {
+        let (mesh, basis) = (self.assembly.mesh(), self.assembly.basis());
+        let [springs, dashpots] = self.assembly.supports();
+        let mut damping: Triplets = dashpots.clone();
+        let beta = self.damping.stiffness_coefficient;
+        if beta != 0.0 {
+            damping.entries.extend(springs.scaled(-beta).entries);
+        }
+        let materials = self.assembly.materials();
+        let own = assemble_extra_damping(mesh, materials, MassKind::Lumped, self.damping);
+        damping.entries.extend(own.unwrap_or_default().entries);
+        let pressure = assemble_pressures(mesh).unwrap_or_default();
+        let pressure = match pressure.is_empty() {
+            true => pressure,
+            false => basis.transposed_forces(&pressure),
+        };
+        BoundaryForces::of(&basis.congruent(&damping), &pressure, operator)
+    }
+
+    pub(super) fn lagrange_contact(&self, operator: &dyn StiffnessOperator) -> LagrangeContact {
+        let friction = self.contact.friction_coefficient;
+        LagrangeContact::at_points(operator, self.assembly, friction, self.contact_damping)
+    }
+
+    /// The velocity of a perturbation over all dofs, m/s: waves along the axis of the motion over all bodies, and noise.
+    pub(super) fn perturbed(
+        &self,
+        perturbation: &Perturbation,
+    ) -> Result<Vec<f64>, TransientError> {
+        let (mesh, basis) = (self.assembly.mesh(), self.assembly.basis());
+        perturbation.check_harmonics(self.interface().len())?;
+        let axis = nalgebra::Vector3::from(self.axis[1]);
+        let mut velocity = vec![0.0; mesh.dof_count()];
+        for node in 0..mesh.node_count() {
+            let along = perturbation.along(&Place {
+                depth: 0.0,
+                angle: self.place(node)[1],
+                tangent: 0.0,
+            });
+            let own = mesh.frame(node).transpose() * axis * along;
+            velocity[3 * node..3 * node + 3].copy_from_slice(own.as_slice());
+        }
+        perturbation.add_noise(&mut velocity, 3);
+        // What is held or follows others does not move by itself.
+        let unknowns = basis.unknowns();
+        let free = unknowns.expand(&unknowns.restrict(&velocity));
+        Ok(basis.displacement(&free))
+    }
+}

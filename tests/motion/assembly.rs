@@ -1,0 +1,260 @@
+//! Transients of solid bodies that are tied together and slide on each other.
+
+use crate::bricks::{Block, file_of};
+use frictionsim::cea::sparse::sweep;
+use frictionsim::cea::{ComplexMode, ModeLimit, SweepRequest};
+use frictionsim::contact::{ContactStiffness, FrictionDecay, Motion, PairFriction, SlidingContact};
+use frictionsim::fem::operator::SimdLevel;
+use frictionsim::fem::{ElasticMaterial, MassKind, PlaneFormulation, RayleighDamping};
+use frictionsim::mesh::{BoundaryCondition, GmshFile, Mesh};
+use frictionsim::prestress::{
+    Assembly, BaseChoice, DampingModel, SlidingSurfaces, TangentOptions, TiedSurfaces,
+};
+use frictionsim::transient::{
+    AssemblyTransientModel, CentralDifference, InitialState, OperatorChoice, Perturbation,
+    Recorder, RecorderSettings, TimeStep, TransientAnalysis, TransientBody, TransientSettings,
+};
+
+const STEEL: ElasticMaterial = ElasticMaterial {
+    young_modulus: 2e11,
+    poisson_ratio: 0.3,
+    density: 7850.0,
+    formulation: PlaneFormulation::ThreeDimensional,
+    ..ElasticMaterial::PLAIN
+};
+
+const DAMPING: RayleighDamping = RayleighDamping {
+    mass_coefficient: 50.0,
+    stiffness_coefficient: 1e-7,
+};
+
+const FRICTION: f64 = 0.4;
+
+fn boundary(mesh: &Mesh, name: &str) -> usize {
+    let place = mesh.boundaries.iter().position(|b| b.name == name);
+    place.unwrap_or_else(|| panic!("no boundary {name}"))
+}
+
+/// A block with a plate of `plate` elements glued to it, pressed onto another block that moves under it.
+fn mesh(plate: [usize; 3]) -> Mesh {
+    let block = |name, height: f64, thickness: f64, counts| Block {
+        name,
+        origin: [0.0, 0.0, height],
+        size: [0.05, 0.04, thickness],
+        counts,
+    };
+    let blocks = [
+        block("lower", 0.0, 0.02, [4, 3, 2]),
+        block("upper", 0.02, 0.015, [5, 4, 2]),
+        block("plate", 0.035, 0.005, plate),
+    ];
+    let clamped = BoundaryCondition::Clamped;
+    let held = BoundaryCondition::Fixed([true, true, false]);
+    let conditions = [
+        ("lower_z0", clamped),
+        ("plate_x0", held),
+        ("plate_z1", BoundaryCondition::Pressure(2e6)),
+    ];
+    let conditions = conditions.map(|(name, condition)| (name.to_owned(), condition));
+    let file = file_of(&blocks, |point| point);
+    Mesh::from_solids(&GmshFile::read(&file).unwrap(), 1.0, &conditions).unwrap()
+}
+
+fn assembly<'a>(
+    mesh: &'a Mesh,
+    normal_stiffness: Option<f64>,
+    decay: Option<FrictionDecay>,
+    speed: f64,
+) -> Assembly<'a> {
+    let contact = SlidingSurfaces {
+        name: "pad".to_owned(),
+        surface: boundary(mesh, "upper_z0"),
+        counter: boundary(mesh, "lower_z1"),
+        friction: PairFriction { ratio: 1.0, decay },
+        stiffness: ContactStiffness {
+            normal_stiffness,
+            ..ContactStiffness::default()
+        },
+        law: None,
+    };
+    let tie = TiedSurfaces {
+        name: "glue".to_owned(),
+        surface: boundary(mesh, "upper_z1"),
+        counter: boundary(mesh, "plate_z0"),
+    };
+    let region = mesh.regions.iter().position(|name| name == "lower");
+    let motion = Motion {
+        regions: vec![region.unwrap()],
+        axis: [0.0, 0.0, 1.0],
+        center: [0.02, -0.2, 0.0],
+        rotation_speed: speed,
+        has_rotation_terms: false,
+    };
+    Assembly::at_nodes(
+        mesh,
+        &STEEL,
+        &[tie],
+        &[contact],
+        &[motion],
+        BaseChoice::Solved,
+    )
+    .unwrap()
+}
+
+fn model<'a>(assembly: &'a Assembly<'a>) -> AssemblyTransientModel<'a> {
+    AssemblyTransientModel {
+        assembly,
+        damping: DAMPING,
+        contact: SlidingContact {
+            friction_coefficient: FRICTION,
+            decay: None,
+            interference: 0.0,
+            rotation_speed: 10.0,
+        },
+        contact_damping: 0.0,
+        axis: [[0.02, -0.2, 0.0], [0.0, 0.0, 1.0]],
+    }
+}
+
+fn settings(initial: InitialState, duration: f64, noise: f64) -> TransientSettings {
+    TransientSettings {
+        duration,
+        time_step: TimeStep::Auto,
+        sample_interval: 2e-6,
+        expansion_time: 1e-4,
+        initial,
+        perturbation: Perturbation {
+            noise,
+            ..Perturbation::default()
+        },
+    }
+}
+
+/// The record of a run, and the largest speed at its end, m/s.
+fn run(assembly: &Assembly<'_>, settings: &TransientSettings) -> (Recorder, f64) {
+    let body = TransientBody::from(model(assembly));
+    let operator = body
+        .operator(OperatorChoice::Auto, SimdLevel::Scalar)
+        .unwrap();
+    let mut run = CentralDifference::start(body, operator.as_ref(), settings).unwrap();
+    let mut record = Recorder::new(&run, &RecorderSettings::default()).unwrap();
+    run.run(&mut record).unwrap();
+    let speeds = run.fields().velocity.iter().map(|v| v.abs());
+    (record, speeds.fold(0.0, f64::max))
+}
+
+/// The modes of the eigenvalue analysis, with the lumped mass of the transient.
+fn modes(assembly: &Assembly<'_>) -> Vec<ComplexMode> {
+    let options = TangentOptions {
+        mass: MassKind::Lumped,
+        geometric_stiffness: false,
+        damping: DAMPING,
+        damping_model: DampingModel::BodyOnly,
+        contact: ContactStiffness::default(),
+    };
+    let range = assembly.range(&[FRICTION]).unwrap();
+    let tangent = assembly.tangent(&range.states[0], &options).unwrap();
+    let request = SweepRequest {
+        friction_coefficients: &[FRICTION],
+        limit: ModeLimit::Lowest(40),
+        shapes_at: &[],
+    };
+    let found = sweep(&tangent, &request, &|_| {}).unwrap();
+    found
+        .points
+        .into_iter()
+        .flat_map(|point| point.modes)
+        .collect()
+}
+
+const SPRINGS: [Option<f64>; 2] = [None, Some(5e12)];
+
+/// Independent: the base state of the eigenvalue analysis, through a tie and a contact whose meshes do not match, is at rest.
+#[test]
+fn steady_sliding_of_an_assembly_is_an_equilibrium_of_its_transient() {
+    let mesh = mesh([4, 3, 1]);
+    for springs in SPRINGS {
+        let assembly = assembly(&mesh, springs, None, 10.0);
+        let (record, speed) = run(&assembly, &settings(InitialState::SteadySliding, 1e-4, 0.0));
+        let counts = record.rows.last().unwrap().counts;
+        let state = &assembly.range(&[FRICTION]).unwrap().states[0];
+        let pressed = state.is_pressed.iter().filter(|pressed| **pressed);
+        let open = state.is_pressed.len() - pressed.count();
+        println!(
+            "{springs:?}: {speed:e} m/s, {counts:?}, {}",
+            record.unconverged_steps
+        );
+        // Sliding at 2 m/s; round-off of the pressed displacement over a step.
+        assert!(speed < 1e-7, "{speed:e}");
+        // Over the steps of a sample.
+        let points = (counts.slip + counts.open) as usize / state.is_pressed.len();
+        assert_eq!((counts.stick, counts.open as usize), (0, points * open));
+    }
+}
+
+/// Theory: what the loads, friction and damping do is in the energy, through impacts, stick and lift-off.
+#[test]
+fn the_energy_of_an_assembly_closes_from_rest_to_sliding() {
+    let mesh = mesh([4, 3, 1]);
+    for springs in SPRINGS {
+        let assembly = assembly(&mesh, springs, None, 0.05);
+        let (record, _) = run(&assembly, &settings(InitialState::Rest, 1e-3, 0.05));
+        let sum = |of: fn(&frictionsim::transient::SampleRow) -> u64| -> u64 {
+            record.rows.iter().map(of).sum()
+        };
+        let counts = [
+            sum(|row| row.counts.stick),
+            sum(|row| row.counts.slip),
+            sum(|row| row.counts.open),
+        ];
+        let residual = TransientAnalysis::without_symmetry(&record).largest_residual;
+        println!(
+            "{springs:?}: {residual:e}, {counts:?}, {}",
+            record.unconverged_steps
+        );
+        assert!(counts.iter().all(|&count| count > 0), "{counts:?}");
+        assert!(residual < 1e-11, "{residual:e}");
+        assert_eq!(record.unconverged_steps, 0);
+    }
+}
+
+/// Independent: a vibration grows at the rate and frequency of the eigenvalue analysis, which has matrices of its own.
+#[test]
+fn a_vibration_of_an_assembly_grows_as_its_eigenvalue_says() {
+    // Lumped masses are the same before and after the tie is eliminated where its meshes match.
+    let mesh = mesh([5, 4, 1]);
+    let decay = FrictionDecay {
+        static_ratio: 4.0,
+        decay_speed: 1.0,
+    };
+    for springs in SPRINGS {
+        let assembly = assembly(&mesh, springs, Some(decay), 10.0);
+        let modes = modes(&assembly);
+        let (record, _) = run(
+            &assembly,
+            &settings(InitialState::SteadySliding, 4e-3, 1e-6),
+        );
+        let analysis = TransientAnalysis::without_symmetry(&record);
+        let stage = analysis.growth[0].stage.as_ref().unwrap();
+        let found = [stage.rate_per_s.value, stage.frequency_hz.value.abs()];
+        // Several modes grow; the strongest vibration is one of them.
+        let distance = |mode: &&ComplexMode| (mode.frequency_hz() - found[1]).abs();
+        let own = modes
+            .iter()
+            .min_by(|a, b| distance(a).total_cmp(&distance(b)))
+            .unwrap();
+        let expected = [std::f64::consts::TAU * own.real_hz(), own.frequency_hz()];
+        println!(
+            "{springs:?}: {found:?}, eigenvalue {expected:?}, residual {:e}",
+            analysis.largest_residual
+        );
+        assert!(
+            (found[0] / expected[0] - 1.0).abs() < 0.01,
+            "{found:?} {expected:?}"
+        );
+        assert!(
+            (found[1] / expected[1] - 1.0).abs() < 1e-3,
+            "{found:?} {expected:?}"
+        );
+    }
+}
