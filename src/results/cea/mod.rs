@@ -29,7 +29,9 @@ pub use reading::{Contribution, Coupling, ModeName, Reading, Source};
 pub use report::html_report;
 pub use sensitivity::{OnsetRates, SensitivityReport, SensitivityRow};
 pub use solid::SolidReport;
-pub use summary::{CeaSummary, CriticalFriction, ModeSummary, UnstableCount, summary};
+pub use summary::{
+    CeaSummary, CriticalFriction, ModeSummary, UnstableCount, UnstableMode, summary,
+};
 
 use crate::cea::{ComplexMode, FrictionPoint, FrictionSweep, UnstableInterval};
 use crate::mesh::Mesh;
