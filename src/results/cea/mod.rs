@@ -4,6 +4,7 @@ mod assembly;
 mod base;
 mod branches;
 mod coupling;
+mod feed;
 mod figures;
 mod files;
 mod kept;
@@ -19,6 +20,7 @@ mod summary;
 
 pub use assembly::{AssemblyPoint, AssemblyReport};
 pub use base::{BaseField, BaseState, write_base};
+pub use feed::{Feed, FeedPlace, ModeFeed};
 pub use figures::draw;
 pub use files::{write, write_eigenvalues, write_stability};
 pub use kept::KeptSteps;

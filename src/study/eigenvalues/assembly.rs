@@ -44,7 +44,7 @@ impl AssemblyModel {
     }
 
     /// The state at the case's own friction coefficient.
-    fn base(&self) -> &PressedState {
+    pub(super) fn base(&self) -> &PressedState {
         let own = self.range.state_of.last();
         &self.range.states[*own.expect("the case's own friction coefficient comes last")]
     }
@@ -124,7 +124,7 @@ impl AssemblyModel {
     }
 }
 
-fn assembled(body: &AssemblyBody) -> Result<Assembly<'_>, PrestressError> {
+pub(super) fn assembled(body: &AssemblyBody) -> Result<Assembly<'_>, PrestressError> {
     Assembly::new(
         &body.mesh,
         &body.materials,

@@ -11,6 +11,11 @@ use crate::results::improve::{Candidate, FrontPoint, State};
 use crate::study::StudyError;
 use rayon::prelude::*;
 
+/// Most runs for each size.
+const RUNS: usize = 3;
+/// What is said of a candidate before it runs.
+const UNTRIED: &str = "not run again";
+
 /// The best places of masses and removals of `improve.front` sizes up to those of the case, by rising mass; those that no lighter
 /// one beats are run again, and hold where none that is confirmed does.
 ///
@@ -46,21 +51,31 @@ pub(super) fn front(
     let weight = |own: &Candidate| own.added_mass_kg.abs();
     tried.sort_by(|a, b| weight(a).total_cmp(&weight(b)));
 
-    // Those on the predicted front as cases of their own.
+    // Those on the front as cases of their own; where one does not hold, the next ones, until all on it do.
     let before = state(base.outlook, base.onset);
-    let on_front = undominated(&tried, &before, |own| Some(own.predicted));
-    let again: Vec<(usize, Result<State, String>)> = on_front
-        .par_iter()
-        .map(|&at| (at, run_again(base, &tried[at].keys)))
-        .collect();
-    for (at, outcome) in again {
-        tried[at].verdict = match &outcome {
-            Ok(found) => verdict(&before, found),
-            Err(reason) => format!("struck off: {reason}"),
-        };
-        tried[at].confirmed = outcome.ok();
-    }
     let holds = |own: &Candidate| !own.verdict.starts_with("struck off");
+    let mut left = RUNS * asked.front;
+    loop {
+        let best = |own: &Candidate| own.confirmed.or(Some(own.predicted)).filter(|_| holds(own));
+        let mut open = undominated(&tried, &before, best);
+        open.retain(|&at| tried[at].verdict == UNTRIED);
+        open.truncate(left);
+        if open.is_empty() {
+            break;
+        }
+        left -= open.len();
+        let again: Vec<(usize, Result<State, String>)> = open
+            .par_iter()
+            .map(|&at| (at, run_again(base, &tried[at].keys)))
+            .collect();
+        for (at, outcome) in again {
+            tried[at].verdict = match &outcome {
+                Ok(found) => verdict(&before, found),
+                Err(reason) => format!("struck off: {reason}"),
+            };
+            tried[at].confirmed = outcome.ok();
+        }
+    }
     let confirmed = undominated(&tried, &before, |own| own.confirmed.filter(|_| holds(own)));
     let points = tried.into_iter().enumerate();
     Ok(points
