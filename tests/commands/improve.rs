@@ -191,9 +191,10 @@ fn the_front_of_mass_against_critical_friction_is_run_again_and_rises() {
         let weight = own["added_mass_kg"].as_f64().unwrap().abs();
         assert!(weight >= mass - 1e-15 && weight < 0.06, "{own}");
         if own["on_front"] == true {
-            assert_eq!(
-                own["confirmed"]["unstable_beside"],
-                summary["base"]["unstable_beside"]
+            let beside = |state: &Value| state["unstable_beside"].as_u64().unwrap();
+            assert!(
+                beside(&own["confirmed"]) <= beside(&summary["base"]),
+                "{own}"
             );
             assert!(weight > mass && onset(&own["confirmed"]) > reached, "{own}");
             (reached, count) = (onset(&own["confirmed"]), count + 1);

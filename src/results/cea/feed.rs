@@ -157,7 +157,7 @@ impl Feed {
             Counterface::Cylinder { .. } => Axis::degrees().tight(),
             Counterface::Plane { .. } => Axis::new("along the contact", "mm").times(1e3).tight(),
         };
-        let y = Axis::new("growth rate for each area", "1/(s cm²)").times(1e-4);
+        let y = Axis::new("feed", "1/(s cm²)").times(1e-4);
         let mut panel = Panel::new(x, y)
             .height(150.0)
             .layer(Rule::horizontal(0.0).stroke(Stroke::solid(INK, 0.6)));
@@ -184,7 +184,7 @@ impl Feed {
             let numbers = values.iter().copied().filter(|value| value.is_finite());
             let largest = numbers.map(f64::abs).fold(f64::MIN_POSITIVE, f64::max);
             surfaces.iter().map(move |(contact, boundary)| {
-                let axis = Axis::new("growth rate for each area", "1/(s cm²)")
+                let axis = Axis::new("feed", "1/(s cm²)")
                     .times(1e-4)
                     .between(-largest, largest);
                 let view = SolidView::of_boundary(mesh, *boundary);

@@ -214,7 +214,7 @@ pub(super) fn front_figure(summary: &ImproveSummary) -> Result<Figure, ChartErro
             (false, UNSTABLE, format!("{kind}, run again and struck off")),
         ] {
             let again =
-                own().filter(|own| !own.candidate.verdict.starts_with("struck off") == holds);
+                own().filter(|own| own.candidate.verdict.starts_with("struck off") != holds);
             let again = again
                 .filter_map(|own| Some((weight(own), onset(own.candidate.confirmed.as_ref()?))));
             panel = panel.layer(Points::new(again).marker(marker, 2.8, colour).name(name));
