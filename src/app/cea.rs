@@ -48,6 +48,10 @@ pub const PROFILE: Profile = Profile {
             "what each part, support and contact adds to growth; which modes couple",
         ),
         (
+            "feed.csv, feed.vtu",
+            "where on the contact surfaces unstable modes are fed",
+        ),
+        (
             "prestress.csv, prestress.vtu",
             "steady sliding, node by node",
         ),

@@ -31,6 +31,10 @@ pub const PROFILE: Profile = Profile {
             "derivatives of growth by a modification at each place",
         ),
         ("improved.toml", "the keys that make the best one"),
+        (
+            "front.csv",
+            "mass against critical friction, with improve.front",
+        ),
     ],
     examples: &[
         (
@@ -40,6 +44,10 @@ pub const PROFILE: Profile = Profile {
         (
             "frictionsim improve disc.toml --set improve.modifications=mass --set improve.mass=0.005",
             "where five grams do",
+        ),
+        (
+            "frictionsim improve disc.toml --set improve.front=6",
+            "how little mass gets how far",
         ),
     ],
     redraw: Redraw::OfCase(redraw),
@@ -68,6 +76,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         modes: found.modes.clone(),
         sizes: found.sizes,
         candidates: found.candidates.clone(),
+        front: found.front.clone(),
         notes: found.notes.clone(),
         manifest: session.manifest.clone(),
     };
@@ -89,7 +98,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 pub fn redraw(folder: &OutputFolder, case: &Case, options: &DrawingOptions) -> Result<(), Failure> {
     let summary: ImproveSummary = read_summary(folder.path())?;
     let mut case = case.clone();
-    case.improve.confirm = 0;
+    (case.improve.confirm, case.improve.front) = (0, 0);
     let Improvement { mesh, fields, .. } = improve(&case)?;
     Ok(draw(folder, &summary, &mesh, &fields, options)?)
 }

@@ -5,13 +5,15 @@ use super::key::Bound;
 use super::reader::Section;
 use super::value::{RawEntry, RawValue, range_count};
 use super::words::{Analysis, Combination};
-use super::{Case, RawCase, keys, suggestion};
+use super::{Case, RawCase, keys, parameters, suggestion};
 
 /// A swept key and its values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SweptKey {
     /// Dotted case key.
     pub key: String,
+    /// Further keys that are given the same values.
+    pub also: Vec<String>,
     /// Values, as TOML.
     pub values: Vec<String>,
     /// Where they are given.
@@ -29,6 +31,18 @@ pub struct Sweep {
     pub analyses: Vec<Analysis>,
 }
 
+impl SweptKey {
+    /// The key and those that go with it.
+    pub fn names(&self) -> impl Iterator<Item = &String> {
+        std::iter::once(&self.key).chain(&self.also)
+    }
+
+    /// The overrides that give it one of its values.
+    fn overrides<'a>(&'a self, value: &'a str) -> impl Iterator<Item = String> + 'a {
+        self.names().map(move |name| format!("{name}={value}"))
+    }
+}
+
 impl Sweep {
     /// Number of points.
     pub fn point_count(&self) -> usize {
@@ -39,27 +53,27 @@ impl Sweep {
         }
     }
 
-    /// The overrides that make point `index`, one for each key, in the order of the keys.
+    /// The overrides that make point `index`, one for each key and for each that goes with it, in the order of the keys.
     pub fn overrides(&self, index: usize) -> Vec<String> {
         let mut rest = index;
-        let mut overrides: Vec<String> = self
+        let mut places: Vec<usize> = self
             .keys
             .iter()
             .rev()
-            .map(|key| {
-                let at = match self.combination {
-                    Combination::Grid => {
-                        let at = rest % key.values.len();
-                        rest /= key.values.len();
-                        at
-                    }
-                    Combination::Zip => index,
-                };
-                format!("{}={}", key.key, key.values[at])
+            .map(|key| match self.combination {
+                Combination::Grid => {
+                    let at = rest % key.values.len();
+                    rest /= key.values.len();
+                    at
+                }
+                Combination::Zip => index,
             })
             .collect();
-        overrides.reverse();
-        overrides
+        places.reverse();
+        let chosen = self.keys.iter().zip(places);
+        chosen
+            .flat_map(|(key, at)| key.overrides(&key.values[at]))
+            .collect()
     }
 }
 
@@ -83,6 +97,7 @@ pub(super) fn read(root: &Section<'_>) -> Option<Sweep> {
         .into_iter()
         .map(|(name, entry)| values(&section, name, entry))
         .collect();
+    refuse_twice(&section, &keys);
     if keys.is_empty() {
         section.reject_there(
             &section.place(""),
@@ -129,9 +144,20 @@ fn swept<'a>(
     }
 }
 
+/// Keys of a table that ties further keys to a swept one.
+const TIED: [&str; 2] = ["values", "also"];
+
+/// The values of an entry: its own, or those beside `also`.
+fn listed(entry: &RawEntry) -> &RawEntry {
+    match &entry.item.value {
+        RawValue::Table(table) => table.get("values").unwrap_or(entry),
+        _ => entry,
+    }
+}
+
 /// How many values an entry stands for.
 fn length(entry: &RawEntry) -> usize {
-    match &entry.item.value {
+    match &listed(entry).item.value {
         RawValue::Array(items) => items.len(),
         RawValue::Table(table) => range_count(table),
         _ => 1,
@@ -160,8 +186,62 @@ fn fits(section: &Section<'_>, combination: Combination, entries: &[(String, &Ra
     false
 }
 
+/// The keys that `also` names.
+fn also(section: &Section<'_>, key: &str, entry: &RawEntry) -> Vec<String> {
+    let RawValue::Table(table) = &entry.item.value else {
+        return Vec::new();
+    };
+    if !table.contains_key("values") {
+        return Vec::new();
+    }
+    parameters::only(section, table, &TIED);
+    let given = table.get("also");
+    let items = given.into_iter().flat_map(|given| given.item.listed());
+    let names = items.filter_map(|item| {
+        let name = match &item.value {
+            RawValue::String(name) => name.clone(),
+            other => other.to_string(),
+        };
+        let is_key = keys::find(&name).is_some() && !name.starts_with("sweep.");
+        if !is_key {
+            let near = suggestion::nearest_key(&name);
+            section.reject_there(
+                &item.at,
+                format!("\"{key}\" in [sweep] also sets {name}"),
+                "not a case key that can be swept".to_owned(),
+                &near.map_or_else(
+                    || "`also` names dotted case keys that take the same values".to_owned(),
+                    |near| format!("did you mean \"{near}\"?"),
+                ),
+            );
+        }
+        is_key.then_some(name)
+    });
+    names.collect()
+}
+
+/// Refuses keys that two entries set.
+fn refuse_twice(section: &Section<'_>, swept: &[SweptKey]) {
+    let mut seen: Vec<&String> = Vec::new();
+    for key in swept {
+        for name in key.names() {
+            if seen.contains(&name) {
+                section.reject_there(
+                    &key.at,
+                    format!("[sweep] sets {name} twice"),
+                    "set by another entry already".to_owned(),
+                    "sweep each key once",
+                );
+            }
+            seen.push(name);
+        }
+    }
+}
+
 /// The values of a swept key.
 fn values(section: &Section<'_>, key: String, entry: &RawEntry) -> SweptKey {
+    let also = also(section, &key, entry);
+    let entry = listed(entry);
     let values: Vec<String> = match &entry.item.value {
         RawValue::Array(items) => items.iter().map(|item| item.value.to_string()).collect(),
         RawValue::Table(table) => section
@@ -181,6 +261,7 @@ fn values(section: &Section<'_>, key: String, entry: &RawEntry) -> SweptKey {
     }
     SweptKey {
         key,
+        also,
         values,
         at: entry.item.at.clone(),
     }
@@ -223,7 +304,7 @@ pub(super) fn check_values(case: &Case) -> Result<(), CaseErrors> {
         let last = key.values.len().saturating_sub(1);
         let tried = key.values.len().min(most);
         for value in (0..tried).map(|i| &key.values[i * last / tried.max(2).saturating_sub(1)]) {
-            let change = [format!("{}={value}", key.key)];
+            let change: Vec<String> = key.overrides(value).collect();
             let result = point.with_overrides(&change).and_then(read_point);
             if let Err(bad) = result {
                 for mut error in bad.diagnostics {

@@ -7,7 +7,7 @@ use super::cycle_figures::{FamilyRecord, NamedFamily, draw_branches};
 use super::drawing::{Declaration, DrawingOptions, draw_all};
 use super::parameter::{parameter_axis, parameter_name};
 use super::report::NamedFigure;
-use super::sweep::{PointRecord, TWO_FREQUENCY, UNSETTLED, swept_text};
+use super::sweep::{PointRecord, TWO_FREQUENCY, UNSETTLED, operating_matrix, swept_text};
 use crate::chart::{
     Axis, ChartError, Figure, Fill, INK, Line, Marker, Panel, Points, Rule, Scale, Stroke, literal,
     look, plain,
@@ -24,8 +24,8 @@ const MOST_SERIES: usize = 12;
 const NO_STICK: f64 = 0.005;
 
 /// Draws what a study has points for: main frequency and contact status over the rotation speed, or else over another swept
-/// key; critical friction if one key besides friction was swept through eigenvalue analyses; branches of limit cycles if they
-/// were followed at its points.
+/// key; critical friction if one key besides friction was swept through eigenvalue analyses; the operating matrix of their unstable
+/// modes; branches of limit cycles if they were followed at its points.
 ///
 /// `modes` are unstable modes at `friction_coefficient`, the case's own; `highest_friction` is the largest of its eigenvalue
 /// analysis.
@@ -45,6 +45,7 @@ pub fn draw_sweep(
         Box::new(move || study.status()),
         Box::new(move || critical(records, highest_friction)),
         Box::new(move || basin_map(records)),
+        Box::new(move || operating_matrix(records)),
     ];
     let mut figures = draw_all(declarations, options)?;
     let mut families = cycle_families(records);

@@ -96,9 +96,10 @@ impl<'a> SweepPlan<'a> {
         self.sweep.point_count()
     }
 
-    /// Swept keys.
+    /// Swept keys, with those that take the same values.
     pub fn keys(&self) -> Vec<String> {
-        self.sweep.keys.iter().map(|key| key.key.clone()).collect()
+        let keys = self.sweep.keys.iter();
+        keys.flat_map(|key| key.names().cloned()).collect()
     }
 
     /// Names of the analyses.

@@ -2,6 +2,8 @@
 
 #[path = "../common/bricks.rs"]
 mod bricks;
+#[path = "../common/coarse_disc.rs"]
+mod coarse_disc;
 #[path = "../common/disc.rs"]
 mod disc;
 #[path = "../common/msh.rs"]

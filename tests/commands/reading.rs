@@ -1,8 +1,9 @@
 //! `contributions.csv` and `coupling.csv` of `cea`: where growth comes from, which modes couple.
 
 use crate::bricks::{Block, file_of};
+use crate::coarse_disc::coarse_disc;
 use assert_cmd::Command;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::TAU;
 use std::path::Path;
 
@@ -170,5 +171,67 @@ fn an_unstable_mode_consists_of_the_modes_without_friction() {
         for (mode, sum) in sums {
             assert!((0.8..1.0 + 1e-6).contains(&sum), "{method} {mode:?}: {sum}");
         }
+    }
+}
+
+/// Exact identities, whatever presses: the growth that the contact points feed adds up to what the contacts feed in the budget, on
+/// springs and rigid, in the plane and in space, friction constant and falling.
+#[test]
+fn the_feed_over_the_contact_points_adds_up_to_that_of_the_contacts() {
+    let folder = tempfile::tempdir().unwrap();
+    let disc = folder.path().join("disc.toml");
+    std::fs::write(&disc, coarse_disc("[cea]\nmodes = 10\n")).unwrap();
+    let brake = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/operating-matrix.toml");
+    let soft = [
+        "cea.max_frequency_hz=2800",
+        "cea.friction_coefficients=[0.4]",
+        "materials.Outer_Lining.young_modulus=3e9",
+        "materials.Inner_Lining.young_modulus=3e9",
+    ];
+    let compliant = ["contact.normal_stiffness=7.4e12", "cea.method=\"sparse\""];
+    let falling = [
+        "contact.static_friction_ratio=1.3",
+        "contact.decay_speed=1.0",
+    ];
+    let kinds: [(&Path, &[&str]); 4] = [
+        (&brake, &soft),
+        (&disc, &[]),
+        (&disc, &compliant),
+        (&disc, &falling),
+    ];
+    for (path, set) in kinds {
+        cea(folder.path(), path, set);
+        let out = folder.path().join("out");
+        let (feed, rows) = (
+            table(&out.join("feed.csv")),
+            table(&out.join("contributions.csv")),
+        );
+        let own: BTreeSet<&String> = feed.iter().map(|row| &row["mode"]).collect();
+        assert!(!own.is_empty(), "{set:?}: no unstable mode");
+        let friction = number(&feed[0], "friction_coefficient");
+        for mode in own {
+            let points = feed.iter().filter(|row| row["mode"] == **mode);
+            let sum: f64 = points
+                .clone()
+                .map(|row| number(row, "growth_rate_per_s"))
+                .sum();
+            let size: f64 = points
+                .map(|row| number(row, "growth_rate_per_s").abs())
+                .sum();
+            let is_contact = |row: &&BTreeMap<String, String>| {
+                row["mode"] == **mode
+                    && row["kind"] == "contact"
+                    && number(row, "friction_coefficient") == friction
+            };
+            let contacts = rows.iter().filter(is_contact);
+            let fed: f64 = contacts.map(|row| number(row, "growth_rate_per_s")).sum();
+            let omega = TAU * number(rows.iter().find(is_contact).unwrap(), "frequency_hz");
+            // What is left is the residual of the eigenpair, 1e-12 of the forces of inertia and less.
+            assert!(
+                (sum - fed).abs() < 1e-9 * (omega + size),
+                "{set:?}: {sum} {fed}"
+            );
+        }
+        assert!(out.join("feed.vtu").exists());
     }
 }

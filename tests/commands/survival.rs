@@ -2,6 +2,7 @@
 //! must leave whole files, and end in the very table of a run that nothing happened to.
 #![cfg(unix)]
 
+use crate::coarse_disc::coarse_disc;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -12,25 +13,6 @@ const PROGRAM: &str = env!("CARGO_BIN_EXE_frictionsim");
 
 /// A coarse disc: thirty transients of some ten milliseconds each.
 const STUDY: &str = r#"
-title = "Coarse disc"
-[geometry]
-inner_radius = 0.0205
-outer_radius = 0.0905
-thickness = 0.009
-[mesh]
-circumferential_elements = 36
-radial_elements = 6
-[material]
-young_modulus = 2.5e9
-poisson_ratio = 0.3805
-density = 1228.0
-[damping]
-mass_coefficient = 40.0
-stiffness_coefficient = 4.5e-7
-[contact]
-friction_coefficient = 0.3
-interference = 25e-6
-rotation_speed_rpm = 610.0
 [transient]
 duration = 0.02
 [transient.perturbation]
@@ -50,7 +32,7 @@ struct Study {
 impl Study {
     fn new() -> Self {
         let root = tempfile::tempdir().unwrap();
-        std::fs::write(root.path().join("study.toml"), STUDY).unwrap();
+        std::fs::write(root.path().join("study.toml"), coarse_disc(STUDY)).unwrap();
         Self { root }
     }
 

@@ -1,6 +1,8 @@
 //! Consistency checks of parameter studies: the bookkeeping of points, with a made-up analysis in
 //! place of a solver, so that the checks are about who runs what and what is kept of it.
 
+use crate::coarse_disc::coarse_disc;
+use assert_cmd::Command;
 use frictionsim::app::Failure;
 use frictionsim::app::sweep::{
     PointRunner, Shard, SweepPlan, SweepProgress, SweepRun, finished_points, gather,
@@ -9,6 +11,7 @@ use frictionsim::case::Case;
 use frictionsim::results::sweep::{Start, SweepFolder, SweepReport};
 use frictionsim::results::{FolderError, Manifest, OutputFolder, Replace};
 use serde_json::{Map, Value, json};
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -265,4 +268,114 @@ fn keys_zip_value_by_value() {
         Value::Object(plan.swept(2)),
         json!({ "contact.friction_coefficient": 0.3, "mesh.element": "quad8" })
     );
+}
+
+/// Frictions, directions of rotation and moduli of a coarse disc: reversed rotation mirrors the disc, so that each condition has the
+/// modes of its mirror image.
+#[test]
+fn the_operating_matrix_lists_every_unstable_mode_and_reversed_rotation_mirrors_it() {
+    let sections = "[cea]\nmodes = 8\nfriction_coefficients = [0.1, 0.3]\n[sweep]\nanalyses = [\"cea\"]\n\
+        \"contact.rotation_speed_rpm\" = [-610.0, 610.0]\n\
+        \"material.young_modulus\" = [2.5e9, 5e9]\n";
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("case.toml"), coarse_disc(sections)).unwrap();
+    let mut program = Command::cargo_bin("frictionsim").unwrap();
+    let output = program
+        .current_dir(folder.path())
+        .args(["sweep", "case.toml", "--out", "out"])
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{output:?}");
+    let printed = String::from_utf8_lossy(&output.stdout);
+    assert!(
+        printed.contains("of 8 operating conditions (4 points)"),
+        "{printed}"
+    );
+
+    // Every row of the modes of the points that grows is in the table, at both frictions.
+    let rows = |name: &str| -> Vec<BTreeMap<String, String>> {
+        let mut reader = csv::Reader::from_path(folder.path().join("out").join(name)).unwrap();
+        reader.deserialize().map(Result::unwrap).collect()
+    };
+    let unstable = rows("unstable_modes.csv");
+    let at = |friction: &str, modulus: &str, speed: &str| -> Vec<(f64, f64, f64)> {
+        let own = unstable.iter().filter(|row| {
+            row["friction_coefficient"] == friction
+                && row["material.young_modulus"].parse::<f64>().unwrap()
+                    == modulus.parse::<f64>().unwrap()
+                && row["contact.rotation_speed_rpm"].starts_with('-') == (speed == "-")
+        });
+        let number = |row: &BTreeMap<String, String>, key: &str| row[key].parse().unwrap();
+        own.map(|row| {
+            let keys = ["frequency_hz", "growth_rate_per_s", "critical_friction"];
+            let [f, growth, critical] = keys.map(|key| number(row, key));
+            (f, growth, critical)
+        })
+        .collect()
+    };
+    let own = rows("modes.csv");
+    let grows = own.iter().filter(|row| row["unstable"] == "true").count();
+    let of_own = unstable
+        .iter()
+        .filter(|row| row["friction_coefficient"] == "0.3");
+    assert_eq!(of_own.count(), grows);
+    assert!(grows > 4, "{grows}");
+    for modulus in ["2.5e9", "5e9"] {
+        let [one, other] = ["", "-"].map(|sign| at("0.3", modulus, sign));
+        assert_eq!(one.len(), other.len());
+        for (a, b) in one.iter().zip(&other) {
+            let near = |x: f64, y: f64| (x - y).abs() < 1e-6 * x.abs();
+            assert!(
+                near(a.0, b.0) && near(a.1, b.1) && near(a.2, b.2),
+                "{a:?} {b:?}"
+            );
+            // It grows behind its critical friction.
+            assert!(a.1 > 0.0 && a.2 < 0.3, "{a:?}");
+        }
+    }
+
+    // The figure has a panel for each direction, the report its table.
+    let html = std::fs::read_to_string(folder.path().join("out/report.html")).unwrap();
+    for text in ["unstable_modes.csv", "forward, speed", "reverse, speed"] {
+        assert!(html.contains(text), "{text}");
+    }
+    assert!(
+        folder
+            .path()
+            .join("out/figures/operating-matrix.png")
+            .exists()
+    );
+}
+
+#[test]
+fn keys_that_go_together_take_the_same_values_at_every_point() {
+    let case = study(
+        "\n[sweep]\n\"contact.friction_coefficient\" = [0.2, 0.3]\n\
+         \"damping.mass_coefficient\" = { values = { from = 1.0, to = 3.0, count = 3 }, also = \"cea.max_frequency_hz\" }\n",
+    );
+    let plan = SweepPlan::new(&case).unwrap();
+    assert_eq!(plan.count(), 6);
+    assert_eq!(
+        Value::Object(plan.swept(2)),
+        json!({ "contact.friction_coefficient": 0.2, "damping.mass_coefficient": 2, "cea.max_frequency_hz": 2 })
+    );
+    assert_eq!(plan.keys().len(), 3);
+    let file = include_str!("../../cases/polycarbonate-disc.toml");
+    for (also, said) in [
+        (
+            "[\"material.densty\"]",
+            "did you mean \"material.density\"?",
+        ),
+        (
+            "[\"contact.friction_coefficient\"]",
+            "sets contact.friction_coefficient twice",
+        ),
+    ] {
+        let sweep = format!(
+            "\n[sweep]\n\"contact.friction_coefficient\" = [0.2]\n\"damping.mass_coefficient\" = {{ values = [1.0], also = {also} }}\n"
+        );
+        let errors = Case::parse("study.toml", format!("{file}{sweep}").as_bytes(), &[]);
+        let errors = errors.unwrap_err().to_string();
+        assert!(errors.contains(said), "{errors}");
+    }
 }

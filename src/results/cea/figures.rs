@@ -50,6 +50,9 @@ pub fn draw(
     }
     if let Some(reading) = report.reading {
         figures.push(Box::new(move || budget(report, reading)));
+        if let Some(feed) = &reading.feed {
+            figures.push(Box::new(move || feed.figure(report)));
+        }
     }
     if let Some(map) = report.map {
         figures.push(Box::new(|| map.figure()));

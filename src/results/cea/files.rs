@@ -26,6 +26,9 @@ pub fn write(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<Value, Fol
     if let Some(reading) = report.reading {
         folder.write("contributions.csv", |out| reading.write_contributions(out))?;
         folder.write("coupling.csv", |out| reading.write_couplings(out))?;
+        if let Some(feed) = &reading.feed {
+            feed.write(folder, report.mesh)?;
+        }
     }
     if let Some(map) = report.map {
         folder.write("map.csv", |out| map.write(out))?;

@@ -4,6 +4,7 @@ mod assembly;
 mod base;
 mod branches;
 mod coupling;
+mod feed;
 mod figures;
 mod files;
 mod kept;
@@ -19,6 +20,7 @@ mod summary;
 
 pub use assembly::{AssemblyPoint, AssemblyReport};
 pub use base::{BaseField, BaseState, write_base};
+pub use feed::{Feed, FeedPlace, ModeFeed};
 pub use figures::draw;
 pub use files::{write, write_eigenvalues, write_stability};
 pub use kept::KeptSteps;
@@ -29,7 +31,9 @@ pub use reading::{Contribution, Coupling, ModeName, Reading, Source};
 pub use report::html_report;
 pub use sensitivity::{OnsetRates, SensitivityReport, SensitivityRow};
 pub use solid::SolidReport;
-pub use summary::{CeaSummary, CriticalFriction, ModeSummary, UnstableCount, summary};
+pub use summary::{
+    CeaSummary, CriticalFriction, ModeSummary, UnstableCount, UnstableMode, summary,
+};
 
 use crate::cea::{ComplexMode, FrictionPoint, FrictionSweep, UnstableInterval};
 use crate::mesh::Mesh;

@@ -1,6 +1,6 @@
 //! Where the growth of each mode comes from, and which modes couple: `contributions.csv` and `coupling.csv`.
 
-use super::CeaReport;
+use super::{CeaReport, Feed};
 use crate::chart::{Axis, ChartError, Figure, INK, Line, Panel, Rule, Stroke, literal};
 use crate::results::quantity::fixed;
 use crate::results::table::{Column, write_rows};
@@ -81,6 +81,8 @@ pub struct Reading {
     pub contributions: Vec<Contribution>,
     /// Every unstable one of them with the modes that it consists of, the largest share first.
     pub couplings: Vec<Coupling>,
+    /// Where the contacts feed the unstable modes at the case's own friction coefficient.
+    pub feed: Option<Feed>,
 }
 
 impl Reading {

@@ -33,6 +33,9 @@ pub struct CeaSummary {
     pub largest_residual: Option<f64>,
     /// The modes at the case's own friction coefficient, where it is one of those solved.
     pub modes_at_friction: Option<Vec<ModeSummary>>,
+    /// The modes that grow at each friction value of the tables.
+    #[serde(default)]
+    pub unstable_modes: Vec<UnstableMode>,
     /// Steady sliding at the case's own friction coefficient.
     pub base_state: BaseState,
     /// What the solver has to say.
@@ -128,6 +131,68 @@ impl ModeSummary {
     }
 }
 
+/// A mode that grows, where it was found, and from when it does.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct UnstableMode {
+    /// Friction coefficient.
+    pub friction_coefficient: f64,
+    /// Number by frequency among all modes at that friction, from 1.
+    pub mode: usize,
+    /// Circumferential harmonic; none on a body without symmetry, nor a direction.
+    pub harmonic: Option<usize>,
+    /// Branch, or rank.
+    pub branch: usize,
+    /// +1 with the rotor, 0 standing, -1 against it.
+    pub direction: Option<i8>,
+    /// `Im lambda / 2 pi`, Hz.
+    pub frequency_hz: f64,
+    /// `Re lambda`, 1/s.
+    pub growth_rate_per_s: f64,
+    /// `-Re lambda / |lambda|`, below 0.
+    pub damping_factor: f64,
+    /// Friction at which its branch turned unstable last; none where it is unstable at the lowest value solved already.
+    pub critical_friction: Option<f64>,
+}
+
+impl UnstableMode {
+    /// The unstable modes of a report in the order of its tables.
+    fn all(report: &CeaReport<'_>) -> Vec<Self> {
+        let mut found = Vec::new();
+        for point in report.tabulated() {
+            let friction = point.friction_coefficient;
+            for (index, mode) in point.modes.iter().enumerate() {
+                if mode.is_unstable() {
+                    found.push(Self::of(report, friction, (index, mode)));
+                }
+            }
+        }
+        found
+    }
+
+    fn of(report: &CeaReport<'_>, friction: f64, (index, mode): (usize, &ComplexMode)) -> Self {
+        let own = |interval: &&UnstableInterval| {
+            (interval.harmonic, interval.branch, interval.direction)
+                == (mode.harmonic, mode.branch, mode.direction)
+                && interval.critical_friction <= friction
+        };
+        let crossings = report.sweep.intervals.iter().filter(own);
+        let last = crossings.max_by(|a, b| a.critical_friction.total_cmp(&b.critical_friction));
+        Self {
+            friction_coefficient: friction,
+            mode: index + 1,
+            harmonic: report.has_harmonics.then_some(mode.harmonic),
+            branch: mode.branch,
+            direction: report.has_harmonics.then_some(mode.direction),
+            frequency_hz: mode.frequency_hz(),
+            growth_rate_per_s: mode.growth_rate(),
+            damping_factor: mode.damping_factor(),
+            critical_friction: last
+                .filter(|interval| !interval.unstable_from_start)
+                .and_then(|interval| present(interval.critical_friction)),
+        }
+    }
+}
+
 impl Summary for CeaSummary {
     fn headline(&self) -> Vec<Entry> {
         let lowest = self.critical_frictions.first();
@@ -169,6 +234,7 @@ pub fn summary(report: &CeaReport<'_>, manifest: &Manifest) -> CeaSummary {
         critical_frictions: report.sweep.intervals.iter().map(of_interval).collect(),
         largest_residual: present(report.largest_residual()),
         modes_at_friction: own.map(|point| point.modes.iter().map(of_mode).collect()),
+        unstable_modes: UnstableMode::all(report),
         base_state: base,
         notes: report.notes.clone(),
         manifest: manifest.clone(),

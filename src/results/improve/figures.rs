@@ -1,5 +1,6 @@
 //! `figures/improve-mode-N`: where each kind of modification feeds or damps a mode, with the candidates.
 
+use super::front::front_figure;
 use super::report::report;
 use super::{ImproveSummary, TargetFields};
 use crate::chart::{
@@ -36,7 +37,9 @@ pub fn draw(
         let own = own.clone();
         Box::new(move || target_figure(summary, mesh, &own))
     };
-    let declarations = order.into_iter().take(MOST).map(declare).collect();
+    let of_front: Declaration<'_> = Box::new(move || front_figure(summary));
+    let targets = order.into_iter().take(MOST).map(declare);
+    let declarations = targets.chain([of_front]).collect();
     let figures = draw_all(declarations, options)?;
     write_report(
         folder,

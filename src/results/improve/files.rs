@@ -1,5 +1,6 @@
 //! `candidates.csv`, `improve.vtu` and `improved.toml`.
 
+use super::front::write_front;
 use super::{Candidate, ImproveSummary, State, TargetFields};
 use crate::mesh::Mesh;
 use crate::results::table::{Cell, Column, write_rows};
@@ -58,6 +59,9 @@ pub fn write(
         ];
         write_rows(out, columns, &summary.candidates)
     })?;
+    if !summary.front.is_empty() {
+        folder.write("front.csv", |out| write_front(out, &summary.front))?;
+    }
     write_fields(folder, mesh, fields)?;
     let best = summary
         .candidates

@@ -2,6 +2,7 @@
 
 mod figures;
 mod files;
+mod front;
 mod report;
 
 use super::Manifest;
@@ -11,6 +12,7 @@ use std::fmt::Write as _;
 
 pub use figures::draw;
 pub use files::write;
+pub use front::FrontPoint;
 
 /// Fields over the mesh of one target.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,6 +54,9 @@ pub struct ImproveSummary {
     pub sizes: Sizes,
     /// Modifications, the best first.
     pub candidates: Vec<Candidate>,
+    /// Masses and removals of several sizes by rising mass, and which of them nothing lighter beats.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub front: Vec<FrontPoint>,
     /// What there is to say.
     pub notes: Vec<String>,
     /// What it was made from.
@@ -229,6 +234,7 @@ impl ImproveSummary {
                 own.verdict,
             );
         }
+        out += &front::text(self);
         for note in &self.notes {
             let _ = writeln!(out, "{note}");
         }

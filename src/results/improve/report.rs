@@ -1,5 +1,6 @@
 //! `report.html` of `improve`.
 
+use super::front::{FRONT, table_of_front};
 use super::{Candidate, ImproveSummary, State, critical};
 use crate::results::Manifest;
 use crate::results::quantity::significant;
@@ -11,25 +12,43 @@ pub(super) fn report(
     figures: Vec<NamedFigure>,
     manifest: &Manifest,
 ) -> Report {
+    let (of_front, figures) = figures.into_iter().partition(|figure| figure.name == FRONT);
     let paragraphs = vec![summary.answer()]
         .into_iter()
         .chain(summary.notes.iter().cloned());
     Report {
         title: summary.title.clone(),
-        sections: vec![
+        sections: [
             ReportSection::results(paragraphs.collect(), numbers(summary)),
             ReportSection {
                 heading: "Candidates".into(),
                 tables: vec![table(summary)],
                 ..ReportSection::default()
             },
+            front_section(summary, of_front),
             ReportSection {
                 heading: "Where it helps".into(),
                 figures,
                 ..ReportSection::default()
             },
-        ],
+        ]
+        .into_iter()
+        .filter(|section| !section.heading.is_empty())
+        .collect(),
         manifest: manifest.clone(),
+    }
+}
+
+/// Mass against critical friction, where it was looked for.
+fn front_section(summary: &ImproveSummary, figures: Vec<NamedFigure>) -> ReportSection {
+    if summary.front.is_empty() {
+        return ReportSection::default();
+    }
+    ReportSection {
+        heading: "Mass against critical friction".into(),
+        tables: vec![table_of_front(summary)],
+        figures,
+        ..ReportSection::default()
     }
 }
 

@@ -5,6 +5,7 @@ use super::super::quantity::significant;
 use super::super::report::{Report, ReportSection, ReportTable};
 use super::super::sweep_figures::draw_sweep;
 use super::super::{DrawingError, DrawingOptions, Manifest, figure_files};
+use super::matrix::OperatingMatrix;
 use super::report::rows;
 use super::{SweepFolder, SweepReport};
 use crate::chart::extremes;
@@ -42,7 +43,10 @@ pub fn draw(
         folder.write(&file.name, |out| out.write_all(&file.bytes))?;
     }
     let mut paragraphs = vec![format!("{} at each point.", report.analyses.join(" and "))];
+    let matrix = OperatingMatrix::of(report.records);
+    paragraphs.extend(matrix.sentence());
     paragraphs.extend(report.notes());
+    let points = [matrix.table(report.keys), Some(points_table(report))];
     let html = Report {
         title: report.title.to_owned(),
         sections: vec![
@@ -54,7 +58,7 @@ pub fn draw(
             },
             ReportSection {
                 heading: "Points".into(),
-                tables: vec![points_table(report)],
+                tables: points.into_iter().flatten().collect(),
                 ..ReportSection::default()
             },
         ],

@@ -19,7 +19,7 @@ pub struct LongTable {
 }
 
 /// Every long table of a sweep.
-pub const LONG_TABLES: [LongTable; 3] = [
+pub const LONG_TABLES: [LongTable; 4] = [
     LongTable {
         file: "stability.csv",
         analysis: "cea",
@@ -34,6 +34,22 @@ pub const LONG_TABLES: [LongTable; 3] = [
             "unstable_from_start",
         ],
         rows: |summary| objects(summary.get("critical_frictions")),
+    },
+    LongTable {
+        file: "unstable_modes.csv",
+        analysis: "cea",
+        columns: &[
+            "friction_coefficient",
+            "mode",
+            "harmonic",
+            "branch",
+            "direction",
+            "frequency_hz",
+            "growth_rate_per_s",
+            "damping_factor",
+            "critical_friction",
+        ],
+        rows: |summary| objects(summary.get("unstable_modes")),
     },
     LongTable {
         file: "modes.csv",

@@ -4,6 +4,8 @@ mod company;
 mod figures;
 mod folder;
 mod long;
+mod matrix;
+mod matrix_figure;
 mod record;
 mod report;
 mod table;
@@ -15,4 +17,5 @@ pub use record::{PointClock, PointRecord};
 pub use report::{FailedPoint, SweepReport, SweepSummary, print, swept_text};
 pub use table::write_points;
 
+pub(super) use matrix_figure::operating_matrix;
 pub(super) use report::{TWO_FREQUENCY, UNSETTLED};

@@ -4,6 +4,7 @@ use super::super::Manifest;
 use super::super::quantity::quantity;
 use super::super::summary::PointSummary;
 use super::PointRecord;
+use super::matrix::OperatingMatrix;
 use super::table::cell;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -235,6 +236,9 @@ pub fn print(report: &SweepReport<'_>) -> String {
     if report.records.len() <= MOST_ROWS {
         write_rows(&mut out, &rows(report));
     }
+    if let Some(sentence) = OperatingMatrix::of(report.records).sentence() {
+        let _ = writeln!(out, "{sentence}");
+    }
     for (error, points) in report.errors() {
         let _ = writeln!(out, "failed: {}: {error}", number_ranges(&points));
     }
@@ -316,7 +320,7 @@ fn write_rows(out: &mut String, table: &[Vec<String>]) {
 }
 
 /// A value as people read it: numbers to five significant digits.
-fn printed(value: &Value) -> String {
+pub(super) fn printed(value: &Value) -> String {
     match value.as_f64() {
         Some(number) => {
             let rounded: f64 = format!("{number:.4e}").parse().unwrap_or(number);
@@ -329,16 +333,19 @@ fn printed(value: &Value) -> String {
 }
 
 /// The last part of a dotted key.
-fn short(key: &str) -> &str {
+pub(super) fn short(key: &str) -> &str {
     key.rsplit('.').next().unwrap_or(key)
 }
 
-/// `friction_coefficient = 0.3, rotation_speed_rpm = 610`.
+/// `friction_coefficient = 0.3, rotation_speed_rpm = 610`; keys of one name and value once.
 pub fn swept_text(swept: &Map<String, Value>) -> String {
-    let parts: Vec<String> = swept
-        .iter()
-        .map(|(key, value)| format!("{} = {}", short(key), printed(value)))
-        .collect();
+    let mut parts: Vec<String> = Vec::new();
+    for (key, value) in swept {
+        let part = format!("{} = {}", short(key), printed(value));
+        if !parts.contains(&part) {
+            parts.push(part);
+        }
+    }
     parts.join(", ")
 }
 

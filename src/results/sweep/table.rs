@@ -12,11 +12,12 @@ const LONGEST_LIST: usize = 16;
 /// What a table over many points leaves out of a summary: what is the same for all of them, and
 /// what the clock says, so that the table does not depend on who computed it and how fast; and the modes and the
 /// branches of limit cycles, which are tables of their own.
-const LEFT_OUT: [&str; 9] = [
+const LEFT_OUT: [&str; 10] = [
     "runs",
     "command",
     "curves",
     "modes_at_friction",
+    "unstable_modes",
     "title",
     "manifest",
     "notes",

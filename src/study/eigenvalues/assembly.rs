@@ -43,7 +43,7 @@ impl AssemblyModel {
     }
 
     /// The state at the case's own friction coefficient.
-    fn base(&self) -> &PressedState {
+    pub(super) fn base(&self) -> &PressedState {
         let own = self.range.state_of.last();
         &self.range.states[*own.expect("the case's own friction coefficient comes last")]
     }

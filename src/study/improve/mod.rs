@@ -15,6 +15,7 @@
 mod base;
 mod confirm;
 mod fields;
+mod front;
 mod modal;
 mod places;
 mod shown;
@@ -25,7 +26,7 @@ use crate::case::{Case, ModificationKind};
 use crate::cea::CeaError;
 use crate::fem::lumped_masses;
 use crate::mesh::Mesh;
-use crate::results::improve::{Candidate, Sizes, State, TargetFields, TargetMode};
+use crate::results::improve::{Candidate, FrontPoint, Sizes, State, TargetFields, TargetMode};
 use base::{Base, Outlook, state, target_modes};
 use confirm::{keys_of, run_again, verdict};
 use fields::{Derivatives, element_dofs, element_terms, matrices};
@@ -33,7 +34,7 @@ use modal::{Change, ModalModel};
 use nalgebra::DMatrix;
 use places::Places;
 use rayon::prelude::*;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 use trial::{Budget, Search, Target, Trial};
 
@@ -53,14 +54,17 @@ pub struct Improvement {
     pub sizes: Sizes,
     /// Modifications, the best first.
     pub candidates: Vec<Candidate>,
+    /// Mass against critical friction, where the case asks for it.
+    pub front: Vec<FrontPoint>,
     /// What there is to say.
     pub notes: Vec<String>,
 }
 
-/// Part of removed material that predictions leave: nodes without any would be free.
-const REST: f64 = 1e-6;
+/// Removals that are looked at closely, for each one that is listed.
+const SHORTLISTED: usize = 2;
 
 /// A trial with what all modes together make of it.
+#[derive(Clone)]
 struct Predicted {
     trial: Trial,
     state: State,
@@ -74,9 +78,10 @@ pub fn improve(case: &Case) -> Result<Improvement, StudyError> {
     let cea = case.require_cea()?;
     let base = Base::solve(case, cea)?;
     let budget = budget(&base);
+    let derivatives = Derivatives::of_targets(&base);
     let search = Search {
         places: Places::of(&base, budget.patch_radius)?,
-        derivatives: Derivatives::of_targets(&base),
+        derivatives: &derivatives,
         base: &base,
         budget,
     };
@@ -110,6 +115,7 @@ pub fn improve(case: &Case) -> Result<Improvement, StudyError> {
     });
     let mut candidates: Vec<Candidate> = candidates.collect();
     promote(&mut candidates);
+    let front = front::front(&search, &modal)?;
     if base.multiple > 0 {
         notes.push(format!(
             "{} of the modes coincide with another one and are left out of the predictions",
@@ -131,6 +137,7 @@ pub fn improve(case: &Case) -> Result<Improvement, StudyError> {
             offset_m: budget.offset,
         },
         candidates,
+        front,
         notes,
     })
 }
@@ -166,7 +173,10 @@ fn predictions(
     notes: &mut Vec<String>,
 ) -> Result<Vec<Predicted>, StudyError> {
     let count = search.base.case.improve.candidates;
-    let trials = search.best(kind);
+    let mut trials = search.best(kind);
+    if kind == ModificationKind::Removal {
+        trials = shortlist(search, modal, trials, SHORTLISTED * count)?;
+    }
     let changes: Vec<Result<(Change, Trial), String>> = trials
         .into_par_iter()
         .map(|trial| Ok((change(search, modal, &trial)?, trial)))
@@ -237,11 +247,13 @@ fn change(search: &Search<'_>, modal: &ModalModel<'_>, trial: &Trial) -> Result<
         }
         (Target::Patch(_, elements), kind) => {
             let (dofs, matrices) = patch_matrices(base, elements, kind, budget.patch_damping);
-            Ok(match kind {
-                // What is left of a patch taken away gives way without bound: the listed modes alone tell.
-                ModificationKind::Removal => modal.local(&dofs, matrices.each_ref()),
-                _ => modal.yielding(&dofs, matrices.each_ref()),
-            })
+            if kind != ModificationKind::Removal {
+                return Ok(modal.yielding(&dofs, matrices.each_ref()));
+            }
+            let is_shared = shared(search, elements, &dofs);
+            modal
+                .removed((&dofs, &is_shared), matrices.each_ref())
+                .ok_or_else(|| "nothing is left beside what is taken away".to_owned())
         }
         (Target::Hole(_), _) => {
             let tangent = confirm::tangent_of(base, &keys_of(search, trial))?;
@@ -251,7 +263,49 @@ fn change(search: &Search<'_>, modal: &ModalModel<'_>, trial: &Trial) -> Result<
     }
 }
 
-/// The dofs of a patch, rising, and what taking it away or damping it changes of their mass, damping and stiffness.
+/// The removals of some that the listed modes alone, which see no more than the mass and stiffness lost, rank first.
+fn shortlist(
+    search: &Search<'_>,
+    modal: &ModalModel<'_>,
+    trials: Vec<Trial>,
+    count: usize,
+) -> Result<Vec<Trial>, StudyError> {
+    let growth = |trial: Trial| -> Result<(f64, Trial), crate::linalg::LinalgError> {
+        let Target::Patch(_, elements) = &trial.target else {
+            return Ok((f64::INFINITY, trial));
+        };
+        let (dofs, own) = patch_matrices(search.base, elements, trial.kind, 0.0);
+        let [m, c, k] = own.map(|matrix| -matrix);
+        let outlook = modal.outlook(Some(&modal.local(&dofs, [&m, &c, &k])))?;
+        Ok((
+            outlook.worst.map_or(f64::NEG_INFINITY, |mode| mode.re),
+            trial,
+        ))
+    };
+    let ranked: Result<Vec<(f64, Trial)>, _> = trials.into_par_iter().map(growth).collect();
+    let mut ranked = ranked.map_err(CeaError::from)?;
+    ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
+    ranked.truncate(count);
+    Ok(ranked.into_iter().map(|(_, trial)| trial).collect())
+}
+
+/// Which dofs of a patch belong to elements beside it too.
+fn shared(search: &Search<'_>, elements: &[u32], dofs: &[usize]) -> Vec<bool> {
+    let mesh = &search.base.mesh;
+    let mut inside: BTreeMap<u32, u32> = BTreeMap::new();
+    for &element in elements {
+        for &node in mesh.element_nodes(element as usize) {
+            *inside.entry(node).or_default() += 1;
+        }
+    }
+    let is_shared = |dof: &usize| {
+        let node = dof / mesh.dimension;
+        inside.get(&(node as u32)) < Some(&search.places.uses[node])
+    };
+    dofs.iter().map(is_shared).collect()
+}
+
+/// The dofs of a patch, rising, and its mass, damping and stiffness, or what damping it changes of them.
 fn patch_matrices(
     base: &Base<'_>,
     elements: &[u32],
@@ -265,9 +319,7 @@ fn patch_matrices(
     let mut sums = [0, 1, 2].map(|_| DMatrix::<f64>::zeros(own.len(), own.len()));
     for (&element, dofs) in elements.iter().zip(&all) {
         let terms = match kind {
-            ModificationKind::Removal => {
-                element_terms(base, element as usize).map(|own| own * -(1.0 - REST))
-            }
+            ModificationKind::Removal => element_terms(base, element as usize),
             _ => {
                 let [mass, elastic] = matrices(base, element as usize);
                 [mass * 0.0, &elastic * beta, elastic * 0.0]

@@ -116,15 +116,64 @@ impl<'a> ModalModel<'a> {
     /// As [`Self::local`], with what modes beyond the listed ones give way at these dofs, none of which touches a contact.
     ///
     /// `D (1 + R D)^-1` at two frequencies is taken for a stiffness, a mass and a dashpot.
-    pub fn yielding(&self, dofs: &[usize], changes: [&DMatrix<f64>; 3]) -> Change {
-        let unknown_of = &self.base.tangent.unknowns.unknown_of;
-        let free: Vec<usize> = (0..dofs.len())
-            .filter(|&i| unknown_of[dofs[i]].is_some())
-            .collect();
+    pub fn yielding(&self, dofs: &[usize], [m, c, k]: [&DMatrix<f64>; 3]) -> Change {
+        let free = self.free(dofs);
         let own: Vec<usize> = free.iter().map(|&i| dofs[i]).collect();
+        self.effective(&own, &|s| {
+            Mat::from_fn(own.len(), own.len(), |i, j| {
+                let at = (free[i], free[j]);
+                s * (s * m[at] + c[at]) + k[at]
+            })
+        })
+    }
+
+    /// Takes `[M, C, K]` of a patch away from the body: its dofs, and which of them other elements share.
+    ///
+    /// What is inside hangs on the shared dofs alone, so that the body loses the dynamic stiffness of the patch there,
+    /// `D(s) = -(T_bb - T_bi T_ii^-1 T_ib)`, in series with what the body beside it gives way, as in [`Self::yielding`].
+    ///
+    /// `None` where the patch shares no free dof with another element.
+    pub fn removed(
+        &self,
+        (dofs, is_shared): (&[usize], &[bool]),
+        [m, c, k]: [&DMatrix<f64>; 3],
+    ) -> Option<Change> {
+        let free = self.free(dofs);
+        let (shared, inner): (Vec<usize>, Vec<usize>) =
+            free.into_iter().partition(|&i| is_shared[i]);
+        if shared.is_empty() {
+            return None;
+        }
+        let own: Vec<usize> = shared.iter().map(|&i| dofs[i]).collect();
+        Some(self.effective(&own, &|s| {
+            let entry = |i: usize, j: usize| s * (s * m[(i, j)] + c[(i, j)]) + k[(i, j)];
+            let block = |rows: &[usize], columns: &[usize]| {
+                Mat::from_fn(rows.len(), columns.len(), |i, j| entry(rows[i], columns[j]))
+            };
+            let mut lost = block(&shared, &shared);
+            if !inner.is_empty() {
+                let mut carried = block(&inner, &shared);
+                let within = ComplexDenseLu::factorize(block(&inner, &inner));
+                within.solve_in_place(carried.as_mut());
+                lost -= &block(&shared, &inner) * &carried;
+            }
+            -lost
+        }))
+    }
+
+    /// Places of the dofs that are unknowns.
+    fn free(&self, dofs: &[usize]) -> Vec<usize> {
+        let unknown_of = &self.base.tangent.unknowns.unknown_of;
+        (0..dofs.len())
+            .filter(|&i| unknown_of[dofs[i]].is_some())
+            .collect()
+    }
+
+    /// The change that `D (1 + R D)^-1` of some dofs comes to about the targets.
+    fn effective(&self, own: &[usize], change: &dyn Fn(c64) -> Mat<c64>) -> Change {
         let [low, high] = self.dynamic.each_ref().map(|(omega, factors)| {
-            let effective = self.in_series((&own, &free), changes, (*omega, factors));
-            (*omega, effective)
+            let s = c64::new(0.0, *omega);
+            (*omega, self.in_series(own, change(s), (s, factors)))
         });
         let squares = [low.0 * low.0, high.0 * high.0];
         let count = own.len();
@@ -136,22 +185,17 @@ impl<'a> ModalModel<'a> {
         let stiffness =
             each(&|a, b| (a.re * squares[1] - b.re * squares[0]) / (squares[1] - squares[0]));
         let damping = each(&|a, b| 0.5 * (a.im / low.0 + b.im / high.0));
-        self.local(&own, [&mass, &damping, &stiffness])
+        self.local(own, [&mass, &damping, &stiffness])
     }
 
-    /// `D (1 + R D)^-1 = (1 + D R)^-1 D` at a frequency over those of some dofs that are free.
+    /// `D (1 + R D)^-1 = (1 + D R)^-1 D` at `s` over some dofs that are unknowns.
     fn in_series(
         &self,
-        (own, free): (&[usize], &[usize]),
-        [m, c, k]: [&DMatrix<f64>; 3],
-        (omega, factors): (f64, &ComplexSparseLu),
+        own: &[usize],
+        mut change: Mat<c64>,
+        (s, factors): (c64, &ComplexSparseLu),
     ) -> Mat<c64> {
-        let s = c64::new(0.0, omega);
-        let count = free.len();
-        let mut change = Mat::from_fn(count, count, |i, j| {
-            let at = (free[i], free[j]);
-            s * (s * m[at] + c[at]) + k[at]
-        });
+        let count = own.len();
         let residual = self.residual_compliance(own, (s, factors));
         let product = &change * &residual;
         let unit = |i: usize, j: usize| f64::from(u8::from(i == j));

@@ -11,6 +11,8 @@ pub(super) struct Places {
     pub nodes: Vec<usize>,
     /// Elements with the patch about each, none of which touches a contact.
     pub patches: Vec<(usize, Vec<u32>)>,
+    /// Elements about each node.
+    pub uses: Vec<u32>,
     /// Whether the contact is a hole with a rigid cylinder in it, which can be moved.
     pub has_hole: bool,
 }
@@ -66,7 +68,14 @@ impl Places {
         };
         let patches = (0..open.len()).filter(|&e| open[e]).map(|e| (e, patch(e)));
         let patches = patches.filter(|(_, own)| own.iter().all(|&e| open[e as usize]));
+        let mut uses = vec![0; mesh.node_count()];
+        for element in 0..mesh.element_count() {
+            for &node in mesh.element_nodes(element) {
+                uses[node as usize] += 1;
+            }
+        }
         Ok(Self {
+            uses,
             nodes: nodes.collect(),
             patches: patches.collect(),
             has_hole: has_hole(base, mesh),

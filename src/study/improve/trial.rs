@@ -55,7 +55,7 @@ pub(super) struct Search<'a> {
     pub base: &'a Base<'a>,
     pub budget: Budget,
     pub places: Places,
-    pub derivatives: Vec<Derivatives>,
+    pub derivatives: &'a [Derivatives],
 }
 
 impl Search<'_> {

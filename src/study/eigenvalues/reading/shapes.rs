@@ -19,10 +19,15 @@ pub(super) struct Shapes<'a> {
 }
 
 impl<'a> Shapes<'a> {
-    pub fn of(point: &'a FrictionPoint, has_harmonics: bool) -> Self {
+    /// Those of the modes that have one and are wanted.
+    pub fn of(
+        point: &'a FrictionPoint,
+        has_harmonics: bool,
+        is_wanted: impl Fn(&ComplexMode) -> bool,
+    ) -> Self {
         let numbered = point.modes.iter().enumerate();
         let modes: Vec<(usize, &ComplexMode)> = numbered
-            .filter(|(_, mode)| mode.shape.is_some())
+            .filter(|(_, mode)| mode.shape.is_some() && is_wanted(mode))
             .map(|(index, mode)| (index + 1, mode))
             .collect();
         let shape = |column: usize| modes[column / 2].1.shape.as_deref().unwrap_or_default();
@@ -63,6 +68,13 @@ impl<'a> Shapes<'a> {
         (0..self.modes.len())
             .map(|i| product(2 * i) + product(2 * i + 1))
             .collect()
+    }
+
+    /// A mode over all dofs.
+    pub fn column(&self, i: usize) -> Vec<c64> {
+        let [re, im] = [2 * i, 2 * i + 1].map(|column| self.columns.col_as_slice(column));
+        let parts = re.iter().zip(im);
+        parts.map(|(&re, &im)| c64::new(re, im)).collect()
     }
 
     /// Adds `factors_0 A_0 phi + factors_1 A_1 phi` of each mode to its balance.

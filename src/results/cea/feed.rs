@@ -1,0 +1,214 @@
+//! Where on the contact surfaces friction feeds the unstable modes: `feed.csv`, `feed.vtu` and a figure.
+
+use super::{CeaReport, ModeName};
+use crate::chart::{Axis, ChartError, ColourMap, Figure, INK, Line, Panel, Rule, Stroke, literal};
+use crate::mesh::{Counterface, Mesh};
+use crate::results::charts::SolidView;
+use crate::results::folder::{FolderError, OutputFolder};
+use crate::results::quantity::fixed;
+use crate::results::table::{Column, write_rows};
+use crate::results::vtu::{EncodedMesh, Field, write_vtu};
+use std::f64::consts::TAU;
+
+/// Modes that the figure shows, the fastest first: of plane bodies as lines, of solid ones as pictures.
+const LINES: usize = 6;
+const PICTURES: usize = 2;
+
+/// A contact point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FeedPlace {
+    /// Name of its contact.
+    pub contact: String,
+    /// Where it is, m.
+    pub position: [f64; 3],
+    /// Area that belongs to it, m2.
+    pub area: f64,
+    /// Nodes that it is among, with their shares in it.
+    pub shares: Vec<(u32, f64)>,
+}
+
+/// What each contact point adds to the growth of a mode.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ModeFeed {
+    /// The mode.
+    pub mode: ModeName,
+    /// Of each point, 1/s; they add up to what the contacts feed in `contributions.csv`.
+    pub rates: Vec<f64>,
+}
+
+/// The feed of all unstable modes over the contact points.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Feed {
+    /// The modes.
+    pub modes: Vec<ModeFeed>,
+    /// The contact points.
+    pub places: Vec<FeedPlace>,
+}
+
+impl Feed {
+    /// Writes `feed.csv`, a row for each unstable mode and contact point, and `feed.vtu`, growth for each area of the contact
+    /// surfaces, the mean of the points around each node, 0 elsewhere.
+    ///
+    /// # Errors
+    /// Those of the folder.
+    pub fn write(&self, folder: &OutputFolder, mesh: &Mesh) -> Result<(), FolderError> {
+        folder.write("feed.csv", |out| {
+            type Row<'a> = (&'a ModeName, &'a FeedPlace, f64);
+            let columns: &[Column<'_, Row<'_>>] = &[
+                ("friction_coefficient", &|row| {
+                    row.0.friction_coefficient.into()
+                }),
+                ("mode", &|row| row.0.mode.into()),
+                ("frequency_hz", &|row| row.0.frequency_hz.into()),
+                ("contact", &|row| row.1.contact.as_str().into()),
+                ("x_m", &|row| row.1.position[0].into()),
+                ("y_m", &|row| row.1.position[1].into()),
+                ("z_m", &|row| row.1.position[2].into()),
+                ("area_m2", &|row| row.1.area.into()),
+                ("growth_rate_per_s", &|row| row.2.into()),
+                ("growth_rate_per_s_m2", &|row| (row.2 / row.1.area).into()),
+            ];
+            let rows = self.modes.iter().flat_map(|own| {
+                let points = self.places.iter().zip(&own.rates);
+                points.map(move |(place, &rate)| (&own.mode, place, rate))
+            });
+            write_rows(out, columns, rows)
+        })?;
+        let fields = self.modes.iter().map(|own| {
+            let name = format!("mode_{}_growth_rate_per_s_m2", own.mode.mode);
+            let mut values = self.around_nodes(mesh, own);
+            values
+                .iter_mut()
+                .filter(|v| v.is_nan())
+                .for_each(|v| *v = 0.0);
+            Field::scalars(&name, values)
+        });
+        let fields: Vec<Field> = fields.collect();
+        folder.write_bulk("feed.vtu", |out| {
+            write_vtu(out, &EncodedMesh::new(mesh)?, &[], &fields, &[])
+        })?;
+        Ok(())
+    }
+
+    /// Growth for each area around each node; NaN where there is no contact point.
+    fn around_nodes(&self, mesh: &Mesh, own: &ModeFeed) -> Vec<f64> {
+        let mut sums = vec![[0.0; 2]; mesh.node_count()];
+        for (place, rate) in self.places.iter().zip(&own.rates) {
+            for &(node, share) in &place.shares {
+                // Shape functions of corners of quadratic faces may be negative.
+                sums[node as usize][0] += rate * share.abs();
+                sums[node as usize][1] += place.area * share.abs();
+            }
+        }
+        let mean = |[sum, area]: [f64; 2]| if area > 0.0 { sum / area } else { f64::NAN };
+        sums.into_iter().map(mean).collect()
+    }
+
+    /// The modes that grow fastest.
+    fn fastest(&self, report: &CeaReport<'_>) -> Vec<&ModeFeed> {
+        let friction = self.modes.first().map(|own| own.mode.friction_coefficient);
+        let mut points = report.sweep.points.iter();
+        let point = points.find(|point| Some(point.friction_coefficient) == friction);
+        let growth = |own: &ModeFeed| {
+            let mode = point.and_then(|point| point.modes.get(own.mode.mode - 1));
+            mode.map_or(0.0, |mode| mode.growth_rate())
+        };
+        let mut modes: Vec<&ModeFeed> = self.modes.iter().collect();
+        modes.sort_by(|a, b| growth(b).total_cmp(&growth(a)));
+        modes
+    }
+
+    /// Growth for each area of the contact: lines along a plane edge, pictures of the surfaces of solid bodies.
+    ///
+    /// # Errors
+    /// [`ChartError::Empty`] where no mode is unstable.
+    pub(super) fn figure(&self, report: &CeaReport<'_>) -> Result<Figure, ChartError> {
+        let modes = self.fastest(report);
+        let Some(first) = modes.first() else {
+            return Err(ChartError::empty("feed of unstable modes"));
+        };
+        let friction = first.mode.friction_coefficient;
+        let caption = format!(
+            "Where the contact feeds the unstable modes at friction {friction}: growth rate for each area of the surface; red \
+             feeds, blue takes. The sum over the surface is the contact's part in the budget."
+        );
+        match report.assembly {
+            Some(assembly) => Ok(self.pictures(report.mesh, &modes, &assembly.surfaces, caption)),
+            None => Ok(self.lines(report.mesh, &modes, caption)),
+        }
+    }
+
+    fn lines(&self, mesh: &Mesh, modes: &[&ModeFeed], caption: String) -> Figure {
+        // Along the edge: by angle about the cylinder, or along the plane.
+        let along = |place: &FeedPlace| -> f64 {
+            let [x, y, _] = place.position;
+            match mesh.counterface {
+                Counterface::Cylinder { center, .. } => {
+                    (y - center[1]).atan2(x - center[0]).rem_euclid(TAU)
+                }
+                Counterface::Plane { point, direction } => {
+                    (x - point[0]) * direction[0] + (y - point[1]) * direction[1]
+                }
+            }
+        };
+        let mut order: Vec<usize> = (0..self.places.len()).collect();
+        order.sort_by(|&a, &b| along(&self.places[a]).total_cmp(&along(&self.places[b])));
+        let x = match mesh.counterface {
+            Counterface::Cylinder { .. } => Axis::degrees().tight(),
+            Counterface::Plane { .. } => Axis::new("along the contact", "mm").times(1e3).tight(),
+        };
+        let y = Axis::new("feed", "1/(s cm²)").times(1e-4);
+        let mut panel = Panel::new(x, y)
+            .height(150.0)
+            .layer(Rule::horizontal(0.0).stroke(Stroke::solid(INK, 0.6)));
+        for (index, own) in modes.iter().take(LINES).enumerate() {
+            let points = order.iter().map(|&i| {
+                let place = &self.places[i];
+                (along(place), own.rates[i] / place.area)
+            });
+            panel = panel.layer(Line::through(points).nth(index).name(name(own)));
+        }
+        Figure::new("feed", caption).panel(panel)
+    }
+
+    fn pictures(
+        &self,
+        mesh: &Mesh,
+        modes: &[&ModeFeed],
+        surfaces: &[(String, usize)],
+        caption: String,
+    ) -> Figure {
+        let shown = modes.iter().take(PICTURES);
+        let panels = shown.flat_map(|own| {
+            let values = self.around_nodes(mesh, own);
+            let numbers = values.iter().copied().filter(|value| value.is_finite());
+            let largest = numbers.map(f64::abs).fold(f64::MIN_POSITIVE, f64::max);
+            surfaces.iter().map(move |(contact, boundary)| {
+                let axis = Axis::new("feed", "1/(s cm²)")
+                    .times(1e-4)
+                    .between(-largest, largest);
+                let view = SolidView::of_boundary(mesh, *boundary);
+                let surface = view.surface(values.clone(), (&[], 0.0), axis, ColourMap::Diverging);
+                Panel::plane(surface.window(0.05))
+                    .height(140.0)
+                    .caption(literal(contact))
+                    .heading(name(own))
+                    .layer(surface)
+                    .colour_bar(crate::chart::Side::Right)
+            })
+        });
+        let panels: Vec<Panel> = panels.collect();
+        Figure::new("feed", caption)
+            .columns(surfaces.len().clamp(1, 2))
+            .panels(panels)
+    }
+}
+
+/// A mode for people.
+fn name(own: &ModeFeed) -> String {
+    let frequency = fixed(1e-3 * own.mode.frequency_hz, 3);
+    match own.mode.harmonic {
+        Some(harmonic) => format!("mode {}, *n* = {harmonic}, {frequency} kHz", own.mode.mode),
+        None => format!("mode {}, {frequency} kHz", own.mode.mode),
+    }
+}

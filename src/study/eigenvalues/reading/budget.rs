@@ -1,0 +1,194 @@
+//! What each region, support and contact adds to the growth of each mode.
+
+use super::parts::Parts;
+use super::shapes::Shapes;
+use crate::cea::ComplexMode;
+use crate::linalg::c64;
+use crate::results::cea::{Contribution, Source};
+use crate::study::eigenvalues::sliding::SlidingModel;
+
+/// Forms of each mode of one friction value in one region or support: `phi^H M phi` (NaN without mass), `phi^H K phi`, and what
+/// takes part in the damping, `phi^H C phi`.
+pub(super) struct Row<'p> {
+    name: &'p str,
+    source: Source,
+    forms: Vec<[f64; 3]>,
+}
+
+/// Sums over all regions and supports, mode by mode.
+pub(super) struct Sums {
+    /// `phi^H M phi`.
+    pub kinetic: Vec<f64>,
+    strain: Vec<f64>,
+    /// The forces of the bodies at every dof, which the contacts' forces hold, where they are asked for.
+    pub balance: Option<Vec<Vec<c64>>>,
+}
+
+impl Sums {
+    /// Sums over nothing, for so many modes; with the forces at so many dofs.
+    pub fn new(modes: usize, dofs: Option<usize>) -> Self {
+        Self {
+            kinetic: vec![0.0; modes],
+            strain: vec![0.0; modes],
+            balance: dofs.map(|dofs| vec![vec![c64::ZERO; dofs]; modes]),
+        }
+    }
+}
+
+impl Parts<'_> {
+    /// What each region, support and contact adds to each mode of one friction value.
+    pub fn contributions(
+        &self,
+        model: &SlidingModel,
+        shapes: &Shapes<'_>,
+        out: &mut Vec<Contribution>,
+    ) {
+        // Only several contacts need the balance of forces dof by dof.
+        let dofs = (self.contacts.len() > 1).then(|| self.mesh.dof_count());
+        let mut sums = Sums::new(shapes.modes.len(), dofs);
+        let mut rows = self.of_regions(model, shapes, &mut sums);
+        rows.extend(self.of_supports(shapes, &mut sums));
+        for mode in 0..shapes.modes.len() {
+            self.write(shapes, mode, (&rows, &sums), out);
+        }
+    }
+
+    /// Energies and damping of every region.
+    pub fn of_regions(
+        &self,
+        model: &SlidingModel,
+        shapes: &Shapes<'_>,
+        sums: &mut Sums,
+    ) -> Vec<Row<'_>> {
+        let beta = self.options.damping.stiffness_coefficient;
+        let mut rows = Vec::new();
+        for (region, (name, pair, [alpha, own_beta, eta])) in self.regions.iter().enumerate() {
+            let [mass, stiffness] = pair.multiply(shapes.columns.as_ref());
+            let (m, k) = (shapes.forms(&mass), shapes.forms(&stiffness));
+            let g = self.geometric_forms(model, shapes, region);
+            let each = (0..shapes.modes.len()).map(|i| {
+                sums.kinetic[i] += m[i];
+                sums.strain[i] += k[i];
+                // A loss factor takes like a dashpot `eta k / omega`.
+                let loss = eta * k[i] / shapes.modes[i].1.eigenvalue.im;
+                let damping = alpha * m[i] + own_beta * k[i] + beta * g[i] + loss;
+                [m[i], k[i], damping]
+            });
+            rows.push(Row {
+                name,
+                source: Source::Part,
+                forms: each.collect(),
+            });
+            if let Some(balance) = &mut sums.balance {
+                let factors = |lambda: c64| {
+                    [
+                        lambda * lambda + lambda * alpha,
+                        lambda * own_beta + c64::new(1.0, *eta),
+                    ]
+                };
+                shapes.add(balance, [&mass, &stiffness], factors);
+            }
+        }
+        rows
+    }
+
+    /// Energies and damping of every support, with point masses those of the modifications, which come last.
+    pub fn of_supports(&self, shapes: &Shapes<'_>, sums: &mut Sums) -> Vec<Row<'_>> {
+        let alpha = self.options.damping.mass_coefficient;
+        let mut rows = Vec::new();
+        for (place, (name, pair)) in self.supports.iter().enumerate() {
+            let [dashpots, springs] = pair.multiply(shapes.columns.as_ref());
+            let (c, k) = (shapes.forms(&dashpots), shapes.forms(&springs));
+            let attached = self.attached.as_ref();
+            let attached = attached.filter(|_| place + 1 == self.supports.len());
+            let masses = attached.map(|own| own.multiply(shapes.columns.as_ref()));
+            let m = masses.as_ref().map(|[mass, _]| shapes.forms(mass));
+            let each = (0..shapes.modes.len()).map(|i| {
+                sums.strain[i] += k[i];
+                let Some(m) = &m else {
+                    return [f64::NAN, k[i], c[i]];
+                };
+                sums.kinetic[i] += m[i];
+                [m[i], k[i], c[i] + alpha * m[i]]
+            });
+            rows.push(Row {
+                name,
+                source: Source::Support,
+                forms: each.collect(),
+            });
+            let Some(balance) = &mut sums.balance else {
+                continue;
+            };
+            shapes.add(balance, [&dashpots, &springs], |lambda| [lambda, c64::ONE]);
+            if let Some([mass, none]) = &masses {
+                let factors = |lambda: c64| [lambda * lambda + lambda * alpha, c64::ZERO];
+                shapes.add(balance, [mass, none], factors);
+            }
+        }
+        rows
+    }
+
+    /// The rows of one mode; its contacts feed what the others leave of its growth.
+    fn write(
+        &self,
+        shapes: &Shapes<'_>,
+        i: usize,
+        (rows, sums): (&[Row<'_>], &Sums),
+        out: &mut Vec<Contribution>,
+    ) {
+        let (number, mode) = shapes.modes[i];
+        let name = shapes.name(number, mode);
+        let (kinetic, strain) = (sums.kinetic[i], sums.strain[i]);
+        let rate = |damping: f64| -damping / (2.0 * kinetic);
+        let mut taken = 0.0;
+        for row in rows {
+            let [m, k, c] = row.forms[i];
+            taken += rate(c);
+            out.push(Contribution {
+                mode: name,
+                name: row.name.to_owned(),
+                source: row.source,
+                kinetic_share: m.is_finite().then_some(m / kinetic),
+                strain_share: Some(k / strain),
+                growth_rate: rate(c),
+            });
+        }
+        let fed = mode.growth_rate() - taken;
+        let shares = match &sums.balance {
+            None => vec![fed],
+            Some(balance) => self.feeds(shapes, (i, mode), (&balance[i], kinetic, fed)),
+        };
+        for ((contact, _), growth_rate) in self.contacts.iter().zip(shares) {
+            out.push(Contribution {
+                mode: name,
+                name: contact.clone(),
+                source: Source::Contact,
+                kinetic_share: None,
+                strain_share: None,
+                growth_rate,
+            });
+        }
+    }
+
+    /// `Im(phi^H f) / (2 omega m)` of the forces on the surfaces of each contact; what forces on nodes of two contacts leave of the
+    /// sum `fed` is shared out evenly.
+    fn feeds(
+        &self,
+        shapes: &Shapes<'_>,
+        (i, mode): (usize, &ComplexMode),
+        (balance, kinetic, fed): (&[c64], f64, f64),
+    ) -> Vec<f64> {
+        let (re, im) = (
+            shapes.columns.col_as_slice(2 * i),
+            shapes.columns.col_as_slice(2 * i + 1),
+        );
+        let work = |dof: &usize| (c64::new(re[*dof], -im[*dof]) * balance[*dof]).im;
+        let contacts = self.contacts.iter();
+        let works = contacts.map(|(_, dofs)| dofs.iter().map(work).sum::<f64>());
+        let rates: Vec<f64> = works
+            .map(|work| work / (2.0 * mode.eigenvalue.im * kinetic))
+            .collect();
+        let left = (fed - rates.iter().sum::<f64>()) / rates.len() as f64;
+        rates.into_iter().map(|rate| rate + left).collect()
+    }
+}

@@ -1,0 +1,232 @@
+//! Where on the contact surfaces friction feeds the unstable modes, point by point.
+//!
+//! With `f` the forces of the bodies, `f = sum_i dN_i (n_i + mu drag_i t_i) - sum_i (lambda C_i + K_i) phi` over the contact points
+//! `i`, of which a rigid one has an unknown `dN_i = lift_i . (f + sum_j (lambda C_j + K_j) phi)`, the growth rate that a point
+//! feeds is
+//!
+//! ```text
+//! sigma_i = Im(conj(n_i.phi + mu drag_i t_i.phi) dN_i - phi^H (lambda C_i + K_i) phi) / (2 omega m)
+//! ```
+//!
+//! and their sum what the contact feeds in the budget, without a remainder.
+
+use super::budget::Sums;
+use super::parts::Parts;
+use super::shapes::Shapes;
+use crate::case::Case;
+use crate::cea::FrictionPoint;
+use crate::contact::{ContactStiffness, Point, PressedPoints, linearized};
+use crate::fem::{Triplets, assemble_geometric_stiffness};
+use crate::linalg::c64;
+use crate::mesh::Mesh;
+use crate::prestress::{DampingModel, PrestressError, SteadySliding};
+use crate::results::cea::{Feed, FeedPlace, ModeFeed};
+use crate::study::eigenvalues::assembly::AssemblyModel;
+use crate::study::eigenvalues::model::Model;
+use crate::study::eigenvalues::sliding::{SlidingModel, SteadyState};
+
+/// A contact point in the base state at the case's own friction coefficient.
+struct Pressed {
+    place: FeedPlace,
+    point: Point,
+    is_pressed: bool,
+    /// Normal force, and stiffness where contact stiffens, by power of friction.
+    forces: Vec<Vec<f64>>,
+    springs: Vec<Vec<f64>>,
+    stiffness: ContactStiffness,
+}
+
+/// Stiffness and dashpots of one point over all dofs at a friction coefficient.
+type PointTerms = [Vec<(usize, usize, f64)>; 2];
+
+/// The feed of every unstable mode at the case's own friction coefficient; `None` where there is none.
+pub(super) fn feed(
+    case: &Case,
+    model: &SlidingModel,
+    parts: &Parts<'_>,
+    points: &[&FrictionPoint],
+) -> Option<Feed> {
+    let friction = case.contact.sliding.friction_coefficient;
+    let own = points.iter().find(|p| p.friction_coefficient == friction)?;
+    let shapes = Shapes::of(own, case.has_sectors(), |mode| mode.is_unstable());
+    if shapes.modes.is_empty() {
+        return None;
+    }
+    let pressed = match (&model.model, &model.state) {
+        (Model::Assembly(assembly), _) => of_assembly(assembly).ok()?,
+        (_, SteadyState::Plane(base)) => of_edge(case, parts, base),
+        _ => return None,
+    };
+
+    // Forces of the bodies at every dof, those of the contact's own terms beside them.
+    let mut sums = Sums::new(shapes.modes.len(), Some(parts.mesh.dof_count()));
+    parts.of_regions(model, &shapes, &mut sums);
+    parts.of_supports(&shapes, &mut sums);
+    let geometric = geometric(case, model, parts, friction);
+    let has_turning = geometric.is_some();
+    let terms: Vec<PointTerms> = pressed
+        .iter()
+        .map(|own| terms(own, friction, has_turning))
+        .collect();
+    let whole = parts.options.damping_model == DampingModel::WholeTangent;
+    let beta = match whole {
+        true => parts.options.damping.stiffness_coefficient,
+        false => 0.0,
+    };
+    let balance = sums.balance.unwrap_or_default();
+    let modes = balance.into_iter().enumerate().map(|(i, mut forces)| {
+        let (number, mode) = shapes.modes[i];
+        let (lambda, phi) = (mode.eigenvalue, shapes.column(i));
+        // beta_R multiplies stiffness of prestress and contact too, where the damping has them.
+        let of_stiffness = c64::ONE + lambda * beta;
+        for &(row, column, value) in geometric.iter().flat_map(|own| &own.entries) {
+            forces[row] += of_stiffness * phi[column] * value;
+        }
+        let factors = [of_stiffness, lambda];
+        for own in &terms {
+            for (entries, factor) in own.iter().zip(factors) {
+                for &(row, column, value) in entries {
+                    forces[row] += factor * phi[column] * value;
+                }
+            }
+        }
+        let scale = 1.0 / (2.0 * lambda.im * sums.kinetic[i]);
+        let rates = pressed.iter().zip(&terms).map(|(own, terms)| {
+            let held = held(own, friction, &phi, &forces);
+            scale * (held - form(terms, factors, &phi).im)
+        });
+        ModeFeed {
+            mode: shapes.name(number, mode),
+            rates: rates.collect(),
+        }
+    });
+    Some(Feed {
+        modes: modes.collect(),
+        places: pressed.iter().map(|own| own.place.clone()).collect(),
+    })
+}
+
+/// `Im(conj(n.phi + mu drag t.phi) dN)` of a rigid point that is pressed; 0 of others.
+fn held(own: &Pressed, friction: f64, phi: &[c64], forces: &[c64]) -> f64 {
+    if own.stiffness.normal_stiffness.is_some() || !own.is_pressed {
+        return 0.0;
+    }
+    let along = |row: &[(usize, f64)], values: &[c64]| -> c64 {
+        row.iter().map(|&(dof, share)| values[dof] * share).sum()
+    };
+    let normal = along(&own.point.lift, forces);
+    let drag = friction * own.point.friction.drag;
+    let moved = along(&own.point.normal, phi) + along(&own.point.slip, phi) * drag;
+    (moved.conj() * normal).im
+}
+
+/// `phi^H (f_K K_i + f_C C_i) phi`.
+fn form(terms: &PointTerms, factors: [c64; 2], phi: &[c64]) -> c64 {
+    let mut sum = c64::ZERO;
+    for (entries, factor) in terms.iter().zip(factors) {
+        let own = entries.iter();
+        let own: c64 = own
+            .map(|&(row, column, value)| phi[row].conj() * phi[column] * value)
+            .sum();
+        sum += factor * own;
+    }
+    sum
+}
+
+/// What one point adds to the stiffness and to the dashpots.
+fn terms(own: &Pressed, friction: f64, has_turning: bool) -> PointTerms {
+    let state = PressedPoints {
+        is_pressed: &[own.is_pressed],
+        normal_forces: &own.forces,
+        stiffnesses: &own.springs,
+    };
+    let found = linearized(std::slice::from_ref(&own.point), &state, &own.stiffness);
+    let at = |powers: &[Triplets]| -> Vec<(usize, usize, f64)> {
+        let each = powers.iter().enumerate().flat_map(|(power, terms)| {
+            let factor = friction.powi(power as i32);
+            let entries = terms.entries.iter();
+            entries.map(move |&(row, column, value)| (row, column, factor * value))
+        });
+        each.collect()
+    };
+    let mut stiffness = at(&found.stiffness);
+    if has_turning {
+        stiffness.extend(at(&found.turning));
+    }
+    [stiffness, at(&found.dashpots)]
+}
+
+/// Geometric stiffness of the base state of a plane body, where it acts back.
+fn geometric(
+    case: &Case,
+    model: &SlidingModel,
+    parts: &Parts<'_>,
+    friction: f64,
+) -> Option<Triplets> {
+    let SteadyState::Plane(base) = &model.state else {
+        return None;
+    };
+    let acts = parts.options.geometric_stiffness;
+    acts.then(|| {
+        let displacement = base.displacement(friction);
+        assemble_geometric_stiffness(parts.mesh, case.materials(), &displacement)
+    })
+}
+
+/// The nodes of a plane contact edge.
+fn of_edge(case: &Case, parts: &Parts<'_>, base: &SteadySliding) -> Vec<Pressed> {
+    let mesh: &Mesh = parts.mesh;
+    let by_power = |all: &[Vec<f64>], i: usize| -> Vec<Vec<f64>> {
+        all.iter().map(|forces| vec![forces[i]]).collect()
+    };
+    let points = base.points.iter().enumerate();
+    points
+        .map(|(i, point)| {
+            let node = base.interface.normal_dof(i) / mesh.dimension;
+            Pressed {
+                place: FeedPlace {
+                    contact: parts.contacts[0].0.clone(),
+                    position: mesh.nodes[node],
+                    area: point.weight * case.thickness,
+                    shares: vec![(node as u32, 1.0)],
+                },
+                point: point.clone(),
+                is_pressed: base.is_pressed[i],
+                forces: by_power(&base.normal_forces, i),
+                springs: Vec::new(),
+                stiffness: parts.options.contact,
+            }
+        })
+        .collect()
+}
+
+/// The points of all contacts of solid bodies.
+///
+/// # Errors
+/// Those of the pairing of surfaces.
+fn of_assembly(model: &AssemblyModel) -> Result<Vec<Pressed>, PrestressError> {
+    let (assembly, state) = (model.body.assembled()?, model.base());
+    let by_power = |all: &[Vec<f64>], i: usize| -> Vec<Vec<f64>> {
+        all.iter().map(|values| vec![values[i]]).collect()
+    };
+    let mut found = Vec::new();
+    for (contact, surface) in assembly.contacts() {
+        for (place, point) in surface.points.iter().enumerate() {
+            let i = found.len();
+            found.push(Pressed {
+                place: FeedPlace {
+                    contact: contact.name.clone(),
+                    position: surface.sites[place].position,
+                    area: point.weight,
+                    shares: surface.shares[place].clone(),
+                },
+                point: point.clone(),
+                is_pressed: state.is_pressed[i],
+                forces: by_power(&state.normal_forces, i),
+                springs: by_power(&state.stiffnesses, i),
+                stiffness: contact.stiffness,
+            });
+        }
+    }
+    Ok(found)
+}

@@ -1,0 +1,233 @@
+//! The bodies of a model as sums over regions and supports.
+
+use super::shapes::Shapes;
+use crate::case::Case;
+use crate::fem::{
+    Triplets, assemble_patch_damping, assemble_point_masses, assemble_region,
+    assemble_region_geometric_stiffness, assemble_supports,
+};
+use crate::linalg::{Mat, MatRef, MatrixPolynomial};
+use crate::mesh::{BoundaryCondition, Mesh};
+use crate::prestress::{DampingModel, TangentOptions};
+use crate::study::eigenvalues::model::Model;
+use crate::study::eigenvalues::sliding::{SlidingModel, SteadyState};
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+
+/// Mass and stiffness on one pattern.
+pub(super) struct Pair(MatrixPolynomial);
+
+impl Pair {
+    fn new(count: usize, [mass, stiffness]: [Triplets; 2]) -> Self {
+        Self(MatrixPolynomial::from_triplets(
+            count,
+            &[mass.entries, stiffness.entries],
+        ))
+    }
+
+    /// `M x` and `K x`.
+    pub fn multiply(&self, x: MatRef<'_, f64>) -> [Mat<f64>; 2] {
+        let [mass, stiffness] = self.0.coefficients() else {
+            unreachable!("a pair has two coefficients")
+        };
+        self.0.pattern().multiply_each([mass, stiffness], x)
+    }
+}
+
+/// The bodies of a model as sums.
+pub(super) struct Parts<'a> {
+    pub case: &'a Case,
+    pub mesh: &'a Mesh,
+    pub options: &'a TangentOptions,
+    /// Each region with its name and its coefficients `alpha`, `beta`, `eta`.
+    pub regions: Vec<(String, Pair, [f64; 3])>,
+    /// Dashpots and springs of each support, and last of the modifications.
+    pub supports: Vec<(String, Pair)>,
+    /// Point masses.
+    pub attached: Option<Pair>,
+    /// Mass and stiffness of all regions, with point masses.
+    pub whole: Pair,
+    /// Each contact with the dofs of its surfaces.
+    pub contacts: Vec<(String, Vec<usize>)>,
+    /// Geometric stiffness by base state and region, a polynomial in friction.
+    geometric: RefCell<BTreeMap<(usize, usize), MatrixPolynomial>>,
+}
+
+impl<'a> Parts<'a> {
+    pub fn new(case: &'a Case, model: &'a SlidingModel) -> Option<Self> {
+        let mesh = &*model.mesh;
+        let (options, contacts) = match &model.model {
+            Model::SolidSectors(_) => return None,
+            Model::Sectors(_, options) => (options, Vec::new()),
+            Model::Whole(whole) => (&whole.options, Vec::new()),
+            Model::Assembly(assembly) => {
+                let pairs = assembly.body.contacts.iter();
+                let pairs = pairs.map(|own| (own.name.clone(), [own.surface, own.counter]));
+                (
+                    &assembly.options,
+                    contact_dofs(mesh, &pairs.collect::<Vec<_>>()),
+                )
+            }
+        };
+        let materials = case.materials();
+        let count = mesh.dof_count();
+        let mut all = [Triplets::default(), Triplets::default()];
+        let regions = mesh.regions.iter().enumerate().map(|(region, name)| {
+            let own = assemble_region(mesh, materials, options.mass, region);
+            for (sum, own) in all.iter_mut().zip(&own) {
+                sum.entries.extend_from_slice(&own.entries);
+            }
+            let damping = materials.own_damping(region).unwrap_or(options.damping);
+            let coefficients = [
+                damping.mass_coefficient,
+                damping.stiffness_coefficient,
+                materials.of(region).loss_factor,
+            ];
+            (name.clone(), Pair::new(count, own), coefficients)
+        });
+        let regions = regions.collect();
+        let masses = assemble_point_masses(mesh);
+        all[0].entries.extend_from_slice(&masses.entries);
+        let has_masses = !masses.entries.is_empty();
+        let mut supports = supports(mesh);
+        if !(mesh.attachments.is_empty() && mesh.patches.is_empty()) {
+            let patches = assemble_patch_damping(mesh, materials, options.mass);
+            supports.push(modifications(mesh, patches));
+        }
+        Some(Self {
+            case,
+            mesh,
+            options,
+            regions,
+            supports,
+            attached: has_masses.then(|| Pair::new(count, [masses, Triplets::default()])),
+            whole: Pair::new(count, all),
+            contacts: match contacts.is_empty() {
+                true => vec![("contact".to_owned(), Vec::new())],
+                false => contacts,
+            },
+            geometric: RefCell::default(),
+        })
+    }
+
+    /// Forms `phi^H K_sigma phi` of a region for each shape, where the damping has a part of it.
+    pub fn geometric_forms(
+        &self,
+        model: &SlidingModel,
+        shapes: &Shapes<'_>,
+        region: usize,
+    ) -> Vec<f64> {
+        let whole = self.options.damping_model == DampingModel::WholeTangent;
+        let is_damped = whole && self.options.damping.stiffness_coefficient != 0.0;
+        let base = base_state(self.case, model, shapes.friction);
+        let base = base.filter(|_| is_damped && self.options.geometric_stiffness);
+        let Some((state, displacements)) = base else {
+            return vec![0.0; shapes.modes.len()];
+        };
+        // Linear in the displacement: assembled once for each state and power of friction.
+        let mut known = self.geometric.borrow_mut();
+        let geometric = known.entry((state, region)).or_insert_with(|| {
+            let materials = self.case.materials();
+            let terms = displacements.iter().map(|displacement| {
+                assemble_region_geometric_stiffness(self.mesh, materials, displacement, region)
+                    .entries
+            });
+            let terms: Vec<_> = terms.collect();
+            MatrixPolynomial::from_triplets(self.mesh.dof_count(), &terms)
+        });
+        let values = geometric.evaluate(shapes.friction);
+        let image = geometric
+            .pattern()
+            .multiply(&values, shapes.columns.as_ref());
+        shapes.forms(&image)
+    }
+}
+
+/// The dofs on both surfaces of each contact; a node that several contacts touch is of the one whose finer surface is nearest.
+fn contact_dofs(mesh: &Mesh, contacts: &[(String, [usize; 2])]) -> Vec<(String, Vec<usize>)> {
+    let nodes = |boundary: usize| mesh.boundaries[boundary].nodes.iter().map(|&n| n as usize);
+    let distance = |node: usize, contact: usize| {
+        let at = mesh.nodes[node];
+        let away = |other: usize| -> f64 {
+            let place = mesh.nodes[other];
+            (0..3).map(|k| (at[k] - place[k]).powi(2)).sum()
+        };
+        nodes(contacts[contact].1[0])
+            .map(away)
+            .fold(f64::INFINITY, f64::min)
+    };
+    let mut touched: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for (contact, (_, surfaces)) in contacts.iter().enumerate() {
+        for node in surfaces.iter().flat_map(|&surface| nodes(surface)) {
+            let known = touched.entry(node).or_default();
+            if !known.contains(&contact) {
+                known.push(contact);
+            }
+        }
+    }
+    let mut dofs = vec![Vec::new(); contacts.len()];
+    for (node, all) in touched {
+        let nearest = all.iter().copied();
+        let nearest = nearest.min_by(|a, b| distance(node, *a).total_cmp(&distance(node, *b)));
+        let owner = nearest.unwrap_or(all[0]);
+        let d = mesh.dimension;
+        dofs[owner].extend((0..d).map(|k| d * node + k));
+    }
+    let names = contacts.iter().map(|(name, _)| name.clone());
+    names.zip(dofs).collect()
+}
+
+/// Number and displacements, by power of friction, of the base state of a plane body at a friction coefficient.
+fn base_state<'m>(
+    case: &Case,
+    model: &'m SlidingModel,
+    friction: f64,
+) -> Option<(usize, &'m [Vec<f64>])> {
+    match (&model.model, &model.state) {
+        (Model::Whole(whole), _) => {
+            let solved = case.cea.as_ref()?.solved_friction_coefficients();
+            let place = solved.iter().position(|&mu| mu == friction)?;
+            let state = whole.range.state_of[place];
+            Some((state, &whole.range.states[state].displacements))
+        }
+        (_, SteadyState::Plane(base)) => Some((0, &base.displacements)),
+        (_, SteadyState::Solid(_) | SteadyState::Assembly(_)) => None,
+    }
+}
+
+/// Dashpots and springs of the modifications, with the damping of their patches.
+fn modifications(mesh: &Mesh, patches: Triplets) -> (String, Pair) {
+    let mut own = mesh.clone();
+    for boundary in &mut own.boundaries {
+        boundary.condition = BoundaryCondition::Free;
+    }
+    let [springs, mut dashpots] = assemble_supports(&own);
+    dashpots.entries.extend(patches.entries);
+    let pair = Pair::new(mesh.dof_count(), [dashpots, springs]);
+    ("modifications".to_owned(), pair)
+}
+
+/// Dashpots and springs of each supported boundary.
+fn supports(mesh: &Mesh) -> Vec<(String, Pair)> {
+    let supported = |boundary: usize| {
+        let condition = &mesh.boundaries[boundary].condition;
+        matches!(condition, BoundaryCondition::Support(_))
+    };
+    let of = |boundary: usize| {
+        // The mesh with this support alone.
+        let mut own = mesh.clone();
+        own.attachments.clear();
+        for (other, free) in own.boundaries.iter_mut().enumerate() {
+            if other != boundary {
+                free.condition = BoundaryCondition::Free;
+            }
+        }
+        let [springs, dashpots] = assemble_supports(&own);
+        let pair = Pair::new(mesh.dof_count(), [dashpots, springs]);
+        (mesh.boundaries[boundary].name.clone(), pair)
+    };
+    (0..mesh.boundaries.len())
+        .filter(|&b| supported(b))
+        .map(of)
+        .collect()
+}
