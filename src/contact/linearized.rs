@@ -23,6 +23,8 @@ pub struct ContactTerms {
     pub turning: Vec<Triplets>,
     /// Dashpots of contact and friction.
     pub dashpots: Vec<Triplets>,
+    /// Structural damping of the penalty, whose force is `i` times it; nothing where it has none.
+    pub structural: Vec<Triplets>,
 }
 
 /// Linearises contact and friction at `points` around `state`, moved to the left-hand side:
@@ -62,6 +64,11 @@ pub fn linearized(
         for i in pressed() {
             add_normal_law(&mut terms.stiffness, p, &points[i], springs[i]);
         }
+    }
+    if stiffness.loss_factor != 0.0 {
+        terms.structural = terms.stiffness.clone();
+        let entries = terms.structural.iter_mut().flat_map(|t| &mut t.entries);
+        entries.for_each(|entry| entry.2 *= stiffness.loss_factor);
     }
     // What the forces of the base state do.
     for (p, forces) in state.normal_forces.iter().enumerate() {

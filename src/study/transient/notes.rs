@@ -40,7 +40,13 @@ impl TransientStudy<'_> {
             return None;
         }
         let stiffness = assemble_stiffness(&self.mesh, case.materials());
-        match SteadySliding::solve(&self.mesh, &stiffness, &case.contact.sliding) {
+        let contact = &case.contact;
+        match SteadySliding::solve_with(
+            &self.mesh,
+            &stiffness,
+            &contact.sliding,
+            contact.stiffness.law,
+        ) {
             Err(error @ PrestressError::NoState { .. }) => Some(format!("the body jams: {error}")),
             // A gap closes as the run moves the body, and other faults stop the run itself.
             Ok(_) | Err(_) => None,

@@ -7,7 +7,7 @@
 //! sigma = (Im p - omega c - h) / (2 omega m)
 //! ```
 //!
-//! as `M`, `C`, `K` of the bodies are symmetric; `h` is `eta k` of each region with a loss factor. `m`, `c`, `k` are sums
+//! as `M`, `C`, `K` of the bodies are symmetric; `h` is `eta k` of each region and support with a loss factor. `m`, `c`, `k` are sums
 //! over regions and supports, `p` over contacts: the growth rate is a sum of what each takes or feeds, without a remainder.
 
 mod shapes;
@@ -104,8 +104,8 @@ struct Parts<'a> {
     options: &'a TangentOptions,
     /// Each region with its name and its coefficients `alpha`, `beta`, `eta`.
     regions: Vec<(String, Pair, [f64; 3])>,
-    /// Dashpots and springs of each support, and last of the modifications.
-    supports: Vec<(String, Pair)>,
+    /// Dashpots and springs of each support with its `eta`, and last of the modifications.
+    supports: Vec<(String, Pair, f64)>,
     /// Point masses.
     attached: Option<Pair>,
     /// Mass and stiffness of all regions, with point masses.
@@ -247,7 +247,7 @@ impl<'a> Parts<'a> {
                 shapes.add(balance, [&mass, &stiffness], factors);
             }
         }
-        for (place, (name, pair)) in self.supports.iter().enumerate() {
+        for (place, (name, pair, eta)) in self.supports.iter().enumerate() {
             let [dashpots, springs] = pair.multiply(shapes.columns.as_ref());
             let (c, k) = (shapes.forms(&dashpots), shapes.forms(&springs));
             // Point masses go with the modifications, which come last.
@@ -258,17 +258,20 @@ impl<'a> Parts<'a> {
             let alpha = self.options.damping.mass_coefficient;
             let each = (0..count).map(|i| {
                 strain[i] += k[i];
+                let c = c[i] + eta * k[i] / shapes.modes[i].1.eigenvalue.im;
                 let Some(m) = &m else {
-                    return [f64::NAN, k[i], c[i]];
+                    return [f64::NAN, k[i], c];
                 };
                 kinetic[i] += m[i];
-                [m[i], k[i], c[i] + alpha * m[i]]
+                [m[i], k[i], c + alpha * m[i]]
             });
             rows.push((name, Source::Support, each.collect()));
             let Some(balance) = &mut balance else {
                 continue;
             };
-            shapes.add(balance, [&dashpots, &springs], |lambda| [lambda, c64::ONE]);
+            shapes.add(balance, [&dashpots, &springs], |lambda| {
+                [lambda, c64::new(1.0, *eta)]
+            });
             if let Some([mass, none]) = &masses {
                 let factors = |lambda: c64| [lambda * lambda + lambda * alpha, c64::ZERO];
                 shapes.add(balance, [mass, none], factors);
@@ -384,7 +387,7 @@ fn base_state<'m>(
 }
 
 /// Dashpots and springs of the modifications, with the damping of their patches.
-fn modifications(mesh: &Mesh, patches: Triplets) -> (String, Pair) {
+fn modifications(mesh: &Mesh, patches: Triplets) -> (String, Pair, f64) {
     let mut own = mesh.clone();
     for boundary in &mut own.boundaries {
         boundary.condition = BoundaryCondition::Free;
@@ -392,11 +395,11 @@ fn modifications(mesh: &Mesh, patches: Triplets) -> (String, Pair) {
     let [springs, mut dashpots] = assemble_supports(&own);
     dashpots.entries.extend(patches.entries);
     let pair = Pair::new(mesh.dof_count(), [dashpots, springs]);
-    ("modifications".to_owned(), pair)
+    ("modifications".to_owned(), pair, 0.0)
 }
 
-/// Dashpots and springs of each supported boundary.
-fn supports(mesh: &Mesh) -> Vec<(String, Pair)> {
+/// Dashpots and springs of each supported boundary, with its loss factor.
+fn supports(mesh: &Mesh) -> Vec<(String, Pair, f64)> {
     let supported = |boundary: usize| {
         let condition = &mesh.boundaries[boundary].condition;
         matches!(condition, BoundaryCondition::Support(_))
@@ -412,7 +415,11 @@ fn supports(mesh: &Mesh) -> Vec<(String, Pair)> {
         }
         let [springs, dashpots] = assemble_supports(&own);
         let pair = Pair::new(mesh.dof_count(), [dashpots, springs]);
-        (mesh.boundaries[boundary].name.clone(), pair)
+        let eta = match mesh.boundaries[boundary].condition {
+            BoundaryCondition::Support(support) => support.loss_factor,
+            _ => 0.0,
+        };
+        (mesh.boundaries[boundary].name.clone(), pair, eta)
     };
     (0..mesh.boundaries.len())
         .filter(|&b| supported(b))
