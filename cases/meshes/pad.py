@@ -1,9 +1,16 @@
-"""Writes pad.msh: a disc, and a lining on a steel backplate before its rim; python3 pad.py"""
+"""Writes pad.msh: a disc, and a lining on a steel backplate before its rim; python3 pad.py
+
+python3 pad.py pressed writes pressed-pad.msh, half as fine, with the ends of the backplate as boundaries of their own.
+"""
 from math import cos, pi, sin
+from sys import argv
 
 HUB, RIM, LINING, BACK = 0.045, 0.110, 0.122, 0.130  # radii, m
 SPAN = 56 * pi / 180  # the pad's angle
 AROUND, PAD = 132, 26  # elements around the disc and along the pad: they do not match
+ENDS = argv[1:] == ["pressed"]
+if ENDS:
+    AROUND, PAD = 96, 18
 
 nodes, lines, quads = [], [], []
 
@@ -28,16 +35,25 @@ def steps(a, b, count):
     return [a + (b - a) * i / count for i in range(count + 1)]
 
 
-ring(steps(HUB, RIM, 12), steps(0, 2 * pi, AROUND)[:-1], True, ("hub", "rim"), ["disc"] * 12)
+across = 8 if ENDS else 12
+ring(steps(HUB, RIM, across), steps(0, 2 * pi, AROUND)[:-1], True, ("hub", "rim"), ["disc"] * across)
 layers = steps(RIM, LINING, 3) + steps(LINING, BACK, 2)[1:]
 angles = steps(pi / 2 - SPAN / 2, pi / 2 + SPAN / 2, PAD)
 ring(layers, angles, False, ("lining", "back"), ["pad"] * 3 + ["backplate"] * 2)
 
-tags = {name: tag for tag, name in enumerate(("hub", "rim", "lining", "back", "disc", "pad", "backplate"), 1)}
-with open("pad.msh", "w") as out:
+curves = ["hub", "rim", "lining", "back"]
+if ENDS:
+    first = len(nodes) - 3 * (PAD + 1) + 1  # the backplate has the last three rows of nodes
+    for name, column in (("leading", 0), ("trailing", PAD)):
+        ends = [first + row * (PAD + 1) + column for row in range(3)]
+        lines.extend((name, p, q) for p, q in zip(ends, ends[1:]))
+    curves += ["leading", "trailing"]
+
+tags = {name: tag for tag, name in enumerate(curves + ["disc", "pad", "backplate"], 1)}
+with open("pressed-pad.msh" if ENDS else "pad.msh", "w") as out:
     out.write("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n%d\n" % len(tags))
     for name, tag in tags.items():
-        out.write('%d %d "%s"\n' % (1 if tag < 5 else 2, tag, name))
+        out.write('%d %d "%s"\n' % (1 if name in curves else 2, tag, name))
     out.write("$EndPhysicalNames\n$Nodes\n%d\n" % len(nodes))
     for k, (x, y) in enumerate(nodes, 1):
         out.write("%d %.15g %.15g 0\n" % (k, x, y))

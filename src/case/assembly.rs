@@ -1,13 +1,14 @@
 //! Assemblies of solid bodies: `[motion.*]`, `[contacts.*]`, `[ties.*]`.
 
 use super::boundaries::NamedCondition;
-use super::contact::{Contact, friction_decay};
+use super::contact::{Contact, friction_decay, no_rigid_losses};
+use super::elastic::loss_factor;
 use super::modifications::{Modification, reshaped};
+use super::normal_law::normal_law;
 use super::raw::MeshBytes;
 use super::reader::Section;
 use super::suggestion;
-use super::words::NormalLawWord;
-use crate::contact::{ContactStiffness, Motion, NormalLaw, PairFriction, SlidingContact};
+use crate::contact::{ContactStiffness, Motion, PairFriction, SlidingContact};
 use crate::fem::{ElasticMaterial, PlaneFormulation, RegionMaterial};
 use crate::mesh::{Mesh, MeshFileError};
 use crate::prestress::{Assembly, BaseChoice, PrestressError, SlidingSurfaces, TiedSurfaces};
@@ -199,8 +200,13 @@ fn contact(section: &Section<'_>, bases: &mut Vec<BaseChoice>) -> NamedContact {
         normal_damping: section.number("normal_damping"),
         tangential_damping: section.number("tangential_damping"),
         is_base_compliant: true,
+        loss_factor: loss_factor(section),
+        ..ContactStiffness::default()
     };
     let (law, stiffness) = normal_law(section, stiffness);
+    if stiffness.normal_stiffness.is_none() {
+        no_rigid_losses(section, &stiffness);
+    }
     if stiffness.normal_stiffness.is_none() && stiffness.normal_damping > 0.0 {
         section.reject(
             "normal_damping",
@@ -225,75 +231,6 @@ fn contact(section: &Section<'_>, bases: &mut Vec<BaseChoice>) -> NamedContact {
             law,
         },
     }
-}
-
-/// The keys of a contact's law of pressure, and which of them each law has.
-const LAW_KEYS: [(&str, &[NormalLawWord]); 4] = [
-    (
-        "normal_stiffness",
-        &[NormalLawWord::Linear, NormalLawWord::Cubic],
-    ),
-    ("cubic_stiffness", &[NormalLawWord::Cubic]),
-    ("reference_pressure", &[NormalLawWord::Exponential]),
-    ("height", &[NormalLawWord::Exponential]),
-];
-
-/// How a contact stiffens with pressure, and its stiffness without.
-fn normal_law(
-    section: &Section<'_>,
-    stiffness: ContactStiffness,
-) -> (Option<NormalLaw>, ContactStiffness) {
-    let word: NormalLawWord = section.choice("normal_law");
-    for (key, laws) in LAW_KEYS {
-        if !laws.contains(&word) && section.has(key) {
-            let of_word = match word {
-                NormalLawWord::Linear => "linear",
-                NormalLawWord::Cubic => "cubic",
-                NormalLawWord::Exponential => "exponential",
-            };
-            section.reject(
-                key,
-                format!(
-                    "{} has no effect with normal_law = \"{of_word}\"",
-                    section.name(key)
-                ),
-                "not a number of this law".to_owned(),
-                Some("leave it out, or give the law that it belongs to".to_owned()),
-            );
-        }
-        if laws.contains(&word) && word != NormalLawWord::Linear && !section.has(key) {
-            section.missing(key);
-        }
-    }
-    let number = |key: &str| section.optional_number(key);
-    let law = match word {
-        NormalLawWord::Linear => None,
-        NormalLawWord::Cubic => stiffness
-            .normal_stiffness
-            .zip(number("cubic_stiffness"))
-            .map(|(stiffness, cubic_stiffness)| NormalLaw::Cubic {
-                stiffness,
-                cubic_stiffness,
-            }),
-        NormalLawWord::Exponential => number("reference_pressure").zip(number("height")).map(
-            |(reference_pressure, height)| NormalLaw::Exponential {
-                reference_pressure,
-                height,
-            },
-        ),
-    };
-    // What is asked for but unused is told above.
-    let _ = (
-        number("cubic_stiffness"),
-        number("reference_pressure"),
-        number("height"),
-    );
-    let at_rest = law.map(|law| law.stiffness(0.0));
-    let stiffness = ContactStiffness {
-        normal_stiffness: at_rest.or(stiffness.normal_stiffness),
-        ..stiffness
-    };
-    (law, stiffness)
 }
 
 /// The solid bodies of a mesh file. An error is a message and a label.

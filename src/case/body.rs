@@ -4,8 +4,8 @@ use super::assembly::AssemblyBody;
 use super::imported::ImportedBody;
 use crate::fem::{AnnulusMaterials, ElasticMaterial, MaterialField};
 use crate::mesh::{
-    AnnulusMesh, AnnulusSpecification, Counterface, Mesh, MeshError, SolidContact,
-    SolidSpecification,
+    AnnulusMesh, AnnulusSpecification, BoundaryCondition, Counterface, Mesh, MeshError,
+    SolidContact, SolidSpecification,
 };
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -254,10 +254,25 @@ impl Body {
         }
     }
 
-    /// Whether a material has structural damping.
-    pub fn has_structural_damping(&self) -> bool {
+    /// Whether a material or the springs of a support have structural damping.
+    pub(super) fn has_structural_damping(&self) -> bool {
         let mut regions = 0..self.region_count();
-        regions.any(|region| self.materials().of(region).loss_factor != 0.0)
+        let is_lossy = |condition: &BoundaryCondition| matches!(condition, BoundaryCondition::Support(support) if support.loss_factor != 0.0);
+        let has_support = match self {
+            Self::Annulus(annulus) => {
+                let (outer, shaft) = (&annulus.specification.outer, annulus.specification.shaft);
+                is_lossy(outer) || shaft.is_some_and(|shaft| is_lossy(&shaft.bore))
+            }
+            Self::Revolution(revolution) => {
+                let mut conditions = revolution.specification.conditions.iter();
+                conditions.any(is_lossy)
+            }
+            Self::Imported(_) | Self::Assembly(_) => self.whole_mesh().is_some_and(|mesh| {
+                let mut boundaries = mesh.boundaries.iter();
+                boundaries.any(|boundary| is_lossy(&boundary.condition))
+            }),
+        };
+        has_support || regions.any(|region| self.materials().of(region).loss_factor != 0.0)
     }
 
     /// Number of materials.

@@ -1,5 +1,6 @@
 //! `[boundaries.*]`: what holds each boundary.
 
+use super::elastic::loss_factor;
 use super::reader::Section;
 use super::words::{ConditionWord, HeldAxis};
 use crate::mesh::{BoundaryCondition, ElasticSupport};
@@ -30,7 +31,21 @@ fn condition(section: &Section<'_>) -> BoundaryCondition {
         axial_stiffness: section.number("axial_stiffness"),
         normal_damping: section.number("normal_damping"),
         tangential_damping: section.number("tangential_damping"),
+        loss_factor: loss_factor(section),
     };
+    let has_springs =
+        support.normal_stiffness + support.tangential_stiffness + support.axial_stiffness > 0.0;
+    if word == ConditionWord::Support && support.loss_factor > 0.0 && !has_springs {
+        section.reject(
+            "loss_factor",
+            format!(
+                "{} has no effect on a support without springs",
+                section.name("loss_factor")
+            ),
+            "nothing is lost".to_owned(),
+            Some("give a stiffness, or leave loss_factor out".to_owned()),
+        );
+    }
     let pressure = section.optional_number("pressure");
     let axes: Vec<HeldAxis> = section.choices("directions");
     // A value without effect is a mistake.
@@ -51,6 +66,7 @@ fn condition(section: &Section<'_>) -> BoundaryCondition {
             "axial_stiffness",
             "normal_damping",
             "tangential_damping",
+            "loss_factor",
         ] {
             if section.has(key) {
                 reject(key, "support");

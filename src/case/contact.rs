@@ -1,10 +1,12 @@
 //! The section `[contact]`.
 
+use super::elastic::loss_factor;
 use super::imported::{self, ContactPlace};
+use super::normal_law::normal_law;
 use super::reader::Section;
 use super::solid;
 use super::words::BaseContact;
-use crate::contact::{ContactStiffness, FrictionDecay, SlidingContact};
+use crate::contact::{ContactStiffness, FrictionDecay, NormalLaw, SlidingContact};
 use crate::mesh::AnnulusSpecification;
 use std::f64::consts::TAU;
 
@@ -15,6 +17,24 @@ pub struct Contact {
     pub sliding: SlidingContact,
     /// Linearised contact of the eigenvalue analysis.
     pub stiffness: ContactStiffness,
+}
+
+impl Contact {
+    /// The key that its normal stiffness without pressure belongs to.
+    pub(super) fn stiffness_key(&self) -> &'static str {
+        match self.stiffness.law {
+            Some(NormalLaw::Exponential { .. }) => "contact.reference_pressure",
+            Some(NormalLaw::Cubic { .. }) | None => "contact.normal_stiffness",
+        }
+    }
+
+    /// What it is.
+    pub(super) fn stiffness_name(&self) -> &'static str {
+        match self.stiffness.law {
+            Some(NormalLaw::Exponential { .. }) => "contact.reference_pressure / height",
+            Some(NormalLaw::Cubic { .. }) | None => "contact.normal_stiffness",
+        }
+    }
 }
 
 /// `annulus` is that of a generated body, with whether it is three-dimensional; `is_pressed` says whether a boundary has a
@@ -83,6 +103,30 @@ pub(super) fn contact(
             Some("give a small positive speed instead".to_owned()),
         );
     }
+    let stiffness = ContactStiffness {
+        normal_stiffness: section.optional_number("normal_stiffness"),
+        normal_damping: section.number("normal_damping"),
+        tangential_damping: section.number("tangential_damping"),
+        is_base_compliant: section.choice::<BaseContact>("base_state") == BaseContact::Compliant,
+        loss_factor: loss_factor(&section),
+        ..ContactStiffness::default()
+    };
+    let (law, stiffness) = normal_law(&section, stiffness);
+    if law.is_some() && is_solid {
+        section.reject(
+            "normal_law",
+            "contact.normal_law on a body of revolution in three dimensions: its base state is solved ring by ring, for rigid \
+             contact with pressures that have no bound at the edges of the face, and a stiffness that follows the pressure would \
+             have none either"
+                .to_owned(),
+            "for plane bodies and assemblies".to_owned(),
+            Some(
+                "give normal_stiffness at the mean pressure, or a mesh file with [contacts.*], whose base state is solved on the \
+                 springs of the law"
+                    .to_owned(),
+            ),
+        );
+    }
     let contact = Contact {
         sliding: SlidingContact {
             decay: friction_decay(&section),
@@ -90,16 +134,11 @@ pub(super) fn contact(
             interference,
             rotation_speed,
         },
-        stiffness: ContactStiffness {
-            normal_stiffness: section.optional_number("normal_stiffness"),
-            normal_damping: section.number("normal_damping"),
-            tangential_damping: section.number("tangential_damping"),
-            is_base_compliant: section.choice::<BaseContact>("base_state")
-                == BaseContact::Compliant,
-        },
+        stiffness: ContactStiffness { law, ..stiffness },
     };
     let stiffness = &contact.stiffness;
-    let is_rigid = !section.has("normal_stiffness") || section.is_text("normal_stiffness", "rigid");
+    let is_rigid = law.is_none()
+        && (!section.has("normal_stiffness") || section.is_text("normal_stiffness", "rigid"));
     if is_rigid && stiffness.normal_damping > 0.0 {
         section.reject(
             "normal_damping",
@@ -110,6 +149,9 @@ pub(super) fn contact(
             "needs contact.normal_stiffness".to_owned(),
             Some("give contact.normal_stiffness, or leave normal_damping out".to_owned()),
         );
+    }
+    if is_rigid {
+        no_rigid_losses(&section, stiffness);
     }
     if stiffness.is_base_compliant && (is_rigid || !is_solid) {
         let [label, help] = match is_solid {
@@ -132,6 +174,21 @@ pub(super) fn contact(
     }
     section.close();
     (contact, place)
+}
+
+/// A contact without springs loses nothing in them.
+pub(super) fn no_rigid_losses(section: &Section<'_>, stiffness: &ContactStiffness) {
+    if stiffness.loss_factor > 0.0 {
+        section.reject(
+            "loss_factor",
+            format!(
+                "{} has no effect on a rigid contact, which stores no energy",
+                section.name("loss_factor")
+            ),
+            "needs normal_stiffness".to_owned(),
+            Some("give normal_stiffness, or leave loss_factor out".to_owned()),
+        );
+    }
 }
 
 /// How friction falls with the slip speed; a ratio of one is a constant coefficient.

@@ -106,11 +106,12 @@ impl Case {
     }
 
     /// Whether the limit cycles of the body are rotating waves: on the generated annulus around a rigid shaft, with a constant
-    /// friction coefficient. Those of any other plane body are motions of the whole mesh.
+    /// friction coefficient, in contact that does not stiffen with pressure. Those of any other plane body are motions of the whole mesh.
     pub fn has_rotating_waves(&self) -> bool {
         let annulus = self.body.annulus();
         annulus.is_some_and(|annulus| annulus.materials.shaft.is_none())
             && self.contact.sliding.decay.is_none()
+            && self.contact.stiffness.law.is_none()
     }
 
     /// That its limit cycles are rotating waves.

@@ -21,10 +21,8 @@ pub(super) enum Surroundings {
     },
 }
 
-/// Elasticity and density of `[material]` or of a section of `[materials.*]`. Cylindrical axes are about z until
-/// [`place_axes`] knows the body.
-pub(super) fn elastic(section: &Section<'_>, formulation: PlaneFormulation) -> ElasticMaterial {
-    let density = section.number("density");
+/// The loss factor of a section, at most 1.
+pub(super) fn loss_factor(section: &Section<'_>) -> f64 {
     let loss_factor = section.number("loss_factor");
     if loss_factor > 1.0 {
         section.reject(
@@ -37,6 +35,14 @@ pub(super) fn elastic(section: &Section<'_>, formulation: PlaneFormulation) -> E
             Some("steel has about 0.001, cast iron 0.002, a lining 0.01 to 0.1, rubber 0.1 to 1".to_owned()),
         );
     }
+    loss_factor
+}
+
+/// Elasticity and density of `[material]` or of a section of `[materials.*]`. Cylindrical axes are about z until
+/// [`place_axes`] knows the body.
+pub(super) fn elastic(section: &Section<'_>, formulation: PlaneFormulation) -> ElasticMaterial {
+    let density = section.number("density");
+    let loss_factor = loss_factor(section);
     let plain = ElasticMaterial {
         density,
         loss_factor,

@@ -27,6 +27,7 @@ mod keys;
 mod model;
 mod modifications;
 mod node;
+mod normal_law;
 mod opposite;
 mod overrides;
 mod parameters;
@@ -258,7 +259,7 @@ impl Case {
     /// The two waves that compete.
     ///
     /// # Errors
-    /// A case without `[basin]`, and one whose friction falls with speed.
+    /// A case without `[basin]`, and one whose friction falls with speed or whose contact stiffens.
     pub fn require_basin(&self) -> Result<&crate::cycle::BasinRequest, CaseErrors> {
         let remedy = "[basin]\nharmonics = [1, 2]";
         self.refuse_losses_in_time("the search for a basin")?;
@@ -275,6 +276,17 @@ impl Case {
 
     /// Limit cycles are sought under a constant friction coefficient.
     fn require_constant_friction(&self) -> Result<(), CaseErrors> {
+        if self.contact.stiffness.law.is_some() {
+            return Err(self.error_at(
+                "contact.normal_law",
+                "rotating waves are those of rigid contact, whose pressure is another one than on a contact that stiffens".to_owned(),
+                "stiffens with pressure".to_owned(),
+                Some(
+                    "`cycle` seeks the motions of the whole mesh of such a disc; or leave contact.normal_law out"
+                        .to_owned(),
+                ),
+            ));
+        }
         if self.contact.sliding.decay.is_none() {
             return Ok(());
         }
@@ -385,16 +397,28 @@ impl Case {
         self.body.node_label(node)
     }
 
+    /// Whether a material, a support or a contact has structural damping.
+    pub fn has_structural_damping(&self) -> bool {
+        let contacts = self.body.assembly().map_or(&[][..], |body| &body.contacts);
+        self.body.has_structural_damping()
+            || self.contact.stiffness.loss_factor != 0.0
+            || contacts.iter().any(|own| own.stiffness.loss_factor != 0.0)
+    }
+
     /// An error at the first loss factor of the case.
     pub fn loss_error(&self, message: String, label: &str, help: &str) -> CaseErrors {
-        let names: Vec<String> = match self.raw.find("materials").map(|item| &item.value) {
-            Some(RawValue::Table(sections)) => sections.keys().cloned().collect(),
-            _ => Vec::new(),
+        let keys = |section: &str| -> Vec<String> {
+            let names = match self.raw.find(section).map(|item| &item.value) {
+                Some(RawValue::Table(sections)) => sections.keys().cloned().collect(),
+                _ => Vec::new(),
+            };
+            let own = names.iter();
+            own.map(|name| format!("{section}.{name}.loss_factor"))
+                .collect()
         };
-        let own = names
-            .iter()
-            .map(|name| format!("materials.{name}.loss_factor"));
-        let mut keys = std::iter::once("material.loss_factor".to_owned()).chain(own);
+        let shared = ["material.loss_factor", "contact.loss_factor"].map(str::to_owned);
+        let own = ["materials", "boundaries", "contacts"].map(keys);
+        let mut keys = shared.into_iter().chain(own.into_iter().flatten());
         let is_lossy = |key: &String| self.number(key).is_some_and(|value| value > 0.0);
         let key = keys.find(is_lossy);
         let key = key.unwrap_or_else(|| "material.loss_factor".to_owned());
@@ -404,7 +428,7 @@ impl Case {
 
     /// Refuses structural damping in an analysis over time.
     pub(super) fn refuse_losses_in_time(&self, what: &str) -> Result<(), CaseErrors> {
-        if !self.body.has_structural_damping() {
+        if !self.has_structural_damping() {
             return Ok(());
         }
         Err(self.loss_error(

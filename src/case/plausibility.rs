@@ -269,17 +269,26 @@ fn edge_inertia(case: &Case) -> Option<[f64; 2]> {
     Some([mass, step])
 }
 
-/// Springs whose own motion of the contact nodes the time step does not resolve, `k dt^2 > 4 m`.
+/// Springs whose own motion of the contact nodes the time step does not resolve, `k dt^2 > 4 m`: those of contact that stiffens
+/// at the pressure of rigid contact.
 fn unresolved_springs(case: &Case) -> Option<Diagnostic> {
-    let stiffness = case.contact.stiffness.normal_stiffness?;
+    let at_rest = case.contact.stiffness.normal_stiffness?;
     let [mass, step] = edge_inertia(case)?;
     let most = 4.0 * mass / (step * step);
+    let pressed = case.contact.stiffness.law.zip(lame_pressure(case));
+    let (stiffness, name) = match pressed {
+        Some((law, pressure)) => (
+            law.stiffness(law.approach(pressure)),
+            format!("the stiffness of the contact at {pressure:.1e} Pa"),
+        ),
+        None => (at_rest, case.contact.stiffness_name().to_owned()),
+    };
     (stiffness > most).then(|| {
         warning(
             case,
-            "contact.normal_stiffness",
+            case.contact.stiffness_key(),
             format!(
-                "contact.normal_stiffness = {stiffness:e} Pa/m is more than the time step of the transient, {step:.2e} s, \
+                "{name} = {stiffness:e} Pa/m is more than the time step of the transient, {step:.2e} s, \
                  resolves on this mesh, about {most:.1e} Pa/m: the status of contact nodes would flicker"
             ),
             "nearly rigid",
@@ -356,10 +365,11 @@ fn contact_stiffness(case: &Case) -> Option<Diagnostic> {
     (stiffness > LARGEST_STIFFNESS_RATIO * scale).then(|| {
         warning(
             case,
-            "contact.normal_stiffness",
+            case.contact.stiffness_key(),
             format!(
-                "contact.normal_stiffness = {stiffness:e} Pa/m is {:.1e} times the modulus over the \
+                "{} = {stiffness:e} Pa/m is {:.1e} times the modulus over the \
                  radius: the eigenvalues lose that many digits",
+                case.contact.stiffness_name(),
                 stiffness / scale
             ),
             "nearly rigid",

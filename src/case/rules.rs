@@ -132,15 +132,26 @@ pub(super) fn infeasible(case: &Case) -> Vec<Diagnostic> {
             "use initial = \"steady-sliding\", or set contact.static_friction_ratio = 1.0",
         );
     }
+    if starts_on_cycle && case.contact.stiffness.law.is_some() {
+        refuse(
+            "transient.initial",
+            "transient.initial = \"limit-cycle\" is a rotating wave of rigid contact, whose pressure is another one than on a \
+             contact that stiffens"
+                .to_owned(),
+            "contact.normal_law is not linear".to_owned(),
+            "use initial = \"steady-sliding\", or leave contact.normal_law out",
+        );
+    }
     let scale = case.material.young_modulus / case.body.contact_length();
     if let Some(stiffness) = case.contact.stiffness.normal_stiffness
         && stiffness > LARGEST_STIFFNESS * scale
     {
         refuse(
-            "contact.normal_stiffness",
+            case.contact.stiffness_key(),
             format!(
-                "contact.normal_stiffness = {stiffness:e} Pa/m is {:.1e} times the modulus over the \
+                "{} = {stiffness:e} Pa/m is {:.1e} times the modulus over the \
                  radius: round-off would drown the body",
+                case.contact.stiffness_name(),
                 stiffness / scale
             ),
             format!("at most {:e}", LARGEST_STIFFNESS * scale),

@@ -29,7 +29,7 @@ pub use law::{
 };
 pub use linearized::{ContactTerms, PressedPoints, linearized};
 pub use mortar::{MortarNode, mortar_nodes};
-pub use normal_law::NormalLaw;
+pub use normal_law::{LawParameter, NormalLaw};
 pub use opposite::OppositeShare;
 pub use pairing::{ContactSite, ContactSurface, Motion, PairFriction, PointKind};
 pub use point::{Point, Row, value_of};
@@ -88,6 +88,13 @@ pub struct ContactStiffness {
     pub tangential_damping: f64,
     /// Whether the normal stiffness carries the base state of a body in three dimensions too; otherwise that is rigid contact's.
     pub is_base_compliant: bool,
+    /// How a contact of a plane body stiffens with pressure, `normal_stiffness` then without pressure; `None` where it does not.
+    /// Such a law carries the base state too.
+    pub law: Option<NormalLaw>,
+    /// A normal dashpot of so many times the stiffness of the law at the base state's pressure, s.
+    pub law_damping: f64,
+    /// Structural damping `eta` of the normal stiffness: `k_n (1 + i eta)` at positive frequencies, which friction follows.
+    pub loss_factor: f64,
 }
 
 impl ContactStiffness {
@@ -98,6 +105,12 @@ impl ContactStiffness {
 
     /// The same with the dashpot `beta_R k_n` of a stiffness damping that acts on the contact too.
     pub fn damped_by(self, stiffness_coefficient: f64) -> Self {
+        if self.law.is_some() {
+            return Self {
+                law_damping: self.law_damping + stiffness_coefficient,
+                ..self
+            };
+        }
         let added = stiffness_coefficient * self.normal_stiffness.unwrap_or(0.0);
         Self {
             normal_damping: self.normal_damping + added,

@@ -22,6 +22,29 @@ pub enum NormalLaw {
     },
 }
 
+/// A number of a [`NormalLaw`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LawParameter {
+    /// `k` of the cubic law, Pa/m.
+    Stiffness,
+    /// `c`, Pa/m3.
+    CubicStiffness,
+    /// `p_r`, Pa.
+    ReferencePressure,
+    /// `h`, m.
+    Height,
+}
+
+/// `(e^x - 1) / x - 1`, without cancellation.
+fn excess_of_mean(x: f64) -> f64 {
+    if x.abs() < 0.03 {
+        // x / 2! + x^2 / 3! + ..., to the last bit.
+        let terms = (2..11).rev().map(f64::from);
+        return terms.fold(0.0, |sum, n| (x + x * sum) / n);
+    }
+    x.exp_m1() / x - 1.0
+}
+
 impl NormalLaw {
     /// `p(g)`, Pa.
     pub fn pressure(self, approach: f64) -> f64 {
@@ -51,6 +74,76 @@ impl NormalLaw {
         }
     }
 
+    /// `d^2 p / dg^2`, Pa/m2.
+    pub fn curvature(self, approach: f64) -> f64 {
+        match self {
+            Self::Cubic {
+                cubic_stiffness, ..
+            } => 6.0 * cubic_stiffness * approach,
+            Self::Exponential { height, .. } => self.stiffness(approach) / height,
+        }
+    }
+
+    /// Energy stored in each unit of area, `int_0^g p dg`, J/m2; none where the surfaces are apart.
+    pub fn energy(self, approach: f64) -> f64 {
+        let closed = approach.max(0.0);
+        closed * self.mean_pressure(0.0, closed)
+    }
+
+    /// Mean pressure on the way between two approaches, `(U(b) - U(a)) / (b - a)` with the energy `U`, Pa; the pressure itself
+    /// where both are the same.
+    ///
+    /// A force of this size does the work that the energy takes, whatever the way.
+    pub fn mean_pressure(self, from: f64, to: f64) -> f64 {
+        if from >= 0.0 && to >= 0.0 {
+            return self.mean_closed(from, to);
+        }
+        // One of both is open: the pressure acts on the rest of the way alone.
+        let closed = from.max(to).max(0.0);
+        if closed == 0.0 {
+            return 0.0;
+        }
+        closed * self.mean_closed(0.0, closed) / (to - from).abs()
+    }
+
+    fn mean_closed(self, a: f64, b: f64) -> f64 {
+        match self {
+            Self::Cubic {
+                stiffness,
+                cubic_stiffness,
+            } => 0.5 * (a + b) * (stiffness + 0.5 * cubic_stiffness * (a * a + b * b)),
+            Self::Exponential {
+                reference_pressure,
+                height,
+            } => {
+                let excess = excess_of_mean((b - a) / height);
+                let start = (a / height).exp_m1();
+                reference_pressure * (start + excess * (start + 1.0))
+            }
+        }
+    }
+
+    /// Derivatives of pressure and stiffness at a given approach by a number of the law; `None` of one that it does not have.
+    pub fn rates(self, parameter: LawParameter, approach: f64) -> Option<[f64; 2]> {
+        let g = approach;
+        match (self, parameter) {
+            (Self::Cubic { .. }, LawParameter::Stiffness) => Some([g, 1.0]),
+            (Self::Cubic { .. }, LawParameter::CubicStiffness) => Some([g * g * g, 3.0 * g * g]),
+            (
+                Self::Exponential {
+                    reference_pressure, ..
+                },
+                LawParameter::ReferencePressure,
+            ) => Some([self.pressure(g), self.stiffness(g)].map(|x| x / reference_pressure)),
+            (Self::Exponential { height, .. }, LawParameter::Height) => {
+                let stiffness = self.stiffness(g);
+                let by_pressure = -stiffness * g / height;
+                Some([by_pressure, -stiffness * (1.0 + g / height) / height])
+            }
+            _ => None,
+        }
+    }
+
     /// `g` at a pressure of zero or more, m.
     pub fn approach(self, pressure: f64) -> f64 {
         match self {
@@ -75,19 +168,71 @@ impl NormalLaw {
 mod tests {
     use super::*;
 
+    const LAWS: [NormalLaw; 2] = [
+        NormalLaw::Cubic {
+            stiffness: 1e13,
+            cubic_stiffness: 3e24,
+        },
+        NormalLaw::Exponential {
+            reference_pressure: 2e5,
+            height: 1.5e-6,
+        },
+    ];
+
+    /// Independent: Simpson's rule over the pressure, and differences.
+    #[test]
+    fn energy_is_the_work_of_the_pressure_and_rates_are_differences() {
+        for law in LAWS {
+            for [a, b] in [[0.0, 3e-6], [2e-6, 2.00001e-6], [4e-6, 1e-6], [-1e-6, 2e-6]] {
+                let count = 2000;
+                let at = |k: usize| a + (b - a) * k as f64 / f64::from(count as u32);
+                let pressure = |k: usize| match at(k) > 0.0 {
+                    true => law.pressure(at(k)),
+                    false => 0.0,
+                };
+                let weight = |k: usize| match k {
+                    0 => 1.0,
+                    k if k == count => 1.0,
+                    k => 2.0 + 2.0 * (k % 2) as f64,
+                };
+                let sum: f64 = (0..=count).map(|k| weight(k) * pressure(k)).sum();
+                let mean = sum / (3.0 * count as f64);
+                let found = law.mean_pressure(a, b);
+                // The rule is exact to the kink, of which it sees one step.
+                let tolerance = if a < 0.0 { 1e-6 } else { 1e-10 };
+                assert!((found / mean - 1.0).abs() < tolerance, "{law:?} {a} {b}");
+                let change = law.energy(b) - law.energy(a);
+                let scale = law.energy(a.max(b));
+                assert!((found * (b - a) - change).abs() < 1e-14 * scale);
+            }
+            assert_eq!(law.mean_pressure(2e-6, 2e-6), law.pressure(2e-6));
+            let slope = (law.stiffness(2.001e-6) - law.stiffness(1.999e-6)) / 2e-9;
+            assert!((law.curvature(2e-6) / slope - 1.0).abs() < 1e-6);
+        }
+        let with = |reference_pressure: f64, height: f64| NormalLaw::Exponential {
+            reference_pressure,
+            height,
+        };
+        let g = 2e-6;
+        let apart = |a: NormalLaw, b: NormalLaw, step: f64| {
+            [NormalLaw::pressure, NormalLaw::stiffness].map(|of| (of(a, g) - of(b, g)) / step)
+        };
+        let by_height = apart(with(2e5, 1.5001e-6), with(2e5, 1.4999e-6), 2e-10);
+        let by_pressure = apart(with(2.0001e5, 1.5e-6), with(1.9999e5, 1.5e-6), 20.0);
+        for (parameter, differences) in [
+            (LawParameter::Height, by_height),
+            (LawParameter::ReferencePressure, by_pressure),
+        ] {
+            let rates = LAWS[1].rates(parameter, g).unwrap();
+            for (rate, difference) in rates.iter().zip(differences) {
+                assert!((rate / difference - 1.0).abs() < 1e-6, "{parameter:?}");
+            }
+        }
+    }
+
     #[test]
     fn approach_is_the_inverse_of_pressure_and_stiffness_its_slope() {
-        let laws = [
-            NormalLaw::Cubic {
-                stiffness: 1e13,
-                cubic_stiffness: 3e24,
-            },
-            NormalLaw::Exponential {
-                reference_pressure: 2e5,
-                height: 1.5e-6,
-            },
-        ];
-        for law in laws {
+        for law in LAWS {
             for approach in [0.0, 1e-8, 1e-6, 8e-6] {
                 let found = law.approach(law.pressure(approach));
                 assert!(

@@ -1,7 +1,7 @@
 //! Assembly of element matrices and supports, and the dofs that boundary conditions hold.
 
 use super::{MaterialField, RayleighDamping, Triplets, element, face};
-use crate::mesh::Mesh;
+use crate::mesh::{Boundary, BoundaryCondition, ElasticSupport, Mesh};
 use nalgebra::DMatrix;
 
 /// Consistent or lumped mass.
@@ -264,6 +264,47 @@ pub fn assemble_structural_damping(mesh: &Mesh, material: &dyn MaterialField) ->
         }
     }
     Some(triplets)
+}
+
+/// Structural damping `sum_b eta_b K_b` of the springs of supports over all dofs, as [`assemble_structural_damping`]; `None` where no
+/// support has any.
+pub fn assemble_support_losses(mesh: &Mesh) -> Option<Triplets> {
+    let is_lossy = |boundary: &Boundary| matches!(boundary.condition, BoundaryCondition::Support(support) if support.loss_factor != 0.0);
+    if !mesh.boundaries.iter().any(is_lossy) {
+        return None;
+    }
+    // The same supports with `eta` times their springs.
+    let mut own = mesh.clone();
+    own.attachments.clear();
+    for boundary in &mut own.boundaries {
+        boundary.condition = match boundary.condition {
+            BoundaryCondition::Support(support) => {
+                let eta = support.loss_factor;
+                BoundaryCondition::Support(ElasticSupport {
+                    normal_stiffness: eta * support.normal_stiffness,
+                    tangential_stiffness: eta * support.tangential_stiffness,
+                    axial_stiffness: eta * support.axial_stiffness,
+                    ..ElasticSupport::default()
+                })
+            }
+            _ => BoundaryCondition::Free,
+        };
+    }
+    let [losses, _] = assemble_supports(&own);
+    Some(losses)
+}
+
+/// Structural damping of materials and supports together.
+pub fn assemble_losses(mesh: &Mesh, material: &dyn MaterialField) -> Option<Triplets> {
+    let parts = [
+        assemble_structural_damping(mesh, material),
+        assemble_support_losses(mesh),
+    ];
+    let parts = parts.into_iter().flatten();
+    parts.reduce(|mut sum, part| {
+        sum.entries.extend(part.entries);
+        sum
+    })
 }
 
 fn assemble_congruent(

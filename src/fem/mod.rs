@@ -17,10 +17,11 @@ mod stress;
 mod triplets;
 
 pub use assembly::{
-    DofMap, MassKind, assemble_extra_damping, assemble_geometric_stiffness, assemble_mass,
-    assemble_patch_damping, assemble_point_masses, assemble_pressures, assemble_region,
-    assemble_region_geometric_stiffness, assemble_stiffness, assemble_structural_damping,
-    assemble_supports, element_matrices, lumped_masses,
+    DofMap, MassKind, assemble_extra_damping, assemble_geometric_stiffness, assemble_losses,
+    assemble_mass, assemble_patch_damping, assemble_point_masses, assemble_pressures,
+    assemble_region, assemble_region_geometric_stiffness, assemble_stiffness,
+    assemble_structural_damping, assemble_support_losses, assemble_supports, element_matrices,
+    lumped_masses,
 };
 pub use material::{
     AnnulusMaterials, ElasticMaterial, MaterialField, PlaneFormulation, RayleighDamping,

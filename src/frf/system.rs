@@ -3,8 +3,8 @@
 use super::{Axis, Direction, FrfError, Port, Terminal};
 use crate::contact::Row;
 use crate::fem::{
-    DofMap, MassKind, MaterialField, RayleighDamping, assemble_extra_damping, assemble_mass,
-    assemble_stiffness, assemble_structural_damping, assemble_supports,
+    DofMap, MassKind, MaterialField, RayleighDamping, assemble_extra_damping, assemble_losses,
+    assemble_mass, assemble_stiffness, assemble_structural_damping, assemble_supports,
 };
 use crate::linalg::c64;
 use crate::linalg::{MatrixPolynomial, SparsityPattern};
@@ -62,7 +62,10 @@ impl FrfSystem {
         if let Some(own) = assemble_extra_damping(mesh, material, mass, damping) {
             dashpots.entries.extend(own.entries);
         }
-        let structural = assemble_structural_damping(mesh, material);
+        let structural = match is_held {
+            true => assemble_losses(mesh, material),
+            false => assemble_structural_damping(mesh, material),
+        };
         let is_proportional = !is_held && dashpots.entries.is_empty() && structural.is_none();
         let structural = structural.map(|terms| restricted(&terms.entries));
         let mass = restricted(&assemble_mass(mesh, material, mass).entries);

@@ -17,6 +17,8 @@ pub struct ElasticSupport {
     pub normal_damping: f64,
     /// `c_t`, Pa s/m.
     pub tangential_damping: f64,
+    /// Structural damping `eta` of its springs, whose stiffness is `k (1 + i eta)` at positive frequencies.
+    pub loss_factor: f64,
 }
 
 /// What holds a boundary.

@@ -13,8 +13,8 @@ use crate::contact::{
     PressedPoints, SurfacePair, mortar_nodes,
 };
 use crate::fem::{
-    MaterialField, Triplets, assemble_extra_damping, assemble_mass, assemble_pressures,
-    assemble_stiffness, assemble_structural_damping, assemble_supports,
+    MaterialField, Triplets, assemble_extra_damping, assemble_losses, assemble_mass,
+    assemble_pressures, assemble_stiffness, assemble_supports,
 };
 use crate::mesh::Mesh;
 
@@ -290,7 +290,7 @@ impl<'a> Assembly<'a> {
                 options.mass,
                 options.damping,
             ),
-            structural: assemble_structural_damping(self.mesh, self.materials),
+            structural: assemble_losses(self.mesh, self.materials),
             rotation: self.rotation.as_ref().map(|own| own.terms.clone()),
         };
         // Each contact has its stretch of the state's points.

@@ -7,7 +7,8 @@ use super::complementarity::{PressedState, Pressing};
 use super::condensed::CondensedContact;
 use super::elimination::Elimination;
 use super::friction_polynomial::evaluate;
-use crate::contact::{ContactInterface, Point, SlidingContact, SteadyFriction};
+use super::penalty::PenaltyContact;
+use crate::contact::{ContactInterface, NormalLaw, Point, SlidingContact, SteadyFriction};
 use crate::fem::{Triplets, assemble_supports};
 use crate::mesh::{AnnulusMesh, Mesh, SectorMesh};
 
@@ -16,7 +17,8 @@ use crate::mesh::{AnnulusMesh, Mesh, SectorMesh};
 /// The state obeys `u_n = delta - g_i`, `T_i = s mu(V) N_i` at pressed contact nodes, `N_i = T_i = 0` at open ones, the
 /// boundary conditions and `K u = f` elsewhere. Under one set of pressed nodes it is a smooth function of `mu`, kept
 /// as a polynomial. On the annulus all nodes are pressed and `u(mu) = u_0 + mu u_1` exactly, since the normal forces
-/// do not depend on `mu`. The contact is rigid here whatever stiffness the eigenvalue analysis gives it.
+/// do not depend on `mu`. The contact is rigid here whatever constant stiffness the eigenvalue analysis gives it. Contact that
+/// stiffens with pressure carries the state instead, `N_i = w_i p(delta - g_i - u_n)`.
 ///
 /// Per metre of thickness; vectors over all dofs in nodal frames.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,6 +27,8 @@ pub struct SteadySliding {
     pub displacements: Vec<Vec<f64>>,
     /// Normal force on each contact node `N_i(mu)` by power of `mu`, N/m, in the order of the interface.
     pub normal_forces: Vec<Vec<f64>>,
+    /// Stiffness `w_i dp/dg` of each contact node by power of `mu`, N/m2; none where contact does not stiffen.
+    pub stiffnesses: Vec<Vec<f64>>,
     /// Whether each contact node is pressed; the others are open.
     pub is_pressed: Vec<bool>,
     /// Sense of the friction force `s`, +1 or -1.
@@ -59,7 +63,21 @@ impl SteadySliding {
         stiffness: &Triplets,
         contact: &SlidingContact,
     ) -> Result<Self, PrestressError> {
-        let range = SlidingRange::solve(mesh, stiffness, contact, &[contact.friction_coefficient])?;
+        Self::solve_with(mesh, stiffness, contact, None)
+    }
+
+    /// [`Self::solve`] with a contact that stiffens with pressure, if there is a `law`.
+    ///
+    /// # Errors
+    /// As [`Self::solve`].
+    pub fn solve_with(
+        mesh: &Mesh,
+        stiffness: &Triplets,
+        contact: &SlidingContact,
+        law: Option<NormalLaw>,
+    ) -> Result<Self, PrestressError> {
+        let own = [contact.friction_coefficient];
+        let range = SlidingRange::solve_with(mesh, stiffness, contact, law, &own)?;
         Ok(range
             .states
             .into_iter()
@@ -124,6 +142,7 @@ impl SteadySliding {
         Self {
             displacements: state.displacements,
             normal_forces: state.normal_forces,
+            stiffnesses: state.stiffnesses,
             is_pressed: state.is_pressed,
             sliding_direction: interface.sliding_direction(contact.rotation_speed),
             friction: interface.steady_friction(contact),
@@ -154,12 +173,16 @@ impl SteadySliding {
         let normal_forces: Vec<f64> = (0..interface.len())
             .map(|i| state.normal_forces[i % sector.contact_count])
             .collect();
+        let springs = state.springs.as_ref().map(|springs| {
+            let all = 0..interface.len();
+            all.map(|i| springs[i % sector.contact_count]).collect()
+        });
         let state = PressedState {
             displacements: vec![
                 repeat(&state.pressed_displacement),
                 repeat(&state.sheared_displacement),
             ],
-            stiffnesses: Vec::new(),
+            stiffnesses: springs.into_iter().collect(),
             is_pressed: vec![true; normal_forces.len()],
             normal_forces: vec![normal_forces],
         };
@@ -174,6 +197,12 @@ impl SteadySliding {
     /// Normal force on each contact node, N/m.
     pub fn normal_forces(&self, friction_coefficient: f64) -> Vec<f64> {
         evaluate(&self.normal_forces, friction_coefficient)
+    }
+
+    /// Stiffness of each contact node, N/m2, where contact stiffens with pressure.
+    pub fn springs(&self, friction_coefficient: f64) -> Option<Vec<f64>> {
+        let has_law = !self.stiffnesses.is_empty();
+        has_law.then(|| evaluate(&self.stiffnesses, friction_coefficient))
     }
 
     /// Contact pressure at each contact node `p_i = N_i / w_i`, Pa.
@@ -203,10 +232,24 @@ impl SlidingRange {
         contact: &SlidingContact,
         friction_coefficients: &[f64],
     ) -> Result<Self, PrestressError> {
+        Self::solve_with(mesh, stiffness, contact, None, friction_coefficients)
+    }
+
+    /// [`Self::solve`] with a contact that stiffens with pressure, if there is a `law`: on the springs of its tangents.
+    ///
+    /// # Errors
+    /// As [`Self::solve`].
+    pub fn solve_with(
+        mesh: &Mesh,
+        stiffness: &Triplets,
+        contact: &SlidingContact,
+        law: Option<NormalLaw>,
+        friction_coefficients: &[f64],
+    ) -> Result<Self, PrestressError> {
         let mut supported = stiffness.clone();
         let [springs, _] = assemble_supports(mesh);
         supported.entries.extend(springs.entries);
-        if mesh.is_cyclic {
+        if mesh.is_cyclic && law.is_none() {
             return Ok(Self {
                 states: vec![SteadySliding::solve_annulus(mesh, &supported, contact)?],
                 state_of: vec![0; friction_coefficients.len()],
@@ -224,11 +267,24 @@ impl SlidingRange {
                 .iter()
                 .map(|point| contact.interference - point.gap)
                 .collect(),
-            stiffnesses: vec![None; points.len()],
-            laws: vec![None; points.len()],
+            stiffnesses: points
+                .iter()
+                .map(|point| law.map(|law| law.stiffness(0.0) * point.weight))
+                .collect(),
+            laws: vec![law; points.len()],
             points: &points,
         };
-        let found = CondensedContact::new(&pressing)?.range(friction_coefficients)?;
+        let springs = match law {
+            Some(_) => PenaltyContact::new(&pressing)?,
+            None => None,
+        };
+        let found = match springs {
+            Some(bodies) => bodies.range(friction_coefficients)?,
+            None => CondensedContact::new(&pressing)?.range(friction_coefficients)?,
+        };
+        if let Some(state) = found.states.iter().find(|_| mesh.is_cyclic) {
+            check_pressed(&interface, &state.normal_forces(friction_coefficients[0]))?;
+        }
         let states = found.states.into_iter();
         Ok(Self {
             states: states

@@ -1,10 +1,14 @@
 //! Steady sliding of a rotationally symmetric annulus, from one sector.
 
 use super::PrestressError;
-use crate::contact::{SlidingContact, SteadyFriction};
+use crate::contact::{LawParameter, NormalLaw, SlidingContact, SteadyFriction};
 use crate::fem::sector::SectorMatrix;
 use crate::linalg::banded::{BandedLdl, BandedMatrix};
 use crate::mesh::SectorMesh;
+use nalgebra::{DMatrix, DVector};
+
+/// Newton steps to the approach of contact that stiffens, at most; its force is a concave function of the approach's.
+const MOST_TANGENTS: usize = 100;
 
 /// The state of steady sliding of an annulus, the same in every sector.
 ///
@@ -18,6 +22,8 @@ pub struct SectorSliding {
     pub sheared_displacement: Vec<f64>,
     /// Normal force on each contact node of the sector, N/m.
     pub normal_forces: Vec<f64>,
+    /// Stiffness `w dp/dg` of each contact node, N/m2, where contact stiffens with pressure.
+    pub springs: Option<Vec<f64>>,
     /// Sense of the friction force `s`, +1 or -1.
     pub sliding_direction: f64,
     /// Friction at the sliding speed for each unit of friction coefficient and normal force.
@@ -35,8 +41,27 @@ impl SectorSliding {
         elastic: &SectorMatrix,
         contact: &SlidingContact,
     ) -> Result<Self, PrestressError> {
+        Self::solve_with(sector, elastic, contact, None)
+    }
+
+    /// [`Self::solve`] with a contact that stiffens with pressure, if there is a `law`: `N_i = w_i p(delta - u_n)`.
+    ///
+    /// # Errors
+    /// As [`Self::solve`].
+    pub fn solve_with(
+        sector: &SectorMesh,
+        elastic: &SectorMatrix,
+        contact: &SlidingContact,
+        law: Option<NormalLaw>,
+    ) -> Result<Self, PrestressError> {
         let system = PressedSystem::new(sector, elastic)?;
-        let pressed = system.pressed_by(contact.interference);
+        let count = sector.contact_nodes().len();
+        let approaches = match law {
+            Some(law) => system.approaches(contact.interference, law)?,
+            None => vec![0.0; count],
+        };
+        let distances = approaches.iter().map(|g| contact.interference - g);
+        let pressed = system.pressed_by(&distances.collect::<Vec<_>>());
         let normal_forces = system.normal_forces(&pressed);
         check_pressed(sector, &normal_forces)?;
         let sliding_direction = contact.sliding_direction();
@@ -47,6 +72,10 @@ impl SectorSliding {
         Ok(Self {
             sheared_displacement: system.displacement(system.solve(traction)),
             pressed_displacement: system.displacement(pressed),
+            springs: law.map(|law| {
+                let pairs = approaches.iter().zip(sector.tributary_lengths());
+                pairs.map(|(&g, w)| w * law.stiffness(g)).collect()
+            }),
             normal_forces,
             sliding_direction,
             friction,
@@ -54,11 +83,14 @@ impl SectorSliding {
     }
 
     /// Derivative of the state when the elastic stiffness changes at the rate `elastic_rate`
-    /// (`u_0`, `u_1` and `N_i`, in the units of the state for each unit of the parameter).
+    /// (`u_0`, `u_1`, `N_i` and the springs, in the units of the state for each unit of the parameter).
     ///
     /// ```text
     /// K u_0' = -K' u_0 (u_0' = 0 on the contact normal),  N' = K' u_0 + K u_0',  K u_1' = s (mu(V) / mu) N' e_t - K' u_1
     /// ```
+    ///
+    /// On springs the distances give way by `d'`, `N_i' + (S d')_i = w_i p' - k_i d_i'` with `S` the forces of unit distances, and
+    /// `p'` what `law_parameter` does at the same approach.
     ///
     /// # Errors
     /// [`PrestressError::Singular`] as in [`Self::solve`].
@@ -66,25 +98,43 @@ impl SectorSliding {
         &self,
         sector: &SectorMesh,
         elastic: &SectorMatrix,
-        elastic_rate: &SectorMatrix,
+        elastic_rate: Option<&SectorMatrix>,
+        law: Option<(NormalLaw, Option<LawParameter>)>,
     ) -> Result<Self, PrestressError> {
         let system = PressedSystem::new(sector, elastic)?;
-        let rate = elastic_rate.harmonic(0);
-        let force = system.distance_forces(rate.multiply(&self.pressed_displacement));
-        let pressed = system.solve(force.iter().map(|f| -f).collect());
-        let normal_forces: Vec<f64> = system
+        let changed = |displacement: &[f64]| -> Vec<f64> {
+            let none = || vec![0.0; displacement.len()];
+            let force =
+                elastic_rate.map_or_else(none, |rate| rate.harmonic(0).multiply(displacement));
+            system.distance_forces(force)
+        };
+        // With the distances held.
+        let force = changed(&self.pressed_displacement);
+        let mut pressed = system.solve(force.iter().map(|f| -f).collect());
+        let mut normal_forces: Vec<f64> = system
             .normal_forces(&pressed)
             .iter()
             .zip(sector.contact_nodes())
             .map(|(reaction, node)| reaction + force[2 * node])
             .collect();
-        let mut load = system.distance_forces(rate.multiply(&self.sheared_displacement));
+        // With those that the springs give way by.
+        let mut springs = None;
+        if let (Some((law, parameter)), Some(stiffness)) = (law, &self.springs) {
+            let yielding = system.yielding(self, stiffness, (law, parameter), &normal_forces)?;
+            for (value, added) in pressed.iter_mut().zip(system.pressed_by(&yielding[0])) {
+                *value += added;
+            }
+            normal_forces.clone_from(&yielding[1]);
+            springs = Some(yielding[2].clone());
+        }
+        let mut load = changed(&self.sheared_displacement);
         load.iter_mut().for_each(|force| *force = -*force);
         system.add_traction(&mut load, &normal_forces, self.friction.drag);
         Ok(Self {
             pressed_displacement: system.displacement(pressed),
             sheared_displacement: system.displacement(system.solve(load)),
             normal_forces,
+            springs,
             sliding_direction: self.sliding_direction,
             friction: self.friction,
         })
@@ -159,17 +209,91 @@ impl<'a> PressedSystem<'a> {
         full
     }
 
-    fn pressed_by(&self, interference: f64) -> Vec<f64> {
+    fn pressed_by(&self, distances: &[f64]) -> Vec<f64> {
         let mut prescribed = vec![0.0; self.stiffness.dimension()];
-        for node in self.sector.contact_nodes() {
-            prescribed[2 * node] = interference;
+        for (node, distance) in self.sector.contact_nodes().zip(distances) {
+            prescribed[2 * node] = *distance;
         }
         let force = self.stiffness.multiply(&prescribed);
         let mut pressed = self.solve(force.iter().map(|f| -f).collect());
-        for node in self.sector.contact_nodes() {
-            pressed[2 * node] = interference;
+        for (node, distance) in self.sector.contact_nodes().zip(distances) {
+            pressed[2 * node] = *distance;
         }
         pressed
+    }
+
+    /// Normal forces of unit distances, column by column.
+    fn responses(&self) -> DMatrix<f64> {
+        let count = self.sector.contact_nodes().len();
+        let columns = (0..count).map(|j| {
+            let mut unit = vec![0.0; count];
+            unit[j] = 1.0;
+            DVector::from_vec(self.normal_forces(&self.pressed_by(&unit)))
+        });
+        DMatrix::from_columns(&columns.collect::<Vec<_>>())
+    }
+
+    /// What springs of a law give way by under the interference: Newton's method in the forces, of which the approach is a
+    /// concave function,
+    ///
+    /// ```text
+    /// (1 + S / k) N = S (delta - g + N_0 / k),   N_0 = w p(g) the forces found last, k = w dp/dg
+    /// ```
+    fn approaches(&self, interference: f64, law: NormalLaw) -> Result<Vec<f64>, PrestressError> {
+        let lengths = self.sector.tributary_lengths();
+        let response = self.responses();
+        let count = lengths.len();
+        let mut forces = DVector::zeros(count);
+        for _ in 0..MOST_TANGENTS {
+            let approach = |i: usize| law.approach(f64::max(forces[i], 0.0) / lengths[i]);
+            let softness = |i: usize| 1.0 / (lengths[i] * law.stiffness(approach(i)));
+            let pushed = DVector::from_fn(count, |i, _| {
+                interference - approach(i) + f64::max(forces[i], 0.0) * softness(i)
+            });
+            let mut matrix = DMatrix::from_fn(count, count, |i, j| response[(i, j)] * softness(j));
+            (0..count).for_each(|i| matrix[(i, i)] += 1.0);
+            let found = matrix.lu().solve(&(&response * pushed));
+            let found = found.ok_or(PrestressError::Singular)?;
+            let moved = (&found - &forces).amax();
+            forces = found;
+            if moved <= 4.0 * f64::EPSILON * forces.amax() {
+                break;
+            }
+        }
+        let forces = forces.iter().zip(lengths);
+        Ok(forces
+            .map(|(force, w)| law.approach(force.max(0.0) / w))
+            .collect())
+    }
+
+    /// Rates of distances, normal forces and springs where those of the forces with the distances held are `held`.
+    fn yielding(
+        &self,
+        state: &SectorSliding,
+        springs: &[f64],
+        (law, parameter): (NormalLaw, Option<LawParameter>),
+        held: &[f64],
+    ) -> Result<[Vec<f64>; 3], PrestressError> {
+        let lengths = self.sector.tributary_lengths();
+        let count = lengths.len();
+        let approach = |i: usize| law.approach(state.normal_forces[i] / lengths[i]);
+        let by_law = |i: usize| {
+            let rates = parameter.and_then(|parameter| law.rates(parameter, approach(i)));
+            rates.unwrap_or_default().map(|rate| lengths[i] * rate)
+        };
+        let response = self.responses();
+        let mut matrix = response.clone();
+        (0..count).for_each(|i| matrix[(i, i)] += springs[i]);
+        let right = DVector::from_fn(count, |i, _| by_law(i)[0] - held[i]);
+        let distances = matrix.lu().solve(&right).ok_or(PrestressError::Singular)?;
+        let reactions = response * &distances;
+        let stiffer =
+            |i: usize| by_law(i)[1] - lengths[i] * law.curvature(approach(i)) * distances[i];
+        Ok([
+            distances.iter().copied().collect(),
+            (0..count).map(|i| held[i] + reactions[i]).collect(),
+            (0..count).map(stiffer).collect(),
+        ])
     }
 
     fn normal_forces(&self, distances: &[f64]) -> Vec<f64> {

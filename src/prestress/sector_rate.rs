@@ -4,6 +4,7 @@ use super::FrictionPolynomial;
 use super::PrestressError;
 use super::sector_tangent::{HarmonicTangent, SectorTangent};
 use super::sector_terms::{Terms, friction_dashpots, stress_stiffness, sum, turning};
+use crate::contact::LawParameter;
 use crate::fem::sector::{self, SectorMatrix};
 use crate::fem::{ElasticMaterial, MaterialField, RayleighDamping, RegionMaterial};
 
@@ -16,6 +17,8 @@ pub enum Parameter {
     DecaySpeed,
     /// `contact.normal_stiffness`, Pa/m.
     NormalStiffness,
+    /// `contact.cubic_stiffness`, `reference_pressure` or `height`.
+    NormalLaw(LawParameter),
     /// `damping.mass_coefficient`, 1/s.
     MassCoefficient,
     /// `damping.stiffness_coefficient`, s.
@@ -125,6 +128,20 @@ impl SectorTangent {
                 drag = share / decay.share(speed);
                 terms.friction_dashpots = friction_dashpots(&self.base, slope);
             }
+            Parameter::NormalLaw(_) | Parameter::NormalStiffness
+                if self.options.contact.law.is_some() =>
+            {
+                let own = match parameter {
+                    Parameter::NormalLaw(own) => own,
+                    _ => LawParameter::Stiffness,
+                };
+                let law = self.options.contact.law;
+                if law.and_then(|law| law.rates(own, 0.0)).is_none() {
+                    return Ok(None);
+                }
+                self.base_rate(&mut terms, None, Some(own))?;
+            }
+            Parameter::NormalLaw(_) => return Ok(None),
             Parameter::NormalStiffness => {
                 if terms.normal_stiffness.is_none() {
                     return Ok(None);
@@ -197,7 +214,11 @@ impl SectorTangent {
             Parameter::Density(_) => {
                 terms.mass = Some(sector::mass(&self.sector, &rate, self.options.mass));
             }
-            Parameter::YoungModulus(_) if is_alone && self.terms.supports.is_none() => {
+            Parameter::YoungModulus(_)
+                if is_alone
+                    && self.terms.supports.is_none()
+                    && self.options.contact.law.is_none() =>
+            {
                 // The base displacements do not depend on E, so every stress is proportional to it.
                 let e = material.young_modulus;
                 terms.elastic = self.terms.elastic.as_ref().map(|k| scaled(k, e));
@@ -217,25 +238,52 @@ impl SectorTangent {
         terms: &mut Terms,
         rate: &dyn MaterialField,
     ) -> Result<(), PrestressError> {
+        if self.terms.elastic.is_none() {
+            return Ok(());
+        }
+        let elastic_rate = sector::stiffness(&self.sector, rate);
+        self.base_rate(terms, Some((&elastic_rate, rate)), None)?;
+        terms.elastic = Some(elastic_rate);
+        Ok(())
+    }
+
+    /// What the change of the base state does, of the stiffness of the bodies or of a number of the contact's law.
+    fn base_rate(
+        &self,
+        terms: &mut Terms,
+        material: Option<(&SectorMatrix, &dyn MaterialField)>,
+        law_parameter: Option<LawParameter>,
+    ) -> Result<(), PrestressError> {
+        let law = self.options.contact.law;
+        let has_base = self.terms.stress.is_some() || self.terms.friction_dashpots.is_some();
         let Some(elastic) = &self.terms.elastic else {
             return Ok(());
         };
-        let elastic_rate = sector::stiffness(&self.sector, rate);
-        if self.terms.stress.is_some() || self.terms.friction_dashpots.is_some() {
-            let supported = match &self.terms.supports {
-                Some([springs, _]) => elastic.plus(springs),
-                None => elastic.clone(),
-            };
-            let base_rate = self.base.rate(&self.sector, &supported, &elastic_rate)?;
-            terms.friction_dashpots = friction_dashpots(&base_rate, self.base.friction.slope);
-            if self.terms.stress.is_some() {
-                let moved = stress_stiffness(&self.sector, &self.materials, &base_rate);
-                let stiffened = stress_stiffness(&self.sector, rate, &self.base);
-                terms.stress = Some([moved[0].plus(&stiffened[0]), moved[1].plus(&stiffened[1])]);
-                terms.turning = turning(&self.sector, &self.options, &base_rate);
-            }
+        if !has_base && law.is_none() {
+            return Ok(());
         }
-        terms.elastic = Some(elastic_rate);
+        let supported = match &self.terms.supports {
+            Some([springs, _]) => elastic.plus(springs),
+            None => elastic.clone(),
+        };
+        let law = law.map(|law| (law, law_parameter));
+        let elastic_rate = material.map(|(rate, _)| rate);
+        let base_rate = self
+            .base
+            .rate(&self.sector, &supported, elastic_rate, law)?;
+        terms.friction_dashpots = friction_dashpots(&base_rate, self.base.friction.slope);
+        if self.terms.stress.is_some() {
+            let mut stress = stress_stiffness(&self.sector, &self.materials, &base_rate);
+            if let Some((_, rate)) = material {
+                let stiffened = stress_stiffness(&self.sector, rate, &self.base);
+                stress = [0, 1].map(|i| stress[i].plus(&stiffened[i]));
+            }
+            terms.stress = Some(stress);
+            terms.turning = turning(&self.sector, &self.options, &base_rate);
+        }
+        if let Some(springs) = base_rate.springs {
+            terms.normal_stiffness = Some(springs);
+        }
         Ok(())
     }
 

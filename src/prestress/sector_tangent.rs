@@ -69,7 +69,8 @@ impl SectorTangent {
         let elastic = sector::stiffness(sector, material);
         let supports = sector::supports(sector);
         let supported = sector::supported_stiffness(sector, material);
-        let base = SectorSliding::solve(sector, &supported, contact)?;
+        let law = options.contact.law;
+        let base = SectorSliding::solve_with(sector, &supported, contact, law)?;
         let stress = options
             .geometric_stiffness
             .then(|| stress_stiffness(sector, material, &base));
@@ -82,7 +83,10 @@ impl SectorTangent {
             mass: Some(sector::mass(sector, material, options.mass)),
             elastic: Some(elastic),
             supports,
-            normal_stiffness: penalty.map(|k| lengths.iter().map(|w| k * w).collect()),
+            normal_stiffness: match &base.springs {
+                Some(springs) => Some(springs.clone()),
+                None => penalty.map(|k| lengths.iter().map(|w| k * w).collect()),
+            },
             friction_dashpots: friction_dashpots(&base, base.friction.slope),
         };
         Ok(Self {

@@ -5,7 +5,7 @@ use super::{DampingModel, PrestressError, SteadySliding, TangentOptions};
 use crate::contact::{ContactStiffness, Point, PressedPoints, Row, linearized};
 use crate::fem::{
     DofMap, MaterialField, RayleighDamping, Triplets, assemble_extra_damping,
-    assemble_geometric_stiffness, assemble_mass, assemble_structural_damping, assemble_supports,
+    assemble_geometric_stiffness, assemble_losses, assemble_mass, assemble_supports,
 };
 use crate::linalg::{MatrixPolynomial, SparsityPattern, c64};
 use crate::mesh::Mesh;
@@ -113,7 +113,7 @@ pub struct BodyTerms {
     pub supports: [Triplets; 2],
     /// What regions with damping of their own add.
     pub extra_damping: Option<Triplets>,
-    /// Structural damping of the materials.
+    /// Structural damping of materials and supports.
     pub structural: Option<Triplets>,
     /// Stiffness and gyroscopic matrix of regions that turn, which `alpha_R` and `beta_R` do not multiply.
     pub rotation: Option<[Triplets; 2]>,
@@ -166,7 +166,7 @@ impl SlidingTangent {
                 .then(|| base.displacements.iter().map(stressed).collect()),
             supports: assemble_supports(mesh),
             extra_damping: assemble_extra_damping(mesh, material, options.mass, options.damping),
-            structural: assemble_structural_damping(mesh, material),
+            structural: assemble_losses(mesh, material),
             rotation: None,
         };
         let part = ContactPart {
@@ -174,7 +174,7 @@ impl SlidingTangent {
             state: PressedPoints {
                 is_pressed: &base.is_pressed,
                 normal_forces: &base.normal_forces,
-                stiffnesses: &[],
+                stiffnesses: &base.stiffnesses,
             },
             stiffness: options.contact,
             has_own_dofs: true,
@@ -234,6 +234,7 @@ impl SlidingTangent {
         // What beta_R multiplies: body, prestress, contact.
         let mut stiffness = vec![body.elastic.clone()];
         let mut dashpots = vec![Triplets::default()];
+        let mut losses: Vec<Triplets> = body.structural.iter().cloned().collect();
         if let Some(geometric) = &body.geometric {
             add_powers(&mut stiffness, geometric);
         }
@@ -241,6 +242,7 @@ impl SlidingTangent {
             let terms = linearized(part.points, &part.state, &part.stiffness);
             add_powers(&mut stiffness, &terms.stiffness);
             add_powers(&mut dashpots, &terms.dashpots);
+            add_powers(&mut losses, &terms.structural);
             if body.geometric.is_some() {
                 add_powers(&mut stiffness, &terms.turning);
             }
@@ -282,10 +284,8 @@ impl SlidingTangent {
         if has_dashpots {
             damping = MatrixPolynomial::combination(1.0, &damping, 1.0, &on_pattern(&dashpots));
         }
-        // Its entries are those of the body's stiffness.
-        let structural = body.structural.as_ref();
-        let structural =
-            structural.map(|terms| on_pattern(&projected(std::slice::from_ref(terms))));
+        // Its entries are those of the stiffness.
+        let structural = (!losses.is_empty()).then(|| on_pattern(&projected(&losses)));
         let is_whole = options.damping_model == DampingModel::WholeTangent && !has_supports;
         let touched = |dofs: &[usize]| -> Vec<usize> {
             let mut seen = BTreeSet::new();

@@ -68,8 +68,14 @@ fn quantity_of(key: &str) -> Option<(&'static str, &'static str)> {
         "contact.normal_stiffness" => ("contact stiffness *k*_{n}", "Pa/m"),
         "contact.tangential_stiffness" => ("tangential stiffness *k*_{t}", "Pa/m"),
         "contact.pressure" => ("pressure *p*", "Pa"),
+        "contact.cubic_stiffness" => ("cubic contact stiffness *c*", "Pa/m³"),
+        "contact.reference_pressure" => ("reference pressure *p*_{r}", "Pa"),
+        "contact.height" => ("height of the contact's law *h*", "m"),
         "contact.normal_damping" => ("normal contact damping", "Pa s/m"),
         "contact.tangential_damping" => ("tangential contact damping", "Pa s/m"),
+        key if key.starts_with("boundaries.") && key.ends_with(".pressure") => {
+            ("pressure *p*", "Pa")
+        }
         _ => return None,
     })
 }

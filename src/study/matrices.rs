@@ -27,7 +27,7 @@ pub fn matrices(case: &Case) -> Result<ExportedSystem, StudyError> {
             Some("use a plane formulation, or an imported mesh".to_owned()),
         )));
     }
-    if case.body.has_structural_damping() {
+    if case.has_structural_damping() {
         let refusal = case.loss_error(
             "the files hold one real problem, and structural damping makes the stiffness complex"
                 .to_owned(),

@@ -90,7 +90,7 @@ impl<'a> FrequencyStudy<'a> {
     /// key; a mesh that cannot be built; no state of sliding.
     pub fn new(case: &'a Case) -> Result<Self, StudyError> {
         let frf = case.require_frf()?;
-        let is_lossy = case.body.has_structural_damping();
+        let is_lossy = case.has_structural_damping();
         let system = match frf.method {
             FrfMethod::Auto | FrfMethod::Cyclic if is_lossy && case.body.revolution().is_some() => {
                 return Err(no_cyclic_losses(case, "the response").into());
@@ -341,8 +341,9 @@ fn plane(case: &Case, frf: &Frf, mesh: &Mesh) -> Result<FrfSystem, StudyError> {
         ));
     }
     let stiffness = assemble_stiffness(mesh, case.materials());
-    let base = SteadySliding::solve(mesh, &stiffness, &case.contact.sliding)?;
     let options = tangent_options(case, frf.mass);
+    let law = options.contact.law;
+    let base = SteadySliding::solve_with(mesh, &stiffness, &case.contact.sliding, law)?;
     let tangent = SlidingTangent::linearize(mesh, case.materials(), &stiffness, &base, &options);
     Ok(FrfSystem::sliding(
         &tangent,

@@ -130,7 +130,8 @@ impl TransientBody<'_> {
         match self {
             Self::Plane(model) => {
                 let stiffness = assemble_stiffness(model.mesh, model.material);
-                let base = SteadySliding::solve(model.mesh, &stiffness, &model.contact)?;
+                let law = model.stiffness.law;
+                let base = SteadySliding::solve_with(model.mesh, &stiffness, &model.contact, law)?;
                 Ok(base.displacement(model.contact.friction_coefficient))
             }
             Self::Solid(model) => model.sliding_displacement(),

@@ -1,9 +1,12 @@
 //! Springs and dashpots of a contact edge that is not rigid.
 
 use super::{TransientError, TransientModel};
-use crate::contact::ContactInterface;
+use crate::contact::{ContactInterface, NormalLaw};
 use crate::fem::assemble_stiffness;
 use crate::prestress::SteadySliding;
+
+/// Newton steps and halvings of one node at most: an interval of the largest numbers is halved away by then.
+const NEWTON_STEPS: usize = 200;
 
 /// The interface between edge and counterface as springs that push but never pull, with dashpots beside them.
 ///
@@ -23,7 +26,9 @@ use crate::prestress::SteadySliding;
 /// N = (U_+ - U_-) / (p_+ - p_-) + c w (max(0, p_+) - max(0, p_-)) / dt
 /// ```
 ///
-/// a scalar equation for each node, implicit in `p_+ = p* - dt^2 N / 2m` and in closed form. It is stable for any
+/// (with the energy of the law where contact stiffens with pressure, whose base state is on its springs: there is nothing to go
+/// further by), a scalar equation for each node, implicit in `p_+ = p* - dt^2 N / 2m` and in closed form (by Newton's
+/// method for a law). It is stable for any
 /// stiffness, second order in time, and adds no damping of its own.
 #[derive(Clone, Debug)]
 pub(super) struct CompliantContact {
@@ -33,6 +38,8 @@ pub(super) struct CompliantContact {
     damping: Vec<f64>,
     /// `N_0 / (k w)`, m.
     compression: Vec<f64>,
+    /// Contact that stiffens with pressure, and the nodes' shares of it; in place of `stiffness`.
+    law: Option<(NormalLaw, Vec<f64>)>,
     /// Power of each node's dashpot in the last step, W/m.
     pub dissipation: Vec<f64>,
 }
@@ -60,15 +67,46 @@ impl CompliantContact {
         let Some(stiffness) = model.stiffness.normal_stiffness else {
             return Ok(None);
         };
+        let shares = &interface.tributary_lengths;
+        if let Some(law) = model.stiffness.law {
+            return Ok(Some(Self::of_law(law, model, shares)?));
+        }
         let elastic = assemble_stiffness(model.mesh, model.material);
         let base = SteadySliding::solve(model.mesh, &elastic, &model.contact)?;
         let forces = base.normal_forces(model.contact.friction_coefficient);
-        let shares = &interface.tributary_lengths;
         Ok(Some(Self::of(
             [stiffness, model.stiffness.normal_damping],
             shares,
             &forces,
         )))
+    }
+
+    /// A contact that stiffens with pressure; dashpots that follow its stiffness have that of the base state.
+    fn of_law(
+        law: NormalLaw,
+        model: &TransientModel<'_>,
+        shares: &[f64],
+    ) -> Result<Self, TransientError> {
+        let stiffness = &model.stiffness;
+        let mut damping: Vec<f64> = shares
+            .iter()
+            .map(|w| stiffness.normal_damping * w)
+            .collect();
+        if stiffness.law_damping > 0.0 {
+            let elastic = assemble_stiffness(model.mesh, model.material);
+            let base = SteadySliding::solve_with(model.mesh, &elastic, &model.contact, Some(law))?;
+            let springs = base.springs(model.contact.friction_coefficient);
+            for (damping, spring) in damping.iter_mut().zip(springs.iter().flatten()) {
+                *damping += stiffness.law_damping * spring;
+            }
+        }
+        Ok(Self {
+            stiffness: Vec::new(),
+            compression: vec![0.0; shares.len()],
+            dissipation: vec![0.0; shares.len()],
+            law: Some((law, shares.to_vec())),
+            damping,
+        })
     }
 
     /// From stiffness and dashpot for each unit of the nodes' `shares` of the contact, and the nodes' forces in steady sliding.
@@ -80,6 +118,7 @@ impl CompliantContact {
             compression: pairs.map(|(force, k)| force.max(0.0) / k).collect(),
             damping: scaled(damping),
             dissipation: vec![0.0; stiffness.len()],
+            law: None,
             stiffness,
         }
     }
@@ -100,15 +139,28 @@ impl CompliantContact {
 
     /// Energy of node `i` at the mean compression `p`, J/m.
     pub fn energy(&self, i: usize, compression: f64) -> f64 {
-        0.5 * self.stiffness[i] * compression.max(0.0).powi(2)
+        match &self.law {
+            Some((law, shares)) => shares[i] * law.energy(compression),
+            None => 0.5 * self.stiffness[i] * compression.max(0.0).powi(2),
+        }
     }
 
     /// Normal force on node `i`, N/m; keeps what its dashpot dissipates.
     pub fn force(&mut self, i: usize, node: &CompressedNode, dt: f64) -> f64 {
-        let (k, c) = (self.stiffness[i], self.damping[i] / dt);
+        let c = self.damping[i] / dt;
         let yielding = 0.5 * dt * dt / node.mass;
-        let after = compression_after(node, k, c, yielding);
-        let (change, spring) = (after - node.before, mean_force(k, node.before, after));
+        let (after, spring) = match &self.law {
+            Some((law, shares)) => {
+                let after = stiffening_after(node, (*law, shares[i]), c, yielding);
+                (after, shares[i] * law.mean_pressure(node.before, after))
+            }
+            None => {
+                let k = self.stiffness[i];
+                let after = compression_after(node, k, c, yielding);
+                (after, mean_force(k, node.before, after))
+            }
+        };
+        let change = after - node.before;
         let dashpot = c * (after.max(0.0) - node.before.max(0.0));
         // The interface does not stick to the body: a dashpot that would pull lets it go.
         let force = (spring + dashpot).max(0.0);
@@ -154,6 +206,65 @@ fn compression_after(node: &CompressedNode, k: f64, c: f64, yielding: f64) -> f6
     before - 0.5 * (b + (b * b + 2.0 * k * before * before).sqrt())
 }
 
+/// [`compression_after`] of a contact that stiffens, with its share `w` of the edge: the force never falls with `p_+` and is
+/// convex in it, so that Newton's method kept between bounds finds the root to the last bits.
+fn stiffening_after(
+    node: &CompressedNode,
+    (law, w): (NormalLaw, f64),
+    c: f64,
+    yielding: f64,
+) -> f64 {
+    let (before, free) = (node.before, node.free);
+    let closed = before.max(0.0);
+    let force = |after: f64| w * law.mean_pressure(before, after) + c * (after.max(0.0) - closed);
+    if force(free) <= 0.0 {
+        return free;
+    }
+    let excess = |after: f64| after + yielding * force(after).max(0.0) - free;
+    let slope = |after: f64| {
+        let way = after - before;
+        let rise = match way.abs() > 1e-6 * (before.abs() + after.abs()) {
+            true => {
+                let pressure = law.pressure(after.max(0.0));
+                (pressure - law.mean_pressure(before, after)) / way
+            }
+            false => 0.5 * law.stiffness(after.max(0.0)),
+        };
+        1.0 + yielding * (w * rise + c)
+    };
+
+    // Bounds, of which the upper one may be far beyond.
+    let (mut lower, mut upper) = (before.min(free), free);
+    let mut step = (upper - lower).max(f64::EPSILON * free.abs());
+    while excess(lower) > 0.0 {
+        upper = lower;
+        lower -= step;
+        step *= 2.0;
+    }
+    let (mut after, mut moved) = (lower, upper - lower);
+    let round_off = 2.0 * f64::EPSILON * before.abs().max(free.abs());
+    for _ in 0..NEWTON_STEPS {
+        let value = excess(after);
+        if value > 0.0 {
+            upper = after;
+        } else {
+            lower = after;
+        }
+        let mut next = after - value / slope(after);
+        // Beyond the bounds, or far up an exponential, where the steps do not shrink.
+        let is_slow = 2.0 * (next - after).abs() > moved;
+        if !(next >= lower && next <= upper) || is_slow {
+            next = 0.5 * (lower + upper);
+        }
+        moved = (next - after).abs();
+        after = next;
+        if moved <= round_off {
+            break;
+        }
+    }
+    after
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -171,6 +282,7 @@ mod tests {
                     damping: vec![damping],
                     compression: vec![0.0],
                     dissipation: vec![0.0],
+                    law: None,
                 };
                 for before in [-1e-6, -1e-8, 0.0, 1e-8, 1e-6] {
                     for free in [-2e-6, -1e-8, 1e-9, 3e-8, 2e-6] {
@@ -198,5 +310,51 @@ mod tests {
             }
         }
         assert_eq!(seen, [true; 5]);
+    }
+
+    /// Theory: the same of laws that stiffen, whose energy is that of the law: nothing is won or lost over a step.
+    #[test]
+    fn stiffening_contact_closes_its_balance_at_every_step() {
+        let laws = [
+            NormalLaw::Cubic {
+                stiffness: 1e13,
+                cubic_stiffness: 1e26,
+            },
+            NormalLaw::Exponential {
+                reference_pressure: 1e5,
+                height: 5e-8,
+            },
+        ];
+        let (dt, mass, share) = (1e-7, 1e-3, 7e-4);
+        for law in laws {
+            for damping in [0.0, 2e3] {
+                let mut contact = CompliantContact {
+                    stiffness: Vec::new(),
+                    damping: vec![damping],
+                    compression: vec![0.0],
+                    dissipation: vec![0.0],
+                    law: Some((law, vec![share])),
+                };
+                for before in [-1e-6, -1e-8, 0.0, 1e-8, 3e-7, 1e-6] {
+                    for free in [-2e-6, -1e-8, 1e-9, 3e-8, 2e-6, 1e-3] {
+                        let node = CompressedNode { mass, before, free };
+                        let force = contact.force(0, &node, dt);
+                        let after = free - 0.5 * dt * dt / mass * force;
+                        let energy = contact.energy(0, after) - contact.energy(0, before);
+                        let work = force * (after - before);
+                        let lost = dt * contact.dissipation[0];
+                        // Positions are rounded by the size of both, energies by the stiffness there.
+                        let size = before.abs().max(free.abs());
+                        let spring = share * law.stiffness(before.max(after).max(0.0));
+                        let rounded = 1e-15 * size * (spring * size + force);
+                        assert!(
+                            (work - energy - lost).abs() < 16.0 * rounded,
+                            "{law:?} {node:?}"
+                        );
+                        assert!(force >= 0.0 && lost >= -16.0 * rounded);
+                    }
+                }
+            }
+        }
     }
 }

@@ -29,6 +29,7 @@ mod inputs;
 mod mac;
 mod materials;
 mod mesh_files;
+mod normal_law;
 mod plot;
 mod reading;
 mod results;

@@ -140,6 +140,52 @@ fn what_parts_supports_and_contacts_add_is_the_growth_rate() {
     assert_eq!(couplings.is_empty(), !said.contains("feeds"), "{said}");
 }
 
+/// Exact identities: without friction what one support or one contact loses is the whole growth rate where nothing else is
+/// damped, and the other takes nothing; with friction the sum stays the growth rate.
+#[test]
+fn loss_factors_of_supports_and_contacts_are_told_where_they_act() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("pads.msh"), pads()).unwrap();
+    let case = folder.path().join("case.toml");
+    let undamped = CASE
+        .lines()
+        .filter(|line| !line.contains("_coefficient = ") || line.contains("friction"))
+        .map(|line| line.replace("normal_damping = 1e4", ""));
+    std::fs::write(&case, undamped.collect::<Vec<_>>().join("\n")).unwrap();
+    for (lossy, name) in [
+        ("boundaries.slab_z0.loss_factor=0.1", "slab_z0"),
+        ("contacts.first.loss_factor=0.1", "first"),
+    ] {
+        cea(folder.path(), &case, &[lossy]);
+        let out = folder.path().join("out");
+        let rows = table(&out.join("contributions.csv"));
+        let mut largest = 0.0_f64;
+        for mode in table(&out.join("eigenvalues.csv")) {
+            let is_own = |row: &&BTreeMap<String, String>| {
+                row["mode"] == mode["mode"]
+                    && row["friction_coefficient"] == mode["friction_coefficient"]
+            };
+            let own = || rows.iter().filter(is_own);
+            let growth = number(&mode, "growth_rate_per_s");
+            let omega = TAU * number(&mode, "frequency_hz");
+            let rate = |row: &BTreeMap<String, String>| number(row, "growth_rate_per_s");
+            let sum: f64 = own().map(rate).sum();
+            assert!((sum - growth).abs() < 1e-8 * omega, "{name} {sum} {growth}");
+            if number(&mode, "friction_coefficient") == 0.0 {
+                let taken = own().find(|row| row["name"] == name).map(rate).unwrap();
+                assert!(
+                    (taken - growth).abs() < 1e-8 * omega,
+                    "{name} {taken} {growth}"
+                );
+                assert!(growth <= 0.0);
+                largest = largest.max(-growth / omega);
+            }
+        }
+        // At most eta / 2 of the frequency, of a mode whose strain is all in the springs.
+        assert!(largest > 1e-5 && largest < 0.05, "{name} {largest}");
+    }
+}
+
 /// Bessel's inequality: modes without friction are orthogonal by mass, so that shares never sum to more than one.
 #[test]
 fn an_unstable_mode_consists_of_the_modes_without_friction() {

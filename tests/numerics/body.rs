@@ -200,6 +200,7 @@ fn a_supported_rim_gives_the_sounds_of_the_prototype() {
 fn a_supported_rim_has_one_spectrum_by_sectors_and_as_a_whole() {
     let mut specification = annulus(ElementKind::Quad4, 36, 8);
     specification.outer = BoundaryCondition::Support(ElasticSupport {
+        loss_factor: 0.0,
         normal_stiffness: 3e11,
         tangential_stiffness: 1e11,
         axial_stiffness: 0.0,
@@ -436,6 +437,7 @@ fn energy_closes_with_supports_pressure_and_partial_contact() {
     let file = GmshFile::read(&rectangle(0.04, 0.06, 8, 12)).unwrap();
     let mut specification = block_specification();
     specification.conditions[0].1 = BoundaryCondition::Support(ElasticSupport {
+        loss_factor: 0.0,
         normal_stiffness: 1e11,
         tangential_stiffness: 1e10,
         axial_stiffness: 0.0,

@@ -30,6 +30,7 @@ mod friction_law;
 mod half_space;
 mod improve;
 mod matrices;
+mod normal_law;
 mod orthotropy;
 mod plane_body;
 mod plane_spectrum;

@@ -3,7 +3,7 @@
 
 use crate::disc::{POLYCARBONATE, annulus, contact};
 use faer::{Mat, c64};
-use frictionsim::cea::sparse::sweep;
+use frictionsim::cea::sparse::{mode_pairs, sweep};
 use frictionsim::cea::{FrictionSweep, ModeLimit, SweepRequest};
 use frictionsim::contact::ContactStiffness;
 use frictionsim::fem::{
@@ -14,19 +14,32 @@ use frictionsim::frf::{Direction, FrfSystem, Terminal, direct_response};
 use frictionsim::linalg::dense_eigen::complex_eigenvalues;
 use frictionsim::linalg::{ComplexDenseLu, MatrixPolynomial};
 use frictionsim::mesh::{
-    AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElementKind, ShaftSpecification,
+    AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElasticSupport, ElementKind,
+    ShaftSpecification,
 };
 use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
 use std::f64::consts::TAU;
 
 /// The disc on a deformable shaft of steel, with a loss factor each.
-fn tangent([disc, shaft]: [f64; 2], damping: RayleighDamping) -> SlidingTangent {
+fn tangent(losses: [f64; 2], damping: RayleighDamping) -> SlidingTangent {
+    let (rigid, held) = (ContactStiffness::default(), BoundaryCondition::Clamped);
+    tangent_with(losses, damping, rigid, held)
+}
+
+/// The same with a contact and what holds the outer edge.
+fn tangent_with(
+    [disc, shaft]: [f64; 2],
+    damping: RayleighDamping,
+    contact_stiffness: ContactStiffness,
+    outer: BoundaryCondition,
+) -> SlidingTangent {
     let specification = AnnulusSpecification {
         shaft: Some(ShaftSpecification {
             inner_radius: 0.006,
             radial_elements: 1,
             bore: BoundaryCondition::Clamped,
         }),
+        outer,
         ..annulus(ElementKind::Quad4, 16, 3)
     };
     let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
@@ -54,7 +67,7 @@ fn tangent([disc, shaft]: [f64; 2], damping: RayleighDamping) -> SlidingTangent 
         geometric_stiffness: false,
         damping,
         damping_model: DampingModel::WholeTangent,
-        contact: ContactStiffness::default(),
+        contact: contact_stiffness,
     };
     SlidingTangent::linearize(&mesh, &materials, &elastic, &base, &options)
 }
@@ -146,11 +159,32 @@ fn loss_factors_of_disc_and_shaft_have_the_spectrum_of_the_dense_matrices() {
         mass_coefficient: 20.0,
         stiffness_coefficient: 1e-7,
     };
-    let tangent = tangent([0.02, 0.2], viscous);
+    agrees_with_the_dense_matrices(&tangent([0.02, 0.2], viscous));
+}
+
+/// Independent check: the same of the springs of a contact, which friction follows, and of a support.
+#[test]
+fn loss_factors_of_contact_and_support_have_the_spectrum_of_the_dense_matrices() {
+    let springs = ContactStiffness {
+        normal_stiffness: Some(2e12),
+        loss_factor: 0.15,
+        ..ContactStiffness::default()
+    };
+    let mounting = BoundaryCondition::Support(ElasticSupport {
+        normal_stiffness: 1e11,
+        tangential_stiffness: 2e11,
+        loss_factor: 0.05,
+        ..ElasticSupport::default()
+    });
+    let tangent = tangent_with([0.0; 2], RayleighDamping::default(), springs, mounting);
+    agrees_with_the_dense_matrices(&tangent);
+}
+
+fn agrees_with_the_dense_matrices(tangent: &SlidingTangent) {
     let frictions = [0.0, 0.3, 0.6, 0.9];
-    let found = solved(&tangent, &frictions);
+    let found = solved(tangent, &frictions);
     for (point, &mu) in frictions.iter().enumerate() {
-        let expected = dense_eigenvalues(&tangent, mu);
+        let expected = dense_eigenvalues(tangent, mu);
         let own = eigenvalues(&found, point);
         let error = largest_error(&expected, &own);
         let highest = own.last().unwrap().im;
@@ -164,7 +198,7 @@ fn loss_factors_of_disc_and_shaft_have_the_spectrum_of_the_dense_matrices() {
     }
     assert!(!found.intervals.is_empty());
     for interval in &found.intervals {
-        let onset = dense_eigenvalues(&tangent, interval.critical_friction);
+        let onset = dense_eigenvalues(tangent, interval.critical_friction);
         let omega = TAU * interval.frequency_hz;
         let nearest = onset.iter().map(|v| (v.im - omega).hypot(v.re));
         let nearest = nearest.fold(f64::INFINITY, f64::min);
@@ -206,4 +240,59 @@ fn the_response_with_loss_factors_is_that_of_the_dense_matrix() {
         // Round-off of two factorizations times the condition of the matrix.
         assert!((found - expected).norm() < 1e-8 * expected.norm());
     }
+}
+
+/// Theory: a derivative by friction, and by the loss factors themselves, is that of the eigenvalue: differences of whole solutions.
+#[test]
+fn derivatives_with_loss_factors_are_differences_of_eigenvalues() {
+    let with = |eta: f64| {
+        let springs = ContactStiffness {
+            normal_stiffness: Some(2e12),
+            loss_factor: eta,
+            ..ContactStiffness::default()
+        };
+        let held = BoundaryCondition::Clamped;
+        tangent_with([0.02, 0.1], RayleighDamping::default(), springs, held)
+    };
+    let (mu, eta, step) = (0.4, 0.1, 1e-4);
+    let tangent = with(eta);
+    let targets = eigenvalues(&solved(&tangent, &[mu]), 0);
+    let pairs = mode_pairs(&tangent, mu, &targets, 8).unwrap();
+    let [above, below] = [step, -step].map(|h| with(eta + h));
+    let values = |t: &SlidingTangent| t.structural.as_ref().unwrap().evaluate(mu);
+    let both = values(&above).into_iter().zip(values(&below));
+    let change: Vec<f64> = both.map(|(a, b)| (a - b) / (2.0 * step)).collect();
+    let none = vec![0.0; change.len()];
+    let pattern = tangent.stiffness.pattern();
+    let difference = |k: usize, sides: [c64; 2], own: c64| {
+        let slope = (sides[0] - sides[1]) / (2.0 * step);
+        // The second order of the differences, where branches bend.
+        assert!(
+            (slope - own).norm() < 1e-5 * targets[k].norm(),
+            "{k} {slope} {own}"
+        );
+        assert!(own.norm() > 0.0);
+    };
+    let nearest = |all: &[c64], k: usize| {
+        let apart = |a: &&c64, b: &&c64| {
+            (*a - targets[k])
+                .norm()
+                .total_cmp(&(*b - targets[k]).norm())
+        };
+        *all.iter().min_by(apart).unwrap()
+    };
+    let at = |tangent: &SlidingTangent, mu: f64| eigenvalues(&solved(tangent, &[mu]), 0);
+    let by_eta = [at(&above, mu), at(&below, mu)];
+    let by_mu = [at(&tangent, mu + step), at(&tangent, mu - step)];
+    let mut count = 0;
+    for (k, pair) in pairs.iter().enumerate() {
+        // Pairs +n and -n that friction has not parted have no single vector.
+        let Some(pair) = pair else { continue };
+        count += 1;
+        let own = pair.lossy_response(pattern, [&none, &none, &none], &change);
+        difference(k, [nearest(&by_eta[0], k), nearest(&by_eta[1], k)], own);
+        let own = pair.derivative;
+        difference(k, [nearest(&by_mu[0], k), nearest(&by_mu[1], k)], own);
+    }
+    assert!(count >= 4, "{count}");
 }

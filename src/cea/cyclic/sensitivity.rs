@@ -6,6 +6,7 @@ use super::follow::Follower;
 use super::problem::HarmonicProblem;
 use super::vectors::ZERO;
 use crate::cea::{CeaError, ModeBranch};
+use crate::contact::LawParameter;
 use crate::linalg::banded::BandedMatrix;
 use crate::linalg::c64;
 use crate::prestress::{HarmonicTangent, Parameter, SectorTangent, TangentRate};
@@ -52,6 +53,9 @@ pub struct Sensitivity {
     /// With respect to Young's modulus (Pa), Poisson's ratio and density (kg/m3) of a deformable shaft, and to the
     /// `alpha_R` (1/s) and `beta_R` (s) that it has of its own; `None` of what there is not.
     pub shaft: [Option<c64>; 5],
+    /// With respect to `cubic_stiffness` (Pa/m3), `reference_pressure` (Pa) and `height` (m) of contact that stiffens with
+    /// pressure; `None` of what its law has not.
+    pub normal_law: [Option<c64>; 3],
 }
 
 /// Sensitivities of every branch of a sweep at one friction coefficient within its range.
@@ -75,7 +79,7 @@ pub fn sensitivities(
         .collect()
 }
 
-pub(super) const PARAMETERS: [Parameter; 13] = [
+pub(super) const PARAMETERS: [Parameter; 16] = [
     Parameter::NormalStiffness,
     Parameter::MassCoefficient,
     Parameter::StiffnessCoefficient,
@@ -89,6 +93,9 @@ pub(super) const PARAMETERS: [Parameter; 13] = [
     Parameter::Density(1),
     Parameter::OwnMassCoefficient,
     Parameter::OwnStiffnessCoefficient,
+    Parameter::NormalLaw(LawParameter::CubicStiffness),
+    Parameter::NormalLaw(LawParameter::ReferencePressure),
+    Parameter::NormalLaw(LawParameter::Height),
 ];
 
 impl Sensitivity {
@@ -117,6 +124,7 @@ impl Sensitivity {
             static_friction_ratio: responses[6],
             decay_speed: responses[7],
             shaft: std::array::from_fn(|i| responses[8 + i]),
+            normal_law: std::array::from_fn(|i| responses[13 + i]),
         }
     }
 }

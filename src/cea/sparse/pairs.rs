@@ -48,6 +48,20 @@ impl ModePair {
         -(lambda * (lambda * mass + damping) + stiffness)
     }
 
+    /// [`Self::response`] with a change `dH` of the structural damping, which adds `- i w^T dH x`; an empty one is none.
+    pub fn lossy_response(
+        &self,
+        pattern: &SparsityPattern,
+        changes: [&[f64]; 3],
+        structural: &[f64],
+    ) -> c64 {
+        let lost = match structural {
+            [] => c64::new(0.0, 0.0),
+            values => self.form(pattern, values),
+        };
+        self.response(pattern, changes) - c64::new(0.0, 1.0) * lost
+    }
+
     /// `w^T P x`.
     fn form(&self, pattern: &SparsityPattern, values: &[f64]) -> c64 {
         let along = |j: usize| -> c64 {
@@ -75,7 +89,9 @@ pub fn mode_pairs(
     targets: &[c64],
     count: usize,
 ) -> Result<Vec<Option<ModePair>>, CeaError> {
-    let few = (targets.len() <= FEW).then(|| inverse_iterations(tangent, mu, targets));
+    // Krylov iterations are on real matrices.
+    let is_lossy = tangent.structural.is_some();
+    let few = (targets.len() <= FEW || is_lossy).then(|| inverse_iterations(tangent, mu, targets));
     let vectors = match few {
         Some(Ok(vectors)) => vectors,
         // Factors so near to an eigenvalue may be refused as singular.
@@ -87,6 +103,8 @@ pub fn mode_pairs(
     let all = [&tangent.stiffness, &tangent.damping, &tangent.mass];
     let [_, damping, mass] = all.map(|p| p.evaluate(mu));
     let rates = all.map(|p| p.derivative(mu));
+    let structural = tangent.structural.as_ref();
+    let structural_rate = structural.map_or_else(Vec::new, |p| p.derivative(mu));
     let pair = |(target, vectors): (&c64, Option<Vectors>)| {
         let [right, left] = vectors?;
         let mut pair = ModePair {
@@ -98,7 +116,8 @@ pub fn mode_pairs(
         };
         let scale = pair.form(pattern, &mass) * *target * 2.0 + pair.form(pattern, &damping);
         pair.left.iter_mut().for_each(|v| *v /= scale);
-        pair.derivative = pair.response(pattern, rates.each_ref().map(Vec::as_slice));
+        let rates = rates.each_ref().map(Vec::as_slice);
+        pair.derivative = pair.lossy_response(pattern, rates, &structural_rate);
         Some(pair)
     };
     Ok(targets.iter().zip(vectors).map(pair).collect())
@@ -117,13 +136,19 @@ fn inverse_iterations(
     let analysis = LuAnalysis::new(pattern)?;
     let [stiffness, damping, mass] =
         [&tangent.stiffness, &tangent.damping, &tangent.mass].map(|p| p.evaluate(mu));
+    let structural = tangent.structural.as_ref();
+    let structural = structural.map_or_else(Vec::new, |p| p.evaluate(mu));
     let unknowns = pattern.dimension();
     let start = random_columns(unknowns, 2.min(unknowns), 7);
     let found = targets.iter().map(|target| {
         let shift = *target * (1.0 + OFFSET);
         let terms = stiffness.iter().zip(&damping).zip(&mass);
         let pencil = terms.map(|((k, c), m)| shift * (shift * *m + *c) + *k);
-        let factors = ComplexSparseLu::factorize(&analysis, pencil.collect())?;
+        let mut pencil: Vec<c64> = pencil.collect();
+        for (value, lost) in pencil.iter_mut().zip(&structural) {
+            *value += c64::new(0.0, *lost);
+        }
+        let factors = ComplexSparseLu::factorize(&analysis, pencil)?;
         let converged = |is_left: bool| {
             let mut x = Mat::from_fn(unknowns, start.ncols(), |i, j| c64::new(start[(i, j)], 0.0));
             for _ in 0..STEPS {

@@ -53,7 +53,7 @@ pub struct OnsetRates {
 }
 
 /// Short names of the parameters, the friction coefficient first.
-const NAMES: [&str; 14] = [
+const NAMES: [&str; 17] = [
     "friction_coefficient",
     "normal_stiffness",
     "mass_coefficient",
@@ -68,6 +68,9 @@ const NAMES: [&str; 14] = [
     "shaft_density",
     "shaft_mass_coefficient",
     "shaft_stiffness_coefficient",
+    "cubic_stiffness",
+    "reference_pressure",
+    "height",
 ];
 
 /// Of those, the columns that every table has.
@@ -75,8 +78,9 @@ const ALWAYS: usize = 7;
 
 /// Derivatives in the order of [`NAMES`]; none with respect to a contact stiffness that is rigid, to how constant
 /// friction falls, or to a shaft that is not there.
-fn derivatives(branch: &Sensitivity) -> [Option<c64>; 14] {
+fn derivatives(branch: &Sensitivity) -> [Option<c64>; 17] {
     let [modulus, ratio, density, mass, stiffness] = branch.shaft;
+    let [cubic, pressure, height] = branch.normal_law;
     [
         Some(branch.friction),
         branch.normal_stiffness,
@@ -92,15 +96,19 @@ fn derivatives(branch: &Sensitivity) -> [Option<c64>; 14] {
         density,
         mass,
         stiffness,
+        cubic,
+        pressure,
+        height,
     ]
 }
 
 impl SensitivityReport {
     /// Of branches that were solved harmonic by harmonic. `given`: normal stiffness, `alpha_R`, `beta_R`, `E`, `nu`, `rho`, static
-    /// over kinetic friction and decay speed of the case, then `E`, `nu`, `rho`, `alpha_R`, `beta_R` of its shaft (0 for rigid
-    /// contact, constant friction, no shaft). Parameters of a friction law that falls with speed, and of a shaft, are there where
-    /// the case has one.
-    pub fn of_harmonics(branches: &[Sensitivity], given: [f64; 13]) -> Self {
+    /// over kinetic friction and decay speed of the case, then `E`, `nu`, `rho`, `alpha_R`, `beta_R` of its shaft, then cubic
+    /// stiffness, reference pressure and height of the contact's law (0 for rigid contact, constant friction, no shaft, linear
+    /// contact). Parameters of a friction law that falls with speed, of a shaft, and of contact that stiffens, are there where the
+    /// case has one.
+    pub fn of_harmonics(branches: &[Sensitivity], given: [f64; 16]) -> Self {
         let all: Vec<_> = branches.iter().map(derivatives).collect();
         let is_given = |i: &usize| *i < ALWAYS || all.iter().any(|row| row[*i].is_some());
         let columns: Vec<usize> = (0..NAMES.len()).filter(is_given).collect();

@@ -29,7 +29,7 @@ impl Solver {
     /// A method that the body does not have; a counterface at rest, on which the body sticks.
     pub fn of(case: &Case, method: CeaMethod) -> Result<Self, CaseErrors> {
         refuse_rest(case)?;
-        let is_lossy = case.body.has_structural_damping();
+        let is_lossy = case.has_structural_damping();
         match (&case.body, method) {
             (Body::Imported(_) | Body::Assembly(_), CeaMethod::Cyclic) => Err(case.error_at(
                 "cea.method",
@@ -50,14 +50,14 @@ impl Solver {
                 Err(no_cyclic_losses(case, "cea.method = \"cyclic\""))
             }
             (Body::Annulus(_), CeaMethod::Sparse) => Ok(Self::WholeMesh),
-            (body, _) => Ok(Self::by_symmetry(body)),
+            (_, _) => Ok(Self::by_symmetry(case)),
         }
     }
 
-    /// The solver that uses all the symmetry of a body.
-    pub fn by_symmetry(body: &Body) -> Self {
-        match body {
-            Body::Annulus(_) if body.has_structural_damping() => Self::WholeMesh,
+    /// The solver that uses all the symmetry of the body of a case.
+    pub fn by_symmetry(case: &Case) -> Self {
+        match &case.body {
+            Body::Annulus(_) if case.has_structural_damping() => Self::WholeMesh,
             Body::Annulus(annulus) => Self::Sectors(*annulus),
             Body::Revolution(revolution) => Self::SolidSectors(*revolution),
             Body::Imported(_) => Self::WholeMesh,

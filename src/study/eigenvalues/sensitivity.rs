@@ -16,7 +16,8 @@ use std::f64::consts::TAU;
 /// smooth in the others to `STEP^2`; their round-off, divided by it, stays small beside a mode's own stiffness.
 const STEP: f64 = 1e-4;
 /// Keys, by their last part, on which no base state depends.
-const INERT: [&str; 5] = [
+const INERT: [&str; 6] = [
+    "loss_factor",
     "density",
     "mass_coefficient",
     "stiffness_coefficient",
@@ -200,11 +201,16 @@ impl Linearized {
         self.model.pressed(self.model.state_of()[place])
     }
 
-    /// Nonzero values of `K`, `C`, `M` there.
-    fn values(&self, place: usize) -> [Vec<f64>; 3] {
-        let tangent = self.tangent(place);
-        [&tangent.stiffness, &tangent.damping, &tangent.mass]
-            .map(|p| p.evaluate(self.frictions[place]))
+    /// Nonzero values of `K`, `C`, `M` and the structural damping `H` there, empty without.
+    fn values(&self, place: usize) -> [Vec<f64>; 4] {
+        let (tangent, mu) = (self.tangent(place), self.frictions[place]);
+        let structural = tangent.structural.as_ref();
+        [
+            tangent.stiffness.evaluate(mu),
+            tangent.damping.evaluate(mu),
+            tangent.mass.evaluate(mu),
+            structural.map_or_else(Vec::new, |p| p.evaluate(mu)),
+        ]
     }
 }
 
@@ -300,8 +306,12 @@ fn responses(
         pairs.for_each(|(change, value)| *change = (*change - value) / (2.0 * step));
     }
     let pattern = above.tangent(k).stiffness.pattern();
-    let changes = changes.each_ref().map(Vec::as_slice);
-    let response = |pair: &Option<ModePair>| Some(pair.as_ref()?.response(pattern, changes));
+    let [stiffness, damping, mass, structural] = changes.each_ref().map(Vec::as_slice);
+    let response = |pair: &Option<ModePair>| {
+        let changes = [stiffness, damping, mass];
+        let pair = pair.as_ref()?;
+        Some(pair.lossy_response(pattern, changes, structural))
+    };
     place.pairs.iter().map(response).collect()
 }
 

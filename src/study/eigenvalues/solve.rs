@@ -9,6 +9,7 @@ use super::{Progress, SlidingModel, Solution, StudyError};
 use crate::case::{Body, Case, Cea, CeaMethod};
 use crate::cea::cyclic::{Coverage, Overdamped, Sensitivity};
 use crate::cea::{CeaError, FrictionSweep, SweepRequest, Unwatched};
+use crate::contact::NormalLaw;
 use crate::fem::RegionMaterial;
 use crate::results::cea::SensitivityReport;
 use std::f64::consts::TAU;
@@ -307,6 +308,16 @@ fn sensitivity_report(case: &Case, branches: Vec<Sensitivity>) -> SensitivityRep
         ]
     });
     let own = shaft.and_then(|shaft| shaft.damping).unwrap_or_default();
+    let of_law = match case.contact.stiffness.law {
+        Some(NormalLaw::Cubic {
+            cubic_stiffness, ..
+        }) => [cubic_stiffness, 0.0, 0.0],
+        Some(NormalLaw::Exponential {
+            reference_pressure,
+            height,
+        }) => [0.0, reference_pressure, height],
+        None => [0.0; 3],
+    };
     SensitivityReport::of_harmonics(
         &branches,
         [
@@ -323,6 +334,9 @@ fn sensitivity_report(case: &Case, branches: Vec<Sensitivity>) -> SensitivityRep
             of_shaft[2],
             own.mass_coefficient,
             own.stiffness_coefficient,
+            of_law[0],
+            of_law[1],
+            of_law[2],
         ],
     )
 }

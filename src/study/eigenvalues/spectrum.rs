@@ -76,7 +76,7 @@ pub fn modes_at_own_friction(
         limit,
         shapes_at: &[],
     };
-    let solver = Solver::by_symmetry(&case.body);
+    let solver = Solver::by_symmetry(case);
     let frictions = request.friction_coefficients;
     let model = Model::with_solver(case, solver, *options, frictions)?;
     let found = model.spectrum(case, &request, false, &Unwatched)?;

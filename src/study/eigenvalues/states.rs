@@ -35,7 +35,8 @@ impl WholeMesh {
         let mesh = case.mesh()?;
         let stiffness = assemble_stiffness(&mesh, case.materials());
         let frictions = [frictions, &[sliding.friction_coefficient]].concat();
-        let range = SlidingRange::solve(&mesh, &stiffness, sliding, &frictions)?;
+        let range =
+            SlidingRange::solve_with(&mesh, &stiffness, sliding, options.contact.law, &frictions)?;
         Ok(Self {
             mesh,
             range,

@@ -159,6 +159,9 @@ fn rate(sensitivity: &Sensitivity, parameter: &ModelParameter) -> Option<c64> {
     let of = |key: &String| match key.as_str() {
         "contact.friction_coefficient" => Some(sensitivity.friction),
         "contact.normal_stiffness" => sensitivity.normal_stiffness,
+        "contact.cubic_stiffness" => sensitivity.normal_law[0],
+        "contact.reference_pressure" => sensitivity.normal_law[1],
+        "contact.height" => sensitivity.normal_law[2],
         "damping.mass_coefficient" => Some(sensitivity.mass_coefficient),
         "damping.stiffness_coefficient" => Some(sensitivity.stiffness_coefficient),
         "material.young_modulus" => sensitivity.young_modulus,

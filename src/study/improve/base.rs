@@ -230,7 +230,7 @@ fn refuse_bodies(case: &Case) -> Result<(), CaseErrors> {
         let help = Some(help.to_owned());
         Err(case.error_at(key, message.to_owned(), label.to_owned(), help))
     };
-    if case.body.has_structural_damping() {
+    if case.has_structural_damping() {
         return Err(case.loss_error(
             "improve takes derivatives of conjugate pairs of modes, which structural damping K (1 + i eta) does not leave".to_owned(),
             "not in improve",

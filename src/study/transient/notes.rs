@@ -49,7 +49,9 @@ impl TransientStudy<'_> {
             return None;
         }
         let stiffness = assemble_stiffness(&self.mesh, case.materials());
-        let base = SteadySliding::solve(&self.mesh, &stiffness, &case.contact.sliding);
+        let contact = &case.contact;
+        let law = contact.stiffness.law;
+        let base = SteadySliding::solve_with(&self.mesh, &stiffness, &contact.sliding, law);
         base.err().and_then(jams)
     }
 

@@ -33,6 +33,9 @@ const OPTIONS: TangentOptions = TangentOptions {
     },
     damping_model: DampingModel::WholeTangent,
     contact: ContactStiffness {
+        law: None,
+        law_damping: 0.0,
+        loss_factor: 0.0,
         normal_stiffness: None,
         normal_damping: 0.0,
         tangential_damping: 0.0,

@@ -1,7 +1,7 @@
 //! The cyclic eigenvalue analysis against theory, dense solutions, the sparse solver and the paper.
 
 mod dense;
-mod model;
+pub mod model;
 mod sensitivity;
 mod stability;
 mod whole_mesh;

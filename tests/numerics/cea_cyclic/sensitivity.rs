@@ -5,6 +5,7 @@ use crate::disc::{POLYCARBONATE, annulus, contact};
 use faer::c64;
 use frictionsim::cea::cyclic::{CyclicModel, Sensitivity, sensitivities, sweep};
 use frictionsim::cea::{ModeBranch, ModeLimit, SweepRequest};
+use frictionsim::contact::{ContactStiffness, NormalLaw};
 use frictionsim::fem::{ElasticMaterial, PlaneFormulation};
 use frictionsim::mesh::ElementKind;
 use frictionsim::prestress::DampingModel;
@@ -149,6 +150,109 @@ fn sensitivities_equal_finite_differences() {
                 - (at(friction + 2.0 * h) - at(friction - 2.0 * h)))
                 / (12.0 * h);
             assert!((numeric - s.friction).norm() < 1e-9 * s.eigenvalue.norm());
+        }
+    }
+}
+
+/// Independent check: the same of contact that stiffens with pressure, whose base state moves with every number.
+#[test]
+fn sensitivities_of_stiffening_contact_equal_finite_differences() {
+    let laws = [
+        NormalLaw::Exponential {
+            reference_pressure: 2e5,
+            height: 4e-6,
+        },
+        NormalLaw::Cubic {
+            stiffness: 8e11,
+            cubic_stiffness: 5e22,
+        },
+    ];
+    let moved = |law: NormalLaw, number: usize, share: f64| match law {
+        NormalLaw::Exponential {
+            reference_pressure: p,
+            height: h,
+        } => NormalLaw::Exponential {
+            reference_pressure: if number == 0 { p * (1.0 + share) } else { p },
+            height: if number == 1 { h * (1.0 + share) } else { h },
+        },
+        NormalLaw::Cubic {
+            stiffness: k,
+            cubic_stiffness: c,
+        } => NormalLaw::Cubic {
+            stiffness: if number == 0 { k * (1.0 + share) } else { k },
+            cubic_stiffness: if number == 1 { c * (1.0 + share) } else { c },
+        },
+    };
+    let of = |law: NormalLaw| ContactStiffness {
+        normal_stiffness: Some(law.stiffness(0.0)),
+        law: Some(law),
+        ..ContactStiffness::default()
+    };
+    for (law, element) in laws
+        .into_iter()
+        .zip([ElementKind::Quad8, ElementKind::Quad4])
+    {
+        let mut contact = contact(610.0);
+        contact.interference = 3e-4;
+        let mut options = paper_options();
+        options.contact = of(law);
+        let model = CyclicModel {
+            specification: annulus(element, 24, 6),
+            material: POLYCARBONATE.into(),
+            options,
+            contact,
+        };
+        let friction = 0.35;
+        let request = SweepRequest {
+            friction_coefficients: &[0.0, friction],
+            limit: ModeLimit::MaxFrequency(9000.0),
+            shapes_at: &[],
+        };
+        let (specification, material) = (&model.specification, &model.material);
+        let found = sweep(specification, material, &options, &contact, &request).unwrap();
+        let sensitivities = sensitivities(&found, friction).unwrap();
+        assert!(sensitivities.len() > 5);
+        for s in &sensitivities {
+            let difference = |change: &dyn Fn(&mut CyclicModel, f64)| {
+                let at = |share: f64| {
+                    let mut changed = model;
+                    change(&mut changed, share);
+                    eigenvalue_of(&changed, s, friction)
+                };
+                let h = 1e-3;
+                ((at(h) - at(-h)) * 8.0 - (at(2.0 * h) - at(-2.0 * h))) / (12.0 * h)
+            };
+            let by_law =
+                |number: usize| difference(&|m, x| m.options.contact = of(moved(law, number, x)));
+            let [cubic, pressure, height] = s.normal_law;
+            let own = match law {
+                NormalLaw::Exponential {
+                    reference_pressure: p,
+                    height: h,
+                } => [pressure.unwrap() * p, height.unwrap() * h],
+                NormalLaw::Cubic {
+                    stiffness: k,
+                    cubic_stiffness: c,
+                } => [s.normal_stiffness.unwrap() * k, cubic.unwrap() * c],
+            };
+            let modulus = POLYCARBONATE.young_modulus;
+            let by_modulus = difference(&|m, x| m.material.annulus.young_modulus *= 1.0 + x);
+            let ratio = POLYCARBONATE.poisson_ratio;
+            let by_ratio = difference(&|m, x| m.material.annulus.poisson_ratio *= 1.0 + x);
+            for (name, analytic, numeric) in [
+                ("first number of the law", own[0], by_law(0)),
+                ("second number of the law", own[1], by_law(1)),
+                ("E", s.young_modulus.unwrap() * modulus, by_modulus),
+                ("nu", s.poisson_ratio.unwrap() * ratio, by_ratio),
+            ] {
+                let error = (analytic - numeric).norm();
+                let size = numeric.norm() + 1e-3 * s.eigenvalue.norm();
+                assert!(
+                    error < 1e-6 * size,
+                    "{law:?} {name} {s:?} {numeric} {:e}",
+                    error / size
+                );
+            }
         }
     }
 }

@@ -19,16 +19,16 @@ use frictionsim::transient::{
 };
 
 /// So stiff that the block moves as one: its own modes lie above 30 kHz.
-const STEEL: ElasticMaterial = ElasticMaterial {
+pub const STEEL: ElasticMaterial = ElasticMaterial {
     young_modulus: 2.1e11,
     poisson_ratio: 0.3,
     density: 7850.0,
     formulation: PlaneFormulation::PlaneStrain,
     ..ElasticMaterial::PLAIN
 };
-const WIDTH: f64 = 0.04;
+pub const WIDTH: f64 = 0.04;
 const HEIGHT: f64 = 0.03;
-const MASS: f64 = 7850.0 * WIDTH * HEIGHT;
+pub const MASS: f64 = 7850.0 * WIDTH * HEIGHT;
 /// Normal force, N/m.
 const NORMAL: f64 = 1e6 * WIDTH;
 const SPRING: f64 = 3e10 * HEIGHT;
@@ -53,7 +53,7 @@ fn contact(speed: f64) -> SlidingContact {
 }
 
 /// 4 by 3 square elements; the plane below, the spring on the right, the pressure above.
-fn block() -> Mesh {
+pub fn block(pressure: f64) -> Mesh {
     let node = |i: usize, j: usize| 1 + i + 5 * j;
     let mut lines = Vec::new();
     for i in 0..4 {
@@ -100,7 +100,7 @@ fn block() -> Mesh {
         opposite: None,
         conditions: vec![
             ("right".to_owned(), BoundaryCondition::Support(mounting)),
-            ("top".to_owned(), BoundaryCondition::Pressure(1e6)),
+            ("top".to_owned(), BoundaryCondition::Pressure(pressure)),
         ],
     };
     Mesh::from_gmsh(&GmshFile::read(text.as_bytes()).unwrap(), &specification).unwrap()
@@ -134,7 +134,7 @@ fn growth_rate(mesh: &Mesh, speed: f64) -> f64 {
 /// Closed form of the rigid block; the steel one is softer by the per mille.
 #[test]
 fn a_block_on_a_spring_turns_unstable_at_the_critical_speed_of_the_stick_slip_oscillator() {
-    let mesh = block();
+    let mesh = block(1e6);
     let critical = critical_speed();
     for share in [0.5, 0.8, 1.2, 2.0] {
         let speed = share * critical;
@@ -191,7 +191,7 @@ fn samples(mesh: &Mesh, speed: f64) -> Vec<SampleRow> {
 /// above it dies out.
 #[test]
 fn a_block_sticks_and_slips_below_its_critical_speed_and_slides_above() {
-    let mesh = block();
+    let mesh = block(1e6);
     let last = |share: f64| {
         let rows = samples(&mesh, share * critical_speed());
         let tail = &rows[rows.len() - 200..];

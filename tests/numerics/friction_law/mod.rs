@@ -3,7 +3,7 @@
 //! test says otherwise.
 
 use crate::disc;
-mod block;
+pub mod block;
 mod case;
 mod growth;
 mod node;

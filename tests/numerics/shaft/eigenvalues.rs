@@ -67,6 +67,7 @@ fn cyclic_and_sparse_spectra_of_two_bodies_are_the_same() {
         let mut specification = with_shaft(element, around, [2, 4]);
         if k == 2 {
             let spring = ElasticSupport {
+                loss_factor: 0.0,
                 normal_stiffness: 1e13,
                 tangential_stiffness: 2e13,
                 axial_stiffness: 0.0,

@@ -119,6 +119,7 @@ fn a_body_on_springs_responds_like_the_whole_ring() {
     model.specification.conditions = [
         BoundaryCondition::Free,
         BoundaryCondition::Support(ElasticSupport {
+            loss_factor: 0.0,
             normal_stiffness: 1e11,
             tangential_stiffness: 3e10,
             axial_stiffness: 2e10,

@@ -171,6 +171,9 @@ fn compare(model: &SolidModel, what: &str) {
 }
 
 const SPRINGS: ContactStiffness = ContactStiffness {
+    law: None,
+    law_damping: 0.0,
+    loss_factor: 0.0,
     normal_stiffness: Some(2e12),
     normal_damping: 3e4,
     tangential_damping: 2e4,
@@ -178,6 +181,9 @@ const SPRINGS: ContactStiffness = ContactStiffness {
 };
 
 const COMPLIANT: ContactStiffness = ContactStiffness {
+    law: None,
+    law_damping: 0.0,
+    loss_factor: 0.0,
     normal_stiffness: Some(4e11),
     normal_damping: 3e4,
     tangential_damping: 0.0,
@@ -233,6 +239,7 @@ fn sensitivities_on_springs_equal_finite_differences() {
         model.contact.decay = None;
         // The base state of a body on springs changes with its stiffness even where it is pressed by a distance.
         model.specification.conditions[1] = BoundaryCondition::Support(ElasticSupport {
+            loss_factor: 0.0,
             normal_stiffness: 2e11,
             tangential_stiffness: 1e11,
             axial_stiffness: 1e11,

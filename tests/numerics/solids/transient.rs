@@ -228,6 +228,7 @@ fn a_compliant_ring_with_dashpots_on_supports_of_its_own_keeps_the_balance() {
     model.options.contact.normal_damping = 1e4;
     model.options.contact.tangential_damping = 1e4;
     model.specification.conditions[1] = BoundaryCondition::Support(ElasticSupport {
+        loss_factor: 0.0,
         normal_stiffness: 1e11,
         tangential_stiffness: 1e11,
         axial_stiffness: 1e10,

@@ -96,7 +96,7 @@ impl Parts<'_> {
     pub fn of_supports(&self, shapes: &Shapes<'_>, sums: &mut Sums) -> Vec<Row<'_>> {
         let alpha = self.options.damping.mass_coefficient;
         let mut rows = Vec::new();
-        for (place, (name, pair)) in self.supports.iter().enumerate() {
+        for (place, (name, pair, eta)) in self.supports.iter().enumerate() {
             let [dashpots, springs] = pair.multiply(shapes.columns.as_ref());
             let (c, k) = (shapes.forms(&dashpots), shapes.forms(&springs));
             let attached = self.attached.as_ref();
@@ -105,11 +105,12 @@ impl Parts<'_> {
             let m = masses.as_ref().map(|[mass, _]| shapes.forms(mass));
             let each = (0..shapes.modes.len()).map(|i| {
                 sums.strain[i] += k[i];
+                let c = c[i] + eta * k[i] / shapes.modes[i].1.eigenvalue.im;
                 let Some(m) = &m else {
-                    return [f64::NAN, k[i], c[i]];
+                    return [f64::NAN, k[i], c];
                 };
                 sums.kinetic[i] += m[i];
-                [m[i], k[i], c[i] + alpha * m[i]]
+                [m[i], k[i], c + alpha * m[i]]
             });
             rows.push(Row {
                 name,
@@ -119,7 +120,9 @@ impl Parts<'_> {
             let Some(balance) = &mut sums.balance else {
                 continue;
             };
-            shapes.add(balance, [&dashpots, &springs], |lambda| [lambda, c64::ONE]);
+            shapes.add(balance, [&dashpots, &springs], |lambda| {
+                [lambda, c64::new(1.0, *eta)]
+            });
             if let Some([mass, none]) = &masses {
                 let factors = |lambda: c64| [lambda * lambda + lambda * alpha, c64::ZERO];
                 shapes.add(balance, [mass, none], factors);

@@ -7,7 +7,7 @@
 //! sigma = (Im p - omega c - h) / (2 omega m)
 //! ```
 //!
-//! as `M`, `C`, `K` of the bodies are symmetric; `h` is `eta k` of each region with a loss factor. `m`, `c`, `k` are sums
+//! as `M`, `C`, `K` of the bodies are symmetric; `h` is `eta k` of each region and support with a loss factor. `m`, `c`, `k` are sums
 //! over regions and supports, `p` over contacts: the growth rate is a sum of what each takes or feeds, without a remainder.
 
 mod budget;

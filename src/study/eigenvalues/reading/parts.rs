@@ -41,8 +41,8 @@ pub(super) struct Parts<'a> {
     pub options: &'a TangentOptions,
     /// Each region with its name and its coefficients `alpha`, `beta`, `eta`.
     pub regions: Vec<(String, Pair, [f64; 3])>,
-    /// Dashpots and springs of each support, and last of the modifications.
-    pub supports: Vec<(String, Pair)>,
+    /// Dashpots and springs of each support with its `eta`, and last of the modifications.
+    pub supports: Vec<(String, Pair, f64)>,
     /// Point masses.
     pub attached: Option<Pair>,
     /// Mass and stiffness of all regions, with point masses.
@@ -196,7 +196,7 @@ fn base_state<'m>(
 }
 
 /// Dashpots and springs of the modifications, with the damping of their patches.
-fn modifications(mesh: &Mesh, patches: Triplets) -> (String, Pair) {
+fn modifications(mesh: &Mesh, patches: Triplets) -> (String, Pair, f64) {
     let mut own = mesh.clone();
     for boundary in &mut own.boundaries {
         boundary.condition = BoundaryCondition::Free;
@@ -204,11 +204,11 @@ fn modifications(mesh: &Mesh, patches: Triplets) -> (String, Pair) {
     let [springs, mut dashpots] = assemble_supports(&own);
     dashpots.entries.extend(patches.entries);
     let pair = Pair::new(mesh.dof_count(), [dashpots, springs]);
-    ("modifications".to_owned(), pair)
+    ("modifications".to_owned(), pair, 0.0)
 }
 
-/// Dashpots and springs of each supported boundary.
-fn supports(mesh: &Mesh) -> Vec<(String, Pair)> {
+/// Dashpots and springs of each supported boundary, with its loss factor.
+fn supports(mesh: &Mesh) -> Vec<(String, Pair, f64)> {
     let supported = |boundary: usize| {
         let condition = &mesh.boundaries[boundary].condition;
         matches!(condition, BoundaryCondition::Support(_))
@@ -224,7 +224,11 @@ fn supports(mesh: &Mesh) -> Vec<(String, Pair)> {
         }
         let [springs, dashpots] = assemble_supports(&own);
         let pair = Pair::new(mesh.dof_count(), [dashpots, springs]);
-        (mesh.boundaries[boundary].name.clone(), pair)
+        let eta = match mesh.boundaries[boundary].condition {
+            BoundaryCondition::Support(support) => support.loss_factor,
+            _ => 0.0,
+        };
+        (mesh.boundaries[boundary].name.clone(), pair, eta)
     };
     (0..mesh.boundaries.len())
         .filter(|&b| supported(b))

@@ -1,0 +1,169 @@
+//! Contact of plane bodies that stiffens with pressure.
+
+use crate::cea_cyclic::model::paper_options;
+use crate::disc::{POLYCARBONATE, annulus, contact};
+use crate::friction_law::block::{MASS, STEEL, WIDTH, block};
+use frictionsim::cea::{ComplexMode, ModeLimit, SweepRequest, cyclic, sparse};
+use frictionsim::contact::{ContactStiffness, NormalLaw, SlidingContact};
+use frictionsim::fem::{MassKind, RayleighDamping, assemble_stiffness, sector};
+use frictionsim::mesh::{AnnulusMesh, ElementKind, SectorMesh};
+use frictionsim::prestress::{
+    DampingModel, SectorSliding, SlidingTangent, SteadySliding, TangentOptions,
+};
+use std::f64::consts::TAU;
+
+const LAWS: [NormalLaw; 2] = [
+    NormalLaw::Exponential {
+        reference_pressure: 2e5,
+        height: 4e-6,
+    },
+    NormalLaw::Cubic {
+        stiffness: 2e11,
+        cubic_stiffness: 1e22,
+    },
+];
+
+fn stiffening(law: NormalLaw) -> ContactStiffness {
+    ContactStiffness {
+        normal_stiffness: Some(law.stiffness(0.0)),
+        law: Some(law),
+        ..ContactStiffness::default()
+    }
+}
+
+/// Closed form: disc and interface share the interference, so that the pressure is that of rigid contact in the share of the
+/// disc, `p(g) = p_0 (delta - g) / delta`.
+#[test]
+fn disc_and_interface_share_the_interference() {
+    let specification = annulus(ElementKind::Quad4, 48, 12);
+    let sector = SectorMesh::generate(&specification).unwrap();
+    let stiffness = sector::stiffness(&sector, &POLYCARBONATE);
+    let sliding = contact(610.0);
+    let rigid = SectorSliding::solve(&sector, &stiffness, &sliding).unwrap();
+    let width = sector.tributary_lengths()[0];
+    for law in LAWS {
+        let own = SectorSliding::solve_with(&sector, &stiffness, &sliding, Some(law)).unwrap();
+        let pressure = own.normal_forces[0] / width;
+        let share = 1.0 - law.approach(pressure) / sliding.interference;
+        println!("{law:?}: {pressure} Pa, {share}");
+        assert!(share > 0.05 && share < 0.95);
+        let expected = share * rigid.normal_forces[0] / width;
+        assert!((pressure / expected - 1.0).abs() < 1e-12);
+        let spring = own.springs.unwrap()[0] / width;
+        assert!((spring / law.stiffness(law.approach(pressure)) - 1.0).abs() < 1e-12);
+    }
+}
+
+/// Cross-method: harmonic by harmonic, and over the whole mesh, whose base state is solved by complementarity.
+#[test]
+fn harmonics_and_whole_mesh_have_the_same_spectrum() {
+    for (law, element) in LAWS
+        .into_iter()
+        .zip([ElementKind::Quad4, ElementKind::Quad8])
+    {
+        let specification = annulus(element, 24, 5);
+        let mut options = paper_options();
+        options.contact = stiffening(law);
+        let frictions = [0.0, 0.4];
+        let request = SweepRequest {
+            friction_coefficients: &frictions,
+            limit: ModeLimit::Lowest(12),
+            shapes_at: &[],
+        };
+        let sliding = contact(610.0);
+        let own = cyclic::sweep(&specification, &POLYCARBONATE, &options, &sliding, &request);
+        let own = own.unwrap().sweep;
+        let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
+        let elastic = assemble_stiffness(&mesh, &POLYCARBONATE);
+        let base = SteadySliding::solve_with(&mesh, &elastic, &sliding, Some(law)).unwrap();
+        let tangent = SlidingTangent::linearize(&mesh, &POLYCARBONATE, &elastic, &base, &options);
+        let whole = sparse::sweep(&tangent, &request, &|_| {}).unwrap();
+        for (own, whole) in own.points.iter().zip(&whole.points) {
+            for mode in &own.modes {
+                let distance = |m: &ComplexMode| (m.eigenvalue - mode.eigenvalue).norm();
+                let nearest = whole.modes.iter().map(distance).fold(f64::MAX, f64::min);
+                assert!(
+                    nearest < 1e-8 * mode.eigenvalue.norm(),
+                    "{law:?} {mode:?} {nearest:e}"
+                );
+            }
+        }
+    }
+}
+
+/// Closed form: a rigid block of mass m on the springs under it, `omega^2 = dp/dg A / m` at the pressure that presses it, that is
+/// `(p + p_r) A / (h m)` of the exponential law.
+#[test]
+fn the_frequency_of_a_block_follows_the_pressure_on_it() {
+    let law = NormalLaw::Exponential {
+        reference_pressure: 1e5,
+        height: 5e-4,
+    };
+    for pressure in [1e4, 1e5, 1e6] {
+        let mesh = block(pressure);
+        let elastic = assemble_stiffness(&mesh, &STEEL);
+        let sliding = SlidingContact {
+            decay: None,
+            friction_coefficient: 0.0,
+            interference: 0.0,
+            rotation_speed: 1.0,
+        };
+        let base = SteadySliding::solve_with(&mesh, &elastic, &sliding, Some(law)).unwrap();
+        for found in base.pressures(0.0) {
+            assert!((found / pressure - 1.0).abs() < 2e-3, "{found} {pressure}");
+        }
+        let options = TangentOptions {
+            mass: MassKind::Consistent,
+            geometric_stiffness: false,
+            damping: RayleighDamping::default(),
+            damping_model: DampingModel::WholeTangent,
+            contact: stiffening(law),
+        };
+        let tangent = SlidingTangent::linearize(&mesh, &STEEL, &elastic, &base, &options);
+        let request = SweepRequest {
+            friction_coefficients: &[0.0],
+            limit: ModeLimit::Lowest(3),
+            shapes_at: &[],
+        };
+        let modes = &sparse::sweep(&tangent, &request, &|_| {}).unwrap().points[0].modes;
+        let expected = ((pressure + 1e5) * WIDTH / (5e-4 * MASS)).sqrt();
+        let apart = |mode: &ComplexMode| (mode.eigenvalue.im / expected - 1.0).abs();
+        let nearest = modes.iter().map(apart).fold(f64::MAX, f64::min);
+        println!("{pressure} Pa: {} Hz, {nearest:e}", expected / TAU);
+        // Steel gives way by less than a thousandth of what the springs do.
+        assert!(nearest < 1e-3, "{pressure}: {nearest:e}");
+    }
+}
+
+/// Theory: a law that hardly stiffens is linear contact under the same pressure.
+#[test]
+fn a_law_that_hardly_stiffens_is_linear_contact() {
+    let law = NormalLaw::Cubic {
+        stiffness: 7.4e12,
+        cubic_stiffness: 1.0,
+    };
+    let specification = annulus(ElementKind::Quad4, 24, 5);
+    let request = SweepRequest {
+        friction_coefficients: &[0.0, 0.4],
+        limit: ModeLimit::Lowest(12),
+        shapes_at: &[],
+    };
+    let spectrum = |stiffness: ContactStiffness, sliding: SlidingContact| {
+        let mut options = paper_options();
+        options.geometric_stiffness = false;
+        options.contact = stiffness;
+        let found = cyclic::sweep(&specification, &POLYCARBONATE, &options, &sliding, &request);
+        let points = found.unwrap().sweep.points;
+        let modes = points.into_iter().flat_map(|point| point.modes);
+        modes.map(|mode| mode.eigenvalue).collect::<Vec<_>>()
+    };
+    let sliding = contact(610.0);
+    let own = spectrum(stiffening(law), sliding);
+    let linear = ContactStiffness {
+        normal_stiffness: Some(7.4e12),
+        ..ContactStiffness::default()
+    };
+    for (a, b) in own.iter().zip(spectrum(linear, sliding)) {
+        assert!((a - b).norm() < 1e-11 * b.norm(), "{a} {b}");
+    }
+}
