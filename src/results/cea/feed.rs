@@ -1,6 +1,7 @@
 //! Where on the contact surfaces friction feeds the unstable modes: `feed.csv`, `feed.vtu` and a figure.
 
-use super::{CeaReport, ModeName};
+use super::CeaReport;
+use super::mode_name::ModeName;
 use crate::chart::{Axis, ChartError, ColourMap, Figure, INK, Line, Panel, Rule, Stroke, literal};
 use crate::mesh::{Counterface, Mesh};
 use crate::results::charts::SolidView;

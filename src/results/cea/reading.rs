@@ -1,27 +1,11 @@
 //! Where the growth of each mode comes from, and which modes couple: `contributions.csv` and `coupling.csv`.
 
+use super::mode_name::ModeName;
 use super::{CeaReport, Feed};
 use crate::chart::{Axis, ChartError, Figure, INK, Line, Panel, Rule, Stroke, literal};
 use crate::results::quantity::fixed;
 use crate::results::table::{Column, write_rows};
 use std::io::{self, Write};
-
-/// A mode of one friction value, as its table numbers it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ModeName {
-    /// Friction coefficient.
-    pub friction_coefficient: f64,
-    /// Number by frequency, from 1.
-    pub mode: usize,
-    /// `Im(lambda) / 2 pi`, Hz.
-    pub frequency_hz: f64,
-    /// Circumferential harmonic; none without symmetry.
-    pub harmonic: Option<usize>,
-    /// Branch, from 0.
-    pub branch: usize,
-    /// +1 travels with the rotor, -1 against it, 0 stands; none without symmetry.
-    pub direction: Option<i8>,
-}
 
 /// What a contribution comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! The operating matrix of a study of eigenvalue analyses: which modes grow under which conditions.
 
 use super::PointRecord;
-use super::report::swept_text;
+use super::swept::{printed, short, swept_text};
 use crate::results::cea::{UnstableCount, UnstableMode};
 use crate::results::quantity::{fixed, quantity};
 use crate::results::report::ReportTable;
@@ -97,7 +97,7 @@ impl<'a> OperatingMatrix<'a> {
     pub fn table(&self, keys: &[String]) -> Option<ReportTable> {
         let captions = ["frequency_hz", "growth_rate_per_s", "critical_friction"];
         let mut columns = vec!["point".to_owned()];
-        columns.extend(keys.iter().map(|key| super::report::short(key).to_owned()));
+        columns.extend(keys.iter().map(|key| short(key).to_owned()));
         columns.extend(["friction".to_owned(), "mode".to_owned()]);
         columns.extend(captions.iter().map(|key| quantity(key).label()));
         let number = |key: &str, value: Option<f64>| {
@@ -105,7 +105,7 @@ impl<'a> OperatingMatrix<'a> {
         };
         let rows = self.modes().take(MOST_ROWS).map(|(condition, mode)| {
             let mut row = vec![condition.point.to_string()];
-            row.extend(condition.swept.values().map(super::report::printed));
+            row.extend(condition.swept.values().map(printed));
             row.push(condition.friction_coefficient.to_string());
             row.push(match mode.harmonic {
                 Some(harmonic) => format!("{} (n = {harmonic})", mode.mode),

@@ -2,7 +2,7 @@
 
 use super::PointRecord;
 use super::matrix::{Condition, OperatingMatrix};
-use super::report::{printed, swept_text};
+use super::swept::{printed, swept_text};
 use crate::chart::{
     Axis, ChartError, Figure, MUTED, Marker, Panel, Points, Shapes, extremes, literal,
 };

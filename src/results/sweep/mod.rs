@@ -8,13 +8,15 @@ mod matrix;
 mod matrix_figure;
 mod record;
 mod report;
+mod swept;
 mod table;
 
 pub use figures::{SweepDrawing, draw};
 pub use folder::{Claim, Found, Start, SweepFolder};
 pub use long::{LONG_TABLES, LongTable};
 pub use record::{PointClock, PointRecord};
-pub use report::{FailedPoint, SweepReport, SweepSummary, print, swept_text};
+pub use report::{FailedPoint, SweepReport, SweepSummary, print};
+pub use swept::swept_text;
 pub use table::write_points;
 
 pub(super) use matrix_figure::operating_matrix;

@@ -5,7 +5,7 @@ use super::super::quantity::quantity;
 use super::super::summary::PointSummary;
 use super::PointRecord;
 use super::matrix::OperatingMatrix;
-use super::table::cell;
+use super::swept::{printed, short};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 use std::fmt::Write as _;
@@ -317,36 +317,6 @@ fn write_rows(out: &mut String, table: &[Vec<String>]) {
         out.truncate(out.trim_end_matches(' ').len());
         out.push('\n');
     }
-}
-
-/// A value as people read it: numbers to five significant digits.
-pub(super) fn printed(value: &Value) -> String {
-    match value.as_f64() {
-        Some(number) => {
-            let rounded: f64 = format!("{number:.4e}").parse().unwrap_or(number);
-            cell(&Value::from(rounded))
-                .trim_end_matches(".0")
-                .to_owned()
-        }
-        None => cell(value),
-    }
-}
-
-/// The last part of a dotted key.
-pub(super) fn short(key: &str) -> &str {
-    key.rsplit('.').next().unwrap_or(key)
-}
-
-/// `friction_coefficient = 0.3, rotation_speed_rpm = 610`; keys of one name and value once.
-pub fn swept_text(swept: &Map<String, Value>) -> String {
-    let mut parts: Vec<String> = Vec::new();
-    for (key, value) in swept {
-        let part = format!("{} = {}", short(key), printed(value));
-        if !parts.contains(&part) {
-            parts.push(part);
-        }
-    }
-    parts.join(", ")
 }
 
 /// Ascending numbers with runs drawn together: `1-4, 7`.
