@@ -32,6 +32,7 @@ fn named(key: &str) -> Option<(&'static str, &'static str)> {
         "contact.decay_speed" => ("decay speed *v*_{c}", "m/s"),
         "contact.interference" => ("interference *δ*", "m"),
         "contact.rotation_speed_rpm" => ("rotation speed *Ω*", "rpm"),
+        "contact.speed" => ("speed *V*", "m/s"),
         "contact.normal_stiffness" => ("contact stiffness *k*_{n}", "Pa/m"),
         "contact.normal_damping" => ("normal contact damping", "Pa s/m"),
         "contact.tangential_damping" => ("tangential contact damping", "Pa s/m"),

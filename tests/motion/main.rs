@@ -4,7 +4,9 @@
 mod disc;
 
 mod cycle;
+mod cycle_branch;
 mod cycle_discs;
 mod cycle_periodic;
 mod cycle_transient;
+mod oscillator;
 mod transient;
