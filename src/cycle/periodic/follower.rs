@@ -232,7 +232,8 @@ impl<'c, 'b, 'a> Follower<'c, 'b, 'a> {
         let cosine = (step[0] * self.tangent[0] + step[1] * self.tangent[1]) / length;
         let is_first = self.points.len() == 1;
         let is_short = reach < 8.0 * STEPS[1];
-        let is_near = length <= if is_first { 10.0 } else { 3.0 } * reach;
+        // A first step goes along the parameter, however steep the branch is.
+        let is_near = length <= if is_first { 1.0 } else { 3.0 * reach };
         next.value >= 0.0 && is_near && (is_first || is_short || cosine > STRAIGHT)
     }
 
