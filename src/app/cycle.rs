@@ -16,12 +16,17 @@ use clap::Args;
 /// On the built-in annulus: finds the rotating wave that steady sliding gives way to, for each harmonic asked for, as a
 /// steady contact problem along its phase; follows it over a parameter (cycle.continuation). On any other plane body: finds
 /// the periodic motion that each growing mode ends in, as a fixed point of the transient's own steps over one period. Says
-/// whether it is stable, and lets a short transient confirm it. Needs a cycle section in the case.
+/// whether it is stable, and lets a short transient confirm it. Needs a cycle section in the case. On these bodies Ctrl-C and
+/// SIGTERM keep the cycles and the points of branches that are done, and --resume continues to the same tables as an
+/// uninterrupted run.
 #[derive(Args)]
 pub struct Arguments {
     /// The case and how to run it.
     #[command(flatten)]
     pub options: RunOptions,
+    /// Continue from what an interrupted run has finished, or start from the beginning
+    #[arg(long, conflicts_with = "force")]
+    pub resume: bool,
 }
 
 /// What the rest of the program asks of this command.
@@ -40,10 +45,16 @@ pub const PROFILE: Profile = Profile {
         ),
         ("record.bin", "what the figures are drawn from"),
     ],
-    examples: &[(
-        "frictionsim cycle disc.toml",
-        "the limit cycles of a case, without time stepping",
-    )],
+    examples: &[
+        (
+            "frictionsim cycle disc.toml",
+            "the limit cycles of a case, without time stepping",
+        ),
+        (
+            "frictionsim cycle block.toml --resume",
+            "go on where a search on any other plane body was interrupted",
+        ),
+    ],
     redraw: Redraw::OfCase(figures::redraw),
 };
 
@@ -56,12 +67,15 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let case = &session.case;
     case.require_cycle()?;
     if !case.has_rotating_waves() {
-        return periodic::run(&session);
+        return periodic::run(&session, arguments.resume);
     }
     session.check_memory(case.memory("cycle").0)?;
     check_memory(case)?;
     let study = CycleStudy::new(case, session.simd)?;
-    let folder = session.open_folder()?;
+    let folder = match arguments.resume {
+        true => session.reopen_folder()?,
+        false => session.open_folder()?,
+    };
     let families = study.family_count() as u64;
     let bar = terminal::progress(session.options.output.is_quiet(), families, "families");
     terminal::catch_signals(terminal::NOTHING_KEPT);

@@ -70,6 +70,8 @@ pub enum BranchEnd {
     Lost,
     /// The most steps were spent.
     Steps,
+    /// The body leaves its counterface.
+    Separated,
     /// The wave is no motion of the disc, see [`LimitCycle::is_physical`].
     Unphysical,
 }
@@ -81,7 +83,8 @@ impl BranchEnd {
             Self::Range => "the range ends",
             Self::Birth => "the cycle shrinks into steady sliding",
             Self::Lost => "the curve cannot be followed",
-            Self::Steps => "too many changes of contact state",
+            Self::Steps => "too many steps were spent",
+            Self::Separated => "the body leaves its counterface",
             Self::Unphysical => {
                 "the wave opens inside the cylinder or draws energy from the normal contact: refine the mesh"
             }

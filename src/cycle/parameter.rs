@@ -18,8 +18,10 @@ pub struct OperatingPoint {
 pub enum Parameter {
     /// `mu`.
     FrictionCoefficient,
-    /// `Omega`, rad/s.
+    /// `Omega`, rad/s, of a round counterface.
     RotationSpeed,
+    /// `V`, m/s, of a plane one.
+    Speed,
     /// `delta`, m.
     Interference,
     /// `alpha_R`, 1/s.
@@ -30,9 +32,10 @@ pub enum Parameter {
 
 impl Parameter {
     /// All of them.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 6] = [
         Self::FrictionCoefficient,
         Self::RotationSpeed,
+        Self::Speed,
         Self::Interference,
         Self::MassDamping,
         Self::StiffnessDamping,
@@ -43,9 +46,19 @@ impl Parameter {
         match self {
             Self::FrictionCoefficient => "contact.friction_coefficient",
             Self::RotationSpeed => "contact.rotation_speed_rpm",
+            Self::Speed => "contact.speed",
             Self::Interference => "contact.interference",
             Self::MassDamping => "damping.mass_coefficient",
             Self::StiffnessDamping => "damping.stiffness_coefficient",
+        }
+    }
+
+    /// Whether a counterface that is round, or plane, has it.
+    pub fn suits(self, is_round: bool) -> bool {
+        match self {
+            Self::RotationSpeed => is_round,
+            Self::Speed => !is_round,
+            _ => true,
         }
     }
 
@@ -54,6 +67,11 @@ impl Parameter {
         Self::ALL
             .into_iter()
             .find(|parameter| parameter.key() == key)
+    }
+
+    /// Whether it is one of the contact, not of the body.
+    pub fn is_of_contact(self) -> bool {
+        !matches!(self, Self::MassDamping | Self::StiffnessDamping)
     }
 
     /// SI value of one unit of the case key.
@@ -68,7 +86,7 @@ impl Parameter {
     pub fn of(self, point: &OperatingPoint) -> f64 {
         match self {
             Self::FrictionCoefficient => point.contact.friction_coefficient,
-            Self::RotationSpeed => point.contact.rotation_speed,
+            Self::RotationSpeed | Self::Speed => point.contact.rotation_speed,
             Self::Interference => point.contact.interference,
             Self::MassDamping => point.damping.mass_coefficient,
             Self::StiffnessDamping => point.damping.stiffness_coefficient,
@@ -85,7 +103,7 @@ impl Parameter {
     pub fn set(self, point: &mut OperatingPoint, value: f64) {
         let place = match self {
             Self::FrictionCoefficient => &mut point.contact.friction_coefficient,
-            Self::RotationSpeed => &mut point.contact.rotation_speed,
+            Self::RotationSpeed | Self::Speed => &mut point.contact.rotation_speed,
             Self::Interference => &mut point.contact.interference,
             Self::MassDamping => &mut point.damping.mass_coefficient,
             Self::StiffnessDamping => &mut point.damping.stiffness_coefficient,

@@ -227,7 +227,7 @@ impl Linearization {
                 ];
                 first_by[1] = share * respond(1, 1);
             }
-            Parameter::RotationSpeed => by_parameter[1].fill(-wave.body.radius),
+            Parameter::RotationSpeed | Parameter::Speed => by_parameter[1].fill(-wave.body.radius),
             Parameter::Interference => by_parameter[0].fill(-1.0),
             Parameter::MassDamping | Parameter::StiffnessDamping => {}
         }

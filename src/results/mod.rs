@@ -7,6 +7,7 @@ pub mod compare;
 pub mod convergence;
 pub mod cycle;
 pub mod cycle_figures;
+mod cycle_table;
 mod drawing;
 mod extent;
 pub mod fit;

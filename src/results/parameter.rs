@@ -65,6 +65,7 @@ fn quantity_of(key: &str) -> Option<(&'static str, &'static str)> {
         "contact.decay_speed" => ("decay speed *v*_{c}", "m/s"),
         "contact.interference" => ("interference *δ*", "m"),
         "contact.rotation_speed_rpm" => ("rotation speed *Ω*", "rpm"),
+        "contact.speed" => ("speed *V*", "m/s"),
         "contact.normal_stiffness" => ("contact stiffness *k*_{n}", "Pa/m"),
         "contact.tangential_stiffness" => ("tangential stiffness *k*_{t}", "Pa/m"),
         "contact.pressure" => ("pressure *p*", "Pa"),

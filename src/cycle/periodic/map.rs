@@ -1,7 +1,7 @@
 //! The period map of a body: so many steps of the explicit transient, from a state to where it comes.
 
-use super::vector::{difference, dot, norm};
-use crate::contact::ContactInterface;
+use super::vector::{add, difference, dot, norm};
+use crate::contact::{ContactInterface, SlidingContact};
 use crate::fem::operator::StiffnessOperator;
 use crate::linalg::interruption;
 use crate::transient::{
@@ -35,6 +35,8 @@ pub struct PeriodImage {
     pub residual: Vec<f64>,
     /// Root of twice the largest kinetic energy: the amplitude that residuals are relative to.
     pub vibration: f64,
+    /// Root of twice the mean kinetic energy over the period: the same at every phase.
+    pub amplitude: f64,
     /// Mean contact powers, W/m.
     pub powers: ContactPowers,
     /// Mean power of the dampings of body and supports, W/m.
@@ -127,6 +129,22 @@ impl<'a> PeriodMap<'a> {
         is_long
     }
 
+    /// Takes a number of steps that a motion was found with.
+    pub fn step_in(&mut self, steps: usize) {
+        self.steps = steps;
+    }
+
+    /// Mass that moves, kg/m: half the sum over both directions.
+    pub fn mass(&self) -> f64 {
+        let masses = self.moving.iter().map(|(_, root)| root * root);
+        0.5 * masses.sum::<f64>()
+    }
+
+    /// Length of a state's motion.
+    pub fn unknowns(&self) -> usize {
+        2 * self.moving.len()
+    }
+
     /// Steps of a period.
     pub fn steps(&self) -> usize {
         self.steps
@@ -135,6 +153,20 @@ impl<'a> PeriodMap<'a> {
     /// Periods stepped so far.
     pub fn periods(&self) -> usize {
         self.periods
+    }
+
+    /// The same body with another contact: friction law, speed, interference.
+    ///
+    /// # Errors
+    /// A compliant contact whose springs have no base state.
+    pub fn retune(&mut self, contact: SlidingContact) -> Result<(), TransientError> {
+        self.run.retune(contact)
+    }
+
+    /// Goes on where the map of another variant of the body was: with as many steps at least, and its count of periods.
+    pub fn follow(&mut self, other: &Self) {
+        self.steps = self.steps.max(other.steps);
+        self.periods = other.periods;
     }
 
     /// The contact edge.
@@ -189,11 +221,12 @@ impl<'a> PeriodMap<'a> {
         self.periods += 1;
         self.place(state);
         let look_every = (self.steps / LOOKS).max(1);
-        let mut largest = 0.0_f64;
+        let (mut largest, mut sum, mut looks) = (0.0_f64, 0.0, 0);
         for step in 0..self.steps - 1 {
             self.run.advance();
             if step.is_multiple_of(look_every) {
-                largest = largest.max(self.twice_kinetic_energy());
+                let energy = self.twice_kinetic_energy();
+                (largest, sum, looks) = (largest.max(energy), sum + energy, looks + 1);
             }
         }
         let before = self.motion();
@@ -211,10 +244,24 @@ impl<'a> PeriodMap<'a> {
             motion,
             rate,
             vibration: largest.max(f64::MIN_POSITIVE).sqrt(),
+            amplitude: (sum / f64::from(looks.max(1))).sqrt(),
             powers: powers.scaled(share),
             material_damping: share * damping,
             counts,
         }
+    }
+
+    /// Mean over the period that begins with a state.
+    pub fn mean(&mut self, state: &PeriodicState) -> Vec<f64> {
+        self.periods += 1;
+        self.place(state);
+        let mut mean = vec![0.0; state.motion.len()];
+        let share = 1.0 / self.steps as f64;
+        for _ in 0..self.steps {
+            self.run.advance();
+            add(&mut mean, share, &self.motion());
+        }
+        mean
     }
 
     fn twice_kinetic_energy(&self) -> f64 {

@@ -12,10 +12,18 @@
 //! continuous but with a kink wherever a node changes its status, needs no derivative. It starts on the shape of a growing
 //! mode, at the amplitude at which friction stops to feed it ([`balanced_start`]). Floquet multipliers come from Arnoldi's
 //! process on differences of the map ([`FloquetMultipliers`]).
+//!
+//! Along a parameter `p` ([`BranchRequest`]) motion, period and `p` are found together, `P(x, T, p) = x` with a closure that ties
+//! the point down: a value of `p`, or a length along the tangent in the plane of `p` and of the amplitude (H. B. Keller's
+//! pseudo-arclength, in two measures instead of all unknowns). The secants of one point serve the next, so most points take a few
+//! periods; the same search finds stable and unstable motions, and goes through folds.
 
 mod branch;
 mod confirmation;
+mod corrector;
 mod error;
+mod folds;
+mod follower;
 mod map;
 mod motion;
 mod multipliers;
@@ -23,15 +31,20 @@ mod search;
 mod secants;
 mod spectrum;
 mod start;
+mod two_frequencies;
 mod vector;
 
-pub use branch::{BranchMotion, BranchRequest, PeriodicBranch};
+pub use branch::{BranchMotion, BranchRequest, KeptMotion, PeriodicBranch};
 pub use confirmation::MotionConfirmation;
 pub use error::PeriodicError;
 pub use map::{PeriodImage, PeriodMap, PeriodicState};
-pub use motion::{ContactInstant, MotionRequest, PeriodicMotion, PeriodicPowers};
+pub use motion::{
+    ContactInstant, MotionRequest, PeriodicMotion, PeriodicPowers, REFERENCE_VELOCITY, REMAINDER,
+    velocity_level,
+};
 pub use multipliers::{FloquetMultiplier, FloquetMultipliers};
 pub use search::{ACCEPTED, Found, TOLERANCE, find};
-pub use secants::SecantSpace;
+pub use secants::{Change, SecantSpace};
 pub use spectrum::MotionHarmonic;
 pub use start::{GrowingMode, balanced_start};
+pub use two_frequencies::two_frequencies;

@@ -7,6 +7,12 @@ use crate::contact::ContactStatus;
 use crate::fem::operator::gather;
 use crate::transient::ContactPowers;
 
+/// Share of the motion that the harmonics in which it is told may leave, where nobody says how many.
+pub const REMAINDER: f64 = 1e-3;
+
+/// Reference of velocity levels, m/s.
+pub const REFERENCE_VELOCITY: f64 = 5e-8;
+
 /// Mean powers of a periodic motion, W for each metre of thickness.
 ///
 /// `external = stick + slide + contact_dissipated`, and
@@ -84,6 +90,8 @@ pub struct PeriodicMotion {
     pub node: usize,
     /// Half the range of its displacement along the counterface, m.
     pub amplitude: f64,
+    /// Root mean square of the velocity over the period and the mass of the body, m/s.
+    pub velocity: f64,
     /// The contact over the period.
     pub instants: Vec<ContactInstant>,
     /// Harmonics 1, 2, ... of the motion of the contact nodes.
@@ -95,16 +103,27 @@ pub struct PeriodicMotion {
 impl PeriodicMotion {
     /// Steps once more through a period that was found, from where the contact node that moves most is farthest ahead.
     pub fn of(map: &mut PeriodMap<'_>, found: &Found, request: MotionRequest) -> Self {
-        let state = &found.state;
-        let samples = contact_displacements(map, state);
+        let (mut motion, first) = Self::brief(map, found);
+        let from = later(map, &found.state, first);
+        motion.record(map, &from, request);
+        motion
+    }
+
+    /// The same without histories, fields and shares of single nodes.
+    pub fn in_brief(map: &mut PeriodMap<'_>, found: &Found) -> Self {
+        Self::brief(map, found).0
+    }
+
+    /// The motion, and the step at which the contact node that moves most is farthest ahead.
+    fn brief(map: &mut PeriodMap<'_>, found: &Found) -> (Self, usize) {
+        let samples = contact_displacements(map, &found.state);
         let (node, amplitude) = widest(&samples);
         let ahead = samples.iter().map(|sample| sample[node][1]).enumerate();
         let first = ahead
             .max_by(|a, b| a.1.total_cmp(&b.1))
             .map_or(0, |most| most.0);
-        let from = later(map, state, first);
-        let mut motion = Self {
-            frequency_hz: 1.0 / state.period,
+        let motion = Self {
+            frequency_hz: 1.0 / found.state.period,
             steps: map.steps(),
             residual: found.residual,
             periods: found.periods,
@@ -116,12 +135,12 @@ impl PeriodicMotion {
             shares: Vec::new(),
             node,
             amplitude,
+            velocity: found.image.amplitude / map.mass().sqrt(),
             instants: Vec::new(),
             harmonics: harmonics(&samples),
             frames: Vec::new(),
         };
-        motion.record(map, &from, request);
-        motion
+        (motion, first)
     }
 
     /// The contact and the fields over the period that begins with `from`.
@@ -154,6 +173,12 @@ impl PeriodicMotion {
         self.shares = counts.into_iter().map(share).collect();
     }
 
+    /// Level of [`Self::velocity`] over 5e-8 m/s, dB. The reference is that of airborne sound: a square metre that moves with it
+    /// like a piston much larger than the wave in air radiates 1e-12 W.
+    pub fn velocity_level(&self) -> f64 {
+        velocity_level(self.velocity)
+    }
+
     /// How many harmonics leave no more than `remainder` of the vibration.
     pub fn harmonics_within(&self, remainder: f64) -> usize {
         let found = self
@@ -176,6 +201,11 @@ impl PeriodicMotion {
             )
             && fractions.all(|(a, b)| (a - b).abs() < 1e-3)
     }
+}
+
+/// Level of a velocity (m/s) over [`REFERENCE_VELOCITY`], dB.
+pub fn velocity_level(velocity: f64) -> f64 {
+    20.0 * (velocity / REFERENCE_VELOCITY).log10()
 }
 
 /// Whether a step is one of so many that are evenly spaced over a period, from the first on.

@@ -2,7 +2,7 @@
 
 use super::error::PeriodicError;
 use super::map::{PeriodMap, PeriodicState};
-use super::vector::{difference, dot, norm, orthogonalize};
+use super::vector::{add, difference, dot, norm, orthogonalize};
 use crate::cycle::Verdict;
 use crate::linalg::dense_eigen::{RealEigen, real_eigen};
 use crate::linalg::{GaussianNoise, Mat, c64};
@@ -63,6 +63,8 @@ pub struct FloquetMultipliers {
 /// A Ritz value: itself, its residual, and its share along the motion.
 struct Ritz {
     value: c64,
+    /// In the basis.
+    vector: Vec<c64>,
     residual: f64,
     along: f64,
 }
@@ -115,25 +117,29 @@ impl FloquetMultipliers {
                 if listed.is_empty() {
                     return Err(PeriodicError::Multipliers { dimension });
                 }
-                let periods = dimension + 2;
-                debug_assert_eq!(periods, map.periods() - first);
-                let step = 1.0 / map.steps() as f64;
+                // What nodes that change their status at another step leave of linearity.
+                let along = unit(combined(&listed[0].vector, &basis));
+                let against: Vec<f64> = along.iter().map(|value| -value).collect();
+                let sums = apply(&along).into_iter().zip(apply(&against));
+                let sums: Vec<f64> = sums.map(|(one, other)| 0.5 * (one + other)).collect();
+                let bend = norm(&sums) / listed[0].value.norm();
+                let periods = map.periods() - first;
                 return Ok(Self::assessed(
                     &listed,
                     shift,
-                    (state.period, step),
+                    (state.period, bend),
                     periods,
                 ));
             }
         }
     }
 
-    /// With what the residuals, the shift's distance from 1, a hundredth of each rate and the steps leave open: a node changes its
-    /// status at a step, and a multiplier of `N` steps is known to `1 / N`.
+    /// With what the residuals, the shift's distance from 1, a hundredth of each rate and the `bend` leave open: nodes change their
+    /// status at whole steps, so that differences of the map in opposite directions are not quite opposite.
     fn assessed(
         listed: &[Ritz],
         shift: Option<c64>,
-        (period, step): (f64, f64),
+        (period, bend): (f64, f64),
         periods: usize,
     ) -> Self {
         let off = shift.map_or(NEUTRAL[0], |shift| shift.norm().ln().abs());
@@ -142,7 +148,7 @@ impl FloquetMultipliers {
             FloquetMultiplier {
                 multiplier: ritz.value,
                 growth_rate,
-                uncertainty: (ritz.residual + off + step) / period + 0.01 * growth_rate.abs(),
+                uncertainty: (ritz.residual + off + bend) / period + 0.01 * growth_rate.abs(),
                 beat_hz: ritz.value.arg().abs() / (TAU * period),
             }
         };
@@ -171,6 +177,50 @@ impl FloquetMultipliers {
     }
 }
 
+/// Columns of numbers that keep what is known of one motion.
+pub(super) const COLUMNS: usize = 3;
+
+/// What is known of a motion as columns: multipliers, their rates, the shift; or why there are none, byte by byte.
+pub(super) fn to_columns(known: &Result<FloquetMultipliers, String>) -> [Vec<f64>; COLUMNS] {
+    let found = match known {
+        Ok(found) => found,
+        Err(reason) => return [reason.bytes().map(f64::from).collect(), vec![], vec![]],
+    };
+    let all = || found.multipliers.iter();
+    let parts = all().flat_map(|own| [own.multiplier.re, own.multiplier.im]);
+    let rates = all().flat_map(|own| [own.growth_rate, own.uncertainty, own.beat_hz]);
+    let shift = found.shift.map_or(vec![], |shift| vec![shift.re, shift.im]);
+    let rest = [vec![found.periods as f64], shift].concat();
+    [parts.collect(), rates.collect(), rest]
+}
+
+/// The inverse of [`to_columns`].
+pub(super) fn from_columns(columns: &[Vec<f64>]) -> Result<FloquetMultipliers, String> {
+    let [parts, rates, rest] = columns else {
+        return Err(String::new());
+    };
+    let Some((&periods, shift)) = rest.split_first() else {
+        let bytes = parts.iter().map(|&byte| byte as u8).collect();
+        return Err(String::from_utf8(bytes).unwrap_or_default());
+    };
+    let pairs = parts.chunks_exact(2).zip(rates.chunks_exact(3));
+    Ok(FloquetMultipliers {
+        multipliers: pairs
+            .map(|(part, rate)| FloquetMultiplier {
+                multiplier: c64::new(part[0], part[1]),
+                growth_rate: rate[0],
+                uncertainty: rate[1],
+                beat_hz: rate[2],
+            })
+            .collect(),
+        shift: match shift {
+            [re, im] => Some(c64::new(*re, *im)),
+            _ => None,
+        },
+        periods: periods as usize,
+    })
+}
+
 /// The shift in phase and the other Ritz values, by falling modulus, of `A V = V H`.
 fn leading(
     columns: &[Vec<f64>],
@@ -194,6 +244,7 @@ fn leading(
             value,
             residual: overflow * vector[dimension - 1].norm() / (length * value.norm()),
             along: pairs.map(|(y, share)| y * share).sum::<c64>().norm() / length,
+            vector,
         }
     };
     let upper = (0..dimension).filter(|&i| eigen.values[i].im >= 0.0);
@@ -206,6 +257,15 @@ fn leading(
     let place = shift.map(|(place, _)| place);
     let shift = place.map(|place| all.remove(place).value);
     Ok((shift, all))
+}
+
+/// The real part of a combination of basis vectors.
+fn combined(factors: &[c64], basis: &[Vec<f64>]) -> Vec<f64> {
+    let mut sum = vec![0.0; basis.first().map_or(0, Vec::len)];
+    for (factor, unit) in factors.iter().zip(basis) {
+        add(&mut sum, factor.re, unit);
+    }
+    sum
 }
 
 /// Eigenvector `i`, not of unit length.
@@ -221,4 +281,30 @@ fn unit(mut vector: Vec<f64>) -> Vec<f64> {
     let length = norm(&vector);
     vector.iter_mut().for_each(|value| *value /= length);
     vector
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_kept_of_multipliers_comes_back_bit_by_bit() {
+        let known = FloquetMultipliers {
+            multipliers: vec![FloquetMultiplier {
+                multiplier: c64::new(0.1, -0.7),
+                growth_rate: -3.0,
+                uncertainty: 0.3,
+                beat_hz: 12.5,
+            }],
+            shift: Some(c64::new(0.999, 0.0)),
+            periods: 17,
+        };
+        let unknown = FloquetMultipliers {
+            shift: None,
+            ..known.clone()
+        };
+        for found in [Ok(known), Ok(unknown), Err("no multiplier".to_owned())] {
+            assert_eq!(from_columns(&to_columns(&found)), found);
+        }
+    }
 }

@@ -2,7 +2,7 @@
 
 use super::error::PeriodicError;
 use super::map::{PeriodImage, PeriodMap, PeriodicState};
-use super::secants::SecantSpace;
+use super::secants::{Change, SecantSpace};
 use super::vector::{add, difference, norm};
 
 /// Residual, relative to the amplitude of the vibration, at which a motion repeats itself.
@@ -45,6 +45,39 @@ pub struct Found {
     pub residual: f64,
     /// Periods stepped for it.
     pub periods: usize,
+}
+
+impl Found {
+    /// What it is found again from, with the steps of its period: the motion, and its numbers.
+    pub fn columns(&self, steps: usize) -> Vec<Vec<f64>> {
+        let [steps, periods] = [steps as f64, self.periods as f64];
+        let numbers = vec![self.state.period, steps, self.residual, periods];
+        vec![self.state.motion.clone(), numbers]
+    }
+
+    /// The motion of such columns, one period from its state; none where they are of another body.
+    pub fn recalled(map: &mut PeriodMap<'_>, columns: &[Vec<f64>]) -> Option<Self> {
+        let [motion, numbers] = columns else {
+            return None;
+        };
+        let &[period, steps, residual, periods] = &numbers[..] else {
+            return None;
+        };
+        if motion.len() != map.unknowns() || !(period > 0.0 && steps >= 1.0) {
+            return None;
+        }
+        map.step_in(steps as usize);
+        let state = PeriodicState {
+            motion: motion.clone(),
+            period,
+        };
+        Some(Self {
+            image: map.image(&state),
+            state,
+            residual,
+            periods: periods as usize,
+        })
+    }
 }
 
 /// A periodic motion near a state.
@@ -192,13 +225,14 @@ impl Search {
             return self.go_plainly(image);
         }
         if let Some((state, residual)) = self.last.take() {
-            self.secants.push(
-                difference(&self.state.motion, &state.motion),
-                self.state.period - state.period,
-                difference(&image.residual, &residual),
-            );
+            self.secants.push(Change {
+                motion: difference(&self.state.motion, &state.motion),
+                period: self.state.period - state.period,
+                place: [0.0; 2],
+                residual: difference(&image.residual, &residual),
+            });
         }
-        let (step, period) = self.secants.step(&image.residual, &image.rate);
+        let (step, period, _) = self.secants.step(&image.residual, 0.0, &image.rate);
         let lengths = [
             norm(&step) / image.vibration,
             period.abs() / self.state.period,

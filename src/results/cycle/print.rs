@@ -4,6 +4,7 @@ use super::confirmation::confirmation_text;
 use super::stability::print_stability;
 use super::{CycleReport, CycleResult};
 use crate::cycle::{CycleBranch, Family, LimitCycle};
+use crate::results::cycle_table::{printed_cycle, printed_heading};
 use crate::results::quantity::significant;
 use std::fmt::Write as _;
 
@@ -28,20 +29,7 @@ pub fn print(report: &CycleReport<'_>) -> String {
         "limit cycles as rotating waves, {} phases\n",
         phases.join(", ")
     );
-    let _ = writeln!(
-        out,
-        "{:>3} {:>10} {:>12} {:>7} {:>7} {:>7} {:>12} {:>7} {:>7} {:>9}",
-        "n",
-        "friction >",
-        "frequency",
-        "stick",
-        "slip",
-        "open",
-        "external",
-        "stick",
-        "slide",
-        "dissipated"
-    );
+    let _ = writeln!(out, "{:>3} {:>10} {}", "n", "friction >", printed_heading());
     for result in &report.results {
         result_line(&mut out, report, result);
     }
@@ -70,18 +58,15 @@ fn result_line(out: &mut String, report: &CycleReport<'_>, result: &CycleResult)
     let _ = match &result.cycle {
         Ok(cycle) => {
             let powers = cycle.powers.scaled(report.thickness);
-            let [stick, slip, open] = cycle.fractions;
-            let share = |power: f64| power / powers.external;
-            writeln!(
-                out,
-                "{:>9.2} Hz {stick:>7.3} {slip:>7.3} {open:>7.3} {:>10.2} {} {:>7.3} {:>7.3} {:>9.3}",
-                cycle.frequency_hz(),
+            let powers = [
                 powers.external,
-                report.extent.unit("W"),
-                share(powers.stick),
-                share(powers.slide),
-                share(powers.contact_dissipated),
-            )
+                powers.stick,
+                powers.slide,
+                powers.contact_dissipated,
+            ];
+            let frequency = cycle.frequency_hz();
+            let line = printed_cycle(frequency, cycle.fractions, powers, report.extent);
+            writeln!(out, "{line}")
         }
         Err(absence) => writeln!(out, "{}", absence.reason),
     };

@@ -2,12 +2,12 @@
 
 use super::{CycleFigures, NamedFamily, draw_branches, draw_cycles};
 use crate::chart::extremes;
+use crate::results::cycle_table::{CycleColumn, cycle_results, cycle_table};
 use crate::results::drawing::{DrawingError, DrawingOptions, write_report};
 use crate::results::extent::Extent;
 use crate::results::folder::OutputFolder;
 use crate::results::manifest::Manifest;
-use crate::results::quantity::quantity;
-use crate::results::report::{Report, ReportSection, ReportTable, cell, entries, number};
+use crate::results::report::{Report, ReportSection, entries, number};
 use serde::Deserialize;
 use serde_json::Value;
 
@@ -40,7 +40,7 @@ fn html_report(summary: &Value, manifest: &Manifest) -> Report {
     paragraphs.extend(extent.note().map(|note| format!("{note}.")));
     let figures = ReportSection {
         heading: "Limit cycles".into(),
-        tables: vec![cycle_table(cycles, extent)],
+        tables: vec![cycle_table(cycles, extent, &COLUMNS, &absence)],
         ..ReportSection::default()
     };
     let rows = cycles.iter().flat_map(|cycle| results(cycle, extent));
@@ -64,101 +64,23 @@ fn html_report(summary: &Value, manifest: &Manifest) -> Report {
 /// What decides of one cycle.
 fn results(cycle: &Value, extent: Extent) -> Vec<(String, String)> {
     let name = format!("n = {}, onset {}", cycle["harmonic"], cycle["onset"]);
-    if let Some(error) = cycle["error"].as_str() {
-        return vec![(name, error.to_owned())];
+    match cycle["error"].as_str() {
+        Some(error) => vec![(name, error.to_owned())],
+        None => cycle_results(&name, cycle, extent),
     }
-    let text =
-        |path: &str, pointer: &str| number(cycle, pointer).map(|value| quantity(path).text(value));
-    let status = ["stick", "slip", "open"].map(|part| {
-        let share = cell(cycle, &format!("/status/{part}"), 100.0, 1);
-        format!("{part} {share} %")
-    });
-    let stable = match cycle
-        .pointer("/stability/is_stable")
-        .and_then(Value::as_bool)
-    {
-        Some(true) => Some("stable".to_owned()),
-        Some(false) => Some("unstable".to_owned()),
-        None => None,
-    };
-    let rows = [
-        (
-            "main frequency",
-            text("main_frequency_hz", "/main_frequency_hz"),
-        ),
-        ("contact", Some(status.join(", "))),
-        (
-            "power of the rotor",
-            number(cycle, "/power_w/external").map(|power| {
-                let number = quantity("power_w.external").number(power);
-                format!("{number} {}", extent.unit("W"))
-            }),
-        ),
-        ("stability", stable),
-    ];
-    let rows = rows
-        .into_iter()
-        .filter_map(|(what, value)| Some((format!("{name}: {what}"), value?)));
-    rows.collect()
 }
 
-fn cycle_table(cycles: &[Value], extent: Extent) -> ReportTable {
-    let quantities: [(&str, &str, f64, usize); 16] = [
-        ("harmonic n", "/harmonic", 1.0, 0),
-        ("phases", "/phases", 1.0, 0),
-        ("onset", "/onset", 1.0, 0),
-        ("critical friction", "/critical_friction", 1.0, 5),
-        ("main frequency (Hz)", "/main_frequency_hz", 1.0, 2),
-        ("stick (%)", "/status/stick", 100.0, 1),
-        ("slip (%)", "/status/slip", 100.0, 1),
-        ("open (%)", "/status/open", 100.0, 1),
-        ("power of the rotor (W)", "/power_w/external", 1.0, 2),
-        ("of it while sticking (W)", "/power_w/stick", 1.0, 2),
-        ("while sliding (W)", "/power_w/slide", 1.0, 2),
-        (
-            "dissipated in the contact (W)",
-            "/power_w/contact_dissipated",
-            1.0,
-            2,
-        ),
-        ("material damping (W)", "/power_w/material_damping", 1.0, 2),
-        ("normal contact (W)", "/power_w/normal_contact", 1.0, 2),
-        (
-            "transient from it (Hz)",
-            "/confirmation/main_frequency_hz",
-            1.0,
-            2,
-        ),
-        (
-            "fastest growth of a perturbation (1/s)",
-            "/stability/leading/growth_rate_per_s",
-            1.0,
-            1,
-        ),
-    ];
-    let rows = cycles.iter().map(|cycle| {
-        let cells = quantities.iter();
-        let cells =
-            cells.map(|(_, pointer, factor, decimals)| cell(cycle, pointer, *factor, *decimals));
-        let answer = |pointer: &str| match cycle.pointer(pointer).and_then(Value::as_bool) {
-            Some(true) => "yes".to_owned(),
-            Some(false) => "no".to_owned(),
-            None => String::new(),
-        };
-        let answers = ["/stability/is_stable", "/confirmation/agrees"].map(answer);
-        let error = cycle["error"].as_str().unwrap_or_default().to_owned();
-        cells.chain(answers).chain([error]).collect()
-    });
-    let watts = format!("({})", extent.unit("W"));
-    let names = quantities.iter();
-    let names = names.map(|quantity| quantity.0.replace("(W)", &watts));
-    ReportTable {
-        caption: "Limit cycles at the case's own operating point".into(),
-        columns: names
-            .chain(["stable", "a transient stays on it", "why there is none"].map(String::from))
-            .collect(),
-        rows: rows.collect(),
-    }
+/// Columns of a rotating wave.
+const COLUMNS: [CycleColumn; 4] = [
+    ("harmonic n", "/harmonic", 1.0, 0),
+    ("phases", "/phases", 1.0, 0),
+    ("onset", "/onset", 1.0, 0),
+    ("critical friction", "/critical_friction", 1.0, 5),
+];
+
+/// Why there is no cycle.
+fn absence(cycle: &Value) -> String {
+    cycle["error"].as_str().unwrap_or_default().to_owned()
 }
 
 fn branch_text(cycle: &Value) -> Option<String> {

@@ -1,9 +1,9 @@
 //! The figures of limit cycles of a body without symmetry, from their record.
 
+use super::branch_figure::branch_figure;
 use super::record::{MotionRecord, PeriodicRecord};
 use crate::chart::{
-    Axis, ChartError, ColourMap, Figure, INK, Line, MUTED, Marker, Panel, Points, Rule, SERIES,
-    Stroke,
+    Axis, ChartError, ColourMap, Figure, INK, Line, MUTED, Marker, Panel, Rule, SERIES, Stroke,
 };
 use crate::contact::{ContactInterface, ContactStatus, SlidingContact};
 use crate::fem::MaterialField;
@@ -14,7 +14,6 @@ use crate::results::charts::{
     place_axis, shear_stress_figure, status_curves, status_map,
 };
 use crate::results::drawing::{Declaration, DrawingOptions, draw_all};
-use crate::results::parameter::parameter_axis;
 use crate::results::report::NamedFigure;
 
 /// Whole-field pictures of one kind, at most.
@@ -53,7 +52,7 @@ pub fn draw_cycles(
         figures.push(Box::new(move || Ok(data.history(motion))));
         figures.push(Box::new(move || Ok(data.orbit(motion))));
         figures.push(Box::new(move || Ok(harmonics(motion))));
-        figures.push(Box::new(move || branch(motion)));
+        figures.push(Box::new(move || branch_figure(motion)));
     }
     figures.push(Box::new(|| data.velocity()));
     figures.push(Box::new(|| data.shear_stress()));
@@ -73,14 +72,14 @@ impl PeriodicFigures<'_> {
         let (map, _) = map.ok_or_else(|| ChartError::empty("statuses over a period"))?;
         let caption = format!(
             "Contact status of every contact node over one period of the limit cycle of {}.",
-            hertz(motion)
+            motion.hertz()
         );
         let panel = Panel::new(Axis::time(), place_axis(self.mesh.has_round_contact()))
             .plain()
             .height(120.0)
             .layer(map)
             .legend();
-        Ok(Figure::new(format!("status-{}", tag(motion)), caption).panel(panel))
+        Ok(Figure::new(format!("status-{}", motion.tag()), caption).panel(panel))
     }
 
     /// The contact at time zero.
@@ -91,19 +90,19 @@ impl PeriodicFigures<'_> {
             None => ContactVelocity::Absolute(velocity, self.surface_speed()),
         };
         let statuses = motion.first_statuses();
-        let name = format!("contact-{}", tag(motion));
+        let name = format!("contact-{}", motion.tag());
         if !self.mesh.has_round_contact() {
             let caption = format!(
                 "Limit cycle of {} at one instant along the contact edge: tractions (a), velocity (b), on a ground coloured by \
                  status.",
-                hertz(motion)
+                motion.hertz()
             );
             let names = (name, caption, heading(motion));
             return open_contact_figure(names, &statuses, [pressure, shear], velocity);
         }
         let caption = format!(
             "Limit cycle of {} at one instant: status around the circle (a), tractions (b), velocity (c).",
-            hertz(motion)
+            motion.hertz()
         );
         let first = ContactInterface::of(self.mesh).angles.first().copied();
         contact_figure(
@@ -146,10 +145,10 @@ impl PeriodicFigures<'_> {
         let caption = format!(
             "Contact node {} through two periods of the limit cycle of {}.",
             self.node_label(motion),
-            hertz(motion)
+            motion.hertz()
         );
         let traction = Axis::new("traction", "Pa").prefixed();
-        Figure::new(format!("history-{}", tag(motion)), caption)
+        Figure::new(format!("history-{}", motion.tag()), caption)
             .shared_x()
             .panel(displacement(
                 "*u*_{t}",
@@ -191,11 +190,11 @@ impl PeriodicFigures<'_> {
         let caption = format!(
             "Phase plots, along the contact (a) and normal to it (b), and path (c) of contact node {} in the limit cycle of {}.",
             self.node_label(motion),
-            hertz(motion)
+            motion.hertz()
         );
         let along = ("displacement *u*_{t}", &u_t[..]);
         let normal = ("displacement *u*_{n}", &u_n[..]);
-        Figure::new(format!("orbit-{}", tag(motion)), caption)
+        Figure::new(format!("orbit-{}", motion.tag()), caption)
             .columns(3)
             .panel(loop_of(
                 "along the contact",
@@ -274,64 +273,11 @@ impl Repeated {
     }
 }
 
-/// The cycles along the parameter of the case: frequency, amplitude, status, power; unstable ones as open circles.
-fn branch(motion: &MotionRecord) -> Result<Figure, ChartError> {
-    let curve = motion
-        .branch
-        .as_ref()
-        .filter(|curve| curve.values.len() > 1);
-    let curve = curve.ok_or_else(|| ChartError::empty("cycles along a parameter"))?;
-    let through = |values: &[f64]| {
-        let pairs = curve.values.iter().copied();
-        Line::through(pairs.zip(values.iter().copied()))
-    };
-    let unstable = |values: &[f64]| {
-        let pairs = curve.values.iter().zip(values).zip(&curve.stable);
-        let open = pairs.filter(|(_, stable)| **stable == Some(false));
-        let points: Vec<(f64, f64)> = open.map(|((x, y), _)| (*x, *y)).collect();
-        Points::new(points)
-            .marker(Marker::Circle, 2.2, SERIES[1])
-            .name("unstable")
-    };
-    let panel = |y: Axis, height: f64| {
-        Panel::new(parameter_axis(&curve.key), y)
-            .plain()
-            .height(height)
-    };
-    let one = |y: Axis, values: &[f64]| {
-        panel(y, 72.0)
-            .layer(through(values).solid(INK, 1.1))
-            .layer(unstable(values))
-    };
-    // Shares of the three statuses in one panel.
-    let names = ["stick", "slip", "open"];
-    let shares = names.iter().zip(&curve.status).enumerate();
-    let shares =
-        shares.map(|(i, (name, values))| through(values).solid(SERIES[i], 1.1).name(*name));
-    let caption = format!(
-        "Limit cycles along {} from that of {}: frequency, amplitude, contact status, power of the counterface.",
-        curve.key,
-        hertz(motion)
-    );
-    Ok(Figure::new(format!("branch-{}", tag(motion)), caption)
-        .shared_x()
-        .panel(one(
-            Axis::new("frequency", "kHz").times(1e-3),
-            &curve.frequency_hz,
-        ))
-        .panel(one(
-            Axis::new("amplitude", "m").prefixed(),
-            &curve.amplitude,
-        ))
-        .panel(panel(Axis::new("share of nodes", "%").times(100.0), 72.0).layers(shares))
-        .panel(one(Axis::new("power", "W").prefixed(), &curve.external)))
-}
-
 /// Amplitudes of the harmonics in time.
 fn harmonics(motion: &MotionRecord) -> Figure {
     let caption = format!(
         "Harmonics of the motion of the contact nodes in the limit cycle of {}: root mean square over the nodes.",
-        hertz(motion)
+        motion.hertz()
     );
     let line = |values: &[f64], colour, name: &str| {
         let frequencies = (1..=values.len()).map(|k| k as f64 * motion.frequency_hz);
@@ -351,15 +297,7 @@ fn harmonics(motion: &MotionRecord) -> Figure {
         true => panel.layer(line(normal, SERIES[2], "normal")),
         false => panel,
     };
-    Figure::new(format!("harmonics-{}", tag(motion)), caption).panel(panel)
-}
-
-fn tag(motion: &MotionRecord) -> String {
-    format!("mode{}", motion.mode)
-}
-
-fn hertz(motion: &MotionRecord) -> String {
-    format!("{:.2} Hz", motion.frequency_hz)
+    Figure::new(format!("harmonics-{}", motion.tag()), caption).panel(panel)
 }
 
 fn heading(motion: &MotionRecord) -> String {

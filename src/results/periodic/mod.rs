@@ -1,5 +1,6 @@
 //! Results of a search for the limit cycles of a body without symmetry: what is printed and what is written.
 
+mod branch_figure;
 mod figures;
 mod print;
 mod record;
@@ -69,6 +70,8 @@ pub struct PeriodicResult {
     pub outcome: Result<FoundCycle, String>,
     /// Mode that has led to the same cycle before.
     pub same_as: Option<usize>,
+    /// Case key and value at which the search has started from its mode, where no mode grows at the case's own.
+    pub start: Option<(&'static str, f64)>,
     /// Wall time, s.
     pub wall_s: f64,
 }
@@ -112,14 +115,14 @@ pub struct PeriodicReport<'a> {
 }
 
 impl PeriodicReport<'_> {
-    /// Whether no mode looked at grows.
+    /// Whether no mode looked at grows at the case's own operating point.
     pub fn is_stable(&self) -> bool {
-        self.results.is_empty()
+        self.least_stable.is_none_or(|mode| mode.growth_rate <= 0.0)
     }
 
     /// That steady sliding is stable, in words; nothing where it is not.
     pub fn stable_sliding(&self) -> Option<String> {
-        if !self.is_stable() {
+        if !self.is_stable() || !self.results.is_empty() {
             return None;
         }
         let slowest = self.least_stable.map_or_else(String::new, |mode| {

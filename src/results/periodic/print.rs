@@ -2,7 +2,8 @@
 
 use super::{FoundCycle, PeriodicReport, PeriodicResult};
 use crate::cycle::Verdict;
-use crate::cycle::periodic::{FloquetMultipliers, PeriodicBranch};
+use crate::cycle::periodic::{FloquetMultipliers, PeriodicBranch, REMAINDER};
+use crate::results::cycle_table::{printed_cycle, printed_heading};
 use crate::results::quantity::significant;
 use std::fmt::Write as _;
 
@@ -16,27 +17,18 @@ pub fn print(report: &PeriodicReport<'_>) -> String {
         let _ = writeln!(out, "{text}");
         return out;
     }
+    let start = report.results.iter().find_map(|result| result.start);
+    let start = start.map_or_else(
+        || format!("friction {}", report.friction_coefficient),
+        |(key, value)| format!("{key} = {value}, since none grows at the case's own"),
+    );
     let _ = writeln!(
         out,
-        "limit cycles as periodic motions of the whole mesh, from {} of {} modes at friction {}\n",
+        "limit cycles as periodic motions of the whole mesh, from {} of {} modes that grow at {start}\n",
         report.results.len(),
         report.modes,
-        report.friction_coefficient,
     );
-    let _ = writeln!(
-        out,
-        "{:>4} {:>9} {:>12} {:>7} {:>7} {:>7} {:>12} {:>7} {:>7} {:>10}",
-        "mode",
-        "growth",
-        "frequency",
-        "stick",
-        "slip",
-        "open",
-        "external",
-        "stick",
-        "slide",
-        "dissipated"
-    );
+    let _ = writeln!(out, "{:>4} {:>9} {}", "mode", "growth", printed_heading());
     for result in &report.results {
         result_line(&mut out, report, result);
     }
@@ -68,18 +60,15 @@ fn result_line(out: &mut String, report: &PeriodicReport<'_>, result: &PeriodicR
     };
     let motion = &found.motion;
     let powers = motion.powers.scaled(report.thickness).contact;
-    let [stick, slip, open] = motion.fractions;
-    let share = |power: f64| power / powers.external;
-    let _ = writeln!(
-        out,
-        "{:>9.2} Hz {stick:>7.3} {slip:>7.3} {open:>7.3} {:>10.2} {} {:>7.3} {:>7.3} {:>10.3}",
-        motion.frequency_hz,
+    let powers = [
         powers.external,
-        report.extent.unit("W"),
-        share(powers.stick),
-        share(powers.slide),
-        share(powers.contact_dissipated),
-    );
+        powers.stick,
+        powers.slide,
+        powers.contact_dissipated,
+    ];
+    let (frequency, fractions) = (motion.frequency_hz, motion.fractions);
+    let line = printed_cycle(frequency, fractions, powers, report.extent);
+    let _ = writeln!(out, "{line}");
 }
 
 fn found_lines(
@@ -93,7 +82,8 @@ fn found_lines(
     let _ = writeln!(
         out,
         "{mode}: repeats itself to {:.1e} after {} periods of {} steps, energy balance {:.1e}; {} harmonics leave {:.1e} of the \
-         motion of the contact, whose amplitude is {:.3e} m",
+         motion of the contact, whose amplitude is {:.3e} m; velocity level {:.1} dB over 5e-8 m/s, root mean square over time and \
+         mass",
         motion.residual,
         motion.periods,
         motion.steps,
@@ -101,6 +91,7 @@ fn found_lines(
         found.harmonic_count,
         remainder.map_or(1.0, |last| last.remainder),
         motion.amplitude,
+        motion.velocity_level(),
     );
     if let Some(text) = confirmation_text(report, result) {
         let _ = writeln!(out, "{text}");
@@ -119,30 +110,54 @@ fn found_lines(
     }
 }
 
-/// Where a branch ends and changes its stability, in words.
+/// Where a branch ends, turns back and changes its stability, and where it lives beside stable sliding, in words.
 fn branch_text(branch: &PeriodicBranch) -> String {
     let parameter = branch.parameter;
     let value = |value: f64| significant(parameter.in_key_units(value), 5);
+    let list = |values: Vec<f64>| values.into_iter().map(value).collect::<Vec<_>>().join(", ");
+    let key = parameter.key();
     let Some((first, last)) = branch.motions.first().zip(branch.motions.last()) else {
         return format!(
-            "no cycle at the values of {} that were asked for ({})",
-            parameter.key(),
+            "no cycle at the values of {key} that were asked for ({})",
             branch.ends[1].describe()
         );
     };
-    let changes: Vec<String> = branch.stability_changes().into_iter().map(value).collect();
+    let changes = branch.stability_changes();
     let changes = match changes.is_empty() {
         true => String::new(),
-        false => format!(", stability changes at {}", changes.join(", ")),
+        false => format!(", stability changes at {}", list(changes)),
     };
+    let folds = match branch.folds() {
+        folds if folds.is_empty() => ", no fold".to_owned(),
+        folds if folds.len() == 1 => format!(", a fold at {}", list(folds)),
+        folds => format!(", {} folds at {}", folds.len(), list(folds)),
+    };
+    let onsets = match branch.onsets.is_empty() {
+        true => String::new(),
+        false => format!(
+            "; steady sliding loses its stability at {}",
+            list(branch.onsets.clone())
+        ),
+    };
+    let both = branch.coexistence().into_iter();
+    let both = both.map(|[from, to]| {
+        let [from, to] = [from, to].map(value);
+        format!("; stable sliding and a limit cycle coexist from {key} = {from} to {to}")
+    });
+    let threshold = branch.threshold().map_or_else(String::new, |amplitude| {
+        format!(
+            "; at the case's own {key} the unstable cycle between both has an amplitude of {amplitude:.3e} m, which a kick must exceed \
+             to tip sliding into the large one"
+        )
+    });
     format!(
-        "{} cycles over {} from {} ({}) to {} ({}){changes}",
+        "{} cycles over {key} from {} ({}) to {} ({}){folds}{changes}{onsets}{}{threshold}",
         branch.motions.len(),
-        parameter.key(),
         value(first.value),
         branch.ends[0].describe(),
         value(last.value),
         branch.ends[1].describe(),
+        both.collect::<String>(),
     )
 }
 
@@ -201,9 +216,26 @@ fn confirmation_text(report: &PeriodicReport<'_>, result: &PeriodicResult) -> Op
     ))
 }
 
+/// That the harmonics asked for do not tell the motion, if so, and how many would.
+fn coarse_harmonics(result: &PeriodicResult, found: &FoundCycle) -> Option<String> {
+    let motion = &found.motion;
+    let left = motion.harmonics[..found.harmonic_count].last()?.remainder;
+    let enough = motion.harmonics_within(REMAINDER);
+    (found.harmonic_count < enough).then(|| {
+        format!(
+            "{}: {} harmonics leave {left:.1e} of the motion of the contact: {enough} leave less than a thousandth (raise \
+             cycle.harmonic_count, or leave it out)",
+            result.mode, found.harmonic_count,
+        )
+    })
+}
+
 /// Why a result should not be trusted, if so.
 pub fn doubt(report: &PeriodicReport<'_>, result: &PeriodicResult) -> Option<String> {
     let found = result.own()?;
+    if let Some(text) = coarse_harmonics(result, found) {
+        return Some(text);
+    }
     let run = found.confirmation.as_ref()?;
     let is_good = run.agrees(&found.motion) || leaves(found);
     let text = confirmation_text(report, result)?;

@@ -2,7 +2,7 @@
 
 use super::{FoundCycle, PeriodicReport, PeriodicResult};
 use crate::contact::ContactStatus;
-use crate::cycle::periodic::{BranchMotion, ContactInstant, PeriodicBranch};
+use crate::cycle::periodic::{BranchMotion, ContactInstant, PeriodicBranch, PeriodicMotion};
 use crate::results::charts::palette::status_of_code;
 use crate::results::record::Record;
 use serde::{Deserialize, Serialize};
@@ -50,11 +50,13 @@ pub struct MotionRecord {
     pub branch: Option<CurveRecord>,
 }
 
-/// Cycles along a parameter, by rising value.
+/// Cycles along a parameter, in the order of the branch.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CurveRecord {
     /// Case key of the parameter.
     pub key: String,
+    /// The parameter (in units of the key), frequency (Hz) and amplitude (m) of the case's own cycle.
+    pub own: [f64; 3],
     /// The parameter at each cycle, in units of the key.
     pub values: Vec<f64>,
     /// Frequency, Hz.
@@ -67,11 +69,17 @@ pub struct CurveRecord {
     pub external: Vec<f64>,
     /// Whether the cycle is stable, where that is known.
     pub stable: Vec<Option<bool>>,
+    /// Places, among the cycles, of folds.
+    pub folds: Vec<u64>,
+    /// Values at which steady sliding loses its stability, in units of the key.
+    pub onsets: Vec<f64>,
+    /// Where cycles live beside stable sliding.
+    pub coexistence: Vec<[f64; 2]>,
 }
 
 impl Record for PeriodicRecord {
     const MAGIC: [u8; 8] = *b"FRICSIMP";
-    const VERSION: u32 = 1;
+    const VERSION: u32 = 2;
 
     fn inconsistency(&self) -> Option<&'static str> {
         let is_whole = self.cycles.iter().all(MotionRecord::is_whole);
@@ -92,17 +100,28 @@ impl PeriodicRecord {
 }
 
 impl CurveRecord {
-    fn of(branch: &PeriodicBranch, thickness: f64) -> Self {
+    fn of(branch: &PeriodicBranch, own: &PeriodicMotion, thickness: f64) -> Self {
         let column = |of: &dyn Fn(&BranchMotion) -> f64| branch.motions.iter().map(of).collect();
         let external = |own: &BranchMotion| thickness * own.motion.powers.contact.external;
+        let in_units = |value: f64| branch.parameter.in_key_units(value);
+        let folds = branch.motions.iter().enumerate();
+        let folds = folds.filter(|(_, own)| own.is_fold);
         Self {
             key: branch.parameter.key().to_owned(),
-            values: column(&|own| branch.parameter.in_key_units(own.value)),
+            own: [in_units(branch.own), own.frequency_hz, own.amplitude],
+            values: column(&|own| in_units(own.value)),
             frequency_hz: column(&|own| own.motion.frequency_hz),
             amplitude: column(&|own| own.motion.amplitude),
             status: [0, 1, 2].map(|i| column(&|own| own.motion.fractions[i])),
             external: column(&external),
             stable: branch.motions.iter().map(BranchMotion::is_stable).collect(),
+            folds: folds.map(|(i, _)| i as u64).collect(),
+            onsets: branch.onsets.iter().map(|&at| in_units(at)).collect(),
+            coexistence: branch
+                .coexistence()
+                .into_iter()
+                .map(|ends| ends.map(in_units))
+                .collect(),
         }
     }
 
@@ -110,7 +129,9 @@ impl CurveRecord {
         let count = self.values.len();
         let columns = [&self.frequency_hz, &self.amplitude, &self.external];
         let mut columns = columns.into_iter().chain(&self.status);
-        columns.all(|column| column.len() == count) && self.stable.len() == count
+        columns.all(|column| column.len() == count)
+            && self.stable.len() == count
+            && self.folds.iter().all(|&place| (place as usize) < count)
     }
 }
 
@@ -148,7 +169,7 @@ impl MotionRecord {
             branch: found
                 .branch
                 .as_ref()
-                .map(|branch| CurveRecord::of(branch, thickness)),
+                .map(|branch| CurveRecord::of(branch, motion, thickness)),
         }
     }
 
@@ -170,6 +191,16 @@ impl MotionRecord {
             && self.harmonics[0].len() == self.harmonics[1].len()
             && self.displacement_field.len() == self.velocity_field.len()
             && self.branch.as_ref().is_none_or(CurveRecord::is_whole)
+    }
+
+    /// Part of a file name.
+    pub fn tag(&self) -> String {
+        format!("mode{}", self.mode)
+    }
+
+    /// The frequency in words.
+    pub fn hertz(&self) -> String {
+        format!("{:.2} Hz", self.frequency_hz)
     }
 
     /// Number of contact nodes.

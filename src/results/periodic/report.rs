@@ -1,12 +1,13 @@
 //! `report.html` of the limit cycles of a body without symmetry.
 
 use super::figures::{PeriodicFigures, draw_cycles};
+use crate::results::cycle_table::{CycleColumn, cycle_results, cycle_table};
 use crate::results::drawing::{DrawingError, DrawingOptions, write_report};
 use crate::results::extent::Extent;
 use crate::results::folder::OutputFolder;
 use crate::results::manifest::Manifest;
-use crate::results::quantity::quantity;
-use crate::results::report::{Report, ReportSection, ReportTable, cell, entries, number};
+use crate::results::quantity::significant;
+use crate::results::report::{Report, ReportSection, entries};
 use serde::Deserialize;
 use serde_json::Value;
 
@@ -30,6 +31,10 @@ fn html_report(summary: &Value, manifest: &Manifest) -> Report {
     let cycles = entries(summary, "cycles");
     let extent = Extent::deserialize(&summary["extent"]).unwrap_or_default();
     let first = match summary["steady_sliding_stable"].as_bool() {
+        Some(true) if !cycles.is_empty() => {
+            "Steady sliding is stable; beside it live motions of the whole body that repeat themselves, each from a mode that grows \
+             at another value of the parameter."
+        }
         Some(true) => "Steady sliding is stable: no limit cycle is born from it.",
         _ => "Motions of the whole body that repeat themselves, each born from a mode that grows.",
     };
@@ -39,7 +44,8 @@ fn html_report(summary: &Value, manifest: &Manifest) -> Report {
     let rows = rows.collect();
     let figures = ReportSection {
         heading: "Limit cycles".into(),
-        tables: vec![cycle_table(cycles, extent)],
+        paragraphs: cycles.iter().filter_map(branch_text).collect(),
+        tables: vec![cycle_table(cycles, extent, &COLUMNS, &absence)],
         ..ReportSection::default()
     };
     Report {
@@ -52,97 +58,59 @@ fn html_report(summary: &Value, manifest: &Manifest) -> Report {
 /// What decides of one cycle.
 fn results(cycle: &Value, extent: Extent) -> Vec<(String, String)> {
     let name = format!("mode {}", cycle["mode"]);
-    if let Some(error) = cycle["error"].as_str() {
-        return vec![(name, error.to_owned())];
+    match absence(cycle) {
+        reason if reason.is_empty() => cycle_results(&name, cycle, extent),
+        reason => vec![(name, reason)],
     }
-    if let Some(other) = cycle["same_as"].as_u64() {
-        return vec![(name, format!("the cycle of mode {other}"))];
-    }
-    let frequency = number(cycle, "/main_frequency_hz");
-    let status = ["stick", "slip", "open"].map(|part| {
-        let share = cell(cycle, &format!("/status/{part}"), 100.0, 1);
-        format!("{part} {share} %")
-    });
-    let power = number(cycle, "/power_w/external").map(|power| {
-        let number = quantity("power_w.external").number(power);
-        format!("{number} {}", extent.unit("W"))
-    });
-    let verdict = cycle.pointer("/stability/verdict").and_then(Value::as_str);
-    let rows = [
-        (
-            "main frequency",
-            frequency.map(|value| quantity("main_frequency_hz").text(value)),
-        ),
-        ("contact", Some(status.join(", "))),
-        ("power of the counterface", power),
-        ("stability", verdict.map(str::to_owned)),
-    ];
-    let rows = rows.into_iter();
-    rows.filter_map(|(what, value)| Some((format!("{name}: {what}"), value?)))
-        .collect()
 }
 
-/// Columns of the table of cycles: name, place in the summary, factor, decimals.
-const QUANTITIES: [(&str, &str, f64, usize); 16] = [
+/// Columns of a periodic motion.
+const COLUMNS: [CycleColumn; 5] = [
     ("mode", "/mode", 1.0, 0),
     ("its frequency (Hz)", "/mode_frequency_hz", 1.0, 2),
     ("its growth rate (1/s)", "/growth_rate_per_s", 1.0, 1),
-    ("main frequency (Hz)", "/main_frequency_hz", 1.0, 2),
     ("amplitude (µm)", "/amplitude_m", 1e6, 3),
-    ("stick (%)", "/status/stick", 100.0, 1),
-    ("slip (%)", "/status/slip", 100.0, 1),
-    ("open (%)", "/status/open", 100.0, 1),
-    ("power of the counterface (W)", "/power_w/external", 1.0, 2),
-    ("of it while sticking (W)", "/power_w/stick", 1.0, 2),
-    ("while sliding (W)", "/power_w/slide", 1.0, 2),
-    (
-        "dissipated in the contact (W)",
-        "/power_w/contact_dissipated",
-        1.0,
-        2,
-    ),
-    ("material damping (W)", "/power_w/material_damping", 1.0, 2),
-    ("normal contact (W)", "/power_w/normal_contact", 1.0, 2),
-    (
-        "transient from it (Hz)",
-        "/confirmation/main_frequency_hz",
-        1.0,
-        2,
-    ),
-    (
-        "fastest growth of a perturbation (1/s)",
-        "/stability/leading/growth_rate_per_s",
-        1.0,
-        1,
-    ),
+    ("velocity level (dB)", "/velocity_level_db", 1.0, 1),
 ];
 
-fn cycle_table(cycles: &[Value], extent: Extent) -> ReportTable {
-    let rows = cycles.iter().map(|cycle| {
-        let cells = QUANTITIES.iter();
-        let cells =
-            cells.map(|(_, pointer, factor, decimals)| cell(cycle, pointer, *factor, *decimals));
-        let answer = |pointer: &str| match cycle.pointer(pointer).and_then(Value::as_bool) {
-            Some(true) => "yes".to_owned(),
-            Some(false) => "no".to_owned(),
-            None => String::new(),
-        };
-        let answers = ["/stability/is_stable", "/confirmation/agrees"].map(answer);
-        let why = match (cycle["error"].as_str(), cycle["same_as"].as_u64()) {
-            (Some(error), _) => error.to_owned(),
-            (None, Some(other)) => format!("the cycle of mode {other}"),
-            (None, None) => String::new(),
-        };
-        cells.chain(answers).chain([why]).collect()
-    });
-    let watts = format!("({})", extent.unit("W"));
-    let names = QUANTITIES.iter();
-    let names = names.map(|quantity| quantity.0.replace("(W)", &watts));
-    ReportTable {
-        caption: "Limit cycles at the case's own operating point".into(),
-        columns: names
-            .chain(["stable", "a transient stays on it", "why there is none"].map(String::from))
-            .collect(),
-        rows: rows.collect(),
+/// Why there is no cycle of its own; empty where there is one.
+fn absence(cycle: &Value) -> String {
+    match (cycle["error"].as_str(), cycle["same_as"].as_u64()) {
+        (Some(error), _) => error.to_owned(),
+        (None, Some(other)) => format!("the cycle of mode {other}"),
+        (None, None) => String::new(),
     }
+}
+
+/// Where a branch ends, turns back, changes its stability and lives beside stable sliding.
+fn branch_text(cycle: &Value) -> Option<String> {
+    let branch = cycle.get("branch").filter(|branch| branch.is_object())?;
+    let text = |pointer: &str| branch.pointer(pointer).and_then(Value::as_str);
+    let list = |key: &str| -> Vec<String> {
+        let values = entries(branch, key).iter().filter_map(Value::as_f64);
+        values.map(|value| significant(value, 5)).collect()
+    };
+    let key = text("/key").unwrap_or("?");
+    let said = |what: &str, values: Vec<String>| match values.is_empty() {
+        true => String::new(),
+        false => format!("; {what} {}", values.join(", ")),
+    };
+    let folds = match list("folds") {
+        folds if folds.is_empty() => "; no fold".to_owned(),
+        folds => said("folds at", folds),
+    };
+    let both = entries(branch, "coexistence").iter().map(|ends| {
+        let [from, to] = [0, 1].map(|i| significant(ends[i].as_f64().unwrap_or(f64::NAN), 5));
+        format!("; stable sliding and a limit cycle coexist from {key} = {from} to {to}")
+    });
+    Some(format!(
+        "Mode {}: {} cycles over {key}, at the one end until {}, at the other until {}{folds}{}{}{}.",
+        cycle["mode"],
+        branch["cycles"],
+        text("/ends/0").unwrap_or("?"),
+        text("/ends/1").unwrap_or("?"),
+        said("stability changes at", list("stability_changes")),
+        said("steady sliding loses its stability at", list("onsets")),
+        both.collect::<String>(),
+    ))
 }

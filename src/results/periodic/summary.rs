@@ -4,7 +4,7 @@ use super::{FoundCycle, PeriodicReport, PeriodicResult, SoughtMode};
 use crate::contact::ContactInterface;
 use crate::cycle::Verdict;
 use crate::cycle::periodic::{
-    BranchMotion, FloquetMultipliers, MotionConfirmation, PeriodicBranch, PeriodicMotion,
+    FloquetMultipliers, MotionConfirmation, PeriodicBranch, PeriodicMotion,
 };
 use crate::results::extent::Extent;
 use crate::results::manifest::Manifest;
@@ -69,6 +69,9 @@ pub struct SoughtSummary {
     /// Mode that has led to the same cycle before.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub same_as: Option<usize>,
+    /// Value of the parameter of `cycle.continuation` at which the mode grows, where none does at the case's own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sought_from: Option<f64>,
     /// Why none was found.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub error: Option<String>,
@@ -92,22 +95,34 @@ pub struct PeriodicBranchSummary {
     pub range: Option<[f64; 2]>,
     /// Why it ends, at either end.
     pub ends: [String; 2],
-    /// Values at which stability changes.
+    /// Values at which stability changes between folds.
     pub stability_changes: Vec<f64>,
+    /// Values at which the branch turns back, in its order.
+    #[serde(default)]
+    pub folds: Vec<f64>,
+    /// Values at which steady sliding loses its stability.
+    #[serde(default)]
+    pub onsets: Vec<f64>,
+    /// Where cycles live beside stable sliding.
+    #[serde(default)]
+    pub coexistence: Vec<[f64; 2]>,
 }
 
 impl From<&PeriodicBranch> for PeriodicBranchSummary {
     fn from(branch: &PeriodicBranch) -> Self {
         let parameter = branch.parameter;
-        let value = |own: &BranchMotion| parameter.in_key_units(own.value);
-        let ends = branch.motions.first().zip(branch.motions.last());
+        let in_units = |value: f64| parameter.in_key_units(value);
+        let coexistence = branch.coexistence().into_iter();
         let changes = branch.stability_changes().into_iter();
         Self {
             key: parameter.key().to_owned(),
             cycles: branch.motions.len(),
-            range: ends.map(|(first, last)| [value(first), value(last)]),
+            range: branch.range().map(|ends| ends.map(in_units)),
             ends: branch.ends.map(|end| end.describe().to_owned()),
-            stability_changes: changes.map(|at| parameter.in_key_units(at)).collect(),
+            stability_changes: changes.map(in_units).collect(),
+            folds: branch.folds().into_iter().map(in_units).collect(),
+            onsets: branch.onsets.iter().map(|&at| in_units(at)).collect(),
+            coexistence: coexistence.map(|ends| ends.map(in_units)).collect(),
         }
     }
 }
@@ -133,6 +148,9 @@ pub struct MotionSummary {
     pub contact_node: usize,
     /// Half the range of its displacement along the counterface, m.
     pub amplitude_m: f64,
+    /// Level of the velocity, root mean square over time and mass, over 5e-8 m/s, dB.
+    #[serde(default)]
+    pub velocity_level_db: f64,
     /// Harmonics in which the motion is told.
     pub harmonic_count: usize,
     /// Share of the vibration of the contact nodes that these leave.
@@ -240,6 +258,7 @@ pub fn summary_of(report: &PeriodicReport<'_>, result: &PeriodicResult) -> Sough
         wall_s: result.wall_s,
         cycle: found.map(|found| motion(report, found)),
         same_as: result.same_as,
+        sought_from: result.start.map(|(_, value)| value),
         error: result.outcome.as_ref().err().cloned(),
         confirmation,
         stability: found.and_then(|found| Some(stability(found.stability.as_ref()?))),
@@ -273,6 +292,7 @@ fn motion(report: &PeriodicReport<'_>, found: &FoundCycle) -> MotionSummary {
         steps: motion.steps,
         contact_node: report.mesh.node_label(node as usize),
         amplitude_m: motion.amplitude,
+        velocity_level_db: motion.velocity_level(),
         harmonic_count: found.harmonic_count,
         harmonic_remainder: last.map_or(1.0, |last| last.remainder),
         harmonics: told.map(|harmonic| harmonic.amplitude[1]).collect(),

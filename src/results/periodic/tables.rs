@@ -49,7 +49,7 @@ pub fn write(
     write_fields(folder, mesh, tag, motion)
 }
 
-/// One row for each cycle of a branch, by rising value.
+/// One row for each cycle of a branch, in its order.
 fn write_branch(out: &mut dyn Write, branch: &PeriodicBranch, thickness: f64) -> io::Result<()> {
     type Row<'a> = (&'a BranchMotion, PeriodicPowers);
     let parameter = branch.parameter;
@@ -70,10 +70,24 @@ fn write_branch(out: &mut dyn Write, branch: &PeriodicBranch, thickness: f64) ->
         ("material_damping_w", &|row| row.1.material_damping.into()),
         ("normal_contact_w", &|row| row.1.contact.normal.into()),
         ("amplitude_m", &|row| row.0.motion.amplitude.into()),
+        ("velocity_level_db", &|row| {
+            row.0.motion.velocity_level().into()
+        }),
         ("balance_residual", &|row| row.1.balance_residual().into()),
         ("growth_rate_per_s", &|row| {
             row.0.growth_rate().unwrap_or(f64::NAN).into()
         }),
+        ("stability", &|row| {
+            let known = row
+                .0
+                .stability
+                .as_ref()
+                .and_then(|found| found.as_ref().ok());
+            known.map_or("", |found| found.verdict().word()).into()
+        }),
+        ("residual", &|row| row.0.motion.residual.into()),
+        ("periods", &|row| (row.0.motion.periods as f64).into()),
+        ("fold", &|row| if row.0.is_fold { "yes" } else { "" }.into()),
     ];
     let rows = branch.motions.iter();
     let rows = rows.map(|own| (own, own.motion.powers.scaled(thickness)));

@@ -9,16 +9,19 @@ use crate::study::eigenvalues::asked_modes;
 /// The solver of a family, or why it has none.
 pub type Sought = Result<CycleSolver, (Family, CycleError)>;
 
-/// The parameter of `[cycle.continuation]` and its SI values.
+/// The parameter of `[cycle.continuation]` and its SI values, for a round or a plane counterface.
 pub fn continuation(
     case: &Case,
     cycle: &Cycle,
+    is_round: bool,
 ) -> Result<Option<(Parameter, Vec<f64>)>, StudyError> {
     let Some(continuation) = &cycle.continuation else {
         return Ok(None);
     };
-    let Some(parameter) = Parameter::from_key(&continuation.key) else {
-        let known: Vec<&str> = Parameter::ALL.iter().map(|known| known.key()).collect();
+    let parameter = Parameter::from_key(&continuation.key).filter(|known| known.suits(is_round));
+    let Some(parameter) = parameter else {
+        let known = Parameter::ALL.iter().filter(|known| known.suits(is_round));
+        let known: Vec<&str> = known.map(|known| known.key()).collect();
         return Err(StudyError::Case(case.error_at(
             "cycle.continuation.key",
             format!("limit cycles cannot be followed over {}", continuation.key),

@@ -72,7 +72,7 @@ impl<'a> CycleStudy<'a> {
             annulus: AnnulusMesh::generate(&model.specification)?,
             simd,
             point,
-            continuation: continuation(case, choices)?,
+            continuation: continuation(case, choices, true)?,
             solvers,
             onsets,
         })

@@ -1,17 +1,18 @@
 //! Limit cycles of bodies without symmetry: one for each mode that grows from steady sliding.
 
-use super::super::eigenvalues::{Model, Solver, asked_modes};
-use super::super::{StudyError, extent_of, tangent_options, transient};
+mod steady;
+
+use super::super::{StudyError, extent_of, transient};
 use super::families::continuation;
 use super::operating_point;
 use crate::case::{Body, Case, Cycle, OnsetChoice, StabilityChoice, TimeStep};
-use crate::cea::{CeaError, ComplexMode, SweepRequest, Unwatched};
+use crate::cea::{ComplexMode, PartWatch, SweepWatch};
 use crate::cycle::Parameter;
 use crate::cycle::periodic::{
-    BranchRequest, FloquetMultipliers, GrowingMode, MotionConfirmation, MotionRequest, PeriodMap,
-    PeriodicBranch, PeriodicError, PeriodicMotion, PeriodicState, balanced_start, find,
+    BranchRequest, FloquetMultipliers, Found, GrowingMode, KeptMotion, MotionConfirmation,
+    MotionRequest, PeriodMap, PeriodicBranch, PeriodicError, PeriodicMotion, REMAINDER,
+    balanced_start, find, two_frequencies,
 };
-use crate::fem::MassKind;
 use crate::fem::operator::{SimdLevel, StiffnessOperator};
 use crate::mesh::{AnnulusMesh, Mesh};
 use crate::results::periodic::{FoundCycle, PeriodicReport, PeriodicResult, SoughtMode};
@@ -19,15 +20,10 @@ use crate::transient::{OperatorChoice, TransientBody, TransientError, TransientM
 use rayon::prelude::*;
 use std::sync::Arc;
 use std::time::Instant;
-
-/// Modes of lowest frequency that are looked at where the case has no `[cea]`.
-const MODES: usize = 30;
+use steady::{Steady, onset};
 
 /// Instants of the contact over a period where the case names no number.
 const INSTANTS: usize = 180;
-
-/// Share of the motion that the harmonics told may leave, where the case names no number of them.
-const REMAINDER: f64 = 1e-3;
 
 /// What a case asks for: the limit cycles of which modes.
 pub struct PeriodicStudy<'a> {
@@ -37,11 +33,13 @@ pub struct PeriodicStudy<'a> {
     mesh: Arc<Mesh>,
     annulus: Option<AnnulusMesh>,
     simd: SimdLevel,
-    /// Displacement of steady sliding, m.
-    base: Vec<f64>,
-    /// All modes looked at, by frequency.
-    modes: Vec<ComplexMode>,
-    /// Those whose cycles are sought, by falling growth: places among all.
+    /// The mode that grows fastest or decays slowest at the case's own operating point.
+    least_stable: Option<SoughtMode>,
+    /// Value of the parameter at which the search starts, where no mode grows at the case's own.
+    start: Option<f64>,
+    /// Steady sliding where the search starts.
+    steady: Steady,
+    /// The modes whose cycles are sought, by falling growth: places among all.
     sought: Vec<usize>,
     continuation: Option<(Parameter, Vec<f64>)>,
 }
@@ -49,30 +47,27 @@ pub struct PeriodicStudy<'a> {
 impl<'a> PeriodicStudy<'a> {
     /// Steady sliding and its modes, with the lumped mass and without the geometric stiffness, as the transient has them.
     ///
+    /// Where none of them grows at the case's own operating point, and a range of a parameter is to be gone through, the search
+    /// starts at the end of the range at which one does: the cycles that are born there may live on beside stable sliding.
+    ///
     /// # Errors
     /// A bad case; a body without a state of steady sliding; those of the eigenvalue solver.
     pub fn new(case: &'a Case, simd: SimdLevel) -> Result<Self, StudyError> {
         let choices = case.require_cycle()?;
-        let friction = case.contact.sliding.friction_coefficient;
-        let mut options = tangent_options(case, MassKind::Lumped);
-        options.geometric_stiffness = false;
-        let model = Model::with_solver(case, Solver::WholeMesh, options, &[friction])?;
-        let request = SweepRequest {
-            friction_coefficients: &[friction],
-            limit: asked_modes(case, MODES),
-            shapes_at: &[friction],
-        };
-        let found = model.spectrum(case, &request, false, &Unwatched)?;
-        let point = found.sweep.points.into_iter().next();
-        let modes = point.map_or_else(Vec::new, |point| point.modes);
-        let Model::Whole(whole) = &model else {
-            return Err(CeaError::NoFriction.into());
-        };
-        let growing = (0..modes.len()).filter(|&i| modes[i].is_unstable());
-        let mut sought: Vec<usize> = growing.collect();
-        sought.sort_by(|&a, &b| modes[b].growth_rate().total_cmp(&modes[a].growth_rate()));
+        let mesh = case.mesh()?;
+        let continuation = continuation(case, choices, mesh.has_round_contact())?;
+        let mut steady = Steady::of(case)?;
+        let own = steady.least_stable().map(|place| sought(&steady, place));
+        let mut start = None;
+        if let (true, Some((parameter, values))) = (steady.growing().is_empty(), &continuation) {
+            let here = parameter.of(&operating_point(case));
+            if let Some((value, other)) = growing_end(case, *parameter, values, here)? {
+                (start, steady) = (Some(value), other);
+            }
+        }
+        let mut places = steady.growing();
         if choices.onsets == OnsetChoice::Lowest {
-            sought.truncate(1);
+            places.truncate(1);
         }
         let annulus = match &case.body {
             Body::Annulus(annulus) => Some(AnnulusMesh::generate(&annulus.specification)?),
@@ -81,13 +76,14 @@ impl<'a> PeriodicStudy<'a> {
         Ok(Self {
             case,
             choices,
-            mesh: case.mesh()?,
             annulus,
             simd,
-            base: whole.base().displacement(friction),
-            modes,
-            sought,
-            continuation: continuation(case, choices)?,
+            least_stable: own,
+            start,
+            steady,
+            sought: places,
+            continuation,
+            mesh,
         })
     }
 
@@ -129,43 +125,81 @@ impl<'a> PeriodicStudy<'a> {
         PeriodMap::new(body, operator, mode.eigenvalue.im, longest)
     }
 
+    /// Where the search starts.
+    fn body_at_start(&self) -> TransientBody<'_> {
+        match (self.start, &self.continuation) {
+            (Some(value), Some((parameter, _))) => self.body_at(*parameter, value),
+            _ => self.body(),
+        }
+    }
+
     /// The branch through a cycle over the parameter of the case.
-    fn branch(
-        &self,
-        operator: &dyn StiffnessOperator,
+    fn branch<'b>(
+        &'b self,
+        operator: &'b dyn StiffnessOperator,
         mode: &ComplexMode,
-        state: &PeriodicState,
+        (found, steps): (&Found, usize),
+        watch: &dyn SweepWatch,
     ) -> Option<Result<PeriodicBranch, TransientError>> {
         let (parameter, values) = self.continuation.as_ref()?;
-        let map = |value: f64| self.map(self.body_at(*parameter, value), operator, mode);
+        let map = || self.map(self.body(), operator, mode);
+        let tune = |map: &mut PeriodMap<'b>, value: f64| {
+            let body = self.body_at(*parameter, value);
+            if parameter.is_of_contact() {
+                return map.retune(*body.contact());
+            }
+            let mut next = self.map(body, operator, mode)?;
+            next.follow(map);
+            *map = next;
+            Ok(())
+        };
+        let own = parameter.of(&operating_point(self.case));
         let request = BranchRequest {
             parameter: *parameter,
             values,
+            kept: own,
             with_stability: self.choices.stability == StabilityChoice::Branch,
             map: &map,
+            watch,
+            tune: &tune,
         };
-        let own = parameter.of(&operating_point(self.case));
-        Some(request.follow(own, state))
+        let start = self.start.unwrap_or(own);
+        let branch = request.follow(start, found, steps);
+        Some(branch.map(|branch| self.with_onsets(branch, start)))
     }
 
-    /// The cycles, with the whole field at so many times over a period; `done` hears of every result.
+    /// A branch with the values at which steady sliding loses its stability, between a value at which it has lost it and the
+    /// farthest cycles on both sides.
+    fn with_onsets(&self, mut branch: PeriodicBranch, growing: f64) -> PeriodicBranch {
+        let parameter = branch.parameter;
+        let onsets = branch.beyond(growing).into_iter().flatten();
+        branch.onsets = onsets
+            .filter_map(|stable| onset(self.case, parameter, stable, growing))
+            .collect();
+        branch
+    }
+
+    /// The cycles, with the whole field at so many times over a period; `watch` keeps what is done for a search that goes on
+    /// after an interruption, `done` hears of every result.
     ///
     /// # Errors
     /// A mesh that the time loop cannot take.
     pub fn run(
         &self,
         frames: usize,
+        watch: &dyn SweepWatch,
         done: &(dyn Fn(&PeriodicResult) + Sync),
     ) -> Result<Vec<PeriodicResult>, StudyError> {
         let operator = self.body().operator(OperatorChoice::Auto, self.simd);
         let operator = operator.map_err(StudyError::Transient)?;
         let solve = |&place: &usize| {
             let start = Instant::now();
-            let outcome = self.solve(operator.as_ref(), place, frames);
+            let outcome = self.solve(operator.as_ref(), place, frames, watch);
             let result = PeriodicResult {
                 mode: self.mode(place),
                 outcome: outcome.map_err(|error| error.to_string()),
                 same_as: None,
+                start: self.named_start(),
                 wall_s: start.elapsed().as_secs_f64(),
             };
             done(&result);
@@ -177,12 +211,13 @@ impl<'a> PeriodicStudy<'a> {
     }
 
     fn mode(&self, place: usize) -> SoughtMode {
-        let mode = &self.modes[place];
-        SoughtMode {
-            number: place + 1,
-            frequency_hz: mode.frequency_hz(),
-            growth_rate: mode.growth_rate(),
-        }
+        sought(&self.steady, place)
+    }
+
+    /// The parameter and its value, in units of its key, at which the search starts where that is not the case's own.
+    fn named_start(&self) -> Option<(&'static str, f64)> {
+        let (parameter, _) = self.continuation.as_ref()?;
+        Some((parameter.key(), parameter.in_key_units(self.start?)))
     }
 
     /// The cycle of one mode, its stability, and what a transient says of it.
@@ -191,27 +226,51 @@ impl<'a> PeriodicStudy<'a> {
         operator: &dyn StiffnessOperator,
         place: usize,
         frames: usize,
+        watch: &dyn SweepWatch,
     ) -> Result<FoundCycle, PeriodicError> {
-        let case = self.case;
-        let mode = &self.modes[place];
-        let mut map = self.map(self.body(), operator, mode)?;
-        let speed = map
-            .interface()
-            .surface_speed(case.contact.sliding.rotation_speed);
+        let mode = &self.steady.modes[place];
+        let mut map = self.map(self.body_at_start(), operator, mode)?;
+        let speed = self.body_at_start().contact().rotation_speed;
+        let speed = map.interface().surface_speed(speed);
         let growing = GrowingMode {
             eigenvalue: mode.eigenvalue,
             shape: mode.shape.as_deref().unwrap_or_default(),
-            base: &self.base,
+            base: &self.steady.base,
         };
-        // From the growing mode to the motion that repeats itself.
-        let start = balanced_start(&mut map, &growing, speed);
-        let found = find(&mut map, start)?;
+        // From the growing mode to the motion that repeats itself, and along the parameter.
+        let watch = PartWatch {
+            whole: watch,
+            prefix: format!("mode{}-", place + 1),
+            is_heard: false,
+        };
+        let mut found = match watch.recall("cycle") {
+            Some(columns) => Found::recalled(&mut map, &columns),
+            None => None,
+        };
+        if found.is_none() {
+            let start = balanced_start(&mut map, &growing, speed);
+            let result = find(&mut map, start.clone());
+            if let Err(PeriodicError::NotConverged { .. }) = result
+                && let Some(frequencies_hz) = two_frequencies(&mut map, &start)
+            {
+                return Err(PeriodicError::TwoFrequencies { frequencies_hz });
+            }
+            found = Some(result?);
+        }
+        let mut found = found.ok_or(PeriodicError::Died { periods: 0 })?;
+        watch.keep("cycle", &found.columns(map.steps()));
+        let steps = map.steps();
+        let branch = self.branch(operator, mode, (&found, steps), &watch);
+        let mut branch = branch.transpose()?;
+        if self.start.is_some() {
+            (map, found) = self.here(operator, mode, branch.as_mut())?;
+        }
         let request = MotionRequest {
             instants: self.choices.phases.unwrap_or(INSTANTS),
             frames: frames.max(1),
         };
         let motion = PeriodicMotion::of(&mut map, &found, request);
-        // What small perturbations do, by multipliers and by a transient, and the cycles beside it.
+        // What small perturbations do, by multipliers and by a transient.
         let stability = (self.choices.stability != StabilityChoice::None).then(|| {
             let multipliers = FloquetMultipliers::of(&mut map, &found.state);
             multipliers.map_err(|error| error.to_string())
@@ -221,7 +280,6 @@ impl<'a> PeriodicStudy<'a> {
         let periods = self.choices.confirmation_periods;
         let confirmation = (periods > 0)
             .then(|| MotionConfirmation::run(&mut map, &found.state, leading.as_ref(), periods));
-        let branch = self.branch(operator, mode, &found.state).transpose()?;
         let count = self.choices.harmonic_count;
         Ok(FoundCycle {
             harmonic_count: count
@@ -234,21 +292,48 @@ impl<'a> PeriodicStudy<'a> {
         })
     }
 
+    /// The largest cycle of a branch at the case's own operating point, where the search has started at another.
+    fn here<'b>(
+        &'b self,
+        operator: &'b dyn StiffnessOperator,
+        mode: &ComplexMode,
+        branch: Option<&mut PeriodicBranch>,
+    ) -> Result<(PeriodMap<'b>, Found), PeriodicError> {
+        let branch = branch.ok_or(PeriodicError::Died { periods: 0 })?;
+        let kept = std::mem::take(&mut branch.kept);
+        let largest = kept
+            .into_iter()
+            .max_by(|a, b| a.found.image.amplitude.total_cmp(&b.found.image.amplitude));
+        let Some(KeptMotion { found, steps }) = largest else {
+            let parameter = branch.parameter;
+            let value = |value: f64| parameter.in_key_units(value);
+            let [least, most] = branch.range().unwrap_or([f64::NAN; 2]).map(value);
+            return Err(PeriodicError::NotHere {
+                key: parameter.key(),
+                value: value(parameter.of(&operating_point(self.case))),
+                range: [least, most],
+            });
+        };
+        let mut map = self.map(self.body(), operator, mode)?;
+        map.step_in(steps);
+        Ok((map, found))
+    }
+
     /// Everything that there is to report of the results.
     pub fn report(&self, results: Vec<PeriodicResult>, wall_s: f64) -> PeriodicReport<'_> {
-        let least = (0..self.modes.len()).max_by(|&a, &b| {
-            let growth = |i: usize| self.modes[i].growth_rate();
-            growth(a).total_cmp(&growth(b))
-        });
         PeriodicReport {
             title: &self.case.title,
             mesh: &self.mesh,
             thickness: self.case.thickness,
             extent: extent_of(self.case),
             friction_coefficient: self.case.contact.sliding.friction_coefficient,
-            modes: self.modes.len(),
-            highest_hz: self.modes.last().map_or(0.0, ComplexMode::frequency_hz),
-            least_stable: least.map(|place| self.mode(place)),
+            modes: self.steady.modes.len(),
+            highest_hz: self
+                .steady
+                .modes
+                .last()
+                .map_or(0.0, ComplexMode::frequency_hz),
+            least_stable: self.least_stable,
             results,
             wall_s,
         }
@@ -268,6 +353,34 @@ impl<'a> PeriodicStudy<'a> {
         });
         Err(StudyError::NoCycle(reasons.collect::<Vec<_>>().join("; ")))
     }
+}
+
+/// A mode as it is told of.
+fn sought(steady: &Steady, place: usize) -> SoughtMode {
+    let mode = &steady.modes[place];
+    SoughtMode {
+        number: place + 1,
+        frequency_hz: mode.frequency_hz(),
+        growth_rate: mode.growth_rate(),
+    }
+}
+
+/// The end of a range of a parameter, the one nearer to `here` first, at which a mode grows.
+fn growing_end(
+    case: &Case,
+    parameter: Parameter,
+    values: &[f64],
+    here: f64,
+) -> Result<Option<(f64, Steady)>, StudyError> {
+    let mut ends = [values[0], values[values.len() - 1]];
+    ends.sort_by(|a, b| (a - here).abs().total_cmp(&(b - here).abs()));
+    for value in ends {
+        let steady = Steady::at(case, parameter, value)?;
+        if !steady.growing().is_empty() {
+            return Ok(Some((value, steady)));
+        }
+    }
+    Ok(None)
 }
 
 /// Names the cycle that another mode has led to before.

@@ -1,6 +1,7 @@
 //! Start of a run: from rest, from given fields, or from where another one stopped.
 
 use super::{CentralDifference, Kick, TransientState};
+use crate::contact::SlidingContact;
 use crate::fem::operator::{
     AlignedVector, MotionFields, StepCoefficients, StiffnessOperator, scatter,
 };
@@ -133,6 +134,21 @@ impl<'a> CentralDifference<'a> {
         self.largest_energy = self.initial_energy;
         self.net_work = 0.0;
         self.largest_residual = 0.0;
+    }
+
+    /// Another contact for the same plane body: friction law, speed and interference; for those who step one body at many
+    /// operating points. What it touches with stays what it is.
+    ///
+    /// # Errors
+    /// [`TransientError::Prestress`] where the springs of a compliant contact have no base state.
+    pub fn retune(&mut self, contact: SlidingContact) -> Result<(), TransientError> {
+        if let TransientBody::Plane(model) = &mut self.body
+            && model.contact != contact
+        {
+            model.contact = contact;
+            self.contact.retune(&self.interface, model)?;
+        }
+        Ok(())
     }
 
     fn new(

@@ -1,0 +1,370 @@
+//! One point of a branch: a periodic motion and the value of the parameter at which it lives, found together.
+
+use super::error::PeriodicError;
+use super::map::{PeriodImage, PeriodMap, PeriodicState};
+use super::search::{ACCEPTED, Found};
+use super::secants::{Change, SecantSpace};
+use super::vector::{add, difference, norm};
+use crate::transient::TransientError;
+
+/// Residual of a point, relative to the amplitude of the vibration.
+pub(super) const TOLERANCE: f64 = 1e-8;
+/// What its closure may miss, in units of the scales.
+const CLOSED: f64 = 1e-7;
+/// Most periods for a point.
+const MOST: usize = 80;
+/// Periods without a residual half as large as before after which the search ends.
+const PATIENCE: usize = 12;
+/// Differences kept.
+const DEPTH: usize = 24;
+/// Longest step relative to the amplitude, of the period relative to it, and of the parameter in units of its scale.
+const LONGEST: [f64; 3] = [0.3, 0.05, 0.1];
+/// Residual that is no neighbour's any more.
+const ASTRAY: f64 = 0.7;
+
+/// Parameter and amplitude of a point, each over a scale: the plane in which a branch is a curve.
+pub(super) type Place = [f64; 2];
+
+/// What ties a point of a branch down.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Goal {
+    /// This value of the parameter.
+    Value(f64),
+    /// So far along a tangent of unit length: pseudo-arclength.
+    Length {
+        /// Where the tangent begins.
+        from: Place,
+        /// The tangent.
+        tangent: Place,
+        /// How far.
+        length: f64,
+    },
+}
+
+impl Goal {
+    /// Derivatives of the closure by both parts of the place.
+    fn weights(&self) -> [f64; 2] {
+        match self {
+            Self::Value(_) => [1.0, 0.0],
+            Self::Length { tangent, .. } => *tangent,
+        }
+    }
+
+    /// What a place misses the goal by.
+    fn closure(&self, place: Place, scales: Place) -> f64 {
+        match self {
+            Self::Value(value) => place[0] - value / scales[0],
+            Self::Length {
+                from,
+                tangent,
+                length,
+            } => {
+                let along = |i: usize| tangent[i] * (place[i] - from[i]);
+                along(0) + along(1) - length
+            }
+        }
+    }
+}
+
+/// A point of a branch.
+#[derive(Clone, Debug)]
+pub(super) struct Point {
+    /// The parameter, SI.
+    pub value: f64,
+    /// The motion.
+    pub found: Found,
+    /// Steps of its period.
+    pub steps: usize,
+}
+
+impl Point {
+    /// Where it lies.
+    pub fn place(&self, scales: Place) -> Place {
+        [
+            self.value / scales[0],
+            self.found.image.amplitude / scales[1],
+        ]
+    }
+
+    /// What it is found again from: those of its motion, and the value.
+    pub fn columns(&self) -> Vec<Vec<f64>> {
+        let mut columns = self.found.columns(self.steps);
+        columns.push(vec![self.value]);
+        columns
+    }
+
+    /// The motion `share` of the way from here to another one and beyond.
+    pub fn towards(&self, other: &Self, share: f64) -> Guess {
+        let (own, far) = (&self.found.state, &other.found.state);
+        let mut motion = own.motion.clone();
+        add(&mut motion, share, &difference(&far.motion, &own.motion));
+        Guess {
+            value: self.value + share * (other.value - self.value),
+            state: PeriodicState {
+                motion,
+                period: own.period + share * (far.period - own.period),
+            },
+        }
+    }
+}
+
+/// Where a point is sought.
+#[derive(Clone, Debug)]
+pub(super) struct Guess {
+    pub value: f64,
+    pub state: PeriodicState,
+}
+
+/// Gives a map another value of the parameter.
+pub(super) type Tune<'b, 'a> =
+    &'b (dyn Fn(&mut PeriodMap<'a>, f64) -> Result<(), TransientError> + Sync);
+
+/// Finds points of a branch, one from the other, with what the last ones have taught it of the map.
+pub(super) struct Corrector<'b, 'a> {
+    pub map: PeriodMap<'a>,
+    tune: Tune<'b, 'a>,
+    pub scales: Place,
+    secants: SecantSpace,
+    /// What the closure is multiplied by beside the residual: the amplitude of the vibration.
+    weight: f64,
+}
+
+/// The iterate before.
+struct Iterate {
+    guess: Guess,
+    place: Place,
+    residual: Vec<f64>,
+}
+
+impl<'b, 'a> Corrector<'b, 'a> {
+    /// One that knows nothing yet.
+    pub fn new(map: PeriodMap<'a>, tune: Tune<'b, 'a>, scales: Place) -> Self {
+        Self {
+            map,
+            tune,
+            scales,
+            secants: SecantSpace::along_branch(DEPTH),
+            weight: 1.0,
+        }
+    }
+
+    /// Forgets what is known of the map.
+    pub fn forget(&mut self) {
+        self.secants.clear();
+    }
+
+    /// A point from its columns: one period from its state; none where they are of another body.
+    ///
+    /// # Errors
+    /// A body that the time loop cannot take.
+    pub fn recalled(&mut self, columns: &[Vec<f64>]) -> Result<Option<Point>, TransientError> {
+        let [found @ .., last] = columns else {
+            return Ok(None);
+        };
+        let &[value] = &last[..] else {
+            return Ok(None);
+        };
+        (self.tune)(&mut self.map, value)?;
+        let found = Found::recalled(&mut self.map, found);
+        Ok(found.map(|found| Point {
+            value,
+            steps: self.map.steps(),
+            found,
+        }))
+    }
+
+    /// A point's motion with its vibration about its mean so many times as large, at another value.
+    ///
+    /// # Errors
+    /// A body that the time loop cannot take.
+    pub fn scaled(
+        &mut self,
+        point: &Point,
+        factor: f64,
+        value: f64,
+    ) -> Result<Guess, TransientError> {
+        (self.tune)(&mut self.map, point.value)?;
+        self.map.step_in(point.steps);
+        let mut motion = self.map.mean(&point.found.state);
+        let vibration = difference(&point.found.state.motion, &motion);
+        add(&mut motion, factor, &vibration);
+        Ok(Guess {
+            value,
+            state: PeriodicState {
+                motion,
+                period: point.found.state.period,
+            },
+        })
+    }
+
+    /// The point at a goal, from a guess; `near` is a point of the branch close by.
+    ///
+    /// # Errors
+    /// A motion that dies, leaves its counterface, or does not repeat itself.
+    pub fn correct(
+        &mut self,
+        near: &Point,
+        guess: Guess,
+        goal: &Goal,
+    ) -> Result<Point, PeriodicError> {
+        let found = self.search(near, guess.clone(), goal);
+        let is_good = |found: &Result<Point, PeriodicError>| {
+            let residual = found.as_ref().map(|point| point.found.residual);
+            residual.is_ok_and(|residual| residual < TOLERANCE)
+        };
+        if is_good(&found) || matches!(found, Err(PeriodicError::Stepping(_))) {
+            return found;
+        }
+        // What the last points have taught may be of another status of the nodes: once more without it.
+        self.forget();
+        let second = self.search(near, guess, goal);
+        match (&found, &second) {
+            (Ok(one), Ok(other)) if one.found.residual <= other.found.residual => found,
+            (Ok(_), Err(_)) => found,
+            _ => second,
+        }
+    }
+
+    fn search(
+        &mut self,
+        near: &Point,
+        mut guess: Guess,
+        goal: &Goal,
+    ) -> Result<Point, PeriodicError> {
+        self.weight = near.found.image.vibration;
+        self.secants.aim(goal.weights().map(|by| self.weight * by));
+        let first = self.map.periods();
+        let mut last = Some(Iterate {
+            guess: Guess {
+                value: near.value,
+                state: near.found.state.clone(),
+            },
+            place: near.place(self.scales),
+            residual: near.found.image.residual.clone(),
+        });
+        let mut best: Option<Point> = None;
+        let mut improved = (0, f64::INFINITY);
+        loop {
+            // The map at the guess.
+            (self.tune)(&mut self.map, guess.value)?;
+            if self.map.fit(guess.state.period) {
+                self.secants.clear();
+                last = None;
+            }
+            let image = self.map.image(&guess.state);
+            let periods = self.map.periods() - first;
+            let residual = self.judged(near, &image, periods)?;
+            let place = [
+                guess.value / self.scales[0],
+                image.amplitude / self.scales[1],
+            ];
+            let closure = goal.closure(place, self.scales);
+            let missed = residual.max(closure.abs() * TOLERANCE / CLOSED);
+            if missed < 0.5 * improved.1 {
+                improved = (periods, missed);
+            }
+            if best.is_none() || missed < best.as_ref().map_or(0.0, |best| best.found.residual) {
+                best = Some(self.point(&guess, &image, missed, periods));
+            }
+            let is_spent = periods >= MOST || periods >= improved.0 + PATIENCE;
+            if missed < TOLERANCE || is_spent {
+                return accepted(best, periods);
+            }
+            // One step of the secants.
+            if let Some(last) = last.take() {
+                self.secants.push(Change {
+                    motion: difference(&guess.state.motion, &last.guess.state.motion),
+                    period: guess.state.period - last.guess.state.period,
+                    place: [0, 1].map(|i| place[i] - last.place[i]),
+                    residual: difference(&image.residual, &last.residual),
+                });
+            }
+            let mut next = self.step(&guess, &image, closure);
+            if let Goal::Value(value) = goal {
+                next.value = *value;
+            }
+            last = Some(Iterate {
+                guess: std::mem::replace(&mut guess, next),
+                place,
+                residual: image.residual,
+            });
+        }
+    }
+
+    /// The next guess.
+    fn step(&self, guess: &Guess, image: &PeriodImage, closure: f64) -> Guess {
+        let closure = self.weight * closure;
+        let (step, period, value) = self.secants.step(&image.residual, closure, &image.rate);
+        let lengths = [
+            norm(&step) / image.vibration,
+            period.abs() / guess.state.period,
+            value.abs(),
+        ];
+        let shares = lengths.iter().zip(LONGEST);
+        let share = shares.fold(1.0_f64, |share, (length, longest)| {
+            share.min(longest / length.max(f64::MIN_POSITIVE))
+        });
+        let mut next = guess.clone();
+        add(&mut next.state.motion, share, &step);
+        next.state.period += share * period;
+        next.value += share * value * self.scales[0];
+        next
+    }
+
+    /// The relative residual of a motion that may lie on the branch of `near`.
+    fn judged(
+        &self,
+        near: &Point,
+        image: &PeriodImage,
+        periods: usize,
+    ) -> Result<f64, PeriodicError> {
+        if !image.is_finite() {
+            return Err(PeriodicError::Unbounded { periods });
+        }
+        if image.counts.stick + image.counts.slip == 0 {
+            return Err(PeriodicError::Separated);
+        }
+        if image.amplitude < 1e-3 * near.found.image.amplitude {
+            return Err(PeriodicError::Died { periods });
+        }
+        let residual = image.relative_residual();
+        if residual > ASTRAY {
+            return Err(PeriodicError::NotConverged {
+                periods,
+                residual,
+                frequency_hz: 1.0 / near.found.state.period,
+            });
+        }
+        Ok(residual)
+    }
+
+    fn point(&self, guess: &Guess, image: &PeriodImage, missed: f64, periods: usize) -> Point {
+        Point {
+            value: guess.value,
+            steps: self.map.steps(),
+            found: Found {
+                state: guess.state.clone(),
+                image: image.clone(),
+                residual: missed,
+                periods,
+            },
+        }
+    }
+}
+
+fn accepted(best: Option<Point>, periods: usize) -> Result<Point, PeriodicError> {
+    let Some(mut point) = best else {
+        return Err(PeriodicError::Unbounded { periods });
+    };
+    let residual = point.found.residual;
+    point.found.residual = point.found.image.relative_residual();
+    point.found.periods = periods;
+    match residual <= ACCEPTED {
+        true => Ok(point),
+        false => Err(PeriodicError::NotConverged {
+            periods,
+            residual,
+            frequency_hz: 1.0 / point.found.state.period,
+        }),
+    }
+}

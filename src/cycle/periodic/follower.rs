@@ -1,0 +1,297 @@
+//! The way along a branch: tangents, steps, values asked for, folds, ends.
+
+use super::corrector::{Corrector, Goal, Guess, Place, Point, TOLERANCE};
+use super::error::PeriodicError;
+use crate::cea::SweepWatch;
+use crate::cycle::BranchEnd;
+use crate::transient::TransientError;
+
+/// Longest and shortest step in the plane of parameter and amplitude, each over its scale.
+const STEPS: [f64; 2] = [0.1, 1e-4];
+/// Least slope of a tangent along the parameter on which its values are aimed at.
+pub(super) const ALONG: f64 = 0.3;
+/// Least cosine between two steps that are not short.
+const STRAIGHT: f64 = 0.3;
+/// Amplitude, over the largest of the branch, at which a cycle has shrunk into steady sliding.
+const BORN: f64 = 0.02;
+/// Points for each value asked for, and besides, after which a branch is given up.
+const POINTS: [usize; 2] = [6, 60];
+/// Points between two at which what is done is kept.
+const BLOCK: usize = 10;
+/// Ends by their codes.
+const ENDS: [BranchEnd; 5] = [
+    BranchEnd::Range,
+    BranchEnd::Birth,
+    BranchEnd::Lost,
+    BranchEnd::Steps,
+    BranchEnd::Separated,
+];
+
+/// One half of a branch, from its first point on.
+pub(super) struct Follower<'c, 'b, 'a> {
+    pub corrector: &'c mut Corrector<'b, 'a>,
+    /// Values asked for, rising.
+    pub values: &'c [f64],
+    /// The points, from the first on.
+    pub points: Vec<Point>,
+    /// Places of folds among the points.
+    pub folds: Vec<usize>,
+    pub(super) tangent: Place,
+    pub(super) length: f64,
+    /// Largest amplitude so far, over its scale.
+    pub(super) largest: f64,
+}
+
+impl<'c, 'b, 'a> Follower<'c, 'b, 'a> {
+    /// A half that leaves `first` towards rising (`direction` > 0) or falling values.
+    pub fn new(
+        corrector: &'c mut Corrector<'b, 'a>,
+        values: &'c [f64],
+        first: Point,
+        direction: f64,
+    ) -> Self {
+        Self {
+            largest: first.place(corrector.scales)[1],
+            corrector,
+            values,
+            points: vec![first],
+            folds: Vec::new(),
+            tangent: [direction, 0.0],
+            length: STEPS[0],
+        }
+    }
+
+    /// Follows the half to its end.
+    ///
+    /// What is done is kept under `name` at every tenth point, with all that the way on depends on; there the secants are
+    /// forgotten, so that a search which goes on takes the same course as one that was never interrupted.
+    ///
+    /// # Errors
+    /// A body that the time loop cannot take.
+    pub fn run(&mut self, name: &str, kept: &dyn SweepWatch) -> Result<BranchEnd, TransientError> {
+        let most = POINTS[0] * self.values.len() + POINTS[1];
+        let mut end = match kept.recall(name) {
+            Some(columns) => self.recall(&columns)?,
+            None => None,
+        };
+        while end.is_none() {
+            self.corrector.forget();
+            self.rescale();
+            let next = self.points.len() + BLOCK;
+            while end.is_none() && self.points.len() < next {
+                end = match self.points.len() < most {
+                    true => self.advance()?,
+                    false => Some(BranchEnd::Steps),
+                };
+            }
+            kept.keep(name, &self.columns(end));
+        }
+        Ok(end.unwrap_or(BranchEnd::Lost))
+    }
+
+    /// Makes the largest amplitude so far the scale of amplitudes.
+    fn rescale(&mut self) {
+        let amplitudes = self.points.iter().map(|own| own.found.image.amplitude);
+        self.corrector.scales[1] = amplitudes.fold(0.0, f64::max);
+        self.largest = 1.0;
+        self.length = self.length.min(STEPS[0]);
+        if let [.., before, here] = &self.points[..] {
+            let [from, to] = [before, here].map(|point| point.place(self.corrector.scales));
+            let step = [to[0] - from[0], to[1] - from[1]];
+            let length = step[0].hypot(step[1]);
+            self.tangent = step.map(|part| part / length);
+        }
+    }
+
+    /// Everything that the way on depends on.
+    fn columns(&self, end: Option<BranchEnd>) -> Vec<Vec<f64>> {
+        let place = |end: BranchEnd| ENDS.iter().position(|known| *known == end);
+        let end = end.and_then(place).map_or(-1.0, |place| place as f64);
+        let [along, amplitude] = self.tangent;
+        let steps = self.corrector.map.steps() as f64;
+        let course = vec![along, amplitude, self.length, self.largest, steps, end];
+        let folds = self.folds.iter().map(|&fold| fold as f64).collect();
+        let points = self.points.iter().flat_map(Point::columns);
+        [course, folds].into_iter().chain(points).collect()
+    }
+
+    /// Takes up what was kept, if it belongs to this half.
+    fn recall(&mut self, columns: &[Vec<f64>]) -> Result<Option<BranchEnd>, TransientError> {
+        let [course, folds, points @ ..] = columns else {
+            return Ok(None);
+        };
+        let [along, amplitude, length, largest, steps, end] = course[..] else {
+            return Ok(None);
+        };
+        let mut all = Vec::new();
+        for own in points.chunks_exact(3) {
+            match self.corrector.recalled(own)? {
+                Some(point) => all.push(point),
+                None => return Ok(None),
+            }
+        }
+        if all.is_empty() {
+            return Ok(None);
+        }
+        (self.points, self.tangent) = (all, [along, amplitude]);
+        (self.length, self.largest) = (length, largest);
+        self.folds = folds.iter().map(|&fold| fold as usize).collect();
+        self.corrector.map.step_in(steps as usize);
+        Ok((end >= 0.0)
+            .then(|| ENDS.get(end as usize).copied())
+            .flatten())
+    }
+
+    pub(super) fn here(&self) -> &Point {
+        &self.points[self.points.len() - 1]
+    }
+
+    pub(super) fn place(&self) -> Place {
+        self.here().place(self.corrector.scales)
+    }
+
+    /// One more point, or why there is none.
+    fn advance(&mut self) -> Result<Option<BranchEnd>, TransientError> {
+        let (goal, reach) = self.goal();
+        let Some(goal) = goal else {
+            return Ok(Some(BranchEnd::Range));
+        };
+        let guess = self.guess(&goal, reach);
+        let here = self.here().clone();
+        match self.corrector.correct(&here, guess, &goal) {
+            Ok(next) if self.suits(&next, reach) => self.accept(next, reach),
+            Err(PeriodicError::Stepping(error)) => Err(error),
+            Err(PeriodicError::Separated) => Ok(Some(BranchEnd::Separated)),
+            other => {
+                self.length = 0.5 * reach;
+                if self.length >= STEPS[1] || self.turn()? {
+                    return Ok(None);
+                }
+                let is_small = self.place()[1] < 5.0 * BORN * self.largest;
+                Ok(Some(match other {
+                    Err(PeriodicError::Died { .. }) => BranchEnd::Birth,
+                    _ if is_small => BranchEnd::Birth,
+                    _ => BranchEnd::Lost,
+                }))
+            }
+        }
+    }
+
+    /// Where the coming step ends, and how long it is; none where the range ends here.
+    fn goal(&self) -> (Option<Goal>, f64) {
+        let (place, scale) = (self.place(), self.corrector.scales[0]);
+        let slope = self.tangent[0];
+        let slightly = 1e-9 * scale;
+        let value = self.here().value;
+        let ahead = match slope > 0.0 {
+            true => self.values.iter().find(|next| **next > value + slightly),
+            false => (self.values.iter().rev()).find(|next| **next < value - slightly),
+        };
+        let Some(&next) = ahead else {
+            return (None, 0.0);
+        };
+        let distance = (next / scale - place[0]) / slope;
+        if slope.abs() > ALONG && distance <= self.length {
+            return (Some(Goal::Value(next)), distance);
+        }
+        let goal = Goal::Length {
+            from: place,
+            tangent: self.tangent,
+            length: self.length,
+        };
+        (Some(goal), self.length)
+    }
+
+    /// Where the step probably leads: on along the last one.
+    fn guess(&self, goal: &Goal, reach: f64) -> Guess {
+        let here = self.here();
+        let before = self.points.len().checked_sub(2).map(|i| &self.points[i]);
+        let mut guess = match before {
+            Some(before) => {
+                let [from, to] = [before, here].map(|point| point.place(self.corrector.scales));
+                let step = (to[0] - from[0]).hypot(to[1] - from[1]);
+                before.towards(here, 1.0 + reach / step)
+            }
+            None => here.towards(here, 0.0),
+        };
+        match goal {
+            Goal::Value(value) => guess.value = *value,
+            Goal::Length { .. } if before.is_none() => {
+                guess.value += reach * self.tangent[0] * self.corrector.scales[0];
+            }
+            Goal::Length { .. } => {}
+        }
+        guess
+    }
+
+    /// Whether a point may be the next one of this branch.
+    fn suits(&self, next: &Point, reach: f64) -> bool {
+        let (from, to) = (self.place(), next.place(self.corrector.scales));
+        let step = [to[0] - from[0], to[1] - from[1]];
+        let length = step[0].hypot(step[1]);
+        let cosine = (step[0] * self.tangent[0] + step[1] * self.tangent[1]) / length;
+        let is_first = self.points.len() == 1;
+        let is_short = reach < 8.0 * STEPS[1];
+        // A first step goes along the parameter, however steep the branch is.
+        let is_near = length <= if is_first { 1.0 } else { 3.0 * reach };
+        next.value >= 0.0 && is_near && (is_first || is_short || cosine > STRAIGHT)
+    }
+
+    /// The longest step: of amplitude, by the largest so far.
+    fn longest(&self) -> f64 {
+        STEPS[0] * self.largest.clamp(1.0, 5.0)
+    }
+
+    /// Takes a point, and the fold that it shows.
+    fn accept(&mut self, next: Point, reach: f64) -> Result<Option<BranchEnd>, TransientError> {
+        let (from, to) = (self.place(), next.place(self.corrector.scales));
+        let step = [to[0] - from[0], to[1] - from[1]];
+        let length = step[0].hypot(step[1]);
+        let is_easy = next.found.residual < 10.0 * TOLERANCE;
+        let cosine = (step[0] * self.tangent[0] + step[1] * self.tangent[1]) / length;
+        self.tangent = step.map(|part| part / length);
+        if is_easy && cosine > 0.9 {
+            self.length = (1.5 * self.length).min(self.longest());
+        } else if cosine < 0.7 {
+            self.length = 0.5 * reach;
+        }
+        self.length = self.length.max(2.0 * STEPS[1]);
+
+        // Beyond the range: its end is the last point, if there is one.
+        let [least, most] = [self.values[0], self.values[self.values.len() - 1]];
+        let from = self.here().value;
+        let edges = [(least, next.value < least), (most, next.value > most)];
+        let left = edges.into_iter().find(|(_, is_beyond)| *is_beyond);
+        if let Some((edge, _)) = left.filter(|_| (least..=most).contains(&from)) {
+            let share = (edge - from) / (next.value - from);
+            let guess = self.here().towards(&next, share);
+            let here = self.here().clone();
+            if let Ok(last) = self.corrector.correct(&here, guess, &Goal::Value(edge)) {
+                self.points.push(last);
+            }
+            return Ok(Some(BranchEnd::Range));
+        }
+        self.largest = self.largest.max(to[1]);
+        self.fill(&next);
+        self.points.push(next);
+        self.refine_fold();
+        let is_born = self.place()[1] < BORN * self.largest;
+        Ok(is_born.then_some(BranchEnd::Birth))
+    }
+
+    /// The values asked for that lie between here and a point further on.
+    fn fill(&mut self, next: &Point) {
+        let here = self.here().clone();
+        let mut between: Vec<f64> = self.values.to_vec();
+        between.retain(|value| (value - here.value) * (value - next.value) < 0.0);
+        if next.value < here.value {
+            between.reverse();
+        }
+        for value in between {
+            let share = (value - here.value) / (next.value - here.value);
+            let guess = here.towards(next, share);
+            let found = self.corrector.correct(&here, guess, &Goal::Value(value));
+            self.points.extend(found);
+        }
+    }
+}

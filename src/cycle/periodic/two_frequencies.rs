@@ -1,0 +1,88 @@
+//! Whether a motion that does not repeat itself has two frequencies.
+
+use super::map::{PeriodMap, PeriodicState};
+use crate::linalg::{c64, interruption};
+use crate::signal::{RotatingLine, rotating_lines};
+
+/// Periods before the motion is looked at, and those over which it is.
+const PERIODS: [usize; 2] = [300, 200];
+/// Samples of a period.
+const SAMPLES: usize = 16;
+/// Lines weaker than this share of the vibration are not looked at; a second frequency is no weaker than that of the first.
+const SHARES: [f64; 2] = [0.02, 0.05];
+/// Periods after which a periodic motion repeats itself at the latest.
+const LONGEST_REPETITION: usize = 3;
+/// Distance of two frequencies that are one and the same, in lines of the spectrum and relative.
+const APART: [f64; 2] = [0.3, 1e-3];
+
+/// The frequencies, Hz, of the strongest vibration of a contact node along the counterface and of the strongest one that is
+/// neither a multiple of it nor of its half or third, in a transient of 500 periods from a state; none where there is no second.
+pub fn two_frequencies(map: &mut PeriodMap<'_>, start: &PeriodicState) -> Option<[f64; 2]> {
+    let (samples, rate) = sampled(map, start);
+    let series = strongest_node(&samples)?;
+    let size = series.iter().map(|value| value.norm_sqr()).sum::<f64>() / series.len() as f64;
+    let lines = rotating_lines(&series, rate, SHARES[0] * size.sqrt());
+    let lines: Vec<RotatingLine> = lines
+        .into_iter()
+        .filter(|line| line.frequency_hz > 0.0)
+        .collect();
+    let strongest = |lines: &mut dyn Iterator<Item = &RotatingLine>| {
+        lines
+            .max_by(|a, b| a.amplitude.total_cmp(&b.amplitude))
+            .copied()
+    };
+    let first = strongest(&mut lines.iter())?;
+    let width = rate / series.len() as f64;
+    let foreign = |repetition: usize| {
+        let fundamental = first.frequency_hz / repetition as f64;
+        let mut own = lines.iter().filter(|line| {
+            let expected = (line.frequency_hz / fundamental).round() * fundamental;
+            let distance = (line.frequency_hz - expected).abs();
+            line.amplitude >= SHARES[1] * first.amplitude
+                && distance >= APART[0] * width + APART[1] * expected
+        });
+        strongest(&mut own)
+    };
+    let found: Option<Vec<RotatingLine>> = (1..=LONGEST_REPETITION).map(foreign).collect();
+    Some([first.frequency_hz, found?.first()?.frequency_hz])
+}
+
+/// Displacements of the contact nodes along the counterface, m, sample by sample, and the samples of a second.
+fn sampled(map: &mut PeriodMap<'_>, start: &PeriodicState) -> (Vec<Vec<f64>>, f64) {
+    map.place(start);
+    let (steps, every) = (map.steps(), (map.steps() / SAMPLES).max(1));
+    let [settling, kept] = PERIODS;
+    for _ in 0..settling {
+        interruption::check();
+        (0..steps).for_each(|_| map.run.advance());
+    }
+    let places = map.run.contact().tangential_places().to_vec();
+    let sample = |step: usize| {
+        if step.is_multiple_of(SAMPLES) {
+            interruption::check();
+        }
+        let displacement = &map.run.fields().displacement;
+        let sample: Vec<f64> = places.iter().map(|&place| displacement[place]).collect();
+        (0..every).for_each(|_| map.run.advance());
+        sample
+    };
+    let samples = (0..kept * steps / every).map(sample).collect();
+    (samples, steps as f64 / (start.period * every as f64))
+}
+
+/// The history of the node that moves most, about its mean.
+fn strongest_node(samples: &[Vec<f64>]) -> Option<Vec<c64>> {
+    let count = samples.len() as f64;
+    let nodes = samples.first()?.len();
+    let about_mean = |node: usize| {
+        let own = samples.iter().map(move |sample| sample[node]);
+        let mean = own.clone().sum::<f64>() / count;
+        own.map(move |value| value - mean)
+    };
+    let strongest = (0..nodes).max_by(|&a, &b| {
+        let [a, b] = [a, b].map(|node| about_mean(node).map(|u| u * u).sum::<f64>());
+        a.total_cmp(&b)
+    })?;
+    let series: Vec<c64> = about_mean(strongest).map(|u| c64::new(u, 0.0)).collect();
+    series.iter().all(|u| u.re.is_finite()).then_some(series)
+}

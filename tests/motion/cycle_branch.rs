@@ -1,0 +1,174 @@
+//! Branches of periodic motions of bodies without symmetry: through folds, beside stable sliding, interrupted and gone on with.
+//!
+//! Independent: integration from event to event on both sides of a fold; the spectrum of steady sliding. The others are
+//! identities.
+
+use crate::oscillator::{EventDriven, oscillator};
+use frictionsim::case::Case;
+use frictionsim::cea::{SweepProgress, SweepWatch, Unwatched};
+use frictionsim::cycle::BranchEnd;
+use frictionsim::cycle::periodic::PeriodicBranch;
+use frictionsim::fem::operator::SimdLevel;
+use frictionsim::results::periodic::FoundCycle;
+use frictionsim::study::cycle::PeriodicStudy;
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::Mutex;
+
+/// The oscillator's cycles over the speed of its plane: friction falls too slowly at high speed to feed a vibration, and the
+/// cycle that sticks lives on beyond the speed at which sliding becomes stable.
+fn over_speed(folder: &Path, stability: &str, to: f64, further: &[&str]) -> Case {
+    let cycle = format!(
+        "cycle={{ confirmation_periods = 0, stability = \"{stability}\", continuation = {{ key = \"contact.speed\", from = 0.2, to \
+         = {to}, count = 15 }} }}"
+    );
+    let own = ["transient.time_step=2.5e-8", &cycle];
+    oscillator(folder, &[&own, further].concat())
+}
+
+/// Larger than any cycle, m and m/s.
+const LARGE: [f64; 4] = [3e-5, 3e-5, 0.0, 0.0];
+
+fn searched(case: &Case, watch: &dyn SweepWatch) -> FoundCycle {
+    let study = PeriodicStudy::new(case, SimdLevel::detect()).unwrap();
+    let result = study.run(0, watch, &|_| {}).unwrap().remove(0);
+    result.outcome.unwrap()
+}
+
+fn branch(case: &Case) -> PeriodicBranch {
+    searched(case, &Unwatched).branch.unwrap()
+}
+
+/// The case at another speed.
+fn at_speed(folder: &Path, speed: f64) -> EventDriven {
+    EventDriven::new(&oscillator(folder, &[&format!("contact.speed={speed}")]))
+}
+
+#[test]
+fn a_branch_bends_back_at_the_speed_at_which_integration_from_event_to_event_loses_the_cycle() {
+    let folder = tempfile::tempdir().unwrap();
+    let branch = branch(&over_speed(folder.path(), "branch", 3.0, &[]));
+    let folds = branch.folds();
+    assert_eq!(folds.len(), 1, "{folds:?} {:?}", branch.ends);
+    let (fold, onset) = (folds[0], branch.onsets[0]);
+    assert!(fold > 1.02 * onset, "{fold} {onset}");
+
+    // From a large start the motion goes on for hundreds of periods below the fold, and dies above it.
+    let lives = |speed: f64| {
+        let reference = at_speed(folder.path(), speed);
+        reference.run(LARGE, 1.2e-8, 300, 20)
+    };
+    assert!(lives(1.02 * fold).is_none());
+    let (frequency, stick) = lives(0.98 * fold).expect("a cycle below the fold");
+    assert!(stick > 0.0 && frequency > 0.0);
+
+    // Stable before the fold, unstable after it, down to the onset, where the cycle shrinks into steady sliding.
+    let at = branch.motions.iter().position(|own| own.is_fold).unwrap();
+    let known = |own: &[frictionsim::cycle::periodic::BranchMotion], wanted: bool| {
+        let verdicts = own.iter().filter_map(|own| own.is_stable());
+        let (right, all) = verdicts.fold((0, 0), |(right, all), stable| {
+            (right + usize::from(stable == wanted), all + 1)
+        });
+        assert!(all > 0 && right == all, "{right} of {all}, wanted {wanted}");
+    };
+    known(&branch.motions[..at], true);
+    known(&branch.motions[at + 1..], false);
+    assert_eq!(branch.ends, [BranchEnd::Range, BranchEnd::Birth]);
+    let last = branch.motions.last().unwrap();
+    assert!(
+        (last.value / onset - 1.0).abs() < 0.02,
+        "{} {onset}",
+        last.value
+    );
+    assert_eq!(branch.coexistence(), [[onset, fold]]);
+}
+
+#[test]
+fn cycles_beside_stable_sliding_are_found_from_where_a_mode_grows() {
+    let folder = tempfile::tempdir().unwrap();
+    let whole = branch(&over_speed(folder.path(), "none", 3.0, &[]));
+    let [onset, fold] = whole.coexistence()[0];
+    // Between both the case's own sliding is stable: the cycle comes from the end of the range at which it is not.
+    let speed = 0.5 * (onset + fold);
+    let own = format!("contact.speed={speed}");
+    let case = over_speed(folder.path(), "none", 3.0, &[&own]);
+    let study = PeriodicStudy::new(&case, SimdLevel::detect()).unwrap();
+    let results = study.run(0, &Unwatched, &|_| {}).unwrap();
+    assert_eq!(results[0].start, Some(("contact.speed", 0.2)));
+    let motion = &results[0].outcome.as_ref().unwrap().motion;
+    let report = study.report(results.clone(), 0.0);
+    assert!(report.is_stable() && report.stable_sliding().is_none());
+    // The large one of both cycles, as integration has it.
+    let reference = EventDriven::new(&case);
+    let (frequency, stick) = reference
+        .run([1e-6, 1e-6, 0.0, 0.0], 1.2e-8, 200, 20)
+        .unwrap();
+    assert!((motion.frequency_hz / frequency - 1.0).abs() < 1e-4);
+    assert!((motion.fractions[0] - stick).abs() < 2e-3);
+    // Beyond the fold there is none, which the reason says.
+    let beyond = format!("contact.speed={}", 1.1 * fold);
+    let case = over_speed(folder.path(), "none", 3.0, &[&beyond]);
+    let study = PeriodicStudy::new(&case, SimdLevel::detect()).unwrap();
+    let results = study.run(0, &Unwatched, &|_| {}).unwrap();
+    let reason = results[0].outcome.as_ref().unwrap_err();
+    assert!(reason.contains("no limit cycle beside it"), "{reason}");
+}
+
+/// Keeps steps in memory, up to a number of them.
+#[derive(Default)]
+struct Memory {
+    steps: Mutex<BTreeMap<String, Vec<Vec<f64>>>>,
+    most: usize,
+    kept: Mutex<usize>,
+}
+
+impl SweepWatch for Memory {
+    fn reached(&self, _progress: SweepProgress) {}
+
+    fn recall(&self, name: &str) -> Option<Vec<Vec<f64>>> {
+        self.steps.lock().unwrap().get(name).cloned()
+    }
+
+    fn keep(&self, name: &str, columns: &[Vec<f64>]) {
+        let mut kept = self.kept.lock().unwrap();
+        *kept += 1;
+        if *kept <= self.most {
+            let mut steps = self.steps.lock().unwrap();
+            steps.insert(name.to_owned(), columns.to_vec());
+        }
+    }
+}
+
+#[test]
+fn a_branch_that_goes_on_after_an_interruption_is_the_same_bit_by_bit() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = over_speed(folder.path(), "branch", 0.8, &[]);
+    let whole = searched(&case, &Unwatched);
+    // As an interruption leaves it after two and four steps.
+    for most in [2, 4] {
+        let memory = Memory {
+            most,
+            ..Memory::default()
+        };
+        searched(&case, &memory);
+        assert_eq!(memory.steps.lock().unwrap().len().min(2), 2);
+        let again = searched(&case, &memory);
+        assert_eq!(format!("{again:?}"), format!("{whole:?}"));
+    }
+}
+
+#[test]
+fn a_branch_without_a_fold_says_so() {
+    // A block under constant friction, above its onset.
+    let path = format!("{}/cases/sliding-block.toml", env!("CARGO_MANIFEST_DIR"));
+    let overrides = [
+        "contact.friction_coefficient=0.66",
+        "cycle={ confirmation_periods = 0, stability = \"none\", continuation = { key = \"contact.friction_coefficient\", from = \
+         0.6, to = 0.66, count = 3 } }",
+    ];
+    let overrides: Vec<String> = overrides.iter().map(|text| text.to_string()).collect();
+    let case = Case::parse(&path, &std::fs::read(&path).unwrap(), &overrides).unwrap();
+    let branch = branch(&case);
+    assert!(branch.folds().is_empty() && branch.coexistence().is_empty());
+    assert_eq!(branch.ends, [BranchEnd::Range; 2]);
+}
