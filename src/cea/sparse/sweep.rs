@@ -25,6 +25,8 @@ const MIN_SAMPLES: usize = 6;
 const SETTLED: f64 = 1e-10;
 /// Attempts to improve points that miss the goal.
 const MAX_REPAIRS: usize = 8;
+/// Such attempts for each friction value where a mode misses the bound of converged pairs.
+const MAX_LAST_REPAIRS: usize = 6;
 
 /// Complex modes of `tangent` at every friction coefficient of `request`, and where their branches turn unstable.
 ///
@@ -145,7 +147,7 @@ impl<'a> SparseSweep<'a> {
         let all: Vec<usize> = (0..self.grid.len()).collect();
         let goal = self.linearization.force_residual_goal();
         self.points = self.solve_points(&all)?;
-        for _ in 0..MAX_REPAIRS + self.grid.len() {
+        for round in 0..MAX_REPAIRS + MAX_LAST_REPAIRS * self.grid.len() {
             let missing: Vec<usize> = all
                 .iter()
                 .copied()
@@ -162,6 +164,11 @@ impl<'a> SparseSweep<'a> {
             else {
                 break;
             };
+            // What is converged is improved for a while, what is not for longer.
+            let is_converged = |&k: &usize| self.points[k].worst().0 <= RESIDUAL_BOUND;
+            if round >= MAX_REPAIRS + self.grid.len() && missing.iter().all(is_converged) {
+                break;
+            }
             if !self.builder.improve_at(self.grid[worst])? {
                 if self.points[worst].worst().0 <= RESIDUAL_BOUND {
                     break;

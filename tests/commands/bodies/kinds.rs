@@ -124,6 +124,7 @@ pub fn kinds() -> Vec<Kind> {
     let bore = format!("{shaft}[boundaries.bore]\ncondition = \"clamped\"\n");
     let springs = "normal_stiffness = 7.4e12\n";
     let support = "[boundaries.outer]\ncondition = \"support\"\nnormal_stiffness = 2e11\ntangential_stiffness = 2e11\n";
+    let stiffening = "normal_law = \"exponential\"\nreference_pressure = 2e5\nheight = 2e-6\n";
     let falling = "static_friction_ratio = 1.2\ndecay_speed = 2.0\n";
     let block = case(
         "[mesh]\nfile = \"body.msh\"",
@@ -140,6 +141,15 @@ pub fn kinds() -> Vec<Kind> {
     vec![
         kind("annulus", annulus("", "", "")),
         kind("annulus, springs in the contact", annulus("", springs, "")),
+        kind("annulus, stiffening contact", annulus("", stiffening, "")),
+        Kind {
+            twin: Some("annulus, stiffening contact"),
+            ..of_file(
+                "annulus from a file, stiffening contact",
+                imported(stiffening, ""),
+                msh(&[ring(&|_| "disc")]),
+            )
+        },
         kind("annulus, supported", annulus("", "", support)),
         kind("annulus, falling friction", annulus("", falling, "")),
         kind("annulus and shaft", {

@@ -205,7 +205,7 @@ fn sensitivities_of_stiffening_contact_equal_finite_differences() {
         let friction = 0.35;
         let request = SweepRequest {
             friction_coefficients: &[0.0, friction],
-            limit: ModeLimit::MaxFrequency(9000.0),
+            limit: ModeLimit::MaxFrequency(12000.0),
             shapes_at: &[],
         };
         let (specification, material) = (&model.specification, &model.material);
