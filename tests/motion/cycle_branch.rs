@@ -26,8 +26,8 @@ fn over_speed(folder: &Path, stability: &str, to: f64, further: &[&str]) -> Case
     oscillator(folder, &[&own, further].concat())
 }
 
-/// Larger than any cycle, m and m/s.
-const LARGE: [f64; 4] = [3e-5, 3e-5, 0.0, 0.0];
+/// Larger than any cycle, m and m/s; from 5e-5 m on a node lifts off.
+const LARGE: [f64; 4] = [4e-5, 4e-5, 0.0, 0.0];
 
 fn searched(case: &Case, watch: &dyn SweepWatch) -> FoundCycle {
     let study = PeriodicStudy::new(case, SimdLevel::detect()).unwrap();
@@ -53,13 +53,14 @@ fn a_branch_bends_back_at_the_speed_at_which_integration_from_event_to_event_los
     let (fold, onset) = (folds[0], branch.onsets[0]);
     assert!(fold > 1.02 * onset, "{fold} {onset}");
 
-    // From a large start the motion goes on for hundreds of periods below the fold, and dies above it.
+    // From a large start the motion goes on for hundreds of periods below the fold, and dies above it; just below it few starts
+    // end on the cycle.
     let lives = |speed: f64| {
         let reference = at_speed(folder.path(), speed);
         reference.run(LARGE, 1.2e-8, 300, 20)
     };
     assert!(lives(1.02 * fold).is_none());
-    let (frequency, stick) = lives(0.98 * fold).expect("a cycle below the fold");
+    let (frequency, stick) = lives(0.9 * fold).expect("a cycle below the fold");
     assert!(stick > 0.0 && frequency > 0.0);
 
     // Stable before the fold, unstable after it, down to the onset, where the cycle shrinks into steady sliding.
@@ -100,9 +101,7 @@ fn cycles_beside_stable_sliding_are_found_from_where_a_mode_grows() {
     assert!(report.is_stable() && report.stable_sliding().is_none());
     // The large one of both cycles, as integration has it.
     let reference = EventDriven::new(&case);
-    let (frequency, stick) = reference
-        .run([1e-6, 1e-6, 0.0, 0.0], 1.2e-8, 200, 20)
-        .unwrap();
+    let (frequency, stick) = reference.run(LARGE, 1.2e-8, 200, 20).unwrap();
     assert!((motion.frequency_hz / frequency - 1.0).abs() < 1e-4);
     assert!((motion.fractions[0] - stick).abs() < 2e-3);
     // Beyond the fold there is none, which the reason says.
