@@ -58,14 +58,14 @@ pub(super) fn read(case: &Case, model: &SlidingModel, sweep: &FrictionSweep) -> 
     let points: Vec<&FrictionPoint> = sweep.points.iter().filter(shaped).collect();
     let lowest = points.first()?;
     let references = Shapes::of(lowest, case.has_sectors(), |_| true);
-    let [reference_images, _] = parts.whole.multiply(references.columns.as_ref());
+    let reference_images = parts.mass_image(references.columns.as_ref());
     for point in &points {
         let shapes = Shapes::of(point, case.has_sectors(), |_| true);
         if shapes.modes.is_empty() {
             continue;
         }
         parts.contributions(model, &shapes, &mut reading.contributions);
-        let [own_images, _] = parts.whole.multiply(shapes.columns.as_ref());
+        let own_images = parts.mass_image(shapes.columns.as_ref());
         let couplings = shapes.couplings(&own_images, (&references, &reference_images));
         reading.couplings.extend(couplings);
     }

@@ -25,6 +25,11 @@ impl Pair {
         ))
     }
 
+    /// `M x`.
+    fn mass_image(&self, x: MatRef<'_, f64>) -> Mat<f64> {
+        self.0.pattern().multiply(&self.0.coefficients()[0], x)
+    }
+
     /// `M x` and `K x`.
     pub fn multiply(&self, x: MatRef<'_, f64>) -> [Mat<f64>; 2] {
         let [mass, stiffness] = self.0.coefficients() else {
@@ -45,8 +50,6 @@ pub(super) struct Parts<'a> {
     pub supports: Vec<(String, Pair, f64)>,
     /// Point masses.
     pub attached: Option<Pair>,
-    /// Mass and stiffness of all regions, with point masses.
-    pub whole: Pair,
     /// Each contact with the dofs of its surfaces.
     pub contacts: Vec<(String, Vec<usize>)>,
     /// Geometric stiffness by base state and region, a polynomial in friction.
@@ -71,12 +74,8 @@ impl<'a> Parts<'a> {
         };
         let materials = case.materials();
         let count = mesh.dof_count();
-        let mut all = [Triplets::default(), Triplets::default()];
         let regions = mesh.regions.iter().enumerate().map(|(region, name)| {
             let own = assemble_region(mesh, materials, options.mass, region);
-            for (sum, own) in all.iter_mut().zip(&own) {
-                sum.entries.extend_from_slice(&own.entries);
-            }
             let damping = materials.own_damping(region).unwrap_or(options.damping);
             let coefficients = [
                 damping.mass_coefficient,
@@ -87,7 +86,6 @@ impl<'a> Parts<'a> {
         });
         let regions = regions.collect();
         let masses = assemble_point_masses(mesh);
-        all[0].entries.extend_from_slice(&masses.entries);
         let has_masses = !masses.entries.is_empty();
         let mut supports = supports(mesh);
         if !(mesh.attachments.is_empty() && mesh.patches.is_empty()) {
@@ -101,13 +99,22 @@ impl<'a> Parts<'a> {
             regions,
             supports,
             attached: has_masses.then(|| Pair::new(count, [masses, Triplets::default()])),
-            whole: Pair::new(count, all),
             contacts: match contacts.is_empty() {
                 true => vec![("contact".to_owned(), Vec::new())],
                 false => contacts,
             },
             geometric: RefCell::default(),
         })
+    }
+
+    /// `M x` of all regions and point masses.
+    pub fn mass_image(&self, x: MatRef<'_, f64>) -> Mat<f64> {
+        let regions = self.regions.iter().map(|(_, pair, _)| pair);
+        let mut sum = Mat::zeros(x.nrows(), x.ncols());
+        for pair in regions.chain(&self.attached) {
+            sum += pair.mass_image(x);
+        }
+        sum
     }
 
     /// Forms `phi^H K_sigma phi` of a region for each shape, where the damping has a part of it.
