@@ -308,7 +308,7 @@ impl LagrangeContact {
             dof.before = [v, q];
             dof.velocity = v - dt * (q + rate);
         }
-        // Relative motion before the step, and the forces of the last one to start from.
+        // Relative motion before the step. Forces start from none, as those of the last step are not in a saved state.
         for point in &mut contact.points {
             let dofs = &contact.dofs;
             point.before = point.rows.each_ref().map(|row| {
@@ -321,12 +321,7 @@ impl LagrangeContact {
                 .iter()
                 .map(|&(k, along)| along * fields.displacement[dofs[k as usize].place]);
             point.separation = parts.sum();
-            for (row, force) in point.rows.iter().zip(point.force) {
-                for &(k, along) in row {
-                    let dof = &mut contact.dofs[k as usize];
-                    dof.velocity += dt * force * along * dof.inverse_mass;
-                }
-            }
+            point.force = [0.0; 3];
         }
         let is_settled = (0..MOST_SWEEPS).any(|_| {
             let [change, largest] = contact.sweep(dt);
