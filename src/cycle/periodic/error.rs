@@ -55,7 +55,7 @@ pub enum PeriodicError {
     },
     /// The branch that was followed does not reach the operating point.
     #[error(
-        "steady sliding is stable at {key} = {value} and has no limit cycle beside it: those of this mode live from {} to {} \
+        "steady sliding is stable at {key} = {value} and has no limit cycle beside it: those of this mode live from {:.4} to {:.4} \
          within the range of cycle.continuation",
         range[0], range[1]
     )]
