@@ -36,7 +36,7 @@ BODIES = {
     "pad-on-disc": ("pad-on-disc", []),
     "supported-rim": ("polycarbonate-disc", RIM + ["cea.friction_coefficients=[0.3]"]),
     "triangles": ("disc-triangles", []),
-    "two-dampings": ("test-bench", ['boundaries.screws.condition="clamped"']),
+    "two-dampings": ("test-bench", ['boundaries.screws={ condition="clamped" }']),
     "dashpots": ("disc-triangles", ["contact.tangential_damping=200.0"]),
     "falling-friction": ("falling-friction", []),
 }

@@ -41,6 +41,15 @@ impl SparsityPattern {
             row_indices.extend_from_slice(rows);
             column_pointers.push(row_indices.len());
         }
+        Self::from_columns(dimension, column_pointers, row_indices)
+    }
+
+    /// Pattern of columns that start at `column_pointers` among `row_indices`, rows rising within each.
+    fn from_columns(
+        dimension: usize,
+        column_pointers: Vec<usize>,
+        row_indices: Vec<usize>,
+    ) -> Self {
         let symbolic = SymbolicSparseColMat::new_checked(
             dimension,
             dimension,
@@ -92,7 +101,7 @@ impl SparsityPattern {
     }
 
     /// Where a row is among nonzeros sorted by rows.
-    pub(super) fn row_range(&self, row: usize) -> std::ops::Range<usize> {
+    pub fn row_range(&self, row: usize) -> std::ops::Range<usize> {
         self.row_pointers[row]..self.row_pointers[row + 1]
     }
 
@@ -102,11 +111,20 @@ impl SparsityPattern {
     }
 
     /// Values sorted by rows.
-    pub(super) fn by_rows(&self, values: &[f64]) -> Vec<f64> {
+    pub fn by_rows(&self, values: &[f64]) -> Vec<f64> {
         let positions = self.row_positions.iter();
         positions
             .map(|&position| values[position as usize])
             .collect()
+    }
+
+    /// Values in the order of the pattern, of values sorted by rows.
+    pub fn by_columns(&self, sorted: &[f64]) -> Vec<f64> {
+        let mut values = vec![0.0; sorted.len()];
+        for (&position, value) in self.row_positions.iter().zip(sorted) {
+            values[position as usize] = *value;
+        }
+        values
     }
 
     /// Index of `(row, column)` among the nonzeros, if it is one.
@@ -239,29 +257,37 @@ impl MatrixPolynomial {
     /// structural zeros.
     pub fn compact_coefficient(&self, power: usize) -> (Self, Vec<usize>) {
         let values = &self.coefficients[power];
-        let nonzeros = || {
-            (0..self.dimension()).flat_map(|column| {
-                let nonzeros = self.pattern.column(column);
-                nonzeros
-                    .map(move |(position, row)| (row, column, values[position]))
-                    .filter(|entry| entry.2 != 0.0)
-            })
+        let nonzeros = |column: usize| {
+            let nonzeros = self.pattern.column(column);
+            nonzeros.filter(|(position, _)| values[*position] != 0.0)
         };
+
+        // The unknowns, and their places among themselves.
         let mut touched = vec![false; self.dimension()];
-        for (row, column, _) in nonzeros() {
-            touched[row] = true;
-            touched[column] = true;
+        for column in 0..self.dimension() {
+            for (_, row) in nonzeros(column) {
+                (touched[row], touched[column]) = (true, true);
+            }
         }
         let unknowns: Vec<usize> = (0..self.dimension()).filter(|&i| touched[i]).collect();
         let mut place = vec![0; self.dimension()];
-        unknowns
-            .iter()
-            .enumerate()
-            .for_each(|(slot, &i)| place[i] = slot);
-        let entries = nonzeros()
-            .map(|(row, column, v)| (place[row], place[column], v))
-            .collect();
-        (Self::from_triplets(unknowns.len(), &[entries]), unknowns)
+        let places = unknowns.iter().enumerate();
+        places.for_each(|(slot, &i)| place[i] = slot);
+
+        // Rows keep their order.
+        let (mut pointers, mut rows, mut kept) = (vec![0], Vec::new(), Vec::new());
+        for &column in &unknowns {
+            for (position, row) in nonzeros(column) {
+                rows.push(place[row]);
+                kept.push(values[position]);
+            }
+            pointers.push(rows.len());
+        }
+        let pattern = SparsityPattern::from_columns(unknowns.len(), pointers, rows);
+        (
+            Self::from_coefficients(&Arc::new(pattern), vec![kept]),
+            unknowns,
+        )
     }
 
     /// Nonzero values of `P(mu)`.

@@ -172,14 +172,15 @@ impl<'a> TwoLevelArnoldi<'a> {
     fn expand(&mut self) {
         let open = self.expanded..self.coordinates.len();
         let width = self.basis.count();
-        let halves = [0, 1].map(|half| {
-            let own = &self.coordinates[open.clone()];
-            let coordinates = Mat::from_fn(width, own.len(), |i, j| {
-                own[j][half].get(i).copied().unwrap_or(0.0)
-            });
-            product(self.basis.columns(), coordinates.as_ref())
+        // Both halves of each in one product: the basis is read once.
+        let count = open.len();
+        let own = &self.coordinates[open.clone()];
+        let coordinates = Mat::from_fn(width, 2 * count, |i, j| {
+            own[j % count][j / count].get(i).copied().unwrap_or(0.0)
         });
-        let image = self.operator.apply(halves[0].as_ref(), halves[1].as_ref());
+        let halves = product(self.basis.columns(), coordinates.as_ref());
+        let (x, y) = halves.as_ref().split_at_col(count);
+        let image = self.operator.apply(x, y);
         let tops = self.absorb(image);
         for (j, mut top) in open.zip(tops) {
             let width = self.basis.count();

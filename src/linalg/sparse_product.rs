@@ -25,21 +25,36 @@ fn add_multiple(mut sum: [f64; LANES], value: f64, source: [f64; LANES]) -> [f64
     sum
 }
 
+/// `sum(index, [x_j, y_j])` at each entry of each pair of columns.
+fn gathered(
+    dimension: usize,
+    [x, y]: [MatRef<'_, f64>; 2],
+    sum: impl Fn(usize, [&[f64]; 2]) -> f64,
+) -> Mat<f64> {
+    let mut image = Mat::zeros(dimension, x.ncols());
+    for j in 0..x.ncols() {
+        let pair = [column(x, j), column(y, j)];
+        let target = column_mut(&mut image, j).iter_mut().enumerate();
+        target.for_each(|(index, value)| *value = sum(index, pair));
+    }
+    image
+}
+
 impl SparsityPattern {
     /// `A x` for each column of `x`, with `A` given by its nonzero `values`.
     pub fn multiply(&self, values: &[f64], x: MatRef<'_, f64>) -> Mat<f64> {
-        let [y] = self.multiply_each([values], x);
+        let [y] = self.multiply_each([&self.by_rows(values)], x);
         y
     }
 
-    /// `A x` for each column of `x` and each of several matrices of this pattern, whose indices are read once.
+    /// `A x` for each column of `x` and each of several matrices of this pattern, whose indices are read once; their nonzeros
+    /// are sorted by rows ([`Self::by_rows`]).
     pub fn multiply_each<const N: usize>(
         &self,
         values: [&[f64]; N],
         x: MatRef<'_, f64>,
     ) -> [Mat<f64>; N] {
         // By rows, so that sums stay in registers: scattering by columns waits for its own stores.
-        let values = values.map(|values| self.by_rows(values));
         self.by_lanes(x, |input, index| {
             let mut sums = [[0.0; LANES]; N];
             for place in self.row_range(index) {
@@ -52,21 +67,28 @@ impl SparsityPattern {
         })
     }
 
-    /// `A x + B y` for each pair of columns, with `A` and `B` given by their nonzero values; for few columns, of which
-    /// [`Self::multiply`] would interleave empty ones.
-    pub fn multiply_sum(&self, [a, b]: [&[f64]; 2], [x, y]: [MatRef<'_, f64>; 2]) -> Mat<f64> {
-        let n = self.dimension();
-        let mut sum = Mat::zeros(n, x.ncols());
-        for j in 0..x.ncols() {
-            let (x, y) = (column(x, j), column(y, j));
-            let target = column_mut(&mut sum, j);
-            for source in 0..n {
-                for (position, row) in self.column(source) {
-                    target[row] += a[position] * x[source] + b[position] * y[source];
-                }
-            }
-        }
-        sum
+    /// `A x + B y` for each pair of columns, with `A` and `B` given by their nonzeros sorted by rows
+    /// ([`Self::by_rows`]); for few columns, of which [`Self::multiply`] would interleave empty ones.
+    pub fn multiply_sum(&self, values: [&[f64]; 2], x: [MatRef<'_, f64>; 2]) -> Mat<f64> {
+        let columns = self.row_columns();
+        gathered(self.dimension(), x, |row, [x, y]| {
+            let places = self.row_range(row);
+            let columns = &columns[places.clone()];
+            let [a, b] = values.map(|values| &values[places.clone()]);
+            let pairs = columns.iter().zip(a.iter().zip(b));
+            pairs
+                .map(|(&j, (a, b))| a * x[j as usize] + b * y[j as usize])
+                .sum()
+        })
+    }
+
+    /// `A^T x + B^T y` for each pair of columns, as [`Self::multiply_sum`] but for nonzeros in the order of the pattern.
+    pub fn multiply_transpose_sum(&self, values: [&[f64]; 2], x: [MatRef<'_, f64>; 2]) -> Mat<f64> {
+        gathered(self.dimension(), x, |column, [x, y]| {
+            let nonzeros = self.column(column);
+            let [a, b] = values;
+            nonzeros.map(|(at, i)| a[at] * x[i] + b[at] * y[i]).sum()
+        })
     }
 
     /// `A^T x` for each column of `x`, with `A` given by its nonzero `values`.
@@ -151,10 +173,14 @@ mod tests {
         let y = p.pattern().multiply(&values, x.as_ref());
         assert!((y - product(a.as_ref(), x.as_ref())).norm_max() < 1e-14);
         let halves: Vec<f64> = values.iter().map(|v| 0.5 * v).collect();
+        let twice = [x.as_ref(), x.as_ref()];
+        let sorted = p.pattern().by_rows(&halves);
+        let sum = p.pattern().multiply_sum([&sorted, &sorted], twice);
+        assert!((sum - product(a.as_ref(), x.as_ref())).norm_max() < 1e-14);
         let sum = p
             .pattern()
-            .multiply_sum([&halves, &halves], [x.as_ref(), x.as_ref()]);
-        assert!((sum - product(a.as_ref(), x.as_ref())).norm_max() < 1e-14);
+            .multiply_transpose_sum([&halves, &halves], twice);
+        assert!((sum - product(a.transpose(), x.as_ref())).norm_max() < 1e-14);
         let yt = p.pattern().multiply_transpose(&values, x.as_ref());
         assert!((yt - product(a.transpose(), x.as_ref())).norm_max() < 1e-14);
     }

@@ -5,7 +5,8 @@ use crate::disc::{DAMPING, POLYCARBONATE, annulus, contact};
 use crate::table_1::TABLE_1;
 use faer::{Mat, c64};
 use frictionsim::cea::sparse::{
-    FrictionlessModes, Linearization, ShiftInverted, StiffnessFactors, StructureMatrices, sweep,
+    FactorCache, FrictionlessModes, Linearization, ShiftInverted, StiffnessFactors,
+    StructureMatrices, sweep,
 };
 use frictionsim::cea::{
     CeaError, ComplexMode, FrictionSweep, ModeLimit, SweepProgress, SweepRequest, SweepWatch,
@@ -18,7 +19,7 @@ use frictionsim::linalg::{DenseLu, KrylovSchurSettings, MatrixPolynomial, Wanted
 use frictionsim::mesh::{AnnulusMesh, ElementKind};
 use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
 use std::f64::consts::TAU;
-use std::sync::{Mutex, OnceLock};
+use std::sync::Mutex;
 
 type Entries = Vec<(usize, usize, f64)>;
 
@@ -253,7 +254,7 @@ fn sweep_agrees_with_krylov_schur_at_the_same_friction() {
     let linearization = Linearization::of(&tangent, 1e5);
     let operator = ShiftInverted {
         matrices: &StructureMatrices::at(&tangent, linearization, mu),
-        factors: &StiffnessFactors::general(&tangent, &OnceLock::new(), mu).unwrap(),
+        factors: &StiffnessFactors::general(&tangent, &FactorCache::default(), mu).unwrap(),
     };
     let settings = KrylovSchurSettings {
         wanted: Wanted::Largest(30),
@@ -290,7 +291,7 @@ fn sweep_with_general_damping_agrees_with_krylov_schur_at_every_friction() {
         let mu = point.friction_coefficient;
         let operator = ShiftInverted {
             matrices: &StructureMatrices::at(&tangent, linearization, mu),
-            factors: &StiffnessFactors::general(&tangent, &OnceLock::new(), mu).unwrap(),
+            factors: &StiffnessFactors::general(&tangent, &FactorCache::default(), mu).unwrap(),
         };
         let settings = KrylovSchurSettings {
             wanted: Wanted::Largest(24),

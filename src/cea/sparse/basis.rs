@@ -1,24 +1,24 @@
 //! Growth of the common basis until it holds the modes of every friction coefficient.
 
 use super::GROUP_WIDTH;
+use super::factors::{FactorCache, StiffnessFactors};
 use super::linearization::Linearization;
 use super::mode::ReducedMode;
 use super::packed::{PackedEntry, PackedModes};
 use super::reduced::ReducedModel;
-use super::structure::{Companion, ShiftInverted, StiffnessFactors, StructureMatrices};
+use super::structure::{Companion, ShiftInverted, StructureMatrices};
 use crate::cea::{CeaError, SweepProgress, SweepStage, SweepWatch};
 use crate::linalg::dense::{
     column, column_mut, column_norms, columns_of, dot, from_columns, join_columns,
     orthonormal_complement, pick_columns, random_columns,
 };
 use crate::linalg::{
-    KrylovSchurSettings, LinalgError, LuAnalysis, QuadraticKrylovSettings, Wanted, krylov_schur,
+    KrylovSchurSettings, LinalgError, QuadraticKrylovSettings, Wanted, krylov_schur,
     quadratic_krylov,
 };
 use crate::linalg::{Mat, MatRef, Scale};
 use crate::prestress::SlidingTangent;
 use std::ops::Range;
-use std::sync::OnceLock;
 
 /// Part of a block of corrections, relative to its longest, below which directions are round-off.
 const VECTOR_TOLERANCE: f64 = 1e-10;
@@ -64,7 +64,7 @@ pub struct BasisBuilder<'a> {
     tangent: &'a SlidingTangent,
     linearization: Linearization,
     preconditioner: StiffnessFactors,
-    analysis: OnceLock<Result<LuAnalysis, LinalgError>>,
+    cache: FactorCache,
     /// The projected problem so far.
     pub model: ReducedModel,
     /// Modes to be held at every friction coefficient.
@@ -91,7 +91,7 @@ impl<'a> BasisBuilder<'a> {
             tangent,
             linearization,
             preconditioner: factors,
-            analysis: OnceLock::new(),
+            cache: FactorCache::default(),
             model,
             count: modes.ncols(),
             sampled: Vec::new(),
@@ -154,8 +154,8 @@ impl<'a> BasisBuilder<'a> {
             return Ok(());
         }
         for &mu in spread(values).iter().cycle().take(MAX_ROUNDS) {
-            // Of a single value the last corrections need no other look: its point is checked.
-            let is_done = |longest: f64| values.len() == 1 && longest <= SHORTEST;
+            // The last corrections need no other look: points are checked.
+            let is_done = |longest: f64| longest <= SHORTEST;
             if self.refine_at(mu)?.is_none_or(is_done) {
                 break;
             }
@@ -197,6 +197,39 @@ impl<'a> BasisBuilder<'a> {
         }
     }
 
+    /// Corrects `modes` that the basis holds nearly at `mu`, from the second time on those that it holds now; whether there was
+    /// anything to correct.
+    ///
+    /// # Errors
+    /// If a dense decomposition fails.
+    pub fn correct_at(&mut self, mu: f64, modes: &[ReducedMode]) -> Result<bool, CeaError> {
+        if !self.sampled.contains(&mu) {
+            self.sampled.push(mu);
+            self.model.hold_coordinates(mu, self.leading(modes));
+        }
+        self.refine_sample(mu)
+    }
+
+    /// Lets the `modes` found in the sample at `mu`, if there is one, stand for it: corrections made it wider than they need.
+    pub fn hold_solved(&mut self, mu: f64, modes: &[ReducedMode]) {
+        if self.sampled.contains(&mu) && modes.len() >= self.count {
+            self.model.drop_sample(mu);
+            self.model.hold_coordinates(mu, self.leading(modes));
+        }
+    }
+
+    /// Coordinates of the modes to be held, real and imaginary parts.
+    fn leading(&self, modes: &[ReducedMode]) -> Mat<f64> {
+        let leading = &modes[..self.count.min(modes.len())];
+        PackedModes::of(leading, self.model.dimension()).coordinates
+    }
+
+    /// Where `mu` lies among the friction coefficients whose modes the basis holds: an odd number at one, an even one between.
+    pub fn gap(&self, mu: f64) -> usize {
+        let below = self.sampled.iter().filter(|&&held| held < mu).count();
+        2 * below + usize::from(self.sampled.contains(&mu))
+    }
+
     /// Start vectors of an iteration: two where modes may come in pairs of equal eigenvalue.
     fn start_width(&self) -> usize {
         1 + usize::from(!self.tangent.contact_angles.is_empty())
@@ -230,7 +263,7 @@ impl<'a> BasisBuilder<'a> {
         let matrices = StructureMatrices::at(self.tangent, self.linearization, mu);
         let factors = match mu {
             0.0 => StiffnessFactors::frictionless(self.tangent)?,
-            _ => StiffnessFactors::general(self.tangent, &self.analysis, mu)?,
+            _ => StiffnessFactors::general(self.tangent, &self.cache, mu)?,
         };
         let operator = Companion::new(&matrices, &factors, frequency_scale);
         let settings = QuadraticKrylovSettings {
@@ -414,7 +447,7 @@ impl<'a> BasisBuilder<'a> {
     fn dominant_vectors(&self, mu: f64, wanted: usize) -> Result<Mat<f64>, CeaError> {
         let unknowns = self.tangent.stiffness.dimension();
         let matrices = StructureMatrices::at(self.tangent, self.linearization, mu);
-        let factors = StiffnessFactors::general(self.tangent, &self.analysis, mu)?;
+        let factors = StiffnessFactors::general(self.tangent, &self.cache, mu)?;
         let operator = ShiftInverted {
             matrices: &matrices,
             factors: &factors,

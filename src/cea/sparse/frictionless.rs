@@ -1,8 +1,9 @@
 //! The undamped modes without friction, and the proof that none is missing.
 
 use super::GUARD_MODES;
+use super::factors::StiffnessFactors;
 use super::linearization::Linearization;
-use super::structure::{ShiftInverted, StiffnessFactors, StructureMatrices};
+use super::structure::{ShiftInverted, StructureMatrices};
 use crate::cea::{CeaError, ModeLimit, SweepWatch};
 use crate::fem::RayleighDamping;
 use crate::linalg::Mat;

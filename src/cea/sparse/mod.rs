@@ -15,6 +15,7 @@
 mod basis;
 mod branches;
 mod edge;
+mod factors;
 #[cfg(test)]
 mod fixtures;
 mod frictionless;
@@ -32,6 +33,7 @@ mod term;
 pub use basis::BasisBuilder;
 pub use branches::{BranchLabel, Lost, TrackedBranch, label_frictionless, track};
 pub use edge::ContactEdge;
+pub use factors::{FactorCache, StiffnessFactors};
 pub use frictionless::FrictionlessModes;
 pub use linearization::Linearization;
 pub use mode::ReducedMode;
@@ -39,7 +41,7 @@ pub use onset::{FoundInterval, OnsetFinder};
 pub use pairs::{ModePair, mode_pairs};
 pub use point::{ModeCheck, PointSolver, SolvedPoint};
 pub use reduced::{ProjectedMatrices, ReducedModel};
-pub use structure::{ShiftInverted, StiffnessFactors, StructureMatrices};
+pub use structure::{ShiftInverted, StructureMatrices};
 pub use sweep::{SparseSweep, sweep};
 
 /// Modes beyond the wanted ones that are computed along, so that crossings at the upper end of the range

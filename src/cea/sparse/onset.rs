@@ -12,6 +12,11 @@ use crate::cea::{BranchPoint, CeaError, UnstableInterval};
 use crate::linalg::LinalgError;
 use std::f64::consts::TAU;
 
+/// Newton's steps to a crossing that is nearly known; two or three do.
+const CROSSING_STEPS: usize = 8;
+/// What a crossing may move by as the basis grows.
+const NEAR: f64 = 1e-4;
+
 /// A mode and its friction coefficient.
 #[derive(Clone, Debug)]
 pub struct State {
@@ -25,8 +30,15 @@ pub struct State {
 pub struct FoundInterval {
     /// The interval.
     pub interval: UnstableInterval,
+    found: Instability<State>,
+}
+
+impl FoundInterval {
     /// Modes at its ends that lie within the range.
-    pub crossings: Vec<State>,
+    pub fn crossings(&self) -> impl Iterator<Item = &State> {
+        let onset = (!self.found.from_start).then_some(&self.found.onset);
+        onset.into_iter().chain(&self.found.restabilized)
+    }
 }
 
 /// Follows one branch between the points of a sweep.
@@ -68,7 +80,7 @@ impl OnsetFinder<'_> {
         for run in states.split(Option::is_none) {
             let run: Vec<State> = run.iter().flatten().cloned().collect();
             for found in instabilities(self, &run)? {
-                intervals.push(self.report(branch, &found)?);
+                intervals.push(self.report(branch, found)?);
             }
         }
         Ok(intervals)
@@ -77,7 +89,7 @@ impl OnsetFinder<'_> {
     fn report(
         &self,
         branch: &TrackedBranch,
-        found: &Instability<State>,
+        found: Instability<State>,
     ) -> Result<FoundInterval, CeaError> {
         let State { mu, mode } = &found.onset;
         let check = &self
@@ -94,12 +106,62 @@ impl OnsetFinder<'_> {
         let label = branch.label;
         let direction = self.solver.edge.direction(&check.edge, label.harmonic);
         let name = (label.harmonic, label.branch, direction);
-        let onset = (!found.from_start).then_some(&found.onset);
-        let crossings = onset.into_iter().chain(&found.restabilized);
         Ok(FoundInterval {
             interval: found.interval(name, |state| self.point(state)),
-            crossings: crossings.cloned().collect(),
+            found,
         })
+    }
+
+    /// The intervals of a branch that were `known` in a smaller basis, by Newton's steps from their ends; nothing where one does
+    /// not settle near where it was.
+    ///
+    /// # Errors
+    /// If the mode at a crossing does not satisfy the full problem.
+    pub fn again(
+        &self,
+        branch: &TrackedBranch,
+        known: &[FoundInterval],
+    ) -> Result<Option<Vec<FoundInterval>>, CeaError> {
+        let mut intervals = Vec::new();
+        for FoundInterval { found, .. } in known {
+            let onset = match found.from_start {
+                true => Some(found.onset.clone()),
+                false => self.crossing_near(&found.onset),
+            };
+            let end = found
+                .restabilized
+                .as_ref()
+                .map(|end| self.crossing_near(end));
+            let (Some(onset), false) = (onset, matches!(end, Some(None))) else {
+                return Ok(None);
+            };
+            let instability = Instability {
+                onset,
+                restabilized: end.flatten(),
+                from_start: found.from_start,
+            };
+            intervals.push(self.report(branch, instability)?);
+        }
+        Ok(Some(intervals))
+    }
+
+    /// The crossing near `known`.
+    fn crossing_near(&self, known: &State) -> Option<State> {
+        let mut state = known.clone();
+        for _ in 0..CROSSING_STEPS {
+            state.mode = self.model.mode_near(state.mu, &state.mode)?;
+            let lambda = state.mode.eigenvalue;
+            let growth = lambda.re - Self::ROUND_OFF * lambda.norm();
+            let step = growth / state.mode.derivative.re;
+            if step.abs() <= Self::TOLERANCE * (1.0 + state.mu) {
+                return Some(state);
+            }
+            state.mu -= step;
+            if (state.mu - known.mu).abs() > NEAR * (1.0 + known.mu) {
+                return None;
+            }
+        }
+        None
     }
 }
 

@@ -1,7 +1,8 @@
 //! Right and left vectors of modes in the full problem, and what small changes of the matrices do to their eigenvalues.
 
+use super::factors::{FactorCache, StiffnessFactors};
 use super::linearization::Linearization;
-use super::structure::{Companion, StiffnessFactors, StructureMatrices};
+use super::structure::{Companion, StructureMatrices};
 use crate::cea::CeaError;
 use crate::linalg::dense::{column, random_columns};
 use crate::linalg::{
@@ -9,7 +10,6 @@ use crate::linalg::{
     c64, quadratic_krylov,
 };
 use crate::prestress::SlidingTangent;
-use std::sync::OnceLock;
 
 /// Residual of the iterations, relative to the shift-inverted operator.
 const RESIDUAL: f64 = 1e-10;
@@ -195,7 +195,7 @@ fn krylov_vectors(
     let frequency_scale = moduli.fold(0.0, f64::max);
     let linearization = Linearization::Companion { frequency_scale };
     let matrices = StructureMatrices::at(tangent, linearization, mu);
-    let factors = StiffnessFactors::general(tangent, &OnceLock::new(), mu)?;
+    let factors = StiffnessFactors::general(tangent, &FactorCache::default(), mu)?;
     let operator = Companion::new(&matrices, &factors, frequency_scale);
 
     // Two start vectors, for modes that come in pairs.
@@ -209,7 +209,8 @@ fn krylov_vectors(
     let [x, y] = [5, 6].map(|seed| random_columns(unknowns, width, seed));
     let start = [x.as_ref(), y.as_ref()];
     let right = quadratic_krylov(&operator, start, &settings)?;
-    let left = quadratic_krylov(&operator.transposed(), start, &settings)?;
+    let operator = Companion::transposed(&matrices, &factors, frequency_scale);
+    let left = quadratic_krylov(&operator, start, &settings)?;
     let vectors = |target: &c64| {
         let [right, left] = [&right, &left].map(|all| vector_of(all, *target, frequency_scale));
         Some([right?, left?])

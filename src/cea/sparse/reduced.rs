@@ -7,9 +7,12 @@ use super::term::Term;
 use crate::linalg::dense::{
     GrowingColumns, column, join_columns, orthonormal_complement, product, transpose_product,
 };
-use crate::linalg::dense_eigen::{complex_eigen, real_eigen};
+use crate::linalg::dense_eigen::{RealEigen, complex_eigen, real_eigen};
 use crate::linalg::gram::complement;
-use crate::linalg::{ComplexDenseLu, DenseLu, LinalgError, MatrixPolynomial};
+use crate::linalg::{
+    BlockOperator, ComplexDenseLu, DenseLu, KrylovSchurSettings, LinalgError, MatrixPolynomial,
+    Wanted, krylov_schur,
+};
 use crate::linalg::{Mat, MatRef, Scale, c64};
 use crate::prestress::SlidingTangent;
 use rayon::prelude::*;
@@ -20,6 +23,12 @@ const NEIGHBOURS: usize = 4;
 const SAME_SPACE: f64 = 1e-9;
 /// Relative distance of eigenvalues below which they are one multiple eigenvalue.
 const MULTIPLE: f64 = 1e-7;
+/// How many times as many rows as eigenvalues are wanted a matrix has from which on an iteration is cheaper than the whole
+/// decomposition.
+const FEW_OF_MANY: usize = 5;
+/// Residual of that iteration, relative to the eigenvalue, and the width of its start.
+const FEW_TOLERANCE: f64 = 1e-13;
+const FEW_BLOCK: usize = 4;
 /// Rayleigh quotients after which a mode counts as not found; three or four do.
 const QUOTIENT_STEPS: usize = 8;
 /// Relative change of the eigenvalue that ends the iteration: its error is about the cube of that.
@@ -280,7 +289,19 @@ impl ReducedModel {
     /// Takes note that `vectors` are the modes at `mu`: the problem there is then solved in their span, and nearby in
     /// that of the nearest ones. Vectors at the same `mu` add to those held.
     pub fn hold_sample(&mut self, mu: f64, vectors: &Mat<f64>) {
-        let coordinates = transpose_product(self.basis.columns(), vectors.as_ref());
+        self.hold_coordinates(
+            mu,
+            transpose_product(self.basis.columns(), vectors.as_ref()),
+        );
+    }
+
+    /// Forgets the modes held at `mu`.
+    pub fn drop_sample(&mut self, mu: f64) {
+        self.samples.retain(|sample| sample.0 != mu);
+    }
+
+    /// [`Self::hold_sample`] of vectors given by their coordinates in the basis.
+    pub fn hold_coordinates(&mut self, mu: f64, coordinates: Mat<f64>) {
         match self.samples.iter_mut().find(|sample| sample.0 == mu) {
             Some((_, held)) => {
                 let known = lengthened(held, coordinates.nrows());
@@ -344,7 +365,11 @@ impl ReducedModel {
             Linearization::Reduced(_) => count,
             Linearization::Companion { .. } => 2 * count,
         };
-        let eigen = real_eigen(self.shift_inverted(at, &lu).as_ref(), with_left, leading)?;
+        let operator = self.shift_inverted(at, &lu);
+        let eigen = match (with_left, few_of(&operator, leading)) {
+            (false, Some(eigen)) => eigen,
+            _ => real_eigen(operator.as_ref(), with_left, leading)?,
+        };
         // The upper half of a left vector of the operator is K^T times that of the problem.
         let m = at.stiffness.nrows();
         let mut left = eigen.left;
@@ -537,6 +562,39 @@ impl ReducedModel {
     pub fn expand(&self, coordinates: MatRef<'_, f64>) -> Mat<f64> {
         let known = self.basis.columns().get(.., ..coordinates.nrows());
         product(known, coordinates)
+    }
+}
+
+/// The `leading` eigenvalues of largest modulus of a matrix much larger than that, with right vectors, by an iteration:
+/// nothing where the matrix is not so large, or the iteration does not converge.
+fn few_of(matrix: &Mat<f64>, leading: usize) -> Option<RealEigen> {
+    if matrix.nrows() < FEW_OF_MANY * leading {
+        return None;
+    }
+    let settings = KrylovSchurSettings {
+        wanted: Wanted::Largest(leading),
+        tolerance: FEW_TOLERANCE,
+        block: FEW_BLOCK,
+        max_applications: 20 * leading,
+    };
+    let found = krylov_schur(&DenseOperator(matrix), None, &settings).ok()?;
+    Some(RealEigen {
+        values: found.values,
+        right: found.vectors,
+        left: None,
+    })
+}
+
+/// A dense matrix as an operator.
+struct DenseOperator<'a>(&'a Mat<f64>);
+
+impl BlockOperator for DenseOperator<'_> {
+    fn dimension(&self) -> usize {
+        self.0.nrows()
+    }
+
+    fn apply(&self, x: MatRef<'_, f64>) -> Mat<f64> {
+        product(self.0.as_ref(), x)
     }
 }
 

@@ -1,23 +1,20 @@
 //! The matrices of small motions at one friction coefficient, and how their eigenproblem is solved.
 
+use super::factors::StiffnessFactors;
 use super::linearization::Linearization;
 use super::packed::PackedEntry;
 use crate::linalg::dense::{column, column_mut, join_rows};
-use crate::linalg::{
-    BlockOperator, LdlAnalysis, LinalgError, LuAnalysis, MatrixPolynomial, QuadraticOperator,
-    SparseLdl, SparseLu, SparsityPattern,
-};
+use crate::linalg::{BlockOperator, MatrixPolynomial, QuadraticOperator, SparsityPattern};
 use crate::linalg::{Mat, MatRef, Scale, c64};
 use crate::prestress::SlidingTangent;
-use std::borrow::Cow;
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 /// `K`, `C` and `M` at one friction coefficient, or their coefficients of one power of it.
 pub struct StructureMatrices<'a> {
     pattern: &'a Arc<SparsityPattern>,
-    /// Nonzero values of `[K, C, M]`; empty where a matrix vanishes or is not needed.
-    values: [Cow<'a, [f64]>; 3],
-    /// Nonzero values of the structural damping `H`, of the general problem.
+    /// Nonzero values of `[K, C, M]` by rows; empty where a matrix vanishes or is not needed.
+    values: [Vec<f64>; 3],
+    /// Nonzero values of the structural damping `H` by rows, of the general problem.
     structural: Option<Vec<f64>>,
     linearization: Linearization,
 }
@@ -25,9 +22,9 @@ pub struct StructureMatrices<'a> {
 impl<'a> StructureMatrices<'a> {
     /// The matrices of `tangent` at friction coefficient `mu`.
     pub fn at(tangent: &'a SlidingTangent, linearization: Linearization, mu: f64) -> Self {
-        let of = |p: &MatrixPolynomial| Cow::Owned(p.evaluate(mu));
+        let of = |p: &MatrixPolynomial| p.pattern().by_rows(&p.evaluate(mu));
         let damping = match linearization {
-            Linearization::Reduced(_) => Cow::Borrowed(&[][..]),
+            Linearization::Reduced(_) => Vec::new(),
             Linearization::Companion { .. } => of(&tangent.damping),
         };
         let structural = match linearization {
@@ -37,7 +34,7 @@ impl<'a> StructureMatrices<'a> {
         Self {
             pattern: tangent.stiffness.pattern(),
             values: [of(&tangent.stiffness), damping, of(&tangent.mass)],
-            structural: structural.map(|terms| terms.evaluate(mu)),
+            structural: structural.map(of),
             linearization,
         }
     }
@@ -73,7 +70,7 @@ impl<'a> StructureMatrices<'a> {
                     add_complex_multiple(&mut residual, lambda, &damped, entry);
                 }
                 if let Some(structural) = &self.structural {
-                    let lost = self.pattern.multiply(structural, x);
+                    let [lost] = self.pattern.multiply_each([structural], x);
                     for entry in entries {
                         add_complex_multiple(&mut residual, c64::new(0.0, 1.0), &lost, entry);
                     }
@@ -106,11 +103,13 @@ impl<'a> StructureMatrices<'a> {
     /// Largest row sums of `|K|`, `|C|` and `|M|`.
     pub fn norms(&self) -> [f64; 3] {
         let norm = |values: &[f64]| {
-            let mut sums = vec![0.0; self.pattern.dimension()];
-            for (&row, value) in self.pattern.row_indices().iter().zip(values) {
-                sums[row] += value.abs();
-            }
-            sums.into_iter().fold(0.0, f64::max)
+            let row_sum = |row: usize| -> f64 {
+                let own = self.pattern.row_range(row);
+                values.get(own).into_iter().flatten().map(|v| v.abs()).sum()
+            };
+            (0..self.pattern.dimension())
+                .map(row_sum)
+                .fold(0.0, f64::max)
         };
         let [stiff, damped, inert] = [0, 1, 2].map(|i| norm(&self.values[i]));
         let damped = match self.linearization {
@@ -145,58 +144,6 @@ fn add_complex_multiple(
     sum.for_each(|(t, (p, q))| *t += factor.re * q + factor.im * p);
 }
 
-/// Factors of `K(mu)`.
-pub enum StiffnessFactors {
-    /// Without friction: a factor five cheaper to compute and to solve with.
-    Symmetric(Box<SparseLdl>),
-    /// With friction.
-    General(Box<SparseLu>),
-}
-
-impl StiffnessFactors {
-    /// Factorizes `K(0)`, which is symmetric.
-    ///
-    /// # Errors
-    /// If it is singular.
-    pub fn frictionless(tangent: &SlidingTangent) -> Result<Self, LinalgError> {
-        let analysis = LdlAnalysis::new(tangent.stiffness.pattern())?;
-        let values = tangent.stiffness.evaluate(0.0);
-        let factors = SparseLdl::factorize(&analysis, &values)?;
-        Ok(Self::Symmetric(Box::new(factors)))
-    }
-
-    /// Factorizes `K(mu)` on an analysis made once and kept in `cache`.
-    ///
-    /// # Errors
-    /// If it is singular.
-    pub fn general(
-        tangent: &SlidingTangent,
-        cache: &OnceLock<Result<LuAnalysis, LinalgError>>,
-        mu: f64,
-    ) -> Result<Self, LinalgError> {
-        let analysis = cache.get_or_init(|| LuAnalysis::new(tangent.stiffness.pattern()));
-        let analysis = analysis.as_ref().map_err(Clone::clone)?;
-        let factors = SparseLu::factorize(analysis, tangent.stiffness.evaluate(mu))?;
-        Ok(Self::General(Box::new(factors)))
-    }
-
-    /// `K^-1 x` for each column, in place.
-    pub fn solve_in_place(&self, x: &mut Mat<f64>) {
-        match self {
-            Self::Symmetric(ldl) => ldl.solve_in_place(x.as_mut()),
-            Self::General(lu) => lu.solve_in_place(x.as_mut()),
-        }
-    }
-
-    /// `K^-T x` for each column, in place.
-    pub fn solve_transpose_in_place(&self, x: &mut Mat<f64>) {
-        match self {
-            Self::Symmetric(ldl) => ldl.solve_in_place(x.as_mut()),
-            Self::General(lu) => lu.solve_transpose_in_place(x.as_mut()),
-        }
-    }
-}
-
 /// Shift-and-invert about zero, in real arithmetic: the lowest modes are its eigenvalues of largest
 /// modulus.
 ///
@@ -225,7 +172,10 @@ impl BlockOperator for ShiftInverted<'_> {
 
     fn apply(&self, z: MatRef<'_, f64>) -> Mat<f64> {
         let [_, damping, mass] = &self.matrices.values;
-        let product = |values: &[f64], x| self.matrices.pattern.multiply(values, x);
+        let product = |values: &[f64], x| {
+            let [image] = self.matrices.pattern.multiply_each([values], x);
+            image
+        };
         match self.matrices.linearization {
             Linearization::Reduced(_) => {
                 let mut image = product(mass, z);
@@ -249,7 +199,7 @@ impl BlockOperator for ShiftInverted<'_> {
 pub struct Companion<'a> {
     pattern: &'a SparsityPattern,
     factors: &'a StiffnessFactors,
-    /// Nonzero values of `-omega C` and `-omega^2 M`.
+    /// Nonzero values of `-omega C` and `-omega^2 M`, by rows, transposed by columns.
     values: [Vec<f64>; 2],
     is_transposed: bool,
 }
@@ -261,24 +211,40 @@ impl<'a> Companion<'a> {
         factors: &'a StiffnessFactors,
         frequency_scale: f64,
     ) -> Self {
-        let [_, damping, mass] = &matrices.values;
-        let scaled = |factor: f64, values: &[f64]| values.iter().map(|v| factor * v).collect();
-        Self {
-            pattern: matrices.pattern,
-            factors,
-            values: [
-                scaled(-frequency_scale, damping),
-                scaled(-frequency_scale * frequency_scale, mass),
-            ],
-            is_transposed: false,
-        }
+        Self::oriented(matrices, factors, frequency_scale, false)
     }
 
     /// The blocks of the transposed matrices: their vectors are the left ones.
-    pub fn transposed(self) -> Self {
+    pub fn transposed(
+        matrices: &'a StructureMatrices<'_>,
+        factors: &'a StiffnessFactors,
+        frequency_scale: f64,
+    ) -> Self {
+        Self::oriented(matrices, factors, frequency_scale, true)
+    }
+
+    fn oriented(
+        matrices: &'a StructureMatrices<'_>,
+        factors: &'a StiffnessFactors,
+        frequency_scale: f64,
+        is_transposed: bool,
+    ) -> Self {
+        let [_, damping, mass] = &matrices.values;
+        let scaled = |factor: f64, values: &[f64]| -> Vec<f64> {
+            values.iter().map(|v| factor * v).collect()
+        };
+        let values = [
+            scaled(-frequency_scale, damping),
+            scaled(-frequency_scale * frequency_scale, mass),
+        ];
         Self {
-            is_transposed: !self.is_transposed,
-            ..self
+            pattern: matrices.pattern,
+            factors,
+            values: match is_transposed {
+                true => values.map(|values| matrices.pattern.by_columns(&values)),
+                false => values,
+            },
+            is_transposed,
         }
     }
 }
@@ -291,8 +257,7 @@ impl QuadraticOperator for Companion<'_> {
     fn apply(&self, x: MatRef<'_, f64>, y: MatRef<'_, f64>) -> Mat<f64> {
         let [damping, mass] = &self.values;
         if self.is_transposed {
-            let product = |values, x| self.pattern.multiply_transpose(values, x);
-            let mut image = product(damping, x) + product(mass, y);
+            let mut image = self.pattern.multiply_transpose_sum([damping, mass], [x, y]);
             self.factors.solve_transpose_in_place(&mut image);
             return image;
         }

@@ -23,6 +23,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 const MIN_SAMPLES: usize = 6;
 /// Change of a critical friction coefficient below which its mode needs no more corrections.
 const SETTLED: f64 = 1e-10;
+/// Residual force, relative to the inertia force, up to which modes are corrected rather than computed anew.
+const CORRECTABLE: f64 = 1e-4;
 /// Attempts to improve points that miss the goal.
 const MAX_REPAIRS: usize = 8;
 /// Such attempts for each friction value where a mode misses the bound of converged pairs.
@@ -157,11 +159,7 @@ impl<'a> SparseSweep<'a> {
                 })
                 .filter(|&k| self.points[k].misses_goal(goal))
                 .collect();
-            let error = |k: usize| self.points[k].worst().1;
-            let Some(&worst) = missing
-                .iter()
-                .max_by(|&&a, &&b| error(a).total_cmp(&error(b)))
-            else {
+            let Some(&worst) = self.by_error(&missing).first() else {
                 break;
             };
             // What is converged is improved for a while, what is not for longer.
@@ -169,13 +167,14 @@ impl<'a> SparseSweep<'a> {
             if round >= MAX_REPAIRS + self.grid.len() && missing.iter().all(is_converged) {
                 break;
             }
-            if !self.builder.improve_at(self.grid[worst])? {
+            if !self.repair(&missing)? {
                 if self.points[worst].worst().0 <= RESIDUAL_BOUND {
                     break;
                 }
                 self.builder.search(self.grid[worst], TRACKING_MARGIN)?;
             }
             for (k, point) in missing.iter().zip(self.solve_points(&missing)?) {
+                self.builder.hold_solved(self.grid[*k], &point.modes);
                 self.points[*k] = point;
             }
         }
@@ -187,6 +186,42 @@ impl<'a> SparseSweep<'a> {
             self.builder.count,
         )?;
         Ok(())
+    }
+
+    /// `points` by falling error.
+    fn by_error(&self, points: &[usize]) -> Vec<usize> {
+        let error = |k: usize| self.points[k].worst().1;
+        let mut order = points.to_vec();
+        order.sort_by(|&a, &b| error(b).total_cmp(&error(a)));
+        order
+    }
+
+    /// Makes the basis hold the modes better at the `missing` points: where they are solved for anew, at the worst between two
+    /// that it holds, as the others gain from it. Whether the basis grew.
+    fn repair(&mut self, missing: &[usize]) -> Result<bool, CeaError> {
+        let gaps: Vec<usize> = self.grid.iter().map(|&mu| self.builder.gap(mu)).collect();
+        let mut repaired: Vec<usize> = Vec::new();
+        let mut has_grown = false;
+        for k in self.by_error(missing) {
+            if repaired.contains(&gaps[k]) {
+                continue;
+            }
+            let (mu, point) = (self.grid[k], &self.points[k]);
+            // A correction serves its own point alone.
+            let beside = missing
+                .iter()
+                .filter(|&&other| gaps[other] == gaps[k])
+                .count();
+            let is_near = beside == 1 && point.worst().1 <= CORRECTABLE;
+            has_grown |= match self.linearization {
+                Linearization::Companion { .. } if is_near => {
+                    self.builder.correct_at(mu, &point.modes)?
+                }
+                _ => self.builder.improve_at(mu)?,
+            };
+            repaired.push(gaps[k]);
+        }
+        Ok(has_grown)
     }
 
     fn solve_points(&self, indices: &[usize]) -> Result<Vec<SolvedPoint>, LinalgError> {
@@ -306,6 +341,7 @@ impl<'a> SparseSweep<'a> {
     fn intervals(&mut self, branches: &[TrackedBranch]) -> Result<Vec<UnstableInterval>, CeaError> {
         let mut repairs = 0;
         let mut settled: Vec<f64> = Vec::new();
+        let mut known: Vec<Vec<FoundInterval>> = Vec::new();
         loop {
             let solver = self.point_solver();
             let finder = || OnsetFinder {
@@ -314,14 +350,21 @@ impl<'a> SparseSweep<'a> {
                 points: &self.points,
                 lowest: self.lowest,
             };
-            let found: Result<Vec<_>, CeaError> = branches
-                .par_iter()
-                .map(|branch| finder().intervals(branch))
+            // In a basis that grew, crossings are near where they were.
+            let found: Result<Vec<_>, CeaError> = (0..branches.len())
+                .into_par_iter()
+                .map(|i| {
+                    let again = known.get(i).map(|own| finder().again(&branches[i], own));
+                    match again {
+                        Some(Ok(Some(intervals))) => Ok(intervals),
+                        Some(Err(error)) => Err(error),
+                        Some(Ok(None)) | None => finder().intervals(&branches[i]),
+                    }
+                })
                 .collect();
             match found {
                 Ok(found) => {
-                    let found: Vec<FoundInterval> = found.into_iter().flatten().collect();
-                    let crossings = || found.iter().flat_map(|found| &found.crossings);
+                    let crossings = || found.iter().flatten().flat_map(FoundInterval::crossings);
                     let places: Vec<f64> = crossings().map(|state| state.mu).collect();
                     let pairs = || places.iter().zip(&settled);
                     let has_settled = places.len() == settled.len()
@@ -336,9 +379,11 @@ impl<'a> SparseSweep<'a> {
                         }
                     }
                     if !has_grown {
-                        return Ok(found.into_iter().map(|found| found.interval).collect());
+                        let found = found.into_iter().flatten();
+                        return Ok(found.map(|found| found.interval).collect());
                     }
                     settled = places;
+                    known = found;
                     repairs += 1;
                 }
                 Err(CeaError::NotConverged {

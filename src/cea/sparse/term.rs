@@ -7,6 +7,8 @@ use crate::linalg::{Mat, MatRef};
 /// One coefficient `P` of a matrix polynomial, over the unknowns that it touches.
 pub struct Term {
     matrix: MatrixPolynomial,
+    /// Its nonzeros by rows.
+    sorted: Vec<f64>,
     /// The unknowns, where they are not all.
     support: Option<Vec<usize>>,
     /// Rows of `V` of these unknowns.
@@ -20,8 +22,10 @@ impl Term {
         let (matrix, unknowns) = polynomial.compact_coefficient(power);
         let support = (unknowns.len() < polynomial.dimension()).then_some(unknowns);
         let rows = support.as_ref().map_or(0, Vec::len);
+        let sorted = matrix.pattern().by_rows(&matrix.coefficients()[0]);
         Self {
             matrix,
+            sorted,
             support,
             restricted: Mat::zeros(rows, 0),
             is_symmetric,
@@ -42,7 +46,7 @@ impl Term {
     fn grown(&self, known: &Mat<f64>, basis: MatRef<'_, f64>, new: MatRef<'_, f64>) -> Mat<f64> {
         let (pattern, values) = (self.matrix.pattern(), &self.matrix.coefficients()[0]);
         let (old, total) = (known.ncols(), known.ncols() + new.ncols());
-        let image = pattern.multiply(values, new);
+        let [image] = pattern.multiply_each([&self.sorted], new);
         let above = transpose_product(basis, image.as_ref());
         let below = if self.is_symmetric {
             above.transpose().to_owned()
