@@ -20,6 +20,8 @@ const SMALLEST_PIVOT: f64 = 0.3;
 pub struct Elimination {
     /// `u[pivot]` as a combination of `y`; every other dof is itself.
     combined: BTreeMap<usize, Row>,
+    /// Whether each dof is one: most are none, and entries of matrices ask.
+    is_combined: Vec<bool>,
     /// Pivots whose combination has this dof.
     used_in: BTreeMap<usize, BTreeSet<usize>>,
     is_dropped: Vec<bool>,
@@ -41,6 +43,7 @@ impl Elimination {
         held.into_iter().for_each(|dof| is_dropped[dof] = true);
         Self {
             combined: BTreeMap::new(),
+            is_combined: vec![false; total],
             used_in: BTreeMap::new(),
             is_dropped,
         }
@@ -92,6 +95,7 @@ impl Elimination {
             self.combined.insert(earlier, row);
         }
         self.record(pivot, &combination);
+        self.is_combined[pivot] = true;
         self.combined.insert(pivot, combination);
     }
 
@@ -163,11 +167,11 @@ impl Elimination {
         }
         let mut entries = Vec::with_capacity(matrix.entries.len());
         for &(row, column, value) in &matrix.entries {
-            let [rows, columns] = [row, column].map(|dof| self.combined.get(&dof));
-            if rows.is_none() && columns.is_none() {
+            if !self.is_combined[row] && !self.is_combined[column] {
                 entries.push((row, column, value));
                 continue;
             }
+            let [rows, columns] = [row, column].map(|dof| self.combined.get(&dof));
             let (own_row, own_column) = ([(row, 1.0)], [(column, 1.0)]);
             let rows = rows.map_or(&own_row[..], Vec::as_slice);
             let columns = columns.map_or(&own_column[..], Vec::as_slice);
@@ -196,10 +200,10 @@ impl Elimination {
                 free.collect()
             })
             .collect();
-        let mut lifts: BTreeMap<usize, Row> = BTreeMap::new();
+        let mut lifts: Vec<Row> = vec![Row::new(); self.is_dropped.len()];
         for (i, rigid) in friction.iter().enumerate() {
             for &(dof, value) in &rigid.lift {
-                lifts.entry(dof).or_default().push((i, value));
+                lifts[dof].push((i, value));
             }
         }
         let powers = full.len() + usize::from(!friction.is_empty());
@@ -213,9 +217,10 @@ impl Elimination {
             }
             // The normal force is the work of the lift, taken over all dofs.
             for &(row, column, value) in &terms.entries {
-                let Some(lifted) = lifts.get(&row) else {
+                let lifted = &lifts[row];
+                if lifted.is_empty() {
                     continue;
-                };
+                }
                 for (dof, across) in self.transposed(&[(column, 1.0)]) {
                     let Some(unknown) = unknowns.unknown_of[dof] else {
                         continue;

@@ -231,7 +231,7 @@ impl SlidingTangent {
             basis.project(terms, &unknowns, &friction)
         };
 
-        // What beta_R multiplies: body, prestress, contact.
+        // What beta_R multiplies: body, prestress, contact; all of the stiffness where it stands on no springs.
         let mut stiffness = vec![body.elastic.clone()];
         let mut dashpots = vec![Triplets::default()];
         let mut losses: Vec<Triplets> = body.structural.iter().cloned().collect();
@@ -248,9 +248,11 @@ impl SlidingTangent {
             }
         }
         let mass = projected(std::slice::from_ref(&body.mass));
+        let is_unsupported = body.supports[0].entries.is_empty() && body.rotation.is_none();
         let damped = match options.damping_model {
-            DampingModel::WholeTangent => projected(&stiffness),
-            DampingModel::BodyOnly => projected(std::slice::from_ref(&body.elastic)),
+            DampingModel::WholeTangent if is_unsupported => None,
+            DampingModel::WholeTangent => Some(projected(&stiffness)),
+            DampingModel::BodyOnly => Some(projected(std::slice::from_ref(&body.elastic))),
         };
 
         // What it does not: supports, dashpots, regions with damping of their own, rotation.
@@ -275,11 +277,12 @@ impl SlidingTangent {
             |terms: &ProjectedPolynomial| MatrixPolynomial::on_pattern(&pattern, terms);
         let (mass, stiffness) = (on_pattern(&mass), on_pattern(&stiffness));
         let rayleigh = options.damping;
+        let damped = damped.map(|own| on_pattern(&own));
         let mut damping = MatrixPolynomial::combination(
             rayleigh.mass_coefficient,
             &mass,
             rayleigh.stiffness_coefficient,
-            &on_pattern(&damped),
+            damped.as_ref().unwrap_or(&stiffness),
         );
         if has_dashpots {
             damping = MatrixPolynomial::combination(1.0, &damping, 1.0, &on_pattern(&dashpots));
