@@ -69,7 +69,10 @@ pub struct BasisBuilder<'a> {
     pub model: ReducedModel,
     /// Modes to be held at every friction coefficient.
     pub count: usize,
-    /// Friction coefficients whose modes of the quadratic problem the basis holds.
+    /// Whether the basis is made of the modes at a few friction coefficients, each from an iteration of its own; else it grows
+    /// by residuals.
+    is_sampling: bool,
+    /// Friction coefficients whose modes the basis holds as such.
     sampled: Vec<f64>,
     watch: &'a dyn SweepWatch,
     /// Steps that the watch was offered.
@@ -94,10 +97,16 @@ impl<'a> BasisBuilder<'a> {
             cache: FactorCache::default(),
             model,
             count: modes.ncols(),
+            is_sampling: matches!(linearization, Linearization::Companion { .. }),
             sampled: Vec::new(),
             watch,
             steps: 0,
         }
+    }
+
+    /// Whether the basis is made of modes at friction coefficients of their own.
+    pub(super) fn is_sampling(&self) -> bool {
+        self.is_sampling
     }
 
     /// Steps so far: the state of the basis is known by their number.
@@ -137,12 +146,9 @@ impl<'a> BasisBuilder<'a> {
     /// # Errors
     /// If a dense decomposition or an iteration fails.
     pub fn cover(&mut self, values: &[f64]) -> Result<(), CeaError> {
-        if let Linearization::Companion { .. } = self.linearization {
+        if self.is_sampling {
             if values[0] > 0.0 {
-                // Branches begin there: modes without friction and damping are near enough.
-                let modes = Mat::identity(self.model.dimension(), self.count);
-                self.model
-                    .hold_sample(0.0, &self.model.expand(modes.as_ref()));
+                self.hold_frictionless();
             }
             for mu in [
                 values[values.len() - 1],
@@ -166,14 +172,45 @@ impl<'a> BasisBuilder<'a> {
         Ok(())
     }
 
+    /// Takes up the modes at each of few `values` (friction coefficients, ascending) of proportional damping: without friction
+    /// they are known.
+    ///
+    /// # Errors
+    /// If an iteration fails.
+    pub fn cover_each(&mut self, values: &[f64]) -> Result<(), CeaError> {
+        self.is_sampling = true;
+        self.hold_frictionless();
+        for mu in values.iter().filter(|mu| **mu > 0.0) {
+            self.improve_at(*mu)?;
+        }
+        Ok(())
+    }
+
+    /// Branches begin without friction: the modes there, without damping too, are near enough, or those of proportional damping.
+    fn hold_frictionless(&mut self) {
+        let modes = Mat::identity(self.model.dimension(), self.count);
+        self.model.hold_coordinates(0.0, modes);
+        if let Linearization::Reduced(_) = self.linearization {
+            self.sampled.push(0.0);
+        }
+    }
+
     /// Makes the basis hold the modes at `mu` better; whether it grew.
     ///
     /// # Errors
     /// If `K(mu)` is singular, or an iteration or a dense decomposition fails.
     pub fn improve_at(&mut self, mu: f64) -> Result<bool, CeaError> {
         match self.linearization {
-            Linearization::Reduced(_) => Ok(self.refine_at(mu)?.is_some()),
-            Linearization::Companion { .. } if self.sampled.contains(&mu) => self.refine_sample(mu),
+            _ if !self.is_sampling => Ok(self.refine_at(mu)?.is_some()),
+            _ if self.sampled.contains(&mu) => self.refine_sample(mu),
+            Linearization::Reduced(_) => {
+                self.sampled.push(mu);
+                let vectors =
+                    self.step(mu, |builder| builder.dominant_vectors(mu, builder.count))?;
+                let has_grown = self.model.extend(vectors.clone(), SAMPLE_TOLERANCE).ncols() > 0;
+                self.model.hold_sample(mu, &vectors);
+                Ok(has_grown)
+            }
             Linearization::Companion { frequency_scale } => {
                 self.sampled.push(mu);
                 // Combinations of the modes without friction, which the basis holds first.

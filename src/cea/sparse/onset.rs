@@ -2,7 +2,6 @@
 
 use super::RESIDUAL_BOUND;
 use super::branches::TrackedBranch;
-use super::linearization::Linearization;
 use super::mode::ReducedMode;
 use super::packed::ComplexColumns;
 use super::point::{PointSolver, SolvedPoint};
@@ -247,11 +246,11 @@ impl BranchSolver for OnsetFinder<'_> {
         let best = (0..modes.len()).max_by(|&i, &j| score(i).total_cmp(&score(j)));
         Ok(best.map(|best| {
             let coarse = modes.swap_remove(best);
-            // Of the quadratic problem that was in the span of samples: the whole basis knows better.
-            let fine = match self.solver.linearization {
-                Linearization::Reduced(_) => None,
-                Linearization::Companion { .. } => self.model.mode_near(mu, &coarse),
-            };
+            // That was in the span of samples, if there are any: the whole basis knows better.
+            let is_coarse = self.model.has_samples();
+            let fine = is_coarse
+                .then(|| self.model.mode_near(mu, &coarse))
+                .flatten();
             let fine = fine.filter(|fine| self.are_same(mu, fine, &[&coarse]));
             let mode = fine.unwrap_or(coarse);
             State { mu, mode }

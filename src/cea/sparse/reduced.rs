@@ -295,6 +295,11 @@ impl ReducedModel {
         );
     }
 
+    /// Whether it holds the modes at some friction coefficients as such.
+    pub fn has_samples(&self) -> bool {
+        !self.samples.is_empty()
+    }
+
     /// Forgets the modes held at `mu`.
     pub fn drop_sample(&mut self, mu: f64) {
         self.samples.retain(|sample| sample.0 != mu);

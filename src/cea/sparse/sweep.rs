@@ -21,6 +21,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Friction values at which the basis is refined, at least, over a range.
 const MIN_SAMPLES: usize = 6;
+/// Friction values up to which each of a body without symmetry has an iteration of its own, where damping is proportional.
+const FEW_VALUES: usize = 6;
 /// Change of a critical friction coefficient below which its mode needs no more corrections.
 const SETTLED: f64 = 1e-10;
 /// Residual force, relative to the inertia force, up to which modes are corrected rather than computed anew.
@@ -114,9 +116,13 @@ impl<'a> SparseSweep<'a> {
     /// # Errors
     /// If a dense decomposition fails.
     pub fn cover(&mut self) -> Result<(), CeaError> {
-        if matches!(self.linearization, Linearization::Companion { .. }) {
+        if self.builder.is_sampling() {
             let first = self.first_asked();
             return self.builder.cover(&self.grid[first..]);
+        }
+        // A basis for all friction values is wide where the body has no symmetry: few values are cheaper each by itself.
+        if self.grid.len() <= FEW_VALUES && self.tangent.contact_angles.is_empty() {
+            return self.builder.cover_each(&self.grid);
         }
         let (lowest, highest) = (self.lowest, self.grid[self.grid.len() - 1]);
         let mut samples = self.grid.clone();
@@ -213,11 +219,9 @@ impl<'a> SparseSweep<'a> {
                 .filter(|&&other| gaps[other] == gaps[k])
                 .count();
             let is_near = beside == 1 && point.worst().1 <= CORRECTABLE;
-            has_grown |= match self.linearization {
-                Linearization::Companion { .. } if is_near => {
-                    self.builder.correct_at(mu, &point.modes)?
-                }
-                _ => self.builder.improve_at(mu)?,
+            has_grown |= match is_near && self.builder.is_sampling() {
+                true => self.builder.correct_at(mu, &point.modes)?,
+                false => self.builder.improve_at(mu)?,
             };
             repaired.push(gaps[k]);
         }
@@ -301,10 +305,8 @@ impl<'a> SparseSweep<'a> {
                 });
             }
             let (from, to) = (self.grid[lost.point], self.grid[lost.point + 1]);
-            let has_improved = match self.linearization {
-                Linearization::Reduced(_) => false,
-                Linearization::Companion { .. } => self.builder.improve_between(from, to)?,
-            };
+            let is_sampling = self.builder.is_sampling();
+            let has_improved = is_sampling && self.builder.improve_between(from, to)?;
             if !has_improved {
                 searched = true;
                 self.builder.search(to, TRACKING_MARGIN)?;
@@ -369,9 +371,8 @@ impl<'a> SparseSweep<'a> {
                     let pairs = || places.iter().zip(&settled);
                     let has_settled = places.len() == settled.len()
                         && pairs().all(|(new, old)| (new - old).abs() <= SETTLED);
-                    let is_final = matches!(self.linearization, Linearization::Reduced(_))
-                        || has_settled
-                        || repairs >= MAX_REPAIRS;
+                    let is_final =
+                        !self.builder.is_sampling() || has_settled || repairs >= MAX_REPAIRS;
                     let mut has_grown = false;
                     if !is_final {
                         for State { mu, mode } in crossings() {
