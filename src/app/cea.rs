@@ -238,6 +238,7 @@ mod tests {
             contact_share: 0.1,
             axial_share: None,
             shape: Some(shape),
+            wave: None,
         };
         let values = cea.solved_friction_coefficients();
         let points = values

@@ -5,8 +5,8 @@ use super::profile::{Profile, Redraw};
 use super::{Failure, RunOptions, Session, terminal};
 use crate::results::fit::{FitSummary, draw_report, write};
 use crate::results::{DrawingOptions, OutputFolder, read_summary};
-use crate::signal::reader::read_modes;
-use crate::study::fit::{fit_case, refuse_too_few, summarize};
+use crate::signal::reader::{MeasuredShape, read_modes, read_shapes};
+use crate::study::fit::{MeasuredShapes, fit_case_with_shapes, refuse_too_few, summarize};
 use clap::{Args, ValueHint};
 use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
@@ -24,6 +24,17 @@ pub struct Arguments {
     /// Measured modes: frequency_hz and, where known, real_hz or damping_factor, harmonic, sigma_hz, unstable (1: heard)
     #[arg(value_name = "MODES.csv", value_hint = ValueHint::FilePath)]
     modes: PathBuf,
+    /// Measured shapes of some of these modes, found by their frequency: universal file (dataset 55) or table, as of mac
+    #[arg(long, value_name = "SHAPES", value_hint = ValueHint::FilePath)]
+    shapes: Option<PathBuf>,
+    /// Factor that takes the coordinates of the shapes to metres
+    #[arg(
+        long,
+        value_name = "FACTOR",
+        default_value_t = 1.0,
+        requires = "shapes"
+    )]
+    scale: f64,
 }
 
 /// What the rest of the program asks of this command.
@@ -39,10 +50,16 @@ pub const PROFILE: Profile = Profile {
             "sections with the fitted values to paste into a case",
         ),
     ],
-    examples: &[(
-        "frictionsim fit bench.toml squeal.csv",
-        "which support explains the frequencies heard?",
-    )],
+    examples: &[
+        (
+            "frictionsim fit bench.toml squeal.csv",
+            "which support explains the frequencies heard?",
+        ),
+        (
+            "frictionsim fit bench.toml modes.csv --shapes shapes.unv --scale 0.001",
+            "the same where shapes tell close modes apart",
+        ),
+    ],
     redraw: Redraw::OfFolder(redraw),
 };
 
@@ -56,13 +73,18 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let bytes = read_input(&arguments.modes, LARGEST_MEASUREMENT)?;
     let lines = read_modes(&bytes, &input_name(&arguments.modes))?;
     session.manifest.case_hash = joint_hash(&session.manifest.case_hash, &bytes);
+    let shapes = read_measured(arguments, &mut session)?;
+    let shapes = shapes.as_deref().map(|shapes| MeasuredShapes {
+        shapes,
+        scale: arguments.scale,
+    });
     session.check_memory(session.case.cost().mesh_memory_bytes)?;
     refuse_too_few(&session.case, &lines)?;
     let folder = session.open_folder()?;
     terminal::catch_signals(terminal::NOTHING_KEPT);
 
     let case = &session.case;
-    let fitted = fit_case(case, &lines)?;
+    let fitted = fit_case_with_shapes(case, &lines, shapes)?;
     let mut found = summarize(case, &lines, &fitted)?;
     found.measurement = input_name(&arguments.modes);
     found.wall_s = session.wall_seconds();
@@ -78,6 +100,33 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         .options
         .output
         .finish(folder, &found.text(), &object)
+}
+
+/// The measured shapes, if there are some; results belong to them and their scale too.
+fn read_measured(
+    arguments: &Arguments,
+    session: &mut Session,
+) -> Result<Option<Vec<MeasuredShape>>, Failure> {
+    let Some(path) = &arguments.shapes else {
+        return Ok(None);
+    };
+    scale_of_shapes(arguments.scale)?;
+    let bytes = read_input(path, LARGEST_MEASUREMENT)?;
+    let identity = format!("{} {:?}", session.manifest.case_hash, arguments.scale);
+    session.manifest.case_hash = joint_hash(&identity, &bytes);
+    Ok(Some(read_shapes(&bytes, &input_name(path))?))
+}
+
+/// Refuses a factor that takes no coordinates to metres.
+///
+/// # Errors
+/// That one.
+pub(super) fn scale_of_shapes(scale: f64) -> Result<(), Failure> {
+    if scale > 0.0 && scale.is_finite() {
+        return Ok(());
+    }
+    let message = format!("--scale {scale} must be positive and finite");
+    Err(Failure::usage(message))
 }
 
 /// Draws the figure and the report of a folder from its summary.

@@ -5,6 +5,7 @@ use super::{Failure, RunOptions, Session, terminal};
 use crate::case::Case;
 use crate::results::improve::{ImproveSummary, draw, write};
 use crate::results::{DrawingOptions, OutputFolder, read_summary, write_summary};
+use crate::study::extent_of;
 use crate::study::improve::{Improvement, improve};
 use clap::Args;
 
@@ -75,6 +76,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         base: found.base,
         modes: found.modes.clone(),
         sizes: found.sizes,
+        extent: extent_of(&session.case),
         candidates: found.candidates.clone(),
         front: found.front.clone(),
         notes: found.notes.clone(),

@@ -42,10 +42,7 @@ pub const PROFILE: Profile = Profile {
 /// # Errors
 /// A bad case or file of shapes, points off the body, an output folder that cannot be written.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    if !(arguments.scale > 0.0 && arguments.scale.is_finite()) {
-        let message = format!("--scale {} must be positive and finite", arguments.scale);
-        return Err(Failure::usage(message));
-    }
+    super::fit::scale_of_shapes(arguments.scale)?;
     let mut session = Session::start("mac", &arguments.options)?;
     let bytes = read_input(&arguments.shapes, LARGEST_MEASUREMENT)?;
     let source = input_name(&arguments.shapes);

@@ -26,11 +26,14 @@ pub struct Fit {
     pub parameters: Vec<FitParameter>,
     /// Points within the bounds at which the search looks first.
     pub starts: usize,
+    /// What a measured shape counts that has nothing of its line's mode: the share of the frequency that counts as much.
+    pub shape_weight: f64,
 }
 
 pub(super) fn fit(root: &Section<'_>) -> Option<Fit> {
     let section = root.section("fit", false);
     let starts = section.count("starts");
+    let shape_weight = section.number("shape_weight");
     let given = section.is_given();
     let inner = section.section("parameters", given);
     let found: Vec<FitParameter> = entries(&inner)
@@ -50,6 +53,7 @@ pub(super) fn fit(root: &Section<'_>) -> Option<Fit> {
     given.then_some(Fit {
         parameters: found,
         starts,
+        shape_weight,
     })
 }
 

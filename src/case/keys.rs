@@ -263,6 +263,7 @@ pub const KEYS: &[CaseKey] = &[
     key("convergence.analyses", Choices(words::<Analysis>), "", Otherwise("every one that the case has a section for"), "[\"cea\", \"transient\"]", "what is studied"),
 
     key("fit.parameters", Table("table of case keys, each with its bounds [from, to] or { from, to, scale, also }"), "", Required, "{ \"material.poisson_ratio\" = [0.3, 0.45] }", "what is fitted to measured modes, and the bounds between which it is sought (scale \"log\" fits the logarithm; also: keys that take the same value)"),
+    key("fit.shape_weight", Number(Positive), "", Value("0.1"), "0.1", "with measured shapes (--shapes): a shape that has nothing of its line's mode (MAC 0) counts like a frequency that is off by this share"),
     key("fit.starts", Count(1), "", Value("16"), "16", "at how many points within the bounds the search looks first; it goes on from the best few"),
 
     key("uncertainty.samples", Count(2), "", Value("1024"), "4096", "the number of samples: points of a scrambled Sobol sequence, best a power of two"),

@@ -18,5 +18,7 @@ pub use branch::{BranchPoint, ModeBranch};
 pub use error::CeaError;
 pub use quadratic::{QuadraticMode, quadratic_modes};
 pub use request::{ModeLimit, SweepProgress, SweepRequest, SweepStage};
-pub use spectrum::{ComplexMode, FrictionPoint, FrictionSweep, UnstableInterval, keeping_ties};
+pub use spectrum::{
+    ComplexMode, FrictionPoint, FrictionSweep, ModeWave, UnstableInterval, keeping_ties,
+};
 pub use watch::{PartWatch, SweepWatch, Unwatched};

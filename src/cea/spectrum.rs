@@ -32,6 +32,28 @@ pub struct ComplexMode {
     /// Displacement shape over all nodes in nodal frames, two values a node (three in three dimensions) with
     /// `max |u| = 1`, where it was asked for.
     pub shape: Option<Vec<c64>>,
+    /// The same of one sector of a body solved harmonic by harmonic, where it was asked for.
+    pub wave: Option<ModeWave>,
+}
+
+/// A mode as a wave of its harmonic.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ModeWave {
+    /// The unknowns of the wave `+n` that has the eigenvalue [`Self::root`]: those of [`crate::prestress::HarmonicTangent`] of
+    /// an annulus, all of [`crate::prestress::SolidHarmonic`] of a body of revolution.
+    pub unknowns: Vec<c64>,
+    /// Whether the mode is the wave `-n`, the conjugate of these unknowns with the conjugate eigenvalue.
+    pub is_backward: bool,
+}
+
+impl ModeWave {
+    /// The eigenvalue of the wave `+n`, of that of the mode.
+    pub fn root(&self, eigenvalue: c64) -> c64 {
+        match self.is_backward {
+            true => eigenvalue.conj(),
+            false => eigenvalue,
+        }
+    }
 }
 
 impl ComplexMode {
@@ -55,9 +77,9 @@ impl ComplexMode {
         self.eigenvalue.re
     }
 
-    /// Whether the mode grows.
+    /// Whether the mode grows, by more than rounded matrices leave open: [`Self::uncertainty`].
     pub fn is_unstable(&self) -> bool {
-        self.eigenvalue.re > 0.0
+        self.eigenvalue.re > self.uncertainty.max(0.0) * self.eigenvalue.norm()
     }
 }
 

@@ -8,7 +8,7 @@
 use super::element;
 use super::{MassKind, MaterialField, RayleighDamping};
 use crate::linalg::banded::BandedMatrix;
-use crate::mesh::{NodalSupport, SectorMesh};
+use crate::mesh::{BoundaryCondition, NodalSupport, SectorMesh};
 use nalgebra::DMatrix;
 use std::f64::consts::PI;
 
@@ -190,6 +190,25 @@ pub fn supports(sector: &SectorMesh) -> Option<[SectorMatrix; 2]> {
         SectorMatrix::of_blocks(sector, &blocks)
     };
     Some([of(|s| s.stiffness), of(|s| s.damping)])
+}
+
+/// Name, springs and dashpots of each supported edge.
+pub fn each_support(sector: &SectorMesh) -> Vec<(String, [SectorMatrix; 2])> {
+    let boundaries = &sector.strip.boundaries;
+    let of = |own: usize| {
+        // The sector with this support alone.
+        let mut alone = sector.clone();
+        for (other, boundary) in alone.strip.boundaries.iter_mut().enumerate() {
+            if other != own {
+                boundary.condition = BoundaryCondition::Free;
+            }
+        }
+        Some((boundaries[own].name.clone(), supports(&alone)?))
+    };
+    let is_supported =
+        |own: &usize| matches!(boundaries[*own].condition, BoundaryCondition::Support(_));
+    let supported = (0..boundaries.len()).filter(is_supported);
+    supported.filter_map(of).collect()
 }
 
 /// Stiffness of one sector with the springs of its supports, Pa.

@@ -270,6 +270,11 @@ impl<'a> Assembly<'a> {
         })
     }
 
+    /// Stiffness and gyroscopic matrix of regions that turn with the inertia of their rotation.
+    pub fn rotation_terms(&self) -> Option<&[Triplets; 2]> {
+        self.rotation.as_ref().map(|own| &own.terms)
+    }
+
     /// Mass, damping and stiffness of small motions around `state`.
     ///
     /// # Errors

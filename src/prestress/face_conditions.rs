@@ -6,6 +6,16 @@ use crate::mesh::{BoundaryCondition, SolidFace, SolidSector};
 /// Springs and dashpots of every support, N/m and N s/m.
 pub fn supports(sector: &SolidSector) -> [SolidMatrix; 2] {
     let mut result = [SolidMatrix::default(), SolidMatrix::default()];
+    for (_, own) in each_support(sector) {
+        let sums = result.iter_mut().zip(own);
+        sums.for_each(|(sum, matrix)| sum.extend(matrix));
+    }
+    result
+}
+
+/// Name, springs and dashpots of each supported face.
+pub(super) fn each_support(sector: &SolidSector) -> Vec<(&'static str, [SolidMatrix; 2])> {
+    let mut all = Vec::new();
     for (face, condition) in SolidFace::ALL
         .into_iter()
         .zip(&sector.specification.conditions)
@@ -39,7 +49,8 @@ pub fn supports(sector: &SolidSector) -> [SolidMatrix; 2] {
                 (across, axial_damping),
             ],
         ];
-        for (sum, terms) in result.iter_mut().zip(values) {
+        let mut own = [SolidMatrix::default(), SolidMatrix::default()];
+        for (sum, terms) in own.iter_mut().zip(values) {
             for (component, value) in terms.into_iter().filter(|(_, value)| *value != 0.0) {
                 let term = FaceTerm {
                     row: component,
@@ -50,8 +61,9 @@ pub fn supports(sector: &SolidSector) -> [SolidMatrix; 2] {
                 sum.extend(face_matrix(sector, &elements, &term));
             }
         }
+        all.push((face.name(), own));
     }
-    result
+    all
 }
 
 /// Forces of the pressures on the faces, the same in every sector, N.

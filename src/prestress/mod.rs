@@ -33,6 +33,7 @@ mod solid_harmonic;
 mod solid_rate;
 mod solid_tangent;
 mod tangent;
+mod wave_parts;
 
 pub use assembly::{Assembly, BaseChoice, SlidingSurfaces, TiedSurfaces};
 pub use complementarity::{PressedRange, PressedState, Pressing};
@@ -51,3 +52,4 @@ pub use solid_harmonic::{MovingHarmonic, SolidHarmonic, moving_unknowns};
 pub use solid_rate::SolidRate;
 pub use solid_tangent::{SolidTangent, sector_unknowns};
 pub use tangent::{BodyTerms, ContactDofs, ContactPart, SlidingTangent};
+pub use wave_parts::{HarmonicParts, PartForms, SectorParts, SolidParts};

@@ -289,7 +289,7 @@ impl SectorTangent {
 
     /// A material of one region, with the damping that the region has of its own, and nothing elsewhere: what one
     /// section of the case is the cause of.
-    fn of_region(&self, own: usize, elastic: ElasticMaterial) -> Vec<RegionMaterial> {
+    pub(super) fn of_region(&self, own: usize, elastic: ElasticMaterial) -> Vec<RegionMaterial> {
         let nothing = ElasticMaterial {
             density: 0.0,
             ..elastic.without_stiffness()

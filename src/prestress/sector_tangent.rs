@@ -213,7 +213,7 @@ impl SectorTangent {
     }
 
     /// Harmonic `n` of a matrix over displacements, with distances across the contact.
-    fn wave(&self, matrix: &SectorMatrix, n: usize) -> BandedMatrix {
+    pub(super) fn wave(&self, matrix: &SectorMatrix, n: usize) -> BandedMatrix {
         let mut wave = matrix.harmonic(n);
         to_distances(&mut wave, &self.sector);
         wave

@@ -55,18 +55,7 @@ pub fn assurance(
     scale: f64,
 ) -> Result<Assurance, StudyError> {
     let cea = case.require_cea()?;
-    if let Body::Revolution(_) = &case.body {
-        return Err(case
-            .error_at(
-                "material.formulation",
-                "measured points are compared node by node, and the modes of this body are solved harmonic by harmonic, either \
-                 sense of travel alone"
-                    .to_owned(),
-                "a body of revolution in three dimensions".to_owned(),
-                Some("give the body as a mesh file (mesh.file)".to_owned()),
-            )
-            .into());
-    }
+    refuse_revolution(case)?;
     let friction = case.contact.sliding.friction_coefficient;
     let own = Cea {
         friction_coefficients: vec![friction],
@@ -77,10 +66,7 @@ pub fn assurance(
     };
     let model = SlidingModel::new(case, &own)?;
     // Before anything is solved.
-    let placed: Vec<Placed> = shapes
-        .iter()
-        .map(|shape| Placed::of(case, &model.mesh, shape, scale))
-        .collect::<Result<_, _>>()?;
+    let placed = placed(case, &model.mesh, shapes, scale)?;
     let solution = solve_modes(case, &own, &model)?;
     let modes: Vec<_> = solution
         .sweep
@@ -91,14 +77,11 @@ pub fn assurance(
         .collect();
 
     // The matrix and the pairs.
-    let row = |(shape, placed): (&MeasuredShape, &Placed)| -> Vec<f64> {
-        let modes = modes.iter();
-        let values = modes.map(|mode| mode.shape.as_deref().unwrap_or_default());
-        values
-            .map(|phi| criterion(&model.mesh, phi, shape, placed))
-            .collect()
-    };
-    let matrix: Vec<Vec<f64>> = shapes.iter().zip(&placed).map(row).collect();
+    let values = modes
+        .iter()
+        .map(|mode| mode.shape.as_deref().unwrap_or_default());
+    let values: Vec<&[c64]> = values.collect();
+    let matrix = criteria(&model.mesh, &values, shapes, &placed);
     let mut notes = Vec::new();
     for (shape, placed) in shapes.iter().zip(&placed) {
         notes.extend(placed.note(shape, case.body.size()));
@@ -131,8 +114,58 @@ pub fn assurance(
     })
 }
 
+/// Measured points are nodes of the whole mesh.
+///
+/// # Errors
+/// A body of revolution.
+pub(in crate::study) fn refuse_revolution(case: &Case) -> Result<(), StudyError> {
+    let Body::Revolution(_) = &case.body else {
+        return Ok(());
+    };
+    Err(case
+        .error_at(
+            "material.formulation",
+            "measured points are compared node by node, and the modes of this body are solved harmonic by harmonic, either \
+             sense of travel alone"
+                .to_owned(),
+            "a body of revolution in three dimensions".to_owned(),
+            Some("give the body as a mesh file (mesh.file)".to_owned()),
+        )
+        .into())
+}
+
+/// The nodes of the points of some shapes.
+///
+/// # Errors
+/// A shape most of whose points lie off the body.
+pub(in crate::study) fn placed(
+    case: &Case,
+    mesh: &Mesh,
+    shapes: &[MeasuredShape],
+    scale: f64,
+) -> Result<Vec<Placed>, StudyError> {
+    let all = shapes.iter();
+    all.map(|shape| Placed::of(case, mesh, shape, scale))
+        .collect()
+}
+
+/// The criterion of every shape with every mode, `[shape][mode]`.
+pub(in crate::study) fn criteria(
+    mesh: &Mesh,
+    modes: &[&[c64]],
+    shapes: &[MeasuredShape],
+    placed: &[Placed],
+) -> Vec<Vec<f64>> {
+    let row = |(shape, placed): (&MeasuredShape, &Placed)| -> Vec<f64> {
+        let each = modes.iter();
+        each.map(|phi| criterion(mesh, phi, shape, placed))
+            .collect()
+    };
+    shapes.iter().zip(placed).map(row).collect()
+}
+
 /// The nodes of a shape's points.
-struct Placed {
+pub(in crate::study) struct Placed {
     /// Node of each point; none where it lies off the body.
     nodes: Vec<Option<usize>>,
     /// Points off the body, and the largest distance of any point from its node, m.

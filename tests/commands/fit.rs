@@ -292,3 +292,72 @@ fn bad_parameters_are_errors_of_the_case() {
         assert!(error.to_string().contains(part), "{text}: {error}");
     }
 }
+
+/// Two modes on springs that share one stiffness, `f = 1000 sqrt(p)` and `1000 sqrt(2.4 - p)`: two values of `p` give the same two
+/// frequencies, and only the shapes tell which. They mix a little where the modes are close.
+#[test]
+fn shapes_tell_modes_apart_that_cross() {
+    use frictionsim::linalg::c64;
+    use frictionsim::study::fit::{BoundedParameter, FitProblem, ModelMode, fit};
+    let truth = 1.2996_f64;
+    let frequencies = |p: f64| [1000.0 * p.sqrt(), 1000.0 * (2.4 - p).sqrt()];
+    let model = |values: &[f64], _: bool| -> Result<Vec<ModelMode>, String> {
+        // The share of the other mode, largest where both have one frequency.
+        let mixed = 0.1 * (-((values[0] - 1.2) / 0.05).powi(2)).exp();
+        let modes = frequencies(values[0]).into_iter().enumerate();
+        let modes = modes.map(|(k, frequency)| ModelMode {
+            eigenvalue: c64::new(-10.0, std::f64::consts::TAU * frequency),
+            harmonic: None,
+            branch: k,
+            direction: 0,
+            rates: vec![None],
+            assurances: match k {
+                0 => vec![1.0 - mixed, mixed],
+                _ => vec![mixed, 1.0 - mixed],
+            },
+        });
+        Ok(modes.collect())
+    };
+    let lines: Vec<MeasuredMode> = frequencies(truth)
+        .into_iter()
+        .enumerate()
+        .map(|(k, frequency_hz)| MeasuredMode {
+            line: k + 2,
+            frequency_hz,
+            real_hz: None,
+            harmonic: None,
+            sigma_hz: None,
+            is_unstable: false,
+        })
+        .collect();
+    let parameters = [BoundedParameter {
+        name: "p".to_owned(),
+        from: 0.8,
+        to: 1.6,
+        is_logarithmic: false,
+    }];
+    let with = |shape_of: [Option<usize>; 2]| {
+        let problem = FitProblem {
+            model: &model,
+            parameters: &parameters,
+            lines: &lines,
+            shape_of: shape_of.to_vec(),
+            shape_weight: 0.1,
+            starts: 8,
+            // Where the frequencies alone are matched, by the wrong modes.
+            own: Some(vec![1.1]),
+        };
+        fit(&problem).unwrap()
+    };
+    let alone = with([None, None]);
+    assert!(!alone.others.is_empty(), "{alone:?}");
+    let swapped = [Some(1), Some(0)];
+    for (shape_of, expected) in [([Some(0), Some(1)], truth), (swapped, 2.4 - truth)] {
+        let fitted = with(shape_of);
+        let value = fitted.parameters[0].value;
+        assert!((value - expected).abs() < 1e-3, "{value} {expected}");
+        assert!(fitted.others.is_empty(), "{:?}", fitted.others);
+        let assured = fitted.lines.iter().map(|line| line.assurance.unwrap());
+        assert!(assured.clone().all(|mac| mac > 0.9));
+    }
+}

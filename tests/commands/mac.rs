@@ -217,3 +217,72 @@ fn what_is_no_shape_is_named_with_its_place() {
         assert!(error.contains(part), "{text:?}: {error}");
     }
 }
+
+/// A table of modes with the frequencies of [`table`]'s shapes replaced by those of the case, and both fitted.
+fn fit_with(folder: &Path, shapes: &str, set: &[&str]) -> std::process::Output {
+    let fit =
+        format!("{CEA}\n[fit]\nparameters = {{ \"material.young_modulus\" = [1.5e9, 4e9] }}\n");
+    std::fs::write(folder.join("case.toml"), coarse_disc(&fit)).unwrap();
+    std::fs::write(folder.join("shapes"), shapes).unwrap();
+    let mut program = Command::cargo_bin("frictionsim").unwrap();
+    program.current_dir(folder);
+    program.args(["fit", "case.toml", "modes.csv", "--shapes", "shapes"]);
+    program.args(["--out", "out", "--force", "--no-figures"]);
+    program.args(set).output().unwrap()
+}
+
+/// Shapes and frequencies that the program itself computed give back the modulus of the case, each line with its own mode; points in
+/// millimetres, a shape of no line and a weight of nothing are refused with the remedy.
+#[test]
+fn measured_shapes_are_data_of_a_fit() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = Case::parse("case.toml", coarse_disc(CEA).as_bytes(), &[]).unwrap();
+    let model = SlidingModel::new(&case, case.require_cea().unwrap()).unwrap();
+    let solution = solve_modes(&case, case.require_cea().unwrap(), &model).unwrap();
+    let frequencies: Vec<f64> = {
+        let modes = solution.sweep.points[0].modes.iter().rev();
+        modes.map(|mode| mode.frequency_hz()).collect()
+    };
+    let named = |scale: f64| {
+        let mut text = table(&measured(), scale);
+        for (k, frequency) in frequencies.iter().enumerate() {
+            text = text.replace(&format!(",{}.5,", 1000 + k), &format!(",{frequency},"));
+        }
+        text
+    };
+    let rows: String = frequencies.iter().map(|f| format!("{f}\n")).collect();
+    std::fs::write(
+        folder.path().join("modes.csv"),
+        format!("frequency_hz\n{rows}"),
+    )
+    .unwrap();
+
+    let output = fit_with(folder.path(), &named(1.0), &[]);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{said}");
+    let summary = std::fs::read(folder.path().join("out/summary.json")).unwrap();
+    let summary: Value = serde_json::from_slice(&summary).unwrap();
+    let modulus = summary["parameters"]["material.young_modulus"]["value"].as_f64();
+    assert!((modulus.unwrap() / 2.5e9 - 1.0).abs() < 1e-3, "{modulus:?}");
+    for line in summary["residuals"].as_array().unwrap() {
+        assert!(line["mac"].as_f64().unwrap() > 0.97, "{line}");
+    }
+    let head = std::fs::read_to_string(folder.path().join("out/fit.csv")).unwrap();
+    assert!(head.lines().next().unwrap().ends_with(",mac"));
+
+    let refused: [(String, &[&str], &str); 3] = [
+        (named(1000.0), &[], "--scale 0.001"),
+        (
+            named(1.0).replace(",s7,", ",s7,"),
+            &["--set", "fit.shape_weight=0"],
+            "fit.shape_weight",
+        ),
+        (table(&measured(), 1.0), &[], "belongs to no line"),
+    ];
+    for (shapes, set, words) in refused {
+        let output = fit_with(folder.path(), &shapes, set);
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert!(said.contains(words), "{words}: {said}");
+    }
+}

@@ -281,3 +281,244 @@ fn the_feed_over_the_contact_points_adds_up_to_that_of_the_contacts() {
         assert!(out.join("feed.vtu").exists());
     }
 }
+
+/// Rows of a table by friction value, mode and what they are about.
+fn rows_by(path: &Path, names: &[&str]) -> BTreeMap<Vec<String>, BTreeMap<String, String>> {
+    let rows = table(path).into_iter();
+    rows.map(|row| (names.iter().map(|name| row[*name].clone()).collect(), row))
+        .collect()
+}
+
+/// Independent check: the matrices of one sector tell the same budget as those of the whole mesh, row by row at every friction value:
+/// a disc with a rim on springs and dashpots, rigid contact or springs with dashpots, prestress, friction that falls. Eigenpairs of
+/// two solvers agree to 1e-10 of the frequency, and with them growth rates.
+#[test]
+fn sectors_tell_the_same_budget_as_the_whole_mesh() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = folder.path().join("disc.toml");
+    let cea_section = "[cea]\nmodes = 8\nfriction_coefficients = [0.0, 0.2, 0.3]\n";
+    std::fs::write(&case, coarse_disc(cea_section)).unwrap();
+    let rim = [
+        "boundaries.outer.condition=\"support\"",
+        "boundaries.outer.normal_stiffness=2e12",
+        "boundaries.outer.tangential_stiffness=1e12",
+        "boundaries.outer.normal_damping=3e5",
+        "boundaries.outer.tangential_damping=1e5",
+    ];
+    let springs = [
+        "contact.normal_stiffness=7.4e12",
+        "contact.tangential_damping=2e4",
+        "contact.normal_damping=1e4",
+        "mesh.element=\"quad8\"",
+    ];
+    let falling = [
+        "contact.static_friction_ratio=1.3",
+        "contact.decay_speed=1.0",
+        "damping.include_contact=false",
+    ];
+    let shaft = [
+        "geometry.shaft_inner_radius=0.005",
+        "mesh.shaft_elements=3",
+        "materials.shaft.young_modulus=7e10",
+        "materials.shaft.poisson_ratio=0.3",
+        "materials.shaft.density=2700.0",
+        "materials.shaft.mass_coefficient=5.0",
+        "materials.shaft.stiffness_coefficient=1e-8",
+    ];
+    let kinds: [Vec<&str>; 4] = [
+        rim.to_vec(),
+        [&rim[..], &springs].concat(),
+        falling.to_vec(),
+        shaft.to_vec(),
+    ];
+    for set in kinds {
+        let mut found = Vec::new();
+        for method in ["cyclic", "sparse"] {
+            let method = format!("cea.method=\"{method}\"");
+            cea(folder.path(), &case, &[&set[..], &[&method]].concat());
+            let out = folder.path().join("out");
+            let names = ["friction_coefficient", "mode", "name"];
+            let budget = rows_by(&out.join("contributions.csv"), &names);
+            let names = ["friction_coefficient", "mode", "reference_mode"];
+            let shares = rows_by(&out.join("coupling.csv"), &names);
+            let mut sums: BTreeMap<Vec<String>, f64> = BTreeMap::new();
+            for (key, row) in &shares {
+                *sums.entry(key[..2].to_vec()).or_default() += number(row, "share");
+            }
+            // Place by place: contact, x, y.
+            let feed = table(&out.join("feed.csv"));
+            found.push((budget, sums, feed));
+        }
+        let [(budget, sums, feed), (whole, whole_sums, whole_feed)] = &found[..] else {
+            unreachable!()
+        };
+        assert_eq!(
+            budget.keys().collect::<Vec<_>>(),
+            whole.keys().collect::<Vec<_>>()
+        );
+        for (key, row) in budget {
+            let omega = TAU * number(row, "frequency_hz");
+            for (column, scale) in [
+                ("growth_rate_per_s", 1e-9 * omega),
+                ("kinetic_share", 1e-7),
+                ("strain_share", 1e-7),
+            ] {
+                let [own, other] = [number(row, column), number(&whole[key], column)];
+                let is_same = (own - other).abs() <= scale || own.is_nan() && other.is_nan();
+                assert!(is_same, "{set:?} {key:?} {column}: {own} {other}");
+            }
+        }
+        // A pair of modes without friction is known up to a rotation: its shares as a sum.
+        assert!(!sums.is_empty());
+        for (key, sum) in sums {
+            assert!((sum - whole_sums[key]).abs() < 1e-6, "{set:?} {key:?}");
+        }
+        assert!(!feed.is_empty() && feed.len() == whole_feed.len());
+        let size = feed
+            .iter()
+            .map(|row| number(row, "growth_rate_per_s").abs());
+        let size = size.fold(0.0, f64::max);
+        for (own, other) in feed.iter().zip(whole_feed) {
+            assert_eq!((&own["x_m"], &own["mode"]), (&other["x_m"], &other["mode"]));
+            let [a, b] = [own, other].map(|row| number(row, "growth_rate_per_s"));
+            assert!((a - b).abs() < 1e-6 * size, "{set:?}: {a} {b}");
+        }
+    }
+}
+
+/// Independent check: a body of revolution whose ends are guided is in plane strain. Its modes without axial motion have the budget
+/// of the plane disc, and are fed evenly over the height of the contact.
+#[test]
+fn a_guided_body_of_revolution_has_the_budget_of_the_plane_disc() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = folder.path().join("disc.toml");
+    let cea_section = "[cea]\nmodes = 12\nfriction_coefficients = [0.0, 0.15, 0.3]\n";
+    std::fs::write(&case, coarse_disc(cea_section)).unwrap();
+    let plane = ["mesh.element=\"quad8\"", "cea.method=\"cyclic\""];
+    let solid = [
+        "mesh.element=\"quad8\"",
+        "mesh.axial_elements=1",
+        "material.formulation=\"three-dimensional\"",
+        "boundaries.top.condition=\"guide\"",
+        "boundaries.bottom.condition=\"guide\"",
+        "cea.modes=40",
+    ];
+    let out = folder.path().join("out");
+    cea(folder.path(), &case, &plane);
+    let (budget, feed) = (
+        table(&out.join("contributions.csv")),
+        table(&out.join("feed.csv")),
+    );
+    cea(folder.path(), &case, &solid);
+    let solids = table(&out.join("contributions.csv"));
+    for row in &budget {
+        let frequency = number(row, "frequency_hz");
+        let same = |other: &&BTreeMap<String, String>| {
+            ["friction_coefficient", "name", "harmonic", "direction"]
+                .iter()
+                .all(|name| row[*name] == other[*name])
+                && (number(other, "frequency_hz") / frequency - 1.0).abs() < 1e-4
+        };
+        let other = solids.iter().find(same);
+        let other = other.unwrap_or_else(|| panic!("no solid mode like {row:?}"));
+        let [own, other] = [row, other].map(|row| number(row, "growth_rate_per_s"));
+        // Bricks of 20 nodes are integrated in another way than the plane's elements.
+        let close = 1e-3 * own.abs() + 1e-6 * TAU * frequency;
+        assert!((own - other).abs() < close, "{row:?}: {own} {other}");
+    }
+    let rings = table(&out.join("feed.csv"));
+    let modes: BTreeSet<&String> = rings.iter().map(|row| &row["mode"]).collect();
+    let mut is_found = false;
+    for mode in modes {
+        let own = rings.iter().filter(|row| row["mode"] == *mode);
+        let own: Vec<[f64; 3]> = own
+            .map(|row| {
+                ["frequency_hz", "growth_rate_per_s", "growth_rate_per_s_m2"]
+                    .map(|column| number(row, column))
+            })
+            .collect();
+        let is_it = |row: &&BTreeMap<String, String>| {
+            (number(row, "frequency_hz") / own[0][0] - 1.0).abs() < 1e-4
+        };
+        let flat = feed.iter().filter(is_it);
+        let flat: f64 = flat.map(|row| number(row, "growth_rate_per_s")).sum();
+        if flat == 0.0 {
+            continue;
+        }
+        is_found = true;
+        let sum: f64 = own.iter().map(|row| row[1]).sum();
+        assert!((sum / flat - 1.0).abs() < 1e-3, "mode {mode}: {sum} {flat}");
+        for row in &own {
+            assert!(
+                (row[2] / own[0][2] - 1.0).abs() < 1e-6,
+                "mode {mode}: {own:?}"
+            );
+        }
+    }
+    assert!(is_found, "no unstable mode without axial motion");
+}
+
+/// Two pads on a ring that turns fast, with the inertia of its rotation, everything damped by its mass.
+const ROTOR: &str = "title = \"Two pads on a rotor\"
+[mesh]\nfile = \"rotor.msh\"
+[material]\nyoung_modulus = 2e11\npoisson_ratio = 0.3\ndensity = 7850.0
+[damping]\nmass_coefficient = 200.0\nstiffness_coefficient = 1e-7\ninclude_contact = false
+[boundaries.ring_x0]\ncondition = \"support\"\nnormal_stiffness = 1e10\ntangential_stiffness = 1e10\nnormal_damping = 3e4
+[boundaries.first_z1]\ncondition = \"clamped\"
+[boundaries.second_z1]\ncondition = \"clamped\"
+[ties.seam]\nsurface = \"ring_y1\"\ncounter = \"ring_y0\"
+[motion.ring]\naxis = [0.0, 0.0, 1.0]\ncenter = [0.0, 0.0, 0.0]\nrotation_speed_rpm = 9000.0\nrotation_terms = true
+[contacts.first]\nsurface = \"first_z0\"\ncounter = \"ring_z1\"\nfriction_coefficient = 0.5\nnormal_stiffness = 1e11\nstate = \"closed\"
+[contacts.second]\nsurface = \"second_z0\"\ncounter = \"ring_z1\"\nfriction_coefficient = 0.5\nnormal_stiffness = 1e11\nstate = \"closed\"
+[cea]\nfriction_coefficients = [0.0, 0.5]\nmodes = 10\n";
+
+/// Exact identities: gyroscopic forces have a row of their own, without which the contacts would have to feed what they add to motions
+/// that decay; without friction they feed nothing, and with friction all rows add up to the growth rate.
+#[test]
+fn gyroscopic_forces_have_their_own_row_in_the_budget() {
+    let folder = tempfile::tempdir().unwrap();
+    let block = |name, origin, size, counts| Block {
+        name,
+        origin,
+        size,
+        counts,
+    };
+    let blocks = [
+        block("ring", [0.06, 0.0, 0.0], [0.06, TAU, 0.01], [2, 24, 1]),
+        block("first", [0.08, 0.3, 0.01], [0.03, 0.8, 0.01], [2, 3, 1]),
+        block("second", [0.08, 3.5, 0.01], [0.03, 0.8, 0.01], [2, 3, 1]),
+    ];
+    let file = file_of(&blocks, |[radius, angle, z]| {
+        let (sin, cos) = angle.sin_cos();
+        [radius * cos, radius * sin, z]
+    });
+    std::fs::write(folder.path().join("rotor.msh"), file).unwrap();
+    let case = folder.path().join("case.toml");
+    std::fs::write(&case, ROTOR).unwrap();
+    cea(folder.path(), &case, &[]);
+    let out = folder.path().join("out");
+    let rows = table(&out.join("contributions.csv"));
+    let mut largest = 0.0_f64;
+    for mode in table(&out.join("eigenvalues.csv")) {
+        let own = rows.iter().filter(|row| {
+            row["mode"] == mode["mode"]
+                && row["friction_coefficient"] == mode["friction_coefficient"]
+        });
+        let own: Vec<(&str, f64)> = own
+            .map(|row| (row["kind"].as_str(), number(row, "growth_rate_per_s")))
+            .collect();
+        let omega = TAU * number(&mode, "frequency_hz");
+        let sum: f64 = own.iter().map(|(_, rate)| rate).sum();
+        let growth = number(&mode, "growth_rate_per_s");
+        assert!((sum - growth).abs() < 1e-9 * omega, "{sum} {growth}");
+        let turned = own.iter().find(|(kind, _)| *kind == "rotation").unwrap();
+        largest = largest.max(turned.1.abs() / growth.abs());
+        if number(&mode, "friction_coefficient") == 0.0 {
+            let fed = own.iter().filter(|(kind, _)| *kind == "contact");
+            for (_, rate) in fed {
+                assert!(rate.abs() < 1e-8 * omega, "{own:?}");
+            }
+        }
+    }
+    assert!(largest > 1e-3, "rotation matters: {largest}");
+}

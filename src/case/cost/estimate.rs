@@ -101,6 +101,7 @@ impl Case {
         let map_values = cea.map.as_ref().map_or(0, |map| map.values.len());
         let values = (friction_values + map_values * MAP_STEPS) as f64;
         let pairs = values * modes as f64;
+        let shapes = (modes * cea.shapes_at.len()) as f64;
         let (memory_bytes, seconds) = match (&self.body, cea.method) {
             (Body::Revolution(Revolution { specification, .. }), _) => {
                 let sectors = specification.annulus.circumferential_elements.max(1);
@@ -116,7 +117,9 @@ impl Case {
                 let sectors = annulus.specification.circumferential_elements.max(1);
                 let unknowns = 2.0 * size.nodes as f64 / sectors as f64;
                 (
-                    100.0 * unknowns * unknowns.min(200.0),
+                    100.0 * unknowns * unknowns.min(200.0)
+                        + 16.0 * shapes * 2.0 * size.nodes as f64
+                        + pairs * (16.0 * unknowns + 600.0),
                     pairs * (CYCLIC_PAIR[0] + CYCLIC_PAIR[1] * unknowns),
                 )
             }

@@ -4,7 +4,7 @@ use super::branch::{direction_of, eigenvalue_of, waves_of};
 use super::path::{Path, Waves};
 use super::paths::HarmonicPaths;
 use super::problem::HarmonicProblem;
-use crate::cea::{ComplexMode, FrictionPoint, ModeLimit, SweepRequest, keeping_ties};
+use crate::cea::{ComplexMode, FrictionPoint, ModeLimit, ModeWave, SweepRequest, keeping_ties};
 use crate::linalg::c64;
 use crate::prestress::SectorTangent;
 use std::f64::consts::{PI, TAU};
@@ -12,12 +12,19 @@ use std::f64::consts::{PI, TAU};
 /// Displacement of all nodes of a wave of a harmonic from its unknowns.
 pub(super) type Expand<'a> = dyn Fn(usize, Waves, &[c64]) -> Vec<c64> + Sync + 'a;
 
+/// All unknowns of a harmonic from those that it is solved in.
+pub(super) type Unknowns<'a> = dyn Fn(usize, &[c64]) -> Vec<c64> + Sync + 'a;
+
 /// What turns paths into modes.
 pub(super) struct ShapeProducer<'a> {
     /// Sense of the friction force.
     pub sliding_direction: f64,
     /// Displacement of all nodes of a wave of a harmonic.
     pub expand: &'a Expand<'a>,
+    /// Friction coefficients at which the waves of one sector are wanted.
+    pub waves_at: &'a [f64],
+    /// All unknowns of a harmonic from those that it is solved in.
+    pub unknowns: &'a Unknowns<'a>,
 }
 
 /// The modes wanted at one friction value.
@@ -84,6 +91,7 @@ fn mode(
     }
     let direction = direction_of(problem, waves, producer.sliding_direction);
     let wants_shape = request.shapes_at.contains(&friction);
+    let wants_wave = producer.waves_at.contains(&friction);
     Some(ComplexMode {
         eigenvalue,
         harmonic: problem.harmonic,
@@ -94,6 +102,10 @@ fn mode(
         contact_share: pair.contact_share,
         axial_share: Some(pair.axial_share).filter(|share| !share.is_nan()),
         shape: wants_shape.then(|| (producer.expand)(problem.harmonic, waves, &pair.x)),
+        wave: wants_wave.then(|| ModeWave {
+            unknowns: (producer.unknowns)(problem.harmonic, &pair.x),
+            is_backward: waves == Waves::Backward,
+        }),
     })
 }
 

@@ -16,4 +16,4 @@ mod sweep;
 
 pub use damped::Overdamped;
 pub use sensitivity::solid_sensitivities;
-pub use sweep::{SolidModel, SolidSweep, solid_sweep};
+pub use sweep::{SolidModel, SolidSweep, solid_sweep, solid_sweep_with_waves};

@@ -69,6 +69,20 @@ pub fn sweep(
     contact: &SlidingContact,
     request: &SweepRequest<'_>,
 ) -> Result<CyclicSweep, CeaError> {
+    sweep_with_waves(specification, material, options, contact, (request, &[]))
+}
+
+/// [`sweep`] that keeps the waves of one sector at some of the friction coefficients.
+///
+/// # Errors
+/// As [`sweep`].
+pub fn sweep_with_waves(
+    specification: &AnnulusSpecification,
+    material: &dyn MaterialField,
+    options: &TangentOptions,
+    contact: &SlidingContact,
+    (request, waves_at): (&SweepRequest<'_>, &[f64]),
+) -> Result<CyclicSweep, CeaError> {
     let grid = request.rising_grid()?;
     request.limit.check()?;
     let sector = SectorMesh::generate(specification)?;
@@ -76,7 +90,7 @@ pub fn sweep(
     let mut margin = MARGIN;
     let mut failure = None;
     for _ in 0..MARGIN_ATTEMPTS {
-        match solve(&tangent, request, &grid, margin, None) {
+        match solve(&tangent, (request, waves_at), &grid, margin, None) {
             Ok(found) => {
                 let checks = checks(&grid);
                 let verdict = completeness::verify(&tangent, &found.followed, found.limit, &checks);
@@ -111,7 +125,7 @@ pub fn onsets(
     request.limit.check()?;
     let sector = SectorMesh::generate(specification)?;
     let tangent = SectorTangent::linearize(&sector, material, options, contact)?;
-    let found = solve(&tangent, request, &grid, MARGIN, Some(harmonics))?;
+    let found = solve(&tangent, (request, &[]), &grid, MARGIN, Some(harmonics))?;
     let unproven = Verdict {
         proven: Vec::new(),
         counted: Vec::new(),
@@ -140,7 +154,7 @@ struct Found {
 
 fn solve(
     tangent: &SectorTangent,
-    request: &SweepRequest<'_>,
+    (request, waves_at): (&SweepRequest<'_>, &[f64]),
     grid: &[f64],
     margin: f64,
     harmonics: Option<&[usize]>,
@@ -152,11 +166,12 @@ fn solve(
         _ => select(tangent, request.limit, margin)?,
     };
     let limit = kappa * margin * margin;
+    let kept = [request.shapes_at, waves_at].concat();
     let followed: Result<Vec<HarmonicPaths>, CeaError> = candidates
         .into_par_iter()
         .map(|n| {
             let problem = HarmonicProblem::new(tangent.harmonic(n), tangent.is_standing(n));
-            follow_harmonic(problem, limit, grid, request.shapes_at)
+            follow_harmonic(problem, limit, grid, &kept)
         })
         .collect();
     let mut followed = followed?;
@@ -164,6 +179,8 @@ fn solve(
     let producer = ShapeProducer {
         sliding_direction: tangent.base().sliding_direction,
         expand: &|n, waves, x| expand(tangent, n, waves, x),
+        waves_at,
+        unknowns: &|_, x| x.to_vec(),
     };
     let frictions = request.friction_coefficients.iter();
     let points: Vec<FrictionPoint> = frictions

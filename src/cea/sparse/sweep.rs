@@ -447,6 +447,7 @@ impl<'a> SparseSweep<'a> {
                     contact_share: check.contact_share,
                     axial_share: None,
                     shape: shapes.next(),
+                    wave: None,
                 }
             });
         FrictionPoint {

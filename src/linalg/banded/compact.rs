@@ -62,6 +62,19 @@ impl CompactRows {
             .sum()
     }
 
+    /// Adds `factor A x` to a sum.
+    ///
+    /// # Panics
+    /// If `x` is shorter than the matrix.
+    pub fn add_product(&self, factor: c64, x: &[c64], sum: &mut [c64]) {
+        let rows = self.starts.windows(2).map(|ends| ends[0]..ends[1]);
+        for (row, sum) in rows.zip(sum) {
+            let entries = self.columns[row.clone()].iter().zip(&self.values[row]);
+            let image: c64 = entries.map(|(&column, value)| x[column] * *value).sum();
+            *sum += factor * image;
+        }
+    }
+
     /// `A X`.
     ///
     /// # Panics

@@ -83,6 +83,7 @@ mod tests {
             contact_share: 0.0,
             axial_share: None,
             shape: None,
+            wave: None,
         };
         let point = |friction_coefficient: f64, own: &[usize]| FrictionPoint {
             friction_coefficient,

@@ -3,7 +3,7 @@
 use super::CeaReport;
 use super::mode_name::ModeName;
 use crate::chart::{Axis, ChartError, ColourMap, Figure, INK, Line, Panel, Rule, Stroke, literal};
-use crate::mesh::{Counterface, Mesh};
+use crate::mesh::{Counterface, Mesh, SolidFace};
 use crate::results::charts::SolidView;
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::quantity::fixed;
@@ -52,7 +52,7 @@ impl Feed {
     ///
     /// # Errors
     /// Those of the folder.
-    pub fn write(&self, folder: &OutputFolder, mesh: &Mesh) -> Result<(), FolderError> {
+    pub fn write(&self, folder: &OutputFolder, report: &CeaReport<'_>) -> Result<(), FolderError> {
         folder.write("feed.csv", |out| {
             type Row<'a> = (&'a ModeName, &'a FeedPlace, f64);
             let columns: &[Column<'_, Row<'_>>] = &[
@@ -75,9 +75,13 @@ impl Feed {
             });
             write_rows(out, columns, rows)
         })?;
+        let count = match report.solid {
+            Some(solid) => solid.sector.sector_count() * solid.sector.node_count(),
+            None => report.mesh.node_count(),
+        };
         let fields = self.modes.iter().map(|own| {
             let name = format!("mode_{}_growth_rate_per_s_m2", own.mode.mode);
-            let mut values = self.around_nodes(mesh, own);
+            let mut values = self.around_nodes(count, own);
             values
                 .iter_mut()
                 .filter(|v| v.is_nan())
@@ -86,14 +90,18 @@ impl Feed {
         });
         let fields: Vec<Field> = fields.collect();
         folder.write_bulk("feed.vtu", |out| {
-            write_vtu(out, &EncodedMesh::new(mesh)?, &[], &fields, &[])
+            let mesh = match report.solid {
+                Some(solid) => EncodedMesh::solid(&solid.sector)?,
+                None => EncodedMesh::new(report.mesh)?,
+            };
+            write_vtu(out, &mesh, &[], &fields, &[])
         })?;
         Ok(())
     }
 
     /// Growth for each area around each node; NaN where there is no contact point.
-    fn around_nodes(&self, mesh: &Mesh, own: &ModeFeed) -> Vec<f64> {
-        let mut sums = vec![[0.0; 2]; mesh.node_count()];
+    fn around_nodes(&self, count: usize, own: &ModeFeed) -> Vec<f64> {
+        let mut sums = vec![[0.0; 2]; count];
         for (place, rate) in self.places.iter().zip(&own.rates) {
             for &(node, share) in &place.shares {
                 // Shape functions of corners of quadratic faces may be negative.
@@ -135,28 +143,36 @@ impl Feed {
         );
         match report.assembly {
             Some(assembly) => Ok(self.pictures(report.mesh, &modes, &assembly.surfaces, caption)),
-            None => Ok(self.lines(report.mesh, &modes, caption)),
+            None => Ok(self.lines(report, &modes, caption)),
         }
     }
 
-    fn lines(&self, mesh: &Mesh, modes: &[&ModeFeed], caption: String) -> Figure {
-        // Along the edge: by angle about the cylinder, or along the plane.
+    fn lines(&self, report: &CeaReport<'_>, modes: &[&ModeFeed], caption: String) -> Figure {
+        // Across the rings of a body of revolution; along an edge by angle about the cylinder, or along the plane.
+        let face = report
+            .solid
+            .map(|solid| solid.sector.specification.contact.face());
         let along = |place: &FeedPlace| -> f64 {
-            let [x, y, _] = place.position;
-            match mesh.counterface {
-                Counterface::Cylinder { center, .. } => {
+            let [x, y, z] = place.position;
+            match (face, &report.mesh.counterface) {
+                (Some(SolidFace::Inner | SolidFace::Outer), _) => z,
+                (Some(SolidFace::Top | SolidFace::Bottom), _) => x,
+                (None, Counterface::Cylinder { center, .. }) => {
                     (y - center[1]).atan2(x - center[0]).rem_euclid(TAU)
                 }
-                Counterface::Plane { point, direction } => {
+                (None, Counterface::Plane { point, direction }) => {
                     (x - point[0]) * direction[0] + (y - point[1]) * direction[1]
                 }
             }
         };
         let mut order: Vec<usize> = (0..self.places.len()).collect();
         order.sort_by(|&a, &b| along(&self.places[a]).total_cmp(&along(&self.places[b])));
-        let x = match mesh.counterface {
-            Counterface::Cylinder { .. } => Axis::degrees().tight(),
-            Counterface::Plane { .. } => Axis::new("along the contact", "mm").times(1e3).tight(),
+        let across = |name: &str| Axis::new(name, "mm").times(1e3).tight();
+        let x = match (face, &report.mesh.counterface) {
+            (Some(SolidFace::Inner | SolidFace::Outer), _) => across("height *z*"),
+            (Some(SolidFace::Top | SolidFace::Bottom), _) => across("radius *r*"),
+            (None, Counterface::Cylinder { .. }) => Axis::degrees().tight(),
+            (None, Counterface::Plane { .. }) => across("along the contact"),
         };
         let y = Axis::new("feed", "1/(s cm²)").times(1e-4);
         let mut panel = Panel::new(x, y)
@@ -181,7 +197,7 @@ impl Feed {
     ) -> Figure {
         let shown = modes.iter().take(PICTURES);
         let panels = shown.flat_map(|own| {
-            let values = self.around_nodes(mesh, own);
+            let values = self.around_nodes(mesh.node_count(), own);
             let numbers = values.iter().copied().filter(|value| value.is_finite());
             let largest = numbers.map(f64::abs).fold(f64::MIN_POSITIVE, f64::max);
             surfaces.iter().map(move |(contact, boundary)| {

@@ -27,7 +27,7 @@ pub fn write(folder: &OutputFolder, report: &CeaReport<'_>) -> Result<Value, Fol
         folder.write("contributions.csv", |out| reading.write_contributions(out))?;
         folder.write("coupling.csv", |out| reading.write_couplings(out))?;
         if let Some(feed) = &reading.feed {
-            feed.write(folder, report.mesh)?;
+            feed.write(folder, report)?;
         }
     }
     if let Some(map) = report.map {

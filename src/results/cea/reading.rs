@@ -1,10 +1,12 @@
 //! Where the growth of each mode comes from, and which modes couple: `contributions.csv` and `coupling.csv`.
 
+use super::branches::Branch;
 use super::mode_name::ModeName;
 use super::{CeaReport, Feed};
 use crate::chart::{Axis, ChartError, Figure, INK, Line, Panel, Rule, Stroke, literal};
 use crate::results::quantity::fixed;
 use crate::results::table::{Column, write_rows};
+use std::collections::BTreeMap;
 use std::io::{self, Write};
 
 /// What a contribution comes from.
@@ -16,6 +18,8 @@ pub enum Source {
     Support,
     /// A contact: its friction, its dashpots, the turning of its forces.
     Contact,
+    /// The gyroscopic forces of regions that turn with the inertia of their rotation.
+    Rotation,
 }
 
 impl Source {
@@ -24,6 +28,7 @@ impl Source {
             Self::Part => "part",
             Self::Support => "support",
             Self::Contact => "contact",
+            Self::Rotation => "rotation",
         }
     }
 }
@@ -211,50 +216,16 @@ pub(super) fn budget(report: &CeaReport<'_>, reading: &Reading) -> Result<Figure
     if frictions.len() < 3 {
         return Err(ChartError::empty("budget of growth over friction"));
     }
-    // The branches that reach the largest growth rate.
-    let mut fastest: Vec<(usize, f64)> = Vec::new();
-    for coupling in &reading.couplings {
-        let (branch, rate) = (coupling.mode.branch, coupling.growth_rate);
-        match fastest.iter_mut().find(|(known, _)| *known == branch) {
-            Some((_, largest)) => *largest = largest.max(rate),
-            None => fastest.push((branch, rate)),
-        }
+    // Each branch by itself: its rows are found once.
+    let mut rows: BTreeMap<Branch, Vec<&Contribution>> = BTreeMap::new();
+    for row in &reading.contributions {
+        rows.entry(branch_of_mode(&row.mode)).or_default().push(row);
     }
-    fastest.sort_by(|a, b| b.1.total_cmp(&a.1));
     // As tables and other figures name them.
     let numbers = report.mode_numbers();
-    let name = |branch: usize| match report.has_harmonics {
-        true => format!("branch {branch}"),
-        false => report.branch_name((0, branch, 0), &numbers),
-    };
-    let panels = fastest.iter().take(PANELS).map(|&(branch, _)| {
-        let rows = || {
-            let all = reading.contributions.iter();
-            all.filter(move |row| row.mode.branch == branch)
-        };
-        let mut names: Vec<&str> = Vec::new();
-        rows().for_each(|row| {
-            if !names.contains(&row.name.as_str()) {
-                names.push(&row.name);
-            }
-        });
-        let total = frictions.iter().map(|&friction| {
-            let own = rows().filter(|row| row.mode.friction_coefficient == friction);
-            (friction, own.map(|row| row.growth_rate).sum::<f64>())
-        });
-        let last = rows().next_back();
-        let last = last.map_or(0.0, |row| row.mode.frequency_hz);
-        let mut panel = Panel::new(Axis::friction().tight(), Axis::new("growth rate", "1/s"))
-            .height(90.0)
-            .caption(format!("{}, {} kHz", name(branch), fixed(1e-3 * last, 2)))
-            .layer(Rule::horizontal(0.0).stroke(Stroke::solid(INK, 0.6)))
-            .layer(Line::through(total).solid(INK, 1.4).name("growth rate"));
-        for (place, name) in names.into_iter().enumerate() {
-            let own = rows().filter(|row| row.name == name);
-            let points = own.map(|row| (row.mode.friction_coefficient, row.growth_rate));
-            panel = panel.layer(Line::through(points).nth(place).name(literal(name)));
-        }
-        panel
+    let panels = reading.fastest().into_iter().take(PANELS).map(|branch| {
+        let name = report.branch_name(branch, &numbers);
+        budget_panel(name, &rows[&branch], &frictions)
     });
     let panels: Vec<Panel> = panels.collect();
     if panels.is_empty() {
@@ -265,4 +236,57 @@ pub(super) fn budget(report: &CeaReport<'_>, reading: &Reading) -> Result<Figure
         .columns(2)
         .shared_x()
         .panels(panels))
+}
+
+/// The growth rate of one branch, and its parts.
+fn budget_panel(name: String, rows: &[&Contribution], frictions: &[f64]) -> Panel {
+    let mut names: Vec<&str> = Vec::new();
+    for row in rows {
+        if !names.contains(&row.name.as_str()) {
+            names.push(&row.name);
+        }
+    }
+    let total = frictions.iter().filter_map(|&friction| {
+        let is_there = |row: &&&Contribution| row.mode.friction_coefficient == friction;
+        let mut own = rows.iter().filter(is_there).peekable();
+        own.peek()?;
+        Some((friction, own.map(|row| row.growth_rate).sum::<f64>()))
+    });
+    let last = rows.last().map_or(0.0, |row| row.mode.frequency_hz);
+    let mut panel = Panel::new(Axis::friction().tight(), Axis::new("growth rate", "1/s"))
+        .height(90.0)
+        .caption(format!("{name}, {} kHz", fixed(1e-3 * last, 2)))
+        .layer(Rule::horizontal(0.0).stroke(Stroke::solid(INK, 0.6)))
+        .layer(Line::through(total).solid(INK, 1.4).name("growth rate"));
+    for (place, name) in names.into_iter().enumerate() {
+        let own = rows.iter().filter(|row| row.name == name);
+        let points = own.map(|row| (row.mode.friction_coefficient, row.growth_rate));
+        panel = panel.layer(Line::through(points).nth(place).name(literal(name)));
+    }
+    panel
+}
+
+/// The branch of a mode.
+fn branch_of_mode(mode: &ModeName) -> Branch {
+    (
+        mode.harmonic.unwrap_or(0),
+        mode.branch,
+        mode.direction.unwrap_or(0),
+    )
+}
+
+impl Reading {
+    /// The branches that reach the largest growth rates, the fastest first.
+    fn fastest(&self) -> Vec<Branch> {
+        let mut fastest: Vec<(Branch, f64)> = Vec::new();
+        for coupling in &self.couplings {
+            let (branch, rate) = (branch_of_mode(&coupling.mode), coupling.growth_rate);
+            match fastest.iter_mut().find(|(known, _)| *known == branch) {
+                Some((_, largest)) => *largest = largest.max(rate),
+                None => fastest.push((branch, rate)),
+            }
+        }
+        fastest.sort_by(|a, b| b.1.total_cmp(&a.1));
+        fastest.into_iter().map(|(branch, _)| branch).collect()
+    }
 }

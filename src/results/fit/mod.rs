@@ -34,7 +34,11 @@ pub fn write(folder: &OutputFolder, summary: &FitSummary) -> Result<Value, Folde
         ("difference_hz", &|line| line.difference_hz.into()),
         ("difference_percent", &|line| line.difference_percent.into()),
         ("real_difference_hz", &|line| line.real_difference_hz.into()),
+        ("mac", &|line| line.mac.into()),
     ];
+    // The last where shapes were measured.
+    let has_shapes = summary.residuals.iter().any(|line| line.mac.is_some());
+    let lines = &lines[..lines.len() - usize::from(!has_shapes)];
     folder.write("fit.csv", |out| write_rows(out, lines, &summary.residuals))?;
     let modes: &[Column<'_, &ModeSummary>] = &[
         ("harmonic", &|mode| mode.harmonic.into()),

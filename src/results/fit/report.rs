@@ -95,7 +95,10 @@ fn lines(summary: &FitSummary) -> ReportTable {
             format!("{:.1}", line.mode.frequency_hz),
             format!("{:.1}", line.mode.real_hz),
             format!("{:+.3}", line.difference_percent),
-            line.mode.name(),
+            match line.mac {
+                Some(mac) => format!("{}, MAC {mac:.3}", line.mode.name()),
+                None => line.mode.name(),
+            },
         ]
     });
     ReportTable {

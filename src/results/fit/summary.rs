@@ -120,6 +120,9 @@ pub struct LineSummary {
     pub difference_percent: f64,
     /// Computed less measured real part, Hz.
     pub real_difference_hz: Option<f64>,
+    /// Modal assurance criterion of the measured shape and the mode, where a shape was measured.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mac: Option<f64>,
 }
 
 /// How a minimum was found.
@@ -193,8 +196,10 @@ impl FitSummary {
             let percent = line.difference_percent;
             let _ = writeln!(
                 out,
-                "  {measured:<20} {model:<18} {percent:>+7.3} %  {}",
-                line.mode.name()
+                "  {measured:<20} {model:<18} {percent:>+7.3} %  {}{}",
+                line.mode.name(),
+                line.mac
+                    .map_or(String::new(), |mac| format!("  MAC {mac:.3}")),
             );
         }
         let _ = writeln!(

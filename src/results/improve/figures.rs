@@ -55,6 +55,7 @@ fn target_figure(
     own: &TargetFields,
 ) -> Result<Figure, ChartError> {
     let sizes = &summary.sizes;
+    let unit = |unit: &str| summary.extent.unit(unit);
     let radius = sizes.patch_radius_m;
     let patch = match mesh.dimension {
         2 => PI * radius.powi(2),
@@ -66,19 +67,27 @@ fn target_figure(
     let panels = [
         (
             "mass",
-            text("mass", sizes.mass_kg, "kg"),
+            text("mass", sizes.mass_kg, &unit("kg")),
             sizes.mass_kg,
             &own.mass,
         ),
         (
             "spring",
-            text("spring to the ground", sizes.stiffness_n_per_m, "N/m"),
+            text(
+                "spring to the ground",
+                sizes.stiffness_n_per_m,
+                &unit("N/m"),
+            ),
             sizes.stiffness_n_per_m,
             &own.spring,
         ),
         (
             "dashpot",
-            text("dashpot to the ground", sizes.damping_n_s_per_m, "N s/m"),
+            text(
+                "dashpot to the ground",
+                sizes.damping_n_s_per_m,
+                &unit("N s/m"),
+            ),
             sizes.damping_n_s_per_m,
             &own.dashpot,
         ),

@@ -67,7 +67,7 @@ pub(super) fn text(summary: &ImproveSummary) -> String {
     let mut out = format!(
         "\nmass against critical friction, of {} masses and removals (front.csv):\n{:>10}  {:<8} {:<34} {:>10} {:>10}  verdict\n",
         summary.front.len(),
-        "mass g",
+        format!("mass {}", summary.extent.unit("g")),
         "kind",
         "where",
         "predicted",
@@ -110,8 +110,9 @@ pub(super) fn table_of_front(summary: &ImproveSummary) -> ReportTable {
             mark(own),
         ]
     };
+    let mass = format!("mass ({})", summary.extent.unit("g"));
     let columns = [
-        "mass (g)",
+        mass.as_str(),
         "kind",
         "where",
         "critical friction, predicted",
@@ -155,25 +156,12 @@ pub(super) fn front_figure(summary: &ImproveSummary) -> Result<Figure, ChartErro
     }
     let friction = summary.friction_coefficient;
     let onset = |state: &State| state.critical_friction.unwrap_or(friction);
-    let weight = |own: &FrontPoint| own.candidate.added_mass_kg.abs();
     let start = onset(&summary.base);
 
-    // The front goes up in steps: each point holds until a heavier one gets farther.
-    let heaviest = summary.front.iter().map(weight).fold(0.0, f64::max);
-    let (mut steps, mut height) = (vec![(0.0, start)], start);
-    for own in summary.front.iter().filter(|own| own.on_front) {
-        let Some(state) = &own.candidate.confirmed else {
-            continue;
-        };
-        steps.push((weight(own), height));
-        height = onset(state);
-        steps.push((weight(own), height));
-    }
-    steps.push((heaviest, height));
-
+    let steps = steps(summary, start);
     let y = Axis::new("critical friction *μ*_{c}", "–").including(start);
     let mut panel = Panel::new(
-        Axis::new("mass added or taken away", "g")
+        Axis::new("mass added or taken away", &summary.extent.unit("g"))
             .times(1e3)
             .including(0.0),
         y,
@@ -195,30 +183,11 @@ pub(super) fn front_figure(summary: &ImproveSummary) -> Result<Figure, ChartErro
             .solid(STABLE, 1.4)
             .name("front of those that hold"),
     );
-    let kinds = [("mass", Marker::Disc), ("removal", Marker::Square)];
-    for (index, (kind, marker)) in kinds.into_iter().enumerate() {
-        let own = || {
-            summary
-                .front
-                .iter()
-                .filter(move |own| own.candidate.kind == kind)
-        };
-        let predicted = own().map(|own| (weight(own), onset(&own.candidate.predicted)));
-        panel = panel.layer(
-            Points::new(predicted)
-                .marker(marker, 1.5, look(index + 4).0)
-                .name(format!("{kind}, predicted")),
-        );
-        for (holds, colour, name) in [
-            (true, STABLE, format!("{kind}, run again")),
-            (false, UNSTABLE, format!("{kind}, run again and struck off")),
-        ] {
-            let again =
-                own().filter(|own| own.candidate.verdict.starts_with("struck off") != holds);
-            let again = again
-                .filter_map(|own| Some((weight(own), onset(own.candidate.confirmed.as_ref()?))));
-            panel = panel.layer(Points::new(again).marker(marker, 2.8, colour).name(name));
-        }
+    for (index, (kind, marker)) in [("mass", Marker::Disc), ("removal", Marker::Square)]
+        .into_iter()
+        .enumerate()
+    {
+        panel = panel.layers(points(summary, kind, (marker, look(index + 4).0)));
     }
     let ends = summary.front.iter().rev().find(|own| own.on_front);
     let labels = ends.and_then(|own| {
@@ -228,4 +197,57 @@ pub(super) fn front_figure(summary: &ImproveSummary) -> Result<Figure, ChartErro
     let caption = "Critical friction over the mass that is added or taken away at one place: predictions at the best places of each \
          size, those of them run again that nothing lighter was predicted to beat, and the front of those that hold.";
     Ok(Figure::new(FRONT, caption).panel(panel.layers(labels)))
+}
+
+/// Size of the mass of a point, kg.
+fn weight(own: &FrontPoint) -> f64 {
+    own.candidate.added_mass_kg.abs()
+}
+
+/// The front goes up in steps from `start` on: each point holds until a heavier one gets farther.
+fn steps(summary: &ImproveSummary, start: f64) -> Vec<(f64, f64)> {
+    let heaviest = summary.front.iter().map(weight).fold(0.0, f64::max);
+    let (mut steps, mut height) = (vec![(0.0, start)], start);
+    for own in summary.front.iter().filter(|own| own.on_front) {
+        let Some(state) = &own.candidate.confirmed else {
+            continue;
+        };
+        steps.push((weight(own), height));
+        height = state
+            .critical_friction
+            .unwrap_or(summary.friction_coefficient);
+        steps.push((weight(own), height));
+    }
+    steps.push((heaviest, height));
+    steps
+}
+
+/// The points of one kind: predicted ones small, those run again large.
+fn points(
+    summary: &ImproveSummary,
+    kind: &str,
+    (marker, colour): (Marker, &'static str),
+) -> Vec<Points> {
+    let friction = summary.friction_coefficient;
+    let onset = |state: &State| state.critical_friction.unwrap_or(friction);
+    let own = || {
+        let all = summary.front.iter();
+        all.filter(move |own| own.candidate.kind == kind)
+    };
+    let predicted = own().map(|own| (weight(own), onset(&own.candidate.predicted)));
+    let mut layers = vec![
+        Points::new(predicted)
+            .marker(marker, 1.5, colour)
+            .name(format!("{kind}, predicted")),
+    ];
+    for (holds, colour, name) in [
+        (true, STABLE, format!("{kind}, run again")),
+        (false, UNSTABLE, format!("{kind}, run again and struck off")),
+    ] {
+        let again = own().filter(|own| own.candidate.verdict.starts_with("struck off") != holds);
+        let again =
+            again.filter_map(|own| Some((weight(own), onset(own.candidate.confirmed.as_ref()?))));
+        layers.push(Points::new(again).marker(marker, 2.8, colour).name(name));
+    }
+    layers
 }

@@ -5,8 +5,8 @@ mod files;
 mod front;
 mod report;
 
-use super::Manifest;
 use super::summary::{Entry, Summary};
+use super::{Extent, Manifest};
 use serde::{Deserialize, Serialize};
 use std::fmt::Write as _;
 
@@ -52,6 +52,9 @@ pub struct ImproveSummary {
     pub modes: Vec<TargetMode>,
     /// Sizes of the modifications.
     pub sizes: Sizes,
+    /// What masses, stiffnesses and dashpots are of.
+    #[serde(default)]
+    pub extent: Extent,
     /// Modifications, the best first.
     pub candidates: Vec<Candidate>,
     /// Masses and removals of several sizes by rising mass, and which of them nothing lighter beats.

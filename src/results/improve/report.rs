@@ -72,10 +72,11 @@ fn numbers(summary: &ImproveSummary) -> Vec<(String, String)> {
         );
         text(&name, mode.growth_rate_per_s, "1/s")
     }));
+    let unit = |unit: &str| summary.extent.unit(unit);
     rows.extend([
-        text("added mass", sizes.mass_kg, "kg"),
-        text("spring", sizes.stiffness_n_per_m, "N/m"),
-        text("dashpot", sizes.damping_n_s_per_m, "N s/m"),
+        text("added mass", sizes.mass_kg, &unit("kg")),
+        text("spring", sizes.stiffness_n_per_m, &unit("N/m")),
+        text("dashpot", sizes.damping_n_s_per_m, &unit("N s/m")),
         text("patch radius", sizes.patch_radius_m, "m"),
         text("patch damping", sizes.patch_damping_s, "s"),
         text("farthest way of the hole", sizes.offset_m, "m"),

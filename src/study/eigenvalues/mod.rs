@@ -32,7 +32,9 @@ pub use sensitivity::{BodySensitivities, body_sensitivities};
 pub use sliding::{SlidingModel, SteadyState};
 pub use solid::SolidBody;
 pub use solve::{solve, solve_modes};
-pub use spectrum::{OnsetSearch, modes_at_own_friction, modes_below, unstable_intervals};
+pub use spectrum::{
+    OnsetSearch, modes_at_own_friction, modes_below, modes_with_shapes_below, unstable_intervals,
+};
 pub use states::WholeMesh;
 
 use super::StudyError;

@@ -6,7 +6,7 @@ use super::{Progress, StudyError};
 use crate::case::{Annulus, Body, Case, CaseErrors, Cea, CeaMethod, ModeSelection, Revolution};
 use crate::cea::cyclic::{self, Coverage, Overdamped, Sensitivity, SolidModel, SolidSweep};
 use crate::cea::{CeaError, FrictionSweep, ModeLimit, SweepRequest};
-use crate::prestress::{SlidingTangent, TangentOptions};
+use crate::prestress::{SectorTangent, SlidingTangent, SolidTangent, TangentOptions};
 use crate::study::tangent_options;
 
 /// The eigenvalue solver that a body gets.
@@ -110,6 +110,14 @@ pub enum Model {
     Assembly(Box<AssemblyModel>),
 }
 
+/// The linearisation of a body that is solved harmonic by harmonic.
+pub enum WaveTangent {
+    /// Of a plane annulus.
+    Plane(Box<SectorTangent>),
+    /// Of a body of revolution in three dimensions.
+    Solid(Box<SolidTangent>),
+}
+
 /// The spectrum of a model over friction coefficients.
 pub struct Spectrum {
     /// Modes at each of them, and where branches turn unstable.
@@ -126,6 +134,8 @@ pub struct Spectrum {
     pub coverage: Option<Coverage>,
     /// Motions of a body of revolution that decay without oscillating, at each friction coefficient; none elsewhere.
     pub overdamped: Vec<Overdamped>,
+    /// What the waves of the modes belong to; none of a body solved on its whole mesh.
+    pub tangent: Option<WaveTangent>,
 }
 
 impl Model {
@@ -192,12 +202,27 @@ impl Model {
         with_rates: bool,
         progress: &Progress<'_>,
     ) -> Result<Spectrum, CeaError> {
+        self.spectrum_with_waves(case, (request, &[]), with_rates, progress)
+    }
+
+    /// [`Self::spectrum`] that keeps the waves of one sector at some of the friction coefficients, where there are sectors.
+    ///
+    /// # Errors
+    /// Those of the solver.
+    pub fn spectrum_with_waves(
+        &self,
+        case: &Case,
+        (request, waves_at): (&SweepRequest<'_>, &[f64]),
+        with_rates: bool,
+        progress: &Progress<'_>,
+    ) -> Result<Spectrum, CeaError> {
         let friction = case.contact.sliding.friction_coefficient;
         match self {
             Self::Sectors(annulus, options) => {
                 let (grid, materials) = (&annulus.specification, &annulus.materials);
                 let sliding = &case.contact.sliding;
-                let found = cyclic::sweep(grid, materials, options, sliding, request)?;
+                let request = (request, waves_at);
+                let found = cyclic::sweep_with_waves(grid, materials, options, sliding, request)?;
                 let rates = with_rates.then(|| cyclic::sensitivities(&found, friction));
                 Ok(Spectrum {
                     dofs: found.tangent.dimension() * found.tangent.sector().sector_count(),
@@ -207,10 +232,11 @@ impl Model {
                     coverage: Some(found.coverage),
                     overdamped: Vec::new(),
                     sweep: found.sweep,
+                    tangent: Some(WaveTangent::Plane(Box::new(found.tangent))),
                 })
             }
             Self::SolidSectors(model) => {
-                let found = cyclic::solid_sweep(model, request)?;
+                let found = cyclic::solid_sweep_with_waves(model, request, waves_at)?;
                 let rates = with_rates.then(|| cyclic::solid_sensitivities(&found, friction));
                 let sensitivities = rates.transpose()?;
                 let branches = found.branches.iter();
@@ -224,6 +250,7 @@ impl Model {
                     coverage: Some(found.coverage),
                     overdamped: found.overdamped,
                     sweep: found.sweep,
+                    tangent: Some(WaveTangent::Solid(Box::new(found.tangent))),
                 })
             }
             Self::Whole(whole) => {
@@ -236,6 +263,7 @@ impl Model {
                     coverage: None,
                     overdamped: Vec::new(),
                     sweep,
+                    tangent: None,
                 })
             }
             Self::Assembly(model) => {
@@ -248,6 +276,7 @@ impl Model {
                     coverage: None,
                     overdamped: Vec::new(),
                     sweep,
+                    tangent: None,
                 })
             }
         }

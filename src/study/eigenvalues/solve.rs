@@ -48,22 +48,26 @@ fn solve_with(
     let with_rates = with_rates
         && cea.sensitivities != Some(false)
         && frictions.iter().any(|&mu| mu >= friction);
-    let mut shapes_at = cea.shapes_at.clone();
-    if with_reading {
+    let waves_at: &[f64] = if with_reading { &frictions } else { &[] };
+    let shapes_at = |of: &Model| {
         let modes = case.cost().cea.map_or(0, |cost| cost.modes) as f64;
-        shapes_at.extend(shapes_needed(case, &model.model, &frictions, modes));
-    }
-    let request = SweepRequest {
-        friction_coefficients: &frictions,
-        limit: mode_limit(cea),
-        shapes_at: &shapes_at,
+        let needed = with_reading.then(|| shapes_needed(case, of, &frictions, modes));
+        [cea.shapes_at.as_slice(), &needed.unwrap_or_default()].concat()
     };
-    let solved = model.model.spectrum(case, &request, with_rates, progress);
+    let solve = |of: &Model| {
+        let request = SweepRequest {
+            friction_coefficients: &frictions,
+            limit: mode_limit(cea),
+            shapes_at: &shapes_at(of),
+        };
+        of.spectrum_with_waves(case, (&request, waves_at), with_rates, progress)
+    };
+    let solved = solve(&model.model);
     let (mut found, method, instead) = match solved {
         Ok(found) => (found, model.model.method(), None),
         Err(error) => {
             let whole = whole_mesh_instead(case, cea, model, &error)?.ok_or(error.clone())?;
-            let found = whole.spectrum(case, &request, with_rates, progress)?;
+            let found = solve(&whole)?;
             (found, whole.method(), Some(instead_note(&error)))
         }
     };
@@ -93,11 +97,12 @@ fn solve_with(
     notes.extend(damping_note(case, &found.sweep));
     notes.extend(friction_note(case, model));
     let reading = match with_reading {
-        true => read(case, model, &found.sweep),
+        true => read(case, model, found.tangent.as_ref(), &found.sweep),
         false => None,
     };
-    // Shapes that only the reading needed.
+    // Shapes and waves that only the reading needed.
     for point in &mut found.sweep.points {
+        point.modes.iter_mut().for_each(|mode| mode.wave = None);
         if !cea.shapes_at.contains(&point.friction_coefficient) {
             point.modes.iter_mut().for_each(|mode| mode.shape = None);
         }

@@ -46,13 +46,26 @@ pub fn modes_below(
     limit_hz: f64,
     with_rates: bool,
 ) -> Result<(Vec<ComplexMode>, Vec<Sensitivity>), StudyError> {
+    modes_with_shapes_below(case, limit_hz, with_rates, &[])
+}
+
+/// [`modes_below`] with the shapes of the modes where `shapes_at` holds the case's own friction coefficient.
+///
+/// # Errors
+/// Those of the solver.
+pub fn modes_with_shapes_below(
+    case: &Case,
+    limit_hz: f64,
+    with_rates: bool,
+    shapes_at: &[f64],
+) -> Result<(Vec<ComplexMode>, Vec<Sensitivity>), StudyError> {
     let friction = case.contact.sliding.friction_coefficient;
     let cea = analysis(case, &[friction], limit_hz);
     let model = Model::new(case, &cea)?;
     let request = SweepRequest {
         friction_coefficients: &cea.friction_coefficients,
         limit: mode_limit(&cea),
-        shapes_at: &[],
+        shapes_at,
     };
     let found = model.spectrum(case, &request, with_rates, &Unwatched)?;
     let point = found.sweep.points.into_iter().next();

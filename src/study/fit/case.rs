@@ -1,7 +1,8 @@
 //! The parameters that a case asks to be fitted.
 
 use super::{
-    BoundedParameter, FitError, FitProblem, Fitted, MeasuredMode, ModelMode, fit, summary,
+    BoundedParameter, FitError, FitProblem, Fitted, MeasuredMode, MeasuredShapes, ModelMode, fit,
+    summary,
 };
 use crate::case::{Case, Fit, FitParameter, ModelParameter, Spacing};
 use crate::cea::ComplexMode;
@@ -28,19 +29,41 @@ fn limit_hz(lines: &[MeasuredMode]) -> f64 {
 /// # Errors
 /// A case without `[fit]`; a fit that cannot be made.
 pub fn fit_case(case: &Case, lines: &[MeasuredMode]) -> Result<Fitted, StudyError> {
+    fit_case_with_shapes(case, lines, None)
+}
+
+/// [`fit_case`] with measured shapes of some of the lines.
+///
+/// # Errors
+/// As [`fit_case`]; shapes that belong to no line, points off the body.
+pub fn fit_case_with_shapes(
+    case: &Case,
+    lines: &[MeasuredMode],
+    shapes: Option<MeasuredShapes<'_>>,
+) -> Result<Fitted, StudyError> {
     let wanted = case.require_fit()?;
     if let Some(cea) = &case.cea {
         // What every point would be refused for.
         Solver::of(case, cea.method)?;
     }
+    let shape_of = match &shapes {
+        Some(shapes) => {
+            shapes.check(case)?;
+            shapes.of_lines(lines)?
+        }
+        None => vec![None; lines.len()],
+    };
     let limit_hz = limit_hz(lines);
-    let model =
-        |values: &[f64], with_rates: bool| modes(case, wanted, values, limit_hz, with_rates);
+    let model = |values: &[f64], with_rates: bool| {
+        modes(case, (wanted, shapes), values, limit_hz, with_rates)
+    };
     let parameters: Vec<BoundedParameter> = wanted.parameters.iter().map(bounded).collect();
     let problem = FitProblem {
         model: &model,
         parameters: &parameters,
         lines,
+        shape_of,
+        shape_weight: wanted.shape_weight,
         starts: wanted.starts,
         own: own_values(case, wanted),
     };
@@ -125,7 +148,7 @@ fn own_values(case: &Case, wanted: &Fit) -> Option<Vec<f64>> {
 /// The modes of the case with its parameters at some values.
 fn modes(
     case: &Case,
-    wanted: &Fit,
+    (wanted, shapes): (&Fit, Option<MeasuredShapes<'_>>),
     values: &[f64],
     limit_hz: f64,
     with_rates: bool,
@@ -135,10 +158,16 @@ fn modes(
         .iter()
         .map(|parameter| &parameter.parameter);
     let case = case.with_parameters(parameters.clone().zip(values.iter().copied()))?;
-    let solved = eigenvalues::modes_below(&case, limit_hz, with_rates);
-    let (modes, sensitivities) = solved.map_err(|failure| failure.messages().join("; "))?;
+    let said = |failure: StudyError| failure.messages().join("; ");
+    let own = [case.contact.sliding.friction_coefficient];
+    let shapes_at = &own[..usize::from(shapes.is_some())];
+    let solved = eigenvalues::modes_with_shapes_below(&case, limit_hz, with_rates, shapes_at);
+    let (modes, sensitivities) = solved.map_err(said)?;
+    let assurances = shapes.map(|shapes| shapes.assurances(&case, &modes));
+    let mut assurances = assurances.transpose().map_err(said)?.unwrap_or_default();
+    assurances.resize(modes.len(), Vec::new());
     let has_harmonics = case.has_sectors();
-    let of = |mode: &ComplexMode| {
+    let of = |(mode, assurances): (&ComplexMode, Vec<f64>)| {
         let is_it = |s: &&Sensitivity| {
             (s.harmonic, s.branch, s.direction) == (mode.harmonic, mode.branch, mode.direction)
         };
@@ -149,9 +178,10 @@ fn modes(
             branch: mode.branch,
             direction: mode.direction,
             rates: parameters.clone().map(|p| rate(own?, p)).collect(),
+            assurances,
         }
     };
-    Ok(modes.iter().map(of).collect())
+    Ok(modes.iter().zip(assurances).map(of).collect())
 }
 
 /// Derivative of an eigenvalue by a parameter, with the keys that follow it; `None` where it is not known.

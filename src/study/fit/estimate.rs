@@ -1,7 +1,7 @@
 //! The search from several points, and what is known of its result.
 
 use super::interval::{Estimate, estimates};
-use super::levenberg_marquardt::{Squares, Trial};
+use super::levenberg_marquardt::{KINDS, Squares, Trial};
 use super::matching::{Weights, differences};
 use super::{FitError, FitProblem, MeasuredMode, ModelMode};
 use crate::signal::student_95;
@@ -27,6 +27,8 @@ pub struct LineFit {
     pub measured: MeasuredMode,
     /// Its mode.
     pub mode: ModelMode,
+    /// Modal assurance criterion of the line's shape and the mode, if it has one.
+    pub assurance: Option<f64>,
 }
 
 /// A model fitted to measured modes.
@@ -66,7 +68,7 @@ pub fn fit(problem: &FitProblem<'_>) -> Result<Fitted, FitError> {
     }
     let mut squares = Squares {
         problem,
-        weights: weights(problem.lines),
+        weights: weights(problem),
     };
     let points = starting_points(problem);
     let failed = |reason| FitError::NoModel {
@@ -140,20 +142,22 @@ fn starting_points(problem: &FitProblem<'_>) -> Vec<Vec<f64>> {
 }
 
 /// Equal shares of the frequency, or the standard deviations given; a line without one takes the largest relative one.
-fn weights(lines: &[MeasuredMode]) -> Vec<Weights> {
+fn weights(problem: &FitProblem<'_>) -> Vec<Weights> {
+    let lines = problem.lines;
     let relative = lines
         .iter()
         .filter_map(|line| Some(line.sigma_hz? / line.frequency_hz));
     let largest = relative.fold(0.0_f64, f64::max);
     let fallback = if largest > 0.0 { largest } else { 1.0 };
-    let of = |line: &MeasuredMode| {
+    let of = |(line, shape): (&MeasuredMode, &Option<usize>)| {
         let weight = 1.0 / line.sigma_hz.unwrap_or(fallback * line.frequency_hz);
         Weights {
             frequency: weight,
             real: if line.real_hz.is_some() { weight } else { 0.0 },
+            shape: shape.map(|shape| (shape, problem.shape_weight * weight * line.frequency_hz)),
         }
     };
-    lines.iter().map(of).collect()
+    lines.iter().zip(&problem.shape_of).map(of).collect()
 }
 
 /// The minimum under weights by which frequencies and real parts scatter alike, and the degrees of freedom left of the
@@ -171,7 +175,7 @@ fn reweighted(squares: &mut Squares<'_>, mut best: Trial) -> Result<(Trial, f64)
         let left = degrees_left(squares, &best, [lines.len(), reals])?;
         degrees = left[0].min(left[1]).max(1.0);
         let variance = [0, 1].map(|part| {
-            let own = residuals.iter().skip(part).step_by(2);
+            let own = residuals.iter().skip(part).step_by(KINDS);
             own.map(|r| r * r).sum::<f64>() / left[part].max(1.0)
         });
         if !(variance[0] > 0.0 && variance[1] > 0.0) {
@@ -209,7 +213,7 @@ fn degrees_left(
         (row * &inverse * row.transpose())[(0, 0)]
     };
     Ok([0, 1].map(|part| {
-        let rows = (part..jacobian.nrows()).step_by(2);
+        let rows = (part..jacobian.nrows()).step_by(KINDS);
         counts[part] as f64 - rows.map(leverage).sum::<f64>()
     }))
 }
@@ -290,11 +294,14 @@ fn described(mode: &ModelMode) -> String {
 
 fn line_fits(problem: &FitProblem<'_>, best: &Trial) -> Vec<LineFit> {
     let pairs = problem.lines.iter().zip(&best.matched);
-    let matched = pairs.filter_map(|(line, mode)| Some((line, &best.modes[(*mode)?])));
+    let matched = pairs
+        .zip(&problem.shape_of)
+        .filter_map(|((line, mode), shape)| Some((line, &best.modes[(*mode)?], shape)));
     matched
-        .map(|(line, mode)| LineFit {
+        .map(|(line, mode, shape)| LineFit {
             measured: *line,
             mode: mode.clone(),
+            assurance: shape.and_then(|shape| mode.assurances.get(shape).copied()),
         })
         .collect()
 }

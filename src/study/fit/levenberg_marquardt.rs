@@ -12,6 +12,9 @@ const ITERATIONS: usize = 40;
 /// Step of central differences, in units of the bounds.
 const DIFFERENCE: f64 = 1e-4;
 
+/// Residuals of each line: of frequency, real part and shape.
+pub(super) const KINDS: usize = 3;
+
 /// A point of the search.
 #[derive(Clone, Debug)]
 pub(super) struct Trial {
@@ -48,14 +51,16 @@ impl Squares<'_> {
         })
     }
 
-    /// Weighted differences, frequency and real part of each line; 0 where there is nothing to compare.
+    /// Weighted differences, frequency, real part and shape of each line; 0 where there is nothing to compare.
     pub fn residuals(&self, trial: &Trial) -> Vec<f64> {
         let lines = self.problem.lines.iter().zip(&self.weights);
         lines
             .zip(&trial.matched)
             .flat_map(|((line, weights), mode)| {
-                let [df, dr] = mode.map_or([0.0; 2], |m| differences(line, &trial.modes[m]));
-                [weights.frequency * df, weights.real * dr]
+                let mode = mode.map(|m| &trial.modes[m]);
+                let [df, dr] = mode.map_or([0.0; 2], |mode| differences(line, mode));
+                let strange = mode.map_or(0.0, |mode| weights.strangeness(mode));
+                [weights.frequency * df, weights.real * dr, strange]
             })
             .collect()
     }
@@ -63,15 +68,18 @@ impl Squares<'_> {
     /// Derivatives of [`Self::residuals`] by the places; `trial` has the rates that the model gives.
     pub fn jacobian(&self, trial: &Trial) -> Result<DMatrix<f64>, String> {
         let (lines, parameters) = (self.problem.lines, self.problem.parameters);
-        let mut jacobian = DMatrix::zeros(2 * lines.len(), parameters.len());
+        let mut jacobian = DMatrix::zeros(KINDS * lines.len(), parameters.len());
         for (column, parameter) in parameters.iter().enumerate() {
             let slope = parameter.slope(trial.places[column]);
             let is_known = |mode: &ModelMode| matches!(mode.rates.get(column), Some(Some(_)));
-            let given = trial
-                .matched
-                .iter()
-                .flatten()
-                .all(|&m| is_known(&trial.modes[m]));
+            // What a parameter does to shapes is known from differences alone.
+            let has_shapes = self.weights.iter().any(|weights| weights.shape.is_some());
+            let given = !has_shapes
+                && trial
+                    .matched
+                    .iter()
+                    .flatten()
+                    .all(|&m| is_known(&trial.modes[m]));
             let around = match given {
                 true => None,
                 false => Some(self.around(trial, column)?),
@@ -80,17 +88,28 @@ impl Squares<'_> {
                 let Some(mode) = trial.matched[row].map(|m| &trial.modes[m]) else {
                     continue;
                 };
-                let rate = match &around {
-                    None => mode.rates[column].map(|rate| rate * slope),
-                    Some((low, high, width)) => Some((mode, low, high))
-                        .and_then(|(m, low, high)| Some(same(m, high)? - same(m, low)?))
-                        .map(|change| change / *width),
+                let weights = self.weights[row];
+                let sides = around.as_ref().and_then(|(low, high, width)| {
+                    Some((
+                        [same(mode, &weights, low)?, same(mode, &weights, high)?],
+                        *width,
+                    ))
+                });
+                let rate = match (&around, sides) {
+                    (None, _) => mode.rates[column].map(|rate| rate * slope),
+                    (_, Some(([low, high], width))) => {
+                        Some((high.eigenvalue - low.eigenvalue) / width)
+                    }
+                    _ => None,
                 };
                 let rate = rate.unwrap_or(c64::new(0.0, 0.0));
-                let weights = self.weights[row];
-                jacobian[(2 * row, column)] = -weights.frequency * rate.im / TAU;
+                jacobian[(KINDS * row, column)] = -weights.frequency * rate.im / TAU;
                 if line.real_hz.is_some() {
-                    jacobian[(2 * row + 1, column)] = -weights.real * rate.re / TAU;
+                    jacobian[(KINDS * row + 1, column)] = -weights.real * rate.re / TAU;
+                }
+                if let Some(([low, high], width)) = sides {
+                    let change = weights.strangeness(high) - weights.strangeness(low);
+                    jacobian[(KINDS * row + 2, column)] = change / width;
                 }
             }
         }
@@ -159,17 +178,22 @@ impl Squares<'_> {
     }
 }
 
-/// The eigenvalue of the same mode in another spectrum: by its name where the body has harmonics, else the nearest.
-fn same(mode: &ModelMode, modes: &[ModelMode]) -> Option<c64> {
-    let distance = |other: &&ModelMode| (other.eigenvalue - mode.eigenvalue).norm();
+/// The same mode in another spectrum: by its name where the body has harmonics, by the shape of its line if that was measured, else
+/// the nearest.
+fn same<'m>(mode: &ModelMode, weights: &Weights, modes: &'m [ModelMode]) -> Option<&'m ModelMode> {
+    let distance = |other: &&ModelMode| {
+        let away = (other.eigenvalue - mode.eigenvalue).norm() / mode.eigenvalue.norm();
+        let strange = weights.shape.map_or(0.0, |(_, weight)| {
+            (weights.strangeness(other) - weights.strangeness(mode)).abs() / weight
+        });
+        away + strange
+    };
     let nearest = |a: &&ModelMode, b: &&ModelMode| distance(a).total_cmp(&distance(b));
     let named = modes
         .iter()
         .filter(|other| mode.harmonic.is_some() && other.name() == mode.name());
-    let found = named
-        .min_by(nearest)
-        .or_else(|| modes.iter().min_by(nearest));
-    found.map(|other| other.eigenvalue)
+    let found = named.min_by(nearest);
+    found.or_else(|| modes.iter().min_by(nearest))
 }
 
 /// Solves `(J^T J + damping diag) step = -gradient` over the free parameters.

@@ -11,6 +11,19 @@ const PENALTY: f64 = 1.0;
 pub(super) struct Weights {
     pub frequency: f64,
     pub real: f64,
+    /// The measured shape of the line, and what it counts without anything of the mode.
+    pub shape: Option<(usize, f64)>,
+}
+
+impl Weights {
+    /// What the shape of the line counts for a mode: `s w f (1 - MAC)`.
+    pub fn strangeness(&self, mode: &ModelMode) -> f64 {
+        let own = self.shape.and_then(|(shape, weight)| {
+            let assurance = mode.assurances.get(shape)?;
+            Some(weight * (1.0 - assurance))
+        });
+        own.unwrap_or(0.0)
+    }
 }
 
 /// The mode of each line, each mode for one line at most, at the smallest sum of squared weighted differences, and that
@@ -50,6 +63,7 @@ pub(super) fn assign(
 fn cost(line: &MeasuredMode, weights: Weights, mode: &ModelMode) -> f64 {
     let [df, dr] = differences(line, mode);
     let mut cost = (weights.frequency * df).powi(2) + (weights.real * dr).powi(2);
+    cost += weights.strangeness(mode).powi(2);
     let penalty = (PENALTY * weights.frequency * line.frequency_hz).powi(2);
     if line.is_unstable && mode.eigenvalue.re <= 0.0 {
         cost += penalty;

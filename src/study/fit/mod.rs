@@ -2,7 +2,11 @@
 //!
 //! ```text
 //! min over theta  sum_i [w_i (f_i - Im lambda_m(i)(theta) / 2 pi)]^2 + [v_i (r_i - Re lambda_m(i)(theta) / 2 pi)]^2
+//!                     + [s w_i f_i (1 - MAC_i,m(i)(theta))]^2
 //! ```
+//!
+//! The last is of lines with a measured shape, with the modal assurance criterion of that shape and the mode, and `s` the weight of
+//! shapes: it tells modes apart whose frequencies do not.
 //!
 //! `m(i)` is the mode of line `i`, assigned anew at every `theta` at the least sum. Parameters are sought on the scale of
 //! their bounds, 0 to 1, linear or logarithmic. The method of Levenberg and Marquardt starts from the best of several
@@ -13,13 +17,15 @@ mod estimate;
 mod interval;
 mod levenberg_marquardt;
 mod matching;
+mod shapes;
 mod summary;
 
 pub use crate::signal::reader::MeasuredMode;
-pub use case::{fit_case, refuse_too_few, summarize};
+pub use case::{fit_case, fit_case_with_shapes, refuse_too_few, summarize};
 pub use estimate::{Fitted, LineFit, fit};
 pub use interval::{Estimate, Side};
 pub(in crate::study) use matching::least_cost;
+pub use shapes::MeasuredShapes;
 
 use crate::linalg::c64;
 use std::f64::consts::TAU;
@@ -37,6 +43,8 @@ pub struct ModelMode {
     pub direction: i8,
     /// Derivative of the eigenvalue by each parameter, where the model gives it.
     pub rates: Vec<Option<c64>>,
+    /// Modal assurance criterion with each measured shape; empty without shapes.
+    pub assurances: Vec<f64>,
 }
 
 impl ModelMode {
@@ -107,6 +115,10 @@ pub struct FitProblem<'a> {
     pub parameters: &'a [BoundedParameter],
     /// The measurement.
     pub lines: &'a [MeasuredMode],
+    /// The measured shape of each line, if there are some.
+    pub shape_of: Vec<Option<usize>>,
+    /// What a shape without anything of its line's mode counts, as a share of the frequency.
+    pub shape_weight: f64,
     /// Points looked at first.
     pub starts: usize,
     /// A point to begin with, where it lies within the bounds.
@@ -116,7 +128,10 @@ pub struct FitProblem<'a> {
 impl FitError {
     /// Whether the table is to blame rather than the run.
     pub fn is_usage(&self) -> bool {
-        matches!(self, Self::TooManyLines { .. } | Self::Frequency { .. })
+        matches!(
+            self,
+            Self::TooManyLines { .. } | Self::Frequency { .. } | Self::Shape { .. }
+        )
     }
 }
 
@@ -124,7 +139,8 @@ impl FitProblem<'_> {
     /// Real numbers measured.
     pub fn data_count(&self) -> usize {
         let of = |line: &MeasuredMode| 1 + usize::from(line.real_hz.is_some());
-        self.lines.iter().map(of).sum()
+        let numbers: usize = self.lines.iter().map(of).sum();
+        numbers + self.shape_of.iter().flatten().count()
     }
 }
 
@@ -165,6 +181,18 @@ pub enum FitError {
         least: f64,
         /// Upper end, Hz.
         most: f64,
+    },
+    /// A shape that belongs to no line.
+    #[error(
+        "shape {name} belongs to no line of the table: {reason}; give its frequency, within {within} % of that of its line"
+    )]
+    Shape {
+        /// Its name.
+        name: String,
+        /// Why.
+        reason: String,
+        /// How near its frequency must be, per cent.
+        within: f64,
     },
     /// The model fails at every point looked at.
     #[error(

@@ -102,6 +102,7 @@ fn line(fit: &LineFit) -> LineSummary {
         difference_hz,
         difference_percent: 100.0 * difference_hz / measured.frequency_hz,
         real_difference_hz: measured.real_hz.map(|real| mode.real_hz - real),
+        mac: fit.assurance,
         mode,
     }
 }

@@ -12,6 +12,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod attached;
 mod base;
 mod confirm;
 mod fields;
@@ -200,15 +201,16 @@ fn predictions(
     order.retain(|&i| growth(i) < before);
     order.truncate(count);
 
-    // The reduced problem's own error at the onset is taken off.
-    let error = match (search.base.onset, modal.onset(None)) {
-        (Some(onset), Ok(Some(reduced))) => onset - reduced,
-        _ => 0.0,
-    };
     let predicted: Result<Vec<Predicted>, crate::linalg::LinalgError> = order
         .par_iter()
         .map(|&i| {
             let onset = modal.onset(Some(&changes[i].0))?;
+            // The reduced problem's own error at the onset is taken off.
+            let reduced = modal.onset_without(&changes[i].0)?;
+            let error = match (search.base.onset, reduced) {
+                (Some(onset), Some(reduced)) => onset - reduced,
+                _ => 0.0,
+            };
             let onset = onset.map(|mu| (mu + error).max(0.0));
             let onset = onset.filter(|mu| *mu < search.base.friction);
             Ok(Predicted {
@@ -237,12 +239,12 @@ fn change(search: &Search<'_>, modal: &ModalModel<'_>, trial: &Trial) -> Result<
                 ModificationKind::Mass => {
                     let mass = matrix(budget.mass);
                     let damping = &mass * base.options.damping.mass_coefficient;
-                    modal.yielding(&dofs, [&mass, &damping, &none])
+                    modal.attached(&dofs, [&mass, &damping, &none])
                 }
                 ModificationKind::Spring => {
-                    modal.yielding(&dofs, [&none, &none, &matrix(budget.stiffness)])
+                    modal.attached(&dofs, [&none, &none, &matrix(budget.stiffness)])
                 }
-                _ => modal.yielding(&dofs, [&none, &matrix(budget.damping), &none]),
+                _ => modal.attached(&dofs, [&none, &matrix(budget.damping), &none]),
             })
         }
         (Target::Patch(_, elements), kind) => {

@@ -14,6 +14,7 @@
 //! less that of the modes, `sum_k x_k w_k^T / (s - lambda_k)` over modes and conjugates. With it a change `D(s)` of these
 //! dofs is one of `D (1 + R D)^-1` in the space of the modes: a spring in series with what it stands on.
 
+use super::attached::{Attached, NearModes};
 use super::base::{Base, Outlook, PairedMode};
 use crate::linalg::dense::transpose_product;
 use crate::linalg::dense_eigen::complex_eigenvalues;
@@ -35,7 +36,11 @@ const BESIDE: [f64; 2] = [0.97, 1.03];
 type Projected = [Mat<c64>; 3];
 
 /// A change of the matrices in the space of the modes, by power of friction.
-pub(super) struct Change(Vec<Projected>);
+pub(super) struct Change {
+    projected: Vec<Projected>,
+    /// A closer model of something attached to a node, for the modes in its range.
+    attached: Option<Attached>,
+}
 
 /// The modes of a base as a reduced problem.
 pub(super) struct ModalModel<'a> {
@@ -46,8 +51,9 @@ pub(super) struct ModalModel<'a> {
     unknowns: [Mat<f64>; 2],
     /// What each power of friction from the first on multiplies.
     friction: Vec<Projected>,
-    /// Two frequencies about the targets, rad/s, and the factors of the full problem there.
-    dynamic: [(f64, ComplexSparseLu); 2],
+    /// Frequencies below, above and amid the targets, rad/s, and the factors of the full problem there.
+    dynamic: [(f64, ComplexSparseLu); 3],
+    near: NearModes<'a>,
 }
 
 impl<'a> ModalModel<'a> {
@@ -65,6 +71,7 @@ impl<'a> ModalModel<'a> {
             unknowns: [right, left],
             friction: Vec::new(),
             dynamic: dynamic_factors(base)?,
+            near: NearModes::of(base),
             base,
         };
         let tangent = &base.tangent;
@@ -105,12 +112,16 @@ impl<'a> ModalModel<'a> {
             DMatrix::from_fn(dofs.len(), 2 * modes.len(), |i, j| of(dofs[i], j, is_left))
         };
         let (right, left) = (part(false), part(true));
-        Change(vec![changes.map(|change| {
+        let projected = changes.map(|change| {
             let form = left.transpose() * (change * &right);
             paired(&Mat::from_fn(form.nrows(), form.ncols(), |i, j| {
                 form[(i, j)]
             }))
-        })])
+        });
+        Change {
+            projected: vec![projected],
+            attached: None,
+        }
     }
 
     /// As [`Self::local`], with what modes beyond the listed ones give way at these dofs, none of which touches a contact.
@@ -125,6 +136,14 @@ impl<'a> ModalModel<'a> {
                 s * (s * m[at] + c[at]) + k[at]
             })
         })
+    }
+
+    /// As [`Self::yielding`], of something attached to the dofs of one node, however large.
+    pub fn attached(&self, dofs: &[usize], changes: [&DMatrix<f64>; 3]) -> Change {
+        Change {
+            attached: Some(self.near.attached(dofs, changes, &self.dynamic)),
+            ..self.yielding(dofs, changes)
+        }
     }
 
     /// Takes `[M, C, K]` of a patch away from the body: its dofs, and which of them other elements share.
@@ -171,10 +190,12 @@ impl<'a> ModalModel<'a> {
 
     /// The change that `D (1 + R D)^-1` of some dofs comes to about the targets.
     fn effective(&self, own: &[usize], change: &dyn Fn(c64) -> Mat<c64>) -> Change {
-        let [low, high] = self.dynamic.each_ref().map(|(omega, factors)| {
+        let at = |place: usize| {
+            let (omega, factors) = &self.dynamic[place];
             let s = c64::new(0.0, *omega);
             (*omega, self.in_series(own, change(s), (s, factors)))
-        });
+        };
+        let (low, high) = (at(0), at(1));
         let squares = [low.0 * low.0, high.0 * high.0];
         let count = own.len();
         let each = |of: &dyn Fn(c64, c64) -> f64| {
@@ -260,7 +281,10 @@ impl<'a> ModalModel<'a> {
             let [m, c, k] = &differences;
             self.projected([m, c, k].map(|values| Some((&**patterns[0], values.as_slice()))))
         });
-        Some(Change(by_power.collect()))
+        Some(Change {
+            projected: by_power.collect(),
+            attached: None,
+        })
     }
 
     /// Eigenvalues with `Im > 0` at a friction coefficient.
@@ -268,6 +292,23 @@ impl<'a> ModalModel<'a> {
     /// # Errors
     /// If the dense decomposition fails.
     pub fn spectrum(&self, mu: f64, change: Option<&Change>) -> Result<Vec<c64>, LinalgError> {
+        let Some(attached) = change.and_then(|change| change.attached.as_ref()) else {
+            return self.of_listed(mu, change);
+        };
+        // Modes beyond its range by the listed ones alone.
+        let [low, high] = attached.range;
+        let mut found = match self.near.holds_all() {
+            true => Vec::new(),
+            false => self.of_listed(mu, change)?,
+        };
+        found.retain(|value| !(low..=high).contains(&value.im));
+        found.extend(attached.spectrum(mu, false)?);
+        found.sort_by(|a, b| a.im.total_cmp(&b.im));
+        Ok(found)
+    }
+
+    /// Eigenvalues in the space of the listed modes.
+    fn of_listed(&self, mu: f64, change: Option<&Change>) -> Result<Vec<c64>, LinalgError> {
         let size = self.values.len();
         let mut sums = [0, 1, 2].map(|_| Mat::<c64>::zeros(size, size));
         let mut add = |factor: f64, matrices: &Projected| {
@@ -281,7 +322,10 @@ impl<'a> ModalModel<'a> {
             let power = place as i32 + 1;
             add(mu.powi(power) - self.base.friction.powi(power), matrices);
         }
-        for (power, matrices) in change.iter().flat_map(|change| change.0.iter().enumerate()) {
+        for (power, matrices) in change
+            .iter()
+            .flat_map(|change| change.projected.iter().enumerate())
+        {
             add(mu.powi(power as i32), matrices);
         }
         let [m, c, k] = &sums;
@@ -311,14 +355,31 @@ impl<'a> ModalModel<'a> {
 
     /// The friction coefficient above which, up to that of the base, a mode of the window grows; `None` where none does there.
     ///
-    /// Looked for downwards: the modes of the base describe what is near its own friction coefficient best.
-    ///
     /// # Errors
     /// If the dense decomposition fails.
     pub fn onset(&self, change: Option<&Change>) -> Result<Option<f64>, LinalgError> {
+        self.onset_of(&|mu| self.spectrum(mu, change))
+    }
+
+    /// What the model of a change makes of the body without it: what it is off there.
+    ///
+    /// # Errors
+    /// If the dense decomposition fails.
+    pub fn onset_without(&self, change: &Change) -> Result<Option<f64>, LinalgError> {
+        match &change.attached {
+            Some(attached) => self.onset_of(&|mu| attached.spectrum(mu, true)),
+            None => self.onset(None),
+        }
+    }
+
+    /// Looked for downwards: the modes of the base describe what is near its own friction coefficient best.
+    fn onset_of(
+        &self,
+        spectrum: &dyn Fn(f64) -> Result<Vec<c64>, LinalgError>,
+    ) -> Result<Option<f64>, LinalgError> {
         let window = self.base.window;
         let grows = |mu: f64| -> Result<bool, LinalgError> {
-            Ok(window.outlook(self.spectrum(mu, change)?).unstable > 0)
+            Ok(window.outlook(spectrum(mu)?).unstable > 0)
         };
         if !grows(self.base.friction)? {
             return Ok(None);
@@ -344,8 +405,8 @@ impl<'a> ModalModel<'a> {
     }
 }
 
-/// Two frequencies about the targets and the factors of `T(i omega)` there.
-fn dynamic_factors(base: &Base<'_>) -> Result<[(f64, ComplexSparseLu); 2], LinalgError> {
+/// Frequencies below, above and amid the targets, and the factors of `T(i omega)` there.
+fn dynamic_factors(base: &Base<'_>) -> Result<[(f64, ComplexSparseLu); 3], LinalgError> {
     let targets = base.targets();
     let frequencies = || targets.iter().map(|mode| mode.eigenvalue().im);
     let low = frequencies().fold(f64::INFINITY, f64::min);
@@ -360,7 +421,9 @@ fn dynamic_factors(base: &Base<'_>) -> Result<[(f64, ComplexSparseLu); 2], Linal
         let values = terms.map(|((m, c), k)| s * (s * *m + *c) + *k).collect();
         Ok((omega, ComplexSparseLu::factorize(&analysis, values)?))
     };
-    Ok([factors(BESIDE[0] * low)?, factors(BESIDE[1] * high)?])
+    let [below, above] = [BESIDE[0] * low, BESIDE[1] * high];
+    let amid = (below * above).sqrt();
+    Ok([factors(below)?, factors(above)?, factors(amid)?])
 }
 
 /// One coefficient of a polynomial, if it has it.

@@ -105,6 +105,18 @@ struct Solved {
 /// # Errors
 /// [`CeaError`] where there is no sliding equilibrium, or a branch cannot be followed.
 pub fn solid_sweep(model: &SolidModel, request: &SweepRequest<'_>) -> Result<SolidSweep, CeaError> {
+    solid_sweep_with_waves(model, request, &[])
+}
+
+/// [`solid_sweep`] that keeps the waves of one sector at some of the friction coefficients.
+///
+/// # Errors
+/// As [`solid_sweep`].
+pub fn solid_sweep_with_waves(
+    model: &SolidModel,
+    request: &SweepRequest<'_>,
+    waves_at: &[f64],
+) -> Result<SolidSweep, CeaError> {
     let grid = request.rising_grid()?;
     request.limit.check()?;
     let sector = SolidSector::generate(&model.specification)?;
@@ -116,9 +128,10 @@ pub fn solid_sweep(model: &SolidModel, request: &SweepRequest<'_>) -> Result<Sol
     let margin = wanted * MARGIN * MARGIN;
     found.retain(|found| found.modes.iter().any(|mode| mode.0 < margin));
     let reduced = reduce(&tangent, found, &grid, margin);
+    let kept = [request.shapes_at, waves_at].concat();
     let solved: Result<Vec<Solved>, CeaError> = reduced
         .into_par_iter()
-        .map(|found| follow(&tangent, found, request, (&grid, wanted)))
+        .map(|found| follow(&tangent, found, &kept, (&grid, wanted)))
         .collect();
     let (mut followed, mut reductions, mut error) = (Vec::new(), Vec::new(), 0.0_f64);
     let mut overdamped = Vec::new();
@@ -129,17 +142,17 @@ pub fn solid_sweep(model: &SolidModel, request: &SweepRequest<'_>) -> Result<Sol
         overdamped.extend(solved.overdamped);
     }
     let direction = tangent.base().sliding_direction;
-    let expand = |n: usize, waves: Waves, x: &[c64]| {
-        let own = followed
-            .iter()
-            .position(|paths| paths.problem.harmonic == n);
-        own.map_or(Vec::new(), |k| {
-            shape(&tangent, n, waves, &reductions[k].expand(x))
-        })
+    let unknowns = |n: usize, x: &[c64]| {
+        let mut all = followed.iter().zip(&reductions);
+        let own = all.find(|(paths, _)| paths.problem.harmonic == n);
+        own.map_or(Vec::new(), |(_, reduction)| reduction.expand(x))
     };
+    let expand = |n: usize, waves: Waves, x: &[c64]| shape(&tangent, n, waves, &unknowns(n, x));
     let producer = ShapeProducer {
         sliding_direction: direction,
         expand: &expand,
+        waves_at,
+        unknowns: &unknowns,
     };
     let points: Vec<FrictionPoint> = request
         .friction_coefficients
@@ -184,7 +197,7 @@ pub fn solid_sweep(model: &SolidModel, request: &SweepRequest<'_>) -> Result<Sol
 fn follow(
     tangent: &SolidTangent,
     found: Reduced,
-    request: &SweepRequest<'_>,
+    kept: &[f64],
     (grid, wanted): (&[f64], f64),
 ) -> Result<Solved, CeaError> {
     let margin = wanted * MARGIN * MARGIN;
@@ -205,7 +218,7 @@ fn follow(
     let damped = || {
         let range = Range {
             grid,
-            kept: request.shapes_at,
+            kept,
             largest: margin.sqrt(),
         };
         follow_damped(problem(), &pairs, &range)
@@ -213,7 +226,7 @@ fn follow(
     let (paths, overdamped) = match found.is_damped {
         true => damped()?,
         // Where a branch stops to oscillate nevertheless, others may begin to.
-        false => match follow_pairs(problem(), &pairs, grid, request.shapes_at) {
+        false => match follow_pairs(problem(), &pairs, grid, kept) {
             Ok(paths) if paths.are_whole() => (paths, Vec::new()),
             _ => damped()?,
         },

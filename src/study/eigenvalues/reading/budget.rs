@@ -4,22 +4,22 @@ use super::parts::Parts;
 use super::shapes::Shapes;
 use crate::cea::ComplexMode;
 use crate::linalg::c64;
-use crate::results::cea::{Contribution, Source};
+use crate::results::cea::{Contribution, ModeName, Source};
 use crate::study::eigenvalues::sliding::SlidingModel;
 
 /// Forms of each mode of one friction value in one region or support: `phi^H M phi` (NaN without mass), `phi^H K phi`, and what
 /// takes part in the damping, `phi^H C phi`.
-pub(super) struct Row<'p> {
-    name: &'p str,
-    source: Source,
-    forms: Vec<[f64; 3]>,
+pub(super) struct Row {
+    pub name: String,
+    pub source: Source,
+    pub forms: Vec<[f64; 3]>,
 }
 
 /// Sums over all regions and supports, mode by mode.
 pub(super) struct Sums {
     /// `phi^H M phi`.
     pub kinetic: Vec<f64>,
-    strain: Vec<f64>,
+    pub strain: Vec<f64>,
     /// The forces of the bodies at every dof, which the contacts' forces hold, where they are asked for.
     pub balance: Option<Vec<Vec<c64>>>,
 }
@@ -48,8 +48,12 @@ impl Parts<'_> {
         let mut sums = Sums::new(shapes.modes.len(), dofs);
         let mut rows = self.of_regions(model, shapes, &mut sums);
         rows.extend(self.of_supports(shapes, &mut sums));
+        rows.extend(self.of_rotation(shapes, &mut sums));
         for mode in 0..shapes.modes.len() {
-            self.write(shapes, mode, (&rows, &sums), out);
+            let (number, own) = shapes.modes[mode];
+            let name = shapes.name(number, own);
+            let contacts = |fed: f64| self.contact_rates(shapes, (mode, own), &sums, fed);
+            write((name, own, mode), (&rows, &sums), &contacts, out);
         }
     }
 
@@ -59,7 +63,7 @@ impl Parts<'_> {
         model: &SlidingModel,
         shapes: &Shapes<'_>,
         sums: &mut Sums,
-    ) -> Vec<Row<'_>> {
+    ) -> Vec<Row> {
         let beta = self.options.damping.stiffness_coefficient;
         let mut rows = Vec::new();
         for (region, (name, pair, [alpha, own_beta, eta])) in self.regions.iter().enumerate() {
@@ -75,7 +79,7 @@ impl Parts<'_> {
                 [m[i], k[i], damping]
             });
             rows.push(Row {
-                name,
+                name: name.clone(),
                 source: Source::Part,
                 forms: each.collect(),
             });
@@ -93,7 +97,7 @@ impl Parts<'_> {
     }
 
     /// Energies and damping of every support, with point masses those of the modifications, which come last.
-    pub fn of_supports(&self, shapes: &Shapes<'_>, sums: &mut Sums) -> Vec<Row<'_>> {
+    pub fn of_supports(&self, shapes: &Shapes<'_>, sums: &mut Sums) -> Vec<Row> {
         let alpha = self.options.damping.mass_coefficient;
         let mut rows = Vec::new();
         for (place, (name, pair, eta)) in self.supports.iter().enumerate() {
@@ -113,7 +117,7 @@ impl Parts<'_> {
                 [m[i], k[i], c + alpha * m[i]]
             });
             rows.push(Row {
-                name,
+                name: name.clone(),
                 source: Source::Support,
                 forms: each.collect(),
             });
@@ -131,46 +135,42 @@ impl Parts<'_> {
         rows
     }
 
-    /// The rows of one mode; its contacts feed what the others leave of its growth.
-    fn write(
+    /// What the gyroscopic forces `lambda G` of regions that turn add: `G` is skew, `phi^H G phi = i g`, and takes no power of a
+    /// motion that neither grows nor decays; of one that does `-sigma g / (2 omega m)`.
+    pub fn of_rotation(&self, shapes: &Shapes<'_>, sums: &mut Sums) -> Option<Row> {
+        let [gyroscopic, transport] = self.rotation.as_ref()?.multiply(shapes.columns.as_ref());
+        let skew = shapes.skew_forms(&gyroscopic);
+        let modes = shapes.modes.iter().zip(skew);
+        let forms = modes.map(|((_, mode), skew)| {
+            let lambda = mode.eigenvalue;
+            [f64::NAN, f64::NAN, lambda.re * skew / lambda.im]
+        });
+        if let Some(balance) = &mut sums.balance {
+            shapes.add(balance, [&gyroscopic, &transport], |lambda| {
+                [lambda, c64::ONE]
+            });
+        }
+        Some(Row {
+            name: "rotation".to_owned(),
+            source: Source::Rotation,
+            forms: forms.collect(),
+        })
+    }
+
+    /// What each contact feeds of their sum `fed`.
+    fn contact_rates(
         &self,
         shapes: &Shapes<'_>,
-        i: usize,
-        (rows, sums): (&[Row<'_>], &Sums),
-        out: &mut Vec<Contribution>,
-    ) {
-        let (number, mode) = shapes.modes[i];
-        let name = shapes.name(number, mode);
-        let (kinetic, strain) = (sums.kinetic[i], sums.strain[i]);
-        let rate = |damping: f64| -damping / (2.0 * kinetic);
-        let mut taken = 0.0;
-        for row in rows {
-            let [m, k, c] = row.forms[i];
-            taken += rate(c);
-            out.push(Contribution {
-                mode: name,
-                name: row.name.to_owned(),
-                source: row.source,
-                kinetic_share: m.is_finite().then_some(m / kinetic),
-                strain_share: Some(k / strain),
-                growth_rate: rate(c),
-            });
-        }
-        let fed = mode.growth_rate() - taken;
+        (i, mode): (usize, &ComplexMode),
+        sums: &Sums,
+        fed: f64,
+    ) -> Vec<(String, f64)> {
         let shares = match &sums.balance {
             None => vec![fed],
-            Some(balance) => self.feeds(shapes, (i, mode), (&balance[i], kinetic, fed)),
+            Some(balance) => self.feeds(shapes, (i, mode), (&balance[i], sums.kinetic[i], fed)),
         };
-        for ((contact, _), growth_rate) in self.contacts.iter().zip(shares) {
-            out.push(Contribution {
-                mode: name,
-                name: contact.clone(),
-                source: Source::Contact,
-                kinetic_share: None,
-                strain_share: None,
-                growth_rate,
-            });
-        }
+        let names = self.contacts.iter().map(|(name, _)| name.clone());
+        names.zip(shares).collect()
     }
 
     /// `Im(phi^H f) / (2 omega m)` of the forces on the surfaces of each contact; what forces on nodes of two contacts leave of the
@@ -193,5 +193,39 @@ impl Parts<'_> {
             .collect();
         let left = (fed - rates.iter().sum::<f64>()) / rates.len() as f64;
         rates.into_iter().map(|rate| rate + left).collect()
+    }
+}
+
+/// The rows of the mode of place `i`; its contacts feed what the others leave of its growth.
+pub(super) fn write(
+    (name, mode, i): (ModeName, &ComplexMode, usize),
+    (rows, sums): (&[Row], &Sums),
+    contacts: &dyn Fn(f64) -> Vec<(String, f64)>,
+    out: &mut Vec<Contribution>,
+) {
+    let (kinetic, strain) = (sums.kinetic[i], sums.strain[i]);
+    let rate = |damping: f64| -damping / (2.0 * kinetic);
+    let mut taken = 0.0;
+    for row in rows {
+        let [m, k, c] = row.forms[i];
+        taken += rate(c);
+        out.push(Contribution {
+            mode: name,
+            name: row.name.clone(),
+            source: row.source,
+            kinetic_share: m.is_finite().then_some(m / kinetic),
+            strain_share: k.is_finite().then_some(k / strain),
+            growth_rate: rate(c),
+        });
+    }
+    for (contact, growth_rate) in contacts(mode.growth_rate() - taken) {
+        out.push(Contribution {
+            mode: name,
+            name: contact,
+            source: Source::Contact,
+            kinetic_share: None,
+            strain_share: None,
+            growth_rate,
+        });
     }
 }

@@ -62,6 +62,7 @@ pub(super) fn feed(
     let mut sums = Sums::new(shapes.modes.len(), Some(parts.mesh.dof_count()));
     parts.of_regions(model, &shapes, &mut sums);
     parts.of_supports(&shapes, &mut sums);
+    parts.of_rotation(&shapes, &mut sums);
     let geometric = geometric(case, model, parts, friction);
     let has_turning = geometric.is_some();
     let terms: Vec<PointTerms> = pressed
@@ -175,26 +176,39 @@ fn geometric(
 
 /// The nodes of a plane contact edge.
 fn of_edge(case: &Case, parts: &Parts<'_>, base: &SteadySliding) -> Vec<Pressed> {
-    let mesh: &Mesh = parts.mesh;
     let by_power = |all: &[Vec<f64>], i: usize| -> Vec<Vec<f64>> {
         all.iter().map(|forces| vec![forces[i]]).collect()
     };
+    let places = edge_places(case, parts.mesh, &parts.contacts[0].0, base);
+    let points = base.points.iter().zip(places).enumerate();
+    points
+        .map(|(i, (point, place))| Pressed {
+            place,
+            point: point.clone(),
+            is_pressed: base.is_pressed[i],
+            forces: by_power(&base.normal_forces, i),
+            springs: by_power(&base.stiffnesses, i),
+            stiffness: parts.options.contact,
+        })
+        .collect()
+}
+
+/// The places of the nodes of a plane contact edge, in the order of its points.
+pub(super) fn edge_places(
+    case: &Case,
+    mesh: &Mesh,
+    contact: &str,
+    base: &SteadySliding,
+) -> Vec<FeedPlace> {
     let points = base.points.iter().enumerate();
     points
         .map(|(i, point)| {
             let node = base.interface.normal_dof(i) / mesh.dimension;
-            Pressed {
-                place: FeedPlace {
-                    contact: parts.contacts[0].0.clone(),
-                    position: mesh.nodes[node],
-                    area: point.weight * case.thickness,
-                    shares: vec![(node as u32, 1.0)],
-                },
-                point: point.clone(),
-                is_pressed: base.is_pressed[i],
-                forces: by_power(&base.normal_forces, i),
-                springs: Vec::new(),
-                stiffness: parts.options.contact,
+            FeedPlace {
+                contact: contact.to_owned(),
+                position: mesh.nodes[node],
+                area: point.weight * case.thickness,
+                shares: vec![(node as u32, 1.0)],
             }
         })
         .collect()

@@ -8,14 +8,16 @@
 //! ```
 //!
 //! as `M`, `C`, `K` of the bodies are symmetric; `h` is `eta k` of each region and support with a loss factor. `m`, `c`, `k` are sums
-//! over regions and supports, `p` over contacts: the growth rate is a sum of what each takes or feeds, without a remainder.
+//! over regions and supports, `p` over contacts: the growth rate is a sum of what each takes or feeds, without a remainder. Regions
+//! with the inertia of their rotation add `lambda i g + s`, and with it `-sigma g / (2 omega m)` to the growth rate.
 
 mod budget;
 mod feed;
 mod parts;
 mod shapes;
+mod waves;
 
-use super::model::Model;
+use super::model::{Model, WaveTangent};
 use super::sliding::SlidingModel;
 use crate::case::Case;
 use crate::cea::{FrictionPoint, FrictionSweep};
@@ -26,19 +28,15 @@ use shapes::Shapes;
 /// Bytes of mode shapes over a sweep beyond which they are taken at the ends and at the case's own friction alone.
 const MOST_SHAPES: f64 = 5e8;
 
-/// Friction coefficients whose shapes the reading needs, of those that are solved: all of them on a whole mesh, where shapes
-/// are at hand; the lowest and the case's own where they are built harmonic by harmonic, or would fill the memory.
+/// Friction coefficients whose shapes the reading needs, of those that are solved: all of them on a whole mesh, or the lowest and the
+/// case's own where they would fill the memory; none where the waves of one sector are enough.
 pub(super) fn shapes_needed(case: &Case, model: &Model, frictions: &[f64], modes: f64) -> Vec<f64> {
     let dofs = case.body.dimension() as f64 * case.body.node_count() as f64;
     let own = case.contact.sliding.friction_coefficient;
     match model {
-        Model::SolidSectors(_) => Vec::new(),
-        Model::Whole(_) | Model::Assembly(_)
-            if 16.0 * dofs * modes * frictions.len() as f64 <= MOST_SHAPES =>
-        {
-            frictions.to_vec()
-        }
-        Model::Sectors(..) | Model::Whole(_) | Model::Assembly(_) => {
+        Model::Sectors(..) | Model::SolidSectors(_) => Vec::new(),
+        _ if 16.0 * dofs * modes * frictions.len() as f64 <= MOST_SHAPES => frictions.to_vec(),
+        _ => {
             let lowest = frictions.first().copied();
             let own = frictions.contains(&own).then_some(own);
             lowest.into_iter().chain(own).collect()
@@ -46,11 +44,15 @@ pub(super) fn shapes_needed(case: &Case, model: &Model, frictions: &[f64], modes
     }
 }
 
-/// Reads every mode that has a shape; `None` where the body's matrices are not at hand: a body of revolution in three
-/// dimensions, or one with the inertia of its rotation, whose gyroscopic forces the balance above has not.
-pub(super) fn read(case: &Case, model: &SlidingModel, sweep: &FrictionSweep) -> Option<Reading> {
-    if matches!(&model.model, Model::Assembly(own) if own.body.rotors().next().is_some()) {
-        return None;
+/// Reads every mode that has a wave or a shape; `None` where there is none.
+pub(super) fn read(
+    case: &Case,
+    model: &SlidingModel,
+    tangent: Option<&WaveTangent>,
+    sweep: &FrictionSweep,
+) -> Option<Reading> {
+    if let Some(tangent) = tangent {
+        return waves::read(case, model, tangent, sweep);
     }
     let parts = Parts::new(case, model)?;
     let mut reading = Reading::default();

@@ -50,6 +50,8 @@ pub(super) struct Parts<'a> {
     pub supports: Vec<(String, Pair, f64)>,
     /// Point masses.
     pub attached: Option<Pair>,
+    /// Gyroscopic matrix and transport stiffness of the regions that turn with the inertia of their rotation.
+    pub rotation: Option<Pair>,
     /// Each contact with the dofs of its surfaces.
     pub contacts: Vec<(String, Vec<usize>)>,
     /// Geometric stiffness by base state and region, a polynomial in friction.
@@ -92,6 +94,14 @@ impl<'a> Parts<'a> {
             let patches = assemble_patch_damping(mesh, materials, options.mass);
             supports.push(modifications(mesh, patches));
         }
+        let rotation = match &model.model {
+            Model::Assembly(own) if own.body.rotors().next().is_some() => {
+                let assembled = own.body.assembled().ok()?;
+                let terms = assembled.rotation_terms().cloned();
+                terms.map(|[transport, gyroscopic]| Pair::new(count, [gyroscopic, transport]))
+            }
+            _ => None,
+        };
         Some(Self {
             case,
             mesh,
@@ -99,6 +109,7 @@ impl<'a> Parts<'a> {
             regions,
             supports,
             attached: has_masses.then(|| Pair::new(count, [masses, Triplets::default()])),
+            rotation,
             contacts: match contacts.is_empty() {
                 true => vec![("contact".to_owned(), Vec::new())],
                 false => contacts,

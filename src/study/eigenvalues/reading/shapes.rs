@@ -5,7 +5,7 @@ use crate::linalg::{Mat, c64};
 use crate::results::cea::{Coupling, ModeName};
 
 /// Share below which a mode of the lowest friction value is left out of the couplings.
-const LEAST_SHARE: f64 = 0.01;
+pub(super) const LEAST_SHARE: f64 = 0.01;
 
 /// The shapes of one friction value, real and imaginary part of each in two columns.
 pub(super) struct Shapes<'a> {
@@ -68,6 +68,16 @@ impl<'a> Shapes<'a> {
         (0..self.modes.len())
             .map(|i| product(2 * i) + product(2 * i + 1))
             .collect()
+    }
+
+    /// `Im(phi^H G phi)` of each mode, from the product of a skew `G` with the columns.
+    pub fn skew_forms(&self, image: &Mat<f64>) -> Vec<f64> {
+        let product = |left: usize, right: usize| -> f64 {
+            let own = self.columns.col_as_slice(left).iter();
+            own.zip(image.col_as_slice(right)).map(|(x, y)| x * y).sum()
+        };
+        let form = |i: usize| product(2 * i, 2 * i + 1) - product(2 * i + 1, 2 * i);
+        (0..self.modes.len()).map(form).collect()
     }
 
     /// A mode over all dofs.

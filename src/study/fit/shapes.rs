@@ -1,0 +1,96 @@
+//! Measured shapes as data beside frequencies: which line each belongs to, and what the modes have in common with it.
+
+use super::{FitError, MeasuredMode};
+use crate::case::Case;
+use crate::cea::ComplexMode;
+use crate::linalg::c64;
+use crate::signal::reader::MeasuredShape;
+use crate::study::StudyError;
+use crate::study::mac::{criteria, placed, refuse_revolution};
+
+/// Distance of the frequency of a shape from that of its line, as a share of it.
+const WITHIN: f64 = 0.02;
+
+/// Shapes of a file, and the factor that takes their coordinates to metres.
+#[derive(Clone, Copy, Debug)]
+pub struct MeasuredShapes<'a> {
+    /// The shapes.
+    pub shapes: &'a [MeasuredShape],
+    /// The factor.
+    pub scale: f64,
+}
+
+impl MeasuredShapes<'_> {
+    /// The shape of each line: each shape goes to the line whose frequency is nearest, the nearest pairs first.
+    ///
+    /// # Errors
+    /// A shape without a frequency, or none of whose neighbours is a line without a shape.
+    pub(super) fn of_lines(&self, lines: &[MeasuredMode]) -> Result<Vec<Option<usize>>, FitError> {
+        let refuse = |shape: &MeasuredShape, reason: String| FitError::Shape {
+            name: shape.name.clone(),
+            reason,
+            within: 100.0 * WITHIN,
+        };
+        let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
+        for (index, shape) in self.shapes.iter().enumerate() {
+            let Some(frequency) = shape.frequency_hz else {
+                return Err(refuse(shape, "it has no frequency".to_owned()));
+            };
+            let away = |line: &MeasuredMode| (frequency / line.frequency_hz - 1.0).abs();
+            let all = lines.iter().enumerate();
+            let near = all.filter(|(_, line)| away(line) <= WITHIN);
+            pairs.extend(near.map(|(place, line)| (away(line), index, place)));
+        }
+        pairs.sort_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
+        let mut shape_of = vec![None; lines.len()];
+        let mut is_used = vec![false; self.shapes.len()];
+        for (_, shape, line) in pairs {
+            if shape_of[line].is_none() && !is_used[shape] {
+                shape_of[line] = Some(shape);
+                is_used[shape] = true;
+            }
+        }
+        match is_used.iter().position(|used| !used) {
+            None => Ok(shape_of),
+            Some(lost) => {
+                let shape = &self.shapes[lost];
+                let frequency = shape.frequency_hz.unwrap_or(f64::NAN);
+                Err(refuse(
+                    shape,
+                    format!("no line near {frequency} Hz is without one"),
+                ))
+            }
+        }
+    }
+
+    /// Refuses a body without a whole mesh, and points off it.
+    ///
+    /// # Errors
+    /// Those of the body and of the points.
+    pub(super) fn check(&self, case: &Case) -> Result<(), StudyError> {
+        refuse_revolution(case)?;
+        let mesh = case.mesh().map_err(crate::cea::CeaError::from)?;
+        placed(case, &mesh, self.shapes, self.scale)?;
+        Ok(())
+    }
+
+    /// The criterion of each mode with each shape, `[mode][shape]`.
+    ///
+    /// # Errors
+    /// A body whose parameters leave no mesh, or move it away from the points.
+    pub(super) fn assurances(
+        &self,
+        case: &Case,
+        modes: &[ComplexMode],
+    ) -> Result<Vec<Vec<f64>>, StudyError> {
+        let mesh = case.mesh().map_err(crate::cea::CeaError::from)?;
+        let placed = placed(case, &mesh, self.shapes, self.scale)?;
+        let values: Vec<&[c64]> = modes
+            .iter()
+            .map(|mode| mode.shape.as_deref().unwrap_or_default())
+            .collect();
+        let matrix = criteria(&mesh, &values, self.shapes, &placed);
+        let of = |mode: usize| matrix.iter().map(|row| row[mode]).collect();
+        Ok((0..modes.len()).map(of).collect())
+    }
+}
