@@ -272,7 +272,11 @@ impl Body {
                 boundaries.any(|boundary| is_lossy(&boundary.condition))
             }),
         };
-        has_support || regions.any(|region| self.materials().of(region).loss_factor != 0.0)
+        let is_lossy_material = |region: usize| {
+            let materials = self.materials();
+            materials.of(region).loss_factor != 0.0 || materials.table(region).is_some()
+        };
+        has_support || regions.any(is_lossy_material)
     }
 
     /// Number of materials.

@@ -26,6 +26,7 @@ mod key;
 mod keys;
 mod model;
 mod modifications;
+mod modulus_table;
 mod node;
 mod normal_law;
 mod opposite;
@@ -71,7 +72,7 @@ pub use node::PlacedNode;
 pub use overrides::unset;
 pub use parameters::ModelParameter;
 pub use range::{Spacing, range_values};
-pub use raw::{MeshBytes, RawCase};
+pub use raw::{MeshBytes, RawCase, TableBytes};
 pub use shown::{first_of, shown, shown_json};
 pub use starting::case_from;
 pub use superelements::{FreeSystem, Superelement};
@@ -166,6 +167,7 @@ impl Case {
             body,
             thickness,
             mesh,
+            tables,
             contact,
         } = model::model(&root, &raw, &mut material);
         let damping = model::damping(&root);
@@ -199,6 +201,7 @@ impl Case {
         taken.name_places(&mut errors);
         warnings.extend(taken.warning(&raw.place("mesh.file")));
         raw.mesh = mesh;
+        raw.tables = tables;
         let Some(body) = body.filter(|_| errors.is_empty()) else {
             return Err(raw.errors(errors));
         };
@@ -420,7 +423,10 @@ impl Case {
         let own = ["materials", "boundaries", "contacts"].map(keys);
         let mut keys = shared.into_iter().chain(own.into_iter().flatten());
         let is_lossy = |key: &String| self.number(key).is_some_and(|value| value > 0.0);
+        let mut regions = 0..self.body.region_count();
+        let table = regions.find_map(|region| self.materials().table(region));
         let key = keys.find(is_lossy);
+        let key = key.or_else(|| table.map(|table| table.key().to_owned()));
         let key = key.unwrap_or_else(|| "material.loss_factor".to_owned());
         let message = format!("{key}: {message}");
         self.error_at(&key, message, label.to_owned(), Some(help.to_owned()))

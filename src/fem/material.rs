@@ -1,7 +1,9 @@
 //! Linear elasticity of a region, isotropic or orthotropic, and Rayleigh damping.
 
 use super::orthotropy::{Elasticity, Orthotropy};
+use super::ModulusTable;
 use crate::linalg::c64;
+use std::sync::Arc;
 
 /// Which out-of-plane quantity vanishes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,6 +42,11 @@ pub trait MaterialField: Sync + std::fmt::Debug {
     fn own_damping(&self, _region: usize) -> Option<RayleighDamping> {
         None
     }
+
+    /// Modulus and loss factor over frequency of region `region`, whose material has the modulus of the lowest frequency.
+    fn table(&self, _region: usize) -> Option<&Arc<ModulusTable>> {
+        None
+    }
 }
 
 /// The same everywhere.
@@ -56,6 +63,21 @@ pub struct RegionMaterial {
     pub elastic: ElasticMaterial,
     /// Rayleigh coefficients of its own, else those of the whole body.
     pub damping: Option<RayleighDamping>,
+}
+
+/// Material of one region, which may depend on frequency.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TabledMaterial {
+    /// Elasticity, that of the lowest frequency of a table, density and damping.
+    pub own: RegionMaterial,
+    /// Modulus and loss factor over frequency.
+    pub table: Option<Arc<ModulusTable>>,
+}
+
+impl From<RegionMaterial> for TabledMaterial {
+    fn from(own: RegionMaterial) -> Self {
+        Self { own, table: None }
+    }
 }
 
 /// Materials of an annulus, region 0, and of its deformable shaft, region 1.
@@ -95,6 +117,21 @@ impl MaterialField for Vec<RegionMaterial> {
 
     fn own_damping(&self, region: usize) -> Option<RayleighDamping> {
         self[region].damping
+    }
+}
+
+/// One for each region.
+impl MaterialField for Vec<TabledMaterial> {
+    fn of(&self, region: usize) -> &ElasticMaterial {
+        &self[region].own.elastic
+    }
+
+    fn own_damping(&self, region: usize) -> Option<RayleighDamping> {
+        self[region].own.damping
+    }
+
+    fn table(&self, region: usize) -> Option<&Arc<ModulusTable>> {
+        self[region].table.as_ref()
     }
 }
 

@@ -8,7 +8,7 @@ use crate::linalg::{
     SparseLdl, SparseLu, SparsityPattern,
 };
 use crate::linalg::{Mat, MatRef, Scale, c64};
-use crate::prestress::SlidingTangent;
+use crate::prestress::{SlidingTangent, TabledStiffness};
 use std::borrow::Cow;
 use std::sync::{Arc, OnceLock};
 
@@ -19,6 +19,8 @@ pub struct StructureMatrices<'a> {
     values: [Cow<'a, [f64]>; 3],
     /// Nonzero values of the structural damping `H`, of the general problem.
     structural: Option<Vec<f64>>,
+    /// Parts whose stiffness depends on frequency, with its nonzero values.
+    tabled: Vec<(&'a TabledStiffness, Vec<f64>)>,
     linearization: Linearization,
 }
 
@@ -34,10 +36,16 @@ impl<'a> StructureMatrices<'a> {
             Linearization::Reduced(_) => None,
             Linearization::Companion { .. } => tangent.structural.as_ref(),
         };
+        let tabled = match linearization {
+            Linearization::Reduced(_) => &[][..],
+            Linearization::Companion { .. } => tangent.tabled.as_slice(),
+        };
+        let tabled = tabled.iter();
         Self {
             pattern: tangent.stiffness.pattern(),
             values: [of(&tangent.stiffness), damping, of(&tangent.mass)],
             structural: structural.map(|terms| terms.evaluate(mu)),
+            tabled: tabled.map(|part| (part, part.stiffness.evaluate(mu))).collect(),
             linearization,
         }
     }
@@ -76,6 +84,13 @@ impl<'a> StructureMatrices<'a> {
                     let lost = self.pattern.multiply(structural, x);
                     for entry in entries {
                         add_complex_multiple(&mut residual, c64::new(0.0, 1.0), &lost, entry);
+                    }
+                }
+                for (part, values) in &self.tabled {
+                    let image = self.pattern.multiply(values, x);
+                    for entry in entries {
+                        let lambda = entry.inverse_value.inv() * frequency_scale;
+                        add_complex_multiple(&mut residual, part.gain.at(lambda), &image, entry);
                     }
                 }
                 (residual, inert)

@@ -15,6 +15,7 @@ mod error;
 mod field;
 mod mat;
 mod modes;
+mod moduli;
 mod response;
 mod separator;
 mod shapes;
@@ -28,6 +29,7 @@ mod wav;
 
 pub use contents::{Channel, NamedResponse, ResponseFile, SignalFile};
 pub use error::{ReadError, ReadProblem};
+pub use moduli::{ModulusRow, read_moduli};
 pub use modes::{MeasuredMode, read_modes};
 pub use response::{ResponseOptions, read_response};
 pub use shapes::{MeasuredShape, read_shapes};
