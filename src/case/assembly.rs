@@ -9,7 +9,9 @@ use super::raw::MeshBytes;
 use super::reader::Section;
 use super::suggestion;
 use crate::contact::{ContactStiffness, Motion, PairFriction, SlidingContact};
-use crate::fem::{ElasticMaterial, PlaneFormulation, RegionMaterial, TabledMaterial};
+use crate::fem::{
+    ElasticMaterial, MaterialField, PlaneFormulation, RegionMaterial, TabledMaterial,
+};
 use crate::mesh::{Mesh, MeshFileError};
 use crate::prestress::{Assembly, BaseChoice, PrestressError, SlidingSurfaces, TiedSurfaces};
 use std::f64::consts::TAU;
@@ -54,15 +56,19 @@ impl AssemblyBody {
     /// # Errors
     /// As [`Self::assembled`].
     pub fn stepped(&self) -> Result<Assembly<'_>, PrestressError> {
+        self.stepped_as(&self.materials)
+    }
+
+    /// The same of other materials.
+    ///
+    /// # Errors
+    /// As [`Self::assembled`].
+    pub fn stepped_as<'a>(
+        &'a self,
+        materials: &'a dyn MaterialField,
+    ) -> Result<Assembly<'a>, PrestressError> {
         let (mesh, ties, contacts) = (&self.mesh, &self.ties, &self.contacts);
-        Assembly::at_nodes(
-            mesh,
-            &self.materials,
-            ties,
-            contacts,
-            &self.motions,
-            self.base,
-        )
+        Assembly::at_nodes(mesh, materials, ties, contacts, &self.motions, self.base)
     }
 }
 

@@ -2,7 +2,9 @@
 
 use super::reader::Section;
 use super::words::AxesWord;
-use crate::fem::{ElasticMaterial, MaterialAxes, ModulusTable, Orthotropy, PlaneFormulation, RATIOS};
+use crate::fem::{
+    ElasticMaterial, MaterialAxes, ModulusTable, Orthotropy, PlaneFormulation, RATIOS,
+};
 
 /// The constants of an isotropic material.
 const ISOTROPIC: [&str; 2] = ["young_modulus", "poisson_ratio"];
@@ -56,6 +58,11 @@ pub(super) fn elastic(
     if let Some(table) = table {
         return tabled(section, plain, table);
     }
+    if section.has("table") {
+        // What is wrong with its file is said already.
+        let harmless = ModulusTable::new("", "", vec![[0.0, 1.0, 0.0]]);
+        return tabled(section, plain, &harmless);
+    }
     if ORTHOTROPIC.iter().any(|key| section.has(key)) {
         for key in ISOTROPIC {
             let _ = section.optional_number(key);
@@ -105,20 +112,23 @@ pub(super) fn elastic(
 }
 
 /// An isotropic material with the modulus of the lowest frequency of its table, which gives the loss factor too.
-fn tabled(
-    section: &Section<'_>,
-    plain: ElasticMaterial,
-    table: &ModulusTable,
-) -> ElasticMaterial {
+fn tabled(section: &Section<'_>, plain: ElasticMaterial, table: &ModulusTable) -> ElasticMaterial {
     let _ = ORTHOTROPIC.map(|key| section.numbers(key));
     let _ = (axes(section), section.optional_number("young_modulus"));
     let excluded = ["young_modulus", "loss_factor", "axes"];
-    for key in excluded.iter().chain(&ORTHOTROPIC).filter(|key| section.has(key)) {
+    for key in excluded
+        .iter()
+        .chain(&ORTHOTROPIC)
+        .filter(|key| section.has(key))
+    {
         section.reject(
             key,
             format!("{} beside {}", section.name(key), section.name("table")),
             "the table gives modulus and loss factor".to_owned(),
-            Some("leave out the one or the other; poisson_ratio and density stand beside a table".to_owned()),
+            Some(
+                "leave out the one or the other; poisson_ratio and density stand beside a table"
+                    .to_owned(),
+            ),
         );
     }
     if !section.has("poisson_ratio") {

@@ -37,6 +37,7 @@ mod range;
 mod raw;
 mod reader;
 pub mod reference;
+mod relaxed;
 mod rules;
 mod shaft;
 mod shown;
@@ -86,7 +87,7 @@ pub use words::{
     UnitsWord,
 };
 
-use crate::fem::{ElasticMaterial, MaterialField};
+use crate::fem::{ElasticMaterial, MaterialField, RelaxedMaterials};
 use crate::mesh::{Mesh, MeshError};
 use reader::{Findings, Section};
 use std::sync::Arc;
@@ -130,6 +131,8 @@ pub struct Case {
     pub uncertainty: Option<Uncertainty>,
     /// What is tried against unstable modes.
     pub improve: Improve,
+    /// What its materials are in time, where that is another thing: with loss factors and tables over frequency.
+    pub relaxed: Option<RelaxedMaterials>,
     /// What it takes from its mesh file beside the mesh.
     pub taken: Taken,
     /// Things that are no errors but that the user should hear of.
@@ -225,8 +228,10 @@ impl Case {
             improve,
             taken,
             warnings,
+            relaxed: None,
             raw,
         };
+        case.relaxed = relaxed::relaxed(&case);
         let errors = rules::infeasible(&case);
         let implausible = plausibility::implausible(&case);
         if !errors.is_empty() {
@@ -402,10 +407,18 @@ impl Case {
 
     /// Whether a material, a support or a contact has structural damping.
     pub fn has_structural_damping(&self) -> bool {
+        self.body.has_structural_damping() || self.has_lossy_contacts()
+    }
+
+    fn has_lossy_contacts(&self) -> bool {
         let contacts = self.body.assembly().map_or(&[][..], |body| &body.contacts);
-        self.body.has_structural_damping()
-            || self.contact.stiffness.loss_factor != 0.0
+        self.contact.stiffness.loss_factor != 0.0
             || contacts.iter().any(|own| own.stiffness.loss_factor != 0.0)
+    }
+
+    /// Whether the springs of a support or a contact have structural damping.
+    fn has_lossy_springs(&self) -> bool {
+        self.body.has_lossy_supports() || self.has_lossy_contacts()
     }
 
     /// An error at the first loss factor of the case.

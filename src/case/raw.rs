@@ -40,7 +40,10 @@ impl TableBytes {
     /// The name under which the table of a material lies beside the results.
     pub fn kept_as(material: &str) -> String {
         let plain = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
-        format!("table-{}.csv", material.chars().map(plain).collect::<String>())
+        format!(
+            "table-{}.csv",
+            material.chars().map(plain).collect::<String>()
+        )
     }
 }
 
@@ -189,7 +192,8 @@ impl RawCase {
 
     /// Tables of modulus over frequency that the case names, each with the name under which it lies beside the results.
     pub fn table_files(&self) -> Vec<(String, String)> {
-        let Some(RawValue::Table(materials)) = self.find("materials").map(|item| &item.value) else {
+        let Some(RawValue::Table(materials)) = self.find("materials").map(|item| &item.value)
+        else {
             return Vec::new();
         };
         let file = |entry: &RawEntry| match &entry.item.value {
@@ -200,7 +204,8 @@ impl RawCase {
             _ => None,
         };
         let named = materials.iter();
-        let named = named.filter_map(|(name, entry)| Some((TableBytes::kept_as(name), file(entry)?)));
+        let named =
+            named.filter_map(|(name, entry)| Some((TableBytes::kept_as(name), file(entry)?)));
         named.collect()
     }
 

@@ -8,6 +8,7 @@ mod assembly;
 pub mod element;
 mod face;
 mod material;
+mod maxwell;
 mod modulus_table;
 pub mod operator;
 mod orthotropy;
@@ -26,8 +27,9 @@ pub use assembly::{
 };
 pub use material::{
     AnnulusMaterials, ElasticMaterial, MaterialField, PlaneFormulation, RayleighDamping,
-    RegionMaterial, TabledMaterial,
+    RegionMaterial, RelaxedMaterials, TabledMaterial,
 };
+pub use maxwell::{MaxwellChain, MaxwellElement};
 pub use modulus_table::{ModulusTable, own_frequency_step};
 pub use orthotropy::{Elasticity, Indefinite, MaterialAxes, Orthotropy, RATIOS};
 pub use rotation::{RotationTerms, Turning, assemble_rotation};

@@ -64,7 +64,10 @@ impl ModulusTable {
     /// `[E, eta]` at a frequency in Hz.
     pub fn at(&self, frequency_hz: f64) -> [f64; 2] {
         let (row, share) = self.place(frequency_hz);
-        let [a, b] = [self.rows[row], self.rows[(row + 1).min(self.rows.len() - 1)]];
+        let [a, b] = [
+            self.rows[row],
+            self.rows[(row + 1).min(self.rows.len() - 1)],
+        ];
         [1, 2].map(|k| a[k] + share * (b[k] - a[k]))
     }
 
@@ -143,7 +146,10 @@ mod tests {
             let difference = (table.ratio(frequency + h) - table.ratio(frequency - h)) / (2.0 * h);
             let slope = table.slope(frequency) * TAU;
             // Round-off of the ratio over the step.
-            assert!((slope - difference).norm() < 1e-9 * (1.0 + slope.norm()), "{frequency}");
+            assert!(
+                (slope - difference).norm() < 1e-9 * (1.0 + slope.norm()),
+                "{frequency}"
+            );
         }
     }
 

@@ -131,7 +131,12 @@ impl FrfSystem {
             tabled: tangent
                 .tabled
                 .iter()
-                .map(|part| (part.gain.clone(), part.stiffness.evaluate(friction_coefficient)))
+                .map(|part| {
+                    (
+                        part.gain.clone(),
+                        part.stiffness.evaluate(friction_coefficient),
+                    )
+                })
                 .collect(),
             proportional: tangent.proportional,
             is_symmetric: false,

@@ -13,8 +13,8 @@ use crate::contact::{
     PressedPoints, SurfacePair, mortar_nodes,
 };
 use crate::fem::{
-    MaterialField, Triplets, assemble_extra_damping, assemble_losses, assemble_tabled, assemble_mass,
-    assemble_pressures, assemble_stiffness, assemble_supports,
+    MaterialField, Triplets, assemble_extra_damping, assemble_losses, assemble_mass,
+    assemble_pressures, assemble_stiffness, assemble_supports, assemble_tabled,
 };
 use crate::mesh::Mesh;
 

@@ -23,7 +23,9 @@ impl SlidingTangent {
             frozen.stiffness = add(&frozen.stiffness, gain.re);
             frozen.structural = Some(match &frozen.structural {
                 Some(lost) => add(lost, gain.im),
-                None => MatrixPolynomial::combination(gain.im, &part.stiffness, 0.0, &part.stiffness),
+                None => {
+                    MatrixPolynomial::combination(gain.im, &part.stiffness, 0.0, &part.stiffness)
+                }
             });
         }
         Cow::Owned(frozen)

@@ -298,13 +298,16 @@ impl SlidingTangent {
         }
         // Its entries are those of the stiffness.
         let structural = (!losses.is_empty()).then(|| on_pattern(&projected(&losses)));
-        let tabled = body.tabled.iter().map(|(table, stiffness)| TabledStiffness {
-            gain: TabledGain {
-                table: Arc::clone(table),
-                reference_hz: 0.0,
-            },
-            stiffness: on_pattern(&projected(std::slice::from_ref(stiffness))),
-        });
+        let tabled = body
+            .tabled
+            .iter()
+            .map(|(table, stiffness)| TabledStiffness {
+                gain: TabledGain {
+                    table: Arc::clone(table),
+                    reference_hz: 0.0,
+                },
+                stiffness: on_pattern(&projected(std::slice::from_ref(stiffness))),
+            });
         let tabled: Vec<TabledStiffness> = tabled.collect();
         let is_viscous = structural.is_none() && tabled.is_empty();
         let is_whole = options.damping_model == DampingModel::WholeTangent && !has_supports;

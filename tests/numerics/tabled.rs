@@ -8,15 +8,17 @@ use frictionsim::cea::sparse::{mode_pairs, sweep};
 use frictionsim::cea::{CeaError, ModeLimit, SweepRequest};
 use frictionsim::contact::ContactStiffness;
 use frictionsim::fem::{
-    ElasticMaterial, MassKind, ModulusTable, PlaneFormulation, RayleighDamping, RegionMaterial, TabledMaterial,
-    assemble_stiffness,
+    ElasticMaterial, MassKind, ModulusTable, PlaneFormulation, RayleighDamping, RegionMaterial,
+    TabledMaterial, assemble_stiffness,
 };
 use frictionsim::frf::{Direction, FrfSystem, Terminal, direct_response};
 use frictionsim::mesh::{
     AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElasticSupport, ElementKind, Mesh,
     ShaftSpecification,
 };
-use frictionsim::prestress::{Assembly, BaseChoice, DampingModel, SlidingTangent, SteadySliding, TangentOptions};
+use frictionsim::prestress::{
+    Assembly, BaseChoice, DampingModel, SlidingTangent, SteadySliding, TangentOptions,
+};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -157,19 +159,29 @@ fn derivatives_follow_the_frequency_of_the_mode() {
         [1.0, -1.0].map(|s| eigenvalues(&solved(&tangent_of(1e9 * (1.0 + s * step)), &[mu]), 0));
     let nearest = |all: &[c64], value: c64| {
         let distance = |v: &&c64| (**v - value).norm();
-        *all.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap()
+        *all.iter()
+            .min_by(|a, b| distance(a).total_cmp(&distance(b)))
+            .unwrap()
     };
     for pair in pairs.iter().flatten() {
         let value = pair.eigenvalue;
         let by_friction = (nearest(&above, value) - nearest(&below, value)) / (2.0 * step);
         // Central differences: the third derivative times the square of the step.
         let error = (pair.derivative - by_friction).norm();
-        assert!(error < 1e-3 * by_friction.norm() + 1e-4 * value.norm() * step, "{value} {error:e}");
+        assert!(
+            error < 1e-3 * by_friction.norm() + 1e-4 * value.norm() * step,
+            "{value} {error:e}"
+        );
         let frozen = [1.0, -1.0].map(|s| {
             let moved = tangent_of(1e9 * (1.0 + s * step));
             let moved = moved.at_frequency(value.im / TAU).into_owned();
             let structural = moved.structural.as_ref().unwrap().evaluate(mu);
-            [moved.stiffness.evaluate(mu), moved.damping.evaluate(mu), moved.mass.evaluate(mu), structural]
+            [
+                moved.stiffness.evaluate(mu),
+                moved.damping.evaluate(mu),
+                moved.mass.evaluate(mu),
+                structural,
+            ]
         });
         let change = |k: usize| -> Vec<f64> {
             let pairs = frozen[0][k].iter().zip(&frozen[1][k]);
@@ -200,7 +212,9 @@ fn a_line_of_the_response_has_the_stiffness_of_its_frequency() {
     let found = direct_response(&system, force, response, &lines).unwrap();
     for (line, own) in lines.iter().zip(found.receptance) {
         let frozen = FrfSystem::sliding(&tangent.at_frequency(*line), 0.3);
-        let expected = direct_response(&frozen, force, response, &[*line]).unwrap().receptance[0];
+        let expected = direct_response(&frozen, force, response, &[*line])
+            .unwrap()
+            .receptance[0];
         // Round-off of two factorizations times the condition of the matrix.
         assert!((own - expected).norm() < 1e-8 * expected.norm(), "{line}");
     }
@@ -216,7 +230,12 @@ fn a_mode_beyond_the_table_is_refused_with_its_frequency() {
         shapes_at: &[],
     };
     let error = sweep(&tangent, &request, &|_| {}).unwrap_err();
-    let CeaError::BeyondTable { range_hz, frequency_hz, .. } = &error else {
+    let CeaError::BeyondTable {
+        range_hz,
+        frequency_hz,
+        ..
+    } = &error
+    else {
         panic!("{error}");
     };
     assert_eq!(*range_hz, [100.0, 3000.0]);
@@ -250,10 +269,18 @@ fn a_sandwich_beam_loses_what_ross_kerwin_and_ungar_say() {
         let layers = [0.0, FACE, FACE + CORE, 2.0 * FACE + CORE];
         let (layer, share) = ((3.0 * z) as usize, (3.0 * z).fract());
         let top = layers[(layer + 1).min(3)];
-        [LENGTH * x, 0.02 * y, layers[layer] + share * (top - layers[layer])]
+        [
+            LENGTH * x,
+            0.02 * y,
+            layers[layer] + share * (top - layers[layer]),
+        ]
     });
     for element in &mut file.elements {
-        let middle: f64 = element.nodes.iter().map(|&n| file.points[n as usize][2]).sum();
+        let middle: f64 = element
+            .nodes
+            .iter()
+            .map(|&n| file.points[n as usize][2])
+            .sum();
         let middle = middle / element.nodes.len() as f64;
         let is_core = middle > FACE && middle < FACE + CORE;
         element.region = if is_core { "core" } else { "faces" }.into();
@@ -289,7 +316,13 @@ fn a_sandwich_beam_loses_what_ross_kerwin_and_ungar_say() {
     let face: TabledMaterial = own(solid(7e10, 0.0, 2700.0)).into();
     let regions = mesh.regions.iter();
     let materials: Vec<TabledMaterial> = regions
-        .map(|name| if name == "core" { core.clone() } else { face.clone() })
+        .map(|name| {
+            if name == "core" {
+                core.clone()
+            } else {
+                face.clone()
+            }
+        })
         .collect();
     let closed = BaseChoice::Closed;
     let assembly = Assembly::new(&mesh, &materials, &[], &[], &[], closed).unwrap();
@@ -322,19 +355,30 @@ fn a_sandwich_beam_loses_what_ross_kerwin_and_ungar_say() {
         };
         let mut lambda = c64::new(0.0, TAU * 50.0);
         for _ in 0..100 {
-            lambda = c64::new(0.0, 1.0) * (rigidity(lambda.im / TAU) * (wave.powi(4) / mass)).sqrt();
+            lambda =
+                c64::new(0.0, 1.0) * (rigidity(lambda.im / TAU) * (wave.powi(4) / mass)).sqrt();
         }
-        let nearest = found.iter().min_by(|a, b| {
-            (**a - lambda).norm().total_cmp(&(**b - lambda).norm())
-        });
+        let nearest = found
+            .iter()
+            .min_by(|a, b| (**a - lambda).norm().total_cmp(&(**b - lambda).norm()));
         let own = *nearest.unwrap();
         let loss = |lambda: c64| {
             let square = lambda * lambda;
             square.im.abs() / square.re.abs()
         };
-        println!("{n}: {own} {lambda}; eta {:.5} {:.5}", loss(own), loss(lambda));
+        println!(
+            "{n}: {own} {lambda}; eta {:.5} {:.5}",
+            loss(own),
+            loss(lambda)
+        );
         // The theory leaves out shear of the faces, rotatory inertia and stretch of the core.
-        assert!((loss(own) / loss(lambda) - 1.0).abs() < 0.01, "{n} {own} {lambda}");
-        assert!((own.im / lambda.im - 1.0).abs() < 0.01, "{n} {own} {lambda}");
+        assert!(
+            (loss(own) / loss(lambda) - 1.0).abs() < 0.01,
+            "{n} {own} {lambda}"
+        );
+        assert!(
+            (own.im / lambda.im - 1.0).abs() < 0.01,
+            "{n} {own} {lambda}"
+        );
     }
 }

@@ -186,7 +186,10 @@ fn free_modes(
         let pairs = krylov_schur(&operator, None, &settings)?;
         let kappas: Vec<f64> = pairs.values.iter().map(|s| s.re.recip() - shift).collect();
         let highest = kappas.iter().fold(0.0_f64, |a, b| a.max(*b));
-        let rigid = kappas.iter().filter(|kappa| **kappa <= RIGID * highest).count();
+        let rigid = kappas
+            .iter()
+            .filter(|kappa| **kappa <= RIGID * highest)
+            .count();
         let elastic = kappas.len() - rigid;
         let wanted = match limit {
             ModeLimit::Lowest(count) => count,
@@ -203,7 +206,10 @@ fn free_modes(
         let frequencies: Vec<f64> = kappas[rigid..].iter().map(|kappa| kappa.sqrt()).collect();
         if let (0, ModeLimit::MaxFrequency(limit_hz)) = (wanted, limit) {
             let lowest_hz = frequencies[0] / TAU;
-            return Err(CeaError::NoModes { limit_hz, lowest_hz });
+            return Err(CeaError::NoModes {
+                limit_hz,
+                lowest_hz,
+            });
         }
         let kept = match request == unknowns {
             true => elastic,

@@ -36,8 +36,12 @@ pub(super) fn solve(
         start.par_iter().map(|mode| at.mode_near(mode)).collect();
     for i in 1..found.len() {
         let (before, own) = found.split_at_mut(i);
-        let is_known = |mode: &ReducedMode| before.iter().flatten().any(|other| is_same(mode, other));
-        if own[0].as_ref().is_some_and(|mode| mode.eigenvalue.im <= 0.0 || is_known(mode)) {
+        let is_known =
+            |mode: &ReducedMode| before.iter().flatten().any(|other| is_same(mode, other));
+        if own[0]
+            .as_ref()
+            .is_some_and(|mode| mode.eigenvalue.im <= 0.0 || is_known(mode))
+        {
             own[0] = None;
         }
     }

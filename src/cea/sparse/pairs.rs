@@ -154,9 +154,10 @@ fn pair_at_own_frequency(
         return Ok(None);
     };
     let pattern = tangent.stiffness.pattern();
-    let slopes = tangent.tabled.iter().map(|part| {
-        part.gain.slope(target) * pair.form(pattern, &part.stiffness.evaluate(mu))
-    });
+    let slopes = tangent
+        .tabled
+        .iter()
+        .map(|part| part.gain.slope(target) * pair.form(pattern, &part.stiffness.evaluate(mu)));
     pair.own_slope = slopes.sum();
     pair.derivative = pair.followed(pair.derivative);
     Ok(Some(pair))

@@ -45,7 +45,9 @@ impl<'a> StructureMatrices<'a> {
             pattern: tangent.stiffness.pattern(),
             values: [of(&tangent.stiffness), damping, of(&tangent.mass)],
             structural: structural.map(|terms| terms.evaluate(mu)),
-            tabled: tabled.map(|part| (part, part.stiffness.evaluate(mu))).collect(),
+            tabled: tabled
+                .map(|part| (part, part.stiffness.evaluate(mu)))
+                .collect(),
             linearization,
         }
     }

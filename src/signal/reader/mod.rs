@@ -29,8 +29,8 @@ mod wav;
 
 pub use contents::{Channel, NamedResponse, ResponseFile, SignalFile};
 pub use error::{ReadError, ReadProblem};
-pub use moduli::{ModulusRow, read_moduli};
 pub use modes::{MeasuredMode, read_modes};
+pub use moduli::{ModulusRow, read_moduli};
 pub use response::{ResponseOptions, read_response};
 pub use shapes::{MeasuredShape, read_shapes};
 pub use time_signal::{SignalOptions, read_signal};

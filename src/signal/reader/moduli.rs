@@ -67,7 +67,10 @@ fn places(table: &Table, source: &str) -> Result<[usize; 3], ReadError> {
     }
     let is_other = |name: &&String| OTHER_UNITS.iter().any(|unit| name.contains(unit));
     if table.names.iter().any(|name| is_other(&name)) {
-        return Err(missing("Hz and Pa", "give frequencies in Hz and moduli in Pa"));
+        return Err(missing(
+            "Hz and Pa",
+            "give frequencies in Hz and moduli in Pa",
+        ));
     }
     let mut places = [0; 3];
     for (place, (wanted, begins)) in places.iter_mut().zip(COLUMNS) {
@@ -92,10 +95,14 @@ mod tests {
     fn columns_are_found_by_name_in_any_order_and_by_place_without_names() {
         let named = b"loss_factor;frequency_hz;young_modulus\n0,1;10;2e6\n0,2;100;3e6\n";
         let plain = b"# rubber\n10 2e6 0.1\n100 3e6 0.2\n";
-        let (a, b) = (read_moduli(named, "a.csv").unwrap(), read_moduli(plain, "b.csv").unwrap());
+        let (a, b) = (
+            read_moduli(named, "a.csv").unwrap(),
+            read_moduli(plain, "b.csv").unwrap(),
+        );
         let numbers = |rows: &[ModulusRow]| -> Vec<[f64; 3]> {
             let rows = rows.iter();
-            rows.map(|r| [r.frequency_hz, r.young_modulus, r.loss_factor]).collect()
+            rows.map(|r| [r.frequency_hz, r.young_modulus, r.loss_factor])
+                .collect()
         };
         assert_eq!(numbers(&a), [[10.0, 2e6, 0.1], [100.0, 3e6, 0.2]]);
         assert_eq!(numbers(&a), numbers(&b));
@@ -105,10 +112,15 @@ mod tests {
     #[test]
     fn another_unit_and_a_missing_column_are_refused() {
         for (text, expected) in [
-            ("frequency_hz,young_modulus_mpa,loss_factor\n1,2,0.1\n", "Hz and Pa"),
+            (
+                "frequency_hz,young_modulus_mpa,loss_factor\n1,2,0.1\n",
+                "Hz and Pa",
+            ),
             ("frequency_hz,young_modulus\n1,2\n", "loss_factor"),
         ] {
-            let error = read_moduli(text.as_bytes(), "t.csv").unwrap_err().to_string();
+            let error = read_moduli(text.as_bytes(), "t.csv")
+                .unwrap_err()
+                .to_string();
             assert!(error.contains(expected), "{error}");
         }
     }
