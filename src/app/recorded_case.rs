@@ -2,7 +2,7 @@
 
 use super::Failure;
 use super::session::MESH;
-use crate::case::{Case, MeshBytes, RawCase, RawValue};
+use crate::case::{Case, MeshBytes, RawCase, RawValue, TableBytes};
 use crate::results::Manifest;
 use std::fs;
 use std::path::Path;
@@ -17,6 +17,12 @@ pub fn recorded_case(folder: &Path, manifest: &Manifest) -> Result<Case, Failure
     let file = raw.find("mesh.file").map(|item| &item.value);
     if let (Some(RawValue::String(file)), Ok(bytes)) = (file, fs::read(folder.join(MESH))) {
         raw.mesh = Some(MeshBytes::new(file.clone(), bytes));
+    }
+    for (name, file) in raw.table_files() {
+        if let Ok(bytes) = fs::read(folder.join(&name)) {
+            let bytes = bytes.into();
+            raw.tables.push(TableBytes { file, bytes });
+        }
     }
     Ok(Case::from_raw(raw)?)
 }

@@ -87,6 +87,9 @@ impl Session {
         if let Some(mesh) = &self.case.raw.mesh {
             folder.write(MESH, |out| out.write_all(&mesh.bytes))?;
         }
+        for (name, table) in self.case.raw.kept_tables() {
+            folder.write(&name, |out| out.write_all(&table.bytes))?;
+        }
         Ok(folder)
     }
 

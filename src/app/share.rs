@@ -49,6 +49,9 @@ impl ShareOptions {
         if let Some(mesh) = &session.case.raw.mesh {
             folder.write(MESH, |out| out.write_all(&mesh.bytes))?;
         }
+        for (name, table) in session.case.raw.kept_tables() {
+            folder.write(&name, |out| out.write_all(&table.bytes))?;
+        }
         Ok(folder)
     }
 }

@@ -9,7 +9,9 @@ use super::raw::MeshBytes;
 use super::reader::Section;
 use super::suggestion;
 use crate::contact::{ContactStiffness, Motion, PairFriction, SlidingContact};
-use crate::fem::{ElasticMaterial, PlaneFormulation, RegionMaterial};
+use crate::fem::{
+    ElasticMaterial, MaterialField, PlaneFormulation, RegionMaterial, TabledMaterial,
+};
 use crate::mesh::{Mesh, MeshFileError};
 use crate::prestress::{Assembly, BaseChoice, PrestressError, SlidingSurfaces, TiedSurfaces};
 use std::f64::consts::TAU;
@@ -21,7 +23,7 @@ pub struct AssemblyBody {
     /// The mesh of all bodies.
     pub mesh: Arc<Mesh>,
     /// The material of each of its regions.
-    pub materials: Vec<RegionMaterial>,
+    pub materials: Vec<TabledMaterial>,
     /// Surfaces that are glued.
     pub ties: Vec<TiedSurfaces>,
     /// Surfaces that slide on each other.
@@ -54,15 +56,19 @@ impl AssemblyBody {
     /// # Errors
     /// As [`Self::assembled`].
     pub fn stepped(&self) -> Result<Assembly<'_>, PrestressError> {
+        self.stepped_as(&self.materials)
+    }
+
+    /// The same of other materials.
+    ///
+    /// # Errors
+    /// As [`Self::assembled`].
+    pub fn stepped_as<'a>(
+        &'a self,
+        materials: &'a dyn MaterialField,
+    ) -> Result<Assembly<'a>, PrestressError> {
         let (mesh, ties, contacts) = (&self.mesh, &self.ties, &self.contacts);
-        Assembly::at_nodes(
-            mesh,
-            &self.materials,
-            ties,
-            contacts,
-            &self.motions,
-            self.base,
-        )
+        Assembly::at_nodes(mesh, materials, ties, contacts, &self.motions, self.base)
     }
 }
 
@@ -238,7 +244,7 @@ pub(super) fn assemble(
     bytes: &MeshBytes,
     scale: f64,
     conditions: &[NamedCondition],
-    (common, own): (&ElasticMaterial, &[(String, RegionMaterial)]),
+    (common, own): (&ElasticMaterial, &[(String, TabledMaterial)]),
     (parts, modifications): (AssemblyParts, &[Modification]),
 ) -> Result<AssemblyBody, (String, String)> {
     let unusable = |error: MeshFileError| {
@@ -259,16 +265,19 @@ pub(super) fn assemble(
         formulation: PlaneFormulation::ThreeDimensional,
         ..elastic
     };
-    let everywhere = RegionMaterial {
+    let everywhere = TabledMaterial::from(RegionMaterial {
         elastic: solid(*common),
         damping: None,
-    };
+    });
     let mut materials = vec![everywhere; mesh.regions.len()];
     for (name, material) in own {
         let place = region(name, &format!("[materials.{name}]"))?;
-        materials[place] = RegionMaterial {
-            elastic: solid(material.elastic),
-            ..*material
+        materials[place] = TabledMaterial {
+            own: RegionMaterial {
+                elastic: solid(material.own.elastic),
+                ..material.own
+            },
+            table: material.table.clone(),
         };
     }
     let mut motions = Vec::new();

@@ -46,7 +46,8 @@ pub(super) fn reshaped_annulus(
         elastic: annulus.materials.annulus,
         damping: None,
     };
-    Ok(ImportedBody::new(body, vec![material], file, specification))
+    let materials = vec![material.into()];
+    Ok(ImportedBody::new(body, materials, file, specification))
 }
 
 /// Attaches masses, springs, dashpots and damped patches to the mesh of a body; `thickness` is that of a plane body, m.

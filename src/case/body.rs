@@ -257,8 +257,17 @@ impl Body {
     /// Whether a material or the springs of a support have structural damping.
     pub(super) fn has_structural_damping(&self) -> bool {
         let mut regions = 0..self.region_count();
+        let is_lossy_material = |region: usize| {
+            let materials = self.materials();
+            materials.of(region).loss_factor != 0.0 || materials.table(region).is_some()
+        };
+        self.has_lossy_supports() || regions.any(is_lossy_material)
+    }
+
+    /// Whether the springs of a support have structural damping.
+    pub(super) fn has_lossy_supports(&self) -> bool {
         let is_lossy = |condition: &BoundaryCondition| matches!(condition, BoundaryCondition::Support(support) if support.loss_factor != 0.0);
-        let has_support = match self {
+        match self {
             Self::Annulus(annulus) => {
                 let (outer, shaft) = (&annulus.specification.outer, annulus.specification.shaft);
                 is_lossy(outer) || shaft.is_some_and(|shaft| is_lossy(&shaft.bore))
@@ -271,8 +280,7 @@ impl Body {
                 let mut boundaries = mesh.boundaries.iter();
                 boundaries.any(|boundary| is_lossy(&boundary.condition))
             }),
-        };
-        has_support || regions.any(|region| self.materials().of(region).loss_factor != 0.0)
+        }
     }
 
     /// Number of materials.

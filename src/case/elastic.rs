@@ -2,7 +2,9 @@
 
 use super::reader::Section;
 use super::words::AxesWord;
-use crate::fem::{ElasticMaterial, MaterialAxes, Orthotropy, PlaneFormulation, RATIOS};
+use crate::fem::{
+    ElasticMaterial, MaterialAxes, ModulusTable, Orthotropy, PlaneFormulation, RATIOS,
+};
 
 /// The constants of an isotropic material.
 const ISOTROPIC: [&str; 2] = ["young_modulus", "poisson_ratio"];
@@ -39,8 +41,12 @@ pub(super) fn loss_factor(section: &Section<'_>) -> f64 {
 }
 
 /// Elasticity and density of `[material]` or of a section of `[materials.*]`. Cylindrical axes are about z until
-/// [`place_axes`] knows the body.
-pub(super) fn elastic(section: &Section<'_>, formulation: PlaneFormulation) -> ElasticMaterial {
+/// [`place_axes`] knows the body. A table over frequency gives modulus and loss factor.
+pub(super) fn elastic(
+    section: &Section<'_>,
+    formulation: PlaneFormulation,
+    table: Option<&ModulusTable>,
+) -> ElasticMaterial {
     let density = section.number("density");
     let loss_factor = loss_factor(section);
     let plain = ElasticMaterial {
@@ -49,6 +55,14 @@ pub(super) fn elastic(section: &Section<'_>, formulation: PlaneFormulation) -> E
         formulation,
         ..ElasticMaterial::PLAIN
     };
+    if let Some(table) = table {
+        return tabled(section, plain, table);
+    }
+    if section.has("table") {
+        // What is wrong with its file is said already.
+        let harmless = ModulusTable::new("", "", vec![[0.0, 1.0, 0.0]]);
+        return tabled(section, plain, &harmless);
+    }
     if ORTHOTROPIC.iter().any(|key| section.has(key)) {
         for key in ISOTROPIC {
             let _ = section.optional_number(key);
@@ -93,6 +107,37 @@ pub(super) fn elastic(section: &Section<'_>, formulation: PlaneFormulation) -> E
     ElasticMaterial {
         young_modulus,
         poisson_ratio,
+        ..plain
+    }
+}
+
+/// An isotropic material with the modulus of the lowest frequency of its table, which gives the loss factor too.
+fn tabled(section: &Section<'_>, plain: ElasticMaterial, table: &ModulusTable) -> ElasticMaterial {
+    let _ = ORTHOTROPIC.map(|key| section.numbers(key));
+    let _ = (axes(section), section.optional_number("young_modulus"));
+    let excluded = ["young_modulus", "loss_factor", "axes"];
+    for key in excluded
+        .iter()
+        .chain(&ORTHOTROPIC)
+        .filter(|key| section.has(key))
+    {
+        section.reject(
+            key,
+            format!("{} beside {}", section.name(key), section.name("table")),
+            "the table gives modulus and loss factor".to_owned(),
+            Some(
+                "leave out the one or the other; poisson_ratio and density stand beside a table"
+                    .to_owned(),
+            ),
+        );
+    }
+    if !section.has("poisson_ratio") {
+        section.missing("poisson_ratio");
+    }
+    ElasticMaterial {
+        young_modulus: table.static_modulus(),
+        poisson_ratio: section.optional_number("poisson_ratio").unwrap_or(0.0),
+        loss_factor: 0.0,
         ..plain
     }
 }

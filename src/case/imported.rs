@@ -4,13 +4,14 @@ use super::boundaries::NamedCondition;
 use super::elastic::elastic;
 use super::inclusion;
 use super::modifications::{Modification, reshaped};
+use super::modulus_table::{TableFiles, modulus_table};
 use super::opposite::{check_meeting, opposite_curve};
 use super::raw::{MeshBytes, RawCase};
 use super::reader::Section;
 use super::shown::first_of;
 use super::suggestion;
 use super::words::CounterfaceWord;
-use crate::fem::{ElasticMaterial, RayleighDamping, RegionMaterial};
+use crate::fem::{ElasticMaterial, RayleighDamping, RegionMaterial, TabledMaterial};
 use crate::mesh::{
     BodyPart, BodySpecification, CounterfaceSpecification, GmshFile, Mesh, MeshFileError,
     SolidContact,
@@ -27,7 +28,7 @@ pub struct ImportedBody {
     /// Its mesh with boundaries and what holds them.
     pub mesh: Arc<Mesh>,
     /// The material of each of its regions.
-    pub materials: Vec<RegionMaterial>,
+    pub materials: Vec<TabledMaterial>,
     /// What the mesh was made of, for its refinements.
     source: Arc<(Arc<GmshFile>, BodySpecification)>,
 }
@@ -120,20 +121,24 @@ pub(super) fn contact_place(section: &Section<'_>) -> ContactPlace {
     }
 }
 
-/// `[materials.*]`: elasticity in place of the common one, and damping of its own.
+/// `[materials.*]`: elasticity in place of the common one, damping of its own, and tables over frequency where the case's files can
+/// be read.
 pub(super) fn materials(
     root: &Section<'_>,
     common: &ElasticMaterial,
-) -> Vec<(String, RegionMaterial)> {
+    files: Option<&mut TableFiles<'_>>,
+) -> Vec<(String, TabledMaterial)> {
     let all = root.section("materials", false);
     let names: Vec<&str> = all.remaining().into_iter().map(|(name, _)| name).collect();
+    let mut files = files;
     let read = names.into_iter().map(|name| {
         let section = all.section(name, false);
         let coefficients = [
             section.optional_number("mass_coefficient"),
             section.optional_number("stiffness_coefficient"),
         ];
-        let elastic = elastic(&section, common.formulation);
+        let table = modulus_table(&section, files.as_deref_mut());
+        let elastic = elastic(&section, common.formulation, table.as_deref());
         let damping = match coefficients {
             [None, None] => None,
             [mass, stiffness] => Some(RayleighDamping {
@@ -142,7 +147,8 @@ pub(super) fn materials(
             }),
         };
         section.close();
-        (name.to_owned(), RegionMaterial { elastic, damping })
+        let own = RegionMaterial { elastic, damping };
+        (name.to_owned(), TabledMaterial { own, table })
     });
     let read = read.collect();
     all.close();
@@ -156,7 +162,7 @@ pub(super) struct BodyParts {
     /// How far the bodies are pushed into each other, m.
     pub interference: f64,
     pub boundaries: Vec<NamedCondition>,
-    pub materials: Vec<(String, RegionMaterial)>,
+    pub materials: Vec<(String, TabledMaterial)>,
     pub common: ElasticMaterial,
 }
 
@@ -259,13 +265,13 @@ pub(super) fn import(
     }
     let material = |region: &String| {
         let own = parts.materials.iter().find(|(name, _)| name == region);
-        own.map_or(
-            RegionMaterial {
+        let common = || {
+            TabledMaterial::from(RegionMaterial {
                 elastic: parts.common,
                 damping: None,
-            },
-            |(_, material)| *material,
-        )
+            })
+        };
+        own.map_or_else(common, |(_, material)| material.clone())
     };
     let materials = mesh.regions.iter().map(material).collect();
     Ok(ImportedBody::new(mesh, materials, read, specification))
@@ -290,7 +296,7 @@ impl ImportedBody {
     /// A body of a mesh that was made of a file.
     pub(super) fn new(
         mesh: Mesh,
-        materials: Vec<RegionMaterial>,
+        materials: Vec<TabledMaterial>,
         file: Arc<GmshFile>,
         specification: BodySpecification,
     ) -> Self {

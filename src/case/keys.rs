@@ -123,6 +123,7 @@ pub const KEYS: &[CaseKey] = &[
     key("materials.*.axes", Directions(words::<AxesWord>), "", Value("\"global\""), "\"cylindrical\"", "where its axes lie: along x, y, z; radial, circumferential, axial about the axis of the motion; or along the first of two vectors and in the plane of both"),
     key("materials.*.density", Number(Positive), "kg/m3", Required, "7850.0", "its density"),
     key("materials.*.loss_factor", Number(NotNegative), "", Value("0.0"), "0.05", "its structural damping eta (left out 0, also where [material] has one)"),
+    key("materials.*.table", Text, "", Otherwise("one modulus at every frequency"), "\"rubber.csv\"", "a file of columns frequency_hz, young_modulus (Pa) and loss_factor in place of those keys, linear between its rows: `cea` solves each mode at its own frequency and `frf` each line, the base state has the modulus of the lowest one"),
     key("materials.*.mass_coefficient", Number(NotNegative), "1/s", Otherwise("[damping]"), "20.0", "Rayleigh's alpha of its own"),
     key("materials.*.stiffness_coefficient", Number(NotNegative), "s", Otherwise("[damping]"), "1e-7", "Rayleigh's beta of its own"),
 

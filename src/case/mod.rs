@@ -26,6 +26,7 @@ mod key;
 mod keys;
 mod model;
 mod modifications;
+mod modulus_table;
 mod node;
 mod normal_law;
 mod opposite;
@@ -36,6 +37,7 @@ mod range;
 mod raw;
 mod reader;
 pub mod reference;
+mod relaxed;
 mod rules;
 mod shaft;
 mod shown;
@@ -71,7 +73,7 @@ pub use node::PlacedNode;
 pub use overrides::unset;
 pub use parameters::ModelParameter;
 pub use range::{Spacing, range_values};
-pub use raw::{MeshBytes, RawCase};
+pub use raw::{MeshBytes, RawCase, TableBytes};
 pub use shown::{first_of, shown, shown_json};
 pub use starting::case_from;
 pub use superelements::{FreeSystem, Superelement};
@@ -85,7 +87,7 @@ pub use words::{
     UnitsWord,
 };
 
-use crate::fem::{ElasticMaterial, MaterialField};
+use crate::fem::{ElasticMaterial, MaterialField, RelaxedMaterials};
 use crate::mesh::{Mesh, MeshError};
 use reader::{Findings, Section};
 use std::sync::Arc;
@@ -129,6 +131,8 @@ pub struct Case {
     pub uncertainty: Option<Uncertainty>,
     /// What is tried against unstable modes.
     pub improve: Improve,
+    /// What its materials are in time, where that is another thing: with loss factors and tables over frequency.
+    pub relaxed: Option<RelaxedMaterials>,
     /// What it takes from its mesh file beside the mesh.
     pub taken: Taken,
     /// Things that are no errors but that the user should hear of.
@@ -166,6 +170,7 @@ impl Case {
             body,
             thickness,
             mesh,
+            tables,
             contact,
         } = model::model(&root, &raw, &mut material);
         let damping = model::damping(&root);
@@ -199,6 +204,7 @@ impl Case {
         taken.name_places(&mut errors);
         warnings.extend(taken.warning(&raw.place("mesh.file")));
         raw.mesh = mesh;
+        raw.tables = tables;
         let Some(body) = body.filter(|_| errors.is_empty()) else {
             return Err(raw.errors(errors));
         };
@@ -222,8 +228,10 @@ impl Case {
             improve,
             taken,
             warnings,
+            relaxed: None,
             raw,
         };
+        case.relaxed = relaxed::relaxed(&case);
         let errors = rules::infeasible(&case);
         let implausible = plausibility::implausible(&case);
         if !errors.is_empty() {
@@ -399,10 +407,18 @@ impl Case {
 
     /// Whether a material, a support or a contact has structural damping.
     pub fn has_structural_damping(&self) -> bool {
+        self.body.has_structural_damping() || self.has_lossy_contacts()
+    }
+
+    fn has_lossy_contacts(&self) -> bool {
         let contacts = self.body.assembly().map_or(&[][..], |body| &body.contacts);
-        self.body.has_structural_damping()
-            || self.contact.stiffness.loss_factor != 0.0
+        self.contact.stiffness.loss_factor != 0.0
             || contacts.iter().any(|own| own.stiffness.loss_factor != 0.0)
+    }
+
+    /// Whether the springs of a support or a contact have structural damping.
+    fn has_lossy_springs(&self) -> bool {
+        self.body.has_lossy_supports() || self.has_lossy_contacts()
     }
 
     /// An error at the first loss factor of the case.
@@ -420,7 +436,10 @@ impl Case {
         let own = ["materials", "boundaries", "contacts"].map(keys);
         let mut keys = shared.into_iter().chain(own.into_iter().flatten());
         let is_lossy = |key: &String| self.number(key).is_some_and(|value| value > 0.0);
+        let mut regions = 0..self.body.region_count();
+        let table = regions.find_map(|region| self.materials().table(region));
         let key = keys.find(is_lossy);
+        let key = key.or_else(|| table.map(|table| table.key().to_owned()));
         let key = key.unwrap_or_else(|| "material.loss_factor".to_owned());
         let message = format!("{key}: {message}");
         self.error_at(&key, message, label.to_owned(), Some(help.to_owned()))

@@ -8,12 +8,15 @@ use super::contact::{Contact, contact};
 use super::elastic::{Surroundings, elastic, place_axes};
 use super::imported::{self, BodyParts};
 use super::modifications::{self, Modification};
-use super::raw::{MeshBytes, RawCase};
+use super::modulus_table::TableFiles;
+use super::raw::{MeshBytes, RawCase, TableBytes};
 use super::reader::Section;
 use super::shaft;
 use super::solid;
 use super::words::{FilePart, UnitsWord};
-use crate::fem::{AnnulusMaterials, ElasticMaterial, RayleighDamping, RegionMaterial};
+use crate::fem::{
+    AnnulusMaterials, ElasticMaterial, RayleighDamping, RegionMaterial, TabledMaterial,
+};
 use crate::mesh::{
     AnnulusSpecification, BoundaryCondition, CounterfaceSpecification, ElementKind,
     SolidSpecification,
@@ -35,6 +38,8 @@ pub(super) struct Model {
     pub body: Option<Body>,
     pub thickness: f64,
     pub mesh: Option<MeshBytes>,
+    /// Tables of modulus over frequency.
+    pub tables: Vec<TableBytes>,
     pub contact: Contact,
 }
 
@@ -111,6 +116,7 @@ fn unmodified(
             body,
             thickness,
             mesh: None,
+            tables: Vec::new(),
             contact,
         };
     };
@@ -143,12 +149,13 @@ fn unmodified(
             CounterfaceSpecification::Plane { .. } => None,
         },
     };
+    let mut tables = TableFiles::of(raw);
     let parts = BodyParts {
         scale,
         place,
         interference: contact.sliding.interference,
         boundaries: conditions,
-        materials: materials(root, material, &plane),
+        materials: materials(root, material, &plane, &mut tables),
         common: *material,
     };
     let reject = |(message, label): (String, String)| mesh.reject("file", message, label, None);
@@ -167,6 +174,7 @@ fn unmodified(
         body: body.map(Body::Imported),
         thickness,
         mesh: bytes,
+        tables: tables.into_read(),
         contact,
     }
 }
@@ -211,7 +219,8 @@ fn assembly_model(
     }
     let (parts, contact) = assembly::sections(root);
     let solids = Surroundings::Solids { axis: parts.axis() };
-    let own = materials(root, material, &solids);
+    let mut tables = TableFiles::of(raw);
+    let own = materials(root, material, &solids, &mut tables);
     let reject = |(message, label): (String, String)| mesh.reject("file", message, label, None);
     let bytes = imported::mesh_bytes(raw, file).map_err(&reject).ok();
     let body = bytes.as_ref().and_then(|bytes| {
@@ -222,6 +231,7 @@ fn assembly_model(
         body: body.map(Body::Assembly),
         thickness,
         mesh: bytes,
+        tables: tables.into_read(),
         contact,
     }
 }
@@ -250,11 +260,13 @@ fn materials(
     root: &Section<'_>,
     common: &mut ElasticMaterial,
     body: &Surroundings,
-) -> Vec<(String, RegionMaterial)> {
+    tables: &mut TableFiles<'_>,
+) -> Vec<(String, TabledMaterial)> {
     place_axes(root, &["material"], common, body);
-    let mut own = imported::materials(root, common);
+    let mut own = imported::materials(root, common, Some(tables));
     for (name, material) in &mut own {
-        place_axes(root, &["materials", name], &mut material.elastic, body);
+        let elastic = &mut material.own.elastic;
+        place_axes(root, &["materials", name], elastic, body);
     }
     own
 }
@@ -362,7 +374,7 @@ fn check_mesh(mesh: &Section<'_>, annulus: &AnnulusSpecification) {
 pub(super) fn material(root: &Section<'_>) -> ElasticMaterial {
     let section = root.section("material", true);
     let formulation = section.choice("formulation");
-    let material = elastic(&section, formulation);
+    let material = elastic(&section, formulation, None);
     section.close();
     material
 }

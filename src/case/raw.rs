@@ -1,7 +1,7 @@
 //! The case exactly as its TOML says it: a tree of values that know where they were written.
 
 use super::diagnostic::{CaseErrors, Diagnostic, Location, Source};
-use super::value::{RawItem, RawTable, RawValue, convert_table, quote};
+use super::value::{RawEntry, RawItem, RawTable, RawValue, convert_table, quote};
 use super::{keys, overrides};
 use crate::mesh::{GmshFile, MeshFileError};
 use sha2::{Digest, Sha256};
@@ -23,6 +23,28 @@ pub struct RawCase {
     pub root: RawTable,
     /// The mesh file, once it is read.
     pub mesh: Option<MeshBytes>,
+    /// Tables of modulus over frequency, once they are read.
+    pub tables: Vec<TableBytes>,
+}
+
+/// A table of a case as it was read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TableBytes {
+    /// Its name in the case.
+    pub file: String,
+    /// What it holds.
+    pub bytes: Arc<[u8]>,
+}
+
+impl TableBytes {
+    /// The name under which the table of a material lies beside the results.
+    pub fn kept_as(material: &str) -> String {
+        let plain = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
+        format!(
+            "table-{}.csv",
+            material.chars().map(plain).collect::<String>()
+        )
+    }
 }
 
 /// A mesh file as it was read.
@@ -78,6 +100,7 @@ impl RawCase {
             overrides: Vec::new(),
             root: RawTable::new(),
             mesh: None,
+            tables: Vec::new(),
         };
         let mut diagnostics = Vec::new();
         match readable_text(bytes) {
@@ -151,17 +174,49 @@ impl RawCase {
         out
     }
 
-    /// SHA-256 of [`RawCase::canonical`], and of the mesh file where there is one, in hexadecimal.
+    /// SHA-256 of [`RawCase::canonical`], and of the mesh file and tables where there are any, in hexadecimal.
     pub fn hash(&self) -> String {
         let mut hex = String::new();
         let mut digest = Sha256::new_with_prefix(self.canonical());
         if let Some(mesh) = &self.mesh {
             digest.update(&mesh.bytes);
         }
+        for table in &self.tables {
+            digest.update(&table.bytes);
+        }
         for byte in digest.finalize() {
             let _ = write!(hex, "{byte:02x}");
         }
         hex
+    }
+
+    /// Tables of modulus over frequency that the case names, each with the name under which it lies beside the results.
+    pub fn table_files(&self) -> Vec<(String, String)> {
+        let Some(RawValue::Table(materials)) = self.find("materials").map(|item| &item.value)
+        else {
+            return Vec::new();
+        };
+        let file = |entry: &RawEntry| match &entry.item.value {
+            RawValue::Table(own) => match own.get("table").map(|entry| &entry.item.value) {
+                Some(RawValue::String(file)) => Some(file.clone()),
+                _ => None,
+            },
+            _ => None,
+        };
+        let named = materials.iter();
+        let named =
+            named.filter_map(|(name, entry)| Some((TableBytes::kept_as(name), file(entry)?)));
+        named.collect()
+    }
+
+    /// The tables that were read, each with the name under which it lies beside the results.
+    pub fn kept_tables(&self) -> Vec<(String, &TableBytes)> {
+        let named = self.table_files().into_iter();
+        let kept = named.filter_map(|(name, file)| {
+            let table = self.tables.iter().find(|table| table.file == file)?;
+            Some((name, table))
+        });
+        kept.collect()
     }
 
     /// This case without some keys of its sections, `section.key`.

@@ -84,9 +84,9 @@ fn materials(
         let label = "the annulus has one material".to_owned();
         all.reject(name, message, label, Some(help.to_owned()));
     }
-    let read = imported::materials(root, material);
+    let read = imported::materials(root, material, None);
     let mut shafts = read.into_iter().filter(|(name, _)| name == "shaft");
-    shafts.next().map(|(_, material)| material)
+    shafts.next().map(|(_, material)| material.own)
 }
 
 fn bore_condition(root: &Section<'_>, boundaries: &[NamedCondition]) -> BoundaryCondition {

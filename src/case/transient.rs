@@ -63,9 +63,10 @@ impl Case {
         let remedy = "[transient]\nduration = 0.05";
         let transient = self.transient.as_ref();
         let transient = transient.ok_or_else(|| self.lacks("transient", "transient", remedy))?;
-        self.refuse_losses_in_time("a transient")?;
+        self.refuse_losses_without_chain()?;
         let cycle = matches!(transient.initial, InitialState::LimitCycle { .. });
         if cycle {
+            self.refuse_losses_in_time("the search for the limit cycle that the run starts on")?;
             self.require_annulus(
                 "limit cycles are rotating waves, which",
                 "limit cycles are sought in",

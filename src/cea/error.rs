@@ -105,6 +105,41 @@ pub enum CeaError {
         /// Largest residual accepted.
         bound: f64,
     },
+    /// A mode whose frequency a table of modulus over frequency does not hold.
+    #[error(
+        "{key} = \"{file}\" holds {low} to {high} Hz, and at friction coefficient {friction_coefficient} a mode lies at \
+         {frequency_hz:.1} Hz: a modulus beyond a table is not guessed",
+        low = range_hz[0],
+        high = range_hz[1]
+    )]
+    BeyondTable {
+        /// Case key of the table.
+        key: String,
+        /// Its file.
+        file: String,
+        /// Its lowest and highest frequency, Hz.
+        range_hz: [f64; 2],
+        /// Friction coefficient.
+        friction_coefficient: f64,
+        /// Frequency of the mode, Hz.
+        frequency_hz: f64,
+    },
+    /// A mode that finds no frequency of its own.
+    #[error(
+        "at friction coefficient {friction_coefficient} the mode at about {frequency_hz:.1} Hz does not settle at a frequency of \
+         its own (relative residual {residual:.1e}): the modulus of {key} changes too fast there; give its table more rows or \
+         smooth it"
+    )]
+    Unsettled {
+        /// Case key of the first table.
+        key: String,
+        /// Friction coefficient.
+        friction_coefficient: f64,
+        /// Where the search ended, Hz.
+        frequency_hz: f64,
+        /// Residual there.
+        residual: f64,
+    },
     /// A harmonic of which a branch could not be followed.
     #[error(
         "a branch of harmonic {harmonic} could not be followed up to friction {friction}: two \
@@ -168,6 +203,7 @@ impl CeaError {
                 | Self::Limit { .. }
                 | Self::NoModes { .. }
                 | Self::TooManyModes { .. }
+                | Self::BeyondTable { .. }
         )
     }
 }

@@ -1,8 +1,9 @@
 //! Assembly of element matrices and supports, and the dofs that boundary conditions hold.
 
-use super::{MaterialField, RayleighDamping, Triplets, element, face};
+use super::{MaterialField, ModulusTable, RayleighDamping, Triplets, element, face};
 use crate::mesh::{Boundary, BoundaryCondition, ElasticSupport, Mesh};
 use nalgebra::DMatrix;
+use std::sync::Arc;
 
 /// Consistent or lumped mass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -292,6 +293,20 @@ pub fn assemble_support_losses(mesh: &Mesh) -> Option<Triplets> {
     }
     let [losses, _] = assemble_supports(&own);
     Some(losses)
+}
+
+/// Stiffness over all dofs of each region whose modulus depends on frequency, at its lowest frequency, with its table.
+pub fn assemble_tabled(
+    mesh: &Mesh,
+    material: &dyn MaterialField,
+) -> Vec<(Arc<ModulusTable>, Triplets)> {
+    let regions = 0..mesh.regions.len().max(1);
+    let tabled = regions.filter_map(|region| {
+        let table = material.table(region)?;
+        let [_, stiffness] = assemble_region(mesh, material, MassKind::Lumped, region);
+        Some((Arc::clone(table), stiffness))
+    });
+    tabled.collect()
 }
 
 /// Structural damping of materials and supports together.

@@ -1,7 +1,9 @@
 //! Linear elasticity of a region, isotropic or orthotropic, and Rayleigh damping.
 
 use super::orthotropy::{Elasticity, Orthotropy};
+use super::{MaxwellChain, ModulusTable};
 use crate::linalg::c64;
+use std::sync::Arc;
 
 /// Which out-of-plane quantity vanishes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,6 +42,16 @@ pub trait MaterialField: Sync + std::fmt::Debug {
     fn own_damping(&self, _region: usize) -> Option<RayleighDamping> {
         None
     }
+
+    /// Modulus and loss factor over frequency of region `region`, whose material has the modulus of the lowest frequency.
+    fn table(&self, _region: usize) -> Option<&Arc<ModulusTable>> {
+        None
+    }
+
+    /// What region `region` has in time beside its elasticity, which is then the one at rest.
+    fn chain(&self, _region: usize) -> Option<&MaxwellChain> {
+        None
+    }
 }
 
 /// The same everywhere.
@@ -56,6 +68,72 @@ pub struct RegionMaterial {
     pub elastic: ElasticMaterial,
     /// Rayleigh coefficients of its own, else those of the whole body.
     pub damping: Option<RayleighDamping>,
+}
+
+/// Material of one region, which may depend on frequency.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TabledMaterial {
+    /// Elasticity, that of the lowest frequency of a table, density and damping.
+    pub own: RegionMaterial,
+    /// Modulus and loss factor over frequency.
+    pub table: Option<Arc<ModulusTable>>,
+}
+
+impl From<RegionMaterial> for TabledMaterial {
+    fn from(own: RegionMaterial) -> Self {
+        Self { own, table: None }
+    }
+}
+
+/// Materials in time: those with damping that belongs to frequencies have the elasticity of their chain at rest, and the chain.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RelaxedMaterials {
+    regions: Vec<(RegionMaterial, Option<MaxwellChain>)>,
+}
+
+impl RelaxedMaterials {
+    /// The materials of so many regions, with the chain that `chain` gives a region.
+    pub fn of(
+        materials: &dyn MaterialField,
+        count: usize,
+        chain: impl Fn(usize) -> Option<MaxwellChain>,
+    ) -> Self {
+        let regions = (0..count).map(|region| {
+            let chain = chain(region);
+            let at_rest = chain.as_ref().map_or(1.0, |chain| chain.at_rest);
+            let own = RegionMaterial {
+                elastic: ElasticMaterial {
+                    loss_factor: 0.0,
+                    ..materials.of(region).scaled(at_rest)
+                },
+                damping: materials.own_damping(region),
+            };
+            (own, chain)
+        });
+        Self {
+            regions: regions.collect(),
+        }
+    }
+
+    /// The chains, each with its region.
+    pub fn chains(&self) -> impl Iterator<Item = (usize, &MaxwellChain)> {
+        let regions = self.regions.iter().enumerate();
+        regions.filter_map(|(region, (_, chain))| Some((region, chain.as_ref()?)))
+    }
+}
+
+impl MaterialField for RelaxedMaterials {
+    fn of(&self, region: usize) -> &ElasticMaterial {
+        &self.regions[region].0.elastic
+    }
+
+    fn own_damping(&self, region: usize) -> Option<RayleighDamping> {
+        self.regions[region].0.damping
+    }
+
+    fn chain(&self, region: usize) -> Option<&MaxwellChain> {
+        self.regions[region].1.as_ref()
+    }
 }
 
 /// Materials of an annulus, region 0, and of its deformable shaft, region 1.
@@ -98,6 +176,21 @@ impl MaterialField for Vec<RegionMaterial> {
     }
 }
 
+/// One for each region.
+impl MaterialField for Vec<TabledMaterial> {
+    fn of(&self, region: usize) -> &ElasticMaterial {
+        &self[region].own.elastic
+    }
+
+    fn own_damping(&self, region: usize) -> Option<RayleighDamping> {
+        self[region].own.damping
+    }
+
+    fn table(&self, region: usize) -> Option<&Arc<ModulusTable>> {
+        self[region].table.as_ref()
+    }
+}
+
 impl ElasticMaterial {
     /// What a material has that says no more: isotropic, in plane strain; without stiffness or mass until they are given.
     pub const PLAIN: Self = Self {
@@ -114,6 +207,20 @@ impl ElasticMaterial {
         Self {
             young_modulus: 0.0,
             orthotropy: None,
+            ..*self
+        }
+    }
+
+    /// The same with all its stiffness multiplied by a factor.
+    pub fn scaled(&self, factor: f64) -> Self {
+        let scaled = |values: [f64; 3]| values.map(|value| factor * value);
+        Self {
+            young_modulus: factor * self.young_modulus,
+            orthotropy: self.orthotropy.map(|own| Orthotropy {
+                young_moduli: scaled(own.young_moduli),
+                shear_moduli: scaled(own.shear_moduli),
+                ..own
+            }),
             ..*self
         }
     }

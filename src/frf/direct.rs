@@ -69,7 +69,11 @@ pub fn direct_response_with(
     let receptance = frequencies_hz
         .par_chunks(at_once)
         .map(|lines| {
-            let shared = solve_together(system, &analyses, force, response, lines);
+            // A stiffness of each line's own leaves nothing to share.
+            let shared = match system.has_tables() {
+                true => vec![None; lines.len()],
+                false => solve_together(system, &analyses, force, response, lines),
+            };
             let solved = lines
                 .iter()
                 .zip(shared)

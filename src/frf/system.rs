@@ -5,11 +5,12 @@ use crate::contact::Row;
 use crate::fem::{
     DofMap, MassKind, MaterialField, RayleighDamping, assemble_extra_damping, assemble_losses,
     assemble_mass, assemble_stiffness, assemble_structural_damping, assemble_supports,
+    assemble_tabled,
 };
 use crate::linalg::c64;
 use crate::linalg::{MatrixPolynomial, SparsityPattern};
 use crate::mesh::Mesh;
-use crate::prestress::SlidingTangent;
+use crate::prestress::{SlidingTangent, TabledGain};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -25,6 +26,8 @@ pub struct FrfSystem {
     stiffness: Vec<f64>,
     /// Structural damping `H`; empty without.
     structural: Vec<f64>,
+    /// Parts whose stiffness depends on frequency, with its nonzeros.
+    tabled: Vec<(TabledGain, Vec<f64>)>,
     proportional: Option<RayleighDamping>,
     is_symmetric: bool,
     unknowns: DofMap,
@@ -66,7 +69,9 @@ impl FrfSystem {
             true => assemble_losses(mesh, material),
             false => assemble_structural_damping(mesh, material),
         };
-        let is_proportional = !is_held && dashpots.entries.is_empty() && structural.is_none();
+        let tabled = assemble_tabled(mesh, material);
+        let is_viscous = structural.is_none() && tabled.is_empty();
+        let is_proportional = !is_held && dashpots.entries.is_empty() && is_viscous;
         let structural = structural.map(|terms| restricted(&terms.entries));
         let mass = restricted(&assemble_mass(mesh, material, mass).entries);
         let body = restricted(&assemble_stiffness(mesh, material).entries);
@@ -83,6 +88,14 @@ impl FrfSystem {
         let pattern = Arc::new(SparsityPattern::from_positions(unknowns.len(), positions));
         let values = |entries| MatrixPolynomial::on_pattern(&pattern, &[entries]).evaluate(0.0);
         let structural = structural.map_or_else(Vec::new, values);
+        let tabled = tabled.into_iter().map(|(table, stiffness)| {
+            let gain = TabledGain {
+                table,
+                reference_hz: 0.0,
+            };
+            (gain, values(restricted(&stiffness.entries)))
+        });
+        let tabled = tabled.collect();
         let [mass, body, stiffness, dashpots] = [mass, body, stiffness, dashpots].map(values);
         let proportional =
             |(m, k): (&f64, &f64)| damping.mass_coefficient * m + damping.stiffness_coefficient * k;
@@ -93,6 +106,7 @@ impl FrfSystem {
             mass,
             stiffness,
             structural,
+            tabled,
             proportional: is_proportional.then_some(damping),
             is_symmetric: true,
             unknowns,
@@ -114,6 +128,16 @@ impl FrfSystem {
                 Some(structural) => structural.evaluate(friction_coefficient),
                 None => Vec::new(),
             },
+            tabled: tangent
+                .tabled
+                .iter()
+                .map(|part| {
+                    (
+                        part.gain.clone(),
+                        part.stiffness.evaluate(friction_coefficient),
+                    )
+                })
+                .collect(),
             proportional: tangent.proportional,
             is_symmetric: false,
             unknowns: tangent.unknowns.clone(),
@@ -232,13 +256,12 @@ impl FrfSystem {
 
     /// `|e_force - A x|` and `|A| |x|` for `A = K + i H + i omega C - omega^2 M`, in the largest norm.
     pub(super) fn residual(&self, frequency_hz: f64, x: &[c64], force: &Port) -> (f64, f64) {
-        let omega = TAU * frequency_hz;
+        let matrix = self.dynamic_stiffness(frequency_hz);
         let mut residual = force.complex_force(x.len());
         let mut row_sums = vec![0.0; x.len()];
         for (column, x) in x.iter().enumerate() {
             for (k, row) in self.pattern.column(column) {
-                let real = self.stiffness[k] - omega * omega * self.mass[k];
-                let value = c64::new(real, omega * self.damping[k] + self.lost(k));
+                let value = matrix[k];
                 residual[row] -= value * x;
                 row_sums[row] += value.re.abs() + value.im.abs();
             }
@@ -258,15 +281,26 @@ impl FrfSystem {
         self.structural.get(k).copied().unwrap_or(0.0)
     }
 
-    /// Nonzeros of `K + i H + i omega C - omega^2 M`.
+    /// Nonzeros of `K + i H + i omega C - omega^2 M`, with what tables add at that frequency.
     pub(super) fn dynamic_stiffness(&self, frequency_hz: f64) -> Vec<c64> {
         let omega = TAU * frequency_hz;
-        (0..self.mass.len())
+        let mut matrix: Vec<c64> = (0..self.mass.len())
             .map(|k| {
                 let real = self.stiffness[k] - omega * omega * self.mass[k];
                 c64::new(real, omega * self.damping[k] + self.lost(k))
             })
-            .collect()
+            .collect();
+        for (gain, stiffness) in &self.tabled {
+            let factor = gain.at(c64::new(0.0, omega));
+            let entries = matrix.iter_mut().zip(stiffness);
+            entries.for_each(|(value, k)| *value += factor * *k);
+        }
+        matrix
+    }
+
+    /// Whether its stiffness depends on frequency.
+    pub(super) fn has_tables(&self) -> bool {
+        !self.tabled.is_empty()
     }
 
     /// `(2 omega M - i C) x + omega M w`.

@@ -14,7 +14,7 @@ use crate::contact::{
 };
 use crate::fem::{
     MaterialField, Triplets, assemble_extra_damping, assemble_losses, assemble_mass,
-    assemble_pressures, assemble_stiffness, assemble_supports,
+    assemble_pressures, assemble_stiffness, assemble_supports, assemble_tabled,
 };
 use crate::mesh::Mesh;
 
@@ -170,6 +170,13 @@ impl<'a> Assembly<'a> {
         self.materials
     }
 
+    /// Whether nothing holds the bodies: a part by itself, whose rigid motions have no stiffness.
+    pub fn is_free(&self) -> bool {
+        let held = self.mesh.held_dofs().count();
+        let springs = &self.supports[0].entries;
+        held == 0 && springs.is_empty() && self.contacts.is_empty() && self.rotation.is_none()
+    }
+
     /// Held dofs and ties.
     pub(crate) fn basis(&self) -> &Elimination {
         &self.basis
@@ -254,6 +261,21 @@ impl<'a> Assembly<'a> {
         load: &[f64],
         count: usize,
     ) -> Result<PressedRange, PrestressError> {
+        if self.is_free() {
+            if load.iter().any(|force| *force != 0.0) {
+                return Err(PrestressError::NothingHolds);
+            }
+            return Ok(PressedRange {
+                states: vec![PressedState {
+                    displacements: vec![vec![0.0; self.mesh.dof_count()]],
+                    normal_forces: Vec::new(),
+                    stiffnesses: Vec::new(),
+                    is_pressed: Vec::new(),
+                }],
+                state_of: vec![0; count],
+                changes: Vec::new(),
+            });
+        }
         let unknowns = self.basis.unknowns();
         let solver = CholeskySolver::new(&self.basis.congruent(stiffness), &unknowns)?;
         let right = unknowns.restrict(&self.basis.transposed_forces(load));
@@ -296,7 +318,9 @@ impl<'a> Assembly<'a> {
                 options.damping,
             ),
             structural: assemble_losses(self.mesh, self.materials),
+            tabled: assemble_tabled(self.mesh, self.materials),
             rotation: self.rotation.as_ref().map(|own| own.terms.clone()),
+            is_free: self.is_free(),
         };
         // Each contact has its stretch of the state's points.
         let mut first = 0;

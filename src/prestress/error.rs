@@ -3,6 +3,12 @@
 /// A sliding equilibrium that does not exist or cannot be computed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum PrestressError {
+    /// Loads on bodies that nothing holds.
+    #[error(
+        "nothing holds the bodies against the pressure on them: give a boundary that is clamped, fixed or supported, or leave the \
+         pressure out for the free modes of a part"
+    )]
+    NothingHolds,
     /// A contact node is pulled, not pressed.
     #[error(
         "contact opens in the base state: {count} of {total} contact nodes are not pressed, first \

@@ -1,11 +1,13 @@
 //! The matrices of small motions around steady sliding.
 
 use super::elimination::{Elimination, ProjectedPolynomial, RigidFriction};
+use super::tabled::{TabledGain, TabledStiffness};
 use super::{DampingModel, PrestressError, SteadySliding, TangentOptions};
 use crate::contact::{ContactStiffness, Point, PressedPoints, Row, linearized};
 use crate::fem::{
-    DofMap, MaterialField, RayleighDamping, Triplets, assemble_extra_damping,
+    DofMap, MaterialField, ModulusTable, RayleighDamping, Triplets, assemble_extra_damping,
     assemble_geometric_stiffness, assemble_losses, assemble_mass, assemble_supports,
+    assemble_tabled,
 };
 use crate::linalg::{MatrixPolynomial, SparsityPattern, c64};
 use crate::mesh::Mesh;
@@ -42,11 +44,15 @@ pub struct SlidingTangent {
     pub stiffness: MatrixPolynomial,
     /// Structural damping `H(mu)`, Pa, whose force is `i H q` at positive frequencies; `None` without.
     pub structural: Option<MatrixPolynomial>,
+    /// Parts whose stiffness depends on frequency, at their reference; empty without.
+    pub tabled: Vec<TabledStiffness>,
     /// Coefficients with which `C = alpha_R M + beta_R K_t` exactly; `None` where damping is not
     /// proportional.
     pub proportional: Option<RayleighDamping>,
     /// Whether `C(0)` has a skew part: bodies that turn.
     pub is_gyroscopic: bool,
+    /// Whether nothing holds the bodies: `K` leaves their rigid motions without stiffness.
+    pub is_free: bool,
     /// Which full dofs the unknowns are.
     pub unknowns: DofMap,
     /// Unknown of each contact node's tangential displacement, in the order of the interface.
@@ -115,8 +121,12 @@ pub struct BodyTerms {
     pub extra_damping: Option<Triplets>,
     /// Structural damping of materials and supports.
     pub structural: Option<Triplets>,
+    /// Stiffness, within `elastic`, of parts whose modulus depends on frequency.
+    pub tabled: Vec<(Arc<ModulusTable>, Triplets)>,
     /// Stiffness and gyroscopic matrix of regions that turn, which `alpha_R` and `beta_R` do not multiply.
     pub rotation: Option<[Triplets; 2]>,
+    /// Whether nothing holds the bodies.
+    pub is_free: bool,
 }
 
 /// The surfaces of one contact and their state.
@@ -167,7 +177,9 @@ impl SlidingTangent {
             supports: assemble_supports(mesh),
             extra_damping: assemble_extra_damping(mesh, material, options.mass, options.damping),
             structural: assemble_losses(mesh, material),
+            tabled: assemble_tabled(mesh, material),
             rotation: None,
+            is_free: false,
         };
         let part = ContactPart {
             points: &base.points,
@@ -289,6 +301,18 @@ impl SlidingTangent {
         }
         // Its entries are those of the stiffness.
         let structural = (!losses.is_empty()).then(|| on_pattern(&projected(&losses)));
+        let tabled = body
+            .tabled
+            .iter()
+            .map(|(table, stiffness)| TabledStiffness {
+                gain: TabledGain {
+                    table: Arc::clone(table),
+                    reference_hz: 0.0,
+                },
+                stiffness: on_pattern(&projected(std::slice::from_ref(stiffness))),
+            });
+        let tabled: Vec<TabledStiffness> = tabled.collect();
+        let is_viscous = structural.is_none() && tabled.is_empty();
         let is_whole = options.damping_model == DampingModel::WholeTangent && !has_supports;
         let touched = |dofs: &[usize]| -> Vec<usize> {
             let mut seen = BTreeSet::new();
@@ -299,9 +323,11 @@ impl SlidingTangent {
             mass,
             damping,
             stiffness,
-            proportional: (is_whole && !has_dashpots && structural.is_none()).then_some(rayleigh),
+            proportional: (is_whole && !has_dashpots && is_viscous).then_some(rayleigh),
             structural,
+            tabled,
             is_gyroscopic: body.rotation.is_some(),
+            is_free: body.is_free,
             contact_tangential: touched(&dofs.tangential),
             contact_normal: touched(&dofs.normal),
             contact_opposite: touched(&dofs.opposite),

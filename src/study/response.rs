@@ -91,6 +91,7 @@ impl<'a> FrequencyStudy<'a> {
     pub fn new(case: &'a Case) -> Result<Self, StudyError> {
         let frf = case.require_frf()?;
         let is_lossy = case.has_structural_damping();
+        refuse_beyond_tables(case, frf)?;
         let system = match frf.method {
             FrfMethod::Auto | FrfMethod::Cyclic if is_lossy && case.body.revolution().is_some() => {
                 return Err(no_cyclic_losses(case, "the response").into());
@@ -209,6 +210,29 @@ impl Response {
             })
             .collect()
     }
+}
+
+/// Refuses lines that a table of moduli does not hold.
+fn refuse_beyond_tables(case: &Case, frf: &Frf) -> Result<(), CaseErrors> {
+    for region in 0..case.body.region_count() {
+        let Some(table) = case.materials().table(region) else {
+            continue;
+        };
+        let mut lines = frf.frequencies_hz.iter();
+        if let Some(line) = lines.find(|line| !table.covers(**line)) {
+            let ([low, high], key, file) = (table.range_hz(), table.key(), table.file());
+            return Err(case.error_at(
+                key,
+                format!(
+                    "{key} = \"{file}\" holds {low} to {high} Hz, and frf asks for {line} Hz: a modulus beyond a table is not \
+                     guessed"
+                ),
+                "does not cover the lines".to_owned(),
+                Some("extend the table, or ask for lines within it".to_owned()),
+            ));
+        }
+    }
+    Ok(())
 }
 
 /// The harmonics of an annulus, or of a body of revolution in three dimensions.

@@ -2,6 +2,7 @@
 
 use super::boundary::BoundaryForces;
 use super::perturbation::Place;
+use super::settings::stiffening;
 use super::{LagrangeContact, Perturbation, StepPlan, TransientError, TransientSettings};
 use crate::contact::{ContactInterface, SlidingContact};
 use crate::fem::operator::{AssembledOperator, SimdLevel, StiffnessOperator};
@@ -130,7 +131,8 @@ impl AssemblyTransientModel<'_> {
         operator: &dyn StiffnessOperator,
         settings: &TransientSettings,
     ) -> Result<StepPlan, TransientError> {
-        StepPlan::new(operator, &self.bounding_damping(operator), settings)
+        let factor = stiffening(self.assembly.mesh(), self.assembly.materials());
+        StepPlan::stiffened(operator, factor, &self.bounding_damping(operator), settings)
     }
 
     /// Coefficients of a Rayleigh damping that is nowhere below that of the bodies and their supports: what bounds the step.

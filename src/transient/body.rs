@@ -1,13 +1,14 @@
 //! The bodies that the time loop steps: of two components at each node, or of three.
 
 use super::boundary::BoundaryForces;
+use super::relaxation::Relaxation;
 use super::{
     AssemblyTransientModel, LagrangeContact, OperatorChoice, Perturbation, SolidTransientModel,
     StepPlan, TransientError, TransientModel, TransientSettings, build_operator,
 };
 use crate::contact::{ContactInterface, SlidingContact};
 use crate::fem::operator::{OperatorError, SimdLevel, StiffnessOperator};
-use crate::fem::{RayleighDamping, assemble_stiffness};
+use crate::fem::{RayleighDamping, Triplets, assemble_stiffness};
 use crate::prestress::SteadySliding;
 
 /// A body and its contact.
@@ -156,6 +157,21 @@ impl TransientBody<'_> {
             Self::Plane(model) => BoundaryForces::new(model, operator),
             Self::Solid(model) => model.boundary_forces(operator),
             Self::Assembly(model) => model.boundary_forces(operator),
+        }
+    }
+
+    /// Maxwell elements of its regions.
+    pub(super) fn relaxation(&self, operator: &dyn StiffnessOperator) -> Relaxation {
+        match self {
+            Self::Plane(model) => {
+                Relaxation::new(model.mesh, model.material, operator, &|matrix| matrix)
+            }
+            Self::Solid(_) => Relaxation::default(),
+            Self::Assembly(model) => {
+                let (assembly, basis) = (model.assembly, model.assembly.basis());
+                let bound = |matrix: Triplets| basis.congruent(&matrix);
+                Relaxation::new(assembly.mesh(), assembly.materials(), operator, &bound)
+            }
         }
     }
 

@@ -5,6 +5,7 @@ mod energy;
 mod start;
 
 use super::boundary::BoundaryForces;
+use super::relaxation::Relaxation;
 use super::{
     ContactPowers, LagrangeContact, Observer, Sample, StatusCounts, StepPlan, TransientBody,
     TransientError,
@@ -42,6 +43,8 @@ pub struct TransientState {
     pub elastic: Vec<f64>,
     /// `M^-1 K v_{n-1/2}`, m/s3.
     pub elastic_rate: Vec<f64>,
+    /// Stretches of Maxwell elements after and before the last half step, m; none without.
+    pub relaxation: Vec<Vec<f64>>,
     /// Energy at the start, J/m.
     pub initial_energy: f64,
     /// Net work of contact and damping so far, J/m.
@@ -89,6 +92,7 @@ pub struct CentralDifference<'a> {
     fields: MotionFields,
     contact: LagrangeContact,
     boundary: BoundaryForces,
+    relaxation: Relaxation,
     interface: ContactInterface,
     next_step: u64,
     initial_energy: f64,
@@ -134,6 +138,7 @@ impl<'a> CentralDifference<'a> {
         let share = shares[2];
         // Supports, pressures, regions with damping of their own.
         self.boundary.apply(&mut self.fields, share);
+        self.relaxation.apply(&mut self.fields);
         // (6): multipliers of this step, which hold the constraints at its end.
         self.contact
             .apply(&mut self.fields, &self.coefficients, shares);
@@ -143,10 +148,13 @@ impl<'a> CentralDifference<'a> {
         let (powers, counts) = self
             .contact
             .settle(&mut self.fields, &self.coefficients, shares);
+        let relaxed = self
+            .relaxation
+            .settle(&mut self.fields, self.plan.time_step);
         let [own_damping, pressure] =
             self.boundary
                 .settle(&mut self.fields, self.plan.time_step, share);
-        let damping = damping + own_damping;
+        let damping = damping + own_damping + relaxed;
         // (12), with the work of the normal forces and of boundary pressures, which the paper leaves out.
         let net = powers.stick + powers.slide + powers.normal + pressure - damping - powers.damping;
         self.net_work += self.plan.time_step * net;
@@ -243,6 +251,7 @@ impl<'a> CentralDifference<'a> {
             velocity: dofs(&self.fields.velocity),
             elastic: dofs(&self.fields.elastic),
             elastic_rate: dofs(&self.fields.elastic_rate),
+            relaxation: self.relaxation.state(),
             initial_energy: self.initial_energy,
             net_work: self.net_work,
             largest_energy: self.largest_energy,

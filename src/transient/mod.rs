@@ -17,6 +17,7 @@ mod model;
 mod motion;
 mod perturbation;
 mod recorder;
+mod relaxation;
 mod sample;
 mod settings;
 mod settling;

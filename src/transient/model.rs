@@ -1,6 +1,6 @@
 //! Model of a transient of a plane body.
 
-use super::settings::{check_times, stable_step_limit};
+use super::settings::{check_times, stable_step_limit, stiffening};
 use super::{OperatorChoice, Perturbation, StepPlan, TransientError, TransientSettings};
 use crate::contact::{ContactInterface, ContactStiffness, SlidingContact};
 use crate::fem::operator::{
@@ -57,12 +57,14 @@ impl<'a> TransientModel<'a> {
         check_times(settings)?;
         let bodies = self.mesh.bodies();
         let count = bodies.iter().max().map_or(0, |last| last + 1);
+        let factor = stiffening(self.mesh, self.material);
         if count < 2 {
-            return StepPlan::new(operator, &self.bounding_damping(&|_| true), settings);
+            let damping = self.bounding_damping(&|_| true);
+            return StepPlan::stiffened(operator, factor, &damping, settings);
         }
         let limits = (0..count).map(|body| {
             let is_part = |node: usize| bodies[node] == body;
-            let frequency = largest_frequency_of(operator, &|dof| is_part(dof / 2));
+            let frequency = factor * largest_frequency_of(operator, &|dof| is_part(dof / 2));
             let limit = stable_step_limit(frequency, &self.bounding_damping(&is_part));
             (limit, frequency)
         });

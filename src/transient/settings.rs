@@ -1,8 +1,9 @@
 //! Settings of a transient, checked before it runs.
 
 use super::{Perturbation, TransientError};
-use crate::fem::RayleighDamping;
 use crate::fem::operator::{StiffnessOperator, largest_frequency};
+use crate::fem::{MaterialField, MaxwellChain, RayleighDamping};
+use crate::mesh::Mesh;
 
 /// Share of the stability limit that an automatic time step uses.
 const SAFETY: f64 = 0.95;
@@ -113,8 +114,18 @@ impl StepPlan {
         damping: &RayleighDamping,
         settings: &TransientSettings,
     ) -> Result<Self, TransientError> {
+        Self::stiffened(operator, 1.0, damping, settings)
+    }
+
+    /// The same for bodies whose stiffness at once is so many times the square of `factor` that of the operator.
+    pub(super) fn stiffened(
+        operator: &dyn StiffnessOperator,
+        factor: f64,
+        damping: &RayleighDamping,
+        settings: &TransientSettings,
+    ) -> Result<Self, TransientError> {
         check_times(settings)?;
-        let largest_frequency = largest_frequency(operator);
+        let largest_frequency = factor * largest_frequency(operator);
         let limit = stable_step_limit(largest_frequency, damping);
         Self::within(limit, largest_frequency, settings)
     }
@@ -232,4 +243,12 @@ pub(super) fn check_times(settings: &TransientSettings) -> Result<(), TransientE
         }
     }
     Ok(())
+}
+
+/// Square root of the largest stiffness at once over that at rest of the regions of a mesh: Maxwell elements stiffen a body that
+/// moves fast.
+pub(super) fn stiffening(mesh: &Mesh, materials: &dyn MaterialField) -> f64 {
+    let regions = 0..mesh.regions.len().max(1);
+    let chains = regions.filter_map(|region| materials.chain(region));
+    chains.map(MaxwellChain::glassy).fold(1.0, f64::max).sqrt()
 }

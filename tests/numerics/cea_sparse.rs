@@ -49,6 +49,8 @@ fn problem(
         damping,
         stiffness,
         structural: None,
+        tabled: Vec::new(),
+        is_free: false,
         proportional,
         unknowns: DofMap::excluding(size, []),
         contact_tangential: Vec::new(),

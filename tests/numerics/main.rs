@@ -38,4 +38,5 @@ mod shaft;
 mod solid_elements;
 mod solids;
 mod structural_damping;
+mod tabled;
 mod two_bodies;

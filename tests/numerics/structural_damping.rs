@@ -72,7 +72,7 @@ fn tangent_with(
     SlidingTangent::linearize(&mesh, &materials, &elastic, &base, &options)
 }
 
-fn solved(tangent: &SlidingTangent, frictions: &[f64]) -> FrictionSweep {
+pub fn solved(tangent: &SlidingTangent, frictions: &[f64]) -> FrictionSweep {
     let request = SweepRequest {
         friction_coefficients: frictions,
         limit: ModeLimit::Lowest(8),
@@ -81,13 +81,13 @@ fn solved(tangent: &SlidingTangent, frictions: &[f64]) -> FrictionSweep {
     sweep(tangent, &request, &|_| {}).unwrap()
 }
 
-fn eigenvalues(sweep: &FrictionSweep, point: usize) -> Vec<c64> {
+pub fn eigenvalues(sweep: &FrictionSweep, point: usize) -> Vec<c64> {
     let modes = sweep.points[point].modes.iter();
     modes.map(|mode| mode.eigenvalue).collect()
 }
 
 /// Largest relative distance of an expected eigenvalue from the nearest one found.
-fn largest_error(found: &[c64], expected: &[c64]) -> f64 {
+pub fn largest_error(found: &[c64], expected: &[c64]) -> f64 {
     let error = |a: &c64| {
         let distances = found.iter().map(|b| (a - b).norm() / a.norm());
         distances.fold(f64::INFINITY, f64::min)
@@ -95,7 +95,7 @@ fn largest_error(found: &[c64], expected: &[c64]) -> f64 {
     expected.iter().map(error).fold(0.0, f64::max)
 }
 
-fn dense(polynomial: &MatrixPolynomial, mu: f64) -> Mat<f64> {
+pub fn dense(polynomial: &MatrixPolynomial, mu: f64) -> Mat<f64> {
     let size = polynomial.dimension();
     let identity = Mat::<f64>::identity(size, size);
     polynomial
@@ -104,7 +104,7 @@ fn dense(polynomial: &MatrixPolynomial, mu: f64) -> Mat<f64> {
 }
 
 /// Eigenvalues with `Im > 0` of `lambda^2 M + lambda C + K + i H`, by rising frequency.
-fn dense_eigenvalues(tangent: &SlidingTangent, mu: f64) -> Vec<c64> {
+pub fn dense_eigenvalues(tangent: &SlidingTangent, mu: f64) -> Vec<c64> {
     let [mass, damping, stiffness] =
         [&tangent.mass, &tangent.damping, &tangent.stiffness].map(|p| dense(p, mu));
     let lost = dense(tangent.structural.as_ref().unwrap(), mu);

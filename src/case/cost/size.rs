@@ -43,7 +43,7 @@ impl Size {
             Body::Imported(imported) => {
                 let mesh = &imported.mesh;
                 let speed = |element: usize| {
-                    pressure_wave_speed(&imported.materials[mesh.region(element)].elastic)
+                    pressure_wave_speed(&imported.materials[mesh.region(element)].own.elastic)
                 };
                 let elements = 0..mesh.element_count();
                 let each = elements.map(|element| element_frequency(mesh, element, speed(element)));
@@ -52,7 +52,7 @@ impl Size {
             Body::Assembly(assembly) => {
                 let mesh = &assembly.mesh;
                 let speed = |element: usize| {
-                    pressure_wave_speed(&assembly.materials[mesh.region(element)].elastic)
+                    pressure_wave_speed(&assembly.materials[mesh.region(element)].own.elastic)
                 };
                 let elements = 0..mesh.element_count();
                 let each = elements.map(|element| solid_frequency(mesh, element, speed(element)));

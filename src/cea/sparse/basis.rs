@@ -6,6 +6,7 @@ use super::linearization::Linearization;
 use super::mode::ReducedMode;
 use super::packed::{PackedEntry, PackedModes};
 use super::reduced::ReducedModel;
+use super::rigid::RigidMotions;
 use super::structure::{Companion, ShiftInverted, StructureMatrices};
 use crate::cea::{CeaError, SweepProgress, SweepStage, SweepWatch};
 use crate::linalg::dense::{
@@ -48,6 +49,8 @@ const SEARCH_WIDTH: usize = 4;
 const MAX_CORRECTIONS: usize = 16;
 /// Refinements of the modes at one friction coefficient for structural damping, each of which wins about the loss factor.
 const LOSSY_ROUNDS: usize = 6;
+/// The same where no iteration comes first: bodies that nothing holds.
+const FREE_ROUNDS: usize = 12;
 /// Refinements of one basis before the preconditioner is considered unfit.
 const MAX_ROUNDS: usize = 40;
 
@@ -64,6 +67,8 @@ pub struct BasisBuilder<'a> {
     tangent: &'a SlidingTangent,
     linearization: Linearization,
     preconditioner: StiffnessFactors,
+    /// Rigid motions of bodies that nothing holds, which the basis leaves out.
+    rigid: Option<RigidMotions>,
     cache: FactorCache,
     /// The projected problem so far.
     pub model: ReducedModel,
@@ -94,6 +99,7 @@ impl<'a> BasisBuilder<'a> {
             tangent,
             linearization,
             preconditioner: factors,
+            rigid: None,
             cache: FactorCache::default(),
             model,
             count: modes.ncols(),
@@ -107,6 +113,19 @@ impl<'a> BasisBuilder<'a> {
     /// Whether the basis is made of modes at friction coefficients of their own.
     pub(super) fn is_sampling(&self) -> bool {
         self.is_sampling
+    }
+
+    /// The same for bodies that nothing holds.
+    pub(super) fn without(self, rigid: Option<RigidMotions>) -> Self {
+        Self { rigid, ..self }
+    }
+
+    /// `(K(0) - sigma M(0))^-1 x` of each column without rigid motions, in place.
+    fn precondition(&self, x: &mut Mat<f64>) {
+        self.preconditioner.solve_in_place(x);
+        if let Some(rigid) = &self.rigid {
+            rigid.remove_from(x);
+        }
     }
 
     /// Steps so far: the state of the basis is known by their number.
@@ -147,7 +166,10 @@ impl<'a> BasisBuilder<'a> {
     /// If a dense decomposition or an iteration fails.
     pub fn cover(&mut self, values: &[f64]) -> Result<(), CeaError> {
         if self.is_sampling {
-            if values[0] > 0.0 {
+            if values[0] > 0.0 && !self.tangent.tabled.is_empty() {
+                // Branches begin there, each at its own frequency.
+                self.improve_at(0.0)?;
+            } else if values[0] > 0.0 {
                 self.hold_frictionless();
             }
             for mu in [
@@ -213,6 +235,9 @@ impl<'a> BasisBuilder<'a> {
             }
             Linearization::Companion { frequency_scale } => {
                 self.sampled.push(mu);
+                if self.rigid.is_some() {
+                    return self.sample_free(mu);
+                }
                 // Combinations of the modes without friction, which the basis holds first.
                 let width = self.start_width();
                 let known = self.count.min(self.model.dimension());
@@ -222,8 +247,10 @@ impl<'a> BasisBuilder<'a> {
                         builder.model.expand(mixed.as_ref())
                     })
                 })?;
-                // The iteration leaves structural damping out: its vectors are a start.
-                let rounds = self.tangent.structural.as_ref().map_or(0, |_| LOSSY_ROUNDS);
+                // The iteration leaves structural damping and tables out: its vectors are a start.
+                let is_viscous =
+                    self.tangent.structural.is_none() && self.tangent.tabled.is_empty();
+                let rounds = if is_viscous { 0 } else { LOSSY_ROUNDS };
                 for _ in 0..rounds {
                     if !self.refine_sample(mu)? {
                         break;
@@ -265,6 +292,19 @@ impl<'a> BasisBuilder<'a> {
     pub fn gap(&self, mu: f64) -> usize {
         let below = self.sampled.iter().filter(|&&held| held < mu).count();
         2 * below + usize::from(self.sampled.contains(&mu))
+    }
+
+    /// Takes up the modes at `mu` of bodies that nothing holds, whose `K` has no factors, from those without damping.
+    fn sample_free(&mut self, mu: f64) -> Result<bool, CeaError> {
+        let modes = Mat::identity(self.model.dimension(), self.count);
+        let vectors = self.model.expand(modes.as_ref());
+        self.model.hold_sample(mu, &vectors);
+        for _ in 0..FREE_ROUNDS {
+            if !self.refine_sample(mu)? {
+                break;
+            }
+        }
+        Ok(true)
     }
 
     /// Start vectors of an iteration: two where modes may come in pairs of equal eigenvalue.
@@ -431,7 +471,7 @@ impl<'a> BasisBuilder<'a> {
                 let mass = &builder.tangent.mass;
                 let values = &mass.coefficients()[0];
                 let mut image = mass.pattern().multiply(values, new.as_ref());
-                builder.preconditioner.solve_in_place(&mut image);
+                builder.precondition(&mut image);
                 image *= Scale(inertia);
                 Ok::<_, LinalgError>(image)
             })?;
@@ -457,7 +497,7 @@ impl<'a> BasisBuilder<'a> {
             open.gather(&matrices, &group.entries, &vectors);
         }
         let mut corrections = open.columns.clone();
-        self.preconditioner.solve_in_place(&mut corrections);
+        self.precondition(&mut corrections);
         open.with_energy(corrections)
     }
 

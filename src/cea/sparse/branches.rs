@@ -114,8 +114,22 @@ fn split_degenerate(
             );
             let gram = ComplexDenseLu::factorize(gram);
             let mut operator = change;
+            let lost = rate.structural.iter().map(|h| (c64::new(0.0, 1.0), h));
+            let tabled = rate.tabled.iter().map(|(gain, k)| (gain.at(lambda), k));
+            for (factor, matrix) in lost.chain(tabled) {
+                let image = columns.mapped(matrix);
+                for i in 0..size {
+                    for j in 0..size {
+                        operator[(i, j)] -= factor * image.dot(&cluster[i].left, j);
+                    }
+                }
+            }
             gram.solve_in_place(operator.as_mut());
             rotate(cluster, &operator, &gram)?;
+            // What each mode's own frequency does to it is a matter of single modes.
+            if !at.tabled.is_empty() {
+                model.complete(cluster, &at, 0.0);
+            }
         }
         first += size.max(1);
     }

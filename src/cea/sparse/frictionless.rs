@@ -3,6 +3,7 @@
 use super::GUARD_MODES;
 use super::factors::StiffnessFactors;
 use super::linearization::Linearization;
+use super::rigid::RigidMotions;
 use super::structure::{ShiftInverted, StructureMatrices};
 use crate::cea::{CeaError, ModeLimit, SweepWatch};
 use crate::fem::RayleighDamping;
@@ -19,6 +20,14 @@ use std::f64::consts::TAU;
 const TOLERANCE: f64 = 1e-11;
 /// Width of its random start block: a compromise of cheap blocked solves and few vectors.
 const BLOCK: usize = 8;
+/// Shift of the factors of bodies that nothing holds, relative to the highest eigenvalue wanted ...
+const FREE_SHIFT: f64 = 0.1;
+/// ... or to the largest of the mesh.
+const STIFFEST: f64 = 1e-6;
+/// Eigenvalue, relative to the highest found, below which a motion of such bodies is rigid: a thousandth of its frequency.
+const RIGID: f64 = 1e-6;
+/// Rigid motions of one body in space.
+const RIGID_OF_ONE_BODY: usize = 6;
 /// Where the shift of the factors kept may lie between zero and the highest eigenvalue `kappa`.
 const AMID: std::ops::Range<f64> = 0.4..0.65;
 
@@ -30,6 +39,8 @@ pub struct FrictionlessModes {
     pub frequencies: Vec<f64>,
     /// Factors of `K(0) - sigma M(0)`, `sigma` amid the modes where it can be.
     pub factors: StiffnessFactors,
+    /// Rigid motions of bodies that nothing holds, which are none of the modes.
+    pub rigid: Option<RigidMotions>,
 }
 
 impl FrictionlessModes {
@@ -52,6 +63,9 @@ impl FrictionlessModes {
         watch: &dyn SweepWatch,
     ) -> Result<Self, CeaError> {
         const NAME: &str = "frictionless";
+        if tangent.is_free {
+            return Self::compute(tangent, limit);
+        }
         let inertia = Inertia::new(tangent)?;
         let unknowns = tangent.stiffness.dimension();
         if let Some((vectors, frequencies)) = recalled(watch.recall(NAME), unknowns) {
@@ -60,6 +74,7 @@ impl FrictionlessModes {
                 vectors,
                 frequencies,
                 factors,
+                rigid: None,
             });
         }
         let found = Self::found_by(tangent, &inertia, limit)?;
@@ -74,6 +89,9 @@ impl FrictionlessModes {
         inertia: &Inertia<'_>,
         limit: ModeLimit,
     ) -> Result<Self, CeaError> {
+        if tangent.is_free {
+            return free_modes(tangent, inertia, limit);
+        }
         let wanted = match limit {
             ModeLimit::Lowest(count) => count,
             ModeLimit::MaxFrequency(limit_hz) => inertia.count_below(TAU * limit_hz)?,
@@ -129,7 +147,94 @@ impl FrictionlessModes {
             vectors: pairs.vectors.get(.., ..kept).to_owned(),
             frequencies: frequencies[..kept].to_vec(),
             factors,
+            rigid: None,
         })
+    }
+}
+
+/// The modes of bodies that nothing holds: those of `(K + sigma M) x = (kappa + sigma) M x` whose `kappa` is none of the round-off
+/// that rigid motions have.
+fn free_modes(
+    tangent: &SlidingTangent,
+    inertia: &Inertia<'_>,
+    limit: ModeLimit,
+) -> Result<FrictionlessModes, CeaError> {
+    let unknowns = tangent.stiffness.dimension();
+    let shift = match limit {
+        ModeLimit::MaxFrequency(limit_hz) => FREE_SHIFT * (TAU * limit_hz).powi(2),
+        ModeLimit::Lowest(_) => inertia.largest_ratio() * STIFFEST,
+    };
+    let ldl = SparseLdl::factorize(&inertia.analysis, &inertia.shifted(-shift))?;
+    let factors = StiffnessFactors::Symmetric(Box::new(ldl));
+    let undamped = Linearization::Reduced(RayleighDamping::default());
+    let operator = ShiftInverted {
+        matrices: &StructureMatrices::at(tangent, undamped, 0.0),
+        factors: &factors,
+    };
+    let below = match limit {
+        ModeLimit::Lowest(count) => count,
+        ModeLimit::MaxFrequency(limit_hz) => inertia.count_below(TAU * limit_hz)?,
+    };
+    let mut rigid_guess = RIGID_OF_ONE_BODY;
+    loop {
+        let request = (below + rigid_guess + GUARD_MODES).min(unknowns);
+        let settings = KrylovSchurSettings {
+            wanted: Wanted::Largest(request),
+            tolerance: TOLERANCE,
+            block: BLOCK,
+            max_applications: 200 * (request + 20),
+        };
+        let pairs = krylov_schur(&operator, None, &settings)?;
+        let kappas: Vec<f64> = pairs.values.iter().map(|s| s.re.recip() - shift).collect();
+        let highest = kappas.iter().fold(0.0_f64, |a, b| a.max(*b));
+        let rigid = kappas
+            .iter()
+            .filter(|kappa| **kappa <= RIGID * highest)
+            .count();
+        let elastic = kappas.len() - rigid;
+        let wanted = match limit {
+            ModeLimit::Lowest(count) => count,
+            ModeLimit::MaxFrequency(_) => below.saturating_sub(rigid),
+        };
+        if wanted > unknowns - rigid {
+            let (asked, total) = (wanted, unknowns - rigid);
+            return Err(CeaError::TooManyModes { asked, total });
+        }
+        if elastic < (wanted + 1).min(unknowns - rigid) {
+            rigid_guess = 2 * rigid;
+            continue;
+        }
+        let frequencies: Vec<f64> = kappas[rigid..].iter().map(|kappa| kappa.sqrt()).collect();
+        if let (0, ModeLimit::MaxFrequency(limit_hz)) = (wanted, limit) {
+            let lowest_hz = frequencies[0] / TAU;
+            return Err(CeaError::NoModes {
+                limit_hz,
+                lowest_hz,
+            });
+        }
+        let kept = match request == unknowns {
+            true => elastic,
+            false => {
+                let kept = widest_gap(&frequencies, wanted);
+                let middle = 0.5 * (frequencies[kept - 1] + frequencies[kept]);
+                let counted = inertia.count_below(middle)?;
+                if counted != kept + rigid {
+                    return Err(CeaError::CountMismatch {
+                        found: kept + rigid,
+                        counted,
+                        frequency_hz: middle / TAU,
+                    });
+                }
+                kept
+            }
+        };
+        let motions = pairs.vectors.get(.., ..rigid).to_owned();
+        return Ok(FrictionlessModes {
+            vectors: pairs.vectors.get(.., rigid..rigid + kept).to_owned(),
+            factors: inertia.factors(&frequencies[..kept], Some(factors))?,
+            frequencies: frequencies[..kept].to_vec(),
+            rigid: Some(RigidMotions::of(&tangent.mass, motions)),
+        });
     }
 }
 
@@ -207,6 +312,15 @@ impl<'a> Inertia<'a> {
         let (stiffness, mass) = (self.stiffness.evaluate(0.0), self.mass.evaluate(0.0));
         let pairs = stiffness.iter().zip(&mass);
         pairs.map(|(k, m)| k - shift * m).collect()
+    }
+
+    /// About the largest eigenvalue of the pencil: the largest ratio of the diagonals.
+    fn largest_ratio(&self) -> f64 {
+        let (stiffness, mass) = (self.stiffness.evaluate(0.0), self.mass.evaluate(0.0));
+        let pattern = self.stiffness.pattern();
+        let diagonal = (0..pattern.dimension()).filter_map(|i| pattern.position(i, i));
+        let ratios = diagonal.map(|at| stiffness[at] / mass[at]);
+        ratios.filter(|ratio| ratio.is_finite()).fold(0.0, f64::max)
     }
 
     /// Number of modes below an angular frequency, by Sylvester's law of inertia.

@@ -4,12 +4,14 @@ use super::factors::{FactorCache, StiffnessFactors};
 use super::linearization::Linearization;
 use super::structure::{Companion, StructureMatrices};
 use crate::cea::CeaError;
+use crate::fem::own_frequency_step;
 use crate::linalg::dense::{column, random_columns};
 use crate::linalg::{
     ComplexSparseLu, LuAnalysis, Mat, QuadraticKrylovSettings, QuadraticPairs, SparsityPattern,
     c64, quadratic_krylov,
 };
 use crate::prestress::SlidingTangent;
+use std::f64::consts::TAU;
 
 /// Residual of the iterations, relative to the shift-inverted operator.
 const RESIDUAL: f64 = 1e-10;
@@ -38,6 +40,8 @@ pub struct ModePair {
     pub right: Vec<c64>,
     /// Left vector `w`, scaled to `w^T (2 lambda M + C) x = 1` (no conjugation).
     pub left: Vec<c64>,
+    /// `w^T (dK/d omega) x` of stiffness that depends on frequency, at that of the eigenvalue.
+    own_slope: c64,
 }
 
 impl ModePair {
@@ -45,7 +49,15 @@ impl ModePair {
     pub fn response(&self, pattern: &SparsityPattern, changes: [&[f64]; 3]) -> c64 {
         let [stiffness, damping, mass] = changes.map(|values| self.form(pattern, values));
         let lambda = self.eigenvalue;
-        -(lambda * (lambda * mass + damping) + stiffness)
+        self.followed(-(lambda * (lambda * mass + damping) + stiffness))
+    }
+
+    /// The change of the eigenvalue where it would be `change` at fixed stiffness: with tables the stiffness follows it.
+    fn followed(&self, change: c64) -> c64 {
+        match self.own_slope == c64::new(0.0, 0.0) {
+            true => change,
+            false => own_frequency_step(change, self.own_slope),
+        }
     }
 
     /// [`Self::response`] with a change `dH` of the structural damping, which adds `- i w^T dH x`; an empty one is none.
@@ -59,7 +71,7 @@ impl ModePair {
             [] => c64::new(0.0, 0.0),
             values => self.form(pattern, values),
         };
-        self.response(pattern, changes) - c64::new(0.0, 1.0) * lost
+        self.response(pattern, changes) + self.followed(c64::new(0.0, -1.0) * lost)
     }
 
     /// `w^T P x`.
@@ -89,6 +101,11 @@ pub fn mode_pairs(
     targets: &[c64],
     count: usize,
 ) -> Result<Vec<Option<ModePair>>, CeaError> {
+    if !tangent.tabled.is_empty() {
+        let each = targets.iter();
+        let each = each.map(|target| pair_at_own_frequency(tangent, mu, *target, count));
+        return each.collect();
+    }
     // Krylov iterations are on real matrices.
     let is_lossy = tangent.structural.is_some();
     let few = (targets.len() <= FEW || is_lossy).then(|| inverse_iterations(tangent, mu, targets));
@@ -113,6 +130,7 @@ pub fn mode_pairs(
             derivative: c64::new(0.0, 0.0),
             right,
             left,
+            own_slope: c64::new(0.0, 0.0),
         };
         let scale = pair.form(pattern, &mass) * *target * 2.0 + pair.form(pattern, &damping);
         pair.left.iter_mut().for_each(|v| *v /= scale);
@@ -121,6 +139,28 @@ pub fn mode_pairs(
         Some(pair)
     };
     Ok(targets.iter().zip(vectors).map(pair).collect())
+}
+
+/// The mode of a target in a problem whose stiffness depends on frequency: that of the problem frozen at the target's.
+fn pair_at_own_frequency(
+    tangent: &SlidingTangent,
+    mu: f64,
+    target: c64,
+    count: usize,
+) -> Result<Option<ModePair>, CeaError> {
+    let frozen = tangent.at_frequency(target.im / TAU);
+    let mut pairs = mode_pairs(&frozen, mu, &[target], count)?;
+    let Some(Some(mut pair)) = pairs.pop() else {
+        return Ok(None);
+    };
+    let pattern = tangent.stiffness.pattern();
+    let slopes = tangent
+        .tabled
+        .iter()
+        .map(|part| part.gain.slope(target) * pair.form(pattern, &part.stiffness.evaluate(mu)));
+    pair.own_slope = slopes.sum();
+    pair.derivative = pair.followed(pair.derivative);
+    Ok(Some(pair))
 }
 
 /// Right and left vector, of unit length.

@@ -2,8 +2,11 @@
 
 use super::linearization::Linearization;
 use super::mode::ReducedMode;
+use super::own_frequency;
 use super::packed::ComplexColumns;
+use super::projected::ProjectedMatrices;
 use super::term::Term;
+use crate::fem::own_frequency_step;
 use crate::linalg::dense::{
     GrowingColumns, column, join_columns, orthonormal_complement, product, transpose_product,
 };
@@ -14,7 +17,7 @@ use crate::linalg::{
     Wanted, krylov_schur,
 };
 use crate::linalg::{Mat, MatRef, Scale, c64};
-use crate::prestress::SlidingTangent;
+use crate::prestress::{SlidingTangent, TabledGain};
 use rayon::prelude::*;
 
 /// Samples near a friction coefficient whose modes make up the space for its own.
@@ -29,49 +32,6 @@ const FEW_OF_MANY: usize = 5;
 /// Residual of that iteration, relative to the eigenvalue, and the width of its start.
 const FEW_TOLERANCE: f64 = 1e-13;
 const FEW_BLOCK: usize = 4;
-/// Rayleigh quotients after which a mode counts as not found; three or four do.
-const QUOTIENT_STEPS: usize = 8;
-/// Relative change of the eigenvalue that ends the iteration: its error is about the cube of that.
-const QUOTIENT_TOLERANCE: f64 = 1e-8;
-
-/// `K`, `C` and `M` (or their derivatives) projected, at one friction coefficient.
-pub struct ProjectedMatrices {
-    /// `V^T K V`.
-    pub stiffness: Mat<f64>,
-    /// `V^T C V`.
-    pub damping: Mat<f64>,
-    /// `V^T M V`.
-    pub mass: Mat<f64>,
-    /// `V^T H V` of structural damping.
-    pub structural: Option<Mat<f64>>,
-}
-
-impl ProjectedMatrices {
-    /// The matrices projected once more, on orthonormal `columns` of coordinates.
-    fn within(&self, columns: &Mat<f64>) -> Self {
-        let within = |p: &Mat<f64>| {
-            let image = product(p.as_ref(), columns.as_ref());
-            transpose_product(columns.as_ref(), image.as_ref())
-        };
-        let [stiffness, damping, mass] = [&self.stiffness, &self.damping, &self.mass].map(within);
-        Self {
-            stiffness,
-            damping,
-            mass,
-            structural: self.structural.as_ref().map(within),
-        }
-    }
-
-    /// `T(lambda) = lambda^2 M + lambda C + K + i H`, `Im lambda > 0`.
-    fn pencil(&self, lambda: c64) -> Mat<c64> {
-        let m = self.mass.nrows();
-        Mat::from_fn(m, m, |i, j| {
-            let lost = self.structural.as_ref().map_or(0.0, |h| h[(i, j)]);
-            lambda * (lambda * self.mass[(i, j)] + self.damping[(i, j)])
-                + c64::new(self.stiffness[(i, j)], lost)
-        })
-    }
-}
 
 /// Columns continued by zeros to `rows` entries.
 fn lengthened(columns: &Mat<f64>, rows: usize) -> Mat<f64> {
@@ -113,8 +73,17 @@ pub struct ReducedModel {
     /// `V^T P_p V` of `P = K, C, M, H` for each power of `mu`; `C` only where it is not proportional, `H` where there is
     /// structural damping.
     projected: [Vec<Mat<f64>>; 4],
+    /// Coefficients of the stiffness of each part that depends on frequency.
+    tabled: Vec<TabledTerms>,
     /// Friction coefficients whose modes the basis holds as such, and the coordinates that span them.
     samples: Vec<(f64, Mat<f64>)>,
+}
+
+/// The stiffness of a part that depends on frequency, by power of `mu`, and `V^T K_p V` for each.
+struct TabledTerms {
+    gain: TabledGain,
+    terms: Vec<Term>,
+    projected: Vec<Mat<f64>>,
 }
 
 impl ReducedModel {
@@ -132,6 +101,15 @@ impl ReducedModel {
         };
         let structural = tangent.structural.as_ref();
         let structural = structural.map_or_else(Vec::new, |p| terms(p, true));
+        let tabled = tangent.tabled.iter().map(|part| {
+            let terms = terms(&part.stiffness, true);
+            TabledTerms {
+                gain: part.gain.clone(),
+                projected: vec![Mat::zeros(0, 0); terms.len()],
+                terms,
+            }
+        });
+        let tabled = tabled.collect();
         let terms = [
             terms(&tangent.stiffness, true),
             damping,
@@ -143,6 +121,7 @@ impl ReducedModel {
             basis: GrowingColumns::new(tangent.stiffness.dimension()),
             projected: terms.each_ref().map(|t| vec![Mat::zeros(0, 0); t.len()]),
             terms,
+            tabled,
             samples: Vec::new(),
         }
     }
@@ -160,7 +139,9 @@ impl ReducedModel {
             return new;
         }
         let basis = self.basis.columns();
-        for (projected, terms) in self.projected.iter_mut().zip(&mut self.terms) {
+        let tabled = self.tabled.iter_mut();
+        let tabled = tabled.map(|part| (&mut part.projected, &mut part.terms));
+        for (projected, terms) in self.projected.iter_mut().zip(&mut self.terms).chain(tabled) {
             for (small, term) in projected.iter_mut().zip(terms) {
                 *small = term.grow(small, basis, &new);
             }
@@ -171,10 +152,17 @@ impl ReducedModel {
 
     /// Restricts the basis to the span of the orthonormal `columns` of coordinates.
     pub fn compress(&mut self, columns: &Mat<f64>) {
-        for term in self.terms.iter_mut().flatten() {
+        let (mut all_terms, mut all_projected) = (Vec::new(), Vec::new());
+        all_terms.extend(self.terms.iter_mut().flatten());
+        all_projected.extend(self.projected.iter_mut().flatten());
+        for part in &mut self.tabled {
+            all_terms.extend(&mut part.terms);
+            all_projected.extend(&mut part.projected);
+        }
+        for term in all_terms {
             term.compress(columns);
         }
-        for small in self.projected.iter_mut().flatten() {
+        for small in all_projected {
             let image = product(small.as_ref(), columns.as_ref());
             *small = transpose_product(columns.as_ref(), image.as_ref());
         }
@@ -202,11 +190,14 @@ impl ReducedModel {
             }
             Linearization::Companion { .. } => evaluate(damping),
         };
+        let tabled = self.tabled.iter();
+        let tabled = tabled.map(|part| (part.gain.clone(), evaluate(&part.projected)));
         ProjectedMatrices {
             stiffness,
             damping,
             mass,
             structural,
+            tabled: tabled.collect(),
         }
     }
 
@@ -362,8 +353,20 @@ impl ReducedModel {
         count: usize,
         with_left: bool,
     ) -> Result<Vec<ReducedMode>, LinalgError> {
-        if let Some(structural) = &at.structural {
-            return self.solve_lossy(at, structural, count, with_left);
+        if let Some((gain, _)) = at.tabled.first() {
+            let start_hz = gain.reference_hz;
+            let frozen = |frequency_hz: f64| {
+                let at = at.frozen(frequency_hz);
+                self.solve_lossy(&at, count, true)
+            };
+            let mut modes = own_frequency::solve(at, &frozen, start_hz)?;
+            for mode in &mut modes {
+                mode.inverse_value = self.linearization.inverse_value(mode.eigenvalue);
+            }
+            return Ok(modes);
+        }
+        if at.structural.is_some() {
+            return self.solve_lossy(at, count, with_left);
         }
         let lu = DenseLu::factorize(at.stiffness.clone());
         let leading = match self.linearization {
@@ -414,13 +417,15 @@ impl ReducedModel {
     fn solve_lossy(
         &self,
         at: &ProjectedMatrices,
-        structural: &Mat<f64>,
         count: usize,
         with_left: bool,
     ) -> Result<Vec<ReducedMode>, LinalgError> {
-        let Linearization::Companion {
-            frequency_scale: omega,
-        } = self.linearization
+        let (
+            Linearization::Companion {
+                frequency_scale: omega,
+            },
+            Some(structural),
+        ) = (self.linearization, &at.structural)
         else {
             return Ok(Vec::new());
         };
@@ -469,53 +474,13 @@ impl ReducedModel {
 
     /// The mode at `mu` near `guess`, by two-sided Rayleigh quotient iteration from its eigenvalue and vectors; nothing
     /// where that does not settle.
-    ///
-    /// Source: K. Schreiber, Nonlinear Eigenvalue Problems: Newton-type Methods and Nonlinear Rayleigh Functionals,
-    /// thesis, TU Berlin (2008).
     pub fn mode_near(&self, mu: f64, guess: &ReducedMode) -> Option<ReducedMode> {
         let at = self.at(mu);
-        let m = self.dimension();
-        let column = |v: &[c64]| Mat::from_fn(m, 1, |i, _| v.get(i).copied().unwrap_or_default());
-        let (mut right, mut left) = (column(&guess.right), column(&guess.left));
-        let mut lambda = guess.eigenvalue;
-        for _ in 0..QUOTIENT_STEPS {
-            let slope = Mat::from_fn(m, m, |i, j| {
-                lambda * (2.0 * at.mass[(i, j)]) + at.damping[(i, j)]
-            });
-            let lu = ComplexDenseLu::factorize(at.pencil(lambda));
-            (right, left) = (&slope * &right, slope.transpose() * &left);
-            lu.solve_in_place(right.as_mut());
-            lu.solve_transpose_in_place(left.as_mut());
-            for vector in [&mut right, &mut left] {
-                let length = vector.norm_l2();
-                vector.col_mut(0).iter_mut().for_each(|v| *v /= length);
-            }
-            let form = |p: &Mat<f64>| -> c64 {
-                let image = |i: usize| -> c64 { (0..m).map(|j| right[(j, 0)] * p[(i, j)]).sum() };
-                (0..m).map(|i| left[(i, 0)] * image(i)).sum()
-            };
-            let [a, b, mut c] = [&at.mass, &at.damping, &at.stiffness].map(form);
-            c += c64::new(0.0, 1.0) * at.structural.as_ref().map_or(c64::new(0.0, 0.0), form);
-            let step = ((a * lambda + b) * lambda + c) / (a * lambda * 2.0 + b);
-            lambda -= step;
-            if !(step.norm() < guess.eigenvalue.norm()) {
-                return None;
-            }
-            if step.norm() <= QUOTIENT_TOLERANCE * lambda.norm() {
-                let entries = |v: &Mat<c64>| v.col(0).iter().copied().collect();
-                let mut modes = [ReducedMode {
-                    eigenvalue: lambda,
-                    inverse_value: self.linearization.inverse_value(lambda),
-                    derivative: c64::new(0.0, 0.0),
-                    right: entries(&right),
-                    left: entries(&left),
-                }];
-                self.complete(&mut modes, &at, mu);
-                let [mode] = modes;
-                return (mode.eigenvalue.im > 0.0).then_some(mode);
-            }
-        }
-        None
+        let mut modes = [at.mode_near(guess)?];
+        modes[0].inverse_value = self.linearization.inverse_value(modes[0].eigenvalue);
+        self.complete(&mut modes, &at, mu);
+        let [mode] = modes;
+        (mode.eigenvalue.im > 0.0).then_some(mode)
     }
 
     /// The dense shift-inverted operator of the linearisation.
@@ -540,13 +505,17 @@ impl ReducedModel {
     }
 
     /// Normalizes vectors and computes `dlambda/dmu = -w^T T'(lambda) x` with
-    /// `w^T (2 lambda M + C) x = 1`.
-    fn complete(&self, modes: &mut [ReducedMode], at: &ProjectedMatrices, mu: f64) {
+    /// `w^T (2 lambda M + C) x = 1`; where stiffness depends on frequency, the mode's own follows
+    /// ([`own_frequency_step`]).
+    pub(super) fn complete(&self, modes: &mut [ReducedMode], at: &ProjectedMatrices, mu: f64) {
         let rate = self.derivative_at(mu);
         let right = ComplexColumns::of(modes, self.dimension());
         let [m, c] = [&at.mass, &at.damping].map(|p| right.mapped(p));
         let [dk, dc, dm] = [&rate.stiffness, &rate.damping, &rate.mass].map(|p| right.mapped(p));
         let dh = rate.structural.as_ref().map(|p| right.mapped(p));
+        let parts = at.tabled.iter().zip(&rate.tabled);
+        let parts = parts.map(|((gain, k), (_, dk))| (gain, right.mapped(k), right.mapped(dk)));
+        let parts: Vec<_> = parts.collect();
         for (j, mode) in modes.iter_mut().enumerate() {
             let lambda = mode.eigenvalue;
             let length = mode.right.iter().map(|v| v.norm_sqr()).sum::<f64>().sqrt();
@@ -554,11 +523,19 @@ impl ReducedModel {
             let along = |columns: &ComplexColumns| columns.dot(&mode.left, j) / length;
             let scale = lambda * 2.0 * along(&m) + along(&c);
             let lost = dh.as_ref().map_or(c64::new(0.0, 0.0), along);
-            let change = lambda * lambda * along(&dm)
+            let mut change = lambda * lambda * along(&dm)
                 + lambda * along(&dc)
                 + along(&dk)
                 + c64::new(0.0, 1.0) * lost;
-            mode.derivative = -change / scale;
+            let mut own = c64::new(0.0, 0.0);
+            for (gain, k, dk) in &parts {
+                change += gain.at(lambda) * along(dk);
+                own += gain.slope(lambda) * along(k);
+            }
+            mode.derivative = match parts.is_empty() {
+                true => -change / scale,
+                false => own_frequency_step(-change / scale, own / scale),
+            };
             mode.left.iter_mut().for_each(|v| *v /= scale);
         }
     }

@@ -6,7 +6,7 @@ use super::packed::PackedEntry;
 use crate::linalg::dense::{column, column_mut, join_rows};
 use crate::linalg::{BlockOperator, MatrixPolynomial, QuadraticOperator, SparsityPattern};
 use crate::linalg::{Mat, MatRef, Scale, c64};
-use crate::prestress::SlidingTangent;
+use crate::prestress::{SlidingTangent, TabledStiffness};
 use std::sync::Arc;
 
 /// `K`, `C` and `M` at one friction coefficient, or their coefficients of one power of it.
@@ -16,6 +16,8 @@ pub struct StructureMatrices<'a> {
     values: [Vec<f64>; 3],
     /// Nonzero values of the structural damping `H` by rows, of the general problem.
     structural: Option<Vec<f64>>,
+    /// Parts whose stiffness depends on frequency, with its nonzero values by rows.
+    tabled: Vec<(&'a TabledStiffness, Vec<f64>)>,
     linearization: Linearization,
 }
 
@@ -31,10 +33,16 @@ impl<'a> StructureMatrices<'a> {
             Linearization::Reduced(_) => None,
             Linearization::Companion { .. } => tangent.structural.as_ref(),
         };
+        let tabled = match linearization {
+            Linearization::Reduced(_) => &[][..],
+            Linearization::Companion { .. } => tangent.tabled.as_slice(),
+        };
+        let tabled = tabled.iter();
         Self {
             pattern: tangent.stiffness.pattern(),
             values: [of(&tangent.stiffness), damping, of(&tangent.mass)],
             structural: structural.map(of),
+            tabled: tabled.map(|part| (part, of(&part.stiffness))).collect(),
             linearization,
         }
     }
@@ -73,6 +81,13 @@ impl<'a> StructureMatrices<'a> {
                     let [lost] = self.pattern.multiply_each([structural], x);
                     for entry in entries {
                         add_complex_multiple(&mut residual, c64::new(0.0, 1.0), &lost, entry);
+                    }
+                }
+                for (part, values) in &self.tabled {
+                    let [image] = self.pattern.multiply_each([values], x);
+                    for entry in entries {
+                        let lambda = entry.inverse_value.inv() * frequency_scale;
+                        add_complex_multiple(&mut residual, part.gain.at(lambda), &image, entry);
                     }
                 }
                 (residual, inert)

@@ -16,6 +16,7 @@ use crate::linalg::{LinalgError, c64};
 
 use crate::prestress::SlidingTangent;
 use rayon::prelude::*;
+use std::borrow::Cow;
 use std::f64::consts::TAU;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -31,6 +32,10 @@ const CORRECTABLE: f64 = 1e-4;
 const MAX_REPAIRS: usize = 8;
 /// Such attempts for each friction value where a mode misses the bound of converged pairs.
 const MAX_LAST_REPAIRS: usize = 6;
+/// Highest modes that stiffness which depends on frequency is referred to, one after the other.
+const MAX_REFERENCES: usize = 4;
+/// Relative change of their frequency that is none.
+const REFERENCE_SETTLED: f64 = 0.02;
 
 /// Complex modes of `tangent` at every friction coefficient of `request`, and where their branches turn unstable.
 ///
@@ -49,11 +54,44 @@ pub fn sweep(
     request: &SweepRequest<'_>,
     watch: &dyn SweepWatch,
 ) -> Result<FrictionSweep, CeaError> {
-    let mut sweep = SparseSweep::prepare(tangent, request, watch)?;
+    let tangent = referred(tangent, request.limit)?;
+    let mut sweep = SparseSweep::prepare(&tangent, request, watch)?;
     sweep.cover()?;
     sweep.solve()?;
     let branches = sweep.track()?;
     sweep.finish(request, &branches)
+}
+
+/// The tangent with its stiffness as it is at about the highest frequency wanted, where it depends on frequency: below that, as many
+/// modes lie there as the problem frozen at it has.
+///
+/// # Errors
+/// As [`sweep`].
+fn referred(
+    tangent: &SlidingTangent,
+    limit: ModeLimit,
+) -> Result<Cow<'_, SlidingTangent>, CeaError> {
+    if tangent.tabled.is_empty() {
+        return Ok(Cow::Borrowed(tangent));
+    }
+    limit.check()?;
+    match limit {
+        ModeLimit::MaxFrequency(limit_hz) => Ok(Cow::Owned(tangent.referred_to(limit_hz))),
+        ModeLimit::Lowest(count) => {
+            let (mut referred, mut highest_hz) = (tangent.clone(), 0.0);
+            for _ in 0..MAX_REFERENCES {
+                let modes = FrictionlessModes::compute(&referred, limit)?;
+                let place = count.min(modes.frequencies.len()) - 1;
+                let found_hz = modes.frequencies[place] / TAU;
+                referred = tangent.referred_to(found_hz);
+                if (found_hz - highest_hz).abs() <= REFERENCE_SETTLED * found_hz {
+                    break;
+                }
+                highest_hz = found_hz;
+            }
+            Ok(Cow::Owned(referred))
+        }
+    }
 }
 
 /// The stages of [`sweep`], in order.
@@ -102,7 +140,8 @@ impl<'a> SparseSweep<'a> {
                 &modes.vectors,
                 modes.factors,
                 watch,
-            ),
+            )
+            .without(modes.rigid),
             grid,
             lowest,
             points: Vec::new(),
@@ -121,7 +160,9 @@ impl<'a> SparseSweep<'a> {
             return self.builder.cover(&self.grid[first..]);
         }
         // A basis for all friction values is wide where the body has no symmetry: few values are cheaper each by itself.
-        if self.grid.len() <= FEW_VALUES && self.tangent.contact_angles.is_empty() {
+        let is_held = !self.tangent.is_free;
+        let has_symmetry = !self.tangent.contact_angles.is_empty();
+        if self.grid.len() <= FEW_VALUES && is_held && !has_symmetry {
             return self.builder.cover_each(&self.grid);
         }
         let (lowest, highest) = (self.lowest, self.grid[self.grid.len() - 1]);
@@ -269,6 +310,25 @@ impl<'a> SparseSweep<'a> {
     fn check_residuals(&self) -> Result<(), CeaError> {
         for point in &self.points[self.first_asked()..] {
             for (mode, check) in point.modes.iter().zip(&point.checks).take(point.wanted) {
+                let frequency_hz = mode.eigenvalue.im / TAU;
+                if let Some(table) = self.tangent.table_without(frequency_hz) {
+                    return Err(CeaError::BeyondTable {
+                        key: table.key().to_owned(),
+                        file: table.file().to_owned(),
+                        range_hz: table.range_hz(),
+                        friction_coefficient: point.friction_coefficient,
+                        frequency_hz,
+                    });
+                }
+                let is_unsettled = check.residual.is_nan() || check.residual > RESIDUAL_BOUND;
+                if let Some(part) = self.tangent.tabled.first().filter(|_| is_unsettled) {
+                    return Err(CeaError::Unsettled {
+                        key: part.gain.table.key().to_owned(),
+                        friction_coefficient: point.friction_coefficient,
+                        frequency_hz,
+                        residual: check.residual,
+                    });
+                }
                 if check.residual.is_nan() || check.residual > RESIDUAL_BOUND {
                     return Err(CeaError::NotConverged {
                         friction_coefficient: point.friction_coefficient,

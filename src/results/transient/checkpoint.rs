@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 pub const CHECKPOINT: &str = "checkpoint.bin";
 
 const MAGIC: [u8; 8] = *b"FRICSIMC";
-const VERSION: u32 = 4;
+const VERSION: u32 = 5;
 
 /// A checkpoint that cannot be used.
 #[derive(Debug, thiserror::Error)]

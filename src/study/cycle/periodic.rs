@@ -93,7 +93,12 @@ impl<'a> PeriodicStudy<'a> {
     }
 
     fn body(&self) -> TransientBody<'_> {
-        transient::body(self.case, &self.mesh, self.annulus.as_ref(), None)
+        transient::body(
+            (self.case, self.case.materials()),
+            &self.mesh,
+            self.annulus.as_ref(),
+            None,
+        )
     }
 
     /// The body with another value of a parameter, SI.

@@ -165,5 +165,10 @@ pub fn notes(body: &AssemblyBody) -> Vec<String> {
             rotors.join(", ")
         )
     });
-    closed.into_iter().chain(turning).collect()
+    let is_free = body.assembled().is_ok_and(|assembly| assembly.is_free());
+    let free = is_free.then(|| {
+        "nothing holds the bodies: their rigid motions, at frequency zero, are not listed; the modes are those of free parts"
+            .to_owned()
+    });
+    closed.into_iter().chain(turning).chain(free).collect()
 }

@@ -201,9 +201,11 @@ impl Linearized {
         self.model.pressed(self.model.state_of()[place])
     }
 
-    /// Nonzero values of `K`, `C`, `M` and the structural damping `H` there, empty without.
-    fn values(&self, place: usize) -> [Vec<f64>; 4] {
+    /// Nonzero values of `K`, `C`, `M` and the structural damping `H` there, empty without, at a frequency in Hz where stiffness
+    /// depends on that.
+    fn values(&self, place: usize, frequency_hz: f64) -> [Vec<f64>; 4] {
         let (tangent, mu) = (self.tangent(place), self.frictions[place]);
+        let tangent = tangent.at_frequency(frequency_hz);
         let structural = tangent.structural.as_ref();
         [
             tangent.stiffness.evaluate(mu),
@@ -300,19 +302,30 @@ fn responses(
     [above, below]: [&Linearized; 2],
     step: f64,
 ) -> Vec<Option<c64>> {
-    let mut changes = above.values(k);
-    for (change, value) in changes.iter_mut().zip(below.values(k)) {
-        let pairs = change.iter_mut().zip(value);
-        pairs.for_each(|(change, value)| *change = (*change - value) / (2.0 * step));
-    }
-    let pattern = above.tangent(k).stiffness.pattern();
-    let [stiffness, damping, mass, structural] = changes.each_ref().map(Vec::as_slice);
-    let response = |pair: &Option<ModePair>| {
-        let changes = [stiffness, damping, mass];
-        let pair = pair.as_ref()?;
-        Some(pair.lossy_response(pattern, changes, structural))
+    let changes_at = |target: c64| {
+        let frequency_hz = target.im / TAU;
+        let mut changes = above.values(k, frequency_hz);
+        for (change, value) in changes.iter_mut().zip(below.values(k, frequency_hz)) {
+            let pairs = change.iter_mut().zip(value);
+            pairs.for_each(|(change, value)| *change = (*change - value) / (2.0 * step));
+        }
+        changes
     };
-    place.pairs.iter().map(response).collect()
+    let pattern = above.tangent(k).stiffness.pattern();
+    let response = |pair: &Option<ModePair>, changes: &[Vec<f64>; 4]| {
+        let [stiffness, damping, mass, structural] = changes.each_ref().map(Vec::as_slice);
+        let pair = pair.as_ref()?;
+        Some(pair.lossy_response(pattern, [stiffness, damping, mass], structural))
+    };
+    let modes = place.targets.iter().zip(&place.pairs);
+    if above.tangent(k).tabled.is_empty() {
+        let changes = changes_at(c64::new(0.0, 0.0));
+        return modes.map(|(_, pair)| response(pair, &changes)).collect();
+    }
+    // Where stiffness depends on frequency the matrices are others for each mode.
+    modes
+        .map(|(target, pair)| response(pair, &changes_at(*target)))
+        .collect()
 }
 
 /// `d mu_c / d p` of the mode of a place by every parameter.

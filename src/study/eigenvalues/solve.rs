@@ -66,7 +66,8 @@ fn solve_with(
     let (mut found, method, instead) = match solved {
         Ok(found) => (found, model.model.method(), None),
         Err(error) => {
-            let whole = whole_mesh_instead(case, cea, model, &error)?.ok_or(error.clone())?;
+            let whole = whole_mesh_instead(case, cea, model, &error)?;
+            let whole = whole.ok_or_else(|| at_table(case, &error))?;
             let found = solve(&whole)?;
             (found, whole.method(), Some(instead_note(&error)))
         }
@@ -86,6 +87,7 @@ fn solve_with(
     notes.extend(found.notes);
     notes.extend(overdamped_note(case, model, &found.overdamped));
     notes.extend(model.solid().and_then(SolidBody::note));
+    notes.extend(table_notes(case));
     if found.without_sensitivities > 0 {
         notes.push(format!(
             "sensitivities.csv leaves {} of the branches out, which could not be found again at friction {friction}",
@@ -157,6 +159,36 @@ fn body_rates(
 
 /// Gaps of the sensitivities that a note lists.
 const MISSING_SHOWN: usize = 4;
+
+/// An error about a table of moduli at the key that names it; any other as it is.
+fn at_table(case: &Case, error: &CeaError) -> StudyError {
+    let help = "extend the table, or lower cea.max_frequency_hz or cea.modes";
+    match error {
+        CeaError::BeyondTable { key, .. } => {
+            let label = "does not cover the modes".to_owned();
+            let help = Some(help.to_owned());
+            case.error_at(key, error.to_string(), label, help).into()
+        }
+        other => other.clone().into(),
+    }
+}
+
+/// What the tables of moduli give to which part of the analysis.
+fn table_notes(case: &Case) -> Vec<String> {
+    let regions = 0..case.body.region_count();
+    let tables = regions.filter_map(|region| case.materials().table(region));
+    let notes = tables.map(|table| {
+        let [low, high] = table.range_hz();
+        format!(
+            "{} = \"{}\": each mode is solved at its own frequency (Im / 2 pi), {low} to {high} Hz; the base state, and what \
+             damping.stiffness_coefficient multiplies, have the modulus of the lowest one, {:e} Pa",
+            table.key(),
+            table.file(),
+            table.static_modulus()
+        )
+    });
+    notes.collect()
+}
 
 fn instead_note(error: &CeaError) -> String {
     let why = match error {

@@ -92,7 +92,7 @@ impl<'a> TransientStudy<'a> {
             }
             Body::Imported(imported) => Arc::clone(&imported.mesh),
             Body::Assembly(body) => {
-                assembly = Some(body.stepped()?);
+                assembly = Some(body.stepped_as(case.materials_in_time())?);
                 Arc::clone(&body.mesh)
             }
         };
@@ -112,7 +112,12 @@ impl<'a> TransientStudy<'a> {
     pub fn body(&self) -> TransientBody<'_> {
         match (&self.assembly, self.sector.as_ref()) {
             (Some(assembly), _) => settings::assembly(self.case, assembly).into(),
-            (None, sector) => settings::body(self.case, &self.mesh, self.annulus.as_ref(), sector),
+            (None, sector) => settings::body(
+                (self.case, self.case.materials_in_time()),
+                &self.mesh,
+                self.annulus.as_ref(),
+                sector,
+            ),
         }
     }
 
@@ -290,7 +295,7 @@ impl<'a> TransientStudy<'a> {
             mesh: &self.mesh,
             solid: self.sector.as_ref(),
             contact_nodes: self.body().interface().nodes,
-            material: case.materials(),
+            material: case.materials_in_time(),
             has_harmonics: case.has_sectors(),
             thickness: self.thickness(),
             extent: extent_of(case),

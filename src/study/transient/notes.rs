@@ -2,7 +2,7 @@
 
 use super::TransientStudy;
 use crate::case::ModeSelection;
-use crate::fem::assemble_stiffness;
+use crate::fem::{RelaxedMaterials, assemble_stiffness};
 use crate::prestress::{PrestressError, SteadySliding};
 use crate::transient::{InitialState, Recorder, TransientAnalysis};
 
@@ -29,7 +29,31 @@ impl TransientStudy<'_> {
             self.beyond_modes(analysis),
             coarse_step(record, analysis, time_step),
         ];
-        found.into_iter().flatten().collect()
+        let found = found.into_iter().flatten();
+        found.chain(self.chains()).collect()
+    }
+
+    /// What stands in time for stiffness that belongs to frequencies.
+    fn chains(&self) -> Vec<String> {
+        let relaxed = self.case.relaxed.iter();
+        let chains = relaxed.flat_map(RelaxedMaterials::chains);
+        let said = chains.map(|(region, chain)| {
+            let name = match self.mesh.regions.get(region) {
+                Some(name) => format!("region {name}"),
+                None => "the body".to_owned(),
+            };
+            let [low, high] = chain.band_hz;
+            format!(
+                "{name}: a Maxwell chain of {} elements stands for its modulus and loss factor from {low:.4} to {high:.4} Hz, \
+                 within {:.2} % of the complex modulus there; at rest it has {:.4} times the modulus that the case gives, at once \
+                 {:.4} times",
+                chain.elements.len(),
+                100.0 * chain.largest_error,
+                chain.at_rest,
+                chain.at_rest * chain.glassy()
+            )
+        });
+        said.collect()
     }
 
     /// That the body has no state of steady sliding, so that it jams or jumps.
@@ -48,7 +72,7 @@ impl TransientStudy<'_> {
         if !starts_at_rest || case.has_sectors() || case.contact.sliding.rotation_speed == 0.0 {
             return None;
         }
-        let stiffness = assemble_stiffness(&self.mesh, case.materials());
+        let stiffness = assemble_stiffness(&self.mesh, case.materials_in_time());
         let contact = &case.contact;
         let law = contact.stiffness.law;
         let base = SteadySliding::solve_with(&self.mesh, &stiffness, &contact.sliding, law);

@@ -1,6 +1,7 @@
 //! From the case's terms to those of the time loop, and its errors back to keys of the case.
 
 use crate::case::{Case, Transient};
+use crate::fem::MaterialField;
 use crate::mesh::{AnnulusMesh, Mesh, SolidSector};
 use crate::prestress::Assembly;
 use crate::study::StudyError;
@@ -11,7 +12,7 @@ use crate::transient::{
 
 /// The body of a case; `mesh` and `annulus` are the section of one in three dimensions, `sector`.
 pub fn body<'a>(
-    case: &'a Case,
+    (case, materials): (&'a Case, &'a dyn MaterialField),
     mesh: &'a Mesh,
     annulus: Option<&'a AnnulusMesh>,
     sector: Option<&'a SolidSector>,
@@ -37,7 +38,7 @@ pub fn body<'a>(
     TransientModel {
         mesh,
         annulus,
-        material: case.materials(),
+        material: materials,
         damping,
         contact,
         stiffness,

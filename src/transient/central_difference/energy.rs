@@ -14,7 +14,7 @@ impl CentralDifference<'_> {
             .zip(self.displacement_before.iter())
             .map(|((q, m), u)| m * q * u)
             .sum();
-        [0.5 * kinetic, 0.5 * strain]
+        [0.5 * kinetic, 0.5 * strain + self.relaxation.energy()]
     }
 
     /// `E_{n-1/2}` (8) before step `n`, with `u_{n-1} = u_n - dt v_{n-1/2}`.
@@ -30,6 +30,7 @@ impl CentralDifference<'_> {
         })
         .sum::<f64>()
             + self.contact_energy()
+            + self.relaxation.energy()
     }
 
     /// Energy of the contact's springs at `n - 1/2`, `n` the next step.
@@ -49,6 +50,9 @@ impl CentralDifference<'_> {
         }
         self.operator
             .multiply(&mut fields.velocity, &mut fields.elastic_rate);
+        if self.next_step > 0 {
+            self.relaxation.rewind(&self.fields, self.plan.time_step);
+        }
         self.net_work += self.energy_before_step() - before;
     }
 }

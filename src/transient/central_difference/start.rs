@@ -104,6 +104,7 @@ impl<'a> CentralDifference<'a> {
             elastic: scatter(operator, &state.elastic),
             elastic_rate: scatter(operator, &state.elastic_rate),
         };
+        run.relaxation.restore(&state.relaxation)?;
         run.next_step = state.step;
         run.initial_energy = state.initial_energy;
         run.net_work = state.net_work;
@@ -182,6 +183,7 @@ impl<'a> CentralDifference<'a> {
             },
             contact: body.lagrange_contact(operator, &interface)?,
             boundary: body.boundary_forces(operator),
+            relaxation: body.relaxation(operator),
             interface,
             next_step: 0,
             initial_energy: 0.0,

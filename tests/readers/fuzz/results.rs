@@ -177,6 +177,7 @@ fn no_checkpoint_makes_its_reader_panic() {
         velocity: vec![0.0; 4],
         elastic: vec![0.0; 4],
         elastic_rate: vec![0.0; 4],
+        relaxation: vec![vec![0.0; 2]; 2],
         initial_energy: 0.0,
         net_work: 0.0,
         largest_energy: 0.0,

@@ -66,28 +66,31 @@ impl Parts<'_> {
     ) -> Vec<Row> {
         let beta = self.options.damping.stiffness_coefficient;
         let mut rows = Vec::new();
-        for (region, (name, pair, [alpha, own_beta, eta])) in self.regions.iter().enumerate() {
-            let [mass, stiffness] = pair.multiply(shapes.columns.as_ref());
+        for (region, own) in self.regions.iter().enumerate() {
+            let [mass, stiffness] = own.pair.multiply(shapes.columns.as_ref());
             let (m, k) = (shapes.forms(&mass), shapes.forms(&stiffness));
             let g = self.geometric_forms(model, shapes, region);
             let each = (0..shapes.modes.len()).map(|i| {
+                let lambda = shapes.modes[i].1.eigenvalue;
+                let ratio = own.ratio(lambda);
+                let strain = ratio.re * k[i];
                 sums.kinetic[i] += m[i];
-                sums.strain[i] += k[i];
+                sums.strain[i] += strain;
                 // A loss factor takes like a dashpot `eta k / omega`.
-                let loss = eta * k[i] / shapes.modes[i].1.eigenvalue.im;
-                let damping = alpha * m[i] + own_beta * k[i] + beta * g[i] + loss;
-                [m[i], k[i], damping]
+                let loss = ratio.im * k[i] / lambda.im;
+                let damping = own.alpha * m[i] + own.beta * k[i] + beta * g[i] + loss;
+                [m[i], strain, damping]
             });
             rows.push(Row {
-                name: name.clone(),
+                name: own.name.clone(),
                 source: Source::Part,
                 forms: each.collect(),
             });
             if let Some(balance) = &mut sums.balance {
                 let factors = |lambda: c64| {
                     [
-                        lambda * lambda + lambda * alpha,
-                        lambda * own_beta + c64::new(1.0, *eta),
+                        lambda * lambda + lambda * own.alpha,
+                        lambda * own.beta + own.ratio(lambda),
                     ]
                 };
                 shapes.add(balance, [&mass, &stiffness], factors);

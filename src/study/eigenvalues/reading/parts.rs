@@ -3,16 +3,18 @@
 use super::shapes::Shapes;
 use crate::case::Case;
 use crate::fem::{
-    Triplets, assemble_patch_damping, assemble_point_masses, assemble_region,
+    ModulusTable, Triplets, assemble_patch_damping, assemble_point_masses, assemble_region,
     assemble_region_geometric_stiffness, assemble_supports,
 };
-use crate::linalg::{Mat, MatRef, MatrixPolynomial};
+use crate::linalg::{Mat, MatRef, MatrixPolynomial, c64};
 use crate::mesh::{BoundaryCondition, Mesh};
 use crate::prestress::{DampingModel, TangentOptions};
 use crate::study::eigenvalues::model::Model;
 use crate::study::eigenvalues::sliding::{SlidingModel, SteadyState};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
+use std::f64::consts::TAU;
+use std::sync::Arc;
 
 /// Mass and stiffness on one pattern.
 pub(super) struct Pair(MatrixPolynomial);
@@ -39,13 +41,33 @@ impl Pair {
     }
 }
 
+/// A region of a body.
+pub(super) struct Region {
+    pub name: String,
+    pub pair: Pair,
+    pub alpha: f64,
+    pub beta: f64,
+    eta: f64,
+    table: Option<Arc<ModulusTable>>,
+}
+
+impl Region {
+    /// What its stiffness is multiplied by at the frequency of an eigenvalue: `1 + i eta`, or what a table says.
+    pub fn ratio(&self, lambda: c64) -> c64 {
+        match &self.table {
+            Some(table) => table.ratio(lambda.im / TAU),
+            None => c64::new(1.0, self.eta),
+        }
+    }
+}
+
 /// The bodies of a model as sums.
 pub(super) struct Parts<'a> {
     pub case: &'a Case,
     pub mesh: &'a Mesh,
     pub options: &'a TangentOptions,
-    /// Each region with its name and its coefficients `alpha`, `beta`, `eta`.
-    pub regions: Vec<(String, Pair, [f64; 3])>,
+    /// Each region with its name and its coefficients `alpha`, `beta`, `eta`, and the table that its stiffness follows.
+    pub regions: Vec<Region>,
     /// Dashpots and springs of each support with its `eta`, and last of the modifications.
     pub supports: Vec<(String, Pair, f64)>,
     /// Point masses.
@@ -79,12 +101,14 @@ impl<'a> Parts<'a> {
         let regions = mesh.regions.iter().enumerate().map(|(region, name)| {
             let own = assemble_region(mesh, materials, options.mass, region);
             let damping = materials.own_damping(region).unwrap_or(options.damping);
-            let coefficients = [
-                damping.mass_coefficient,
-                damping.stiffness_coefficient,
-                materials.of(region).loss_factor,
-            ];
-            (name.clone(), Pair::new(count, own), coefficients)
+            Region {
+                name: name.clone(),
+                pair: Pair::new(count, own),
+                alpha: damping.mass_coefficient,
+                beta: damping.stiffness_coefficient,
+                eta: materials.of(region).loss_factor,
+                table: materials.table(region).cloned(),
+            }
         });
         let regions = regions.collect();
         let masses = assemble_point_masses(mesh);
@@ -120,7 +144,7 @@ impl<'a> Parts<'a> {
 
     /// `M x` of all regions and point masses.
     pub fn mass_image(&self, x: MatRef<'_, f64>) -> Mat<f64> {
-        let regions = self.regions.iter().map(|(_, pair, _)| pair);
+        let regions = self.regions.iter().map(|region| &region.pair);
         let mut sum = Mat::zeros(x.nrows(), x.ncols());
         for pair in regions.chain(&self.attached) {
             sum += pair.mass_image(x);

@@ -1,0 +1,196 @@
+//! `materials.*.table`: modulus and loss factor over frequency.
+
+use super::raw::{RawCase, TableBytes};
+use super::reader::Section;
+use crate::fem::ModulusTable;
+use crate::signal::reader::{ModulusRow, read_moduli};
+use std::path::Path;
+use std::sync::Arc;
+
+/// Largest table, bytes.
+const LARGEST: u64 = 16 << 20;
+/// A modulus that falls by more than this part of its largest value so far, beyond the scatter of measurements, is none of a passive
+/// material.
+const FALL: f64 = 0.05;
+
+/// The tables of a case: known already, or files beside it.
+pub(super) struct TableFiles<'a> {
+    raw: &'a RawCase,
+    read: Vec<TableBytes>,
+}
+
+impl<'a> TableFiles<'a> {
+    /// Those of a case, none read yet.
+    pub(super) fn of(raw: &'a RawCase) -> Self {
+        Self {
+            raw,
+            read: Vec::new(),
+        }
+    }
+
+    /// What was read.
+    pub(super) fn into_read(self) -> Vec<TableBytes> {
+        self.read
+    }
+
+    fn bytes(&mut self, file: &str) -> Result<Arc<[u8]>, String> {
+        let known = self.read.iter().chain(&self.raw.tables);
+        let mut known = known.filter(|table| table.file == file);
+        let bytes = match known.next() {
+            Some(table) => Arc::clone(&table.bytes),
+            None => {
+                let folder = Path::new(&self.raw.name).parent().unwrap_or(Path::new(""));
+                read_file(&folder.join(file))?
+            }
+        };
+        if !self.read.iter().any(|table| table.file == file) {
+            self.read.push(TableBytes {
+                file: file.to_owned(),
+                bytes: Arc::clone(&bytes),
+            });
+        }
+        Ok(bytes)
+    }
+}
+
+fn read_file(path: &Path) -> Result<Arc<[u8]>, String> {
+    let fail = |reason: String| format!("cannot read the table {}: {reason}", path.display());
+    let size = std::fs::metadata(path)
+        .map_err(|error| fail(error.to_string()))?
+        .len();
+    if size > LARGEST {
+        return Err(fail(format!("it is larger than {} MiB", LARGEST >> 20)));
+    }
+    let bytes = std::fs::read(path).map_err(|error| fail(error.to_string()))?;
+    Ok(bytes.into())
+}
+
+/// The table of a section of `[materials.*]`, where it has one; `files` is none for a body whose analyses do not take it.
+pub(super) fn modulus_table(
+    section: &Section<'_>,
+    files: Option<&mut TableFiles<'_>>,
+) -> Option<Arc<ModulusTable>> {
+    let file = section.optional_text("table")?;
+    let reject = |message: String, label: &str, help: &str| {
+        let (message, label) = (
+            format!("{}: {message}", section.name("table")),
+            label.to_owned(),
+        );
+        section.reject("table", message, label, Some(help.to_owned()));
+    };
+    let Some(files) = files else {
+        reject(
+            "the bodies of an annulus are solved harmonic by harmonic from one real problem, which a modulus over frequency has not"
+                .to_owned(),
+            "needs a mesh file",
+            "describe the body by mesh.file, or give young_modulus and loss_factor",
+        );
+        return None;
+    };
+    let readable = files.bytes(&file);
+    let rows = readable.and_then(|bytes| read_moduli(&bytes, &file).map_err(|e| e.to_string()));
+    let rows = match rows {
+        Ok(rows) => rows,
+        Err(reason) => {
+            reject(
+                reason,
+                "not a table of moduli",
+                "its columns are frequency_hz, young_modulus (Pa) and loss_factor",
+            );
+            return None;
+        }
+    };
+    if let Err((line, what, help)) = sound(&rows) {
+        reject(
+            format!("{file}:{line}: {what}"),
+            "no material is like that",
+            help,
+        );
+        return None;
+    }
+    if let Some((line, what)) = falling(&rows) {
+        let message = format!(
+            "{}: {file}:{line}: {what}; the modulus of a passive material rises with the frequency",
+            section.name("table")
+        );
+        section.warn("table", message, "falls with the frequency");
+    }
+    let rows = rows
+        .iter()
+        .map(|row| [row.frequency_hz, row.young_modulus, row.loss_factor]);
+    let key = section.name("table");
+    Some(Arc::new(ModulusTable::new(&key, &file, rows.collect())))
+}
+
+/// What no table can hold: line, what is wrong, remedy.
+fn sound(rows: &[ModulusRow]) -> Result<(), (usize, String, &'static str)> {
+    if let [only] = rows {
+        let what = "one row alone covers no range of frequencies".to_owned();
+        return Err((
+            only.line,
+            what,
+            "give young_modulus and loss_factor instead, or more rows",
+        ));
+    }
+    let mut before = f64::NEG_INFINITY;
+    for row in rows {
+        let ModulusRow {
+            line,
+            frequency_hz,
+            young_modulus,
+            loss_factor,
+        } = *row;
+        if frequency_hz < 0.0 {
+            let what = format!("the frequency {frequency_hz} Hz is below zero");
+            return Err((line, what, "frequencies begin at 0 or above it"));
+        }
+        if frequency_hz <= before {
+            let what = format!(
+                "the frequency {frequency_hz} Hz does not lie above the {before} Hz before it"
+            );
+            return Err((
+                line,
+                what,
+                "sort the rows by frequency and leave repeated ones out",
+            ));
+        }
+        if young_modulus <= 0.0 {
+            let what = format!("the modulus {young_modulus} Pa is not above zero");
+            return Err((line, what, "a modulus is positive at every frequency"));
+        }
+        if loss_factor < 0.0 {
+            let what = format!(
+                "the loss factor {loss_factor} is below zero: the material would give energy"
+            );
+            return Err((line, what, "a loss factor is zero or positive"));
+        }
+        if loss_factor > 1.0 {
+            let what = format!(
+                "the loss factor {loss_factor} is beyond 1, where half of the strain energy is lost in a sixth of a cycle"
+            );
+            return Err((
+                line,
+                what,
+                "at most 1; rubber has 0.1 to 1. Is it in percent?",
+            ));
+        }
+        before = frequency_hz;
+    }
+    Ok(())
+}
+
+/// The first row whose modulus lies well below that of one before: line and what it says.
+fn falling(rows: &[ModulusRow]) -> Option<(usize, String)> {
+    let mut largest = 0.0_f64;
+    for row in rows {
+        if row.young_modulus < (1.0 - FALL) * largest {
+            let what = format!(
+                "the modulus falls from {largest:e} to {:e} Pa",
+                row.young_modulus
+            );
+            return Some((row.line, what));
+        }
+        largest = largest.max(row.young_modulus);
+    }
+    None
+}

@@ -1,0 +1,237 @@
+//! Forces of Maxwell elements: what a stiffness that depends on frequency is in time.
+
+use super::TransientError;
+use crate::fem::operator::{MotionFields, StiffnessOperator};
+use crate::fem::{MassKind, MaterialField, Triplets, assemble_region};
+use crate::mesh::Mesh;
+use std::collections::BTreeMap;
+
+/// The elements of all regions that have a chain ([`crate::fem::MaxwellChain`]).
+///
+/// Element `j` of a region with the stiffness `K` at rest has a motion `z_j` of its spring and the force `s_j K z_j`:
+///
+/// ```text
+/// z_j' = v - z_j / tau_j
+/// z_{n+1} - z_n = dt v_{n+1/2} - dt (z_{n+1} + z_n) / (2 tau)
+/// ```
+///
+/// The force of `z_n` acts in step `n` beside `K u_n`. With the energy `1/2 s z_{n+1}^T K z_n` of a spring and
+///
+/// ```text
+/// D_n = s / (4 tau) z_n^T K (z_{n+1} + 2 z_n + z_{n-1})
+/// ```
+///
+/// for the power of its dashpot, `E_{n+1/2} - E_{n-1/2} = dt (v_n^T s K z_n - D_n)` holds exactly, as for the springs of the body.
+#[derive(Debug, Default)]
+pub(super) struct Relaxation {
+    parts: Vec<Part>,
+}
+
+/// A region.
+#[derive(Debug)]
+struct Part {
+    /// Places of its dofs in the fields, and their masses.
+    places: Vec<usize>,
+    masses: Vec<f64>,
+    /// `K` over these, row by row: where each row ends, and its columns with their values.
+    ends: Vec<usize>,
+    entries: Vec<(usize, f64)>,
+    elements: Vec<Element>,
+    /// Elastic acceleration and velocity before the step.
+    before: Vec<[f64; 2]>,
+}
+
+#[derive(Debug)]
+struct Element {
+    time: f64,
+    stiffness: f64,
+    /// `z_n` and `z_{n-1}`.
+    stretch: Vec<f64>,
+    stretch_before: Vec<f64>,
+    /// `K` times the older of the two that the last step had.
+    image: Vec<f64>,
+}
+
+impl Relaxation {
+    /// The elements of the regions of a mesh; `bound` takes its ties and held dofs out of a matrix.
+    pub fn new(
+        mesh: &Mesh,
+        materials: &dyn MaterialField,
+        operator: &dyn StiffnessOperator,
+        bound: &dyn Fn(Triplets) -> Triplets,
+    ) -> Self {
+        let regions = 0..mesh.regions.len().max(1);
+        let parts = regions.filter_map(|region| {
+            let chain = materials.chain(region)?;
+            let [_, stiffness] = assemble_region(mesh, materials, MassKind::Lumped, region);
+            let mut part = Part::new(&bound(stiffness), operator);
+            let still = vec![0.0; part.places.len()];
+            let elements = chain.elements.iter().map(|own| Element {
+                time: own.time,
+                stiffness: own.stiffness,
+                stretch: still.clone(),
+                stretch_before: still.clone(),
+                image: still.clone(),
+            });
+            part.elements = elements.collect();
+            Some(part)
+        });
+        Self {
+            parts: parts.collect(),
+        }
+    }
+
+    /// Adds the forces of the coming step to the elastic accelerations.
+    pub fn apply(&mut self, fields: &mut MotionFields) {
+        for part in &mut self.parts {
+            part.look();
+            for (i, &place) in part.places.iter().enumerate() {
+                part.before[i] = [fields.elastic[place], fields.velocity[place]];
+                let elements = part.elements.iter();
+                let force: f64 = elements.map(|own| own.stiffness * own.image[i]).sum();
+                fields.elastic[place] += force / part.masses[i];
+            }
+        }
+    }
+
+    /// Takes them out again after the step and moves the elements on; the power of their dashpots, W/m.
+    pub fn settle(&mut self, fields: &mut MotionFields, time_step: f64) -> f64 {
+        let mut power = 0.0;
+        for part in &mut self.parts {
+            for (i, &place) in part.places.iter().enumerate() {
+                fields.elastic[place] = part.before[i][0] + time_step * fields.elastic_rate[place];
+            }
+            for own in &mut part.elements {
+                let [kept, gained] = own.factors(time_step);
+                let mut lost = 0.0;
+                for (i, &place) in part.places.iter().enumerate() {
+                    let (now, last) = (own.stretch[i], own.stretch_before[i]);
+                    let next = kept * now + gained * fields.velocity[place];
+                    lost += own.image[i] * (next + 2.0 * now + last);
+                    (own.stretch[i], own.stretch_before[i]) = (next, now);
+                }
+                power += 0.25 * own.stiffness / own.time * lost;
+            }
+        }
+        power
+    }
+
+    /// Energy of their springs at `n - 1/2`, `n` the next step, J/m.
+    pub fn energy(&self) -> f64 {
+        let elements = self.parts.iter().flat_map(|part| &part.elements);
+        let energy = elements.map(|own| {
+            let pairs = own.image.iter().zip(&own.stretch);
+            0.5 * own.stiffness * pairs.map(|(force, z)| force * z).sum::<f64>()
+        });
+        energy.sum()
+    }
+
+    /// Lets the elements come to the next step with the velocity `v_{n-1/2}` that the fields have now, another one than they came with.
+    pub fn rewind(&mut self, fields: &MotionFields, time_step: f64) {
+        for part in &mut self.parts {
+            for own in &mut part.elements {
+                let [kept, gained] = own.factors(time_step);
+                for (i, &place) in part.places.iter().enumerate() {
+                    own.stretch_before[i] =
+                        (own.stretch[i] - gained * fields.velocity[place]) / kept;
+                }
+            }
+            part.look_back();
+        }
+    }
+
+    /// `z_n` and `z_{n-1}` of every element.
+    pub fn state(&self) -> Vec<Vec<f64>> {
+        let elements = self.parts.iter().flat_map(|part| &part.elements);
+        let both = elements.flat_map(|own| [own.stretch.clone(), own.stretch_before.clone()]);
+        both.collect()
+    }
+
+    /// Takes up what [`Self::state`] gave.
+    ///
+    /// # Errors
+    /// [`TransientError::ForeignState`] for the elements of another body.
+    pub fn restore(&mut self, state: &[Vec<f64>]) -> Result<(), TransientError> {
+        let count = |all: &[Vec<f64>]| all.iter().map(Vec::len).sum::<usize>();
+        let (expected, found) = (count(&self.state()), count(state));
+        let sizes: Vec<usize> = self.state().iter().map(Vec::len).collect();
+        if sizes != state.iter().map(Vec::len).collect::<Vec<usize>>() {
+            return Err(TransientError::ForeignState { found, expected });
+        }
+        let mut pairs = state.chunks_exact(2);
+        for part in &mut self.parts {
+            for own in &mut part.elements {
+                if let Some([now, last]) = pairs.next() {
+                    own.stretch.copy_from_slice(now);
+                    own.stretch_before.copy_from_slice(last);
+                }
+            }
+            part.look_back();
+        }
+        Ok(())
+    }
+}
+
+impl Element {
+    /// What a step keeps of `z`, and what it takes of the velocity.
+    fn factors(&self, time_step: f64) -> [f64; 2] {
+        let half = 0.5 * time_step / self.time;
+        [(1.0 - half) / (1.0 + half), time_step / (1.0 + half)]
+    }
+}
+
+impl Part {
+    /// The dofs of a matrix that have a mass, without elements.
+    fn new(stiffness: &Triplets, operator: &dyn StiffnessOperator) -> Self {
+        let mut rows: BTreeMap<usize, BTreeMap<usize, f64>> = BTreeMap::new();
+        let mass = |dof: usize| operator.masses()[operator.position(dof)];
+        for &(row, column, value) in &stiffness.entries {
+            if mass(row) > 0.0 && mass(column) > 0.0 {
+                *rows.entry(row).or_default().entry(column).or_default() += value;
+            }
+        }
+        let number: BTreeMap<usize, usize> = rows.keys().copied().zip(0..).collect();
+        let (mut ends, mut entries) = (Vec::new(), Vec::new());
+        for columns in rows.values() {
+            let known = columns.iter();
+            entries.extend(known.filter_map(|(dof, value)| Some((*number.get(dof)?, *value))));
+            ends.push(entries.len());
+        }
+        let dofs = || number.keys().copied();
+        Self {
+            places: dofs().map(|dof| operator.position(dof)).collect(),
+            masses: dofs().map(mass).collect(),
+            before: vec![[0.0; 2]; number.len()],
+            ends,
+            entries,
+            elements: Vec::new(),
+        }
+    }
+
+    /// `K z_n` of every element.
+    fn look(&mut self) {
+        for own in &mut self.elements {
+            multiply(&self.ends, &self.entries, &own.stretch, &mut own.image);
+        }
+    }
+
+    /// `K z_{n-1}` of every element.
+    fn look_back(&mut self) {
+        for own in &mut self.elements {
+            let (ends, entries) = (&self.ends, &self.entries);
+            multiply(ends, entries, &own.stretch_before, &mut own.image);
+        }
+    }
+}
+
+/// `y = K x`.
+fn multiply(ends: &[usize], entries: &[(usize, f64)], x: &[f64], y: &mut [f64]) {
+    let mut start = 0;
+    for (y, &end) in y.iter_mut().zip(ends) {
+        *y = entries[start..end]
+            .iter()
+            .map(|&(j, value)| value * x[j])
+            .sum();
+        start = end;
+    }
+}

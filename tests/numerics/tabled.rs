@@ -1,0 +1,384 @@
+//! Modulus and loss factor over frequency: every mode at its own frequency, against dense matrices frozen there.
+
+use crate::block::block;
+use crate::disc::{POLYCARBONATE, annulus, contact};
+use crate::structural_damping::{dense_eigenvalues, eigenvalues, largest_error, solved};
+use faer::c64;
+use frictionsim::cea::sparse::{mode_pairs, sweep};
+use frictionsim::cea::{CeaError, ModeLimit, SweepRequest};
+use frictionsim::contact::ContactStiffness;
+use frictionsim::fem::{
+    ElasticMaterial, MassKind, ModulusTable, PlaneFormulation, RayleighDamping, RegionMaterial,
+    TabledMaterial, assemble_stiffness,
+};
+use frictionsim::frf::{Direction, FrfSystem, Terminal, direct_response};
+use frictionsim::mesh::{
+    AnnulusMesh, AnnulusSpecification, BoundaryCondition, ElasticSupport, ElementKind, Mesh,
+    ShaftSpecification,
+};
+use frictionsim::prestress::{
+    Assembly, BaseChoice, DampingModel, SlidingTangent, SteadySliding, TangentOptions,
+};
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+/// A modulus that rises fivefold over the modes of the disc, with much damping.
+fn rubber(scale: f64) -> Vec<[f64; 3]> {
+    let rows = [
+        [100.0, 1.0, 0.05],
+        [2000.0, 1.6, 0.3],
+        [5000.0, 2.8, 0.5],
+        [9000.0, 4.0, 0.4],
+        [30000.0, 5.5, 0.2],
+    ];
+    rows.map(|[f, e, eta]| [f, scale * e, eta]).to_vec()
+}
+
+/// The disc, whose modulus depends on frequency, on a deformable shaft of steel.
+fn tangent(rows: Vec<[f64; 3]>, contact_stiffness: ContactStiffness) -> SlidingTangent {
+    let specification = AnnulusSpecification {
+        shaft: Some(ShaftSpecification {
+            inner_radius: 0.006,
+            radial_elements: 1,
+            bore: BoundaryCondition::Clamped,
+        }),
+        ..annulus(ElementKind::Quad4, 16, 3)
+    };
+    let mesh = AnnulusMesh::generate(&specification).unwrap().mesh;
+    let steel = ElasticMaterial {
+        young_modulus: 2.1e11,
+        poisson_ratio: 0.3,
+        density: 7850.0,
+        loss_factor: 0.002,
+        ..POLYCARBONATE
+    };
+    let table = ModulusTable::new("materials.disc.table", "rubber.csv", rows);
+    let disc = ElasticMaterial {
+        young_modulus: table.static_modulus(),
+        ..POLYCARBONATE
+    };
+    let own = |elastic| RegionMaterial {
+        elastic,
+        damping: None,
+    };
+    let materials = vec![
+        TabledMaterial {
+            own: own(disc),
+            table: Some(Arc::new(table)),
+        },
+        own(steel).into(),
+    ];
+    let elastic = assemble_stiffness(&mesh, &materials);
+    let base = SteadySliding::solve(&mesh, &elastic, &contact(610.0)).unwrap();
+    let options = TangentOptions {
+        mass: MassKind::Consistent,
+        geometric_stiffness: true,
+        damping: RayleighDamping {
+            mass_coefficient: 20.0,
+            stiffness_coefficient: 1e-7,
+        },
+        damping_model: DampingModel::WholeTangent,
+        contact: contact_stiffness,
+    };
+    SlidingTangent::linearize(&mesh, &materials, &elastic, &base, &options)
+}
+
+/// Independent check: dense companion matrices with the stiffness frozen at a found eigenvalue's own frequency have that eigenvalue,
+/// and frozen at the limit as many below it as were found; at the critical friction there is no growth.
+#[test]
+fn every_mode_has_the_stiffness_of_its_own_frequency() {
+    let springs = ContactStiffness {
+        normal_stiffness: Some(2e12),
+        loss_factor: 0.05,
+        ..ContactStiffness::default()
+    };
+    for contact_stiffness in [ContactStiffness::default(), springs] {
+        let tangent = tangent(rubber(1e9), contact_stiffness);
+        let (frictions, limit_hz) = ([0.0, 0.3, 0.6, 0.9], 11000.0);
+        let request = SweepRequest {
+            friction_coefficients: &frictions,
+            limit: ModeLimit::MaxFrequency(limit_hz),
+            shapes_at: &[],
+        };
+        let found = sweep(&tangent, &request, &|_| {}).unwrap();
+        for (point, &mu) in frictions.iter().enumerate() {
+            let own = eigenvalues(&found, point);
+            for lambda in &own {
+                let frozen = tangent.at_frequency(lambda.im / TAU);
+                let error = largest_error(&dense_eigenvalues(&frozen, mu), &[*lambda]);
+                // An eigenvalue is as good as the product of the errors of its vectors.
+                assert!(error < 1e-8, "{mu} {lambda} {error:e}");
+            }
+            let at_limit = dense_eigenvalues(&tangent.at_frequency(limit_hz), mu);
+            let expected = at_limit.iter().filter(|v| v.im < TAU * limit_hz).count();
+            println!("mu {mu}: {} modes, {expected} expected", own.len());
+            assert_eq!(own.len(), expected, "{mu}");
+        }
+        println!("{:?}", found.intervals);
+        for interval in &found.intervals {
+            let omega = TAU * interval.frequency_hz;
+            let frozen = tangent.at_frequency(interval.frequency_hz);
+            let onset = dense_eigenvalues(&frozen, interval.critical_friction);
+            let distances = onset.iter().map(|v| (v.im - omega).hypot(v.re));
+            let nearest = distances.fold(f64::INFINITY, f64::min);
+            assert!(nearest < 1e-7 * omega, "{interval:?} {nearest:e}");
+        }
+    }
+}
+
+/// Theory: a table of one modulus and one loss factor is that material, to the solver's own bounds.
+#[test]
+fn a_flat_table_is_a_material_with_a_loss_factor() {
+    let flat = vec![[10.0, 2.5e9, 0.1], [1e5, 2.5e9, 0.1]];
+    let tangent = tangent(flat, ContactStiffness::default());
+    let frozen = tangent.at_frequency(1000.0).into_owned();
+    let frictions = [0.0, 0.3];
+    let (found, expected) = (solved(&tangent, &frictions), solved(&frozen, &frictions));
+    for point in 0..2 {
+        let (own, other) = (eigenvalues(&found, point), eigenvalues(&expected, point));
+        let error = largest_error(&own, &other);
+        println!("{error:e}");
+        assert!(error < 1e-9, "{error:e}");
+    }
+}
+
+/// Consistency check: derivatives by friction and by the modulus are differences of whole solutions, the stiffness following.
+#[test]
+fn derivatives_follow_the_frequency_of_the_mode() {
+    let springs = ContactStiffness {
+        normal_stiffness: Some(2e12),
+        ..ContactStiffness::default()
+    };
+    let (mu, step) = (0.4, 1e-3);
+    let tangent_of = |scale: f64| tangent(rubber(scale), springs);
+    let own = tangent_of(1e9);
+    let targets = eigenvalues(&solved(&own, &[mu]), 0);
+    let pairs = mode_pairs(&own, mu, &targets, 12).unwrap();
+    let [above, below] = [1.0, -1.0].map(|s| eigenvalues(&solved(&own, &[mu + s * step]), 0));
+    let [stiffer, softer] =
+        [1.0, -1.0].map(|s| eigenvalues(&solved(&tangent_of(1e9 * (1.0 + s * step)), &[mu]), 0));
+    let nearest = |all: &[c64], value: c64| {
+        let distance = |v: &&c64| (**v - value).norm();
+        *all.iter()
+            .min_by(|a, b| distance(a).total_cmp(&distance(b)))
+            .unwrap()
+    };
+    for pair in pairs.iter().flatten() {
+        let value = pair.eigenvalue;
+        let by_friction = (nearest(&above, value) - nearest(&below, value)) / (2.0 * step);
+        // Central differences: the third derivative times the square of the step.
+        let error = (pair.derivative - by_friction).norm();
+        assert!(
+            error < 1e-3 * by_friction.norm() + 1e-4 * value.norm() * step,
+            "{value} {error:e}"
+        );
+        let frozen = [1.0, -1.0].map(|s| {
+            let moved = tangent_of(1e9 * (1.0 + s * step));
+            let moved = moved.at_frequency(value.im / TAU).into_owned();
+            let structural = moved.structural.as_ref().unwrap().evaluate(mu);
+            [
+                moved.stiffness.evaluate(mu),
+                moved.damping.evaluate(mu),
+                moved.mass.evaluate(mu),
+                structural,
+            ]
+        });
+        let change = |k: usize| -> Vec<f64> {
+            let pairs = frozen[0][k].iter().zip(&frozen[1][k]);
+            pairs.map(|(a, b)| (a - b) / (2.0 * step)).collect()
+        };
+        let [dk, dc, dm, dh] = [0, 1, 2, 3].map(change);
+        let response = pair.lossy_response(own.stiffness.pattern(), [&dk, &dc, &dm], &dh);
+        let by_modulus = (nearest(&stiffer, value) - nearest(&softer, value)) / (2.0 * step);
+        let error = (response - by_modulus).norm();
+        println!("{value} {response} {by_modulus}");
+        assert!(error < 1e-3 * by_modulus.norm(), "{value} {error:e}");
+    }
+}
+
+/// Theory: the response at a line is that of the matrices frozen there.
+#[test]
+fn a_line_of_the_response_has_the_stiffness_of_its_frequency() {
+    let tangent = tangent(rubber(1e9), ContactStiffness::default());
+    let system = FrfSystem::sliding(&tangent, 0.3);
+    let terminal = |node: usize| Terminal {
+        node,
+        direction: Direction::Radial,
+    };
+    let free = (0..60).filter_map(|node| system.unknown(terminal(node), "force_node").ok());
+    let free: Vec<usize> = free.collect();
+    let (force, response) = (free[2], free[9]);
+    let lines = [500.0, 4000.0, 4001.0, 9000.0];
+    let found = direct_response(&system, force, response, &lines).unwrap();
+    for (line, own) in lines.iter().zip(found.receptance) {
+        let frozen = FrfSystem::sliding(&tangent.at_frequency(*line), 0.3);
+        let expected = direct_response(&frozen, force, response, &[*line])
+            .unwrap()
+            .receptance[0];
+        // Round-off of two factorizations times the condition of the matrix.
+        assert!((own - expected).norm() < 1e-8 * expected.norm(), "{line}");
+    }
+}
+
+#[test]
+fn a_mode_beyond_the_table_is_refused_with_its_frequency() {
+    let short = vec![[100.0, 2e9, 0.1], [3000.0, 2.5e9, 0.1]];
+    let tangent = tangent(short, ContactStiffness::default());
+    let request = SweepRequest {
+        friction_coefficients: &[0.0, 0.3],
+        limit: ModeLimit::Lowest(8),
+        shapes_at: &[],
+    };
+    let error = sweep(&tangent, &request, &|_| {}).unwrap_err();
+    let CeaError::BeyondTable {
+        range_hz,
+        frequency_hz,
+        ..
+    } = &error
+    else {
+        panic!("{error}");
+    };
+    assert_eq!(*range_hz, [100.0, 3000.0]);
+    assert!(*frequency_hz > 3000.0 && error.is_usage(), "{error}");
+}
+
+/// Theory (D. Ross, E. E. Ungar, E. M. Kerwin, in: Structural Damping, ASME 1959): a simply supported beam of two elastic faces `h` on
+/// a viscoelastic core `c`, which shears alone,
+///
+/// ```text
+/// -lambda^2 m = B (n pi / L)^4,   B = E h^3 / 6 + E h d^2 / 2 * g / (1 + g),   g = 2 G(f) (1 + i eta(f)) / (E h c (n pi / L)^2)
+/// ```
+///
+/// with `d = h + c`, at the frequency of the mode itself.
+#[test]
+fn a_sandwich_beam_loses_what_ross_kerwin_and_ungar_say() {
+    const LENGTH: f64 = 0.4;
+    const FACE: f64 = 0.002;
+    const CORE: f64 = 0.001;
+    let rows = vec![
+        [1.0, 4e6, 0.3],
+        [50.0, 9e6, 0.6],
+        [200.0, 16e6, 0.8],
+        [1000.0, 30e6, 0.9],
+        [5000.0, 60e6, 0.7],
+    ];
+    let table = ModulusTable::new("materials.core.table", "core.csv", rows);
+
+    // Three layers of 20-node bricks; faces without Poisson's contraction are a beam.
+    let mut file = block(ElementKind::Hex20, [40, 1, 3], |[x, y, z]| {
+        let layers = [0.0, FACE, FACE + CORE, 2.0 * FACE + CORE];
+        let (layer, share) = ((3.0 * z) as usize, (3.0 * z).fract());
+        let top = layers[(layer + 1).min(3)];
+        [
+            LENGTH * x,
+            0.02 * y,
+            layers[layer] + share * (top - layers[layer]),
+        ]
+    });
+    for element in &mut file.elements {
+        let middle: f64 = element
+            .nodes
+            .iter()
+            .map(|&n| file.points[n as usize][2])
+            .sum();
+        let middle = middle / element.nodes.len() as f64;
+        let is_core = middle > FACE && middle < FACE + CORE;
+        element.region = if is_core { "core" } else { "faces" }.into();
+    }
+    let sides = ["x0", "x1", "y0", "y1"].map(|side| {
+        let is_end = side.starts_with('x');
+        let held = BoundaryCondition::Fixed([false, !is_end, is_end]);
+        (side.to_owned(), held)
+    });
+    // Nothing else holds the beam along itself: at 1.5 Hz it moves as a whole.
+    let soft = BoundaryCondition::Support(ElasticSupport {
+        tangential_stiffness: 1e3,
+        ..ElasticSupport::default()
+    });
+    let held = [&sides[..], &[("z1".to_owned(), soft)]].concat();
+    let mesh = Mesh::from_solids(&file, 1.0, &held).unwrap();
+    let solid = |young_modulus: f64, poisson_ratio: f64, density: f64| ElasticMaterial {
+        young_modulus,
+        poisson_ratio,
+        density,
+        formulation: PlaneFormulation::ThreeDimensional,
+        ..ElasticMaterial::PLAIN
+    };
+    let own = |elastic| RegionMaterial {
+        elastic,
+        damping: None,
+    };
+    let poisson_ratio = 0.3;
+    let core = TabledMaterial {
+        own: own(solid(table.static_modulus(), poisson_ratio, 1000.0)),
+        table: Some(Arc::new(table.clone())),
+    };
+    let face: TabledMaterial = own(solid(7e10, 0.0, 2700.0)).into();
+    let regions = mesh.regions.iter();
+    let materials: Vec<TabledMaterial> = regions
+        .map(|name| {
+            if name == "core" {
+                core.clone()
+            } else {
+                face.clone()
+            }
+        })
+        .collect();
+    let closed = BaseChoice::Closed;
+    let assembly = Assembly::new(&mesh, &materials, &[], &[], &[], closed).unwrap();
+    let state = assembly.range(&[0.0]).unwrap();
+    let options = TangentOptions {
+        mass: MassKind::Consistent,
+        geometric_stiffness: false,
+        damping: RayleighDamping::default(),
+        damping_model: DampingModel::WholeTangent,
+        contact: ContactStiffness::default(),
+    };
+    let tangent = assembly.tangent(&state.states[0], &options).unwrap();
+    let request = SweepRequest {
+        friction_coefficients: &[0.0],
+        limit: ModeLimit::Lowest(5),
+        shapes_at: &[],
+    };
+    let found = eigenvalues(&sweep(&tangent, &request, &|_| {}).unwrap(), 0);
+
+    let mass = 2.0 * FACE * 2700.0 + CORE * 1000.0;
+    for n in 1..=3 {
+        let wave = f64::from(n) * std::f64::consts::PI / LENGTH;
+        let rigidity = |frequency_hz: f64| {
+            let [modulus, loss_factor] = table.at(frequency_hz);
+            let shear = c64::new(1.0, loss_factor) * (modulus / (2.0 * (1.0 + poisson_ratio)));
+            let stretch = 7e10 * FACE;
+            let g = shear * 2.0 / (stretch * CORE * wave * wave);
+            let apart = FACE + CORE;
+            7e10 * FACE.powi(3) / 6.0 + g / (g + 1.0) * (0.5 * stretch * apart * apart)
+        };
+        let mut lambda = c64::new(0.0, TAU * 50.0);
+        for _ in 0..100 {
+            lambda =
+                c64::new(0.0, 1.0) * (rigidity(lambda.im / TAU) * (wave.powi(4) / mass)).sqrt();
+        }
+        let nearest = found
+            .iter()
+            .min_by(|a, b| (**a - lambda).norm().total_cmp(&(**b - lambda).norm()));
+        let own = *nearest.unwrap();
+        let loss = |lambda: c64| {
+            let square = lambda * lambda;
+            square.im.abs() / square.re.abs()
+        };
+        println!(
+            "{n}: {own} {lambda}; eta {:.5} {:.5}",
+            loss(own),
+            loss(lambda)
+        );
+        // The theory leaves out shear of the faces, rotatory inertia and stretch of the core.
+        assert!(
+            (loss(own) / loss(lambda) - 1.0).abs() < 0.01,
+            "{n} {own} {lambda}"
+        );
+        assert!(
+            (own.im / lambda.im - 1.0).abs() < 0.01,
+            "{n} {own} {lambda}"
+        );
+    }
+}
