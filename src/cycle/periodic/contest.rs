@@ -2,7 +2,7 @@
 
 use super::map::PeriodMap;
 use super::start::GrowingMode;
-use super::vector::{add, difference, dot};
+use super::vector::{add, difference, dot, norm};
 use crate::contact::ContactStatus;
 use crate::cycle::basin::{AGREEING_WINDOWS, CONSTANT, LOOKS, LOST, SEED, WINDOW, is_final};
 use crate::cycle::{BasinRequest, BasinRun};
@@ -179,9 +179,13 @@ impl<'m, 'a> ModeContest<'m, 'a> {
         self.map.place(&state);
     }
 
-    /// Slip amplitude of each mode in the motion, m: that of least squares.
+    /// Slip amplitude of each mode in the motion, m: that of least squares. One mode alone stands for whatever vibrates: only what is
+    /// at rest is steady sliding.
     fn amplitudes(&self) -> Vec<f64> {
         let motion = difference(&self.map.motion(), &self.base);
+        if let [one] = &self.modes[..] {
+            return vec![norm(&motion) / norm(&one.patterns[0])];
+        }
         let patterns = self.modes.iter().flat_map(|own| &own.patterns);
         let products = DVector::from_iterator(
             2 * self.modes.len(),

@@ -142,12 +142,16 @@ impl BasinSummary {
                     "steady sliding comes back from every kick along {name} looked at, up to {low:.3} of the one that makes a contact \
                      node stick"
                 ),
+                (None, Some(low), Some(high)) if low > high => format!(
+                    "steady sliding comes back from a kick along {name} of {low:.3} and not from one of {high:.3} of the one that makes a \
+                     contact node stick: no single boundary lies between (narrow basin.seed_ratio_from and basin.seed_ratio_to)"
+                ),
                 (None, Some(low), Some(high)) => format!(
-                    "a kick along {name} tips steady sliding into its limit cycle from {low:.3} to {high:.3} of the one that makes a \
+                    "a kick along {name} tips steady sliding into a limit cycle from {low:.3} to {high:.3} of the one that makes a \
                      contact node stick"
                 ),
                 _ => format!(
-                    "every kick along {name} looked at tips steady sliding into its limit cycle"
+                    "every kick along {name} looked at tips steady sliding into a limit cycle"
                 ),
             };
         }
