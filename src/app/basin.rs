@@ -1,4 +1,4 @@
-//! `frictionsim basin`: which of two waves wins.
+//! `frictionsim basin`: which of two motions wins.
 
 use super::profile::{Profile, Redraw};
 use super::{Failure, RunOptions, Session, terminal};
@@ -9,8 +9,9 @@ use clap::Args;
 
 /// Which of two limit cycles wins: the amplitude ratio at saturation that decides
 ///
-/// Transients from steady sliding with two waves seeded, the ratio of the seeds bisected until the amplitude ratio is known
-/// above which the second wave wins. Needs a basin section in the case. A map over speed and friction is a sweep with
+/// Transients from steady sliding with two waves seeded, on a body without rotating waves two modes, the ratio of the seeds bisected
+/// until the amplitude ratio is known above which the second one wins; with one mode, the kick that tips stable sliding into its
+/// limit cycle. Needs a basin section in the case. A map over speed and friction is a sweep with
 /// analyses = ["basin"].
 #[derive(Args)]
 pub struct Arguments {

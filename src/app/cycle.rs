@@ -14,7 +14,7 @@ use clap::Args;
 /// Limit cycles without time stepping
 ///
 /// On the built-in annulus: finds the rotating wave that steady sliding gives way to, for each harmonic asked for, as a
-/// steady contact problem along its phase; follows it over a parameter (cycle.continuation). On any other plane body: finds
+/// steady contact problem along its phase; follows it over a parameter (cycle.continuation). On any other body, plane or solid: finds
 /// the periodic motion that each growing mode ends in, as a fixed point of the transient's own steps over one period. Says
 /// whether it is stable, and lets a short transient confirm it. Needs a cycle section in the case. On these bodies Ctrl-C and
 /// SIGTERM keep the cycles and the points of branches that are done, and --resume continues to the same tables as an
@@ -52,7 +52,7 @@ pub const PROFILE: Profile = Profile {
         ),
         (
             "frictionsim cycle block.toml --resume",
-            "go on where a search on any other plane body was interrupted",
+            "go on where a search on any other body was interrupted",
         ),
     ],
     redraw: Redraw::OfCase(figures::redraw),

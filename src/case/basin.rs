@@ -1,4 +1,4 @@
-//! `[basin]`: which of two waves wins.
+//! `[basin]`: which of two motions wins.
 
 use super::body::Body;
 use super::reader::Section;
@@ -10,7 +10,22 @@ pub(super) fn basin(root: &Section<'_>, body: Option<&Body>) -> Option<BasinRequ
     let pair = section
         .harmonics(body.and_then(Body::sector_count))
         .unwrap_or_else(|| vec![1, 2]);
+    let modes = section.counts("modes");
+    let modes: Option<Vec<usize>> =
+        modes.map(|values| values.into_iter().map(|(mode, _)| mode).collect());
+    if let Some(modes) = &modes
+        && !(1..=2).contains(&modes.len())
+    {
+        section.reject(
+            "modes",
+            "basin.modes must name two different modes, or one that competes with steady sliding"
+                .to_owned(),
+            "one or two of them".to_owned(),
+            None,
+        );
+    }
     let request = BasinRequest {
+        modes,
         harmonics: [pair.first(), pair.last()].map(|n| n.copied().unwrap_or(1)),
         seed_ratios: [
             section.number("seed_ratio_from"),

@@ -60,19 +60,18 @@ impl Case {
     /// The search for limit cycles.
     ///
     /// # Errors
-    /// A case without `[cycle]`, a body in three dimensions, one of Quad8 elements that is generated, a counterface at rest, and
-    /// of rotating waves a cylinder that turns backwards.
+    /// A case without `[cycle]`, a body that the transient cannot step, a counterface at rest, and of rotating waves a cylinder
+    /// that turns backwards.
     pub fn require_cycle(&self) -> Result<&Cycle, CaseErrors> {
-        let remedy = "[cycle]\nharmonics = [1, 2]";
+        self.refuse_losses_in_time("the search for limit cycles")?;
+        self.refuse_what_has_no_cycle()?;
+        // What no section would help against comes first.
+        let remedy = match self.has_rotating_waves() {
+            true => "[cycle]\nharmonics = [1, 2]",
+            false => "[cycle]\nonsets = \"all\"",
+        };
         let cycle = self.cycle.as_ref();
         let cycle = cycle.ok_or_else(|| self.lacks("cycle", "limit cycle", remedy))?;
-        self.refuse_losses_in_time("the search for limit cycles")?;
-        if let Body::Revolution(_) | Body::Assembly(_) = &self.body {
-            return Err(self.not_plane("the search for limit cycles takes"));
-        }
-        if self.body.annulus().is_some() {
-            self.require_quad4("limit cycles need \"quad4\"")?;
-        }
         let speed = self.contact.sliding.rotation_speed;
         let is_moving = match self.has_rotating_waves() {
             true => speed > 0.0,
@@ -82,6 +81,7 @@ impl Case {
             return Ok(cycle);
         }
         let key = match self.raw.find("contact.speed") {
+            _ if self.body.assembly().is_some() => "motion",
             Some(_) => "contact.speed",
             None => "contact.rotation_speed_rpm",
         };
@@ -103,6 +103,19 @@ impl Case {
                 Some("give a speed; its sign is the sense of the sliding".to_owned()),
             ),
         })
+    }
+
+    /// Refuses a body whose limit cycles cannot be motions of the transient.
+    pub(super) fn refuse_what_has_no_cycle(&self) -> Result<(), CaseErrors> {
+        match &self.body {
+            Body::Annulus(_) => self.require_quad4("limit cycles need \"quad4\"")?,
+            Body::Revolution(_) => self.require_quad4(
+                "limit cycles need bricks of 8 nodes, \"quad4\": they are motions of the transient, which lumps the mass",
+            )?,
+            Body::Imported(_) => {}
+            Body::Assembly(assembly) => self.check_stepped(assembly)?,
+        }
+        Ok(())
     }
 
     /// Whether the limit cycles of the body are rotating waves: on the generated annulus around a rigid shaft, with a constant

@@ -229,9 +229,10 @@ pub const KEYS: &[CaseKey] = &[
     key("sweep.combine", Choice(words::<Combination>), "", Value("\"grid\""), "\"grid\"", "how several swept keys combine"),
     key("sweep.analyses", Choices(words::<Analysis>), "", Otherwise("every one that the case has a section for"), "[\"transient\"]", "what runs at each point"),
 
-    key("basin.harmonics", Counts(1), "", Otherwise("[1, 2]"), "[1, 2]", "the two harmonics that compete, the first and the second"),
-    key("basin.seed_ratio_from", Number(Positive), "", Value("0.02"), "0.02", "the smallest seed of the second wave, in units of that of the first"),
-    key("basin.seed_ratio_to", Number(Positive), "", Value("50.0"), "50.0", "the largest seed of the second wave, in units of that of the first"),
+    key("basin.harmonics", Counts(1), "", Otherwise("[1, 2]"), "[1, 2]", "of the built-in disc the two harmonics that compete, the first and the second"),
+    key("basin.modes", Counts(1), "", Otherwise("the two that grow fastest"), "[13, 15]", "of all other bodies the two modes that compete, as `cycle` numbers them; one alone competes with steady sliding"),
+    key("basin.seed_ratio_from", Number(Positive), "", Value("0.02"), "0.02", "the smallest seed of the second one, in units of that of the first; of one mode its smallest kick, in units of the one that makes a contact node stick"),
+    key("basin.seed_ratio_to", Number(Positive), "", Value("50.0"), "50.0", "the largest seed of the second one, or the largest kick, in the same units"),
     key("basin.tolerance", Number(AtLeast(1.01)), "", Value("1.5"), "1.5", "the factor between the two bounds of the boundary at which the search ends"),
     key("basin.periods", Count(50), "", Value("2000"), "2000", "the most periods of the slower wave that one transient takes"),
     key("cycle.harmonics", Counts(1), "", Otherwise("those that are unstable"), "[1, 2]", "the harmonics whose limit cycle is sought"),

@@ -267,19 +267,36 @@ impl Case {
     /// The two waves that compete.
     ///
     /// # Errors
-    /// A case without `[basin]`, and one whose friction falls with speed or whose contact stiffens.
+    /// A case without `[basin]`, a body that the transient cannot step, and keys of another kind of body.
     pub fn require_basin(&self) -> Result<&crate::cycle::BasinRequest, CaseErrors> {
         let remedy = "[basin]\nharmonics = [1, 2]";
         self.refuse_losses_in_time("the search for a basin")?;
-        self.require_rigid_shaft("the search for a basin")?;
+        self.refuse_what_has_no_cycle()?;
         let found = self.basin.as_ref();
         let found = found.ok_or_else(|| self.lacks("basin", "search for a basin", remedy))?;
-        self.require_annulus(
-            "limit cycles are rotating waves, which",
-            "the search for basins takes",
-        )?;
-        self.require_constant_friction()?;
-        Ok(found)
+        // Each kind of body has keys of its own.
+        let is_wave = self.has_rotating_waves();
+        let (key, message, remedy) = match is_wave {
+            true => (
+                "basin.modes",
+                "basin.modes is not used: the limit cycles of this disc are rotating waves",
+                "name two of them by basin.harmonics",
+            ),
+            false => (
+                "basin.harmonics",
+                "basin.harmonics is not used: the limit cycles of this body are motions of the whole mesh, born from its modes",
+                "name one or two modes by basin.modes, as `cycle` numbers them",
+            ),
+        };
+        match self.raw.find(key) {
+            None => Ok(found),
+            Some(_) => Err(self.error_at(
+                key,
+                message.to_owned(),
+                "not used".to_owned(),
+                Some(remedy.to_owned()),
+            )),
+        }
     }
 
     /// Limit cycles are sought under a constant friction coefficient.

@@ -178,7 +178,7 @@ impl Case {
             "material.formulation",
             format!("material.formulation = \"three-dimensional\": {what} plane bodies only"),
             "a three-dimensional body".to_owned(),
-            Some("`cea`, `transient`, `frf`, `sweep` and `convergence` take it; else use \"plane-stress\" or \"plane-strain\"".to_owned()),
+            Some("`cea`, `transient`, `cycle`, `basin`, `frf`, `sweep` and `convergence` take it; else use \"plane-stress\" or \"plane-strain\"".to_owned()),
         )
     }
 }

@@ -60,18 +60,7 @@ impl Case {
     /// # Errors
     /// A case without `[transient]`, and one of Quad8 elements, which the transient cannot run.
     pub fn require_transient(&self) -> Result<&Transient, CaseErrors> {
-        let remedy = "[transient]\nduration = 0.05";
-        let transient = self.transient.as_ref();
-        let transient = transient.ok_or_else(|| self.lacks("transient", "transient", remedy))?;
         self.refuse_losses_without_chain()?;
-        let cycle = matches!(transient.initial, InitialState::LimitCycle { .. });
-        if cycle {
-            self.refuse_losses_in_time("the search for the limit cycle that the run starts on")?;
-            self.require_annulus(
-                "limit cycles are rotating waves, which",
-                "limit cycles are sought in",
-            )?;
-        }
         match &self.body {
             Body::Annulus(_) => self.require_quad4("the transient needs \"quad4\"")?,
             Body::Revolution(_) => self.require_quad4(
@@ -80,17 +69,29 @@ impl Case {
             Body::Imported(_) => {}
             Body::Assembly(assembly) => self.check_stepped(assembly)?,
         }
+        // What no section would help against comes first.
+        let remedy = "[transient]\nduration = 0.05";
+        let transient = self.transient.as_ref();
+        let transient = transient.ok_or_else(|| self.lacks("transient", "transient", remedy))?;
+        let cycle = matches!(transient.initial, InitialState::LimitCycle { .. });
+        if cycle {
+            self.refuse_losses_in_time("the search for the limit cycle that the run starts on")?;
+            self.require_annulus(
+                "limit cycles are rotating waves, which",
+                "limit cycles are sought in",
+            )?;
+        }
         Ok(transient)
     }
 
-    /// Refuses what an assembly cannot have in a transient.
-    fn check_stepped(&self, assembly: &AssemblyBody) -> Result<(), CaseErrors> {
+    /// Refuses what an assembly cannot have in a transient, nor in a limit cycle, which is one.
+    pub(super) fn check_stepped(&self, assembly: &AssemblyBody) -> Result<(), CaseErrors> {
         if assembly.base == BaseChoice::Closed {
             return Err(self.error_at(
                 "contacts",
                 "contacts with state = \"closed\" are free of stress: without a normal force there is no friction to step in time"
                     .to_owned(),
-                "a transient needs state = \"solved\"".to_owned(),
+                "steps in time need state = \"solved\"".to_owned(),
                 Some("press the bodies together (condition = \"pressure\"), or leave `state` out".to_owned()),
             ));
         }

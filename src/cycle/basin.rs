@@ -16,23 +16,26 @@ use std::f64::consts::TAU;
 const SAFETY: f64 = 0.95;
 /// Velocity of the larger seed, in units of what saturates a wave, the slip speed or the interference times its frequency: a
 /// few e-folds below saturation, in which waves with the rotor die.
-const SEED: f64 = 0.01;
+pub(super) const SEED: f64 = 0.01;
 /// Looks at the edge in each period of the first wave.
-const LOOKS: usize = 8;
+pub(super) const LOOKS: usize = 8;
 /// Periods over which amplitudes are averaged before they are compared.
-const WINDOW: usize = 10;
+pub(super) const WINDOW: usize = 10;
 /// A wave with less than this share of the other's amplitude has lost, if it goes on falling.
-const LOST: f64 = 0.02;
+pub(super) const LOST: f64 = 0.02;
 /// Change of the amplitude ratio over one window that is none.
-const CONSTANT: f64 = 2e-3;
+pub(super) const CONSTANT: f64 = 2e-3;
 /// Windows after saturation that must agree on the end.
-const AGREEING_WINDOWS: usize = 3;
+pub(super) const AGREEING_WINDOWS: usize = 3;
 
 /// What is asked of two competing waves.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct BasinRequest {
     /// Circumferential harmonics of the two.
     pub harmonics: [usize; 2],
+    /// Of a body without rotating waves the numbers of the modes that compete, one or two; `None` takes the two that grow fastest,
+    /// or the one that grows fastest or decays slowest.
+    pub modes: Option<Vec<usize>>,
     /// Smallest and largest ratio of their seeds, second over first.
     pub seed_ratios: [f64; 2],
     /// Factor between the two bounds of the boundary at which the search ends.
@@ -67,6 +70,50 @@ pub struct BasinBoundary {
     pub runs: Vec<BasinRun>,
 }
 
+impl BasinRequest {
+    /// Bisects the ratio of two seeds for the one at which the second of two rivals wins.
+    ///
+    /// # Errors
+    /// Those of a run.
+    pub fn boundary<E>(
+        &self,
+        [first, second]: [usize; 2],
+        mut run: impl FnMut(f64) -> Result<BasinRun, E>,
+    ) -> Result<BasinBoundary, E> {
+        let mut runs = Vec::new();
+        let mut bounds = [None, None];
+        // The ends of the range first: one that wins at both has no rival.
+        let [mut low, mut high] = self.seed_ratios;
+        for ratio in [low, high] {
+            let run = run(ratio)?;
+            let bound = &mut bounds[usize::from(run.winner == second)];
+            // The second one's bound is its smallest ratio, the first's its largest.
+            if run.winner == first || bound.is_none() {
+                *bound = run.saturation_ratio;
+            }
+            runs.push(run);
+        }
+        let is_contested = runs[0].winner == first && runs[1].winner == second;
+        while is_contested && high / low > self.tolerance {
+            let middle = (low * high).sqrt();
+            let run = run(middle)?;
+            if run.winner == second {
+                high = middle;
+                bounds[1] = run.saturation_ratio;
+            } else {
+                low = middle;
+                bounds[0] = run.saturation_ratio;
+            }
+            runs.push(run);
+        }
+        Ok(BasinBoundary {
+            low: bounds[0],
+            high: bounds[1],
+            runs,
+        })
+    }
+}
+
 impl DiscModel {
     /// Bisects the ratio of two seeds until it is known at which amplitude ratio at saturation the second wave wins.
     ///
@@ -92,38 +139,7 @@ impl DiscModel {
             period: self.slowest_period(point, request)?,
             request,
         };
-        let [first, second] = request.harmonics;
-        let mut runs = Vec::new();
-        let mut bounds = [None, None];
-        // The ends of the range first: a wave that wins at both has no rival.
-        let [mut low, mut high] = request.seed_ratios;
-        for ratio in [low, high] {
-            let run = contest.run(ratio)?;
-            let bound = &mut bounds[usize::from(run.winner == second)];
-            // The second wave's bound is its smallest ratio, the first's its largest.
-            if run.winner == first || bound.is_none() {
-                *bound = run.saturation_ratio;
-            }
-            runs.push(run);
-        }
-        let is_contested = runs[0].winner == first && runs[1].winner == second;
-        while is_contested && high / low > request.tolerance {
-            let middle = (low * high).sqrt();
-            let run = contest.run(middle)?;
-            if run.winner == second {
-                high = middle;
-                bounds[1] = run.saturation_ratio;
-            } else {
-                low = middle;
-                bounds[0] = run.saturation_ratio;
-            }
-            runs.push(run);
-        }
-        Ok(BasinBoundary {
-            low: bounds[0],
-            high: bounds[1],
-            runs,
-        })
+        request.boundary(request.harmonics, |ratio| contest.run(ratio))
     }
 
     /// Period of the slower of the two waves that grow, s.
@@ -259,7 +275,7 @@ impl Contest<'_> {
 }
 
 /// Whether the amplitude ratio stays as it is from one window to the next, or leaves one wave less and less.
-fn is_final(before: f64, share: f64) -> bool {
+pub(super) fn is_final(before: f64, share: f64) -> bool {
     let change = share / before - 1.0;
     let is_lost = share < LOST && change < 0.0 || share > 1.0 / LOST && change > 0.0;
     is_lost || change.abs() < CONSTANT

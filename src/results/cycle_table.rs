@@ -9,11 +9,13 @@ use serde_json::Value;
 pub type CycleColumn = (&'static str, &'static str, f64, usize);
 
 /// Columns of every cycle.
-const COMMON: [CycleColumn; 12] = [
+const COMMON: [CycleColumn; 14] = [
     ("main frequency (Hz)", "/main_frequency_hz", 1.0, 2),
     ("stick (%)", "/status/stick", 100.0, 1),
     ("slip (%)", "/status/slip", 100.0, 1),
     ("open (%)", "/status/open", 100.0, 1),
+    ("velocity level (dB)", "/velocity_level_db", 1.0, 1),
+    ("sound power (dB)", "/sound/level_db", 1.0, 1),
     ("power of the counterface (W)", "/power_w/external", 1.0, 2),
     ("of it while sticking (W)", "/power_w/stick", 1.0, 2),
     ("while sliding (W)", "/power_w/slide", 1.0, 2),
@@ -90,6 +92,7 @@ pub fn cycle_results(name: &str, cycle: &Value, extent: Extent) -> Vec<(String, 
         None => verdict,
     };
     let level = number(cycle, "/velocity_level_db");
+    let sound = number(cycle, "/sound/level_db");
     let rows = [
         (
             "main frequency",
@@ -100,6 +103,14 @@ pub fn cycle_results(name: &str, cycle: &Value, extent: Extent) -> Vec<(String, 
         (
             "velocity level",
             level.map(|level| format!("{level:.1} dB over 5e-8 m/s, mean over time and mass")),
+        ),
+        (
+            "sound power",
+            sound.map(|level| {
+                format!(
+                    "{level:.1} dB over 1e-12 W, an estimate: Rayleigh integral, each flat face in an infinite rigid baffle"
+                )
+            }),
         ),
         ("stability", verdict.map(str::to_owned)),
     ];

@@ -1,4 +1,4 @@
-//! Search of a case for the basin boundary of two waves.
+//! Search of a case for the basin boundary of two waves, or of two modes of a body without symmetry.
 //!
 //! ```no_run
 //! use frictionsim::case::Case;
@@ -12,21 +12,32 @@
 //! ```
 
 use super::StudyError;
-use super::cycle::{disc_model, operating_point};
+use super::cycle::{boundary_of_modes, disc_model, operating_point};
 use crate::case::Case;
 use crate::cycle::BasinBoundary;
 use crate::fem::operator::SimdLevel;
 use crate::results::Manifest;
-use crate::results::basin::BasinSummary;
+use crate::results::basin::{BasinSummary, Rivals};
 use std::time::Instant;
 
-/// Bisects for the amplitude ratio at saturation that decides between the two waves of `[basin]`.
+/// Bisects for the amplitude ratio at saturation that decides between the two rivals of `[basin]`.
 ///
 /// # Errors
-/// [`StudyError::Case`] for a case without `[basin]`; steady sliding that is stable; a transient that cannot start.
+/// [`StudyError::Case`] for a case without `[basin]`; steady sliding of rotating waves that is stable; a transient that cannot
+/// start.
 pub fn boundary(case: &Case, simd: SimdLevel) -> Result<BasinBoundary, StudyError> {
+    Ok(contest(case, simd)?.1)
+}
+
+/// The rivals and the boundary between them.
+fn contest(case: &Case, simd: SimdLevel) -> Result<(Rivals, BasinBoundary), StudyError> {
     let request = case.require_basin()?;
-    Ok(disc_model(case)?.basin(&operating_point(case), request, simd)?)
+    if !case.has_rotating_waves() {
+        let (modes, found) = boundary_of_modes(case, request, simd)?;
+        return Ok((Rivals::Modes(modes), found));
+    }
+    let found = disc_model(case)?.basin(&operating_point(case), request, simd)?;
+    Ok((Rivals::Waves(request.harmonics), found))
 }
 
 /// As [`boundary`], in the words of its results.
@@ -35,9 +46,8 @@ pub fn boundary(case: &Case, simd: SimdLevel) -> Result<BasinBoundary, StudyErro
 /// As [`boundary`].
 pub fn summary(case: &Case, manifest: &Manifest) -> Result<BasinSummary, StudyError> {
     let start = Instant::now();
-    let request = case.require_basin()?;
-    let found = boundary(case, SimdLevel::choose(&manifest.simd)?)?;
+    let (rivals, found) = contest(case, SimdLevel::choose(&manifest.simd)?)?;
     let wall_s = start.elapsed().as_secs_f64();
     let title = &case.title;
-    Ok(BasinSummary::new(title, request, &found, wall_s, manifest))
+    Ok(BasinSummary::new(title, rivals, &found, wall_s, manifest))
 }

@@ -127,7 +127,10 @@ impl TransientBody<'_> {
     }
 
     /// Displacement of steady sliding over all dofs, m.
-    pub(super) fn sliding_displacement(&self) -> Result<Vec<f64>, TransientError> {
+    ///
+    /// # Errors
+    /// Where there is none.
+    pub fn sliding_displacement(&self) -> Result<Vec<f64>, TransientError> {
         match self {
             Self::Plane(model) => {
                 let stiffness = assemble_stiffness(model.mesh, model.material);

@@ -344,6 +344,30 @@ impl LagrangeContact {
         }
     }
 
+    /// Values of a field (displacement or velocity) at node `i` along the normal and along the sliding; between solid bodies those
+    /// of the one relative to the other.
+    pub fn relative(&self, i: usize, field: &[f64]) -> [f64; 2] {
+        match self.points {
+            Some(_) => [0, 1].map(|row| self.row_at_node(i, row, field)),
+            None => [field[self.normal[i]], field[self.tangential[i]]],
+        }
+    }
+
+    /// Speed of the counterface at node `i`, m/s: what a node that sticks has for [`Self::relative`] velocity along the sliding.
+    pub fn counterface_speed(&self, i: usize) -> f64 {
+        match (&self.points, &self.face) {
+            (Some(_), _) => self.speed_at_node(i),
+            (None, Some(face)) => face.speed(i),
+            (None, None) => self.surface_speed,
+        }
+    }
+
+    /// Friction coefficient at node `i`; none where it falls with the slip speed.
+    pub fn friction_coefficient(&self, i: usize) -> Option<f64> {
+        let law = self.law_at_node(i).unwrap_or(self.law);
+        law.decay.is_none().then_some(law.friction_coefficient)
+    }
+
     /// Place of each node's normal dof in a field; none where contact is at points.
     pub fn normal_places(&self) -> &[usize] {
         &self.normal

@@ -106,10 +106,9 @@ fn numbers_that_a_law_lacks_or_does_not_have_are_said_with_their_key() {
         message.contains("rotating wave of rigid contact"),
         "{message}"
     );
-    let basin = read(DISC, &["basin={ harmonics=[1, 2] }", "cycle={}"]).unwrap();
+    let basin = read(DISC, &["basin={}", "cycle={}"]).unwrap();
     assert!(!basin.has_rotating_waves());
-    let message = basin.require_basin().unwrap_err().to_string();
-    assert!(message.contains("stiffens with pressure"), "{message}");
+    assert!(basin.require_basin().is_ok());
     let free =
         "boundaries.outer={ condition = \"support\", tangential_damping = 1.0, loss_factor = 0.1 }";
     let message = read(DISC, &[free]).unwrap_err();

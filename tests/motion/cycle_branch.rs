@@ -17,7 +17,7 @@ use std::sync::Mutex;
 
 /// The oscillator's cycles over the speed of its plane: friction falls too slowly at high speed to feed a vibration, and the
 /// cycle that sticks lives on beyond the speed at which sliding becomes stable.
-fn over_speed(folder: &Path, stability: &str, to: f64, further: &[&str]) -> Case {
+pub fn over_speed(folder: &Path, stability: &str, to: f64, further: &[&str]) -> Case {
     let cycle = format!(
         "cycle={{ confirmation_periods = 0, stability = \"{stability}\", continuation = {{ key = \"contact.speed\", from = 0.2, to \
          = {to}, count = 15 }} }}"

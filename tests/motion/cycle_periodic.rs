@@ -14,7 +14,7 @@ use frictionsim::study::transient::TransientStudy;
 use crate::oscillator::{EventDriven, oscillator};
 
 /// A shipped case under overrides.
-fn shipped(name: &str, overrides: &[&str]) -> Case {
+pub fn shipped(name: &str, overrides: &[&str]) -> Case {
     let path = format!("{}/cases/{name}", env!("CARGO_MANIFEST_DIR"));
     let overrides: Vec<String> = overrides.iter().map(|text| text.to_string()).collect();
     Case::parse(&path, &std::fs::read(&path).unwrap(), &overrides).unwrap()
@@ -34,13 +34,13 @@ fn cycles(case: &Case) -> Vec<PeriodicResult> {
     study.run(0, &Unwatched, &|_| {}).unwrap()
 }
 
-fn found(result: &PeriodicResult) -> &FoundCycle {
+pub fn found(result: &PeriodicResult) -> &FoundCycle {
     result.outcome.as_ref().unwrap()
 }
 
 /// Holds the first cycle of a case to the end of its transient, which has a step of its own: frequency 1e-3, statuses 0.02, powers
 /// 2 % of the external one.
-fn hold_to_transient(case: &Case) -> PeriodicResult {
+pub fn hold_to_transient(case: &Case) -> PeriodicResult {
     let result = cycles(case).remove(0);
     let motion = &found(&result).motion;
     let solved = TransientStudy::new(case, SimdLevel::detect()).unwrap();

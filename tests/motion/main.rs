@@ -7,9 +7,11 @@ mod disc;
 
 mod assembly;
 mod cycle;
+mod cycle_basin;
 mod cycle_branch;
 mod cycle_discs;
 mod cycle_periodic;
+mod cycle_solids;
 mod cycle_transient;
 mod oscillator;
 mod transient;

@@ -1,7 +1,8 @@
 //! `frictionsim cycle` on a body without symmetry.
 
 use crate::app::{Failure, Session, terminal};
-use crate::case::Case;
+use crate::case::{Body, Case};
+use crate::mesh::SolidSector;
 use crate::results::cea::KeptSteps;
 use crate::results::periodic::{
     PeriodicFigures, PeriodicRecord, PeriodicReport, PeriodicResult, doubt, draw, print,
@@ -86,21 +87,33 @@ pub fn draw_record(
     options: &DrawingOptions,
 ) -> Result<(), Failure> {
     let record: PeriodicRecord = read_record(folder.path())?;
+    let sector = match &case.body {
+        Body::Revolution(body) => {
+            Some(SolidSector::generate(&body.specification).map_err(Failure::usage)?)
+        }
+        _ => None,
+    };
     let mesh = case.mesh().map_err(Failure::usage)?;
-    let dofs = 2 * mesh.node_count();
-    let nodes = crate::contact::ContactInterface::of(&mesh).len();
-    let mut cycles = record.cycles.iter();
-    let is_own = cycles.all(|motion| {
-        motion.nodes() == nodes
-            && motion.displacement_field.len() == dofs
-            && motion.velocity_field.len() == dofs
+    let whole = sector.as_ref().map_or(mesh.node_count(), |sector| {
+        sector.node_count() * sector.sector_count()
     });
+    let dofs = case.body.dimension() * whole;
+    let mut cycles = record.cycles.iter();
+    let is_own = record.nodes.iter().all(|&node| (node as usize) < whole)
+        && cycles.all(|motion| {
+            motion.displacement_field.len() == dofs && motion.velocity_field.len() == dofs
+        });
     refuse_misfit(folder.path(), is_own)?;
+    let contacts = case.body.assembly().into_iter();
+    let contacts = contacts.flat_map(|body| &body.contacts);
     let data = PeriodicFigures {
         record: &record,
         mesh: &mesh,
+        solid: sector.as_ref(),
+        surfaces: contacts
+            .map(|own| (own.name.clone(), own.surface))
+            .collect(),
         materials: case.materials(),
-        contact: case.contact.sliding,
     };
     draw(folder, &data, summary, options)?;
     Ok(())

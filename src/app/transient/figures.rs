@@ -39,11 +39,11 @@ pub(super) fn draw_record(
     let run = RunFigures {
         record,
         analysis: &study.analyse(record),
-        mesh: &study.mesh,
-        solid: study.sector.as_ref(),
+        mesh: &study.stepped.mesh,
+        solid: study.stepped.sector.as_ref(),
         has_harmonics: case.has_sectors(),
         material: case.materials(),
-        thickness: study.thickness(),
+        thickness: study.stepped.thickness(case),
         extent: extent_of(case),
         peripheral_speed: study.shown_speed(),
         references: stage.references,
@@ -95,7 +95,7 @@ pub fn draw_beside(
     for ((path, case), (study, record)) in runs.iter().zip(&records) {
         let last = record.snapshots.last();
         ends.push(RunEnd {
-            mesh: &study.mesh,
+            mesh: &study.stepped.mesh,
             material: case.materials(),
             damping: case.damping.rayleigh,
             snapshot: last.ok_or_else(|| {

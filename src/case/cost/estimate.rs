@@ -184,7 +184,7 @@ impl Case {
         let periods = search * (1 + followed) as f64
             + multipliers * analysed as f64
             + cycle.confirmation_periods as f64;
-        let unknowns = 2.0 * size.nodes as f64;
+        let unknowns = self.body.dimension() as f64 * size.nodes as f64;
         CycleCost {
             families,
             cycles: 1 + followed,

@@ -319,6 +319,8 @@ mod tests {
                 fractions: [0.0; 3],
                 shares: Vec::new(),
                 node: 0,
+                counterface_speed: 0.0,
+                friction_coefficient: None,
                 amplitude: 0.0,
                 velocity: 0.0,
                 instants: Vec::new(),

@@ -127,15 +127,14 @@ fn perturbed(map: &mut PeriodMap<'_>, state: &PeriodicState) -> PeriodicState {
 
 /// First harmonic over one period of the displacement of each contact node along the counterface.
 fn first_harmonic(map: &mut PeriodMap<'_>) -> Vec<c64> {
-    let places = map.run.contact().tangential_places().to_vec();
-    let mut sums = vec![c64::new(0.0, 0.0); places.len()];
+    let mut sums = vec![c64::new(0.0, 0.0); map.interface().len()];
     let steps = map.steps();
     for step in 0..steps {
         map.run.advance();
         let turn = c64::from_polar(1.0, -TAU * step as f64 / steps as f64);
-        let displacement = &map.run.fields().displacement;
-        for (sum, &place) in sums.iter_mut().zip(&places) {
-            *sum += displacement[place] * turn;
+        let (law, displacement) = (map.run.contact(), &map.run.fields().displacement);
+        for (i, sum) in sums.iter_mut().enumerate() {
+            *sum += law.slip(i, displacement) * turn;
         }
     }
     sums

@@ -67,7 +67,7 @@ impl PeriodImage {
 /// `P(x, T)`: `N` steps of `T / N` of the transient of a body, `N` a whole number that keeps the step below its limit.
 ///
 /// The map is that of the time loop itself ([`CentralDifference`]), continuous in state and period, with a kink wherever a node
-/// changes its status at another step. For each metre of thickness.
+/// changes its status at another step. For each metre of thickness, of a body in three dimensions for the whole.
 pub struct PeriodMap<'a> {
     pub(super) run: CentralDifference<'a>,
     /// Places of the moving dofs, with the roots of their masses.
@@ -134,10 +134,10 @@ impl<'a> PeriodMap<'a> {
         self.steps = steps;
     }
 
-    /// Mass that moves, kg/m: half the sum over both directions.
+    /// Mass that moves, kg/m, of a body in three dimensions kg: the mean over its directions.
     pub fn mass(&self) -> f64 {
         let masses = self.moving.iter().map(|(_, root)| root * root);
-        0.5 * masses.sum::<f64>()
+        masses.sum::<f64>() / self.run.body().components() as f64
     }
 
     /// Length of a state's motion.
@@ -169,7 +169,7 @@ impl<'a> PeriodMap<'a> {
         self.periods = other.periods;
     }
 
-    /// The contact edge.
+    /// The contact nodes.
     pub fn interface(&self) -> &ContactInterface {
         self.run.interface()
     }

@@ -1,6 +1,7 @@
-//! Limit cycles of bodies without symmetry: fixed points of the period map of the explicit transient.
+//! Limit cycles of bodies without symmetry and of bodies in three dimensions: fixed points of the period map of the explicit
+//! transient.
 //!
-//! A body of any plane shape has no rotating waves, and its limit cycle is a motion `x(t + T) = x(t)` of the whole mesh. It
+//! A body of any shape has no rotating waves, and its limit cycle is a motion `x(t + T) = x(t)` of the whole mesh. It
 //! is sought where the transient itself has it: `P(x, T)` are `N` steps of `T / N` of the time loop with its Lagrange
 //! multipliers, stick, slip, lift-off and impacts included, and a cycle is `P(x, T) = x` ([`PeriodMap`]). So cycle and
 //! transient are one discrete motion, and the energy balance of the time loop is that of the cycle.
@@ -17,9 +18,13 @@
 //! the point down: a value of `p`, or a length along the tangent in the plane of `p` and of the amplitude (H. B. Keller's
 //! pseudo-arclength, in two measures instead of all unknowns). The secants of one point serve the next, so most points take a few
 //! periods; the same search finds stable and unstable motions, and goes through folds.
+//!
+//! Everything here takes any body that the time loop steps, plane or solid: it sees a state, a step and the contact nodes. How loud a
+//! cycle is tells [`Sound`], and which of two wins from which start [`ModeContest`].
 
 mod branch;
 mod confirmation;
+mod contest;
 mod corrector;
 mod error;
 mod folds;
@@ -29,6 +34,7 @@ mod motion;
 mod multipliers;
 mod search;
 mod secants;
+mod sound;
 mod spectrum;
 mod start;
 mod two_frequencies;
@@ -36,15 +42,17 @@ mod vector;
 
 pub use branch::{BranchMotion, BranchRequest, KeptMotion, PeriodicBranch};
 pub use confirmation::MotionConfirmation;
+pub use contest::ModeContest;
 pub use error::PeriodicError;
 pub use map::{PeriodImage, PeriodMap, PeriodicState};
 pub use motion::{
-    ContactInstant, MotionRequest, PeriodicMotion, PeriodicPowers, REFERENCE_VELOCITY, REMAINDER,
-    velocity_level,
+    ContactInstant, MotionFrame, MotionRequest, PeriodicMotion, PeriodicPowers, REFERENCE_VELOCITY,
+    REMAINDER, velocity_level,
 };
 pub use multipliers::{FloquetMultiplier, FloquetMultipliers};
 pub use search::{ACCEPTED, Found, TOLERANCE, find};
 pub use secants::{Change, SecantSpace};
+pub use sound::{AIR, FlatFace, REFERENCE_POWER, Sound};
 pub use spectrum::MotionHarmonic;
 pub use start::{GrowingMode, balanced_start};
 pub use two_frequencies::two_frequencies;

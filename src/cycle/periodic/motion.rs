@@ -13,7 +13,7 @@ pub const REMAINDER: f64 = 1e-3;
 /// Reference of velocity levels, m/s.
 pub const REFERENCE_VELOCITY: f64 = 5e-8;
 
-/// Mean powers of a periodic motion, W for each metre of thickness.
+/// Mean powers of a periodic motion, W for each metre of thickness, of a body in three dimensions W.
 ///
 /// `external = stick + slide + contact_dissipated`, and
 /// `stick + slide + normal_contact = material_damping + contact_damping`.
@@ -52,9 +52,9 @@ pub struct ContactInstant {
     pub status: Vec<ContactStatus>,
     /// Contact pressure, Pa.
     pub pressure: Vec<f64>,
-    /// Contact shear, Pa.
+    /// Contact shear along the sliding, Pa.
     pub shear: Vec<f64>,
-    /// Displacement along the normal and along the counterface, m.
+    /// Displacement along the normal and along the counterface, between solid bodies that of the one relative to the other, m.
     pub displacement: Vec<[f64; 2]>,
     /// Velocity, m/s.
     pub velocity: Vec<[f64; 2]>,
@@ -69,7 +69,18 @@ pub struct MotionRequest {
     pub frames: usize,
 }
 
-/// A periodic motion of a body and its contact. For each metre of thickness.
+/// The whole body and its contact at one time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MotionFrame {
+    /// Time, s.
+    pub time: f64,
+    /// Displacement (m) and velocity (m/s) over all dofs in nodal frames.
+    pub fields: [Vec<f64>; 2],
+    /// Contact.
+    pub contact: ContactInstant,
+}
+
+/// A periodic motion of a body and its contact. For each metre of thickness, of a body in three dimensions for the whole.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PeriodicMotion {
     /// `1 / T`, Hz.
@@ -86,8 +97,13 @@ pub struct PeriodicMotion {
     pub fractions: [f64; 3],
     /// The same of each contact node.
     pub shares: Vec<[f64; 3]>,
-    /// Contact node, among those of the edge, that moves most along the counterface; time starts where it is farthest ahead.
+    /// Contact node, among those of the edge that touch at some time, that moves most along the counterface; time starts where it
+    /// is farthest ahead.
     pub node: usize,
+    /// Speed of the counterface at this node, m/s.
+    pub counterface_speed: f64,
+    /// Friction coefficient at this node; none where it falls with the slip speed.
+    pub friction_coefficient: Option<f64>,
     /// Half the range of its displacement along the counterface, m.
     pub amplitude: f64,
     /// Root mean square of the velocity over the period and the mass of the body, m/s.
@@ -96,8 +112,8 @@ pub struct PeriodicMotion {
     pub instants: Vec<ContactInstant>,
     /// Harmonics 1, 2, ... of the motion of the contact nodes.
     pub harmonics: Vec<MotionHarmonic>,
-    /// Time (s), displacement (m) and velocity (m/s) over all dofs in nodal frames, evenly spaced from zero on.
-    pub frames: Vec<(f64, [Vec<f64>; 2])>,
+    /// The whole body, evenly spaced in time from zero on.
+    pub frames: Vec<MotionFrame>,
 }
 
 impl PeriodicMotion {
@@ -116,8 +132,8 @@ impl PeriodicMotion {
 
     /// The motion, and the step at which the contact node that moves most is farthest ahead.
     fn brief(map: &mut PeriodMap<'_>, found: &Found) -> (Self, usize) {
-        let samples = contact_displacements(map, &found.state);
-        let (node, amplitude) = widest(&samples);
+        let (samples, touches) = contact_displacements(map, &found.state);
+        let (node, amplitude) = widest(&samples, &touches);
         let ahead = samples.iter().map(|sample| sample[node][1]).enumerate();
         let first = ahead
             .max_by(|a, b| a.1.total_cmp(&b.1))
@@ -134,6 +150,8 @@ impl PeriodicMotion {
             fractions: found.image.counts.fractions(),
             shares: Vec::new(),
             node,
+            counterface_speed: map.run.contact().counterface_speed(node),
+            friction_coefficient: map.run.contact().friction_coefficient(node),
             amplitude,
             velocity: found.image.amplitude / map.mass().sqrt(),
             instants: Vec::new(),
@@ -163,7 +181,11 @@ impl PeriodicMotion {
                 let later = gather(map.run.operator(), &map.run.fields().velocity);
                 let pairs = earlier.iter().zip(&later);
                 let velocity = pairs.map(|(a, b)| 0.5 * (a + b)).collect();
-                self.frames.push((time, [displacement, velocity]));
+                self.frames.push(MotionFrame {
+                    time,
+                    fields: [displacement, velocity],
+                    contact: instant(map, time, &before),
+                });
             }
             if is_one_of(step, steps, request.instants) {
                 self.instants.push(instant(map, time, &before));
@@ -226,9 +248,9 @@ fn place_of(status: ContactStatus) -> usize {
 /// Displacement and velocity of the contact nodes that the time loop is in.
 fn contact_motion(map: &PeriodMap<'_>) -> [Vec<[f64; 2]>; 2] {
     let (law, fields) = (map.run.contact(), map.run.fields());
-    let places = || law.normal_places().iter().zip(law.tangential_places());
+    let nodes = 0..map.interface().len();
     [&fields.displacement, &fields.velocity]
-        .map(|field| places().map(|(&n, &t)| [field[n], field[t]]).collect())
+        .map(|field| nodes.clone().map(|i| law.relative(i, field)).collect())
 }
 
 /// The contact at the step that has just been done, from the motion before it.
@@ -248,20 +270,29 @@ fn instant(map: &PeriodMap<'_>, time: f64, before: &[Vec<[f64; 2]>; 2]) -> Conta
     }
 }
 
-/// Displacements of the contact nodes at every step of a period.
-fn contact_displacements(map: &mut PeriodMap<'_>, state: &PeriodicState) -> Vec<Vec<[f64; 2]>> {
+/// Displacements of the contact nodes at every step of a period, and which of them touch at some time.
+fn contact_displacements(
+    map: &mut PeriodMap<'_>,
+    state: &PeriodicState,
+) -> (Vec<Vec<[f64; 2]>>, Vec<bool>) {
     map.place(state);
+    let mut touches = vec![false; map.interface().len()];
     let steps = 0..map.steps();
     let sample = |_| {
         let [displacement, _] = contact_motion(map);
         map.run.advance();
+        let status = map.run.contact().status.iter();
+        for (touches, status) in touches.iter_mut().zip(status) {
+            *touches |= *status != ContactStatus::Open;
+        }
         displacement
     };
-    steps.map(sample).collect()
+    let samples = steps.map(sample).collect();
+    (samples, touches)
 }
 
-/// The node that moves most along the counterface, and half the range of its displacement.
-fn widest(samples: &[Vec<[f64; 2]>]) -> (usize, f64) {
+/// The node among those that touch that moves most along the counterface, and half the range of its displacement.
+fn widest(samples: &[Vec<[f64; 2]>], touches: &[bool]) -> (usize, f64) {
     let range = |node: usize| {
         let along = samples.iter().map(|sample| sample[node][1]);
         let [low, high] = along.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], u| {
@@ -269,7 +300,7 @@ fn widest(samples: &[Vec<[f64; 2]>]) -> (usize, f64) {
         });
         0.5 * (high - low)
     };
-    let nodes = 0..samples.first().map_or(0, Vec::len);
+    let nodes = (0..touches.len()).filter(|&node| touches[node]);
     let ranges = nodes.map(|node| (node, range(node)));
     ranges.fold(
         (0, 0.0),

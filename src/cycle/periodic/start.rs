@@ -2,7 +2,9 @@
 
 use super::map::{PeriodMap, PeriodicState};
 use super::vector::{difference, norm};
+use crate::fem::operator::scatter;
 use crate::linalg::c64;
+use crate::transient::TransientBody;
 use std::f64::consts::TAU;
 
 /// Doublings of the amplitude that are tried.
@@ -33,28 +35,37 @@ impl GrowingMode<'_> {
         map.state(&displacement, &velocity, period)
     }
 
-    /// The amplitude at which the mode brings the first contact node to the speed of its counterface, m/s.
-    pub fn sticking_amplitude(&self, map: &PeriodMap<'_>, surface_speed: f64) -> f64 {
-        let interface = map.interface();
-        let speed = |i: usize| {
-            let slip = interface
-                .slip(i)
-                .map(|(dof, along)| self.shape[dof] * along);
-            (slip.sum::<c64>() * self.eigenvalue).norm()
+    /// Slip of every contact node in its shape.
+    pub fn slips(&self, map: &PeriodMap<'_>) -> Vec<c64> {
+        let (interface, law, operator) = (map.interface(), map.run.contact(), map.run.operator());
+        let part = |of: fn(&c64) -> f64| -> Vec<f64> { self.shape.iter().map(of).collect() };
+        let [real, imaginary] = [part(|u| u.re), part(|u| u.im)].map(|u| scatter(operator, &u));
+        let slip = |i: usize| match map.run.body() {
+            TransientBody::Plane(_) => {
+                let parts = interface.slip(i);
+                parts.map(|(dof, along)| self.shape[dof] * along).sum()
+            }
+            _ => c64::new(law.slip(i, &real), law.slip(i, &imaginary)),
         };
-        let fastest = (0..interface.len()).map(speed).fold(0.0, f64::max);
-        surface_speed.abs() / fastest.max(f64::MIN_POSITIVE)
+        (0..interface.len()).map(slip).collect()
+    }
+
+    /// The amplitude at which the mode brings the first contact node to the speed of its counterface.
+    pub fn sticking_amplitude(&self, map: &PeriodMap<'_>) -> f64 {
+        let law = map.run.contact();
+        let slips = self.slips(map).into_iter().enumerate();
+        let amplitudes = slips.map(|(i, slip)| {
+            let speed = (slip * self.eigenvalue).norm();
+            law.counterface_speed(i).abs() / speed.max(f64::MIN_POSITIVE)
+        });
+        amplitudes.fold(f64::INFINITY, f64::min)
     }
 }
 
 /// The mode at the amplitude at which it neither grows nor decays over its first period: there friction feeds as much as the
 /// body, stick and impacts take. Where no amplitude within a factor of 256 does so, the one at which a node first sticks.
-pub fn balanced_start(
-    map: &mut PeriodMap<'_>,
-    mode: &GrowingMode<'_>,
-    surface_speed: f64,
-) -> PeriodicState {
-    let reference = mode.sticking_amplitude(map, surface_speed);
+pub fn balanced_start(map: &mut PeriodMap<'_>, mode: &GrowingMode<'_>) -> PeriodicState {
+    let reference = mode.sticking_amplitude(map);
     let rest = mode.state(map, 0.0);
     map.fit(rest.period);
     let grows = |map: &mut PeriodMap<'_>, amplitude: f64| {

@@ -56,13 +56,13 @@ fn sampled(map: &mut PeriodMap<'_>, start: &PeriodicState) -> (Vec<Vec<f64>>, f6
         interruption::check();
         (0..steps).for_each(|_| map.run.advance());
     }
-    let places = map.run.contact().tangential_places().to_vec();
+    let nodes = map.interface().len();
     let sample = |step: usize| {
         if step.is_multiple_of(SAMPLES) {
             interruption::check();
         }
-        let displacement = &map.run.fields().displacement;
-        let sample: Vec<f64> = places.iter().map(|&place| displacement[place]).collect();
+        let (law, displacement) = (map.run.contact(), &map.run.fields().displacement);
+        let sample: Vec<f64> = (0..nodes).map(|i| law.slip(i, displacement)).collect();
         (0..every).for_each(|_| map.run.advance());
         sample
     };

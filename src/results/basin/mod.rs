@@ -6,12 +6,21 @@ mod report;
 use super::summary::{Bounds, Entry, Summary};
 use super::table::{Column, write_rows};
 use super::{FolderError, Manifest, OutputFolder};
-use crate::cycle::{BasinBoundary, BasinRequest, BasinRun};
+use crate::cycle::{BasinBoundary, BasinRun};
 use serde::{Deserialize, Serialize};
 use std::fmt::Write as _;
 
 pub use map::basin_map;
 pub use report::draw_basin;
+
+/// What competes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rivals {
+    /// Two waves, by their nodal diameters.
+    Waves([usize; 2]),
+    /// Two modes of a body without symmetry by their numbers, 0 for steady sliding.
+    Modes([usize; 2]),
+}
 
 /// `summary.json` of a basin.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -22,8 +31,11 @@ pub struct BasinSummary {
     pub title: String,
     /// Wall time, s.
     pub wall_s: f64,
-    /// The two waves, nodal diameters.
+    /// The two waves, nodal diameters; of a body without symmetry the numbers of the two modes, 0 for steady sliding.
     pub harmonics: [usize; 2],
+    /// Whether these are numbers of modes.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub of_modes: bool,
     /// The wave that wins whatever the seeds, if one does.
     pub winner: Option<usize>,
     /// Amplitude ratios at saturation, second wave over first, between which the winner changes.
@@ -67,7 +79,7 @@ impl BasinSummary {
     /// The summary of a boundary.
     pub fn new(
         title: &str,
-        request: &BasinRequest,
+        rivals: Rivals,
         found: &BasinBoundary,
         wall_s: f64,
         manifest: &Manifest,
@@ -75,11 +87,16 @@ impl BasinSummary {
         let winners = found.runs.iter().map(|run| run.winner);
         let first = found.runs.first().map(|run| run.winner);
         let alone = first.filter(|first| winners.clone().all(|winner| winner == *first));
+        let (harmonics, of_modes) = match rivals {
+            Rivals::Waves(harmonics) => (harmonics, false),
+            Rivals::Modes(modes) => (modes, true),
+        };
         Self {
             command: "basin".to_owned(),
             title: title.to_owned(),
             wall_s,
-            harmonics: request.harmonics,
+            harmonics,
+            of_modes,
             winner: alone,
             boundary: Bounds {
                 low: found.low,
@@ -91,16 +108,62 @@ impl BasinSummary {
         }
     }
 
+    /// A rival in words.
+    pub(super) fn name(&self, rival: usize) -> String {
+        match (self.of_modes, rival) {
+            (false, n) => format!("n = {n}"),
+            (true, 0) => "steady sliding".to_owned(),
+            (true, mode) => format!("mode {mode}"),
+        }
+    }
+
+    /// Whether steady sliding is one of the two: ratios are of the amplitude of the other one's seed to the one that makes a contact
+    /// node stick.
+    fn is_kick(&self) -> bool {
+        self.of_modes && self.harmonics[0] == 0
+    }
+
+    /// What the ratio is of.
+    pub(super) fn ratio(&self) -> String {
+        let [first, second] = self.harmonics.map(|rival| self.name(rival));
+        match self.is_kick() {
+            true => format!("kick along {second} over the one that makes a contact node stick"),
+            false => format!("amplitude of {second} over {first} at saturation"),
+        }
+    }
+
     /// What was found, in a sentence.
     fn answer(&self) -> String {
         let [first, second] = self.harmonics;
+        if self.is_kick() {
+            let name = self.name(second);
+            return match (self.winner, self.boundary.low, self.boundary.high) {
+                (Some(0), Some(low), _) => format!(
+                    "steady sliding comes back from every kick along {name} looked at, up to {low:.3} of the one that makes a contact \
+                     node stick"
+                ),
+                (None, Some(low), Some(high)) if low > high => format!(
+                    "steady sliding comes back from a kick along {name} of {low:.3} and not from one of {high:.3} of the one that makes a \
+                     contact node stick: no single boundary lies between (narrow basin.seed_ratio_from and basin.seed_ratio_to)"
+                ),
+                (None, Some(low), Some(high)) => format!(
+                    "a kick along {name} tips steady sliding into a limit cycle from {low:.3} to {high:.3} of the one that makes a \
+                     contact node stick"
+                ),
+                _ => format!(
+                    "every kick along {name} looked at tips steady sliding into a limit cycle"
+                ),
+            };
+        }
+        let [one, other] = self.harmonics.map(|rival| self.name(rival));
         match (self.winner, self.boundary.low, self.boundary.high) {
             (Some(winner), Some(ratio), _) | (Some(winner), None, Some(ratio)) => format!(
-                "n = {winner} wins at every ratio looked at, {} {ratio:.3} of n = {second} over n = {first} at saturation",
+                "{} wins at every ratio looked at, {} {ratio:.3} of {other} over {one} at saturation",
+                self.name(winner),
                 if winner == first { "up to" } else { "down to" }
             ),
             (None, Some(low), Some(high)) => format!(
-                "n = {second} wins where its amplitude at saturation is more than {low:.3} to {high:.3} of that of n = {first}"
+                "{other} wins where its amplitude at saturation is more than {low:.3} to {high:.3} of that of {one}"
             ),
             _ => "some runs never saturate: no boundary can be named".to_owned(),
         }
@@ -113,14 +176,24 @@ impl BasinSummary {
             out.push_str("some transients end before one wave has gone: raise basin.periods\n");
         }
         for run in &self.runs {
+            if self.is_kick() {
+                let end = if run.is_settled {
+                    ""
+                } else {
+                    "  (not settled)"
+                };
+                let name = self.name(run.winner);
+                let _ = writeln!(out, "  kick {:<10.4} {name}{end}", run.seed_ratio);
+                continue;
+            }
             let ratio = run
                 .saturation_ratio
                 .map_or("-".to_owned(), |r| format!("{r:.4}"));
             let _ = writeln!(
                 out,
-                "  seeds 1 : {:<10.4} at saturation {ratio:>9}  n = {}{}",
+                "  seeds 1 : {:<10.4} at saturation {ratio:>9}  {}{}",
                 run.seed_ratio,
-                run.winner,
+                self.name(run.winner),
                 if run.is_settled {
                     ""
                 } else {

@@ -37,16 +37,22 @@ fn results(summary: &BasinSummary) -> Vec<(String, String)> {
     let [first, second] = summary.harmonics;
     let bound = |value: Option<f64>| value.map_or("-".to_owned(), |v| significant(v, 4));
     vec![
+        match summary.of_modes {
+            true => (
+                "rivals".to_owned(),
+                format!("{} and {}", summary.name(first), summary.name(second)),
+            ),
+            false => (
+                "waves".to_owned(),
+                format!("n = {first} and n = {second} nodal diameters"),
+            ),
+        },
         (
-            "waves".to_owned(),
-            format!("n = {first} and n = {second} nodal diameters"),
-        ),
-        (
-            format!("largest ratio at which n = {first} wins"),
+            format!("largest ratio at which {} wins", summary.name(first)),
             bound(summary.boundary.low),
         ),
         (
-            format!("smallest ratio at which n = {second} wins"),
+            format!("smallest ratio at which {} wins", summary.name(second)),
             bound(summary.boundary.high),
         ),
         ("transients".to_owned(), summary.transients.to_string()),
@@ -60,6 +66,7 @@ fn search(summary: &BasinSummary) -> Result<Figure, ChartError> {
         let at = if run.winner == first { 0.0 } else { 1.0 };
         Some((run.saturation_ratio?, at))
     };
+    let shown = |rival: usize| summary.name(rival).replace("n = ", "*n* = ");
     let points = |winner: usize, is_settled: bool| {
         let own = summary.runs.iter();
         let own = own.filter(move |run| run.winner == winner && run.is_settled == is_settled);
@@ -69,7 +76,7 @@ fn search(summary: &BasinSummary) -> Result<Figure, ChartError> {
             (true, false) => (Marker::Square, SERIES[1]),
         };
         let name = match is_settled {
-            true => format!("*n* = {winner} wins"),
+            true => format!("{} wins", shown(winner)),
             false => "not settled".to_owned(),
         };
         Points::new(own.filter_map(place))
@@ -82,11 +89,8 @@ fn search(summary: &BasinSummary) -> Result<Figure, ChartError> {
             .stroke(Stroke::dashed(INK, 0.8))
             .name("bounds of the boundary")
     });
-    let names = [
-        (0.0, format!("*n* = {first}")),
-        (1.0, format!("*n* = {second}")),
-    ];
-    let ratio = format!("amplitude of *n* = {second} over *n* = {first} at saturation");
+    let names = [(0.0, shown(first)), (1.0, shown(second))];
+    let ratio = summary.ratio().replace("n = ", "*n* = ");
     let panel = Panel::new(
         Axis::new(&ratio, "–").logarithmic().room(0.1),
         Axis::new("winner", "").between(-0.5, 1.5).ticks(names),
@@ -99,7 +103,12 @@ fn search(summary: &BasinSummary) -> Result<Figure, ChartError> {
     .layer(points(second, false));
     Ok(Figure::new(
         "basin",
-        "The wave that wins over the ratio of the amplitudes of both at the first stick or opening, one point for each transient.",
+        match summary.of_modes {
+            true => "What wins over the ratio, one point for each transient.",
+            false => {
+                "The wave that wins over the ratio of the amplitudes of both at the first stick or opening, one point for each transient."
+            }
+        },
     )
     .panel(panel))
 }
@@ -111,7 +120,10 @@ fn runs_table(summary: &BasinSummary) -> ReportTable {
             significant(run.seed_ratio, 5),
             run.saturation_ratio
                 .map_or(String::new(), |ratio| significant(ratio, 5)),
-            run.winner.to_string(),
+            match summary.of_modes {
+                true => summary.name(run.winner),
+                false => run.winner.to_string(),
+            },
             if run.is_settled { "" } else { "not settled" }.to_owned(),
             significant(run.duration_s, 4),
         ]

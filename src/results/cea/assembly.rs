@@ -1,10 +1,10 @@
 //! The base state of an assembly of solid bodies, point by point.
 
-use crate::chart::{Axis, ChartError, ColourMap, Figure, Panel, literal};
+use crate::chart::{Axis, ChartError, Figure};
 use crate::contact::{ContactSite, ContactStatus};
 use crate::fem::SolidStress;
 use crate::mesh::Mesh;
-use crate::results::charts::SolidView;
+use crate::results::charts::contact_surfaces;
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::table::{Column, write_rows};
 use crate::results::vtu::{EncodedMesh, Field, write_vtu};
@@ -110,19 +110,14 @@ impl AssemblyReport {
                 .prefixed()
                 .between(0.0, largest)
         };
-        let panels = self.surfaces.iter().map(|(name, boundary)| {
-            let view = SolidView::of_boundary(mesh, *boundary);
-            let surface = view.surface(values.clone(), (&[], 0.0), axis(), ColourMap::Viridis);
-            let panel = Panel::plane(surface.window(0.05)).height(150.0);
-            panel.caption(literal(name)).layer(surface)
-        });
-        let panels: Vec<Panel> = panels.collect();
         let caption = "Contact pressure in the base state on each contact surface, seen from outside; grey where it is open.";
-        let columns = panels.len().clamp(1, 3);
-        let figure = Figure::new("prestress", caption)
-            .columns(columns)
-            .panels(panels);
-        Ok(figure.colour_foot(axis(), ColourMap::Viridis))
+        let surfaces = (mesh, &self.surfaces[..]);
+        Ok(contact_surfaces(
+            ("prestress", caption),
+            surfaces,
+            &values,
+            &axis,
+        ))
     }
 
     /// Mean over the points around each node, weighted by area and share.

@@ -1,5 +1,6 @@
 //! Charts that several commands share, and what their colours mean.
 
+mod bodies;
 mod contact;
 mod course;
 mod critical_friction;
@@ -8,6 +9,7 @@ mod motion;
 pub mod palette;
 mod solid;
 
+pub use bodies::{contact_surfaces, speeds_of_bodies, speeds_on_top};
 pub use contact::{
     ContactVelocity, FieldFrame, contact_figure, field_figure, open_contact_figure, place_axis,
     shear_stress_figure, status_curves, status_map,

@@ -48,6 +48,8 @@ pub struct CycleResult {
     pub cycle: Result<LimitCycle, Absence>,
     /// The whole field at times over one period, from zero on; empty where there is no cycle.
     pub frames: Vec<CycleFrame>,
+    /// Root mean square of the velocity of that cycle over the mass that moves, m/s.
+    pub velocity: Option<f64>,
     /// Points along the phase.
     pub phases: usize,
     /// A transient that started on that cycle, where one was asked for.

@@ -3,6 +3,7 @@
 use super::confirmation::confirmation_text;
 use super::stability::print_stability;
 use super::{CycleReport, CycleResult};
+use crate::cycle::periodic::velocity_level;
 use crate::cycle::{CycleBranch, Family, LimitCycle};
 use crate::results::cycle_table::{printed_cycle, printed_heading};
 use crate::results::quantity::significant;
@@ -36,6 +37,14 @@ pub fn print(report: &CycleReport<'_>) -> String {
     for result in &report.results {
         if let Some(text) = confirmation_text(report, result) {
             let _ = writeln!(out, "{text}");
+        }
+        if let Some(velocity) = result.velocity {
+            let _ = writeln!(
+                out,
+                "{}: velocity level {:.1} dB over 5e-8 m/s, root mean square over time and mass",
+                result.family,
+                velocity_level(velocity),
+            );
         }
         print_stability(&mut out, result);
         if let Some(branch) = &result.branch {

@@ -3,6 +3,7 @@
 use super::confirmation::ConfirmationSummary;
 use super::stability::StabilitySummary;
 use super::{CycleReport, CycleResult};
+use crate::cycle::periodic::velocity_level;
 use crate::cycle::{CycleBranch, LimitCycle, Onset};
 use crate::results::extent::Extent;
 use crate::results::manifest::Manifest;
@@ -108,6 +109,9 @@ pub struct LimitCycleSummary {
     pub harmonics: Vec<f64>,
     /// Residual of the energy balance, relative to the external power.
     pub balance_residual: f64,
+    /// Level of the velocity, root mean square over time and mass, over 5e-8 m/s, dB.
+    #[serde(default)]
+    pub velocity_level_db: Option<f64>,
 }
 
 /// A branch of limit cycles.
@@ -181,11 +185,10 @@ fn family(report: &CycleReport<'_>, result: &CycleResult) -> FamilySummary {
         phases: result.phases,
         onsets: result.onsets.iter().map(OnsetSummary::from).collect(),
         wall_s: result.wall_s,
-        cycle: result
-            .cycle
-            .as_ref()
-            .ok()
-            .map(|cycle| limit_cycle(report, cycle)),
+        cycle: result.cycle.as_ref().ok().map(|cycle| LimitCycleSummary {
+            velocity_level_db: result.velocity.map(velocity_level),
+            ..limit_cycle(report, cycle)
+        }),
         absent: reason(true),
         error: reason(false),
         confirmation: ConfirmationSummary::of(report, result),
@@ -214,6 +217,7 @@ fn limit_cycle(report: &CycleReport<'_>, cycle: &LimitCycle) -> LimitCycleSummar
         },
         harmonics: cycle.harmonics.to_vec(),
         balance_residual: cycle.powers.balance_residual(),
+        velocity_level_db: None,
     }
 }
 

@@ -123,7 +123,7 @@ pub(super) fn branch_figure(motion: &MotionRecord) -> Result<Figure, ChartError>
         ))
         .panel(statuses)
         .panel(one(
-            Axis::new("power", "W").prefixed(),
+            Axis::new("power", &curve.extent.unit("W")).prefixed(),
             76.0,
             &curve.external,
             None,

@@ -5,19 +5,20 @@ use super::record::{MotionRecord, PeriodicRecord};
 use crate::chart::{
     Axis, ChartError, ColourMap, Figure, INK, Line, MUTED, Marker, Panel, Rule, SERIES, Stroke,
 };
-use crate::contact::{ContactInterface, ContactStatus, SlidingContact};
+use crate::contact::ContactStatus;
 use crate::fem::MaterialField;
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, SolidFace, SolidSector};
 use crate::results::charts::palette::status_ground;
 use crate::results::charts::{
     ContactVelocity, Disc, FieldFrame, contact_figure, field_figure, open_contact_figure,
-    place_axis, shear_stress_figure, status_curves, status_map,
+    place_axis, shear_stress_figure, speeds_on_top, status_curves, status_map,
 };
 use crate::results::drawing::{Declaration, DrawingOptions, draw_all};
 use crate::results::report::NamedFigure;
+use std::f64::consts::TAU;
 
 /// Whole-field pictures of one kind, at most.
-const FIELD_LIMIT: usize = 8;
+pub(super) const FIELD_LIMIT: usize = 8;
 /// Periods of a history.
 const PERIODS: usize = 2;
 
@@ -25,12 +26,14 @@ const PERIODS: usize = 2;
 pub struct PeriodicFigures<'a> {
     /// The record.
     pub record: &'a PeriodicRecord,
-    /// The mesh.
+    /// The mesh; of a body of revolution in three dimensions the section across the axis.
     pub mesh: &'a Mesh,
+    /// One sector of a body of revolution in three dimensions.
+    pub solid: Option<&'a SolidSector>,
+    /// The contacts of an assembly, each with the boundary that has its points.
+    pub surfaces: Vec<(String, usize)>,
     /// The materials, for the stress fields.
     pub materials: &'a dyn MaterialField,
-    /// The contact of the case.
-    pub contact: SlidingContact,
 }
 
 /// Amplitude along the normal, over that along the contact, below which it is round-off.
@@ -60,21 +63,48 @@ pub fn draw_cycles(
 }
 
 impl PeriodicFigures<'_> {
-    fn surface_speed(&self) -> f64 {
-        let interface = ContactInterface::of(self.mesh);
-        interface.surface_speed(self.contact.rotation_speed)
+    /// Which contact nodes the figures over the angle show: of several rings of nodes the middle one.
+    fn is_shown(&self, node: usize) -> bool {
+        let rings = self.solid.map_or(1, |sector| sector.rings.len());
+        node % rings == rings / 2
+    }
+
+    fn shown<T: Copy>(&self, values: &[T]) -> Vec<T> {
+        let places = (0..values.len()).filter(|&i| self.is_shown(i % self.record.nodes.len()));
+        places.map(|i| values[i]).collect()
+    }
+
+    /// Whether it is of solid bodies of a mesh.
+    pub(super) fn is_assembly(&self) -> bool {
+        self.solid.is_none() && self.mesh.dimension == 3
+    }
+
+    /// Where the shown contact nodes are.
+    fn places(&self) -> Axis {
+        match self.is_assembly() {
+            true => Axis::new("contact nodes in their order", "%")
+                .times(100.0 / TAU)
+                .between(0.0, TAU),
+            false => place_axis(self.mesh.has_round_contact()),
+        }
     }
 
     /// The status of all contact nodes over one period.
     fn status(&self, motion: &MotionRecord) -> Result<Figure, ChartError> {
         let ends = (motion.times[0], motion.times[motion.times.len() - 1]);
-        let map = status_map(&motion.times, motion.nodes(), &motion.status, ends);
+        let codes = self.shown(&motion.status);
+        let map = status_map(
+            &motion.times,
+            codes.len() / motion.times.len(),
+            &codes,
+            ends,
+        );
         let (map, _) = map.ok_or_else(|| ChartError::empty("statuses over a period"))?;
         let caption = format!(
             "Contact status of every contact node over one period of the limit cycle of {}.",
             motion.hertz()
         );
-        let panel = Panel::new(Axis::time(), place_axis(self.mesh.has_round_contact()))
+        let panel = Panel::new(Axis::time(), self.places())
             .plain()
             .height(120.0)
             .layer(map)
@@ -84,12 +114,15 @@ impl PeriodicFigures<'_> {
 
     /// The contact at time zero.
     fn at_one_instant(&self, motion: &MotionRecord) -> Figure {
-        let [pressure, shear, velocity] = &motion.edge;
+        if self.is_assembly() {
+            return self.on_surfaces(motion);
+        }
+        let [pressure, shear, velocity] = motion.edge.each_ref().map(|own| self.shown(own));
         let velocity = match self.mesh.opposite {
-            Some(_) => ContactVelocity::Absolute(velocity, f64::NAN),
-            None => ContactVelocity::Absolute(velocity, self.surface_speed()),
+            Some(_) => ContactVelocity::Absolute(&velocity, f64::NAN),
+            None => ContactVelocity::Absolute(&velocity, self.shown_speed(motion)),
         };
-        let statuses = motion.first_statuses();
+        let statuses = self.shown(&motion.first_statuses());
         let name = format!("contact-{}", motion.tag());
         if !self.mesh.has_round_contact() {
             let caption = format!(
@@ -98,19 +131,33 @@ impl PeriodicFigures<'_> {
                 motion.hertz()
             );
             let names = (name, caption, heading(motion));
-            return open_contact_figure(names, &statuses, [pressure, shear], velocity);
+            return open_contact_figure(names, &statuses, [&pressure, &shear], velocity);
         }
         let caption = format!(
             "Limit cycle of {} at one instant: status around the circle (a), tractions (b), velocity (c).",
             motion.hertz()
         );
-        let first = ContactInterface::of(self.mesh).angles.first().copied();
+        let first = self.record.angles.first().copied();
+        let counterface = match self.solid {
+            Some(sector) if sector.specification.contact.face() != SolidFace::Inner => "ring",
+            _ => "cylinder *Ωa*",
+        };
         contact_figure(
-            ((name, caption, heading(motion)), "cylinder *Ωa*"),
+            ((name, caption, heading(motion)), counterface),
             (first.unwrap_or(0.0), &statuses),
-            [pressure, shear],
+            [&pressure, &shear],
             velocity,
         )
+    }
+
+    /// Speed of the counterface at the shown contact nodes, m/s: it grows with the radius.
+    fn shown_speed(&self, motion: &MotionRecord) -> f64 {
+        let Some(sector) = self.solid else {
+            return motion.counterface_speed;
+        };
+        let radius = |ring: usize| sector.rings[ring].radius;
+        let rings = sector.rings.len();
+        motion.counterface_speed * radius(rings / 2) / radius(motion.node % rings)
     }
 
     /// What the node that moves most goes through in two periods, on a ground coloured by its status.
@@ -131,17 +178,18 @@ impl PeriodicFigures<'_> {
 
         // What a node that sticks moves with, and the limits of friction, where they are numbers.
         let counterface = (self.mesh.opposite.is_none()).then(|| {
-            Rule::horizontal(self.surface_speed())
+            Rule::horizontal(motion.counterface_speed)
                 .stretching()
                 .name("counterface")
         });
         let limit = |sign: f64| {
-            let friction = sign * self.contact.friction_coefficient;
+            let friction = sign * motion.friction_coefficient.unwrap_or(f64::NAN);
             let limit: Vec<f64> = motion.pressure.iter().map(|p| friction * p).collect();
             Line::through(repeated.curve(&limit)).stroke(Stroke::dashed(MUTED, 0.9))
         };
         let law = [limit(1.0).name("Coulomb limit ±*μp*"), limit(-1.0)];
-        let law = law.into_iter().filter(|_| self.contact.decay.is_none());
+        let law = law.into_iter();
+        let law = law.filter(|_| motion.friction_coefficient.is_some());
         let caption = format!(
             "Contact node {} through two periods of the limit cycle of {}.",
             self.node_label(motion),
@@ -206,17 +254,31 @@ impl PeriodicFigures<'_> {
     }
 
     fn node_label(&self, motion: &MotionRecord) -> usize {
-        let nodes = ContactInterface::of(self.mesh).nodes;
-        let node = nodes.get(motion.node).copied().unwrap_or(0);
-        self.mesh.node_label(node as usize)
+        let node = self.record.nodes.get(motion.node).copied().unwrap_or(0) as usize;
+        match self.solid {
+            Some(_) => node + 1,
+            None => self.mesh.node_label(node),
+        }
     }
 
     fn velocity(&self) -> Result<Figure, ChartError> {
+        if self.is_assembly() {
+            return self.velocity_of_bodies();
+        }
         let frames = self.record.cycles.iter().take(FIELD_LIMIT);
         let frames = frames.map(|motion| -> FieldFrame {
-            let speeds = motion.velocity_field.chunks_exact(2);
-            let speeds = speeds.map(|v| v[0].hypot(v[1])).collect();
-            (heading(motion), speeds, motion.first_statuses())
+            let velocity = &motion.velocity_field;
+            match self.solid {
+                // A ring of statuses shows one edge.
+                Some(sector) => {
+                    let speeds = speeds_on_top(sector, velocity);
+                    (heading(motion), speeds, Vec::new())
+                }
+                None => {
+                    let speeds = velocity.chunks_exact(2).map(|v| v[0].hypot(v[1])).collect();
+                    (heading(motion), speeds, motion.first_statuses())
+                }
+            }
         });
         let caption = (
             "velocity",
@@ -228,6 +290,9 @@ impl PeriodicFigures<'_> {
     }
 
     fn shear_stress(&self) -> Result<Figure, ChartError> {
+        if self.solid.is_some() || self.is_assembly() {
+            return Err(ChartError::empty("shear stress of a plane body"));
+        }
         let cycles = self.record.cycles.iter().take(FIELD_LIMIT);
         let fields = cycles.map(|motion| (heading(motion), &motion.displacement_field[..]));
         let caption = "Shear stress of the limit cycles at one instant.";
@@ -300,7 +365,7 @@ fn harmonics(motion: &MotionRecord) -> Figure {
     Figure::new(format!("harmonics-{}", motion.tag()), caption).panel(panel)
 }
 
-fn heading(motion: &MotionRecord) -> String {
+pub(super) fn heading(motion: &MotionRecord) -> String {
     format!(
         "mode {}, {:.2} kHz",
         motion.mode,

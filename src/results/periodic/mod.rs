@@ -2,6 +2,7 @@
 
 mod branch_figure;
 mod figures;
+mod on_bodies;
 mod print;
 mod record;
 mod report;
@@ -14,13 +15,14 @@ pub use record::{CurveRecord, MotionRecord, PeriodicRecord};
 pub use report::draw;
 pub use summary::{
     MotionSummary, MultiplierSummary, PeriodicBranchSummary, PeriodicConfirmation,
-    PeriodicStability, PeriodicSummary, SoughtSummary, summary, summary_of,
+    PeriodicStability, PeriodicSummary, SoughtSummary, SoundSummary, summary, summary_of,
 };
 
+use crate::contact::ContactInterface;
 use crate::cycle::periodic::{
-    FloquetMultipliers, MotionConfirmation, PeriodicBranch, PeriodicMotion,
+    FloquetMultipliers, MotionConfirmation, PeriodicBranch, PeriodicMotion, Sound,
 };
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, SolidSector};
 use crate::results::extent::Extent;
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::record::write_record;
@@ -51,6 +53,8 @@ impl fmt::Display for SoughtMode {
 pub struct FoundCycle {
     /// The motion.
     pub motion: PeriodicMotion,
+    /// What its flat faces radiate, of a body that has any.
+    pub sound: Option<Sound>,
     /// Harmonics in which it is told.
     pub harmonic_count: usize,
     /// Its multipliers, where they were asked for, or why there are none.
@@ -94,9 +98,13 @@ impl PeriodicResult {
 pub struct PeriodicReport<'a> {
     /// Title of the case.
     pub title: &'a str,
-    /// The mesh.
+    /// The mesh; of a body of revolution in three dimensions the section across the axis.
     pub mesh: &'a Mesh,
-    /// Thickness, m: scales powers.
+    /// One sector of a body of revolution in three dimensions.
+    pub solid: Option<&'a SolidSector>,
+    /// The contact nodes.
+    pub interface: ContactInterface,
+    /// Thickness, m: scales powers; 1 of a body in three dimensions.
     pub thickness: f64,
     /// What powers are of.
     pub extent: Extent,
@@ -115,6 +123,40 @@ pub struct PeriodicReport<'a> {
 }
 
 impl PeriodicReport<'_> {
+    /// Whether the body is one in three dimensions.
+    pub fn is_solid(&self) -> bool {
+        self.solid.is_some() || self.mesh.dimension == 3
+    }
+
+    /// Displacement components of a node.
+    pub fn components(&self) -> usize {
+        if self.is_solid() { 3 } else { 2 }
+    }
+
+    /// Where a node of the whole body is, m.
+    pub fn position(&self, node: u32) -> [f64; 3] {
+        match self.solid {
+            Some(sector) => {
+                let (own, turn) = (
+                    node as usize % sector.node_count(),
+                    node as usize / sector.node_count(),
+                );
+                let (sine, cosine) = sector.angle(own, turn).sin_cos();
+                let place = &sector.nodes[own];
+                [place.radius * cosine, place.radius * sine, place.height]
+            }
+            None => self.mesh.nodes[node as usize],
+        }
+    }
+
+    /// Label of a node of the whole body in the case's own counting.
+    pub fn node_label(&self, node: u32) -> usize {
+        match self.solid {
+            Some(_) => node as usize + 1,
+            None => self.mesh.node_label(node as usize),
+        }
+    }
+
     /// Whether no mode looked at grows at the case's own operating point.
     pub fn is_stable(&self) -> bool {
         self.least_stable.is_none_or(|mode| mode.growth_rate <= 0.0)

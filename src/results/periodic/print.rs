@@ -93,6 +93,15 @@ fn found_lines(
         motion.amplitude,
         motion.velocity_level(),
     );
+    if let Some(sound) = &found.sound {
+        let _ = writeln!(
+            out,
+            "{mode}: sound power {:.1} dB over 1e-12 W, an estimate: Rayleigh integral over {:.4} m2 of flat faces, each in an infinite \
+             rigid baffle, harmonics up to 20 kHz",
+            sound.level(),
+            sound.area,
+        );
+    }
     if let Some(text) = confirmation_text(report, result) {
         let _ = writeln!(out, "{text}");
     }

@@ -4,6 +4,7 @@ use super::{FoundCycle, PeriodicReport, PeriodicResult};
 use crate::contact::ContactStatus;
 use crate::cycle::periodic::{BranchMotion, ContactInstant, PeriodicBranch, PeriodicMotion};
 use crate::results::charts::palette::status_of_code;
+use crate::results::extent::Extent;
 use crate::results::record::Record;
 use serde::{Deserialize, Serialize};
 
@@ -15,6 +16,10 @@ const MOST_CELLS: usize = 100_000_000;
 pub struct PeriodicRecord {
     /// One entry for each cycle.
     pub cycles: Vec<MotionRecord>,
+    /// Nodes of the contact, counted from 0.
+    pub nodes: Vec<u32>,
+    /// Their angles, rad.
+    pub angles: Vec<f64>,
 }
 
 /// One limit cycle.
@@ -30,6 +35,10 @@ pub struct MotionRecord {
     pub status: Vec<u8>,
     /// Contact node that moves most, among those of the edge.
     pub node: usize,
+    /// Speed of the counterface there, m/s.
+    pub counterface_speed: f64,
+    /// Friction coefficient there; none where it falls with the slip speed.
+    pub friction_coefficient: Option<f64>,
     /// Its pressure over time, Pa.
     pub pressure: Vec<f64>,
     /// Its shear, Pa.
@@ -65,6 +74,8 @@ pub struct CurveRecord {
     pub amplitude: Vec<f64>,
     /// Fractions that stick, slip, are open.
     pub status: [Vec<f64>; 3],
+    /// What powers are of.
+    pub extent: Extent,
     /// Power of the counterface, W or W/m.
     pub external: Vec<f64>,
     /// Whether the cycle is stable, where that is known.
@@ -79,10 +90,14 @@ pub struct CurveRecord {
 
 impl Record for PeriodicRecord {
     const MAGIC: [u8; 8] = *b"FRICSIMP";
-    const VERSION: u32 = 2;
+    const VERSION: u32 = 3;
 
     fn inconsistency(&self) -> Option<&'static str> {
-        let is_whole = self.cycles.iter().all(MotionRecord::is_whole);
+        let is_whole = self.angles.len() == self.nodes.len()
+            && self
+                .cycles
+                .iter()
+                .all(|own| own.nodes() == self.nodes.len() && own.is_whole());
         (!is_whole).then_some("its instants, nodes and harmonics do not fit together")
     }
 }
@@ -91,16 +106,19 @@ impl PeriodicRecord {
     /// What the figures show of a report.
     pub fn of(report: &PeriodicReport<'_>) -> Self {
         let cycles = report.results.iter();
-        let cycles = cycles
-            .filter_map(|result| Some(MotionRecord::of(result, result.own()?, report.thickness)));
+        let cycles =
+            cycles.filter_map(|result| Some(MotionRecord::of(result, result.own()?, report)));
         Self {
             cycles: cycles.collect(),
+            nodes: report.interface.nodes.clone(),
+            angles: report.interface.angles.clone(),
         }
     }
 }
 
 impl CurveRecord {
-    fn of(branch: &PeriodicBranch, own: &PeriodicMotion, thickness: f64) -> Self {
+    fn of(branch: &PeriodicBranch, own: &PeriodicMotion, report: &PeriodicReport<'_>) -> Self {
+        let thickness = report.thickness;
         let column = |of: &dyn Fn(&BranchMotion) -> f64| branch.motions.iter().map(of).collect();
         let external = |own: &BranchMotion| thickness * own.motion.powers.contact.external;
         let in_units = |value: f64| branch.parameter.in_key_units(value);
@@ -113,6 +131,7 @@ impl CurveRecord {
             frequency_hz: column(&|own| own.motion.frequency_hz),
             amplitude: column(&|own| own.motion.amplitude),
             status: [0, 1, 2].map(|i| column(&|own| own.motion.fractions[i])),
+            extent: report.extent,
             external: column(&external),
             stable: branch.motions.iter().map(BranchMotion::is_stable).collect(),
             folds: folds.map(|(i, _)| i as u64).collect(),
@@ -136,7 +155,7 @@ impl CurveRecord {
 }
 
 impl MotionRecord {
-    fn of(result: &PeriodicResult, found: &FoundCycle, thickness: f64) -> Self {
+    fn of(result: &PeriodicResult, found: &FoundCycle, report: &PeriodicReport<'_>) -> Self {
         let motion = &found.motion;
         let (instants, node) = (&motion.instants, motion.node);
         let over_time = |of: &dyn Fn(&ContactInstant) -> f64| instants.iter().map(of).collect();
@@ -144,7 +163,7 @@ impl MotionRecord {
         let first = instants.first();
         let along = first.map_or_else(Vec::new, |at| at.velocity.iter().map(|v| v[1]).collect());
         let [displacement_field, velocity_field] = match motion.frames.first() {
-            Some((_, fields)) => fields.clone(),
+            Some(frame) => frame.fields.clone(),
             None => [Vec::new(), Vec::new()],
         };
         let codes = instants.iter().flat_map(|at| &at.status);
@@ -154,6 +173,8 @@ impl MotionRecord {
             times: over_time(&|at| at.time),
             status: codes.map(|status| *status as u8).collect(),
             node,
+            counterface_speed: motion.counterface_speed,
+            friction_coefficient: motion.friction_coefficient,
             pressure: over_time(&|at| at.pressure[node]),
             shear: over_time(&|at| at.shear[node]),
             displacement: [0, 1].map(|c| over_time(&|at| at.displacement[node][c])),
@@ -169,7 +190,7 @@ impl MotionRecord {
             branch: found
                 .branch
                 .as_ref()
-                .map(|branch| CurveRecord::of(branch, motion, thickness)),
+                .map(|branch| CurveRecord::of(branch, motion, report)),
         }
     }
 

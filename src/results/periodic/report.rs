@@ -65,12 +65,11 @@ fn results(cycle: &Value, extent: Extent) -> Vec<(String, String)> {
 }
 
 /// Columns of a periodic motion.
-const COLUMNS: [CycleColumn; 5] = [
+const COLUMNS: [CycleColumn; 4] = [
     ("mode", "/mode", 1.0, 0),
     ("its frequency (Hz)", "/mode_frequency_hz", 1.0, 2),
     ("its growth rate (1/s)", "/growth_rate_per_s", 1.0, 1),
     ("amplitude (µm)", "/amplitude_m", 1e6, 3),
-    ("velocity level (dB)", "/velocity_level_db", 1.0, 1),
 ];
 
 /// Why there is no cycle of its own; empty where there is one.

@@ -1,7 +1,6 @@
 //! `summary.json` of a search for the limit cycles of a body without symmetry.
 
 use super::{FoundCycle, PeriodicReport, PeriodicResult, SoughtMode};
-use crate::contact::ContactInterface;
 use crate::cycle::Verdict;
 use crate::cycle::periodic::{
     FloquetMultipliers, MotionConfirmation, PeriodicBranch, PeriodicMotion,
@@ -151,12 +150,28 @@ pub struct MotionSummary {
     /// Level of the velocity, root mean square over time and mass, over 5e-8 m/s, dB.
     #[serde(default)]
     pub velocity_level_db: f64,
+    /// Estimate of the sound that it radiates, of a body with flat faces.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sound: Option<SoundSummary>,
     /// Harmonics in which the motion is told.
     pub harmonic_count: usize,
     /// Share of the vibration of the contact nodes that these leave.
     pub harmonic_remainder: f64,
     /// Root mean square over the contact nodes of the amplitude along the counterface of harmonics 1, 2, ..., m.
     pub harmonics: Vec<f64>,
+}
+
+/// Sound radiated into air, by the Rayleigh integral: each flat face in an infinite rigid baffle.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SoundSummary {
+    /// Power of all harmonics up to 20 kHz, W.
+    pub power_w: f64,
+    /// Its level over 1e-12 W, dB.
+    pub level_db: f64,
+    /// Area of the faces, m2.
+    pub area_m2: f64,
+    /// Power of harmonics 1, 2, ..., W.
+    pub harmonics_w: Vec<f64>,
 }
 
 /// A transient that started beside a cycle.
@@ -271,7 +286,7 @@ fn motion(report: &PeriodicReport<'_>, found: &FoundCycle) -> MotionSummary {
     let powers = motion.powers.scaled(report.thickness);
     let contact = &powers.contact;
     let [stick, slip, open] = motion.fractions.map(present);
-    let node = ContactInterface::of(report.mesh).nodes[motion.node];
+    let node = report.interface.nodes[motion.node];
     let told = motion.harmonics.iter().take(found.harmonic_count);
     let last = told.clone().next_back();
     MotionSummary {
@@ -290,9 +305,15 @@ fn motion(report: &PeriodicReport<'_>, found: &FoundCycle) -> MotionSummary {
         residual: motion.residual,
         periods: motion.periods,
         steps: motion.steps,
-        contact_node: report.mesh.node_label(node as usize),
+        contact_node: report.node_label(node),
         amplitude_m: motion.amplitude,
         velocity_level_db: motion.velocity_level(),
+        sound: found.sound.as_ref().map(|sound| SoundSummary {
+            power_w: sound.power(),
+            level_db: sound.level(),
+            area_m2: sound.area,
+            harmonics_w: sound.harmonics.clone(),
+        }),
         harmonic_count: found.harmonic_count,
         harmonic_remainder: last.map_or(1.0, |last| last.remainder),
         harmonics: told.map(|harmonic| harmonic.amplitude[1]).collect(),

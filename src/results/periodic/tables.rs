@@ -3,14 +3,13 @@
 use super::{FoundCycle, PeriodicReport};
 use crate::contact::{ContactInterface, ContactStatus};
 use crate::cycle::periodic::{
-    BranchMotion, ContactInstant, FloquetMultiplier, FloquetMultipliers, MotionHarmonic,
-    PeriodicBranch, PeriodicMotion, PeriodicPowers,
+    BranchMotion, ContactInstant, FloquetMultiplier, FloquetMultipliers, MotionFrame,
+    MotionHarmonic, PeriodicBranch, PeriodicMotion, PeriodicPowers,
 };
-use crate::mesh::Mesh;
 use crate::results::folder::{FolderError, OutputFolder};
 use crate::results::npz::NpzArchive;
 use crate::results::table::{Column, write_rows};
-use crate::results::vtu::{EncodedMesh, Field, PvdEntry, write_pvd, write_vtu};
+use crate::results::vtu::{EncodedMesh, Field, PvdEntry, solid_vectors, write_pvd, write_vtu};
 use std::f64::consts::TAU;
 use std::io::{self, Write};
 
@@ -24,14 +23,14 @@ pub fn write(
     tag: &str,
     found: &FoundCycle,
 ) -> Result<(), FolderError> {
-    let (mesh, motion) = (report.mesh, &found.motion);
+    let motion = &found.motion;
     folder.write(&format!("cycle-{tag}.csv"), |out| {
         write_history(out, motion)
     })?;
     folder.write(&format!("contact-{tag}.csv"), |out| {
-        write_contact(out, mesh, motion)
+        write_contact(out, report, motion)
     })?;
-    let archive = |out: &mut dyn Write| out.write_all(&encode_contact(mesh, motion)?);
+    let archive = |out: &mut dyn Write| out.write_all(&encode_contact(&report.interface, motion)?);
     folder.write_bulk(&format!("contact-{tag}.npz"), archive)?;
     folder.write(&format!("harmonics-{tag}.csv"), |out| {
         write_harmonics(out, motion, found.harmonic_count)
@@ -46,7 +45,7 @@ pub fn write(
             write_branch(out, branch, report.thickness)
         })?;
     }
-    write_fields(folder, mesh, tag, motion)
+    write_fields(folder, report, tag, motion)
 }
 
 /// One row for each cycle of a branch, in its order.
@@ -114,8 +113,12 @@ fn write_history(out: &mut dyn Write, motion: &PeriodicMotion) -> io::Result<()>
 }
 
 /// Means and amplitudes of every contact node, in the order of the edge.
-fn write_contact(out: &mut dyn Write, mesh: &Mesh, motion: &PeriodicMotion) -> io::Result<()> {
-    let interface = ContactInterface::of(mesh);
+fn write_contact(
+    out: &mut dyn Write,
+    report: &PeriodicReport<'_>,
+    motion: &PeriodicMotion,
+) -> io::Result<()> {
+    let interface = &report.interface;
     let instants = &motion.instants;
     let mean = |values: &dyn Fn(&ContactInstant) -> f64| {
         instants.iter().map(values).sum::<f64>() / instants.len() as f64
@@ -126,13 +129,12 @@ fn write_contact(out: &mut dyn Write, mesh: &Mesh, motion: &PeriodicMotion) -> i
         let [low, high] = values.fold(ends, |[low, high], v| [low.min(v), high.max(v)]);
         0.5 * (high - low)
     };
-    let point = |i: usize| mesh.plane_node(interface.nodes[i] as usize);
+    let point = |i: usize| report.position(interface.nodes[i]);
     let columns: &[Column<'_, usize>] = &[
-        ("node", &|&i| {
-            mesh.node_label(interface.nodes[i] as usize).into()
-        }),
+        ("node", &|&i| report.node_label(interface.nodes[i]).into()),
         ("x_m", &|&i| point(i)[0].into()),
         ("y_m", &|&i| point(i)[1].into()),
+        ("z_m", &|&i| point(i)[2].into()),
         ("stick", &|&i| motion.shares[i][0].into()),
         ("slip", &|&i| motion.shares[i][1].into()),
         ("open", &|&i| motion.shares[i][2].into()),
@@ -145,13 +147,14 @@ fn write_contact(out: &mut dyn Write, mesh: &Mesh, motion: &PeriodicMotion) -> i
             half_range(&|at| at.displacement[i][1]).into()
         }),
     ];
-    write_rows(out, columns, 0..interface.len())
+    let is_written = |column: &&Column<'_, usize>| report.is_solid() || column.0 != "z_m";
+    let columns: Vec<_> = columns.iter().filter(is_written).copied().collect();
+    write_rows(out, &columns, 0..interface.len())
 }
 
 /// The arrays `time_s (F)`, `angle_rad (N)`, `status (F, N)`, `pressure_pa (F, N)`, `shear_pa (F, N)`, `u_n_m (F, N)` and
 /// `u_t_m (F, N)` for `F` instants and `N` contact nodes, with the codes of `status`, as in the `contact.npz` of a transient.
-fn encode_contact(mesh: &Mesh, motion: &PeriodicMotion) -> io::Result<Vec<u8>> {
-    let interface = ContactInterface::of(mesh);
+fn encode_contact(interface: &ContactInterface, motion: &PeriodicMotion) -> io::Result<Vec<u8>> {
     let instants = &motion.instants;
     let shape = [instants.len(), interface.len()];
     let mut archive = NpzArchive::default();
@@ -208,29 +211,30 @@ fn write_multipliers(out: &mut dyn Write, found: &FloquetMultipliers) -> io::Res
     write_rows(out, columns, &found.multipliers)
 }
 
-/// Each frame as a VTU file and, where there are several, `cycle-TAG.pvd` over the time.
+/// Each frame as a VTU file and, where there are several, `cycle-TAG.pvd` over the time: motion of all nodes; status, pressure
+/// and shear of those of the contact.
 fn write_fields(
     folder: &OutputFolder,
-    mesh: &Mesh,
+    report: &PeriodicReport<'_>,
     tag: &str,
     motion: &PeriodicMotion,
 ) -> Result<(), FolderError> {
     let mut entries = Vec::new();
-    for (i, (time, [displacement, velocity])) in motion.frames.iter().enumerate() {
+    for (i, frame) in motion.frames.iter().enumerate() {
         let name = match i {
             0 => format!("cycle-{tag}.vtu"),
             _ => format!("cycle-{tag}-{i:03}.vtu"),
         };
         folder.write(&name, |out| {
-            let fields = [
-                Field::vectors("displacement_m", mesh, displacement),
-                Field::vectors("velocity_m_per_s", mesh, velocity),
-            ];
-            let whole = [Field::number("time_s", *time)];
-            write_vtu(out, &EncodedMesh::new(mesh)?, &whole, &fields, &[])
+            let whole = [Field::number("time_s", frame.time)];
+            let encoded = match report.solid {
+                Some(sector) => EncodedMesh::solid(sector)?,
+                None => EncodedMesh::new(report.mesh)?,
+            };
+            write_vtu(out, &encoded, &whole, &frame_fields(report, frame), &[])
         })?;
         entries.push(PvdEntry {
-            time: *time,
+            time: frame.time,
             group: format!("limit cycle of {:.2} Hz", motion.frequency_hz),
             file: name,
         });
@@ -240,4 +244,23 @@ fn write_fields(
         folder.write(&name, |out| write_pvd(out, &entries))?;
     }
     Ok(())
+}
+
+/// The fields of one frame.
+fn frame_fields(report: &PeriodicReport<'_>, frame: &MotionFrame) -> [Field; 5] {
+    let (nodes, contact) = (&report.interface.nodes, &frame.contact);
+    let vectors = |name: &str, values: &[f64]| match report.solid {
+        Some(sector) => solid_vectors(name, sector, values),
+        None => Field::vectors(name, report.mesh, values),
+    };
+    let [displacement, velocity] = &frame.fields;
+    let count = displacement.len() / report.components();
+    let statuses = contact.status.iter().copied();
+    [
+        vectors("displacement_m", displacement),
+        vectors("velocity_m_per_s", velocity),
+        Field::status(count, nodes, statuses),
+        Field::on_edge("pressure_pa", count, nodes, &contact.pressure),
+        Field::on_edge("shear_pa", count, nodes, &contact.shear),
+    ]
 }

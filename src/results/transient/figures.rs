@@ -1,13 +1,13 @@
 //! The figures of a transient, from its record.
 
 use super::run::RunFigures;
-use crate::chart::{Axis, ChartError, ColourMap, Figure, Line, Panel, SERIES, Side, extremes};
+use crate::chart::{Axis, ChartError, ColourMap, Figure, Line, Panel, SERIES, extremes};
 use crate::contact::{ContactInterface, ContactStatus};
 use crate::mesh::{SolidFace, SolidSector};
 use crate::results::charts::palette::status_of_code;
 use crate::results::charts::{
-    ContactVelocity, Disc, FieldFrame, SolidView, contact_figure, field_figure,
-    open_contact_figure, shear_stress_figure, status_curves,
+    ContactVelocity, Disc, FieldFrame, contact_figure, field_figure, open_contact_figure,
+    shear_stress_figure, speeds_of_bodies, speeds_on_top, status_curves,
 };
 use crate::results::drawing::{Declaration, DrawingOptions, draw_all};
 use crate::results::report::NamedFigure;
@@ -43,38 +43,18 @@ impl RunFigures<'_> {
         self.record.snapshots.iter().take(FIELD_LIMIT)
     }
 
-    /// Speed over the surface of solid bodies, each picture with colours of its own.
-    fn velocity_of_bodies(&self) -> Result<Figure, ChartError> {
-        let view = SolidView::new(self.mesh);
-        let panels = self.snapshots().map(|snapshot| {
-            let speeds = snapshot.velocity.chunks_exact(3);
-            let speeds = speeds.map(|v| v[0].hypot(v[1]).hypot(v[2])).collect();
-            let axis = Axis::new("velocity |*v*|", "m/s");
-            let surface = view.surface(speeds, (&[], 0.0), axis, ColourMap::Viridis);
-            let panel = Panel::plane(surface.window(0.04)).height(150.0);
-            let panel = panel.heading(heading(snapshot)).layer(surface);
-            panel.colour_bar(Side::Below)
-        });
-        let panels: Vec<Panel> = panels.collect();
-        if panels.is_empty() {
-            return Err(ChartError::empty("velocity at the snapshots"));
-        }
-        let caption = "Velocity modulus at the snapshot times.";
-        let columns = panels.len().clamp(1, 3);
-        Ok(Figure::new("velocity", caption)
-            .columns(columns)
-            .panels(panels))
-    }
-
     fn velocity(&self) -> Result<Figure, ChartError> {
         if self.is_assembly() {
-            return self.velocity_of_bodies();
+            let frames = self.snapshots();
+            let frames = frames.map(|snapshot| (heading(snapshot), &snapshot.velocity[..]));
+            let caption = "Velocity modulus at the snapshot times.";
+            return speeds_of_bodies(self.mesh, caption, frames);
         }
         // What is that much slower than the cylinder is round-off of a body at rest.
         let rest = 1e-9 * self.peripheral_speed.abs();
         let frames = self.snapshots().map(|snapshot| -> FieldFrame {
             let speeds = match self.solid {
-                Some(sector) => super::solid::speeds_on_top(sector, &snapshot.velocity),
+                Some(sector) => speeds_on_top(sector, &snapshot.velocity),
                 None => {
                     let speeds = snapshot.velocity.chunks_exact(2);
                     speeds.map(|v| v[0].hypot(v[1])).collect()

@@ -9,7 +9,7 @@ use crate::study::eigenvalues::asked_modes;
 /// The solver of a family, or why it has none.
 pub type Sought = Result<CycleSolver, (Family, CycleError)>;
 
-/// The parameter of `[cycle.continuation]` and its SI values, for a round or a plane counterface.
+/// The parameter of `[cycle.continuation]` and its SI values, for a round or a plane counterface or for solid bodies.
 pub fn continuation(
     case: &Case,
     cycle: &Cycle,
@@ -18,9 +18,13 @@ pub fn continuation(
     let Some(continuation) = &cycle.continuation else {
         return Ok(None);
     };
-    let parameter = Parameter::from_key(&continuation.key).filter(|known| known.suits(is_round));
+    let suits = |known: &&Parameter| match case.body.assembly() {
+        Some(_) => known.is_of_solid_bodies(),
+        None => known.suits(is_round),
+    };
+    let parameter = Parameter::from_key(&continuation.key).filter(|known| suits(&known));
     let Some(parameter) = parameter else {
-        let known = Parameter::ALL.iter().filter(|known| known.suits(is_round));
+        let known = Parameter::ALL.iter().filter(suits);
         let known: Vec<&str> = known.map(|known| known.key()).collect();
         return Err(StudyError::Case(case.error_at(
             "cycle.continuation.key",

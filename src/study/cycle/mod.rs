@@ -18,7 +18,7 @@ mod families;
 mod periodic;
 
 pub use families::{disc_model, mode_limit};
-pub use periodic::PeriodicStudy;
+pub use periodic::{PeriodicStudy, boundary_of_modes};
 
 use super::{StudyError, extent_of};
 use crate::case::{Case, Cycle, StabilityChoice};
@@ -26,6 +26,7 @@ use crate::cycle::{
     CycleError, CycleSolver, CycleStability, Family, LimitCycle, MeshStepping, Onset,
     OperatingPoint, Parameter,
 };
+use crate::fem::lumped_masses;
 use crate::fem::operator::SimdLevel;
 use crate::mesh::AnnulusMesh;
 use crate::results::cycle::{Absence, CycleFrame, CycleReport, CycleResult, known};
@@ -97,6 +98,20 @@ impl<'a> CycleStudy<'a> {
         solvers.map(solve).collect()
     }
 
+    /// Root mean square over the mass that moves of a velocity field: of a rotating wave it is the same at every time.
+    fn velocity(&self, field: &[f64]) -> f64 {
+        let mesh = &self.annulus.mesh;
+        let masses = lumped_masses(mesh, self.case.materials());
+        let mut moves = vec![true; field.len()];
+        mesh.held_dofs().for_each(|dof| moves[dof] = false);
+        let dofs = (0..field.len()).filter(|&dof| moves[dof]);
+        let sums = dofs.fold([0.0; 2], |[energy, mass], dof| {
+            let own = masses[dof / 2];
+            [energy + own * field[dof].powi(2), mass + 0.5 * own]
+        });
+        (sums[0] / sums[1]).sqrt()
+    }
+
     /// Everything that there is to report of the results.
     pub fn report(&self, results: Vec<CycleResult>, wall_s: f64) -> CycleReport<'_> {
         CycleReport {
@@ -165,6 +180,7 @@ impl<'a> CycleStudy<'a> {
             onsets: self.onsets_of(family.harmonic),
             cycle,
             frames: Vec::new(),
+            velocity: None,
             phases: 0,
             confirmation: None,
             stability: None,
@@ -189,8 +205,11 @@ impl<'a> CycleStudy<'a> {
         let frames = found
             .as_ref()
             .map_or(Vec::new(), |cycle| frames(solver, cycle, frame_count));
+        let velocity = found.as_ref().ok();
+        let velocity = velocity.map(|cycle| self.velocity(&solver.field(cycle, 0.0)[1]));
         let cycle = found.map_err(|error| self.absence(solver, &error));
         let mut result = CycleResult {
+            velocity,
             phases: solver.grid().points,
             frames,
             ..self.result(solver.family(), cycle)

@@ -1,25 +1,29 @@
 //! Limit cycles of bodies without symmetry: one for each mode that grows from steady sliding.
 
+mod basin;
+mod faces;
 mod steady;
 
-use super::super::{StudyError, extent_of, transient};
+use super::super::transient::SteppedMesh;
+use super::super::{StudyError, extent_of};
 use super::families::continuation;
 use super::operating_point;
-use crate::case::{Body, Case, Cycle, OnsetChoice, StabilityChoice, TimeStep};
+use crate::case::{Case, Cycle, OnsetChoice, StabilityChoice, TimeStep};
 use crate::cea::{ComplexMode, PartWatch, SweepWatch};
 use crate::cycle::Parameter;
 use crate::cycle::periodic::{
     BranchRequest, FloquetMultipliers, Found, GrowingMode, KeptMotion, MotionConfirmation,
-    MotionRequest, PeriodMap, PeriodicBranch, PeriodicError, PeriodicMotion, REMAINDER,
+    MotionRequest, PeriodMap, PeriodicBranch, PeriodicError, PeriodicMotion, REMAINDER, Sound,
     balanced_start, find, two_frequencies,
 };
 use crate::fem::operator::{SimdLevel, StiffnessOperator};
-use crate::mesh::{AnnulusMesh, Mesh};
 use crate::results::periodic::{FoundCycle, PeriodicReport, PeriodicResult, SoughtMode};
-use crate::transient::{OperatorChoice, TransientBody, TransientError, TransientModel};
+use crate::transient::{OperatorChoice, TransientBody, TransientError};
+pub use basin::boundary_of_modes;
 use rayon::prelude::*;
-use std::sync::Arc;
 use std::time::Instant;
+
+use faces::faces_in_air;
 use steady::{Steady, onset};
 
 /// Instants of the contact over a period where the case names no number.
@@ -30,8 +34,7 @@ pub struct PeriodicStudy<'a> {
     case: &'a Case,
     /// What the case says of its cycles.
     pub choices: &'a Cycle,
-    mesh: Arc<Mesh>,
-    annulus: Option<AnnulusMesh>,
+    stepped: SteppedMesh<'a>,
     simd: SimdLevel,
     /// The mode that grows fastest or decays slowest at the case's own operating point.
     least_stable: Option<SoughtMode>,
@@ -54,14 +57,14 @@ impl<'a> PeriodicStudy<'a> {
     /// A bad case; a body without a state of steady sliding; those of the eigenvalue solver.
     pub fn new(case: &'a Case, simd: SimdLevel) -> Result<Self, StudyError> {
         let choices = case.require_cycle()?;
-        let mesh = case.mesh()?;
-        let continuation = continuation(case, choices, mesh.has_round_contact())?;
-        let mut steady = Steady::of(case)?;
+        let stepped = SteppedMesh::of(case)?;
+        let continuation = continuation(case, choices, stepped.mesh.has_round_contact())?;
+        let mut steady = Steady::of(case, &stepped)?;
         let own = steady.least_stable().map(|place| sought(&steady, place));
         let mut start = None;
         if let (true, Some((parameter, values))) = (steady.growing().is_empty(), &continuation) {
             let here = parameter.of(&operating_point(case));
-            if let Some((value, other)) = growing_end(case, *parameter, values, here)? {
+            if let Some((value, other)) = growing_end((case, &stepped), *parameter, values, here)? {
                 (start, steady) = (Some(value), other);
             }
         }
@@ -69,21 +72,16 @@ impl<'a> PeriodicStudy<'a> {
         if choices.onsets == OnsetChoice::Lowest {
             places.truncate(1);
         }
-        let annulus = match &case.body {
-            Body::Annulus(annulus) => Some(AnnulusMesh::generate(&annulus.specification)?),
-            _ => None,
-        };
         Ok(Self {
             case,
             choices,
-            annulus,
             simd,
             least_stable: own,
             start,
             steady,
             sought: places,
             continuation,
-            mesh,
+            stepped,
         })
     }
 
@@ -93,26 +91,14 @@ impl<'a> PeriodicStudy<'a> {
     }
 
     fn body(&self) -> TransientBody<'_> {
-        transient::body(
-            (self.case, self.case.materials()),
-            &self.mesh,
-            self.annulus.as_ref(),
-            None,
-        )
+        self.stepped.body(self.case)
     }
 
     /// The body with another value of a parameter, SI.
     fn body_at(&self, parameter: Parameter, value: f64) -> TransientBody<'_> {
         let mut point = operating_point(self.case);
         parameter.set(&mut point, value);
-        match self.body() {
-            TransientBody::Plane(model) => TransientBody::Plane(TransientModel {
-                contact: point.contact,
-                damping: point.damping,
-                ..model
-            }),
-            solid => solid,
-        }
+        self.stepped.body_at(self.case, &point)
     }
 
     /// The period map of a body for motions near a mode.
@@ -179,7 +165,7 @@ impl<'a> PeriodicStudy<'a> {
         let parameter = branch.parameter;
         let onsets = branch.beyond(growing).into_iter().flatten();
         branch.onsets = onsets
-            .filter_map(|stable| onset(self.case, parameter, stable, growing))
+            .filter_map(|stable| onset((self.case, &self.stepped), parameter, stable, growing))
             .collect();
         branch
     }
@@ -235,8 +221,6 @@ impl<'a> PeriodicStudy<'a> {
     ) -> Result<FoundCycle, PeriodicError> {
         let mode = &self.steady.modes[place];
         let mut map = self.map(self.body_at_start(), operator, mode)?;
-        let speed = self.body_at_start().contact().rotation_speed;
-        let speed = map.interface().surface_speed(speed);
         let growing = GrowingMode {
             eigenvalue: mode.eigenvalue,
             shape: mode.shape.as_deref().unwrap_or_default(),
@@ -253,7 +237,7 @@ impl<'a> PeriodicStudy<'a> {
             None => None,
         };
         if found.is_none() {
-            let start = balanced_start(&mut map, &growing, speed);
+            let start = balanced_start(&mut map, &growing);
             let result = find(&mut map, start.clone());
             if let Err(PeriodicError::NotConverged { .. }) = result
                 && let Some(frequencies_hz) = two_frequencies(&mut map, &start)
@@ -285,8 +269,11 @@ impl<'a> PeriodicStudy<'a> {
         let periods = self.choices.confirmation_periods;
         let confirmation = (periods > 0)
             .then(|| MotionConfirmation::run(&mut map, &found.state, leading.as_ref(), periods));
+        let faces = faces_in_air(self.case, &self.stepped);
+        let sound = (!faces.is_empty()).then(|| Sound::of(&mut map, &found.state, &faces));
         let count = self.choices.harmonic_count;
         Ok(FoundCycle {
+            sound,
             harmonic_count: count
                 .unwrap_or_else(|| motion.harmonics_within(REMAINDER))
                 .min(motion.harmonics.len()),
@@ -328,8 +315,10 @@ impl<'a> PeriodicStudy<'a> {
     pub fn report(&self, results: Vec<PeriodicResult>, wall_s: f64) -> PeriodicReport<'_> {
         PeriodicReport {
             title: &self.case.title,
-            mesh: &self.mesh,
-            thickness: self.case.thickness,
+            mesh: &self.stepped.mesh,
+            solid: self.stepped.sector.as_ref(),
+            interface: self.body().interface(),
+            thickness: self.stepped.thickness(self.case),
             extent: extent_of(self.case),
             friction_coefficient: self.case.contact.sliding.friction_coefficient,
             modes: self.steady.modes.len(),
@@ -372,7 +361,7 @@ fn sought(steady: &Steady, place: usize) -> SoughtMode {
 
 /// The end of a range of a parameter, the one nearer to `here` first, at which a mode grows.
 fn growing_end(
-    case: &Case,
+    of: (&Case, &SteppedMesh<'_>),
     parameter: Parameter,
     values: &[f64],
     here: f64,
@@ -380,7 +369,7 @@ fn growing_end(
     let mut ends = [values[0], values[values.len() - 1]];
     ends.sort_by(|a, b| (a - here).abs().total_cmp(&(b - here).abs()));
     for value in ends {
-        let steady = Steady::at(case, parameter, value)?;
+        let steady = Steady::at(of, parameter, value)?;
         if !steady.growing().is_empty() {
             return Ok(Some((value, steady)));
         }

@@ -18,37 +18,31 @@
 
 mod notes;
 mod settings;
+mod stepped;
 
-pub(super) use settings::body;
+pub use stepped::SteppedMesh;
 
 use super::cycle::limit_cycle;
 use super::{StudyError, extent_of};
-use crate::case::{Annulus, Body, Case, Revolution, Transient};
+use crate::case::{Case, Transient};
 use crate::cycle::Family;
 use crate::fem::operator::{SimdLevel, StiffnessOperator};
 use crate::linalg::interruption;
-use crate::mesh::{AnnulusMesh, Mesh, SolidSector};
 use crate::prestress::Assembly;
 use crate::results::transient::TransientReport;
 use crate::transient::{
     CentralDifference, InitialState, Recorder, RecorderSettings, StepPlan, TransientAnalysis,
     TransientBody, TransientError, TransientSettings, TransientState,
 };
-use std::sync::Arc;
 use std::time::Instant;
 
 /// A case made ready for the time loop.
 pub struct TransientStudy<'a> {
     /// The case.
     pub case: &'a Case,
-    /// Its mesh; of a body in three dimensions the section across the axis.
-    pub mesh: Arc<Mesh>,
-    /// One sector of a body of revolution in three dimensions.
-    pub sector: Option<SolidSector>,
-    /// Solid bodies of a mesh with their ties and contacts.
-    assembly: Option<Assembly<'a>>,
+    /// Its mesh.
+    pub stepped: SteppedMesh<'a>,
     transient: &'a Transient,
-    annulus: Option<AnnulusMesh>,
     simd: SimdLevel,
     settings: TransientSettings,
 }
@@ -76,33 +70,10 @@ impl<'a> TransientStudy<'a> {
     /// [`StudyError::Case`] for a case without `[transient]`; a mesh that cannot be built.
     pub fn new(case: &'a Case, simd: SimdLevel) -> Result<Self, StudyError> {
         let transient = case.require_transient()?;
-        let (mut annulus, mut sector, mut assembly) = (None, None, None);
-        let mesh = match &case.body {
-            Body::Annulus(Annulus { specification, .. }) => {
-                let generated = AnnulusMesh::generate(specification)?;
-                let mesh = Arc::new(generated.mesh.clone());
-                annulus = Some(generated);
-                mesh
-            }
-            Body::Revolution(Revolution { specification, .. }) => {
-                let generated = SolidSector::generate(specification)?;
-                let mesh = Arc::new(generated.section()?);
-                sector = Some(generated);
-                mesh
-            }
-            Body::Imported(imported) => Arc::clone(&imported.mesh),
-            Body::Assembly(body) => {
-                assembly = Some(body.stepped_as(case.materials_in_time())?);
-                Arc::clone(&body.mesh)
-            }
-        };
         Ok(Self {
             case,
-            mesh,
-            sector,
-            assembly,
+            stepped: SteppedMesh::of(case)?,
             transient,
-            annulus,
             simd,
             settings: settings::run_settings(case, transient),
         })
@@ -110,15 +81,7 @@ impl<'a> TransientStudy<'a> {
 
     /// The body with its contact.
     pub fn body(&self) -> TransientBody<'_> {
-        match (&self.assembly, self.sector.as_ref()) {
-            (Some(assembly), _) => settings::assembly(self.case, assembly).into(),
-            (None, sector) => settings::body(
-                (self.case, self.case.materials_in_time()),
-                &self.mesh,
-                self.annulus.as_ref(),
-                sector,
-            ),
-        }
+        self.stepped.body(self.case)
     }
 
     /// Choices of the run.
@@ -292,12 +255,12 @@ impl<'a> TransientStudy<'a> {
         let places = case.output.placed_probes.iter();
         TransientReport {
             title: &case.title,
-            mesh: &self.mesh,
-            solid: self.sector.as_ref(),
+            mesh: &self.stepped.mesh,
+            solid: self.stepped.sector.as_ref(),
             contact_nodes: self.body().interface().nodes,
             material: case.materials_in_time(),
             has_harmonics: case.has_sectors(),
-            thickness: self.thickness(),
+            thickness: self.stepped.thickness(case),
             extent: extent_of(case),
             friction_coefficient: case.contact.sliding.friction_coefficient,
             initial: settings.initial.name(),
@@ -326,12 +289,8 @@ impl<'a> TransientStudy<'a> {
     /// Whether a record can be one of this body.
     pub fn is_of(&self, record: &Recorder) -> bool {
         let components = self.body().components();
-        let nodes = match &self.sector {
-            Some(sector) => sector.node_count() * sector.sector_count(),
-            None => self.mesh.node_count(),
-        };
         record.fits(
-            components * nodes,
+            components * self.stepped.node_count(),
             components,
             self.body().interface().len(),
         )
@@ -340,28 +299,21 @@ impl<'a> TransientStudy<'a> {
     /// Speed of the counterface where figures show the contact, m/s: of several rings of nodes at the middle one.
     pub fn shown_speed(&self) -> f64 {
         let speed = self.case.contact.sliding.rotation_speed;
-        match &self.sector {
+        match &self.stepped.sector {
             Some(sector) => speed * sector.rings[sector.rings.len() / 2].radius,
-            None if self.assembly.is_some() => self.sliding_speed(),
+            None if self.stepped.assembly.is_some() => self.sliding_speed(),
             None => self.body().interface().surface_speed(speed),
         }
     }
 
     /// Mean speed at which the contacts of an assembly slide, m/s.
     fn sliding_speed(&self) -> f64 {
-        let contacts = self.assembly.iter().flat_map(Assembly::contacts);
+        let contacts = self.stepped.assembly.iter();
+        let contacts = contacts.flat_map(Assembly::contacts);
         let points = contacts.flat_map(|(_, surface)| &surface.points);
         let [speed, area] = points.fold([0.0; 2], |[speed, area], point| {
             [speed + point.weight * point.speed, area + point.weight]
         });
         speed / area.max(f64::MIN_POSITIVE)
-    }
-
-    /// What records are multiplied by, m: those of a body in three dimensions are of the whole, and this is 1.
-    pub fn thickness(&self) -> f64 {
-        match self.sector.is_some() || self.assembly.is_some() {
-            true => 1.0,
-            false => self.case.thickness,
-        }
     }
 }

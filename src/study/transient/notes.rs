@@ -38,7 +38,7 @@ impl TransientStudy<'_> {
         let relaxed = self.case.relaxed.iter();
         let chains = relaxed.flat_map(RelaxedMaterials::chains);
         let said = chains.map(|(region, chain)| {
-            let name = match self.mesh.regions.get(region) {
+            let name = match self.stepped.mesh.regions.get(region) {
                 Some(name) => format!("region {name}"),
                 None => "the body".to_owned(),
             };
@@ -65,23 +65,23 @@ impl TransientStudy<'_> {
             // A gap closes as the run moves the body, and other faults stop the run itself.
             _ => None,
         };
-        if let Some(assembly) = &self.assembly {
+        if let Some(assembly) = &self.stepped.assembly {
             let range = assembly.range(&[case.contact.sliding.friction_coefficient]);
             return range.err().and_then(jams);
         }
         if !starts_at_rest || case.has_sectors() || case.contact.sliding.rotation_speed == 0.0 {
             return None;
         }
-        let stiffness = assemble_stiffness(&self.mesh, case.materials_in_time());
+        let stiffness = assemble_stiffness(&self.stepped.mesh, case.materials_in_time());
         let contact = &case.contact;
         let law = contact.stiffness.law;
-        let base = SteadySliding::solve_with(&self.mesh, &stiffness, &contact.sliding, law);
+        let base = SteadySliding::solve_with(&self.stepped.mesh, &stiffness, &contact.sliding, law);
         base.err().and_then(jams)
     }
 
     /// That displacements or strains are not small.
     fn large_motion(&self, record: &Recorder) -> Option<String> {
-        let mesh = &self.mesh;
+        let mesh = &self.stepped.mesh;
         let extent = |axis: usize| {
             let places = mesh.nodes.iter().map(|node| node[axis]);
             let [low, high] = places.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| {
@@ -105,7 +105,11 @@ impl TransientStudy<'_> {
                 .map(|e| mesh.element_area(e) * materials.of(mesh.region(e)).young_modulus)
                 .sum(),
         };
-        let depth = self.sector.as_ref().map_or(1.0, |_| self.case.thickness);
+        let depth = self
+            .stepped
+            .sector
+            .as_ref()
+            .map_or(1.0, |_| self.case.thickness);
         let energies = record.rows.iter().map(|row| row.strain_energy);
         let energy = energies.fold(0.0, f64::max);
         let strain = (2.0 * energy / (stiffness * depth)).sqrt();

@@ -1,7 +1,7 @@
 //! From the case's terms to those of the time loop, and its errors back to keys of the case.
 
 use crate::case::{Case, Transient};
-use crate::fem::MaterialField;
+use crate::cycle::OperatingPoint;
 use crate::mesh::{AnnulusMesh, Mesh, SolidSector};
 use crate::prestress::Assembly;
 use crate::study::StudyError;
@@ -10,20 +10,18 @@ use crate::transient::{
     TransientError, TransientModel, TransientSettings,
 };
 
-/// The body of a case; `mesh` and `annulus` are the section of one in three dimensions, `sector`.
+/// The body of a case at an operating point; `mesh` and `annulus` are the section of one in three dimensions, `sector`.
 pub fn body<'a>(
-    (case, materials): (&'a Case, &'a dyn MaterialField),
+    (case, point): (&'a Case, &OperatingPoint),
     mesh: &'a Mesh,
     annulus: Option<&'a AnnulusMesh>,
     sector: Option<&'a SolidSector>,
 ) -> TransientBody<'a> {
-    let damped = if case.damping.include_contact {
-        case.damping.rayleigh.stiffness_coefficient
-    } else {
-        0.0
-    };
-    let (damping, contact) = (case.damping.rayleigh, case.contact.sliding);
-    let stiffness = case.contact.stiffness.damped_by(damped);
+    let (damping, contact) = (point.damping, point.contact);
+    let stiffness = case
+        .contact
+        .stiffness
+        .damped_by(contact_damping(case, point));
     if let Some(sector) = sector {
         let material = &case.material;
         return SolidTransientModel {
@@ -38,7 +36,7 @@ pub fn body<'a>(
     TransientModel {
         mesh,
         annulus,
-        material: materials,
+        material: case.materials_in_time(),
         damping,
         contact,
         stiffness,
@@ -46,19 +44,27 @@ pub fn body<'a>(
     .into()
 }
 
+/// Stiffness damping that acts on the springs of the contact too, s.
+fn contact_damping(case: &Case, point: &OperatingPoint) -> f64 {
+    match case.damping.include_contact {
+        true => point.damping.stiffness_coefficient,
+        false => 0.0,
+    }
+}
+
 /// The bodies of an assembly.
-pub fn assembly<'a>(case: &Case, assembly: &'a Assembly<'a>) -> AssemblyTransientModel<'a> {
-    let rayleigh = case.damping.rayleigh;
+pub fn assembly<'a>(
+    case: &Case,
+    point: &OperatingPoint,
+    assembly: &'a Assembly<'a>,
+) -> AssemblyTransientModel<'a> {
     let motions = case.body.assembly().map_or(&[][..], |body| &body.motions);
     let axis = motions.first().map(|motion| [motion.center, motion.axis]);
     AssemblyTransientModel {
         assembly,
-        damping: rayleigh,
-        contact: case.contact.sliding,
-        contact_damping: match case.damping.include_contact {
-            true => rayleigh.stiffness_coefficient,
-            false => 0.0,
-        },
+        damping: point.damping,
+        contact: point.contact,
+        contact_damping: contact_damping(case, point),
         axis: axis.unwrap_or([[0.0; 3], [0.0, 0.0, 1.0]]),
     }
 }

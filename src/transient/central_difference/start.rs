@@ -137,18 +137,25 @@ impl<'a> CentralDifference<'a> {
         self.largest_residual = 0.0;
     }
 
-    /// Another contact for the same plane body: friction law, speed and interference; for those who step one body at many
-    /// operating points. What it touches with stays what it is.
+    /// Another contact for the same body: friction law, speed and interference, of an assembly the friction of its first contact,
+    /// to which the others keep their ratio; for those who step one body at many operating points. What it touches with stays what
+    /// it is.
     ///
     /// # Errors
     /// [`TransientError::Prestress`] where the springs of a compliant contact have no base state.
     pub fn retune(&mut self, contact: SlidingContact) -> Result<(), TransientError> {
-        if let TransientBody::Plane(model) = &mut self.body
-            && model.contact != contact
-        {
-            model.contact = contact;
-            self.contact.retune(&self.interface, model)?;
+        if *self.body.contact() == contact {
+            return Ok(());
         }
+        match &mut self.body {
+            TransientBody::Plane(model) => {
+                model.contact = contact;
+                return self.contact.retune(&self.interface, model);
+            }
+            TransientBody::Solid(model) => model.contact = contact,
+            TransientBody::Assembly(model) => model.contact = contact,
+        }
+        self.contact = self.body.lagrange_contact(self.operator, &self.interface)?;
         Ok(())
     }
 

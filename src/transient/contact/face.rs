@@ -22,6 +22,13 @@ pub(super) struct FaceSliding {
     before: Vec<[f64; 2]>,
 }
 
+impl FaceSliding {
+    /// Speed of the counterface at a node, m/s.
+    pub(super) fn speed(&self, i: usize) -> f64 {
+        self.speeds[i]
+    }
+}
+
 impl LagrangeContact {
     /// All nodes of `interface` on a face of `model` open; `base` is the state of steady sliding that compliant contact needs.
     ///

@@ -447,7 +447,7 @@ impl LagrangeContact {
     }
 
     /// Value of a row (0 separation, 1 slip) at node `i` under a displacement field, m.
-    fn row_at_node(&self, i: usize, row: usize, displacement: &[f64]) -> f64 {
+    pub(super) fn row_at_node(&self, i: usize, row: usize, displacement: &[f64]) -> f64 {
         let Some(contact) = &self.points else {
             return 0.0;
         };
@@ -457,6 +457,18 @@ impl LagrangeContact {
                 |&(k, along): &(u32, f64)| along * displacement[contact.dofs[k as usize].place];
             parts.map(own).sum()
         })
+    }
+
+    /// Sliding speed at node `i`, m/s.
+    pub(super) fn speed_at_node(&self, i: usize) -> f64 {
+        self.mean_at_node(i, |point| point.speed)
+    }
+
+    /// Friction law of the contact that node `i` belongs to; none without points.
+    pub(super) fn law_at_node(&self, i: usize) -> Option<CoulombFriction> {
+        let contact = self.points.as_ref()?;
+        let &(point, _) = contact.nodes[i].points.first()?;
+        Some(contact.points[point].law)
     }
 
     /// Distance of node `i` from what it meets under a displacement field, m.

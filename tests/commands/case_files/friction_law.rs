@@ -64,8 +64,12 @@ fn what_needs_constant_friction_says_so() {
     let waves = cycles.require_rotating_waves().unwrap_err();
     assert_reports(&waves.to_string(), &parts);
     assert!(cycles.require_cycle().is_ok() && !cycles.has_rotating_waves());
+    // Modes compete instead of waves.
     let basin = valid(BASIN, &[RATIO, SPEED]).require_basin().unwrap_err();
-    assert_reports(&basin.to_string(), &parts);
+    assert_reports(
+        &basin.to_string(),
+        &["basin.harmonics is not used", "basin.modes"],
+    );
     let start = [
         RATIO,
         SPEED,

@@ -1,10 +1,13 @@
 //! Steady sliding at one operating point, and where along a parameter it loses its stability.
 
-use crate::case::Case;
-use crate::cea::{CeaError, ComplexMode, SweepRequest, Unwatched};
+use super::super::operating_point;
+use crate::case::{Body, Case};
+use crate::cea::{CeaError, ComplexMode, SweepRequest, Unwatched, sparse};
 use crate::cycle::Parameter;
 use crate::fem::MassKind;
+use crate::prestress::{Assembly, TangentOptions};
 use crate::study::eigenvalues::{Model, Solver, asked_modes};
+use crate::study::transient::SteppedMesh;
 use crate::study::{StudyError, tangent_options};
 
 /// Modes of lowest frequency that are looked at where the case has no `[cea]`.
@@ -27,25 +30,51 @@ impl Steady {
     ///
     /// # Errors
     /// A body without a state of steady sliding; those of the eigenvalue solver.
-    pub fn of(case: &Case) -> Result<Self, StudyError> {
+    pub fn of(case: &Case, stepped: &SteppedMesh<'_>) -> Result<Self, StudyError> {
         let friction = case.contact.sliding.friction_coefficient;
         let mut options = tangent_options(case, MassKind::Lumped);
         options.geometric_stiffness = false;
-        let model = Model::with_solver(case, Solver::WholeMesh, options, &[friction])?;
         let request = SweepRequest {
             friction_coefficients: &[friction],
             limit: asked_modes(case, MODES),
             shapes_at: &[friction],
         };
+        if let Some(assembly) = &stepped.assembly {
+            return Self::of_assembly(assembly, &options, &request);
+        }
+        let solver = match &case.body {
+            Body::Revolution(_) => Solver::by_symmetry(case),
+            _ => Solver::WholeMesh,
+        };
+        let model = Model::with_solver(case, solver, options, &[friction])?;
         let found = model.spectrum(case, &request, false, &Unwatched)?;
         let point = found.sweep.points.into_iter().next();
         let modes = point.map_or_else(Vec::new, |point| point.modes);
-        let Model::Whole(whole) = &model else {
-            return Err(CeaError::NoFriction.into());
+        let base = match &model {
+            Model::Whole(whole) => whole.base().displacement(friction),
+            _ => {
+                let body = stepped.body(case);
+                body.sliding_displacement().map_err(StudyError::Transient)?
+            }
         };
+        Ok(Self { base, modes })
+    }
+
+    /// That of solid bodies, with their contact points at nodes as the transient has them.
+    fn of_assembly(
+        assembly: &Assembly<'_>,
+        options: &TangentOptions,
+        request: &SweepRequest<'_>,
+    ) -> Result<Self, StudyError> {
+        let frictions = request.friction_coefficients;
+        let range = assembly.range(frictions).map_err(CeaError::from)?;
+        let state = &range.states[range.state_of[0]];
+        let tangent = assembly.tangent(state, options).map_err(CeaError::from)?;
+        let found = sparse::sweep(&tangent, request, &Unwatched)?;
+        let point = found.points.into_iter().next();
         Ok(Self {
-            base: whole.base().displacement(friction),
-            modes,
+            base: state.displacement(frictions[0]),
+            modes: point.map_or_else(Vec::new, |point| point.modes),
         })
     }
 
@@ -53,14 +82,27 @@ impl Steady {
     ///
     /// # Errors
     /// As [`Self::of`]; a value that the case cannot have.
-    pub fn at(case: &Case, parameter: Parameter, value: f64) -> Result<Self, StudyError> {
+    pub fn at(
+        (case, stepped): (&Case, &SteppedMesh<'_>),
+        parameter: Parameter,
+        value: f64,
+    ) -> Result<Self, StudyError> {
+        if stepped.assembly.is_some() {
+            // The bodies are the same: no key of the case is that of all contacts.
+            let (mut point, mut other) = (operating_point(case), case.clone());
+            parameter.set(&mut point, value);
+            other.contact.sliding = point.contact;
+            other.damping.rayleigh = point.damping;
+            return Self::of(&other, stepped);
+        }
         let value = parameter.in_key_units(value);
         let change = format!("{}={value:?}", parameter.key());
         let mut raw = case.raw.with_overrides(&[change])?;
         for study in ["sweep", "fit", "uncertainty"] {
             raw.root.remove(study);
         }
-        Self::of(&Case::from_raw(raw)?)
+        let other = Case::from_raw(raw)?;
+        Self::of(&other, &SteppedMesh::of(&other)?)
     }
 
     /// Places of the modes that grow, fastest first.
@@ -87,9 +129,14 @@ impl Steady {
 
 /// The value of a parameter between one at which steady sliding is stable and one at which it is not: where its fastest mode
 /// neither grows nor decays, by false position; none where it is not stable at the first.
-pub fn onset(case: &Case, parameter: Parameter, stable: f64, growing: f64) -> Option<f64> {
+pub fn onset(
+    of: (&Case, &SteppedMesh<'_>),
+    parameter: Parameter,
+    stable: f64,
+    growing: f64,
+) -> Option<f64> {
     let growth = |value: f64| {
-        let steady = Steady::at(case, parameter, value).ok()?;
+        let steady = Steady::at(of, parameter, value).ok()?;
         Some(steady.growth_rate())
     };
     let (mut low, mut high) = ((stable, growth(stable)?), (growing, growth(growing)?));

@@ -1,0 +1,77 @@
+//! Which of two motions wins on a body without symmetry.
+
+use super::steady::Steady;
+use crate::case::{Case, TimeStep};
+use crate::cycle::periodic::{GrowingMode, ModeContest, PeriodMap};
+use crate::cycle::{BasinBoundary, BasinRequest};
+use crate::fem::operator::SimdLevel;
+use crate::study::StudyError;
+use crate::study::transient::SteppedMesh;
+use crate::transient::OperatorChoice;
+
+/// The boundary between the basins of two modes that grow, or between that of one mode and steady sliding, and the numbers of the
+/// two rivals, 0 for steady sliding.
+///
+/// # Errors
+/// A mode that there is not; a body that the time loop cannot take.
+pub fn boundary_of_modes(
+    case: &Case,
+    request: &BasinRequest,
+    simd: SimdLevel,
+) -> Result<([usize; 2], BasinBoundary), StudyError> {
+    let stepped = SteppedMesh::of(case)?;
+    let steady = Steady::of(case, &stepped)?;
+    let places = rivals(case, request, &steady)?;
+    let modes: Vec<(usize, GrowingMode<'_>)> = places
+        .into_iter()
+        .map(|place| {
+            let mode = &steady.modes[place];
+            let growing = GrowingMode {
+                eigenvalue: mode.eigenvalue,
+                shape: mode.shape.as_deref().unwrap_or_default(),
+                base: &steady.base,
+            };
+            (place + 1, growing)
+        })
+        .collect();
+    let body = stepped.body(case);
+    let operator = body.operator(OperatorChoice::Auto, simd);
+    let operator = operator.map_err(StudyError::Transient)?;
+    let step = case.transient.as_ref().map(|run| run.time_step);
+    let longest = match step {
+        Some(TimeStep::Seconds(step)) => Some(step),
+        Some(TimeStep::Auto) | None => None,
+    };
+    let fastest = modes.iter().map(|(_, mode)| mode.eigenvalue.im);
+    let map = PeriodMap::new(
+        body,
+        operator.as_ref(),
+        fastest.fold(0.0, f64::max),
+        longest,
+    );
+    let mut contest = ModeContest::new(map.map_err(StudyError::Transient)?, &modes, request);
+    let rivals = contest.rivals();
+    let found = request.boundary(rivals, |ratio| Ok::<_, StudyError>(contest.run(ratio)))?;
+    Ok((rivals, found))
+}
+
+/// Places of the modes that compete: those asked for, else the two that grow fastest, else the least stable one.
+fn rivals(case: &Case, request: &BasinRequest, steady: &Steady) -> Result<Vec<usize>, StudyError> {
+    let growing = steady.growing();
+    let Some(asked) = &request.modes else {
+        return Ok(match growing.len() {
+            0 => steady.least_stable().into_iter().collect(),
+            _ => growing.into_iter().take(2).collect(),
+        });
+    };
+    let count = steady.modes.len();
+    if let Some(beyond) = asked.iter().find(|&&mode| mode > count) {
+        return Err(StudyError::Case(case.error_at(
+            "basin.modes",
+            format!("basin.modes: there is no mode {beyond}, {count} are looked at"),
+            format!("1 to {count}"),
+            Some("raise cea.modes, or cea.max_frequency_hz".to_owned()),
+        )));
+    }
+    Ok(asked.iter().map(|mode| mode - 1).collect())
+}

@@ -1,0 +1,95 @@
+//! The body of a case as the time loop takes it.
+
+use super::settings;
+use crate::case::{Annulus, Body, Case, Revolution};
+use crate::cycle::OperatingPoint;
+use crate::mesh::{AnnulusMesh, Mesh, SolidSector};
+use crate::prestress::Assembly;
+use crate::study::StudyError;
+use crate::study::cycle::operating_point;
+use crate::transient::TransientBody;
+use std::sync::Arc;
+
+/// The mesh of a case and what belongs to it: a transient and the limit cycles that it may end on step the same body.
+#[derive(Debug)]
+pub struct SteppedMesh<'a> {
+    /// The mesh; of a body of revolution in three dimensions the section across the axis.
+    pub mesh: Arc<Mesh>,
+    /// One sector of a body of revolution in three dimensions.
+    pub sector: Option<SolidSector>,
+    /// Solid bodies of a mesh with their ties and contacts.
+    pub assembly: Option<Assembly<'a>>,
+    annulus: Option<AnnulusMesh>,
+}
+
+impl<'a> SteppedMesh<'a> {
+    /// That of a case.
+    ///
+    /// # Errors
+    /// A mesh that cannot be built; surfaces that do not meet.
+    pub fn of(case: &'a Case) -> Result<Self, StudyError> {
+        let (mut annulus, mut sector, mut assembly) = (None, None, None);
+        let mesh = match &case.body {
+            Body::Annulus(Annulus { specification, .. }) => {
+                let generated = AnnulusMesh::generate(specification)?;
+                let mesh = Arc::new(generated.mesh.clone());
+                annulus = Some(generated);
+                mesh
+            }
+            Body::Revolution(Revolution { specification, .. }) => {
+                let generated = SolidSector::generate(specification)?;
+                let mesh = Arc::new(generated.section()?);
+                sector = Some(generated);
+                mesh
+            }
+            Body::Imported(imported) => Arc::clone(&imported.mesh),
+            Body::Assembly(body) => {
+                assembly = Some(body.stepped_as(case.materials_in_time())?);
+                Arc::clone(&body.mesh)
+            }
+        };
+        Ok(Self {
+            mesh,
+            sector,
+            assembly,
+            annulus,
+        })
+    }
+
+    /// The body of the case with its contact.
+    pub fn body<'b>(&'b self, case: &'b Case) -> TransientBody<'b> {
+        self.body_at(case, &operating_point(case))
+    }
+
+    /// The same at another operating point.
+    pub fn body_at<'b>(&'b self, case: &'b Case, point: &OperatingPoint) -> TransientBody<'b> {
+        match (&self.assembly, self.sector.as_ref()) {
+            (Some(assembly), _) => settings::assembly(case, point, assembly).into(),
+            (None, sector) => {
+                let annulus = self.annulus.as_ref();
+                settings::body((case, point), &self.mesh, annulus, sector)
+            }
+        }
+    }
+
+    /// Nodes of the whole body.
+    pub fn node_count(&self) -> usize {
+        match &self.sector {
+            Some(sector) => sector.node_count() * sector.sector_count(),
+            None => self.mesh.node_count(),
+        }
+    }
+
+    /// Whether the body has a thickness of its own.
+    pub fn is_solid(&self) -> bool {
+        self.sector.is_some() || self.assembly.is_some()
+    }
+
+    /// What powers and energies are multiplied by, m: those of a body in three dimensions are of the whole, and this is 1.
+    pub fn thickness(&self, case: &Case) -> f64 {
+        match self.is_solid() {
+            true => 1.0,
+            false => case.thickness,
+        }
+    }
+}
