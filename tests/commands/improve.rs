@@ -206,3 +206,34 @@ fn the_front_of_mass_against_critical_friction_is_run_again_and_rises() {
         assert!(folder.path().join("out").join(file).exists(), "{file}");
     }
 }
+
+/// A mass of several per cent of the disc and a stiff spring, attached to a node, are predicted as they run: at the case's own friction
+/// to round-off of two eigenproblems, since the small problem has the compliance of the whole there; the onset by vectors of that
+/// friction.
+#[test]
+fn what_is_attached_to_a_node_is_predicted_however_large() {
+    let folder = tempfile::tempdir().unwrap();
+    let set = [
+        "improve.modifications=[\"mass\", \"spring\"]",
+        "improve.mass=0.003",
+        "improve.stiffness=3e7",
+        "improve.candidates=1",
+        "improve.confirm=2",
+    ];
+    let output = run(folder.path(), "improve", &set);
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{errors}");
+    let summary = summary(folder.path());
+    let base = summary["base"]["growth_rate_per_s"].as_f64().unwrap();
+    let candidates = summary["candidates"].as_array().unwrap();
+    assert_eq!(candidates.len(), 2);
+    for own in candidates {
+        let of =
+            |key: &str| ["predicted", "confirmed"].map(|state| own[state][key].as_f64().unwrap());
+        let [predicted, confirmed] = of("growth_rate_per_s");
+        assert!((base - confirmed).abs() > 0.02 * base, "{own}");
+        assert!((predicted / confirmed - 1.0).abs() < 1e-6, "{own}");
+        let [predicted, confirmed] = of("critical_friction");
+        assert!((predicted / confirmed - 1.0).abs() < 0.02, "{own}");
+    }
+}

@@ -318,7 +318,7 @@ fn sectors_tell_the_same_budget_as_the_whole_mesh() {
     ];
     let shaft = [
         "geometry.shaft_inner_radius=0.005",
-        "mesh.shaft_elements=3",
+        "mesh.shaft_radial_elements=3",
         "materials.shaft.young_modulus=7e10",
         "materials.shaft.poisson_ratio=0.3",
         "materials.shaft.density=2700.0",
@@ -448,11 +448,12 @@ fn a_guided_body_of_revolution_has_the_budget_of_the_plane_disc() {
         is_found = true;
         let sum: f64 = own.iter().map(|row| row[1]).sum();
         assert!((sum / flat - 1.0).abs() < 1e-3, "mode {mode}: {sum} {flat}");
+        // Both ends alike; the middle differs by what a quadratic face makes of a wave along it.
+        let ends = own[own.len() - 1][2] / own[0][2];
+        assert!((ends - 1.0).abs() < 1e-6, "mode {mode}: {own:?}");
         for row in &own {
-            assert!(
-                (row[2] / own[0][2] - 1.0).abs() < 1e-6,
-                "mode {mode}: {own:?}"
-            );
+            let even = row[2] / own[0][2];
+            assert!((even - 1.0).abs() < 0.05, "mode {mode}: {own:?}");
         }
     }
     assert!(is_found, "no unstable mode without axial motion");

@@ -43,6 +43,7 @@ fn mode(real_hz: f64, frequency_hz: f64, harmonic: usize, direction: i8) -> Comp
         contact_share: 0.2,
         axial_share: None,
         shape: None,
+        wave: None,
     }
 }
 

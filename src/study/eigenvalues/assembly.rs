@@ -161,7 +161,7 @@ pub fn notes(body: &AssemblyBody) -> Vec<String> {
     let rotors: Vec<&str> = body.rotors().collect();
     let turning = (!rotors.is_empty()).then(|| {
         format!(
-            "{} with Coriolis, transport and centrifugal terms, in the frame at rest: what each part takes or feeds is not told",
+            "{} with Coriolis, transport and centrifugal terms, in the frame at rest",
             rotors.join(", ")
         )
     });

@@ -204,14 +204,7 @@ fn predictions(
     let predicted: Result<Vec<Predicted>, crate::linalg::LinalgError> = order
         .par_iter()
         .map(|&i| {
-            let onset = modal.onset(Some(&changes[i].0))?;
-            // The reduced problem's own error at the onset is taken off.
-            let reduced = modal.onset_without(&changes[i].0)?;
-            let error = match (search.base.onset, reduced) {
-                (Some(onset), Some(reduced)) => onset - reduced,
-                _ => 0.0,
-            };
-            let onset = onset.map(|mu| (mu + error).max(0.0));
+            let onset = modal.corrected_onset(&changes[i].0, search.base.onset)?;
             let onset = onset.filter(|mu| *mu < search.base.friction);
             Ok(Predicted {
                 trial: changes[i].1.clone(),

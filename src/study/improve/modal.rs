@@ -29,6 +29,9 @@ use nalgebra::DMatrix;
 const SCAN: usize = 12;
 const HALVINGS: usize = 14;
 
+/// Error of the onset without a change, relative to it, up to which the closer model is taken at other friction than the base's.
+const HOLDS: f64 = 0.03;
+
 /// Where the compliance of the other modes is taken, in units of the lowest and the highest frequency of the targets.
 const BESIDE: [f64; 2] = [0.97, 1.03];
 
@@ -361,15 +364,33 @@ impl<'a> ModalModel<'a> {
         self.onset_of(&|mu| self.spectrum(mu, change))
     }
 
-    /// What the model of a change makes of the body without it: what it is off there.
+    /// [`Self::onset`] less what the small problem is off for the body without the change, of which the onset is `known`.
+    ///
+    /// The vectors are those of the base's own friction coefficient. Where the closer model of what is attached to a node does not hold
+    /// down to that onset, the listed modes alone are taken.
     ///
     /// # Errors
     /// If the dense decomposition fails.
-    pub fn onset_without(&self, change: &Change) -> Result<Option<f64>, LinalgError> {
-        match &change.attached {
-            Some(attached) => self.onset_of(&|mu| attached.spectrum(mu, true)),
-            None => self.onset(None),
+    pub fn corrected_onset(
+        &self,
+        change: &Change,
+        known: Option<f64>,
+    ) -> Result<Option<f64>, LinalgError> {
+        let corrected = |onset: Option<f64>, without: Option<f64>| {
+            let error = match (known, without) {
+                (Some(known), Some(without)) => known - without,
+                _ => 0.0,
+            };
+            onset.map(|mu| (mu + error).max(0.0))
+        };
+        if let (Some(attached), Some(known)) = (&change.attached, known) {
+            let without = self.onset_of(&|mu| attached.spectrum(mu, true))?;
+            if without.is_some_and(|mu| (mu - known).abs() <= HOLDS * known) {
+                return Ok(corrected(self.onset(Some(change))?, without));
+            }
         }
+        let onset = self.onset_of(&|mu| self.of_listed(mu, Some(change)))?;
+        Ok(corrected(onset, self.onset(None)?))
     }
 
     /// Looked for downwards: the modes of the base describe what is near its own friction coefficient best.

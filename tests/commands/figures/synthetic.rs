@@ -67,6 +67,7 @@ pub fn modes(friction: f64, mesh: Option<&Mesh>) -> Vec<ComplexMode> {
                 contact_share: 0.1,
                 axial_share: None,
                 shape: mesh.map(|mesh| shape(mesh, harmonic, branch, direction, friction)),
+                wave: None,
             });
         }
     }
