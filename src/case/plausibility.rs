@@ -417,7 +417,7 @@ impl Case {
         let ignored = analyses.flat_map(|(analysis, _)| {
             KEYS.iter()
                 .filter(move |key| !key.used_by.is_empty() && !key.used_by.contains(&analysis))
-                .filter(move |_| analysis != "cycle" || self.has_rotating_waves())
+                .filter(move |_| analysis == "transient" || self.has_rotating_waves())
                 .filter(|key| self.departs_from_default(key))
                 .map(move |key| (analysis, key))
         });

@@ -137,6 +137,11 @@ impl BasinSummary {
         let [first, second] = self.harmonics;
         if self.is_kick() {
             let name = self.name(second);
+            if self.runs.iter().any(|run| !run.is_settled) {
+                return format!(
+                    "no answer: not every transient from a kick along {name} has come to its end (raise basin.periods)"
+                );
+            }
             return match (self.winner, self.boundary.low, self.boundary.high) {
                 (Some(0), Some(low), _) => format!(
                     "steady sliding comes back from every kick along {name} looked at, up to {low:.3} of the one that makes a contact \
@@ -172,7 +177,7 @@ impl BasinSummary {
     /// As text.
     pub fn text(&self) -> String {
         let mut out = format!("{}\n{}\n", self.title, self.answer());
-        if self.runs.iter().any(|run| !run.is_settled) {
+        if !self.is_kick() && self.runs.iter().any(|run| !run.is_settled) {
             out.push_str("some transients end before one wave has gone: raise basin.periods\n");
         }
         for run in &self.runs {

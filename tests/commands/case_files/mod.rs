@@ -456,7 +456,10 @@ fn a_quadratic_mesh_runs_no_transient() {
 
 #[test]
 fn a_missing_analysis_says_what_to_add() {
-    let case = valid(DISC, &[]);
+    // What its section would not help against is said first.
+    let quadratic = valid(DISC, &[]).require_transient().unwrap_err();
+    assert_reports(&quadratic.to_string(), &["mesh.element", "quad4"]);
+    let case = valid(DISC, &["mesh.element=quad4"]);
     assert_reports(
         &case.require_transient().unwrap_err().to_string(),
         &["no [transient] section", "duration"],
