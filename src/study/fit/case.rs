@@ -1,5 +1,6 @@
 //! The parameters that a case asks to be fitted.
 
+use super::free_part::{free_part, rates, shaped_modes};
 use super::{
     BoundedParameter, FitError, FitProblem, Fitted, MeasuredMode, ModelMode, fit, summary,
 };
@@ -8,7 +9,7 @@ use crate::cea::ComplexMode;
 use crate::cea::cyclic::Sensitivity;
 use crate::linalg::c64;
 use crate::results::fit::FitSummary;
-use crate::study::eigenvalues::Solver;
+use crate::study::eigenvalues::{Solver, analysis};
 use crate::study::{StudyError, eigenvalues};
 
 /// Modes are computed up to this much above the highest line.
@@ -135,6 +136,9 @@ fn modes(
         .iter()
         .map(|parameter| &parameter.parameter);
     let case = case.with_parameters(parameters.clone().zip(values.iter().copied()))?;
+    if with_rates && free_part(&case).is_some() {
+        return modes_of_free_part(&case, parameters.zip(values.iter().copied()), limit_hz);
+    }
     let solved = eigenvalues::modes_below(&case, limit_hz, with_rates);
     let (modes, sensitivities) = solved.map_err(|failure| failure.messages().join("; "))?;
     let has_harmonics = case.has_sectors();
@@ -152,6 +156,25 @@ fn modes(
         }
     };
     Ok(modes.iter().map(of).collect())
+}
+
+/// The modes of a part that nothing holds, damps or touches, with all derivatives.
+fn modes_of_free_part<'p>(
+    case: &Case,
+    parameters: impl Iterator<Item = (&'p ModelParameter, f64)>,
+    limit_hz: f64,
+) -> Result<Vec<ModelMode>, String> {
+    let cea = analysis(case, &[case.contact.sliding.friction_coefficient], limit_hz);
+    let modes = shaped_modes(case, &cea).map_err(|failure| failure.messages().join("; "))?;
+    let by_parameter = rates(case, &cea, &modes, parameters);
+    let of = |(i, mode): (usize, &ComplexMode)| ModelMode {
+        eigenvalue: mode.eigenvalue,
+        harmonic: None,
+        branch: mode.branch,
+        direction: mode.direction,
+        rates: by_parameter.iter().map(|rates| rates[i]).collect(),
+    };
+    Ok(modes.iter().enumerate().map(of).collect())
 }
 
 /// Derivative of an eigenvalue by a parameter, with the keys that follow it; `None` where it is not known.
