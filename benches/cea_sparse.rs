@@ -12,7 +12,6 @@ use frictionsim::contact::ContactStiffness;
 use frictionsim::fem::{MassKind, assemble_stiffness};
 use frictionsim::mesh::{AnnulusMesh, ElementKind};
 use frictionsim::prestress::{DampingModel, SlidingTangent, SteadySliding, TangentOptions};
-use std::sync::OnceLock;
 
 fn main() {
     divan::main();
@@ -67,7 +66,7 @@ fn phase_2_symmetric_factorization(bencher: Bencher<'_, '_>) {
 #[divan::bench(sample_count = 5)]
 fn phase_2_unsymmetric_factorization_one_value(bencher: Bencher<'_, '_>) {
     let tangent = tangent(180, 35);
-    let analysis = OnceLock::new();
+    let analysis = FactorCache::default();
     let factorize = |mu| StiffnessFactors::general(&tangent, &analysis, mu).expect("regular");
     factorize(0.1);
     bencher.bench_local(|| factorize(0.5));

@@ -112,7 +112,7 @@ pub const KEYS: &[CaseKey] = &[
     key("material.shear_moduli", Numbers(Positive), "Pa", Otherwise("isotropic"), "[3e9, 1e9, 1e9]", "its shear moduli G_12, G_13 and G_23"),
     key("material.axes", Directions(words::<AxesWord>), "", Value("\"global\""), "\"cylindrical\"", "where its axes lie: along x, y, z; radial, circumferential, axial about the axis of the motion; or along the first of two vectors and in the plane of both"),
     key("material.density", Number(Positive), "kg/m3", Required, "1228.0", "the density"),
-    key("material.loss_factor", Number(NotNegative), "", Value("0.0"), "0.01", "the structural damping eta of the material: stiffness K (1 + i eta) in `cea` and `frf`"),
+    key("material.loss_factor", Number(NotNegative), "", Value("0.0"), "0.01", "the structural damping eta of the material: stiffness K (1 + i eta) in `cea` and `frf`, a Maxwell chain fitted over the band of cea.max_frequency_hz in `transient`"),
     key("material.formulation", Choice(words::<PlaneFormulation>), "", Value("\"plane-strain\""), "\"plane-strain\"", "the out-of-plane assumption, or none"),
 
     key("materials.*.young_modulus", Number(Positive), "Pa", RequiredUnless("required, or young_moduli"), "2.1e11", "Young's modulus of a physical surface, or of the `shaft`"),
@@ -123,7 +123,7 @@ pub const KEYS: &[CaseKey] = &[
     key("materials.*.axes", Directions(words::<AxesWord>), "", Value("\"global\""), "\"cylindrical\"", "where its axes lie: along x, y, z; radial, circumferential, axial about the axis of the motion; or along the first of two vectors and in the plane of both"),
     key("materials.*.density", Number(Positive), "kg/m3", Required, "7850.0", "its density"),
     key("materials.*.loss_factor", Number(NotNegative), "", Value("0.0"), "0.05", "its structural damping eta (left out 0, also where [material] has one)"),
-    key("materials.*.table", Text, "", Otherwise("one modulus at every frequency"), "\"rubber.csv\"", "a file of columns frequency_hz, young_modulus (Pa) and loss_factor in place of those keys, linear between its rows: `cea` solves each mode at its own frequency and `frf` each line, the base state has the modulus of the lowest one"),
+    key("materials.*.table", Text, "", Otherwise("one modulus at every frequency"), "\"rubber.csv\"", "a file of columns frequency_hz, young_modulus (Pa) and loss_factor in place of those keys, linear between its rows: `cea` solves each mode at its own frequency and `frf` each line, `transient` has a Maxwell chain fitted to it; the base state has the modulus of the lowest one"),
     key("materials.*.mass_coefficient", Number(NotNegative), "1/s", Otherwise("[damping]"), "20.0", "Rayleigh's alpha of its own"),
     key("materials.*.stiffness_coefficient", Number(NotNegative), "s", Otherwise("[damping]"), "1e-7", "Rayleigh's beta of its own"),
 

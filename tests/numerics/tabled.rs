@@ -1,9 +1,11 @@
 //! Modulus and loss factor over frequency: every mode at its own frequency, against dense matrices frozen there.
 
 use crate::block::block;
+use crate::bricks::{Block, file_of};
 use crate::disc::{POLYCARBONATE, annulus, contact};
 use crate::structural_damping::{dense_eigenvalues, eigenvalues, largest_error, solved};
 use faer::c64;
+use frictionsim::case::Case;
 use frictionsim::cea::sparse::{mode_pairs, sweep};
 use frictionsim::cea::{CeaError, ModeLimit, SweepRequest};
 use frictionsim::contact::ContactStiffness;
@@ -19,7 +21,11 @@ use frictionsim::mesh::{
 use frictionsim::prestress::{
     Assembly, BaseChoice, DampingModel, SlidingTangent, SteadySliding, TangentOptions,
 };
+use frictionsim::study::eigenvalues::{modes_and_onsets, preflight};
+use frictionsim::study::response::FrequencyStudy;
 use std::f64::consts::TAU;
+use std::fs;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// A modulus that rises fivefold over the modes of the disc, with much damping.
@@ -290,9 +296,9 @@ fn a_sandwich_beam_loses_what_ross_kerwin_and_ungar_say() {
         let held = BoundaryCondition::Fixed([false, !is_end, is_end]);
         (side.to_owned(), held)
     });
-    // Nothing else holds the beam along itself: at 1.5 Hz it moves as a whole.
+    // Nothing else holds the beam along itself: at 70 Hz it moves as a whole.
     let soft = BoundaryCondition::Support(ElasticSupport {
-        tangential_stiffness: 1e3,
+        tangential_stiffness: 2e6,
         ..ElasticSupport::default()
     });
     let held = [&sides[..], &[("z1".to_owned(), soft)]].concat();
@@ -381,4 +387,153 @@ fn a_sandwich_beam_loses_what_ross_kerwin_and_ungar_say() {
             "{n} {own} {lambda}"
         );
     }
+}
+
+const RUBBER: &str = "frequency_hz,young_modulus,loss_factor
+10,5e6,0.10
+100,8e6,0.25
+500,14e6,0.45
+1000,20e6,0.50
+3000,40e6,0.40
+";
+
+/// A block of steel on one of rubber that stands on the ground; both move along z alone.
+fn mount(name: &str, table: &str, sections: &str) -> Result<Case, String> {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("mount-{name}"));
+    fs::create_dir_all(&folder).unwrap();
+    let block = |name, z: f64, height: f64| Block {
+        name,
+        origin: [0.0, 0.0, z],
+        size: [0.02, 0.02, height],
+        counts: [2, 2, 2],
+    };
+    let blocks = [block("rubber", 0.0, 0.01), block("mass", 0.01, 0.02)];
+    fs::write(folder.join("mount.msh"), file_of(&blocks, |point| point)).unwrap();
+    fs::write(folder.join("rubber.csv"), table).unwrap();
+    let guides = ["rubber_x0", "rubber_x1", "mass_x0", "mass_x1"].map(|side| {
+        format!("[boundaries.{side}]\ncondition = \"fixed\"\ndirections = [\"x\", \"y\"]\n")
+    });
+    let text = format!(
+        r#"
+[mesh]
+file = "mount.msh"
+[material]
+young_modulus = 2e11
+poisson_ratio = 0.3
+density = 7850.0
+[materials.rubber]
+table = "rubber.csv"
+poisson_ratio = 0.0
+density = 10.0
+[boundaries.rubber_z0]
+condition = "clamped"
+[ties.glue]
+surface = "rubber_z1"
+counter = "mass_z0"
+{}{sections}"#,
+        guides.concat()
+    );
+    let path = folder.join("mount.toml");
+    let parsed = Case::parse(path.to_str().unwrap(), text.as_bytes(), &[]);
+    parsed.map_err(|errors| errors.to_string())
+}
+
+/// Closed form: `lambda^2 m + k(f) (1 + i eta(f)) = 0` with `k = E A / h` and a third of the rubber's mass, from a file; its hash
+/// follows the file.
+#[test]
+fn a_rubber_mounted_mass_moves_at_the_modulus_of_its_own_frequency() {
+    let case = mount("scalar", RUBBER, "[cea]\nmodes = 1\n").unwrap();
+    let found = modes_and_onsets(&case).unwrap().points[0].modes[0].eigenvalue;
+    let table = case.materials().table(case.body.region_count() - 1);
+    let table = table.or_else(|| case.materials().table(0)).unwrap();
+    let area = 0.02_f64.powi(2);
+    let mass = 7850.0 * area * 0.02 + 10.0 * area * 0.01 / 3.0;
+    let mut lambda = c64::new(0.0, 1e3);
+    for _ in 0..200 {
+        let [modulus, loss_factor] = table.at(lambda.im / TAU);
+        let stiffness = c64::new(1.0, loss_factor) * (modulus * area / 0.01);
+        lambda = c64::new(0.0, 1.0) * (stiffness / mass).sqrt();
+    }
+    println!("{found} {lambda}");
+    // The steel gives way by a ten-thousandth.
+    assert!(
+        (found - lambda).norm() < 2e-4 * lambda.norm(),
+        "{found} {lambda}"
+    );
+    let other = mount(
+        "other",
+        &RUBBER.replace("0.45", "0.46"),
+        "[cea]\nmodes = 1\n",
+    )
+    .unwrap();
+    assert_ne!(case.raw.hash(), other.raw.hash());
+}
+
+#[test]
+fn tables_that_no_material_has_are_refused_with_file_line_and_remedy() {
+    let head = "frequency_hz,young_modulus,loss_factor\n";
+    for (rows, parts) in [
+        (
+            "100,5e6,0.1\n50,6e6,0.1\n",
+            ["rubber.csv:3", "does not lie above", "sort the rows"],
+        ),
+        (
+            "10,5e6,0.1\n100,-1,0.1\n",
+            ["rubber.csv:3", "not above zero", "positive"],
+        ),
+        (
+            "10,0,0.1\n100,5e6,0.1\n",
+            ["rubber.csv:2", "not above zero", "positive"],
+        ),
+        (
+            "10,5e6,0.1\n100,6e6,1.2\n",
+            ["rubber.csv:3", "beyond 1", "percent"],
+        ),
+        (
+            "10,5e6,-0.1\n100,6e6,0.2\n",
+            ["rubber.csv:2", "below zero", "zero or positive"],
+        ),
+        ("10,5e6,0.1\n", ["rubber.csv:2", "one row", "more rows"]),
+        (
+            "10,5e6,x\n100,5e6,0.1\n",
+            ["rubber.csv:2", "not a number", "loss_factor"],
+        ),
+    ] {
+        let message = mount("bad", &format!("{head}{rows}"), "[cea]\nmodes = 1\n").unwrap_err();
+        for part in parts {
+            assert!(message.contains(part), "{rows}: {message}");
+        }
+        assert!(message.contains("materials.rubber.table"), "{message}");
+        assert!(!message.contains("missing key"), "{message}");
+    }
+    let lost = mount("lost", RUBBER, "[cea]\nmodes = 1\n").unwrap();
+    assert!(lost.warnings.is_empty(), "{:?}", lost.warnings);
+    // A modulus that falls is no passive material's: said, not refused.
+    let falling = format!("{head}10,9e6,0.1\n3000,5e6,0.1\n");
+    let case = mount("falling", &falling, "[cea]\nmodes = 1\n").unwrap();
+    let warning = &case.warnings.first().unwrap().message;
+    assert!(warning.contains("rises with the frequency"), "{warning}");
+    // Beyond the table: the key, the frequency and the range.
+    let short = format!("{head}10,5e6,0.1\n200,6e6,0.2\n");
+    let case = mount("short", &short, "[cea]\nmodes = 1\n").unwrap();
+    let cea = case.require_cea().unwrap();
+    let error = preflight(&case, cea).unwrap_err().to_string();
+    for part in [
+        "materials.rubber.table",
+        "10 to 200 Hz",
+        "Hz: a modulus beyond a table",
+    ] {
+        assert!(error.contains(part), "{error}");
+    }
+    let frf = "[frf]\nforce_node = 1\nresponse_node = 1\nboundary = \"clamped\"\nfrequencies_hz = [100.0, 5000.0]\n";
+    let case = mount("frf", RUBBER, frf);
+    let error = case.and_then(|case| match FrequencyStudy::new(&case) {
+        Ok(_) => Ok(()),
+        Err(error) => Err(error.to_string()),
+    });
+    let error = error.unwrap_err();
+    assert!(
+        error.contains("10 to 3000 Hz") && error.contains("5000"),
+        "{error}"
+    );
 }

@@ -24,6 +24,8 @@ const BLOCK: usize = 8;
 const FREE_SHIFT: f64 = 0.1;
 /// ... or to the largest of the mesh.
 const STIFFEST: f64 = 1e-6;
+/// The same where that does not converge: a coarse mesh, whose modes are not that far below its stiffest.
+const STIFFER: f64 = 1e-3;
 /// Eigenvalue, relative to the highest found, below which a motion of such bodies is rigid: a thousandth of its frequency.
 const RIGID: f64 = 1e-6;
 /// Rigid motions of one body in space.
@@ -90,7 +92,12 @@ impl FrictionlessModes {
         limit: ModeLimit,
     ) -> Result<Self, CeaError> {
         if tangent.is_free {
-            return free_modes(tangent, inertia, limit);
+            let found = free_modes(tangent, inertia, limit, STIFFEST);
+            // A shift far below the modes leaves them no digits; one far above tells them apart slowly.
+            return match found {
+                Err(CeaError::Linalg(_)) => free_modes(tangent, inertia, limit, STIFFER),
+                found => found,
+            };
         }
         let wanted = match limit {
             ModeLimit::Lowest(count) => count,
@@ -158,11 +165,12 @@ fn free_modes(
     tangent: &SlidingTangent,
     inertia: &Inertia<'_>,
     limit: ModeLimit,
+    part: f64,
 ) -> Result<FrictionlessModes, CeaError> {
     let unknowns = tangent.stiffness.dimension();
     let shift = match limit {
         ModeLimit::MaxFrequency(limit_hz) => FREE_SHIFT * (TAU * limit_hz).powi(2),
-        ModeLimit::Lowest(_) => inertia.largest_ratio() * STIFFEST,
+        ModeLimit::Lowest(_) => inertia.largest_ratio() * part,
     };
     let ldl = SparseLdl::factorize(&inertia.analysis, &inertia.shifted(-shift))?;
     let factors = StiffnessFactors::Symmetric(Box::new(ldl));

@@ -10,7 +10,8 @@
 //! 4. [`track`]: branches continued from `mu = 0`, so that none is lost on the way.
 //! 5. [`OnsetFinder`]: critical friction coefficients by root finding on the branches.
 //!
-//! [`sweep`] does all of this.
+//! [`sweep`] does all of this. Where stiffness depends on frequency every mode is solved at its own, in the projected problem and in
+//! its residual; the basis starts from the stiffness at the highest frequency wanted.
 
 mod basis;
 mod branches;

@@ -32,6 +32,7 @@ pub use sensitivity::{BodySensitivities, body_sensitivities};
 pub use sliding::{SlidingModel, SteadyState};
 pub use solid::SolidBody;
 pub use solve::{solve, solve_modes};
+pub(super) use spectrum::analysis;
 pub use spectrum::{
     OnsetSearch, modes_at_own_friction, modes_below, modes_with_shapes_below, unstable_intervals,
 };

@@ -12,7 +12,7 @@ use crate::prestress::TangentOptions;
 use crate::study::tangent_options;
 
 /// What `[cea]` says of a case, or its defaults, for these friction coefficients and modes up to a frequency.
-fn analysis(case: &Case, frictions: &[f64], limit_hz: f64) -> Cea {
+pub(in crate::study) fn analysis(case: &Case, frictions: &[f64], limit_hz: f64) -> Cea {
     let (modes, shapes_at) = (ModeSelection::BelowHz(limit_hz), Vec::new());
     let friction_coefficients = frictions.to_vec();
     match &case.cea {

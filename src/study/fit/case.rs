@@ -1,5 +1,6 @@
 //! The parameters that a case asks to be fitted.
 
+use super::free_part::{free_part, rates, shaped_modes};
 use super::{
     BoundedParameter, FitError, FitProblem, Fitted, MeasuredMode, MeasuredShapes, ModelMode, fit,
     summary,
@@ -9,7 +10,7 @@ use crate::cea::ComplexMode;
 use crate::cea::cyclic::Sensitivity;
 use crate::linalg::c64;
 use crate::results::fit::FitSummary;
-use crate::study::eigenvalues::Solver;
+use crate::study::eigenvalues::{Solver, analysis};
 use crate::study::{StudyError, eigenvalues};
 
 /// Modes are computed up to this much above the highest line.
@@ -158,14 +159,15 @@ fn modes(
         .iter()
         .map(|parameter| &parameter.parameter);
     let case = case.with_parameters(parameters.clone().zip(values.iter().copied()))?;
-    let said = |failure: StudyError| failure.messages().join("; ");
+    if with_rates && free_part(&case).is_some() {
+        let values = parameters.zip(values.iter().copied());
+        return modes_of_free_part(&case, shapes, values, limit_hz);
+    }
     let own = [case.contact.sliding.friction_coefficient];
     let shapes_at = &own[..usize::from(shapes.is_some())];
     let solved = eigenvalues::modes_with_shapes_below(&case, limit_hz, with_rates, shapes_at);
     let (modes, sensitivities) = solved.map_err(said)?;
-    let assurances = shapes.map(|shapes| shapes.assurances(&case, &modes));
-    let mut assurances = assurances.transpose().map_err(said)?.unwrap_or_default();
-    assurances.resize(modes.len(), Vec::new());
+    let assurances = assurances(&case, shapes, &modes)?;
     let has_harmonics = case.has_sectors();
     let of = |(mode, assurances): (&ComplexMode, Vec<f64>)| {
         let is_it = |s: &&Sensitivity| {
@@ -182,6 +184,44 @@ fn modes(
         }
     };
     Ok(modes.iter().zip(assurances).map(of).collect())
+}
+
+/// Modal assurance of the measured shapes with each mode; nothing without any.
+fn assurances(
+    case: &Case,
+    shapes: Option<MeasuredShapes<'_>>,
+    modes: &[ComplexMode],
+) -> Result<Vec<Vec<f64>>, String> {
+    match shapes {
+        Some(shapes) => shapes.assurances(case, modes).map_err(said),
+        None => Ok(vec![Vec::new(); modes.len()]),
+    }
+}
+
+fn said(failure: StudyError) -> String {
+    failure.messages().join("; ")
+}
+
+/// The modes of a part that nothing holds, damps or touches, with all derivatives.
+fn modes_of_free_part<'p>(
+    case: &Case,
+    shapes: Option<MeasuredShapes<'_>>,
+    parameters: impl Iterator<Item = (&'p ModelParameter, f64)>,
+    limit_hz: f64,
+) -> Result<Vec<ModelMode>, String> {
+    let cea = analysis(case, &[case.contact.sliding.friction_coefficient], limit_hz);
+    let modes = shaped_modes(case, &cea).map_err(said)?;
+    let by_parameter = rates(case, &cea, &modes, parameters);
+    let assurances = assurances(case, shapes, &modes)?;
+    let of = |(i, (mode, assurances)): (usize, (&ComplexMode, Vec<f64>))| ModelMode {
+        eigenvalue: mode.eigenvalue,
+        harmonic: None,
+        branch: mode.branch,
+        direction: mode.direction,
+        rates: by_parameter.iter().map(|rates| rates[i]).collect(),
+        assurances,
+    };
+    Ok(modes.iter().zip(assurances).enumerate().map(of).collect())
 }
 
 /// Derivative of an eigenvalue by a parameter, with the keys that follow it; `None` where it is not known.

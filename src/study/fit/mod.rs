@@ -14,6 +14,7 @@
 
 mod case;
 mod estimate;
+mod free_part;
 mod interval;
 mod levenberg_marquardt;
 mod matching;

@@ -74,6 +74,8 @@ fn frequencies(mesh: &Mesh, glue: &Glue, held: Vec<usize>, count: usize) -> Vec<
         mass,
         stiffness,
         structural: None,
+        tabled: Vec::new(),
+        is_free: false,
         proportional: None,
         unknowns,
         contact_tangential: Vec::new(),
