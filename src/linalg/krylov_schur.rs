@@ -79,6 +79,11 @@ pub fn krylov_schur(
         Some(columns) => columns.to_owned(),
         None => random_columns(n, settings.block.min(n), 0x5eed),
     };
+    if let Wanted::Largest(count) = settings.wanted
+        && 2 * count + 8 * seed.ncols() >= n
+    {
+        return whole(operator, count, settings);
+    }
     let mut process = BlockArnoldi::new(operator, seed);
     let mut looked_at = 0;
     loop {
@@ -125,6 +130,32 @@ pub fn krylov_schur(
             looked_at = process.dimension();
         }
     }
+}
+
+/// The `count` largest pairs of a small operator by a dense decomposition: a basis of twice their number would be nearly all of
+/// its space.
+fn whole(
+    operator: &dyn BlockOperator,
+    count: usize,
+    settings: &KrylovSchurSettings,
+) -> Result<RealPairs, LinalgError> {
+    let n = operator.dimension();
+    let matrix = operator.apply(Mat::identity(n, n).as_ref());
+    let eigen = real_eigen(matrix.as_ref(), false, count)?;
+    let order = by_modulus(&eigen.values);
+    let own = wanted_count(&eigen, &order, settings.wanted, true, n).unwrap_or(order.len());
+    let chosen = &order[..own];
+    let values: Vec<c64> = chosen.iter().map(|&i| eigen.values[i]).collect();
+    let ritz = Mat::from_fn(n, own, |i, j| eigen.right[(i, chosen[j])]);
+    let mut vectors = product(matrix.as_ref(), ritz.as_ref());
+    let residuals = pair_residuals(&values, &ritz, &vectors);
+    normalize_pairs(&values, &mut vectors);
+    Ok(RealPairs {
+        values,
+        vectors,
+        residuals,
+        applications: n,
+    })
 }
 
 /// Indices of the eigenvalues, largest modulus first, pairs unbroken.

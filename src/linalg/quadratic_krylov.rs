@@ -35,6 +35,10 @@ pub struct QuadraticKrylovSettings {
     pub max_applications: usize,
 }
 
+/// Dimension up to which a dense decomposition of the whole operator is as cheap, and misses nothing ...
+const SMALL: usize = 200;
+/// ... and up to which it stands in for an iteration that does not converge.
+const LARGEST_WHOLE: usize = 600;
 /// Krylov vectors for each wanted pair before the first look at the projected problem.
 const FIRST_LOOK: f64 = 5.0;
 /// Part of a new vector that must lie beyond the known ones.
@@ -58,6 +62,9 @@ pub fn quadratic_krylov(
     start: [MatRef<'_, f64>; 2],
     settings: &QuadraticKrylovSettings,
 ) -> Result<QuadraticPairs, LinalgError> {
+    if operator.dimension() <= SMALL {
+        return whole(operator, settings.pairs);
+    }
     let mut process = TwoLevelArnoldi::new(operator, start);
     let mut next_look = (FIRST_LOOK * settings.pairs as f64) as usize;
     loop {
@@ -76,6 +83,9 @@ pub fn quadratic_krylov(
         if converged == settings.pairs || process.is_exhausted() {
             return Ok(process.pairs(&eigen, &leading));
         }
+        if is_spent && operator.dimension() <= LARGEST_WHOLE {
+            return whole(operator, settings.pairs);
+        }
         if is_spent {
             return Err(LinalgError::NotConverged {
                 converged,
@@ -85,6 +95,28 @@ pub fn quadratic_krylov(
             });
         }
     }
+}
+
+/// The pairs by a dense decomposition of `S`.
+fn whole(operator: &dyn QuadraticOperator, pairs: usize) -> Result<QuadraticPairs, LinalgError> {
+    let n = operator.dimension();
+    let (one, zero) = (Mat::identity(n, n), Mat::zeros(n, n));
+    let a = operator.apply(one.as_ref(), zero.as_ref());
+    let b = operator.apply(zero.as_ref(), one.as_ref());
+    let full = Mat::from_fn(2 * n, 2 * n, |i, j| match (i < n, j < n) {
+        (true, true) => a[(i, j)],
+        (true, false) => b[(i, j - n)],
+        (false, _) => f64::from(i - n == j),
+    });
+    let eigen = real_eigen(full.as_ref(), false, 2 * pairs)?;
+    let leading = leading_pairs(&eigen.values, pairs);
+    Ok(QuadraticPairs {
+        values: leading.iter().map(|&j| eigen.values[j]).collect(),
+        vectors: Mat::from_fn(n, 2 * leading.len(), |i, j| {
+            eigen.right[(i, leading[j / 2] + j % 2)]
+        }),
+        applications: 2 * n,
+    })
 }
 
 /// Columns of the first of each conjugate pair among the `count` pairs of largest modulus.
@@ -271,7 +303,7 @@ mod tests {
 
     #[test]
     fn leading_pairs_satisfy_the_quadratic_equation_and_agree_with_the_full_matrix() {
-        let size = 60;
+        let size = SMALL + 20;
         let operator = oscillators(size);
         let start = [random_columns(size, 1, 1), random_columns(size, 1, 2)];
         let settings = QuadraticKrylovSettings {

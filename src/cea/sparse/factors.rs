@@ -2,7 +2,8 @@
 
 use crate::linalg::dense::{column, column_mut, random_columns};
 use crate::linalg::{
-    DenseLu, LdlAnalysis, LinalgError, LuAnalysis, Mat, MatrixPolynomial, SparseLdl, SparseLu,
+    DenseLu, LdlAnalysis, LinalgError, LuAnalysis, Mat, MatrixPolynomial, Scale, SparseLdl,
+    SparseLu,
 };
 use crate::prestress::SlidingTangent;
 use std::sync::{Arc, OnceLock};
@@ -224,7 +225,7 @@ impl UpdatedFactors {
         let mut small = Mat::identity(base.rows.len(), base.rows.len());
         let mut power = mu;
         for coupling in &base.couplings {
-            small += faer::Scale(power) * coupling;
+            small += Scale(power) * coupling;
             power *= mu;
         }
         let factors = Self {
