@@ -62,7 +62,7 @@ impl<'a> StructureMatrices<'a> {
         let [stiffness, damping, mass] = &self.values;
         match self.linearization {
             Linearization::Reduced(_) => {
-                let [mut residual, inert] = self.pattern.multiply_each([stiffness, mass], x);
+                let [mut residual, inert] = self.pattern.multiply_sorted([stiffness, mass], x);
                 for entry in entries {
                     let kappa = entry.inverse_value.inv();
                     add_complex_multiple(&mut residual, -kappa, &inert, entry);
@@ -71,20 +71,20 @@ impl<'a> StructureMatrices<'a> {
             }
             Linearization::Companion { frequency_scale } => {
                 let all = [&stiffness[..], damping, mass];
-                let [mut residual, damped, inert] = self.pattern.multiply_each(all, x);
+                let [mut residual, damped, inert] = self.pattern.multiply_sorted(all, x);
                 for entry in entries {
                     let lambda = entry.inverse_value.inv() * frequency_scale;
                     add_complex_multiple(&mut residual, lambda * lambda, &inert, entry);
                     add_complex_multiple(&mut residual, lambda, &damped, entry);
                 }
                 if let Some(structural) = &self.structural {
-                    let [lost] = self.pattern.multiply_each([structural], x);
+                    let [lost] = self.pattern.multiply_sorted([structural], x);
                     for entry in entries {
                         add_complex_multiple(&mut residual, c64::new(0.0, 1.0), &lost, entry);
                     }
                 }
                 for (part, values) in &self.tabled {
-                    let [image] = self.pattern.multiply_each([values], x);
+                    let [image] = self.pattern.multiply_sorted([values], x);
                     for entry in entries {
                         let lambda = entry.inverse_value.inv() * frequency_scale;
                         add_complex_multiple(&mut residual, part.gain.at(lambda), &image, entry);
@@ -188,7 +188,7 @@ impl BlockOperator for ShiftInverted<'_> {
     fn apply(&self, z: MatRef<'_, f64>) -> Mat<f64> {
         let [_, damping, mass] = &self.matrices.values;
         let product = |values: &[f64], x| {
-            let [image] = self.matrices.pattern.multiply_each([values], x);
+            let [image] = self.matrices.pattern.multiply_sorted([values], x);
             image
         };
         match self.matrices.linearization {

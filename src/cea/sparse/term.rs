@@ -46,7 +46,7 @@ impl Term {
     fn grown(&self, known: &Mat<f64>, basis: MatRef<'_, f64>, new: MatRef<'_, f64>) -> Mat<f64> {
         let (pattern, values) = (self.matrix.pattern(), &self.matrix.coefficients()[0]);
         let (old, total) = (known.ncols(), known.ncols() + new.ncols());
-        let [image] = pattern.multiply_each([&self.sorted], new);
+        let [image] = pattern.multiply_sorted([&self.sorted], new);
         let above = transpose_product(basis, image.as_ref());
         let below = if self.is_symmetric {
             above.transpose().to_owned()

@@ -78,7 +78,7 @@ pub(super) fn rates<'p>(
     let by_parameter = parameters.map(|(parameter, value)| {
         let step = STEP * value;
         let side = |sign: f64| {
-            let moved = case.with_parameters([(parameter, value + sign * step)].into_iter());
+            let moved = case.with_parameters([(parameter, value + sign * step)]);
             matrices(&moved.ok()?)
         };
         let sides = side(1.0).zip(side(-1.0));
