@@ -3,6 +3,7 @@
 pub mod banded;
 pub mod dense;
 pub mod dense_eigen;
+pub mod dense_few;
 mod dense_lu;
 mod distribution;
 mod error;

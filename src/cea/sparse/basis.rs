@@ -4,32 +4,27 @@ use super::GROUP_WIDTH;
 use super::factors::{FactorCache, StiffnessFactors};
 use super::linearization::Linearization;
 use super::mode::ReducedMode;
-use super::packed::{PackedEntry, PackedModes};
+use super::open_residuals::OpenResiduals;
+use super::packed::PackedModes;
 use super::reduced::ReducedModel;
 use super::rigid::RigidMotions;
 use super::structure::{Companion, ShiftInverted, StructureMatrices};
 use crate::cea::{CeaError, SweepProgress, SweepStage, SweepWatch};
 use crate::linalg::dense::{
     column, column_mut, column_norms, columns_of, dot, from_columns, join_columns,
-    orthonormal_complement, pick_columns, random_columns,
+    orthonormal_complement, random_columns,
 };
 use crate::linalg::{
     KrylovSchurSettings, LinalgError, QuadraticKrylovSettings, Wanted, krylov_schur,
     quadratic_krylov,
 };
-use crate::linalg::{Mat, MatRef, Scale};
+use crate::linalg::{Mat, Scale};
 use crate::prestress::SlidingTangent;
-use std::ops::Range;
 
 /// Part of a block of corrections, relative to its longest, below which directions are round-off.
 const VECTOR_TOLERANCE: f64 = 1e-10;
 /// The same for vectors of unit length whose span is compressed.
 const COMPRESSED: f64 = 5e-12;
-/// Energy of a correction, relative to its mode, below which the mode is left as it is: a stiff contact has large
-/// forces in short displacements, so lengths do not tell.
-const SMALLEST_ENERGY: f64 = 1e-24;
-/// Residual force, relative to the inertia force, below which a mode is left as it is.
-const CONVERGED: f64 = 1e-11;
 /// Length of corrections, of modes of unit length, that refinement aims at.
 const SHORTEST: f64 = 1e-11;
 /// Krylov steps that follow a refinement, for each decade between its longest correction and [`SHORTEST`]: a step wins
@@ -560,65 +555,6 @@ fn turn_to_real(vectors: &mut Mat<f64>) {
             target.zip(&turned).for_each(|(v, t)| *v = t[half]);
         }
     }
-}
-
-/// Residuals of the packed vectors that have not converged.
-struct OpenResiduals {
-    columns: Mat<f64>,
-    /// Columns of each vector, and its energy `|kappa| x^T M x`.
-    vectors: Vec<(Range<usize>, f64)>,
-}
-
-impl OpenResiduals {
-    /// No residuals, with memory for `count` columns.
-    fn none(unknowns: usize, count: usize) -> Self {
-        let mut columns = Mat::with_capacity(unknowns, count);
-        columns.resize_with(unknowns, 0, |_, _| 0.0);
-        Self {
-            columns,
-            vectors: Vec::new(),
-        }
-    }
-
-    /// Adds the residuals of those packed vectors `x` whose residual force is not yet small against their inertia force.
-    fn gather(&mut self, matrices: &StructureMatrices<'_>, entries: &[PackedEntry], x: &Mat<f64>) {
-        let (residuals, momenta) = matrices.residuals_and_momenta(entries, x.as_ref());
-        let largest = |a: &Mat<f64>, entry: &PackedEntry| {
-            let norms = entry.columns().map(|j| a.col(j).norm_l2());
-            norms.fold(0.0, f64::max)
-        };
-        for entry in entries {
-            let factor = matrices.inertia_factor(entry);
-            if largest(&residuals, entry) <= CONVERGED * factor * largest(&momenta, entry) {
-                continue;
-            }
-            let (first, own) = (self.columns.ncols(), entry.columns());
-            let end = first + own.len();
-            let energy = factor * products(x.as_ref(), momenta.as_ref(), own.clone());
-            self.columns
-                .resize_with(x.nrows(), end, |i, j| residuals[(i, own.start + j - first)]);
-            self.vectors.push((first..end, energy));
-        }
-    }
-
-    /// Those `corrections` `t` of these residuals `r` that have an energy, `t^T r`, beside that of their mode.
-    fn with_energy(&self, corrections: Mat<f64>) -> Mat<f64> {
-        let has_energy = |(own, whole): &&(Range<usize>, f64)| {
-            let (t, r) = (corrections.as_ref(), self.columns.as_ref());
-            products(t, r, own.clone()) > SMALLEST_ENERGY * whole
-        };
-        let kept = self.vectors.iter().filter(has_energy);
-        let kept: Vec<usize> = kept.flat_map(|(own, _)| own.clone()).collect();
-        if kept.len() == corrections.ncols() {
-            return corrections;
-        }
-        pick_columns(&corrections, &kept)
-    }
-}
-
-/// `sum_j |a_j^T b_j|` over some columns.
-fn products(a: MatRef<'_, f64>, b: MatRef<'_, f64>, columns: Range<usize>) -> f64 {
-    columns.map(|j| dot(column(a, j), column(b, j)).abs()).sum()
 }
 
 /// The values in an order that samples their range evenly at any time: the largest first, then the

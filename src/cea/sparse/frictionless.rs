@@ -118,13 +118,7 @@ impl FrictionlessModes {
             matrices: &StructureMatrices::at(tangent, undamped, 0.0),
             factors: &factors,
         };
-        let settings = KrylovSchurSettings {
-            wanted: Wanted::Largest(request),
-            tolerance: TOLERANCE,
-            block: BLOCK,
-            max_applications: 200 * (request + 20),
-        };
-        let pairs = krylov_schur(&operator, None, &settings)?;
+        let pairs = krylov_schur(&operator, None, &settings(request))?;
         let frequencies: Vec<f64> = pairs.values.iter().map(|s| s.re.recip().sqrt()).collect();
         if wanted == 0
             && let ModeLimit::MaxFrequency(limit_hz) = limit
@@ -186,13 +180,7 @@ fn free_modes(
     let mut rigid_guess = RIGID_OF_ONE_BODY;
     loop {
         let request = (below + rigid_guess + GUARD_MODES).min(unknowns);
-        let settings = KrylovSchurSettings {
-            wanted: Wanted::Largest(request),
-            tolerance: TOLERANCE,
-            block: BLOCK,
-            max_applications: 200 * (request + 20),
-        };
-        let pairs = krylov_schur(&operator, None, &settings)?;
+        let pairs = krylov_schur(&operator, None, &settings(request))?;
         let kappas: Vec<f64> = pairs.values.iter().map(|s| s.re.recip() - shift).collect();
         let highest = kappas.iter().fold(0.0_f64, |a, b| a.max(*b));
         let rigid = kappas
@@ -243,6 +231,16 @@ fn free_modes(
             frequencies: frequencies[..kept].to_vec(),
             rigid: Some(RigidMotions::of(&tangent.mass, motions)),
         });
+    }
+}
+
+/// For the `count` lowest modes.
+fn settings(count: usize) -> KrylovSchurSettings {
+    KrylovSchurSettings {
+        wanted: Wanted::Largest(count),
+        tolerance: TOLERANCE,
+        block: BLOCK,
+        max_applications: 200 * (count + 20),
     }
 }
 

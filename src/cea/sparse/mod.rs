@@ -23,6 +23,7 @@ mod frictionless;
 mod linearization;
 mod mode;
 mod onset;
+mod open_residuals;
 mod own_frequency;
 mod packed;
 mod pairs;

@@ -10,12 +10,10 @@ use crate::fem::own_frequency_step;
 use crate::linalg::dense::{
     GrowingColumns, column, join_columns, orthonormal_complement, product, transpose_product,
 };
-use crate::linalg::dense_eigen::{RealEigen, complex_eigen, real_eigen};
+use crate::linalg::dense_eigen::{complex_eigen, real_eigen};
+use crate::linalg::dense_few::few_eigenvalues;
 use crate::linalg::gram::complement;
-use crate::linalg::{
-    BlockOperator, ComplexDenseLu, DenseLu, KrylovSchurSettings, LinalgError, MatrixPolynomial,
-    Wanted, krylov_schur,
-};
+use crate::linalg::{ComplexDenseLu, DenseLu, LinalgError, MatrixPolynomial};
 use crate::linalg::{Mat, MatRef, Scale, c64};
 use crate::prestress::{SlidingTangent, TabledGain};
 use rayon::prelude::*;
@@ -26,12 +24,6 @@ const NEIGHBOURS: usize = 4;
 const SAME_SPACE: f64 = 1e-9;
 /// Relative distance of eigenvalues below which they are one multiple eigenvalue.
 const MULTIPLE: f64 = 1e-7;
-/// How many times as many rows as eigenvalues are wanted a matrix has from which on an iteration is cheaper than the whole
-/// decomposition.
-const FEW_OF_MANY: usize = 5;
-/// Residual of that iteration, relative to the eigenvalue, and the width of its start.
-const FEW_TOLERANCE: f64 = 1e-13;
-const FEW_BLOCK: usize = 4;
 
 /// Columns continued by zeros to `rows` entries.
 fn lengthened(columns: &Mat<f64>, rows: usize) -> Mat<f64> {
@@ -374,7 +366,7 @@ impl ReducedModel {
             Linearization::Companion { .. } => 2 * count,
         };
         let operator = self.shift_inverted(at, &lu);
-        let eigen = match (with_left, few_of(&operator, leading)) {
+        let eigen = match (with_left, few_eigenvalues(&operator, leading)) {
             (false, Some(eigen)) => eigen,
             _ => real_eigen(operator.as_ref(), with_left, leading)?,
         };
@@ -544,39 +536,6 @@ impl ReducedModel {
     pub fn expand(&self, coordinates: MatRef<'_, f64>) -> Mat<f64> {
         let known = self.basis.columns().get(.., ..coordinates.nrows());
         product(known, coordinates)
-    }
-}
-
-/// The `leading` eigenvalues of largest modulus of a matrix much larger than that, with right vectors, by an iteration:
-/// nothing where the matrix is not so large, or the iteration does not converge.
-fn few_of(matrix: &Mat<f64>, leading: usize) -> Option<RealEigen> {
-    if matrix.nrows() < FEW_OF_MANY * leading {
-        return None;
-    }
-    let settings = KrylovSchurSettings {
-        wanted: Wanted::Largest(leading),
-        tolerance: FEW_TOLERANCE,
-        block: FEW_BLOCK,
-        max_applications: 20 * leading,
-    };
-    let found = krylov_schur(&DenseOperator(matrix), None, &settings).ok()?;
-    Some(RealEigen {
-        values: found.values,
-        right: found.vectors,
-        left: None,
-    })
-}
-
-/// A dense matrix as an operator.
-struct DenseOperator<'a>(&'a Mat<f64>);
-
-impl BlockOperator for DenseOperator<'_> {
-    fn dimension(&self) -> usize {
-        self.0.nrows()
-    }
-
-    fn apply(&self, x: MatRef<'_, f64>) -> Mat<f64> {
-        product(self.0.as_ref(), x)
     }
 }
 
