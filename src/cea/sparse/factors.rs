@@ -11,6 +11,8 @@ use std::sync::{Arc, OnceLock};
 /// Rows that friction may touch for factors of `K(0)` to be updated. Each takes one solution; beyond, LU factors of the whole
 /// are cheaper.
 const MOST_ROWS: usize = 512;
+/// Columns of the compliance that are worked on together.
+const COLUMNS: usize = 32;
 /// Backward error of a trial solution above which updated factors are singular to working precision.
 const BACKWARD_ERROR_BOUND: f64 = 1e-9;
 
@@ -125,18 +127,26 @@ struct FrictionlessBase {
 
 impl FrictionlessBase {
     fn new(ldl: SparseLdl, rows: Vec<usize>, stiffness: &MatrixPolynomial) -> Self {
-        let mut compliance = Mat::zeros(stiffness.dimension(), rows.len());
-        for (j, &row) in rows.iter().enumerate() {
-            compliance[(row, j)] = 1.0;
-        }
-        ldl.solve_in_place(compliance.as_mut());
         let powers = 1..stiffness.coefficients().len();
-        let coupling = |power: usize| {
-            let values = &stiffness.coefficients()[power];
-            FrictionRows::new(stiffness, &rows, values).times(&compliance)
-        };
+        let touched =
+            |power: usize| FrictionRows::new(stiffness, &rows, &stiffness.coefficients()[power]);
+        let by_power: Vec<FrictionRows> = powers.map(touched).collect();
+        let mut couplings = vec![Mat::zeros(rows.len(), rows.len()); by_power.len()];
+        // A few columns of the compliance at a time: all of them would take the memory of the factors.
+        for first in (0..rows.len()).step_by(COLUMNS) {
+            let own = &rows[first..rows.len().min(first + COLUMNS)];
+            let mut compliance = Mat::zeros(stiffness.dimension(), own.len());
+            for (j, &row) in own.iter().enumerate() {
+                compliance[(row, j)] = 1.0;
+            }
+            ldl.solve_in_place(compliance.as_mut());
+            for (coupling, terms) in couplings.iter_mut().zip(&by_power) {
+                let mut target = coupling.get_mut(.., first..first + own.len());
+                target.copy_from(&terms.times(&compliance));
+            }
+        }
         Self {
-            couplings: powers.map(coupling).collect(),
+            couplings,
             ldl,
             rows,
         }
